@@ -1,0 +1,18 @@
+# Compiler settings shared by every target of this project.
+# -ffp-contract=off: a*b+c is rounded twice everywhere, so that vector width and optimisation level do not change a bit.
+add_library(slapstick_options INTERFACE)
+target_compile_features(slapstick_options INTERFACE cxx_std_20)
+target_compile_options(slapstick_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off)
+if(SLAPSTICK_MARCH)
+  target_compile_options(slapstick_options INTERFACE -march=${SLAPSTICK_MARCH})
+endif()
+if(SLAPSTICK_SANITIZE)
+  list(JOIN SLAPSTICK_SANITIZE "," sanitizers)
+  target_compile_options(slapstick_options INTERFACE -fsanitize=${sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(slapstick_options INTERFACE -fsanitize=${sanitizers})
+endif()
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})

@@ -1,0 +1,93 @@
+#pragma once
+/// A mechanical oscillator with dry friction and stops, as plain data.
+///
+///     m_i x_i'' + sum dampers + sum springs = sum forces + friction + stop forces
+///
+/// Nothing here assumes a number of coordinates or contacts. Units are the user's; the paper's system is dimensionless.
+#include <string>
+#include <vector>
+
+namespace slapstick {
+
+/// The index that stands for the fixed surroundings: ground, wall, or (with a belt speed) a belt.
+inline constexpr int ground = -1;
+
+/// A displacement x with its mass (> 0). The velocity is called "v" + the rest of the name if the name starts with 'x'
+/// (x1 -> v1), else "v_" + name.
+struct Coordinate {
+  std::string name;
+  double mass = 1.0;
+};
+
+/// Force stiffness * (x_a - x_b) pulling a and b together; stiffness may be any finite number.
+struct Spring {
+  int a = 0, b = ground;
+  double stiffness = 0.0;
+};
+
+/// Force coefficient * (v_a - v_b); coefficient >= 0.
+struct Damper {
+  int a = 0, b = ground;
+  double coefficient = 0.0;
+};
+
+/// amplitude * sin(harmonic * omega * t + phase) on one coordinate; harmonic 0 is a constant force of size `amplitude`.
+struct Force {
+  int coordinate = 0;
+  int harmonic = 1;
+  double amplitude = 0.0;
+  double phase = 0.0;
+};
+
+/// Coulomb friction on w = v_a - v_b - belt_speed. Slip: force -sgn(w) * kinetic_friction on a, the opposite on b.
+/// Stick: any force up to static_friction. static_friction >= kinetic_friction >= 0.
+struct FrictionContact {
+  std::string name;
+  int a = 0, b = ground;
+  double belt_speed = 0.0;
+  double static_friction = 0.0;
+  double kinetic_friction = 0.0;
+};
+
+/// A rigid stop that demands x_a - x_b <= clearance; Newton impact with restitution in [0, 1].
+/// A wall below a coordinate is {a = ground, b = coordinate}: -x_b <= clearance.
+struct Stop {
+  std::string name;
+  int a = 0, b = ground;
+  double clearance = 0.0;
+  double restitution = 1.0;
+};
+
+struct Model {
+  std::string name;
+  std::vector<Coordinate> coordinates;
+  std::vector<Spring> springs;
+  std::vector<Damper> dampers;
+  std::vector<Force> forces;
+  std::vector<FrictionContact> frictions;
+  std::vector<Stop> stops;
+  double omega = 0.0;  ///< forcing frequency; 0 only if no force has a harmonic > 0
+
+  [[nodiscard]] int size() const { return static_cast<int>(coordinates.size()); }
+  /// 2 pi / omega, or 1 for a model without harmonic forcing.
+  [[nodiscard]] double forcing_period() const;
+  /// True if some force has a harmonic > 0: only then are there stroboscopic maps and n-p classes.
+  [[nodiscard]] bool forced() const;
+};
+
+/// A state in the user's coordinates, interleaved: x_1, v_1, x_2, v_2, ... (2n numbers), as in tables and `--state`.
+using State = std::vector<double>;
+
+/// Column names of a State: "x1", "v1", "x2", "v2".
+[[nodiscard]] std::vector<std::string> state_names(const Model& model);
+
+/// Checks everything that makes a model meaningless: non-finite numbers, masses <= 0, omega, f_k > f_s, restitution outside [0, 1],
+/// bad indices, a contact between a coordinate and itself, names used twice.
+/// @throws InputError naming the field, e.g. "stop 'gap': restitution = 1.2 is outside [0, 1]".
+void validate(const Model& model);
+
+/// Checks a start: 2n finite numbers and no stop violated.
+/// @throws InputError naming the coordinate or stop.
+void validate(const Model& model, const State& state);
+
+}  // namespace slapstick

@@ -1,0 +1,209 @@
+#include "model/fault.hpp"
+
+#include <array>
+#include <cmath>
+#include <set>
+#include <string_view>
+
+#include "slapstick/base/text.hpp"
+
+namespace slapstick {
+namespace {
+
+using Found = std::optional<Fault>;
+
+/// Column names of tables, and the word for the surroundings: a coordinate of that name would be ambiguous.
+constexpr std::array<std::string_view, 9> reserved = {"ground", "time", "kind", "contact", "w", "mode", "flight", "phase", "omega"};
+
+bool plain_name(std::string_view name) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  if (name.empty() || name.size() > 64 || !letter(name.front())) return false;
+  for (const char c : name)
+    if (!letter(c) && !(c >= '0' && c <= '9')) return false;
+  return true;
+}
+
+std::string assigned(std::string_view field, double value) { return std::string(field) + " = " + shown(value); }
+
+/// Checks of one part, each remembering only the first thing that is wrong.
+class Check {
+ public:
+  Check(std::string part, int index) : fault_{std::move(part), index, "", ""} {}
+
+  void fail(std::string field, std::string what) {
+    if (found_) return;
+    found_ = true;
+    fault_.field = std::move(field);
+    fault_.what = std::move(what);
+  }
+  void finite(const char* field, double value) {
+    if (!std::isfinite(value)) fail(field, assigned(field, value) + " is not a finite number");
+  }
+  void positive(const char* field, double value) {
+    finite(field, value);
+    if (!(value > 0.0)) fail(field, assigned(field, value) + " is not positive");
+  }
+  void not_negative(const char* field, double value) {
+    finite(field, value);
+    if (!(value >= 0.0)) fail(field, assigned(field, value) + " is negative");
+  }
+  void end(const char* field, int index, const Model& model) {
+    if (index == ground || (index >= 0 && index < model.size())) return;
+    fail(field, "coordinate index " + std::to_string(index) + " is outside [0, " + std::to_string(model.size() - 1) + "]");
+  }
+  void ends(int a, int b, const Model& model) {
+    end("between", a, model);
+    end("between", b, model);
+    if (a == b) fail("between", "both ends are " + (a == ground ? "the ground" : in_quotes(name_of(a, model))));
+  }
+  [[nodiscard]] Found result() const { return found_ ? Found(fault_) : std::nullopt; }
+
+ private:
+  static std::string name_of(int index, const Model& model) {
+    return index >= 0 && index < model.size() ? model.coordinates[static_cast<std::size_t>(index)].name : std::to_string(index);
+  }
+  Fault fault_;
+  bool found_ = false;
+};
+
+/// A name that is usable in tables and on the command line and was not used before.
+void check_name(Check& check, const std::string& name, std::set<std::string>& used) {
+  if (name.empty()) check.fail("name", "the name is empty");
+  if (!plain_name(name))
+    check.fail("name", "name " + in_quotes(name) + " is not 1 to 64 letters, digits and '_', beginning with a letter");
+  if (!used.insert(name).second) check.fail("name", "name " + in_quotes(name) + " is used twice");
+}
+
+Found check_coordinate(const Coordinate& coordinate, int index, std::set<std::string>& used) {
+  Check check("coordinate", index);
+  for (const auto word : reserved)
+    if (coordinate.name == word) check.fail("name", "name " + in_quotes(coordinate.name) + " is reserved");
+  check_name(check, coordinate.name, used);
+  const auto velocity = velocity_name(coordinate.name);
+  if (!used.insert(velocity).second)
+    check.fail("name", "its velocity's name " + in_quotes(velocity) + " is used twice");
+  check.positive("mass", coordinate.mass);
+  if (!std::isfinite(1.0 / coordinate.mass)) check.fail("mass", assigned("mass", coordinate.mass) + " is too small: 1 / mass overflows");
+  return check.result();
+}
+
+Found check_spring(const Spring& spring, int index, const Model& model) {
+  Check check("spring", index);
+  check.ends(spring.a, spring.b, model);
+  check.finite("stiffness", spring.stiffness);
+  return check.result();
+}
+
+Found check_damper(const Damper& damper, int index, const Model& model) {
+  Check check("damper", index);
+  check.ends(damper.a, damper.b, model);
+  check.not_negative("coefficient", damper.coefficient);
+  return check.result();
+}
+
+Found check_force(const Force& force, int index, const Model& model) {
+  Check check("force", index);
+  check.end("on", force.coordinate, model);
+  if (force.coordinate == ground) check.fail("on", "a force acts on a coordinate, not on the ground");
+  if (force.harmonic < 0) check.fail("harmonic", "harmonic = " + std::to_string(force.harmonic) + " is negative");
+  check.finite("amplitude", force.amplitude);
+  check.finite("phase", force.phase);
+  return check.result();
+}
+
+Found check_friction(const FrictionContact& friction, int index, const Model& model, std::set<std::string>& used) {
+  Check check("friction", index);
+  check_name(check, friction.name, used);
+  check.ends(friction.a, friction.b, model);
+  check.finite("belt_speed", friction.belt_speed);
+  check.not_negative("static", friction.static_friction);
+  check.not_negative("kinetic", friction.kinetic_friction);
+  if (friction.kinetic_friction > friction.static_friction)
+    check.fail("kinetic", assigned("kinetic", friction.kinetic_friction) + " exceeds " + assigned("static", friction.static_friction));
+  return check.result();
+}
+
+Found check_stop(const Stop& stop, int index, const Model& model, std::set<std::string>& used) {
+  Check check("stop", index);
+  check_name(check, stop.name, used);
+  check.ends(stop.a, stop.b, model);
+  check.finite("clearance", stop.clearance);
+  check.finite("restitution", stop.restitution);
+  if (!(stop.restitution >= 0.0 && stop.restitution <= 1.0))
+    check.fail("restitution", assigned("restitution", stop.restitution) + " is outside [0, 1]");
+  return check.result();
+}
+
+/// omega, its period and its highest multiple must be ordinary numbers, so that no later step overflows.
+Found check_omega(const Model& model) {
+  Check check("model", -1);
+  check.not_negative("omega", model.omega);
+  if (!model.forced()) return check.result();
+  check.positive("omega", model.omega);
+  if (!std::isfinite(model.forcing_period())) check.fail("omega", assigned("omega", model.omega) + " is too small: its period overflows");
+  for (const auto& force : model.forces)
+    if (!std::isfinite(force.harmonic * model.omega)) check.fail("omega", assigned("omega", model.omega) + " is too large");
+  return check.result();
+}
+
+/// Calls `check(part, index)` for each part until one of them finds a fault.
+template <class Part, class CheckPart>
+Found first_of(const std::vector<Part>& parts, CheckPart check) {
+  int index = 0;
+  for (const auto& part : parts)
+    if (auto fault = check(part, index++)) return fault;
+  return std::nullopt;
+}
+
+double displacement(const State& state, int coordinate) {
+  return coordinate == ground ? 0.0 : state[static_cast<std::size_t>(2 * coordinate)];
+}
+
+/// The name of a part, or "" where parts of that kind have none.
+std::string part_name(const Fault& fault, const Model& model) {
+  const auto i = static_cast<std::size_t>(fault.index);
+  if (fault.part == "coordinate") return model.coordinates[i].name;
+  if (fault.part == "friction") return model.frictions[i].name;
+  if (fault.part == "stop") return model.stops[i].name;
+  return "";
+}
+
+}  // namespace
+
+std::string Fault::place(const Model& model) const {
+  if (index < 0) return part;
+  const auto name = part_name(*this, model);
+  return part + " " + (name.empty() ? std::to_string(index + 1) : in_quotes(name));
+}
+
+std::optional<Fault> first_fault(const Model& model) {
+  if (model.coordinates.empty()) return Fault{"model", -1, "coordinate", "it has no coordinates"};
+  std::set<std::string> states, contacts;
+  if (auto fault = first_of(model.coordinates, [&](const auto& part, int i) { return check_coordinate(part, i, states); })) return fault;
+  if (auto fault = first_of(model.springs, [&](const auto& part, int i) { return check_spring(part, i, model); })) return fault;
+  if (auto fault = first_of(model.dampers, [&](const auto& part, int i) { return check_damper(part, i, model); })) return fault;
+  if (auto fault = first_of(model.forces, [&](const auto& part, int i) { return check_force(part, i, model); })) return fault;
+  if (auto fault = first_of(model.frictions, [&](const auto& part, int i) { return check_friction(part, i, model, contacts); }))
+    return fault;
+  if (auto fault = first_of(model.stops, [&](const auto& part, int i) { return check_stop(part, i, model, contacts); })) return fault;
+  return check_omega(model);
+}
+
+std::optional<Fault> first_fault(const Model& model, const State& state) {
+  const auto names = state_names(model);
+  if (state.size() != names.size())
+    return Fault{"state", -1, "", std::to_string(state.size()) + " numbers given, " + std::to_string(names.size()) + " needed"};
+  for (std::size_t i = 0; i < state.size(); ++i)
+    if (!std::isfinite(state[i])) return Fault{"state", -1, names[i], assigned(names[i], state[i]) + " is not a finite number"};
+  for (const auto& stop : model.stops) {
+    const double gap = displacement(state, stop.a) - displacement(state, stop.b);
+    if (gap <= stop.clearance) continue;
+    const auto end = [&](int i) { return i == ground ? std::string("ground") : names[static_cast<std::size_t>(2 * i)]; };
+    return Fault{"state", -1, names[static_cast<std::size_t>(2 * (stop.a == ground ? stop.b : stop.a))],
+                 "stop " + in_quotes(stop.name) + " is violated: " + end(stop.a) + " - " + end(stop.b) + " = " + shown(gap) +
+                     " > clearance = " + shown(stop.clearance)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace slapstick

@@ -1,0 +1,29 @@
+#pragma once
+/// What is wrong with a model, in parts, so that a model file can point at the line.
+#include <optional>
+#include <string>
+
+#include "slapstick/model/model.hpp"
+
+namespace slapstick {
+
+struct Fault {
+  std::string part;   ///< "coordinate", "spring", "damper", "force", "friction", "stop", or "model"
+  int index = -1;     ///< which of them, from 0; -1 for the model itself
+  std::string field;  ///< the key as in a model file: "mass", "between", "static", ...; "" if it is not one field
+  std::string what;   ///< "mass = -1 is not positive"
+
+  /// "friction 'contact'": the part by its name, or by its number counted from 1.
+  [[nodiscard]] std::string place(const Model& model) const;
+};
+
+/// The first thing wrong with a model, in the order in which Model lists its members; nothing if it is sound.
+[[nodiscard]] std::optional<Fault> first_fault(const Model& model);
+
+/// The first thing wrong with a start (model sound); part is "state", field the name of the number.
+[[nodiscard]] std::optional<Fault> first_fault(const Model& model, const State& state);
+
+/// The column names, without checking the model.
+[[nodiscard]] std::string velocity_name(const std::string& coordinate);
+
+}  // namespace slapstick

@@ -1,0 +1,99 @@
+#pragma once
+/// Model files: a Model with named parameters, ranges and expressions, as a page of TOML. `docs/model_file.md` is the reference.
+///
+///     name = "impact"
+///     omega = "omega"
+///     [parameters]
+///     omega = { value = 2.2, above = 0, description = "forcing frequency" }
+///     [[coordinate]]
+///     name = "x"
+///     mass = 1
+///     [[force]]
+///     on = "x"
+///     amplitude = "omega^2"        # any number may be an expression of the parameters
+///     [[stop]]
+///     name = "wall"
+///     between = ["x", "ground"]    # x - ground <= clearance
+///     clearance = 0
+///     restitution = 0.8
+///     [start]
+///     x = -0.5
+///
+/// Every error is an InputError of one line: "FILE:LINE: PART: WHAT", and for an unknown name the nearest known one.
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "slapstick/model/model.hpp"
+
+namespace slapstick {
+
+/// A number of a model file that `--set` and sweeps may change.
+struct Parameter {
+  std::string name;
+  double value = 0.0;      ///< the default; if `expression` is set, its value with all other defaults
+  std::string expression;  ///< e.g. "static_friction": follows the other parameters until it is set itself; "" for a plain number
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool min_open = false;  ///< true: `min` itself is outside (`above` in the file)
+  bool max_open = false;  ///< true: `max` itself is outside (`below` in the file)
+  std::string description;
+  std::string unit;
+
+  [[nodiscard]] bool admits(double number) const;
+  [[nodiscard]] std::string range() const;  ///< "(0, inf)", "[0, 1]"
+};
+
+/// One name that sets several parameters to the same value: `friction` sets static_friction and kinetic_friction.
+struct Group {
+  std::string name;
+  std::vector<std::string> members;
+};
+
+/// Values given by name, as by `--set`. A parameter's own value wins over its group's.
+using Overrides = std::map<std::string, double>;
+
+struct Definition;  // the file's content; src/io/definition.hpp
+
+/// A model file that has been read and checked with its default values. Immutable, cheap to copy, safe to share between threads.
+class ModelDefinition {
+ public:
+  /// @param source  what messages call the text, usually the path
+  /// @throws InputError for anything that is not a sound model file
+  static ModelDefinition parse(std::string_view text, const std::string& source);
+
+  [[nodiscard]] const std::string& name() const;
+  [[nodiscard]] const std::string& summary() const;  ///< one line, may be empty
+  [[nodiscard]] const std::string& notes() const;    ///< several lines, may be empty
+  [[nodiscard]] const std::vector<Parameter>& parameters() const;  ///< in the file's order
+  [[nodiscard]] const std::vector<Group>& groups() const;
+
+  /// Every parameter's value. @throws InputError if an override is unknown, not finite or out of range, or an expression is not finite
+  [[nodiscard]] std::map<std::string, double> values(const Overrides& overrides = {}) const;
+
+  /// The validated model. @throws InputError as `values`, and with the file's line for what `validate` refuses
+  [[nodiscard]] Model build(const Overrides& overrides = {}) const;
+
+  /// The default initial state (2n numbers), checked against the stops. @throws InputError
+  [[nodiscard]] State start(const Overrides& overrides = {}) const;
+
+  /// A complete file, with the overrides as the new defaults; reading it gives the same Model, and printing that the same text.
+  /// Comments are not kept; descriptions and notes are. @throws InputError as `start`
+  [[nodiscard]] std::string to_toml(const Overrides& overrides = {}) const;
+
+ private:
+  explicit ModelDefinition(std::shared_ptr<const Definition> definition);
+  std::shared_ptr<const Definition> definition_;
+};
+
+/// A built-in model by name, or a model file by a path that ends in ".toml".
+/// @throws InputError for an unknown name (the nearest is suggested), a missing or too large file, or its content
+[[nodiscard]] ModelDefinition load_model(const std::string& name_or_path);
+
+/// Names of the built-in models, in alphabetical order.
+[[nodiscard]] std::vector<std::string> builtin_models();
+
+}  // namespace slapstick

@@ -1,0 +1,91 @@
+#pragma once
+/// The content of a model file: what `model_reader` fills, `model_definition` evaluates and `model_printer` writes.
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/expression.hpp"
+#include "slapstick/io/model_file.hpp"
+
+namespace slapstick {
+
+/// A number or an expression, and where it stands.
+struct Scalar {
+  double number = 0.0;
+  std::optional<Expression> expression;
+  int line = 0;
+};
+
+/// A key of a [[part]] that holds a Scalar.
+struct FieldRule {
+  std::string_view key;
+  bool required;
+};
+
+/// How a [[part]] says what it acts on: not at all, `on = "x"`, or `between = ["x", "ground"]`.
+enum class Ends { none, on, between };
+
+/// The grammar of one kind of [[part]]; reader, evaluation and printer all follow this table.
+struct PartRule {
+  std::string_view kind;
+  bool named;
+  Ends ends;
+  std::vector<FieldRule> fields;
+};
+
+/// One [[part]] of the file.
+struct Part {
+  std::string name, description;
+  int a = ground, b = ground;
+  std::map<std::string, Scalar, std::less<>> fields;
+  int line = 0;
+};
+
+/// A parameter; `shown.value` is filled when all of them are known.
+struct ParameterEntry {
+  Parameter shown;
+  Scalar value;
+};
+
+struct GroupEntry {
+  Group shown;
+  int line = 0;
+};
+
+struct Definition {
+  std::string source, name, summary, notes;
+  std::optional<Scalar> omega;
+  std::vector<ParameterEntry> parameters;
+  std::vector<GroupEntry> groups;
+  std::map<std::string, std::vector<Part>, std::less<>> parts;  // by kind
+  std::vector<std::pair<std::string, Scalar>> start;            // by state name, in the file's order
+  std::vector<Parameter> shown_parameters;                      // the same, as the public interface gives them
+  std::vector<Group> shown_groups;
+
+  [[nodiscard]] std::string place(int line) const { return source + ":" + std::to_string(line) + ": "; }
+  [[nodiscard]] const std::vector<Part>& of(std::string_view kind) const {
+    static const std::vector<Part> none;
+    const auto found = parts.find(kind);
+    return found == parts.end() ? none : found->second;
+  }
+};
+
+/// The kinds of parts, in the order in which they are read and printed.
+[[nodiscard]] const std::vector<PartRule>& part_rules();
+
+/// "spring 2" or "stop 'wall'".
+[[nodiscard]] std::string part_label(std::string_view kind, std::size_t index, const Part& part);
+
+/// Reads a file's text; names and keys are checked, numbers are not. @throws InputError
+[[nodiscard]] Definition read_definition(std::string_view text, const std::string& source);
+
+/// The file's text with these overrides (parameters only, groups resolved) as defaults.
+[[nodiscard]] std::string print_definition(const Definition& definition, const Overrides& overrides);
+
+/// Groups replaced by their members, every name and number checked. @throws InputError
+[[nodiscard]] Overrides resolve(const Definition& definition, const Overrides& overrides);
+
+}  // namespace slapstick

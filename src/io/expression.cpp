@@ -1,0 +1,108 @@
+#include "io/expression.hpp"
+
+#include <muParser.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <numbers>
+#include <optional>
+
+#include "slapstick/base/error.hpp"
+#include "slapstick/base/text.hpp"
+
+namespace slapstick {
+
+struct Expression::Compiled {
+  std::string text;
+  std::vector<std::string> names;
+  std::vector<double> values;  // what the parser's variables point to
+  mu::Parser parser;
+  std::mutex mutex;  // guards values and parser
+};
+
+namespace {
+
+constexpr std::size_t longest = 400;
+
+mu::Parser fresh_parser() {
+  mu::Parser parser;
+  parser.ClearConst();
+  parser.DefineConst("pi", std::numbers::pi);
+  return parser;
+}
+
+/// muParser also knows strings and assignments; neither has a place in a formula.
+std::optional<std::string> foreign(const std::string& text) {
+  if (text.size() > longest) return "longer than " + std::to_string(longest) + " characters";
+  if (text.find_first_not_of(" \t") == std::string::npos) return "empty";
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const bool printable = (c >= ' ' && c <= '~') || c == '\t';
+    if (!printable || c == '"') return "character " + in_quotes(std::string(1, c)) + " has no meaning here";
+    if (c != '=') continue;
+    const bool comparison = (i > 0 && std::string_view("=<>!").find(text[i - 1]) != std::string_view::npos) || text.substr(i + 1, 1) == "=";
+    if (!comparison) return "'=' has no meaning here";
+  }
+  return std::nullopt;
+}
+
+[[noreturn]] void refuse(const std::string& text, const std::string& what) {
+  throw InputError("expression " + in_quotes(text) + ": " + what);
+}
+
+std::string lowered(std::string text) {
+  if (!text.empty() && text[0] >= 'A' && text[0] <= 'Z') text[0] = static_cast<char>(text[0] - 'A' + 'a');
+  while (!text.empty() && text.back() == '.') text.pop_back();
+  std::replace_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return text;
+}
+
+}  // namespace
+
+Expression::Expression(const std::string& text) : compiled_(std::make_shared<Compiled>()) {
+  if (const auto reason = foreign(text)) refuse(text, *reason);
+  auto& compiled = *compiled_;
+  compiled.text = text;
+  try {
+    auto scout = fresh_parser();
+    scout.SetExpr(text);
+    for (const auto& [name, unused] : scout.GetUsedVar()) compiled.names.push_back(name);
+    compiled.values.assign(compiled.names.size(), 1.0);
+    compiled.parser = fresh_parser();
+    for (std::size_t i = 0; i < compiled.names.size(); ++i) compiled.parser.DefineVar(compiled.names[i], &compiled.values[i]);
+    compiled.parser.SetExpr(text);
+    int results = 0;
+    compiled.parser.Eval(results);
+    if (results != 1) refuse(text, "a ',' separates two values (write 0.5, not 0,5)");
+  } catch (const mu::ParserError& error) {
+    refuse(text, lowered(error.GetMsg()));
+  }
+}
+
+const std::string& Expression::text() const { return compiled_->text; }
+
+const std::vector<std::string>& Expression::names() const { return compiled_->names; }
+
+double Expression::evaluate(const std::map<std::string, double>& values) const {
+  auto& compiled = *compiled_;
+  const std::scoped_lock lock(compiled.mutex);
+  std::string with;
+  for (std::size_t i = 0; i < compiled.names.size(); ++i) compiled.values[i] = values.at(compiled.names[i]);
+  double result = 0.0;
+  try {
+    result = compiled.parser.Eval();
+  } catch (const mu::ParserError& error) {
+    refuse(compiled.text, lowered(error.GetMsg()));
+  }
+  if (std::isfinite(result)) return result;
+  for (const auto& name : compiled.names) with += (with.empty() ? " with " : ", ") + name + " = " + shown(values.at(name));
+  refuse(compiled.text, "its value is " + shown(result) + with);
+}
+
+bool Expression::reserves(std::string_view name) {
+  static const mu::Parser parser = fresh_parser();
+  return name == "pi" || parser.GetFunDef().count(std::string(name)) != 0;
+}
+
+}  // namespace slapstick

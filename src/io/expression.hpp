@@ -1,0 +1,33 @@
+#pragma once
+/// Arithmetic on named numbers: "2 * damping_ratio * dashpot_ratio". muParser lives behind this file and nowhere else.
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace slapstick {
+
+/// Operators + - * / ^ ( ) and comparisons with ?:, functions as sqrt, sin, exp, min, max, and the constant pi.
+/// Immutable; may be evaluated from several threads.
+class Expression {
+ public:
+  /// @throws InputError with the reason only ("'1 +': unexpected end ...")
+  explicit Expression(const std::string& text);
+
+  [[nodiscard]] const std::string& text() const;
+  /// The names that it needs, in alphabetical order.
+  [[nodiscard]] const std::vector<std::string>& names() const;
+  /// @param values must hold all of `names`
+  /// @throws InputError if the result is not finite; says with which values
+  [[nodiscard]] double evaluate(const std::map<std::string, double>& values) const;
+
+  /// Whether a parameter may not have this name, because it is a function or constant here.
+  static bool reserves(std::string_view name);
+
+ private:
+  struct Compiled;
+  std::shared_ptr<Compiled> compiled_;
+};
+
+}  // namespace slapstick

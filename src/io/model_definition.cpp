@@ -1,0 +1,256 @@
+#include <algorithm>
+#include <cmath>
+
+#include "io/definition.hpp"
+#include "model/fault.hpp"
+#include "slapstick/base/error.hpp"
+#include "slapstick/base/nearest.hpp"
+
+namespace slapstick {
+namespace {
+
+using Values = std::map<std::string, double>;
+
+/// Values of all parameters: overrides, plain numbers, and expressions in the order in which they need each other.
+class Evaluation {
+ public:
+  Evaluation(const Definition& definition, const Overrides& overrides) : definition_(definition), overrides_(overrides) {
+    for (const auto& entry : definition.parameters) entries_[entry.shown.name] = &entry;
+  }
+
+  Values all() {
+    for (const auto& entry : definition_.parameters) need(entry.shown.name);
+    return std::move(values_);
+  }
+
+ private:
+  void need(const std::string& name) {
+    if (values_.count(name) != 0) return;
+    const auto& entry = *entries_.at(name);
+    const auto given = overrides_.find(name);
+    if (given != overrides_.end()) {
+      values_[name] = given->second;
+      return;
+    }
+    const std::string where = definition_.place(entry.value.line) + "parameter " + in_quotes(name) + ": ";
+    double value = entry.value.number;
+    if (const auto& expression = entry.value.expression) {
+      if (std::find(open_.begin(), open_.end(), name) != open_.end()) throw InputError(where + "it depends on itself: " + circle(name));
+      open_.push_back(name);
+      for (const auto& other : expression->names()) need(other);
+      open_.pop_back();
+      value = evaluated(*expression, where);
+    }
+    if (!entry.shown.admits(value)) throw InputError(where + "value = " + shown(value) + " is outside " + entry.shown.range());
+    values_[name] = value;
+  }
+
+  double evaluated(const Expression& expression, const std::string& where) const {
+    try {
+      return expression.evaluate(values_);
+    } catch (const InputError& error) {
+      throw InputError(where + error.what());
+    }
+  }
+
+  /// "a -> b -> a"; the middle of a long one is left out.
+  std::string circle(const std::string& name) const {
+    std::string text;
+    const auto first = std::find(open_.begin(), open_.end(), name);
+    const auto count = open_.end() - first;
+    for (auto each = first; each != open_.end(); ++each)
+      if (count <= 8 || each - first < 4) text += *each + " -> ";
+    return text + (count > 8 ? "... -> " : "") + name;
+  }
+
+  const Definition& definition_;
+  const Overrides& overrides_;
+  std::map<std::string, const ParameterEntry*> entries_;
+  Values values_;
+  std::vector<std::string> open_;  // being evaluated
+};
+
+/// Fills a Model from the parts.
+class Builder {
+ public:
+  Builder(const Definition& definition, const Values& values) : definition_(definition), values_(values) {}
+
+  Model model() {
+    Model model;
+    model.name = definition_.name;
+    if (definition_.omega) model.omega = number(*definition_.omega, "omega");
+    each("coordinate", [&](const Part& part) { model.coordinates.push_back({part.name, field(part, "mass")}); });
+    each("spring", [&](const Part& part) { model.springs.push_back({part.a, part.b, field(part, "stiffness")}); });
+    each("damper", [&](const Part& part) { model.dampers.push_back({part.a, part.b, field(part, "coefficient")}); });
+    each("force", [&](const Part& part) {
+      model.forces.push_back({part.a, whole(part, "harmonic", 1), field(part, "amplitude"), field(part, "phase", 0.0)});
+    });
+    each("friction", [&](const Part& part) {
+      const double limit = field(part, "static");
+      model.frictions.push_back({part.name, part.a, part.b, field(part, "belt_speed", 0.0), limit, field(part, "kinetic", limit)});
+    });
+    each("stop", [&](const Part& part) {
+      model.stops.push_back({part.name, part.a, part.b, field(part, "clearance"), field(part, "restitution")});
+    });
+    if (const auto fault = first_fault(model)) throw InputError(definition_.place(line_of(*fault)) + fault->place(model) + ": " + fault->what);
+    return model;
+  }
+
+  State start(const Model& model) const {
+    const auto names = state_names(model);
+    State state(names.size(), 0.0);
+    int line = 1;
+    for (const auto& [name, scalar] : definition_.start) {
+      const auto at = std::find(names.begin(), names.end(), name) - names.begin();
+      state[static_cast<std::size_t>(at)] = number(scalar, "start: " + name);
+      line = scalar.line;
+    }
+    if (const auto fault = first_fault(model, state)) throw InputError(definition_.place(line) + "start: " + fault->what);
+    return state;
+  }
+
+ private:
+  template <class Add>
+  void each(const char* kind, Add add) {
+    kind_ = kind;
+    index_ = 0;
+    for (const auto& part : definition_.of(kind)) {
+      add(part);
+      ++index_;
+    }
+  }
+
+  double number(const Scalar& scalar, const std::string& where) const {
+    if (!scalar.expression) return scalar.number;
+    try {
+      return scalar.expression->evaluate(values_);
+    } catch (const InputError& error) {
+      throw InputError(definition_.place(scalar.line) + where + ": " + error.what());
+    }
+  }
+
+  std::string where(const Part& part, std::string_view key) const {
+    return part_label(kind_, index_, part).append(": ").append(key);
+  }
+
+  double field(const Part& part, std::string_view key, double fallback = 0.0) const {
+    const auto found = part.fields.find(key);
+    return found == part.fields.end() ? fallback : number(found->second, where(part, key));
+  }
+
+  int whole(const Part& part, std::string_view key, int fallback) const {
+    const double value = field(part, key, fallback);
+    if (value >= 0.0 && value <= 1e6 && value == std::floor(value)) return static_cast<int>(value);
+    throw InputError(definition_.place(part.fields.find(key)->second.line) + where(part, key) + " = " + shown(value) +
+                     " is not a whole number in [0, 1000000]");
+  }
+
+  int line_of(const Fault& fault) const {
+    if (fault.index < 0) return fault.field == "omega" && definition_.omega ? definition_.omega->line : 1;
+    const auto& part = definition_.of(fault.part)[static_cast<std::size_t>(fault.index)];
+    const auto found = part.fields.find(fault.field);
+    return found == part.fields.end() ? part.line : found->second.line;
+  }
+
+  const Definition& definition_;
+  const Values& values_;
+  std::string_view kind_;
+  std::size_t index_ = 0;
+};
+
+void check_override(const Parameter& parameter, double value) {
+  const std::string name = "parameter " + in_quotes(parameter.name) + " = " + shown(value);
+  if (!std::isfinite(value)) throw InputError(name + " is not a finite number");
+  if (!parameter.admits(value)) throw InputError(name + " is outside " + parameter.range());
+}
+
+const Parameter* find_parameter(const Definition& definition, const std::string& name) {
+  for (const auto& entry : definition.parameters)
+    if (entry.shown.name == name) return &entry.shown;
+  return nullptr;
+}
+
+const Group* find_group(const Definition& definition, const std::string& name) {
+  for (const auto& entry : definition.groups)
+    if (entry.shown.name == name) return &entry.shown;
+  return nullptr;
+}
+
+}  // namespace
+
+bool Parameter::admits(double number) const {
+  return std::isfinite(number) && (min_open ? number > min : number >= min) && (max_open ? number < max : number <= max);
+}
+
+std::string Parameter::range() const {
+  std::string text = min_open || std::isinf(min) ? "(" : "[";
+  text += shown(min) + ", " + shown(max);
+  return text + (max_open || std::isinf(max) ? ")" : "]");
+}
+
+Overrides resolve(const Definition& definition, const Overrides& overrides) {
+  Overrides resolved;
+  for (const auto& [name, value] : overrides)
+    if (const auto* group = find_group(definition, name))
+      for (const auto& member : group->members) {
+        check_override(*find_parameter(definition, member), value);
+        resolved[member] = value;
+      }
+  for (const auto& [name, value] : overrides) {
+    if (find_group(definition, name) != nullptr) continue;
+    const auto* parameter = find_parameter(definition, name);
+    if (parameter == nullptr) {
+      std::vector<std::string> known;
+      for (const auto& entry : definition.parameters) known.push_back(entry.shown.name);
+      for (const auto& entry : definition.groups) known.push_back(entry.shown.name);
+      throw InputError("model " + in_quotes(definition.name) + " has no parameter " + in_quotes(name) + suggestion(name, known));
+    }
+    check_override(*parameter, value);
+    resolved[name] = value;
+  }
+  return resolved;
+}
+
+ModelDefinition::ModelDefinition(std::shared_ptr<const Definition> definition) : definition_(std::move(definition)) {}
+
+ModelDefinition ModelDefinition::parse(std::string_view text, const std::string& source) {
+  auto definition = std::make_shared<Definition>(read_definition(text, source));
+  const auto values = Evaluation(*definition, {}).all();
+  for (auto& entry : definition->parameters) {
+    entry.shown.value = values.at(entry.shown.name);
+    definition->shown_parameters.push_back(entry.shown);
+  }
+  for (const auto& entry : definition->groups) definition->shown_groups.push_back(entry.shown);
+  ModelDefinition model{std::move(definition)};
+  (void)model.start();  // also builds
+  return model;
+}
+
+const std::string& ModelDefinition::name() const { return definition_->name; }
+const std::string& ModelDefinition::summary() const { return definition_->summary; }
+const std::string& ModelDefinition::notes() const { return definition_->notes; }
+const std::vector<Parameter>& ModelDefinition::parameters() const { return definition_->shown_parameters; }
+const std::vector<Group>& ModelDefinition::groups() const { return definition_->shown_groups; }
+
+std::map<std::string, double> ModelDefinition::values(const Overrides& overrides) const {
+  const auto resolved = resolve(*definition_, overrides);
+  return Evaluation(*definition_, resolved).all();
+}
+
+Model ModelDefinition::build(const Overrides& overrides) const {
+  const auto numbers = values(overrides);
+  return Builder(*definition_, numbers).model();
+}
+
+State ModelDefinition::start(const Overrides& overrides) const {
+  const auto numbers = values(overrides);
+  Builder builder(*definition_, numbers);
+  return builder.start(builder.model());
+}
+
+std::string ModelDefinition::to_toml(const Overrides& overrides) const {
+  (void)start(overrides);  // the text must load again
+  return print_definition(*definition_, resolve(*definition_, overrides));
+}
+
+}  // namespace slapstick

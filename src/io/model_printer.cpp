@@ -1,0 +1,120 @@
+#include <charconv>
+#include <cmath>
+
+#include "io/definition.hpp"
+
+namespace slapstick {
+namespace {
+
+/// Shortest text that reads back as the same double; never one that TOML would take for an integer out of range or lose the sign of -0.
+std::string toml_number(double value) {
+  char text[40];
+  std::string out(text, std::to_chars(text, text + sizeof text, value).ptr);
+  const bool whole = out.find_first_of(".e") == std::string::npos;
+  return whole && (out.size() > 15 || out == "-0") ? out + ".0" : out;
+}
+
+std::string toml_string(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+/// Several lines between """: the first line break after the opening is not part of the text.
+std::string toml_notes(const std::string& text) {
+  std::string out = "\"\"\"\n";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + "\"\"\"";
+}
+
+class Printer {
+ public:
+  Printer(const Definition& definition, const Overrides& overrides) : definition_(definition), overrides_(overrides) {}
+
+  std::string print() {
+    line("name", toml_string(definition_.name));
+    if (!definition_.summary.empty()) line("summary", toml_string(definition_.summary));
+    if (!definition_.notes.empty()) line("notes", toml_notes(definition_.notes));
+    if (definition_.omega) line("omega", scalar_text(*definition_.omega));
+    for (const auto& entry : definition_.parameters) parameter(entry);
+    groups();
+    for (const auto& rule : part_rules())
+      for (const auto& part : definition_.of(rule.kind)) print_part(rule, part);
+    start();
+    return std::move(out_);
+  }
+
+ private:
+  void line(std::string_view key, std::string_view value) { out_.append(key).append(" = ").append(value).append("\n"); }
+
+  static std::string scalar_text(const Scalar& scalar) {
+    return scalar.expression ? toml_string(scalar.expression->text()) : toml_number(scalar.number);
+  }
+
+  void parameter(const ParameterEntry& entry) {
+    const auto& shown = entry.shown;
+    out_.append("\n[parameters.").append(shown.name).append("]\n");
+    const auto given = overrides_.find(shown.name);
+    line("value", given == overrides_.end() ? scalar_text(entry.value) : toml_number(given->second));
+    if (std::isfinite(shown.min)) line(shown.min_open ? "above" : "min", toml_number(shown.min));
+    if (std::isfinite(shown.max)) line(shown.max_open ? "below" : "max", toml_number(shown.max));
+    if (!shown.unit.empty()) line("unit", toml_string(shown.unit));
+    if (!shown.description.empty()) line("description", toml_string(shown.description));
+  }
+
+  void groups() {
+    if (definition_.groups.empty()) return;
+    out_ += "\n[groups]\n";
+    for (const auto& entry : definition_.groups) {
+      std::string members;
+      for (const auto& member : entry.shown.members) members += "\n  " + toml_string(member) + ",";
+      line(entry.shown.name, entry.shown.members.size() > 6 ? "[" + members + "\n]" : short_list(entry.shown.members));
+    }
+  }
+
+  static std::string short_list(const std::vector<std::string>& members) {
+    std::string out = "[";
+    for (const auto& member : members) out.append(out.size() > 1 ? ", " : "").append(toml_string(member));
+    return out + "]";
+  }
+
+  std::string end_text(int index) const {
+    return index == ground ? "ground" : definition_.of("coordinate")[static_cast<std::size_t>(index)].name;
+  }
+
+  void print_part(const PartRule& rule, const Part& part) {
+    out_.append("\n[[").append(rule.kind).append("]]\n");
+    if (rule.named) line("name", toml_string(part.name));
+    if (!part.description.empty()) line("description", toml_string(part.description));
+    if (rule.ends == Ends::on) line("on", toml_string(end_text(part.a)));
+    if (rule.ends == Ends::between) line("between", short_list({end_text(part.a), end_text(part.b)}));
+    for (const auto& field : rule.fields) {
+      const auto found = part.fields.find(field.key);
+      if (found != part.fields.end()) line(field.key, scalar_text(found->second));
+    }
+  }
+
+  void start() {
+    if (definition_.start.empty()) return;
+    out_ += "\n[start]\n";
+    for (const auto& [name, scalar] : definition_.start) line(name, scalar_text(scalar));
+  }
+
+  const Definition& definition_;
+  const Overrides& overrides_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string print_definition(const Definition& definition, const Overrides& overrides) {
+  return Printer(definition, overrides).print();
+}
+
+}  // namespace slapstick

@@ -1,0 +1,30 @@
+#pragma once
+/// A TOML text as a plain tree with line numbers. toml++ lives behind this file and nowhere else.
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace slapstick {
+
+struct TomlNode {
+  enum class Kind { text, number, boolean, date, list, table };
+  Kind kind = Kind::table;
+  std::string text;
+  double number = 0.0;
+  std::vector<TomlNode> items;                              ///< of a list
+  std::vector<std::pair<std::string, TomlNode>> entries;  ///< of a table, in the file's order
+  int line = 0;
+
+  [[nodiscard]] const TomlNode* find(std::string_view key) const;
+  [[nodiscard]] const char* kind_name() const;  ///< "a number", "a list", ...
+};
+
+/// Largest text that is read, and longest line. A model is a page; these bound time, memory and nesting for hostile files.
+inline constexpr std::size_t toml_size_limit = std::size_t{1} << 20;
+inline constexpr std::size_t toml_line_limit = 4096;
+
+/// @throws InputError "SOURCE:LINE: what" for anything that is not TOML or exceeds a limit
+[[nodiscard]] TomlNode parse_toml(std::string_view text, const std::string& source);
+
+}  // namespace slapstick

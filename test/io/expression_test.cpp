@@ -1,0 +1,90 @@
+/// Formulas of parameters: right values, and one-line refusals.
+#include "io/expression.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <random>
+#include <thread>
+
+#include "slapstick/base/error.hpp"
+
+namespace slapstick {
+namespace {
+
+std::string refusal(const std::string& text, std::map<std::string, double> values = {}) {
+  try {
+    const Expression expression(text);
+    for (const auto& name : expression.names()) values.emplace(name, 1.0);
+    (void)expression.evaluate(values);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Expression, arithmetic) {
+  EXPECT_EQ(Expression("2 * a * b").evaluate({{"a", 0.1}, {"b", 5}}), 2 * 0.1 * 5);
+  EXPECT_EQ(Expression("-a^2").evaluate({{"a", 3}}), -9);
+  EXPECT_EQ(Expression("1 - a").evaluate({{"a", 0.25}}), 0.75);
+  EXPECT_EQ(Expression("pi / 2").evaluate({}), std::acos(0.0));
+  EXPECT_EQ(Expression("a > 1 ? 2 : 3").evaluate({{"a", 2}}), 2);
+  EXPECT_EQ(Expression("min(a, -1)").evaluate({{"a", 2}}), -1);
+  EXPECT_EQ(Expression("0.1").evaluate({}), 0.1);
+  EXPECT_EQ(Expression("1e-3").evaluate({}), 1e-3);
+  EXPECT_EQ(Expression("b + a").names(), (std::vector<std::string>{"a", "b"}));
+}
+
+TEST(Expression, refusals_are_one_line_and_name_the_trouble) {
+  EXPECT_EQ(refusal("1 / a", {{"a", 0}}), "expression '1 / a': its value is inf with a = 0");
+  EXPECT_EQ(refusal("sqrt(a) + b", {{"a", -1}, {"b", 2}}).substr(0, 42), "expression 'sqrt(a) + b': its value is -na");
+  EXPECT_EQ(refusal(""), "expression '': empty");
+  EXPECT_EQ(refusal("0,1"), "expression '0,1': a ',' separates two values (write 0.5, not 0,5)");
+  EXPECT_EQ(refusal("a = 3", {{"a", 1}}), "expression 'a = 3': '=' has no meaning here");
+  EXPECT_EQ(refusal("\"a\""), "expression '\"a\"': character '\"' has no meaning here");
+  EXPECT_EQ(refusal("1\n+1"), "expression '1\\x0a+1': character '\\x0a' has no meaning here");
+  EXPECT_NE(refusal(std::string(401, '1')).find("longer than 400 characters"), std::string::npos);
+  for (const char* bad : {"1 +", "(1", "1)", "2 a", "foo(1)", "1..2", "*", "a b", "sin()", "min()", "?:", "1 ? 2", "0x", "$", "1e999"}) {
+    const auto message = refusal(bad, {{"a", 1}, {"b", 1}});
+    EXPECT_EQ(message.rfind("expression '", 0), 0U) << bad << ": " << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+}
+
+TEST(Expression, random_text_never_crashes) {
+  const std::vector<std::string> words = {"1",   "a",  "b",    "(",   ")",    ",",  "+",  "-",  "*",   "/",  "^",   "sin", "min",
+                                          "sum", "?",  ":",    "==",  "<",    "&&", "||", ".",  "0x",  "pi", "e",   "_",   "if",
+                                          " ",   "!=", "1e30", "avg", "rint", ">=", "!",  "#1", "0b1", "\\", "max", "sqrt"};
+  std::mt19937 random(3);
+  for (int i = 0; i < 30000; ++i) {
+    std::string text;
+    for (auto length = random() % 14; length-- > 0;) text += words[random() % words.size()];
+    try {
+      const Expression expression(text);
+      std::map<std::string, double> values;
+      for (const auto& name : expression.names()) values[name] = 0.5;
+      EXPECT_TRUE(std::isfinite(expression.evaluate(values))) << text;
+    } catch (const InputError&) {
+    }
+  }
+  (void)refusal(std::string(200, '(') + "1" + std::string(200, ')'));
+  (void)refusal(std::string(400, '-'));
+  (void)refusal(std::string(400, '('));
+}
+
+TEST(Expression, threads_do_not_disturb_each_other) {
+  const Expression expression("a * 2 + b");
+  std::vector<std::thread> threads;
+  std::atomic<int> wrong{0};
+  for (int t = 0; t < 4; ++t)
+    threads.emplace_back([&, t] {
+      for (int i = 0; i < 5000; ++i)
+        if (expression.evaluate({{"a", t}, {"b", i}}) != 2.0 * t + i) ++wrong;
+    });
+  for (auto& thread : threads) thread.join();
+  EXPECT_EQ(wrong, 0);
+}
+
+}  // namespace
+}  // namespace slapstick

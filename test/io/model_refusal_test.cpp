@@ -1,0 +1,126 @@
+/// Every mistake in a model file is named with its line, and a mistyped name with the nearest known one.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "slapstick/base/error.hpp"
+#include "slapstick/io/model_file.hpp"
+
+namespace slapstick {
+namespace {
+
+const std::string head = "name = 'm'\n";                                 // line 1
+const std::string mass = "[[coordinate]]\nname = 'x1'\nmass = 'm'\n";  // lines 3, 4, 5 after one line of parameters
+const std::string good = head + "parameters.m = { value = 2, above = 0, below = 9 }\n" + mass;
+
+std::string refusal(const std::string& text, const Overrides& overrides = {}) {
+  try {
+    (void)ModelDefinition::parse(text, "f.toml").start(overrides);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(ModelFile, smallest_model) {
+  EXPECT_EQ(refusal(good), "accepted");
+  const auto definition = ModelDefinition::parse(good, "f.toml");
+  EXPECT_EQ(definition.build({{"m", 3}}).coordinates.at(0).mass, 3.0);
+  EXPECT_EQ(definition.start(), (State{0, 0}));
+  EXPECT_EQ(definition.build().omega, 0.0);
+}
+
+TEST(ModelFile, unknown_names_suggest_the_nearest) {
+  EXPECT_EQ(refusal("nmae = 'm'\n"), "f.toml:1: unknown key 'nmae'; did you mean 'name'?");
+  EXPECT_EQ(refusal(good + "stifness = 1\n"), "f.toml:6: coordinate 1: unknown key 'stifness'; known: description, name, mass");
+  EXPECT_EQ(refusal(good + "[[sprin]]\n"), "f.toml:6: unknown key 'sprin'; did you mean 'spring'?");
+  EXPECT_EQ(refusal(good + "[[spring]]\nbetween = ['x1', 'ground']\nstifness = 1\n"),
+            "f.toml:8: spring 1: unknown key 'stifness'; did you mean 'stiffness'?");
+  EXPECT_EQ(refusal(good + "[[spring]]\nbetween = ['x1', 'groud']\nstiffness = 1\n"),
+            "f.toml:7: spring 1: between: unknown coordinate 'groud'; did you mean 'ground'?");
+  EXPECT_EQ(refusal(good + "[[spring]]\nbetween = ['x1', 'ground']\nstiffness = '2 * mm'\n"),
+            "f.toml:8: spring 1: stiffness: expression '2 * mm': unknown parameter 'mm'; did you mean 'm'?");
+  EXPECT_EQ(refusal(good + "[start]\nx2 = 1\n"), "f.toml:7: start: unknown key 'x2'; did you mean 'x1'?");
+  EXPECT_EQ(refusal(good + "[groups]\ng = ['n']\n"), "f.toml:7: group 'g': unknown parameter 'n'; known: m");
+  EXPECT_EQ(refusal(good, {{"mm", 1}}), "model 'm' has no parameter 'mm'; did you mean 'm'?");
+}
+
+TEST(ModelFile, values_out_of_range_name_parameter_value_and_range) {
+  EXPECT_EQ(refusal(good, {{"m", 0}}), "parameter 'm' = 0 is outside (0, 9)");
+  EXPECT_EQ(refusal(good, {{"m", 9}}), "parameter 'm' = 9 is outside (0, 9)");
+  EXPECT_EQ(refusal(good, {{"m", std::nan("")}}), "parameter 'm' = nan is not a finite number");
+  EXPECT_EQ(refusal(good, {{"m", std::numeric_limits<double>::infinity()}}), "parameter 'm' = inf is not a finite number");
+  EXPECT_EQ(refusal(head + "parameters.m = { value = 2, max = 1 }\n" + mass), "f.toml:2: parameter 'm': value = 2 is outside (-inf, 1]");
+  EXPECT_EQ(refusal(head + "parameters.m = { value = 2, min = 3, max = 1 }\n"), "f.toml:2: parameter 'm': the range [3, 1] is empty");
+  EXPECT_EQ(refusal(head + "parameters.m = { value = 2, min = 3, above = 1 }\n"), "f.toml:2: parameter 'm': both 'min' and 'above' are given");
+  EXPECT_EQ(refusal(head + "parameters.m = { value = 2, min = 'a' }\n"), "f.toml:2: parameter 'm': min: expected a number, found a string");
+}
+
+TEST(ModelFile, wrong_types_and_missing_keys) {
+  EXPECT_EQ(refusal(""), "f.toml:1: model: 'name' is missing");
+  EXPECT_EQ(refusal(head), "f.toml:1: model: it has no coordinates");
+  EXPECT_EQ(refusal("name = 3\n"), "f.toml:1: model: name: expected a string, found a number");
+  EXPECT_EQ(refusal(head + "parameters = 3\n"), "f.toml:2: parameters: expected a table, found a number");
+  EXPECT_EQ(refusal(head + "parameters.m = true\n"), "f.toml:2: parameter 'm': expected a number or an expression, found a boolean");
+  EXPECT_EQ(refusal(head + "parameters.m = {}\n"), "f.toml:2: parameter 'm': 'value' is missing");
+  EXPECT_EQ(refusal(head + "parameters.m = inf\n"), "f.toml:2: parameter 'm': inf is not a finite number");
+  EXPECT_EQ(refusal(head + "parameters.sin = 1\n"), "f.toml:2: parameter 'sin': this is the name of a function or constant");
+  EXPECT_EQ(refusal(head + "parameters.'a b' = 1\n"),
+            "f.toml:2: parameter 'a b': a name is 1 to 64 letters, digits and '_', beginning with a letter");
+  EXPECT_EQ(refusal(head + "parameters.x1 = 1\n[[coordinate]]\nname='x1'\nmass=1\n"),
+            "f.toml:3: coordinate 'x1': a parameter has the name 'x1'");
+  EXPECT_EQ(refusal(head + "[coordinate]\n"), "f.toml:2: coordinate: expected [[coordinate]], found a table");
+  EXPECT_EQ(refusal(head + "[[coordinate]]\nmass = 1\n"), "f.toml:2: coordinate 1: 'name' is missing");
+  EXPECT_EQ(refusal(head + "[[coordinate]]\nname = 'x'\n"), "f.toml:2: coordinate 'x': 'mass' is missing");
+  EXPECT_EQ(refusal(good + "[[spring]]\nstiffness = 1\n"), "f.toml:6: spring 1: 'between' is missing");
+  EXPECT_EQ(refusal(good + "[[spring]]\nbetween = ['x1']\nstiffness = 1\n"), "f.toml:7: spring 1: between: expected two ends, found 1");
+  EXPECT_EQ(refusal(good + "[[spring]]\nbetween = ['x1', 1]\nstiffness = 1\n"),
+            "f.toml:7: spring 1: between: expected a string, found a number");
+  EXPECT_EQ(refusal(good + "[[force]]\non = 'x1'\namplitude = 1\nharmonic = 1.5\n"),
+            "f.toml:9: force 1: harmonic = 1.5 is not a whole number in [0, 1000000]");
+  EXPECT_EQ(refusal("name = \"a\\nb\"\n"), "f.toml:1: model: name: control character in 'a\\x0ab'");
+}
+
+TEST(ModelFile, expressions_that_fail_are_named) {
+  const auto with = [](const std::string& value) { return head + "parameters.m = 0\n[[coordinate]]\nname = 'x'\nmass = '" + value + "'\n"; };
+  EXPECT_EQ(refusal(with("1 / m")), "f.toml:5: coordinate 'x': mass: expression '1 / m': its value is inf with m = 0");
+  EXPECT_EQ(refusal(with("1 +")).substr(0, 52), "f.toml:5: coordinate 'x': mass: expression '1 +': un");
+  EXPECT_EQ(refusal(head + "[parameters]\na = 'b'\nb = 'c + 1'\nc = 'a'\n"),
+            "f.toml:3: parameter 'a': it depends on itself: a -> b -> c -> a");
+  EXPECT_EQ(refusal(head + "parameters.a = '1 / b'\nparameters.b = 0\n"),
+            "f.toml:2: parameter 'a': expression '1 / b': its value is inf with b = 0");
+}
+
+TEST(ModelFile, meaningless_models_are_refused_at_their_line) {
+  const auto contact = [](const std::string& numbers) { return good + "[[friction]]\nname = 'f'\nbetween = ['x1', 'ground']\n" + numbers; };
+  EXPECT_EQ(refusal(contact("static = 1\nkinetic = 2\n")), "f.toml:10: friction 'f': kinetic = 2 exceeds static = 1");
+  EXPECT_EQ(refusal(contact("static = -1\n")), "f.toml:9: friction 'f': static = -1 is negative");
+  EXPECT_EQ(refusal(contact("static = 1\n")), "accepted");  // kinetic is static
+  EXPECT_EQ(refusal(good + "[[spring]]\nbetween = ['x1', 'x1']\nstiffness = 1\n"), "f.toml:6: spring 1: both ends are 'x1'");
+  EXPECT_EQ(refusal(good + "[[coordinate]]\nname = 'x1'\nmass = 1\n"), "f.toml:6: coordinate 'x1': name 'x1' is used twice");
+  EXPECT_EQ(refusal("omega = 0\n" + good + "[[force]]\non = 'x1'\namplitude = 1\n"), "f.toml:1: model: omega = 0 is not positive");
+  EXPECT_EQ(refusal(good + "[[stop]]\nname = 's'\nbetween = ['x1', 'ground']\nclearance = 1\nrestitution = 2\n"),
+            "f.toml:10: stop 's': restitution = 2 is outside [0, 1]");
+  EXPECT_EQ(refusal(good + "[[stop]]\nname = 's'\nbetween = ['x1', 'ground']\nclearance = 'm'\nrestitution = 0\n[start]\nx1 = 3\n"),
+            "f.toml:12: start: stop 's' is violated: x1 - ground = 3 > clearance = 2");
+}
+
+TEST(ModelFile, awkward_numbers_and_texts_survive_printing) {
+  const std::string text = head + "notes = \"\"\"\na \\\\ \\\"quoted\\\" line\n\n  and ''' more\"\"\"\n" +
+                           "parameters.m = { value = 123456789012345680000.0, description = \"a \\\"b\\\" \\\\ \xc3\xa9\" }\n" +
+                           "parameters.n = { value = -0.0 }\nparameters.d = { value = 5e-324 }\n" + mass + "[start]\nv1 = 'm / 3'\nx1 = -1e300\n";
+  const auto definition = ModelDefinition::parse(text, "f.toml");
+  const auto printed = definition.to_toml();
+  const auto again = ModelDefinition::parse(printed, "g.toml");
+  EXPECT_EQ(again.to_toml(), printed);
+  EXPECT_EQ(again.notes(), definition.notes());
+  EXPECT_EQ(again.notes(), "a \\ \"quoted\" line\n\n  and ''' more");
+  EXPECT_EQ(again.parameters()[0].description, definition.parameters()[0].description);
+  EXPECT_EQ(again.values(), definition.values());
+  EXPECT_TRUE(std::signbit(again.values().at("n")));
+  EXPECT_EQ(again.start(), definition.start());
+}
+
+}  // namespace
+}  // namespace slapstick

@@ -1,0 +1,50 @@
+# The installed package: `find_package(slapstick)` gives the target slapstick::slapstick. test/package proves it.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+# Public headers may use Eigen types, whose alignment Eigen derives from -march. A library built for one machine and a program built
+# for the baseline would disagree and corrupt the heap, so it is fixed, at what Debian's own Eigen users have.
+target_compile_definitions(slapstick PUBLIC EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MAX_STATIC_ALIGN_BYTES=16)
+
+# Which package an imported target comes from. A static library needs its private dependencies when it is linked, so the
+# config file looks for them too; for a shared one only the public ones.
+set(package_of_Eigen3::Eigen Eigen3)
+set(package_of_TBB::tbb TBB)
+set(package_of_fmt::fmt fmt)
+set(package_of_fmt::fmt-header-only fmt)
+set(package_of_muparser::muparser muparser)
+set(package_of_tomlplusplus::tomlplusplus tomlplusplus)
+set(package_of_nlohmann_json::nlohmann_json nlohmann_json)
+set(package_of_Threads::Threads Threads)
+
+get_target_property(slapstick_type slapstick TYPE)
+get_target_property(slapstick_links slapstick INTERFACE_LINK_LIBRARIES)
+set(slapstick_dependencies)
+foreach(link IN LISTS slapstick_links)
+  if(link MATCHES "BUILD_INTERFACE|^::@" OR (slapstick_type STREQUAL SHARED_LIBRARY AND link MATCHES "LINK_ONLY"))
+    continue()
+  endif()
+  string(REGEX REPLACE "^\\$<LINK_ONLY:(.*)>$" "\\1" link "${link}")
+  if(DEFINED package_of_${link})
+    list(APPEND slapstick_dependencies ${package_of_${link}})
+  elseif(link MATCHES "::")
+    message(FATAL_ERROR "cmake/SlapstickInstall.cmake does not know which package has the target ${link}")
+  endif()
+endforeach()
+list(REMOVE_DUPLICATES slapstick_dependencies)
+list(TRANSFORM slapstick_dependencies REPLACE "^(.+)$" "find_dependency(\\1)")
+list(JOIN slapstick_dependencies "\n" SLAPSTICK_FIND_DEPENDENCIES)
+
+set(slapstick_cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/slapstick)
+install(TARGETS slapstick EXPORT slapstick-targets)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/slapstick DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
+install(EXPORT slapstick-targets NAMESPACE slapstick:: DESTINATION ${slapstick_cmake_folder})
+if(TARGET slapstick_app)
+  install(TARGETS slapstick_app)
+endif()
+
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/slapstick-config.cmake.in
+  ${PROJECT_BINARY_DIR}/package/slapstick-config.cmake INSTALL_DESTINATION ${slapstick_cmake_folder})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/slapstick-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/package/slapstick-config.cmake ${PROJECT_BINARY_DIR}/package/slapstick-config-version.cmake
+  DESTINATION ${slapstick_cmake_folder})

@@ -1,0 +1,25 @@
+# Installs into a fresh folder and moves it to PREFIX, so that nothing in the package can name the place it was installed to.
+file(REMOVE_RECURSE ${PREFIX} ${PREFIX}.first)
+execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --config ${CONFIG} --prefix ${PREFIX}.first
+  OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+file(RENAME ${PREFIX}.first ${PREFIX})
+
+file(GLOB_RECURSE scripts ${PREFIX}/*.cmake)
+if(NOT scripts)
+  message(FATAL_ERROR "no package files were installed")
+endif()
+foreach(script IN LISTS scripts)
+  file(READ ${script} text)
+  foreach(place ${SOURCE} ${BUILD} ${PREFIX}.first)
+    string(FIND "${text}" "${place}/" at)
+    if(NOT at EQUAL -1)
+      message(FATAL_ERROR "${script} names ${place}")
+    endif()
+  endforeach()
+endforeach()
+
+file(GLOB_RECURSE ours RELATIVE ${SOURCE}/include ${SOURCE}/include/*)
+file(GLOB_RECURSE theirs RELATIVE ${PREFIX}/include ${PREFIX}/include/*)
+if(NOT ours STREQUAL theirs)
+  message(FATAL_ERROR "installed headers differ from include/:\n${ours}\n${theirs}")
+endif()

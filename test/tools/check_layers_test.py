@@ -1,0 +1,59 @@
+"""tools/check_layers must find each kind of violation, and only violations."""
+import os
+import sys
+
+import trees
+
+CHECK = sys.argv[1]
+with open(os.path.join(os.path.dirname(CHECK), '../docs/architecture.md'), encoding='utf-8') as file:
+    DOCUMENT = file.read()
+
+
+def tree(path, line, **extra):
+    """A tree with `line` in the file `path`; `document` replaces docs/architecture.md."""
+    files = {
+        'docs/architecture.md': extra.get('document', DOCUMENT),
+        'include/slapstick/model/model.hpp': '#pragma once\n#include <vector>\n',
+        'src/flow/private.hpp': '#pragma once\n',
+        'src/sweep/private.hpp': '#pragma once\n',
+    }
+    files[path] = '// first line\n' + line + '\n'
+    return files
+
+
+CASES = [
+    ('downwards', tree('src/flow/motion.cpp', '#include "slapstick/model/model.hpp"'), None),
+    ('own folder', tree('src/flow/motion.cpp', '#include "private.hpp"'), None),
+    ('own folder by its name', tree('src/flow/motion.cpp', '#include "flow/private.hpp"'), None),
+    ('the program uses everything', tree('apps/slapstick/main.cpp', '#include "slapstick/sweep/diagram.hpp"'), None),
+    ('a system header', tree('src/flow/motion.cpp', '#include <cmath>'), None),
+    ('TBB in sweep', tree('src/sweep/run.cpp', '#include <tbb/parallel_for.h>'), None),
+    ('a comment', tree('src/model/model.cpp', '// #include "slapstick/flow/motion.hpp"'), None),
+
+    ('upwards', tree('src/model/model.cpp', '#include "slapstick/flow/motion.hpp"'),
+     "src/model/model.cpp:2: model may not include flow ('slapstick/flow/motion.hpp')"),
+    ('upwards in a public header', tree('include/slapstick/event/root.hpp', '#include <slapstick/model/model.hpp>'),
+     'include/slapstick/event/root.hpp:2: event may not include model'),
+    ('upwards to a private header', tree('src/mode/mode.cpp', '#include "flow/private.hpp"'), 'mode may not include flow'),
+    ('upwards by a relative path', tree('src/mode/mode.cpp', '#include "../flow/private.hpp"'), 'mode may not include flow'),
+    ('upwards with spaces', tree('src/mode/mode.cpp', '  #  include  "flow/private.hpp"'), 'mode may not include flow'),
+    ('a header that does not exist yet', tree('src/mode/mode.cpp', '#include "flow/later.hpp"'), 'mode may not include flow'),
+    ('figure computes no dynamics', tree('src/figure/raster.cpp', '#include "slapstick/flow/motion.hpp"'),
+     'figure may not include flow'),
+    ('public header includes a private one', tree('include/slapstick/flow/motion.hpp', '#include "flow/private.hpp"'),
+     'public header includes the private'),
+    ('program includes a private header', tree('apps/slapstick/main.cpp', '#include "flow/private.hpp"'),
+     "program includes the library's private"),
+    ('TBB elsewhere', tree('src/paper/study.cpp', '#include <tbb/parallel_for.h>'), 'oneTBB belongs to sweep'),
+    ('oneapi/tbb elsewhere', tree('src/flow/motion.cpp', '#include <oneapi/tbb.h>'), 'oneTBB belongs to sweep'),
+    ('threads before sweep', tree('src/flow/motion.cpp', '#include <thread>'), 'threads belong to sweep'),
+    ('files before sweep', tree('src/model/model.cpp', '#include <fstream>'), 'files belong to io'),
+    ('printing', tree('src/io/table.cpp', '#include <iostream>'), 'never prints'),
+    ('a folder outside the table', tree('src/helpers/all.cpp', '#include <cmath>'), "folder 'helpers' is not in the table"),
+    ('the document says otherwise', tree('src/flow/motion.cpp', '', document=DOCUMENT.replace('| base, io |', '| base |')),
+     "'figure' may include ['base'], but tools/check_layers says ['base', 'io']"),
+    ('the document has no table', tree('src/flow/motion.cpp', '', document='nothing here\n'), "folder 'flow' is only in tools/check_layers"),
+    ('nothing to check', {'docs/architecture.md': DOCUMENT}, 'no C++ file'),
+]
+
+sys.exit(trees.run(CHECK, CASES))

@@ -1,0 +1,62 @@
+#pragma once
+/// One window of one guard: a polynomial of degree 23 on x in [0, 1], evaluated with its first two derivatives.
+///
+/// The coefficients are kept in three groups of eight so that a value is
+///     h(x) = sum_{j<8} x^j (a_j + x^8 (a_{8+j} + x^8 a_{16+j})),
+/// a dozen operations deep instead of the 46 of Horner's rule, with the same operations in the same order for every
+/// instruction set (the compiler maps Lane8 to whatever vectors the machine has; contraction to FMA is off).
+#include <array>
+
+namespace slapstick::event {
+
+inline constexpr int terms = 24;  ///< Taylor or Bernstein coefficients of a window
+inline constexpr int degree = terms - 1;
+inline constexpr double unit_roundoff = 0x1p-53;
+
+/// Eight doubles that are worked on together.
+typedef double Lane8 __attribute__((vector_size(64), aligned(64)));
+
+/// Coefficients of one window polynomial, three groups of eight.
+using Coefficients = std::array<Lane8, 3>;
+
+inline Lane8 magnitude(const Lane8& v) { return v < 0.0 ? -v : v; }
+inline Lane8 smaller(const Lane8& a, const Lane8& b) { return a < b ? a : b; }
+inline Lane8 larger(const Lane8& a, const Lane8& b) { return a > b ? a : b; }
+
+/// Least lane, and the sum of all lanes, each in a fixed order.
+inline double least(const Lane8& v) {
+  const auto low = [](double a, double b) { return a < b ? a : b; };
+  return low(low(low(v[0], v[4]), low(v[2], v[6])), low(low(v[1], v[5]), low(v[3], v[7])));
+}
+inline double sum(const Lane8& v) { return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7])); }
+
+/// x^0 .. x^7 and x^8, shared by every polynomial evaluated at x.
+struct Powers {
+  Lane8 low;
+  double x8;
+  explicit Powers(double x) {
+    const double x2 = x * x, x4 = x2 * x2;
+    low = Lane8{1.0, x, x2, x2 * x, x4, x4 * x, x4 * x2, x4 * (x2 * x)};
+    x8 = x4 * x4;
+  }
+};
+
+/// sum_n a_n x^n; rounding error at most 8 u sum_n |a_n| x^n (see docs/certainty.md).
+inline double value(const Coefficients& a, const Powers& p) {
+  const Lane8 nested = a[0] + p.x8 * (a[1] + p.x8 * a[2]);
+  return sum(nested * p.low);
+}
+
+/// Coefficients of the derivative: d_n = (n + 1) a_{n+1}, d_23 = 0.
+inline Coefficients derivative(const Coefficients& a) {
+  Coefficients d;
+  for (int g = 0; g < 3; ++g) {
+    const Lane8 next = g < 2 ? a[g + 1] : Lane8{};
+    const double first = 8.0 * g;
+    const Lane8 shifted = {a[g][1], a[g][2], a[g][3], a[g][4], a[g][5], a[g][6], a[g][7], next[0]};
+    d[g] = shifted * Lane8{first + 1, first + 2, first + 3, first + 4, first + 5, first + 6, first + 7, first + 8};
+  }
+  return d;
+}
+
+}  // namespace slapstick::event

@@ -1,0 +1,40 @@
+#pragma once
+/// The mode graph: which mode may start at a state.
+///
+/// Every event ends in the same question. Each contact offers candidates in order of preference:
+///
+///   | contact  | at this instant             | candidates, first that fits is taken |
+///   |----------|-----------------------------|--------------------------------------|
+///   | friction | w > 0                       | slip+                                |
+///   | friction | w < 0                       | slip-                                |
+///   | friction | w = 0                       | stick, slip+, slip-                  |
+///   | stop     | gap > 0, or separating      | open                                 |
+///   | stop     | gap = 0 and at rest         | closed, open                         |
+///   | stop     | gap = 0 and approaching     | none: an impact comes first          |
+///
+/// and a combination *fits* if every guard it arms is positive at once: h > 0, or h = 0 with a positive first non-zero derivative
+/// (h = 0 for good also fits). For the paper's system this is its table (docs/mode_graph.md): after w = 0, stick if |f0| <= f_s,
+/// else slip with s = sgn f0; on the closed stop the only guard is f0 + f_s, so release needs f0 < -f_s however large f0 grows.
+#include <span>
+
+#include "slapstick/flow/system.hpp"
+
+namespace slapstick::flow {
+
+/// Order of the zero of a guard at a state: 0 if h > 0; p if the first p derivatives vanish (within `rest_factor` times their
+/// rounding bound) and the next is positive; `never` if all that are looked at vanish; `negative` if h starts downwards.
+inline constexpr int never = 8;
+inline constexpr int negative = -1;
+int start_order(const mode::Mode& mode, int guard, const double* X, const double* magnitude);
+
+/// The mode that may start at X (with |X| in magnitude); writes the start order of each of its guards.
+/// A friction contact is at rest if its stored relative velocity is exactly zero, a stop touches if its gap is.
+/// @returns mode id, or -1 if no combination fits.
+int select_mode(const System& system, const double* X, const double* magnitude, std::span<int> orders);
+
+/// w = row . p' - belt speed of a friction contact, and gap and gap rate of a stop, at X.
+double sliding_velocity(const System& system, int contact, const double* X);
+double gap(const System& system, int stop, const double* X);
+double approach_velocity(const System& system, int stop, const double* X);
+
+}  // namespace slapstick::flow

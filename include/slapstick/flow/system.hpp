@@ -1,0 +1,39 @@
+#pragma once
+/// A model made ready to run: contact coordinates, all modes with their operators, the impact law. Const and shareable.
+#include <vector>
+
+#include "slapstick/mode/mode.hpp"
+
+namespace slapstick {
+
+/// Compiles a model once (about 0.1 ms for the paper's system); any number of `Motion`s on any threads then share it.
+class System {
+ public:
+  /// @throws InputError if the model is invalid or has more than one stop or more than one friction contact.
+  explicit System(Model model);
+
+  [[nodiscard]] const Model& model() const { return model_; }
+  [[nodiscard]] const mode::Frame& frame() const { return frame_; }
+  [[nodiscard]] double period() const { return period_; }  ///< forcing period, or 1
+
+  [[nodiscard]] int mode_count() const { return static_cast<int>(modes_.size()); }
+  [[nodiscard]] const mode::Mode& mode(int id) const { return modes_[id]; }
+  [[nodiscard]] int mode_id(const mode::ContactStates& states) const;
+  /// A short name for tables and pictures: "slip+", "slip-", "stick", "free", each followed by "|closed" on a closed stop.
+  [[nodiscard]] std::string mode_name(int id) const;
+
+  /// Change of u per unit change of the normal velocity of a stop: M^{-1} g^T / (g M^{-1} g^T), g the stop's row.
+  [[nodiscard]] const mode::Vector& impulse(int stop) const { return impulses_[stop]; }
+
+  /// Contacts in one numbering: stops first, then friction contacts.
+  [[nodiscard]] std::string contact_name(int contact) const;
+
+ private:
+  Model model_;
+  mode::Frame frame_;
+  double period_;
+  std::vector<mode::Mode> modes_;
+  std::vector<mode::Vector> impulses_;
+};
+
+}  // namespace slapstick

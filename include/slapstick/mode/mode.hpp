@@ -1,0 +1,85 @@
+#pragma once
+/// One mode: a combination of contact states, the linear system it selects, and that system's window operators.
+#include <cstdint>
+#include <vector>
+
+#include "slapstick/event/first_root.hpp"
+#include "slapstick/mode/frame.hpp"
+
+namespace slapstick::mode {
+
+enum class StopState : std::int8_t { open = 0, closed = 1 };
+enum class FrictionState : std::int8_t { slip_minus = -1, stick = 0, slip_plus = 1 };
+
+/// The state of every contact of the model, in the model's order.
+struct ContactStates {
+  std::vector<StopState> stops;
+  std::vector<FrictionState> frictions;
+  friend bool operator==(const ContactStates&, const ContactStates&) = default;
+};
+
+/// A guard is a linear functional h of X that is positive while the mode lasts; its zero ends the mode.
+enum class GuardKind {
+  gap,           ///< open stop: clearance - (x_a - x_b)
+  slip,          ///< slipping contact: s w
+  stick_above,   ///< sticking contact: f_s - f0
+  stick_below,   ///< sticking contact: f_s + f0
+  press          ///< closed stop: the largest stop force that its contact forces allow. N alone, or f0 + f_s with a sticking pair
+};
+
+struct Guard {
+  GuardKind kind;
+  int contact;    ///< index of the stop (gap, press) or friction contact (others)
+  RowVector row;  ///< h = row . X
+};
+
+/// Dense operators on X = (p, u, cos, sin, .., 1), all for the window length `window`, x = s / window in [0, 1].
+///
+/// Written once at set-up in extended precision from A; see docs/certainty.md for the remainder and rounding bounds.
+/// Storage is in blocks of eight rows: element (row 8 b + lane, column i) of an operator is data[b * m + i][lane].
+class Mode {
+ public:
+  /// Builds the mode. Cost: O(60 m^2) per coordinate and guard, once.
+  Mode(const Model& model, const Frame& frame, ContactStates states);
+
+  [[nodiscard]] const ContactStates& states() const { return states_; }
+  /// False for a combination that cannot exist (closed stop and stick to a moving belt on one pair).
+  [[nodiscard]] bool possible() const { return possible_; }
+  [[nodiscard]] const std::vector<Guard>& guards() const { return guards_; }
+  [[nodiscard]] const Matrix& system() const { return A_; }  ///< X' = system() X
+  [[nodiscard]] double window() const { return window_; }    ///< window length in time
+  [[nodiscard]] int size() const { return m_; }
+  [[nodiscard]] int guard_count() const { return static_cast<int>(guards_.size()); }
+  [[nodiscard]] int state_blocks() const { return state_blocks_; }
+
+  /// One step over a whole window: out = [exp(A H) X | Bernstein coefficients of each guard (3 blocks each)].
+  void advance(const double* X, event::Lane8* out) const;
+  /// Only the state part of `advance`.
+  void step(const double* X, event::Lane8* out) const;
+  /// Upper bound of the noise of each guard's Bernstein coefficients: one lane per guard, ceil(guards / 8) blocks.
+  void bernstein_noise(const double* magnitude, event::Lane8* out) const;
+  /// Taylor coefficients of guard g.
+  void taylor(int g, const double* X, event::Coefficients& out) const;
+  /// The first eight Taylor coefficients of guard g and a bound on the rounding error of each (magnitude = |X|).
+  void leading(int g, const double* X, const double* magnitude, event::Lane8& coefficients, event::Lane8& noise) const;
+  /// Bounds noise_0, noise_1, noise_2 of event::GuardWindow.
+  void taylor_noise(int g, const double* magnitude, event::GuardWindow& out) const;
+  /// p and u at time s = x window() into out (same layout as X; the phase part is not written).
+  void state_at(double x, const double* X, double* out) const;
+
+ private:
+  void select_linear_system(const Model& model, const Frame& frame);
+  void arm_gap(const Model& model, const Frame& frame, int stop, const std::vector<RowVector>& constrained);
+  void build_operators();
+
+  ContactStates states_;
+  bool possible_ = true;
+  Matrix A_;
+  std::vector<Guard> guards_;
+  std::vector<double> drift_;
+  int n_ = 0, m_ = 0, state_blocks_ = 0, noise_blocks_ = 0;
+  double window_ = 1.0, noise_factor_ = 0.0;
+  std::vector<event::Lane8> advance_, bernstein_noise_, taylor_, leading_noise_, taylor_noise_, coordinates_;
+};
+
+}  // namespace slapstick::mode

@@ -1,0 +1,163 @@
+#include "slapstick/flow/chatter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slapstick/flow/mode_graph.hpp"
+
+namespace slapstick::flow {
+namespace {
+
+/// The friction forces during the chatter, as accelerations of the chattering pair.
+struct Friction {
+  double phi = 0.0;         ///< known: f_k on the same pair, against the motion
+  double phi_static = 0.0;  ///< f_s on the same pair
+  double unknown = 0.0;     ///< any value up to this: friction on other pairs, whose state the impulses may change
+};
+
+/// +1, -1 if the rows are equal or opposite, else 0.
+int same_pair(const mode::RowVector& a, const mode::RowVector& b) {
+  int sign = 0;
+  for (Eigen::Index i = 0; i < a.size(); ++i) {
+    if (a[i] == 0.0 && b[i] == 0.0) continue;
+    const int here = a[i] == b[i] ? 1 : a[i] == -b[i] ? -1 : 0;
+    if (here == 0 || (sign != 0 && here != sign)) return 0;
+    sign = here;
+  }
+  return sign;
+}
+
+/// g M^{-1} h^T without temporaries.
+double coupling(const mode::Frame& frame, const mode::RowVector& g, const mode::RowVector& h) {
+  double sum = 0.0;
+  for (int i = 0; i < frame.n; ++i) {
+    for (int j = 0; j < frame.n; ++j) sum += g[i] * frame.mass_inverse(i, j) * h[j];
+  }
+  return sum;
+}
+
+Friction friction_on(const System& system, int stop) {
+  const mode::Frame& frame = system.frame();
+  const mode::RowVector& g = frame.stops[stop].row;
+  Friction friction;
+  for (std::size_t i = 0; i < frame.frictions.size(); ++i) {
+    const FrictionContact& contact = system.model().frictions[i];
+    const double effect = std::abs(coupling(frame, g, frame.frictions[i].row));
+    if (contact.belt_speed == 0.0 && same_pair(g, frame.frictions[i].row) != 0) {
+      friction.phi += effect * contact.kinetic_friction;
+      friction.phi_static += effect * contact.static_friction;
+    } else {
+      friction.unknown += effect * contact.static_friction;
+    }
+  }
+  return friction;
+}
+
+/// |u'| that friction can cause on coordinate i, at most.
+double friction_rate(const System& system, int i) {
+  const mode::Frame& frame = system.frame();
+  double rate = 0.0;
+  for (std::size_t k = 0; k < frame.frictions.size(); ++k) {
+    double effect = 0.0;
+    for (int j = 0; j < frame.n; ++j) effect += frame.mass_inverse(i, j) * frame.frictions[k].row[j];
+    rate += std::abs(effect) * system.model().frictions[k].static_friction;
+  }
+  return rate;
+}
+
+/// out = |A| v for the motion without friction.
+void magnitude_product(const System& system, const double* v, double* out) {
+  const mode::Frame& frame = system.frame();
+  const int m = frame.size();
+  for (int i = 0; i < frame.n; ++i) {
+    out[i] = v[frame.u(i)] + std::abs(frame.drift[i]) * v[frame.one()];
+    double sum = 0.0;
+    for (int j = 0; j < m; ++j) sum += std::abs(frame.free(i, j)) * v[j];
+    out[frame.u(i)] = sum;
+  }
+  for (std::size_t k = 0; k < frame.harmonics.size(); ++k) {
+    const auto c = 2 * frame.n + 2 * static_cast<int>(k);
+    const double rate = frame.harmonics[k] * system.model().omega;
+    out[c] = rate * v[c + 1];
+    out[c + 1] = rate * v[c];
+  }
+  out[frame.one()] = 0.0;
+}
+
+/// R(X) = g . free X: acceleration onto the stop without friction.
+double press_rate(const mode::Frame& frame, const mode::RowVector& g, const double* X) {
+  double R = 0.0;
+  for (int j = 0; j < frame.size(); ++j) {
+    for (int i = 0; i < frame.n; ++i) R += g[i] * frame.free(i, j) * X[j];
+  }
+  return R;
+}
+
+/// Duration of all flights from separation speed v, for given decelerations.
+double series(double v, double a_rise, double a_return, double rho) {
+  return v * (1.0 / a_rise + 1.0 / std::sqrt(a_rise * a_return)) / (1.0 - rho);
+}
+
+/// Bound on |R(X(t)) - R_0| over a window of length D, or infinity if the bound on the states cannot be verified.
+double drift_of_R(const System& system, int stop, const double* X, double D, double impulse_sum, std::span<double> scratch) {
+  const mode::Frame& frame = system.frame();
+  const int m = frame.size();
+  double* magnitude = scratch.data();
+  double* rate = magnitude + m;
+  double* delta = rate + m;
+  double* product = delta + m;
+  for (int i = 0; i < m; ++i) magnitude[i] = std::abs(X[i]);
+  magnitude_product(system, magnitude, rate);
+  for (int i = 0; i < frame.n; ++i) rate[frame.u(i)] += friction_rate(system, i);
+  const auto jump = [&](int i) { return i >= frame.n && i < 2 * frame.n ? std::abs(system.impulse(stop)[i - frame.n]) * impulse_sum : 0.0; };
+  for (int i = 0; i < m; ++i) delta[i] = 2.0 * (D * rate[i] + jump(i));
+  // Positions move by the velocities' own bound, which the first guess has not seen yet: one more round before the check.
+  magnitude_product(system, delta, product);
+  for (int i = 0; i < m; ++i) delta[i] += 2.0 * D * product[i];
+  magnitude_product(system, delta, product);
+  double drift = 0.0;
+  for (int i = 0; i < m; ++i) {
+    if (D * (rate[i] + product[i]) + jump(i) > delta[i]) return INFINITY;
+  }
+  const mode::RowVector& g = frame.stops[stop].row;
+  for (int j = 0; j < m; ++j) {
+    double weight = 0.0;
+    for (int i = 0; i < frame.n; ++i) weight += g[i] * frame.free(i, j);
+    drift += std::abs(weight) * delta[j];
+  }
+  return drift;
+}
+
+}  // namespace
+
+ChatterLimit prove_chatter(const System& system, int stop, const double* X, double tolerance, std::span<double> scratch) {
+  const mode::Frame& frame = system.frame();
+  const mode::RowVector& g = frame.stops[stop].row;
+  const double r = system.model().stops[stop].restitution;
+  const double v = -approach_velocity(system, stop, X);
+  const double R = press_rate(frame, g, X);
+  // The error of the limit is about (duration^2 / period): too early to be worth a proof?
+  if (!(v < 100.0 * std::sqrt(tolerance * system.period()) * std::sqrt(system.period()) * R)) return {};
+
+  const Friction friction = friction_on(system, stop);
+  if (!(v > 0.0) || !(r < 1.0) || R - friction.phi - friction.unknown <= 0.0 ||
+      R - friction.unknown <= friction.phi_static) return {};
+  const double nominal_rho = r * std::sqrt((R - friction.phi) / (R + friction.phi));
+  const double nominal = series(v, R + friction.phi, R - friction.phi, nominal_rho);
+
+  const double D = 2.0 * nominal;
+  const double impulse_sum = 2.0 * (1.0 + r) / r * v * nominal_rho / (1.0 - nominal_rho);
+  const double delta = drift_of_R(system, stop, X, D, impulse_sum, scratch) + friction.unknown;
+  const double rise_min = R + friction.phi - delta, rise_max = R + friction.phi + delta;
+  const double fall_min = R - friction.phi - delta, fall_max = R - friction.phi + delta;
+  if (!(R - delta > friction.phi_static) || !(fall_min > 0.0)) return {};
+  const double rho_max = r * std::sqrt(fall_max / rise_min), rho_min = r * std::sqrt(fall_min / rise_max);
+  if (!(rho_max < 1.0)) return {};
+  const double longest = series(v, rise_min, fall_min, rho_max), shortest = series(v, rise_max, fall_max, rho_min);
+  if (longest > D || (1.0 + r) / r * v * rho_max / (1.0 - rho_max) > impulse_sum) return {};
+  const double error = std::max(longest - nominal, nominal - shortest);
+  if (error > tolerance) return {};
+  return {true, nominal, error};
+}
+
+}  // namespace slapstick::flow

@@ -1,0 +1,90 @@
+#include "slapstick/flow/system.hpp"
+
+#include "slapstick/base/error.hpp"
+
+namespace slapstick {
+
+using mode::ContactStates;
+using mode::FrictionState;
+using mode::StopState;
+
+namespace {
+
+Model checked(Model model) {
+  validate(model);
+  const auto refuse = [&](std::size_t count, const char* what) {
+    if (count > 1)
+      throw InputError("model '" + model.name + "' has " + std::to_string(count) + " " + what +
+                       "; models with at most one stop and one friction contact can be run");
+  };
+  refuse(model.stops.size(), "stops");
+  refuse(model.frictions.size(), "friction contacts");
+  return model;
+}
+
+/// Every combination of contact states; the stops vary fastest. System::mode_id is its inverse.
+std::vector<ContactStates> all_states(std::size_t stops, std::size_t frictions) {
+  std::vector<ContactStates> all{ContactStates{std::vector<StopState>(stops), std::vector<FrictionState>(frictions)}};
+  for (std::size_t i = 0; i < stops; ++i) {
+    const auto old = all;
+    all.clear();
+    for (StopState state : {StopState::open, StopState::closed}) {
+      for (ContactStates states : old) {
+        states.stops[i] = state;
+        all.push_back(std::move(states));
+      }
+    }
+  }
+  for (std::size_t i = 0; i < frictions; ++i) {
+    const auto old = all;
+    all.clear();
+    for (FrictionState state : {FrictionState::slip_minus, FrictionState::stick, FrictionState::slip_plus}) {
+      for (ContactStates states : old) {
+        states.frictions[i] = state;
+        all.push_back(std::move(states));
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+System::System(Model model) : model_(checked(std::move(model))), frame_(model_), period_(model_.forcing_period()) {
+  for (ContactStates& states : all_states(model_.stops.size(), model_.frictions.size()))
+    modes_.emplace_back(model_, frame_, std::move(states));
+  for (const mode::ContactRow& stop : frame_.stops) {
+    const mode::Vector direction = frame_.mass_inverse * stop.row.transpose();
+    impulses_.push_back(direction / stop.row.dot(direction));
+  }
+}
+
+int System::mode_id(const ContactStates& states) const {
+  int id = 0, stride = 1;
+  for (StopState state : states.stops) {
+    id += stride * static_cast<int>(state);
+    stride *= 2;
+  }
+  for (FrictionState state : states.frictions) {
+    id += stride * (static_cast<int>(state) + 1);
+    stride *= 3;
+  }
+  return id;
+}
+
+std::string System::mode_name(int id) const {
+  const ContactStates& states = modes_[id].states();
+  std::string name;
+  for (FrictionState state : states.frictions)
+    name += std::string(name.empty() ? "" : ",") + (state == FrictionState::stick ? "stick" : state == FrictionState::slip_plus ? "slip+" : "slip-");
+  if (name.empty()) name = "free";
+  for (StopState state : states.stops) name += state == StopState::closed ? "|closed" : "";
+  return name;
+}
+
+std::string System::contact_name(int contact) const {
+  const auto stops = static_cast<int>(model_.stops.size());
+  return contact < stops ? model_.stops[contact].name : model_.frictions[contact - stops].name;
+}
+
+}  // namespace slapstick

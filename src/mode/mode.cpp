@@ -1,0 +1,212 @@
+#include "slapstick/mode/mode.hpp"
+
+#include <cmath>
+
+#include "mode/series.hpp"
+
+namespace slapstick::mode {
+namespace {
+
+/// A group of constrained contacts that act along one direction: row_contact = sign * row of the group.
+struct Constraint {
+  RowVector row;               ///< over p
+  std::vector<int> stops;      ///< closed stops
+  std::vector<int> frictions;  ///< sticking friction contacts
+  double belt_speed = 0.0;
+};
+
+/// +1 or -1 if the rows are parallel, else 0.
+int parallel(const RowVector& a, const RowVector& b) {
+  if ((a - b).cwiseAbs().maxCoeff() < 1e-12) return 1;
+  if ((a + b).cwiseAbs().maxCoeff() < 1e-12) return -1;
+  return 0;
+}
+
+Constraint& find_or_add(std::vector<Constraint>& groups, const RowVector& row) {
+  for (Constraint& group : groups) {
+    if (parallel(group.row, row) != 0) return group;
+  }
+  return groups.emplace_back(Constraint{row, {}, {}, 0.0});
+}
+
+std::vector<Constraint> constraints(const Model& model, const Frame& frame, const ContactStates& states, bool& possible) {
+  std::vector<Constraint> groups;
+  for (std::size_t i = 0; i < states.stops.size(); ++i) {
+    if (states.stops[i] == StopState::closed) find_or_add(groups, frame.stops[i].row).stops.push_back(static_cast<int>(i));
+  }
+  for (std::size_t i = 0; i < states.frictions.size(); ++i) {
+    if (states.frictions[i] != FrictionState::stick) continue;
+    Constraint& group = find_or_add(groups, frame.frictions[i].row);
+    const double speed = model.frictions[i].belt_speed;
+    if (!group.stops.empty() && speed != 0.0) possible = false;
+    group.frictions.push_back(static_cast<int>(i));
+    group.belt_speed = speed;
+  }
+  return groups;
+}
+
+}  // namespace
+
+Mode::Mode(const Model& model, const Frame& frame, ContactStates states) : states_(std::move(states)), n_(frame.n), m_(frame.size()) {
+  drift_.assign(frame.drift.begin(), frame.drift.end());
+  select_linear_system(model, frame);
+  if (possible_) build_operators();
+}
+
+/// M u' = R(X) + G^T lambda with G u' = 0:  lambda = -(G M^{-1} G^T)^{-1} G M^{-1} R, a linear functional of X.
+/// Along a group's row the holding force is f0 = -lambda, positive when it pushes a in the -x direction.
+void Mode::select_linear_system(const Model& model, const Frame& frame) {
+  Matrix acceleration = frame.free;
+  for (std::size_t i = 0; i < states_.frictions.size(); ++i) {
+    const auto s = static_cast<double>(states_.frictions[i]);
+    const FrictionContact& contact = model.frictions[i];
+    acceleration.col(frame.one()) -= s * contact.kinetic_friction * (frame.mass_inverse * frame.frictions[i].row.transpose());
+    if (s != 0.0) guards_.push_back({GuardKind::slip, static_cast<int>(i), s * frame.velocity_row(frame.frictions[i], contact.belt_speed)});
+  }
+
+  const std::vector<Constraint> groups = constraints(model, frame, states_, possible_);
+  if (!possible_) return;
+  std::vector<RowVector> rows;
+  for (const Constraint& group : groups) rows.push_back(group.row);
+  if (!groups.empty()) {
+    Matrix G(static_cast<Eigen::Index>(groups.size()), n_);
+    for (std::size_t k = 0; k < rows.size(); ++k) G.row(static_cast<Eigen::Index>(k)) = rows[k];
+    const Matrix lambda = -(G * frame.mass_inverse * G.transpose()).fullPivLu().solve(G * acceleration);
+    acceleration += frame.mass_inverse * G.transpose() * lambda;
+    for (std::size_t k = 0; k < groups.size(); ++k) {
+      const RowVector f0 = -lambda.row(static_cast<Eigen::Index>(k));
+      RowVector limit = RowVector::Zero(m_);
+      for (int i : groups[k].frictions) limit[frame.one()] += model.frictions[i].static_friction;
+      if (!groups[k].stops.empty()) {
+        guards_.push_back({GuardKind::press, groups[k].stops.front(), f0 + limit});
+      } else {
+        const int sense = parallel(groups[k].row, frame.frictions[groups[k].frictions.front()].row);
+        guards_.push_back({GuardKind::stick_above, groups[k].frictions.front(), limit - sense * f0});
+        guards_.push_back({GuardKind::stick_below, groups[k].frictions.front(), limit + sense * f0});
+      }
+    }
+  }
+  for (std::size_t i = 0; i < states_.stops.size(); ++i) {
+    if (states_.stops[i] == StopState::open) arm_gap(model, frame, static_cast<int>(i), rows);
+  }
+
+  A_ = frame.kinematics(model.omega);
+  A_.middleRows(n_, n_) = acceleration;
+  for (int i = 0; i < n_; ++i) {  // a constrained contact coordinate has exactly no acceleration
+    for (const RowVector& row : rows) {
+      if (parallel(row, RowVector::Unit(n_, i)) != 0) A_.row(n_ + i).setZero();
+    }
+  }
+}
+
+/// An open gap needs no guard where it cannot close: constant in stick on the same pair, growing while its pair slips apart.
+void Mode::arm_gap(const Model& model, const Frame& frame, int stop, const std::vector<RowVector>& constrained) {
+  const RowVector& row = frame.stops[stop].row;
+  for (const RowVector& held : constrained) {
+    double speed = 0.0;
+    for (std::size_t i = 0; i < states_.frictions.size(); ++i) {
+      if (parallel(held, frame.frictions[i].row) != 0) speed = model.frictions[i].belt_speed;
+    }
+    if (parallel(held, row) != 0 && speed == 0.0) return;
+  }
+  for (std::size_t i = 0; i < states_.frictions.size(); ++i) {
+    const int same = parallel(row, frame.frictions[i].row);
+    if (same * static_cast<int>(states_.frictions[i]) < 0 && model.frictions[i].belt_speed == 0.0) return;
+  }
+  guards_.insert(guards_.begin(), {GuardKind::gap, stop, frame.gap_row(frame.stops[stop], model.stops[stop].clearance)});
+}
+
+void Mode::build_operators() {
+  std::vector<RowVector> rows;
+  for (const Guard& guard : guards_) rows.push_back(guard.row);
+  for (int i = 0; i < n_; ++i) rows.push_back(RowVector::Unit(m_, i));
+  const Series series(A_, rows);
+  window_ = series.window();
+  noise_factor_ = (m_ + 16.0) * event::unit_roundoff;
+
+  const auto guards = guards_.size();
+  state_blocks_ = (m_ + 7) / 8;
+  noise_blocks_ = (static_cast<int>(guards) + 7) / 8;
+  advance_.assign((state_blocks_ + 3 * guards) * m_, event::Lane8{});
+  bernstein_noise_.assign(static_cast<std::size_t>(noise_blocks_) * m_, event::Lane8{});
+  taylor_.assign(3 * guards * m_, event::Lane8{});
+  leading_noise_.assign(guards * m_, event::Lane8{});
+  taylor_noise_.assign(guards * m_, event::Lane8{});
+  coordinates_.assign(3 * static_cast<std::size_t>(n_) * m_, event::Lane8{});
+
+  const Matrix flow = series.flow();
+  for (int i = 0; i < m_; ++i) {
+    for (int r = 0; r < m_; ++r) advance_[(r / 8) * m_ + i][r % 8] = flow(r, i);
+    for (std::size_t g = 0; g < guards; ++g) {
+      double widest = 0.0, rest = 0.0;
+      for (int j = 0; j < event::terms; ++j) {
+        const double a = series.taylor(g, j, i), b = series.bernstein(g, j, i);
+        taylor_[(3 * g + j / 8) * m_ + i][j % 8] = a;
+        advance_[(state_blocks_ + 3 * g + j / 8) * m_ + i][j % 8] = b;
+        if (j < 8) leading_noise_[g * m_ + i][j] = noise_factor_ * std::abs(a);
+        if (j >= 2) rest += std::abs(a);
+        widest = std::max(widest, std::abs(b));
+      }
+      bernstein_noise_[(g / 8) * m_ + i][g % 8] = noise_factor_ * widest;
+      taylor_noise_[g * m_ + i] = event::Lane8{noise_factor_ * std::abs(series.taylor(g, 0, i)),
+                                               noise_factor_ * std::abs(series.taylor(g, 1, i)), noise_factor_ * rest};
+    }
+    for (int k = 0; k < n_; ++k) {
+      for (int j = 0; j < event::terms; ++j)
+        coordinates_[(3 * static_cast<std::size_t>(k) + j / 8) * m_ + i][j % 8] = series.taylor(guards + k, j, i);
+    }
+  }
+}
+
+namespace {
+
+/// out[b] = sum_i data[b * m + i] * x[i].
+inline void multiply(const event::Lane8* data, int blocks, int m, const double* x, event::Lane8* out) {
+  for (int b = 0; b < blocks; ++b, data += m) {
+    event::Lane8 sum = data[0] * x[0];
+    for (int i = 1; i < m; ++i) sum += data[i] * x[i];
+    out[b] = sum;
+  }
+}
+
+}  // namespace
+
+void Mode::advance(const double* X, event::Lane8* out) const {
+  multiply(advance_.data(), state_blocks_ + 3 * guard_count(), m_, X, out);
+}
+
+void Mode::step(const double* X, event::Lane8* out) const { multiply(advance_.data(), state_blocks_, m_, X, out); }
+
+void Mode::bernstein_noise(const double* magnitude, event::Lane8* out) const {
+  multiply(bernstein_noise_.data(), noise_blocks_, m_, magnitude, out);
+}
+
+void Mode::taylor(int g, const double* X, event::Coefficients& out) const {
+  multiply(taylor_.data() + 3 * g * m_, 3, m_, X, out.data());
+}
+
+void Mode::leading(int g, const double* X, const double* magnitude, event::Lane8& coefficients, event::Lane8& noise) const {
+  multiply(taylor_.data() + 3 * g * m_, 1, m_, X, &coefficients);
+  multiply(leading_noise_.data() + g * m_, 1, m_, magnitude, &noise);
+}
+
+void Mode::taylor_noise(int g, const double* magnitude, event::GuardWindow& out) const {
+  event::Lane8 noise;
+  multiply(taylor_noise_.data() + g * m_, 1, m_, magnitude, &noise);
+  out.noise_0 = noise[0];
+  out.noise_1 = noise[1];
+  out.noise_2 = noise[2];
+}
+
+void Mode::state_at(double x, const double* X, double* out) const {
+  const event::Powers powers(x);
+  const double per_time = 1.0 / window_;
+  for (int k = 0; k < n_; ++k) {
+    event::Coefficients a;
+    multiply(coordinates_.data() + 3 * k * m_, 3, m_, X, a.data());
+    out[k] = event::value(a, powers);
+    out[n_ + k] = event::value(event::derivative(a), powers) * per_time - drift_[k];
+  }
+}
+
+}  // namespace slapstick::mode

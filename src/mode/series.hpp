@@ -1,0 +1,38 @@
+#pragma once
+/// The exponential series of a mode in extended precision: Taylor and Bernstein rows, window length, flow matrix.
+#include <vector>
+
+#include "slapstick/event/window.hpp"
+#include "slapstick/mode/frame.hpp"
+
+namespace slapstick::mode {
+
+/// For X' = A X and functionals h = c . X:  h(s) = sum_n (c A^n / n!) s^n X.
+///
+/// The window length H is the largest for which, row by row and column by column, the dropped terms n >= 24 are at most a quarter
+/// ulp of the largest kept term of that column, so that the remainder is covered by the rounding bound of the same column.
+class Series {
+ public:
+  Series(const Matrix& A, const std::vector<RowVector>& rows);
+
+  [[nodiscard]] double window() const { return window_; }
+  /// Coefficient of x^n (x = s / H) of row r with respect to X_i.
+  [[nodiscard]] double taylor(std::size_t r, int n, int i) const;
+  /// Bernstein coefficient j of the degree-23 polynomial of row r with respect to X_i: b_j = sum_{n<=j} C(j,n)/C(23,n) a_n.
+  [[nodiscard]] double bernstein(std::size_t r, int j, int i) const;
+  /// exp(A H).
+  [[nodiscard]] Matrix flow() const;
+
+ private:
+  using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  using LongRow = Eigen::Matrix<long double, 1, Eigen::Dynamic>;
+  static constexpr int all_terms = 60;
+
+  [[nodiscard]] bool tail_is_negligible(double ratio) const;
+
+  LongMatrix A_;                                ///< A times the reference length
+  std::vector<std::vector<LongRow>> scaled_;    ///< [row][n]: c A^n / n! times window^n
+  double reference_ = 1.0, ratio_ = 1.0, window_ = 1.0;  ///< window = ratio * reference length
+};
+
+}  // namespace slapstick::mode

@@ -1,0 +1,213 @@
+#include "layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slapstick/base/error.hpp"
+#include "text.hpp"
+
+namespace slapstick::figure {
+namespace {
+
+constexpr double row_height_cm = 5.6, shared_row_height_cm = 3.8;
+constexpr double padding = 0.04;       // of an automatic range
+constexpr double least_frame_cm = 1.0;  // below this no axis is legible
+
+struct Grid {
+  int columns = 1, rows = 1;
+  explicit Grid(const Figure& figure)
+      : columns(std::min(figure.columns, static_cast<int>(figure.panels.size()))),
+        rows((static_cast<int>(figure.panels.size()) + columns - 1) / columns) {}
+  int column(std::size_t panel) const { return static_cast<int>(panel) % columns; }
+  int row(std::size_t panel) const { return static_cast<int>(panel) / columns; }
+};
+
+bool is_lowest(const Figure& figure, const Grid& grid, std::size_t panel) {
+  return panel + static_cast<std::size_t>(grid.columns) >= figure.panels.size();
+}
+
+bool wants_raster(const Panel& panel) {
+  return std::any_of(panel.points.begin(), panel.points.end(), [](const Points& p) {
+    return p.drawing == Drawing::raster || (p.drawing == Drawing::automatic && p.x.size() > raster_threshold);
+  });
+}
+
+/// The PNG's resolution (no resampling), or twice that where the points can fill it: one per pixel on average. With fewer, a
+/// finer image shows the noise of the counts instead of the density, and takes longer.
+int suitable_dpi(const Panel& panel, const Box& frame, int png_dpi) {
+  double points = 0;
+  for (const auto& series : panel.points) points += static_cast<double>(series.x.size());
+  const double square_inches = frame.width() * frame.height() / (2.54 * 2.54);
+  return points >= square_inches * 4.0 * png_dpi * png_dpi ? 2 * png_dpi : png_dpi;
+}
+
+void add_x(Extent& extent, const Panel& panel) {
+  for (const auto& points : panel.points) extent.add(points.x, panel.log_x);
+  for (const auto& line : panel.lines) extent.add(line.x, panel.log_x);
+}
+
+Range x_range(const Figure& figure, const Grid& grid, std::size_t index) {
+  const Panel& panel = figure.panels[index];
+  Extent extent;
+  if (!figure.share_x) {
+    if (panel.x_range) return *panel.x_range;
+    add_x(extent, panel);
+  } else {
+    for (std::size_t i = grid.column(index); i < figure.panels.size(); i += grid.columns) {
+      if (figure.panels[i].x_range) return *figure.panels[i].x_range;
+      add_x(extent, figure.panels[i]);
+    }
+  }
+  return padded(extent, extent.one_way ? 0.0 : padding, panel.log_x);
+}
+
+Range y_range(const Panel& panel) {
+  if (panel.y_range) return *panel.y_range;
+  Extent extent;
+  for (const auto& points : panel.points) extent.add(points.y, panel.log_y);
+  for (const auto& line : panel.lines) extent.add(line.y, panel.log_y);
+  return padded(extent, padding, panel.log_y);
+}
+
+double left_margin_em(const Panel& panel, const Axis& y) {
+  return spacing::edge + (panel.y_label.empty() ? 0 : spacing::axis_label) + y.label_em + spacing::tick;
+}
+
+double below_em(const Panel& panel, bool x_numbers) {
+  if (!x_numbers) return spacing::edge;
+  return spacing::numbers + (panel.x_label.empty() ? 0 : spacing::axis_label) + spacing::edge;
+}
+
+/// Greedy rows: each label goes to the lowest row where it touches no earlier one.
+void place_mark_labels(const Panel& panel, PanelLayout& layout, double em_cm, double paper_right) {
+  struct Taken {
+    double left, right;
+    int row;
+  };
+  std::vector<Taken> taken;
+  for (std::size_t i = 0; i < panel.marks.size(); ++i) {
+    const Mark& mark = panel.marks[i];
+    if (!mark.x || mark.label.empty() || (mark.y && !mark.x_end)) continue;
+    const double from = std::max(*mark.x, layout.x.range.min), to = std::min(mark.x_end.value_or(*mark.x), layout.x.range.max);
+    if (!(from <= to)) continue;
+    const double half = 0.5 * spacing::legend_font * em_cm * width_em(mark.label);
+    const double middle = layout.frame.left + 0.5 * (layout.x.place(from) + layout.x.place(to)) * layout.frame.width();
+    const double x = std::clamp(middle, std::min(layout.frame.left + half, middle), std::max(paper_right - half, layout.frame.left));
+    const auto touches = [&](int row) {
+      return std::any_of(taken.begin(), taken.end(), [&](const Taken& t) {
+        return t.row == row && x - half < t.right + 0.4 * em_cm && x + half > t.left - 0.4 * em_cm;
+      });
+    };
+    int row = 0;
+    while (touches(row)) ++row;
+    taken.push_back({x - half, x + half, row});
+    layout.mark_labels.push_back({i, x, row});
+    layout.mark_rows = std::max(layout.mark_rows, row + 1);
+  }
+}
+
+/// Frames across: one left margin per column of panels, wide enough for the widest y axis in it.
+void place_columns(const Figure& figure, const Grid& grid, Layout& layout) {
+  const double em = layout.em_cm, cell = layout.width_cm / grid.columns;
+  std::vector<double> left(grid.columns, 0.0), right(grid.columns, 0.0);
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    const int c = grid.column(i);
+    left[c] = std::max(left[c], left_margin_em(figure.panels[i], layout.panels[i].y) * em);
+    right[c] = std::max(right[c], (0.5 * layout.panels[i].x.label_em + spacing::edge) * em);
+  }
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    const int c = grid.column(i);
+    PanelLayout& panel = layout.panels[i];
+    panel.cell_left = c * cell;
+    panel.frame.left = c * cell + left[c];
+    panel.frame.right = (c + 1) * cell - right[c];
+    if (panel.frame.width() < least_frame_cm) throw InputError("figure: width_cm leaves no room for panel " + std::to_string(i + 1));
+  }
+}
+
+/// Frames downwards: what the text above and below needs is taken off first, the rest is shared out.
+void place_rows(const Figure& figure, const Grid& grid, Layout& layout) {
+  const double em = layout.em_cm;
+  std::vector<double> above(grid.rows, 0.0), below(grid.rows, 0.0), share(grid.rows, 0.0);
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    const int r = grid.row(i);
+    const int rows = rows_above(figure.panels[i], layout.panels[i]);
+    above[r] = std::max(above[r], (spacing::edge + 0.15 + spacing::row * rows) * em);
+    below[r] = std::max(below[r], below_em(figure.panels[i], layout.panels[i].x_numbers) * em);
+    share[r] = std::max(share[r], figure.panels[i].height_share);
+  }
+  double free = layout.height_cm, shares = 0;
+  for (int r = 0; r < grid.rows; ++r) free -= above[r] + below[r], shares += share[r];
+  double top = layout.height_cm;
+  for (int r = 0; r < grid.rows; ++r) {
+    const double height = free * share[r] / shares;
+    if (!(height >= least_frame_cm)) throw InputError("figure: height_cm leaves no room for row " + std::to_string(r + 1));
+    for (std::size_t i = 0; i < figure.panels.size(); ++i)
+      if (grid.row(i) == r) layout.panels[i].frame.top = top - above[r], layout.panels[i].frame.bottom = top - above[r] - height;
+    top -= above[r] + height + below[r];
+  }
+}
+
+/// Numbers need air: as many as fit with most of a label's width (or a line of height) between them.
+int most_labels(double length_cm, double label_cm) { return std::clamp(static_cast<int>(length_cm / label_cm), 1, 8); }
+
+void choose_y_axes(const Figure& figure, const Grid& grid, Layout& layout) {
+  double mean_share = 0;
+  for (const Panel& panel : figure.panels) mean_share += panel.height_share / static_cast<double>(figure.panels.size());
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    const Panel& panel = figure.panels[i];
+    const double height_cm = 0.75 * layout.height_cm / grid.rows * panel.height_share / mean_share;  // near enough
+    layout.panels[i].y = with_ticks(y_range(panel), panel.log_y, most_labels(height_cm, 1.7 * layout.em_cm));
+  }
+}
+
+void choose_x_axes(const Figure& figure, const Grid& grid, Layout& layout) {
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    PanelLayout& panel = layout.panels[i];
+    const Range range = x_range(figure, grid, i);
+    const double width_cm = panel.frame.width() > 0 ? panel.frame.width() : 0.8 * layout.width_cm / grid.columns;
+    int labels = 8;
+    do panel.x = with_ticks(range, figure.panels[i].log_x, labels);
+    while (--labels >= 1 && most_labels(width_cm, (panel.x.label_em + 0.7) * layout.em_cm) <= labels);
+  }
+}
+
+double default_height(const Figure& figure, const Grid& grid) {
+  return figure.share_x ? row_height_cm + (grid.rows - 1) * shared_row_height_cm : grid.rows * row_height_cm;
+}
+
+}  // namespace
+
+int rows_above(const Panel& panel, const PanelLayout& layout) {
+  const int head = (panel.title.empty() ? 0 : 1) + (layout.legend == Legend::above ? 1 : 0);
+  return std::max(head + layout.mark_rows, panel.tag.empty() ? 0 : 1);
+}
+
+Layout lay_out(const Figure& figure) {
+  const Grid grid(figure);
+  Layout layout{figure.width_cm, figure.height_cm.value_or(default_height(figure, grid)), figure.font_pt * 2.54 / 72,
+                std::vector<PanelLayout>(figure.panels.size())};
+  choose_y_axes(figure, grid, layout);
+  for (int pass = 0; pass < 2; ++pass) {  // the margin depends on the numbers, the numbers on what the margins leave
+    choose_x_axes(figure, grid, layout);
+    place_columns(figure, grid, layout);
+  }
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    layout.panels[i].x_numbers = !figure.share_x || is_lowest(figure, grid, i);
+    place_mark_labels(figure.panels[i], layout.panels[i], layout.em_cm, layout.width_cm);
+  }
+  place_rows(figure, grid, layout);  // twice: a legend may claim a row
+  for (std::size_t i = 0; i < figure.panels.size(); ++i)
+    layout.panels[i].legend = place_legend(figure.panels[i], layout.panels[i], layout.em_cm);
+  place_rows(figure, grid, layout);
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    PanelLayout& panel = layout.panels[i];
+    panel.raster = wants_raster(figure.panels[i]);
+    const int dpi = figure.raster_dpi.value_or(suitable_dpi(figure.panels[i], panel.frame, figure.png_dpi));
+    panel.raster_width = static_cast<int>(std::lround(panel.frame.width() / 2.54 * dpi));
+    panel.raster_height = static_cast<int>(std::lround(panel.frame.height() / 2.54 * dpi));
+  }
+  return layout;
+}
+
+}  // namespace slapstick::figure

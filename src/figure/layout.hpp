@@ -1,0 +1,64 @@
+#pragma once
+/// Where everything stands on the paper, in cm from the lower left corner. Decided here and not by gnuplot, so that frames of
+/// stacked panels align, the raster knows its pixels, and nothing is cut off.
+#include <vector>
+
+#include "axis.hpp"
+#include "slapstick/figure/figure.hpp"
+
+namespace slapstick::figure {
+
+struct Box {
+  double left = 0, right = 0, bottom = 0, top = 0;
+  double width() const { return right - left; }
+  double height() const { return top - bottom; }
+};
+
+/// The label of a mark above the frame: its middle, moved so that it stays on the paper, and its row (0 is the lowest).
+struct MarkLabel {
+  std::size_t mark = 0;
+  double x_cm = 0;
+  int row = 0;
+};
+
+struct PanelLayout {
+  Axis x{}, y{};
+  Box frame{};
+  double cell_left = 0;     ///< cm; the tag stands here
+  bool x_numbers = true;    ///< false where a lower panel carries the shared axis
+  bool raster = false;      ///< points are drawn as one image
+  int raster_width = 0, raster_height = 0;  ///< pixels
+  Legend legend = Legend::none;             ///< never `automatic`
+  std::vector<MarkLabel> mark_labels{};
+  int mark_rows = 0;
+};
+
+struct Layout {
+  double width_cm = 0, height_cm = 0;
+  double em_cm = 0;
+  std::vector<PanelLayout> panels{};
+};
+
+/// @throws InputError if a panel has no room left for its frame
+Layout lay_out(const Figure& figure);
+
+/// Vertical distances in em, shared by the layout (which reserves them) and the script (which uses them).
+namespace spacing {
+inline constexpr double row = 1.25;          ///< of text above the frame
+inline constexpr double numbers = 1.65;      ///< tick and number under the frame
+inline constexpr double axis_label = 1.35;   ///< below or left of the numbers
+inline constexpr double edge = 0.45;         ///< free paper
+inline constexpr double tick = 0.75;         ///< tick and gap left of the frame
+inline constexpr double legend_font = 0.9;   ///< relative to the figure's
+}  // namespace spacing
+
+/// Rows of text above the frame: the title (or a lone tag), the legend if it stands there, mark labels.
+int rows_above(const Panel& panel, const PanelLayout& layout);
+
+/// Number of entries that the legend would have.
+int legend_entries(const Panel& panel);
+
+/// The corner of the frame without data, or `above`; what the caller asked for if it did.
+Legend place_legend(const Panel& panel, const PanelLayout& layout, double em_cm);
+
+}  // namespace slapstick::figure

@@ -1,0 +1,89 @@
+/// Where the legend goes: the emptiest corner, or above the frame.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "layout.hpp"
+#include "text.hpp"
+
+namespace slapstick::figure {
+namespace {
+
+struct Corner {
+  Legend legend;
+  bool right, top;
+};
+constexpr std::array<Corner, 4> corners{{{Legend::top_right, true, true},
+                                         {Legend::top_left, false, true},
+                                         {Legend::bottom_right, true, false},
+                                         {Legend::bottom_left, false, false}}};
+
+/// The size of the legend as a share of the frame.
+struct Share {
+  double across = 0, up = 0;
+};
+
+Share legend_share(const Panel& panel, const PanelLayout& layout, double em_cm) {
+  double widest = 0;
+  for (const auto& points : panel.points) widest = std::max(widest, width_em(points.label));
+  for (const auto& line : panel.lines) widest = std::max(widest, width_em(line.label));
+  const double em = em_cm * spacing::legend_font;
+  return {(widest + 4.2) * em / layout.frame.width(), (legend_entries(panel) * 1.3 + 0.8) * em / layout.frame.height()};
+}
+
+/// How often data fall into each corner.
+class Crowd {
+ public:
+  Crowd(const PanelLayout& layout, Share share) : layout_(layout), share_(share) {}
+
+  void point(double x, double y) {
+    const double across = layout_.x.place(x), up = layout_.y.place(y);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const double from_side = corners[i].right ? 1 - across : across, from_end = corners[i].top ? 1 - up : up;
+      if (from_side >= 0 && from_side <= share_.across && from_end >= 0 && from_end <= share_.up) ++inside_[i];
+    }
+  }
+
+  void line(const Line& line) {
+    constexpr int samples = 16;
+    for (std::size_t i = 1; i < line.x.size(); ++i)
+      for (int k = 0; k <= samples; ++k) {
+        const double f = static_cast<double>(k) / samples;
+        point(line.x[i - 1] + f * (line.x[i] - line.x[i - 1]), line.y[i - 1] + f * (line.y[i] - line.y[i - 1]));
+      }
+  }
+
+  Legend free_corner() const {
+    const auto free = std::find(inside_.begin(), inside_.end(), 0L);
+    return free == inside_.end() ? Legend::above : corners[free - inside_.begin()].legend;
+  }
+
+ private:
+  const PanelLayout& layout_;
+  Share share_;
+  std::array<long, 4> inside_{};
+};
+
+}  // namespace
+
+int legend_entries(const Panel& panel) {
+  const auto named = [](const auto& series) { return !series.label.empty(); };
+  return static_cast<int>(std::count_if(panel.points.begin(), panel.points.end(), named) +
+                          std::count_if(panel.lines.begin(), panel.lines.end(), named));
+}
+
+Legend place_legend(const Panel& panel, const PanelLayout& layout, double em_cm) {
+  if (legend_entries(panel) == 0) return Legend::none;
+  if (panel.legend != Legend::automatic) return panel.legend;
+  const Share share = legend_share(panel, layout, em_cm);
+  if (share.across > 0.6 || share.up > 0.5) return Legend::above;
+  Crowd crowd(layout, share);
+  for (const auto& points : panel.points)
+    for (std::size_t i = 0; i < points.x.size(); ++i) crowd.point(points.x[i], points.y[i]);
+  for (const auto& line : panel.lines) crowd.line(line);
+  for (const auto& mark : panel.marks)
+    if (mark.x && mark.y && !mark.x_end) crowd.point(*mark.x, *mark.y);
+  return crowd.free_corner();
+}
+
+}  // namespace slapstick::figure

@@ -127,7 +127,8 @@ inline constexpr double largest_coordinate = 1e150;
 ///
 /// @throws InputError    columns of different length, an empty figure, ranges or sizes that cannot be drawn; names panel and series
 /// @throws StorageError  folder missing or not writable; gnuplot missing ("gnuplot not found: install gnuplot-nox") or failing
-/// Cost, PNG and PDF at 8.5 cm: 0.15 s for curves, 0.4 s with 500 000 points (two cores of 2024; gnuplot takes nearly all of it).
+/// Cost, PNG and PDF at 8.5 cm: 0.1 to 0.2 s for curves, 0.35 to 0.6 s with 500 000 points (one 2.5 GHz Xeon core, shared;
+/// gnuplot takes nearly all of it). Twice the raster_dpi: 1 s and more.
 Files write(const Figure& figure, const std::filesystem::path& stem, Formats formats = {});
 
 }  // namespace slapstick::figure

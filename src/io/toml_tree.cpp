@@ -79,7 +79,7 @@ class Converter {
     });
     node.kind = TomlNode::Kind::table;
     for (const auto& [line, column, key, value] : order)
-      node.entries.emplace_back(std::string(key->str()), convert(*value, line, depth + 1));
+      node.entries.push_back({std::string(key->str()), convert(*value, line, depth + 1)});
   }
 
   static void convert_scalar(const toml::node& from, TomlNode& node) {

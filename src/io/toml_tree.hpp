@@ -2,22 +2,28 @@
 /// A TOML text as a plain tree with line numbers. toml++ lives behind this file and nowhere else.
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace slapstick {
+
+struct TomlEntry;
 
 struct TomlNode {
   enum class Kind { text, number, boolean, date, list, table };
   Kind kind = Kind::table;
   std::string text;
   double number = 0.0;
-  std::vector<TomlNode> items;                              ///< of a list
-  std::vector<std::pair<std::string, TomlNode>> entries;  ///< of a table, in the file's order
+  std::vector<TomlNode> items;       ///< of a list
+  std::vector<TomlEntry> entries;    ///< of a table, in the file's order
   int line = 0;
 
   [[nodiscard]] const TomlNode* find(std::string_view key) const;
   [[nodiscard]] const char* kind_name() const;  ///< "a number", "a list", ...
+};
+
+struct TomlEntry {
+  std::string key;
+  TomlNode node;
 };
 
 /// Largest text that is read, and longest line. A model is a page; these bound time, memory and nesting for hostile files.

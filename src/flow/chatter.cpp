@@ -84,22 +84,14 @@ void magnitude_product(const System& system, const double* v, double* out) {
   out[frame.one()] = 0.0;
 }
 
-/// R(X) = g . free X: acceleration onto the stop without friction.
-double press_rate(const mode::Frame& frame, const mode::RowVector& g, const double* X) {
-  double R = 0.0;
-  for (int j = 0; j < frame.size(); ++j) {
-    for (int i = 0; i < frame.n; ++i) R += g[i] * frame.free(i, j) * X[j];
-  }
-  return R;
-}
-
 /// Duration of all flights from separation speed v, for given decelerations.
 double series(double v, double a_rise, double a_return, double rho) {
   return v * (1.0 / a_rise + 1.0 / std::sqrt(a_rise * a_return)) / (1.0 - rho);
 }
 
 /// Bound on |R(X(t)) - R_0| over a window of length D, or infinity if the bound on the states cannot be verified.
-double drift_of_R(const System& system, int stop, const double* X, double D, double impulse_sum, std::span<double> scratch) {
+double drift_of_R(const System& system, int stop, const double* X, double D, double impulse_sum,
+                  std::span<double> scratch) {
   const mode::Frame& frame = system.frame();
   const int m = frame.size();
   double* magnitude = scratch.data();
@@ -109,7 +101,9 @@ double drift_of_R(const System& system, int stop, const double* X, double D, dou
   for (int i = 0; i < m; ++i) magnitude[i] = std::abs(X[i]);
   magnitude_product(system, magnitude, rate);
   for (int i = 0; i < frame.n; ++i) rate[frame.u(i)] += friction_rate(system, i);
-  const auto jump = [&](int i) { return i >= frame.n && i < 2 * frame.n ? std::abs(system.impulse(stop)[i - frame.n]) * impulse_sum : 0.0; };
+  const auto jump = [&](int i) {
+    return i >= frame.n && i < 2 * frame.n ? std::abs(system.impulse(stop)[i - frame.n]) * impulse_sum : 0.0;
+  };
   for (int i = 0; i < m; ++i) delta[i] = 2.0 * (D * rate[i] + jump(i));
   // Positions move by the velocities' own bound, which the first guess has not seen yet: one more round before the check.
   magnitude_product(system, delta, product);
@@ -119,29 +113,25 @@ double drift_of_R(const System& system, int stop, const double* X, double D, dou
   for (int i = 0; i < m; ++i) {
     if (D * (rate[i] + product[i]) + jump(i) > delta[i]) return INFINITY;
   }
-  const mode::RowVector& g = frame.stops[stop].row;
-  for (int j = 0; j < m; ++j) {
-    double weight = 0.0;
-    for (int i = 0; i < frame.n; ++i) weight += g[i] * frame.free(i, j);
-    drift += std::abs(weight) * delta[j];
-  }
+  for (int j = 0; j < m; ++j) drift += std::abs(system.press(stop)[j]) * delta[j];
   return drift;
 }
 
 }  // namespace
 
-ChatterLimit prove_chatter(const System& system, int stop, const double* X, double tolerance, std::span<double> scratch) {
-  const mode::Frame& frame = system.frame();
-  const mode::RowVector& g = frame.stops[stop].row;
+ChatterLimit prove_chatter(const System& system, int stop, const double* X, double tolerance,
+                           std::span<double> scratch) {
   const double r = system.model().stops[stop].restitution;
   const double v = -approach_velocity(system, stop, X);
-  const double R = press_rate(frame, g, X);
+  double R = 0.0;
+  for (int j = 0; j < system.frame().size(); ++j) R += system.press(stop)[j] * X[j];
   // The error of the limit is about (duration^2 / period): too early to be worth a proof?
   if (!(v < 100.0 * std::sqrt(tolerance * system.period()) * std::sqrt(system.period()) * R)) return {};
 
   const Friction friction = friction_on(system, stop);
   if (!(v > 0.0) || !(r < 1.0) || R - friction.phi - friction.unknown <= 0.0 ||
-      R - friction.unknown <= friction.phi_static) return {};
+      R - friction.unknown <= friction.phi_static)
+    return {};
   const double nominal_rho = r * std::sqrt((R - friction.phi) / (R + friction.phi));
   const double nominal = series(v, R + friction.phi, R - friction.phi, nominal_rho);
 

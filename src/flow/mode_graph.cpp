@@ -45,7 +45,8 @@ bool fits(const mode::Mode& mode, const double* X, const double* magnitude, std:
   for (int g = 0; g < mode.guard_count(); ++g) {
     orders[g] = start_order(mode, g, X, magnitude);
     if (orders[g] == negative) return false;
-    if (orders[g] == never && mode.guards()[g].kind == mode::GuardKind::slip) return false;  // at rest for good: stick, not slip
+    if (orders[g] == never && mode.guards()[g].kind == mode::GuardKind::slip)
+      return false;  // at rest for good: stick, not slip
   }
   return true;
 }

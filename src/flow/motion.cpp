@@ -58,6 +58,11 @@ State Motion::state() const {
 
 void Motion::state(std::span<double> out) const { system_->frame().leave(X_.data(), out.data()); }
 
+std::span<const double> Motion::before() const {
+  system_->frame().leave(X_before_.data(), before_.data());
+  return before_;
+}
+
 Motion::Segment Motion::segment() const { return {segment_start_, segment_mode_, elapsed_, X_segment_}; }
 
 void Motion::sample(double s, std::span<double> out) const {
@@ -75,8 +80,8 @@ void Motion::sample(double s, std::span<double> out) const {
 }
 
 void Motion::fail(const std::string& what) const {
-  std::string message = what + " at t = " + std::to_string(now_.seconds(system_->period())) + " (period " + std::to_string(now_.period) +
-                        "), mode " + system_->mode_name(mode_) + ", state";
+  std::string message = what + " at t = " + std::to_string(now_.seconds(system_->period())) + " (period " +
+                        std::to_string(now_.period) + "), mode " + system_->mode_name(mode_) + ", state";
   const State here = state();
   const auto names = state_names(system_->model());
   char text[64];
@@ -97,13 +102,16 @@ Outcome Motion::advance(Instant end) {
     begin_segment();
     if (pending_count_ > 0) return next_pending();
     switch (fly(limit)) {
-      case Flight::event: return next_pending();
+      case Flight::event:
+        return next_pending();
       case Flight::end:
         now_ = end;
         system_->frame().set_phase(now_.fraction, X_.data());
         resume_ = true;
         return Outcome::reached_end;
-      case Flight::restart: resume_ = true; break;
+      case Flight::restart:
+        resume_ = true;
+        break;
     }
   }
 }
@@ -175,11 +183,12 @@ Motion::Found Motion::first_event_in_window(bool first, double x_end) {
     mode.taylor(g, X_.data(), window.taylor);
     mode.taylor_noise(g, magnitude_.data(), window);
     window.order = order;
-    for (int n = 0; n < order; ++n) window.taylor[0][n] = 0.0;
+    window.taylor[0] = event::with_first(window.taylor[0], order, 0.0);
     if (order > 0) window.noise_0 = 0.0;
     if (order > 1) window.noise_1 = 0.0;
     const event::Root root = event::first_root(window, found.x, counters_.evaluations);
-    if (root.kind != event::RootKind::none && (found.kind == event::RootKind::none || root.x < found.x)) found = {root.kind, g, root.x};
+    if (root.kind != event::RootKind::none && (found.kind == event::RootKind::none || root.x < found.x))
+      found = {root.kind, g, root.x};
   }
   return found;
 }
@@ -199,7 +208,8 @@ void Motion::handle(int guard, bool graze) {
   const mode::Guard& hit = system_->mode(mode_).guards()[guard];
   X_before_ = X_;
   switch (hit.kind) {
-    case GuardKind::gap: return touch(hit.contact, graze);
+    case GuardKind::gap:
+      return touch(hit.contact, graze);
     case GuardKind::slip:
       rest(system_->frame().frictions[hit.contact], system_->model().frictions[hit.contact].belt_speed);
       return settle(Cause::reversal);
@@ -286,7 +296,8 @@ void Motion::report_settled(Cause cause, int old_mode) {
     }
   }
   for (std::size_t i = 0; i < now.stops.size() && !stuck; ++i) {
-    if (now.stops[i] == StopState::closed && old.stops[i] == StopState::open) report(EventKind::stick, static_cast<int>(i), 0.0);
+    if (now.stops[i] == StopState::closed && old.stops[i] == StopState::open)
+      report(EventKind::stick, static_cast<int>(i), 0.0);
   }
 }
 
@@ -295,7 +306,8 @@ bool Motion::end_chatter(double limit) {
   const int stop = chatter_stop_;
   chatter_stop_ = -1;
   const double H = system_->mode(mode_).window();
-  const flow::ChatterLimit chatter = flow::prove_chatter(*system_, stop, X_.data(), options_.chatter_tolerance * system_->period(), scratch_);
+  const flow::ChatterLimit chatter =
+      flow::prove_chatter(*system_, stop, X_.data(), options_.chatter_tolerance * system_->period(), scratch_);
   if (!chatter.proven || chatter.duration > std::min(limit, 0.5 * H)) return false;
 
   // The pair's momentum does not see the impacts: flow the closed stop from the velocity after a fully plastic impact.
@@ -318,7 +330,6 @@ bool Motion::end_chatter(double limit) {
 
 void Motion::report(EventKind kind, int contact, double w) {
   pending_[pending_count_++] = Event{kind, contact, now_, w, 0.0};
-  system_->frame().leave(X_before_.data(), before_.data());
   ++counters_.events;
   counters_.grazes += kind == EventKind::graze;
   if (++at_one_instant_ > most_events_at_one_instant) fail("more than 16 events at one instant");
@@ -327,7 +338,8 @@ void Motion::report(EventKind kind, int contact, double w) {
     budget_events_ = 0;
   }
   if (++budget_events_ > options_.most_events_per_period)
-    fail("event budget: more than " + std::to_string(options_.most_events_per_period) + " events in one period; raise the budget or change the restitution");
+    fail("event budget: more than " + std::to_string(options_.most_events_per_period) +
+         " events in one period; raise the budget or change the restitution");
 }
 
 void Motion::note_magnitude() {

@@ -56,6 +56,7 @@ System::System(Model model) : model_(checked(std::move(model))), frame_(model_),
   for (const mode::ContactRow& stop : frame_.stops) {
     const mode::Vector direction = frame_.mass_inverse * stop.row.transpose();
     impulses_.push_back(direction / stop.row.dot(direction));
+    presses_.push_back(stop.row * frame_.free);
   }
 }
 
@@ -76,7 +77,9 @@ std::string System::mode_name(int id) const {
   const ContactStates& states = modes_[id].states();
   std::string name;
   for (FrictionState state : states.frictions)
-    name += std::string(name.empty() ? "" : ",") + (state == FrictionState::stick ? "stick" : state == FrictionState::slip_plus ? "slip+" : "slip-");
+    name += std::string(name.empty() ? "" : ",") + (state == FrictionState::stick       ? "stick"
+                                                    : state == FrictionState::slip_plus ? "slip+"
+                                                                                        : "slip-");
   if (name.empty()) name = "free";
   for (StopState state : states.stops) name += state == StopState::closed ? "|closed" : "";
   return name;

@@ -29,10 +29,12 @@ Constraint& find_or_add(std::vector<Constraint>& groups, const RowVector& row) {
   return groups.emplace_back(Constraint{row, {}, {}, 0.0});
 }
 
-std::vector<Constraint> constraints(const Model& model, const Frame& frame, const ContactStates& states, bool& possible) {
+std::vector<Constraint> constraints(const Model& model, const Frame& frame, const ContactStates& states,
+                                    bool& possible) {
   std::vector<Constraint> groups;
   for (std::size_t i = 0; i < states.stops.size(); ++i) {
-    if (states.stops[i] == StopState::closed) find_or_add(groups, frame.stops[i].row).stops.push_back(static_cast<int>(i));
+    if (states.stops[i] == StopState::closed)
+      find_or_add(groups, frame.stops[i].row).stops.push_back(static_cast<int>(i));
   }
   for (std::size_t i = 0; i < states.frictions.size(); ++i) {
     if (states.frictions[i] != FrictionState::stick) continue;
@@ -47,10 +49,11 @@ std::vector<Constraint> constraints(const Model& model, const Frame& frame, cons
 
 }  // namespace
 
-Mode::Mode(const Model& model, const Frame& frame, ContactStates states) : states_(std::move(states)), n_(frame.n), m_(frame.size()) {
+Mode::Mode(const Model& model, const Frame& frame, ContactStates states)
+    : states_(std::move(states)), n_(frame.n), m_(frame.size()) {
   drift_.assign(frame.drift.begin(), frame.drift.end());
   select_linear_system(model, frame);
-  if (possible_) build_operators();
+  if (possible_) build_operators(frame, model.omega);
 }
 
 /// M u' = R(X) + G^T lambda with G u' = 0:  lambda = -(G M^{-1} G^T)^{-1} G M^{-1} R, a linear functional of X.
@@ -60,8 +63,11 @@ void Mode::select_linear_system(const Model& model, const Frame& frame) {
   for (std::size_t i = 0; i < states_.frictions.size(); ++i) {
     const auto s = static_cast<double>(states_.frictions[i]);
     const FrictionContact& contact = model.frictions[i];
-    acceleration.col(frame.one()) -= s * contact.kinetic_friction * (frame.mass_inverse * frame.frictions[i].row.transpose());
-    if (s != 0.0) guards_.push_back({GuardKind::slip, static_cast<int>(i), s * frame.velocity_row(frame.frictions[i], contact.belt_speed)});
+    acceleration.col(frame.one()) -=
+        s * contact.kinetic_friction * (frame.mass_inverse * frame.frictions[i].row.transpose());
+    if (s != 0.0)
+      guards_.push_back(
+          {GuardKind::slip, static_cast<int>(i), s * frame.velocity_row(frame.frictions[i], contact.belt_speed)});
   }
 
   const std::vector<Constraint> groups = constraints(model, frame, states_, possible_);
@@ -113,10 +119,28 @@ void Mode::arm_gap(const Model& model, const Frame& frame, int stop, const std::
     const int same = parallel(row, frame.frictions[i].row);
     if (same * static_cast<int>(states_.frictions[i]) < 0 && model.frictions[i].belt_speed == 0.0) return;
   }
-  guards_.insert(guards_.begin(), {GuardKind::gap, stop, frame.gap_row(frame.stops[stop], model.stops[stop].clearance)});
+  guards_.insert(guards_.begin(),
+                 {GuardKind::gap, stop, frame.gap_row(frame.stops[stop], model.stops[stop].clearance)});
 }
 
-void Mode::build_operators() {
+/// exp(A H): positions from their own series, u = p' - drift from its derivative, the oscillators as rotations.
+Matrix Mode::flow_over_window(const Series& series, std::size_t first_coordinate, const Frame& frame,
+                              double omega) const {
+  Matrix flow = Matrix::Identity(m_, m_);
+  for (int i = 0; i < n_; ++i) {
+    flow.row(i) = series.end_value(first_coordinate + i);
+    flow.row(n_ + i) = series.end_slope(first_coordinate + i);
+    flow(n_ + i, m_ - 1) -= drift_[i];
+  }
+  for (std::size_t k = 0; k < frame.harmonics.size(); ++k) {
+    const auto c = static_cast<Eigen::Index>(2 * n_ + 2 * k);
+    const double angle = frame.harmonics[k] * omega * window_;
+    flow.block<2, 2>(c, c) << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  }
+  return flow;
+}
+
+void Mode::build_operators(const Frame& frame, double omega) {
   std::vector<RowVector> rows;
   for (const Guard& guard : guards_) rows.push_back(guard.row);
   for (int i = 0; i < n_; ++i) rows.push_back(RowVector::Unit(m_, i));
@@ -134,7 +158,7 @@ void Mode::build_operators() {
   taylor_noise_.assign(guards * m_, event::Lane8{});
   coordinates_.assign(3 * static_cast<std::size_t>(n_) * m_, event::Lane8{});
 
-  const Matrix flow = series.flow();
+  const Matrix flow = flow_over_window(series, guards, frame, omega);
   for (int i = 0; i < m_; ++i) {
     for (int r = 0; r < m_; ++r) advance_[(r / 8) * m_ + i][r % 8] = flow(r, i);
     for (std::size_t g = 0; g < guards; ++g) {
@@ -160,8 +184,30 @@ void Mode::build_operators() {
 
 namespace {
 
-/// out[b] = sum_i data[b * m + i] * x[i].
+/// out[b] = sum_i data[b * m + i] * x[i], for m known to the compiler.
+template <int m>
+void multiply_fixed(const event::Lane8* data, int blocks, const double* x, event::Lane8* out) {
+  for (int b = 0; b < blocks; ++b, data += m) {
+    event::Lane8 sum = data[0] * x[0];
+    for (int i = 1; i < m; ++i) sum += data[i] * x[i];
+    out[b] = sum;
+  }
+}
+
+/// The same for any m. The sizes of one to three coordinates with one harmonic are unrolled.
 inline void multiply(const event::Lane8* data, int blocks, int m, const double* x, event::Lane8* out) {
+  switch (m) {
+    case 3:
+      return multiply_fixed<3>(data, blocks, x, out);
+    case 5:
+      return multiply_fixed<5>(data, blocks, x, out);
+    case 7:
+      return multiply_fixed<7>(data, blocks, x, out);
+    case 9:
+      return multiply_fixed<9>(data, blocks, x, out);
+    default:
+      break;
+  }
   for (int b = 0; b < blocks; ++b, data += m) {
     event::Lane8 sum = data[0] * x[0];
     for (int i = 1; i < m; ++i) sum += data[i] * x[i];
@@ -185,7 +231,8 @@ void Mode::taylor(int g, const double* X, event::Coefficients& out) const {
   multiply(taylor_.data() + 3 * g * m_, 3, m_, X, out.data());
 }
 
-void Mode::leading(int g, const double* X, const double* magnitude, event::Lane8& coefficients, event::Lane8& noise) const {
+void Mode::leading(int g, const double* X, const double* magnitude, event::Lane8& coefficients,
+                   event::Lane8& noise) const {
   multiply(taylor_.data() + 3 * g * m_, 1, m_, X, &coefficients);
   multiply(leading_noise_.data() + g * m_, 1, m_, magnitude, &noise);
 }

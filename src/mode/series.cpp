@@ -21,7 +21,8 @@ Weights bernstein_weights() {
   for (int j = 0; j < event::terms; ++j) {
     weights[j][0] = 1.0L;
     for (int n = 1; n <= j; ++n)
-      weights[j][n] = weights[j][n - 1] * static_cast<long double>(j - n + 1) / static_cast<long double>(event::degree - n + 1);
+      weights[j][n] =
+          weights[j][n - 1] * static_cast<long double>(j - n + 1) / static_cast<long double>(event::degree - n + 1);
   }
   return weights;
 }
@@ -30,15 +31,27 @@ Weights bernstein_weights() {
 
 Series::Series(const Matrix& A, const std::vector<RowVector>& rows) : reference_(reference_length(A)) {
   A_ = A.cast<long double>() * static_cast<long double>(reference_);
+  const Eigen::Index m = A_.rows();
   for (const RowVector& row : rows) {
     auto& terms = scaled_.emplace_back();
+    auto& sizes = magnitudes_.emplace_back();
     terms.push_back(row.cast<long double>());
-    for (int n = 1; n < all_terms; ++n) terms.push_back(terms.back() * A_ / static_cast<long double>(n));
+    for (int n = 1; n < all_terms; ++n) {
+      LongRow next = LongRow::Zero(m);
+      for (Eigen::Index k = 0; k < m; ++k) {
+        if (const long double factor = terms.back()[k] / n; factor != 0.0L) next += factor * A_.row(k);
+      }
+      terms.push_back(std::move(next));
+    }
+    for (const LongRow& term : terms) {
+      for (Eigen::Index i = 0; i < m; ++i) sizes.push_back(static_cast<double>(std::abs(term[i])));
+    }
   }
   // Bisection on the window length in units of the reference length; the tail grows with it.
-  double low = 1e-6, high = 4.0;
+  double low = 0.25, high = 4.0;
+  while (!tail_is_negligible(low)) low *= 0.25;
   if (tail_is_negligible(high)) low = high;
-  for (int k = 0; k < 24 && low < high; ++k) {
+  for (int k = 0; k < 12 && low < high; ++k) {
     const double middle = std::sqrt(low * high);
     (tail_is_negligible(middle) ? low : high) = middle;
   }
@@ -54,23 +67,24 @@ Series::Series(const Matrix& A, const std::vector<RowVector>& rows) : reference_
 }
 
 bool Series::tail_is_negligible(double ratio) const {
-  for (const auto& terms : scaled_) {
-    for (Eigen::Index i = 0; i < A_.rows(); ++i) {
-      long double power = 1.0L, largest = 0.0L, tail = 0.0L;
+  const auto columns = static_cast<std::size_t>(A_.rows());
+  for (const std::vector<double>& sizes : magnitudes_) {
+    for (std::size_t i = 0; i < columns; ++i) {
+      double power = 1.0, largest = 0.0, tail = 0.0;
       for (int n = 0; n < all_terms; ++n, power *= ratio) {
-        const long double term = std::abs(terms[n][i]) * power;
-        if (n < event::terms) largest = std::max(largest, term);
-        else tail += term;
+        const double term = sizes[n * columns + i] * power;
+        if (n < event::terms)
+          largest = std::max(largest, term);
+        else
+          tail += term;
       }
-      if (tail > 0.25L * event::unit_roundoff * largest) return false;
+      if (tail > 0.25 * event::unit_roundoff * largest) return false;
     }
   }
   return true;
 }
 
-double Series::taylor(std::size_t r, int n, int i) const {
-  return static_cast<double>(scaled_[r][n][i]);
-}
+double Series::taylor(std::size_t r, int n, int i) const { return static_cast<double>(scaled_[r][n][i]); }
 
 double Series::bernstein(std::size_t r, int j, int i) const {
   static const auto weights = bernstein_weights();
@@ -79,14 +93,16 @@ double Series::bernstein(std::size_t r, int j, int i) const {
   return static_cast<double>(sum);
 }
 
-Matrix Series::flow() const {
-  const Eigen::Index m = A_.rows();
-  LongMatrix term = LongMatrix::Identity(m, m), sum = term;
-  for (int n = 1; n < all_terms; ++n) {
-    term = term * A_ * (static_cast<long double>(ratio_) / static_cast<long double>(n));
-    sum += term;
-  }
+RowVector Series::end_value(std::size_t r) const {
+  LongRow sum = scaled_[r].back();
+  for (int n = all_terms - 2; n >= 0; --n) sum += scaled_[r][n];
   return sum.cast<double>();
+}
+
+RowVector Series::end_slope(std::size_t r) const {
+  LongRow sum = LongRow::Zero(A_.rows());
+  for (int n = all_terms - 1; n > 0; --n) sum += static_cast<long double>(n) * scaled_[r][n];
+  return (sum / static_cast<long double>(window_)).cast<double>();
 }
 
 }  // namespace slapstick::mode

@@ -20,18 +20,20 @@ class Series {
   [[nodiscard]] double taylor(std::size_t r, int n, int i) const;
   /// Bernstein coefficient j of the degree-23 polynomial of row r with respect to X_i: b_j = sum_{n<=j} C(j,n)/C(23,n) a_n.
   [[nodiscard]] double bernstein(std::size_t r, int j, int i) const;
-  /// exp(A H).
-  [[nodiscard]] Matrix flow() const;
+  /// Row r at the window's end, c exp(A H), and its time derivative there.
+  [[nodiscard]] RowVector end_value(std::size_t r) const;
+  [[nodiscard]] RowVector end_slope(std::size_t r) const;
 
  private:
   using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
   using LongRow = Eigen::Matrix<long double, 1, Eigen::Dynamic>;
-  static constexpr int all_terms = 60;
+  static constexpr int all_terms = 40;
 
   [[nodiscard]] bool tail_is_negligible(double ratio) const;
 
-  LongMatrix A_;                                ///< A times the reference length
-  std::vector<std::vector<LongRow>> scaled_;    ///< [row][n]: c A^n / n! times window^n
+  LongMatrix A_;                                 ///< A times the reference length
+  std::vector<std::vector<LongRow>> scaled_;     ///< [row][n]: c A^n / n! times window^n
+  std::vector<std::vector<double>> magnitudes_;  ///< [row][n * m + i]: |c A^n / n!| times the reference length^n
   double reference_ = 1.0, ratio_ = 1.0, window_ = 1.0;  ///< window = ratio * reference length
 };
 

@@ -23,12 +23,28 @@ inline Lane8 magnitude(const Lane8& v) { return v < 0.0 ? -v : v; }
 inline Lane8 smaller(const Lane8& a, const Lane8& b) { return a < b ? a : b; }
 inline Lane8 larger(const Lane8& a, const Lane8& b) { return a > b ? a : b; }
 
-/// Least lane, and the sum of all lanes, each in a fixed order.
-inline double least(const Lane8& v) {
-  const auto low = [](double a, double b) { return a < b ? a : b; };
-  return low(low(low(v[0], v[4]), low(v[2], v[6])), low(low(v[1], v[5]), low(v[3], v[7])));
+/// v with `value` in the lanes below `count`.
+inline Lane8 with_first(const Lane8& v, int count, double value) {
+  constexpr Lane8 lane = {0, 1, 2, 3, 4, 5, 6, 7};
+  return lane < static_cast<double>(count) ? Lane8{} + value : v;
 }
-inline double sum(const Lane8& v) { return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7])); }
+
+/// Least lane, and the sum of all lanes, each in a fixed order: halves, quarters, neighbours.
+inline double least(const Lane8& v) {
+  const Lane8 half = smaller(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3));
+  const Lane8 quarter = smaller(half, __builtin_shufflevector(half, half, 2, 3, 0, 1, 6, 7, 4, 5));
+  return quarter[0] < quarter[1] ? quarter[0] : quarter[1];
+}
+inline double sum(const Lane8& v) {
+  const Lane8 half = v + __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3);
+  const Lane8 quarter = half + __builtin_shufflevector(half, half, 2, 3, 0, 1, 6, 7, 4, 5);
+  return quarter[0] + quarter[1];
+}
+
+/// Lane j of group g is coefficient 8 g + j + 1; zero past the end.
+inline Lane8 shifted(const Coefficients& a, int g) {
+  return __builtin_shufflevector(a[g], g < 2 ? a[g + 1] : Lane8{}, 1, 2, 3, 4, 5, 6, 7, 8);
+}
 
 /// x^0 .. x^7 and x^8, shared by every polynomial evaluated at x.
 struct Powers {
@@ -51,10 +67,8 @@ inline double value(const Coefficients& a, const Powers& p) {
 inline Coefficients derivative(const Coefficients& a) {
   Coefficients d;
   for (int g = 0; g < 3; ++g) {
-    const Lane8 next = g < 2 ? a[g + 1] : Lane8{};
-    const double first = 8.0 * g;
-    const Lane8 shifted = {a[g][1], a[g][2], a[g][3], a[g][4], a[g][5], a[g][6], a[g][7], next[0]};
-    d[g] = shifted * Lane8{first + 1, first + 2, first + 3, first + 4, first + 5, first + 6, first + 7, first + 8};
+    const double n = 8.0 * g;
+    d[g] = shifted(a, g) * Lane8{n + 1, n + 2, n + 3, n + 4, n + 5, n + 6, n + 7, n + 8};
   }
   return d;
 }

@@ -31,6 +31,7 @@ struct ChatterLimit {
 /// @returns proven = false if chatter is not complete, or not provable from this impact on, or its limit not yet known to `tolerance`:
 ///          the caller goes on bounce by bounce and asks again. Cost: one row product when the chatter is still too high
 ///          to be summed, else four products with |A|.
-ChatterLimit prove_chatter(const System& system, int stop, const double* X, double tolerance, std::span<double> scratch);
+ChatterLimit prove_chatter(const System& system, int stop, const double* X, double tolerance,
+                           std::span<double> scratch);
 
 }  // namespace slapstick::flow

@@ -41,8 +41,8 @@ struct Event {
   EventKind kind = EventKind::impact;
   int contact = 0;  ///< stops first, then friction contacts; System::contact_name
   Instant time;
-  double w = 0.0;           ///< relative velocity of the contact's pair just before, v_a - v_b - belt speed
-  double error = 0.0;       ///< chatter: bound on the error of `time`, in time units; else 0
+  double w = 0.0;      ///< relative velocity of the contact's pair just before, v_a - v_b - belt speed
+  double error = 0.0;  ///< chatter: bound on the error of `time`, in time units; else 0
 };
 
 enum class Outcome { event, reached_end };
@@ -71,11 +71,11 @@ class Motion {
 
   [[nodiscard]] const Event& event() const { return event_; }  ///< valid after Outcome::event
   /// The state just before the last event, in the user's coordinates.
-  [[nodiscard]] std::span<const double> before() const { return before_; }
+  [[nodiscard]] std::span<const double> before() const;
 
   [[nodiscard]] Instant time() const { return now_; }
-  [[nodiscard]] State state() const;           ///< the state now (after the last event), user's coordinates
-  void state(std::span<double> out) const;     ///< the same without allocation
+  [[nodiscard]] State state() const;        ///< the state now (after the last event), user's coordinates
+  void state(std::span<double> out) const;  ///< the same without allocation
   [[nodiscard]] int mode_id() const { return mode_; }
   [[nodiscard]] const System& system() const { return *system_; }
   [[nodiscard]] const Counters& counters() const { return counters_; }
@@ -84,7 +84,7 @@ class Motion {
   struct Segment {
     Instant start;
     int mode = 0;
-    double duration = 0.0;  ///< time units
+    double duration = 0.0;      ///< time units
     std::span<const double> X;  ///< extended state at its start
   };
   [[nodiscard]] Segment segment() const;
@@ -125,15 +125,15 @@ class Motion {
   MotionOptions options_;
   Instant now_, segment_start_;
   int mode_ = 0, segment_mode_ = 0;
-  double elapsed_ = 0.0;     ///< time from segment_start_ to X_
-  bool resume_ = false;      ///< the next segment continues the last one, without an event between
-  int chatter_stop_ = -1;    ///< the stop just hit, whose chatter may be complete
+  double elapsed_ = 0.0;   ///< time from segment_start_ to X_
+  bool resume_ = false;    ///< the next segment continues the last one, without an event between
+  int chatter_stop_ = -1;  ///< the stop just hit, whose chatter may be complete
   std::vector<double> X_, magnitude_, X_before_, X_segment_, X_next_;
   mutable std::vector<double> scratch_;
   mutable std::vector<event::Lane8> sample_out_;
   std::vector<event::Lane8> out_, noise_;
   std::vector<int> orders_;
-  State before_;
+  mutable State before_;
   Event event_;
   std::array<Event, 8> pending_;
   int pending_count_ = 0;

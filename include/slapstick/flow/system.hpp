@@ -25,6 +25,9 @@ class System {
   /// Change of u per unit change of the normal velocity of a stop: M^{-1} g^T / (g M^{-1} g^T), g the stop's row.
   [[nodiscard]] const mode::Vector& impulse(int stop) const { return impulses_[stop]; }
 
+  /// Acceleration of a stop's pair towards the stop without any contact force, g . free: a row over X.
+  [[nodiscard]] const mode::RowVector& press(int stop) const { return presses_[stop]; }
+
   /// Contacts in one numbering: stops first, then friction contacts.
   [[nodiscard]] std::string contact_name(int contact) const;
 
@@ -34,6 +37,7 @@ class System {
   double period_;
   std::vector<mode::Mode> modes_;
   std::vector<mode::Vector> impulses_;
+  std::vector<mode::RowVector> presses_;
 };
 
 }  // namespace slapstick

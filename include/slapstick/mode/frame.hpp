@@ -25,7 +25,8 @@ using RowVector = Eigen::RowVectorXd;
 /// A stop or friction contact seen in contact coordinates.
 struct ContactRow {
   RowVector row;  ///< x_a - x_b = row . (p + shift)
-  int own = -1;   ///< index of the coordinate p_own that is exactly this displacement, or -1 if it depends on earlier rows
+  int own =
+      -1;  ///< index of the coordinate p_own that is exactly this displacement, or -1 if it depends on earlier rows
 };
 
 struct Frame {

@@ -11,6 +11,8 @@ namespace slapstick::mode {
 enum class StopState : std::int8_t { open = 0, closed = 1 };
 enum class FrictionState : std::int8_t { slip_minus = -1, stick = 0, slip_plus = 1 };
 
+class Series;
+
 /// The state of every contact of the model, in the model's order.
 struct ContactStates {
   std::vector<StopState> stops;
@@ -20,11 +22,11 @@ struct ContactStates {
 
 /// A guard is a linear functional h of X that is positive while the mode lasts; its zero ends the mode.
 enum class GuardKind {
-  gap,           ///< open stop: clearance - (x_a - x_b)
-  slip,          ///< slipping contact: s w
-  stick_above,   ///< sticking contact: f_s - f0
-  stick_below,   ///< sticking contact: f_s + f0
-  press          ///< closed stop: the largest stop force that its contact forces allow. N alone, or f0 + f_s with a sticking pair
+  gap,          ///< open stop: clearance - (x_a - x_b)
+  slip,         ///< slipping contact: s w
+  stick_above,  ///< sticking contact: f_s - f0
+  stick_below,  ///< sticking contact: f_s + f0
+  press  ///< closed stop: the largest stop force that its contact forces allow. N alone, or f0 + f_s with a sticking pair
 };
 
 struct Guard {
@@ -70,7 +72,9 @@ class Mode {
  private:
   void select_linear_system(const Model& model, const Frame& frame);
   void arm_gap(const Model& model, const Frame& frame, int stop, const std::vector<RowVector>& constrained);
-  void build_operators();
+  void build_operators(const Frame& frame, double omega);
+  [[nodiscard]] Matrix flow_over_window(const Series& series, std::size_t first_coordinate, const Frame& frame,
+                                        double omega) const;
 
   ContactStates states_;
   bool possible_ = true;

@@ -1,0 +1,70 @@
+#pragma once
+/// The impact section: the sequence of impacts of a motion, each seen just before it happens.
+///
+/// This is the paper's Poincare section (eq. 8): y = b, w > 0. Between two of its points lie a *flight* and, in it, the time in
+/// which the friction contact slips (the paper's t_f is called "sliding time" in its text and is plotted as the flight).
+///
+///     |<------------- flight ------------->|
+///     impact   slip-   stick   slip+   impact          time is measured in forcing periods (units of 1 without forcing)
+///              |-----|         |------|    sliding = sum of the two
+///
+/// The limit of a complete chatter counts as the end of its last flight: the impact after a chatter has a flight that begins there.
+#include <functional>
+#include <limits>
+
+#include "slapstick/flow/motion.hpp"
+
+namespace slapstick {
+
+struct SectionPoint {
+  Instant time;
+  double w = 0.0;  ///< v_a - v_b of the stop's pair just before the impact, > 0, in the model's unit of velocity
+  /// Time since the impact (or chatter limit) before, in forcing periods; NaN if the motion has had none since its start.
+  double flight = std::numeric_limits<double>::quiet_NaN();
+  /// The part of `flight` in which a friction contact slips, in forcing periods; 0 without friction contacts, NaN where flight is.
+  double sliding = std::numeric_limits<double>::quiet_NaN();
+  double phase = 0.0;  ///< of the forcing, as a fraction of a period in [0, 1)
+  int stop = 0;        ///< index of the stop that is hit
+  State state;         ///< just before the impact, user's coordinates
+};
+
+/// How often something else happened since the last point.
+struct Between {
+  long sticks = 0, reversals = 0, releases = 0, grazes = 0, chatters = 0;
+};
+
+/// Walks a Motion from impact to impact. A copy is an independent motion that goes on from the same instant with the same bits.
+class ImpactSection {
+ public:
+  /// Takes the motion over; its System must outlive the section.
+  explicit ImpactSection(Motion motion) : motion_(std::move(motion)), seen_(motion_.time()) {}
+
+  /// Moves on to the next impact and writes it into `point`, or to `end` if none comes first.
+  /// No allocation once `point.state` has its size. An impact exactly at `end` is a point.
+  /// @returns false if `end` was reached; `point` is then unchanged and the motion stands at `end`
+  /// @throws NumericalError as Motion::advance
+  bool next(Instant end, SectionPoint& point);
+
+  /// Events other than impacts since the last point (or, before the first, since the section was made).
+  [[nodiscard]] const Between& between() const { return between_; }
+
+  /// Called after every event, impacts included, while the motion stands there. Must not outlive what it refers to.
+  void watch(std::function<void(const Motion&)> watcher) { watcher_ = std::move(watcher); }
+
+  [[nodiscard]] const Motion& motion() const { return motion_; }
+
+ private:
+  void note(EventKind kind);
+  void begin_flight();
+
+  Motion motion_;
+  std::function<void(const Motion&)> watcher_;
+  Instant seen_;  ///< up to here sliding_ is summed
+  Instant last_;  ///< the impact or chatter limit before
+  bool has_last_ = false;
+  bool point_given_ = false;
+  double sliding_ = 0.0;
+  Between between_;
+};
+
+}  // namespace slapstick

@@ -1,0 +1,31 @@
+#pragma once
+/// The stroboscopic section: the state of a motion once per forcing period, always at the same phase.
+#include "slapstick/flow/motion.hpp"
+
+namespace slapstick {
+
+struct StroboscopicPoint {
+  Instant time;  ///< fraction == the section's phase, exactly
+  int mode = 0;  ///< System::mode_name
+  State state;   ///< user's coordinates; just after an event that falls on this very instant
+};
+
+class StroboscopicSection {
+ public:
+  /// Takes the motion over; its System must outlive the section.
+  /// @param phase  fraction of a period in [0, 1)
+  /// @throws InputError if the model has no harmonic forcing (then no phase is distinguished) or the phase is outside [0, 1)
+  StroboscopicSection(Motion motion, double phase);
+
+  /// Moves on to the next instant of this phase, strictly later than now. No allocation once `point.state` has its size.
+  /// @throws NumericalError as Motion::advance
+  void next(StroboscopicPoint& point);
+
+  [[nodiscard]] const Motion& motion() const { return motion_; }
+
+ private:
+  Motion motion_;
+  double phase_;
+};
+
+}  // namespace slapstick

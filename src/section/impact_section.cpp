@@ -1,0 +1,78 @@
+#include "slapstick/section/impact_section.hpp"
+
+#include <algorithm>
+
+namespace slapstick {
+namespace {
+
+bool slips(const Motion& motion, int mode) {
+  const auto& frictions = motion.system().mode(mode).states().frictions;
+  return std::any_of(frictions.begin(), frictions.end(),
+                     [](mode::FrictionState state) { return state != mode::FrictionState::stick; });
+}
+
+}  // namespace
+
+bool ImpactSection::next(Instant end, SectionPoint& point) {
+  if (point_given_) {
+    between_ = {};
+    point_given_ = false;
+  }
+  for (;;) {
+    const bool sliding =
+        slips(motion_, motion_.mode_id());  // no event comes before `advance` returns: one mode all the way
+    const Outcome outcome = motion_.advance(end);
+    const Instant now = outcome == Outcome::event ? motion_.event().time : motion_.time();
+    if (sliding) sliding_ += now.since(seen_);
+    seen_ = now;
+    if (outcome == Outcome::reached_end) return false;
+    if (watcher_) watcher_(motion_);
+    const Event& event = motion_.event();
+    if (event.kind != EventKind::impact) {
+      note(event.kind);
+      continue;
+    }
+    point.time = event.time;
+    point.w = event.w;
+    point.flight = has_last_ ? event.time.since(last_) : std::numeric_limits<double>::quiet_NaN();
+    point.sliding = has_last_ ? sliding_ : std::numeric_limits<double>::quiet_NaN();
+    point.phase = event.time.fraction;
+    point.stop = event.contact;
+    point.state.assign(motion_.before().begin(), motion_.before().end());
+    begin_flight();
+    point_given_ = true;
+    return true;
+  }
+}
+
+void ImpactSection::note(EventKind kind) {
+  switch (kind) {
+    case EventKind::impact:
+      break;
+    case EventKind::stick:
+      ++between_.sticks;
+      break;
+    case EventKind::slip_plus:
+    case EventKind::slip_minus:
+      ++between_.reversals;
+      break;
+    case EventKind::release:
+      ++between_.releases;
+      break;
+    case EventKind::graze:
+      ++between_.grazes;
+      break;
+    case EventKind::chatter:
+      ++between_.chatters;
+      begin_flight();
+      break;
+  }
+}
+
+void ImpactSection::begin_flight() {
+  last_ = motion_.event().time;
+  has_last_ = true;
+  sliding_ = 0.0;
+}
+
+}  // namespace slapstick

@@ -1,0 +1,111 @@
+/// Samples must lie on the trajectory, be where they are due, and leave the events alone.
+#include "slapstick/section/sampled_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace slapstick {
+namespace {
+
+Model ball(double restitution) {
+  Model model;
+  model.name = "ball";
+  model.coordinates = {{"x", 1.0}};
+  model.forces = {{0, 0, -1.0, 0.0}};
+  model.stops = {{"floor", ground, 0, 0.0, restitution}};
+  return model;
+}
+
+Model paper(double omega) {
+  Model model;
+  model.name = "paper";
+  model.coordinates = {{"x1", 1.0}, {"x2", 10.0}};
+  model.springs = {{0, 1, 1.0}, {1, ground, 5.0}};
+  model.dampers = {{0, 1, 0.2}, {1, ground, 1.0}};
+  model.forces = {{0, 1, 1.0, 0.0}};
+  model.frictions = {{"friction", 0, 1, 0.0, 0.15, 0.15}};
+  model.stops = {{"stop", 0, 1, 0.0, 0.8}};
+  model.omega = omega;
+  return model;
+}
+
+TEST(SampledMotion, SamplesOfABallAreItsParabolas) {
+  const System system(ball(1.0));
+  SampledMotion run(Motion(system, {0.5, 0.0}), 16);  // impacts at 1, 3, 5, ..
+  int samples = 0;
+  for (;;) {
+    const auto item = run.next({20, 0.0});
+    if (item == SampledMotion::Item::end) break;
+    if (item == SampledMotion::Item::event) continue;
+    const double t = samples / 16.0;
+    ASSERT_EQ(run.sample().time.seconds(1.0), t);
+    const double s = t <= 1.0 ? t : std::remainder(t, 2.0);  // from the last top
+    ASSERT_NEAR(run.sample().state[0], 0.5 - 0.5 * s * s, 1e-13) << t;
+    ++samples;
+  }
+  EXPECT_EQ(samples, 20 * 16 + 1) << "both ends are sampled";
+}
+
+TEST(SampledMotion, SampleAtTheInstantOfAnEventComesBeforeIt) {
+  const System system(ball(0.5));
+  SampledMotion run(Motion(system, {0.5, 0.0}), 1);
+  ASSERT_EQ(run.next({5, 0.0}), SampledMotion::Item::sample);
+  ASSERT_EQ(run.next({5, 0.0}), SampledMotion::Item::sample);
+  EXPECT_NEAR(run.sample().state[1], -1.0, 1e-14);
+  EXPECT_EQ(run.next({5, 0.0}), SampledMotion::Item::event);
+}
+
+TEST(SampledMotion, EventsAreTheSameBitsWithAnyNumberOfSamples) {
+  const System system(paper(4.9));
+  const auto events = [&](int samples) {
+    SampledMotion run(Motion(system, {-0.5, 0.0, 0.0, 0.0}), samples);
+    std::vector<Instant> times;
+    for (auto item = run.next({200, 0.0}); item != SampledMotion::Item::end; item = run.next({200, 0.0}))
+      if (item == SampledMotion::Item::event) times.push_back(run.motion().event().time);
+    return times;
+  };
+  const auto plain = events(0);
+  EXPECT_GT(plain.size(), 100U);
+  EXPECT_EQ(events(7), plain);
+  EXPECT_EQ(events(200), plain);
+}
+
+/// Continuity: between neighbouring samples of one mode the displacement changes as the velocities say (trapezoid).
+TEST(SampledMotion, SamplesFitTogetherInEveryMode) {
+  for (const double omega : {0.552, 1.5, 2.2, 4.9}) {
+    const System system(paper(omega));
+    constexpr int per_period = 400;
+    SampledMotion run(Motion(system, {-0.5, 0.0, 0.0, 0.0}), per_period);
+    SampledMotion::Sample last;
+    const double h = system.period() / per_period;
+    bool undisturbed = false;
+    long samples = 0;
+    for (auto item = run.next({40, 0.0}); item != SampledMotion::Item::end; item = run.next({40, 0.0})) {
+      if (item == SampledMotion::Item::event) {
+        undisturbed = false;
+        continue;
+      }
+      const auto& now = run.sample();
+      if (undisturbed) {
+        for (int i = 0; i < 4; i += 2)
+          ASSERT_NEAR(now.state[i] - last.state[i], 0.5 * h * (now.state[i + 1] + last.state[i + 1]), h * h * h)
+              << omega << " " << samples;
+      }
+      undisturbed = true;
+      last = now;
+      ++samples;
+    }
+    EXPECT_EQ(samples, 40 * per_period + 1);
+  }
+}
+
+TEST(SampledMotion, StartsAtTheFirstMultipleFromItsOwnInstant) {
+  const System system(paper(2.2));
+  SampledMotion run(Motion(system, {-0.5, 0.0, 0.0, 0.0}, Instant{3, 0.3}), 4);
+  ASSERT_EQ(run.next({4, 0.0}), SampledMotion::Item::sample);
+  EXPECT_EQ(run.sample().time, (Instant{3, 0.5}));
+}
+
+}  // namespace
+}  // namespace slapstick

@@ -1,0 +1,94 @@
+#pragma once
+/// Bifurcation diagrams: the impacts of the attractor at every value of a parameter, on all cores, with the same bits on any number.
+///
+/// At each value the motion runs through a transient and then its next impacts are recorded.
+///
+///   reset  every value begins at the problem's own start: all values are independent tasks;
+///   carry  a value begins where the transient of the value before ended, going up or down through the values, so that the sweep
+///          stays on one attractor as long as it exists. A direction is one chain: only its transients are sequential,
+///          the recording after each transient is a task of its own.
+///
+/// Up and down together show coexisting attractors: where they differ, there are two. A row depends on its own start
+/// only and is stored by index; nothing depends on the order in which threads finish.
+#include <atomic>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "slapstick/model/model.hpp"
+
+namespace slapstick::sweep {
+
+enum class Direction { up, down, both };
+enum class StartRule { carry, reset };
+
+struct DiagramProblem {
+  std::function<Model(double)> model_at;  ///< called from several threads at once
+  std::function<State(double)> start_at;  ///< likewise; the start for `reset`, and of a chain
+  double from = 0.0, to = 1.0;  ///< both are values of the diagram; the ones between are equidistant. from < to
+  int count = 2;                ///< number of values, >= 2; or 1 if from == to
+  int transient_periods = 500;  ///< forcing periods (units of time for an unforced model) before recording, >= 0
+  int impacts = 200;            ///< recorded per value and direction, >= 1
+  int most_periods = 5000;      ///< a recording ends here if impacts are too rare, >= 1
+  Direction direction = Direction::up;
+  StartRule start = StartRule::carry;
+  int threads = 0;  ///< 0: all
+  /// Called after every value with the numbers done and to do; from any of the threads, but never two at once.
+  std::function<void(int done, int total)> progress;
+  const std::atomic<bool>* cancel = nullptr;  ///< set it and the sweep returns soon with what is complete
+};
+
+/// The impacts recorded at one value: a table of `size` rows, stored flat.
+class ImpactTable {
+ public:
+  struct Row {
+    double w;                       ///< relative velocity just before the impact, > 0
+    double flight;                  ///< since the impact (or chatter limit) before, in forcing periods
+    double sliding;                 ///< the part of it in which the friction contact slips
+    double phase;                   ///< of the forcing, in [0, 1)
+    std::span<const double> state;  ///< just before the impact, user's coordinates
+  };
+  [[nodiscard]] std::size_t size() const { return width_ == 0 ? 0 : numbers_.size() / width_; }
+  [[nodiscard]] Row operator[](std::size_t i) const {
+    const double* row = numbers_.data() + i * width_;
+    return {row[0], row[1], row[2], row[3], {row + 4, width_ - 4}};
+  }
+  /// Appends a row. All states must have the same length.
+  void add(double w, double flight, double sliding, double phase, const State& state);
+  friend bool operator==(const ImpactTable&, const ImpactTable&) = default;
+
+ private:
+  std::size_t width_ = 0;
+  std::vector<double> numbers_;
+};
+
+/// What was found at one value in one direction.
+struct DiagramPoint {
+  double parameter = 0.0;
+  Direction direction = Direction::up;  ///< up or down
+  bool done = false;                    ///< false only if the sweep was cancelled before
+  ImpactTable impacts;                  ///< empty if there are none, or after a failure
+  double periods = 0.0;                 ///< length of the recording
+  std::string failure;                  ///< one line, what the NumericalError or InputError said; else empty
+  std::string note;                     ///< e.g. that the carried state does not fit this model; else empty
+  friend bool operator==(const DiagramPoint&, const DiagramPoint&) = default;
+};
+
+struct Diagram {
+  /// Up: ascending values; down: after those of up, in descending order, as they were run.
+  std::vector<DiagramPoint> points;
+  bool complete = true;  ///< false if cancelled
+  friend bool operator==(const Diagram&, const Diagram&) = default;
+};
+
+/// Value i of a sweep: from + i (to - from) / (count - 1), with the last one exactly `to`.
+[[nodiscard]] double sweep_value(double from, double to, int count, int i);
+
+/// Runs the sweep. A failure at one value is noted there and never ends the sweep; a chain goes on from the last state it has.
+/// @throws InputError for a meaningless problem (count, from, to, ...), naming the field; what `progress` throws
+/// Cost: the periods of transient and recording, at about a microsecond each, over the threads. With `carry` the
+/// transients of a direction take their own time in sequence whatever the number of threads.
+[[nodiscard]] Diagram run_diagram(const DiagramProblem& problem);
+
+}  // namespace slapstick::sweep

@@ -1,0 +1,123 @@
+#include "slapstick/sweep/diagram.hpp"
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
+#include <cmath>
+#include <mutex>
+#include <optional>
+
+#include "slapstick/base/error.hpp"
+#include "slapstick/base/text.hpp"
+#include "sweep/diagram_point.hpp"
+#include "sweep/fork_join.hpp"
+
+namespace slapstick::sweep {
+namespace {
+
+void demand(bool good, const std::string& message) {
+  if (!good) throw InputError("diagram: " + message);
+}
+
+void check(const DiagramProblem& problem) {
+  const auto at_least = [](const char* name, int value, int least) {
+    demand(value >= least, std::string(name) + " = " + std::to_string(value) + " is below " + std::to_string(least));
+  };
+  demand(problem.model_at != nullptr && problem.start_at != nullptr, "model_at and start_at must be given");
+  demand(std::isfinite(problem.from) && std::isfinite(problem.to), "from and to must be finite");
+  if (problem.count == 1) {
+    demand(problem.from == problem.to, "one value needs from == to");
+  } else {
+    at_least("count", problem.count, 2);
+    demand(problem.from < problem.to, "from = " + shown(problem.from) + " is not below to = " + shown(problem.to));
+  }
+  at_least("transient_periods", problem.transient_periods, 0);
+  at_least("impacts", problem.impacts, 1);
+  at_least("most_periods", problem.most_periods, 1);
+  at_least("threads", problem.threads, 0);
+  demand(problem.start == StartRule::carry || problem.direction != Direction::both,
+         "with start = reset, up and down are the same: choose one of them, or start = carry");
+}
+
+/// One sweep while it runs: the results, and the tasks that fill them.
+class Run {
+ public:
+  explicit Run(const DiagramProblem& problem) : problem_(problem) {
+    if (problem.direction != Direction::down)
+      for (int i = 0; i < problem.count; ++i) add_point(i, Direction::up);
+    if (problem.direction != Direction::up)
+      for (int i = problem.count - 1; i >= 0; --i) add_point(i, Direction::down);
+  }
+
+  Diagram operator()() {
+    fork_join::fork();
+    const std::size_t total = diagram_.points.size(), chain = static_cast<std::size_t>(problem_.count);
+    if (problem_.start == StartRule::carry) {
+      for (std::size_t begin = 0; begin < total; begin += chain)
+        tasks_.run([this, begin, chain] { go_on({}, begin, begin + chain); });
+    } else {
+      for (std::size_t i = 0; i < total; ++i) tasks_.run([this, i] { go_on({}, i, i + 1); });
+    }
+    tasks_.wait();
+    fork_join::join();
+    for (const DiagramPoint& point : diagram_.points) diagram_.complete = diagram_.complete && point.done;
+    return std::move(diagram_);
+  }
+
+ private:
+  void add_point(int i, Direction direction) {
+    DiagramPoint& point = diagram_.points.emplace_back();
+    point.parameter = sweep_value(problem_.from, problem_.to, problem_.count, i);
+    point.direction = direction;
+  }
+
+  /// The point at `index`, then its chain up to `end`. The rest of the chain is offered to other threads before this one records;
+  /// a thread takes its own newest task first, so that without other threads at most one recording waits.
+  void go_on(Carried carried, std::size_t index, std::size_t end) {
+    fork_join::enter();
+    if (!cancelled(problem_)) {
+      DiagramPoint& point = diagram_.points[index];
+      std::optional<Settled> settled = settle(problem_, carried, point);
+      if (settled && index + 1 < end) carried = carry_on(*settled);
+      if (index + 1 < end) {
+        fork_join::fork();
+        tasks_.run([this, carried = std::move(carried), index, end] { go_on(carried, index + 1, end); });
+      }
+      if (settled) record(problem_, std::move(*settled), point);
+      if (point.done) report();
+    }
+    fork_join::leave();
+  }
+
+  void report() {
+    if (!problem_.progress) return;
+    const std::lock_guard lock(progress_);
+    problem_.progress(++done_, static_cast<int>(diagram_.points.size()));
+  }
+
+  const DiagramProblem& problem_;
+  Diagram diagram_;
+  tbb::task_group tasks_;
+  std::mutex progress_;
+  int done_ = 0;
+};
+
+}  // namespace
+
+double sweep_value(double from, double to, int count, int i) {
+  if (count == 1 || i == 0) return from;
+  return i == count - 1 ? to : from + (to - from) * (static_cast<double>(i) / (count - 1));
+}
+
+Diagram run_diagram(const DiagramProblem& problem) {
+  check(problem);
+  std::optional<tbb::global_control> more_than_there_are_cores;
+  if (problem.threads > 0)
+    more_than_there_are_cores.emplace(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(problem.threads));
+  tbb::task_arena arena(problem.threads > 0 ? problem.threads : tbb::task_arena::automatic);
+  return arena.execute([&] { return Run(problem)(); });
+}
+
+}  // namespace slapstick::sweep

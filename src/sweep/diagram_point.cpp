@@ -1,0 +1,118 @@
+#include "sweep/diagram_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "slapstick/base/error.hpp"
+#include "slapstick/base/floating_point.hpp"
+
+namespace slapstick::sweep {
+namespace {
+
+/// Runs `body`; what it throws becomes the point's failure. Running out of memory is no property of the point.
+template <class Body>
+bool attempt(DiagramPoint& point, const Body& body) {
+  try {
+    body();
+    return true;
+  } catch (const NumericalError& error) {
+    point.failure = error.what();
+  } catch (const InputError& error) {
+    point.failure = error.what();
+  }
+  point.impacts = {};
+  point.done = true;
+  return false;
+}
+
+Motion start_motion(const DiagramProblem& problem, const Carried& carried, const System& system, DiagramPoint& point) {
+  if (!carried.state.empty()) {
+    State state = carried.state;
+    undo_rounding(system.model(), state);
+    try {
+      return Motion(system, state, Instant{0, carried.fraction});
+    } catch (const InputError& error) {
+      point.note = std::string("started anew: ") + error.what();
+    }
+  }
+  return Motion(system, problem.start_at(point.parameter));
+}
+
+Instant after(const ImpactSection& section, int periods) {
+  const Instant now = section.motion().time();
+  return {now.period + periods, now.fraction};
+}
+
+double x_of(const State& state, int coordinate) {
+  return coordinate == ground ? 0.0 : state[2 * static_cast<std::size_t>(coordinate)];
+}
+
+}  // namespace
+
+void undo_rounding(const Model& model, State& state) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const Stop& stop : model.stops) {
+    const auto excess = [&] { return x_of(state, stop.a) - x_of(state, stop.b) - stop.clearance; };
+    const double scale =
+        std::max({std::abs(x_of(state, stop.a)), std::abs(x_of(state, stop.b)), std::abs(stop.clearance)});
+    if (excess() > 4.0 * std::numeric_limits<double>::epsilon() * scale) continue;  // a violation, not a rounding error
+    double& x = state[2 * static_cast<std::size_t>(stop.a == ground ? stop.b : stop.a)];
+    const double outwards = stop.a == ground ? infinity : -infinity;
+    for (int i = 0; i < 16 && excess() > 0.0; ++i) x = std::nextafter(x, outwards);
+  }
+}
+
+std::optional<Settled> settle(const DiagramProblem& problem, const Carried& carried, DiagramPoint& point) {
+  const IeeeArithmetic ieee;
+  std::optional<Settled> settled;
+  bool interrupted = false;
+  const bool good = attempt(point, [&] {
+    auto system = std::make_shared<const System>(problem.model_at(point.parameter));
+    if (system->model().stops.empty())
+      throw InputError("model '" + system->model().name + "' has no stop, so there are no impacts to record");
+    ImpactSection section(start_motion(problem, carried, *system, point));
+    const Instant end = after(section, problem.transient_periods);
+    SectionPoint passed;
+    while (section.next(end, passed)) {
+      if ((interrupted = cancelled(problem))) return;
+    }
+    settled.emplace(Settled{std::move(system), std::move(section)});
+  });
+  if (!good || interrupted) return std::nullopt;
+  return settled;
+}
+
+Carried carry_on(const Settled& settled) {
+  const Motion& motion = settled.section.motion();
+  return {motion.state(), motion.time().fraction};
+}
+
+void record(const DiagramProblem& problem, Settled settled, DiagramPoint& point) {
+  const IeeeArithmetic ieee;
+  bool interrupted = false;
+  const bool good = attempt(point, [&] {
+    ImpactSection& section = settled.section;
+    const Instant begin = section.motion().time();
+    const Instant end = after(section, problem.most_periods);
+    SectionPoint impact;
+    while (point.impacts.size() < static_cast<std::size_t>(problem.impacts) && section.next(end, impact)) {
+      if ((interrupted = cancelled(problem))) return;
+      if (!std::isnan(impact.flight))
+        point.impacts.add(impact.w, impact.flight, impact.sliding, impact.phase, impact.state);
+    }
+    point.periods = section.motion().time().since(begin);
+  });
+  if (interrupted) point.impacts = {};
+  point.done = !good || !interrupted;
+}
+
+void ImpactTable::add(double w, double flight, double sliding, double phase, const State& state) {
+  if (width_ == 0) width_ = 4 + state.size();
+  if (width_ != 4 + state.size()) throw std::logic_error("ImpactTable: states of different length");
+  numbers_.insert(numbers_.end(), {w, flight, sliding, phase});
+  numbers_.insert(numbers_.end(), state.begin(), state.end());
+}
+
+}  // namespace slapstick::sweep

@@ -129,6 +129,7 @@ void Motion::begin_segment() {
   segment_start_ = now_;
   segment_mode_ = mode_;
   elapsed_ = 0.0;
+  hit_guard_ = nullptr;
   X_segment_ = X_;
   ++counters_.segments;
   if (!resume_) return;
@@ -206,6 +207,7 @@ void Motion::arrive(double x) {
 
 void Motion::handle(int guard, bool graze) {
   const mode::Guard& hit = system_->mode(mode_).guards()[guard];
+  hit_guard_ = &hit;
   X_before_ = X_;
   switch (hit.kind) {
     case GuardKind::gap:

@@ -91,6 +91,9 @@ class Motion {
   /// User's state at time s in [0, duration] of the segment flown last.
   void sample(double s, std::span<double> out) const;
 
+  /// The guard whose zero ended the last segment; null if the segment ended without one (cut, chatter limit).
+  [[nodiscard]] const mode::Guard* hit_guard() const { return hit_guard_; }
+
   /// The extended state now, and just before the last event, for analyses that work in contact coordinates.
   [[nodiscard]] std::span<const double> extended() const { return X_; }
   [[nodiscard]] std::span<const double> extended_before() const { return X_before_; }
@@ -137,6 +140,7 @@ class Motion {
   Event event_;
   std::array<Event, 8> pending_;
   int pending_count_ = 0;
+  const mode::Guard* hit_guard_ = nullptr;
   Counters counters_;
   std::int64_t budget_period_ = 0;
   long budget_events_ = 0;

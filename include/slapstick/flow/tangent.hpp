@@ -1,0 +1,43 @@
+#pragma once
+/// Linearised flow through events: how small changes of the state are carried along a motion.
+///
+/// Along a segment a tangent vector obeys delta' = A delta (no forcing, no constants). At an event with guard h, reset R and flows f-, f+
+///     dt = -(h . delta-) / (dh/dt-),     delta+ = R (delta- + f- dt) - f+ dt
+/// (the saltation matrix applied; dh/dt includes the forcing). R is the impact law at an impact, else the identity. Entering stick
+/// annihilates the slip direction exactly; a chatter limit annihilates gap and relative velocity. A graze is passed unchanged: the
+/// derivative is unbounded there.
+///
+/// Vectors are in contact coordinates (p, u), 2 n long, at fixed time (phase).
+/// Source: system page, section 3; Leine and Nijmeijer (2004), chapter 7.
+#include <Eigen/Dense>
+
+#include "slapstick/flow/motion.hpp"
+
+namespace slapstick {
+
+class TangentMotion {
+ public:
+  /// Carries the columns of `tangents` (2n x k) along with a motion from `state`. Sets up its buffers here.
+  TangentMotion(const System& system, const State& state, Eigen::MatrixXd tangents, Instant start = {},
+                MotionOptions options = {});
+
+  /// As Motion::advance; the tangents follow. Cost: one propagation per column and segment.
+  Outcome advance(Instant end);
+
+  [[nodiscard]] const Motion& motion() const { return motion_; }
+  [[nodiscard]] const Eigen::MatrixXd& tangents() const { return tangents_; }
+  /// Replaces the tangents (to normalise or orthogonalise them).
+  void set_tangents(const Eigen::MatrixXd& tangents) { tangents_ = tangents; }
+
+ private:
+  void flow(const Motion::Segment& segment);
+  void jump(const Event& event);
+
+  Motion motion_;
+  Eigen::MatrixXd tangents_;
+  std::vector<double> delta_, next_;
+  std::vector<event::Lane8> out_;
+  long segments_seen_ = 0;
+};
+
+}  // namespace slapstick

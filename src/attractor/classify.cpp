@@ -1,0 +1,182 @@
+#include "slapstick/attractor/classify.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "attractor/exponent.hpp"
+#include "attractor/return_map.hpp"
+#include "slapstick/base/error.hpp"
+
+namespace slapstick {
+
+std::string_view name(Attractor attractor) {
+  constexpr std::string_view names[] = {"periodic", "quasi-periodic", "chaotic", "undecided"};
+  return names[static_cast<int>(attractor)];
+}
+
+std::string_view name(Chatter chatter) {
+  constexpr std::string_view names[] = {"none", "incomplete", "complete"};
+  return names[static_cast<int>(chatter)];
+}
+
+namespace {
+
+using attractor::PeriodEvents;
+using Eigen::VectorXd;
+
+/// The search for a return of the stroboscopic state.
+class ReturnSearch {
+ public:
+  ReturnSearch(const System& system, const State& state, const ClassifyOptions& options)
+      : system_(system), options_(options), motion_(system, state) {
+    scale_ = VectorXd::Constant(2 * system.frame().n, 1e-300);
+  }
+
+  /// Runs up to `periods` more; true once a cycle is found, which `result` then holds.
+  bool run(int periods, Classification& result);
+  [[nodiscard]] State state() const { return motion_.state(); }
+  [[nodiscard]] long periods() const { return motion_.time().period; }
+  void discard(int periods) {
+    for (int k = 0; k < periods; ++k) attractor::run_one_period(motion_);
+  }
+
+ private:
+  [[nodiscard]] const VectorXd& back(long n) const { return states_[states_.size() - 1 - static_cast<std::size_t>(n)]; }
+  [[nodiscard]] double returned(long n, long cycles_ago = 0) const {
+    return attractor::distance(back(cycles_ago * n), back((cycles_ago + 1) * n), scale_);
+  }
+  void note_period();
+  bool same_events(long n) const;
+  [[nodiscard]] int shortest_cycle(const VectorXd& x, int n) const;
+  bool accept(const VectorXd& x, int cycle, double returned, Classification& result);
+  bool try_newton(int n, Classification& result);
+
+  const System& system_;
+  const ClassifyOptions& options_;
+  Motion motion_;
+  VectorXd scale_;  ///< size of the motion: positions share one number, velocities another
+  std::vector<VectorXd> states_;
+  std::vector<PeriodEvents> events_;
+  long next_newton_ = 8;
+};
+
+void ReturnSearch::note_period() {
+  events_.push_back(attractor::run_one_period(motion_));
+  states_.push_back(attractor::contact_state(motion_));
+  const auto n = system_.frame().n;
+  const double position = states_.back().head(n).cwiseAbs().maxCoeff(),
+               speed = states_.back().tail(n).cwiseAbs().maxCoeff();
+  scale_.head(n) = scale_.head(n).cwiseMax(position);
+  scale_.tail(n) = scale_.tail(n).cwiseMax(speed);
+  if (states_.size() > 4u * static_cast<unsigned>(options_.most_n) + 4u) {  // keep what comparisons can reach
+    states_.erase(states_.begin(), states_.begin() + 2 * options_.most_n);
+    events_.erase(events_.begin(), events_.begin() + 2 * options_.most_n);
+  }
+}
+
+bool ReturnSearch::same_events(long n) const {
+  const auto size = static_cast<long>(events_.size());
+  for (long i = 1; i <= n; ++i) {
+    if (!(events_[size - i] == events_[size - i - n])) return false;
+  }
+  return true;
+}
+
+bool ReturnSearch::run(int periods, Classification& result) {
+  for (int k = 0; k < periods; ++k) {
+    note_period();
+    const auto kept = static_cast<long>(states_.size());
+    const bool newton_turn = k >= next_newton_;
+    for (int n = 1; n <= options_.most_n && 2 * n < kept; ++n) {
+      const double d = returned(n);
+      if (d <= options_.tolerance && same_events(n) && returned(n, 1) <= 2.0 * options_.tolerance)
+        return accept(back(0), n, d, result);
+      const bool approaching = 3 * n < kept && d < options_.newton_start && d < returned(n, 1);
+      if (newton_turn && approaching && try_newton(n, result)) return true;
+    }
+    if (newton_turn) next_newton_ = k + 8 + k / 4;
+  }
+  next_newton_ = 8;
+  return false;
+}
+
+/// Newton's method on the n-period map also finds cycles whose length divides n.
+int ReturnSearch::shortest_cycle(const VectorXd& x, int n) const {
+  for (int d = 1; d < n; ++d) {
+    if (n % d == 0 && attractor::distance(attractor::return_map(system_, x, d).image, x, scale_) < 1e-8) return d;
+  }
+  return n;
+}
+
+bool ReturnSearch::accept(const VectorXd& x, int cycle, double d, Classification& result) {
+  const int n = shortest_cycle(x, cycle);
+  result.attractor = Attractor::periodic;
+  result.return_distance = d;
+  attractor::record_cycle(system_, attractor::user_state(system_, x), n, result);
+  result.multipliers = attractor::multipliers_of(attractor::return_map(system_, x, n).jacobian);
+  return true;
+}
+
+/// A stable fixed point of the n-period map close by that the motion is drawn to.
+bool ReturnSearch::try_newton(int n, Classification& result) {
+  const auto found = attractor::fixed_point(system_, back(0), n, scale_);
+  if (!found || !found->stable()) return false;
+  const double before = attractor::distance(back(0), found->x, scale_);
+  if (before > 10.0 * options_.newton_start) return false;
+  // Long enough for the slowest multiplier to halve the distance.
+  const double slowest = found->multipliers.empty() ? 0.0 : std::abs(found->multipliers.front());
+  const double cycles = slowest > 0.5 ? std::ceil(std::log(0.5) / std::log(slowest)) : 1.0;
+  if (cycles * n > options_.most_periods) return false;
+  Motion trial = motion_;
+  for (long k = 0; k < static_cast<long>(cycles) * n; ++k) attractor::run_one_period(trial);
+  const double after = attractor::distance(attractor::contact_state(trial), found->x, scale_);
+  if (after > 0.8 * before + options_.tolerance) return false;
+  return accept(found->x, n, after, result);
+}
+
+void decide_aperiodic(const attractor::RunFigures& run, const ClassifyOptions& options, Classification& result) {
+  result.exponent = run.exponent;
+  result.exponent_error = run.exponent_error;
+  result.digits = run.digits;
+  result.sticking = run.events.sticks > 0 || run.events.chatters > 0;
+  result.chatter = run.events.chatters > 0 ? Chatter::complete : run.burst ? Chatter::incomplete : Chatter::none;
+  const bool positive = run.exponent > 3.0 * run.exponent_error && run.exponent > 0.005;
+  if (positive && run.digits < options.curve_digits)
+    result.attractor = Attractor::chaotic;
+  else if (!positive && run.exponent > -0.005 && run.digits >= options.curve_digits)
+    result.attractor = Attractor::quasi_periodic;
+  else
+    result.attractor = Attractor::undecided;
+  result.label = name(result.attractor);
+}
+
+}  // namespace
+
+Classification classify(const System& system, const State& state, const ClassifyOptions& options) {
+  if (!system.model().forced())
+    throw InputError("model '" + system.model().name + "' has no periodic forcing: n-p classes count forcing periods");
+  Classification result;
+  ReturnSearch search(system, state, options);
+  search.discard(options.transient_periods);
+  // Rounds of growing length: a clearly chaotic motion is recognised early, a slow approach gets its time.
+  for (int round = std::max(500, 4 * options.most_n), done = 0; done < options.most_periods; round *= 4) {
+    const int periods = std::min(round, options.most_periods - done);
+    if (search.run(periods, result)) break;
+    done += periods;
+    const bool last = done >= options.most_periods;
+    const auto run =
+        attractor::run_figures(system, search.state(), last ? options.exponent_periods : options.exponent_periods / 4);
+    decide_aperiodic(run, options, result);
+    result.state = run.state;
+    const bool clear =
+        result.attractor == Attractor::chaotic && run.exponent > 10.0 * run.exponent_error && run.exponent > 0.02;
+    if (clear || last) break;
+    result = {};
+  }
+  if (result.attractor == Attractor::periodic && !result.multipliers.empty())
+    result.exponent = std::log(std::abs(result.multipliers.front())) / result.n;
+  result.periods_used = search.periods();
+  return result;
+}
+
+}  // namespace slapstick

@@ -1,0 +1,94 @@
+#include "attractor/cycle.hpp"
+
+#include <cmath>
+
+namespace slapstick::attractor {
+
+PeriodEvents run_one_period(Motion& motion) {
+  PeriodEvents count;
+  const Instant end{motion.time().period + 1, 0.0};
+  while (motion.advance(end) == Outcome::event) {
+    const EventKind kind = motion.event().kind;
+    count.impacts += kind == EventKind::impact;
+    count.sticks += kind == EventKind::stick;
+    count.chatters += kind == EventKind::chatter;
+  }
+  return count;
+}
+
+Eigen::VectorXd contact_state(const Motion& motion) {
+  return Eigen::Map<const Eigen::VectorXd>(motion.extended().data(), 2 * motion.system().frame().n);
+}
+
+State user_state(const System& system, const Eigen::VectorXd& contact) {
+  State state(static_cast<std::size_t>(contact.size()));
+  system.frame().leave(contact.data(), state.data());
+  return state;
+}
+
+double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::VectorXd& scale) {
+  return ((a - b).array().abs() / scale.array()).maxCoeff();
+}
+
+bool has_burst(const std::vector<double>& times, const std::vector<double>& speeds) {
+  int shrinking = 1;
+  for (std::size_t i = 2; i < times.size(); ++i) {
+    const bool sooner = times[i] - times[i - 1] < times[i - 1] - times[i - 2];
+    shrinking = sooner && speeds[i] < speeds[i - 1] && speeds[i - 1] < speeds[i - 2] ? shrinking + 1 : 1;
+    if (shrinking >= 3) return true;  // four impacts: three flights and speeds in a row
+  }
+  return false;
+}
+
+namespace {
+
+/// "1-1-II", "2-inf-II".
+std::string cycle_label(const Classification& c) {
+  const std::string p = c.chatter == Chatter::complete ? "inf" : std::to_string(c.p);
+  return std::to_string(c.n) + "-" + p + (c.sticking ? "-II" : "-I");
+}
+
+bool holds_still(const Motion& motion, int mode) {
+  const mode::ContactStates& states = motion.system().mode(mode).states();
+  for (mode::FrictionState s : states.frictions) {
+    if (s == mode::FrictionState::stick) return true;
+  }
+  for (mode::StopState s : states.stops) {
+    if (s == mode::StopState::closed) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void record_cycle(const System& system, const State& state, int n, Classification& out) {
+  Motion motion(system, state);
+  std::vector<double> times, speeds;
+  double still = 0.0;
+  out.n = n;
+  out.state = state;
+  out.impacts.clear();
+  out.chatter = Chatter::none;
+  for (bool running = true; running;) {
+    running = motion.advance({n, 0.0}) == Outcome::event;
+    const Motion::Segment segment = motion.segment();
+    const bool flown = running ? motion.event().time != segment.start : true;
+    if (flown && holds_still(motion, segment.mode)) still += segment.duration / system.period();
+    if (!running) break;
+    const Event& event = motion.event();
+    if (event.kind == EventKind::impact) {
+      const std::span<const double> before = motion.before();
+      out.impacts.push_back({event.time.fraction, event.w, State(before.begin(), before.end())});
+      times.push_back(event.time.since({}));
+      speeds.push_back(event.w);
+    }
+    if (event.kind == EventKind::chatter) out.chatter = Chatter::complete;
+  }
+  out.p = static_cast<long>(out.impacts.size());
+  out.sticking_fraction = still / n;
+  out.sticking = still > 0.0;
+  if (out.chatter == Chatter::none && has_burst(times, speeds)) out.chatter = Chatter::incomplete;
+  out.label = cycle_label(out);
+}
+
+}  // namespace slapstick::attractor

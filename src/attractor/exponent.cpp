@@ -1,0 +1,91 @@
+#include "attractor/exponent.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "slapstick/flow/tangent.hpp"
+
+namespace slapstick::attractor {
+namespace {
+
+constexpr int batches = 20;
+
+double weighted_average(const double* values, std::size_t count) {
+  double sum = 0.0, total = 0.0;
+  for (std::size_t i = 1; i < count; ++i) {
+    const double t = static_cast<double>(i) / static_cast<double>(count);
+    const double weight = std::exp(-1.0 / (t * (1.0 - t)));
+    sum += weight * values[i];
+    total += weight;
+  }
+  return sum / total;
+}
+
+/// Mean and standard error of the batch means.
+void batch_statistics(const std::vector<double>& growth, double& mean, double& error) {
+  const std::size_t length = growth.size() / batches;
+  double sum = 0.0, squares = 0.0;
+  for (int b = 0; b < batches; ++b) {
+    double batch = 0.0;
+    for (std::size_t i = 0; i < length; ++i) batch += growth[b * length + i];
+    batch /= static_cast<double>(length);
+    sum += batch;
+    squares += batch * batch;
+  }
+  mean = sum / batches;
+  error = std::sqrt(std::max(0.0, squares / batches - mean * mean) / (batches - 1));
+}
+
+}  // namespace
+
+double birkhoff_digits(const std::vector<double>& sequence) {
+  const std::size_t half = sequence.size() / 2;
+  if (half < 50) return 0.0;
+  const auto [low, high] = std::ranges::minmax(sequence);
+  if (high == low) return 16.0;
+  const double difference = weighted_average(sequence.data(), half) - weighted_average(sequence.data() + half, half);
+  return std::min(16.0, -std::log10(std::abs(difference) / (high - low) + 1e-17));
+}
+
+RunFigures run_figures(const System& system, const State& state, int periods) {
+  const Eigen::Index size = 2 * system.frame().n;
+  // A fixed direction with no symmetry: every run of the same motion gives the same bits.
+  Eigen::MatrixXd tangent(size, 1);
+  for (Eigen::Index i = 0; i < size; ++i) tangent(i, 0) = std::cos(1.0 + 2.0 * static_cast<double>(i));
+  tangent.normalize();
+  TangentMotion motion(system, state, tangent);
+  RunFigures figures;
+  std::vector<double> growth, speeds, phases, times, strobe;
+  bool dead = false;
+  const int discard = periods / 20;  // until the tangent points along the fastest growing direction
+  for (int k = 0; k < periods + discard; ++k) {
+    while (motion.advance({k + 1, 0.0}) == Outcome::event) {
+      const Event& event = motion.motion().event();
+      figures.events.sticks += event.kind == EventKind::stick;
+      figures.events.chatters += event.kind == EventKind::chatter;
+      if (event.kind != EventKind::impact) continue;
+      ++figures.events.impacts;
+      speeds.push_back(event.w);
+      times.push_back(event.time.since({}));
+      phases.push_back(std::cos(2.0 * std::numbers::pi * event.time.fraction));
+    }
+    strobe.push_back(motion.motion().extended()[0]);
+    const double norm = motion.tangents().norm();
+    dead = dead || norm < 1e-280;
+    if (dead) continue;
+    if (k >= discard) growth.push_back(std::log(norm));
+    motion.set_tangents(motion.tangents() / norm);
+  }
+  if (dead)
+    figures.exponent = -INFINITY;
+  else
+    batch_statistics(growth, figures.exponent, figures.exponent_error);
+  figures.digits =
+      speeds.size() >= 100 ? std::min(birkhoff_digits(speeds), birkhoff_digits(phases)) : birkhoff_digits(strobe);
+  figures.state = motion.motion().state();
+  figures.burst = has_burst(times, speeds);
+  return figures;
+}
+
+}  // namespace slapstick::attractor

@@ -1,0 +1,44 @@
+#include "attractor/return_map.hpp"
+
+#include <algorithm>
+
+#include "slapstick/base/error.hpp"
+#include "slapstick/flow/tangent.hpp"
+
+namespace slapstick::attractor {
+
+MapValue return_map(const System& system, const Eigen::VectorXd& x, int n) {
+  const Eigen::Index size = x.size();
+  TangentMotion motion(system, user_state(system, x), Eigen::MatrixXd::Identity(size, size));
+  while (motion.advance({n, 0.0}) == Outcome::event) {
+  }
+  return {contact_state(motion.motion()), motion.tangents()};
+}
+
+std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& jacobian) {
+  const Eigen::VectorXcd values = jacobian.eigenvalues();
+  std::vector<std::complex<double>> sorted(values.begin(), values.end());
+  std::ranges::sort(sorted, [](auto a, auto b) {
+    return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : a.imag() > b.imag();
+  });
+  return sorted;
+}
+
+std::optional<FixedPoint> fixed_point(const System& system, Eigen::VectorXd x, int n, const Eigen::VectorXd& scale) {
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(x.size(), x.size());
+  try {
+    for (int step = 0; step < 12; ++step) {
+      const MapValue value = return_map(system, x, n);
+      const bool arrived = distance(value.image, x, scale) < 1e-11;
+      if (arrived) return FixedPoint{x, multipliers_of(value.jacobian)};
+      const Eigen::VectorXd correction = (value.jacobian - identity).partialPivLu().solve(x - value.image);
+      if (!correction.allFinite() || (correction.array().abs() / scale.array()).maxCoeff() > 0.5) return {};
+      x += correction;
+    }
+  } catch (const InputError&) {      // the correction led behind a stop
+  } catch (const NumericalError&) {  // or where the motion cannot be continued
+  }
+  return {};
+}
+
+}  // namespace slapstick::attractor

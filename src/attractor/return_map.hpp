@@ -1,0 +1,29 @@
+#pragma once
+/// The n-period stroboscopic map in contact coordinates with its Jacobian, and its fixed points by Newton's method.
+#include <optional>
+
+#include "attractor/cycle.hpp"
+
+namespace slapstick::attractor {
+
+struct MapValue {
+  Eigen::VectorXd image;
+  Eigen::MatrixXd jacobian;
+};
+
+/// P_n(x) from phase 0 and its derivative through all events.
+MapValue return_map(const System& system, const Eigen::VectorXd& x, int n);
+
+struct FixedPoint {
+  Eigen::VectorXd x;
+  std::vector<std::complex<double>> multipliers;  ///< largest modulus first
+  [[nodiscard]] bool stable() const { return multipliers.empty() || std::abs(multipliers.front()) < 1.0; }
+};
+
+/// Eigenvalues, largest modulus first.
+std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& jacobian);
+
+/// Newton's method on P_n(x) = x from `x`; empty if it does not reach 1e-11 of `scale` in 12 steps or leaves the stops' side.
+std::optional<FixedPoint> fixed_point(const System& system, Eigen::VectorXd x, int n, const Eigen::VectorXd& scale);
+
+}  // namespace slapstick::attractor

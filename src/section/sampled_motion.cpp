@@ -5,11 +5,11 @@
 
 namespace slapstick {
 
-SampledMotion::SampledMotion(Motion motion, int samples_per_period)
+SampledMotion::SampledMotion(Motion motion, int samples_per_period, Instant from)
     : motion_(std::move(motion)), behind_(motion_), per_period_(samples_per_period) {
   sample_.state.resize(2 * static_cast<std::size_t>(motion_.system().model().size()));
   if (per_period_ == 0) return;
-  const Instant start = motion_.time();
+  const Instant start = std::max(motion_.time(), from);
   aim(start.period * per_period_ + static_cast<std::int64_t>(std::floor(start.fraction * per_period_)));
   while (due_ < start) aim(index_ + 1);
 }
@@ -26,7 +26,7 @@ void SampledMotion::aim(std::int64_t index) {
 
 SampledMotion::Item SampledMotion::next(Instant end) {
   if (!flown_) {
-    if (per_period_ > 0) behind_ = motion_;
+    if (per_period_ > 0 && due_ <= end) behind_ = motion_;
     outcome_ = motion_.advance(end);
     reached_ = outcome_ == Outcome::event ? motion_.event().time : motion_.time();
     flown_ = true;

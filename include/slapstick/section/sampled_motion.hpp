@@ -17,8 +17,8 @@ class SampledMotion {
   };
 
   /// Takes the motion over; its System must outlive this object. The first sample is at the first multiple of a period /
-  /// `samples_per_period` from the motion's instant on. 0 samples: events only.
-  SampledMotion(Motion motion, int samples_per_period);
+  /// `samples_per_period` that is neither before the motion's instant nor before `from`. 0 samples: events only.
+  SampledMotion(Motion motion, int samples_per_period, Instant from = {});
 
   /// What comes next up to `end`, in order of time; a sample comes before an event of the same instant. No allocation after the first.
   /// @throws NumericalError as Motion::advance; the samples since the last event are then lost

@@ -1,0 +1,152 @@
+#include "arguments.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <functional>
+
+#include "slapstick/base/error.hpp"
+#include "slapstick/base/nearest.hpp"
+
+namespace slapstick::app {
+
+struct Arguments::Parser {
+  CLI::App app;
+  std::vector<std::string> names;                  // of the options, with dashes
+  std::vector<std::function<void()>> conversions;  // texts into numbers, after parsing
+};
+
+namespace {
+
+/// The first line, without what CLI11 adds for people who see its help at once.
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+Arguments::Arguments(const std::string& verb, const std::string& summary) : parser_(std::make_unique<Parser>()) {
+  CLI::App& app = parser_->app;
+  app.name("slapstick " + verb);
+  app.description(summary);
+  app.set_help_flag("-h,--help", "this text");
+  app.get_formatter()->column_width(34);
+  app.get_formatter()->label("REQUIRED", "");
+  parser_->names = {"--help"};
+}
+
+Arguments::~Arguments() = default;
+
+void Arguments::positional(const std::string& name, std::string& target, const std::string& help) {
+  parser_->app.add_option(name, target, help)->required()->type_name("");
+}
+
+void Arguments::text(const std::string& name, std::string& target, const std::string& value, const std::string& help) {
+  parser_->app.add_option(name, target, help)->type_name(value);
+  parser_->names.push_back(name);
+}
+
+void Arguments::repeated(const std::string& name, std::vector<std::string>& target, const std::string& value,
+                         const std::string& help) {
+  parser_->app.add_option(name, target, help)->type_name(value)->allow_extra_args(false);
+  parser_->names.push_back(name);
+}
+
+void Arguments::number(const std::string& name, double& target, const std::string& value, const std::string& help) {
+  auto words = std::make_shared<std::string>();
+  text(name, *words, value, help);
+  parser_->conversions.emplace_back([this, name, words, &target] {
+    if (given(name)) target = parse_number(name, *words);
+  });
+}
+
+void Arguments::count(const std::string& name, long long& target, long long least, long long most,
+                      const std::string& help) {
+  auto words = std::make_shared<std::string>();
+  text(name, *words, "N", help);
+  parser_->conversions.emplace_back([this, name, words, least, most, &target] {
+    if (given(name)) target = parse_integer(name, *words, least, most);
+  });
+}
+
+void Arguments::choice(const std::string& name, std::string& target, const std::vector<std::string>& words,
+                       const std::string& help) {
+  std::string list;
+  for (const auto& word : words) list += (list.empty() ? "" : "|") + word;
+  text(name, target, list, help);
+  parser_->conversions.emplace_back([name, words, &target] {
+    if (std::find(words.begin(), words.end(), target) == words.end())
+      throw InputError(name + ": " + in_quotes(target) + " is none of its words" + suggestion(target, words));
+  });
+}
+
+void Arguments::flag(const std::string& name, bool& target, const std::string& help) {
+  parser_->app.add_flag(name, target, help);
+  parser_->names.push_back(name);
+}
+
+void Arguments::footer(const std::string& text) { parser_->app.footer("\n" + text); }
+
+bool Arguments::given(const std::string& name) const { return parser_->app.get_option(name)->count() > 0; }
+
+std::string Arguments::help() const { return parser_->app.help(); }
+
+bool Arguments::parse(std::vector<std::string> words) {
+  std::reverse(words.begin(), words.end());  // CLI11 takes them from the back
+  try {
+    parser_->app.parse(words);
+  } catch (const CLI::CallForHelp&) {
+    return false;
+  } catch (const CLI::ExtrasError&) {
+    const std::string word = parser_->app.remaining().front();
+    const bool option = word.size() > 1 && word[0] == '-';
+    const std::string bare = word.substr(0, word.find('='));
+    if (option) throw InputError("unknown option " + in_quotes(bare) + suggestion(bare, parser_->names));
+    throw InputError("unexpected argument " + in_quotes(word));
+  } catch (const CLI::ParseError& error) {
+    throw InputError(one_line(error.what()) + " (see " + parser_->app.get_name() + " --help)");
+  }
+  for (const auto& convert : parser_->conversions) convert();
+  return true;
+}
+
+double parse_number(const std::string& argument, const std::string& text) {
+  const char* begin = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
+  const char* end = text.data() + text.size();
+  double value = 0.0;
+  const auto [rest, error] = std::from_chars(begin, end, value);
+  if (error == std::errc::result_out_of_range)
+    throw InputError(argument + ": " + in_quotes(text) + " is too large or too small for a number");
+  if (error != std::errc() || rest != end) throw InputError(argument + ": " + in_quotes(text) + " is not a number");
+  if (!std::isfinite(value)) throw InputError(argument + ": " + in_quotes(text) + " is not finite");
+  return value;
+}
+
+long long parse_integer(const std::string& argument, const std::string& text, long long least, long long most) {
+  long long value = 0;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool number = error != std::errc::invalid_argument && rest == text.data() + text.size();
+  if (!number) throw InputError(argument + ": " + in_quotes(text) + " is not a whole number");
+  if (error != std::errc() || value < least || value > most)
+    throw InputError(argument + ": " + in_quotes(text) + " is outside [" + std::to_string(least) + ", " +
+                     std::to_string(most) + "]");
+  return value;
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == separator) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+}  // namespace slapstick::app

@@ -1,0 +1,58 @@
+#pragma once
+/// The arguments of one verb. CLI11 lives behind this header, in arguments.cpp, and nowhere else.
+///
+/// A verb declares what it takes; each declaration binds a variable, whose present value is the default. Every mistake of the
+/// user becomes an InputError that names the argument.
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace slapstick::app {
+
+class Arguments {
+ public:
+  Arguments(const std::string& verb, const std::string& summary);
+  ~Arguments();
+  Arguments(const Arguments&) = delete;
+  Arguments& operator=(const Arguments&) = delete;
+
+  /// A required argument without a dash: "MODEL".
+  void positional(const std::string& name, std::string& target, const std::string& help);
+  /// `--name VALUE` with any text. `value` is what the help calls it: "FILE".
+  void text(const std::string& name, std::string& target, const std::string& value, const std::string& help);
+  /// The same, and may be repeated.
+  void repeated(const std::string& name, std::vector<std::string>& target, const std::string& value,
+                const std::string& help);
+  /// A finite number.
+  void number(const std::string& name, double& target, const std::string& value, const std::string& help);
+  /// A whole number in [least, most].
+  void count(const std::string& name, long long& target, long long least, long long most, const std::string& help);
+  /// One of several words.
+  void choice(const std::string& name, std::string& target, const std::vector<std::string>& words,
+              const std::string& help);
+  /// `--name` alone.
+  void flag(const std::string& name, bool& target, const std::string& help);
+  /// A paragraph at the end of the help.
+  void footer(const std::string& text);
+
+  /// True if the user gave this option (after `parse`).
+  [[nodiscard]] bool given(const std::string& name) const;
+  [[nodiscard]] std::string help() const;
+
+  /// Reads the words after the verb. @returns false if help was asked for. @throws InputError of one line
+  [[nodiscard]] bool parse(std::vector<std::string> words);
+
+ private:
+  struct Parser;
+  std::unique_ptr<Parser> parser_;
+};
+
+/// The number that `text` is, whole and finite. @throws InputError "ARGUMENT: 'text' is not a number"
+[[nodiscard]] double parse_number(const std::string& argument, const std::string& text);
+/// The same for a whole number in [least, most].
+[[nodiscard]] long long parse_integer(const std::string& argument, const std::string& text, long long least,
+                                      long long most);
+/// Splits at every `separator`; an empty text gives one empty part.
+[[nodiscard]] std::vector<std::string> split(const std::string& text, char separator);
+
+}  // namespace slapstick::app

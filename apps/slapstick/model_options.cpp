@@ -1,0 +1,97 @@
+#include "model_options.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "slapstick/base/error.hpp"
+#include "slapstick/base/nearest.hpp"
+
+namespace slapstick::app {
+namespace {
+
+/// A name as an axis shows it, in gnuplot's notation: x1 as x_{1}; an underscore that is part of the name stays one.
+std::string axis_name(const std::string& name) {
+  const std::size_t digits = name.find_first_of("0123456789");
+  if (digits == 1 && name.find_first_not_of("0123456789", digits) == std::string::npos)
+    return name.substr(0, 1) + "_{" + name.substr(1) + "}";
+  std::string text;
+  for (const char c : name) text += c == '_' ? std::string("\\_") : std::string(1, c);
+  return text;
+}
+
+}  // namespace
+
+void ModelOptions::declare(Arguments& arguments) {
+  arguments.positional("MODEL", source, "a built-in model (see `slapstick models`) or a .toml model file");
+  arguments.repeated("--set", sets, "NAME=VALUE", "give a parameter of the model another value; may be repeated");
+}
+
+void ModelOptions::declare_state(Arguments& arguments) {
+  arguments.text("--state", state, "x1=..,v1=..", "initial state; what is not named is the model's own start");
+}
+
+ChosenModel ModelOptions::load() const {
+  ModelDefinition definition = load_model(source);
+  Overrides overrides;
+  for (const std::string& set : sets) {
+    const auto [name, text] = name_and_text("--set", set, "NAME=VALUE");
+    if (!overrides.emplace(name, parse_number("--set " + name, text)).second)
+      throw InputError("--set: " + in_quotes(name) + " is set twice");
+  }
+  try {
+    Model model = definition.build(overrides);
+    return {std::move(definition), std::move(overrides), std::move(model)};
+  } catch (const InputError& error) {
+    if (overrides.empty()) throw;
+    throw InputError(std::string("--set: ") + error.what());
+  }
+}
+
+State ModelOptions::start(const ChosenModel& chosen, const Overrides& more) const {
+  Overrides overrides = more;
+  overrides.insert(chosen.overrides.begin(), chosen.overrides.end());
+  if (state.empty()) return chosen.definition.start(overrides);
+  State start(2 * static_cast<std::size_t>(chosen.model.size()), 0.0);
+  try {
+    start = chosen.definition.start(overrides);
+  } catch (const InputError&) {  // the model's own start does not fit these values; the user's may
+  }
+  const std::vector<std::string> names = state_names(chosen.model);
+  std::set<std::string> seen;
+  for (const std::string& part : split(state, ',')) {
+    const auto [name, text] = name_and_text("--state", part, "NAME=NUMBER,..");
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) throw InputError("--state: unknown name " + in_quotes(name) + suggestion(name, names));
+    if (!seen.insert(name).second) throw InputError("--state: " + in_quotes(name) + " is given twice");
+    start[static_cast<std::size_t>(found - names.begin())] = parse_number("--state " + name, text);
+  }
+  return start;
+}
+
+std::pair<std::string, std::string> name_and_text(const std::string& argument, const std::string& text,
+                                                  const std::string& form) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+    throw InputError(argument + ": " + in_quotes(text) + " is not of the form " + form);
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+RelativeMotion::RelativeMotion(const Model& model) {
+  if (!model.stops.empty()) {
+    a = model.stops[0].a;
+    b = model.stops[0].b;
+  } else if (!model.frictions.empty()) {
+    a = model.frictions[0].a;
+    b = model.frictions[0].b;
+  }
+  if (a == ground) std::swap(a, b);
+  const auto names = state_names(model);
+  const auto name = [&](int coordinate, int offset) {
+    return axis_name(names[2 * static_cast<std::size_t>(coordinate) + offset]);
+  };
+  displacement = name(a, 0) + (b == ground ? "" : " - " + name(b, 0));
+  velocity = name(a, 1) + (b == ground ? "" : " - " + name(b, 1));
+}
+
+}  // namespace slapstick::app

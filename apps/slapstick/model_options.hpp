@@ -1,0 +1,50 @@
+#pragma once
+/// MODEL, --set and --state: what most verbs begin with.
+#include <string>
+#include <vector>
+
+#include "arguments.hpp"
+#include "slapstick/io/model_file.hpp"
+
+namespace slapstick::app {
+
+/// A model with the user's values.
+struct ChosenModel {
+  ModelDefinition definition;
+  Overrides overrides;
+  Model model;
+};
+
+struct ModelOptions {
+  std::string source;             ///< MODEL
+  std::vector<std::string> sets;  ///< --set
+  std::string state;              ///< --state
+
+  void declare(Arguments& arguments);        ///< MODEL and --set
+  void declare_state(Arguments& arguments);  ///< --state
+  /// @throws InputError naming the argument
+  [[nodiscard]] ChosenModel load() const;
+  /// The start: the model's own, with the numbers of --state in place of it. `more` are parameter values on top of --set.
+  [[nodiscard]] State start(const ChosenModel& chosen, const Overrides& more = {}) const;
+};
+
+/// Splits "NAME=TEXT". @throws InputError naming the argument
+[[nodiscard]] std::pair<std::string, std::string> name_and_text(const std::string& argument, const std::string& text,
+                                                                const std::string& form);
+
+/// The displacement and velocity that a picture of the motion shows: x_a - x_b and v_a - v_b of the first stop, or else of the first
+/// friction contact, or else the first coordinate. A contact with the ground shows the coordinate itself.
+struct RelativeMotion {
+  explicit RelativeMotion(const Model& model);
+  int a = 0, b = ground;
+  std::string displacement, velocity;  ///< names for axes: "x_1 - x_2"
+  [[nodiscard]] double y(const State& state) const { return at(state, a, 0) - at(state, b, 0); }
+  [[nodiscard]] double w(const State& state) const { return at(state, a, 1) - at(state, b, 1); }
+
+ private:
+  static double at(const State& state, int coordinate, int offset) {
+    return coordinate == ground ? 0.0 : state[2 * static_cast<std::size_t>(coordinate) + offset];
+  }
+};
+
+}  // namespace slapstick::app

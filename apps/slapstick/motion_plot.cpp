@@ -1,0 +1,21 @@
+#include "motion_plot.hpp"
+
+namespace slapstick::app {
+
+figure::Figure MotionPlot::figure() const {
+  const std::string time = forced_ ? "t / T" : "t";
+  const auto curve = [](const std::string& x_label, const std::string& y_label, const std::vector<double>& x,
+                        const std::vector<double>& y) {
+    figure::Panel panel{.x_label = x_label, .y_label = y_label};
+    panel.lines.push_back({.x = x, .y = y, .colour = figure::colours::dark_blue, .width_pt = 0.6});
+    return panel;
+  };
+  figure::Figure figure{.width_cm = 12};
+  figure.panels.push_back(curve(relative_.displacement, relative_.velocity, y_, w_));
+  figure.panels.push_back(curve(time, relative_.displacement, t_, y_));
+  figure.panels.push_back(curve(time, relative_.velocity, t_, w_));
+  figure.panels.front().height_share = 2;
+  return figure;
+}
+
+}  // namespace slapstick::app

@@ -1,0 +1,205 @@
+/// slapstick diagram MODEL --sweep NAME=A:B:COUNT
+#include <cstdio>
+
+#include "model_options.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+#include "slapstick/base/error.hpp"
+#include "slapstick/base/text.hpp"
+#include "slapstick/sweep/diagram.hpp"
+#include "verb.hpp"
+
+namespace slapstick::app {
+namespace {
+
+using sweep::Direction;
+
+struct Options {
+  ModelOptions model;
+  std::string sweep, direction = "up", start = "carry", out, plot;
+  long long transient = 500, impacts = 200, most_periods = 5000, threads = 0;
+  bool progress = false;
+};
+
+struct Sweep {
+  std::string name;
+  double from = 0.0, to = 0.0;
+  int count = 0;
+};
+
+Sweep parse_sweep(const std::string& text) {
+  const auto [name, range] = name_and_text("--sweep", text, "NAME=FROM:TO:COUNT");
+  const auto parts = split(range, ':');
+  if (parts.size() != 3) throw InputError("--sweep: " + in_quotes(text) + " is not of the form NAME=FROM:TO:COUNT");
+  Sweep sweep{name, parse_number("--sweep FROM", parts[0]), parse_number("--sweep TO", parts[1]),
+              static_cast<int>(parse_integer("--sweep COUNT", parts[2], 2, 100'000'000))};
+  if (!(sweep.from < sweep.to))
+    throw InputError("--sweep: FROM = " + shown(sweep.from) + " is not below TO = " + shown(sweep.to) +
+                     " (use --direction down to sweep downwards)");
+  return sweep;
+}
+
+/// The model at one value; the same function for the check at both ends and for the sweep.
+Overrides values_at(const ChosenModel& chosen, const Sweep& sweep, double value) {
+  Overrides overrides = chosen.overrides;
+  overrides[sweep.name] = value;
+  return overrides;
+}
+
+/// What can be known to be wrong before hours of work.
+void check_ends(const Options& options, const ChosenModel& chosen, const Sweep& sweep) {
+  if (chosen.overrides.count(sweep.name) != 0)
+    throw InputError("--sweep: " + in_quotes(sweep.name) + " is given by --set too");
+  if (chosen.model.stops.empty())
+    throw InputError("model " + in_quotes(chosen.model.name) + " has no stop, so a diagram has no impacts to show");
+  for (const double value : {sweep.from, sweep.to}) {
+    try {
+      const Model model = chosen.definition.build(values_at(chosen, sweep, value));
+      validate(model, options.model.start(chosen, {{sweep.name, value}}));
+    } catch (const InputError& error) {
+      throw InputError("--sweep " + sweep.name + "=" + shown(value) + ": " + error.what());
+    }
+  }
+}
+
+sweep::DiagramProblem problem_of(const Options& options, const ChosenModel& chosen, const Sweep& sweep) {
+  sweep::DiagramProblem problem;
+  problem.model_at = [&chosen, sweep](double value) {
+    return chosen.definition.build(values_at(chosen, sweep, value));
+  };
+  problem.start_at = [&options, &chosen, sweep](double value) {
+    return options.model.start(chosen, {{sweep.name, value}});
+  };
+  problem.from = sweep.from;
+  problem.to = sweep.to;
+  problem.count = sweep.count;
+  problem.transient_periods = static_cast<int>(options.transient);
+  problem.impacts = static_cast<int>(options.impacts);
+  problem.most_periods = static_cast<int>(options.most_periods);
+  problem.direction = options.direction == "up"     ? Direction::up
+                      : options.direction == "down" ? Direction::down
+                                                    : Direction::both;
+  problem.start = options.start == "carry" ? sweep::StartRule::carry : sweep::StartRule::reset;
+  problem.threads = static_cast<int>(options.threads);
+  return problem;
+}
+
+void write_table(TableOutput& table, const sweep::Diagram& diagram) {
+  for (const sweep::DiagramPoint& point : diagram.points) {
+    for (std::size_t i = 0; i < point.impacts.size(); ++i) {
+      const auto row = point.impacts[i];
+      table.number(point.parameter).word(point.direction == Direction::up ? "up" : "down");
+      table.number(row.w).number(row.flight).number(row.sliding).number(row.phase).numbers(row.state).end_row();
+    }
+  }
+  table.commit();
+}
+
+figure::Figure picture(const sweep::Diagram& diagram, const Sweep& sweep, bool both) {
+  figure::Figure figure{.width_cm = 17.5, .share_x = true};
+  for (const bool flight : {false, true}) {
+    figure::Points up{.label = both ? "up" : "", .colour = figure::colours::dark_blue};
+    figure::Points down{.label = both ? "down" : "", .colour = figure::colours::vermillion};
+    for (const sweep::DiagramPoint& point : diagram.points) {
+      figure::Points& cloud = point.direction == Direction::up ? up : down;
+      for (std::size_t i = 0; i < point.impacts.size(); ++i) {
+        cloud.x.push_back(point.parameter);
+        cloud.y.push_back(flight ? point.impacts[i].flight : point.impacts[i].w);
+      }
+    }
+    std::string name;
+    for (const char c : sweep.name) name += c == '_' ? std::string("\\_") : std::string(1, c);
+    figure::Panel panel{.x_label = name,
+                        .y_label = flight ? "flight / period" : "w at impact",
+                        .x_range = figure::Range{sweep.from, sweep.to}};
+    for (auto& cloud : {up, down})
+      if (!cloud.x.empty()) panel.points.push_back(cloud);
+    figure.panels.push_back(std::move(panel));
+  }
+  return figure;
+}
+
+/// Says on standard error what a table cannot. @throws NumericalError if a value failed
+void report(const sweep::Diagram& diagram, const Sweep& sweep) {
+  long notes = 0, failures = 0, empty = 0;
+  const sweep::DiagramPoint *note = nullptr, *failure = nullptr;
+  for (const sweep::DiagramPoint& point : diagram.points) {
+    if (!point.note.empty() && notes++ == 0) note = &point;
+    if (!point.failure.empty() && failures++ == 0) failure = &point;
+    empty += point.done && point.failure.empty() && point.impacts.size() == 0;
+  }
+  const auto at = [&](const sweep::DiagramPoint& point) { return sweep.name + " = " + shown(point.parameter); };
+  if (empty > 0) std::fprintf(stderr, "slapstick: %ld values have no impacts (see --most-periods)\n", empty);
+  if (note != nullptr)
+    std::fprintf(stderr, "slapstick: %ld values, first %s: %s\n", notes, at(*note).c_str(), note->note.c_str());
+  if (failure != nullptr)
+    throw NumericalError(std::to_string(failures) + " of " + std::to_string(diagram.points.size()) +
+                         " values failed (the others are written), first " + at(*failure) + ": " + failure->failure);
+}
+
+int diagram(const Options& options, const Context& context) {
+  const Sweep sweep = parse_sweep(options.sweep);
+  const ChosenModel chosen = options.model.load();
+  check_ends(options, chosen, sweep);
+  FileRoles roles;
+  roles.add("MODEL", options.model.source);
+  roles.add("--out", options.out);
+  roles.add_plot(options.plot);
+  const Plot plot(options.plot);
+  std::vector<std::string> columns{sweep.name, "direction", "w", "flight", "sliding", "phase"};
+  for (const std::string& name : state_names(chosen.model)) columns.push_back(name);
+  TableOutput table(options.out, columns);
+
+  sweep::DiagramProblem problem = problem_of(options, chosen, sweep);
+  sweep::Diagram result;
+  {
+    Progress progress("values", sweep.count * (problem.direction == Direction::both ? 2.0 : 1.0), options.progress);
+    problem.progress = [&](int count, int) { progress.update(count); };
+    problem.cancel = &context.stop;
+    result = sweep::run_diagram(problem);
+  }
+  write_table(table, result);
+  bool any = false;
+  for (const sweep::DiagramPoint& point : result.points) any = any || point.impacts.size() > 0;
+  if (any) plot.write(picture(result, sweep, problem.direction == Direction::both));
+  report(result, sweep);
+  return result.complete ? done : interrupted;
+}
+
+}  // namespace
+
+Action add_diagram(Arguments& arguments) {
+  auto options = std::make_shared<Options>();
+  options->model.declare(arguments);
+  options->model.declare_state(arguments);
+  arguments.text("--sweep", options->sweep, "NAME=A:B:COUNT",
+                 "the parameter, its range and the number of values (required)");
+  arguments.choice("--direction", options->direction, {"up", "down", "both"},
+                   "in which the state is carried (up); both shows coexisting attractors");
+  arguments.choice("--start", options->start, {"carry", "reset"},
+                   "carry the state from value to value, or begin each anew (carry)");
+  arguments.count("--transient", options->transient, 0, 1'000'000'000,
+                  "forcing periods at each value before recording (500)");
+  arguments.count("--impacts", options->impacts, 1, 1'000'000'000, "impacts to record at each value (200)");
+  arguments.count("--most-periods", options->most_periods, 1, 1'000'000'000,
+                  "end a recording here if impacts are rare (5000)");
+  arguments.count("--threads", options->threads, 0, 1024, "0: all cores; the result is the same for any number (0)");
+  arguments.text("--out", options->out, "F.csv", "write the impacts there instead of to standard output");
+  arguments.text("--plot", options->plot, "F.png",
+                 "diagrams of w and flight (.png, .pdf or .svg; data and script beside it)");
+  arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
+  arguments.footer(
+      "Columns: the parameter, direction, w, flight, sliding, phase and the state just before each impact. A value "
+      "that fails is left out,\n"
+      "named on standard error, and makes the exit status 3.\n"
+      "Example:\n  slapstick diagram vibro-impact --sweep omega=4:6:1000 --direction both --plot diagram.png --out "
+      "impacts.csv");
+  return [options, &arguments](const Context& context) {
+    if (!arguments.given("--sweep")) throw InputError("--sweep NAME=A:B:COUNT is required");
+    if (options->start == "reset" && options->direction == "both")
+      throw InputError("--direction both: with --start reset, up and down are the same; choose one, or --start carry");
+    return diagram(*options, context);
+  };
+}
+
+}  // namespace slapstick::app

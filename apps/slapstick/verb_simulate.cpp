@@ -1,0 +1,206 @@
+/// slapstick simulate MODEL
+#include <algorithm>
+#include <array>
+
+#include "model_options.hpp"
+#include "motion_plot.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+#include "slapstick/base/error.hpp"
+#include "slapstick/base/text.hpp"
+#include "slapstick/io/json.hpp"
+#include "slapstick/section/sampled_motion.hpp"
+#include "verb.hpp"
+
+namespace slapstick::app {
+namespace {
+
+constexpr long long most_periods = 1'000'000'000'000;
+constexpr int plot_samples = 200;  // per period, at least
+constexpr int plotted_periods = 20;
+
+struct Options {
+  ModelOptions model;
+  long long periods = 100;
+  double time = 0.0;
+  long long samples = 100;
+  std::string events, trajectory, plot, out;
+  bool progress = false;
+};
+
+std::vector<std::string> columns(std::vector<std::string> names, const Model& model, const char* last = nullptr) {
+  for (const std::string& name : state_names(model)) names.push_back(name);
+  if (last != nullptr) names.emplace_back(last);
+  return names;
+}
+
+/// Everything a run writes to, opened before it starts.
+class Run {
+ public:
+  Run(const Options& options, const ChosenModel& chosen, const State& start, Instant end)
+      : system_(chosen.model),
+        options_(options),
+        end_(end),
+        result_(options.out),
+        plot_(options.plot),
+        picture_(system_) {
+    if (!options.events.empty())
+      events_.emplace(options.events, columns({"time", "kind", "contact", "w"}, chosen.model));
+    if (!options.trajectory.empty()) trajectory_.emplace(options.trajectory, columns({"time"}, chosen.model, "mode"));
+    const int wanted = trajectory_ ? static_cast<int>(options.samples) : plot_samples;
+    if (plot_.wanted()) stride_ = (plot_samples + wanted - 1) / wanted;
+    const int samples = trajectory_ || plot_.wanted() ? wanted * stride_ : 0;
+    plot_from_ = end.period >= plotted_periods ? Instant{end.period - plotted_periods, end.fraction} : Instant{};
+    motion_.emplace(Motion(system_, start), samples, trajectory_ ? Instant{} : plot_from_);
+  }
+
+  /// @returns false if it was stopped before the end
+  bool operator()(const Context& context) {
+    Progress progress("periods", end_.since({}), options_.progress);
+    Instant
+        stage;  // long runs without an event must look up too; always at the same instants, so that every run has the same bits
+    long steps = 0;
+    do {
+      stage = std::min(Instant{stage.period + 4096, 0.0}, end_);
+      for (auto item = motion_->next(stage); item != SampledMotion::Item::end; item = motion_->next(stage)) {
+        if (item == SampledMotion::Item::event) note_event();
+        if (item == SampledMotion::Item::sample) note_sample();
+        if (++steps % 1024 == 0) progress.update(motion_->motion().time().since({}));
+        if (context.stop.load(std::memory_order_relaxed)) return false;
+      }
+      progress.update(stage.since({}));
+      if (context.stop.load(std::memory_order_relaxed)) return stage == end_;
+    } while (stage < end_);
+    return true;
+  }
+
+  void write(bool complete, const ChosenModel& chosen, const State& start) {
+    if (events_) events_->commit();
+    if (trajectory_) trajectory_->commit();
+    result_.write(summary(complete, chosen, start).dump() + "\n");
+    result_.commit();
+    if (plot_.wanted() && !picture_.empty()) plot_.write(picture_.figure());
+  }
+
+ private:
+  void note_event() {
+    const Motion& motion = motion_->motion();
+    const Event& event = motion.event();
+    ++kinds_[static_cast<std::size_t>(event.kind)];
+    if (events_) {
+      events_->number(event.time.seconds(system_.period()))
+          .word(name(event.kind))
+          .word(system_.contact_name(event.contact))
+          .number(event.w);
+      events_->numbers(motion.before()).end_row();
+    }
+    if (plot_.wanted() && event.time >= plot_from_) {
+      const State before(motion.before().begin(), motion.before().end());
+      picture_.add(event.time, before);
+      picture_.add(event.time, motion.state());
+    }
+  }
+
+  void note_sample() {
+    const SampledMotion::Sample& sample = motion_->sample();
+    if (trajectory_ && samples_ % stride_ == 0)
+      trajectory_->number(sample.time.seconds(system_.period()))
+          .numbers(sample.state)
+          .word(system_.mode_name(sample.mode))
+          .end_row();
+    if (plot_.wanted() && sample.time >= plot_from_) picture_.add(sample.time, sample.state);
+    ++samples_;
+  }
+
+  [[nodiscard]] Json state_json(const State& state) const {
+    Json json = Json::object();
+    const auto names = state_names(system_.model());
+    for (std::size_t i = 0; i < names.size(); ++i) json.set(names[i], state[i]);
+    return json;
+  }
+
+  [[nodiscard]] Json summary(bool complete, const ChosenModel& chosen, const State& start) const {
+    const Motion& motion = motion_->motion();
+    Json parameters = Json::object(), events = Json::object(), work = Json::object(), end = Json::object();
+    for (const auto& [name, value] : chosen.definition.values(chosen.overrides)) parameters.set(name, value);
+    for (std::size_t kind = 0; kind < kinds_.size(); ++kind)
+      events.set(name(static_cast<EventKind>(kind)), kinds_[kind]);
+    const Counters& counters = motion.counters();
+    work.set("segments", counters.segments).set("windows", counters.windows).set("evaluations", counters.evaluations);
+    end.set("time", motion.time().seconds(system_.period())).set("periods", motion.time().since({}));
+    end.set("mode", system_.mode_name(motion.mode_id())).set("state", state_json(motion.state()));
+    Json json = Json::object();
+    json.set("model", chosen.model.name).set("parameters", std::move(parameters)).set("period", system_.period());
+    json.set("complete", complete).set("start", state_json(start)).set("end", std::move(end));
+    json.set("events", std::move(events)).set("work", std::move(work));
+    return json;
+  }
+
+  System system_;
+  const Options& options_;
+  Instant end_, plot_from_;
+  Output result_;
+  Plot plot_;
+  MotionPlot picture_;
+  std::optional<TableOutput> events_, trajectory_;
+  std::optional<SampledMotion> motion_;
+  std::array<long, 7> kinds_{};
+  long samples_ = 0;
+  int stride_ = 1;
+};
+
+Instant end_of(const Options& options, bool by_time, const Model& model) {
+  if (!by_time) return {options.periods, 0.0};
+  const double periods = options.time / model.forcing_period();
+  if (!(periods >= 0.0 && periods <= static_cast<double>(most_periods)))
+    throw InputError("--time: " + shown(options.time) + " is outside [0, " + shown(static_cast<double>(most_periods)) +
+                     " forcing periods]");
+  return Instant{}.plus(periods);
+}
+
+int simulate(const Options& options, bool by_time, const Context& context) {
+  const ChosenModel chosen = options.model.load();
+  const State start = options.model.start(chosen);
+  FileRoles roles;
+  roles.add("MODEL", options.model.source);
+  roles.add("--out", options.out);
+  roles.add("--events", options.events);
+  roles.add("--trajectory", options.trajectory);
+  roles.add_plot(options.plot);
+  Run run(options, chosen, start, end_of(options, by_time, chosen.model));
+  const bool complete = run(context);
+  run.write(complete, chosen, start);
+  return complete ? done : interrupted;
+}
+
+}  // namespace
+
+Action add_simulate(Arguments& arguments) {
+  auto options = std::make_shared<Options>();
+  options->model.declare(arguments);
+  options->model.declare_state(arguments);
+  arguments.count("--periods", options->periods, 0, most_periods, "length in forcing periods (100)");
+  arguments.number("--time", options->time, "T", "length in the model's unit of time, instead of --periods");
+  arguments.text("--events", options->events, "F.csv",
+                 "every event: time, kind, contact, w, and the state just before");
+  arguments.text("--trajectory", options->trajectory, "F.csv", "samples: time, state, mode");
+  arguments.count("--samples", options->samples, 1, 1'000'000, "samples of --trajectory per forcing period (100)");
+  arguments.text(
+      "--plot", options->plot, "F.png",
+      "phase portrait and time series of the last 20 periods (.png, .pdf or .svg; data and script beside it)");
+  arguments.text("--out", options->out, "F.json", "write the summary there instead of to standard output");
+  arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
+  arguments.footer(
+      "Example:\n  slapstick simulate vibro-impact --set omega=1.5 --state x1=-0.5,v1=0 --periods 50 --events "
+      "events.csv --plot motion.png\n"
+      "Events are impact, slip+, slip-, stick, release, graze and chatter (the limit of infinitely many impacts); w is "
+      "the relative\n"
+      "velocity just before. A model without forcing has a period of 1.");
+  return [options, &arguments](const Context& context) {
+    if (arguments.given("--time") && arguments.given("--periods"))
+      throw InputError("--time and --periods both give the length: choose one");
+    return simulate(*options, arguments.given("--time"), context);
+  };
+}
+
+}  // namespace slapstick::app

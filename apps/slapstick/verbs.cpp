@@ -1,0 +1,17 @@
+#include "verb.hpp"
+
+namespace slapstick::app {
+
+const std::vector<Verb>& verbs() {
+  static const std::vector<Verb> all = {
+      {"models", "list the built-in models", add_models},
+      {"show", "print a model as TOML: its parameters, equations and start", add_show},
+      {"check", "read and check a model file", add_check},
+      {"simulate", "one exact trajectory: events, samples, a picture", add_simulate},
+      {"poincare", "points of a section: at every impact, or once per forcing period", add_poincare},
+      {"diagram", "bifurcation diagram over a parameter, on all cores", add_diagram},
+  };
+  return all;
+}
+
+}  // namespace slapstick::app

@@ -44,8 +44,9 @@ struct Deflated {
     // The coefficient past the end continues the last two in a straight line: differences there repeat, second differences vanish.
     const auto at = [&](int j) -> double { return bernstein[j / 8][j % 8]; };
     for (int j = degree_left + 1; j < terms; ++j) bernstein[j / 8][j % 8] = 2.0 * at(j - 1) - at(j - 2);
-    noise_0 = noise_1 > 0.0 ? noise_1 : noise_2;  // at most the sum of the bounds of the coefficients that remain
-    noise_1 = noise_1 > 0.0 ? noise_2 : 0.0;
+    if (noise_1 == 0.0 && noise_2 == 0.0) return;  // noise_2 bounds all coefficients from a_2 on: divided further, it stays
+    noise_0 = noise_1;
+    noise_1 = noise_2;
     noise_2 = 0.0;
   }
 };

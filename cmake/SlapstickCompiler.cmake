@@ -2,7 +2,7 @@
 # -ffp-contract=off: a*b+c is rounded twice everywhere, so that vector width and optimisation level do not change a bit.
 add_library(slapstick_options INTERFACE)
 target_compile_features(slapstick_options INTERFACE cxx_std_20)
-target_compile_options(slapstick_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off)
+target_compile_options(slapstick_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off -fno-math-errno)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # GCC 12 warns inside its own AVX-512 intrinsics (its bug 105593) and std::string concatenation (105651).
   target_compile_options(slapstick_options INTERFACE -Wno-maybe-uninitialized -Wno-restrict)

@@ -32,6 +32,7 @@ Action add_models(Arguments& arguments);
 Action add_show(Arguments& arguments);
 Action add_check(Arguments& arguments);
 Action add_simulate(Arguments& arguments);
+Action add_classify(Arguments& arguments);
 Action add_poincare(Arguments& arguments);
 Action add_diagram(Arguments& arguments);
 

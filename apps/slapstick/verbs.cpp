@@ -8,6 +8,7 @@ const std::vector<Verb>& verbs() {
       {"show", "print a model as TOML: its parameters, equations and start", add_show},
       {"check", "read and check a model file", add_check},
       {"simulate", "one exact trajectory: events, samples, a picture", add_simulate},
+      {"classify", "what the motion is after its transient: n-p-I, n-p-II, quasi-periodic, chaotic", add_classify},
       {"poincare", "points of a section: at every impact, or once per forcing period", add_poincare},
       {"diagram", "bifurcation diagram over a parameter, on all cores", add_diagram},
   };

@@ -44,7 +44,8 @@ struct Deflated {
     // The coefficient past the end continues the last two in a straight line: differences there repeat, second differences vanish.
     const auto at = [&](int j) -> double { return bernstein[j / 8][j % 8]; };
     for (int j = degree_left + 1; j < terms; ++j) bernstein[j / 8][j % 8] = 2.0 * at(j - 1) - at(j - 2);
-    if (noise_1 == 0.0 && noise_2 == 0.0) return;  // noise_2 bounds all coefficients from a_2 on: divided further, it stays
+    if (noise_1 == 0.0 && noise_2 == 0.0)
+      return;  // noise_2 bounds all coefficients from a_2 on: divided further, it stays
     noise_0 = noise_1;
     noise_1 = noise_2;
     noise_2 = 0.0;
@@ -269,7 +270,10 @@ bool Search::pass_convex_minimum(Root& decided) {
 
 Root Search::run() {
   Root root;
-  if (falls() && settle(hermite_start(), 0.0, 1.0, root)) return root;
+  if (falls() && settle(hermite_start(), 0.0, 1.0, root)) {
+    root.falls = root.kind == RootKind::crossing && guard_.degree_left == degree;
+    return root;
+  }
   h_ = guard_.taylor[0][0];
   h1_ = guard_.taylor[0][1];
   epsilon_ = guard_.noise_0;

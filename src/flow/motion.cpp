@@ -175,9 +175,10 @@ Motion::Found Motion::first_event_in_window(bool first, double x_end) {
   note_magnitude();
   mode.bernstein_noise(magnitude_.data(), noise_.data());
   Found found{event::RootKind::none, 0, x_end};
+  int falling = -1;  // a gap that falls all over the window: its pair does not come to rest before the impact
   for (int g = 0; g < mode.guard_count(); ++g) {
     const int order = first ? orders_[g] : 0;
-    if (order == flow::never) continue;
+    if (order == flow::never || (falling >= 0 && mode.guards()[g].falls_with == falling)) continue;
     event::GuardWindow window;
     std::copy_n(out_.begin() + mode.state_blocks() + 3 * g, 3, window.bernstein.begin());
     if (event::excluded(window.bernstein, noise_[g / 8][g % 8], order)) continue;
@@ -190,6 +191,7 @@ Motion::Found Motion::first_event_in_window(bool first, double x_end) {
     const event::Root root = event::first_root(window, found.x, counters_.evaluations);
     if (root.kind != event::RootKind::none && (found.kind == event::RootKind::none || root.x < found.x))
       found = {root.kind, g, root.x};
+    if (root.falls) falling = g;
   }
   return found;
 }

@@ -96,6 +96,14 @@ void Mode::select_linear_system(const Model& model, const Frame& frame) {
     if (states_.stops[i] == StopState::open) arm_gap(model, frame, static_cast<int>(i), rows);
   }
 
+  for (Guard& slip : guards_) {
+    for (std::size_t g = 0; g < guards_.size() && slip.kind == GuardKind::slip; ++g) {
+      if (guards_[g].kind != GuardKind::gap) continue;
+      const RowVector rate = guards_[g].row * frame.kinematics(model.omega);  // gap' involves no acceleration
+      if ((rate + slip.row).isZero(0.0)) slip.falls_with = static_cast<int>(g);
+    }
+  }
+
   A_ = frame.kinematics(model.omega);
   A_.middleRows(n_, n_) = acceleration;
   for (int i = 0; i < n_; ++i) {  // a constrained contact coordinate has exactly no acceleration

@@ -24,6 +24,7 @@ enum class RootKind {
 struct Root {
   RootKind kind = RootKind::none;
   double x = 0.0;
+  bool falls = false;  ///< h' < 0 is proven on the whole window (only ever set with a crossing)
 };
 
 /// What the kernel needs to know of a guard on a window.

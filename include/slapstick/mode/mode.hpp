@@ -33,6 +33,9 @@ struct Guard {
   GuardKind kind;
   int contact;    ///< index of the stop (gap, press) or friction contact (others)
   RowVector row;  ///< h = row . X
+  /// Index of the gap guard of the same pair whose rate of fall this slip guard is (h = -gap'), or -1. While such a gap is proven to
+  /// fall, the slip guard is positive: y and w are one function and its derivative.
+  int falls_with = -1;
 };
 
 /// Dense operators on X = (p, u, cos, sin, .., 1), all for the window length `window`, x = s / window in [0, 1].

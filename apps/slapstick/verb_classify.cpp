@@ -1,0 +1,84 @@
+/// slapstick classify MODEL
+#include "model_options.hpp"
+#include "output.hpp"
+#include "slapstick/attractor/classify.hpp"
+#include "slapstick/io/json.hpp"
+#include "verb.hpp"
+
+namespace slapstick::app {
+namespace {
+
+struct Options {
+  ModelOptions model;
+  std::string out;
+  long long transient = 500, most_periods = 20'000, most_n = 64;
+};
+
+Json impacts_json(const std::vector<CycleImpact>& impacts, const std::vector<std::string>& names) {
+  Json list = Json::list();
+  for (const CycleImpact& impact : impacts) {
+    Json state = Json::object();
+    for (std::size_t i = 0; i < names.size(); ++i) state.set(names[i], impact.state[i]);
+    Json item = Json::object();
+    item.set("phase", impact.phase).set("w", impact.w).set("state", std::move(state));
+    list.push(std::move(item));
+  }
+  return list;
+}
+
+Json cycle_json(const Classification& found, Json json, const std::vector<std::string>& names) {
+  json.set("n", found.n);
+  json.set("p", found.chatter == Chatter::complete ? Json("inf") : Json(found.p));
+  Json multipliers = Json::list();
+  for (const auto& multiplier : found.multipliers)
+    multipliers.push(Json::list(std::vector<double>{multiplier.real(), multiplier.imag()}));
+  json.set("sticking_fraction", found.sticking_fraction).set("multipliers", std::move(multipliers));
+  json.set("return_distance", found.return_distance).set("impacts", impacts_json(found.impacts, names));
+  return json;
+}
+
+Json result_json(const Classification& found, const ChosenModel& chosen) {
+  const auto names = state_names(chosen.model);
+  Json parameters = Json::object(), state = Json::object(), json = Json::object();
+  for (const auto& [name, value] : chosen.definition.values(chosen.overrides)) parameters.set(name, value);
+  for (std::size_t i = 0; i < names.size(); ++i) state.set(names[i], found.state[i]);
+  json.set("model", chosen.model.name).set("parameters", std::move(parameters));
+  json.set("class", found.label).set("attractor", std::string(name(found.attractor)));
+  json.set("sticking", found.sticking).set("chatter", std::string(name(found.chatter)));
+  if (found.attractor == Attractor::periodic) json = cycle_json(found, std::move(json), names);
+  json.set("exponent", found.exponent);
+  if (found.attractor != Attractor::periodic)
+    json.set("exponent_error", found.exponent_error).set("birkhoff_digits", found.digits);
+  json.set("periods_used", found.periods_used).set("state", std::move(state));
+  return json;
+}
+
+}  // namespace
+
+Action add_classify(Arguments& arguments) {
+  auto options = std::make_shared<Options>();
+  options->model.declare(arguments);
+  options->model.declare_state(arguments);
+  arguments.count("--transient", options->transient, 0, 1'000'000'000, "forcing periods to leave out first");
+  arguments.count("--most-periods", options->most_periods, 10, 1'000'000'000, "search for a cycle this long");
+  arguments.count("--most-n", options->most_n, 1, 4096, "longest cycle sought, in forcing periods");
+  arguments.text("--out", options->out, "FILE", "write the JSON there instead of to standard output");
+  arguments.footer(
+      "The class n-p-I or n-p-II: n forcing periods, p impacts (inf with complete chatter), II if the blocks stick.\n"
+      "A motion without a cycle is quasi-periodic, chaotic or undecided; docs/classify.md says how that is decided.\n"
+      "  slapstick classify vibro-impact --set omega=1.5");
+  return [options](const Context&) {
+    Output out(options->out);
+    const ChosenModel chosen = options->model.load();
+    const State start = options->model.start(chosen);
+    const Classification found = classify(System(chosen.model), start,
+                                          {.transient_periods = static_cast<int>(options->transient),
+                                           .most_periods = static_cast<int>(options->most_periods),
+                                           .most_n = static_cast<int>(options->most_n)});
+    out.write(result_json(found, chosen).dump() + "\n");
+    out.commit();
+    return done;
+  };
+}
+
+}  // namespace slapstick::app

@@ -19,7 +19,7 @@ struct Arguments::Parser {
 
 namespace {
 
-/// The first line, without what CLI11 adds for people who see its help at once.
+/// The text on one line.
 std::string one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
@@ -107,6 +107,10 @@ bool Arguments::parse(std::vector<std::string> words) {
     const std::string bare = word.substr(0, word.find('='));
     if (option) throw InputError("unknown option " + in_quotes(bare) + suggestion(bare, parser_->names));
     throw InputError("unexpected argument " + in_quotes(word));
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string what = one_line(error.what());
+    const bool twice = what.find("received") != std::string::npos;
+    throw InputError(what.substr(0, what.find(':')) + (twice ? " is given more than once" : " needs a value"));
   } catch (const CLI::ParseError& error) {
     throw InputError(one_line(error.what()) + " (see " + parser_->app.get_name() + " --help)");
   }

@@ -66,6 +66,11 @@ State ModelOptions::start(const ChosenModel& chosen, const Overrides& more) cons
     if (!seen.insert(name).second) throw InputError("--state: " + in_quotes(name) + " is given twice");
     start[static_cast<std::size_t>(found - names.begin())] = parse_number("--state " + name, text);
   }
+  try {
+    validate(more.empty() ? chosen.model : chosen.definition.build(overrides), start);
+  } catch (const InputError& error) {
+    throw InputError(std::string("--") + error.what());  // "--state: stop 'stop' is violated: .."
+  }
   return start;
 }
 

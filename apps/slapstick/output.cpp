@@ -80,8 +80,8 @@ void FileRoles::add(const std::string& argument, const std::string& path) {
   if (path.empty()) return;
   std::error_code error;
   if (fs::exists(path, error) && !fs::is_regular_file(path, error)) return;  // /dev/null may serve twice
-  fs::path resolved = fs::weakly_canonical(path, error);
-  if (error) resolved = fs::path(path).lexically_normal();
+  fs::path resolved = fs::weakly_canonical(fs::absolute(path), error);
+  if (error) resolved = fs::absolute(path).lexically_normal();
   for (const Role& role : roles_) {
     if (role.path == resolved)
       throw InputError(argument + " would write to " + in_quotes(path) + ", which is also " + role.argument);

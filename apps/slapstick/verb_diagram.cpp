@@ -46,6 +46,16 @@ Overrides values_at(const ChosenModel& chosen, const Sweep& sweep, double value)
   return overrides;
 }
 
+/// The impacts are kept in memory until the end: about 100 bytes each.
+void check_size(const Options& options, const Sweep& sweep) {
+  constexpr double most = 1e8;
+  const double rows = static_cast<double>(sweep.count) * static_cast<double>(options.impacts) *
+                      (options.direction == "both" ? 2.0 : 1.0);
+  if (rows > most)
+    throw InputError("--sweep with --impacts " + std::to_string(options.impacts) + " may give " + shown(rows) +
+                     " rows, more than the " + shown(most) + " that one run keeps; sweep it in parts");
+}
+
 /// What can be known to be wrong before hours of work.
 void check_ends(const Options& options, const ChosenModel& chosen, const Sweep& sweep) {
   if (chosen.overrides.count(sweep.name) != 0)
@@ -139,6 +149,7 @@ void report(const sweep::Diagram& diagram, const Sweep& sweep) {
 
 int diagram(const Options& options, const Context& context) {
   const Sweep sweep = parse_sweep(options.sweep);
+  check_size(options, sweep);
   const ChosenModel chosen = options.model.load();
   check_ends(options, chosen, sweep);
   FileRoles roles;
@@ -186,7 +197,7 @@ Action add_diagram(Arguments& arguments) {
   arguments.count("--threads", options->threads, 0, 1024, "0: all cores; the result is the same for any number (0)");
   arguments.text("--out", options->out, "F.csv", "write the impacts there instead of to standard output");
   arguments.text("--plot", options->plot, "F.png",
-                 "diagrams of w and flight (.png, .pdf or .svg; data and script beside it)");
+                 "diagrams of w and flight: .png, .pdf or .svg; its data and script lie beside it");
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
       "Columns: the parameter, direction, w, flight, sliding, phase and the state just before each impact. A value "

@@ -5,6 +5,7 @@
 #include "output.hpp"
 #include "progress.hpp"
 #include "slapstick/base/error.hpp"
+#include "slapstick/base/text.hpp"
 #include "slapstick/section/impact_section.hpp"
 #include "slapstick/section/stroboscopic_section.hpp"
 #include "verb.hpp"
@@ -58,9 +59,6 @@ bool run_impacts(ImpactSection& section, Instant end, const Context& context, co
 
 bool impact_points(const Options& options, const System& system, Motion motion, TableOutput& table, Cloud& cloud,
                    const Context& context) {
-  if (system.model().stops.empty())
-    throw InputError("--section: model '" + system.model().name +
-                     "' has no stop, so no impact section; --section stroboscopic needs none");
   cloud.x_label = system.model().forced() ? "phase of the forcing / 2π" : "fraction of the unit of time";
   cloud.y_label = "w just before the impact";
   Progress progress("points", static_cast<double>(options.points), options.progress);
@@ -110,8 +108,20 @@ bool strobe_points(const Options& options, const System& system, Motion motion, 
   return true;
 }
 
+/// Before anything is written.
+void check(const Options& options, const Model& model) {
+  if (options.section == "impact" && model.stops.empty())
+    throw InputError("--section impact: model " + in_quotes(model.name) +
+                     " has no stop; --section stroboscopic needs none");
+  if (options.section == "stroboscopic" && !model.forced())
+    throw InputError("--section stroboscopic: model " + in_quotes(model.name) + " has no harmonic forcing");
+  if (!(options.phase >= 0.0 && options.phase < 1.0))
+    throw InputError("--phase: " + shown(options.phase) + " is outside [0, 1)");
+}
+
 int poincare(const Options& options, const Context& context) {
   const ChosenModel chosen = options.model.load();
+  check(options, chosen.model);
   const State start = options.model.start(chosen);
   FileRoles roles;
   roles.add("MODEL", options.model.source);
@@ -147,7 +157,7 @@ Action add_poincare(Arguments& arguments) {
                   "end the impact section here if impacts are rare (1000000)");
   arguments.text("--out", options->out, "F.csv", "write the points there instead of to standard output");
   arguments.text("--plot", options->plot, "F.png",
-                 "picture of the points (.png, .pdf or .svg; data and script beside it)");
+                 "picture of the points: .png, .pdf or .svg; its data and script lie beside it");
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
       "Columns: time, phase, w, flight, sliding and the state just before each impact; or time, phase, state, mode.\n"

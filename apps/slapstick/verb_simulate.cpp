@@ -185,9 +185,8 @@ Action add_simulate(Arguments& arguments) {
                  "every event: time, kind, contact, w, and the state just before");
   arguments.text("--trajectory", options->trajectory, "F.csv", "samples: time, state, mode");
   arguments.count("--samples", options->samples, 1, 1'000'000, "samples of --trajectory per forcing period (100)");
-  arguments.text(
-      "--plot", options->plot, "F.png",
-      "phase portrait and time series of the last 20 periods (.png, .pdf or .svg; data and script beside it)");
+  arguments.text("--plot", options->plot, "F.png",
+                 "picture of the last 20 periods: .png, .pdf or .svg; its data and script lie beside it");
   arguments.text("--out", options->out, "F.json", "write the summary there instead of to standard output");
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(

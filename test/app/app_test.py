@@ -1,0 +1,205 @@
+"""The program as its users meet it: exit status, messages, files. One CTest case per function `test_...`; named after its danger."""
+import math
+import os
+import signal
+
+from program import good, main, read, refused, run, says, signalled, table
+
+PAPER_STATE = ['x1', 'v1', 'x2', 'v2']
+LONG_SWEEP = ('diagram', 'vibro-impact', '--sweep', 'omega=1:6:4000', '--transient', '2000')
+
+
+def test_help_and_version_are_results_not_errors():
+    for words in (['--help'], ['help'], ['simulate', '--help'], ['diagram', '-h'], ['help', 'poincare']):
+        assert len(good(*words)) > 200
+    says(good('--help'), 'models', 'simulate', 'Exit status')
+    assert good('--version').startswith('slapstick ')
+
+
+def test_every_verb_of_the_help_is_there():
+    verbs = [line.split()[0] for line in good('--help').split('Verbs:\n')[1].split('\n\n')[0].splitlines()]
+    assert {'models', 'show', 'check', 'simulate', 'poincare', 'diagram'} <= set(verbs)
+    for verb in verbs:
+        says(good(verb, '--help'), 'slapstick ' + verb)
+
+
+def test_mistyped_names_suggest_the_nearest():
+    says(refused(2, 'simulte', 'vibro-impact'), "'simulte'", "'simulate'")
+    says(refused(2, 'simulate', 'vibro-impct'), "'vibro-impact'")
+    says(refused(2, 'simulate', 'vibro-impact', '--peroids', '3'), "'--peroids'", "'--periods'")
+    says(refused(2, 'simulate', 'vibro-impact', '--set', 'omga=3'), '--set', "'omga'", "'omega'")
+    says(refused(2, 'simulate', 'vibro-impact', '--state', 'y1=3'), '--state', "'y1'")
+    says(refused(2, 'diagram', 'vibro-impact', '--sweep', 'omga=1:2:3'), '--sweep', "'omega'")
+
+
+def test_bad_values_name_their_argument():
+    simulate = ('simulate', 'vibro-impact')
+    for bad in ('omega', 'omega=', '=3', 'omega=abc', 'omega=nan', 'omega=1e999', 'omega=-1', 'restitution=1.5', ''):
+        says(refused(2, *simulate, '--set', bad), '--set')
+    for bad in ('x1', 'x1=', 'x1=a', 'x1=inf', 'x1=1', 'x1=-1,x1=-2', ','):
+        says(refused(2, *simulate, '--state', bad), '--state')
+    for bad in ('-1', '1.5', 'many', '', '99999999999999999999'):
+        says(refused(2, *simulate, '--periods', bad), '--periods')
+    for bad in ('-1', 'nan', '1e300'):
+        says(refused(2, *simulate, '--time', bad), '--time')
+    for bad in ('omega', 'omega=1:2', 'omega=1:2:1', 'omega=2:1:5', 'omega=1:2:5:6', 'omega=1:nan:5', 'omega=1:2:1e18', 'omega=0:2:5', '='):
+        says(refused(2, 'diagram', 'vibro-impact', '--sweep', bad), '--sweep')
+    says(refused(2, 'diagram', 'vibro-impact', '--sweep', 'omega=1:2:5', '--direction', 'left'), '--direction')
+    says(refused(2, 'poincare', 'vibro-impact', '--section', 'stroboscopic', '--phase', '1'), '--phase')
+
+
+def test_contradictions_are_refused():
+    refused(2)
+    refused(2, 'simulate')
+    refused(2, 'simulate', 'vibro-impact', 'more')
+    says(refused(2, 'simulate', 'vibro-impact', '--periods', '3', '--time', '3'), '--time', '--periods')
+    says(refused(2, 'simulate', 'vibro-impact', '--periods', '3', '--periods', '4'), '--periods')
+    says(refused(2, 'simulate', 'vibro-impact', '--set', 'omega=1', '--set', 'omega=2'), '--set')
+    says(refused(2, 'diagram', 'vibro-impact', '--sweep', 'omega=1:2:3', '--set', 'omega=2'), '--sweep')
+    says(refused(2, 'diagram', 'vibro-impact', '--sweep', 'omega=1:2:3', '--direction', 'both', '--start', 'reset'), '--direction')
+    says(refused(2, 'diagram', 'belt', '--sweep', 'belt_speed=1:2:3'), 'stop')
+    says(refused(2, 'poincare', 'belt'), 'stop')
+    says(refused(2, 'poincare', 'belt', '--section', 'stroboscopic'), 'forcing')
+
+
+def test_hostile_words_stay_on_one_line():
+    for bad in ('a\nb', '\x1b[31m', '\xff' * 5000, '--', '-', '--set'):
+        refused(2, bad)
+        refused(2, 'simulate', 'vibro-impact', '--set', bad + '=1')
+        refused(2, 'simulate', bad + '.toml')
+
+
+def test_status_3_says_where_and_leaves_no_file():
+    endless = ['omega=1e-5', 'load=10', 'cosine=0', 'restitution=0.999999999', 'damping_ratio=0']
+    words = [word for value in endless for word in ('--set', value)]
+    line = refused(3, 'simulate', 'impact-oscillator', *words, '--state', 'x=-0.001', '--periods', '1', '--events', 'e.csv', '--out', 'o.json')
+    says(line, 'period 0', 'state')
+    assert os.listdir('.') == []
+
+
+def test_status_4_before_the_work_starts():
+    for option in ('--out', '--plot', '--events', '--trajectory'):
+        line = refused(4, 'simulate', 'vibro-impact', '--periods', '1000000000', option, 'no/such/folder/f.png')
+        says(line, 'no/such/folder/f.png')
+    refused(4, *LONG_SWEEP, '--out', '/proc/nothing.csv')
+    os.mkdir('folder.csv')
+    says(refused(4, *LONG_SWEEP, '--out', 'folder.csv'), 'folder.csv')
+
+
+def test_full_or_closed_standard_output_is_status_4():
+    with open('/dev/full', 'wb') as full:
+        for words in (['models'], ['--help'], ['poincare', 'vibro-impact', '--points', '100']):
+            refused(4, *words, out=full)
+
+
+def test_old_output_survives_a_failure():
+    with open('e.csv', 'w', encoding='utf-8') as file:
+        file.write('precious\n')
+    refused(4, 'simulate', 'vibro-impact', '--events', 'e.csv', '--trajectory', 'no/t.csv')
+    refused(2, 'simulate', 'vibro-impact', '--set', 'omega=-1', '--events', 'e.csv')
+    refused(2, 'diagram', 'vibro-impact', '--sweep', 'restitution=0:2:5', '--out', 'e.csv')
+    assert read('e.csv') == 'precious\n'
+    assert os.listdir('.') == ['e.csv'], os.listdir('.')
+
+
+def test_one_file_for_two_roles_is_refused():
+    with open('m.toml', 'w', encoding='utf-8') as file:
+        file.write(good('show', 'vibro-impact'))
+    model = read('m.toml')
+    says(refused(2, 'simulate', 'm.toml', '--events', './m.toml'), 'm.toml', 'MODEL')
+    says(refused(2, 'simulate', 'm.toml', '--events', 'a.csv', '--trajectory', './a.csv'), '--events')
+    says(refused(2, 'simulate', 'm.toml', '--events', 'a.csv', '--plot', 'a.png'), '--events', '--plot')
+    assert read('m.toml') == model and os.listdir('.') == ['m.toml']
+
+
+def test_events_have_the_stable_columns():
+    good('simulate', 'vibro-impact', '--set', 'omega=0.552', '--periods', '30', '--events', 'e.csv', '--out', 'o.json')
+    columns, rows = table(read('e.csv'))
+    assert columns == ['time', 'kind', 'contact', 'w'] + PAPER_STATE
+    kinds = {row[1] for row in rows}
+    assert kinds <= {'impact', 'slip+', 'slip-', 'stick', 'release', 'graze', 'chatter'} and {'impact', 'chatter', 'release'} <= kinds
+    times = [float(row[0]) for row in rows]
+    assert times == sorted(times) and times[-1] <= 30 * 2 * math.pi / 0.552
+    for row in rows:
+        time, kind, contact, w, x1, v1, x2, v2 = row
+        if kind == 'impact':
+            assert contact == 'stop' and float(w) > 0 and abs(float(v1) - float(v2) - float(w)) < 1e-14 and abs(float(x1) - float(x2)) < 1e-14
+        assert repr(float(time)) == repr(float('%.17g' % float(time)))
+    summary = read('o.json')
+    for kind in kinds:
+        says(summary, '"%s": %d' % (kind, sum(row[1] == kind for row in rows)))
+
+
+def test_events_do_not_depend_on_what_else_is_written():
+    words = ('simulate', 'vibro-impact', '--set', 'omega=4.9', '--periods', '300')
+    good(*words, '--events', 'a.csv', '--out', 'a.json')
+    good(*words, '--events', 'b.csv', '--out', 'b.json', '--trajectory', 't.csv', '--samples', '7', '--plot', 'p.png')
+    assert read('a.csv') == read('b.csv') and read('a.json') == read('b.json')
+    columns, rows = table(read('t.csv'))
+    assert columns == ['time'] + PAPER_STATE + ['mode'] and len(rows) == 300 * 7 + 1
+    assert os.path.getsize('p.png') > 1000 and os.path.exists('p.gp')
+
+
+def test_time_and_periods_are_the_same_length():
+    a = good('simulate', 'vibro-impact', '--set', 'omega=2', '--periods', '7')
+    b = good('simulate', 'vibro-impact', '--set', 'omega=2', '--time', repr(7 * math.pi))
+    assert a.split('"end"')[1].split('"mode"')[0] == b.split('"end"')[1].split('"mode"')[0]
+
+
+def test_show_set_and_check_go_round():
+    good('show', 'vibro-impact', '--set', 'omega=4.9', '--set', 'friction=0.2', '--out', 'm.toml')
+    says(good('check', 'm.toml'), '"sound": true', '"omega": 4.9', '"kinetic_friction": 0.2')
+    words = ('simulate', '--periods', '40', '--events')
+    good(*words, 'a.csv', '--out', 'o', 'm.toml')
+    good(*words, 'b.csv', '--out', 'o', 'vibro-impact', '--set', 'omega=4.9', '--set', 'friction=0.2')
+    assert read('a.csv') == read('b.csv')
+    for name in [line.split('"')[3] for line in good('models').splitlines() if '"name"' in line]:
+        says(good('check', name), '"sound": true')
+    with open('bad.toml', 'w', encoding='utf-8') as file:
+        file.write(read('m.toml').replace('restitution = "restitution"', 'restitutoin = "restitution"'))
+    says(refused(2, 'check', 'bad.toml'), 'bad.toml:', 'restitutoin')
+
+
+def test_sections_are_those_of_the_motion():
+    columns, rows = table(good('poincare', 'vibro-impact', '--points', '5'))
+    assert columns == ['time', 'phase', 'w', 'flight', 'sliding'] + PAPER_STATE and len(rows) == 5
+    assert all(abs(float(row[3]) - 1) < 1e-11 and abs(float(row[4]) - 1) < 1e-11 for row in rows)
+    columns, rows = table(good('poincare', 'vibro-impact', '--points', '5', '--section', 'stroboscopic', '--phase', '0.25'))
+    assert columns == ['time', 'phase'] + PAPER_STATE + ['mode']
+    assert all(row[1] == '0.25' for row in rows)
+
+
+def test_diagram_is_the_same_bytes_for_any_number_of_threads():
+    words = ('diagram', 'vibro-impact', '--sweep', 'omega=0.6:6:25', '--transient', '50', '--impacts', '20', '--direction', 'both')
+    one = good(*words, '--threads', '1')
+    columns, rows = table(one)
+    assert columns == ['omega', 'direction', 'w', 'flight', 'sliding', 'phase'] + PAPER_STATE
+    assert len(rows) == 2 * 25 * 20 and {row[1] for row in rows} == {'up', 'down'}
+    for threads in ('2', '3', '7', '0'):
+        assert good(*words, '--threads', threads) == one
+    good(*words, '--out', 'd.csv', '--plot', 'picture.png')
+    assert read('d.csv') == one and os.path.getsize('picture.png') > 1000
+
+
+def test_ctrl_c_writes_whole_rows_and_says_130():
+    for number in (signal.SIGINT, signal.SIGTERM):
+        done = signalled(number, 1.0, *LONG_SWEEP, '--impacts', '30', '--out', 'd.csv')
+        assert done.status == 130, (done.status, done.err)
+        columns, rows = table(read('d.csv'))
+        values = {row[0] for row in rows}
+        assert 0 < len(values) < 4000
+        assert all(sum(row[0] == value for row in rows) == 30 for value in list(values)[:5])
+    done = signalled(signal.SIGINT, 1.0, 'simulate', 'vibro-impact', '--periods', '1000000000000', '--events', 'e.csv')
+    assert done.status == 130 and '"complete": false' in done.out
+    table(read('e.csv'))
+    assert sorted(os.listdir('.')) == ['d.csv', 'e.csv']
+
+
+def test_progress_is_silent_when_nobody_looks():
+    words = ('diagram', 'vibro-impact', '--sweep', 'omega=1:6:600', '--transient', '1500', '--impacts', '1', '--out', 'd.csv')
+    assert good(*words) == ''
+    done = run(*words, '--progress')
+    assert done.status == 0 and ('left' in done.err or done.err == '')
+
+
+main({name: case for name, case in globals().items() if name.startswith('test_')})

@@ -1,0 +1,78 @@
+"""Runs the built program in a folder of its own. Only what Debian's python3-minimal has is used (no json, no unittest)."""
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+PROGRAM = os.path.abspath(sys.argv[1])
+
+
+class Outcome:
+    def __init__(self, status, out, err):
+        self.status, self.out, self.err = status, out, err
+
+
+def run(*words, **options):
+    """slapstick WORDS; `out` is a file to take standard output instead."""
+    done = subprocess.run([PROGRAM, *words], stdin=subprocess.DEVNULL, stdout=options.get('out', subprocess.PIPE),
+                          stderr=subprocess.PIPE, check=False, timeout=120)
+    return Outcome(done.returncode, (done.stdout or b'').decode(), done.stderr.decode())
+
+
+def good(*words):
+    """A run that must succeed and say nothing on standard error; returns its standard output."""
+    done = run(*words)
+    assert done.status == 0, (words, done.status, done.err)
+    assert done.err == '', (words, done.err)
+    return done.out
+
+
+def refused(status, *words, **options):
+    """A run that must fail with `status`, one line on standard error and nothing on standard output; returns the line."""
+    done = run(*words, **options)
+    assert done.status == status, (words, done.status, done.err)
+    assert done.err.startswith('slapstick: ') and done.err.count('\n') == 1 and done.err.endswith('\n'), (words, done.err)
+    assert done.out == '', (words, done.out)
+    return done.err
+
+
+def says(line, *parts):
+    for part in parts:
+        assert part in line, (part, line)
+
+
+def signalled(number, delay, *words):
+    """A run that gets a signal after `delay` seconds."""
+    process = subprocess.Popen([PROGRAM, *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    time.sleep(delay)
+    process.send_signal(number)
+    begin = time.monotonic()
+    out, err = process.communicate(timeout=60)
+    assert time.monotonic() - begin < 20, 'it took too long to stop'
+    return Outcome(process.returncode, out.decode(), err.decode())
+
+
+def read(path):
+    with open(path, encoding='utf-8') as file:
+        return file.read()
+
+
+def table(text):
+    """(column names, rows as lists of words) of a CSV text; every row is whole."""
+    assert text.endswith('\n'), text[-100:]
+    lines = text.splitlines()
+    rows = [line.split(',') for line in lines[1:]]
+    columns = lines[0].split(',')
+    assert all(len(row) == len(columns) for row in rows)
+    return columns, rows
+
+
+def main(cases):
+    """argv: PROGRAM CASE. Runs the function of that name in an empty folder."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a background shell may have it ignored, and children would inherit that
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        cases[sys.argv[2]]()
+        os.chdir('/')

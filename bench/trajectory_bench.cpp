@@ -1,20 +1,19 @@
-/// CPU time per forcing period of one trajectory of the paper's system: the peers' rows of the table.
+/// CPU time per forcing period of one trajectory of the paper's system, slapstick and the peers in one run.
 /// Start x1 = -0.5, else 0. The counter `us_per_period` is CPU microseconds; compare with shared/peers.md, section 1.
-/// slapstick's own rows belong in slapstick_runner.cpp, registered the same way (not written yet).
-
-#include "peers.hpp"
 
 #include <benchmark/benchmark.h>
 
-#include <array>
 #include <cstdio>
+
+#include "peers.hpp"
+#include "runner.hpp"
 
 namespace {
 
 using slapstick::bench::PeerRun;
 
-constexpr int periods = 500;
-constexpr std::array<double, 4> omegas{2.2, 1.5, 4.9, 0.552};
+using slapstick::bench::omegas;
+using slapstick::bench::periods;
 
 void run_peer(benchmark::State& state, PeerRun (*peer)(double, int, double), double omega, double tolerance) {
   PeerRun run;
@@ -40,6 +39,7 @@ void register_peer(const char* name, PeerRun (*peer)(double, int, double), doubl
 }  // namespace
 
 int main(int argc, char** argv) {
+  slapstick::bench::register_slapstick();
   register_peer("odeint_rkf78_1e-12", slapstick::bench::run_odeint, 1e-12);
   register_peer("cvode_adams_1e-9", slapstick::bench::run_cvode, 1e-9);
   benchmark::Initialize(&argc, argv);

@@ -51,14 +51,10 @@ class Run {
   }
 
   Diagram operator()() {
-    fork_join::fork();
-    const std::size_t total = diagram_.points.size(), chain = static_cast<std::size_t>(problem_.count);
-    if (problem_.start == StartRule::carry) {
-      for (std::size_t begin = 0; begin < total; begin += chain)
-        tasks_.run([this, begin, chain] { go_on({}, begin, begin + chain); });
-    } else {
-      for (std::size_t i = 0; i < total; ++i) tasks_.run([this, i] { go_on({}, i, i + 1); });
-    }
+    const std::size_t total = diagram_.points.size();
+    const std::size_t chain = problem_.start == StartRule::carry ? static_cast<std::size_t>(problem_.count) : 1;
+    carried_.resize(total);
+    for (std::size_t begin = 0; begin < total; begin += chain) spawn(begin, begin + chain);
     tasks_.wait();
     fork_join::join();
     for (const DiagramPoint& point : diagram_.points) diagram_.complete = diagram_.complete && point.done;
@@ -72,22 +68,28 @@ class Run {
     point.direction = direction;
   }
 
+  void spawn(std::size_t index, std::size_t end) {
+    auto task = tasks_.defer([this, index, end] {
+      fork_join::enter();
+      go_on(index, end);
+      fork_join::leave();
+    });
+    fork_join::fork();  // what the task needs is written by now: its captures and carried_[index]
+    tasks_.run(std::move(task));
+  }
+
   /// The point at `index`, then its chain up to `end`. The rest of the chain is offered to other threads before this one records;
   /// a thread takes its own newest task first, so that without other threads at most one recording waits.
-  void go_on(Carried carried, std::size_t index, std::size_t end) {
-    fork_join::enter();
-    if (!cancelled(problem_)) {
-      DiagramPoint& point = diagram_.points[index];
-      std::optional<Settled> settled = settle(problem_, carried, point);
-      if (settled && index + 1 < end) carried = carry_on(*settled);
-      if (index + 1 < end) {
-        fork_join::fork();
-        tasks_.run([this, carried = std::move(carried), index, end] { go_on(carried, index + 1, end); });
-      }
-      if (settled) record(problem_, std::move(*settled), point);
-      if (point.done) report();
+  void go_on(std::size_t index, std::size_t end) {
+    if (cancelled(problem_)) return;
+    DiagramPoint& point = diagram_.points[index];
+    std::optional<Settled> settled = settle(problem_, carried_[index], point);
+    if (index + 1 < end) {
+      carried_[index + 1] = settled ? carry_on(*settled) : carried_[index];
+      spawn(index + 1, end);
     }
-    fork_join::leave();
+    if (settled) record(problem_, std::move(*settled), point);
+    if (point.done) report();
   }
 
   void report() {
@@ -98,6 +100,7 @@ class Run {
 
   const DiagramProblem& problem_;
   Diagram diagram_;
+  std::vector<Carried> carried_;  // the start of each point; written by the task of the point before it
   tbb::task_group tasks_;
   std::mutex progress_;
   int done_ = 0;

@@ -1,0 +1,299 @@
+/// The window operators of a mode against 50-digit exponentials of the same matrix, on the families where closed forms with
+/// eigenvectors lose their digits. Case numbers K are those of shared/reliability.md.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "mode/exact_flow.hpp"
+#include "oracle/models.hpp"
+
+namespace slapstick::mode {
+namespace {
+
+using event::Lane8;
+using testing::Exact;
+using testing::Real;
+
+/// One mode, a state, and the largest errors of its operators in units of what is allowed.
+class Check {
+ public:
+  Check(const Model& model, const ContactStates& states, std::uint64_t seed)
+      : frame_(model), mode_(model, frame_, states), random_(seed) {}
+
+  /// Starts of random sizes, 1e-3 .. 1 per component.
+  void random_starts(int count) {
+    for (int k = 0; k < count; ++k) {
+      X_.assign((mode_.size() + 7) / 8 * 8, 0.0);
+      for (int i = 0; i < 2 * frame_.n; ++i) X_[i] = std::pow(10.0, uniform(-3, 0)) * (uniform(-1, 1) < 0 ? -1 : 1);
+      frame_.set_phase(uniform(0, 1), X_.data());
+      exact_.assign(X_.begin(), X_.begin() + mode_.size());
+      magnitude_ = X_;
+      for (double& x : magnitude_) x = std::abs(x);
+      step();
+      inside();
+      guards();
+    }
+  }
+
+  double state_error = 0.0;   ///< |computed - exact| of one window's step, over 2^-53 times sum |E_ij X_j|
+  double inside_error = 0.0;  ///< the same at points inside the window, over the terms of the series
+  double guard_error = 0.0;   ///< |computed - exact| of the guards over their noise bound
+  double coefficient_error = 0.0;
+  double bernstein_error = 0.0;
+  double mean_guard_error = 0.0;
+  long guard_count = 0;
+
+  [[nodiscard]] const Mode& mode() const { return mode_; }
+
+ private:
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+
+  void step() {
+    std::vector<Lane8> out(mode_.state_blocks());
+    mode_.step(X_.data(), out.data());
+    compare(out, mode_.window(), false, state_error);
+  }
+
+  void inside() {
+    std::vector<Lane8> out(mode_.state_blocks());
+    const double x = uniform(0, 1);
+    mode_.state_at(x, X_.data(), reinterpret_cast<double*>(out.data()));
+    compare(out, x * mode_.window(), true, inside_error);
+  }
+
+  void compare(const std::vector<Lane8>& out, double s, bool terms, double& worst) const {
+    const Exact exact = testing::flow(mode_.system(), exact_, Real(s));
+    std::vector<double> size = testing::sizes(mode_.system(), X_, s, terms);
+    for (int i = 0; i < frame_.n; ++i) size[frame_.u(i)] += std::abs(frame_.drift[i]);  // u = p' - drift
+    for (int i = 0; i < 2 * frame_.n; ++i) {
+      const double error = abs(Real(out[i / 8][i % 8]) - exact[i]).convert_to<double>();
+      if (error > 0.0) worst = std::max(worst, error / (event::unit_roundoff * size[i]));
+    }
+  }
+
+  void guards() {
+    std::vector<Lane8> noise((mode_.guard_count() + 7) / 8), out(mode_.state_blocks() + 3 * mode_.guard_count());
+    mode_.bernstein_noise(magnitude_.data(), noise.data());
+    mode_.advance(X_.data(), out.data());
+    const auto terms = testing::series(mode_.system(), exact_, Real(mode_.window()), event::terms);
+    for (int g = 0; g < mode_.guard_count(); ++g) {
+      std::vector<Real> exact;
+      for (const Exact& term : terms) exact.push_back(testing::dot(mode_.guards()[g].row, term));
+      coefficients(g, exact);
+      bernstein(exact, &out[mode_.state_blocks() + 3 * g], noise[g / 8][g % 8]);
+      values(g);
+    }
+  }
+
+  void coefficients(int g, const std::vector<Real>& exact) {
+    Lane8 a, noise;
+    mode_.leading(g, X_.data(), magnitude_.data(), a, noise);
+    for (int n = 0; n < 8; ++n) {
+      const double error = abs(Real(a[n]) - exact[n]).convert_to<double>();
+      if (error > 0.0) coefficient_error = std::max(coefficient_error, error / noise[n]);
+    }
+  }
+
+  void bernstein(const std::vector<Real>& a, const Lane8* b, double noise) {
+    for (int j = 0; j < event::terms; ++j) {
+      Real sum = a[0], weight = 1;
+      for (int n = 1; n <= j; ++n) {
+        weight = weight * (j - n + 1) / (event::degree - n + 1);
+        sum += weight * a[n];
+      }
+      const double error = abs(Real(b[j / 8][j % 8]) - sum).convert_to<double>();
+      if (error > 0.0) bernstein_error = std::max(bernstein_error, error / noise);
+    }
+  }
+
+  /// Computed values of the guard polynomial, remainder of the series included, against the guard of the exact flow.
+  void values(int g) {
+    event::GuardWindow window;
+    mode_.taylor(g, X_.data(), window.taylor);
+    mode_.taylor_noise(g, magnitude_.data(), window);
+    for (const double x : {uniform(0, 1), 1.0}) {
+      const Real exact =
+          testing::dot(mode_.guards()[g].row, testing::flow(mode_.system(), exact_, Real(x) * Real(mode_.window())));
+      const double error = abs(Real(event::value(window.taylor, event::Powers(x))) - exact).convert_to<double>();
+      const double bound = window.noise_0 + x * (window.noise_1 + x * window.noise_2);
+      if (error == 0.0 && bound == 0.0) continue;
+      guard_error = std::max(guard_error, error / bound);
+      mean_guard_error =
+          (mean_guard_error * static_cast<double>(guard_count) + error / bound) / static_cast<double>(guard_count + 1);
+      ++guard_count;
+    }
+  }
+
+  Frame frame_;
+  Mode mode_;
+  std::mt19937_64 random_;
+  std::vector<double> X_, magnitude_;
+  Exact exact_;
+};
+
+ContactStates free_states(const Model& model, FrictionState friction = FrictionState::slip_plus) {
+  return {std::vector<StopState>(model.stops.size(), StopState::open),
+          std::vector<FrictionState>(model.frictions.size(), friction)};
+}
+
+void expect_bounded(const Check& check, const std::string& what) {
+  EXPECT_LE(check.guard_error, 1.0) << what;
+  EXPECT_LE(check.coefficient_error, 1.0) << what;
+  EXPECT_LE(check.bernstein_error, 1.0) << what;
+  EXPECT_LE(check.state_error, 16.0) << what;
+  EXPECT_LE(check.inside_error, 16.0) << what;
+}
+
+Model random_model(std::mt19937_64& random, int n) {
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  Model m;
+  m.name = "random";
+  m.omega = uniform(0.2, 5);
+  for (int i = 0; i < n; ++i) {
+    m.coordinates.push_back({"x" + std::to_string(i + 1), std::pow(10.0, uniform(-1, 1))});
+    m.springs.push_back({i, i == 0 ? ground : i - 1, std::pow(10.0, uniform(-1, 1))});
+    m.dampers.push_back({i, i == 0 ? ground : i - 1, std::pow(10.0, uniform(-2, 0.5))});
+  }
+  m.forces = {{0, 1, 1.0, uniform(0, 6)}, {n - 1, 2, 0.5, 0.0}, {0, 0, uniform(-1, 1), 0.0}};
+  m.stops = {{"stop", 0, n > 1 ? 1 : ground, uniform(-0.5, 0.5), 0.5}};
+  m.frictions = {{"friction", n - 1, ground, n % 2 == 0 ? 0.25 : 0.0, 0.5, 0.25}};
+  return m;
+}
+
+TEST(WindowOperators, OfRandomSystemsStayWithinTheirNoiseInEveryMode) {
+  std::mt19937_64 random(11);
+  double mean = 0.0, state = 0.0, guard = 0.0;
+  long count = 0;
+  for (int k = 0; k < 24; ++k) {
+    const Model model = random_model(random, 1 + k % 3);
+    for (const StopState stop : {StopState::open, StopState::closed}) {
+      for (const FrictionState friction : {FrictionState::slip_minus, FrictionState::stick, FrictionState::slip_plus}) {
+        Check check(model, {{stop}, {friction}}, static_cast<std::uint64_t>(k));
+        if (!check.mode().possible()) continue;
+        check.random_starts(2);
+        expect_bounded(check, "model " + std::to_string(k));
+        mean += check.mean_guard_error * static_cast<double>(check.guard_count);
+        count += check.guard_count;
+        state = std::max(state, check.state_error);
+        guard = std::max(guard, check.guard_error);
+      }
+    }
+  }
+  mean /= static_cast<double>(count);
+  std::printf("random systems: state error %.2f u, guards: mean error / noise %.4f, largest %.3f\n", state, mean,
+              guard);
+  EXPECT_GE(mean, 0.01) << "the noise bound is empty";
+}
+
+/// One family k = 1 .. 52; the error must not grow along it.
+template <class Family>
+void expect_flat(const char* name, Family&& model_of) {
+  double worst = 0.0, inside = 0.0, guard = 0.0;
+  for (int k = 1; k <= 52; k += 3) {
+    const Model model = model_of(std::ldexp(1.0, -k));
+    Check check(model, free_states(model), static_cast<std::uint64_t>(k));
+    check.random_starts(2);
+    expect_bounded(check, std::string(name) + " k = " + std::to_string(k));
+    worst = std::max(worst, check.state_error);
+    inside = std::max(inside, check.inside_error);
+    guard = std::max(guard, check.guard_error);
+  }
+  std::printf("%s: step error %.2f u, inside %.2f u, guards %.3f of their noise\n", name, worst, inside, guard);
+}
+
+TEST(WindowOperators, NearResonanceIsAsSharpAsAnythingElse) {  // K28
+  expect_flat("near resonance", [](double d) { return oracle::oscillator_with_stop(1.0, 0.5, 1.0, 1.0 + d); });
+}
+
+TEST(WindowOperators, NearCriticalDampingIsAsSharpAsAnythingElse) {  // K30; d = 0: K29
+  for (const double sign : {1.0, -1.0})
+    expect_flat("near critical",
+                [&](double d) { return oracle::oscillator_with_stop(1.0, 0.5, 0.0, 1.0, 2 * (1 + sign * d)); });
+  expect_flat("critical", [](double) { return oracle::oscillator_with_stop(1.0, 0.5, 0.0, 1.0, 2.0); });
+}
+
+TEST(WindowOperators, EqualEigenvaluesOfTwoCoordinates) {  // K29
+  expect_flat("equal eigenvalues", [](double d) {
+    Model m = oracle::vibro_impact(1.5);
+    m.springs = {{0, ground, 1.0}, {1, ground, 10.0 * (1 + d)}, {0, 1, d}};
+    m.dampers.clear();
+    return m;
+  });
+}
+
+TEST(WindowOperators, RigidBodyNeedsNoSpecialCase) {  // K29, k = 0
+  expect_flat("rigid body", [](double d) {
+    Model m = oracle::ball(0.5);
+    m.springs = {{0, ground, d}};
+    return m;
+  });
+  const Model ball = oracle::ball(0.5);
+  Check check(ball, free_states(ball), 1);
+  check.random_starts(20);
+  expect_bounded(check, "ball");
+  EXPECT_LE(check.state_error, 8.0);
+}
+
+TEST(WindowOperators, StiffSystemsHaveShortWindowsAndTheSameError) {  // K31
+  expect_flat("stiff spring", [](double d) {
+    Model m = oracle::vibro_impact(1.5);
+    m.springs[0].stiffness = std::pow(1 / d, 0.75);  // up to 5e11
+    return m;
+  });
+  expect_flat("light mass", [](double d) {
+    Model m = oracle::vibro_impact(1.5);
+    m.coordinates[1].mass = std::pow(d, 0.75);
+    return m;
+  });
+  expect_flat("overdamped", [](double d) {
+    Model m = oracle::vibro_impact(1.5);
+    m.dampers[0].coefficient = std::pow(1 / d, 0.4);  // up to 2e6
+    return m;
+  });
+}
+
+TEST(WindowOperators, ConstrainedCoordinateDoesNotMoveAtAll) {
+  const Model model = oracle::vibro_impact(1.5);
+  const Frame frame(model);
+  const Mode stick(model, frame, {{StopState::open}, {FrictionState::stick}});
+  std::vector<double> X(16, 0.0);
+  X[0] = -0.3, X[1] = 0.7, X[3] = -1.1;
+  frame.set_phase(0.3, X.data());
+  std::vector<Lane8> out(2);
+  stick.step(X.data(), out.data());
+  EXPECT_EQ(out[0][0], -0.3);  // gap
+  EXPECT_EQ(out[0][2], 0.0);   // relative velocity
+  double at[16];
+  stick.state_at(0.7, X.data(), at);
+  EXPECT_EQ(at[0], -0.3);
+  EXPECT_EQ(at[2], 0.0);
+}
+
+TEST(Frame, PhaseIsExactAtTheQuarterPeriodsAndLosesNothingAtLargeHarmonics) {
+  Model model = oracle::cosine_ball(0.5);
+  model.forces.push_back({0, 7, 1.0, 0.0});
+  const Frame frame(model);
+  double X[16] = {};
+  const double cosine[] = {1, 0, -1, 0}, sine[] = {0, 1, 0, -1};
+  for (int q = 0; q < 4; ++q) {
+    frame.set_phase(0.25 * q, X);
+    EXPECT_EQ(X[2], cosine[q]);
+    EXPECT_EQ(X[3], sine[q]);
+    EXPECT_EQ(X[4], cosine[7 * q % 4]);
+    EXPECT_EQ(X[5], sine[7 * q % 4]);
+  }
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 500; ++i) {
+    const double fraction = std::uniform_real_distribution<double>(0, 1)(random);
+    frame.set_phase(fraction, X);
+    const Real angle = 2 * oracle::pi() * Real(fraction);
+    EXPECT_LE(abs(Real(X[2]) - cos(angle)), Real(3e-16));
+    EXPECT_LE(abs(Real(X[3]) - sin(angle)), Real(3e-16));
+    EXPECT_LE(abs(Real(X[5]) - sin(7 * angle)), Real(7 * 8e-16));
+  }
+}
+
+}  // namespace
+}  // namespace slapstick::mode

@@ -71,6 +71,12 @@ void Mode::select_linear_system(const Model& model, const Frame& frame) {
   }
 
   const std::vector<Constraint> groups = constraints(model, frame, states_, possible_);
+  for (std::size_t i = 0; i < states_.frictions.size(); ++i) {  // a pair held by a closed stop does not slip
+    for (const Constraint& group : groups) {
+      const bool slips = states_.frictions[i] != FrictionState::stick && model.frictions[i].belt_speed == 0.0;
+      if (slips && !group.stops.empty() && parallel(group.row, frame.frictions[i].row) != 0) possible_ = false;
+    }
+  }
   if (!possible_) return;
   std::vector<RowVector> rows;
   for (const Constraint& group : groups) rows.push_back(group.row);
@@ -96,6 +102,11 @@ void Mode::select_linear_system(const Model& model, const Frame& frame) {
     if (states_.stops[i] == StopState::open) arm_gap(model, frame, static_cast<int>(i), rows);
   }
 
+  for (Guard& guard : guards_) {
+    if ((guard.row.array() != 0.0).count() != 1) continue;
+    guard.row.cwiseAbs().maxCoeff(&guard.single);
+    guard.factor = guard.row[guard.single];
+  }
   for (Guard& slip : guards_) {
     for (std::size_t g = 0; g < guards_.size() && slip.kind == GuardKind::slip; ++g) {
       if (guards_[g].kind != GuardKind::gap) continue;

@@ -36,6 +36,9 @@ struct Guard {
   /// Index of the gap guard of the same pair whose rate of fall this slip guard is (h = -gap'), or -1. While such a gap is proven to
   /// fall, the slip guard is positive: y and w are one function and its derivative.
   int falls_with = -1;
+  /// h = factor * X[single] if the row has one entry only (then h has no rounding error but its own), else -1.
+  int single = -1;
+  double factor = 0.0;
 };
 
 /// Dense operators on X = (p, u, cos, sin, .., 1), all for the window length `window`, x = s / window in [0, 1].
@@ -48,7 +51,7 @@ class Mode {
   Mode(const Model& model, const Frame& frame, ContactStates states);
 
   [[nodiscard]] const ContactStates& states() const { return states_; }
-  /// False for a combination that cannot exist (closed stop and stick to a moving belt on one pair).
+  /// False for a combination that cannot exist: closed stop and stick to a moving belt, or slip at rest, on one pair.
   [[nodiscard]] bool possible() const { return possible_; }
   [[nodiscard]] const std::vector<Guard>& guards() const { return guards_; }
   [[nodiscard]] const Matrix& system() const { return A_; }  ///< X' = system() X

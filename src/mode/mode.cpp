@@ -47,79 +47,103 @@ std::vector<Constraint> constraints(const Model& model, const Frame& frame, cons
   return groups;
 }
 
+/// A pair held by a closed stop does not slip, unless on a moving belt.
+bool slips_where_held(const Model& model, const Frame& frame, const ContactStates& states,
+                      const std::vector<Constraint>& groups) {
+  for (std::size_t i = 0; i < states.frictions.size(); ++i) {
+    if (states.frictions[i] == FrictionState::stick || model.frictions[i].belt_speed != 0.0) continue;
+    for (const Constraint& group : groups) {
+      if (!group.stops.empty() && parallel(group.row, frame.frictions[i].row) != 0) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
+
+/// The contacts that a mode holds still, with the multipliers that hold them: f0 = holding * X, one row per group.
+struct Mode::Held {
+  std::vector<Constraint> groups;
+  std::vector<RowVector> rows;
+  Matrix holding;
+};
 
 Mode::Mode(const Model& model, const Frame& frame, ContactStates states)
     : states_(std::move(states)), n_(frame.n), m_(frame.size()) {
   drift_.assign(frame.drift.begin(), frame.drift.end());
-  select_linear_system(model, frame);
-  if (possible_) build_operators(frame, model.omega);
+  Held held{constraints(model, frame, states_, possible_), {}, {}};
+  if (slips_where_held(model, frame, states_, held.groups)) possible_ = false;
+  if (!possible_) return;
+  select_linear_system(model, frame, held);
+  arm_guards(model, frame, held);
+  note_guard_structure(frame.kinematics(model.omega));
+  build_operators(frame, model.omega);
 }
 
-/// M u' = R(X) + G^T lambda with G u' = 0:  lambda = -(G M^{-1} G^T)^{-1} G M^{-1} R, a linear functional of X.
-/// Along a group's row the holding force is f0 = -lambda, positive when it pushes a in the -x direction.
-void Mode::select_linear_system(const Model& model, const Frame& frame) {
+/// Slip: kinetic friction -s f_k on a. Held contacts: M u' = R(X) + G^T lambda with G u' = 0, so that
+/// lambda = -(G M^{-1} G^T)^{-1} G M^{-1} R is a linear functional of X; along a row the holding force is f0 = -lambda, positive when
+/// it pushes a in the -x direction.
+void Mode::select_linear_system(const Model& model, const Frame& frame, Held& held) {
   Matrix acceleration = frame.free;
   for (std::size_t i = 0; i < states_.frictions.size(); ++i) {
-    const auto s = static_cast<double>(states_.frictions[i]);
-    const FrictionContact& contact = model.frictions[i];
-    acceleration.col(frame.one()) -=
-        s * contact.kinetic_friction * (frame.mass_inverse * frame.frictions[i].row.transpose());
-    if (s != 0.0)
-      guards_.push_back(
-          {GuardKind::slip, static_cast<int>(i), s * frame.velocity_row(frame.frictions[i], contact.belt_speed)});
+    const double force = static_cast<double>(states_.frictions[i]) * model.frictions[i].kinetic_friction;
+    acceleration.col(frame.one()) -= force * (frame.mass_inverse * frame.frictions[i].row.transpose());
   }
-
-  const std::vector<Constraint> groups = constraints(model, frame, states_, possible_);
-  for (std::size_t i = 0; i < states_.frictions.size(); ++i) {  // a pair held by a closed stop does not slip
-    for (const Constraint& group : groups) {
-      const bool slips = states_.frictions[i] != FrictionState::stick && model.frictions[i].belt_speed == 0.0;
-      if (slips && !group.stops.empty() && parallel(group.row, frame.frictions[i].row) != 0) possible_ = false;
-    }
+  Matrix G(static_cast<Eigen::Index>(held.groups.size()), n_);
+  for (std::size_t k = 0; k < held.groups.size(); ++k) {
+    held.rows.push_back(held.groups[k].row);
+    G.row(static_cast<Eigen::Index>(k)) = held.rows.back();
   }
-  if (!possible_) return;
-  std::vector<RowVector> rows;
-  for (const Constraint& group : groups) rows.push_back(group.row);
-  if (!groups.empty()) {
-    Matrix G(static_cast<Eigen::Index>(groups.size()), n_);
-    for (std::size_t k = 0; k < rows.size(); ++k) G.row(static_cast<Eigen::Index>(k)) = rows[k];
-    const Matrix lambda = -(G * frame.mass_inverse * G.transpose()).fullPivLu().solve(G * acceleration);
-    acceleration += frame.mass_inverse * G.transpose() * lambda;
-    for (std::size_t k = 0; k < groups.size(); ++k) {
-      const RowVector f0 = -lambda.row(static_cast<Eigen::Index>(k));
-      RowVector limit = RowVector::Zero(m_);
-      for (int i : groups[k].frictions) limit[frame.one()] += model.frictions[i].static_friction;
-      if (!groups[k].stops.empty()) {
-        guards_.push_back({GuardKind::press, groups[k].stops.front(), f0 + limit});
-      } else {
-        const int sense = parallel(groups[k].row, frame.frictions[groups[k].frictions.front()].row);
-        guards_.push_back({GuardKind::stick_above, groups[k].frictions.front(), limit - sense * f0});
-        guards_.push_back({GuardKind::stick_below, groups[k].frictions.front(), limit + sense * f0});
-      }
-    }
+  if (!held.groups.empty()) {
+    held.holding = (G * frame.mass_inverse * G.transpose()).fullPivLu().solve(G * acceleration);
+    acceleration -= frame.mass_inverse * G.transpose() * held.holding;
   }
-  for (std::size_t i = 0; i < states_.stops.size(); ++i) {
-    if (states_.stops[i] == StopState::open) arm_gap(model, frame, static_cast<int>(i), rows);
-  }
-
-  for (Guard& guard : guards_) {
-    if ((guard.row.array() != 0.0).count() != 1) continue;
-    guard.row.cwiseAbs().maxCoeff(&guard.single);
-    guard.factor = guard.row[guard.single];
-  }
-  for (Guard& slip : guards_) {
-    for (std::size_t g = 0; g < guards_.size() && slip.kind == GuardKind::slip; ++g) {
-      if (guards_[g].kind != GuardKind::gap) continue;
-      const RowVector rate = guards_[g].row * frame.kinematics(model.omega);  // gap' involves no acceleration
-      if ((rate + slip.row).isZero(0.0)) slip.falls_with = static_cast<int>(g);
-    }
-  }
-
   A_ = frame.kinematics(model.omega);
   A_.middleRows(n_, n_) = acceleration;
-  for (int i = 0; i < n_; ++i) {  // a constrained contact coordinate has exactly no acceleration
-    for (const RowVector& row : rows) {
+  for (int i = 0; i < n_; ++i) {  // a held contact coordinate has exactly no acceleration
+    for (const RowVector& row : held.rows) {
       if (parallel(row, RowVector::Unit(n_, i)) != 0) A_.row(n_ + i).setZero();
+    }
+  }
+}
+
+/// In the order in which events at one instant are handled: gaps, relative velocities, forces.
+void Mode::arm_guards(const Model& model, const Frame& frame, const Held& held) {
+  for (std::size_t i = 0; i < states_.stops.size(); ++i) {
+    if (states_.stops[i] == StopState::open) arm_gap(model, frame, static_cast<int>(i), held.rows);
+  }
+  for (std::size_t i = 0; i < states_.frictions.size(); ++i) {
+    const auto s = static_cast<double>(states_.frictions[i]);
+    const RowVector w = frame.velocity_row(frame.frictions[i], model.frictions[i].belt_speed);
+    if (s != 0.0) guards_.push_back({GuardKind::slip, static_cast<int>(i), s * w});
+  }
+  for (std::size_t k = 0; k < held.groups.size(); ++k) {
+    const Constraint& group = held.groups[k];
+    const RowVector f0 = held.holding.row(static_cast<Eigen::Index>(k));
+    RowVector limit = RowVector::Zero(m_);
+    for (int i : group.frictions) limit[frame.one()] += model.frictions[i].static_friction;
+    if (!group.stops.empty()) {
+      guards_.push_back({GuardKind::press, group.stops.front(), f0 + limit});
+      continue;
+    }
+    const int contact = group.frictions.front();
+    const int sense = parallel(group.row, frame.frictions[contact].row);
+    guards_.push_back({GuardKind::stick_above, contact, limit - sense * f0});
+    guards_.push_back({GuardKind::stick_below, contact, limit + sense * f0});
+  }
+}
+
+void Mode::note_guard_structure(const Matrix& kinematics) {
+  for (Guard& guard : guards_) {
+    if ((guard.row.array() != 0.0).count() == 1) {
+      guard.row.cwiseAbs().maxCoeff(&guard.single);
+      guard.factor = guard.row[guard.single];
+    }
+    if (guard.kind != GuardKind::slip) continue;
+    for (std::size_t g = 0; g < guards_.size(); ++g) {
+      if (guards_[g].kind != GuardKind::gap) continue;
+      const RowVector rate = guards_[g].row * kinematics;  // gap' involves no acceleration
+      if ((rate + guard.row).isZero(0.0)) guard.falls_with = static_cast<int>(g);
     }
   }
 }
@@ -138,8 +162,7 @@ void Mode::arm_gap(const Model& model, const Frame& frame, int stop, const std::
     const int same = parallel(row, frame.frictions[i].row);
     if (same * static_cast<int>(states_.frictions[i]) < 0 && model.frictions[i].belt_speed == 0.0) return;
   }
-  guards_.insert(guards_.begin(),
-                 {GuardKind::gap, stop, frame.gap_row(frame.stops[stop], model.stops[stop].clearance)});
+  guards_.push_back({GuardKind::gap, stop, frame.gap_row(frame.stops[stop], model.stops[stop].clearance)});
 }
 
 /// exp(A H): positions from their own series, u = p' - drift from its derivative, the oscillators as rotations.

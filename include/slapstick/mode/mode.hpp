@@ -76,7 +76,10 @@ class Mode {
   void state_at(double x, const double* X, double* out) const;
 
  private:
-  void select_linear_system(const Model& model, const Frame& frame);
+  struct Held;
+  void select_linear_system(const Model& model, const Frame& frame, Held& held);
+  void arm_guards(const Model& model, const Frame& frame, const Held& held);
+  void note_guard_structure(const Matrix& kinematics);
   void arm_gap(const Model& model, const Frame& frame, int stop, const std::vector<RowVector>& constrained);
   void build_operators(const Frame& frame, double omega);
   [[nodiscard]] Matrix flow_over_window(const Series& series, std::size_t first_coordinate, const Frame& frame,

@@ -71,6 +71,7 @@ struct Mode::Held {
 Mode::Mode(const Model& model, const Frame& frame, ContactStates states)
     : states_(std::move(states)), n_(frame.n), m_(frame.size()) {
   drift_.assign(frame.drift.begin(), frame.drift.end());
+  steady_.assign(n_, false);
   Held held{constraints(model, frame, states_, possible_), {}, {}};
   if (slips_where_held(model, frame, states_, held.groups)) possible_ = false;
   if (!possible_) return;
@@ -102,7 +103,9 @@ void Mode::select_linear_system(const Model& model, const Frame& frame, Held& he
   A_.middleRows(n_, n_) = acceleration;
   for (int i = 0; i < n_; ++i) {  // a held contact coordinate has exactly no acceleration
     for (const RowVector& row : held.rows) {
-      if (parallel(row, RowVector::Unit(n_, i)) != 0) A_.row(n_ + i).setZero();
+      if (parallel(row, RowVector::Unit(n_, i)) == 0) continue;
+      A_.row(n_ + i).setZero();
+      steady_[i] = true;
     }
   }
 }
@@ -173,6 +176,7 @@ Matrix Mode::flow_over_window(const Series& series, std::size_t first_coordinate
     flow.row(i) = series.end_value(first_coordinate + i);
     flow.row(n_ + i) = series.end_slope(first_coordinate + i);
     flow(n_ + i, m_ - 1) -= drift_[i];
+    if (steady_[i]) flow.row(n_ + i) = RowVector::Unit(m_, n_ + i);
   }
   for (std::size_t k = 0; k < frame.harmonics.size(); ++k) {
     const auto c = static_cast<Eigen::Index>(2 * n_ + 2 * k);
@@ -294,7 +298,7 @@ void Mode::state_at(double x, const double* X, double* out) const {
     event::Coefficients a;
     multiply(coordinates_.data() + 3 * k * m_, 3, m_, X, a.data());
     out[k] = event::value(a, powers);
-    out[n_ + k] = event::value(event::derivative(a), powers) * per_time - drift_[k];
+    out[n_ + k] = steady_[k] ? X[n_ + k] : event::value(event::derivative(a), powers) * per_time - drift_[k];
   }
 }
 

@@ -90,6 +90,7 @@ class Mode {
   Matrix A_;
   std::vector<Guard> guards_;
   std::vector<double> drift_;
+  std::vector<bool> steady_;  ///< u_i is constrained: it keeps its value to the last bit
   int n_ = 0, m_ = 0, state_blocks_ = 0, noise_blocks_ = 0;
   double window_ = 1.0, noise_factor_ = 0.0;
   std::vector<event::Lane8> advance_, bernstein_noise_, taylor_, leading_noise_, taylor_noise_, coordinates_;

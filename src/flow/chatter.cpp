@@ -12,7 +12,8 @@ namespace {
 struct Friction {
   double phi = 0.0;         ///< known: f_k on the same pair, against the motion
   double phi_static = 0.0;  ///< f_s on the same pair
-  double unknown = 0.0;     ///< any value up to this: friction on other pairs, whose state the impulses may change
+  double steady = 0.0;      ///< known and constant: contacts that slip all the while (on a belt, on other pairs)
+  double unknown = 0.0;  ///< any value up to this: friction at rest on other pairs, whose state the impulses may change
 };
 
 /// +1, -1 if the rows are equal or opposite, else 0.
@@ -36,18 +37,21 @@ double coupling(const mode::Frame& frame, const mode::RowVector& g, const mode::
   return sum;
 }
 
-Friction friction_on(const System& system, int stop) {
+Friction friction_on(const System& system, int stop, const double* X) {
   const mode::Frame& frame = system.frame();
   const mode::RowVector& g = frame.stops[stop].row;
   Friction friction;
   for (std::size_t i = 0; i < frame.frictions.size(); ++i) {
     const FrictionContact& contact = system.model().frictions[i];
-    const double effect = std::abs(coupling(frame, g, frame.frictions[i].row));
+    const double effect = coupling(frame, g, frame.frictions[i].row);
+    const double w = sliding_velocity(system, static_cast<int>(i), X);
     if (contact.belt_speed == 0.0 && same_pair(g, frame.frictions[i].row) != 0) {
-      friction.phi += effect * contact.kinetic_friction;
-      friction.phi_static += effect * contact.static_friction;
+      friction.phi += std::abs(effect) * contact.kinetic_friction;
+      friction.phi_static += std::abs(effect) * contact.static_friction;
+    } else if (w != 0.0) {
+      friction.steady -= std::copysign(contact.kinetic_friction, w) * effect;
     } else {
-      friction.unknown += effect * contact.static_friction;
+      friction.unknown += std::abs(effect) * contact.static_friction;
     }
   }
   return friction;
@@ -117,6 +121,21 @@ double drift_of_R(const System& system, int stop, const double* X, double D, dou
   return drift;
 }
 
+/// True if no contact that was counted as steady can come to rest: its velocity changes by less than it is. delta bounds |X - X_0|.
+bool all_slip_on(const System& system, int stop, const double* X, const double* delta) {
+  const mode::Frame& frame = system.frame();
+  for (std::size_t i = 0; i < frame.frictions.size(); ++i) {
+    const mode::RowVector& row = frame.frictions[i].row;
+    const bool on_pair = system.model().frictions[i].belt_speed == 0.0 && same_pair(frame.stops[stop].row, row) != 0;
+    const double w = std::abs(sliding_velocity(system, static_cast<int>(i), X));
+    if (on_pair || w == 0.0 || coupling(frame, frame.stops[stop].row, row) == 0.0) continue;
+    double change = 0.0;
+    for (int j = 0; j < frame.n; ++j) change += std::abs(row[j]) * delta[frame.u(j)];
+    if (change >= w) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 ChatterLimit prove_chatter(const System& system, int stop, const double* X, double tolerance,
@@ -125,10 +144,11 @@ ChatterLimit prove_chatter(const System& system, int stop, const double* X, doub
   const double v = -approach_velocity(system, stop, X);
   double R = 0.0;
   for (int j = 0; j < system.frame().size(); ++j) R += system.press(stop)[j] * X[j];
+  const Friction friction = friction_on(system, stop, X);
+  R += friction.steady;
   // The error of the limit is about (duration^2 / period): too early to be worth a proof?
   if (!(v < 100.0 * std::sqrt(tolerance * system.period()) * std::sqrt(system.period()) * R)) return {};
 
-  const Friction friction = friction_on(system, stop);
   if (!(v > 0.0) || !(r < 1.0) || R - friction.phi - friction.unknown <= 0.0 ||
       R - friction.unknown <= friction.phi_static)
     return {};
@@ -138,6 +158,7 @@ ChatterLimit prove_chatter(const System& system, int stop, const double* X, doub
   const double D = 2.0 * nominal;
   const double impulse_sum = 2.0 * (1.0 + r) / r * v * nominal_rho / (1.0 - nominal_rho);
   const double delta = drift_of_R(system, stop, X, D, impulse_sum, scratch) + friction.unknown;
+  if (!(delta < R) || !all_slip_on(system, stop, X, scratch.data() + 2 * system.frame().size())) return {};
   const double rise_min = R + friction.phi - delta, rise_max = R + friction.phi + delta;
   const double fall_min = R - friction.phi - delta, fall_max = R - friction.phi + delta;
   if (!(R - delta > friction.phi_static) || !(fall_min > 0.0)) return {};

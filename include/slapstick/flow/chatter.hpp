@@ -4,7 +4,8 @@
 /// Just after an impact of a stop let the pair separate with speed v and let y be its displacement beyond the stop (y <= 0). In flight
 ///     y'' = R(X) + phi   while it rises (w < 0),      y'' = R(X) - phi   while it returns (w > 0),
 /// with R = row . free X the acceleration without friction (R > 0 presses onto the stop) and phi = f_k g M^{-1} g^T if a friction contact acts on
-/// the same pair. Over a window of length D every component of X stays within a bound Delta of its start: Delta is verified as
+/// the same pair. A contact that slips all the while, on a belt or on another pair, adds a constant to R; proven like the rest.
+/// Over a window of length D every component of X stays within a bound Delta of its start: Delta is verified as
 ///     D (|A| |X| + f + |A| Delta) + J <= Delta,   J = total of the impulses still to come,
 /// which bounds R within R_0 +- delta. With a_rise in R_0 + phi +- delta and a_return in R_0 - phi +- delta, consecutive speeds shrink by at
 /// least rho = r sqrt(a_return_max / a_rise_min), and all flights together last at most

@@ -1,6 +1,8 @@
 #include "slapstick/sweep/diagram.hpp"
 
+#include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
@@ -51,12 +53,12 @@ class Run {
   }
 
   Diagram operator()() {
-    const std::size_t total = diagram_.points.size();
-    const std::size_t chain = problem_.start == StartRule::carry ? static_cast<std::size_t>(problem_.count) : 1;
-    carried_.resize(total);
-    for (std::size_t begin = 0; begin < total; begin += chain) spawn(begin, begin + chain);
-    tasks_.wait();
-    fork_join::join();
+    settled_.resize(diagram_.points.size());
+    if (problem_.start == StartRule::carry) {
+      run_chains();
+    } else {
+      run_each();
+    }
     for (const DiagramPoint& point : diagram_.points) diagram_.complete = diagram_.complete && point.done;
     return std::move(diagram_);
   }
@@ -68,28 +70,69 @@ class Run {
     point.direction = direction;
   }
 
-  void spawn(std::size_t index, std::size_t end) {
-    auto task = tasks_.defer([this, index, end] {
+  void run_each() {
+    const auto body = [this](const tbb::blocked_range<std::size_t>& range) {
       fork_join::enter();
-      go_on(index, end);
+      for (std::size_t i = range.begin(); i != range.end(); ++i)
+        if (settle_point(i, {})) record_point(i);
+      fork_join::leave();
+    };
+    fork_join::fork();
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, diagram_.points.size()), body, tbb::simple_partitioner());
+    fork_join::join();
+  }
+
+  void run_chains() {
+    const auto chain = static_cast<std::size_t>(problem_.count);
+    for (std::size_t begin = 0; begin < diagram_.points.size(); begin += chain)
+      spawn([this, begin, chain] { run_chain(begin, begin + chain); });
+    tasks_.wait();
+    fork_join::join();
+  }
+
+  /// A task whose captures are plain numbers and pointers.
+  template <class Body>
+  void spawn(const Body& body) {
+    auto task = tasks_.defer([body] {
+      fork_join::enter();
+      body();
       fork_join::leave();
     });
-    fork_join::fork();  // what the task needs is written by now: its captures and carried_[index]
+    fork_join::fork();  // what the task needs is written by now
     tasks_.run(std::move(task));
   }
 
-  /// The point at `index`, then its chain up to `end`. The rest of the chain is offered to other threads before this one records;
-  /// a thread takes its own newest task first, so that without other threads at most one recording waits.
-  void go_on(std::size_t index, std::size_t end) {
-    if (cancelled(problem_)) return;
-    DiagramPoint& point = diagram_.points[index];
-    std::optional<Settled> settled = settle(problem_, carried_[index], point);
-    if (index + 1 < end) {
-      carried_[index + 1] = settled ? carry_on(*settled) : carried_[index];
-      spawn(index + 1, end);
+  /// Transients one after the other, recordings for whoever is free. When too many wait, because the others are busy or there are
+  /// none, the chain records itself: a waiting recording holds a System.
+  void run_chain(std::size_t begin, std::size_t end) {
+    Carried carried;
+    for (std::size_t i = begin; i < end && !cancelled(problem_); ++i) {
+      if (!settle_point(i, carried)) continue;
+      carried = carry_on(*settled_[i]);
+      if (waiting_ < most_waiting) {
+        ++waiting_;
+        spawn([this, i] {
+          --waiting_;
+          record_point(i);
+        });
+      } else {
+        record_point(i);
+      }
     }
-    if (settled) record(problem_, std::move(*settled), point);
-    if (point.done) report();
+  }
+
+  bool settle_point(std::size_t i, const Carried& carried) {
+    if (cancelled(problem_)) return false;
+    DiagramPoint& point = diagram_.points[i];
+    settled_[i] = settle(problem_, carried, point);
+    if (!settled_[i] && point.done) report();
+    return settled_[i].has_value();
+  }
+
+  void record_point(std::size_t i) {
+    if (!cancelled(problem_)) record(problem_, std::move(*settled_[i]), diagram_.points[i]);
+    settled_[i].reset();
+    if (diagram_.points[i].done) report();
   }
 
   void report() {
@@ -100,7 +143,9 @@ class Run {
 
   const DiagramProblem& problem_;
   Diagram diagram_;
-  std::vector<Carried> carried_;  // the start of each point; written by the task of the point before it
+  std::vector<std::optional<Settled>> settled_;  // between a point's transient and its recording
+  static constexpr int most_waiting = 32;
+  std::atomic<int> waiting_{0};  // recordings that no thread has begun
   tbb::task_group tasks_;
   std::mutex progress_;
   int done_ = 0;

@@ -3,8 +3,10 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 # Public headers may use Eigen types, whose alignment Eigen derives from -march. A library built for one machine and a program built
-# for the baseline would disagree and corrupt the heap, so it is fixed, at what Debian's own Eigen users have.
-target_compile_definitions(slapstick PUBLIC EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MAX_STATIC_ALIGN_BYTES=16)
+# for the baseline would disagree and corrupt the heap, so it is fixed, at what Debian's own Eigen users have. The choice between malloc and
+# Eigen's own aligned allocator depends on -march too: always the latter, on both sides.
+target_compile_definitions(slapstick PUBLIC EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MAX_STATIC_ALIGN_BYTES=16
+                                            EIGEN_MALLOC_ALREADY_ALIGNED=0)
 
 # Which package an imported target comes from. A static library needs its private dependencies when it is linked, so the
 # config file looks for them too; for a shared one only the public ones.

@@ -33,7 +33,9 @@ Json cycle_json(const Classification& found, Json json, const std::vector<std::s
   for (const auto& multiplier : found.multipliers)
     multipliers.push(Json::list(std::vector<double>{multiplier.real(), multiplier.imag()}));
   json.set("sticking_fraction", found.sticking_fraction).set("multipliers", std::move(multipliers));
-  json.set("return_distance", found.return_distance).set("impacts", impacts_json(found.impacts, names));
+  json.set("return_distance", found.return_distance)
+      .set("approach", found.approach)
+      .set("impacts", impacts_json(found.impacts, names));
   return json;
 }
 
@@ -49,6 +51,8 @@ Json result_json(const Classification& found, const ChosenModel& chosen) {
   json.set("exponent", found.exponent);
   if (found.attractor != Attractor::periodic)
     json.set("exponent_error", found.exponent_error).set("birkhoff_digits", found.digits);
+  if (found.attractor == Attractor::undecided && found.exponent < 0.0)
+    json.set("hint", "the motion contracts: a cycle longer than --most-n or an approach longer than --most-periods");
   json.set("periods_used", found.periods_used).set("state", std::move(state));
   return json;
 }
@@ -59,22 +63,29 @@ Action add_classify(Arguments& arguments) {
   auto options = std::make_shared<Options>();
   options->model.declare(arguments);
   options->model.declare_state(arguments);
-  arguments.count("--transient", options->transient, 0, 1'000'000'000, "forcing periods to leave out first");
-  arguments.count("--most-periods", options->most_periods, 10, 1'000'000'000, "search for a cycle this long");
-  arguments.count("--most-n", options->most_n, 1, 4096, "longest cycle sought, in forcing periods");
+  arguments.count("--transient", options->transient, 0, 1'000'000'000,
+                  "forcing periods to leave out first; default 500");
+  arguments.count("--most-periods", options->most_periods, 10, 1'000'000'000,
+                  "search for a cycle this long; default 20000");
+  arguments.count("--most-n", options->most_n, 1, 4096, "longest cycle sought, in forcing periods; default 64");
   arguments.text("--out", options->out, "FILE", "write the JSON there instead of to standard output");
   arguments.footer(
       "The class n-p-I or n-p-II: n forcing periods, p impacts (inf with complete chatter), II if the blocks stick.\n"
       "A motion without a cycle is quasi-periodic, chaotic or undecided; docs/classify.md says how that is decided.\n"
       "  slapstick classify vibro-impact --set omega=1.5");
-  return [options](const Context&) {
+  return [options](const Context& context) {
+    FileRoles roles;
+    roles.add("MODEL", options->model.source);
+    roles.add("--out", options->out);
     Output out(options->out);
     const ChosenModel chosen = options->model.load();
     const State start = options->model.start(chosen);
     const Classification found = classify(System(chosen.model), start,
                                           {.transient_periods = static_cast<int>(options->transient),
                                            .most_periods = static_cast<int>(options->most_periods),
-                                           .most_n = static_cast<int>(options->most_n)});
+                                           .most_n = static_cast<int>(options->most_n),
+                                           .cancel = &context.stop});
+    if (found.interrupted) return interrupted;
     out.write(result_json(found, chosen).dump() + "\n");
     out.commit();
     return done;

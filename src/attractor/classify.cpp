@@ -37,8 +37,9 @@ class ReturnSearch {
   [[nodiscard]] State state() const { return motion_.state(); }
   [[nodiscard]] long periods() const { return motion_.time().period; }
   void discard(int periods) {
-    for (int k = 0; k < periods; ++k) attractor::run_one_period(motion_);
+    for (int k = 0; k < periods && !cancelled(); ++k) attractor::run_one_period(motion_);
   }
+  [[nodiscard]] bool cancelled() const { return options_.cancel && options_.cancel->load(std::memory_order_relaxed); }
 
  private:
   [[nodiscard]] const VectorXd& back(long n) const { return states_[states_.size() - 1 - static_cast<std::size_t>(n)]; }
@@ -83,7 +84,7 @@ bool ReturnSearch::same_events(long n) const {
 }
 
 bool ReturnSearch::run(int periods, Classification& result) {
-  for (int k = 0; k < periods; ++k) {
+  for (int k = 0; k < periods && !cancelled(); ++k) {
     note_period();
     const auto kept = static_cast<long>(states_.size());
     const bool newton_turn = k >= next_newton_;
@@ -111,9 +112,11 @@ int ReturnSearch::shortest_cycle(const VectorXd& x, int n) const {
 bool ReturnSearch::accept(const VectorXd& x, int cycle, double d, Classification& result) {
   const int n = shortest_cycle(x, cycle);
   result.attractor = Attractor::periodic;
-  result.return_distance = d;
+  result.approach = d;
   attractor::record_cycle(system_, attractor::user_state(system_, x), n, result);
-  result.multipliers = attractor::multipliers_of(attractor::return_map(system_, x, n).jacobian);
+  const attractor::MapValue map = attractor::return_map(system_, x, n);
+  result.return_distance = attractor::distance(map.image, x, scale_);
+  result.multipliers = attractor::multipliers_of(map.jacobian);
   return true;
 }
 
@@ -162,6 +165,10 @@ Classification classify(const System& system, const State& state, const Classify
   for (int round = std::max(500, 4 * options.most_n), done = 0; done < options.most_periods; round *= 4) {
     const int periods = std::min(round, options.most_periods - done);
     if (search.run(periods, result)) break;
+    if (search.cancelled()) {
+      result.interrupted = true;
+      break;
+    }
     done += periods;
     const bool last = done >= options.most_periods;
     const auto run =

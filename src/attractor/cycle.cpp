@@ -84,6 +84,11 @@ void record_cycle(const System& system, const State& state, int n, Classificatio
     }
     if (event.kind == EventKind::chatter) out.chatter = Chatter::complete;
   }
+  while (motion.advance({2 * n, 0.0}) == Outcome::event) {  // a second cycle: a burst may run across its start
+    if (motion.event().kind != EventKind::impact) continue;
+    times.push_back(motion.event().time.since({}));
+    speeds.push_back(motion.event().w);
+  }
   out.p = static_cast<long>(out.impacts.size());
   out.sticking_fraction = still / n;
   out.sticking = still > 0.0;

@@ -16,36 +16,13 @@ struct Friction {
   double unknown = 0.0;  ///< any value up to this: friction at rest on other pairs, whose state the impulses may change
 };
 
-/// +1, -1 if the rows are equal or opposite, else 0.
-int same_pair(const mode::RowVector& a, const mode::RowVector& b) {
-  int sign = 0;
-  for (Eigen::Index i = 0; i < a.size(); ++i) {
-    if (a[i] == 0.0 && b[i] == 0.0) continue;
-    const int here = a[i] == b[i] ? 1 : a[i] == -b[i] ? -1 : 0;
-    if (here == 0 || (sign != 0 && here != sign)) return 0;
-    sign = here;
-  }
-  return sign;
-}
-
-/// g M^{-1} h^T without temporaries.
-double coupling(const mode::Frame& frame, const mode::RowVector& g, const mode::RowVector& h) {
-  double sum = 0.0;
-  for (int i = 0; i < frame.n; ++i) {
-    for (int j = 0; j < frame.n; ++j) sum += g[i] * frame.mass_inverse(i, j) * h[j];
-  }
-  return sum;
-}
-
 Friction friction_on(const System& system, int stop, const double* X) {
-  const mode::Frame& frame = system.frame();
-  const mode::RowVector& g = frame.stops[stop].row;
   Friction friction;
-  for (std::size_t i = 0; i < frame.frictions.size(); ++i) {
+  for (int i = 0; i < static_cast<int>(system.model().frictions.size()); ++i) {
     const FrictionContact& contact = system.model().frictions[i];
-    const double effect = coupling(frame, g, frame.frictions[i].row);
-    const double w = sliding_velocity(system, static_cast<int>(i), X);
-    if (contact.belt_speed == 0.0 && same_pair(g, frame.frictions[i].row) != 0) {
+    const auto [effect, same_pair] = system.coupling(stop, i);
+    const double w = sliding_velocity(system, i, X);
+    if (same_pair) {
       friction.phi += std::abs(effect) * contact.kinetic_friction;
       friction.phi_static += std::abs(effect) * contact.static_friction;
     } else if (w != 0.0) {
@@ -124,13 +101,12 @@ double drift_of_R(const System& system, int stop, const double* X, double D, dou
 /// True if no contact that was counted as steady can come to rest: its velocity changes by less than it is. delta bounds |X - X_0|.
 bool all_slip_on(const System& system, int stop, const double* X, const double* delta) {
   const mode::Frame& frame = system.frame();
-  for (std::size_t i = 0; i < frame.frictions.size(); ++i) {
-    const mode::RowVector& row = frame.frictions[i].row;
-    const bool on_pair = system.model().frictions[i].belt_speed == 0.0 && same_pair(frame.stops[stop].row, row) != 0;
-    const double w = std::abs(sliding_velocity(system, static_cast<int>(i), X));
-    if (on_pair || w == 0.0 || coupling(frame, frame.stops[stop].row, row) == 0.0) continue;
+  for (int i = 0; i < static_cast<int>(frame.frictions.size()); ++i) {
+    const auto [effect, same_pair] = system.coupling(stop, i);
+    const double w = std::abs(sliding_velocity(system, i, X));
+    if (same_pair || w == 0.0 || effect == 0.0) continue;
     double change = 0.0;
-    for (int j = 0; j < frame.n; ++j) change += std::abs(row[j]) * delta[frame.u(j)];
+    for (int j = 0; j < frame.n; ++j) change += std::abs(frame.frictions[i].row[j]) * delta[frame.u(j)];
     if (change >= w) return false;
   }
   return true;

@@ -53,12 +53,12 @@ bool fits(const mode::Mode& mode, const double* X, const double* magnitude, std:
 
 }  // namespace
 
-int start_order(const mode::Mode& mode, int guard, const double* X, const double* magnitude) {
+int start_order(const mode::Mode& mode, int guard, const double* X, const double* magnitude, int known) {
   const mode::Guard& h = mode.guards()[guard];
-  if (h.single >= 0 && h.factor * X[h.single] > 0.0) return 0;
+  if (known == 0 && h.single >= 0 && h.factor * X[h.single] > 0.0) return 0;
   event::Lane8 a, noise;
   mode.leading(guard, X, magnitude, a, noise);
-  for (int n = 0; n < never; ++n) {
+  for (int n = known; n < never; ++n) {
     if (a[n] > rest_factor * noise[n]) return n;
     if (a[n] < -rest_factor * noise[n]) return negative;
   }

@@ -149,11 +149,12 @@ Motion::Flight Motion::fly(double limit) {
   const mode::Mode& mode = system_->mode(mode_);
   const double H = mode.window();
   const int m = mode.size();
-  for (bool first = true;; first = false) {
+  for (long flown = 0;; ++flown) {
+    elapsed_ = static_cast<double>(flown) * H;  // a sum would gather a rounding per window
     ++counters_.windows;
     mode.advance(X_.data(), out_.data());
     const double x_end = std::min(1.0, (limit - elapsed_) / H);
-    const Found found = first_event_in_window(first, x_end);
+    const Found found = first_event_in_window(flown == 0, x_end);
     if (found.kind != event::RootKind::none) {
       arrive(found.x);
       if (found.kind == event::RootKind::restart) return Flight::restart;
@@ -165,7 +166,6 @@ Motion::Flight Motion::fly(double limit) {
       return Flight::end;
     }
     std::copy_n(reinterpret_cast<const double*>(out_.data()), m, X_.data());
-    elapsed_ += H;
     at_one_instant_ = 0;
   }
 }
@@ -177,10 +177,14 @@ Motion::Found Motion::first_event_in_window(bool first, double x_end) {
   Found found{event::RootKind::none, 0, x_end};
   int falling = -1;  // a gap that falls all over the window: its pair does not come to rest before the impact
   for (int g = 0; g < mode.guard_count(); ++g) {
-    const int order = first ? orders_[g] : 0;
+    int order = first ? orders_[g] : 0;
+    if (!first && orders_[g] == flow::never) {  // zero so far, as a force that just holds: does it begin to differ from zero?
+      orders_[g] = order = flow::start_order(mode, g, X_.data(), magnitude_.data());
+      if (order == flow::negative) return {event::RootKind::crossing, g, 0.0};
+    }
     if (order == flow::never || (falling >= 0 && mode.guards()[g].falls_with == falling)) continue;
     event::GuardWindow window;
-    std::copy_n(out_.begin() + mode.state_blocks() + 3 * g, 3, window.bernstein.begin());
+    std::copy_n(out_.begin() + mode.state_blocks() + 3 * g, 3, window.bernstein.data());
     if (event::excluded(window.bernstein, noise_[g / 8][g % 8], order)) continue;
     mode.taylor(g, X_.data(), window.taylor);
     mode.taylor_noise(g, magnitude_.data(), window);
@@ -219,12 +223,23 @@ void Motion::handle(int guard, bool graze) {
       return settle(Cause::reversal);
     case GuardKind::stick_above:
     case GuardKind::stick_below:
-      report(graze ? EventKind::graze : EventKind::release, stops() + hit.contact, 0.0);
-      return settle(Cause::force);
+      return force_limit(guard, stops() + hit.contact, graze);
     case GuardKind::press:
-      report(graze ? EventKind::graze : EventKind::release, hit.contact, 0.0);
-      return settle(Cause::force);
+      return force_limit(guard, hit.contact, graze);
   }
+}
+
+/// A holding force has reached its limit: release. A force that only touches its limit holds on (|f0| <= f_s is stick): the guard has a double
+/// zero here, and the mode goes on unless its next derivative says otherwise.
+void Motion::force_limit(int guard, int contact, bool graze) {
+  report(graze ? EventKind::graze : EventKind::release, contact, 0.0);
+  note_magnitude();
+  const mode::Mode& mode = system_->mode(mode_);
+  const int touched = graze ? flow::start_order(mode, guard, X_.data(), magnitude_.data(), 2) : flow::negative;
+  if (touched == flow::negative) return settle(Cause::force);
+  for (int g = 0; g < mode.guard_count(); ++g) orders_[g] = flow::start_order(mode, g, X_.data(), magnitude_.data());
+  orders_[guard] = touched;
+  chatter_stop_ = -1;
 }
 
 /// Sets the velocity of a pair relative to `speed` to exactly zero in the stored state.

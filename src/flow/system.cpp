@@ -57,6 +57,11 @@ System::System(Model model) : model_(checked(std::move(model))), frame_(model_),
     const mode::Vector direction = frame_.mass_inverse * stop.row.transpose();
     impulses_.push_back(direction / stop.row.dot(direction));
     presses_.push_back(stop.row * frame_.free);
+    for (std::size_t i = 0; i < frame_.frictions.size(); ++i) {
+      const mode::RowVector& row = frame_.frictions[i].row;
+      const bool same = row == stop.row || row == -stop.row;
+      couplings_.push_back({row.dot(direction), same && model_.frictions[i].belt_speed == 0.0});
+    }
   }
 }
 

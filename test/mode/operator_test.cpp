@@ -49,19 +49,19 @@ class Check {
   double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
 
   void step() {
-    std::vector<Lane8> out(mode_.state_blocks());
+    event::Lanes out(mode_.state_blocks());
     mode_.step(X_.data(), out.data());
     compare(out, mode_.window(), false, state_error);
   }
 
   void inside() {
-    std::vector<Lane8> out(mode_.state_blocks());
+    event::Lanes out(mode_.state_blocks());
     const double x = uniform(0, 1);
     mode_.state_at(x, X_.data(), reinterpret_cast<double*>(out.data()));
     compare(out, x * mode_.window(), true, inside_error);
   }
 
-  void compare(const std::vector<Lane8>& out, double s, bool terms, double& worst) const {
+  void compare(const event::Lanes& out, double s, bool terms, double& worst) const {
     const Exact exact = testing::flow(mode_.system(), exact_, Real(s));
     std::vector<double> size = testing::sizes(mode_.system(), X_, s, terms);
     for (int i = 0; i < frame_.n; ++i) size[frame_.u(i)] += std::abs(frame_.drift[i]);  // u = p' - drift
@@ -72,7 +72,7 @@ class Check {
   }
 
   void guards() {
-    std::vector<Lane8> noise((mode_.guard_count() + 7) / 8), out(mode_.state_blocks() + 3 * mode_.guard_count());
+    event::Lanes noise((mode_.guard_count() + 7) / 8), out(mode_.state_blocks() + 3 * mode_.guard_count());
     mode_.bernstein_noise(magnitude_.data(), noise.data());
     mode_.advance(X_.data(), out.data());
     const auto terms = testing::series(mode_.system(), exact_, Real(mode_.window()), event::terms);
@@ -261,7 +261,7 @@ TEST(WindowOperators, ConstrainedCoordinateDoesNotMoveAtAll) {
   std::vector<double> X(16, 0.0);
   X[0] = -0.3, X[1] = 0.7, X[3] = -1.1;
   frame.set_phase(0.3, X.data());
-  std::vector<Lane8> out(2);
+  event::Lanes out(2);
   stick.step(X.data(), out.data());
   EXPECT_EQ(out[0][0], -0.3);  // gap
   EXPECT_EQ(out[0][2], 0.0);   // relative velocity

@@ -11,6 +11,7 @@
 ///     chaotic set to about two. Chaotic: exponent > 3 errors and > 0.005, few digits. Quasi-periodic: exponent not positive
 ///     by that measure and at least `curve_digits` digits.
 ///  3. Neither: *undecided*, with the figures that would not agree.
+#include <atomic>
 #include <complex>
 #include <string>
 #include <vector>
@@ -34,6 +35,7 @@ struct ClassifyOptions {
   double newton_start = 1e-3;   ///< return distance below which Newton's method is tried
   int exponent_periods = 4000;  ///< length of the exponent and average runs
   double curve_digits = 5.0;
+  const std::atomic<bool>* cancel = nullptr;  ///< set it and classify returns soon, with `interrupted`
 };
 
 /// One impact of the cycle.
@@ -52,7 +54,8 @@ struct Classification {
   std::string label;  ///< "1-1-II", "1-inf-II", "quasi-periodic", "chaotic", "undecided"
 
   std::vector<std::complex<double>> multipliers;  ///< periodic: of the n-period map, largest first
-  double return_distance = 0.0;
+  double return_distance = 0.0;  ///< periodic: how far the recorded state is from its image after n periods, relative
+  double approach = 0.0;         ///< periodic: how far the motion still was from the cycle when it was recognised
   std::vector<CycleImpact> impacts;  ///< periodic: the impacts of one cycle
   double sticking_fraction = 0.0;    ///< share of time in stick (and on the closed stop)
 
@@ -60,7 +63,8 @@ struct Classification {
          exponent_error = 0.0;  ///< largest Lyapunov exponent per period; multipliers give it if periodic
   double digits = 0.0;          ///< agreement of the two weighted Birkhoff averages
   long periods_used = 0;
-  State state;  ///< on the attractor, at phase 0 of a period: a start that needs no transient
+  bool interrupted = false;  ///< by `cancel`: nothing else is meant
+  State state;               ///< on the attractor, at phase 0 of a period: a start that needs no transient
 };
 
 /// Classifies the motion that starts at `state` at phase 0.

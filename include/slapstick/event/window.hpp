@@ -5,7 +5,9 @@
 ///     h(x) = sum_{j<8} x^j (a_j + x^8 (a_{8+j} + x^8 a_{16+j})),
 /// a dozen operations deep instead of the 46 of Horner's rule, with the same operations in the same order for every
 /// instruction set (the compiler maps Lane8 to whatever vectors the machine has; contraction to FMA is off).
-#include <array>
+#include <cstddef>
+#include <new>
+#include <vector>
 
 namespace slapstick::event {
 
@@ -17,7 +19,28 @@ inline constexpr double unit_roundoff = 0x1p-53;
 typedef double Lane8 __attribute__((vector_size(64), aligned(64)));
 
 /// Coefficients of one window polynomial, three groups of eight.
-using Coefficients = std::array<Lane8, 3>;
+struct Coefficients {
+  Lane8 group[3];
+
+  Lane8& operator[](int g) { return group[g]; }
+  const Lane8& operator[](int g) const { return group[g]; }
+  Lane8* data() { return group; }
+  [[nodiscard]] const Lane8* data() const { return group; }
+};
+
+/// Storage of groups at the alignment that Lane8 promises: a template argument forgets it.
+template <class T>
+struct LaneAllocator {
+  using value_type = T;
+  static constexpr std::align_val_t alignment{64};
+  LaneAllocator() = default;
+  template <class U>
+  LaneAllocator(const LaneAllocator<U>&) {}  // NOLINT(google-explicit-constructor): what an allocator must offer
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), alignment)); }
+  void deallocate(T* p, std::size_t) { ::operator delete(p, alignment); }
+  friend bool operator==(const LaneAllocator&, const LaneAllocator&) { return true; }
+};
+using Lanes = std::vector<Lane8, LaneAllocator<Lane8>>;
 
 inline Lane8 magnitude(const Lane8& v) { return v < 0.0 ? -v : v; }
 inline Lane8 smaller(const Lane8& a, const Lane8& b) { return a < b ? a : b; }

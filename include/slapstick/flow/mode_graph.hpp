@@ -25,7 +25,8 @@ namespace slapstick::flow {
 /// rounding bound) and the next is positive; `never` if all that are looked at vanish; `negative` if h starts downwards.
 inline constexpr int never = 8;
 inline constexpr int negative = -1;
-int start_order(const mode::Mode& mode, int guard, const double* X, const double* magnitude);
+/// @param known derivatives below this order are known to vanish, whatever their stored values say (after a graze: 2).
+int start_order(const mode::Mode& mode, int guard, const double* X, const double* magnitude, int known = 0);
 
 /// The mode that may start at X (with |X| in magnitude); writes the start order of each of its guards.
 /// A friction contact is at rest if its stored relative velocity is exactly zero, a stop touches if its gap is.

@@ -114,6 +114,7 @@ class Motion {
   void arrive(double x);
   void handle(int guard, bool graze);
   void rest(const mode::ContactRow& contact, double speed);
+  void force_limit(int guard, int contact, bool graze);
   void touch(int stop, bool graze);
   void impact(int stop);
   bool end_chatter(double limit);
@@ -133,8 +134,8 @@ class Motion {
   int chatter_stop_ = -1;  ///< the stop just hit, whose chatter may be complete
   std::vector<double> X_, magnitude_, X_before_, X_segment_, X_next_;
   mutable std::vector<double> scratch_;
-  mutable std::vector<event::Lane8> sample_out_;
-  std::vector<event::Lane8> out_, noise_;
+  mutable event::Lanes sample_out_;
+  event::Lanes out_, noise_;
   std::vector<int> orders_;
   mutable State before_;
   Event event_;

@@ -28,6 +28,16 @@ class System {
   /// Acceleration of a stop's pair towards the stop without any contact force, g . free: a row over X.
   [[nodiscard]] const mode::RowVector& press(int stop) const { return presses_[stop]; }
 
+  /// What a unit friction force of a contact adds to that acceleration, g M^{-1} f^T, and whether both act on one pair at rest to each
+  /// other (rows equal or opposite, no belt).
+  struct Coupling {
+    double effect = 0.0;
+    bool same_pair = false;
+  };
+  [[nodiscard]] const Coupling& coupling(int stop, int friction) const {
+    return couplings_[static_cast<std::size_t>(stop) * frame_.frictions.size() + static_cast<std::size_t>(friction)];
+  }
+
   /// Contacts in one numbering: stops first, then friction contacts.
   [[nodiscard]] std::string contact_name(int contact) const;
 
@@ -38,6 +48,7 @@ class System {
   std::vector<mode::Mode> modes_;
   std::vector<mode::Vector> impulses_;
   std::vector<mode::RowVector> presses_;
+  std::vector<Coupling> couplings_;
 };
 
 }  // namespace slapstick

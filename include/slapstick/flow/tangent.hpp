@@ -36,7 +36,7 @@ class TangentMotion {
   Motion motion_;
   Eigen::MatrixXd tangents_;
   std::vector<double> delta_, next_;
-  std::vector<event::Lane8> out_;
+  event::Lanes out_;
   long segments_seen_ = 0;
 };
 

@@ -93,7 +93,7 @@ class Mode {
   std::vector<bool> steady_;  ///< u_i is constrained: it keeps its value to the last bit
   int n_ = 0, m_ = 0, state_blocks_ = 0, noise_blocks_ = 0;
   double window_ = 1.0, noise_factor_ = 0.0;
-  std::vector<event::Lane8> advance_, bernstein_noise_, taylor_, leading_noise_, taylor_noise_, coordinates_;
+  event::Lanes advance_, bernstein_noise_, taylor_, leading_noise_, taylor_noise_, coordinates_;
 };
 
 }  // namespace slapstick::mode

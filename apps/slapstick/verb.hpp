@@ -35,5 +35,6 @@ Action add_simulate(Arguments& arguments);
 Action add_classify(Arguments& arguments);
 Action add_poincare(Arguments& arguments);
 Action add_diagram(Arguments& arguments);
+Action add_reproduce(Arguments& arguments);
 
 }  // namespace slapstick::app

@@ -11,6 +11,7 @@ const std::vector<Verb>& verbs() {
       {"classify", "what the motion is after its transient: n-p-I, n-p-II, quasi-periodic, chaotic", add_classify},
       {"poincare", "points of a section: at every impact, or once per forcing period", add_poincare},
       {"diagram", "bifurcation diagram over a parameter, on all cores", add_diagram},
+      {"reproduce", "every figure and claim of the paper, into a folder", add_reproduce},
   };
   return all;
 }

@@ -1,0 +1,70 @@
+#include "slapstick/paper/reproduce.hpp"
+
+#include "paper/claims.hpp"
+#include "paper/figures.hpp"
+#include "paper/report.hpp"
+#include "slapstick/base/error.hpp"
+#include "slapstick/io/atomic_file.hpp"
+
+namespace slapstick::paper {
+namespace {
+
+/// With the seconds that each takes on two cores.
+std::vector<PlannedPart> plan() {
+  return {{"Fig. 2", 9},
+          {"Figs. 3-5", 0.2},
+          {"Fig. 6", 9},
+          {"Fig. 7", 0.4},
+          {"Fig. 8", 13},
+          {"r = 0.08 and f_k < f_s", 8},
+          {"attractors over omega", 35},
+          {"windows to 1e-4", 12},
+          {"claims", 20},
+          {"drawing (gnuplot)", 8}};
+}
+
+void prepare(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder))
+    throw StorageError("cannot make folder '" + folder.string() +
+                       "': " + (error ? error.message() : "a file of that name is in the way"));
+  for (const char* name : {"claims.json", "index.html"})
+    const AtomicFile writable(folder / name);  // known before an hour is spent
+}
+
+std::vector<Claim> run(Study& study) {
+  for (void (*figure)(Study&) : {fig2, fig3_to_5, fig6, fig7, fig8, fig_printed}) {
+    study.course().next();
+    figure(study);
+  }
+  study.course().next();
+  std::vector<Claim> claims = check_claims(study);  // begins two more parts
+  study.course().next();
+  study.draw();
+  study.course().finish();
+  return claims;
+}
+
+}  // namespace
+
+Reproduction reproduce(const Options& options) {
+  if (options.threads < 0) throw InputError("threads = " + std::to_string(options.threads) + " is negative");
+  prepare(options.folder);
+  Course course(options, plan());
+  Study study(options, course);
+  Reproduction result;
+  try {
+    result.claims = run(study);
+    write_atomically(study.file("claims.json"), claims_json(options, result.claims));
+    write_atomically(study.file("index.html"), index_html(options, result.claims, course.parts()));
+  } catch (const Interrupted&) {
+    result.complete = false;
+  }
+  result.parts = course.parts();
+  for (const auto& file : study.files())
+    if (std::filesystem::exists(file)) result.files.push_back(file);
+  return result;
+}
+
+}  // namespace slapstick::paper

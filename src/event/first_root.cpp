@@ -104,7 +104,6 @@ class Search {
       : guard_(guard),
         first_(derivative(guard_.taylor)),
         differences_(first_differences(guard_.bernstein)),
-        curvature_(curvature(differences_, guard_.degree_left, guard_.noise_0 + guard_.noise_1 + guard_.noise_2)),
         x_end_(x_end),
         evaluations_(evaluations) {}
 
@@ -126,7 +125,7 @@ class Search {
   const Deflated guard_;
   const Coefficients first_;
   const Differences differences_;
-  const Range curvature_;
+  Range curvature_{};  ///< of h'' on the window; only computed where the guard is not known to fall
   double x_end_;
   double near_end_ = 0.0;   ///< on [0, near_end_] ..
   Range near_curvature_{};  ///< .. h'' lies in this range
@@ -274,6 +273,7 @@ Root Search::run() {
     root.falls = root.kind == RootKind::crossing && guard_.degree_left == degree;
     return root;
   }
+  curvature_ = curvature(differences_, guard_.degree_left, guard_.noise_0 + guard_.noise_1 + guard_.noise_2);
   h_ = guard_.taylor[0][0];
   h1_ = guard_.taylor[0][1];
   epsilon_ = guard_.noise_0;

@@ -24,6 +24,8 @@ namespace {
 using attractor::PeriodEvents;
 using Eigen::VectorXd;
 
+constexpr long returns_compared = 100;
+
 /// The search for a return of the stroboscopic state.
 class ReturnSearch {
  public:
@@ -36,6 +38,9 @@ class ReturnSearch {
   bool run(int periods, Classification& result);
   [[nodiscard]] State state() const { return motion_.state(); }
   [[nodiscard]] long periods() const { return motion_.time().period; }
+  /// True if the last run was still closing in on a cycle: the nearest of its returns kept shrinking. An invariant curve, too, returns
+  /// close to its start, but no closer as time goes on.
+  [[nodiscard]] bool still_approaching() const { return approaching_; }
   void discard(int periods) {
     for (int k = 0; k < periods && !cancelled(); ++k) attractor::run_one_period(motion_);
   }
@@ -46,6 +51,8 @@ class ReturnSearch {
   [[nodiscard]] double returned(long n, long cycles_ago = 0) const {
     return attractor::distance(back(cycles_ago * n), back((cycles_ago + 1) * n), scale_);
   }
+  [[nodiscard]] double widest_return(int n) const;
+  void note_approach(int k, int periods);
   void note_period();
   bool same_events(long n) const;
   [[nodiscard]] int shortest_cycle(const VectorXd& x, int n) const;
@@ -59,7 +66,31 @@ class ReturnSearch {
   std::vector<VectorXd> states_;
   std::vector<PeriodEvents> events_;
   long next_newton_ = 8;
+  std::vector<double> earlier_;  ///< widest_return of every n, half a run ago
+  bool approaching_ = false;
 };
+
+/// The largest of the last returns after n periods.
+double ReturnSearch::widest_return(int n) const {
+  double widest = 0.0;
+  const auto last = static_cast<long>(states_.size()) - 1;
+  for (long j = 0; j < returns_compared && j + n <= last; ++j)
+    widest = std::max(widest, attractor::distance(states_[last - j], states_[last - j - n], scale_));
+  return widest;
+}
+
+void ReturnSearch::note_approach(int k, int periods) {
+  if (k == periods / 2) {
+    earlier_.clear();
+    for (int n = 1; n <= options_.most_n; ++n) earlier_.push_back(widest_return(n));
+  }
+  if (k + 1 != periods || earlier_.empty()) return;
+  int nearest = 1;
+  for (int n = 2; n <= options_.most_n; ++n) {
+    if (widest_return(n) < widest_return(nearest)) nearest = n;
+  }
+  approaching_ = widest_return(nearest) < 0.5 * earlier_[static_cast<std::size_t>(nearest) - 1];
+}
 
 void ReturnSearch::note_period() {
   events_.push_back(attractor::run_one_period(motion_));
@@ -69,9 +100,11 @@ void ReturnSearch::note_period() {
                speed = states_.back().tail(n).cwiseAbs().maxCoeff();
   scale_.head(n) = scale_.head(n).cwiseMax(position);
   scale_.tail(n) = scale_.tail(n).cwiseMax(speed);
-  if (states_.size() > 4u * static_cast<unsigned>(options_.most_n) + 4u) {  // keep what comparisons can reach
-    states_.erase(states_.begin(), states_.begin() + 2 * options_.most_n);
-    events_.erase(events_.begin(), events_.begin() + 2 * options_.most_n);
+  const long surplus = static_cast<long>(states_.size()) - (6L * options_.most_n + returns_compared);
+  if (surplus > 0) {  // keep what comparisons can reach
+    const long removed = surplus + 2L * options_.most_n;
+    states_.erase(states_.begin(), states_.begin() + removed);
+    events_.erase(events_.begin(), events_.begin() + removed);
   }
 }
 
@@ -96,6 +129,7 @@ bool ReturnSearch::run(int periods, Classification& result) {
       if (newton_turn && approaching && try_newton(n, result)) return true;
     }
     if (newton_turn) next_newton_ = k + 8 + k / 4;
+    note_approach(k, periods);
   }
   next_newton_ = 8;
   return false;
@@ -174,6 +208,10 @@ Classification classify(const System& system, const State& state, const Classify
     const auto run =
         attractor::run_figures(system, search.state(), last ? options.exponent_periods : options.exponent_periods / 4);
     decide_aperiodic(run, options, result);
+    if (result.attractor == Attractor::quasi_periodic && search.still_approaching()) {
+      result.attractor = Attractor::undecided;
+      result.label = name(result.attractor);
+    }
     result.state = run.state;
     const bool clear =
         result.attractor == Attractor::chaotic && run.exponent > 10.0 * run.exponent_error && run.exponent > 0.02;

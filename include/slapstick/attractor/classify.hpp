@@ -9,7 +9,7 @@
 ///  2. Otherwise the *largest Lyapunov exponent* (per period, with its standard error from batches) and the *weighted Birkhoff average* of
 ///     the impact sequence over two halves are computed. On a smooth invariant curve the two averages agree to many digits; on a
 ///     chaotic set to about two. Chaotic: exponent > 3 errors and > 0.005, few digits. Quasi-periodic: exponent not positive
-///     by that measure and at least `curve_digits` digits.
+///     by that measure, at least `curve_digits` digits, and the motion no longer closing in on a cycle.
 ///  3. Neither: *undecided*, with the figures that would not agree.
 #include <atomic>
 #include <complex>

@@ -118,7 +118,9 @@ void judge(const std::vector<Row>& rows, Claim& claim) {
                       verdict("Little change of the 1-1 window (under 0.1)", little) +
                       verdict("Bifurcation points at high ω move left with every step of friction", left) +
                       verdict("Chaos widens at high ω with every step", wider) +
-                      verdict("Sticking orbits gain with every step", sticky);
+                      verdict("Sticking orbits gain with every step", sticky) +
+                      "Sticking includes rest on the closed stop after complete chatter, which needs no friction: so "
+                      "its share is not 0 at f_s = 0. ";
   if (!wider)
     claim.explanation +=
         "Without friction the bands are the widest; some friction first narrows them, and only strong friction fills "

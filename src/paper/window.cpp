@@ -8,9 +8,9 @@ namespace slapstick::paper {
 namespace {
 
 /// Enough to tell a periodic motion, started next to itself, from all others.
-ClassifyOptions brief() {
+ClassifyOptions brief(const Study& study) {
   ClassifyOptions how;
-  how.most_periods = 15'000;
+  how.most_periods = study.options().quick ? 2000 : 15'000;
   how.exponent_periods = 400;
   return how;
 }
@@ -37,15 +37,15 @@ Edge follow(const Study& study, const Overrides& with, const Found& seed, double
       const double ahead = std::abs(limit - edge.inside.omega);
       if (ahead == 0.0) return edge;
       const double omega = ahead < 1.5 * step ? limit : edge.inside.omega + sign * step;
-      Found next = study.find(with, omega, edge.inside.what.state, brief());
+      Found next = study.find(with, omega, edge.inside.what.state, brief(study));
       edge.found = !wanted(next.what);
       (edge.found ? edge.outside : edge.inside) = std::move(next);
     }
   }
   ClassifyOptions patient;
-  patient.transient_periods = 3000;
-  patient.most_periods = 5000;
-  patient.exponent_periods = 2000;  // attraction is weak near a bifurcation
+  patient.transient_periods = study.options().quick ? 1000 : 3000;
+  patient.most_periods = study.options().quick ? 1000 : 5000;
+  patient.exponent_periods = study.options().quick ? 500 : 2000;  // attraction is weak near a bifurcation
   const double further = edge.outside.omega + sign * search.beyond;
   edge.beyond = study.find(with, further, edge.outside.what.state, patient);
   return edge;

@@ -30,6 +30,12 @@ struct Deflated {
   explicit Deflated(const GuardWindow& h)
       : taylor(h.taylor), bernstein(h.bernstein), noise_0(h.noise_0), noise_1(h.noise_1), noise_2(h.noise_2) {
     for (int k = 0; k < h.order; ++k) divide_by_x();
+    if (h.order == 0) return;
+    // noise_2 bounds all coefficients from a_2 on: past the leading one they come with at least one x. The leading one is known to
+    // an eighth of itself, or it would not count as one.
+    noise_0 = h.order == 1 ? h.noise_1 : std::min(h.noise_2, 0.125 * taylor[0][0]);
+    noise_1 = h.noise_2;
+    noise_2 = 0.0;
   }
 
  private:
@@ -44,11 +50,6 @@ struct Deflated {
     // The coefficient past the end continues the last two in a straight line: differences there repeat, second differences vanish.
     const auto at = [&](int j) -> double { return bernstein[j / 8][j % 8]; };
     for (int j = degree_left + 1; j < terms; ++j) bernstein[j / 8][j % 8] = 2.0 * at(j - 1) - at(j - 2);
-    if (noise_1 == 0.0 && noise_2 == 0.0)
-      return;  // noise_2 bounds all coefficients from a_2 on: divided further, it stays
-    noise_0 = noise_1;
-    noise_1 = noise_2;
-    noise_2 = 0.0;
   }
 };
 

@@ -69,8 +69,10 @@ struct Quotient {
 };
 
 Quotient quotient(const Taylor& g, const GuardWindow& guard, int order, double x) {
-  const double n0 = order == 0 ? guard.noise_0 : order == 1 ? guard.noise_1 : guard.noise_2;
-  const double n1 = order == 0 ? guard.noise_1 : order == 1 ? guard.noise_2 : 0.0;
+  const double n0 = order == 0   ? guard.noise_0
+                    : order == 1 ? guard.noise_1
+                                 : std::min(guard.noise_2, 0.125 * g[0]);
+  const double n1 = order == 0 ? guard.noise_1 : guard.noise_2;
   const double n2 = order == 0 ? guard.noise_2 : 0.0;
   return {static_cast<double>(testing::evaluate<long double>(g, x)),
           static_cast<double>(testing::slope<long double>(g, x)), n0 + x * (n1 + x * n2)};

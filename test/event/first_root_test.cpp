@@ -27,10 +27,11 @@ double size(const Taylor& a) {
   return sum;
 }
 
-Root find(const Taylor& a, int order = 0, double x_end = 1.0) {
+Root find(const Taylor& a, int order, double x_end, double size_1) {
   long evaluations = 0;
-  return first_root(testing::window(a, order, size(a), size(a)), x_end, evaluations);
+  return first_root(testing::window(a, order, size(a), size_1), x_end, evaluations);
 }
+Root find(const Taylor& a, int order = 0, double x_end = 1.0) { return find(a, order, x_end, size(a)); }
 
 /// (x - r)^2 + depth.
 Taylor valley(double r, double depth) { return polynomial({r * r + depth, -2 * r, 1.0}); }
@@ -105,6 +106,18 @@ TEST(FirstRoot, AfterAStartThatIsAZeroNearGrazesKeepTheirNoise) {  // order 2 an
       Taylor a{};
       for (int n = 0; n < 3; ++n) a[n + order] = g[n];
       EXPECT_EQ(find(a, order).kind, RootKind::graze) << order << " " << depth;
+    }
+  }
+}
+
+TEST(FirstRoot, TinyLeadingCoefficientIsNoGrazeAtTheStart) {  // a release just where the force turns: a_2 = 1e-16, a_3 = 1
+  for (int order = 1; order <= 4; ++order) {
+    for (const double leading : {1e-14, 1e-16, 1e-30}) {
+      Taylor a{};
+      a[order] = leading;
+      a[order + 1] = 1.0;
+      const Root root = find(a, order, 1.0, order == 1 ? leading : size(a));
+      EXPECT_EQ(root.kind, RootKind::none) << order << " " << leading << " " << root.x;
     }
   }
 }

@@ -32,7 +32,8 @@ struct GuardWindow {
   Coefficients taylor;     ///< a_n
   Coefficients bernstein;  ///< Bernstein coefficients of the same polynomial on [0, 1]
   double noise_0 = 0.0, noise_1 = 0.0, noise_2 = 0.0;
-  /// The start is a zero of this order: a_0 = ... = a_{order-1} = 0 (the caller has set them) and a_order > 0.
+  /// The start is a zero of this order: a_0 = ... = a_{order-1} = 0 (the caller has set them) and a_order > 0, by at least eight times
+  /// its own rounding error.
   int order = 0;
 };
 

@@ -7,10 +7,14 @@
 namespace slapstick::mode {
 namespace {
 
-/// 1 / spectral radius, or 1 if A is nilpotent (rigid bodies: the series ends by itself).
+/// 1 / spectral radius, or 1 if A is nilpotent (rigid bodies: the series ends by itself). Only eight bits are kept: the rounding of
+/// an eigenvalue solver, which differs for a mirrored model, shall not reach the results.
 double reference_length(const Matrix& A) {
   const double radius = A.eigenvalues().cwiseAbs().maxCoeff();
-  return radius > 1e-8 * A.cwiseAbs().maxCoeff() && radius > 0.0 ? 1.0 / radius : 1.0;
+  if (!(radius > 1e-8 * A.cwiseAbs().maxCoeff() && radius > 0.0)) return 1.0;
+  int exponent = 0;
+  const double mantissa = std::frexp(1.0 / radius, &exponent);
+  return std::ldexp(std::floor(256.0 * mantissa) / 256.0, exponent);
 }
 
 using Weights = std::array<std::array<long double, event::terms>, event::terms>;

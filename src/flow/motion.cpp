@@ -361,8 +361,11 @@ void Motion::report(EventKind kind, int contact, double w) {
          " events in one period; raise the budget or change the restitution");
 }
 
+/// |X|, what rounding is measured by. The phase is known to the clock's rounding only, also where a sine vanishes: those count as one.
 void Motion::note_magnitude() {
   for (std::size_t i = 0; i < X_.size(); ++i) magnitude_[i] = std::abs(X_[i]);
+  const mode::Frame& frame = system_->frame();
+  std::fill_n(magnitude_.begin() + 2 * frame.n, 2 * frame.harmonics.size(), 1.0);
 }
 
 }  // namespace slapstick

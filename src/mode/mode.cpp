@@ -138,7 +138,8 @@ void Mode::arm_guards(const Model& model, const Frame& frame, const Held& held) 
 
 void Mode::note_guard_structure(const Matrix& kinematics) {
   for (Guard& guard : guards_) {
-    if ((guard.row.array() != 0.0).count() == 1) {
+    const bool mechanical = guard.row.tail(m_ - 2 * n_).isZero(0.0);  // a phase has the clock's rounding besides its own
+    if (mechanical && (guard.row.array() != 0.0).count() == 1) {
       guard.row.cwiseAbs().maxCoeff(&guard.single);
       guard.factor = guard.row[guard.single];
     }

@@ -36,7 +36,7 @@ struct Guard {
   /// Index of the gap guard of the same pair whose rate of fall this slip guard is (h = -gap'), or -1. While such a gap is proven to
   /// fall, the slip guard is positive: y and w are one function and its derivative.
   int falls_with = -1;
-  /// h = factor * X[single] if the row has one entry only (then h has no rounding error but its own), else -1.
+  /// h = factor * X[single] if the row has one entry only, for p or u (then h has no rounding error but its own), else -1.
   int single = -1;
   double factor = 0.0;
 };

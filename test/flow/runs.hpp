@@ -1,0 +1,137 @@
+#pragma once
+/// Runs of the engine and of the 50-digit oracle in one form, so that tests can compare them event by event.
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "oracle/oracle.hpp"
+#include "slapstick/flow/motion.hpp"
+
+namespace slapstick::testing {
+
+/// SLAPSTICK_CAMPAIGN=N makes the long tests N times as long.
+inline long campaign() {
+  const char* scale = std::getenv("SLAPSTICK_CAMPAIGN");
+  return scale == nullptr ? 1 : std::max(1L, std::atol(scale));
+}
+
+inline Instant after(const Motion& motion, double time) { return motion.time().plus(time / motion.system().period()); }
+
+/// All events of the next `time` time units.
+inline std::vector<Event> run(Motion& motion, double time, long most = 10'000'000) {
+  std::vector<Event> events;
+  const Instant end = after(motion, time);
+  while (most-- > 0 && motion.advance(end) == Outcome::event) events.push_back(motion.event());
+  return events;
+}
+
+inline std::string kinds(const std::vector<Event>& events) {
+  std::string all;
+  for (const Event& event : events) all += std::string(all.empty() ? "" : " ") + std::string(name(event.kind));
+  return all;
+}
+
+inline double seconds(const Event& event, const Motion& motion) { return event.time.seconds(motion.system().period()); }
+
+/// The engine's mode in the oracle's words.
+inline oracle::Mode oracle_mode(const System& system, int id) {
+  const mode::ContactStates& states = system.mode(id).states();
+  oracle::Mode mode;
+  if (!states.frictions.empty()) mode.friction = static_cast<int>(states.frictions[0]);
+  mode.closed = !states.stops.empty() && states.stops[0] == mode::StopState::closed;
+  return mode;
+}
+
+/// A state of the engine, to its last bit, as the oracle's start of a segment.
+inline oracle::SegmentStart oracle_start(const System& system, const double* X, int mode_id, double fraction) {
+  const mode::Frame& frame = system.frame();
+  oracle::SegmentStart start;
+  for (int i = 0; i < frame.n; ++i) {
+    oracle::Real x = 0, v = 0;
+    for (int j = 0; j < frame.n; ++j) {
+      const oracle::Real w(frame.W_inverse(i, j));
+      x += w * (oracle::Real(X[j]) + oracle::Real(frame.shift[j]));
+      v += w * (oracle::Real(X[frame.u(j)]) + oracle::Real(frame.drift[j]));
+    }
+    start.state.push_back(x);
+    start.state.push_back(v);
+  }
+  start.phase_fraction = fraction;
+  start.mode = oracle_mode(system, mode_id);
+  const auto zero_row = [&](const mode::ContactRow& contact, bool velocity) {
+    return contact.own >= 0 && X[velocity ? frame.u(contact.own) : contact.own] == 0.0;
+  };
+  if (!frame.stops.empty()) start.touching = !start.mode.closed && zero_row(frame.stops[0], false);
+  if (!frame.frictions.empty() && start.mode.friction != 0) {
+    const mode::ContactRow& row = frame.frictions[0];
+    const bool shared = row.own < 0;  // the stop's pair: its velocity is the stop's
+    start.no_slip =
+        zero_row(shared ? frame.stops[0] : row, true) && (!shared || system.model().frictions[0].belt_speed == 0.0);
+  }
+  return start;
+}
+
+/// One event as both programs see it.
+struct Seen {
+  std::string kind;
+  bool at_stop = false;
+  double time = 0.0;
+  double w = 0.0;
+};
+
+/// The engine's events, one per instant (the first), without grazes of forces: the oracle's convention.
+inline std::vector<Seen> engine_events(Motion& motion, double time, std::size_t most = 10'000'000) {
+  std::vector<Seen> seen;
+  const Instant start = motion.time(), end = after(motion, time);
+  const auto stops = static_cast<int>(motion.system().model().stops.size());
+  Instant last{-1, 0.0};
+  for (std::size_t all = 0; all < 2 * most && seen.size() < most && motion.advance(end) == Outcome::event; ++all) {
+    const Event& event = motion.event();
+    const bool force = motion.hit_guard() != nullptr && motion.hit_guard()->kind != mode::GuardKind::gap &&
+                       motion.hit_guard()->kind != mode::GuardKind::slip;
+    if ((event.time == last && event.kind != EventKind::chatter) || (event.kind == EventKind::graze && force)) continue;
+    last = event.time;
+    seen.push_back({std::string(name(event.kind)), event.contact < stops,
+                    event.time.since(start) * motion.system().period(), event.w});
+  }
+  return seen;
+}
+
+inline std::vector<Seen> oracle_events(oracle::Oracle& oracle, double time) {
+  std::vector<Seen> seen;
+  const oracle::Real start = oracle.time();
+  for (const oracle::OracleEvent& event : oracle.run(start + oracle::Real(time)))
+    seen.push_back({event.kind, event.contact == "stop", oracle::Real(event.time - start).convert_to<double>(),
+                    event.w.convert_to<double>()});
+  return seen;
+}
+
+/// Compares two lists; the oracle bounces on for longer than the engine before it sums a chatter, and those bounces are passed over.
+struct Comparison {
+  std::size_t events = 0;
+  double worst = 0.0;    ///< largest difference of two times
+  std::string mismatch;  ///< the first event that differs in kind, or empty
+};
+
+inline Comparison compare(const std::vector<Seen>& engine, const std::vector<Seen>& reference) {
+  Comparison result;
+  std::size_t j = 0;
+  const auto text = [](const Seen& e) {
+    return e.kind + (e.at_stop ? " (stop) at " : " (friction) at ") + std::to_string(e.time);
+  };
+  for (std::size_t i = 0; i < engine.size(); ++i, ++j) {
+    while (engine[i].kind == "chatter" && j < reference.size() && reference[j].kind != "chatter") ++j;
+    if (j >= reference.size() || engine[i].kind != reference[j].kind || engine[i].at_stop != reference[j].at_stop) {
+      result.mismatch = "event " + std::to_string(i) + ": " + text(engine[i]) + " instead of " +
+                        (j < reference.size() ? text(reference[j]) : "nothing");
+      return result;
+    }
+    result.worst = std::max(result.worst, std::abs(engine[i].time - reference[j].time));
+    ++result.events;
+  }
+  if (j < reference.size()) result.mismatch = "missing: " + text(reference[j]);
+  return result;
+}
+
+}  // namespace slapstick::testing

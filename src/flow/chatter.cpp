@@ -123,7 +123,7 @@ ChatterLimit prove_chatter(const System& system, int stop, const double* X, doub
   const Friction friction = friction_on(system, stop, X);
   R += friction.steady;
   // The error of the limit is about (duration^2 / period): too early to be worth a proof?
-  if (!(v < 100.0 * std::sqrt(tolerance * system.period()) * std::sqrt(system.period()) * R)) return {};
+  if (!(v < 100.0 * std::sqrt(tolerance * system.period()) * R)) return {};
 
   if (!(v > 0.0) || !(r < 1.0) || R - friction.phi - friction.unknown <= 0.0 ||
       R - friction.unknown <= friction.phi_static)

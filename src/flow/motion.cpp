@@ -128,7 +128,7 @@ Outcome Motion::next_pending() {
 void Motion::begin_segment() {
   segment_start_ = now_;
   segment_mode_ = mode_;
-  elapsed_ = 0.0;
+  elapsed_ = arrived_x_ = 0.0;
   hit_guard_ = nullptr;
   X_segment_ = X_;
   ++counters_.segments;
@@ -178,7 +178,8 @@ Motion::Found Motion::first_event_in_window(bool first, double x_end) {
   int falling = -1;  // a gap that falls all over the window: its pair does not come to rest before the impact
   for (int g = 0; g < mode.guard_count(); ++g) {
     int order = first ? orders_[g] : 0;
-    if (!first && orders_[g] == flow::never) {  // zero so far, as a force that just holds: does it begin to differ from zero?
+    if (!first &&
+        orders_[g] == flow::never) {  // zero so far, as a force that just holds: does it begin to differ from zero?
       orders_[g] = order = flow::start_order(mode, g, X_.data(), magnitude_.data());
       if (order == flow::negative) return {event::RootKind::crossing, g, 0.0};
     }
@@ -206,6 +207,7 @@ void Motion::arrive(double x) {
   mode.state_at(x, X_.data(), X_next_.data());
   X_.swap(X_next_);
   elapsed_ += x * mode.window();
+  arrived_x_ = x;
   if (x > 0.0) at_one_instant_ = 0;
   now_ = segment_start_.plus(elapsed_ / system_->period());
   system_->frame().set_phase(now_.fraction, X_.data());
@@ -219,6 +221,7 @@ void Motion::handle(int guard, bool graze) {
     case GuardKind::gap:
       return touch(hit.contact, graze);
     case GuardKind::slip:
+      if (const int stop = stop_touched_at_rest(hit.contact); stop >= 0) return touch(stop, true);
       rest(system_->frame().frictions[hit.contact], system_->model().frictions[hit.contact].belt_speed);
       return settle(Cause::reversal);
     case GuardKind::stick_above:
@@ -240,6 +243,22 @@ void Motion::force_limit(int guard, int contact, bool graze) {
   for (int g = 0; g < mode.guard_count(); ++g) orders_[g] = flow::start_order(mode, g, X_.data(), magnitude_.data());
   orders_[guard] = touched;
   chatter_stop_ = -1;
+}
+
+/// The stop of a pair that comes to rest just where its gap vanishes, within the gap's rounding bound, or -1. The gap's minimum and the zero of
+/// its rate are one instant, whichever of the two searches ends an ulp earlier.
+int Motion::stop_touched_at_rest(int friction) const {
+  const mode::Mode& mode = system_->mode(mode_);
+  for (int g = 0; g < mode.guard_count(); ++g) {
+    const mode::Guard& guard = mode.guards()[g];
+    if (guard.kind != GuardKind::gap || !system_->coupling(guard.contact, friction).same_pair) continue;
+    event::GuardWindow window;
+    mode.taylor_noise(g, magnitude_.data(), window);
+    const double x = arrived_x_;
+    if (flow::gap(*system_, guard.contact, X_.data()) <= window.noise_0 + x * (window.noise_1 + x * window.noise_2))
+      return guard.contact;
+  }
+  return -1;
 }
 
 /// Sets the velocity of a pair relative to `speed` to exactly zero in the stored state.

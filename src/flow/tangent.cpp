@@ -60,7 +60,8 @@ void TangentMotion::flow(const Motion::Segment& segment) {
 }
 
 void TangentMotion::jump(const Event& event) {
-  if (event.kind == EventKind::graze || !motion_.hit_guard()) return;
+  if (event.kind == EventKind::graze) return hold_still();
+  if (!motion_.hit_guard()) return;
   const System& system = motion_.system();
   const int n = system.frame().n;
   const mode::Mode& before = system.mode(motion_.segment().mode);
@@ -78,7 +79,13 @@ void TangentMotion::jump(const Event& event) {
     tangents_.bottomRows(n) -= (1.0 + r) * system.impulse(event.contact) * rate;
   }
   tangents_ -= f_plus * dt;
-  // What the new mode holds still is exactly zero: the rank loss of stick.
+  hold_still();
+}
+
+/// What the new mode holds still is exactly zero: the rank loss of stick.
+void TangentMotion::hold_still() {
+  const System& system = motion_.system();
+  const int n = system.frame().n;
   const mode::ContactStates& states = system.mode(motion_.mode_id()).states();
   const auto hold = [&](const mode::ContactRow& contact) {
     if (contact.own >= 0) tangents_.row(n + contact.own).setZero();

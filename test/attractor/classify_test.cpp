@@ -96,6 +96,18 @@ TEST(classify, a_linear_oscillator_without_contact_is_one_zero_one) {
   EXPECT_NEAR(product.real(), std::exp(-trace * model.forcing_period()), 1e-12);
 }
 
+TEST(classify, a_period_that_ends_on_the_closed_stop_is_not_taken_for_a_violated_one) {
+  // x1 - x2 = clearance is not kept to the last bit by a state in the user's coordinates.
+  for (const double clearance : {0.01, 0.03, -0.1}) {
+    Model model = paper_model({.omega = 0.45, .clearance = clearance});
+    model.forces[0].phase = 2.0;
+    const Classification found =
+        classify(System(model), {-0.5, 0, 0, 0}, {.transient_periods = 100, .most_periods = 600});
+    EXPECT_EQ(found.attractor, Attractor::periodic) << clearance;
+    EXPECT_EQ(found.chatter, Chatter::complete) << clearance;
+  }
+}
+
 TEST(classify, an_unforced_model_is_refused) {
   Model model = paper_model({});
   model.forces.clear();

@@ -138,10 +138,12 @@ TEST(Fuzz, RandomModelsHaveTheOraclesEvents) {
       const std::size_t before = engine.size();
       until_graze(engine);
       unproven += until_unproven_chatter(engine) ? 1 : 0;
-      if (engine.size() < before || before >= 400) exact.resize(std::min(exact.size(), engine.size()));
-      flagged += engine.size() < before ? 1 : 0;
+      const bool cut = engine.size() < before;
+      flagged += cut ? 1 : 0;
       const testing::Comparison c = testing::compare(engine, exact);
-      if (!c.mismatch.empty()) ADD_FAILURE() << "case " << k << ": " << c.mismatch << "\n  " << describe(model, state);
+      const bool rest_is_missing = (cut || before >= 400) && c.mismatch.starts_with("missing");
+      if (!c.mismatch.empty() && !rest_is_missing)
+        ADD_FAILURE() << "case " << k << ": " << c.mismatch << "\n  " << describe(model, state);
       EXPECT_LE(c.worst, 1e-9 * time) << "case " << k << "\n  " << describe(model, state);
       worst = std::max(worst, c.worst / time);
       events += static_cast<long>(c.events);

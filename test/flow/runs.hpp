@@ -86,7 +86,7 @@ inline std::vector<Seen> engine_events(Motion& motion, double time, std::size_t 
   const Instant start = motion.time(), end = after(motion, time);
   const auto stops = static_cast<int>(motion.system().model().stops.size());
   Instant last{-1, 0.0};
-  for (std::size_t all = 0; all < 2 * most && seen.size() < most && motion.advance(end) == Outcome::event; ++all) {
+  for (std::size_t all = 0; all < most + 100 && seen.size() < most && motion.advance(end) == Outcome::event; ++all) {
     const Event& event = motion.event();
     const bool force = motion.hit_guard() != nullptr && motion.hit_guard()->kind != mode::GuardKind::gap &&
                        motion.hit_guard()->kind != mode::GuardKind::slip;

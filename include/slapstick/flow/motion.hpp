@@ -114,6 +114,7 @@ class Motion {
   void arrive(double x);
   void handle(int guard, bool graze);
   void rest(const mode::ContactRow& contact, double speed);
+  [[nodiscard]] int stop_touched_at_rest(int friction) const;
   void force_limit(int guard, int contact, bool graze);
   void touch(int stop, bool graze);
   void impact(int stop);
@@ -129,9 +130,10 @@ class Motion {
   MotionOptions options_;
   Instant now_, segment_start_;
   int mode_ = 0, segment_mode_ = 0;
-  double elapsed_ = 0.0;   ///< time from segment_start_ to X_
-  bool resume_ = false;    ///< the next segment continues the last one, without an event between
-  int chatter_stop_ = -1;  ///< the stop just hit, whose chatter may be complete
+  double arrived_x_ = 0.0;  ///< where in its window the last segment ended
+  double elapsed_ = 0.0;    ///< time from segment_start_ to X_
+  bool resume_ = false;     ///< the next segment continues the last one, without an event between
+  int chatter_stop_ = -1;   ///< the stop just hit, whose chatter may be complete
   std::vector<double> X_, magnitude_, X_before_, X_segment_, X_next_;
   mutable std::vector<double> scratch_;
   mutable event::Lanes sample_out_;

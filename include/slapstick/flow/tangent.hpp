@@ -32,6 +32,7 @@ class TangentMotion {
  private:
   void flow(const Motion::Segment& segment);
   void jump(const Event& event);
+  void hold_still();
 
   Motion motion_;
   Eigen::MatrixXd tangents_;

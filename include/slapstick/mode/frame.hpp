@@ -51,7 +51,7 @@ struct Frame {
   /// The rows p' = u + drift and the forcing oscillators of A; the rows u' are left zero.
   [[nodiscard]] Matrix kinematics(double omega) const;
 
-  /// Writes p and u of a user's state (x_1, v_1, x_2, v_2, ..) into X.
+  /// Writes p and u of a user's state (x_1, v_1, x_2, v_2, ..) into X. A gap of at most four roundings of its coordinates is zero.
   void enter(const double* state, double* X) const;
   /// Writes cos, sin of the harmonics at phase `fraction` (periods) and the constant 1 into X. One libm call per harmonic.
   void set_phase(double fraction, double* X) const;

@@ -35,7 +35,9 @@ TEST(Graze, RestAtTheStopIsATouchAndNotStickBehindIt) {
         EXPECT_LE(motion.state()[0], clearance + 1e-15) << offset;
       }
     }) << offset;
-    if (offset <= 0) EXPECT_TRUE(touched) << offset;
+    if (offset <= 0) {
+      EXPECT_TRUE(touched) << offset;
+    }
   }
 }
 

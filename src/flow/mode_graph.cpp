@@ -82,6 +82,18 @@ double approach_velocity(const System& system, int stop, const double* X) {
   return rate(system, system.frame().stops[stop], X);
 }
 
+int approaching_mode(const System& system, const double* X) {
+  const Model& model = system.model();
+  mode::ContactStates states{std::vector<mode::StopState>(model.stops.size(), mode::StopState::open), {}};
+  for (int i = 0; i < static_cast<int>(model.frictions.size()); ++i) {
+    const double w = sliding_velocity(system, i, X);
+    states.frictions.push_back(w > 0.0   ? mode::FrictionState::slip_plus
+                               : w < 0.0 ? mode::FrictionState::slip_minus
+                                         : mode::FrictionState::stick);
+  }
+  return system.mode_id(states);
+}
+
 int select_mode(const System& system, const double* X, const double* magnitude, std::span<int> orders) {
   const Model& model = system.model();
   const auto stops = static_cast<int>(model.stops.size());

@@ -91,7 +91,10 @@ void TangentMotion::hold_still() {
     if (contact.own >= 0) tangents_.row(n + contact.own).setZero();
   };
   for (std::size_t i = 0; i < states.stops.size(); ++i) {
-    if (states.stops[i] == mode::StopState::closed) hold(system.frame().stops[i]);
+    const mode::ContactRow& stop = system.frame().stops[i];
+    if (states.stops[i] != mode::StopState::closed) continue;
+    hold(stop);
+    if (stop.own >= 0) tangents_.row(stop.own).setZero();
   }
   for (std::size_t i = 0; i < states.frictions.size(); ++i) {
     if (states.frictions[i] == mode::FrictionState::stick) hold(system.frame().frictions[i]);

@@ -1,5 +1,7 @@
 #include "slapstick/mode/mode.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "mode/series.hpp"
@@ -138,7 +140,8 @@ void Mode::arm_guards(const Model& model, const Frame& frame, const Held& held) 
 
 void Mode::note_guard_structure(const Matrix& kinematics) {
   for (Guard& guard : guards_) {
-    const bool mechanical = guard.row.tail(m_ - 2 * n_).isZero(0.0);  // a phase has the clock's rounding besides its own
+    const bool mechanical =
+        guard.row.tail(m_ - 2 * n_).isZero(0.0);  // a phase has the clock's rounding besides its own
     if (mechanical && (guard.row.array() != 0.0).count() == 1) {
       guard.row.cwiseAbs().maxCoeff(&guard.single);
       guard.factor = guard.row[guard.single];
@@ -197,36 +200,45 @@ void Mode::build_operators(const Frame& frame, double omega) {
 
   const auto guards = guards_.size();
   state_blocks_ = (m_ + 7) / 8;
-  noise_blocks_ = (static_cast<int>(guards) + 7) / 8;
-  advance_.assign((state_blocks_ + 3 * guards) * m_, event::Lane8{});
-  bernstein_noise_.assign(static_cast<std::size_t>(noise_blocks_) * m_, event::Lane8{});
+  step_.assign(static_cast<std::size_t>(state_blocks_) * m_, event::Lane8{});
   taylor_.assign(3 * guards * m_, event::Lane8{});
   leading_noise_.assign(guards * m_, event::Lane8{});
-  taylor_noise_.assign(guards * m_, event::Lane8{});
   coordinates_.assign(3 * static_cast<std::size_t>(n_) * m_, event::Lane8{});
 
   const Matrix flow = flow_over_window(series, guards, frame, omega);
   for (int i = 0; i < m_; ++i) {
-    for (int r = 0; r < m_; ++r) advance_[(r / 8) * m_ + i][r % 8] = flow(r, i);
-    for (std::size_t g = 0; g < guards; ++g) {
-      double widest = 0.0, rest = 0.0;
-      for (int j = 0; j < event::terms; ++j) {
-        const double a = series.taylor(g, j, i), b = series.bernstein(g, j, i);
-        taylor_[(3 * g + j / 8) * m_ + i][j % 8] = a;
-        advance_[(state_blocks_ + 3 * g + j / 8) * m_ + i][j % 8] = b;
-        if (j < 8) leading_noise_[g * m_ + i][j] = noise_factor_ * std::abs(a);
-        if (j >= 2) rest += std::abs(a);
-        widest = std::max(widest, std::abs(b));
-      }
-      bernstein_noise_[(g / 8) * m_ + i][g % 8] = noise_factor_ * widest;
-      taylor_noise_[g * m_ + i] = event::Lane8{noise_factor_ * std::abs(series.taylor(g, 0, i)),
-                                               noise_factor_ * std::abs(series.taylor(g, 1, i)), noise_factor_ * rest};
+    for (int r = 0; r < m_; ++r) step_[(r / 8) * m_ + i][r % 8] = flow(r, i);
+    for (int j = 0; j < event::terms; ++j) {
+      for (std::size_t g = 0; g < guards; ++g) taylor_[(3 * g + j / 8) * m_ + i][j % 8] = series.taylor(g, j, i);
+      for (std::size_t k = 0; k < static_cast<std::size_t>(n_); ++k)
+        coordinates_[(3 * k + j / 8) * m_ + i][j % 8] = series.taylor(guards + k, j, i);
     }
-    for (int k = 0; k < n_; ++k) {
-      for (int j = 0; j < event::terms; ++j)
-        coordinates_[(3 * static_cast<std::size_t>(k) + j / 8) * m_ + i][j % 8] = series.taylor(guards + k, j, i);
+    for (std::size_t g = 0; g < guards; ++g)
+      leading_noise_[g * m_ + i] = noise_factor_ * event::magnitude(taylor_[3 * g * m_ + i]);
+  }
+  for (int g = 0; g < guard_count(); ++g) {
+    for (int order = 0; order < stored_orders; ++order) {
+      for (int i = 0; i < m_; ++i) {
+        const event::Hull hull = hull_column(g, order, i);
+        hulls_.push_back(hull.bernstein);
+        hull_bounds_.push_back(hull.bounds);
+      }
     }
   }
+}
+
+/// The hull of column i of guard g, x^order divided out. The terms beyond the stored ones are below a quarter rounding of the largest.
+event::Hull Mode::hull_column(int g, int order, int i) const {
+  std::array<double, event::terms> a{};
+  double largest = 0.0;
+  for (int n = 0; n < event::terms; ++n) {
+    const double c = taylor_[(3 * g + n / 8) * m_ + i][n % 8];
+    largest = std::max(largest, std::abs(c));
+    if (n >= order) a[n - order] = c;
+  }
+  event::Hull hull = event::enclose(a.data(), event::terms - order, noise_factor_);
+  hull.bounds += 0.25 * event::unit_roundoff * largest * event::Lane8{1, 1, 1, 0, 0, 1, 1, 1};
+  return hull;
 }
 
 namespace {
@@ -264,32 +276,32 @@ inline void multiply(const event::Lane8* data, int blocks, int m, const double* 
 
 }  // namespace
 
-void Mode::advance(const double* X, event::Lane8* out) const {
-  multiply(advance_.data(), state_blocks_ + 3 * guard_count(), m_, X, out);
+void Mode::step(const double* X, event::Lane8* out) const { multiply(step_.data(), state_blocks_, m_, X, out); }
+
+void Mode::enclose(int g, int order, const double* X, const double* magnitude, event::Hull& out) const {
+  if (order < stored_orders) {
+    const auto at = static_cast<std::ptrdiff_t>(g * stored_orders + order) * m_;
+    multiply(hulls_.data() + at, 1, m_, X, &out.bernstein);
+    multiply(hull_bounds_.data() + at, 1, m_, magnitude, &out.bounds);
+    return;
+  }
+  out = event::Hull{{}, {}};
+  for (int i = 0; i < m_; ++i) {
+    const event::Hull column = hull_column(g, order, i);
+    out.bernstein += column.bernstein * X[i];
+    out.bounds += column.bounds * magnitude[i];
+  }
 }
 
-void Mode::step(const double* X, event::Lane8* out) const { multiply(advance_.data(), state_blocks_, m_, X, out); }
-
-void Mode::bernstein_noise(const double* magnitude, event::Lane8* out) const {
-  multiply(bernstein_noise_.data(), noise_blocks_, m_, magnitude, out);
-}
-
-void Mode::taylor(int g, const double* X, event::Coefficients& out) const {
-  multiply(taylor_.data() + 3 * g * m_, 3, m_, X, out.data());
+void Mode::taylor(int g, int order, const double* X, event::Coefficients& out) const {
+  multiply(taylor_.data() + static_cast<std::ptrdiff_t>(3 * g) * m_, 3, m_, X, out.data());
+  for (int p = 0; p < order; ++p) out = event::divided_by_x(out);
 }
 
 void Mode::leading(int g, const double* X, const double* magnitude, event::Lane8& coefficients,
                    event::Lane8& noise) const {
-  multiply(taylor_.data() + 3 * g * m_, 1, m_, X, &coefficients);
-  multiply(leading_noise_.data() + g * m_, 1, m_, magnitude, &noise);
-}
-
-void Mode::taylor_noise(int g, const double* magnitude, event::GuardWindow& out) const {
-  event::Lane8 noise;
-  multiply(taylor_noise_.data() + g * m_, 1, m_, magnitude, &noise);
-  out.noise_0 = noise[0];
-  out.noise_1 = noise[1];
-  out.noise_2 = noise[2];
+  multiply(taylor_.data() + static_cast<std::ptrdiff_t>(3 * g) * m_, 1, m_, X, &coefficients);
+  multiply(leading_noise_.data() + static_cast<std::ptrdiff_t>(g) * m_, 1, m_, magnitude, &noise);
 }
 
 void Mode::state_at(double x, const double* X, double* out) const {

@@ -1,7 +1,6 @@
 #include "mode/series.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace slapstick::mode {
@@ -15,20 +14,6 @@ double reference_length(const Matrix& A) {
   int exponent = 0;
   const double mantissa = std::frexp(1.0 / radius, &exponent);
   return std::ldexp(std::floor(256.0 * mantissa) / 256.0, exponent);
-}
-
-using Weights = std::array<std::array<long double, event::terms>, event::terms>;
-
-/// C(j, n) / C(23, n) for n <= j.
-Weights bernstein_weights() {
-  Weights weights{};
-  for (int j = 0; j < event::terms; ++j) {
-    weights[j][0] = 1.0L;
-    for (int n = 1; n <= j; ++n)
-      weights[j][n] =
-          weights[j][n - 1] * static_cast<long double>(j - n + 1) / static_cast<long double>(event::degree - n + 1);
-  }
-  return weights;
 }
 
 }  // namespace
@@ -89,13 +74,6 @@ bool Series::tail_is_negligible(double ratio) const {
 }
 
 double Series::taylor(std::size_t r, int n, int i) const { return static_cast<double>(scaled_[r][n][i]); }
-
-double Series::bernstein(std::size_t r, int j, int i) const {
-  static const auto weights = bernstein_weights();
-  long double sum = 0.0L;
-  for (int n = 0; n <= j; ++n) sum += weights[j][n] * scaled_[r][n][i];
-  return static_cast<double>(sum);
-}
 
 RowVector Series::end_value(std::size_t r) const {
   LongRow sum = scaled_[r].back();

@@ -1,5 +1,5 @@
 #pragma once
-/// The exponential series of a mode in extended precision: Taylor and Bernstein rows, window length, flow matrix.
+/// The exponential series of a mode in extended precision: Taylor rows, window length, flow matrix.
 #include <vector>
 
 #include "slapstick/event/window.hpp"
@@ -18,8 +18,6 @@ class Series {
   [[nodiscard]] double window() const { return window_; }
   /// Coefficient of x^n (x = s / H) of row r with respect to X_i.
   [[nodiscard]] double taylor(std::size_t r, int n, int i) const;
-  /// Bernstein coefficient j of the degree-23 polynomial of row r with respect to X_i: b_j = sum_{n<=j} C(j,n)/C(23,n) a_n.
-  [[nodiscard]] double bernstein(std::size_t r, int j, int i) const;
   /// Row r at the window's end, c exp(A H), and its time derivative there.
   [[nodiscard]] RowVector end_value(std::size_t r) const;
   [[nodiscard]] RowVector end_slope(std::size_t r) const;

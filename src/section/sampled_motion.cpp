@@ -6,7 +6,7 @@
 namespace slapstick {
 
 SampledMotion::SampledMotion(Motion motion, int samples_per_period, Instant from)
-    : motion_(std::move(motion)), behind_(motion_), per_period_(samples_per_period) {
+    : motion_(std::move(motion)), per_period_(samples_per_period) {
   sample_.state.resize(2 * static_cast<std::size_t>(motion_.system().model().size()));
   if (per_period_ == 0) return;
   const Instant start = std::max(motion_.time(), from);
@@ -26,7 +26,6 @@ void SampledMotion::aim(std::int64_t index) {
 
 SampledMotion::Item SampledMotion::next(Instant end) {
   if (!flown_) {
-    if (per_period_ > 0 && due_ <= end) behind_ = motion_;
     outcome_ = motion_.advance(end);
     reached_ = outcome_ == Outcome::event ? motion_.event().time : motion_.time();
     flown_ = true;
@@ -43,17 +42,9 @@ SampledMotion::Item SampledMotion::next(Instant end) {
 void SampledMotion::read_sample() {
   sample_.time = due_;
   const Motion::Segment segment = motion_.segment();
-  if (due_ >= segment.start) {
-    sample_.mode = segment.mode;
-    motion_.sample(std::clamp(due_.since(segment.start) * motion_.system().period(), 0.0, segment.duration),
-                   sample_.state);
-    return;
-  }
-  // One advance may fly several segments (a restart of the root search): the earlier ones are flown again, cut at the sample.
-  while (behind_.advance(due_) == Outcome::event) {
-  }
-  sample_.mode = behind_.mode_id();
-  behind_.state(sample_.state);
+  sample_.mode = segment.mode;
+  motion_.sample(std::clamp(due_.since(segment.start) * motion_.system().period(), 0.0, segment.duration),
+                 sample_.state);
 }
 
 }  // namespace slapstick

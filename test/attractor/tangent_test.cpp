@@ -75,6 +75,26 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"stick and release, f_k < f_s", {.omega = 1.5, .kinetic_friction = 0.1}, {-0.5, 0.3, 0.02, 0.05}, 2.2},
         Case{"clearance", {.omega = 1.5, .clearance = 0.1}, {-0.5, 0.3, 0.02, 0.05}, 2.2}));
 
+TEST(tangent, an_impact_at_the_very_start_counts) {
+  const System system(paper_model({.omega = 2.2}));
+  const State start = {-0.5, 0.3, 0.02, 0.05};
+  Motion motion(system, start);
+  while (motion.advance({5, 0.0}) == Outcome::event && motion.event().kind != EventKind::impact) {
+  }
+  const Instant hit = motion.event().time, end = hit.plus(0.3);
+  const State before(motion.before().begin(), motion.before().end());
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(4, 4);
+  const auto carried = [&](const State& from, Instant begin, Instant until, const Eigen::MatrixXd& tangents) {
+    TangentMotion run(system, from, tangents, begin);
+    while (run.advance(until) == Outcome::event) {
+    }
+    return run.tangents();
+  };
+  const Eigen::MatrixXd to_hit = carried(start, {}, hit.plus(-1e-10), identity);
+  const Eigen::MatrixXd from_hit = carried(before, hit, end, to_hit), whole = carried(start, {}, end, identity);
+  EXPECT_LT((from_hit - whole).cwiseAbs().maxCoeff(), 1e-8) << from_hit << "\n\n" << whole;
+}
+
 TEST(tangent, chatter_limit_matches_finite_differences) {
   const System system(paper_model({.omega = 0.552}));
   const State start = {-0.5, 0.3, 0.02, 0.05};  // w != 0: the flow is not differentiable where friction changes sign

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <initializer_list>
+#include <vector>
 
 #include "event/guard_polynomials.hpp"
 #include "oracle/real.hpp"
@@ -27,11 +30,10 @@ double size(const Taylor& a) {
   return sum;
 }
 
-Root find(const Taylor& a, int order, double x_end, double size_1) {
+Root find(const Taylor& a, int order = 0, double x_end = 1.0) {
   long evaluations = 0;
-  return first_root(testing::window(a, order, size(a), size_1), x_end, evaluations);
+  return first_root(testing::window(a, order), x_end, evaluations);
 }
-Root find(const Taylor& a, int order = 0, double x_end = 1.0) { return find(a, order, x_end, size(a)); }
 
 /// (x - r)^2 + depth.
 Taylor valley(double r, double depth) { return polynomial({r * r + depth, -2 * r, 1.0}); }
@@ -110,13 +112,14 @@ TEST(FirstRoot, AfterAStartThatIsAZeroNearGrazesKeepTheirNoise) {  // order 2 an
   }
 }
 
-TEST(FirstRoot, TinyLeadingCoefficientIsNoGrazeAtTheStart) {  // a release just where the force turns: a_2 = 1e-16, a_3 = 1
+TEST(FirstRoot,
+     TinyLeadingCoefficientIsNoGrazeAtTheStart) {  // a release just where the force turns: a_2 = 1e-16, a_3 = 1
   for (int order = 1; order <= 4; ++order) {
     for (const double leading : {1e-14, 1e-16, 1e-30}) {
       Taylor a{};
       a[order] = leading;
       a[order + 1] = 1.0;
-      const Root root = find(a, order, 1.0, order == 1 ? leading : size(a));
+      const Root root = find(a, order);
       EXPECT_EQ(root.kind, RootKind::none) << order << " " << leading << " " << root.x;
     }
   }
@@ -145,10 +148,10 @@ TEST(FirstRoot, ZeroBeyondTheEndIsNotReported) {
 
 TEST(FirstRoot, ZeroAtTheEndItselfIsReported) {  // half-open (0, x_end]
   EXPECT_EQ(find(polynomial({0.5, -1.0}), 0, 0.5).kind, RootKind::crossing);
-  const Root last =
-      find(polynomial({1.0, -1.0}));  // at the window's own end: found, or left to a window that starts there
-  EXPECT_NE(last.kind, RootKind::none);
-  EXPECT_NEAR(last.x, 1.0, 1e-13);
+  const Root last = find(polynomial({1.0, -1.0}));  // at the window's own end: left to a window that has it inside
+  EXPECT_EQ(last.kind, RootKind::restart);
+  EXPECT_GT(last.x, 0.5);
+  EXPECT_LT(last.x, 1.0);
 }
 
 TEST(FirstRoot, SimpleZerosAndMissesAreCheap) {
@@ -156,23 +159,67 @@ TEST(FirstRoot, SimpleZerosAndMissesAreCheap) {
   for (int i = 1; i < 100; ++i, ++cases) {
     const double r = 0.01 * i;
     const Taylor a = polynomial({r * (2 - r), -2 * (1 - r) - r * (2 - r), 1.0 + 0.5 * (1 - r), -0.5});
-    first_root(testing::window(a, 0, size(a), size(a)), 1.0, evaluations);
+    first_root(testing::window(a), 1.0, evaluations);
   }
   EXPECT_LE(evaluations, 8 * cases);
 }
 
-TEST(Excluded, NeedsEveryCoefficientAboveTheNoise) {
-  GuardWindow guard = testing::window(polynomial({1.0}), 0, 1.0, 0.0);
-  EXPECT_TRUE(excluded(guard.bernstein, 0.5, 0));
-  for (int j = 0; j < terms; ++j) {
-    GuardWindow low = guard;
-    low.bernstein[j / 8][j % 8] = 0.25;
-    EXPECT_FALSE(excluded(low.bernstein, 0.5, 0)) << j;
-    EXPECT_FALSE(excluded(low.bernstein, 0.25, 0)) << j;
+TEST(Excluded, NeedsEveryCoefficientAboveTheError) {
+  Hull hull = testing::window(polynomial({1.0})).hull;
+  hull.bounds[hull_error] = 0.25;
+  EXPECT_TRUE(excluded(hull));
+  for (int j = 0; j < 8; ++j) {
+    Hull low = hull;
+    low.bernstein[j] = 0.25;
+    EXPECT_FALSE(excluded(low)) << j;
+    low.bernstein[j] = NAN;
+    EXPECT_FALSE(excluded(low)) << j;
   }
-  guard.bernstein[0][0] = guard.bernstein[0][1] = 0.0;
-  EXPECT_FALSE(excluded(guard.bernstein, 0.5, 1));
-  EXPECT_TRUE(excluded(guard.bernstein, 0.5, 2));
+}
+
+/// Values and two derivatives of a polynomial given by Bernstein coefficients of degree 7, by de Casteljau's scheme.
+std::array<Real, 3> casteljau(const Lane8& bernstein, const Real& x) {
+  std::vector<Real> b;
+  for (int j = 0; j < 8; ++j) b.emplace_back(bernstein[j]);
+  std::array<Real, 3> out;
+  for (int degree_left = 7; degree_left > 0; --degree_left) {
+    if (degree_left == 2) out[2] = 42 * (b[2] - 2 * b[1] + b[0]);
+    if (degree_left == 1) out[1] = 7 * (b[1] - b[0]);
+    for (int j = 0; j < degree_left; ++j) b[j] += x * (b[j + 1] - b[j]);
+  }
+  out[0] = b[0];
+  return out;
+}
+
+TEST(Hull, EnclosesValueSlopeAndCurvatureAndIsSharp) {
+  testing::RandomGuards random(9);
+  double worst[3] = {};
+  for (int i = 0; i < 2000; ++i) {
+    const Taylor a = random.damped_sinusoids();
+    const Hull hull = testing::window(a).hull;
+    for (const double x : {0.0, random.uniform(0, 1), random.uniform(0, 1), 1.0}) {
+      const auto near = casteljau(hull.bernstein, Real(x));
+      Real exact[3] = {0, 0, 0};
+      for (int n = terms - 1; n >= 0; --n) {
+        exact[2] = exact[2] * x + 2 * exact[1];
+        exact[1] = exact[1] * x + exact[0];
+        exact[0] = exact[0] * x + Real(a[n]);
+      }
+      for (int k = 0; k < 3; ++k)
+        worst[k] = std::max(worst[k], abs(near[k] - exact[k]).convert_to<double>() / hull.bounds[k]);
+    }
+    EXPECT_LT(hull.bounds[hull_error], 3e-5 * size(a));
+  }
+  for (const double ratio : worst) {
+    EXPECT_LE(ratio, 1.0);
+    EXPECT_GE(ratio, 0.2) << "the bound is empty";
+  }
+}
+
+TEST(Hull, OfAPolynomialOfDegreeSevenHasNoErrorButRounding) {
+  Taylor a{};
+  for (int n = 0; n < 8; ++n) a[n] = n % 2 == 0 ? 1.0 : -2.0;
+  EXPECT_LT(testing::window(a).hull.bounds[hull_error], 1e-12);
 }
 
 TEST(Value, RoundingStaysWithinItsBoundAndTheBoundIsNotEmpty) {

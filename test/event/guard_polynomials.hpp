@@ -45,26 +45,24 @@ std::array<T, terms> bernstein(const Taylor& a) {
   return b;
 }
 
-/// The kernel's input for a polynomial: 25 u times the sums of |a_n| as noise, as a mode of nine states has it.
-inline GuardWindow window(const Taylor& a, int order, double size_0, double size_1) {
-  GuardWindow guard;
-  const auto b = bernstein<long double>(a);
-  double rest = 0;
-  for (int j = 0; j < terms; ++j) {
-    guard.taylor[j / 8][j % 8] = a[j];
-    guard.bernstein[j / 8][j % 8] = static_cast<double>(b[j]);
-    if (j >= 2) rest += std::abs(a[j]);
-  }
+/// The kernel's input for a polynomial whose zero of order `order` at the start is divided out: every coefficient known to 25 u of
+/// itself, as in a mode of nine states, and the first one, as a sum of terms of this size in all, to 25 u of `size`.
+inline GuardWindow window(const Taylor& a, int order = 0, double size = 0.0) {
+  GuardWindow guard{};
+  std::array<double, terms> g{};
+  for (int n = order; n < terms; ++n) g[n - order] = a[n];
+  for (int n = 0; n < terms; ++n) guard.taylor[n / 8][n % 8] = g[n];
   constexpr double factor = 25 * unit_roundoff;
-  guard.noise_0 = order > 0 ? 0.0 : factor * size_0;
-  guard.noise_1 = order > 1 ? 0.0 : factor * size_1;
-  guard.noise_2 = factor * rest;
-  guard.order = order;
+  guard.hull = enclose(g.data(), terms - order, factor);
+  const double more = std::max(0.0, factor * (size - std::abs(g[0])));
+  guard.hull.bounds += more * Lane8{8, 0, 0, 1, 0, 0, 0, 0};
   return guard;
 }
 
+/// Of the computed g at x.
 inline double noise(const GuardWindow& guard, double x) {
-  return guard.noise_0 + x * (guard.noise_1 + x * guard.noise_2);
+  const Lane8& b = guard.hull.bounds;
+  return b[noise_0] + x * (b[noise_1] + x * b[noise_2]);
 }
 
 /// The first zero of a polynomial that is positive at 0, on (0, 1].

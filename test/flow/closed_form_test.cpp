@@ -236,5 +236,26 @@ TEST(Flow, StartAtALargePeriodHasTheSameBits) {  // K33
   }
 }
 
+TEST(
+    Impact,
+    AtTheVeryEndOfAWindowIsFoundOnceAndInItsPlace) {  // constant speed: the window's end lies anywhere within the noise
+  Model model;
+  model.name = "glider";
+  model.coordinates = {{"x", 1.0}};
+  model.stops = {{"wall", 0, ground, 0.0, 0.5}};
+  const double H = System(model).mode(0).window();
+  for (int windows = 1; windows <= 3; ++windows) {
+    for (int ulps = -6; ulps <= 6; ++ulps) {
+      const double distance = windows * H * (1.0 + ulps * 0x1p-52);
+      const System system(model);
+      Motion motion(system, {-distance, 1.0});
+      const auto events = run(motion, 20.0);
+      ASSERT_EQ(kinds(events), "impact") << windows << " " << ulps;
+      EXPECT_NEAR(testing::seconds(events[0], motion), distance, 4e-15 * distance);
+      EXPECT_EQ(events[0].w, 1.0);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace slapstick

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <random>
 
 #include "flow/runs.hpp"
@@ -37,7 +39,14 @@ void expect_same(const System& system, const std::vector<Event>& all_found, cons
                  const std::string& what) {
   const std::vector<Event> found = without_last_bounces(all_found), expected = without_last_bounces(all_expected);
   ASSERT_EQ(testing::kinds(found), testing::kinds(expected)) << what;
+  // Up to a chatter inside which a cut fell every bit is the same.
+  bool same_bits = true;
   for (std::size_t i = 0; i < found.size(); ++i) {
+    if (expected[i].kind == EventKind::chatter && found[i].time != expected[i].time) same_bits = false;
+    if (same_bits) {
+      EXPECT_EQ(found[i].time, expected[i].time) << what << " event " << i;
+      EXPECT_EQ(found[i].w, expected[i].w) << what << " event " << i;
+    }
     EXPECT_NEAR(found[i].time.since(expected[i].time) * system.period(), 0.0, 1e-12) << what << " event " << i;
     EXPECT_EQ(found[i].contact, expected[i].contact) << what << " event " << i;
   }
@@ -92,6 +101,39 @@ TEST_P(Cut, EventExactlyAtTheEndIsReported) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Omega, Cut, ::testing::Values(0.552, 1.5, 2.2, 4.9));
+
+TEST(
+    Cut,
+    JustBeforeAnExactTouchLeavesItATouch) {  // a touch once became an impact of the speed that the cut's rounding gave it
+  const System system(oracle::oscillator_with_stop(1.0));  // x = sin t against a wall at 1
+  for (int k = 4; k <= 52; ++k) {
+    const double touch = 0.25 / system.period() * 2 * std::numbers::pi;
+    const std::vector<Instant> cuts = {Instant{}.plus(touch - std::ldexp(1.0, -k)), Instant{}.plus(touch),
+                                       Instant{}.plus(touch + std::ldexp(1.0, -k))};
+    EXPECT_EQ(testing::kinds(run_with_cuts(system, {0.0, 1.0}, cuts, Instant{}.plus(6.0 / system.period()))), "graze")
+        << k;
+  }
+}
+
+TEST(Cut, StateAtACutIsTheStateOnTheWay) {
+  const System system(oracle::vibro_impact(1.5));
+  Motion whole(system, {-0.5, 0, 0, 0}), cut = whole;
+  State on_the_way(4);
+  for (int i = 0; i < 200; ++i) {
+    const Instant start = whole.segment().start;
+    if (whole.advance({100, 0.0}) != Outcome::event) break;
+    const Motion::Segment segment = whole.segment();
+    const double s = 0.37 * segment.duration;
+    whole.sample(s, on_the_way);
+    ASSERT_EQ(cut.advance(segment.start.plus(s / system.period())),
+              segment.duration > 0.0 ? Outcome::reached_end : Outcome::event)
+        << start.period;
+    for (int j = 0; j < 4 && segment.duration > 0.0; ++j) EXPECT_NEAR(cut.state()[j], on_the_way[j], 2e-15) << i;
+    while (cut.time() < whole.time() && cut.advance({100, 0.0}) != Outcome::event) {
+    }
+    EXPECT_EQ(cut.state(), whole.state()) << i;
+  }
+}
 
 TEST(Cut, InsideAStickOnABeltAndBetweenStickAndRelease) {
   Model m = oracle::friction_oscillator(1.5, 1.0);

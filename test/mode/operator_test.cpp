@@ -2,6 +2,7 @@
 /// eigenvectors lose their digits. Case numbers K are those of shared/reliability.md.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 #include "mode/exact_flow.hpp"
@@ -39,7 +40,7 @@ class Check {
   double inside_error = 0.0;  ///< the same at points inside the window, over the terms of the series
   double guard_error = 0.0;   ///< |computed - exact| of the guards over their noise bound
   double coefficient_error = 0.0;
-  double bernstein_error = 0.0;
+  double hull_error = 0.0;
   double mean_guard_error = 0.0;
   long guard_count = 0;
 
@@ -72,16 +73,15 @@ class Check {
   }
 
   void guards() {
-    event::Lanes noise((mode_.guard_count() + 7) / 8), out(mode_.state_blocks() + 3 * mode_.guard_count());
-    mode_.bernstein_noise(magnitude_.data(), noise.data());
-    mode_.advance(X_.data(), out.data());
-    const auto terms = testing::series(mode_.system(), exact_, Real(mode_.window()), event::terms);
+    const auto terms = testing::series(mode_.system(), exact_, Real(mode_.window()), event::most_terms);
     for (int g = 0; g < mode_.guard_count(); ++g) {
       std::vector<Real> exact;
       for (const Exact& term : terms) exact.push_back(testing::dot(mode_.guards()[g].row, term));
       coefficients(g, exact);
-      bernstein(exact, &out[mode_.state_blocks() + 3 * g], noise[g / 8][g % 8]);
-      values(g);
+      for (const int order : {0, 1, 2, 3, 5}) {
+        hull(g, order, exact);
+        values(g, order, exact);
+      }
     }
   }
 
@@ -94,28 +94,41 @@ class Check {
     }
   }
 
-  void bernstein(const std::vector<Real>& a, const Lane8* b, double noise) {
-    for (int j = 0; j < event::terms; ++j) {
-      Real sum = a[0], weight = 1;
-      for (int n = 1; n <= j; ++n) {
-        weight = weight * (j - n + 1) / (event::degree - n + 1);
-        sum += weight * a[n];
-      }
-      const double error = abs(Real(b[j / 8][j % 8]) - sum).convert_to<double>();
-      if (error > 0.0) bernstein_error = std::max(bernstein_error, error / noise);
+  /// The guard with its first `order` terms left out and x^order divided out, the whole series.
+  static Real quotient(const std::vector<Real>& a, int order, const Real& x) {
+    Real sum = 0;
+    for (int n = static_cast<int>(a.size()) - 1; n >= order; --n) sum = sum * x + a[n];
+    return sum;
+  }
+
+  /// The hull polynomial at a point, by de Casteljau's scheme.
+  static Real on_hull(const Lane8& bernstein, const Real& x) {
+    std::array<Real, 8> b;
+    for (int j = 0; j < 8; ++j) b[j] = bernstein[j];
+    for (int left = 7; left > 0; --left)
+      for (int j = 0; j < left; ++j) b[j] += x * (b[j + 1] - b[j]);
+    return b[0];
+  }
+
+  void hull(int g, int order, const std::vector<Real>& exact) {
+    event::Hull hull;
+    mode_.enclose(g, order, X_.data(), magnitude_.data(), hull);
+    for (const double x : {0.0, uniform(0, 1), 1.0}) {
+      const double error = abs(on_hull(hull.bernstein, x) - quotient(exact, order, x)).convert_to<double>();
+      if (error > 0.0) hull_error = std::max(hull_error, error / hull.bounds[event::hull_error]);
     }
   }
 
   /// Computed values of the guard polynomial, remainder of the series included, against the guard of the exact flow.
-  void values(int g) {
+  void values(int g, int order, const std::vector<Real>& series) {
     event::GuardWindow window;
-    mode_.taylor(g, X_.data(), window.taylor);
-    mode_.taylor_noise(g, magnitude_.data(), window);
+    mode_.enclose(g, order, X_.data(), magnitude_.data(), window.hull);
+    mode_.taylor(g, order, X_.data(), window.taylor);
     for (const double x : {uniform(0, 1), 1.0}) {
-      const Real exact =
-          testing::dot(mode_.guards()[g].row, testing::flow(mode_.system(), exact_, Real(x) * Real(mode_.window())));
+      const Real exact = quotient(series, order, x);
       const double error = abs(Real(event::value(window.taylor, event::Powers(x))) - exact).convert_to<double>();
-      const double bound = window.noise_0 + x * (window.noise_1 + x * window.noise_2);
+      const Lane8& b = window.hull.bounds;
+      const double bound = b[event::noise_0] + x * (b[event::noise_1] + x * b[event::noise_2]);
       if (error == 0.0 && bound == 0.0) continue;
       guard_error = std::max(guard_error, error / bound);
       mean_guard_error =
@@ -139,7 +152,7 @@ ContactStates free_states(const Model& model, FrictionState friction = FrictionS
 void expect_bounded(const Check& check, const std::string& what) {
   EXPECT_LE(check.guard_error, 1.0) << what;
   EXPECT_LE(check.coefficient_error, 1.0) << what;
-  EXPECT_LE(check.bernstein_error, 1.0) << what;
+  EXPECT_LE(check.hull_error, 1.0) << what;
   EXPECT_LE(check.state_error, 16.0) << what;
   EXPECT_LE(check.inside_error, 16.0) << what;
 }

@@ -1,47 +1,42 @@
 #pragma once
-/// The certified root kernel: the first zero of one guard polynomial on one window. Knows no mechanics.
+/// The certified root kernel: the first zero of one guard on one window. Knows no mechanics.
 ///
-/// A guard h is positive while its mode lasts. On a window it is the polynomial sum a_n x^n, x in [0, 1], plus an error
-/// (rounding of the coefficients, rounding of the evaluation, remainder of the series) that is at most
-///     noise(x) = noise_0 + noise_1 x + noise_2 x^2.
+/// A guard h is positive while its mode lasts. On a window it is sum a_n x^n, x in [0, 1], and if the window starts at a zero of h of
+/// order p (an event just happened), that zero is divided out: the kernel sees g = h / x^p, which has the signs and zeros of h on (0, 1].
 /// The kernel never samples for sign changes. Every step rests on a bound:
-///   - all Bernstein coefficients above the noise: h > 0 on the whole window (convex hull property);
-///   - h'' >= m on the window (m: least Bernstein coefficient of h''): then h(x + d) >= h + h' d + m d^2 / 2, and the first
-///     positive zero of the parabola is not past the first zero of h;
-///   - near a graze, h'' >= kappa > 0 on an interval that is proven to hold exactly one minimum.
+///   - the hull of g (event/hull.hpp) is above its error: g > 0 on the whole window;
+///   - g'' >= m on an interval: then g(x + d) >= g + g' d + m d^2 / 2 on it, and the first zero of g is not before the parabola's;
+///   - g'' <= M: the same from above proves that g falls through zero;
+///   - where g cannot be told from its rounding error, the kernel walks on in steps too short for g to leave that band unseen, until
+///     g is certainly below it (a crossing) or above it again (a graze).
 /// The reasoning is written out in docs/certainty.md.
-#include "slapstick/event/window.hpp"
+#include "slapstick/event/hull.hpp"
 
 namespace slapstick::event {
 
 enum class RootKind {
-  none,      ///< no zero in (0, x_end]
-  crossing,  ///< h > 0 before x, a certified change of sign at x
-  graze,     ///< h > 0 before x; its minimum at x is zero within the noise, so touch and miss cannot be told apart
-  restart    ///< h > 0 before x, and x is too close to the window's end to decide: start a new window at x
+  none,      ///< g > 0 on (0, x_end]
+  crossing,  ///< g > 0 before x, certainly negative behind it
+  graze,  ///< g > 0 before x and behind it; its minimum at x is zero within the noise, so touch and miss cannot be told apart
+  restart  ///< g is zero within the noise at the window's end: start a new window at x, where g is still clear of it
 };
 
 struct Root {
   RootKind kind = RootKind::none;
   double x = 0.0;
-  bool falls = false;  ///< h' < 0 is proven on the whole window (only ever set with a crossing)
+  bool falls = false;  ///< g' < 0 is proven on the whole window (only ever set with a crossing)
+  bool lingers =
+      false;  ///< with none: g is within eight times its noise from start to end; judge it anew in the next window
 };
 
 /// What the kernel needs to know of a guard on a window.
 struct GuardWindow {
-  Coefficients taylor;     ///< a_n
-  Coefficients bernstein;  ///< Bernstein coefficients of the same polynomial on [0, 1]
-  double noise_0 = 0.0, noise_1 = 0.0, noise_2 = 0.0;
-  /// The start is a zero of this order: a_0 = ... = a_{order-1} = 0 (the caller has set them) and a_order > 0, by at least eight times
-  /// its own rounding error.
-  int order = 0;
+  Coefficients taylor;  ///< a_p, a_{p+1}, ..; a_p > 0 by at least eight times its noise
+  Hull hull;            ///< of g
 };
 
-/// True if the Bernstein coefficients prove h > 0 on (0, 1]: those from `order` on exceed `noise`. Costs 24 comparisons.
-bool excluded(const Coefficients& bernstein, double noise, int order);
-
-/// The first zero of the guard in (0, x_end], 0 < x_end <= 1.
-/// Cost: about five evaluations for a simple zero, two to four for a certified miss. `evaluations` is increased by them.
+/// The first zero of g in (0, x_end], 0 < x_end <= 1. What it finds before x_end does not depend on x_end.
+/// Cost: two evaluations for a zero of a guard that falls, two to four for a certified miss. `evaluations` is increased by them.
 Root first_root(const GuardWindow& guard, double x_end, long& evaluations);
 
 }  // namespace slapstick::event

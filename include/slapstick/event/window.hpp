@@ -1,5 +1,5 @@
 #pragma once
-/// One window of one guard: a polynomial of degree 23 on x in [0, 1], evaluated with its first two derivatives.
+/// One window of one guard: a polynomial of degree 23 on x in [0, 1], its values and its derivatives.
 ///
 /// The coefficients are kept in three groups of eight so that a value is
 ///     h(x) = sum_{j<8} x^j (a_j + x^8 (a_{8+j} + x^8 a_{16+j})),
@@ -11,7 +11,7 @@
 
 namespace slapstick::event {
 
-inline constexpr int terms = 24;  ///< Taylor or Bernstein coefficients of a window
+inline constexpr int terms = 24;  ///< Taylor coefficients of a window
 inline constexpr int degree = terms - 1;
 inline constexpr double unit_roundoff = 0x1p-53;
 
@@ -46,17 +46,17 @@ inline Lane8 magnitude(const Lane8& v) { return v < 0.0 ? -v : v; }
 inline Lane8 smaller(const Lane8& a, const Lane8& b) { return a < b ? a : b; }
 inline Lane8 larger(const Lane8& a, const Lane8& b) { return a > b ? a : b; }
 
-/// v with `value` in the lanes below `count`.
-inline Lane8 with_first(const Lane8& v, int count, double value) {
-  constexpr Lane8 lane = {0, 1, 2, 3, 4, 5, 6, 7};
-  return lane < static_cast<double>(count) ? Lane8{} + value : v;
-}
-
-/// Least lane, and the sum of all lanes, each in a fixed order: halves, quarters, neighbours.
+/// Least and greatest lane, and the sum of all lanes, each in a fixed order: halves, quarters, neighbours.
 inline double least(const Lane8& v) {
   const Lane8 half = smaller(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3));
   const Lane8 quarter = smaller(half, __builtin_shufflevector(half, half, 2, 3, 0, 1, 6, 7, 4, 5));
   return quarter[0] < quarter[1] ? quarter[0] : quarter[1];
+}
+inline double greatest(const Lane8& v) { return -least(-v); }
+/// True if every lane is above `bound`; false for NaN.
+inline bool all_above(const Lane8& v, double bound) {
+  constexpr Lane8 yes = {1, 1, 1, 1, 1, 1, 1, 1};
+  return least(v > bound ? yes : Lane8{}) > 0.0;
 }
 inline double sum(const Lane8& v) {
   const Lane8 half = v + __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3);
@@ -74,8 +74,10 @@ struct Powers {
   Lane8 low;
   double x8;
   explicit Powers(double x) {
+    constexpr Lane8 one = {1, 1, 1, 1, 1, 1, 1, 1};
+    constexpr Lane8 odd = {0, 1, 0, 1, 0, 1, 0, 1}, pairs = {0, 0, 1, 1, 0, 0, 1, 1}, upper = {0, 0, 0, 0, 1, 1, 1, 1};
     const double x2 = x * x, x4 = x2 * x2;
-    low = Lane8{1.0, x, x2, x2 * x, x4, x4 * x, x4 * x2, x4 * (x2 * x)};
+    low = (odd > 0.5 ? one * x : one) * (pairs > 0.5 ? one * x2 : one) * (upper > 0.5 ? one * x4 : one);
     x8 = x4 * x4;
   }
 };
@@ -85,6 +87,9 @@ inline double value(const Coefficients& a, const Powers& p) {
   const Lane8 nested = a[0] + p.x8 * (a[1] + p.x8 * a[2]);
   return sum(nested * p.low);
 }
+
+/// Coefficients of (h - a_0) / x: a_{n+1}.
+inline Coefficients divided_by_x(const Coefficients& a) { return {shifted(a, 0), shifted(a, 1), shifted(a, 2)}; }
 
 /// Coefficients of the derivative: d_n = (n + 1) a_{n+1}, d_23 = 0.
 inline Coefficients derivative(const Coefficients& a) {

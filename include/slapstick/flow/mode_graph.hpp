@@ -33,6 +33,9 @@ int start_order(const mode::Mode& mode, int guard, const double* X, const double
 /// @returns mode id, or -1 if no combination fits.
 int select_mode(const System& system, const double* X, const double* magnitude, std::span<int> orders);
 
+/// The mode of a state that is about to hit a stop: all stops open, friction contacts by their velocities.
+int approaching_mode(const System& system, const double* X);
+
 /// w = row . p' - belt speed of a friction contact, and gap and gap rate of a stop, at X.
 double sliding_velocity(const System& system, int contact, const double* X);
 double gap(const System& system, int stop, const double* X);

@@ -1,9 +1,10 @@
 #pragma once
 /// The hybrid flow: a trajectory of a System, event by event, without step-size error.
 ///
-/// A *segment* is the motion in one mode between two events. An event is the first zero, on (segment start, end], of a guard
-/// that is positive just after the start; a guard that is zero at the start is judged by its first non-zero derivative, never
-/// nudged. At one instant events are handled in the order impact, velocity reversal, stick test (the order of the guards); what
+/// A *flight* is the motion in one mode from an event to the next, window by window. The event is the first zero of a guard that is
+/// positive just after the start; a guard that is zero at the start is judged by its first non-zero derivative, never nudged.
+/// A call of `advance` that ends before the event only looks at the flight: wherever and however often a flight is cut, its event
+/// is the same to the last bit. At one instant events are handled in the order impact, velocity reversal, stick test (the order of the guards); what
 /// an event makes due at the same instant follows as an event of its own at the same time.
 ///
 ///   x-  state just before the event (what Event::before shows)
@@ -80,7 +81,8 @@ class Motion {
   [[nodiscard]] const System& system() const { return *system_; }
   [[nodiscard]] const Counters& counters() const { return counters_; }
 
-  /// The segment flown last: where it began, in which mode; `sample` evaluates it.
+  /// The part of a flight that the last `advance` covered, from the last event or cut on: where it began, in which mode; `sample`
+  /// evaluates it.
   struct Segment {
     Instant start;
     int mode = 0;
@@ -88,29 +90,54 @@ class Motion {
     std::span<const double> X;  ///< extended state at its start
   };
   [[nodiscard]] Segment segment() const;
-  /// User's state at time s in [0, duration] of the segment flown last.
+  /// User's state at time s in [0, duration] of that segment.
   void sample(double s, std::span<double> out) const;
 
   /// The guard whose zero ended the last segment; null if the segment ended without one (cut, chatter limit).
   [[nodiscard]] const mode::Guard* hit_guard() const { return hit_guard_; }
 
   /// The extended state now, and just before the last event, for analyses that work in contact coordinates.
-  [[nodiscard]] std::span<const double> extended() const { return X_; }
-  [[nodiscard]] std::span<const double> extended_before() const { return X_before_; }
+  [[nodiscard]] std::span<const double> extended() const { return X_.span(); }
+  [[nodiscard]] std::span<const double> extended_before() const { return X_before_.span(); }
 
  private:
-  enum class Flight { event, end, restart };
-  enum class Cause { start, impact, graze, reversal, force };
+  enum class Cause { impact, graze, reversal, force };
   struct Found {
     event::RootKind kind;
     int guard;
     double x;
   };
 
+  /// An extended state, padded to whole lanes.
+  class Extended {
+   public:
+    explicit Extended(int size) : lanes_((size + 7) / 8) {}
+    double* data() { return reinterpret_cast<double*>(lanes_.data()); }
+    [[nodiscard]] const double* data() const { return reinterpret_cast<const double*>(lanes_.data()); }
+    [[nodiscard]] std::span<const double> span() const { return {data(), 8 * lanes_.size()}; }
+    event::Lanes& lanes() { return lanes_; }
+
+   private:
+    event::Lanes lanes_;
+  };
+
+  /// Where the present flight stands. Its windows are counted from `base`, which is not zero after the root search asked for a new start.
+  struct Flight {
+    Instant start;
+    double base = 0.0;  ///< time from `start`
+    long windows = 0;   ///< passed since `base`
+    [[nodiscard]] double elapsed(double window) const { return base + static_cast<double>(windows) * window; }
+  };
+
+  void start();
   Outcome next_pending();
+  void begin_flight();
   void begin_segment();
-  Flight fly(double limit);
-  Found first_event_in_window(bool first, double x_end);
+  bool fly(double limit);
+  Found first_event_in_window(double x_end);
+  void next_window();
+  void restart_window(double x);
+  void look(double x);
   void arrive(double x);
   void handle(int guard, bool graze);
   void rest(const mode::ContactRow& contact, double speed);
@@ -119,26 +146,33 @@ class Motion {
   void touch(int stop, bool graze);
   void impact(int stop);
   bool end_chatter(double limit);
+  void choose_mode();
   void settle(Cause cause);
   void report_settled(Cause cause, int old_mode);
   void report(EventKind kind, int contact, double w);
-  void note_magnitude();
+  void note_magnitude(Extended& X);
   [[noreturn]] void fail(const std::string& what) const;
+  [[noreturn]] void fail_pile_up() const;
   [[nodiscard]] int stops() const { return static_cast<int>(system_->model().stops.size()); }
 
   const System* system_;
   MotionOptions options_;
   Instant now_, segment_start_;
   int mode_ = 0, segment_mode_ = 0;
-  double arrived_x_ = 0.0;  ///< where in its window the last segment ended
-  double elapsed_ = 0.0;    ///< time from segment_start_ to X_
-  bool resume_ = false;     ///< the next segment continues the last one, without an event between
-  int chatter_stop_ = -1;   ///< the stop just hit, whose chatter may be complete
-  std::vector<double> X_, magnitude_, X_before_, X_segment_, X_next_;
+  Flight flight_;
+  double arrived_x_ = 0.0;      ///< where in its window the last event was
+  double elapsed_ = 0.0;        ///< time from the flight's start to now ..
+  double segment_begun_ = 0.0;  ///< .. and to the segment's start
+  double segment_duration_ = 0.0;
+  int chatter_stop_ = -1;  ///< the stop just hit, whose chatter may be complete
+  Extended X_;             ///< now
+  Extended X_window_;      ///< at the start of the present window
+  Extended magnitude_;     ///< what its rounding is measured by, see note_magnitude
+  Extended X_before_, X_segment_, X_next_, phase_floor_;
   mutable std::vector<double> scratch_;
   mutable event::Lanes sample_out_;
-  event::Lanes out_, noise_;
-  std::vector<int> orders_;
+  std::vector<int> orders_;    ///< of the zeros of the mode's guards at the start of the present window
+  std::vector<bool> lingers_;  ///< guards that are not clear of their noise at its end
   mutable State before_;
   Event event_;
   std::array<Event, 8> pending_;

@@ -60,18 +60,14 @@ class Mode {
   [[nodiscard]] int guard_count() const { return static_cast<int>(guards_.size()); }
   [[nodiscard]] int state_blocks() const { return state_blocks_; }
 
-  /// One step over a whole window: out = [exp(A H) X | Bernstein coefficients of each guard (3 blocks each)].
-  void advance(const double* X, event::Lane8* out) const;
-  /// Only the state part of `advance`.
+  /// One step over a whole window: exp(A window()) X.
   void step(const double* X, event::Lane8* out) const;
-  /// Upper bound of the noise of each guard's Bernstein coefficients: one lane per guard, ceil(guards / 8) blocks.
-  void bernstein_noise(const double* magnitude, event::Lane8* out) const;
-  /// Taylor coefficients of guard g.
-  void taylor(int g, const double* X, event::Coefficients& out) const;
-  /// The first eight Taylor coefficients of guard g and a bound on the rounding error of each (magnitude = |X|).
+  /// Guard g from its zero of order `order` at the window's start on: its hull (magnitude = |X|) ..
+  void enclose(int g, int order, const double* X, const double* magnitude, event::Hull& out) const;
+  /// .. and its Taylor coefficients a_order, a_{order+1}, ...
+  void taylor(int g, int order, const double* X, event::Coefficients& out) const;
+  /// The first eight Taylor coefficients of guard g and a bound on the rounding error of each.
   void leading(int g, const double* X, const double* magnitude, event::Lane8& coefficients, event::Lane8& noise) const;
-  /// Bounds noise_0, noise_1, noise_2 of event::GuardWindow.
-  void taylor_noise(int g, const double* magnitude, event::GuardWindow& out) const;
   /// p and u at time s = x window() into out (same layout as X; the phase part is not written).
   void state_at(double x, const double* X, double* out) const;
 
@@ -84,6 +80,10 @@ class Mode {
   void build_operators(const Frame& frame, double omega);
   [[nodiscard]] Matrix flow_over_window(const Series& series, std::size_t first_coordinate, const Frame& frame,
                                         double omega) const;
+  [[nodiscard]] event::Hull hull_column(int g, int order, int column) const;
+
+  /// Orders of a zero at the start whose hulls are stored; the others are rare and made from the Taylor rows.
+  static constexpr int stored_orders = 3;
 
   ContactStates states_;
   bool possible_ = true;
@@ -91,9 +91,10 @@ class Mode {
   std::vector<Guard> guards_;
   std::vector<double> drift_;
   std::vector<bool> steady_;  ///< u_i is constrained: it keeps its value to the last bit
-  int n_ = 0, m_ = 0, state_blocks_ = 0, noise_blocks_ = 0;
+  int n_ = 0, m_ = 0, state_blocks_ = 0;
   double window_ = 1.0, noise_factor_ = 0.0;
-  event::Lanes advance_, bernstein_noise_, taylor_, leading_noise_, taylor_noise_, coordinates_;
+  event::Lanes step_, taylor_, leading_noise_, coordinates_;
+  event::Lanes hulls_, hull_bounds_;  ///< [guard][order], see event::Hull
 };
 
 }  // namespace slapstick::mode

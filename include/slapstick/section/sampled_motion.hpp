@@ -32,7 +32,7 @@ class SampledMotion {
   void read_sample();
   void aim(std::int64_t index);
 
-  Motion motion_, behind_;  ///< behind_: as it was before the last advance, for times before the last segment
+  Motion motion_;
   int per_period_;
   std::int64_t index_ = 0;
   Instant due_;  ///< of the next sample

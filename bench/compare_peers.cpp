@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstddef>
+#include <cstdio>
 #include <cstdlib>
 #include <string_view>
 
@@ -68,7 +68,8 @@ bool compare(double omega, int periods, double allowed, bool print) {
   }
   const double odeint_error = difference(odeint, reference);
   const double cvode_error = difference(cvode, reference);
-  const bool agreed = odeint_error >= 0.0 && odeint_error < 1e-3 * allowed && cvode_error >= 0.0 && cvode_error < allowed;
+  const bool agreed =
+      odeint_error >= 0.0 && odeint_error < 1e-3 * allowed && cvode_error >= 0.0 && cvode_error < allowed;
   return allowed == 0.0 || agreed;
 }
 

@@ -62,7 +62,7 @@ int right_hand_side(realtype t, N_Vector x, N_Vector dxdt, void* user_data) {
 
 /// One internal step at a time (CV_ONE_STEP). CVODE may step past an event: the phase's equations are smooth there.
 class CvodeSolver {
-public:
+ public:
   CvodeSolver(const PaperOscillator& oscillator, double tolerance)
       : problem_{oscillator},
         context_(make_context()),
@@ -124,7 +124,7 @@ public:
     return evaluations_;
   }
 
-private:
+ private:
   /// CVODE's counters are reset by CVodeReInit.
   void count_evaluations() {
     long since_start = 0;

@@ -74,8 +74,7 @@ inline double hermite_root(const Sample& low, const Sample& high) {
   const auto cubic = [&](double z) { return low.value + z * (c1 + z * (c2 + z * c3)); };
   const auto narrow = [](double a, double b) { return b - a <= 1e-8 * b; };
   std::uintmax_t iterations = most_iterations;
-  const auto [a, b] =
-      boost::math::tools::toms748_solve(cubic, 0.0, 1.0, low.value, high.value, narrow, iterations);
+  const auto [a, b] = boost::math::tools::toms748_solve(cubic, 0.0, 1.0, low.value, high.value, narrow, iterations);
   return low.tau + 0.5 * (a + b) * length;
 }
 

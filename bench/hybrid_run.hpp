@@ -15,7 +15,7 @@ namespace slapstick::bench {
 
 template <class Solver>
 class HybridRun {
-public:
+ public:
   /// Events are located to `event_width` (time).
   HybridRun(Solver& solver, const PaperOscillator& oscillator, double event_width)
       : solver_(solver), oscillator_(oscillator), event_width_(event_width) {}
@@ -34,7 +34,7 @@ public:
     return std::move(result_);
   }
 
-private:
+ private:
   void run_phase(double end_time) {
     solver_.start(mode_, state_, time_);
     while (true) {

@@ -12,7 +12,7 @@ namespace odeint = boost::numeric::odeint;
 /// One controlled step at a time; the derivative at a step's begin is computed once and shared by the step, its
 /// repetitions after a rejection, and all re-taken steps of the event search.
 class OdeintSolver {
-public:
+ public:
   OdeintSolver(const PaperOscillator& oscillator, double tolerance)
       : oscillator_(oscillator), controlled_(odeint::make_controlled(tolerance, tolerance, prototype_)) {}
 
@@ -55,7 +55,7 @@ public:
   const State& end() const { return end_; }
   long evaluations() const { return evaluations_; }
 
-private:
+ private:
   using Stepper = odeint::runge_kutta_fehlberg78<State>;
   using Controlled = odeint::result_of::make_controlled<Stepper>::type;
 

@@ -45,8 +45,9 @@ void register_slapstick() {
   for (const double omega : omegas) {
     char title[64];
     std::snprintf(title, sizeof title, "slapstick/omega:%g", omega);
-    benchmark::RegisterBenchmark(title, [=](benchmark::State& state) { run_motion(state, omega); })
-        ->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark(title, [=](benchmark::State& state) {
+      run_motion(state, omega);
+    })->Unit(benchmark::kMillisecond);
   }
   benchmark::RegisterBenchmark("slapstick_compile_system", compile_system)->Unit(benchmark::kMicrosecond);
 }

@@ -31,8 +31,9 @@ void register_peer(const char* name, PeerRun (*peer)(double, int, double), doubl
   for (const double omega : omegas) {
     char title[64];
     std::snprintf(title, sizeof title, "%s/omega:%g", name, omega);
-    benchmark::RegisterBenchmark(title, [=](benchmark::State& state) { run_peer(state, peer, omega, tolerance); })
-        ->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark(title, [=](benchmark::State& state) {
+      run_peer(state, peer, omega, tolerance);
+    })->Unit(benchmark::kMillisecond);
   }
 }
 

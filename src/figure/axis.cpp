@@ -41,7 +41,8 @@ void choose_format(Axis& axis) {
 /// Up to two decades: 1, 2 and 5 times powers of ten; less than half a decade: even steps.
 void number_short_log(Axis& axis, double decades) {
   if (decades < 0.5) {
-    for (double k = std::ceil(axis.range.min / axis.step); k * axis.step <= axis.range.max; ++k) axis.ticks.push_back(k * axis.step);
+    for (double k = std::ceil(axis.range.min / axis.step); k * axis.step <= axis.range.max; ++k)
+      axis.ticks.push_back(k * axis.step);
     return;
   }
   for (double power = std::pow(10.0, std::floor(std::log10(axis.range.min))); power <= axis.range.max; power *= 10)
@@ -58,7 +59,9 @@ double Axis::place(double value) const {
   return (value - range.min) / (range.max - range.min);
 }
 
-bool drawable(double value, bool log) { return std::fabs(value) <= largest_coordinate && (!log || value > 1 / largest_coordinate); }
+bool drawable(double value, bool log) {
+  return std::fabs(value) <= largest_coordinate && (!log || value > 1 / largest_coordinate);
+}
 
 void Extent::add(const std::vector<double>& column, bool log) {
   bool rises = true, falls = true;

@@ -10,11 +10,11 @@ namespace slapstick::figure {
 struct Axis {
   Range range{};
   bool log = false;
-  double step = 0;           ///< between numbered ticks; logarithmic: a factor, 0 lets gnuplot choose
+  double step = 0;              ///< between numbered ticks; logarithmic: a factor, 0 lets gnuplot choose
   std::vector<double> ticks{};  ///< instead of steps, on a logarithmic axis of less than two decades
-  int minor = 1;             ///< intervals between numbered ticks
-  std::string format = "%g";  ///< of the numbers, in gnuplot's notation
-  double label_em = 0;       ///< width of the widest number
+  int minor = 1;                ///< intervals between numbered ticks
+  std::string format = "%g";    ///< of the numbers, in gnuplot's notation
+  double label_em = 0;          ///< width of the widest number
 
   double place(double value) const;  ///< 0 at the lower end, 1 at the upper
   bool shows(double value) const { return value >= range.min && value <= range.max; }  ///< false for NaN

@@ -64,7 +64,9 @@ void run_gnuplot(const std::filesystem::path& folder, const std::string& script_
   if (error == ENOENT) throw StorageError("gnuplot not found: install gnuplot-nox");
   if (error != 0) throw StorageError(std::string("gnuplot does not start: ") + std::strerror(error));
   const int status = wait_for(child);
-  if (WIFSIGNALED(status)) throw StorageError("gnuplot was ended by signal " + std::to_string(WTERMSIG(status)) + " while drawing " + script_name);
+  if (WIFSIGNALED(status))
+    throw StorageError("gnuplot was ended by signal " + std::to_string(WTERMSIG(status)) + " while drawing " +
+                       script_name);
   if (WEXITSTATUS(status) == 127) throw StorageError("gnuplot not found: install gnuplot-nox");
   if (status != 0) throw StorageError("gnuplot cannot draw " + script_name + ": " + complaint(folder / log_name));
 }

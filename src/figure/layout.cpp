@@ -10,7 +10,7 @@ namespace slapstick::figure {
 namespace {
 
 constexpr double row_height_cm = 5.6, shared_row_height_cm = 3.8;
-constexpr double padding = 0.04;       // of an automatic range
+constexpr double padding = 0.04;        // of an automatic range
 constexpr double least_frame_cm = 1.0;  // below this no axis is legible
 
 struct Grid {
@@ -88,11 +88,13 @@ void place_mark_labels(const Panel& panel, PanelLayout& layout, double em_cm, do
   for (std::size_t i = 0; i < panel.marks.size(); ++i) {
     const Mark& mark = panel.marks[i];
     if (!mark.x || mark.label.empty() || (mark.y && !mark.x_end)) continue;
-    const double from = std::max(*mark.x, layout.x.range.min), to = std::min(mark.x_end.value_or(*mark.x), layout.x.range.max);
+    const double from = std::max(*mark.x, layout.x.range.min),
+                 to = std::min(mark.x_end.value_or(*mark.x), layout.x.range.max);
     if (!(from <= to)) continue;
     const double half = 0.5 * spacing::legend_font * em_cm * width_em(mark.label);
     const double middle = layout.frame.left + 0.5 * (layout.x.place(from) + layout.x.place(to)) * layout.frame.width();
-    const double x = std::clamp(middle, std::min(layout.frame.left + half, middle), std::max(paper_right - half, layout.frame.left));
+    const double x =
+        std::clamp(middle, std::min(layout.frame.left + half, middle), std::max(paper_right - half, layout.frame.left));
     const auto touches = [&](int row) {
       return std::any_of(taken.begin(), taken.end(), [&](const Taken& t) {
         return t.row == row && x - half < t.right + 0.4 * em_cm && x + half > t.left - 0.4 * em_cm;
@@ -121,7 +123,8 @@ void place_columns(const Figure& figure, const Grid& grid, Layout& layout) {
     panel.cell_left = c * cell;
     panel.frame.left = c * cell + left[c];
     panel.frame.right = (c + 1) * cell - right[c];
-    if (panel.frame.width() < least_frame_cm) throw InputError("figure: width_cm leaves no room for panel " + std::to_string(i + 1));
+    if (panel.frame.width() < least_frame_cm)
+      throw InputError("figure: width_cm leaves no room for panel " + std::to_string(i + 1));
   }
 }
 
@@ -141,9 +144,11 @@ void place_rows(const Figure& figure, const Grid& grid, Layout& layout) {
   double top = layout.height_cm;
   for (int r = 0; r < grid.rows; ++r) {
     const double height = free * share[r] / shares;
-    if (!(height >= least_frame_cm)) throw InputError("figure: height_cm leaves no room for row " + std::to_string(r + 1));
+    if (!(height >= least_frame_cm))
+      throw InputError("figure: height_cm leaves no room for row " + std::to_string(r + 1));
     for (std::size_t i = 0; i < figure.panels.size(); ++i)
-      if (grid.row(i) == r) layout.panels[i].frame.top = top - above[r], layout.panels[i].frame.bottom = top - above[r] - height;
+      if (grid.row(i) == r)
+        layout.panels[i].frame.top = top - above[r], layout.panels[i].frame.bottom = top - above[r] - height;
     top -= above[r] + height + below[r];
   }
 }

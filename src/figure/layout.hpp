@@ -24,9 +24,9 @@ struct MarkLabel {
 struct PanelLayout {
   Axis x{}, y{};
   Box frame{};
-  double cell_left = 0;     ///< cm; the tag stands here
-  bool x_numbers = true;    ///< false where a lower panel carries the shared axis
-  bool raster = false;      ///< points are drawn as one image
+  double cell_left = 0;                     ///< cm; the tag stands here
+  bool x_numbers = true;                    ///< false where a lower panel carries the shared axis
+  bool raster = false;                      ///< points are drawn as one image
   int raster_width = 0, raster_height = 0;  ///< pixels
   Legend legend = Legend::none;             ///< never `automatic`
   std::vector<MarkLabel> mark_labels{};
@@ -44,12 +44,12 @@ Layout lay_out(const Figure& figure);
 
 /// Vertical distances in em, shared by the layout (which reserves them) and the script (which uses them).
 namespace spacing {
-inline constexpr double row = 1.25;          ///< of text above the frame
-inline constexpr double numbers = 1.65;      ///< tick and number under the frame
-inline constexpr double axis_label = 1.35;   ///< below or left of the numbers
-inline constexpr double edge = 0.45;         ///< free paper
-inline constexpr double tick = 0.75;         ///< tick and gap left of the frame
-inline constexpr double legend_font = 0.9;   ///< relative to the figure's
+inline constexpr double row = 1.25;         ///< of text above the frame
+inline constexpr double numbers = 1.65;     ///< tick and number under the frame
+inline constexpr double axis_label = 1.35;  ///< below or left of the numbers
+inline constexpr double edge = 0.45;        ///< free paper
+inline constexpr double tick = 0.75;        ///< tick and gap left of the frame
+inline constexpr double legend_font = 0.9;  ///< relative to the figure's
 }  // namespace spacing
 
 /// Rows of text above the frame: the title (or a lone tag), the legend if it stands there, mark labels.

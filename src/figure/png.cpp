@@ -75,7 +75,8 @@ std::size_t match_length(const std::string& data, std::size_t at, std::size_t di
 std::uint32_t adler32(const std::string& data) {
   std::uint32_t a = 1, b = 0;
   for (std::size_t i = 0; i < data.size();) {
-    for (const std::size_t end = std::min(data.size(), i + 5000); i < end; ++i) b += a += static_cast<unsigned char>(data[i]);
+    for (const std::size_t end = std::min(data.size(), i + 5000); i < end; ++i)
+      b += a += static_cast<unsigned char>(data[i]);
     a %= 65521;
     b %= 65521;
   }
@@ -137,7 +138,8 @@ std::string encode_png(const Raster& raster) {
   append_be32(header, static_cast<std::uint32_t>(raster.height));
   header += {8, 3, 0, 0, 0};  // 8 bits, palette, deflate, no filter, not interlaced
   for (const Ink& ink : raster.inks) {
-    for (const auto channel : {ink.colour.red, ink.colour.green, ink.colour.blue}) palette.push_back(static_cast<char>(channel));
+    for (const auto channel : {ink.colour.red, ink.colour.green, ink.colour.blue})
+      palette.push_back(static_cast<char>(channel));
     opacities.push_back(static_cast<char>(ink.opacity));
   }
   const std::size_t width = static_cast<std::size_t>(raster.width);

@@ -13,7 +13,11 @@ namespace {
 class PixelScale {
  public:
   PixelScale(Range range, bool log, int pixels)
-      : log_(log), last_(pixels - 1), min_(place(range.min)), max_(place(range.max)), per_unit_(pixels / (max_ - min_)) {}
+      : log_(log),
+        last_(pixels - 1),
+        min_(place(range.min)),
+        max_(place(range.max)),
+        per_unit_(pixels / (max_ - min_)) {}
 
   int operator()(double value) const {
     const double at = place(value);
@@ -76,7 +80,8 @@ std::vector<Ink> mix_inks(const std::vector<Colour>& colours, int tones) {
 
 }  // namespace
 
-Counts count_points(const std::vector<double>& x, const std::vector<double>& y, const Window& window, int width, int height) {
+Counts count_points(const std::vector<double>& x, const std::vector<double>& y, const Window& window, int width,
+                    int height) {
   if (width <= 0 || height <= 0) throw InputError("raster: width and height must be positive");
   if (x.size() != y.size()) throw InputError("raster: x and y differ in length");
   Counts counts{width, height, std::vector<std::uint32_t>(static_cast<std::size_t>(width) * height)};
@@ -123,16 +128,20 @@ std::vector<double> equalised_tones(const std::vector<Counts>& series) {
 }
 
 Raster blend(const std::vector<Counts>& series, const std::vector<Colour>& colours) {
-  if (series.empty() || series.size() > largest_series_count) throw InputError("raster: 1 to 8 series can share an image");
+  if (series.empty() || series.size() > largest_series_count)
+    throw InputError("raster: 1 to 8 series can share an image");
   if (series.size() != colours.size()) throw InputError("raster: every series needs one colour");
   const int tones = tones_for(series.size());
-  Raster raster{series[0].width, series[0].height, std::vector<std::uint8_t>(series[0].values.size()), mix_inks(colours, tones)};
+  Raster raster{series[0].width, series[0].height, std::vector<std::uint8_t>(series[0].values.size()),
+                mix_inks(colours, tones)};
   const auto tone = equalised_tones(series);
   int place = 1;  // of this series' tone in the index of the ink
   for (const auto& counts : series) {
-    if (counts.width != raster.width || counts.height != raster.height) throw InputError("raster: series differ in size");
+    if (counts.width != raster.width || counts.height != raster.height)
+      throw InputError("raster: series differ in size");
     std::vector<std::uint8_t> share(tone.size());
-    for (std::size_t c = 1; c < tone.size(); ++c) share[c] = static_cast<std::uint8_t>(place * static_cast<int>(std::ceil(tone[c] * tones)));
+    for (std::size_t c = 1; c < tone.size(); ++c)
+      share[c] = static_cast<std::uint8_t>(place * static_cast<int>(std::ceil(tone[c] * tones)));
     for (std::size_t i = 0; i < counts.values.size(); ++i)
       raster.pixels[i] = static_cast<std::uint8_t>(raster.pixels[i] + share[counts.values[i]]);
     place *= tones + 1;

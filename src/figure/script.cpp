@@ -12,16 +12,21 @@ constexpr double pointsize_mm = 2.15;  // diameter of gnuplot's disc (pt 7) at p
 
 std::string comment(const std::string& text) {
   std::string out = "# ";
-  for (const char c : text) out += c == '\n' ? std::string("\n# ") : std::string(1, static_cast<unsigned char>(c) < 0x20 ? ' ' : c);
+  for (const char c : text)
+    out += c == '\n' ? std::string("\n# ") : std::string(1, static_cast<unsigned char>(c) < 0x20 ? ' ' : c);
   return out + "\n";
 }
 
 std::string dash_type(Dash dash) {
   switch (dash) {
-    case Dash::dashed: return "(8,4)";
-    case Dash::dotted: return "(1.5,2)";
-    case Dash::dash_dotted: return "(7,2.5,1.5,2.5)";
-    case Dash::solid: break;
+    case Dash::dashed:
+      return "(8,4)";
+    case Dash::dotted:
+      return "(1.5,2)";
+    case Dash::dash_dotted:
+      return "(7,2.5,1.5,2.5)";
+    case Dash::solid:
+      break;
   }
   return "solid";
 }
@@ -29,9 +34,16 @@ std::string dash_type(Dash dash) {
 /// The commands of one panel.
 class PanelScript {
  public:
-  PanelScript(const Figure& figure, const Layout& layout, const Table& table, const std::string& name, std::size_t index)
-      : panel_(figure.panels[index]), at_(layout.panels[index]), whole_(layout), series_(table.panels[index]), name_(name),
-        index_(index), font_pt_(figure.font_pt), small_font_(fixed(figure.font_pt * spacing::legend_font, 2)) {}
+  PanelScript(const Figure& figure, const Layout& layout, const Table& table, const std::string& name,
+              std::size_t index)
+      : panel_(figure.panels[index]),
+        at_(layout.panels[index]),
+        whole_(layout),
+        series_(table.panels[index]),
+        name_(name),
+        index_(index),
+        font_pt_(figure.font_pt),
+        small_font_(fixed(figure.font_pt * spacing::legend_font, 2)) {}
 
   std::string text() {
     out_ = "\n  # ---- panel " + std::to_string(index_ + 1) + "\n";
@@ -72,7 +84,8 @@ class PanelScript {
     } else if (axis.step > 0) {
       ticks = number(axis.step);
     }
-    line("set " + name + "tics " + ticks + "; set m" + name + "tics " + (axis.log ? "default" : std::to_string(axis.minor)));
+    line("set " + name + "tics " + ticks + "; set m" + name + "tics " +
+         (axis.log ? "default" : std::to_string(axis.minor)));
   }
 
   void label(const std::string& text, double x_cm, double y_cm, const std::string& how) {
@@ -83,10 +96,13 @@ class PanelScript {
     const double em = whole_.em_cm;
     const Box& frame = at_.frame;
     if (at_.x_numbers)
-      label(panel_.x_label, 0.5 * (frame.left + frame.right), frame.bottom - (spacing::numbers + 0.5 * spacing::axis_label) * em,
+      label(panel_.x_label, 0.5 * (frame.left + frame.right),
+            frame.bottom - (spacing::numbers + 0.5 * spacing::axis_label) * em,
             "center" + font_to_fit(panel_.x_label, frame.width()));
-    const double y_label_x = at_.cell_left + (spacing::edge + 0.5 * spacing::axis_label) * em;  // in line with the panels above and below
-    label(panel_.y_label, y_label_x, 0.5 * (frame.bottom + frame.top), "center rotate by 90" + font_to_fit(panel_.y_label, frame.height()));
+    const double y_label_x =
+        at_.cell_left + (spacing::edge + 0.5 * spacing::axis_label) * em;  // in line with the panels above and below
+    label(panel_.y_label, y_label_x, 0.5 * (frame.bottom + frame.top),
+          "center rotate by 90" + font_to_fit(panel_.y_label, frame.height()));
     const double top_row = frame.top + row_em(std::max(rows_above(panel_, at_) - 1, 0)) * em;
     label(panel_.tag, at_.cell_left + spacing::edge * em, top_row, "left");
     label(panel_.title, frame.left, top_row, "left");
@@ -116,15 +132,17 @@ class PanelScript {
     if (mark.x && mark.x_end) {
       const double from = std::max(*mark.x, at_.x.range.min), to = std::min(*mark.x_end, at_.x.range.max);
       if (from < to)
-        line("set object rectangle from " + number(from) + ", graph 0 to " + number(to) + ", graph 1 behind fillcolor" + colour +
-             " fillstyle solid 0.22 noborder");
+        line("set object rectangle from " + number(from) + ", graph 0 to " + number(to) + ", graph 1 behind fillcolor" +
+             colour + " fillstyle solid 0.22 noborder");
     } else if (mark.x && !mark.y) {
-      if (at_.x.shows(*mark.x)) line("set arrow from " + number(*mark.x) + ", graph 0 to " + number(*mark.x) + ", graph 1" + thin);
+      if (at_.x.shows(*mark.x))
+        line("set arrow from " + number(*mark.x) + ", graph 0 to " + number(*mark.x) + ", graph 1" + thin);
     } else if (mark.y && !mark.x) {
-      if (at_.y.shows(*mark.y)) line("set arrow from graph 0, first " + number(*mark.y) + " to graph 1, first " + number(*mark.y) + thin);
+      if (at_.y.shows(*mark.y))
+        line("set arrow from graph 0, first " + number(*mark.y) + " to graph 1, first " + number(*mark.y) + thin);
       if (at_.y.shows(*mark.y) && !mark.label.empty())
-        line("set label " + quote(mark.label) + " at graph 1, first " + number(*mark.y) + " right offset -0.7, 0.8 front boxed font '," +
-             small_font_ + "'" + " textcolor" + colour);
+        line("set label " + quote(mark.label) + " at graph 1, first " + number(*mark.y) +
+             " right offset -0.7, 0.8 front boxed font '," + small_font_ + "'" + " textcolor" + colour);
     } else if (mark.x && mark.y && at_.x.shows(*mark.x) && at_.y.shows(*mark.y)) {
       line("set label " + quote(mark.label) + " at " + number(*mark.x) + ", " + number(*mark.y) +
            " center front boxed font '," + small_font_ + "'" + " textcolor" + colour);
@@ -133,11 +151,14 @@ class PanelScript {
 
   void legend() {
     if (at_.legend == Legend::none) return;
-    const bool has_lines = std::any_of(panel_.lines.begin(), panel_.lines.end(), [](const Line& l) { return !l.label.empty(); });
-    const std::string common = std::string(" Left reverse samplen ") + (has_lines ? "1.6" : "0.4") + " spacing 1.05 height 0.2 width 0 font '," + small_font_ + "'";
+    const bool has_lines =
+        std::any_of(panel_.lines.begin(), panel_.lines.end(), [](const Line& l) { return !l.label.empty(); });
+    const std::string common = std::string(" Left reverse samplen ") + (has_lines ? "1.6" : "0.4") +
+                               " spacing 1.05 height 0.2 width 0 font '," + small_font_ + "'";
     if (at_.legend == Legend::above) {
       const double y = at_.frame.top + row_em(at_.mark_rows) * whole_.em_cm;
-      line("set key at " + screen(at_.frame.right, y) + " right center horizontal maxcols " + std::to_string(legend_entries(panel_)) + " maxrows 1" + common);
+      line("set key at " + screen(at_.frame.right, y) + " right center horizontal maxcols " +
+           std::to_string(legend_entries(panel_)) + " maxrows 1" + common);
       return;
     }
     const bool right = at_.legend == Legend::top_right || at_.legend == Legend::bottom_right;
@@ -151,16 +172,17 @@ class PanelScript {
     std::size_t column = series_.first_column;
     for (const std::size_t i : series_.points) {
       const Points& points = panel_.points[i];
-      parts.push_back(columns(column) + " with points pt 7 ps " + number(points.diameter_mm / pointsize_mm) + " lc rgb " +
-                      quote_colour(points.colour) + title(points.label));
+      parts.push_back(columns(column) + " with points pt 7 ps " + number(points.diameter_mm / pointsize_mm) +
+                      " lc rgb " + quote_colour(points.colour) + title(points.label));
     }
     for (const std::size_t i : series_.lines) {
       const Line& drawn = panel_.lines[i];
-      parts.push_back(columns(column) + " with lines lw " + number(drawn.width_pt) + " dt " + dash_type(drawn.dash) + " lc rgb " +
-                      quote_colour(drawn.colour) + title(drawn.label));
+      parts.push_back(columns(column) + " with lines lw " + number(drawn.width_pt) + " dt " + dash_type(drawn.dash) +
+                      " lc rgb " + quote_colour(drawn.colour) + title(drawn.label));
     }
     if (parts.empty()) parts.push_back("NaN notitle");  // draws the axes
-    for (std::size_t i = 0; i < parts.size(); ++i) line((i == 0 ? "plot " : "     ") + parts[i] + (i + 1 < parts.size() ? ", \\" : ""));
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      line((i == 0 ? "plot " : "     ") + parts[i] + (i + 1 < parts.size() ? ", \\" : ""));
   }
 
   /// On linear axes the image lies in data coordinates; gnuplot cannot do that on logarithmic ones, where it fills the frame.
@@ -169,15 +191,17 @@ class PanelScript {
     const Range x = fill ? Range{0, 1} : at_.x.range, y = fill ? Range{0, 1} : at_.y.range;
     const double dx = (x.max - x.min) / at_.raster_width, dy = (y.max - y.min) / at_.raster_height;
     if (fill) line("set x2range [0:1]; set y2range [0:1]  # the frame; the image knows the ranges of x and y above");
-    parts.push_back(quote_file(raster_name(name_, index_)) + " binary filetype=png origin=(" + number(x.min + 0.5 * dx) + "," +
-                    number(y.min + 0.5 * dy) + ") dx=" + number(dx) + " dy=" + number(dy) + " using 1:2:3:4" +
-                    (fill ? " axes x2y2" : "") + " with rgbalpha notitle");
+    parts.push_back(quote_file(raster_name(name_, index_)) + " binary filetype=png origin=(" +
+                    number(x.min + 0.5 * dx) + "," + number(y.min + 0.5 * dy) + ") dx=" + number(dx) +
+                    " dy=" + number(dy) + " using 1:2:3:4" + (fill ? " axes x2y2" : "") + " with rgbalpha notitle");
     for (const Points& points : panel_.points)
-      if (!points.label.empty()) parts.push_back("keyentry with points pt 5 ps 0.6 lc rgb " + quote_colour(points.colour) + title(points.label));
+      if (!points.label.empty())
+        parts.push_back("keyentry with points pt 5 ps 0.6 lc rgb " + quote_colour(points.colour) + title(points.label));
   }
 
   std::string columns(std::size_t& column) const {
-    const std::string text = quote_file(name_ + ".csv") + " skip 1 using " + std::to_string(column) + ":" + std::to_string(column + 1);
+    const std::string text =
+        quote_file(name_ + ".csv") + " skip 1 using " + std::to_string(column) + ":" + std::to_string(column + 1);
     column += 2;
     return text;
   }
@@ -200,34 +224,44 @@ class PanelScript {
 std::string terminals(const Figure& figure, const Layout& layout, Formats formats) {
   const std::string font = " enhanced font " + quote(figure.font + "," + number(figure.font_pt));
   const auto scaled = [](double text, double lines, double dashes, double points) {
-    return " fontscale " + fixed(text, 4) + " linewidth " + fixed(lines, 4) + " dashlength " + fixed(dashes, 1) + " pointscale " + fixed(points, 4);
+    return " fontscale " + fixed(text, 4) + " linewidth " + fixed(lines, 4) + " dashlength " + fixed(dashes, 1) +
+           " pointscale " + fixed(points, 4);
   };
   const auto pixels = [&](double dpi) {
-    return std::to_string(std::lround(layout.width_cm / 2.54 * dpi)) + "," + std::to_string(std::lround(layout.height_cm / 2.54 * dpi));
+    return std::to_string(std::lround(layout.width_cm / 2.54 * dpi)) + "," +
+           std::to_string(std::lround(layout.height_cm / 2.54 * dpi));
   };
   std::string out;
   if (formats.png)
-    out += "  if (format eq 'png') { set terminal pngcairo size " + pixels(figure.png_dpi) + font + scaled(figure.png_dpi / 96.0, figure.png_dpi / 72.0, 2, figure.png_dpi / 72.0) + " }\n";
+    out += "  if (format eq 'png') { set terminal pngcairo size " + pixels(figure.png_dpi) + font +
+           scaled(figure.png_dpi / 96.0, figure.png_dpi / 72.0, 2, figure.png_dpi / 72.0) + " }\n";
   if (formats.pdf)
-    out += "  if (format eq 'pdf') { set terminal pdfcairo size " + fixed(layout.width_cm, 3) + "cm," + fixed(layout.height_cm, 3) + "cm" + font + scaled(0.75, 2, 1, 1) + " }\n";
+    out += "  if (format eq 'pdf') { set terminal pdfcairo size " + fixed(layout.width_cm, 3) + "cm," +
+           fixed(layout.height_cm, 3) + "cm" + font + scaled(0.75, 2, 1, 1) + " }\n";
   if (formats.svg)
-    out += "  if (format eq 'svg') { set terminal svg size " + pixels(96) + font + " fontscale 1.3333 linewidth 1.3333 }\n";
+    out += "  if (format eq 'svg') { set terminal svg size " + pixels(96) + font +
+           " fontscale 1.3333 linewidth 1.3333 }\n";
   return out;
 }
 
 std::string format_list(Formats formats) {
   std::string out;
-  for (const auto& [wanted, name] : {std::pair{formats.png, "png"}, std::pair{formats.pdf, "pdf"}, std::pair{formats.svg, "svg"}})
+  for (const auto& [wanted, name] :
+       {std::pair{formats.png, "png"}, std::pair{formats.pdf, "pdf"}, std::pair{formats.svg, "svg"}})
     if (wanted) out += (out.empty() ? "" : " ") + std::string(name);
   return out;
 }
 
 }  // namespace
 
-std::string raster_name(const std::string& name, std::size_t panel) { return name + "-raster" + std::to_string(panel + 1) + ".png"; }
+std::string raster_name(const std::string& name, std::size_t panel) {
+  return name + "-raster" + std::to_string(panel + 1) + ".png";
+}
 
-std::string script(const Figure& figure, const Layout& layout, const Table& table, const std::string& name, Formats formats) {
-  std::string out = comment("Written by slapstick. Change it at will and redraw with gnuplot 5.4 or later, in this folder:");
+std::string script(const Figure& figure, const Layout& layout, const Table& table, const std::string& name,
+                   Formats formats) {
+  std::string out =
+      comment("Written by slapstick. Change it at will and redraw with gnuplot 5.4 or later, in this folder:");
   out += comment("  gnuplot " + name + ".gp");
   if (!figure.caption.empty()) out += comment("\n" + figure.caption);
   out += "reset\nset encoding utf8\nset minussign\nset datafile separator comma\n";

@@ -8,7 +8,8 @@
 namespace slapstick::figure {
 
 /// @param name  file name stem; the script reads and writes ./name.csv, ./name-raster<panel>.png, ./name.png, ...
-std::string script(const Figure& figure, const Layout& layout, const Table& table, const std::string& name, Formats formats);
+std::string script(const Figure& figure, const Layout& layout, const Table& table, const std::string& name,
+                   Formats formats);
 
 /// File name of the image of a panel (counted from 0).
 std::string raster_name(const std::string& name, std::size_t panel);

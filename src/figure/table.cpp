@@ -13,7 +13,8 @@ bool has_something(const std::vector<double>& x, const std::vector<double>& y, c
   return false;
 }
 
-std::string series_name(const Panel& panel, std::size_t panel_index, const std::string& label, const char* kind, std::size_t index) {
+std::string series_name(const Panel& panel, std::size_t panel_index, const std::string& label, const char* kind,
+                        std::size_t index) {
   const std::string where = panel.tag.empty() ? "panel " + std::to_string(panel_index + 1) : panel.tag;
   return where + " " + (label.empty() ? kind + (" " + std::to_string(index + 1)) : label);
 }
@@ -37,9 +38,11 @@ Table tabulate(const Figure& figure, const Layout& layout) {
     const auto take = [&](const auto& series, const char* kind, std::size_t index, std::vector<std::size_t>& into) {
       if (!has_something(series.x, series.y, panel)) return;
       into.push_back(index);
-      table.series.push_back({series_name(panel, p, series.label, kind, index), &series.x, &series.y, panel.log_x, panel.log_y});
+      table.series.push_back(
+          {series_name(panel, p, series.label, kind, index), &series.x, &series.y, panel.log_x, panel.log_y});
     };
-    for (std::size_t i = 0; i < panel.points.size() && !layout.panels[p].raster; ++i) take(panel.points[i], "points", i, chosen.points);
+    for (std::size_t i = 0; i < panel.points.size() && !layout.panels[p].raster; ++i)
+      take(panel.points[i], "points", i, chosen.points);
     for (std::size_t i = 0; i < panel.lines.size(); ++i) take(panel.lines[i], "line", i, chosen.lines);
     table.panels.push_back(std::move(chosen));
   }

@@ -26,7 +26,8 @@ class Scratch {
     std::error_code error;
     if (!fs::is_directory(folder, error)) throw StorageError("no such folder: " + folder.string());
     std::string path = (folder / ("." + name + "-XXXXXX")).string();
-    if (mkdtemp(path.data()) == nullptr) throw StorageError("cannot write into " + folder.string() + ": " + std::strerror(errno));
+    if (mkdtemp(path.data()) == nullptr)
+      throw StorageError("cannot write into " + folder.string() + ": " + std::strerror(errno));
     path_ = path;
   }
   ~Scratch() {
@@ -41,7 +42,8 @@ class Scratch {
     std::ofstream out(path_ / name, std::ios::binary);
     out.write(contents.data(), static_cast<std::streamsize>(contents.size()));
     out.close();
-    if (!out) throw StorageError("cannot write " + name + " in " + path_.parent_path().string() + ": " + std::strerror(errno));
+    if (!out)
+      throw StorageError("cannot write " + name + " in " + path_.parent_path().string() + ": " + std::strerror(errno));
   }
 
  private:
@@ -54,25 +56,29 @@ void check(bool good, const std::string& message) {
 
 void check_range(const std::optional<Range>& range, bool log, const std::string& where) {
   if (!range) return;
-  check(range->min < range->max && resolvable(*range), where + " range needs min < max, both finite and far enough apart to be numbered");
+  check(range->min < range->max && resolvable(*range),
+        where + " range needs min < max, both finite and far enough apart to be numbered");
   check(!log || range->min > 0, where + " range must be positive on a logarithmic axis");
 }
 
 void check_panel(const Panel& panel, const std::string& where) {
   const auto lengths = [&](const auto& series, const std::string& kind, std::size_t index) {
-    const std::string name = where + ", " + kind + " " + std::to_string(index + 1) + (series.label.empty() ? "" : " (" + series.label + ")");
+    const std::string name =
+        where + ", " + kind + " " + std::to_string(index + 1) + (series.label.empty() ? "" : " (" + series.label + ")");
     check(series.x.size() == series.y.size(),
           name + ": x has " + std::to_string(series.x.size()) + " values, y has " + std::to_string(series.y.size()));
   };
   for (std::size_t i = 0; i < panel.points.size(); ++i) lengths(panel.points[i], "points", i);
   for (std::size_t i = 0; i < panel.lines.size(); ++i) lengths(panel.lines[i], "line", i);
-  check(panel.points.size() <= largest_series_count || !std::any_of(panel.points.begin(), panel.points.end(), [](const Points& p) {
-    return p.x.size() > raster_threshold || p.drawing == Drawing::raster;
-  }), where + ": an image holds at most 8 series of points");
+  check(panel.points.size() <= largest_series_count ||
+            !std::any_of(panel.points.begin(), panel.points.end(),
+                         [](const Points& p) { return p.x.size() > raster_threshold || p.drawing == Drawing::raster; }),
+        where + ": an image holds at most 8 series of points");
   check_range(panel.x_range, panel.log_x, where + ": x");
   check_range(panel.y_range, panel.log_y, where + ": y");
   check(panel.height_share > 0 && std::isfinite(panel.height_share), where + ": height_share must be positive");
-  for (const Mark& mark : panel.marks) check(mark.x || (mark.y && !mark.x_end), where + ": a mark needs x or y (and x if it has x_end)");
+  for (const Mark& mark : panel.marks)
+    check(mark.x || (mark.y && !mark.x_end), where + ": a mark needs x or y (and x if it has x_end)");
 }
 
 void check_figure(const Figure& figure, const Formats& formats) {
@@ -83,8 +89,10 @@ void check_figure(const Figure& figure, const Formats& formats) {
   check(!figure.height_cm || (*figure.height_cm > 0 && *figure.height_cm <= 100), "height_cm must be in (0, 100]");
   check(figure.font_pt >= 3 && figure.font_pt <= 40, "font_pt must be in [3, 40]");
   const auto sensible = [](int dpi) { return dpi >= 50 && dpi <= 1200; };
-  check(sensible(figure.png_dpi) && sensible(figure.raster_dpi.value_or(300)), "png_dpi and raster_dpi must be in [50, 1200]");
-  for (std::size_t i = 0; i < figure.panels.size(); ++i) check_panel(figure.panels[i], "panel " + std::to_string(i + 1));
+  check(sensible(figure.png_dpi) && sensible(figure.raster_dpi.value_or(300)),
+        "png_dpi and raster_dpi must be in [50, 1200]");
+  for (std::size_t i = 0; i < figure.panels.size(); ++i)
+    check_panel(figure.panels[i], "panel " + std::to_string(i + 1));
 }
 
 std::string draw_raster(const Panel& panel, const PanelLayout& at) {
@@ -104,7 +112,8 @@ void check_movable(const Scratch& scratch, const fs::path& folder, const std::ve
   for (const auto& name : names) {
     std::error_code error;
     if (!fs::exists(scratch.path() / name, error)) throw StorageError("gnuplot did not write " + name);
-    if (fs::is_directory(folder / name, error)) throw StorageError("cannot write " + (folder / name).string() + ": it is a folder");
+    if (fs::is_directory(folder / name, error))
+      throw StorageError("cannot write " + (folder / name).string() + ": it is a folder");
   }
 }
 
@@ -121,7 +130,8 @@ Files write(const Figure& figure, const fs::path& stem, Formats formats) {
   check_figure(figure, formats);
   const std::string name = stem.filename().string();
   check(!name.empty() && name != "." && name != "..", "the stem '" + stem.string() + "' names no file");
-  check(std::none_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }), "the stem holds a control character");
+  check(std::none_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }),
+        "the stem holds a control character");
   const fs::path folder = stem.has_parent_path() ? stem.parent_path() : fs::path(".");
   const Layout layout = lay_out(figure);
   const Table table = tabulate(figure, layout);
@@ -138,14 +148,19 @@ Files write(const Figure& figure, const fs::path& stem, Formats formats) {
   if (!table.series.empty()) save(name + ".csv", to_csv(table));
   save(name + ".gp", script(figure, layout, table, name, formats));
   run_gnuplot(scratch.path(), name + ".gp");
-  for (const auto& [wanted, ending] : {std::pair{formats.png, ".png"}, std::pair{formats.pdf, ".pdf"}, std::pair{formats.svg, ".svg"}})
+  for (const auto& [wanted, ending] :
+       {std::pair{formats.png, ".png"}, std::pair{formats.pdf, ".pdf"}, std::pair{formats.svg, ".svg"}})
     if (wanted) names.push_back(name + ending);
 
   check_movable(scratch, folder, names);
   for (const auto& file : names) move_into_place(scratch, folder, file);
   const auto path = [&](bool exists, const char* ending) { return exists ? folder / (name + ending) : fs::path(); };
-  Files files{.script = path(true, ".gp"), .data = path(!table.series.empty(), ".csv"), .rasters = {},
-              .png = path(formats.png, ".png"), .pdf = path(formats.pdf, ".pdf"), .svg = path(formats.svg, ".svg")};
+  Files files{.script = path(true, ".gp"),
+              .data = path(!table.series.empty(), ".csv"),
+              .rasters = {},
+              .png = path(formats.png, ".png"),
+              .pdf = path(formats.pdf, ".pdf"),
+              .svg = path(formats.svg, ".svg")};
   for (std::size_t i = 0; i < raster_count; ++i) files.rasters.push_back(folder / names[i]);
   return files;
 }

@@ -94,7 +94,8 @@ void AtomicFile::commit() {
   if (descriptor_ < 0) fail(EBADF);
   flush();
   const bool direct = temporary_.empty();
-  if (!direct && ::fsync(descriptor_) != 0) fail(errno);  // never retried: a second fsync may "succeed" with the data lost
+  if (!direct && ::fsync(descriptor_) != 0)
+    fail(errno);  // never retried: a second fsync may "succeed" with the data lost
   const int closed = ::close(descriptor_);
   descriptor_ = -1;
   if (closed != 0 && errno != EINTR) fail(errno);

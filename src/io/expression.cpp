@@ -41,7 +41,8 @@ std::optional<std::string> foreign(const std::string& text) {
     const bool printable = (c >= ' ' && c <= '~') || c == '\t';
     if (!printable || c == '"') return "character " + in_quotes(std::string(1, c)) + " has no meaning here";
     if (c != '=') continue;
-    const bool comparison = (i > 0 && std::string_view("=<>!").find(text[i - 1]) != std::string_view::npos) || text.substr(i + 1, 1) == "=";
+    const bool comparison =
+        (i > 0 && std::string_view("=<>!").find(text[i - 1]) != std::string_view::npos) || text.substr(i + 1, 1) == "=";
     if (!comparison) return "'=' has no meaning here";
   }
   return std::nullopt;
@@ -54,7 +55,8 @@ std::optional<std::string> foreign(const std::string& text) {
 std::string lowered(std::string text) {
   if (!text.empty() && text[0] >= 'A' && text[0] <= 'Z') text[0] = static_cast<char>(text[0] - 'A' + 'a');
   while (!text.empty() && text.back() == '.') text.pop_back();
-  std::replace_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
   return text;
 }
 
@@ -70,7 +72,8 @@ Expression::Expression(const std::string& text) : compiled_(std::make_shared<Com
     for (const auto& [name, unused] : scout.GetUsedVar()) compiled.names.push_back(name);
     compiled.values.assign(compiled.names.size(), 1.0);
     compiled.parser = fresh_parser();
-    for (std::size_t i = 0; i < compiled.names.size(); ++i) compiled.parser.DefineVar(compiled.names[i], &compiled.values[i]);
+    for (std::size_t i = 0; i < compiled.names.size(); ++i)
+      compiled.parser.DefineVar(compiled.names[i], &compiled.values[i]);
     compiled.parser.SetExpr(text);
     int results = 0;
     compiled.parser.Eval(results);
@@ -96,7 +99,8 @@ double Expression::evaluate(const std::map<std::string, double>& values) const {
     refuse(compiled.text, lowered(error.GetMsg()));
   }
   if (std::isfinite(result)) return result;
-  for (const auto& name : compiled.names) with += (with.empty() ? " with " : ", ") + name + " = " + shown(values.at(name));
+  for (const auto& name : compiled.names)
+    with += (with.empty() ? " with " : ", ") + name + " = " + shown(values.at(name));
   refuse(compiled.text, "its value is " + shown(result) + with);
 }
 

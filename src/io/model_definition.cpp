@@ -14,7 +14,8 @@ using Values = std::map<std::string, double>;
 /// Values of all parameters: overrides, plain numbers, and expressions in the order in which they need each other.
 class Evaluation {
  public:
-  Evaluation(const Definition& definition, const Overrides& overrides) : definition_(definition), overrides_(overrides) {
+  Evaluation(const Definition& definition, const Overrides& overrides)
+      : definition_(definition), overrides_(overrides) {
     for (const auto& entry : definition.parameters) entries_[entry.shown.name] = &entry;
   }
 
@@ -35,13 +36,15 @@ class Evaluation {
     const std::string where = definition_.place(entry.value.line) + "parameter " + in_quotes(name) + ": ";
     double value = entry.value.number;
     if (const auto& expression = entry.value.expression) {
-      if (std::find(open_.begin(), open_.end(), name) != open_.end()) throw InputError(where + "it depends on itself: " + circle(name));
+      if (std::find(open_.begin(), open_.end(), name) != open_.end())
+        throw InputError(where + "it depends on itself: " + circle(name));
       open_.push_back(name);
       for (const auto& other : expression->names()) need(other);
       open_.pop_back();
       value = evaluated(*expression, where);
     }
-    if (!entry.shown.admits(value)) throw InputError(where + "value = " + shown(value) + " is outside " + entry.shown.range());
+    if (!entry.shown.admits(value))
+      throw InputError(where + "value = " + shown(value) + " is outside " + entry.shown.range());
     values_[name] = value;
   }
 
@@ -87,12 +90,14 @@ class Builder {
     });
     each("friction", [&](const Part& part) {
       const double limit = field(part, "static");
-      model.frictions.push_back({part.name, part.a, part.b, field(part, "belt_speed", 0.0), limit, field(part, "kinetic", limit)});
+      model.frictions.push_back(
+          {part.name, part.a, part.b, field(part, "belt_speed", 0.0), limit, field(part, "kinetic", limit)});
     });
     each("stop", [&](const Part& part) {
       model.stops.push_back({part.name, part.a, part.b, field(part, "clearance"), field(part, "restitution")});
     });
-    if (const auto fault = first_fault(model)) throw InputError(definition_.place(line_of(*fault)) + fault->place(model) + ": " + fault->what);
+    if (const auto fault = first_fault(model))
+      throw InputError(definition_.place(line_of(*fault)) + fault->place(model) + ": " + fault->what);
     return model;
   }
 
@@ -105,7 +110,8 @@ class Builder {
       state[static_cast<std::size_t>(at)] = number(scalar, "start: " + name);
       line = scalar.line;
     }
-    if (const auto fault = first_fault(model, state)) throw InputError(definition_.place(line) + "start: " + fault->what);
+    if (const auto fault = first_fault(model, state))
+      throw InputError(definition_.place(line) + "start: " + fault->what);
     return state;
   }
 
@@ -179,7 +185,8 @@ const Group* find_group(const Definition& definition, const std::string& name) {
 }  // namespace
 
 bool Parameter::admits(double number) const {
-  return std::isfinite(number) && (min_open ? number > min : number >= min) && (max_open ? number < max : number <= max);
+  return std::isfinite(number) && (min_open ? number > min : number >= min) &&
+         (max_open ? number < max : number <= max);
 }
 
 std::string Parameter::range() const {
@@ -203,7 +210,8 @@ Overrides resolve(const Definition& definition, const Overrides& overrides) {
       std::vector<std::string> known;
       for (const auto& entry : definition.parameters) known.push_back(entry.shown.name);
       for (const auto& entry : definition.groups) known.push_back(entry.shown.name);
-      throw InputError("model " + in_quotes(definition.name) + " has no parameter " + in_quotes(name) + suggestion(name, known));
+      throw InputError("model " + in_quotes(definition.name) + " has no parameter " + in_quotes(name) +
+                       suggestion(name, known));
     }
     check_override(*parameter, value);
     resolved[name] = value;

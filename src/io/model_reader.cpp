@@ -9,7 +9,8 @@
 namespace slapstick {
 namespace {
 
-constexpr std::size_t most_entries = 1000;  // of one kind; also bounds the depth of expressions that refer to each other
+constexpr std::size_t most_entries =
+    1000;  // of one kind; also bounds the depth of expressions that refer to each other
 constexpr std::size_t longest_text = 500;
 constexpr std::size_t longest_notes_line = 1000;
 
@@ -48,7 +49,8 @@ class Reader {
   void expect(const TomlNode& node, Kind kind, const std::string& where) const {
     TomlNode wanted;
     wanted.kind = kind;
-    if (node.kind != kind) fail(node.line, where, std::string("expected ") + wanted.kind_name() + ", found " + node.kind_name());
+    if (node.kind != kind)
+      fail(node.line, where, std::string("expected ") + wanted.kind_name() + ", found " + node.kind_name());
   }
 
   void check_keys(const TomlNode& table, const std::string& where, const std::vector<std::string>& known) const {
@@ -73,7 +75,8 @@ class Reader {
   void check_text(const TomlNode& node, std::string_view line, const std::string& where, std::size_t longest) const {
     if (line.size() > longest) fail(node.line, where, "longer than " + std::to_string(longest) + " bytes");
     for (const char c : line)
-      if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) fail(node.line, where, "control character in " + in_quotes(line));
+      if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+        fail(node.line, where, "control character in " + in_quotes(line));
   }
 
   /// The only text with several lines.
@@ -102,7 +105,8 @@ class Reader {
     Scalar scalar;
     scalar.line = node.line;
     if (node.kind != Kind::text) {
-      if (node.kind != Kind::number) fail(node.line, where, std::string("expected a number or an expression, found ") + node.kind_name());
+      if (node.kind != Kind::number)
+        fail(node.line, where, std::string("expected a number or an expression, found ") + node.kind_name());
       scalar.number = plain_number(node, where);
       return scalar;
     }
@@ -113,7 +117,9 @@ class Reader {
     }
     for (const auto& name : scalar.expression->names())
       if (std::find(names_.begin(), names_.end(), name) == names_.end())
-        fail(node.line, where, "expression " + in_quotes(node.text) + ": unknown parameter " + in_quotes(name) + suggestion(name, names_));
+        fail(
+            node.line, where,
+            "expression " + in_quotes(node.text) + ": unknown parameter " + in_quotes(name) + suggestion(name, names_));
     return scalar;
   }
 
@@ -131,10 +137,13 @@ class Reader {
 
   void check_new_name(const std::string& name, int line, const std::string& what) const {
     const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-    const bool plain = !name.empty() && name.size() <= 64 && letter(name[0]) &&
-                       std::all_of(name.begin(), name.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
-    if (!plain) fail(line, what + " " + in_quotes(name), "a name is 1 to 64 letters, digits and '_', beginning with a letter");
-    if (Expression::reserves(name)) fail(line, what + " " + in_quotes(name), "this is the name of a function or constant");
+    const bool plain =
+        !name.empty() && name.size() <= 64 && letter(name[0]) &&
+        std::all_of(name.begin(), name.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+    if (!plain)
+      fail(line, what + " " + in_quotes(name), "a name is 1 to 64 letters, digits and '_', beginning with a letter");
+    if (Expression::reserves(name))
+      fail(line, what + " " + in_quotes(name), "this is the name of a function or constant");
   }
 
   ParameterEntry parameter(const std::string& name, const TomlNode& node) const {
@@ -161,10 +170,12 @@ class Reader {
   }
 
   /// `keys` are the closed and the open form of one bound.
-  void read_bound(const TomlNode& node, const std::string& where, std::array<const char*, 2> keys, double& bound, bool& open) const {
+  void read_bound(const TomlNode& node, const std::string& where, std::array<const char*, 2> keys, double& bound,
+                  bool& open) const {
     const auto* closed_form = node.find(keys[0]);
     const auto* open_form = node.find(keys[1]);
-    if (closed_form && open_form) fail(open_form->line, where, std::string("both '") + keys[0] + "' and '" + keys[1] + "' are given");
+    if (closed_form && open_form)
+      fail(open_form->line, where, std::string("both '") + keys[0] + "' and '" + keys[1] + "' are given");
     open = open_form != nullptr;
     if (closed_form) bound = plain_number(*closed_form, where + ": " + keys[0]);
     if (open_form) bound = plain_number(*open_form, where + ": " + keys[1]);
@@ -178,7 +189,8 @@ class Reader {
     for (const auto& [name, node] : table->entries) {
       const std::string where = "group " + in_quotes(name);
       check_new_name(name, node.line, "group");
-      if (std::find(names_.begin(), names_.end(), name) != names_.end()) fail(node.line, where, "a parameter has this name");
+      if (std::find(names_.begin(), names_.end(), name) != names_.end())
+        fail(node.line, where, "a parameter has this name");
       expect(node, Kind::list, where);
       GroupEntry group{{name, {}}, node.line};
       check_count(node, node.items.size(), where);
@@ -197,7 +209,8 @@ class Reader {
     const auto* list = root.find(rule.kind);
     const std::string kind(rule.kind);
     if (list == nullptr) return;
-    if (list->kind != Kind::list) fail(list->line, kind, std::string("expected [[") + kind + "]], found " + list->kind_name());
+    if (list->kind != Kind::list)
+      fail(list->line, kind, std::string("expected [[") + kind + "]], found " + list->kind_name());
     check_count(*list, list->items.size(), kind);
     auto& parts = definition_.parts[kind];
     for (std::size_t i = 0; i < list->items.size(); ++i) parts.push_back(part(list->items[i], rule, i));
@@ -214,7 +227,8 @@ class Reader {
     states_ = state_names(names_only);
     for (std::size_t i = 0; i < states_.size(); ++i)
       if (std::find(names_.begin(), names_.end(), states_[i]) != names_.end())
-        fail(parts[i / 2].line, part_label("coordinate", i / 2, parts[i / 2]), "a parameter has the name " + in_quotes(states_[i]));
+        fail(parts[i / 2].line, part_label("coordinate", i / 2, parts[i / 2]),
+             "a parameter has the name " + in_quotes(states_[i]));
   }
 
   Part part(const TomlNode& node, const PartRule& rule, std::size_t index) const {

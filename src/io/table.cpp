@@ -65,7 +65,8 @@ CsvWriter& CsvWriter::numbers(const std::vector<double>& values) {
 
 void CsvWriter::end_row() {
   if (cells_ != columns_)
-    throw std::logic_error("a table row has " + std::to_string(cells_) + " cells for " + std::to_string(columns_) + " columns");
+    throw std::logic_error("a table row has " + std::to_string(cells_) + " cells for " + std::to_string(columns_) +
+                           " columns");
   row_ += '\n';
   file_.write(row_);
   row_.clear();

@@ -57,7 +57,8 @@ class Converter {
     TomlNode node;
     if (from.source().begin.line > line) line = from.source().begin.line;
     node.line = static_cast<int>(line);
-    if (depth > deepest) throw InputError(place(source_, line) + "nested more than " + std::to_string(deepest) + " deep");
+    if (depth > deepest)
+      throw InputError(place(source_, line) + "nested more than " + std::to_string(deepest) + " deep");
     if (const auto* table = from.as_table()) {
       convert_table(*table, node, depth);
     } else if (const auto* array = from.as_array()) {
@@ -73,7 +74,8 @@ class Converter {
   /// toml++ sorts keys by name; people's order is that of the lines.
   void convert_table(const toml::table& table, TomlNode& node, int depth) const {
     std::vector<std::tuple<std::size_t, std::size_t, const toml::key*, const toml::node*>> order;
-    for (auto&& [key, value] : table) order.emplace_back(key.source().begin.line, key.source().begin.column, &key, &value);
+    for (auto&& [key, value] : table)
+      order.emplace_back(key.source().begin.line, key.source().begin.column, &key, &value);
     std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
       return std::tie(std::get<0>(a), std::get<1>(a)) < std::tie(std::get<0>(b), std::get<1>(b));
     });
@@ -111,12 +113,18 @@ const TomlNode* TomlNode::find(std::string_view key) const {
 
 const char* TomlNode::kind_name() const {
   switch (kind) {
-    case Kind::text: return "a string";
-    case Kind::number: return "a number";
-    case Kind::boolean: return "a boolean";
-    case Kind::date: return "a date or time";
-    case Kind::list: return "a list";
-    case Kind::table: break;
+    case Kind::text:
+      return "a string";
+    case Kind::number:
+      return "a number";
+    case Kind::boolean:
+      return "a boolean";
+    case Kind::date:
+      return "a date or time";
+    case Kind::list:
+      return "a list";
+    case Kind::table:
+      break;
   }
   return "a table";
 }

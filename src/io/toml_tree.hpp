@@ -13,8 +13,8 @@ struct TomlNode {
   Kind kind = Kind::table;
   std::string text;
   double number = 0.0;
-  std::vector<TomlNode> items;       ///< of a list
-  std::vector<TomlEntry> entries;    ///< of a table, in the file's order
+  std::vector<TomlNode> items;     ///< of a list
+  std::vector<TomlEntry> entries;  ///< of a table, in the file's order
   int line = 0;
 
   [[nodiscard]] const TomlNode* find(std::string_view key) const;

@@ -44,7 +44,8 @@ void fake_gnuplot(const workshop::Folder& folder, const std::string& commands) {
 
 TEST(FigureFailure, missing_folder_is_named) {
   const workshop::Folder folder;
-  EXPECT_EQ(message<StorageError>([&] { write(simple, folder / "none/a"); }), "no such folder: " + (folder / "none").string());
+  EXPECT_EQ(message<StorageError>([&] { write(simple, folder / "none/a"); }),
+            "no such folder: " + (folder / "none").string());
   EXPECT_EQ(folder.entries(), 0u);
 }
 
@@ -62,9 +63,11 @@ TEST(FigureFailure, without_gnuplot_nothing_is_left_behind) {
 TEST(FigureFailure, when_gnuplot_fails_the_earlier_figure_stays) {
   const workshop::Folder folder, bin;
   workshop::save(folder / "a.png", "earlier");
-  fake_gnuplot(bin, "echo half > a.png; printf 'plot x\\n     ^\\n\"./a.gp\" line 3: no such thing\\n\\n' >&2; exit 1\n");
+  fake_gnuplot(bin,
+               "echo half > a.png; printf 'plot x\\n     ^\\n\"./a.gp\" line 3: no such thing\\n\\n' >&2; exit 1\n");
   const OnlyPath path(bin.path().string() + ":/bin:/usr/bin");
-  EXPECT_EQ(message<StorageError>([&] { write(simple, folder / "a"); }), "gnuplot cannot draw a.gp: \"./a.gp\" line 3: no such thing");
+  EXPECT_EQ(message<StorageError>([&] { write(simple, folder / "a"); }),
+            "gnuplot cannot draw a.gp: \"./a.gp\" line 3: no such thing");
   EXPECT_EQ(workshop::read(folder / "a.png"), "earlier");
   EXPECT_EQ(folder.entries(), 1u);
 }
@@ -73,7 +76,8 @@ TEST(FigureFailure, a_killed_gnuplot_is_a_failure) {
   const workshop::Folder folder, bin;
   fake_gnuplot(bin, "echo half > a.png; kill -9 $$\n");
   const OnlyPath path(bin.path().string() + ":/bin:/usr/bin");
-  EXPECT_EQ(message<StorageError>([&] { write(simple, folder / "a"); }), "gnuplot was ended by signal 9 while drawing a.gp");
+  EXPECT_EQ(message<StorageError>([&] { write(simple, folder / "a"); }),
+            "gnuplot was ended by signal 9 while drawing a.gp");
   EXPECT_EQ(folder.entries(), 0u);
 }
 
@@ -95,13 +99,18 @@ TEST(FigureFailure, a_folder_in_the_place_of_a_file_is_found_before_anything_mov
 
 TEST(FigureFailure, the_caller_s_mistake_is_named_before_anything_is_written) {
   const workshop::Folder folder;
-  const auto complaint = [&](const Figure& figure) { return message<InputError>([&] { write(figure, folder / "a"); }); };
+  const auto complaint = [&](const Figure& figure) {
+    return message<InputError>([&] { write(figure, folder / "a"); });
+  };
   EXPECT_EQ(complaint({}), "figure: no panels");
-  EXPECT_EQ(complaint({.panels = {{}, {.lines = {{.x = {1, 2}, .y = {1}, .label = "v"}}}}}), "figure: panel 2, line 1 (v): x has 2 values, y has 1");
+  EXPECT_EQ(complaint({.panels = {{}, {.lines = {{.x = {1, 2}, .y = {1}, .label = "v"}}}}}),
+            "figure: panel 2, line 1 (v): x has 2 values, y has 1");
   EXPECT_EQ(complaint({.panels = {{.points = {{.x = {1}}}}}}), "figure: panel 1, points 1: x has 1 values, y has 0");
   EXPECT_NE(complaint({.panels = {{.x_range = Range{2, 1}}}}).find("panel 1: x range"), std::string::npos);
-  EXPECT_NE(complaint({.panels = {{.y_range = Range{0, 1}, .log_y = true}}}).find("must be positive"), std::string::npos);
-  EXPECT_NE(complaint({.panels = {{.x_range = Range{0, std::numeric_limits<double>::infinity()}}}}).find("x range"), std::string::npos);
+  EXPECT_NE(complaint({.panels = {{.y_range = Range{0, 1}, .log_y = true}}}).find("must be positive"),
+            std::string::npos);
+  EXPECT_NE(complaint({.panels = {{.x_range = Range{0, std::numeric_limits<double>::infinity()}}}}).find("x range"),
+            std::string::npos);
   EXPECT_NE(complaint({.panels = {{}}, .width_cm = 1}).find("no room"), std::string::npos);
   EXPECT_NE(complaint({.panels = {{}}, .height_cm = 1.2}).find("no room"), std::string::npos);
   EXPECT_NE(complaint({.panels = {{.marks = {{.label = "where?"}}}}}).find("a mark needs"), std::string::npos);
@@ -114,7 +123,9 @@ TEST(FigureFailure, figures_written_at_the_same_time_do_not_meet) {
   if (!workshop::gnuplot_exists()) GTEST_SKIP() << "gnuplot is not installed";
   const workshop::Folder folder;
   std::vector<std::thread> threads;
-  for (int i = 0; i < 4; ++i) threads.emplace_back([&folder, i] { write(simple, folder / (i < 2 ? "same" : "other" + std::to_string(i)), {.pdf = false}); });
+  for (int i = 0; i < 4; ++i)
+    threads.emplace_back(
+        [&folder, i] { write(simple, folder / (i < 2 ? "same" : "other" + std::to_string(i)), {.pdf = false}); });
   for (auto& thread : threads) thread.join();
   EXPECT_EQ(folder.entries(), 9u);  // three figures of script, table and PNG, and no scratch
   EXPECT_EQ(workshop::read(folder / "same.png"), workshop::read(folder / "other2.png"));

@@ -65,7 +65,8 @@ TEST_F(FigureTest, an_author_redraws_the_same_picture_from_the_folder_alone) {
   const Figure figure{.panels = {{.points = {logistic_map(300, 100, 0.4)}}, {.lines = {sine(1, 9)}}}, .share_x = false};
   const Files files = write(figure, folder / "a", {true, true, true});
   workshop::Folder elsewhere;
-  for (const auto& file : {files.script, files.data, files.rasters.at(0)}) std::filesystem::copy(file, elsewhere / file.filename().string());
+  for (const auto& file : {files.script, files.data, files.rasters.at(0)})
+    std::filesystem::copy(file, elsewhere / file.filename().string());
   ASSERT_TRUE(workshop::redraw(elsewhere.path(), "a.gp"));
   EXPECT_EQ(workshop::read(elsewhere / "a.png"), workshop::read(files.png));
   EXPECT_EQ(workshop::read(elsewhere / "a.svg"), workshop::read(files.svg));
@@ -84,7 +85,8 @@ TEST_F(FigureTest, many_points_become_one_small_image_and_no_table) {
 TEST_F(FigureTest, same_figure_same_bytes) {
   const Figure figure{.panels = {{.points = {logistic_map(300, 100, 0.4)}, .lines = {sine(1, 3)}}}};
   const Files a = write(figure, folder / "a", {.pdf = false});
-  const std::string png = workshop::read(a.png), script = workshop::read(a.script), raster = workshop::read(a.rasters[0]);
+  const std::string png = workshop::read(a.png), script = workshop::read(a.script),
+                    raster = workshop::read(a.rasters[0]);
   const Files again = write(figure, folder / "a", {.pdf = false});
   EXPECT_EQ(workshop::read(again.png), png);
   EXPECT_EQ(workshop::read(again.script), script);
@@ -92,14 +94,22 @@ TEST_F(FigureTest, same_figure_same_bytes) {
 }
 
 TEST_F(FigureTest, empty_constant_and_undrawable_series_do_not_break_ranges) {
-  const std::vector<std::vector<double>> columns{{}, {0, 0, 0}, {-3, -3, -3}, {1e-300, 1e-300, 1e-300}, {1e149, 1e149, 1e149}, {nan, infinity, -infinity},
-                                                 {1e200, -1e200, 0}, {1, 1 + 1e-15, 1}, {5}};
+  const std::vector<std::vector<double>> columns{{},
+                                                 {0, 0, 0},
+                                                 {-3, -3, -3},
+                                                 {1e-300, 1e-300, 1e-300},
+                                                 {1e149, 1e149, 1e149},
+                                                 {nan, infinity, -infinity},
+                                                 {1e200, -1e200, 0},
+                                                 {1, 1 + 1e-15, 1},
+                                                 {5}};
   for (std::size_t i = 0; i < columns.size(); ++i)
     for (const bool log : {false, true}) {
       const Points p{.x = columns[i], .y = columns[i], .label = "p"};
       const Points raster{.x = columns[i], .y = columns[i], .drawing = Drawing::raster};
       const Line line{.x = columns[i], .y = columns[i]};
-      Figure figure{.panels = {{.log_x = log, .log_y = log, .points = {p}, .lines = {line}}, {.log_x = log, .log_y = log, .points = {raster}}}};
+      Figure figure{.panels = {{.log_x = log, .log_y = log, .points = {p}, .lines = {line}},
+                               {.log_x = log, .log_y = log, .points = {raster}}}};
       figure.png_dpi = 75;
       EXPECT_NO_THROW(write(figure, folder / "a")) << "column " << i << ", log " << log;
     }
@@ -124,9 +134,18 @@ TEST_F(FigureTest, tables_of_unequal_columns_stay_rectangular_and_round_trip) {
 TEST_F(FigureTest, labels_and_names_never_run_as_commands) {
   const std::string evil = "'; system('touch owned') # `touch owned` \"$(touch owned)\n} @x { \\";
   for (const std::string stem : {"a", "it's <a> |b `touch owned` $x", "<touch owned", "|touch owned", "-e"}) {
-    Figure figure{.panels = {{.x_label = evil, .y_label = evil, .tag = evil, .title = evil, .points = {logistic_map(300, 100, 0.4)}, .lines = {sine(1, 3)},
-                              .marks = {{.x = 1, .label = evil}, {.x = 1, .x_end = 2, .label = evil}, {.y = 0, .label = evil}, {.x = 1, .y = 0, .label = evil}}}},
-                  .width_cm = 17.5, .caption = evil + "\nsystem('touch owned')"};
+    Figure figure{.panels = {{.x_label = evil,
+                              .y_label = evil,
+                              .tag = evil,
+                              .title = evil,
+                              .points = {logistic_map(300, 100, 0.4)},
+                              .lines = {sine(1, 3)},
+                              .marks = {{.x = 1, .label = evil},
+                                        {.x = 1, .x_end = 2, .label = evil},
+                                        {.y = 0, .label = evil},
+                                        {.x = 1, .y = 0, .label = evil}}}},
+                  .width_cm = 17.5,
+                  .caption = evil + "\nsystem('touch owned')"};
     figure.panels[0].points[0].label = figure.panels[0].lines[0].label = evil;
     const Files files = write(figure, folder / stem);
     EXPECT_TRUE(std::filesystem::exists(files.png));
@@ -136,7 +155,10 @@ TEST_F(FigureTest, labels_and_names_never_run_as_commands) {
 }
 
 TEST_F(FigureTest, frames_of_a_column_align_however_wide_their_numbers) {
-  const Figure figure{.panels = {{.y_label = "a", .lines = {sine(1, 9)}}, {.lines = {sine(12345.678, 9)}}, {.y_label = "c", .lines = {sine(1e-7, 9)}}}, .share_x = true};
+  const Figure figure{.panels = {{.y_label = "a", .lines = {sine(1, 9)}},
+                                 {.lines = {sine(12345.678, 9)}},
+                                 {.y_label = "c", .lines = {sine(1e-7, 9)}}},
+                      .share_x = true};
   const std::string script = workshop::read(write(figure, folder / "a", {.pdf = false}).script);
   const std::string key = "set lmargin ";
   const std::size_t first = script.find(key);
@@ -147,19 +169,30 @@ TEST_F(FigureTest, frames_of_a_column_align_however_wide_their_numbers) {
 }
 
 TEST_F(FigureTest, nothing_is_cut_off) {
-  const Mark left{.x = 0, .label = "a long label at the left end"}, right{.x = 9, .label = "a long label at the right end"};
+  const Mark left{.x = 0, .label = "a long label at the left end"},
+      right{.x = 9, .label = "a long label at the right end"};
   const std::vector<Panel> panels{
-      {.x_label = "forcing frequency {/:Italic ω}", .y_label = "a name of a quantity taller than its axis [m/s]", .tag = "(a)", .lines = {sine(1, 9)}},
+      {.x_label = "forcing frequency {/:Italic ω}",
+       .y_label = "a name of a quantity taller than its axis [m/s]",
+       .tag = "(a)",
+       .lines = {sine(1, 9)}},
       {.x_label = "x", .y_label = "y", .lines = {sine(1e-7, 9e6)}},
       {.x_label = "x_{1,2}", .y_label = "y^{2}", .lines = {sine(12345, 0.00123)}},
-      {.x_label = "x", .y_label = "y", .tag = "(b)", .title = "title", .lines = {sine(1, 9)}, .marks = {left, right, {.x = 4, .x_end = 5, .label = "1-1-I"}}, .legend = Legend::above},
+      {.x_label = "x",
+       .y_label = "y",
+       .tag = "(b)",
+       .title = "title",
+       .lines = {sine(1, 9)},
+       .marks = {left, right, {.x = 4, .x_end = 5, .label = "1-1-I"}},
+       .legend = Legend::above},
       {.x_label = "x", .y_label = "y", .log_x = true, .log_y = true, .lines = {sine(1e-12, 1e12)}},
       {.lines = {sine(1, 9.0001)}}};
   for (const double width : {8.5, 5.0})
     for (std::size_t i = 0; i < panels.size(); ++i) {
       Figure figure{.panels = {panels[i]}, .width_cm = width};
       figure.png_dpi = 100;
-      EXPECT_FALSE(touches_the_edge(write(figure, folder / "a", {.pdf = false}).png)) << "panel " << i << ", width " << width;
+      EXPECT_FALSE(touches_the_edge(write(figure, folder / "a", {.pdf = false}).png))
+          << "panel " << i << ", width " << width;
     }
 }
 
@@ -178,7 +211,10 @@ TEST_F(FigureTest, the_raster_lies_where_the_axes_say) {
       if (q.red > 200 && q.green < 100) x += q.column, y += q.row, n += 1;
     const std::string script = workshop::read(files.script);
     double l = 0, r = 0, b = 0, t = 0;
-    std::sscanf(script.c_str() + script.find("set lmargin"), "set lmargin at screen %lf; set rmargin at screen %lf\n  set bmargin at screen %lf; set tmargin at screen %lf", &l, &r, &b, &t);
+    std::sscanf(
+        script.c_str() + script.find("set lmargin"),
+        "set lmargin at screen %lf; set rmargin at screen %lf\n  set bmargin at screen %lf; set tmargin at screen %lf",
+        &l, &r, &b, &t);
     const double width = 335, height = 220;  // pixels of 8.5 cm x 5.6 cm at 100 dpi
     ASSERT_GE(n, 4);
     EXPECT_NEAR(x / n, width * (l + 0.25 * (r - l)), 2.0);

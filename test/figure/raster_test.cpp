@@ -18,7 +18,9 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 const Window unit{};  // [0, 1] x [0, 1]
 
-std::uint32_t at(const Counts& counts, int column, int row_from_top) { return counts.values[row_from_top * counts.width + column]; }
+std::uint32_t at(const Counts& counts, int column, int row_from_top) {
+  return counts.values[row_from_top * counts.width + column];
+}
 
 TEST(Raster, counts_every_point_once_and_puts_large_y_at_the_top) {
   const Counts c = count_points({0.1, 0.1, 0.9}, {0.1, 0.2, 0.9}, unit, 2, 2);
@@ -31,7 +33,8 @@ TEST(Raster, a_point_on_an_inner_edge_belongs_to_one_pixel_and_the_outer_edges_a
 }
 
 TEST(Raster, points_outside_or_not_finite_are_left_out) {
-  const Counts c = count_points({nan, 0.5, infinity, -infinity, 1.0001, 0.5}, {0.5, nan, 0.5, 0.5, 0.5, -1e-9}, unit, 3, 3);
+  const Counts c =
+      count_points({nan, 0.5, infinity, -infinity, 1.0001, 0.5}, {0.5, nan, 0.5, 0.5, 0.5, -1e-9}, unit, 3, 3);
   EXPECT_EQ(std::accumulate(c.values.begin(), c.values.end(), 0u), 0u);
 }
 
@@ -54,7 +57,8 @@ TEST(Raster, spreading_reaches_all_eight_neighbours_and_no_further) {
   Counts c = count_points({0.5}, {0.5}, unit, 5, 5);
   spread_one_pixel(c);
   for (int row = 0; row < 5; ++row)
-    for (int column = 0; column < 5; ++column) EXPECT_EQ(at(c, column, row), std::max(std::abs(row - 2), std::abs(column - 2)) <= 1 ? 1u : 0u);
+    for (int column = 0; column < 5; ++column)
+      EXPECT_EQ(at(c, column, row), std::max(std::abs(row - 2), std::abs(column - 2)) <= 1 ? 1u : 0u);
 }
 
 TEST(Raster, spreading_takes_the_maximum_and_does_not_wrap_around_the_edge) {
@@ -85,7 +89,8 @@ TEST(Raster, one_count_everywhere_gives_full_tone_and_none_gives_clear_paper) {
 /// What the eye sees on white paper.
 std::array<double, 3> seen(const Ink& ink) {
   const double a = ink.opacity / 255.0;
-  return {255 * (1 - a) + a * ink.colour.red, 255 * (1 - a) + a * ink.colour.green, 255 * (1 - a) + a * ink.colour.blue};
+  return {255 * (1 - a) + a * ink.colour.red, 255 * (1 - a) + a * ink.colour.green,
+          255 * (1 - a) + a * ink.colour.blue};
 }
 
 double light(const Ink& ink) {
@@ -97,7 +102,8 @@ TEST(Raster, denser_is_darker_all_along_the_ramp) {
   Counts c{255, 1, std::vector<std::uint32_t>(255)};
   std::iota(c.values.begin(), c.values.end(), 1u);
   const Raster r = blend({c}, {colours::dark_blue});
-  for (int i = 2; i < 255; ++i) EXPECT_LT(light(r.inks[r.pixels[i]]), light(r.inks[r.pixels[i - 2]])) << i;  // 2: 8 bits of opacity
+  for (int i = 2; i < 255; ++i)
+    EXPECT_LT(light(r.inks[r.pixels[i]]), light(r.inks[r.pixels[i - 2]])) << i;  // 2: 8 bits of opacity
 }
 
 TEST(Raster, full_tone_on_white_is_the_colour_asked_for) {
@@ -111,7 +117,8 @@ TEST(Raster, full_tone_on_white_is_the_colour_asked_for) {
 }
 
 TEST(Raster, what_only_one_sweep_finds_keeps_its_colour_and_what_both_find_is_dark) {
-  const Raster r = blend({Counts{4, 1, {1, 0, 1, 0}}, Counts{4, 1, {0, 1, 1, 0}}}, {colours::dark_blue, colours::vermillion});
+  const Raster r =
+      blend({Counts{4, 1, {1, 0, 1, 0}}, Counts{4, 1, {0, 1, 1, 0}}}, {colours::dark_blue, colours::vermillion});
   const auto forward = seen(r.inks[r.pixels[0]]), backward = seen(r.inks[r.pixels[1]]);
   EXPECT_GT(forward[2], forward[0] + 100);
   EXPECT_GT(backward[0], backward[2] + 100);
@@ -124,7 +131,8 @@ TEST(Raster, the_order_of_the_sweeps_does_not_change_what_is_seen) {
   Counts a{50, 40, std::vector<std::uint32_t>(2000)}, b = a;
   for (auto& v : a.values) v = static_cast<std::uint32_t>(random() % 5);
   for (auto& v : b.values) v = static_cast<std::uint32_t>(random() % 5);
-  const Raster ab = blend({a, b}, {colours::dark_blue, colours::vermillion}), ba = blend({b, a}, {colours::vermillion, colours::dark_blue});
+  const Raster ab = blend({a, b}, {colours::dark_blue, colours::vermillion}),
+               ba = blend({b, a}, {colours::vermillion, colours::dark_blue});
   for (std::size_t i = 0; i < a.values.size(); ++i) EXPECT_EQ(ab.inks[ab.pixels[i]], ba.inks[ba.pixels[i]]);
 }
 
@@ -140,13 +148,16 @@ TEST(Raster, eight_series_still_fit_and_nine_are_refused) {
 /// Noise, long runs, repeated rows: every branch of the encoder.
 Raster varied_image(int width, int height) {
   Raster r{width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(width) * height), {}};
-  for (int i = 0; i < 256; ++i) r.inks.push_back({{static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(255 - i), 9}, 255});
+  for (int i = 0; i < 256; ++i)
+    r.inks.push_back({{static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(255 - i), 9}, 255});
   std::mt19937 random(11);
   for (int j = 0; j < height; ++j)
     for (int i = 0; i < width; ++i) {
       const bool noisy = i % 700 < 40 && j % 3 != 0, copied = j % 3 == 0 && j > 0 && i < width / 2;
       const std::size_t k = static_cast<std::size_t>(j) * width + i;
-      r.pixels[k] = copied ? r.pixels[k - width] : noisy ? static_cast<std::uint8_t>(random()) : static_cast<std::uint8_t>(i / 600);
+      r.pixels[k] = copied  ? r.pixels[k - width]
+                    : noisy ? static_cast<std::uint8_t>(random())
+                            : static_cast<std::uint8_t>(i / 600);
     }
   return r;
 }

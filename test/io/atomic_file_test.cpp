@@ -124,7 +124,8 @@ TEST_F(AtomicFileTest, message_is_one_line_with_path_and_reason) {
   write_atomically(path, "a file");
   EXPECT_EQ(message(folder), "cannot write '" + folder.string() + "': Is a directory");
   EXPECT_EQ(message(path / "below"), "cannot write '" + (path / "below").string() + "': Not a directory");
-  EXPECT_EQ(message(folder / "none" / "x"), "cannot write '" + (folder / "none" / "x").string() + "': No such file or directory");
+  EXPECT_EQ(message(folder / "none" / "x"),
+            "cannot write '" + (folder / "none" / "x").string() + "': No such file or directory");
   EXPECT_EQ(message(""), "cannot write '': No such file or directory");
   EXPECT_EQ(message("/dev/full"), "cannot write '/dev/full': No space left on device");
   EXPECT_EQ(message(folder / "none" / "a\nb").find('\n'), std::string::npos);

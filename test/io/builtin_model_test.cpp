@@ -32,7 +32,8 @@ Matrix assembled(const Model& model, const Links& links, Strength strength) {
 
 void expect_near(const Matrix& matrix, const Matrix& expected) {
   for (std::size_t i = 0; i < 2; ++i)
-    for (std::size_t j = 0; j < 2; ++j) EXPECT_NEAR(matrix[i][j], expected[i][j], 1e-14 * (1.0 + std::abs(expected[i][j])));
+    for (std::size_t j = 0; j < 2; ++j)
+      EXPECT_NEAR(matrix[i][j], expected[i][j], 1e-14 * (1.0 + std::abs(expected[i][j])));
 }
 
 TEST(VibroImpact, matrices_are_those_of_equation_2) {
@@ -40,15 +41,26 @@ TEST(VibroImpact, matrices_are_those_of_equation_2) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> any(0.01, 1.0);
   for (int i = 0; i < 200; ++i) {
-    const double mu_m = 20 * any(random), mu_k = 10 * any(random), mu_c = 10 * any(random), xi = any(random), b = any(random) - 0.4;
-    const double f20 = any(random), f_k = any(random), f_s = f_k + any(random), r = any(random), omega = 8 * any(random), tau = 6 * any(random);
-    const auto model = definition.build({{"mass_ratio", mu_m}, {"stiffness_ratio", mu_k}, {"dashpot_ratio", mu_c}, {"damping_ratio", xi},
-                                         {"clearance", b}, {"force_share_2", f20}, {"static_friction", f_s}, {"kinetic_friction", f_k},
-                                         {"restitution", r}, {"omega", omega}, {"phase", tau}});
+    const double mu_m = 20 * any(random), mu_k = 10 * any(random), mu_c = 10 * any(random), xi = any(random),
+                 b = any(random) - 0.4;
+    const double f20 = any(random), f_k = any(random), f_s = f_k + any(random), r = any(random),
+                 omega = 8 * any(random), tau = 6 * any(random);
+    const auto model = definition.build({{"mass_ratio", mu_m},
+                                         {"stiffness_ratio", mu_k},
+                                         {"dashpot_ratio", mu_c},
+                                         {"damping_ratio", xi},
+                                         {"clearance", b},
+                                         {"force_share_2", f20},
+                                         {"static_friction", f_s},
+                                         {"kinetic_friction", f_k},
+                                         {"restitution", r},
+                                         {"omega", omega},
+                                         {"phase", tau}});
     ASSERT_EQ(model.size(), 2);
     EXPECT_EQ(model.coordinates[0].mass, 1.0);
     EXPECT_EQ(model.coordinates[1].mass, mu_m);
-    expect_near(assembled(model, model.springs, [](const Spring& s) { return s.stiffness; }), {{1, -1}, {-1, 1 + mu_k}});
+    expect_near(assembled(model, model.springs, [](const Spring& s) { return s.stiffness; }),
+                {{1, -1}, {-1, 1 + mu_k}});
     expect_near(assembled(model, model.dampers, [](const Damper& d) { return d.coefficient; }),
                 {{2 * xi, -2 * xi}, {-2 * xi, 2 * xi * (1 + mu_c)}});
     ASSERT_EQ(model.forces.size(), 2U);
@@ -68,9 +80,17 @@ TEST(VibroImpact, matrices_are_those_of_equation_2) {
 
 TEST(VibroImpact, defaults_are_the_papers_with_its_three_corrections) {
   const auto definition = load_model("vibro-impact");
-  const std::map<std::string, double> expected = {{"mass_ratio", 10}, {"stiffness_ratio", 5}, {"dashpot_ratio", 5}, {"damping_ratio", 0.1},
-                                                  {"clearance", 0}, {"force_share_2", 0}, {"static_friction", 0.15},
-                                                  {"kinetic_friction", 0.15}, {"restitution", 0.8}, {"omega", 2.2}, {"phase", 0}};
+  const std::map<std::string, double> expected = {{"mass_ratio", 10},
+                                                  {"stiffness_ratio", 5},
+                                                  {"dashpot_ratio", 5},
+                                                  {"damping_ratio", 0.1},
+                                                  {"clearance", 0},
+                                                  {"force_share_2", 0},
+                                                  {"static_friction", 0.15},
+                                                  {"kinetic_friction", 0.15},
+                                                  {"restitution", 0.8},
+                                                  {"omega", 2.2},
+                                                  {"phase", 0}};
   EXPECT_EQ(definition.values(), expected);
   EXPECT_EQ(definition.start(), (State{-0.5, 0, 0, 0}));
   EXPECT_EQ(state_names(definition.build()), (std::vector<std::string>{"x1", "v1", "x2", "v2"}));
@@ -91,7 +111,8 @@ TEST(VibroImpact, friction_sets_both_and_kinetic_follows_static) {
 }
 
 TEST(BuiltinModels, print_parse_print_is_a_fixed_point) {
-  ASSERT_EQ(builtin_models(), (std::vector<std::string>{"belt", "bouncing-ball", "coulomb-oscillator", "impact-oscillator", "vibro-impact"}));
+  ASSERT_EQ(builtin_models(), (std::vector<std::string>{"belt", "bouncing-ball", "coulomb-oscillator",
+                                                        "impact-oscillator", "vibro-impact"}));
   for (const auto& name : builtin_models()) {
     const auto definition = load_model(name);
     EXPECT_EQ(definition.name(), name);
@@ -117,7 +138,8 @@ TEST(BuiltinModels, print_with_overrides_reloads_to_the_same_model) {
       for (const auto& parameter : definition.parameters()) {
         const double value = std::ldexp(static_cast<double>(random()) + 1.0 / 3.0, -32);
         if (random() % 2 == 0) overrides[parameter.name] = value + 0.1 * (value < 0.9);
-        if (parameter.name == "kinetic_friction") overrides[parameter.name] = 0.1 * value;  // always below static_friction
+        if (parameter.name == "kinetic_friction")
+          overrides[parameter.name] = 0.1 * value;  // always below static_friction
       }
       const auto text = definition.to_toml(overrides);
       const auto again = ModelDefinition::parse(text, name);

@@ -45,7 +45,8 @@ TEST(Expression, refusals_are_one_line_and_name_the_trouble) {
   EXPECT_EQ(refusal("\"a\""), "expression '\"a\"': character '\"' has no meaning here");
   EXPECT_EQ(refusal("1\n+1"), "expression '1\\x0a+1': character '\\x0a' has no meaning here");
   EXPECT_NE(refusal(std::string(401, '1')).find("longer than 400 characters"), std::string::npos);
-  for (const char* bad : {"1 +", "(1", "1)", "2 a", "foo(1)", "1..2", "*", "a b", "sin()", "min()", "?:", "1 ? 2", "0x", "$", "1e999"}) {
+  for (const char* bad :
+       {"1 +", "(1", "1)", "2 a", "foo(1)", "1..2", "*", "a b", "sin()", "min()", "?:", "1 ? 2", "0x", "$", "1e999"}) {
     const auto message = refusal(bad, {{"a", 1}, {"b", 1}});
     EXPECT_EQ(message.rfind("expression '", 0), 0U) << bad << ": " << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
@@ -53,9 +54,10 @@ TEST(Expression, refusals_are_one_line_and_name_the_trouble) {
 }
 
 TEST(Expression, random_text_never_crashes) {
-  const std::vector<std::string> words = {"1",   "a",  "b",    "(",   ")",    ",",  "+",  "-",  "*",   "/",  "^",   "sin", "min",
-                                          "sum", "?",  ":",    "==",  "<",    "&&", "||", ".",  "0x",  "pi", "e",   "_",   "if",
-                                          " ",   "!=", "1e30", "avg", "rint", ">=", "!",  "#1", "0b1", "\\", "max", "sqrt"};
+  const std::vector<std::string> words = {"1",    "a",   "b",   "(",   ")",   ",",  "+",   "-",   "*",    "/",
+                                          "^",    "sin", "min", "sum", "?",   ":",  "==",  "<",   "&&",   "||",
+                                          ".",    "0x",  "pi",  "e",   "_",   "if", " ",   "!=",  "1e30", "avg",
+                                          "rint", ">=",  "!",   "#1",  "0b1", "\\", "max", "sqrt"};
   std::mt19937 random(3);
   for (int i = 0; i < 30000; ++i) {
     std::string text;

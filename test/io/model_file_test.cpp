@@ -49,9 +49,40 @@ TEST(HostileFile, every_flipped_byte_is_a_model_or_an_error) {
 }
 
 TEST(HostileFile, random_pieces_are_a_model_or_an_error) {
-  const std::vector<std::string> pieces = {"[", "]", "\n", "\r\n", "=", "{", "}", "\"", "'", "\"\"\"", "a", ".", ",", "1", "e", "-", "#",
-                                           "[[stop]]\n", "[parameters]\n", "omega", "name", "\\u0000", "\\U0010FFFF", "inf", "nan", "0x",
-                                           "true", "1979-05-27", "\xef\xbb\xbf", "\xff", " ", std::string(1, '\0'), "between", "ground"};
+  const std::vector<std::string> pieces = {"[",
+                                           "]",
+                                           "\n",
+                                           "\r\n",
+                                           "=",
+                                           "{",
+                                           "}",
+                                           "\"",
+                                           "'",
+                                           "\"\"\"",
+                                           "a",
+                                           ".",
+                                           ",",
+                                           "1",
+                                           "e",
+                                           "-",
+                                           "#",
+                                           "[[stop]]\n",
+                                           "[parameters]\n",
+                                           "omega",
+                                           "name",
+                                           "\\u0000",
+                                           "\\U0010FFFF",
+                                           "inf",
+                                           "nan",
+                                           "0x",
+                                           "true",
+                                           "1979-05-27",
+                                           "\xef\xbb\xbf",
+                                           "\xff",
+                                           " ",
+                                           std::string(1, '\0'),
+                                           "between",
+                                           "ground"};
   std::mt19937 random(2);
   for (int i = 0; i < 60000; ++i) {
     std::string text;
@@ -78,8 +109,10 @@ TEST(HostileFile, deep_nesting_ends_in_an_error) {
   EXPECT_NE(outcome("a" + repeated(".a", 400000) + " = 1").find("a line longer than"), std::string::npos);
   EXPECT_NE(outcome("a" + repeated(".a", 2000) + " = 1").find("nested more than 16 deep"), std::string::npos);
   EXPECT_NE(outcome("[a" + repeated(".a", 2000) + "]\na" + repeated(".a", 2000) + " = 1"), "accepted");
-  EXPECT_NE(outcome("[a" + repeated(".a", 2000) + "]\nb = " + repeated("[\n{a" + repeated(".a", 2000) + " = ", 8)), "accepted");
-  EXPECT_NE(outcome("b = " + repeated("[\n{a" + repeated(".a", 2000) + " = ", 4) + "1" + repeated("}]", 4)), "accepted");
+  EXPECT_NE(outcome("[a" + repeated(".a", 2000) + "]\nb = " + repeated("[\n{a" + repeated(".a", 2000) + " = ", 8)),
+            "accepted");
+  EXPECT_NE(outcome("b = " + repeated("[\n{a" + repeated(".a", 2000) + " = ", 4) + "1" + repeated("}]", 4)),
+            "accepted");
 }
 
 TEST(HostileFile, size_and_bytes) {
@@ -123,9 +156,11 @@ TEST(HostileFile, names_that_are_no_regular_file) {
   EXPECT_EQ(message(folder / "folder.toml"), named("folder.toml") + "not a regular file");
   EXPECT_EQ(message(folder / "pipe.toml"), named("pipe.toml") + "not a regular file");
   EXPECT_EQ(message(folder / "loop.toml"), named("loop.toml") + "Too many levels of symbolic links");
-  EXPECT_EQ(message("vibro-impct"), "unknown model 'vibro-impct'; did you mean 'vibro-impact'? (a model file's path ends in .toml)");
-  EXPECT_EQ(message(""), "unknown model ''; known: belt, bouncing-ball, coulomb-oscillator, impact-oscillator, vibro-impact "
-                         "(a model file's path ends in .toml)");
+  EXPECT_EQ(message("vibro-impct"),
+            "unknown model 'vibro-impct'; did you mean 'vibro-impact'? (a model file's path ends in .toml)");
+  EXPECT_EQ(message(""),
+            "unknown model ''; known: belt, bouncing-ball, coulomb-oscillator, impact-oscillator, vibro-impact "
+            "(a model file's path ends in .toml)");
   std::ofstream(folder / "own.toml") << whole;
   expect_same(load_model(folder / "own.toml").build(), load_model("vibro-impact").build());
   fs::remove_all(folder);

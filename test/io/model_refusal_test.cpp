@@ -10,7 +10,7 @@
 namespace slapstick {
 namespace {
 
-const std::string head = "name = 'm'\n";                                 // line 1
+const std::string head = "name = 'm'\n";                               // line 1
 const std::string mass = "[[coordinate]]\nname = 'x1'\nmass = 'm'\n";  // lines 3, 4, 5 after one line of parameters
 const std::string good = head + "parameters.m = { value = 2, above = 0, below = 9 }\n" + mass;
 
@@ -33,7 +33,8 @@ TEST(ModelFile, smallest_model) {
 
 TEST(ModelFile, unknown_names_suggest_the_nearest) {
   EXPECT_EQ(refusal("nmae = 'm'\n"), "f.toml:1: unknown key 'nmae'; did you mean 'name'?");
-  EXPECT_EQ(refusal(good + "stifness = 1\n"), "f.toml:6: coordinate 1: unknown key 'stifness'; known: description, name, mass");
+  EXPECT_EQ(refusal(good + "stifness = 1\n"),
+            "f.toml:6: coordinate 1: unknown key 'stifness'; known: description, name, mass");
   EXPECT_EQ(refusal(good + "[[sprin]]\n"), "f.toml:6: unknown key 'sprin'; did you mean 'spring'?");
   EXPECT_EQ(refusal(good + "[[spring]]\nbetween = ['x1', 'ground']\nstifness = 1\n"),
             "f.toml:8: spring 1: unknown key 'stifness'; did you mean 'stiffness'?");
@@ -50,11 +51,16 @@ TEST(ModelFile, values_out_of_range_name_parameter_value_and_range) {
   EXPECT_EQ(refusal(good, {{"m", 0}}), "parameter 'm' = 0 is outside (0, 9)");
   EXPECT_EQ(refusal(good, {{"m", 9}}), "parameter 'm' = 9 is outside (0, 9)");
   EXPECT_EQ(refusal(good, {{"m", std::nan("")}}), "parameter 'm' = nan is not a finite number");
-  EXPECT_EQ(refusal(good, {{"m", std::numeric_limits<double>::infinity()}}), "parameter 'm' = inf is not a finite number");
-  EXPECT_EQ(refusal(head + "parameters.m = { value = 2, max = 1 }\n" + mass), "f.toml:2: parameter 'm': value = 2 is outside (-inf, 1]");
-  EXPECT_EQ(refusal(head + "parameters.m = { value = 2, min = 3, max = 1 }\n"), "f.toml:2: parameter 'm': the range [3, 1] is empty");
-  EXPECT_EQ(refusal(head + "parameters.m = { value = 2, min = 3, above = 1 }\n"), "f.toml:2: parameter 'm': both 'min' and 'above' are given");
-  EXPECT_EQ(refusal(head + "parameters.m = { value = 2, min = 'a' }\n"), "f.toml:2: parameter 'm': min: expected a number, found a string");
+  EXPECT_EQ(refusal(good, {{"m", std::numeric_limits<double>::infinity()}}),
+            "parameter 'm' = inf is not a finite number");
+  EXPECT_EQ(refusal(head + "parameters.m = { value = 2, max = 1 }\n" + mass),
+            "f.toml:2: parameter 'm': value = 2 is outside (-inf, 1]");
+  EXPECT_EQ(refusal(head + "parameters.m = { value = 2, min = 3, max = 1 }\n"),
+            "f.toml:2: parameter 'm': the range [3, 1] is empty");
+  EXPECT_EQ(refusal(head + "parameters.m = { value = 2, min = 3, above = 1 }\n"),
+            "f.toml:2: parameter 'm': both 'min' and 'above' are given");
+  EXPECT_EQ(refusal(head + "parameters.m = { value = 2, min = 'a' }\n"),
+            "f.toml:2: parameter 'm': min: expected a number, found a string");
 }
 
 TEST(ModelFile, wrong_types_and_missing_keys) {
@@ -62,10 +68,12 @@ TEST(ModelFile, wrong_types_and_missing_keys) {
   EXPECT_EQ(refusal(head), "f.toml:1: model: it has no coordinates");
   EXPECT_EQ(refusal("name = 3\n"), "f.toml:1: model: name: expected a string, found a number");
   EXPECT_EQ(refusal(head + "parameters = 3\n"), "f.toml:2: parameters: expected a table, found a number");
-  EXPECT_EQ(refusal(head + "parameters.m = true\n"), "f.toml:2: parameter 'm': expected a number or an expression, found a boolean");
+  EXPECT_EQ(refusal(head + "parameters.m = true\n"),
+            "f.toml:2: parameter 'm': expected a number or an expression, found a boolean");
   EXPECT_EQ(refusal(head + "parameters.m = {}\n"), "f.toml:2: parameter 'm': 'value' is missing");
   EXPECT_EQ(refusal(head + "parameters.m = inf\n"), "f.toml:2: parameter 'm': inf is not a finite number");
-  EXPECT_EQ(refusal(head + "parameters.sin = 1\n"), "f.toml:2: parameter 'sin': this is the name of a function or constant");
+  EXPECT_EQ(refusal(head + "parameters.sin = 1\n"),
+            "f.toml:2: parameter 'sin': this is the name of a function or constant");
   EXPECT_EQ(refusal(head + "parameters.'a b' = 1\n"),
             "f.toml:2: parameter 'a b': a name is 1 to 64 letters, digits and '_', beginning with a letter");
   EXPECT_EQ(refusal(head + "parameters.x1 = 1\n[[coordinate]]\nname='x1'\nmass=1\n"),
@@ -74,7 +82,8 @@ TEST(ModelFile, wrong_types_and_missing_keys) {
   EXPECT_EQ(refusal(head + "[[coordinate]]\nmass = 1\n"), "f.toml:2: coordinate 1: 'name' is missing");
   EXPECT_EQ(refusal(head + "[[coordinate]]\nname = 'x'\n"), "f.toml:2: coordinate 'x': 'mass' is missing");
   EXPECT_EQ(refusal(good + "[[spring]]\nstiffness = 1\n"), "f.toml:6: spring 1: 'between' is missing");
-  EXPECT_EQ(refusal(good + "[[spring]]\nbetween = ['x1']\nstiffness = 1\n"), "f.toml:7: spring 1: between: expected two ends, found 1");
+  EXPECT_EQ(refusal(good + "[[spring]]\nbetween = ['x1']\nstiffness = 1\n"),
+            "f.toml:7: spring 1: between: expected two ends, found 1");
   EXPECT_EQ(refusal(good + "[[spring]]\nbetween = ['x1', 1]\nstiffness = 1\n"),
             "f.toml:7: spring 1: between: expected a string, found a number");
   EXPECT_EQ(refusal(good + "[[force]]\non = 'x1'\namplitude = 1\nharmonic = 1.5\n"),
@@ -83,7 +92,9 @@ TEST(ModelFile, wrong_types_and_missing_keys) {
 }
 
 TEST(ModelFile, expressions_that_fail_are_named) {
-  const auto with = [](const std::string& value) { return head + "parameters.m = 0\n[[coordinate]]\nname = 'x'\nmass = '" + value + "'\n"; };
+  const auto with = [](const std::string& value) {
+    return head + "parameters.m = 0\n[[coordinate]]\nname = 'x'\nmass = '" + value + "'\n";
+  };
   EXPECT_EQ(refusal(with("1 / m")), "f.toml:5: coordinate 'x': mass: expression '1 / m': its value is inf with m = 0");
   EXPECT_EQ(refusal(with("1 +")).substr(0, 52), "f.toml:5: coordinate 'x': mass: expression '1 +': un");
   EXPECT_EQ(refusal(head + "[parameters]\na = 'b'\nb = 'c + 1'\nc = 'a'\n"),
@@ -93,23 +104,32 @@ TEST(ModelFile, expressions_that_fail_are_named) {
 }
 
 TEST(ModelFile, meaningless_models_are_refused_at_their_line) {
-  const auto contact = [](const std::string& numbers) { return good + "[[friction]]\nname = 'f'\nbetween = ['x1', 'ground']\n" + numbers; };
+  const auto contact = [](const std::string& numbers) {
+    return good + "[[friction]]\nname = 'f'\nbetween = ['x1', 'ground']\n" + numbers;
+  };
   EXPECT_EQ(refusal(contact("static = 1\nkinetic = 2\n")), "f.toml:10: friction 'f': kinetic = 2 exceeds static = 1");
   EXPECT_EQ(refusal(contact("static = -1\n")), "f.toml:9: friction 'f': static = -1 is negative");
   EXPECT_EQ(refusal(contact("static = 1\n")), "accepted");  // kinetic is static
-  EXPECT_EQ(refusal(good + "[[spring]]\nbetween = ['x1', 'x1']\nstiffness = 1\n"), "f.toml:6: spring 1: both ends are 'x1'");
-  EXPECT_EQ(refusal(good + "[[coordinate]]\nname = 'x1'\nmass = 1\n"), "f.toml:6: coordinate 'x1': name 'x1' is used twice");
-  EXPECT_EQ(refusal("omega = 0\n" + good + "[[force]]\non = 'x1'\namplitude = 1\n"), "f.toml:1: model: omega = 0 is not positive");
+  EXPECT_EQ(refusal(good + "[[spring]]\nbetween = ['x1', 'x1']\nstiffness = 1\n"),
+            "f.toml:6: spring 1: both ends are 'x1'");
+  EXPECT_EQ(refusal(good + "[[coordinate]]\nname = 'x1'\nmass = 1\n"),
+            "f.toml:6: coordinate 'x1': name 'x1' is used twice");
+  EXPECT_EQ(refusal("omega = 0\n" + good + "[[force]]\non = 'x1'\namplitude = 1\n"),
+            "f.toml:1: model: omega = 0 is not positive");
   EXPECT_EQ(refusal(good + "[[stop]]\nname = 's'\nbetween = ['x1', 'ground']\nclearance = 1\nrestitution = 2\n"),
             "f.toml:10: stop 's': restitution = 2 is outside [0, 1]");
-  EXPECT_EQ(refusal(good + "[[stop]]\nname = 's'\nbetween = ['x1', 'ground']\nclearance = 'm'\nrestitution = 0\n[start]\nx1 = 3\n"),
-            "f.toml:12: start: stop 's' is violated: x1 - ground = 3 > clearance = 2");
+  EXPECT_EQ(
+      refusal(good +
+              "[[stop]]\nname = 's'\nbetween = ['x1', 'ground']\nclearance = 'm'\nrestitution = 0\n[start]\nx1 = 3\n"),
+      "f.toml:12: start: stop 's' is violated: x1 - ground = 3 > clearance = 2");
 }
 
 TEST(ModelFile, awkward_numbers_and_texts_survive_printing) {
-  const std::string text = head + "notes = \"\"\"\na \\\\ \\\"quoted\\\" line\n\n  and ''' more\"\"\"\n" +
-                           "parameters.m = { value = 123456789012345680000.0, description = \"a \\\"b\\\" \\\\ \xc3\xa9\" }\n" +
-                           "parameters.n = { value = -0.0 }\nparameters.d = { value = 5e-324 }\n" + mass + "[start]\nv1 = 'm / 3'\nx1 = -1e300\n";
+  const std::string text =
+      head + "notes = \"\"\"\na \\\\ \\\"quoted\\\" line\n\n  and ''' more\"\"\"\n" +
+      "parameters.m = { value = 123456789012345680000.0, description = \"a \\\"b\\\" \\\\ \xc3\xa9\" }\n" +
+      "parameters.n = { value = -0.0 }\nparameters.d = { value = 5e-324 }\n" + mass +
+      "[start]\nv1 = 'm / 3'\nx1 = -1e300\n";
   const auto definition = ModelDefinition::parse(text, "f.toml");
   const auto printed = definition.to_toml();
   const auto again = ModelDefinition::parse(printed, "g.toml");

@@ -14,14 +14,16 @@ inline void expect_same(const Model& a, const Model& b) {
     for (std::size_t i = 0; i < first.size(); ++i) EXPECT_TRUE(equal(first[i], second[i])) << i;
   };
   same(a.coordinates, b.coordinates, [](const auto& p, const auto& q) { return p.name == q.name && p.mass == q.mass; });
-  same(a.springs, b.springs, [](const auto& p, const auto& q) { return p.a == q.a && p.b == q.b && p.stiffness == q.stiffness; });
-  same(a.dampers, b.dampers, [](const auto& p, const auto& q) { return p.a == q.a && p.b == q.b && p.coefficient == q.coefficient; });
+  same(a.springs, b.springs,
+       [](const auto& p, const auto& q) { return p.a == q.a && p.b == q.b && p.stiffness == q.stiffness; });
+  same(a.dampers, b.dampers,
+       [](const auto& p, const auto& q) { return p.a == q.a && p.b == q.b && p.coefficient == q.coefficient; });
   same(a.forces, b.forces, [](const auto& p, const auto& q) {
     return p.coordinate == q.coordinate && p.harmonic == q.harmonic && p.amplitude == q.amplitude && p.phase == q.phase;
   });
   same(a.frictions, b.frictions, [](const auto& p, const auto& q) {
-    return p.name == q.name && p.a == q.a && p.b == q.b && p.belt_speed == q.belt_speed && p.static_friction == q.static_friction &&
-           p.kinetic_friction == q.kinetic_friction;
+    return p.name == q.name && p.a == q.a && p.b == q.b && p.belt_speed == q.belt_speed &&
+           p.static_friction == q.static_friction && p.kinetic_friction == q.kinetic_friction;
   });
   same(a.stops, b.stops, [](const auto& p, const auto& q) {
     return p.name == q.name && p.a == q.a && p.b == q.b && p.clearance == q.clearance && p.restitution == q.restitution;

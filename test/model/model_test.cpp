@@ -77,7 +77,8 @@ TEST(Model, every_refusal_names_part_and_value) {
       {[](Model& m) { m.coordinates.clear(); }, "model: it has no coordinates"},
       {[](Model& m) { m.coordinates[0].mass = 0.0; }, "coordinate 'x1': mass = 0 is not positive"},
       {[](Model& m) { m.coordinates[1].mass = -1.5; }, "coordinate 'x2': mass = -1.5 is not positive"},
-      {[](Model& m) { m.coordinates[1].mass = 5e-324; }, "coordinate 'x2': mass = 4.94065645841247e-324 is too small: 1 / mass overflows"},
+      {[](Model& m) { m.coordinates[1].mass = 5e-324; },
+       "coordinate 'x2': mass = 4.94065645841247e-324 is too small: 1 / mass overflows"},
       {[](Model& m) { m.coordinates[1].name = "x1"; }, "coordinate 'x1': name 'x1' is used twice"},
       {[](Model& m) { m.coordinates[1].name = "v1"; }, "coordinate 'v1': name 'v1' is used twice"},
       {[](Model& m) { m.coordinates[1].name = "ground"; }, "coordinate 'ground': name 'ground' is reserved"},
@@ -94,7 +95,8 @@ TEST(Model, every_refusal_names_part_and_value) {
       {[](Model& m) { m.forces[0].harmonic = -1; }, "force 1: harmonic = -1 is negative"},
       {[](Model& m) { m.frictions[0].name = ""; }, "friction 1: the name is empty"},
       {[](Model& m) { m.frictions[0].b = 0; }, "friction 'friction': both ends are 'x1'"},
-      {[](Model& m) { m.frictions[0].kinetic_friction = 0.2; }, "friction 'friction': kinetic = 0.2 exceeds static = 0.15"},
+      {[](Model& m) { m.frictions[0].kinetic_friction = 0.2; },
+       "friction 'friction': kinetic = 0.2 exceeds static = 0.15"},
       {[](Model& m) { m.frictions[0].static_friction = -0.2; }, "friction 'friction': static = -0.2 is negative"},
       {[](Model& m) { m.frictions[0].kinetic_friction = -0.2; }, "friction 'friction': kinetic = -0.2 is negative"},
       {[](Model& m) { m.stops[0].name = "friction"; }, "stop 'friction': name 'friction' is used twice"},
@@ -104,8 +106,16 @@ TEST(Model, every_refusal_names_part_and_value) {
       {[](Model& m) { m.omega = 0.0; }, "model: omega = 0 is not positive"},
       {[](Model& m) { m.omega = -1.0; }, "model: omega = -1 is negative"},
       {[](Model& m) { m.omega = 5e-324; }, "model: omega = 4.94065645841247e-324 is too small: its period overflows"},
-      {[](Model& m) { m.forces[0].harmonic = 1000; m.omega = 1e308; }, "model: omega = 1e+308 is too large"},
-      {[](Model& m) { m.forces.clear(); m.omega = -1.0; }, "model: omega = -1 is negative"},
+      {[](Model& m) {
+         m.forces[0].harmonic = 1000;
+         m.omega = 1e308;
+       },
+       "model: omega = 1e+308 is too large"},
+      {[](Model& m) {
+         m.forces.clear();
+         m.omega = -1.0;
+       },
+       "model: omega = -1 is negative"},
   };
   for (const auto& [spoil, message] : cases) EXPECT_EQ(refusal(spoil), message);
 }

@@ -24,7 +24,8 @@ struct Guard {
 
 /// The guards of a mode. `gap` is the gap at the start of the step, kept apart from x because it is exactly 0 after a contact
 /// and tiny, but known to all its digits, inside a chatter.
-[[nodiscard]] std::vector<Guard> guards_of(const Mechanics& mechanics, const Mode& mode, const Jet& jet, const Real& gap);
+[[nodiscard]] std::vector<Guard> guards_of(const Mechanics& mechanics, const Mode& mode, const Jet& jet,
+                                           const Real& gap);
 
 /// Which quantities are exactly zero at an instant.
 struct Contact {

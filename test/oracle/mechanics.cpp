@@ -71,7 +71,9 @@ Real Mechanics::mobility(const Row& p, const Row& q) const {
 
 Real Mechanics::gap(const Vector& x) const { return Real(stop().clearance) - difference(stop_row_, x); }
 Real Mechanics::closing_velocity(const Vector& v) const { return difference(stop_row_, v); }
-Real Mechanics::slip_velocity(const Vector& v) const { return difference(friction_row_, v) - Real(friction().belt_speed); }
+Real Mechanics::slip_velocity(const Vector& v) const {
+  return difference(friction_row_, v) - Real(friction().belt_speed);
+}
 
 Mechanics::Difference Mechanics::gap_series(const Jet& jet) const {
   Difference d{Vector(jet.x.front().size()), jet.force_scale * mobility(stop_row_, stop_row_) * jet.step * jet.step};
@@ -123,7 +125,8 @@ void Mechanics::project(const Mode& mode, Vector& v) const {
   const std::vector<Row> rows = constraints(mode);
   Vector target;
   for (const Row& row : rows) target.push_back(-difference(row, v));
-  if (has_friction() && mode.friction == 0 && !(mode.closed && merged_sign_ != 0)) target.back() += Real(friction().belt_speed);
+  if (has_friction() && mode.friction == 0 && !(mode.closed && merged_sign_ != 0))
+    target.back() += Real(friction().belt_speed);
   const Vector impulse = multipliers(rows, target);
   for (std::size_t i = 0; i < rows.size(); ++i) push(rows[i], impulse[i], v);
 }
@@ -136,7 +139,8 @@ void Mechanics::add_forcing(std::vector<Vector>& force, const Real& t, const Rea
       row[0] += Real(f.amplitude);
       continue;
     }
-    const Real frequency = f.harmonic * Real(model_.omega), angle = frequency * t + Real(f.phase), advance = frequency * step;
+    const Real frequency = f.harmonic * Real(model_.omega), angle = frequency * t + Real(f.phase),
+               advance = frequency * step;
     Real sine = Real(f.amplitude) * sin(angle), cosine = Real(f.amplitude) * cos(angle);
     for (std::size_t k = 0; k < row.size(); ++k) {
       row[k] += sine;
@@ -161,7 +165,8 @@ Vector Mechanics::applied_force(Jet& jet, std::size_t k) const {
   return force;
 }
 
-Jet Mechanics::expand(const Mode& mode, const Vector& x, const Vector& v, const Real& t, const Real& step, int order) const {
+Jet Mechanics::expand(const Mode& mode, const Vector& x, const Vector& v, const Real& t, const Real& step,
+                      int order) const {
   const std::size_t n = inverse_mass_.size(), terms = static_cast<std::size_t>(order) + 1;
   Jet jet{step, std::vector<Vector>(n, Vector(terms)), std::vector<Vector>(n, Vector(terms)), {}, {}, Real(0)};
   std::vector<Vector> forcing(n, Vector(terms));

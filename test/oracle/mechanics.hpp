@@ -21,9 +21,9 @@ struct Mode {
 struct Jet {
   Real step;
   std::vector<Vector> x, v;
-  Vector holding;  ///< f0: minus the contact force on a; filled in stick
-  Vector press;    ///< push of the closed stop on a, towards -x; with the friction force if the stop is merged
-  Real force_scale;        ///< sum of the sizes of all terms that make up the forces
+  Vector holding;    ///< f0: minus the contact force on a; filled in stick
+  Vector press;      ///< push of the closed stop on a, towards -x; with the friction force if the stop is merged
+  Real force_scale;  ///< sum of the sizes of all terms that make up the forces
 };
 
 class Mechanics {
@@ -48,16 +48,20 @@ class Mechanics {
   /// The order whose remainder is below 1e-54 of the motion for this step.
   [[nodiscard]] int order(const Real& step) const;
 
-  [[nodiscard]] Jet expand(const Mode& mode, const Vector& x, const Vector& v, const Real& t, const Real& step, int order) const;
+  [[nodiscard]] Jet expand(const Mode& mode, const Vector& x, const Vector& v, const Real& t, const Real& step,
+                           int order) const;
 
   /// Coefficients of x_a - x_b for the stop or friction contact, from jet.x or jet.v, and the size of the terms they come from.
-  struct Difference { Vector coefficients; Real scale; };
+  struct Difference {
+    Vector coefficients;
+    Real scale;
+  };
   [[nodiscard]] Difference gap_series(const Jet& jet) const;   ///< -(x_a - x_b): the gap but for its start, [0] = 0
   [[nodiscard]] Difference slip_series(const Jet& jet) const;  ///< w
 
-  [[nodiscard]] Real gap(const Vector& x) const;             ///< clearance - (x_a - x_b)
+  [[nodiscard]] Real gap(const Vector& x) const;               ///< clearance - (x_a - x_b)
   [[nodiscard]] Real closing_velocity(const Vector& v) const;  ///< u = v_a - v_b of the stop, positive towards it
-  [[nodiscard]] Real slip_velocity(const Vector& v) const;   ///< w = v_a - v_b - belt_speed of the friction contact
+  [[nodiscard]] Real slip_velocity(const Vector& v) const;     ///< w = v_a - v_b - belt_speed of the friction contact
 
   /// Newton's impact: v += M^-1 r_s^T J with u+ = -r u-.
   void impact(Vector& v) const;
@@ -65,7 +69,9 @@ class Mechanics {
   void project(const Mode& mode, Vector& v) const;
 
  private:
-  struct Row { int a = ground, b = ground; };
+  struct Row {
+    int a = ground, b = ground;
+  };
 
   [[nodiscard]] Real difference(const Row& row, const Vector& q) const;
   void push(const Row& row, const Real& force, Vector& q) const;  ///< q += M^-1 r^T force

@@ -23,8 +23,8 @@ inline Model cosine_ball(double restitution) {
 }
 
 /// I: x'' + damping x' + x = amplitude sin(omega t), x <= clearance.
-inline Model oscillator_with_stop(double clearance, double restitution = 0.5, double amplitude = 0.0, double omega = 1.0,
-                                  double damping = 0.0) {
+inline Model oscillator_with_stop(double clearance, double restitution = 0.5, double amplitude = 0.0,
+                                  double omega = 1.0, double damping = 0.0) {
   Model m;
   m.name = "oscillator_with_stop";
   m.coordinates = {{"x", 1.0}};
@@ -37,7 +37,8 @@ inline Model oscillator_with_stop(double clearance, double restitution = 0.5, do
 }
 
 /// F: x'' + x = amplitude sin(omega t) - f_k sgn x'.
-inline Model friction_oscillator(double static_friction, double kinetic_friction, double amplitude = 0.0, double omega = 1.0) {
+inline Model friction_oscillator(double static_friction, double kinetic_friction, double amplitude = 0.0,
+                                 double omega = 1.0) {
   Model m = oscillator_with_stop(0.0, 0.5, amplitude, omega);
   m.name = "friction_oscillator";
   m.stops.clear();

@@ -167,7 +167,8 @@ std::optional<OracleEvent> Oracle::next(const Real& t_end) {
     advance(jet, hit ? hit->root.s : Real(1));
     if (hit) {
       at_one_instant = since_event_ > 0 ? 0 : at_one_instant + 1;
-      if (at_one_instant > most_events_at_one_instant) throw std::runtime_error("oracle: too many events at one instant");
+      if (at_one_instant > most_events_at_one_instant)
+        throw std::runtime_error("oracle: too many events at one instant");
       pending_.push_front(handle(hit->kind, hit->root.touch, gap_curvature(jet, hit->root.s)));
       continue;
     }
@@ -212,16 +213,20 @@ OracleEvent Oracle::handle(GuardKind kind, bool touch, const Real& gap_curvature
 }
 
 Contact Oracle::collide(bool w_was_zero) {
-  const Real u = mechanics_.closing_velocity(v_), w = mechanics_.has_friction() ? mechanics_.slip_velocity(v_) : Real(0);
+  const Real u = mechanics_.closing_velocity(v_),
+             w = mechanics_.has_friction() ? mechanics_.slip_velocity(v_) : Real(0);
   mechanics_.impact(v_);
   intervals_.push_back(since_impact_);
   if (intervals_.size() > 4) intervals_.pop_front();
   since_impact_ = 0;
   Contact contact{true, mechanics_.stop().restitution == 0, false};
   if (!mechanics_.has_friction()) return contact;
-  if (mechanics_.merged_sign() != 0) contact.no_slip = contact.at_rest;  // w+ = -r w-
-  else if (mechanics_.uncoupled()) contact.no_slip = w_was_zero;
-  else contact.no_slip = abs(mechanics_.slip_velocity(v_)) <= zero_share * (abs(u) + abs(w));
+  if (mechanics_.merged_sign() != 0)
+    contact.no_slip = contact.at_rest;  // w+ = -r w-
+  else if (mechanics_.uncoupled())
+    contact.no_slip = w_was_zero;
+  else
+    contact.no_slip = abs(mechanics_.slip_velocity(v_)) <= zero_share * (abs(u) + abs(w));
   return contact;
 }
 
@@ -240,7 +245,8 @@ void Oracle::sum_chatter() {
   const Real q = intervals_[3] / intervals_[2], q1 = intervals_[2] / intervals_[1], q2 = intervals_[1] / intervals_[0];
   if (!(q < 1) || abs(q - q1) > ratio_repeats || abs(q - q2) > ratio_repeats) return;
   const Real rest = intervals_[3] * q / (1 - q);
-  const bool follows = mechanics_.has_friction() && !mechanics_.uncoupled() && abs(mechanics_.slip_velocity(v_)) <= 1000 * u;
+  const bool follows =
+      mechanics_.has_friction() && !mechanics_.uncoupled() && abs(mechanics_.slip_velocity(v_)) <= 1000 * u;
   mode_.closed = true;
   gap_ = 0;
   if (follows) mode_.friction = 0;

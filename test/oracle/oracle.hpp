@@ -36,8 +36,8 @@ struct SegmentStart {
   Vector state;
   Real phase_fraction = 0;  ///< time / period
   Mode mode;
-  bool touching = false;    ///< take the gap as exactly 0 (just after an impact)
-  bool no_slip = false;     ///< take w as exactly 0 (just after a reversal or release)
+  bool touching = false;  ///< take the gap as exactly 0 (just after an impact)
+  bool no_slip = false;   ///< take w as exactly 0 (just after a reversal or release)
 };
 
 class Oracle {
@@ -69,7 +69,10 @@ class Oracle {
   [[nodiscard]] Real stop_force() const;
 
  private:
-  struct Hit { GuardKind kind; Root root; };
+  struct Hit {
+    GuardKind kind;
+    Root root;
+  };
 
   void split(const Vector& state);
   void start();
@@ -89,17 +92,19 @@ class Oracle {
   Vector x_, v_;
   Real t_, gap_;
   Mode mode_;
-  Start zeros_;                      ///< zeros of the guards at the start of the current step
-  Real step_;                        ///< length of the next step
-  Real since_event_;                 ///< length of the current segment, summed from its steps to keep the digits of a tiny one
-  Real gap_size_, slip_size_;        ///< largest size of the gap's and w's terms since they were last zero / since the last event
-  Real since_impact_;                ///< like since_event_, from the last impact
+  Start zeros_;       ///< zeros of the guards at the start of the current step
+  Real step_;         ///< length of the next step
+  Real since_event_;  ///< length of the current segment, summed from its steps to keep the digits of a tiny one
+  Real gap_size_,
+      slip_size_;      ///< largest size of the gap's and w's terms since they were last zero / since the last event
+  Real since_impact_;  ///< like since_event_, from the last impact
   std::deque<Real> intervals_;       ///< the last intervals between impacts, newest last
   std::deque<OracleEvent> pending_;  ///< found but not yet returned
 };
 
 /// The first event of a segment that starts in a given mode; its time is counted from the start of the segment. A guard that is
 /// negative at the start gives an event at 0. Without an event in (0, duration]: nothing.
-[[nodiscard]] std::optional<OracleEvent> first_event(const Model& model, const SegmentStart& start, const Real& duration);
+[[nodiscard]] std::optional<OracleEvent> first_event(const Model& model, const SegmentStart& start,
+                                                     const Real& duration);
 
 }  // namespace slapstick::oracle

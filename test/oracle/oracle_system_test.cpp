@@ -23,7 +23,8 @@ TEST(Linear, SteadyStateRepeats) {  // x = |G| sin(omega t + arg G), G = 1 / (1 
   const double omega = 2.5, c = 0.25;
   const Real re = 1 - Real(omega) * Real(omega), im = Real(c) * Real(omega), size2 = re * re + im * im;
   // G = (re - i im) / size2; x = (re sin - im cos) / size2
-  Oracle oracle(oscillator_with_stop(100.0, 0.5, 1.0, omega, c), Vector{-im / size2, re * Real(omega) / size2}, Real(0));
+  Oracle oracle(oscillator_with_stop(100.0, 0.5, 1.0, omega, c), Vector{-im / size2, re * Real(omega) / size2},
+                Real(0));
   EXPECT_TRUE(oracle.run(20 * oracle.period()).empty());
   expect_near(oracle.state()[0], -im / size2);
   expect_near(oracle.state()[1], re * Real(omega) / size2);
@@ -70,7 +71,8 @@ Point runge_kutta(Point q, double t, double h, double omega, double s) {
     return p;
   };
   const Point k1 = slip_equation(q, t, omega, s), k2 = slip_equation(plus(q, k1, h / 2), t + h / 2, omega, s),
-              k3 = slip_equation(plus(q, k2, h / 2), t + h / 2, omega, s), k4 = slip_equation(plus(q, k3, h), t + h, omega, s);
+              k3 = slip_equation(plus(q, k2, h / 2), t + h / 2, omega, s),
+              k4 = slip_equation(plus(q, k3, h), t + h, omega, s);
   for (std::size_t i = 0; i < 4; ++i) q[i] += h / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
   return q;
 }
@@ -175,7 +177,8 @@ TEST(ThirdBody, ChatterWithAStickPhaseInEachFlightHasAGeometricLimit) {
   EXPECT_TRUE(oracle.closed() && oracle.sticking());
   // Per unit of impact speed: slip until w = 0, then both fly on together under a = 1 / (1 + light) back to the wall.
   const Real r(0.5), slip = (1 + r) / (1 + Real(f) + Real(f) / Real(light)), a = 1 / (1 + Real(light));
-  const Real x = -r * slip + (1 + Real(f)) * slip * slip / 2, v = -r + (1 + Real(f)) * slip, q = sqrt(v * v - 2 * a * x);
+  const Real x = -r * slip + (1 + Real(f)) * slip * slip / 2, v = -r + (1 + Real(f)) * slip,
+             q = sqrt(v * v - 2 * a * x);
   expect_near(event->time, (slip + (q - v) / a) / (1 - q));
 }
 
@@ -183,11 +186,14 @@ TEST(Orientation, OfAContactIsAConvention) {
   Model turned = vibro_impact(1.5);
   std::swap(turned.frictions[0].a, turned.frictions[0].b);
   const std::vector<double> start{-0.5, 0.0, 0.0, 0.0};
-  const std::vector<OracleEvent> expected = Oracle(vibro_impact(1.5), start).run(Real(30)), found = Oracle(turned, start).run(Real(30));
+  const std::vector<OracleEvent> expected = Oracle(vibro_impact(1.5), start).run(Real(30)),
+                                 found = Oracle(turned, start).run(Real(30));
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     expect_near(found[i].time, expected[i].time);
-    EXPECT_EQ(found[i].kind, expected[i].kind == "slip+" ? "slip-" : expected[i].kind == "slip-" ? "slip+" : expected[i].kind);
+    EXPECT_EQ(found[i].kind, expected[i].kind == "slip+"   ? "slip-"
+                             : expected[i].kind == "slip-" ? "slip+"
+                                                           : expected[i].kind);
   }
 }
 

@@ -185,9 +185,13 @@ TEST(ContactAndReversal, AtOnceAreOneEventWithoutImpulse) {  // K5
 }
 
 TEST(Start, IsDecidedByTheFirstNonZeroDerivative) {  // K6: x'' + x = A sin t on a wall at b
-  struct Case { double b, v, amplitude; bool closed; std::size_t at_once; };
-  for (const Case& c : {Case{1, -1, 0, false, 0}, Case{1, 1, 0, false, 1}, Case{1, 0, 0, false, 0}, Case{-1, 0, 0, true, 0},
-                        Case{0, 0, -1, false, 0}, Case{0, 0, 1, true, 0}}) {
+  struct Case {
+    double b, v, amplitude;
+    bool closed;
+    std::size_t at_once;
+  };
+  for (const Case& c : {Case{1, -1, 0, false, 0}, Case{1, 1, 0, false, 1}, Case{1, 0, 0, false, 0},
+                        Case{-1, 0, 0, true, 0}, Case{0, 0, -1, false, 0}, Case{0, 0, 1, true, 0}}) {
     Oracle oracle(oscillator_with_stop(c.b, 0.5, c.amplitude), {c.b, c.v});
     const std::size_t at_once = oracle.run(Real(1e-6)).size();
     EXPECT_EQ(at_once, c.at_once);

@@ -102,10 +102,12 @@ TEST(SampledMotion, SamplesFitTogetherInEveryMode) {
 
 TEST(SampledMotion, SamplesOnlyFromAnInstantOnAreTheSame) {
   const System system(paper(4.9));
-  SampledMotion all(Motion(system, {-0.5, 0.0, 0.0, 0.0}), 10), late(Motion(system, {-0.5, 0.0, 0.0, 0.0}), 10, {18, 0.05});
+  SampledMotion all(Motion(system, {-0.5, 0.0, 0.0, 0.0}), 10),
+      late(Motion(system, {-0.5, 0.0, 0.0, 0.0}), 10, {18, 0.05});
   std::vector<State> expected, found;
   for (auto item = all.next({20, 0.0}); item != SampledMotion::Item::end; item = all.next({20, 0.0}))
-    if (item == SampledMotion::Item::sample && all.sample().time >= Instant{18, 0.1}) expected.push_back(all.sample().state);
+    if (item == SampledMotion::Item::sample && all.sample().time >= Instant{18, 0.1})
+      expected.push_back(all.sample().state);
   for (auto item = late.next({20, 0.0}); item != SampledMotion::Item::end; item = late.next({20, 0.0}))
     if (item == SampledMotion::Item::sample) found.push_back(late.sample().state);
   EXPECT_EQ(expected.size(), 20U);

@@ -94,13 +94,15 @@ struct Figure {
   std::vector<Panel> panels{};
   int columns = 1;
   double width_cm = 8.5;
-  std::optional<double> height_cm{};  ///< default: 5.6 cm per row with an x axis of its own, 3.8 cm for a row that shares it
-  bool share_x = false;  ///< panels of a column have one x range, numbered and named under the lowest only
+  std::optional<double>
+      height_cm{};        ///< default: 5.6 cm per row with an x axis of its own, 3.8 cm for a row that shares it
+  bool share_x = false;   ///< panels of a column have one x range, numbered and named under the lowest only
   std::string caption{};  ///< a comment in the script; a journal sets captions in its own type
   std::string font = "DejaVu Sans";
   double font_pt = 8;
   int png_dpi = 300;
-  std::optional<int> raster_dpi{};  ///< of density images; default: png_dpi, or twice that if there is a point for every pixel
+  std::optional<int>
+      raster_dpi{};  ///< of density images; default: png_dpi, or twice that if there is a point for every pixel
 };
 
 struct Formats {

@@ -30,7 +30,8 @@ struct Counts {
 /// Points per pixel. Pixels are half-open [left, right) x [bottom, top) except that the window's own upper edges belong to the last pixel.
 /// Points outside the window or not finite are left out. Counts saturate at `largest_count`.
 /// @throws InputError if width or height is not positive, or x and y differ in length
-Counts count_points(const std::vector<double>& x, const std::vector<double>& y, const Window& window, int width, int height);
+Counts count_points(const std::vector<double>& x, const std::vector<double>& y, const Window& window, int width,
+                    int height);
 inline constexpr std::uint32_t largest_count = (1u << 20) - 1;
 
 /// Every pixel takes the maximum of itself and its up to eight neighbours.

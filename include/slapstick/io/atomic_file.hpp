@@ -31,8 +31,8 @@ class AtomicFile {
   void discard() noexcept;
   [[noreturn]] void fail(int error);
 
-  std::filesystem::path shown_;   // as the user gave it, for messages
-  std::filesystem::path target_;  // links resolved
+  std::filesystem::path shown_;      // as the user gave it, for messages
+  std::filesystem::path target_;     // links resolved
   std::filesystem::path temporary_;  // empty when written directly
   std::string buffer_;
   int descriptor_ = -1;

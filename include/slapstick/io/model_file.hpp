@@ -34,8 +34,9 @@ namespace slapstick {
 /// A number of a model file that `--set` and sweeps may change.
 struct Parameter {
   std::string name;
-  double value = 0.0;      ///< the default; if `expression` is set, its value with all other defaults
-  std::string expression;  ///< e.g. "static_friction": follows the other parameters until it is set itself; "" for a plain number
+  double value = 0.0;  ///< the default; if `expression` is set, its value with all other defaults
+  std::string
+      expression;  ///< e.g. "static_friction": follows the other parameters until it is set itself; "" for a plain number
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   bool min_open = false;  ///< true: `min` itself is outside (`above` in the file)
@@ -66,8 +67,8 @@ class ModelDefinition {
   static ModelDefinition parse(std::string_view text, const std::string& source);
 
   [[nodiscard]] const std::string& name() const;
-  [[nodiscard]] const std::string& summary() const;  ///< one line, may be empty
-  [[nodiscard]] const std::string& notes() const;    ///< several lines, may be empty
+  [[nodiscard]] const std::string& summary() const;                ///< one line, may be empty
+  [[nodiscard]] const std::string& notes() const;                  ///< several lines, may be empty
   [[nodiscard]] const std::vector<Parameter>& parameters() const;  ///< in the file's order
   [[nodiscard]] const std::vector<Group>& groups() const;
 

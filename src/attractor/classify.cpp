@@ -25,6 +25,7 @@ using attractor::PeriodEvents;
 using Eigen::VectorXd;
 
 constexpr long returns_compared = 100;
+constexpr double repelling = 1e-6;  ///< a multiplier beyond 1 by more than its own error
 
 /// The search for a return of the stroboscopic state.
 class ReturnSearch {
@@ -123,8 +124,8 @@ bool ReturnSearch::run(int periods, Classification& result) {
     const bool newton_turn = k >= next_newton_;
     for (int n = 1; n <= options_.most_n && 2 * n < kept; ++n) {
       const double d = returned(n);
-      if (d <= options_.tolerance && same_events(n) && returned(n, 1) <= 2.0 * options_.tolerance)
-        return accept(back(0), n, d, result);
+      const bool returns = d <= options_.tolerance && same_events(n) && returned(n, 1) <= 2.0 * options_.tolerance;
+      if (returns && accept(back(0), n, d, result)) return true;
       const bool approaching = 3 * n < kept && d < options_.newton_start && d < returned(n, 1);
       if (newton_turn && approaching && try_newton(n, result)) return true;
     }
@@ -143,14 +144,17 @@ int ReturnSearch::shortest_cycle(const VectorXd& x, int n) const {
   return n;
 }
 
+/// False if the cycle at x repels: a motion that began on it, or passes it closely, is not drawn to it.
 bool ReturnSearch::accept(const VectorXd& x, int cycle, double d, Classification& result) {
   const int n = shortest_cycle(x, cycle);
+  const attractor::MapValue map = attractor::return_map(system_, x, n);
+  const auto multipliers = attractor::multipliers_of(map.jacobian);
+  if (!multipliers.empty() && std::abs(multipliers.front()) > 1.0 + repelling) return false;
   result.attractor = Attractor::periodic;
   result.approach = d;
   attractor::record_cycle(system_, attractor::user_state(system_, x), n, result);
-  const attractor::MapValue map = attractor::return_map(system_, x, n);
   result.return_distance = attractor::distance(map.image, x, scale_);
-  result.multipliers = attractor::multipliers_of(map.jacobian);
+  result.multipliers = multipliers;
   return true;
 }
 

@@ -87,18 +87,19 @@ class Search {
         x_end_(x_end),
         evaluations_(evaluations) {}
 
-  Root run();
+  void run(Root& root);
 
  private:
   [[nodiscard]] double bound(Bound which) const { return guard_.hull.bounds[which]; }
   void evaluate(double x);
   [[nodiscard]] Curvature near_start() const;
+  double third();
   [[nodiscard]] const Curvature& best(double Curvature::*side) const;
   [[nodiscard]] bool certain_fall(double& zero) const;
-  [[nodiscard]] double next_landing() const;
-  [[nodiscard]] Root at_the_end();
-  [[nodiscard]] Root walk_through_noise();
-  [[nodiscard]] Root restart_or_linger() const;
+  [[nodiscard]] double next_landing();
+  void at_the_end(Root& root);
+  void walk_through_noise(Root& root);
+  void restart_or_linger(Root& root) const;
   [[nodiscard]] double zero_between(double low, double high) const;
   [[nodiscard]] double minimum_between(double low, double high) const;
 
@@ -106,7 +107,7 @@ class Search {
   const Coefficients first_, second_;
   const Curvature whole_;
   Curvature near_{-INFINITY, INFINITY, 0.0};
-  double third_ = 0.0;  ///< sup |g^(3)| on the window
+  double third_ = -1.0;  ///< sup |g^(3)| on the window, once it is needed
   double x_end_;
   long& evaluations_;
   double clear_ = 0.0;  ///< the last landing where g was above eight times its noise
@@ -137,6 +138,11 @@ Curvature Search::near_start() const {
   return {2.0 * a[2] - spread, 2.0 * a[2] + spread, X};
 }
 
+double Search::third() {
+  if (third_ < 0.0) third_ = weighted_size(guard_.taylor, [](int n) { return n * (n - 1.0) * (n - 2.0); });
+  return third_;
+}
+
 /// The bound to use at x_: the one near the start where it holds and is sharper.
 const Curvature& Search::best(double Curvature::*side) const {
   if (x_ >= near_.end) return whole_;
@@ -161,41 +167,45 @@ bool Search::certain_fall(double& zero) const {
 /// The end of the longest step that certainly passes no zero: the first zero of a parabola below g. Two are tried: with the least
 /// curvature of the interval ahead, and with half the curvature here: for d <= (3/2) g'' / sup |g^(3)|,
 ///     g'' d^2 / 2 - sup |g^(3)| d^3 / 6  >=  g'' d^2 / 4.
-double Search::next_landing() const {
+double Search::next_landing() {
   constexpr double short_of = 1.0 - 0x1p-40;  // more than the rounding of the step itself
   const double g = g_ - noise_, g1 = g1_ - bound(Bound::noise_1) - bound(Bound::slope_noise) * x_;
   const Curvature& ahead = best(&Curvature::low);
   double next = std::min(x_ + short_of * parabola_root(g, g1, ahead.low), ahead.end < 1.0 ? ahead.end : INFINITY);
-  if (const double g2 = g2_ - bound(Bound::curvature_noise); g2 > 0.0)
-    next = std::max(next, x_ + short_of * std::min(parabola_root(g, g1, 0.5 * g2), 1.5 * g2 / third_));
+  const double g2 = g2_ - bound(Bound::curvature_noise);
+  if (next < x_end_ && x_ > 0.0 && g2 > 0.0)
+    next = std::max(next, x_ + short_of * std::min(parabola_root(g, g1, 0.5 * g2), 1.5 * g2 / third()));
   return next;
 }
 
 /// No zero up to the window's end. Is g clear of the noise there, so that the next window starts clear of it?
-Root Search::at_the_end() {
-  if (guard_.hull.bernstein[7] > bound(hull_error)) return {RootKind::none, 1.0};
+void Search::at_the_end(Root& root) {
+  root.x = 1.0;
+  if (guard_.hull.bernstein[7] > bound(hull_error)) return;
   evaluate(1.0);
-  if (g_ > 8.0 * noise_) return {RootKind::none, 1.0};
-  return restart_or_linger();
+  if (g_ <= 8.0 * noise_) restart_or_linger(root);
 }
 
-Root Search::restart_or_linger() const {
-  if (clear_ > 0.0) return {RootKind::restart, clear_};
-  return {RootKind::none, 1.0, false, true};
+void Search::restart_or_linger(Root& root) const {
+  root.kind = clear_ > 0.0 ? RootKind::restart : RootKind::none;
+  root.x = clear_ > 0.0 ? clear_ : 1.0;
+  root.lingers = clear_ <= 0.0;
 }
 
 /// g is within the noise at x_, or so near it that no step is possible. Steps d with (g'' + sup |g^(3)| d) d^2 / 8 <= noise: between two
 /// points of the band g is above -2 noise. The first point below the band proves a crossing, the first above it a graze.
-Root Search::walk_through_noise() {
+void Search::walk_through_noise(Root& root) {
   const double start = x_, before = last_;
   for (;;) {
     const double bend = std::max(g2_, 0.0) + bound(Bound::curvature_noise);
-    const double d = std::min(std::sqrt(4.0 * noise_ / bend), std::cbrt(4.0 * noise_ / third_));
+    const double d = std::min(std::sqrt(4.0 * noise_ / bend), std::cbrt(4.0 * noise_ / third()));
     const double next = std::max(x_ + d, std::nextafter(x_, 2.0));
-    if (!(x_ < 1.0)) return restart_or_linger();
+    if (!(x_ < 1.0)) return restart_or_linger(root);
     evaluate(std::min(next, 1.0));
-    if (g_ < -noise_) return {RootKind::crossing, zero_between(before, x_)};
-    if (g_ > noise_) return {RootKind::graze, minimum_between(start, x_)};
+    if (!(std::abs(g_) > noise_)) continue;
+    root.kind = g_ < 0.0 ? RootKind::crossing : RootKind::graze;
+    root.x = g_ < 0.0 ? zero_between(before, x_) : minimum_between(start, x_);
+    return;
   }
 }
 
@@ -232,19 +242,25 @@ double Search::minimum_between(double low, double high) const {
   return x;
 }
 
-Root Search::run() {
+void Search::run(Root& root) {
   g_ = guard_.taylor[0][0];
   g1_ = guard_.taylor[0][1];
   g2_ = 2.0 * guard_.taylor[0][2];
   noise_ = bound(Bound::noise_0);
   near_ = near_start();
-  third_ = weighted_size(guard_.taylor, [](int n) { return n * (n - 1.0) * (n - 2.0); });
   for (;;) {
-    if (g_ <= noise_) return walk_through_noise();
-    if (double zero; certain_fall(zero)) return {RootKind::crossing, zero};
+    if (g_ <= noise_) return walk_through_noise(root);
+    if (certain_fall(root.x)) {
+      root.kind = RootKind::crossing;
+      return;
+    }
     const double next = next_landing();
-    if (next >= x_end_) return x_end_ < 1.0 ? Root{RootKind::none, x_end_} : at_the_end();
-    if (next <= x_) return walk_through_noise();
+    if (next >= x_end_) {
+      root.x = x_end_;
+      if (x_end_ == 1.0) at_the_end(root);
+      return;
+    }
+    if (next <= x_) return walk_through_noise(root);
     evaluate(next);
   }
 }
@@ -256,11 +272,17 @@ Root first_root(const GuardWindow& guard, double x_end, long& evaluations) {
   const bool falls =
       7.0 * greatest(d) < -guard.hull.bounds[slope_error] && guard.hull.bernstein[7] < -guard.hull.bounds[hull_error];
   Root root;
-  if (falls && settle(guard.taylor, hermite_start(guard, d), 0.0, 1.0, evaluations, root.x))
-    root = {RootKind::crossing, root.x, true};
+  root.falls = falls && settle(guard.taylor, hermite_start(guard, d), 0.0, 1.0, evaluations, root.x);
+  if (root.falls)
+    root.kind = RootKind::crossing;
   else
-    root = Search(guard, d, x_end, evaluations).run();
-  return root.x > x_end ? Root{RootKind::none, x_end} : root;
+    Search(guard, d, x_end, evaluations).run(root);
+  if (root.x > x_end) {
+    root.kind = RootKind::none;
+    root.x = x_end;
+    root.falls = false;
+  }
+  return root;
 }
 
 }  // namespace slapstick::event

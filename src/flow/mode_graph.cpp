@@ -35,6 +35,7 @@ double dot(const double* row, const double* X, int count) {
 
 double rate(const System& system, const mode::ContactRow& contact, const double* X) {
   const mode::Frame& frame = system.frame();
+  if (contact.own >= 0) return X[frame.u(contact.own)] + frame.drift[contact.own];
   double sum = 0.0;
   for (int i = 0; i < frame.n; ++i) sum += contact.row[i] * (X[frame.u(i)] + frame.drift[i]);
   return sum;

@@ -42,6 +42,7 @@ Motion::Motion(const System& system, const State& initial, Instant start_at, Mot
   frame.set_phase(now_.fraction, X_.data());
   X_segment_ = X_before_ = X_;
   start();
+  shown_ = -1;
 }
 
 /// A start in contact and approaching is an impact, the first event of the motion.
@@ -104,22 +105,19 @@ void Motion::fail(const std::string& what) const {
 }
 
 Outcome Motion::advance(Instant end) {
-  if (pending_count_ > 0) return next_pending();
+  if (shown_ + 1 < pending_count_) {
+    ++shown_;
+    return Outcome::event;
+  }
   if (end <= now_) return Outcome::reached_end;
   const double limit = end.since(flight_.start) * system_->period();
-  if (chatter_stop_ >= 0 && end_chatter(limit)) return next_pending();
+  pending_count_ = shown_ = 0;
+  if (chatter_stop_ >= 0 && end_chatter(limit)) return Outcome::event;
   begin_segment();
-  if (fly(limit)) return next_pending();
+  if (fly(limit)) return Outcome::event;
   now_ = end;
   system_->frame().set_phase(now_.fraction, X_.data());
   return Outcome::reached_end;
-}
-
-Outcome Motion::next_pending() {
-  event_ = pending_[0];
-  std::move(pending_.begin() + 1, pending_.begin() + pending_count_, pending_.begin());
-  --pending_count_;
-  return Outcome::event;
 }
 
 /// From the state now, in the mode just selected; `orders_` and `magnitude_` are those of this state.

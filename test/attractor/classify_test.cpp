@@ -47,6 +47,32 @@ TEST(classify, the_cycle_found_by_newton_is_not_a_multiple_of_a_shorter_one) {
   EXPECT_EQ(at(8.0).label, "4-1-I");
 }
 
+/// The fixed point of the one-period map near `start`, stable or not, by Newton's method.
+State fixed_point(const System& system, State start) {
+  const int n = system.frame().n;
+  for (int k = 0; k < 12; ++k) {
+    TangentMotion run(system, start, Eigen::MatrixXd::Identity(2 * n, 2 * n));
+    Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(run.motion().extended().data(), 2 * n);
+    while (run.advance({1, 0.0}) == Outcome::event) {
+    }
+    const Eigen::Map<const Eigen::VectorXd> image(run.motion().extended().data(), 2 * n);
+    x += (Eigen::MatrixXd::Identity(2 * n, 2 * n) - run.tangents()).fullPivLu().solve(image - x);
+    system.frame().leave(x.data(), start.data());
+  }
+  return start;
+}
+
+TEST(classify, a_start_exactly_on_a_cycle_that_repels_is_not_taken_for_its_attractor) {
+  const State stable = at(2.84).state;
+  const System system(paper_model({.omega = 2.88}));  // 1-1-I has doubled at 2.846
+  const State cycle = fixed_point(system, stable);
+  Motion motion(system, cycle);
+  while (motion.advance({1, 0.0}) == Outcome::event) {
+  }
+  for (std::size_t i = 0; i < cycle.size(); ++i) ASSERT_NEAR(motion.state()[i], cycle[i], 1e-12);
+  EXPECT_EQ(classify(system, cycle, {.transient_periods = 0}).label, "2-2-I");
+}
+
 TEST(classify, the_returned_state_repeats_itself_without_a_transient) {
   const System system(paper_model({.omega = 4.801}));
   const Classification found = classify(system, paper_start);

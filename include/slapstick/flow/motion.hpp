@@ -70,7 +70,7 @@ class Motion {
   /// @throws NumericalError with a replayable state if events pile up or no mode fits.
   Outcome advance(Instant end);
 
-  [[nodiscard]] const Event& event() const { return event_; }  ///< valid after Outcome::event
+  [[nodiscard]] const Event& event() const { return pending_[shown_]; }  ///< valid after Outcome::event
   /// The state just before the last event, in the user's coordinates.
   [[nodiscard]] std::span<const double> before() const;
 
@@ -130,7 +130,6 @@ class Motion {
   };
 
   void start();
-  Outcome next_pending();
   void begin_flight();
   void begin_segment();
   bool fly(double limit);
@@ -174,9 +173,8 @@ class Motion {
   std::vector<int> orders_;    ///< of the zeros of the mode's guards at the start of the present window
   std::vector<bool> lingers_;  ///< guards that are not clear of their noise at its end
   mutable State before_;
-  Event event_;
-  std::array<Event, 8> pending_;
-  int pending_count_ = 0;
+  std::array<Event, 8> pending_;       ///< the events of one instant, in order ..
+  int pending_count_ = 0, shown_ = 0;  ///< .. how many, and which one `event()` is
   const mode::Guard* hit_guard_ = nullptr;
   Counters counters_;
   std::int64_t budget_period_ = 0;

@@ -4,6 +4,7 @@
 #include "slapstick/attractor/classify.hpp"
 #include "slapstick/io/json.hpp"
 #include "verb.hpp"
+#include "work.hpp"
 
 namespace slapstick::app {
 namespace {
@@ -80,7 +81,10 @@ Action add_classify(Arguments& arguments) {
     Output out(options->out);
     const ChosenModel chosen = options->model.load();
     const State start = options->model.start(chosen);
-    const Classification found = classify(System(chosen.model), start,
+    constexpr double least_search = 10.0;  // periods
+    const System system =
+        affordable_system(chosen, {static_cast<double>(options->transient) + least_search, "--transient"});
+    const Classification found = classify(system, start,
                                           {.transient_periods = static_cast<int>(options->transient),
                                            .most_periods = static_cast<int>(options->most_periods),
                                            .most_n = static_cast<int>(options->most_n),

@@ -8,6 +8,7 @@
 #include "slapstick/base/text.hpp"
 #include "slapstick/sweep/diagram.hpp"
 #include "verb.hpp"
+#include "work.hpp"
 
 namespace slapstick::app {
 namespace {
@@ -64,10 +65,11 @@ void check_ends(const Options& options, const ChosenModel& chosen, const Sweep& 
     throw InputError("model " + in_quotes(chosen.model.name) + " has no stop, so a diagram has no impacts to show");
   for (const double value : {sweep.from, sweep.to}) {
     try {
-      const Model model = chosen.definition.build(values_at(chosen, sweep, value));
-      validate(model, options.model.start(chosen, {{sweep.name, value}}));
+      const Work work{static_cast<double>(options.transient) + 1.0, "--transient"};
+      const System system = affordable_system(chosen, work, {{sweep.name, value}});
+      validate(system.model(), options.model.start(chosen, {{sweep.name, value}}));
     } catch (const InputError& error) {
-      throw InputError("--sweep " + sweep.name + "=" + shown(value) + ": " + error.what());
+      throw InputError("--sweep " + sweep.name + "=" + shown(value) + ": " + without_place(error.what()));
     }
   }
 }

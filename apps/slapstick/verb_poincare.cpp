@@ -9,6 +9,7 @@
 #include "slapstick/section/impact_section.hpp"
 #include "slapstick/section/stroboscopic_section.hpp"
 #include "verb.hpp"
+#include "work.hpp"
 
 namespace slapstick::app {
 namespace {
@@ -128,7 +129,8 @@ int poincare(const Options& options, const Context& context) {
   roles.add("--out", options.out);
   roles.add_plot(options.plot);
   const bool impacts = options.section == "impact";
-  const System system(chosen.model);
+  const double periods = static_cast<double>(options.transient + (impacts ? 1 : options.points));
+  const System system = affordable_system(chosen, {periods, impacts ? "--transient" : "--transient or --points"});
   const Plot plot(options.plot);
   auto names = columns(impacts ? std::vector<std::string>{"time", "phase", "w", "flight", "sliding"}
                                : std::vector<std::string>{"time", "phase"},

@@ -11,6 +11,7 @@
 #include "slapstick/io/json.hpp"
 #include "slapstick/section/sampled_motion.hpp"
 #include "verb.hpp"
+#include "work.hpp"
 
 namespace slapstick::app {
 namespace {
@@ -37,8 +38,8 @@ std::vector<std::string> columns(std::vector<std::string> names, const Model& mo
 /// Everything a run writes to, opened before it starts.
 class Run {
  public:
-  Run(const Options& options, const ChosenModel& chosen, const State& start, Instant end)
-      : system_(chosen.model),
+  Run(const Options& options, const ChosenModel& chosen, System system, const State& start, Instant end)
+      : system_(std::move(system)),
         options_(options),
         end_(end),
         result_(options.out),
@@ -167,7 +168,9 @@ int simulate(const Options& options, bool by_time, const Context& context) {
   roles.add("--events", options.events);
   roles.add("--trajectory", options.trajectory);
   roles.add_plot(options.plot);
-  Run run(options, chosen, start, end_of(options, by_time, chosen.model));
+  const Instant end = end_of(options, by_time, chosen.model);
+  System system = affordable_system(chosen, {end.since({}), by_time ? "--time" : "--periods"});
+  Run run(options, chosen, std::move(system), start, end);
   const bool complete = run(context);
   run.write(complete, chosen, start);
   return complete ? done : interrupted;

@@ -109,7 +109,7 @@ TEST(ModelFile, meaningless_models_are_refused_at_their_line) {
 TEST(ModelFile, awkward_numbers_and_texts_survive_printing) {
   const std::string text = head + "notes = \"\"\"\na \\\\ \\\"quoted\\\" line\n\n  and ''' more\"\"\"\n" +
                            "parameters.m = { value = 123456789012345680000.0, description = \"a \\\"b\\\" \\\\ \xc3\xa9\" }\n" +
-                           "parameters.n = { value = -0.0 }\nparameters.d = { value = 5e-324 }\n" + mass + "[start]\nv1 = 'm / 3'\nx1 = -1e300\n";
+                           "parameters.n = { value = -0.0 }\nparameters.d = { value = 5e-324 }\n" + mass + "[start]\nv1 = 'm / 3'\nx1 = -1e49\n";
   const auto definition = ModelDefinition::parse(text, "f.toml");
   const auto printed = definition.to_toml();
   const auto again = ModelDefinition::parse(printed, "g.toml");

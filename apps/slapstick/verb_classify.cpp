@@ -1,6 +1,7 @@
 /// slapstick classify MODEL
 #include "model_options.hpp"
 #include "output.hpp"
+#include "progress.hpp"
 #include "slapstick/attractor/classify.hpp"
 #include "slapstick/io/json.hpp"
 #include "verb.hpp"
@@ -13,6 +14,7 @@ struct Options {
   ModelOptions model;
   std::string out;
   long long transient = 500, most_periods = 20'000, most_n = 64;
+  bool progress = false;
 };
 
 Json impacts_json(const std::vector<CycleImpact>& impacts, const std::vector<std::string>& names) {
@@ -70,6 +72,7 @@ Action add_classify(Arguments& arguments) {
                   "search for a cycle this long; default 20000");
   arguments.count("--most-n", options->most_n, 1, 4096, "longest cycle sought, in forcing periods; default 64");
   arguments.text("--out", options->out, "FILE", "write the JSON there instead of to standard output");
+  arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
       "The class n-p-I or n-p-II: n forcing periods, p impacts (inf with complete chatter), II if the blocks stick.\n"
       "A motion without a cycle is quasi-periodic, chaotic or undecided; docs/classify.md says how that is decided.\n"
@@ -84,11 +87,15 @@ Action add_classify(Arguments& arguments) {
     constexpr double least_search = 10.0;  // periods
     const System system =
         affordable_system(chosen, {static_cast<double>(options->transient) + least_search, "--transient"});
-    const Classification found = classify(system, start,
-                                          {.transient_periods = static_cast<int>(options->transient),
-                                           .most_periods = static_cast<int>(options->most_periods),
-                                           .most_n = static_cast<int>(options->most_n),
-                                           .cancel = &context.stop});
+    Progress progress("periods at most", static_cast<double>(options->transient + options->most_periods),
+                      options->progress);
+    const Classification found =
+        classify(system, start,
+                 {.transient_periods = static_cast<int>(options->transient),
+                  .most_periods = static_cast<int>(options->most_periods),
+                  .most_n = static_cast<int>(options->most_n),
+                  .cancel = &context.stop,
+                  .progress = [&](long periods) { progress.update(static_cast<double>(periods)); }});
     if (found.interrupted) return interrupted;
     out.write(result_json(found, chosen).dump() + "\n");
     out.commit();

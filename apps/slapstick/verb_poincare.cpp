@@ -1,12 +1,12 @@
 /// slapstick poincare MODEL
-#include <algorithm>
+#include <cstdio>
 
 #include "model_options.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/text.hpp"
-#include "slapstick/section/impact_section.hpp"
+#include "slapstick/section/run_impacts.hpp"
 #include "slapstick/section/stroboscopic_section.hpp"
 #include "verb.hpp"
 #include "work.hpp"
@@ -41,33 +41,17 @@ struct Cloud {
   }
 };
 
-/// Runs an impact section to `end`, or until `use` returns false. Looks up every 4096 periods, always at the same instants.
-/// @returns false if it was stopped
-template <class Use>
-bool run_impacts(ImpactSection& section, Instant end, const Context& context, const Use& use) {
-  SectionPoint point;
-  Instant stage = section.motion().time();
-  do {
-    stage = std::min(Instant{stage.period + 4096, stage.fraction}, end);
-    while (section.next(stage, point)) {
-      if (!use(point)) return true;
-      if (context.stop.load(std::memory_order_relaxed)) return false;
-    }
-    if (context.stop.load(std::memory_order_relaxed)) return false;
-  } while (stage < end);
-  return true;
-}
-
 bool impact_points(const Options& options, const System& system, Motion motion, TableOutput& table, Cloud& cloud,
                    const Context& context) {
   cloud.x_label = system.model().forced() ? "phase of the forcing / 2π" : "fraction of the unit of time";
   cloud.y_label = "w just before the impact";
   Progress progress("points", static_cast<double>(options.points), options.progress);
   ImpactSection section(std::move(motion));
-  if (!run_impacts(section, {options.transient, 0.0}, context, [](const SectionPoint&) { return true; })) return false;
+  if (!run_impacts(section, {options.transient, 0.0}, &context.stop, [](const SectionPoint&) { return true; }))
+    return false;
   long long count = 0;
-  const bool whole =
-      run_impacts(section, {options.transient + options.most_periods, 0.0}, context, [&](const SectionPoint& point) {
+  const bool whole = run_impacts(
+      section, {options.transient + options.most_periods, 0.0}, &context.stop, [&](const SectionPoint& point) {
         table.number(point.time.seconds(system.period())).number(point.phase).number(point.w);
         table.number(point.flight).number(point.sliding).numbers(point.state).end_row();
         if (!options.plot.empty()) {
@@ -92,8 +76,7 @@ bool strobe_points(const Options& options, const System& system, Motion motion, 
   StroboscopicSection section(std::move(motion), options.phase);
   StroboscopicPoint point;
   for (long long i = 0; i < options.transient + options.points; ++i) {
-    section.next(point);
-    if (context.stop.load(std::memory_order_relaxed)) return false;
+    if (!section.next(point, &context.stop)) return false;
     if (i < options.transient) continue;
     table.number(point.time.seconds(system.period()))
         .number(point.time.fraction)

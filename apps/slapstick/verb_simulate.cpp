@@ -8,6 +8,7 @@
 #include "progress.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/text.hpp"
+#include "slapstick/flow/stage.hpp"
 #include "slapstick/io/json.hpp"
 #include "slapstick/section/sampled_motion.hpp"
 #include "verb.hpp"
@@ -58,11 +59,10 @@ class Run {
   /// @returns false if it was stopped before the end
   bool operator()(const Context& context) {
     Progress progress("periods", end_.since({}), options_.progress);
-    Instant
-        stage;  // long runs without an event must look up too; always at the same instants, so that every run has the same bits
+    Instant stage;  // long runs without an event must look up too
     long steps = 0;
     do {
-      stage = std::min(Instant{stage.period + 4096, 0.0}, end_);
+      stage = next_stage(system_, stage, end_);
       for (auto item = motion_->next(stage); item != SampledMotion::Item::end; item = motion_->next(stage)) {
         if (item == SampledMotion::Item::event) note_event();
         if (item == SampledMotion::Item::sample) note_sample();

@@ -37,6 +37,23 @@ class FileActions {
   posix_spawn_file_actions_t actions_{};
 };
 
+/// In a process group of its own: a Ctrl-C in the terminal asks the program to stop, which then lets gnuplot finish.
+class Attributes {
+ public:
+  Attributes() {
+    posix_spawnattr_init(&attributes_);
+    posix_spawnattr_setpgroup(&attributes_, 0);
+    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP);
+  }
+  ~Attributes() { posix_spawnattr_destroy(&attributes_); }
+  Attributes(const Attributes&) = delete;
+  Attributes& operator=(const Attributes&) = delete;
+  const posix_spawnattr_t* get() const { return &attributes_; }
+
+ private:
+  posix_spawnattr_t attributes_{};
+};
+
 /// gnuplot echoes the line, points at the place and then says what is wrong: the last line that is not empty.
 std::string complaint(const std::filesystem::path& log) {
   std::ifstream in(log);
@@ -59,8 +76,9 @@ void run_gnuplot(const std::filesystem::path& folder, const std::string& script_
   std::string program = "gnuplot", option = "-d", script = "./" + script_name;
   char* const arguments[] = {program.data(), option.data(), script.data(), nullptr};
   const FileActions actions(folder.string());
+  const Attributes attributes;
   pid_t child = 0;
-  const int error = posix_spawnp(&child, program.c_str(), actions.get(), nullptr, arguments, environ);
+  const int error = posix_spawnp(&child, program.c_str(), actions.get(), attributes.get(), arguments, environ);
   if (error == ENOENT) throw StorageError("gnuplot not found: install gnuplot-nox");
   if (error != 0) throw StorageError(std::string("gnuplot does not start: ") + std::strerror(error));
   const int status = wait_for(child);

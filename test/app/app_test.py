@@ -2,8 +2,10 @@
 import math
 import os
 import signal
+import subprocess
+import time
 
-from program import good, main, read, refused, run, says, signalled, table
+from program import PROGRAM, good, main, read, refused, run, says, signalled, table
 
 PAPER_STATE = ['x1', 'v1', 'x2', 'v2']
 LONG_SWEEP = ('diagram', 'vibro-impact', '--sweep', 'omega=1:6:4000', '--transient', '2000')
@@ -225,11 +227,38 @@ def test_ctrl_c_writes_whole_rows_and_says_130():
     assert sorted(os.listdir('.')) == ['d.csv', 'e.csv']
 
 
+def test_ctrl_c_within_a_forcing_period_of_minutes():
+    slow = ('--set', 'omega=1e-8')
+    for words in (('simulate', 'vibro-impact', *slow, '--periods', '2', '--trajectory', 't.csv', '--samples', '1'),
+                  ('classify', 'vibro-impact', *slow, '--transient', '0'),
+                  ('poincare', 'vibro-impact', *slow, '--transient', '2'),
+                  ('poincare', 'vibro-impact', *slow, '--transient', '2', '--points', '1', '--section', 'stroboscopic'),
+                  ('diagram', 'vibro-impact', '--sweep', 'omega=1e-8:2e-8:2', '--transient', '2')):
+        done = signalled(signal.SIGINT, 1.0, *words, patience=2.0)
+        assert done.status == 130, (words, done.status, done.err)
+    assert os.listdir('.') == ['t.csv'], os.listdir('.')
+
+
+def test_a_second_signal_ends_at_once_and_leaves_no_temporary_file():
+    words = ('simulate', 'vibro-impact', '--periods', '1000000000', '--events', 'e.csv', '--trajectory', 't.csv', '--out', 'o.json')
+    for first in (signal.SIGINT, signal.SIGTERM):
+        process = subprocess.Popen([PROGRAM, *words], stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        time.sleep(0.5)
+        assert len(os.listdir('.')) == 3, os.listdir('.')
+        process.send_signal(signal.SIGSTOP)  # both signals arrive together: the first is not acted upon before the second
+        process.send_signal(first)
+        process.send_signal(signal.SIGTERM if first == signal.SIGINT else signal.SIGINT)
+        process.send_signal(signal.SIGCONT)
+        assert process.wait(timeout=5) == 130
+        assert os.listdir('.') == [], os.listdir('.')
+
+
 def test_progress_is_silent_when_nobody_looks():
     words = ('diagram', 'vibro-impact', '--sweep', 'omega=1:6:600', '--transient', '1500', '--impacts', '1', '--out', 'd.csv')
     assert good(*words) == ''
     done = run(*words, '--progress')
     assert done.status == 0 and ('left' in done.err or done.err == '')
+    says(run('classify', 'vibro-impact', '--transient', '4000000', '--progress').err, 'periods at most', 'left')
 
 
 main({name: case for name, case in globals().items() if name.startswith('test_')})

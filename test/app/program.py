@@ -43,14 +43,14 @@ def says(line, *parts):
         assert part in line, (part, line)
 
 
-def signalled(number, delay, *words):
-    """A run that gets a signal after `delay` seconds."""
+def signalled(number, delay, *words, patience=20):
+    """A run that gets a signal after `delay` seconds and must end within `patience` seconds."""
     process = subprocess.Popen([PROGRAM, *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     time.sleep(delay)
     process.send_signal(number)
     begin = time.monotonic()
     out, err = process.communicate(timeout=60)
-    assert time.monotonic() - begin < 20, 'it took too long to stop'
+    assert time.monotonic() - begin < patience, 'it took too long to stop'
     return Outcome(process.returncode, out.decode(), err.decode())
 
 

@@ -124,8 +124,7 @@ int poincare(const Options& options, const Context& context) {
   const bool whole =
       (impacts ? impact_points : strobe_points)(options, system, Motion(system, start), table, cloud, context);
   table.commit();
-  if (!cloud.x.empty()) plot.write(cloud.figure());
-  return whole ? done : interrupted;
+  return plot.write_or_say(cloud.figure(), cloud.x.empty(), whole ? done : interrupted);
 }
 
 }  // namespace

@@ -75,12 +75,13 @@ class Run {
     return true;
   }
 
-  void write(bool complete, const ChosenModel& chosen, const State& start) {
+  /// @returns the exit status
+  int write(bool complete, const ChosenModel& chosen, const State& start) {
     if (events_) events_->commit();
     if (trajectory_) trajectory_->commit();
     result_.write(summary(complete, chosen, start).dump() + "\n");
     result_.commit();
-    if (plot_.wanted() && !picture_.empty()) plot_.write(picture_.figure());
+    return plot_.write_or_say(picture_.figure(), picture_.empty(), complete ? done : interrupted);
   }
 
  private:
@@ -172,8 +173,7 @@ int simulate(const Options& options, bool by_time, const Context& context) {
   System system = affordable_system(chosen, {end.since({}), by_time ? "--time" : "--periods"});
   Run run(options, chosen, std::move(system), start, end);
   const bool complete = run(context);
-  run.write(complete, chosen, start);
-  return complete ? done : interrupted;
+  return run.write(complete, chosen, start);
 }
 
 }  // namespace

@@ -6,10 +6,13 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 
 #include "slapstick/base/error.hpp"
+#include "slapstick/figure/figure.hpp"
 
 extern char** environ;
 
@@ -70,7 +73,20 @@ int wait_for(pid_t child) {
   return status;
 }
 
+constexpr const char* not_found = "gnuplot not found: install gnuplot-nox";
+
 }  // namespace
+
+void demand_gnuplot() {
+  const char* path = std::getenv("PATH");
+  std::stringstream folders(path != nullptr ? path : "/bin:/usr/bin");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const std::filesystem::path program = std::filesystem::path(folder.empty() ? "." : folder) / "gnuplot";
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(program, ignored) && ::access(program.c_str(), X_OK) == 0) return;
+  }
+  throw StorageError(not_found);
+}
 
 void run_gnuplot(const std::filesystem::path& folder, const std::string& script_name) {
   std::string program = "gnuplot", option = "-d", script = "./" + script_name;
@@ -79,11 +95,11 @@ void run_gnuplot(const std::filesystem::path& folder, const std::string& script_
   const Attributes attributes;
   pid_t child = 0;
   const int error = posix_spawnp(&child, program.c_str(), actions.get(), attributes.get(), arguments, environ);
-  if (error == ENOENT) throw StorageError("gnuplot not found: install gnuplot-nox");
+  if (error == ENOENT) throw StorageError(not_found);
   if (error != 0) throw StorageError(std::string("gnuplot does not start: ") + std::strerror(error));
   const int status = wait_for(child);
   if (WIFSIGNALED(status)) throw StorageError("gnuplot was ended by signal " + std::to_string(WTERMSIG(status)) + " while drawing " + script_name);
-  if (WEXITSTATUS(status) == 127) throw StorageError("gnuplot not found: install gnuplot-nox");
+  if (WEXITSTATUS(status) == 127) throw StorageError(not_found);
   if (status != 0) throw StorageError("gnuplot cannot draw " + script_name + ": " + complaint(folder / log_name));
 }
 

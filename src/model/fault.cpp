@@ -93,8 +93,7 @@ void check_name(Check& check, const std::string& name, std::set<std::string>& us
 
 Found check_coordinate(const Coordinate& coordinate, int index, std::set<std::string>& used) {
   Check check("coordinate", index);
-  for (const auto word : reserved)
-    if (coordinate.name == word) check.fail("name", "name " + in_quotes(coordinate.name) + " is reserved");
+  if (is_reserved(coordinate.name)) check.fail("name", "name " + in_quotes(coordinate.name) + " is reserved");
   check_name(check, coordinate.name, used);
   const auto velocity = velocity_name(coordinate.name);
   if (!used.insert(velocity).second)
@@ -210,6 +209,8 @@ std::string part_name(const Fault& fault, const Model& model) {
 }
 
 }  // namespace
+
+bool is_reserved(std::string_view name) { return std::find(reserved.begin(), reserved.end(), name) != reserved.end(); }
 
 std::string Fault::place(const Model& model) const {
   if (index < 0) return part;

@@ -24,13 +24,13 @@ std::vector<PlannedPart> plan() {
 }
 
 void prepare(const std::filesystem::path& folder) {
+  figure::demand_gnuplot();  // this and the rest are known before minutes are spent
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder))
     throw StorageError("cannot make folder '" + folder.string() +
                        "': " + (error ? error.message() : "a file of that name is in the way"));
-  for (const char* name : {"claims.json", "index.html"})
-    const AtomicFile writable(folder / name);  // known before an hour is spent
+  for (const char* name : {"claims.json", "index.html"}) const AtomicFile writable(folder / name);
 }
 
 std::vector<Claim> run(Study& study) {

@@ -89,7 +89,8 @@ def test_contradictions_are_refused():
     says(refused(2, 'simulate', 'vibro-impact', '--set', 'omega=1', '--set', 'omega=2'), '--set')
     says(refused(2, 'diagram', 'vibro-impact', '--sweep', 'omega=1:2:3', '--set', 'omega=2'), '--sweep')
     says(refused(2, 'diagram', 'vibro-impact', '--sweep', 'omega=1:2:3', '--direction', 'both', '--start', 'reset'), '--direction')
-    says(refused(2, 'diagram', 'belt', '--sweep', 'belt_speed=1:2:3'), 'stop')
+    says(refused(2, 'diagram', 'belt', '--sweep', 'belt_speed=1:2:3'), 'no stop', 'simulate')
+    says(refused(2, 'diagram', 'coulomb-oscillator', '--sweep', 'omega=1:2:3'), 'no stop', 'poincare')
     says(refused(2, 'poincare', 'belt'), 'stop')
     says(refused(2, 'poincare', 'belt', '--section', 'stroboscopic'), 'forcing')
 
@@ -140,8 +141,40 @@ def test_one_file_for_two_roles_is_refused():
     model = read('m.toml')
     says(refused(2, 'simulate', 'm.toml', '--events', './m.toml'), 'm.toml', 'MODEL')
     says(refused(2, 'simulate', 'm.toml', '--events', 'a.csv', '--trajectory', './a.csv'), '--events')
-    says(refused(2, 'simulate', 'm.toml', '--events', 'a.csv', '--plot', 'a.png'), '--events', '--plot')
+    says(refused(2, 'simulate', 'm.toml', '--events', 'a-plot.csv', '--plot', 'a.png'), '--events', '--plot')
     assert read('m.toml') == model and os.listdir('.') == ['m.toml']
+
+
+def test_a_table_and_a_picture_of_one_name_do_not_clash():
+    good('diagram', 'vibro-impact', '--sweep', 'omega=2:3:3', '--impacts', '5', '--plot', 'd.png', '--out', 'd.csv')
+    assert sorted(os.listdir('.')) == ['d-plot.csv', 'd.csv', 'd.gp', 'd.png']
+    says(read('d.gp'), './d-plot.csv')
+    says(read('d.csv'), 'omega,direction')
+
+
+def test_a_picture_without_points_is_missed_aloud():
+    words = ('vibro-impact', '--plot', 'p.png', '--out', 'p.csv')
+    sweep = ('--sweep', 'clearance=8:9:2', '--direction', 'both')
+    done = run('diagram', *words, *sweep)
+    assert done.status == 3, done.status
+    says(done.err, '--plot: there are no points', 'no impacts at 2 (up) and 2 (down) of the values, first clearance = 8')
+    done = run('poincare', *words, '--set', 'clearance=9', '--most-periods', '10')
+    assert done.status == 3, done.status
+    says(done.err, '--plot: there are no points', 'only 0 impacts')
+    assert os.listdir('.') == ['p.csv']
+
+
+def test_a_missing_gnuplot_is_noticed_before_the_work():
+    for words in ((*LONG_SWEEP, '--plot', 'p.png'), ('simulate', 'vibro-impact', '--periods', '1000000000', '--plot', 'p.png'),
+                  ('poincare', 'vibro-impact', '--points', '1000000000', '--plot', 'p.png'), ('reproduce', '--out', 'out')):
+        says(refused(4, *words, timeout=10, env={'PATH': '/nowhere'}), 'gnuplot not found: install gnuplot-nox')
+    assert os.listdir('.') == []
+
+
+def test_json_numbers_have_17_digits_and_are_finite():
+    text = good('classify', 'vibro-impact', '--set', 'omega=0.552', '--set', 'friction=0.2') + good('simulate', 'vibro-impact')
+    says(text, '"static_friction": 0.20000000000000001')
+    assert ': nan' not in text and ': -inf' not in text and ': inf' not in text
 
 
 def test_events_have_the_stable_columns():

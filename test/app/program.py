@@ -17,7 +17,7 @@ class Outcome:
 def run(*words, **options):
     """slapstick WORDS; `out` is a file to take standard output instead."""
     done = subprocess.run([PROGRAM, *words], stdin=subprocess.DEVNULL, stdout=options.get('out', subprocess.PIPE),
-                          stderr=subprocess.PIPE, check=False, timeout=options.get('timeout', 120))
+                          stderr=subprocess.PIPE, check=False, timeout=options.get('timeout', 120), env=options.get('env'))
     return Outcome(done.returncode, (done.stdout or b'').decode(), done.stderr.decode())
 
 

@@ -122,5 +122,14 @@ TEST(ModelFile, awkward_numbers_and_texts_survive_printing) {
   EXPECT_EQ(again.start(), definition.start());
 }
 
+TEST(ModelFile, a_reserved_coordinate_name_is_told_before_what_follows_from_it) {
+  try {
+    (void)ModelDefinition::parse("name = 'm'\n[[coordinate]]\nname = 'w'\nmass = 1\n[[spring]]\nbetween = ['x', 'ground']\nstiffness = 1\n", "f.toml");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).substr(0, 40), "f.toml:2: coordinate 'w': this name is r");
+  }
+}
+
 }  // namespace
 }  // namespace slapstick

@@ -12,6 +12,7 @@
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/floating_point.hpp"
 #include "slapstick/base/nearest.hpp"
+#include "slapstick/io/atomic_file.hpp"
 #include "verb.hpp"
 
 namespace slapstick::app {
@@ -22,7 +23,9 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 /// The first signal asks for a clean end, the second ends the program at once.
 extern "C" void on_signal(int) {
-  if (stop_requested.exchange(true)) ::_exit(interrupted);
+  if (!stop_requested.exchange(true)) return;
+  remove_temporary_files();
+  ::_exit(interrupted);
 }
 
 void catch_signals() {

@@ -6,6 +6,7 @@
 
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/nearest.hpp"
+#include "slapstick/base/text.hpp"
 
 namespace slapstick::app {
 namespace {
@@ -39,19 +40,18 @@ ChosenModel ModelOptions::load() const {
     if (!overrides.emplace(name, parse_number("--set " + name, text)).second)
       throw InputError("--set: " + in_quotes(name) + " is set twice");
   }
-  try {
-    Model model = definition.build(overrides);
-    return {std::move(definition), std::move(overrides), std::move(model)};
-  } catch (const InputError& error) {
-    if (overrides.empty()) throw;
-    throw InputError(std::string("--set: ") + error.what());
-  }
+  Model model = blaming(overrides, [&](const Overrides& values) { return definition.build(values); });
+  return {std::move(definition), std::move(overrides), std::move(model)};
 }
 
 State ModelOptions::start(const ChosenModel& chosen, const Overrides& more) const {
   Overrides overrides = more;
   overrides.insert(chosen.overrides.begin(), chosen.overrides.end());
-  if (state.empty()) return chosen.definition.start(overrides);
+  if (state.empty())
+    return blaming(chosen.overrides, [&](Overrides values) {
+      values.insert(more.begin(), more.end());
+      return chosen.definition.start(values);
+    });
   State start(2 * static_cast<std::size_t>(chosen.model.size()), 0.0);
   try {
     start = chosen.definition.start(overrides);
@@ -72,6 +72,27 @@ State ModelOptions::start(const ChosenModel& chosen, const Overrides& more) cons
     throw InputError(std::string("--") + error.what());  // "--state: stop 'stop' is violated: .."
   }
   return start;
+}
+
+std::string without_place(const std::string& message) {
+  const auto end = message.find(": ");
+  if (end == std::string::npos) return message;
+  const auto digits = message.find_last_not_of("0123456789", end - 1);
+  const bool place = digits != std::string::npos && digits + 1 < end && message[digits] == ':';
+  return place ? message.substr(end + 2) : message;
+}
+
+InputError blame(const Overrides& sets, const std::function<bool(const Overrides&)>& works, const std::string& error) {
+  if (sets.empty() || !works({})) return InputError(error);  // the values are not the cause
+  std::string decisive, all;
+  for (const auto& [name, value] : sets) {
+    const std::string argument = "--set " + name + "=" + shown(value);
+    Overrides others = sets;
+    others.erase(name);
+    if (works(others)) decisive += (decisive.empty() ? "" : ", ") + argument;
+    all += (all.empty() ? "" : ", ") + argument;
+  }
+  return InputError((decisive.empty() ? all : decisive) + ": " + without_place(error));
 }
 
 std::pair<std::string, std::string> name_and_text(const std::string& argument, const std::string& text,

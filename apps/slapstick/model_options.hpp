@@ -1,9 +1,11 @@
 #pragma once
 /// MODEL, --set and --state: what most verbs begin with.
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "arguments.hpp"
+#include "slapstick/base/error.hpp"
 #include "slapstick/io/model_file.hpp"
 
 namespace slapstick::app {
@@ -27,6 +29,32 @@ struct ModelOptions {
   /// The start: the model's own, with the numbers of --state in place of it. `more` are parameter values on top of --set.
   [[nodiscard]] State start(const ChosenModel& chosen, const Overrides& more = {}) const;
 };
+
+/// Why `error` happened, as a person at the command line sees it: the values of --set without any one of which `works` is true (all of
+/// them if no single one decides) before the message, without the line of the model file, where nothing is wrong.
+[[nodiscard]] InputError blame(const Overrides& sets, const std::function<bool(const Overrides&)>& works,
+                               const std::string& error);
+
+/// make(sets), with the values of --set named if it throws an InputError because of them.
+template <class Make>
+[[nodiscard]] auto blaming(const Overrides& sets, const Make& make) {
+  try {
+    return make(sets);
+  } catch (const InputError& error) {
+    const auto works = [&](const Overrides& values) {
+      try {
+        (void)make(values);
+        return true;
+      } catch (const InputError&) {
+        return false;
+      }
+    };
+    throw blame(sets, works, error.what());
+  }
+}
+
+/// The message without "FILE:LINE: " before it.
+[[nodiscard]] std::string without_place(const std::string& message);
 
 /// Splits "NAME=TEXT". @throws InputError naming the argument
 [[nodiscard]] std::pair<std::string, std::string> name_and_text(const std::string& argument, const std::string& text,

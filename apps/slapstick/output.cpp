@@ -7,6 +7,7 @@
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/text.hpp"
 #include "slapstick/io/table.hpp"
+#include "verb.hpp"
 
 namespace slapstick::app {
 
@@ -70,10 +71,20 @@ Plot::Plot(const std::string& path) {
   stem_ = file;
   stem_.replace_extension();
   const AtomicFile writable(file);  // goes away without a trace
+  figure::demand_gnuplot();
 }
 
 void Plot::write(const figure::Figure& figure) const {
   if (wanted()) figure::write(figure, stem_, formats_);
+}
+
+int Plot::write_or_say(const figure::Figure& figure, bool empty, int status) const {
+  if (!wanted() || !empty) {
+    write(figure);
+    return status;
+  }
+  std::fprintf(stderr, "slapstick: --plot: there are no points to draw, so the picture is not made\n");
+  return status == done ? nothing_to_draw : status;
 }
 
 void FileRoles::add(const std::string& argument, const std::string& path) {
@@ -92,9 +103,9 @@ void FileRoles::add(const std::string& argument, const std::string& path) {
 void FileRoles::add_plot(const std::string& path) {
   if (path.empty()) return;
   add("--plot", path);
-  for (const char* ending : {".csv", ".gp"}) {
-    fs::path beside(path);
-    add("--plot " + path + " (its data and script lie beside it)", beside.replace_extension(ending).string());
+  for (const char* ending : {"-plot.csv", ".gp"}) {
+    const std::string beside = fs::path(path).replace_extension().string() + ending;
+    add("--plot " + path + " (its data and script lie beside it)", beside);
   }
 }
 

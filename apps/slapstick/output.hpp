@@ -12,6 +12,9 @@
 
 namespace slapstick::app {
 
+/// Exit status of a run whose picture has no points: all other results are there, but not what was asked for.
+inline constexpr int nothing_to_draw = 3;
+
 /// A file, or standard output if the path is empty.
 class Output {
  public:
@@ -49,6 +52,9 @@ class Plot {
   [[nodiscard]] bool wanted() const { return !stem_.empty(); }
   /// @throws StorageError
   void write(const figure::Figure& figure) const;
+  /// The same, or a line on standard error if the figure is empty. `status`: the exit status so far.
+  /// @returns the exit status: `nothing_to_draw` for a picture that was wanted and is not made, if nothing worse happened
+  [[nodiscard]] int write_or_say(const figure::Figure& figure, bool empty, int status) const;
 
  private:
   std::filesystem::path stem_;

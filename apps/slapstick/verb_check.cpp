@@ -4,6 +4,7 @@
 #include "slapstick/flow/motion.hpp"
 #include "slapstick/io/json.hpp"
 #include "verb.hpp"
+#include "work.hpp"
 
 namespace slapstick::app {
 
@@ -17,7 +18,7 @@ Action add_check(Arguments& arguments) {
       "exit status is 2, and the message names file, line and key, if it is not sound.");
   return [options](const Context&) {
     const ChosenModel chosen = options->load();
-    const System system(chosen.model);
+    const System system = affordable_system(chosen, {});
     const Motion motion(system, options->start(chosen));
     Json parameters = Json::object();
     for (const auto& [name, value] : chosen.definition.values(chosen.overrides)) parameters.set(name, value);

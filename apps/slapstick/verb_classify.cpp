@@ -1,9 +1,11 @@
 /// slapstick classify MODEL
 #include "model_options.hpp"
 #include "output.hpp"
+#include "progress.hpp"
 #include "slapstick/attractor/classify.hpp"
 #include "slapstick/io/json.hpp"
 #include "verb.hpp"
+#include "work.hpp"
 
 namespace slapstick::app {
 namespace {
@@ -12,6 +14,7 @@ struct Options {
   ModelOptions model;
   std::string out;
   long long transient = 500, most_periods = 20'000, most_n = 64;
+  bool progress = false;
 };
 
 Json impacts_json(const std::vector<CycleImpact>& impacts, const std::vector<std::string>& names) {
@@ -69,6 +72,7 @@ Action add_classify(Arguments& arguments) {
                   "search for a cycle this long; default 20000");
   arguments.count("--most-n", options->most_n, 1, 4096, "longest cycle sought, in forcing periods; default 64");
   arguments.text("--out", options->out, "FILE", "write the JSON there instead of to standard output");
+  arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
       "The class n-p-I or n-p-II: n forcing periods, p impacts (inf with complete chatter), II if the blocks stick.\n"
       "A motion without a cycle is quasi-periodic, chaotic or undecided; docs/classify.md says how that is decided.\n"
@@ -80,11 +84,18 @@ Action add_classify(Arguments& arguments) {
     Output out(options->out);
     const ChosenModel chosen = options->model.load();
     const State start = options->model.start(chosen);
-    const Classification found = classify(System(chosen.model), start,
-                                          {.transient_periods = static_cast<int>(options->transient),
-                                           .most_periods = static_cast<int>(options->most_periods),
-                                           .most_n = static_cast<int>(options->most_n),
-                                           .cancel = &context.stop});
+    constexpr double least_search = 10.0;  // periods
+    const System system =
+        affordable_system(chosen, {static_cast<double>(options->transient) + least_search, "--transient"});
+    Progress progress("periods at most", static_cast<double>(options->transient + options->most_periods),
+                      options->progress);
+    const Classification found =
+        classify(system, start,
+                 {.transient_periods = static_cast<int>(options->transient),
+                  .most_periods = static_cast<int>(options->most_periods),
+                  .most_n = static_cast<int>(options->most_n),
+                  .cancel = &context.stop,
+                  .progress = [&](long periods) { progress.update(static_cast<double>(periods)); }});
     if (found.interrupted) return interrupted;
     out.write(result_json(found, chosen).dump() + "\n");
     out.commit();

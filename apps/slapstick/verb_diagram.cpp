@@ -8,6 +8,7 @@
 #include "slapstick/base/text.hpp"
 #include "slapstick/sweep/diagram.hpp"
 #include "verb.hpp"
+#include "work.hpp"
 
 namespace slapstick::app {
 namespace {
@@ -28,13 +29,13 @@ struct Sweep {
 };
 
 Sweep parse_sweep(const std::string& text) {
-  const auto [name, range] = name_and_text("--sweep", text, "NAME=FROM:TO:COUNT");
+  const auto [name, range] = name_and_text("--sweep", text, "NAME=A:B:COUNT");
   const auto parts = split(range, ':');
-  if (parts.size() != 3) throw InputError("--sweep: " + in_quotes(text) + " is not of the form NAME=FROM:TO:COUNT");
-  Sweep sweep{name, parse_number("--sweep FROM", parts[0]), parse_number("--sweep TO", parts[1]),
+  if (parts.size() != 3) throw InputError("--sweep: " + in_quotes(text) + " is not of the form NAME=A:B:COUNT");
+  Sweep sweep{name, parse_number("--sweep A", parts[0]), parse_number("--sweep B", parts[1]),
               static_cast<int>(parse_integer("--sweep COUNT", parts[2], 2, 100'000'000))};
   if (!(sweep.from < sweep.to))
-    throw InputError("--sweep: FROM = " + shown(sweep.from) + " is not below TO = " + shown(sweep.to) +
+    throw InputError("--sweep: A = " + shown(sweep.from) + " is not below B = " + shown(sweep.to) +
                      " (use --direction down to sweep downwards)");
   return sweep;
 }
@@ -61,13 +62,16 @@ void check_ends(const Options& options, const ChosenModel& chosen, const Sweep& 
   if (chosen.overrides.count(sweep.name) != 0)
     throw InputError("--sweep: " + in_quotes(sweep.name) + " is given by --set too");
   if (chosen.model.stops.empty())
-    throw InputError("model " + in_quotes(chosen.model.name) + " has no stop, so a diagram has no impacts to show");
+    throw InputError(
+        "model " + in_quotes(chosen.model.name) + " has no stop, so a diagram has no impacts to show; " +
+        (chosen.model.forced() ? "`poincare --section stroboscopic` needs none" : "`simulate` needs none"));
   for (const double value : {sweep.from, sweep.to}) {
     try {
-      const Model model = chosen.definition.build(values_at(chosen, sweep, value));
-      validate(model, options.model.start(chosen, {{sweep.name, value}}));
+      const Work work{static_cast<double>(options.transient) + 1.0, "--transient"};
+      const System system = affordable_system(chosen, work, {{sweep.name, value}});
+      validate(system.model(), options.model.start(chosen, {{sweep.name, value}}));
     } catch (const InputError& error) {
-      throw InputError("--sweep " + sweep.name + "=" + shown(value) + ": " + error.what());
+      throw InputError("--sweep " + sweep.name + "=" + shown(value) + ": " + without_place(error.what()));
     }
   }
 }
@@ -110,6 +114,7 @@ figure::Figure picture(const sweep::Diagram& diagram, const Sweep& sweep, bool b
   for (const bool flight : {false, true}) {
     figure::Points up{.label = both ? "up" : "", .colour = figure::colours::dark_blue};
     figure::Points down{.label = both ? "down" : "", .colour = figure::colours::vermillion};
+    if (both) up.diameter_mm = 2.0 * down.diameter_mm;  // where both directions agree, up shows as a rim around down
     for (const sweep::DiagramPoint& point : diagram.points) {
       figure::Points& cloud = point.direction == Direction::up ? up : down;
       for (std::size_t i = 0; i < point.impacts.size(); ++i) {
@@ -129,17 +134,28 @@ figure::Figure picture(const sweep::Diagram& diagram, const Sweep& sweep, bool b
   return figure;
 }
 
+/// "3 (up) and 1 (down)"
+std::string per_direction(long up, long down) {
+  std::string text = up > 0 ? std::to_string(up) + " (up)" : "";
+  if (down > 0) text += (up > 0 ? " and " : "") + std::to_string(down) + " (down)";
+  return text;
+}
+
 /// Says on standard error what a table cannot. @throws NumericalError if a value failed
 void report(const sweep::Diagram& diagram, const Sweep& sweep) {
-  long notes = 0, failures = 0, empty = 0;
-  const sweep::DiagramPoint *note = nullptr, *failure = nullptr;
+  long notes = 0, failures = 0, empty[2] = {};
+  const sweep::DiagramPoint *note = nullptr, *failure = nullptr, *without = nullptr;
   for (const sweep::DiagramPoint& point : diagram.points) {
     if (!point.note.empty() && notes++ == 0) note = &point;
     if (!point.failure.empty() && failures++ == 0) failure = &point;
-    empty += point.done && point.failure.empty() && point.impacts.size() == 0;
+    if (!point.done || !point.failure.empty() || point.impacts.size() > 0) continue;
+    if (without == nullptr) without = &point;
+    ++empty[point.direction == Direction::up ? 0 : 1];
   }
   const auto at = [&](const sweep::DiagramPoint& point) { return sweep.name + " = " + shown(point.parameter); };
-  if (empty > 0) std::fprintf(stderr, "slapstick: %ld values have no impacts (see --most-periods)\n", empty);
+  if (without != nullptr)
+    std::fprintf(stderr, "slapstick: no impacts at %s of the values, first %s (see --most-periods)\n",
+                 per_direction(empty[0], empty[1]).c_str(), at(*without).c_str());
   if (note != nullptr)
     std::fprintf(stderr, "slapstick: %ld values, first %s: %s\n", notes, at(*note).c_str(), note->note.c_str());
   if (failure != nullptr)
@@ -172,9 +188,10 @@ int diagram(const Options& options, const Context& context) {
   write_table(table, result);
   bool any = false;
   for (const sweep::DiagramPoint& point : result.points) any = any || point.impacts.size() > 0;
-  if (any) plot.write(picture(result, sweep, problem.direction == Direction::both));
+  const int status = plot.write_or_say(picture(result, sweep, problem.direction == Direction::both), !any,
+                                       result.complete ? done : interrupted);
   report(result, sweep);
-  return result.complete ? done : interrupted;
+  return status;
 }
 
 }  // namespace

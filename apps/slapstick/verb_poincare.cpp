@@ -1,14 +1,15 @@
 /// slapstick poincare MODEL
-#include <algorithm>
+#include <cstdio>
 
 #include "model_options.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/text.hpp"
-#include "slapstick/section/impact_section.hpp"
+#include "slapstick/section/run_impacts.hpp"
 #include "slapstick/section/stroboscopic_section.hpp"
 #include "verb.hpp"
+#include "work.hpp"
 
 namespace slapstick::app {
 namespace {
@@ -40,33 +41,17 @@ struct Cloud {
   }
 };
 
-/// Runs an impact section to `end`, or until `use` returns false. Looks up every 4096 periods, always at the same instants.
-/// @returns false if it was stopped
-template <class Use>
-bool run_impacts(ImpactSection& section, Instant end, const Context& context, const Use& use) {
-  SectionPoint point;
-  Instant stage = section.motion().time();
-  do {
-    stage = std::min(Instant{stage.period + 4096, stage.fraction}, end);
-    while (section.next(stage, point)) {
-      if (!use(point)) return true;
-      if (context.stop.load(std::memory_order_relaxed)) return false;
-    }
-    if (context.stop.load(std::memory_order_relaxed)) return false;
-  } while (stage < end);
-  return true;
-}
-
 bool impact_points(const Options& options, const System& system, Motion motion, TableOutput& table, Cloud& cloud,
                    const Context& context) {
   cloud.x_label = system.model().forced() ? "phase of the forcing / 2π" : "fraction of the unit of time";
   cloud.y_label = "w just before the impact";
   Progress progress("points", static_cast<double>(options.points), options.progress);
   ImpactSection section(std::move(motion));
-  if (!run_impacts(section, {options.transient, 0.0}, context, [](const SectionPoint&) { return true; })) return false;
+  if (!run_impacts(section, {options.transient, 0.0}, &context.stop, [](const SectionPoint&) { return true; }))
+    return false;
   long long count = 0;
-  const bool whole =
-      run_impacts(section, {options.transient + options.most_periods, 0.0}, context, [&](const SectionPoint& point) {
+  const bool whole = run_impacts(
+      section, {options.transient + options.most_periods, 0.0}, &context.stop, [&](const SectionPoint& point) {
         table.number(point.time.seconds(system.period())).number(point.phase).number(point.w);
         table.number(point.flight).number(point.sliding).numbers(point.state).end_row();
         if (!options.plot.empty()) {
@@ -91,8 +76,7 @@ bool strobe_points(const Options& options, const System& system, Motion motion, 
   StroboscopicSection section(std::move(motion), options.phase);
   StroboscopicPoint point;
   for (long long i = 0; i < options.transient + options.points; ++i) {
-    section.next(point);
-    if (context.stop.load(std::memory_order_relaxed)) return false;
+    if (!section.next(point, &context.stop)) return false;
     if (i < options.transient) continue;
     table.number(point.time.seconds(system.period()))
         .number(point.time.fraction)
@@ -128,7 +112,8 @@ int poincare(const Options& options, const Context& context) {
   roles.add("--out", options.out);
   roles.add_plot(options.plot);
   const bool impacts = options.section == "impact";
-  const System system(chosen.model);
+  const double periods = static_cast<double>(options.transient + (impacts ? 1 : options.points));
+  const System system = affordable_system(chosen, {periods, impacts ? "--transient" : "--transient or --points"});
   const Plot plot(options.plot);
   auto names = columns(impacts ? std::vector<std::string>{"time", "phase", "w", "flight", "sliding"}
                                : std::vector<std::string>{"time", "phase"},
@@ -139,8 +124,7 @@ int poincare(const Options& options, const Context& context) {
   const bool whole =
       (impacts ? impact_points : strobe_points)(options, system, Motion(system, start), table, cloud, context);
   table.commit();
-  if (!cloud.x.empty()) plot.write(cloud.figure());
-  return whole ? done : interrupted;
+  return plot.write_or_say(cloud.figure(), cloud.x.empty(), whole ? done : interrupted);
 }
 
 }  // namespace

@@ -8,9 +8,11 @@
 #include "progress.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/text.hpp"
+#include "slapstick/flow/stage.hpp"
 #include "slapstick/io/json.hpp"
 #include "slapstick/section/sampled_motion.hpp"
 #include "verb.hpp"
+#include "work.hpp"
 
 namespace slapstick::app {
 namespace {
@@ -37,8 +39,8 @@ std::vector<std::string> columns(std::vector<std::string> names, const Model& mo
 /// Everything a run writes to, opened before it starts.
 class Run {
  public:
-  Run(const Options& options, const ChosenModel& chosen, const State& start, Instant end)
-      : system_(chosen.model),
+  Run(const Options& options, const ChosenModel& chosen, System system, const State& start, Instant end)
+      : system_(std::move(system)),
         options_(options),
         end_(end),
         result_(options.out),
@@ -57,11 +59,10 @@ class Run {
   /// @returns false if it was stopped before the end
   bool operator()(const Context& context) {
     Progress progress("periods", end_.since({}), options_.progress);
-    Instant
-        stage;  // long runs without an event must look up too; always at the same instants, so that every run has the same bits
+    Instant stage;  // long runs without an event must look up too
     long steps = 0;
     do {
-      stage = std::min(Instant{stage.period + 4096, 0.0}, end_);
+      stage = next_stage(system_, stage, end_);
       for (auto item = motion_->next(stage); item != SampledMotion::Item::end; item = motion_->next(stage)) {
         if (item == SampledMotion::Item::event) note_event();
         if (item == SampledMotion::Item::sample) note_sample();
@@ -74,12 +75,13 @@ class Run {
     return true;
   }
 
-  void write(bool complete, const ChosenModel& chosen, const State& start) {
+  /// @returns the exit status
+  int write(bool complete, const ChosenModel& chosen, const State& start) {
     if (events_) events_->commit();
     if (trajectory_) trajectory_->commit();
     result_.write(summary(complete, chosen, start).dump() + "\n");
     result_.commit();
-    if (plot_.wanted() && !picture_.empty()) plot_.write(picture_.figure());
+    return plot_.write_or_say(picture_.figure(), picture_.empty(), complete ? done : interrupted);
   }
 
  private:
@@ -167,10 +169,11 @@ int simulate(const Options& options, bool by_time, const Context& context) {
   roles.add("--events", options.events);
   roles.add("--trajectory", options.trajectory);
   roles.add_plot(options.plot);
-  Run run(options, chosen, start, end_of(options, by_time, chosen.model));
+  const Instant end = end_of(options, by_time, chosen.model);
+  System system = affordable_system(chosen, {end.since({}), by_time ? "--time" : "--periods"});
+  Run run(options, chosen, std::move(system), start, end);
   const bool complete = run(context);
-  run.write(complete, chosen, start);
-  return complete ? done : interrupted;
+  return run.write(complete, chosen, start);
 }
 
 }  // namespace

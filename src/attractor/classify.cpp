@@ -43,9 +43,12 @@ class ReturnSearch {
   /// close to its start, but no closer as time goes on.
   [[nodiscard]] bool still_approaching() const { return approaching_; }
   void discard(int periods) {
-    for (int k = 0; k < periods && !cancelled(); ++k) attractor::run_one_period(motion_);
+    for (int k = 0; k < periods && !cancelled(); ++k) {
+      attractor::run_one_period(motion_, options_.cancel);
+      report();
+    }
   }
-  [[nodiscard]] bool cancelled() const { return options_.cancel && options_.cancel->load(std::memory_order_relaxed); }
+  [[nodiscard]] bool cancelled() const { return stopped(options_.cancel); }
 
  private:
   [[nodiscard]] const VectorXd& back(long n) const { return states_[states_.size() - 1 - static_cast<std::size_t>(n)]; }
@@ -55,6 +58,9 @@ class ReturnSearch {
   [[nodiscard]] double widest_return(int n) const;
   void note_approach(int k, int periods);
   void note_period();
+  void report() const {
+    if (options_.progress) options_.progress(periods());
+  }
   bool same_events(long n) const;
   [[nodiscard]] int shortest_cycle(const VectorXd& x, int n) const;
   bool accept(const VectorXd& x, int cycle, double returned, Classification& result);
@@ -94,7 +100,8 @@ void ReturnSearch::note_approach(int k, int periods) {
 }
 
 void ReturnSearch::note_period() {
-  events_.push_back(attractor::run_one_period(motion_));
+  events_.push_back(attractor::run_one_period(motion_, options_.cancel));
+  report();
   states_.push_back(attractor::contact_state(motion_));
   const auto n = system_.frame().n;
   const double position = states_.back().head(n).cwiseAbs().maxCoeff(),
@@ -120,6 +127,7 @@ bool ReturnSearch::same_events(long n) const {
 bool ReturnSearch::run(int periods, Classification& result) {
   for (int k = 0; k < periods && !cancelled(); ++k) {
     note_period();
+    if (cancelled()) break;
     const auto kept = static_cast<long>(states_.size());
     const bool newton_turn = k >= next_newton_;
     for (int n = 1; n <= options_.most_n && 2 * n < kept; ++n) {
@@ -139,7 +147,9 @@ bool ReturnSearch::run(int periods, Classification& result) {
 /// Newton's method on the n-period map also finds cycles whose length divides n.
 int ReturnSearch::shortest_cycle(const VectorXd& x, int n) const {
   for (int d = 1; d < n; ++d) {
-    if (n % d == 0 && attractor::distance(attractor::return_map(system_, x, d).image, x, scale_) < 1e-8) return d;
+    if (n % d == 0 &&
+        attractor::distance(attractor::return_map(system_, x, d, options_.cancel).image, x, scale_) < 1e-8)
+      return d;
   }
   return n;
 }
@@ -147,12 +157,12 @@ int ReturnSearch::shortest_cycle(const VectorXd& x, int n) const {
 /// False if the cycle at x repels: a motion that began on it, or passes it closely, is not drawn to it.
 bool ReturnSearch::accept(const VectorXd& x, int cycle, double d, Classification& result) {
   const int n = shortest_cycle(x, cycle);
-  const attractor::MapValue map = attractor::return_map(system_, x, n);
+  const attractor::MapValue map = attractor::return_map(system_, x, n, options_.cancel);
   const auto multipliers = attractor::multipliers_of(map.jacobian);
   if (!multipliers.empty() && std::abs(multipliers.front()) > 1.0 + repelling) return false;
   result.attractor = Attractor::periodic;
   result.approach = d;
-  attractor::record_cycle(system_, attractor::user_state(system_, x), n, result);
+  attractor::record_cycle(system_, attractor::user_state(system_, x), n, options_.cancel, result);
   result.return_distance = attractor::distance(map.image, x, scale_);
   result.multipliers = multipliers;
   return true;
@@ -160,7 +170,7 @@ bool ReturnSearch::accept(const VectorXd& x, int cycle, double d, Classification
 
 /// A stable fixed point of the n-period map close by that the motion is drawn to.
 bool ReturnSearch::try_newton(int n, Classification& result) {
-  const auto found = attractor::fixed_point(system_, back(0), n, scale_);
+  const auto found = attractor::fixed_point(system_, back(0), n, scale_, options_.cancel);
   if (!found || !found->stable()) return false;
   const double before = attractor::distance(back(0), found->x, scale_);
   if (before > 10.0 * options_.newton_start) return false;
@@ -169,7 +179,8 @@ bool ReturnSearch::try_newton(int n, Classification& result) {
   const double cycles = slowest > 0.5 ? std::ceil(std::log(0.5) / std::log(slowest)) : 1.0;
   if (cycles * n > options_.most_periods) return false;
   Motion trial = motion_;
-  for (long k = 0; k < static_cast<long>(cycles) * n; ++k) attractor::run_one_period(trial);
+  for (long k = 0; k < static_cast<long>(cycles) * n && !cancelled(); ++k)
+    attractor::run_one_period(trial, options_.cancel);
   const double after = attractor::distance(attractor::contact_state(trial), found->x, scale_);
   if (after > 0.8 * before + options_.tolerance) return false;
   return accept(found->x, n, after, result);
@@ -202,15 +213,12 @@ Classification classify(const System& system, const State& state, const Classify
   // Rounds of growing length: a clearly chaotic motion is recognised early, a slow approach gets its time.
   for (int round = std::max(500, 4 * options.most_n), done = 0; done < options.most_periods; round *= 4) {
     const int periods = std::min(round, options.most_periods - done);
-    if (search.run(periods, result)) break;
-    if (search.cancelled()) {
-      result.interrupted = true;
-      break;
-    }
+    if (search.run(periods, result) || search.cancelled()) break;
     done += periods;
     const bool last = done >= options.most_periods;
-    const auto run =
-        attractor::run_figures(system, search.state(), last ? options.exponent_periods : options.exponent_periods / 4);
+    const auto run = attractor::run_figures(
+        system, search.state(), last ? options.exponent_periods : options.exponent_periods / 4, options.cancel);
+    if (search.cancelled()) break;
     decide_aperiodic(run, options, result);
     if (result.attractor == Attractor::quasi_periodic && search.still_approaching()) {
       result.attractor = Attractor::undecided;
@@ -225,6 +233,7 @@ Classification classify(const System& system, const State& state, const Classify
   if (result.attractor == Attractor::periodic && !result.multipliers.empty())
     result.exponent = std::log(std::abs(result.multipliers.front())) / result.n;
   result.periods_used = search.periods();
+  result.interrupted = search.cancelled();
   return result;
 }
 

@@ -4,15 +4,15 @@
 
 namespace slapstick::attractor {
 
-PeriodEvents run_one_period(Motion& motion) {
+PeriodEvents run_one_period(Motion& motion, Stop stop) {
   PeriodEvents count;
   const Instant end{motion.time().period + 1, 0.0};
-  while (motion.advance(end) == Outcome::event) {
+  run_to(motion, end, stop, [&] {
     const EventKind kind = motion.event().kind;
     count.impacts += kind == EventKind::impact;
     count.sticks += kind == EventKind::stick;
     count.chatters += kind == EventKind::chatter;
-  }
+  });
   return count;
 }
 
@@ -61,7 +61,7 @@ bool holds_still(const Motion& motion, int mode) {
 
 }  // namespace
 
-void record_cycle(const System& system, const State& state, int n, Classification& out) {
+void record_cycle(const System& system, const State& state, int n, Stop stop, Classification& out) {
   Motion motion(system, state);
   std::vector<double> times, speeds;
   double still = 0.0;
@@ -69,26 +69,31 @@ void record_cycle(const System& system, const State& state, int n, Classificatio
   out.state = state;
   out.impacts.clear();
   out.chatter = Chatter::none;
-  for (bool running = true; running;) {
-    running = motion.advance({n, 0.0}) == Outcome::event;
-    const Motion::Segment segment = motion.segment();
-    const bool flown = running ? motion.event().time != segment.start : true;
-    if (flown && holds_still(motion, segment.mode)) still += segment.duration / system.period();
-    if (!running) break;
-    const Event& event = motion.event();
-    if (event.kind == EventKind::impact) {
-      const std::span<const double> before = motion.before();
-      out.impacts.push_back({event.time.fraction, event.w, State(before.begin(), before.end())});
-      times.push_back(event.time.since({}));
-      speeds.push_back(event.w);
-    }
-    if (event.kind == EventKind::chatter) out.chatter = Chatter::complete;
-  }
-  while (motion.advance({2 * n, 0.0}) == Outcome::event) {  // a second cycle: a burst may run across its start
-    if (motion.event().kind != EventKind::impact) continue;
+  // Between two events, and between a cut and an event, the mode is one.
+  int mode = motion.mode_id();
+  Instant seen = motion.time();
+  const auto spend = [&](Instant now) {
+    if (holds_still(motion, mode)) still += now.since(seen);
+    seen = now;
+    mode = motion.mode_id();
+  };
+  const auto note_impact = [&] {
     times.push_back(motion.event().time.since({}));
     speeds.push_back(motion.event().w);
-  }
+  };
+  run_to(motion, {n, 0.0}, stop, [&] {
+    const Event& event = motion.event();
+    spend(event.time);
+    if (event.kind == EventKind::chatter) out.chatter = Chatter::complete;
+    if (event.kind != EventKind::impact) return;
+    const std::span<const double> before = motion.before();
+    out.impacts.push_back({event.time.fraction, event.w, State(before.begin(), before.end())});
+    note_impact();
+  });
+  spend(motion.time());
+  run_to(motion, {2 * n, 0.0}, stop, [&] {  // a second cycle: a burst may run across its start
+    if (motion.event().kind == EventKind::impact) note_impact();
+  });
   out.p = static_cast<long>(out.impacts.size());
   out.sticking_fraction = still / n;
   out.sticking = still > 0.0;

@@ -1,6 +1,7 @@
 #pragma once
 /// Stroboscopic motion with its events per period, and the record of one cycle.
 #include "slapstick/attractor/classify.hpp"
+#include "slapstick/flow/stage.hpp"
 
 namespace slapstick::attractor {
 
@@ -10,8 +11,11 @@ struct PeriodEvents {
   friend bool operator==(const PeriodEvents&, const PeriodEvents&) = default;
 };
 
+/// A wish to stop; null: there is none. Whatever stops early for it returns something meaningless: the caller looks at the flag itself.
+using Stop = const std::atomic<bool>*;
+
 /// Runs to the end of the present period and counts.
-PeriodEvents run_one_period(Motion& motion);
+PeriodEvents run_one_period(Motion& motion, Stop stop);
 
 /// p and u of the extended state.
 Eigen::VectorXd contact_state(const Motion& motion);
@@ -22,7 +26,7 @@ State user_state(const System& system, const Eigen::VectorXd& contact);
 double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::VectorXd& scale);
 
 /// Runs `n` periods from `state` and fills in what the cycle holds: impacts, stick, chatter, label.
-void record_cycle(const System& system, const State& state, int n, Classification& out);
+void record_cycle(const System& system, const State& state, int n, Stop stop, Classification& out);
 
 /// Chatter of a sequence of impacts: incomplete if at least four in a row come ever slower and ever sooner.
 bool has_burst(const std::vector<double>& times, const std::vector<double>& speeds);

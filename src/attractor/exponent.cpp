@@ -48,7 +48,7 @@ double birkhoff_digits(const std::vector<double>& sequence) {
   return std::min(16.0, -std::log10(std::abs(difference) / (high - low) + 1e-17));
 }
 
-RunFigures run_figures(const System& system, const State& state, int periods) {
+RunFigures run_figures(const System& system, const State& state, int periods, Stop stop) {
   const Eigen::Index size = 2 * system.frame().n;
   // A fixed direction with no symmetry: every run of the same motion gives the same bits.
   Eigen::MatrixXd tangent(size, 1);
@@ -60,16 +60,17 @@ RunFigures run_figures(const System& system, const State& state, int periods) {
   bool dead = false;
   const int discard = periods / 20;  // until the tangent points along the fastest growing direction
   for (int k = 0; k < periods + discard; ++k) {
-    while (motion.advance({k + 1, 0.0}) == Outcome::event) {
+    const bool whole = run_to(motion, {k + 1, 0.0}, stop, [&] {
       const Event& event = motion.motion().event();
       figures.events.sticks += event.kind == EventKind::stick;
       figures.events.chatters += event.kind == EventKind::chatter;
-      if (event.kind != EventKind::impact) continue;
+      if (event.kind != EventKind::impact) return;
       ++figures.events.impacts;
       speeds.push_back(event.w);
       times.push_back(event.time.since({}));
       phases.push_back(std::cos(2.0 * std::numbers::pi * event.time.fraction));
-    }
+    });
+    if (!whole) return figures;
     strobe.push_back(motion.motion().extended()[0]);
     const double norm = motion.tangents().norm();
     dead = dead || norm < 1e-280;

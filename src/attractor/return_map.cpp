@@ -7,11 +7,10 @@
 
 namespace slapstick::attractor {
 
-MapValue return_map(const System& system, const Eigen::VectorXd& x, int n) {
+MapValue return_map(const System& system, const Eigen::VectorXd& x, int n, Stop stop) {
   const Eigen::Index size = x.size();
   TangentMotion motion(system, user_state(system, x), Eigen::MatrixXd::Identity(size, size));
-  while (motion.advance({n, 0.0}) == Outcome::event) {
-  }
+  run_to(motion, {n, 0.0}, stop, [] {});
   return {contact_state(motion.motion()), motion.tangents()};
 }
 
@@ -24,11 +23,13 @@ std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& jacobian
   return sorted;
 }
 
-std::optional<FixedPoint> fixed_point(const System& system, Eigen::VectorXd x, int n, const Eigen::VectorXd& scale) {
+std::optional<FixedPoint> fixed_point(const System& system, Eigen::VectorXd x, int n, const Eigen::VectorXd& scale,
+                                      Stop stop) {
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(x.size(), x.size());
   try {
     for (int step = 0; step < 12; ++step) {
-      const MapValue value = return_map(system, x, n);
+      const MapValue value = return_map(system, x, n, stop);
+      if (stopped(stop)) return {};
       const bool arrived = distance(value.image, x, scale) < 1e-11;
       if (arrived) return FixedPoint{x, multipliers_of(value.jacobian)};
       const Eigen::VectorXd correction = (value.jacobian - identity).partialPivLu().solve(x - value.image);

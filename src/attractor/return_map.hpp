@@ -12,7 +12,7 @@ struct MapValue {
 };
 
 /// P_n(x) from phase 0 and its derivative through all events.
-MapValue return_map(const System& system, const Eigen::VectorXd& x, int n);
+MapValue return_map(const System& system, const Eigen::VectorXd& x, int n, Stop stop);
 
 struct FixedPoint {
   Eigen::VectorXd x;
@@ -23,7 +23,8 @@ struct FixedPoint {
 /// Eigenvalues, largest modulus first.
 std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& jacobian);
 
-/// Newton's method on P_n(x) = x from `x`; empty if it does not reach 1e-11 of `scale` in 12 steps or leaves the stops' side.
-std::optional<FixedPoint> fixed_point(const System& system, Eigen::VectorXd x, int n, const Eigen::VectorXd& scale);
+/// Newton's method on P_n(x) = x from `x`; empty if it does not reach 1e-11 of `scale` in 12 steps, leaves the stops' side or is stopped.
+std::optional<FixedPoint> fixed_point(const System& system, Eigen::VectorXd x, int n, const Eigen::VectorXd& scale,
+                                      Stop stop);
 
 }  // namespace slapstick::attractor

@@ -6,10 +6,13 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 
 #include "slapstick/base/error.hpp"
+#include "slapstick/figure/figure.hpp"
 
 extern char** environ;
 
@@ -37,6 +40,23 @@ class FileActions {
   posix_spawn_file_actions_t actions_{};
 };
 
+/// In a process group of its own: a Ctrl-C in the terminal asks the program to stop, which then lets gnuplot finish.
+class Attributes {
+ public:
+  Attributes() {
+    posix_spawnattr_init(&attributes_);
+    posix_spawnattr_setpgroup(&attributes_, 0);
+    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP);
+  }
+  ~Attributes() { posix_spawnattr_destroy(&attributes_); }
+  Attributes(const Attributes&) = delete;
+  Attributes& operator=(const Attributes&) = delete;
+  const posix_spawnattr_t* get() const { return &attributes_; }
+
+ private:
+  posix_spawnattr_t attributes_{};
+};
+
 /// gnuplot echoes the line, points at the place and then says what is wrong: the last line that is not empty.
 std::string complaint(const std::filesystem::path& log) {
   std::ifstream in(log);
@@ -53,21 +73,35 @@ int wait_for(pid_t child) {
   return status;
 }
 
+constexpr const char* not_found = "gnuplot not found: install gnuplot-nox";
+
 }  // namespace
+
+void demand_gnuplot() {
+  const char* path = std::getenv("PATH");
+  std::stringstream folders(path != nullptr ? path : "/bin:/usr/bin");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const std::filesystem::path program = std::filesystem::path(folder.empty() ? "." : folder) / "gnuplot";
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(program, ignored) && ::access(program.c_str(), X_OK) == 0) return;
+  }
+  throw StorageError(not_found);
+}
 
 void run_gnuplot(const std::filesystem::path& folder, const std::string& script_name) {
   std::string program = "gnuplot", option = "-d", script = "./" + script_name;
   char* const arguments[] = {program.data(), option.data(), script.data(), nullptr};
   const FileActions actions(folder.string());
+  const Attributes attributes;
   pid_t child = 0;
-  const int error = posix_spawnp(&child, program.c_str(), actions.get(), nullptr, arguments, environ);
-  if (error == ENOENT) throw StorageError("gnuplot not found: install gnuplot-nox");
+  const int error = posix_spawnp(&child, program.c_str(), actions.get(), attributes.get(), arguments, environ);
+  if (error == ENOENT) throw StorageError(not_found);
   if (error != 0) throw StorageError(std::string("gnuplot does not start: ") + std::strerror(error));
   const int status = wait_for(child);
   if (WIFSIGNALED(status))
     throw StorageError("gnuplot was ended by signal " + std::to_string(WTERMSIG(status)) + " while drawing " +
                        script_name);
-  if (WEXITSTATUS(status) == 127) throw StorageError("gnuplot not found: install gnuplot-nox");
+  if (WEXITSTATUS(status) == 127) throw StorageError(not_found);
   if (status != 0) throw StorageError("gnuplot cannot draw " + script_name + ": " + complaint(folder / log_name));
 }
 

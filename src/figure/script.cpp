@@ -201,7 +201,7 @@ class PanelScript {
 
   std::string columns(std::size_t& column) const {
     const std::string text =
-        quote_file(name_ + ".csv") + " skip 1 using " + std::to_string(column) + ":" + std::to_string(column + 1);
+        quote_file(table_name(name_)) + " skip 1 using " + std::to_string(column) + ":" + std::to_string(column + 1);
     column += 2;
     return text;
   }
@@ -253,6 +253,8 @@ std::string format_list(Formats formats) {
 }
 
 }  // namespace
+
+std::string table_name(const std::string& name) { return name + "-plot.csv"; }
 
 std::string raster_name(const std::string& name, std::size_t panel) {
   return name + "-raster" + std::to_string(panel + 1) + ".png";

@@ -145,7 +145,7 @@ Files write(const Figure& figure, const fs::path& stem, Formats formats) {
   for (std::size_t i = 0; i < figure.panels.size(); ++i)
     if (layout.panels[i].raster) save(raster_name(name, i), draw_raster(figure.panels[i], layout.panels[i]));
   const std::size_t raster_count = names.size();
-  if (!table.series.empty()) save(name + ".csv", to_csv(table));
+  if (!table.series.empty()) save(table_name(name), to_csv(table));
   save(name + ".gp", script(figure, layout, table, name, formats));
   run_gnuplot(scratch.path(), name + ".gp");
   for (const auto& [wanted, ending] :
@@ -156,7 +156,7 @@ Files write(const Figure& figure, const fs::path& stem, Formats formats) {
   for (const auto& file : names) move_into_place(scratch, folder, file);
   const auto path = [&](bool exists, const char* ending) { return exists ? folder / (name + ending) : fs::path(); };
   Files files{.script = path(true, ".gp"),
-              .data = path(!table.series.empty(), ".csv"),
+              .data = path(!table.series.empty(), "-plot.csv"),
               .rasters = {},
               .png = path(formats.png, ".png"),
               .pdf = path(formats.pdf, ".pdf"),

@@ -1,6 +1,10 @@
 #include "slapstick/flow/system.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "slapstick/base/error.hpp"
+#include "slapstick/base/text.hpp"
 
 namespace slapstick {
 
@@ -48,11 +52,40 @@ std::vector<ContactStates> all_states(std::size_t stops, std::size_t frictions) 
   return all;
 }
 
+/// The fastest rate of a mode: the largest modulus of an eigenvalue of its free motion, or its highest forcing frequency. Velocities are
+/// measured in a unit that makes the entries of the matrix comparable, otherwise a stiff spring would cost the solver its digits.
+double fastest_rate(const mode::Mode& mode, int n) {
+  mode::Matrix A = mode.system().topLeftCorner(2 * n, 2 * n);
+  const double unit = std::sqrt(A.bottomLeftCorner(n, n).cwiseAbs().maxCoeff());
+  if (unit > 0.0) {
+    A.topRightCorner(n, n) *= unit;
+    A.bottomLeftCorner(n, n) /= unit;
+  }
+  const auto oscillators = mode.size() - 2 * n;
+  const double forcing = mode.system().bottomRightCorner(oscillators, oscillators).cwiseAbs().maxCoeff();
+  return std::max(A.eigenvalues().cwiseAbs().maxCoeff(), forcing);
+}
+
+/// A window is never much longer than the shortest time scale of its mode: the tail of its series would not be negligible. One that is
+/// tells that numbers overflowed when it was computed.
+/// @returns the window length @throws InputError
+double checked_window(const Model& model, const mode::Mode& mode) {
+  constexpr double longest = 16.0;  // times the fastest rate; without overflow it stays below 5
+  const double rate = fastest_rate(mode, model.size()), window = mode.window();
+  if (!(std::isfinite(rate) && window > 0.0 && window * rate <= longest))
+    throw InputError("model '" + model.name +
+                     "' has time scales too far apart for double precision (its fastest rate is " + shown(rate) +
+                     "); bring masses, stiffnesses, damping and omega closer together");
+  return window;
+}
+
 }  // namespace
 
 System::System(Model model) : model_(checked(std::move(model))), frame_(model_), period_(model_.forcing_period()) {
   for (ContactStates& states : all_states(model_.stops.size(), model_.frictions.size()))
     modes_.emplace_back(model_, frame_, std::move(states));
+  for (const mode::Mode& mode : modes_)
+    if (mode.possible()) windows_per_period_ = std::max(windows_per_period_, period_ / checked_window(model_, mode));
   for (const mode::ContactRow& stop : frame_.stops) {
     const mode::Vector direction = frame_.mass_inverse * stop.row.transpose();
     impulses_.push_back(direction / stop.row.dot(direction));

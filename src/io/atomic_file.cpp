@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <system_error>
 
+#include "io/temporary_files.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/text.hpp"
 
@@ -26,11 +27,15 @@ std::filesystem::path temporary_name(const std::filesystem::path& target) {
   return name;
 }
 
-int open_new(const std::filesystem::path& target, std::filesystem::path& temporary) {
+int open_new(const std::filesystem::path& target, std::filesystem::path& temporary, int& note) {
   for (int attempt = 0; attempt < 1000; ++attempt) {
     temporary = temporary_name(target);
+    note = note_temporary(temporary);
     const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor >= 0 || (errno != EEXIST && errno != EINTR)) return descriptor;
+    if (descriptor >= 0) return descriptor;
+    forget_temporary(note);
+    note = -1;
+    if (errno != EEXIST && errno != EINTR) return descriptor;
   }
   return -1;
 }
@@ -61,7 +66,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& path) : shown_(path), target
   std::error_code ignored;
   if (exists) target_ = std::filesystem::canonical(path, ignored);
   if (target_.empty()) target_ = path;
-  descriptor_ = open_new(target_, temporary_);
+  descriptor_ = open_new(target_, temporary_, note_);
   if (descriptor_ < 0) {
     const int error = errno;
     temporary_.clear();  // not ours
@@ -102,6 +107,8 @@ void AtomicFile::commit() {
   if (direct) return;
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
   temporary_.clear();
+  forget_temporary(note_);
+  note_ = -1;
   if (const int error = sync_folder(target_); error != 0) fail(error);
 }
 
@@ -110,6 +117,8 @@ void AtomicFile::discard() noexcept {
   descriptor_ = -1;
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
   temporary_.clear();
+  forget_temporary(note_);
+  note_ = -1;
 }
 
 void AtomicFile::fail(int error) {

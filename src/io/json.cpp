@@ -4,36 +4,66 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "slapstick/io/table.hpp"
+
 namespace slapstick {
 namespace {
 
-using Tree = nlohmann::ordered_json;
+/// Writes a tree with `indent` blanks a level, or with -1 on one line.
+class Printer {
+ public:
+  explicit Printer(int indent) : indent_(indent) {}
 
-Tree to_tree(const Json& json);
+  [[nodiscard]] std::string text(const Json& json) {
+    std::visit(*this, json.value());
+    return std::move(out_);
+  }
 
-struct Visitor {
-  Tree operator()(std::nullptr_t) const { return nullptr; }
-  Tree operator()(bool value) const { return value; }
-  Tree operator()(std::int64_t value) const { return value; }
-  Tree operator()(double value) const {
-    if (std::isfinite(value)) return value;
-    if (std::isnan(value)) return "nan";
-    return value > 0.0 ? "inf" : "-inf";
+  void operator()(std::nullptr_t) { out_ += "null"; }
+  void operator()(bool value) { out_ += value ? "true" : "false"; }
+  void operator()(std::int64_t value) { out_ += std::to_string(value); }
+  /// 17 digits as in tables; JSON has no word for what is not finite.
+  void operator()(double value) {
+    if (std::isfinite(value)) return append_number(out_, value);
+    out_ += std::isnan(value) ? "\"nan\"" : value > 0.0 ? "\"inf\"" : "\"-inf\"";
   }
-  Tree operator()(const std::string& text) const { return text; }
-  Tree operator()(const Json::List& list) const {
-    Tree tree = Tree::array();
-    for (const auto& item : list) tree.push_back(to_tree(item));
-    return tree;
+  void operator()(const std::string& text) {
+    out_ += nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   }
-  Tree operator()(const Json::Object& object) const {
-    Tree tree = Tree::object();
-    for (const auto& [key, value] : object) tree[key] = to_tree(value);
-    return tree;
+  void operator()(const Json::List& list) {
+    enclosed('[', ']', list, [&](const Json& item) { std::visit(*this, item.value()); });
   }
+  void operator()(const Json::Object& object) {
+    enclosed('{', '}', object, [&](const auto& entry) {
+      (*this)(entry.first);
+      out_ += indent_ < 0 ? ":" : ": ";
+      std::visit(*this, entry.second.value());
+    });
+  }
+
+ private:
+  template <class Items, class Write>
+  void enclosed(char open, char close, const Items& items, const Write& write) {
+    out_ += open;
+    ++depth_;
+    bool first = true;
+    for (const auto& item : items) {
+      if (!first) out_ += ',';
+      first = false;
+      new_line();
+      write(item);
+    }
+    --depth_;
+    if (!first) new_line();
+    out_ += close;
+  }
+  void new_line() {
+    if (indent_ >= 0) out_ += '\n' + std::string(static_cast<std::size_t>(depth_ * indent_), ' ');
+  }
+
+  int indent_, depth_ = 0;
+  std::string out_;
 };
-
-Tree to_tree(const Json& json) { return std::visit(Visitor{}, json.value()); }
 
 }  // namespace
 
@@ -64,8 +94,6 @@ Json& Json::push(Json value) {
   return *this;
 }
 
-std::string Json::dump(int indent) const {
-  return to_tree(*this).dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
-}
+std::string Json::dump(int indent) const { return Printer(indent).text(*this); }
 
 }  // namespace slapstick

@@ -3,6 +3,7 @@
 
 #include "io/definition.hpp"
 #include "io/toml_tree.hpp"
+#include "model/fault.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/nearest.hpp"
 
@@ -221,6 +222,9 @@ class Reader {
   void keep_coordinates(const std::vector<Part>& parts) {
     Model names_only;
     for (const auto& part : parts) {
+      if (is_reserved(part.name))  // before another part is told that it knows no such coordinate
+        fail(part.line, "coordinate " + in_quotes(part.name),
+             "this name is reserved (it is a column of tables, or the surroundings)");
       coordinates_.push_back(part.name);
       names_only.coordinates.push_back({part.name, 1.0});
     }

@@ -1,5 +1,6 @@
 #include "model/fault.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
@@ -24,6 +25,11 @@ bool plain_name(std::string_view name) {
   return true;
 }
 
+/// Numbers beyond this, and masses and frequencies below its inverse, are refused: the engine multiplies a few of them (a square of
+/// a force over a mass is the largest), and every such product has to stay far inside the range of a double, which ends at 1e308.
+constexpr double largest = 1e50;
+constexpr double smallest = 1e-50;
+
 std::string assigned(std::string_view field, double value) { return std::string(field) + " = " + shown(value); }
 
 /// Checks of one part, each remembering only the first thing that is wrong.
@@ -40,12 +46,20 @@ class Check {
   void finite(const char* field, double value) {
     if (!std::isfinite(value)) fail(field, assigned(field, value) + " is not a finite number");
   }
-  void positive(const char* field, double value) {
+  /// Finite and not so large that products overflow.
+  void sized(const char* field, double value) {
     finite(field, value);
+    if (std::abs(value) > largest)
+      fail(field, assigned(field, value) + " is too large: beyond 1e50 the arithmetic would overflow");
+  }
+  void positive(const char* field, double value) {
+    sized(field, value);
     if (!(value > 0.0)) fail(field, assigned(field, value) + " is not positive");
+    if (value < smallest)
+      fail(field, assigned(field, value) + " is too small: below 1e-50 the arithmetic would overflow");
   }
   void not_negative(const char* field, double value) {
-    finite(field, value);
+    sized(field, value);
     if (!(value >= 0.0)) fail(field, assigned(field, value) + " is negative");
   }
   void end(const char* field, int index, const Model& model) {
@@ -79,22 +93,19 @@ void check_name(Check& check, const std::string& name, std::set<std::string>& us
 
 Found check_coordinate(const Coordinate& coordinate, int index, std::set<std::string>& used) {
   Check check("coordinate", index);
-  for (const auto word : reserved)
-    if (coordinate.name == word) check.fail("name", "name " + in_quotes(coordinate.name) + " is reserved");
+  if (is_reserved(coordinate.name)) check.fail("name", "name " + in_quotes(coordinate.name) + " is reserved");
   check_name(check, coordinate.name, used);
   const auto velocity = velocity_name(coordinate.name);
   if (!used.insert(velocity).second)
     check.fail("name", "its velocity's name " + in_quotes(velocity) + " is used twice");
   check.positive("mass", coordinate.mass);
-  if (!std::isfinite(1.0 / coordinate.mass))
-    check.fail("mass", assigned("mass", coordinate.mass) + " is too small: 1 / mass overflows");
   return check.result();
 }
 
 Found check_spring(const Spring& spring, int index, const Model& model) {
   Check check("spring", index);
   check.ends(spring.a, spring.b, model);
-  check.finite("stiffness", spring.stiffness);
+  check.sized("stiffness", spring.stiffness);
   return check.result();
 }
 
@@ -110,7 +121,7 @@ Found check_force(const Force& force, int index, const Model& model) {
   check.end("on", force.coordinate, model);
   if (force.coordinate == ground) check.fail("on", "a force acts on a coordinate, not on the ground");
   if (force.harmonic < 0) check.fail("harmonic", "harmonic = " + std::to_string(force.harmonic) + " is negative");
-  check.finite("amplitude", force.amplitude);
+  check.sized("amplitude", force.amplitude);
   check.finite("phase", force.phase);
   return check.result();
 }
@@ -119,7 +130,7 @@ Found check_friction(const FrictionContact& friction, int index, const Model& mo
   Check check("friction", index);
   check_name(check, friction.name, used);
   check.ends(friction.a, friction.b, model);
-  check.finite("belt_speed", friction.belt_speed);
+  check.sized("belt_speed", friction.belt_speed);
   check.not_negative("static", friction.static_friction);
   check.not_negative("kinetic", friction.kinetic_friction);
   if (friction.kinetic_friction > friction.static_friction)
@@ -132,25 +143,47 @@ Found check_stop(const Stop& stop, int index, const Model& model, std::set<std::
   Check check("stop", index);
   check_name(check, stop.name, used);
   check.ends(stop.a, stop.b, model);
-  check.finite("clearance", stop.clearance);
+  check.sized("clearance", stop.clearance);
   check.finite("restitution", stop.restitution);
   if (!(stop.restitution >= 0.0 && stop.restitution <= 1.0))
     check.fail("restitution", assigned("restitution", stop.restitution) + " is outside [0, 1]");
   return check.result();
 }
 
-/// omega, its period and its highest multiple must be ordinary numbers, so that no later step overflows.
+/// omega and its highest multiple must be ordinary numbers, so that no later step overflows.
 Found check_omega(const Model& model) {
   Check check("model", -1);
   check.not_negative("omega", model.omega);
   if (!model.forced()) return check.result();
   check.positive("omega", model.omega);
-  if (!std::isfinite(model.forcing_period()))
-    check.fail("omega", assigned("omega", model.omega) + " is too small: its period overflows");
   for (const auto& force : model.forces)
-    if (!std::isfinite(force.harmonic * model.omega))
-      check.fail("omega", assigned("omega", model.omega) + " is too large");
+    if (force.harmonic * model.omega > largest) check.fail("omega", assigned("omega", model.omega) + " is too large");
   return check.result();
+}
+
+/// How far forces and the start move a model with springs; 0 if it has none, or nothing moves it.
+double size_of_motion(const Model& model, const State& state) {
+  double stiffness = 0.0, force = 0.0, size = 0.0;
+  for (const auto& spring : model.springs) stiffness = std::max(stiffness, std::abs(spring.stiffness));
+  for (const auto& load : model.forces) force = std::max(force, std::abs(load.amplitude));
+  for (const auto& friction : model.frictions) force = std::max(force, friction.static_friction);
+  for (std::size_t i = 0; i < state.size(); i += 2) size = std::max(size, std::abs(state[i]));
+  return stiffness > 0.0 ? std::max(size, force / stiffness) : 0.0;
+}
+
+/// The engine measures displacements from the stop: a stop that is too far away costs the motion all its digits.
+std::optional<Fault> far_stop(const Model& model, const State& state) {
+  constexpr double farthest = 1e12;
+  const double size = size_of_motion(model, state);
+  for (std::size_t i = 0; i < model.stops.size(); ++i) {
+    const Stop& stop = model.stops[i];
+    if (size > 0.0 && std::abs(stop.clearance) > farthest * size)
+      return Fault{"stop", static_cast<int>(i), "clearance",
+                   "stop " + in_quotes(stop.name) + ": " + assigned("clearance", stop.clearance) +
+                       " is more than 1e12 times the motion's size, of the order of " + shown(size) +
+                       ", which rounding would swallow; leave out a stop that is never reached"};
+  }
+  return std::nullopt;
 }
 
 /// Calls `check(part, index)` for each part until one of them finds a fault.
@@ -176,6 +209,8 @@ std::string part_name(const Fault& fault, const Model& model) {
 }
 
 }  // namespace
+
+bool is_reserved(std::string_view name) { return std::find(reserved.begin(), reserved.end(), name) != reserved.end(); }
 
 std::string Fault::place(const Model& model) const {
   if (index < 0) return part;
@@ -208,9 +243,12 @@ std::optional<Fault> first_fault(const Model& model, const State& state) {
   if (state.size() != names.size())
     return Fault{"state", -1, "",
                  std::to_string(state.size()) + " numbers given, " + std::to_string(names.size()) + " needed"};
-  for (std::size_t i = 0; i < state.size(); ++i)
-    if (!std::isfinite(state[i]))
-      return Fault{"state", -1, names[i], assigned(names[i], state[i]) + " is not a finite number"};
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    Check check("state", -1);
+    check.sized(names[i].c_str(), state[i]);
+    if (check.result()) return check.result();
+  }
+  if (auto fault = far_stop(model, state)) return fault;
   for (const auto& stop : model.stops) {
     const double xa = displacement(state, stop.a), xb = displacement(state, stop.b), gap = xa - xb;
     // A state written out on a closed stop may come back rounded beyond it (Frame::enter takes it as contact).

@@ -2,6 +2,7 @@
 /// What is wrong with a model, in parts, so that a model file can point at the line.
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "slapstick/model/model.hpp"
 
@@ -22,6 +23,9 @@ struct Fault {
 
 /// The first thing wrong with a start (model sound); part is "state", field the name of the number.
 [[nodiscard]] std::optional<Fault> first_fault(const Model& model, const State& state);
+
+/// Whether a coordinate may not have this name: tables have a column, or the surroundings are called so.
+[[nodiscard]] bool is_reserved(std::string_view name);
 
 /// The column names, without checking the model.
 [[nodiscard]] std::string velocity_name(const std::string& coordinate);

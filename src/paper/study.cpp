@@ -44,10 +44,13 @@ std::filesystem::path Study::file(const std::string& name) { return files_.empla
 
 void Study::draw() {
   std::vector<figure::Files> drawn(pictures_.size());
-  each(static_cast<int>(pictures_.size()), [&](int i) {
-    const Picture& picture = pictures_[static_cast<std::size_t>(i)];
+  const auto draw_one = [&](int i) {
+    Picture& picture = pictures_[static_cast<std::size_t>(i)];
+    if (options_.quick) picture.figure.png_dpi = 150;
     drawn[static_cast<std::size_t>(i)] = figure::write(picture.figure, options_.folder / picture.stem);
-  });
+  };
+  // Not `each`: the part's progress has come to its end.
+  sweep::for_each_index(static_cast<int>(pictures_.size()), options_.threads, draw_one);
   for (const figure::Files& files : drawn) {
     for (const auto& file : {files.script, files.data, files.png, files.pdf})
       if (!file.empty()) files_.push_back(file);

@@ -60,9 +60,9 @@ class Study {
 
   /// A file of the folder, noted as written.
   std::filesystem::path file(const std::string& name);
-  /// Keeps a picture until `draw`.
+  /// Keeps a picture until `draw`, at the end of its part.
   void add(Picture picture) { pictures_.push_back(std::move(picture)); }
-  /// Draws all pictures, several at once. @throws StorageError, Interrupted
+  /// Draws the pictures that wait, several at once, also when the run is cancelled: their data are there. @throws StorageError
   void draw();
   [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
 

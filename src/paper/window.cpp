@@ -10,7 +10,8 @@ namespace {
 /// Enough to tell a periodic motion, started next to itself, from all others.
 ClassifyOptions brief(const Study& study) {
   ClassifyOptions how;
-  how.most_periods = study.options().quick ? 2000 : 15'000;
+  how.transient_periods = study.options().quick ? 200 : 500;
+  how.most_periods = study.options().quick ? 1000 : 15'000;
   how.exponent_periods = 400;
   return how;
 }
@@ -43,8 +44,8 @@ Edge follow(const Study& study, const Overrides& with, const Found& seed, double
     }
   }
   ClassifyOptions patient;
-  patient.transient_periods = study.options().quick ? 1000 : 3000;
-  patient.most_periods = study.options().quick ? 1000 : 5000;
+  patient.transient_periods = study.options().quick ? 500 : 3000;
+  patient.most_periods = study.options().quick ? 600 : 5000;
   patient.exponent_periods = study.options().quick ? 500 : 2000;  // attraction is weak near a bifurcation
   const double further = edge.outside.omega + sign * search.beyond;
   edge.beyond = study.find(with, further, edge.outside.what.state, patient);

@@ -13,15 +13,15 @@ StroboscopicSection::StroboscopicSection(Motion motion, double phase) : motion_(
     throw InputError("phase = " + shown(phase) + " is outside [0, 1) (a fraction of a forcing period)");
 }
 
-void StroboscopicSection::next(StroboscopicPoint& point) {
+bool StroboscopicSection::next(StroboscopicPoint& point, const std::atomic<bool>* stop) {
   const Instant now = motion_.time();
   const Instant end{now.fraction < phase_ ? now.period : now.period + 1, phase_};
-  while (motion_.advance(end) == Outcome::event) {
-  }
+  if (!run_to(motion_, end, stop, [] {})) return false;
   point.time = end;
   point.mode = motion_.mode_id();
   point.state.resize(2 * static_cast<std::size_t>(motion_.system().model().size()));
   motion_.state(point.state);
+  return true;
 }
 
 }  // namespace slapstick

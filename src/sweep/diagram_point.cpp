@@ -7,6 +7,7 @@
 
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/floating_point.hpp"
+#include "slapstick/section/run_impacts.hpp"
 
 namespace slapstick::sweep {
 namespace {
@@ -74,10 +75,8 @@ std::optional<Settled> settle(const DiagramProblem& problem, const Carried& carr
       throw InputError("model '" + system->model().name + "' has no stop, so there are no impacts to record");
     ImpactSection section(start_motion(problem, carried, *system, point));
     const Instant end = after(section, problem.transient_periods);
-    SectionPoint passed;
-    while (section.next(end, passed)) {
-      if ((interrupted = cancelled(problem))) return;
-    }
+    interrupted = !run_impacts(section, end, problem.cancel, [](const SectionPoint&) { return true; });
+    if (interrupted) return;
     settled.emplace(Settled{std::move(system), std::move(section)});
   });
   if (!good || interrupted) return std::nullopt;
@@ -96,12 +95,12 @@ void record(const DiagramProblem& problem, Settled settled, DiagramPoint& point)
     ImpactSection& section = settled.section;
     const Instant begin = section.motion().time();
     const Instant end = after(section, problem.most_periods);
-    SectionPoint impact;
-    while (point.impacts.size() < static_cast<std::size_t>(problem.impacts) && section.next(end, impact)) {
-      if ((interrupted = cancelled(problem))) return;
+    interrupted = !run_impacts(section, end, problem.cancel, [&](const SectionPoint& impact) {
       if (!std::isnan(impact.flight))
         point.impacts.add(impact.w, impact.flight, impact.sliding, impact.phase, impact.state);
-    }
+      return point.impacts.size() < static_cast<std::size_t>(problem.impacts);
+    });
+    if (interrupted) return;
     point.periods = section.motion().time().since(begin);
   });
   if (interrupted) point.impacts = {};

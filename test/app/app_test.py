@@ -2,8 +2,10 @@
 import math
 import os
 import signal
+import subprocess
+import time
 
-from program import good, main, read, refused, run, says, signalled, table
+from program import PROGRAM, good, main, read, refused, run, says, signalled, table
 
 PAPER_STATE = ['x1', 'v1', 'x2', 'v2']
 LONG_SWEEP = ('diagram', 'vibro-impact', '--sweep', 'omega=1:6:4000', '--transient', '2000')
@@ -48,6 +50,36 @@ def test_bad_values_name_their_argument():
     says(refused(2, 'poincare', 'vibro-impact', '--section', 'stroboscopic', '--phase', '1'), '--phase')
 
 
+def test_extreme_numbers_end_at_once_with_a_reason():
+    names = [line.split('"')[1] for line in good('check', 'vibro-impact').split('"parameters"')[1].splitlines()[1:] if '":' in line]
+    assert len(names) == 11
+    for name in names:
+        for value in ('1e-300', '1e-12', '1e12', '1e100', '1e160', '1e307'):
+            done = run('simulate', 'vibro-impact', '--set', name + '=' + value, '--periods', '10', timeout=20)
+            assert done.status in (0, 2, 3) and done.err.count('\n') == (done.status != 0), (name, value, done.err)
+            if done.status != 0:
+                says(done.err, name)
+            if float(value) > 1e50 and name != 'phase':
+                assert done.status == 2, (name, value)
+    slow = ('--set', 'omega=1e-12')
+    for words in (('simulate', '--periods', '10'), ('simulate', '--time', '1e13'), ('classify',), ('poincare',),
+                  ('poincare', '--section', 'stroboscopic')):
+        says(refused(2, words[0], 'vibro-impact', *slow, *words[1:]), '--set omega=1e-12: ', 'windows', 'lower --')
+    says(refused(2, 'diagram', 'vibro-impact', '--sweep', 'omega=1e-12:1:3'), '--sweep omega=1e-12', 'windows')
+    good('simulate', 'vibro-impact', *slow, '--time', '100')  # a small part of one period is no hard work
+    says(refused(2, 'simulate', 'vibro-impact', '--state', 'v1=1e200'), '--state', 'v1', '1e50')
+    says(refused(2, 'simulate', 'vibro-impact', '--set', 'clearance=1e16'), 'clearance', 'rounding')
+
+
+def test_the_argument_at_fault_is_named():
+    says(refused(2, 'simulate', 'vibro-impact', '--set', 'omega=3', '--set', 'kinetic_friction=0.5'), 'slapstick: --set kinetic_friction=0.5: ', 'exceeds')
+    says(refused(2, 'simulate', 'vibro-impact', '--set', 'omega=3', '--set', 'clearance=-1'), 'slapstick: --set clearance=-1: ', 'violated')
+    both = refused(2, 'check', 'vibro-impact', '--set', 'static_friction=0.2', '--set', 'kinetic_friction=0.5', '--set', 'omega=3')
+    says(both, '--set kinetic_friction=0.5: ')
+    for line in (both, refused(2, 'diagram', 'vibro-impact', '--sweep', 'clearance=-1:1:3'), refused(2, 'diagram', 'vibro-impact', '--sweep', 'kinetic_friction=0:1:3')):
+        assert 'built in' not in line, line
+
+
 def test_contradictions_are_refused():
     refused(2)
     refused(2, 'simulate')
@@ -57,7 +89,8 @@ def test_contradictions_are_refused():
     says(refused(2, 'simulate', 'vibro-impact', '--set', 'omega=1', '--set', 'omega=2'), '--set')
     says(refused(2, 'diagram', 'vibro-impact', '--sweep', 'omega=1:2:3', '--set', 'omega=2'), '--sweep')
     says(refused(2, 'diagram', 'vibro-impact', '--sweep', 'omega=1:2:3', '--direction', 'both', '--start', 'reset'), '--direction')
-    says(refused(2, 'diagram', 'belt', '--sweep', 'belt_speed=1:2:3'), 'stop')
+    says(refused(2, 'diagram', 'belt', '--sweep', 'belt_speed=1:2:3'), 'no stop', 'simulate')
+    says(refused(2, 'diagram', 'coulomb-oscillator', '--sweep', 'omega=1:2:3'), 'no stop', 'poincare')
     says(refused(2, 'poincare', 'belt'), 'stop')
     says(refused(2, 'poincare', 'belt', '--section', 'stroboscopic'), 'forcing')
 
@@ -108,8 +141,40 @@ def test_one_file_for_two_roles_is_refused():
     model = read('m.toml')
     says(refused(2, 'simulate', 'm.toml', '--events', './m.toml'), 'm.toml', 'MODEL')
     says(refused(2, 'simulate', 'm.toml', '--events', 'a.csv', '--trajectory', './a.csv'), '--events')
-    says(refused(2, 'simulate', 'm.toml', '--events', 'a.csv', '--plot', 'a.png'), '--events', '--plot')
+    says(refused(2, 'simulate', 'm.toml', '--events', 'a-plot.csv', '--plot', 'a.png'), '--events', '--plot')
     assert read('m.toml') == model and os.listdir('.') == ['m.toml']
+
+
+def test_a_table_and_a_picture_of_one_name_do_not_clash():
+    good('diagram', 'vibro-impact', '--sweep', 'omega=2:3:3', '--impacts', '5', '--plot', 'd.png', '--out', 'd.csv')
+    assert sorted(os.listdir('.')) == ['d-plot.csv', 'd.csv', 'd.gp', 'd.png']
+    says(read('d.gp'), './d-plot.csv')
+    says(read('d.csv'), 'omega,direction')
+
+
+def test_a_picture_without_points_is_missed_aloud():
+    words = ('vibro-impact', '--plot', 'p.png', '--out', 'p.csv')
+    sweep = ('--sweep', 'clearance=8:9:2', '--direction', 'both')
+    done = run('diagram', *words, *sweep)
+    assert done.status == 3, done.status
+    says(done.err, '--plot: there are no points', 'no impacts at 2 (up) and 2 (down) of the values, first clearance = 8')
+    done = run('poincare', *words, '--set', 'clearance=9', '--most-periods', '10')
+    assert done.status == 3, done.status
+    says(done.err, '--plot: there are no points', 'only 0 impacts')
+    assert os.listdir('.') == ['p.csv']
+
+
+def test_a_missing_gnuplot_is_noticed_before_the_work():
+    for words in ((*LONG_SWEEP, '--plot', 'p.png'), ('simulate', 'vibro-impact', '--periods', '1000000000', '--plot', 'p.png'),
+                  ('poincare', 'vibro-impact', '--points', '1000000000', '--plot', 'p.png'), ('reproduce', '--out', 'out')):
+        says(refused(4, *words, timeout=10, env={'PATH': '/nowhere'}), 'gnuplot not found: install gnuplot-nox')
+    assert os.listdir('.') == []
+
+
+def test_json_numbers_have_17_digits_and_are_finite():
+    text = good('classify', 'vibro-impact', '--set', 'omega=0.552', '--set', 'friction=0.2') + good('simulate', 'vibro-impact')
+    says(text, '"static_friction": 0.20000000000000001')
+    assert ': nan' not in text and ': -inf' not in text and ': inf' not in text
 
 
 def test_events_have_the_stable_columns():
@@ -189,10 +254,36 @@ def test_ctrl_c_writes_whole_rows_and_says_130():
         values = {row[0] for row in rows}
         assert 0 < len(values) < 4000
         assert all(sum(row[0] == value for row in rows) == 30 for value in list(values)[:5])
-    done = signalled(signal.SIGINT, 1.0, 'simulate', 'vibro-impact', '--periods', '1000000000000', '--events', 'e.csv')
+    done = signalled(signal.SIGINT, 1.0, 'simulate', 'vibro-impact', '--periods', '10000000000', '--events', 'e.csv')
     assert done.status == 130 and '"complete": false' in done.out
     table(read('e.csv'))
     assert sorted(os.listdir('.')) == ['d.csv', 'e.csv']
+
+
+def test_ctrl_c_within_a_forcing_period_of_minutes():
+    slow = ('--set', 'omega=1e-8')
+    for words in (('simulate', 'vibro-impact', *slow, '--periods', '2', '--trajectory', 't.csv', '--samples', '1'),
+                  ('classify', 'vibro-impact', *slow, '--transient', '0'),
+                  ('poincare', 'vibro-impact', *slow, '--transient', '2'),
+                  ('poincare', 'vibro-impact', *slow, '--transient', '2', '--points', '1', '--section', 'stroboscopic'),
+                  ('diagram', 'vibro-impact', '--sweep', 'omega=1e-8:2e-8:2', '--transient', '2')):
+        done = signalled(signal.SIGINT, 1.0, *words, patience=2.0)
+        assert done.status == 130, (words, done.status, done.err)
+    assert os.listdir('.') == ['t.csv'], os.listdir('.')
+
+
+def test_a_second_signal_ends_at_once_and_leaves_no_temporary_file():
+    words = ('simulate', 'vibro-impact', '--periods', '1000000000', '--events', 'e.csv', '--trajectory', 't.csv', '--out', 'o.json')
+    for first in (signal.SIGINT, signal.SIGTERM):
+        process = subprocess.Popen([PROGRAM, *words], stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        time.sleep(0.5)
+        assert len(os.listdir('.')) == 3, os.listdir('.')
+        process.send_signal(signal.SIGSTOP)  # both signals arrive together: the first is not acted upon before the second
+        process.send_signal(first)
+        process.send_signal(signal.SIGTERM if first == signal.SIGINT else signal.SIGINT)
+        process.send_signal(signal.SIGCONT)
+        assert process.wait(timeout=5) == 130
+        assert os.listdir('.') == [], os.listdir('.')
 
 
 def test_progress_is_silent_when_nobody_looks():
@@ -200,6 +291,7 @@ def test_progress_is_silent_when_nobody_looks():
     assert good(*words) == ''
     done = run(*words, '--progress')
     assert done.status == 0 and ('left' in done.err or done.err == '')
+    says(run('classify', 'vibro-impact', '--transient', '4000000', '--progress').err, 'periods at most', 'left')
 
 
 main({name: case for name, case in globals().items() if name.startswith('test_')})

@@ -17,7 +17,7 @@ class Outcome:
 def run(*words, **options):
     """slapstick WORDS; `out` is a file to take standard output instead."""
     done = subprocess.run([PROGRAM, *words], stdin=subprocess.DEVNULL, stdout=options.get('out', subprocess.PIPE),
-                          stderr=subprocess.PIPE, check=False, timeout=120)
+                          stderr=subprocess.PIPE, check=False, timeout=options.get('timeout', 120), env=options.get('env'))
     return Outcome(done.returncode, (done.stdout or b'').decode(), done.stderr.decode())
 
 
@@ -43,14 +43,14 @@ def says(line, *parts):
         assert part in line, (part, line)
 
 
-def signalled(number, delay, *words):
-    """A run that gets a signal after `delay` seconds."""
+def signalled(number, delay, *words, patience=20):
+    """A run that gets a signal after `delay` seconds and must end within `patience` seconds."""
     process = subprocess.Popen([PROGRAM, *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     time.sleep(delay)
     process.send_signal(number)
     begin = time.monotonic()
     out, err = process.communicate(timeout=60)
-    assert time.monotonic() - begin < 20, 'it took too long to stop'
+    assert time.monotonic() - begin < patience, 'it took too long to stop'
     return Outcome(process.returncode, out.decode(), err.decode())
 
 

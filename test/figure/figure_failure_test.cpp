@@ -57,6 +57,7 @@ TEST(FigureFailure, without_gnuplot_nothing_is_left_behind) {
   const workshop::Folder folder, empty;
   const OnlyPath path(empty.path().string());
   EXPECT_EQ(message<StorageError>([&] { write(simple, folder / "a"); }), "gnuplot not found: install gnuplot-nox");
+  EXPECT_EQ(message<StorageError>([] { demand_gnuplot(); }), "gnuplot not found: install gnuplot-nox");
   EXPECT_EQ(folder.entries(), 0u);
 }
 

@@ -54,6 +54,7 @@ bool touches_the_edge(const std::filesystem::path& png) {
 TEST_F(FigureTest, writes_script_data_and_both_formats) {
   const Files files = write({.panels = {{.x_label = "t", .lines = {sine(1, 9)}}}}, folder / "a");
   EXPECT_EQ(files.script, folder / "a.gp");
+  EXPECT_EQ(files.data, folder / "a-plot.csv") << "a.csv is the name of a user's own table";
   EXPECT_EQ(workshop::read(files.png).substr(1, 3), "PNG");
   EXPECT_EQ(workshop::read(files.pdf).substr(0, 4), "%PDF");
   EXPECT_TRUE(files.svg.empty());

@@ -129,7 +129,7 @@ TEST(ModelFile, awkward_numbers_and_texts_survive_printing) {
       head + "notes = \"\"\"\na \\\\ \\\"quoted\\\" line\n\n  and ''' more\"\"\"\n" +
       "parameters.m = { value = 123456789012345680000.0, description = \"a \\\"b\\\" \\\\ \xc3\xa9\" }\n" +
       "parameters.n = { value = -0.0 }\nparameters.d = { value = 5e-324 }\n" + mass +
-      "[start]\nv1 = 'm / 3'\nx1 = -1e300\n";
+      "[start]\nv1 = 'm / 3'\nx1 = -1e49\n";
   const auto definition = ModelDefinition::parse(text, "f.toml");
   const auto printed = definition.to_toml();
   const auto again = ModelDefinition::parse(printed, "g.toml");
@@ -140,6 +140,17 @@ TEST(ModelFile, awkward_numbers_and_texts_survive_printing) {
   EXPECT_EQ(again.values(), definition.values());
   EXPECT_TRUE(std::signbit(again.values().at("n")));
   EXPECT_EQ(again.start(), definition.start());
+}
+
+TEST(ModelFile, a_reserved_coordinate_name_is_told_before_what_follows_from_it) {
+  try {
+    (void)ModelDefinition::parse(
+        "name = 'm'\n[[coordinate]]\nname = 'w'\nmass = 1\n[[spring]]\nbetween = ['x', 'ground']\nstiffness = 1\n",
+        "f.toml");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).substr(0, 40), "f.toml:2: coordinate 'w': this name is r");
+  }
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ TEST(Model, every_refusal_names_part_and_value) {
       {[](Model& m) { m.coordinates[0].mass = 0.0; }, "coordinate 'x1': mass = 0 is not positive"},
       {[](Model& m) { m.coordinates[1].mass = -1.5; }, "coordinate 'x2': mass = -1.5 is not positive"},
       {[](Model& m) { m.coordinates[1].mass = 5e-324; },
-       "coordinate 'x2': mass = 4.94065645841247e-324 is too small: 1 / mass overflows"},
+       "coordinate 'x2': mass = 4.94065645841247e-324 is too small: below 1e-50 the arithmetic would overflow"},
       {[](Model& m) { m.coordinates[1].name = "x1"; }, "coordinate 'x1': name 'x1' is used twice"},
       {[](Model& m) { m.coordinates[1].name = "v1"; }, "coordinate 'v1': name 'v1' is used twice"},
       {[](Model& m) { m.coordinates[1].name = "ground"; }, "coordinate 'ground': name 'ground' is reserved"},
@@ -105,12 +105,13 @@ TEST(Model, every_refusal_names_part_and_value) {
       {[](Model& m) { m.stops[0].restitution = -0.1; }, "stop 'stop': restitution = -0.1 is outside [0, 1]"},
       {[](Model& m) { m.omega = 0.0; }, "model: omega = 0 is not positive"},
       {[](Model& m) { m.omega = -1.0; }, "model: omega = -1 is negative"},
-      {[](Model& m) { m.omega = 5e-324; }, "model: omega = 4.94065645841247e-324 is too small: its period overflows"},
+      {[](Model& m) { m.omega = 5e-324; },
+       "model: omega = 4.94065645841247e-324 is too small: below 1e-50 the arithmetic would overflow"},
       {[](Model& m) {
          m.forces[0].harmonic = 1000;
          m.omega = 1e308;
        },
-       "model: omega = 1e+308 is too large"},
+       "model: omega = 1e+308 is too large: beyond 1e50 the arithmetic would overflow"},
       {[](Model& m) {
          m.forces.clear();
          m.omega = -1.0;
@@ -162,6 +163,31 @@ TEST(Nearest, slips_of_the_finger_find_the_name) {
   EXPECT_EQ(nearest(std::string(100000, 'x'), names), "");
   EXPECT_EQ(suggestion("omgea", names), "; did you mean 'omega'?");
   EXPECT_EQ(suggestion("temperature", {"a_b", "c_d"}), "; known: a_b, c_d");
+}
+
+TEST(Model, numbers_whose_products_overflow_are_refused) {
+  for (const double huge : {1.1e50, 1e160, 1e307}) {
+    const std::string end = " is too large: beyond 1e50 the arithmetic would overflow";
+    EXPECT_TRUE(refusal([&](Model& m) { m.coordinates[0].mass = huge; }).ends_with(end));
+    EXPECT_TRUE(refusal([&](Model& m) { m.springs[0].stiffness = -huge; }).ends_with(end));
+    EXPECT_TRUE(refusal([&](Model& m) { m.dampers[0].coefficient = huge; }).ends_with(end));
+    EXPECT_TRUE(refusal([&](Model& m) { m.forces[0].amplitude = -huge; }).ends_with(end));
+    EXPECT_TRUE(refusal([&](Model& m) { m.frictions[0].static_friction = huge; }).ends_with(end));
+    EXPECT_TRUE(refusal([&](Model& m) { m.frictions[0].belt_speed = huge; }).ends_with(end));
+    EXPECT_TRUE(refusal([&](Model& m) { m.stops[0].clearance = huge; }).ends_with(end));
+    EXPECT_TRUE(refusal([&](Model& m) { m.omega = huge; }).ends_with(end));
+    EXPECT_TRUE(refusal(State{-huge, 0, 0, 0}).ends_with(end));
+  }
+  EXPECT_EQ(refusal([](Model& m) { m.forces[0].amplitude = 1e49; }), "accepted");
+  EXPECT_EQ(refusal([](Model& m) { m.forces[0].phase = 1e307; }), "accepted");  // an angle: only its sine is used
+}
+
+TEST(Model, a_stop_so_far_away_that_the_motion_rounds_to_nothing_is_refused) {
+  Model model = two_blocks();
+  model.stops[0].clearance = 1e9;
+  EXPECT_NO_THROW(validate(model, {-0.5, 0, 0, 0}));
+  model.stops[0].clearance = 1e16;
+  EXPECT_THROW(validate(model, {-0.5, 0, 0, 0}), InputError);
 }
 
 }  // namespace

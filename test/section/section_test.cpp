@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "slapstick/base/error.hpp"
-#include "slapstick/section/impact_section.hpp"
+#include "slapstick/section/run_impacts.hpp"
 #include "slapstick/section/stroboscopic_section.hpp"
 
 extern long allocations;  // count_allocations.cpp
@@ -181,6 +181,33 @@ TEST(StroboscopicSection, RefusesAModelWithoutForcingAndAPhaseOutsideThePeriod) 
   EXPECT_THROW(StroboscopicSection(Motion(forced, rest), 1.0), InputError);
   EXPECT_THROW(StroboscopicSection(Motion(forced, rest), -0.1), InputError);
   EXPECT_THROW(StroboscopicSection(Motion(forced, rest), std::nan("")), InputError);
+}
+
+TEST(Stage, EndsLaterThanNowWhateverTheFractionRoundsTo) {
+  for (const double omega : {3e-7, 1e-7, 7e-8, 2e-4, 2.0}) {
+    const System system(paper(omega));
+    const double most = std::max(1.0, 1e6 / system.windows_per_period());
+    Instant now;
+    for (int i = 0; i < 5000; ++i) {
+      const Instant next = next_stage(system, now, {1 << 30, 0.5});
+      ASSERT_GT(next, now) << omega;
+      ASSERT_LE(next.since(now), most * (1.0 + 1e-9)) << omega;
+      now = next;
+    }
+    EXPECT_EQ(next_stage(system, {2, 0.25}, {2, 0.25000001}), (Instant{2, 0.25000001}));
+  }
+}
+
+TEST(Stage, AStopIsSeenBeforeTheEnd) {
+  const System system(paper(1e-6));
+  const std::atomic<bool> stop = true;
+  Motion motion(system, rest);
+  EXPECT_FALSE(run_to(motion, {1'000'000, 0.0}, &stop, [] {}));
+  EXPECT_LT(motion.counters().windows, 3'000'000);
+  ImpactSection section(Motion(system, rest));
+  EXPECT_FALSE(run_impacts(section, {1'000'000, 0.0}, &stop, [](const SectionPoint&) { return true; }));
+  StroboscopicPoint point;
+  EXPECT_FALSE(StroboscopicSection(Motion(system, rest), 0.5).next(point, &stop));
 }
 
 }  // namespace

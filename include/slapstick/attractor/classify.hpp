@@ -13,6 +13,7 @@
 ///  3. Neither: *undecided*, with the figures that would not agree.
 #include <atomic>
 #include <complex>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,9 @@ struct ClassifyOptions {
   int exponent_periods = 4000;  ///< length of the exponent and average runs
   double curve_digits = 5.0;
   const std::atomic<bool>* cancel = nullptr;  ///< set it and classify returns soon, with `interrupted`
+  /// Called after every forcing period of the transient and the search with the number of them so far; at most transient_periods +
+  /// most_periods, and less if a cycle is found early.
+  std::function<void(long periods)> progress = {};
 };
 
 /// One impact of the cycle.

@@ -119,7 +119,10 @@ struct Files {
 /// Values beyond this count as not finite (gnuplot's own arithmetic on ranges would overflow).
 inline constexpr double largest_coordinate = 1e150;
 
-/// Writes `<stem>.gp`, `<stem>.csv` (a header row, then two columns per series drawn as vectors, numbers in shortest
+/// Whether a figure could be drawn, before the work that leads to it. @throws StorageError "gnuplot not found: install gnuplot-nox"
+void demand_gnuplot();
+
+/// Writes `<stem>.gp`, `<stem>-plot.csv` (a header row, then two columns per series drawn as vectors, numbers in shortest
 /// round-trip form; no file if there is no such series), the raster images and the formats asked for. `stem` is a path
 /// without extension whose folder exists. The script uses relative names only.
 ///

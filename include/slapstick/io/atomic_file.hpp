@@ -36,7 +36,12 @@ class AtomicFile {
   std::filesystem::path temporary_;  // empty when written directly
   std::string buffer_;
   int descriptor_ = -1;
+  int note_ = -1;  // among the temporary files that exist
 };
+
+/// Removes the temporary files of all AtomicFiles, for a signal handler that ends the program next: safe in one, at any moment, on any
+/// thread. No AtomicFile can be used afterwards. (Of more than 64 at once the rest stays.)
+void remove_temporary_files() noexcept;
 
 /// Writes a whole file as AtomicFile does. @throws StorageError
 void write_atomically(const std::filesystem::path& path, std::string_view bytes);

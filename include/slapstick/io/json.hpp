@@ -36,8 +36,8 @@ class Json {
   Json& set(std::string_view key, Json value);
   Json& push(Json value);
 
-  /// The text with this indentation, or on one line with -1; ends without a line break. A double reads back as the same double; one that
-  /// is not finite becomes the string "inf", "-inf" or "nan". Bytes that are not UTF-8 become U+FFFD.
+  /// The text with this indentation, or on one line with -1; ends without a line break. A double has 17 significant digits, as in tables, and
+  /// reads back as the same; one that is not finite becomes the string "inf", "-inf" or "nan". Bytes that are not UTF-8 become U+FFFD.
   [[nodiscard]] std::string dump(int indent = 2) const;
   [[nodiscard]] const Value& value() const { return value_; }
 

@@ -82,11 +82,12 @@ using State = std::vector<double>;
 [[nodiscard]] std::vector<std::string> state_names(const Model& model);
 
 /// Checks everything that makes a model meaningless: non-finite numbers, masses <= 0, omega, f_k > f_s, restitution outside [0, 1],
-/// bad indices, a contact between a coordinate and itself, names used twice.
+/// bad indices, a contact between a coordinate and itself, names used twice. Numbers beyond 1e50, and a mass or omega below 1e-50,
+/// are refused too: their products would leave the range of a double.
 /// @throws InputError naming the field, e.g. "stop 'gap': restitution = 1.2 is outside [0, 1]".
 void validate(const Model& model);
 
-/// Checks a start: 2n finite numbers and no stop violated.
+/// Checks a start: 2n finite numbers of at most 1e50, and no stop violated.
 /// @throws InputError naming the coordinate or stop.
 void validate(const Model& model, const State& state);
 

@@ -3,7 +3,7 @@
 ///
 /// Files in `folder`:
 ///
-///   figN.png .pdf .gp      the figure and the script that draws it (figN.csv: curves; figN-raster<k>.png: point clouds)
+///   figN.png .pdf .gp      the figure and the script that draws it (figN-plot.csv: curves; figN-raster<k>.png: point clouds)
 ///   figN-*.csv             every computed point behind it, 17 digits
 ///   claims.json            the claims, with every number; the same bytes for any number of threads
 ///   index.html             the page: figures, words, claims, timing; needs no other file

@@ -1,6 +1,6 @@
 #pragma once
 /// The stroboscopic section: the state of a motion once per forcing period, always at the same phase.
-#include "slapstick/flow/motion.hpp"
+#include "slapstick/flow/stage.hpp"
 
 namespace slapstick {
 
@@ -18,8 +18,9 @@ class StroboscopicSection {
   StroboscopicSection(Motion motion, double phase);
 
   /// Moves on to the next instant of this phase, strictly later than now. No allocation once `point.state` has its size.
+  /// @returns false if `stop` was set (null: cannot be stopped); `point` is then unchanged
   /// @throws NumericalError as Motion::advance
-  void next(StroboscopicPoint& point);
+  bool next(StroboscopicPoint& point, const std::atomic<bool>* stop = nullptr);
 
   [[nodiscard]] const Motion& motion() const { return motion_; }
 

@@ -18,15 +18,6 @@ Lane8 differences(const Lane8& b) {
   return __builtin_shufflevector(d, d, 0, 1, 2, 3, 4, 5, 6, 6);
 }
 
-/// On the whole window, from the second differences: g'' = 42 sum_j (b_{j+2} - 2 b_{j+1} + b_j) B_j within curvature_error.
-Curvature whole_curvature(const Hull& hull, const Lane8& d) {
-  const Lane8 next = __builtin_shufflevector(d, d, 1, 2, 3, 4, 5, 6, 6, 6);
-  const Lane8 second = next - d;
-  const Lane8 bend = __builtin_shufflevector(second, second, 0, 1, 2, 3, 4, 5, 5, 5);
-  const double error = hull.bounds[curvature_error];
-  return {42.0 * least(bend) - error, 42.0 * greatest(bend) + error, 1.0};
-}
-
 /// sum_n weight(n) |a_n|.
 template <class Weight>
 double weighted_size(const Coefficients& a, Weight weight) {
@@ -37,6 +28,24 @@ double weighted_size(const Coefficients& a, Weight weight) {
                                     weight(n + 4), weight(n + 5), weight(n + 6), weight(n + 7)};
   }
   return sum(size);
+}
+
+/// sum_{n>2} n (n - 1) |a_n|, which |g'' - 2 a_2| stays below on [0, 1].
+double bend_change(const Coefficients& a) {
+  return weighted_size(a, [](int n) { return n < 3 ? 0.0 : n * (n - 1.0); });
+}
+
+/// On the whole window, from the second differences: g'' = 42 sum_j (b_{j+2} - 2 b_{j+1} + b_j) B_j within curvature_error. Where that error
+/// outweighs them, as for the small velocities of a quasi-static motion, from the coefficients themselves.
+Curvature whole_curvature(const GuardWindow& guard, const Lane8& d) {
+  const Lane8 next = __builtin_shufflevector(d, d, 1, 2, 3, 4, 5, 6, 6, 6);
+  const Lane8 second = next - d;
+  const Lane8 bend = __builtin_shufflevector(second, second, 0, 1, 2, 3, 4, 5, 5, 5);
+  const double error = guard.hull.bounds[curvature_error], low = 42.0 * least(bend), high = 42.0 * greatest(bend);
+  if (error <= std::max(-low, high)) return {low - error, high + error, 1.0};
+  const double middle = 2.0 * guard.taylor[0][2],
+               spread = bend_change(guard.taylor) + guard.hull.bounds[curvature_noise];
+  return {std::max(low - error, middle - spread), std::min(high + error, middle + spread), 1.0};
 }
 
 /// First positive zero of g + g1 d + m d^2 / 2 with g > 0; infinity if there is none.
@@ -83,7 +92,7 @@ class Search {
       : guard_(guard),
         first_(derivative(guard.taylor)),
         second_(derivative(first_)),
-        whole_(whole_curvature(guard.hull, d)),
+        whole_(whole_curvature(guard, d)),
         x_end_(x_end),
         evaluations_(evaluations) {}
 
@@ -133,8 +142,7 @@ Curvature Search::near_start() const {
   const Lane8& a = guard_.taylor[0];
   const double X = 1.5 * parabola_root(a[0], a[1], 2.0 * a[2]);
   if (!(X < 0.25)) return {-INFINITY, INFINITY, 0.0};
-  const double rest = weighted_size(guard_.taylor, [](int n) { return n < 3 ? 0.0 : n * (n - 1.0); });
-  const double spread = X * rest + bound(Bound::curvature_noise);
+  const double spread = X * bend_change(guard_.taylor) + bound(Bound::curvature_noise);
   return {2.0 * a[2] - spread, 2.0 * a[2] + spread, X};
 }
 

@@ -93,9 +93,7 @@ void place_mark_labels(const Panel& panel, PanelLayout& layout, double em_cm, do
     if (!(from <= to)) continue;
     const double half = 0.5 * spacing::legend_font * em_cm * width_em(mark.label);
     const double middle = layout.frame.left + 0.5 * (layout.x.place(from) + layout.x.place(to)) * layout.frame.width();
-    // Within the paper where it fits; a label wider than that keeps its beginning.
-    const double least = std::min(layout.frame.left + half, middle);
-    const double x = std::clamp(middle, least, std::max(least, paper_right - half));
+    const double x = std::min(middle, std::max(paper_right - half, layout.frame.left));
     const auto touches = [&](int row) {
       return std::any_of(taken.begin(), taken.end(), [&](const Taken& t) {
         return t.row == row && x - half < t.right + 0.4 * em_cm && x + half > t.left - 0.4 * em_cm;

@@ -9,6 +9,17 @@
 
 namespace slapstick {
 
+namespace {
+
+/// Steps lose less than a guard's rounding bound in so many windows.
+constexpr int windows_per_start = 16;
+
+/// More than an instant and its place in a window of H periods can differ, in windows. Whether an event comes before a cut is decided by
+/// the clock, which does not know of the cut.
+double clock_rounding(double H) { return 0x1p-46 + 0x1p-51 / H; }
+
+}  // namespace
+
 std::string_view name(EventKind kind) {
   constexpr std::string_view names[] = {"impact", "slip+", "slip-", "stick", "release", "graze", "chatter"};
   return names[static_cast<int>(kind)];
@@ -114,7 +125,7 @@ Outcome Motion::advance(Instant end) {
   pending_count_ = shown_ = 0;
   if (chatter_stop_ >= 0 && end_chatter(limit)) return Outcome::event;
   begin_segment();
-  if (fly(limit)) return Outcome::event;
+  if (fly(end)) return Outcome::event;
   now_ = end;
   system_->frame().set_phase(now_.fraction, X_.data());
   return Outcome::reached_end;
@@ -122,7 +133,7 @@ Outcome Motion::advance(Instant end) {
 
 /// From the state now, in the mode just selected; `orders_` and `magnitude_` are those of this state.
 void Motion::begin_flight() {
-  flight_ = {now_, 0.0, 0};
+  flight_ = {now_, 0};
   elapsed_ = 0.0;
   X_window_ = X_;
   ++counters_.windows;
@@ -138,16 +149,21 @@ void Motion::begin_segment() {
   ++counters_.segments;
 }
 
-/// Goes on with the flight, up to `limit` time units from its start. True if an event has ended it.
-bool Motion::fly(double limit) {
+/// Goes on with the flight, up to `end`. True if an event has ended it.
+bool Motion::fly(Instant end) {
   for (;;) {
-    const double H = system_->mode(mode_).window();
-    const double x_end = std::clamp((limit - flight_.elapsed(H)) / H, 0.0, 1.0);
+    const double H = system_->mode(mode_).window_in_periods();
+    const double to_end = std::max((end.since(flight_.start) - flight_.windows * H) / H, 0.0);  // in windows
+    const double x_end = std::min(to_end + clock_rounding(H), 1.0);
     const Found found = first_event_in_window(x_end);
+    if (found.kind != event::RootKind::none && instant(found.x) > end) {
+      look(std::min(to_end, 1.0));
+      return false;
+    }
     switch (found.kind) {
       case event::RootKind::none:
         if (x_end < 1.0) {
-          look(x_end);
+          look(to_end);
           return false;
         }
         next_window();
@@ -191,8 +207,8 @@ void Motion::next_window() {
   const mode::Mode& mode = system_->mode(mode_);
   mode.step(X_window_.data(), X_next_.lanes().data());
   std::swap(X_window_, X_next_);
-  ++flight_.windows;
   ++counters_.windows;
+  if (++flight_.windows == windows_per_start) move_start(0.0, X_window_);
   note_magnitude(X_window_);
   for (int g = 0; g < mode.guard_count(); ++g) {
     const bool unclear = orders_[g] == flow::never || lingers_[g];
@@ -205,13 +221,28 @@ void Motion::next_window() {
 void Motion::restart_window(double x) {
   const mode::Mode& mode = system_->mode(mode_);
   mode.state_at(x, X_window_.data(), X_next_.data());
-  flight_ = {flight_.start, flight_.elapsed(mode.window()) + x * mode.window(), 0};
-  system_->frame().set_phase(flight_.start.plus(flight_.base / system_->period()).fraction, X_next_.data());
+  move_start(x, X_next_);
   std::swap(X_window_, X_next_);
   ++counters_.windows;
   note_magnitude(X_window_);
   for (int g = 0; g < mode.guard_count(); ++g)
     orders_[g] = flow::start_order(mode, g, X_window_.data(), magnitude_.data());
+}
+
+/// Counts the flight from x of its present window on, where the state is X. The clock sets the phase, which steps from window to window
+/// would lose digit by digit: it counts windows exactly.
+void Motion::move_start(double x, Extended& X) {
+  const mode::Mode& mode = system_->mode(mode_);
+  segment_begun_ -= flight_.elapsed(mode.window()) + x * mode.window();
+  flight_ = {instant(x), 0};
+  system_->frame().set_phase(flight_.start.fraction, X.data());
+  at_one_instant_ = 0;
+  chatter_stop_ = -1;  // its limit was within the first window
+}
+
+/// x of the present window on the clock.
+Instant Motion::instant(double x) const {
+  return flight_.start.plus((flight_.windows + x) * system_->mode(mode_).window_in_periods());
 }
 
 /// Reads the coordinates at x of the present window.
@@ -230,7 +261,7 @@ void Motion::arrive(double x) {
   look(x);
   arrived_x_ = x;
   if (elapsed_ > 0.0) at_one_instant_ = 0;
-  now_ = std::max(now_, flight_.start.plus(elapsed_ / system_->period()));  // a cut may have come an ulp after it
+  now_ = std::max(now_, instant(x));
   system_->frame().set_phase(now_.fraction, X_.data());
 }
 

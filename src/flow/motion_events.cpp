@@ -154,7 +154,7 @@ bool Motion::end_chatter(double limit) {
   const int stop = chatter_stop_;
   const flow::ChatterLimit chatter =
       flow::prove_chatter(*system_, stop, X_window_.data(), options_.chatter_tolerance * system_->period(), scratch_);
-  if (!chatter.proven || flight_.elapsed(1.0) > 0.0 || chatter.duration > 0.5 * system_->mode(mode_).window()) {
+  if (!chatter.proven || flight_.windows > 0 || chatter.duration > 0.5 * system_->mode(mode_).window()) {
     chatter_stop_ = -1;
     return false;
   }

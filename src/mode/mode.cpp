@@ -80,7 +80,7 @@ Mode::Mode(const Model& model, const Frame& frame, ContactStates states)
   select_linear_system(model, frame, held);
   arm_guards(model, frame, held);
   note_guard_structure(frame.kinematics(model.omega));
-  build_operators(frame, model.omega);
+  build_operators(frame, model);
 }
 
 /// Slip: kinetic friction -s f_k on a. Held contacts: M u' = R(X) + G^T lambda with G u' = 0, so that
@@ -190,12 +190,13 @@ Matrix Mode::flow_over_window(const Series& series, std::size_t first_coordinate
   return flow;
 }
 
-void Mode::build_operators(const Frame& frame, double omega) {
+void Mode::build_operators(const Frame& frame, const Model& model) {
   std::vector<RowVector> rows;
   for (const Guard& guard : guards_) rows.push_back(guard.row);
   for (int i = 0; i < n_; ++i) rows.push_back(RowVector::Unit(m_, i));
-  const Series series(A_, rows);
+  const Series series(A_, rows, model.forcing_period());
   window_ = series.window();
+  window_in_periods_ = series.window_in_periods();
   noise_factor_ = (m_ + 16.0) * event::unit_roundoff;
 
   const auto guards = guards_.size();
@@ -205,7 +206,7 @@ void Mode::build_operators(const Frame& frame, double omega) {
   leading_noise_.assign(guards * m_, event::Lane8{});
   coordinates_.assign(3 * static_cast<std::size_t>(n_) * m_, event::Lane8{});
 
-  const Matrix flow = flow_over_window(series, guards, frame, omega);
+  const Matrix flow = flow_over_window(series, guards, frame, model.omega);
   for (int i = 0; i < m_; ++i) {
     for (int r = 0; r < m_; ++r) step_[(r / 8) * m_ + i][r % 8] = flow(r, i);
     for (int j = 0; j < event::terms; ++j) {

@@ -16,9 +16,16 @@ double reference_length(const Matrix& A) {
   return std::ldexp(std::floor(256.0 * mantissa) / 256.0, exponent);
 }
 
+/// The greatest number with 24 bits up to x.
+double few_bits(double x) {
+  int exponent = 0;
+  const double mantissa = std::frexp(x, &exponent);
+  return std::ldexp(std::floor(0x1p24 * mantissa), exponent - 24);
+}
+
 }  // namespace
 
-Series::Series(const Matrix& A, const std::vector<RowVector>& rows) : reference_(reference_length(A)) {
+Series::Series(const Matrix& A, const std::vector<RowVector>& rows, double period) : reference_(reference_length(A)) {
   A_ = A.cast<long double>() * static_cast<long double>(reference_);
   const Eigen::Index m = A_.rows();
   for (const RowVector& row : rows) {
@@ -44,13 +51,14 @@ Series::Series(const Matrix& A, const std::vector<RowVector>& rows) : reference_
     const double middle = std::sqrt(low * high);
     (tail_is_negligible(middle) ? low : high) = middle;
   }
-  ratio_ = low;
-  window_ = ratio_ * reference_;
+  window_in_periods_ = few_bits(low * reference_ / period);
+  window_ = window_in_periods_ * period;
+  const long double ratio = static_cast<long double>(window_in_periods_) * period / reference_;
   for (auto& terms : scaled_) {
     long double power = 1.0L;
     for (LongRow& term : terms) {
       term *= power;
-      power *= ratio_;
+      power *= ratio;
     }
   }
 }

@@ -10,12 +10,14 @@ namespace slapstick::mode {
 /// For X' = A X and functionals h = c . X:  h(s) = sum_n (c A^n / n!) s^n X.
 ///
 /// The window length H is the largest for which, row by row and column by column, the dropped terms n >= 24 are at most a quarter
-/// ulp of the largest kept term of that column, so that the remainder is covered by the rounding bound of the same column.
+/// ulp of the largest kept term of that column, so that the remainder is covered by the rounding bound of the same column. As a number
+/// of periods H has at most 24 bits: multiples of it are exact, and a clock that counts windows loses nothing.
 class Series {
  public:
-  Series(const Matrix& A, const std::vector<RowVector>& rows);
+  Series(const Matrix& A, const std::vector<RowVector>& rows, double period);
 
   [[nodiscard]] double window() const { return window_; }
+  [[nodiscard]] double window_in_periods() const { return window_in_periods_; }
   /// Coefficient of x^n (x = s / H) of row r with respect to X_i.
   [[nodiscard]] double taylor(std::size_t r, int n, int i) const;
   /// Row r at the window's end, c exp(A H), and its time derivative there.
@@ -32,7 +34,7 @@ class Series {
   LongMatrix A_;                                 ///< A times the reference length
   std::vector<std::vector<LongRow>> scaled_;     ///< [row][n]: c A^n / n! times window^n
   std::vector<std::vector<double>> magnitudes_;  ///< [row][n * m + i]: |c A^n / n!| times the reference length^n
-  double reference_ = 1.0, ratio_ = 1.0, window_ = 1.0;  ///< window = ratio * reference length
+  double reference_ = 1.0, window_ = 1.0, window_in_periods_ = 1.0;
 };
 
 }  // namespace slapstick::mode

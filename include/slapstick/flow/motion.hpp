@@ -121,21 +121,22 @@ class Motion {
     event::Lanes lanes_;
   };
 
-  /// Where the present flight stands. Its windows are counted from `base`, which is not zero after the root search asked for a new start.
+  /// Where the present flight stands: `windows` whole windows after `start`. The start is moved along: see move_start.
   struct Flight {
     Instant start;
-    double base = 0.0;  ///< time from `start`
-    long windows = 0;   ///< passed since `base`
-    [[nodiscard]] double elapsed(double window) const { return base + static_cast<double>(windows) * window; }
+    int windows = 0;
+    [[nodiscard]] double elapsed(double window) const { return windows * window; }
   };
 
   void start();
   void begin_flight();
   void begin_segment();
-  bool fly(double limit);
+  bool fly(Instant end);
   Found first_event_in_window(double x_end);
   void next_window();
   void restart_window(double x);
+  void move_start(double x, Extended& X);
+  [[nodiscard]] Instant instant(double x) const;
   void look(double x);
   void arrive(double x);
   void handle(int guard, bool graze);

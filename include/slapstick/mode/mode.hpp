@@ -56,6 +56,8 @@ class Mode {
   [[nodiscard]] const std::vector<Guard>& guards() const { return guards_; }
   [[nodiscard]] const Matrix& system() const { return A_; }  ///< X' = system() X
   [[nodiscard]] double window() const { return window_; }    ///< window length in time
+  /// The same in forcing periods; at most 24 bits, so that the clock can count windows without loss.
+  [[nodiscard]] double window_in_periods() const { return window_in_periods_; }
   [[nodiscard]] int size() const { return m_; }
   [[nodiscard]] int guard_count() const { return static_cast<int>(guards_.size()); }
   [[nodiscard]] int state_blocks() const { return state_blocks_; }
@@ -77,7 +79,7 @@ class Mode {
   void arm_guards(const Model& model, const Frame& frame, const Held& held);
   void note_guard_structure(const Matrix& kinematics);
   void arm_gap(const Model& model, const Frame& frame, int stop, const std::vector<RowVector>& constrained);
-  void build_operators(const Frame& frame, double omega);
+  void build_operators(const Frame& frame, const Model& model);
   [[nodiscard]] Matrix flow_over_window(const Series& series, std::size_t first_coordinate, const Frame& frame,
                                         double omega) const;
   [[nodiscard]] event::Hull hull_column(int g, int order, int column) const;
@@ -92,7 +94,7 @@ class Mode {
   std::vector<double> drift_;
   std::vector<bool> steady_;  ///< u_i is constrained: it keeps its value to the last bit
   int n_ = 0, m_ = 0, state_blocks_ = 0;
-  double window_ = 1.0, noise_factor_ = 0.0;
+  double window_ = 1.0, window_in_periods_ = 1.0, noise_factor_ = 0.0;
   event::Lanes step_, taylor_, leading_noise_, coordinates_;
   event::Lanes hulls_, hull_bounds_;  ///< [guard][order], see event::Hull
 };

@@ -1,9 +1,11 @@
 #pragma once
 /// A mechanical oscillator with dry friction and stops, as plain data.
 ///
-///     m_i x_i'' + sum dampers + sum springs = sum forces + friction + stop forces
+///     M x'' + C x' + K x = sum forces + friction + stop forces + compliant stops,
 ///
+/// M, C, K: the coordinates' masses, the dampers and the springs, plus the model's own matrices.
 /// Nothing here assumes a number of coordinates or contacts. Units are the user's; the paper's system is dimensionless.
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,7 +14,7 @@ namespace slapstick {
 /// The index that stands for the fixed surroundings: ground, wall, or (with a belt speed) a belt.
 inline constexpr int ground = -1;
 
-/// A displacement x with its mass (> 0). The velocity is called "v" + the rest of the name if the name starts with 'x'
+/// A displacement x with its mass (>= 0; the sum with the mass matrix must be positive definite). The velocity is called "v" + the rest of the name if the name starts with 'x'
 /// (x1 -> v1), else "v_" + name.
 struct Coordinate {
   std::string name;
@@ -58,6 +60,26 @@ struct Stop {
   double restitution = 1.0;
 };
 
+/// A spring and damper that act only beyond a gap, delta = x_a - x_b - clearance > 0: force stiffness delta + damping delta' on b,
+/// the opposite on a. One that does not pull lets go where that force would become negative.
+struct CompliantStop {
+  std::string name;
+  int a = 0, b = ground;
+  double clearance = 0.0;
+  double stiffness = 0.0;
+  double damping = 0.0;
+  bool pulls = false;
+};
+
+/// What happens when several stops are hit or touched at one instant.
+enum class ImpactLaw : std::uint8_t {
+  moreau,    ///< all at once: 0 <= P, v+ + r v- <= 0 (v towards the stop), complementary, over the stops in contact
+  sequence,  ///< one after another by Newton's law, in the order of the model, until none approaches
+};
+
+/// A symmetric n x n matrix by rows, or empty for zero.
+using SymmetricMatrix = std::vector<double>;
+
 struct Model {
   std::string name;
   std::vector<Coordinate> coordinates;
@@ -66,6 +88,9 @@ struct Model {
   std::vector<Force> forces;
   std::vector<FrictionContact> frictions;
   std::vector<Stop> stops;
+  std::vector<CompliantStop> compliant_stops;
+  SymmetricMatrix mass, damping, stiffness;  ///< added to what coordinates, dampers and springs give
+  ImpactLaw impact_law = ImpactLaw::moreau;
   double omega = 0.0;  ///< forcing frequency; 0 only if no force has a harmonic > 0
 
   [[nodiscard]] int size() const { return static_cast<int>(coordinates.size()); }

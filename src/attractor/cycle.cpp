@@ -1,5 +1,6 @@
 #include "attractor/cycle.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace slapstick::attractor {
@@ -17,12 +18,16 @@ PeriodEvents run_one_period(Motion& motion, Stop stop) {
 }
 
 Eigen::VectorXd contact_state(const Motion& motion) {
-  return Eigen::Map<const Eigen::VectorXd>(motion.extended().data(), 2 * motion.system().frame().n);
+  const mode::Frame& frame = motion.system().frame();
+  Eigen::VectorXd state(2 * frame.n);
+  std::copy_n(motion.extended().data(), frame.n, state.data());
+  std::copy_n(motion.extended().data() + frame.d, frame.n, state.data() + frame.n);
+  return state;
 }
 
 State user_state(const System& system, const Eigen::VectorXd& contact) {
   State state(static_cast<std::size_t>(contact.size()));
-  system.frame().leave(contact.data(), state.data());
+  system.frame().leave(contact.data(), contact.data() + system.frame().n, state.data());
   return state;
 }
 
@@ -48,7 +53,7 @@ std::string cycle_label(const Classification& c) {
   return std::to_string(c.n) + "-" + p + (c.sticking ? "-II" : "-I");
 }
 
-bool holds_still(const Motion& motion, int mode) {
+bool holds_still(const Motion& motion, ModeId mode) {
   const mode::ContactStates& states = motion.system().mode(mode).states();
   for (mode::FrictionState s : states.frictions) {
     if (s == mode::FrictionState::stick) return true;
@@ -70,7 +75,7 @@ void record_cycle(const System& system, const State& state, int n, Stop stop, Cl
   out.impacts.clear();
   out.chatter = Chatter::none;
   // Between two events, and between a cut and an event, the mode is one.
-  int mode = motion.mode_id();
+  ModeId mode = motion.mode_id();
   Instant seen = motion.time();
   const auto spend = [&](Instant now) {
     if (holds_still(motion, mode)) still += now.since(seen);

@@ -39,8 +39,7 @@ double friction_rate(const System& system, int i) {
   const mode::Frame& frame = system.frame();
   double rate = 0.0;
   for (std::size_t k = 0; k < frame.frictions.size(); ++k) {
-    double effect = 0.0;
-    for (int j = 0; j < frame.n; ++j) effect += frame.mass_inverse(i, j) * frame.frictions[k].row[j];
+    const double effect = frame.mass_inverse(i, frame.frictions[k].own);
     rate += std::abs(effect) * system.model().frictions[k].static_friction;
   }
   return rate;
@@ -50,14 +49,14 @@ double friction_rate(const System& system, int i) {
 void magnitude_product(const System& system, const double* v, double* out) {
   const mode::Frame& frame = system.frame();
   const int m = frame.size();
-  for (int i = 0; i < frame.n; ++i) {
+  for (int i = 0; i < frame.d; ++i) {
     out[i] = v[frame.u(i)] + std::abs(frame.drift[i]) * v[frame.one()];
     double sum = 0.0;
     for (int j = 0; j < m; ++j) sum += std::abs(frame.free(i, j)) * v[j];
     out[frame.u(i)] = sum;
   }
   for (std::size_t k = 0; k < frame.harmonics.size(); ++k) {
-    const auto c = 2 * frame.n + 2 * static_cast<int>(k);
+    const auto c = 2 * frame.d + 2 * static_cast<int>(k);
     const double rate = frame.harmonics[k] * system.model().omega;
     out[c] = rate * v[c + 1];
     out[c + 1] = rate * v[c];
@@ -81,9 +80,9 @@ double drift_of_R(const System& system, int stop, const double* X, double D, dou
   double* product = delta + m;
   for (int i = 0; i < m; ++i) magnitude[i] = std::abs(X[i]);
   magnitude_product(system, magnitude, rate);
-  for (int i = 0; i < frame.n; ++i) rate[frame.u(i)] += friction_rate(system, i);
+  for (int i = 0; i < frame.d; ++i) rate[frame.u(i)] += friction_rate(system, i);
   const auto jump = [&](int i) {
-    return i >= frame.n && i < 2 * frame.n ? std::abs(system.impulse(stop)[i - frame.n]) * impulse_sum : 0.0;
+    return i >= frame.d && i < 2 * frame.d ? std::abs(system.impulse(stop)[i - frame.d]) * impulse_sum : 0.0;
   };
   for (int i = 0; i < m; ++i) delta[i] = 2.0 * (D * rate[i] + jump(i));
   // Positions move by the velocities' own bound, which the first guess has not seen yet: one more round before the check.
@@ -105,9 +104,7 @@ bool all_slip_on(const System& system, int stop, const double* X, const double* 
     const auto [effect, same_pair] = system.coupling(stop, i);
     const double w = std::abs(sliding_velocity(system, i, X));
     if (same_pair || w == 0.0 || effect == 0.0) continue;
-    double change = 0.0;
-    for (int j = 0; j < frame.n; ++j) change += std::abs(frame.frictions[i].row[j]) * delta[frame.u(j)];
-    if (change >= w) return false;
+    if (delta[frame.u(frame.frictions[i].own)] >= w) return false;
   }
   return true;
 }

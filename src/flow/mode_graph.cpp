@@ -8,9 +8,10 @@ namespace {
 /// The state where a guard was located carries the error of its root as well as its own rounding.
 constexpr double rest_factor = 8.0;
 
-constexpr int most_contacts = 16;
+constexpr int most_contacts = System::most_contacts;
 
-/// What one contact offers, as digits of a mode id (stop: open 0, closed 1; friction: slip- 0, stick 1, slip+ 2).
+/// What one contact offers, as digits of a mode id (stop: open 0, closed 1; friction: slip- 0, stick 1, slip+ 2; compliant: off 0, on 1,
+/// detached 2).
 struct Candidates {
   std::array<int, 3> digit;
   int count;
@@ -27,27 +28,39 @@ Candidates stop_candidates(double gap, double approach) {
   return {{0}, 1};
 }
 
-double dot(const double* row, const double* X, int count) {
-  double sum = 0.0;
-  for (int i = 0; i < count; ++i) sum += row[i] * X[i];
-  return sum;
-}
-
-double rate(const System& system, const mode::ContactRow& contact, const double* X) {
-  const mode::Frame& frame = system.frame();
-  if (contact.own >= 0) return X[frame.u(contact.own)] + frame.drift[contact.own];
-  double sum = 0.0;
-  for (int i = 0; i < frame.n; ++i) sum += contact.row[i] * (X[frame.u(i)] + frame.drift[i]);
-  return sum;
+Candidates compliant_candidates(double depth, bool can_detach) {
+  if (depth < 0.0) return {{0}, 1};
+  if (depth == 0.0) return can_detach ? Candidates{{0, 1, 2}, 3} : Candidates{{0, 1}, 2};
+  return can_detach ? Candidates{{1, 2}, 2} : Candidates{{1}, 1};
 }
 
 bool fits(const mode::Mode& mode, const double* X, const double* magnitude, std::span<int> orders) {
-  if (!mode.possible()) return false;
   for (int g = 0; g < mode.guard_count(); ++g) {
     orders[g] = start_order(mode, g, X, magnitude);
     if (orders[g] == negative) return false;
     if (orders[g] == never && mode.guards()[g].kind == mode::GuardKind::slip)
       return false;  // at rest for good: stick, not slip
+  }
+  return true;
+}
+
+/// False if a guard of the mode certainly starts downwards. For modes without operators: the derivatives come from A itself, with a rounding
+/// bound that is generous. What passes is judged again by `fits`.
+bool may_fit(const mode::Outline& outline, const double* X, const double* magnitude) {
+  constexpr double roundings = 64.0 * event::unit_roundoff;
+  const auto m = outline.system.rows();
+  mode::Vector term = Eigen::Map<const mode::Vector>(X, m), size = Eigen::Map<const mode::Vector>(magnitude, m);
+  std::vector<bool> open(outline.guards.size(), true);
+  for (int n = 0; n < 3; ++n) {
+    for (std::size_t g = 0; g < outline.guards.size(); ++g) {
+      if (!open[g]) continue;
+      const double value = outline.guards[g].row.dot(term);
+      const double noise = roundings * static_cast<double>(m) * outline.guards[g].row.cwiseAbs().dot(size);
+      if (value < -noise) return false;
+      if (value > noise) open[g] = false;
+    }
+    term = outline.system * term;
+    size = outline.system.cwiseAbs() * size;
   }
   return true;
 }
@@ -68,55 +81,96 @@ int start_order(const mode::Mode& mode, int guard, const double* X, const double
 
 double sliding_velocity(const System& system, int contact, const double* X) {
   const mode::ContactRow& row = system.frame().frictions[contact];
-  if (row.own >= 0) return X[system.frame().u(row.own)];
-  return rate(system, row, X) - system.model().frictions[contact].belt_speed;
+  return row.sign * X[system.frame().u(row.own)];
 }
 
 double gap(const System& system, int stop, const double* X) {
-  const mode::ContactRow& contact = system.frame().stops[stop];
-  if (contact.own >= 0) return -X[contact.own];
-  const mode::Frame& frame = system.frame();
-  return system.model().stops[stop].clearance - contact.row.dot(frame.shift) - dot(contact.row.data(), X, frame.n);
+  const mode::ContactRow& row = system.frame().stops[stop];
+  return -row.sign * X[row.own];
 }
 
 double approach_velocity(const System& system, int stop, const double* X) {
-  return rate(system, system.frame().stops[stop], X);
+  const mode::ContactRow& row = system.frame().stops[stop];
+  return row.sign * X[system.frame().u(row.own)];
 }
 
-int approaching_mode(const System& system, const double* X) {
-  const Model& model = system.model();
-  mode::ContactStates states{std::vector<mode::StopState>(model.stops.size(), mode::StopState::open), {}};
-  for (int i = 0; i < static_cast<int>(model.frictions.size()); ++i) {
-    const double w = sliding_velocity(system, i, X);
-    states.frictions.push_back(w > 0.0   ? mode::FrictionState::slip_plus
-                               : w < 0.0 ? mode::FrictionState::slip_minus
-                                         : mode::FrictionState::stick);
+double depth(const System& system, int compliant, const double* X) {
+  const mode::ContactRow& row = system.frame().compliant[compliant];
+  return row.sign * X[row.own];
+}
+
+namespace {
+
+/// What every contact offers at X, in the order of the digits of a mode id.
+class Choice {
+ public:
+  Choice(const System& system, const double* X) {
+    const Model& model = system.model();
+    for (int i = 0; i < static_cast<int>(model.stops.size()); ++i)
+      add(stop_candidates(gap(system, i, X), approach_velocity(system, i, X)), 2);
+    for (int i = 0; i < static_cast<int>(model.frictions.size()); ++i)
+      add(friction_candidates(sliding_velocity(system, i, X)), 3);
+    for (int i = 0; i < static_cast<int>(model.compliant_stops.size()); ++i) {
+      const CompliantStop& stop = model.compliant_stops[i];
+      add(compliant_candidates(depth(system, i, X), !stop.pulls && stop.damping > 0.0), 3);
+    }
   }
+
+  [[nodiscard]] ModeId id() const {
+    ModeId id = 0;
+    for (int c = 0; c < count_; ++c) id += stride_[c] * offered_[c].digit[choice_[c]];
+    return id;
+  }
+
+  /// The next combination; the last contact's candidates change fastest. False if there is none.
+  bool next() {
+    int c = count_ - 1;
+    while (c >= 0 && ++choice_[c] == offered_[c].count) choice_[c--] = 0;
+    return c >= 0;
+  }
+
+  [[nodiscard]] bool only_one() const { return combinations_ == 1; }
+
+ private:
+  void add(const Candidates& candidates, int base) {
+    offered_[count_] = candidates;
+    stride_[count_++] = next_stride_;
+    next_stride_ *= base;
+    combinations_ *= candidates.count;
+  }
+
+  std::array<Candidates, most_contacts> offered_;
+  std::array<ModeId, most_contacts> stride_{};
+  std::array<int, most_contacts> choice_{};
+  ModeId next_stride_ = 1;
+  double combinations_ = 1.0;
+  int count_ = 0;
+};
+
+}  // namespace
+
+ModeId approaching_mode(const System& system, const double* X) {
+  mode::ContactStates states = system.states(0);
+  for (std::size_t i = 0; i < states.frictions.size(); ++i) {
+    const double w = sliding_velocity(system, static_cast<int>(i), X);
+    states.frictions[i] = w > 0.0   ? mode::FrictionState::slip_plus
+                          : w < 0.0 ? mode::FrictionState::slip_minus
+                                    : mode::FrictionState::stick;
+  }
+  for (std::size_t i = 0; i < states.compliant.size(); ++i)
+    if (depth(system, static_cast<int>(i), X) > 0.0) states.compliant[i] = mode::CompliantState::on;
   return system.mode_id(states);
 }
 
-int select_mode(const System& system, const double* X, const double* magnitude, std::span<int> orders) {
-  const Model& model = system.model();
-  const auto stops = static_cast<int>(model.stops.size());
-  const int contacts = stops + static_cast<int>(model.frictions.size());
-  std::array<Candidates, most_contacts> offered;
-  for (int c = 0; c < contacts; ++c) {
-    offered[c] = c < stops ? stop_candidates(gap(system, c, X), approach_velocity(system, c, X))
-                           : friction_candidates(sliding_velocity(system, c - stops, X));
-  }
-  // Count through all combinations; the last contact's candidates change fastest.
-  std::array<int, most_contacts> choice{};
-  for (;;) {
-    int id = 0, stride = 1;
-    for (int c = 0; c < contacts; ++c) {
-      id += stride * offered[c].digit[choice[c]];
-      stride *= c < stops ? 2 : 3;
-    }
-    if (fits(system.mode(id), X, magnitude, orders)) return id;
-    int c = contacts - 1;
-    while (c >= 0 && ++choice[c] == offered[c].count) choice[c--] = 0;
-    if (c < 0) return -1;
-  }
+ModeId select_mode(const System& system, const double* X, const double* magnitude, std::span<int> orders) {
+  Choice choice(system, X);
+  do {
+    const ModeId id = choice.id();
+    const mode::Mode* known = system.known_mode(id);
+    if (known == nullptr && !choice.only_one() && !may_fit(system.outline(id), X, magnitude)) continue;
+    if (fits(known != nullptr ? *known : system.mode(id), X, magnitude, orders)) return id;
+  } while (choice.next());
+  return -1;
 }
 
 }  // namespace slapstick::flow

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "slapstick/base/error.hpp"
 #include "slapstick/flow/mode_graph.hpp"
@@ -21,7 +22,8 @@ double clock_rounding(double H) { return 0x1p-46 + 0x1p-51 / H; }
 }  // namespace
 
 std::string_view name(EventKind kind) {
-  constexpr std::string_view names[] = {"impact", "slip+", "slip-", "stick", "release", "graze", "chatter"};
+  constexpr std::string_view names[] = {"impact", "slip+",   "slip-",  "stick",     "release",
+                                        "graze",  "chatter", "engage", "disengage", "separate"};
   return names[static_cast<int>(kind)];
 }
 
@@ -39,14 +41,15 @@ Motion::Motion(const System& system, const State& initial, Instant start_at, Mot
       phase_floor_(X_) {
   validate(system.model(), initial);
   const mode::Frame& frame = system.frame();
-  int guards = 1;
-  for (int id = 0; id < system.mode_count(); ++id) guards = std::max(guards, system.mode(id).guard_count());
+  const int guards = 1 + stops() + 2 * frictions() + 2 * compliants();
+  touching_.reserve(stops());
+  pending_.reserve(64 + 4 * guards);
   scratch_.assign(4 * X_.span().size(), 0.0);
   sample_out_.resize(X_.span().size() / 8);
   orders_.assign(guards, 0);
   lingers_.assign(guards, false);
   before_.assign(2 * static_cast<std::size_t>(frame.n), 0.0);
-  std::fill_n(phase_floor_.data() + 2 * frame.n, 2 * frame.harmonics.size(), 1.0);
+  std::fill_n(phase_floor_.data() + 2 * frame.d, 2 * frame.harmonics.size(), 1.0);
   budget_period_ = now_.period;
 
   frame.enter(initial.data(), X_.data());
@@ -58,16 +61,18 @@ Motion::Motion(const System& system, const State& initial, Instant start_at, Mot
 
 /// A start in contact and approaching is an impact, the first event of the motion.
 void Motion::start() {
-  for (int s = 0; s < stops(); ++s) {
-    if (flow::gap(*system_, s, X_.data()) != 0.0 || flow::approach_velocity(*system_, s, X_.data()) <= 0.0) continue;
-    mode_ = flow::approaching_mode(*system_, X_.data());
-    begin_segment();
-    const auto& guards = system_->mode(mode_).guards();
-    for (std::size_t g = 0; g < guards.size(); ++g) {
-      if (guards[g].kind == mode::GuardKind::gap && guards[g].contact == s) return handle(static_cast<int>(g), false);
-    }
+  const int stop = approaching();
+  if (stop < 0) return choose_mode();
+  mode_ = flow::approaching_mode(*system_, X_.data());
+  here_ = &system_->mode(mode_);
+  begin_segment();
+  const auto& guards = here_->guards();
+  for (std::size_t g = 0; g < guards.size(); ++g) {
+    if (guards[g].kind == mode::GuardKind::gap && guards[g].contact == stop) hit_guard_ = &guards[g];
   }
-  choose_mode();
+  X_before_ = X_;
+  strike_all();
+  settle(Cause::impact);
 }
 
 State Motion::state() const {
@@ -116,13 +121,14 @@ void Motion::fail(const std::string& what) const {
 }
 
 Outcome Motion::advance(Instant end) {
-  if (shown_ + 1 < pending_count_) {
+  if (shown_ + 1 < static_cast<int>(pending_.size())) {
     ++shown_;
     return Outcome::event;
   }
   if (end <= now_) return Outcome::reached_end;
   const double limit = end.since(flight_.start) * system_->period();
-  pending_count_ = shown_ = 0;
+  pending_.clear();
+  shown_ = 0;
   if (chatter_stop_ >= 0 && end_chatter(limit)) return Outcome::event;
   begin_segment();
   if (fly(end)) return Outcome::event;
@@ -152,7 +158,7 @@ void Motion::begin_segment() {
 /// Goes on with the flight, up to `end`. True if an event has ended it.
 bool Motion::fly(Instant end) {
   for (;;) {
-    const double H = system_->mode(mode_).window_in_periods();
+    const double H = here_->window_in_periods();
     const double to_end = std::max((end.since(flight_.start) - flight_.windows * H) / H, 0.0);  // in windows
     const double x_end = std::min(to_end + clock_rounding(H), 1.0);
     const Found found = first_event_in_window(x_end);
@@ -181,7 +187,7 @@ bool Motion::fly(Instant end) {
 }
 
 Motion::Found Motion::first_event_in_window(double x_end) {
-  const mode::Mode& mode = system_->mode(mode_);
+  const mode::Mode& mode = *here_;
   Found found{event::RootKind::none, 0, x_end};
   int falling = -1;  // a gap that falls all over the window: its pair does not come to rest before the impact
   for (int g = 0; g < mode.guard_count(); ++g) {
@@ -204,7 +210,7 @@ Motion::Found Motion::first_event_in_window(double x_end) {
 /// No event in this window: every guard is clear of its noise at its end, or lingers in it, or has been zero so far, as a force that
 /// just holds. The last two are judged by their derivatives again.
 void Motion::next_window() {
-  const mode::Mode& mode = system_->mode(mode_);
+  const mode::Mode& mode = *here_;
   mode.step(X_window_.data(), X_next_.lanes().data());
   std::swap(X_window_, X_next_);
   ++counters_.windows;
@@ -219,7 +225,7 @@ void Motion::next_window() {
 
 /// The root search could not decide at the window's end: a new window, from x of this one on, has that place inside.
 void Motion::restart_window(double x) {
-  const mode::Mode& mode = system_->mode(mode_);
+  const mode::Mode& mode = *here_;
   mode.state_at(x, X_window_.data(), X_next_.data());
   move_start(x, X_next_);
   std::swap(X_window_, X_next_);
@@ -232,22 +238,21 @@ void Motion::restart_window(double x) {
 /// Counts the flight from x of its present window on, where the state is X. The clock sets the phase, which steps from window to window
 /// would lose digit by digit: it counts windows exactly.
 void Motion::move_start(double x, Extended& X) {
-  const mode::Mode& mode = system_->mode(mode_);
+  const mode::Mode& mode = *here_;
   segment_begun_ -= flight_.elapsed(mode.window()) + x * mode.window();
   flight_ = {instant(x), 0};
   system_->frame().set_phase(flight_.start.fraction, X.data());
-  at_one_instant_ = 0;
   chatter_stop_ = -1;  // its limit was within the first window
 }
 
 /// x of the present window on the clock.
 Instant Motion::instant(double x) const {
-  return flight_.start.plus((flight_.windows + x) * system_->mode(mode_).window_in_periods());
+  return flight_.start.plus((flight_.windows + x) * here_->window_in_periods());
 }
 
 /// Reads the coordinates at x of the present window.
 void Motion::look(double x) {
-  const mode::Mode& mode = system_->mode(mode_);
+  const mode::Mode& mode = *here_;
   elapsed_ = flight_.elapsed(mode.window()) + x * mode.window();
   segment_duration_ = elapsed_ - segment_begun_;
   if (x == 0.0)
@@ -260,8 +265,11 @@ void Motion::look(double x) {
 void Motion::arrive(double x) {
   look(x);
   arrived_x_ = x;
-  if (elapsed_ > 0.0) at_one_instant_ = 0;
-  now_ = std::max(now_, instant(x));
+  const Instant last = std::exchange(now_, std::max(now_, instant(x)));
+  if (last < now_) {
+    at_one_instant_ = 0;
+    struck_now_ = 0;
+  }
   system_->frame().set_phase(now_.fraction, X_.data());
 }
 

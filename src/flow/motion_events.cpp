@@ -1,8 +1,10 @@
 /// What happens at an event: impact law, rest, next mode, complete chatter. See flow/motion.hpp for the order of things.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "slapstick/flow/chatter.hpp"
+#include "slapstick/flow/impact_law.hpp"
 #include "slapstick/flow/mode_graph.hpp"
 #include "slapstick/flow/motion.hpp"
 
@@ -14,26 +16,66 @@ using mode::StopState;
 
 namespace {
 
-constexpr long most_events_at_one_instant = 16;
+constexpr int most_rounds = 16;  ///< of impacts without a flight between them, before they are ended together
+constexpr long most_flights_at_one_instant = 32;  ///< of stops that bounce faster than the clock can tell
+constexpr long most_events_at_one_instant = 256;
 
 }  // namespace
 
 void Motion::handle(int guard, bool graze) {
-  const mode::Guard& hit = system_->mode(mode_).guards()[guard];
+  const mode::Guard& hit = here_->guards()[guard];
   hit_guard_ = &hit;
   X_before_ = X_;
+  const mode::Frame& frame = system_->frame();
+  gather_ties(guard);
   switch (hit.kind) {
     case GuardKind::gap:
       return touch(hit.contact, graze);
     case GuardKind::slip:
       if (const int stop = stop_touched_at_rest(hit.contact); stop >= 0) return touch(stop, true);
-      rest(system_->frame().frictions[hit.contact], system_->model().frictions[hit.contact].belt_speed);
+      rest(frame.frictions[hit.contact]);
       return settle(Cause::reversal);
     case GuardKind::stick_above:
     case GuardKind::stick_below:
       return force_limit(guard, stops() + hit.contact, graze);
     case GuardKind::press:
       return force_limit(guard, hit.contact, graze);
+    case GuardKind::engage:
+    case GuardKind::leave:
+    case GuardKind::let_go:
+    case GuardKind::push:
+      return compliant_limit(hit.contact, hit.kind);
+  }
+}
+
+/// Is a guard that reads `value` here within its rounding bound of zero?
+bool Motion::within_noise(int guard, double value) const {
+  const int order = orders_[guard];
+  if (order < 0 || order == flow::never) return false;
+  event::Hull hull;
+  here_->enclose(guard, order, X_window_.data(), magnitude_.data(), hull);
+  const double x = arrived_x_;
+  const double noise =
+      hull.bounds[event::noise_0] + x * (hull.bounds[event::noise_1] + x * hull.bounds[event::noise_2]);
+  return std::abs(value) <= std::pow(x, order) * noise;
+}
+
+/// Other gaps and relative velocities that are zero at this instant, as far as rounding can tell, are made exactly zero: symmetric machines
+/// have their events in pairs.
+void Motion::gather_ties(int guard) {
+  const auto& guards = here_->guards();
+  if (guards.size() < 3) return;  // one stop and one friction contact: see stop_touched_at_rest
+  const mode::Frame& frame = system_->frame();
+  for (int g = 0; g < static_cast<int>(guards.size()); ++g) {
+    const int contact = guards[g].contact;
+    if (g == guard) continue;
+    if (guards[g].kind == GuardKind::gap) {
+      if (within_noise(g, flow::gap(*system_, contact, X_.data()))) land(frame.stops[contact]);
+    } else if (guards[g].kind == GuardKind::engage || guards[g].kind == GuardKind::leave) {
+      if (within_noise(g, flow::depth(*system_, contact, X_.data()))) land(frame.compliant[contact]);
+    } else if (guards[g].kind == GuardKind::slip) {
+      if (within_noise(g, flow::sliding_velocity(*system_, contact, X_.data()))) rest(frame.frictions[contact]);
+    }
   }
 }
 
@@ -42,7 +84,7 @@ void Motion::handle(int guard, bool graze) {
 void Motion::force_limit(int guard, int contact, bool graze) {
   report(graze ? EventKind::graze : EventKind::release, contact, 0.0);
   note_magnitude(X_);
-  const mode::Mode& mode = system_->mode(mode_);
+  const mode::Mode& mode = *here_;
   const int touched = graze ? flow::start_order(mode, guard, X_.data(), magnitude_.data(), 2) : flow::negative;
   if (touched == flow::negative) return settle(Cause::force);
   for (int g = 0; g < mode.guard_count(); ++g) orders_[g] = flow::start_order(mode, g, X_.data(), magnitude_.data());
@@ -54,97 +96,188 @@ void Motion::force_limit(int guard, int contact, bool graze) {
 /// The stop of a pair that comes to rest just where its gap vanishes, within the gap's rounding bound, or -1. The gap's minimum and the zero of
 /// its rate are one instant, whichever of the two searches ends an ulp earlier.
 int Motion::stop_touched_at_rest(int friction) const {
-  const mode::Mode& mode = system_->mode(mode_);
+  const mode::Mode& mode = *here_;
   for (int g = 0; g < mode.guard_count(); ++g) {
     const mode::Guard& guard = mode.guards()[g];
     if (guard.kind != GuardKind::gap || !system_->coupling(guard.contact, friction).same_pair) continue;
-    const int order = orders_[g];
-    if (order < 0 || order == flow::never) continue;
-    event::Hull hull;
-    mode.enclose(g, order, X_window_.data(), magnitude_.data(), hull);
-    const double x = arrived_x_, noise = hull.bounds[event::noise_0] +
-                                         x * (hull.bounds[event::noise_1] + x * hull.bounds[event::noise_2]);
-    if (flow::gap(*system_, guard.contact, X_.data()) <= std::pow(x, order) * noise) return guard.contact;
+    const double gap = flow::gap(*system_, guard.contact, X_.data());
+    if (gap <= 0.0 || within_noise(g, gap)) return guard.contact;
   }
   return -1;
 }
 
-/// Sets the velocity of a pair relative to `speed` to exactly zero in the stored state.
-void Motion::rest(const mode::ContactRow& contact, double speed) {
-  const mode::Frame& frame = system_->frame();
-  if (contact.own >= 0) {
-    X_.data()[frame.u(contact.own)] = speed == frame.drift[contact.own] ? 0.0 : speed - frame.drift[contact.own];
-    return;
-  }
-  for (int i = 0; i < frame.n; ++i) {  // a row that is +- one contact coordinate
-    if (std::abs(contact.row[i]) == 1.0) {
-      X_.data()[frame.u(i)] = contact.row[i] * speed - frame.drift[i];
-      return;
-    }
-  }
+/// Sets the velocity of a contact, or the gap of a stop, to exactly zero in the stored state.
+void Motion::rest(const mode::ContactRow& contact) {
+  X_.data()[system_->frame().u(contact.own)] = 0.0;
+  system_->frame().match_velocities(contact.own, X_.data());
+}
+
+void Motion::land(const mode::ContactRow& contact) {
+  X_.data()[contact.own] = 0.0;
+  system_->frame().match_displacements(contact.own, X_.data());
 }
 
 /// The gap has reached zero: an impact, or a graze without impulse.
 void Motion::touch(int stop, bool graze) {
   const mode::ContactRow& contact = system_->frame().stops[stop];
-  if (contact.own >= 0) X_.data()[contact.own] = 0.0;
+  land(contact);
   if (graze || flow::approach_velocity(*system_, stop, X_.data()) <= 0.0) {
-    rest(contact, 0.0);
+    rest(contact);
     report(EventKind::graze, stop, 0.0);
     return settle(Cause::graze);
   }
-  impact(stop);
+  strike_all();
   settle(Cause::impact);
 }
 
-/// Newton's law: u+ = u- - (1 + r) w M^{-1} g^T / (g M^{-1} g^T). The pair's own velocity is set, not computed: exactly -r w.
-void Motion::impact(int stop) {
-  const mode::Frame& frame = system_->frame();
+std::span<const int> Motion::touching() {
+  touching_.clear();
+  for (int s = 0; s < stops(); ++s) {
+    if (flow::gap(*system_, s, X_.data()) == 0.0) touching_.push_back(s);
+  }
+  return touching_;
+}
+
+/// The first stop in contact that is approaching, or -1.
+int Motion::approaching() const {
+  for (int s = 0; s < stops(); ++s) {
+    if (flow::gap(*system_, s, X_.data()) == 0.0 && flow::approach_velocity(*system_, s, X_.data()) > 0.0) return s;
+  }
+  return -1;
+}
+
+/// All impacts of this instant, by the model's law, until no stop in contact is approaching.
+void Motion::strike_all() {
+  chatter_stop_ = -1;
+  if (at_one_instant_ > most_flights_at_one_instant) return end_pile_up();
+  int rounds = 0;
+  for (int stop = approaching(); stop >= 0; stop = approaching(), ++rounds) {
+    if (rounds > most_rounds) return moreau(touching(), true);
+    if (touching().size() == 1 || system_->model().impact_law == ImpactLaw::sequence)
+      newton(stop);
+    else
+      moreau(touching_, false);
+    const double r = system_->model().stops[stop].restitution;
+    struck_now_ |= std::uint32_t{1} << stop;
+    chatter_stop_ = rounds == 0 && r > 0.0 && r < 1.0 ? stop : -1;
+  }
+}
+
+/// Stops that chatter against each other, where no proof of completeness is at hand, are closed once their flights are shorter than the
+/// clock's rounding: all that were struck at this instant, plastically and together.
+void Motion::end_pile_up() {
+  int first = -1;
+  for (int s = 0; s < stops(); ++s) {
+    if ((struck_now_ >> s & 1U) == 0 && flow::gap(*system_, s, X_.data()) != 0.0) continue;
+    land(system_->frame().stops[s]);
+    if (first < 0) first = s;
+  }
+  std::array<bool, System::most_contacts> hit{};
+  const std::span<const int> all = touching();
+  if (!flow::strike_together(*system_, all, true, X_.data(), std::span(hit).first(all.size())))
+    fail("the impacts of this instant have no solution");
+  ++counters_.pile_ups;
+  report(EventKind::chatter, first, 0.0);
+  pending_.back().error = 0x1p-53 * system_->period();
+}
+
+void Motion::newton(int stop) {
   const double w = flow::approach_velocity(*system_, stop, X_.data());
-  const double r = system_->model().stops[stop].restitution;
-  for (int i = 0; i < frame.n; ++i) X_.data()[frame.u(i)] -= (1.0 + r) * w * system_->impulse(stop)[i];
-  const int own = frame.stops[stop].own;
-  if (own >= 0) X_.data()[frame.u(own)] = -r * w - frame.drift[own];
+  flow::strike(*system_, stop, system_->model().stops[stop].restitution, X_.data());
   ++counters_.impacts;
   report(EventKind::impact, stop, w);
-  chatter_stop_ = r > 0.0 && r < 1.0 ? stop : -1;
+}
+
+void Motion::moreau(std::span<const int> stops, bool plastic) {
+  std::array<bool, System::most_contacts> hit{};
+  std::array<double, System::most_contacts> w{};
+  for (std::size_t i = 0; i < stops.size(); ++i) w[i] = flow::approach_velocity(*system_, stops[i], X_.data());
+  if (!flow::strike_together(*system_, stops, plastic, X_.data(), std::span(hit).first(stops.size())))
+    fail("the impacts of this instant have no solution");
+  for (std::size_t i = 0; i < stops.size(); ++i) {
+    if (!hit[i] || w[i] <= 0.0) continue;  // one that was at rest transmits an impulse
+    ++counters_.impacts;
+    report(EventKind::impact, stops[i], w[i]);
+  }
+}
+
+/// A compliant stop begins or ends to act: at its gap, or beyond it where its force has come to zero.
+void Motion::compliant_limit(int compliant, GuardKind kind) {
+  const bool at_gap = kind == GuardKind::engage || kind == GuardKind::leave;
+  const bool was_on = here_->states().compliant[compliant] == mode::CompliantState::on;
+  if (at_gap) land(system_->frame().compliant[compliant]);
+  const bool begins = kind == GuardKind::engage || kind == GuardKind::push;
+  report(begins   ? EventKind::engage
+         : was_on ? EventKind::disengage
+                  : EventKind::separate,
+         stops() + frictions() + compliant, 0.0);
+  settle(Cause::compliant);
 }
 
 /// The mode that may start now, from which a new flight begins.
 void Motion::choose_mode() {
   note_magnitude(X_);
-  const int next = flow::select_mode(*system_, X_.data(), magnitude_.data(), orders_);
+  const ModeId next = flow::select_mode(*system_, X_.data(), magnitude_.data(), orders_);
   if (next < 0) fail("no contact mode fits the state (a contact force is inconsistent)");
   mode_ = next;
+  here_ = &system_->mode(mode_);
   begin_flight();
 }
 
 /// Decides the next mode after an event and reports what follows from it at once.
 void Motion::settle(Cause cause) {
-  const int old = mode_;
+  const mode::ContactStates& old = here_->states();
+  if (approaching() >= 0) strike_all();  // a tie
+  if (system_->frame().d > system_->frame().n) system_->frame().refresh(X_.data());
   choose_mode();
   if (cause != Cause::impact) chatter_stop_ = -1;
-  if (cause != Cause::force) report_settled(cause, old);
+  report_settled(cause, old);
 }
 
 /// What the new mode says about the event: reversal or stick of a friction contact, a stop that has closed at rest.
-void Motion::report_settled(Cause cause, int old_mode) {
-  const mode::ContactStates& now = system_->mode(mode_).states();
-  const mode::ContactStates& old = system_->mode(old_mode).states();
+void Motion::report_settled(Cause cause, const mode::ContactStates& old) {
+  const mode::ContactStates& now = here_->states();
   bool stuck = false;
   for (std::size_t i = 0; i < now.frictions.size(); ++i) {
     const int contact = stops() + static_cast<int>(i);
     const bool sticks = now.frictions[i] == FrictionState::stick;
+    const bool itself =
+        hit_guard_ != nullptr && hit_guard_->kind == GuardKind::slip && hit_guard_->contact == static_cast<int>(i);
     if (sticks && old.frictions[i] != FrictionState::stick) {
       report(EventKind::stick, contact, 0.0);
       stuck = true;
-    } else if (!sticks && cause == Cause::reversal) {
+    } else if (!sticks && cause == Cause::reversal &&
+               (itself || (old.frictions[i] != now.frictions[i] && old.frictions[i] != FrictionState::stick))) {
       report(now.frictions[i] == FrictionState::slip_plus ? EventKind::slip_plus : EventKind::slip_minus, contact, 0.0);
     }
   }
   for (std::size_t i = 0; i < now.stops.size() && !stuck; ++i) {
     if (now.stops[i] == StopState::closed && old.stops[i] == StopState::open)
       report(EventKind::stick, static_cast<int>(i), 0.0);
+  }
+  report_others(cause, old);
+}
+
+/// Releases of contacts other than the one whose event this is, on other pairs than its own: its change of force has let them go.
+void Motion::report_others(Cause cause, const mode::ContactStates& old) {
+  if (cause == Cause::impact || hit_guard_ == nullptr || old.stops.size() + old.frictions.size() < 3) return;
+  const mode::Frame& frame = system_->frame();
+  const mode::ContactStates& now = here_->states();
+  const auto of_event = [&](const mode::ContactRow& contact) {
+    const bool on_friction = hit_guard_->kind == GuardKind::slip || hit_guard_->kind == GuardKind::stick_above ||
+                             hit_guard_->kind == GuardKind::stick_below;
+    const bool on_stop = hit_guard_->kind == GuardKind::gap || hit_guard_->kind == GuardKind::press;
+    if (!on_friction && !on_stop) return false;
+    const auto& own = on_friction ? frame.frictions[hit_guard_->contact] : frame.stops[hit_guard_->contact];
+    return frame.parallel(own.own, contact.own) != 0;
+  };
+  for (std::size_t i = 0; i < now.frictions.size(); ++i) {
+    const bool released = old.frictions[i] == FrictionState::stick && now.frictions[i] != FrictionState::stick;
+    if (released && !of_event(frame.frictions[i])) report(EventKind::release, stops() + static_cast<int>(i), 0.0);
+  }
+  for (std::size_t i = 0; i < now.stops.size(); ++i) {
+    const bool released = old.stops[i] == StopState::closed && now.stops[i] == StopState::open;
+    if (released && !of_event(frame.stops[i])) report(EventKind::release, static_cast<int>(i), 0.0);
   }
 }
 
@@ -154,7 +287,7 @@ bool Motion::end_chatter(double limit) {
   const int stop = chatter_stop_;
   const flow::ChatterLimit chatter =
       flow::prove_chatter(*system_, stop, X_window_.data(), options_.chatter_tolerance * system_->period(), scratch_);
-  if (!chatter.proven || flight_.windows > 0 || chatter.duration > 0.5 * system_->mode(mode_).window()) {
+  if (!chatter.proven || flight_.windows > 0 || chatter.duration > 0.5 * here_->window()) {
     chatter_stop_ = -1;
     return false;
   }
@@ -165,19 +298,17 @@ bool Motion::end_chatter(double limit) {
   const Instant impact = flight_.start;
   const mode::Frame& frame = system_->frame();
   X_ = X_window_;
-  const double w = flow::approach_velocity(*system_, stop, X_.data());
-  for (int i = 0; i < frame.n; ++i) X_.data()[frame.u(i)] -= w * system_->impulse(stop)[i];
-  rest(frame.stops[stop], 0.0);
+  flow::strike(*system_, stop, 0.0, X_.data());
   choose_mode();
   flight_.start = impact;
-  const double H = system_->mode(mode_).window();
+  const double H = here_->window();
   look(begun / H);
   frame.set_phase(now_.fraction, X_.data());
   begin_segment();
   arrive(chatter.duration / H);
   X_before_ = X_;
   report(EventKind::chatter, stop, 0.0);
-  pending_[pending_count_ - 1].error = chatter.error;
+  pending_.back().error = chatter.error;
   settle(Cause::force);
   return true;
 }
@@ -186,11 +317,11 @@ void Motion::fail_pile_up() const {
   for (const double x : X_.span()) {
     if (!std::isfinite(x)) fail("the numbers overflow: a coordinate or velocity is not finite; scale the model");
   }
-  fail("more than 16 events at one instant");
+  fail("more than " + std::to_string(most_events_at_one_instant) + " events at one instant");
 }
 
 void Motion::report(EventKind kind, int contact, double w) {
-  pending_[pending_count_++] = Event{kind, contact, now_, w, 0.0};
+  pending_.push_back(Event{kind, contact, now_, w, 0.0});
   ++counters_.events;
   counters_.grazes += kind == EventKind::graze;
   if (++at_one_instant_ > most_events_at_one_instant) fail_pile_up();

@@ -8,6 +8,7 @@
 
 namespace slapstick {
 
+using mode::CompliantState;
 using mode::ContactStates;
 using mode::FrictionState;
 using mode::StopState;
@@ -16,45 +17,16 @@ namespace {
 
 Model checked(Model model) {
   validate(model);
-  const auto refuse = [&](std::size_t count, const char* what) {
-    if (count > 1)
-      throw InputError("model '" + model.name + "' has " + std::to_string(count) + " " + what +
-                       "; models with at most one stop and one friction contact can be run");
-  };
-  refuse(model.stops.size(), "stops");
-  refuse(model.frictions.size(), "friction contacts");
+  const std::size_t contacts = model.stops.size() + model.frictions.size() + model.compliant_stops.size();
+  if (contacts > System::most_contacts)
+    throw InputError("model '" + model.name + "' has " + std::to_string(contacts) + " contacts; at most " +
+                     std::to_string(System::most_contacts) + " can be run");
   return model;
-}
-
-/// Every combination of contact states; the stops vary fastest. System::mode_id is its inverse.
-std::vector<ContactStates> all_states(std::size_t stops, std::size_t frictions) {
-  std::vector<ContactStates> all{ContactStates{std::vector<StopState>(stops), std::vector<FrictionState>(frictions)}};
-  for (std::size_t i = 0; i < stops; ++i) {
-    const auto old = all;
-    all.clear();
-    for (StopState state : {StopState::open, StopState::closed}) {
-      for (ContactStates states : old) {
-        states.stops[i] = state;
-        all.push_back(std::move(states));
-      }
-    }
-  }
-  for (std::size_t i = 0; i < frictions; ++i) {
-    const auto old = all;
-    all.clear();
-    for (FrictionState state : {FrictionState::slip_minus, FrictionState::stick, FrictionState::slip_plus}) {
-      for (ContactStates states : old) {
-        states.frictions[i] = state;
-        all.push_back(std::move(states));
-      }
-    }
-  }
-  return all;
 }
 
 /// The fastest rate of a mode: the largest modulus of an eigenvalue of its free motion, or its highest forcing frequency. Velocities are
 /// measured in a unit that makes the entries of the matrix comparable, otherwise a stiff spring would cost the solver its digits.
-double fastest_rate(const mode::Mode& mode, int n) {
+double fastest_rate(const mode::Mode& mode, int n) {  // n: displacements
   mode::Matrix A = mode.system().topLeftCorner(2 * n, 2 * n);
   const double unit = std::sqrt(A.bottomLeftCorner(n, n).cwiseAbs().maxCoeff());
   if (unit > 0.0) {
@@ -69,9 +41,9 @@ double fastest_rate(const mode::Mode& mode, int n) {
 /// A window is never much longer than the shortest time scale of its mode: the tail of its series would not be negligible. One that is
 /// tells that numbers overflowed when it was computed.
 /// @returns the window length @throws InputError
-double checked_window(const Model& model, const mode::Mode& mode) {
+double checked_window(const Model& model, const mode::Mode& mode, int displacements) {
   constexpr double longest = 16.0;  // times the fastest rate; without overflow it stays below 5
-  const double rate = fastest_rate(mode, model.size()), window = mode.window();
+  const double rate = fastest_rate(mode, displacements), window = mode.window();
   if (!(std::isfinite(rate) && window > 0.0 && window * rate <= longest))
     throw InputError("model '" + model.name +
                      "' has time scales too far apart for double precision (its fastest rate is " + shown(rate) +
@@ -79,53 +51,89 @@ double checked_window(const Model& model, const mode::Mode& mode) {
   return window;
 }
 
+/// A model with so few modes has them built at once.
+constexpr ModeId built_at_once = 8;
+
 }  // namespace
 
 System::System(Model model) : model_(checked(std::move(model))), frame_(model_), period_(model_.forcing_period()) {
-  for (ContactStates& states : all_states(model_.stops.size(), model_.frictions.size()))
-    modes_.emplace_back(model_, frame_, std::move(states));
-  for (const mode::Mode& mode : modes_)
-    if (mode.possible()) windows_per_period_ = std::max(windows_per_period_, period_ / checked_window(model_, mode));
+  for (std::size_t i = 0; i < model_.stops.size(); ++i) mode_count_ *= 2;
+  for (std::size_t i = 0; i < model_.frictions.size() + model_.compliant_stops.size(); ++i) mode_count_ *= 3;
+  modes_ = std::make_unique<ModeTable>(mode_count_);
+  ContactStates free = states(0);
+  windows_per_period_ = period_ / mode(mode_id(free)).window();
+  std::ranges::fill(free.compliant, CompliantState::on);
+  windows_per_period_ = std::max(windows_per_period_, period_ / mode(mode_id(free)).window());
+  for (ModeId id = 0; id < mode_count_ && mode_count_ <= built_at_once; ++id) (void)mode(id);
   for (const mode::ContactRow& stop : frame_.stops) {
-    const mode::Vector direction = frame_.mass_inverse * stop.row.transpose();
-    impulses_.push_back(direction / stop.row.dot(direction));
-    presses_.push_back(stop.row * frame_.free);
+    impulses_.push_back(stop.sign * frame_.mass_inverse.col(stop.own) / frame_.mass_inverse(stop.own, stop.own));
+    presses_.push_back(stop.sign * frame_.free.row(stop.own));
     for (std::size_t i = 0; i < frame_.frictions.size(); ++i) {
-      const mode::RowVector& row = frame_.frictions[i].row;
-      const bool same = row == stop.row || row == -stop.row;
-      couplings_.push_back({row.dot(direction), same && model_.frictions[i].belt_speed == 0.0});
+      const mode::ContactRow& friction = frame_.frictions[i];
+      const bool same = frame_.parallel(stop.own, friction.own) != 0;
+      couplings_.push_back({stop.sign * friction.sign * frame_.mass_inverse(stop.own, friction.own),
+                            same && model_.frictions[i].belt_speed == 0.0});
     }
   }
 }
 
-int System::mode_id(const ContactStates& states) const {
-  int id = 0, stride = 1;
-  for (StopState state : states.stops) {
-    id += stride * static_cast<int>(state);
-    stride *= 2;
-  }
-  for (FrictionState state : states.frictions) {
-    id += stride * (static_cast<int>(state) + 1);
-    stride *= 3;
-  }
+mode::Mode System::build(ModeId id) const {
+  mode::Mode built(model_, frame_, states(id));
+  (void)checked_window(model_, built, frame_.d);
+  return built;
+}
+
+mode::Outline System::outline(ModeId id) const { return {model_, frame_, states(id)}; }
+
+ModeId System::mode_id(const ContactStates& states) const {
+  ModeId id = 0, stride = 1;
+  const auto digit = [&](int value, int base) {
+    id += stride * value;
+    stride *= base;
+  };
+  for (StopState state : states.stops) digit(static_cast<int>(state), 2);
+  for (FrictionState state : states.frictions) digit(static_cast<int>(state) + 1, 3);
+  for (CompliantState state : states.compliant) digit(static_cast<int>(state), 3);
   return id;
 }
 
-std::string System::mode_name(int id) const {
-  const ContactStates& states = modes_[id].states();
+ContactStates System::states(ModeId id) const {
+  ContactStates states;
+  const auto digit = [&](int base) {
+    const auto value = static_cast<int>(id % base);
+    id /= base;
+    return value;
+  };
+  for (std::size_t i = 0; i < model_.stops.size(); ++i) states.stops.push_back(static_cast<StopState>(digit(2)));
+  for (std::size_t i = 0; i < model_.frictions.size(); ++i)
+    states.frictions.push_back(static_cast<FrictionState>(digit(3) - 1));
+  for (std::size_t i = 0; i < model_.compliant_stops.size(); ++i)
+    states.compliant.push_back(static_cast<CompliantState>(digit(3)));
+  return states;
+}
+
+std::string System::mode_name(ModeId id) const {
+  const ContactStates all = states(id);
   std::string name;
-  for (FrictionState state : states.frictions)
+  for (FrictionState state : all.frictions)
     name += std::string(name.empty() ? "" : ",") + (state == FrictionState::stick       ? "stick"
                                                     : state == FrictionState::slip_plus ? "slip+"
                                                                                         : "slip-");
   if (name.empty()) name = "free";
-  for (StopState state : states.stops) name += state == StopState::closed ? "|closed" : "";
+  const bool several = model_.stops.size() + model_.compliant_stops.size() > 1;
+  const auto named = [&](const std::string& what) { return several ? ":" + what : std::string(); };
+  for (std::size_t i = 0; i < all.stops.size(); ++i)
+    if (all.stops[i] == StopState::closed) name += "|closed" + named(model_.stops[i].name);
+  for (std::size_t i = 0; i < all.compliant.size(); ++i)
+    if (all.compliant[i] == CompliantState::on) name += "|on" + named(model_.compliant_stops[i].name);
   return name;
 }
 
 std::string System::contact_name(int contact) const {
-  const auto stops = static_cast<int>(model_.stops.size());
-  return contact < stops ? model_.stops[contact].name : model_.frictions[contact - stops].name;
+  const auto stops = static_cast<int>(model_.stops.size()), frictions = static_cast<int>(model_.frictions.size());
+  if (contact < stops) return model_.stops[contact].name;
+  contact -= stops;
+  return contact < frictions ? model_.frictions[contact].name : model_.compliant_stops[contact - frictions].name;
 }
 
 }  // namespace slapstick

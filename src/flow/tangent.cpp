@@ -13,9 +13,10 @@ Eigen::VectorXd velocity(const mode::Mode& mode, std::span<const double> X, int 
 
 }  // namespace
 
-TangentMotion::TangentMotion(const System& system, const State& state, Eigen::MatrixXd tangents, Instant start,
+TangentMotion::TangentMotion(const System& system, const State& state, const Eigen::MatrixXd& tangents, Instant start,
                              MotionOptions options)
-    : motion_(system, state, start, options), tangents_(std::move(tangents)) {
+    : motion_(system, state, start, options) {
+  set_tangents(tangents);
   const auto padded = static_cast<std::size_t>((system.frame().size() + 7) / 8 * 8);
   delta_.assign(padded, 0.0);
   next_.assign(padded, 0.0);
@@ -29,11 +30,11 @@ Outcome TangentMotion::advance(Instant end) {
   const bool chatter = outcome == Outcome::event && motion_.event().kind == EventKind::chatter;
   if (chatter) {  // from the last impact to the limit: momentum is kept, the gap and its rate are lost
     const System& system = motion_.system();
-    const int stop = motion_.event().contact, n = system.frame().n;
-    const mode::RowVector& g = system.frame().stops[stop].row;
-    const Eigen::RowVectorXd rate = g * tangents_.bottomRows(n), depth = g * tangents_.topRows(n);
-    tangents_.bottomRows(n) -= system.impulse(stop) * rate;
-    tangents_.topRows(n) -= system.impulse(stop) * depth;
+    const int stop = motion_.event().contact, d = system.frame().d;
+    const mode::ContactRow& g = system.frame().stops[stop];
+    const Eigen::RowVectorXd rate = g.sign * tangents_.row(d + g.own), depth = g.sign * tangents_.row(g.own);
+    tangents_.bottomRows(d) -= system.impulse(stop) * rate;
+    tangents_.topRows(d) -= system.impulse(stop) * depth;
   }
   flow(motion_.segment());
   if (outcome == Outcome::event && !chatter) jump(motion_.event());
@@ -44,18 +45,18 @@ Outcome TangentMotion::advance(Instant end) {
 void TangentMotion::flow(const Motion::Segment& segment) {
   const System& system = motion_.system();
   const mode::Mode& mode = system.mode(segment.mode);
-  const int n = system.frame().n, m = mode.size();
+  const int d = system.frame().d, m = mode.size();
   for (Eigen::Index column = 0; column < tangents_.cols(); ++column) {
     std::ranges::fill(delta_, 0.0);
-    std::copy_n(tangents_.col(column).data(), 2 * n, delta_.data());
+    std::copy_n(tangents_.col(column).data(), 2 * d, delta_.data());
     double s = segment.duration;
     for (; s > mode.window(); s -= mode.window()) {
       mode.step(delta_.data(), out_.data());
       std::copy_n(reinterpret_cast<const double*>(out_.data()), m, delta_.data());
     }
     mode.state_at(s / mode.window(), delta_.data(), next_.data());
-    for (int i = 0; i < n; ++i) next_[n + i] += system.frame().drift[i];  // state_at is affine in p', tangents are not
-    std::copy_n(next_.data(), 2 * n, tangents_.col(column).data());
+    for (int i = 0; i < d; ++i) next_[d + i] += system.frame().drift[i];  // state_at is affine in p', tangents are not
+    std::copy_n(next_.data(), 2 * d, tangents_.col(column).data());
   }
 }
 
@@ -63,20 +64,21 @@ void TangentMotion::jump(const Event& event) {
   if (event.kind == EventKind::graze) return hold_still();
   if (!motion_.hit_guard()) return;
   const System& system = motion_.system();
-  const int n = system.frame().n;
+  const int d = system.frame().d;
   const mode::Mode& before = system.mode(motion_.segment().mode);
   const mode::RowVector& h = motion_.hit_guard()->row;
   const Eigen::Map<const Eigen::VectorXd> X(motion_.extended_before().data(), before.size());
   const double slope = h.dot(before.system() * X);
   if (slope == 0.0) return;
-  const Eigen::VectorXd f_minus = velocity(before, motion_.extended_before(), 2 * n);
-  const Eigen::VectorXd f_plus = velocity(system.mode(motion_.mode_id()), motion_.extended(), 2 * n);
-  const Eigen::RowVectorXd dt = -(h.head(2 * n) * tangents_) / slope;
+  const Eigen::VectorXd f_minus = velocity(before, motion_.extended_before(), 2 * d);
+  const Eigen::VectorXd f_plus = velocity(system.mode(motion_.mode_id()), motion_.extended(), 2 * d);
+  const Eigen::RowVectorXd dt = -(h.head(2 * d) * tangents_) / slope;
   tangents_ += f_minus * dt;
   if (event.kind == EventKind::impact) {
     const double r = system.model().stops[event.contact].restitution;
-    const Eigen::RowVectorXd rate = system.frame().stops[event.contact].row * tangents_.bottomRows(n);
-    tangents_.bottomRows(n) -= (1.0 + r) * system.impulse(event.contact) * rate;
+    const mode::ContactRow& g = system.frame().stops[event.contact];
+    const Eigen::RowVectorXd rate = g.sign * tangents_.row(d + g.own);
+    tangents_.bottomRows(d) -= (1.0 + r) * system.impulse(event.contact) * rate;
   }
   tangents_ -= f_plus * dt;
   hold_still();
@@ -85,25 +87,28 @@ void TangentMotion::jump(const Event& event) {
 /// What the new mode holds still is exactly zero: the rank loss of stick.
 void TangentMotion::hold_still() {
   const System& system = motion_.system();
-  const int n = system.frame().n;
-  const mode::ContactStates& states = system.mode(motion_.mode_id()).states();
-  const auto hold = [&](const mode::ContactRow& contact) {
-    if (contact.own >= 0) tangents_.row(n + contact.own).setZero();
-  };
-  for (std::size_t i = 0; i < states.stops.size(); ++i) {
-    const mode::ContactRow& stop = system.frame().stops[i];
-    if (states.stops[i] != mode::StopState::closed) continue;
-    hold(stop);
-    if (stop.own >= 0) tangents_.row(stop.own).setZero();
+  const mode::Frame& frame = system.frame();
+  const mode::Mode& mode = system.mode(motion_.mode_id());
+  for (int i = 0; i < frame.d; ++i) {
+    if (mode.steady(i)) tangents_.row(frame.u(i)).setZero();
   }
-  for (std::size_t i = 0; i < states.frictions.size(); ++i) {
-    if (states.frictions[i] == mode::FrictionState::stick) hold(system.frame().frictions[i]);
-    // A friction contact that shares a stop's coordinate holds that coordinate.
-    for (const mode::ContactRow& stop : system.frame().stops) {
-      const bool same = stop.row == system.frame().frictions[i].row || stop.row == -system.frame().frictions[i].row;
-      if (same && states.frictions[i] == mode::FrictionState::stick) hold(stop);
-    }
+  for (std::size_t i = 0; i < frame.stops.size(); ++i) {
+    if (mode.states().stops[i] == mode::StopState::closed) tangents_.row(frame.stops[i].own).setZero();
   }
+}
+
+void TangentMotion::set_tangents(const Eigen::MatrixXd& tangents) {
+  const mode::Frame& frame = motion_.system().frame();
+  tangents_.resize(2 * frame.d, tangents.cols());
+  tangents_.topRows(frame.d) = frame.dependence * tangents.topRows(frame.n);
+  tangents_.bottomRows(frame.d) = frame.dependence * tangents.bottomRows(frame.n);
+}
+
+Eigen::MatrixXd TangentMotion::tangents() const {
+  const mode::Frame& frame = motion_.system().frame();
+  Eigen::MatrixXd out(2 * frame.n, tangents_.cols());
+  out << tangents_.topRows(frame.n), tangents_.middleRows(frame.d, frame.n);
+  return out;
 }
 
 }  // namespace slapstick

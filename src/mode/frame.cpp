@@ -21,32 +21,77 @@ void add_element(Matrix& matrix, int a, int b, double coefficient) {
   matrix += coefficient * row.transpose() * row;
 }
 
-/// Appends `row` to the basis if it is independent of the rows already there; returns its index or -1.
-int extend(std::vector<RowVector>& basis, const RowVector& row) {
-  Matrix trial(static_cast<Eigen::Index>(basis.size()) + 1, row.size());
-  for (std::size_t i = 0; i < basis.size(); ++i) trial.row(static_cast<Eigen::Index>(i)) = basis[i];
-  trial.row(trial.rows() - 1) = row;
-  if (Eigen::FullPivLU<Matrix>(trial).rank() < trial.rows()) return -1;
-  basis.push_back(row);
-  return static_cast<int>(basis.size()) - 1;
+/// The displacements to store, while they are gathered.
+struct Displacements {
+  std::vector<RowVector> rows;
+  std::vector<double> shift, drift;
+};
+
+/// +1 or -1 if the rows are equal or opposite, else 0.
+int same_direction(const RowVector& a, const RowVector& b) {
+  if (a == b) return 1;
+  return a == -b ? -1 : 0;
 }
 
-/// Contact rows first, then unit rows from the last coordinate to the first.
-Matrix contact_basis(const Model& model, std::vector<ContactRow>& stops, std::vector<ContactRow>& frictions) {
-  const int n = model.size();
-  std::vector<RowVector> basis;
-  for (const Stop& stop : model.stops) {
-    const RowVector row = pair_row(n, stop.a, stop.b);
-    stops.push_back({row, extend(basis, row)});
+/// The number sign * (row . q - shift, row . q' - drift): one that is there already, or a new one.
+ContactRow find_or_add(Displacements& all, const RowVector& row, double shift, double drift) {
+  for (std::size_t i = 0; i < all.rows.size(); ++i) {
+    const double sign = same_direction(all.rows[i], row);
+    if (sign != 0.0 && all.shift[i] == sign * shift && all.drift[i] == sign * drift) return {static_cast<int>(i), sign};
   }
-  for (const FrictionContact& contact : model.frictions) {
-    const RowVector row = pair_row(n, contact.a, contact.b);
-    frictions.push_back({row, extend(basis, row)});
+  all.rows.push_back(row);
+  all.shift.push_back(shift);
+  all.drift.push_back(drift);
+  return {static_cast<int>(all.rows.size()) - 1, 1.0};
+}
+
+/// A friction contact shares the velocity of any displacement of its pair, whatever its shift.
+ContactRow find_or_add_velocity(Displacements& all, const RowVector& row, double drift) {
+  for (std::size_t i = 0; i < all.rows.size(); ++i) {
+    const double sign = same_direction(all.rows[i], row);
+    if (sign != 0.0 && all.drift[i] == sign * drift) return {static_cast<int>(i), sign};
   }
-  for (int i = n - 1; i >= 0 && static_cast<int>(basis.size()) < n; --i) extend(basis, RowVector::Unit(n, i));
-  Matrix W(n, n);
-  for (int i = 0; i < n; ++i) W.row(i) = basis[i];
-  return W;
+  return find_or_add(all, row, 0.0, drift);
+}
+
+/// Indices of the rows, those that are independent of the ones before first; unit rows complete them, from the last coordinate on.
+std::vector<int> independent_first(Displacements& all, int n) {
+  std::vector<int> order, dependent;
+  Matrix basis(0, n);
+  const auto extends = [&](const RowVector& row) {
+    Matrix trial(basis.rows() + 1, n);
+    trial << basis, row;
+    if (Eigen::FullPivLU<Matrix>(trial).rank() < trial.rows()) return false;
+    basis = trial;
+    return true;
+  };
+  for (std::size_t i = 0; i < all.rows.size(); ++i)
+    (extends(all.rows[i]) ? order : dependent).push_back(static_cast<int>(i));
+  for (int i = n - 1; i >= 0 && basis.rows() < n; --i) {
+    const RowVector unit = RowVector::Unit(n, i);
+    if (!extends(unit)) continue;
+    order.push_back(static_cast<int>(all.rows.size()));
+    all.rows.push_back(unit);
+    all.shift.push_back(0.0);
+    all.drift.push_back(0.0);
+  }
+  order.insert(order.end(), dependent.begin(), dependent.end());
+  return order;
+}
+
+Matrix symmetric(const SymmetricMatrix& entries, int n) {
+  if (entries.empty()) return Matrix::Zero(n, n);
+  return Eigen::Map<const Matrix>(entries.data(), n, n);
+}
+
+/// Entries that are nothing but rounding become exactly zero: contacts that do not touch each other's motion stay apart.
+void drop_rounding(Matrix& matrix) {
+  const Vector size = matrix.diagonal().cwiseSqrt();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
+      if (std::abs(matrix(i, j)) <= 0x1p-48 * size[i] * size[j]) matrix(i, j) = 0.0;
+    }
+  }
 }
 
 }  // namespace
@@ -57,21 +102,42 @@ Frame::Frame(const Model& model) : n(model.size()) {
       harmonics.push_back(force.harmonic);
   }
   std::ranges::sort(harmonics);
-  W = contact_basis(model, stops, frictions);
-  W_inverse = W.inverse();
-  for (ContactRow& contact : stops) contact.row = contact.row * W_inverse;
-  for (ContactRow& contact : frictions) contact.row = contact.row * W_inverse;
-  shift = drift = Vector::Zero(n);
-  for (std::size_t i = 0; i < stops.size(); ++i) {
-    if (stops[i].own >= 0) shift[stops[i].own] = model.stops[i].clearance;
-  }
-  for (std::size_t i = 0; i < frictions.size(); ++i) {
-    if (frictions[i].own >= 0) drift[frictions[i].own] = model.frictions[i].belt_speed;
-  }
+  choose_displacements(model);
+  set_dynamics(model);
+}
 
-  Matrix C = Matrix::Zero(n, n), K = Matrix::Zero(n, n), load = Matrix::Zero(n, size());
-  Vector inverse_masses(n);
-  for (int i = 0; i < n; ++i) inverse_masses[i] = 1.0 / model.coordinates[i].mass;
+void Frame::choose_displacements(const Model& model) {
+  Displacements all;
+  for (const Stop& stop : model.stops)
+    stops.push_back(find_or_add(all, pair_row(n, stop.a, stop.b), stop.clearance, 0.0));
+  for (const CompliantStop& stop : model.compliant_stops)
+    compliant.push_back(find_or_add(all, pair_row(n, stop.a, stop.b), stop.clearance, 0.0));
+  for (const FrictionContact& contact : model.frictions)
+    frictions.push_back(find_or_add_velocity(all, pair_row(n, contact.a, contact.b), contact.belt_speed));
+  const std::vector<int> order = independent_first(all, n);
+  d = static_cast<int>(order.size());
+  W.resize(d, n);
+  shift.resize(d);
+  drift.resize(d);
+  std::vector<int> place(order.size());
+  for (int i = 0; i < d; ++i) {
+    W.row(i) = all.rows[order[i]];
+    shift[i] = all.shift[order[i]];
+    drift[i] = all.drift[order[i]];
+    place[order[i]] = i;
+  }
+  for (ContactRow& contact : stops) contact.own = place[contact.own];
+  for (ContactRow& contact : compliant) contact.own = place[contact.own];
+  for (ContactRow& contact : frictions) contact.own = place[contact.own];
+  W_inverse = W.topRows(n).inverse();
+  dependence = W * W_inverse;
+  dependence.topRows(n).setIdentity();
+}
+
+void Frame::set_dynamics(const Model& model) {
+  Matrix M = symmetric(model.mass, n), C = symmetric(model.damping, n), K = symmetric(model.stiffness, n);
+  Matrix load = Matrix::Zero(n, size());
+  for (int i = 0; i < n; ++i) M(i, i) += model.coordinates[i].mass;
   for (const Spring& spring : model.springs) add_element(K, spring.a, spring.b, spring.stiffness);
   for (const Damper& damper : model.dampers) add_element(C, damper.a, damper.b, damper.coefficient);
   for (const Force& force : model.forces) {
@@ -81,41 +147,46 @@ Frame::Frame(const Model& model) : n(model.size()) {
     }
     const auto k = std::ranges::find(harmonics, force.harmonic) - harmonics.begin();
     // sin(j theta + phase) = sin(phase) cos(j theta) + cos(phase) sin(j theta)
-    load(force.coordinate, 2 * n + 2 * k) += force.amplitude * std::sin(force.phase);
-    load(force.coordinate, 2 * n + 2 * k + 1) += force.amplitude * std::cos(force.phase);
+    load(force.coordinate, 2 * d + 2 * k) += force.amplitude * std::sin(force.phase);
+    load(force.coordinate, 2 * d + 2 * k + 1) += force.amplitude * std::cos(force.phase);
   }
 
   // q'' = M^{-1} (load X - C q' - K q),  q = W^{-1} (p + shift),  q' = W^{-1} (u + drift),  u' = W q''
-  mass_inverse = W * inverse_masses.asDiagonal() * W.transpose();
+  const bool lumped = M.isDiagonal(0.0);
+  const Matrix M_inverse =
+      lumped ? Matrix(M.diagonal().cwiseInverse().asDiagonal()) : Matrix(M.llt().solve(Matrix::Identity(n, n)));
+  mass_inverse = W * M_inverse * W.transpose();
+  drop_rounding(mass_inverse);
   Matrix force = load;
   force.leftCols(n) -= K * W_inverse;
-  force.middleCols(n, n) -= C * W_inverse;
-  force.col(one()) -= K * W_inverse * shift + C * W_inverse * drift;
-  free = W * inverse_masses.asDiagonal() * force;
+  force.middleCols(d, n) -= C * W_inverse;
+  force.col(one()) -= K * W_inverse * shift.head(n) + C * W_inverse * drift.head(n);
+  free = W * (M_inverse * force);
 }
 
-RowVector Frame::velocity_row(const ContactRow& contact, double speed) const {
-  RowVector row = RowVector::Zero(size());
-  row.segment(n, n) = contact.row;
-  row[one()] = contact.row.dot(drift) - speed;
-  return row;
+int Frame::parallel(int i, int j) const { return same_direction(W.row(i), W.row(j)); }
+
+RowVector Frame::velocity_row(const ContactRow& contact) const {
+  return contact.sign * RowVector::Unit(size(), u(contact.own));
 }
 
-RowVector Frame::gap_row(const ContactRow& contact, double clearance) const {
-  RowVector row = RowVector::Zero(size());
-  row.head(n) = -contact.row;
-  row[one()] = contact.own >= 0 ? 0.0 : clearance - contact.row.dot(shift);
-  return row;
+RowVector Frame::gap_row(const ContactRow& contact) const {
+  return -contact.sign * RowVector::Unit(size(), contact.own);
+}
+
+RowVector Frame::push_row(const Model& model, int i) const {
+  const CompliantStop& stop = model.compliant_stops[i];
+  return -stop.stiffness * gap_row(compliant[i]) + stop.damping * velocity_row(compliant[i]);
 }
 
 Matrix Frame::kinematics(double omega) const {
   Matrix A = Matrix::Zero(size(), size());
-  for (int i = 0; i < n; ++i) {
+  for (int i = 0; i < d; ++i) {
     A(i, u(i)) = 1.0;
     A(i, one()) = drift[i];
   }
   for (std::size_t k = 0; k < harmonics.size(); ++k) {
-    const auto c = static_cast<Eigen::Index>(2 * n + 2 * k);
+    const auto c = static_cast<Eigen::Index>(2 * d + 2 * k);
     A(c, c + 1) = -harmonics[k] * omega;
     A(c + 1, c) = harmonics[k] * omega;
   }
@@ -123,7 +194,7 @@ Matrix Frame::kinematics(double omega) const {
 }
 
 void Frame::enter(const double* state, double* X) const {
-  for (int i = 0; i < n; ++i) {
+  for (int i = 0; i < d; ++i) {
     double p = 0.0, rate = 0.0, size = std::abs(shift[i]);
     for (int j = 0; j < n; ++j) {
       p += W(i, j) * state[2 * j];
@@ -148,18 +219,46 @@ void Frame::set_phase(double fraction, double* X) const {
     const int quadrant = static_cast<int>(octant) & 3;
     const double cosine = quadrant == 0 ? c : quadrant == 1 ? -s : quadrant == 2 ? -c : s;
     const double sine = quadrant == 0 ? s : quadrant == 1 ? c : quadrant == 2 ? -s : -c;
-    X[2 * n + 2 * k] = cosine;
-    X[2 * n + 2 * k + 1] = sine;
+    X[2 * d + 2 * k] = cosine;
+    X[2 * d + 2 * k + 1] = sine;
   }
   X[one()] = 1.0;
 }
 
-void Frame::leave(const double* X, double* state) const {
+void Frame::match_velocities(int i, double* X) const {
+  for (int j = 0; d > n && j < d; ++j) {
+    if (const int same = j == i ? 0 : parallel(i, j); same != 0) X[u(j)] = same * (X[u(i)] + drift[i]) - drift[j];
+  }
+}
+
+void Frame::match_displacements(int i, double* X) const {
+  for (int j = 0; d > n && j < d; ++j) {
+    if (const int same = j == i ? 0 : parallel(i, j); same != 0) X[j] = same * (X[i] + shift[i]) - shift[j];
+  }
+}
+
+void Frame::refresh(double* X) const {
+  constexpr double no_cancellation = 0.25;
+  for (int i = n; i < d; ++i) {
+    double p = -shift[i], velocity = -drift[i], size = std::abs(shift[i]), speed = std::abs(drift[i]);
+    for (int j = 0; j < n; ++j) {
+      const double c = dependence(i, j), displaced = c * (X[j] + shift[j]), rate = c * (X[u(j)] + drift[j]);
+      p += displaced;
+      velocity += rate;
+      size += std::abs(displaced);
+      speed += std::abs(rate);
+    }
+    if (std::abs(p) >= no_cancellation * size) X[i] = p;
+    if (std::abs(velocity) >= no_cancellation * speed) X[u(i)] = velocity;
+  }
+}
+
+void Frame::leave(const double* p, const double* velocity, double* state) const {
   for (int i = 0; i < n; ++i) {
     double q = 0.0, rate = 0.0;
     for (int j = 0; j < n; ++j) {
-      q += W_inverse(i, j) * (X[j] + shift[j]);
-      rate += W_inverse(i, j) * (X[u(j)] + drift[j]);
+      q += W_inverse(i, j) * (p[j] + shift[j]);
+      rate += W_inverse(i, j) * (velocity[j] + drift[j]);
     }
     state[2 * i] = q;
     state[2 * i + 1] = rate;

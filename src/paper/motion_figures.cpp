@@ -34,7 +34,7 @@ struct Record {
   std::vector<std::pair<double, double>> chatters;  ///< limit time, bound on its error, both in periods
 };
 
-bool at_rest(const System& system, int mode) {
+bool at_rest(const System& system, ModeId mode) {
   const std::string name = system.mode_name(mode);
   return name.rfind("stick", 0) == 0 || name.find("closed") != std::string::npos;
 }

@@ -5,7 +5,7 @@
 namespace slapstick {
 namespace {
 
-bool slips(const Motion& motion, int mode) {
+bool slips(const Motion& motion, ModeId mode) {
   const auto& frictions = motion.system().mode(mode).states().frictions;
   return std::any_of(frictions.begin(), frictions.end(),
                      [](mode::FrictionState state) { return state != mode::FrictionState::stick; });
@@ -61,6 +61,10 @@ void ImpactSection::note(EventKind kind) {
       break;
     case EventKind::graze:
       ++between_.grazes;
+      break;
+    case EventKind::engage:
+    case EventKind::disengage:
+    case EventKind::separate:
       break;
     case EventKind::chatter:
       ++between_.chatters;

@@ -35,7 +35,7 @@ inline std::string kinds(const std::vector<Event>& events) {
 inline double seconds(const Event& event, const Motion& motion) { return event.time.seconds(motion.system().period()); }
 
 /// The engine's mode in the oracle's words.
-inline oracle::Mode oracle_mode(const System& system, int id) {
+inline oracle::Mode oracle_mode(const System& system, ModeId id) {
   const mode::ContactStates& states = system.mode(id).states();
   oracle::Mode mode;
   if (!states.frictions.empty()) mode.friction = static_cast<int>(states.frictions[0]);
@@ -44,7 +44,7 @@ inline oracle::Mode oracle_mode(const System& system, int id) {
 }
 
 /// A state of the engine, to its last bit, as the oracle's start of a segment.
-inline oracle::SegmentStart oracle_start(const System& system, const double* X, int mode_id, double fraction) {
+inline oracle::SegmentStart oracle_start(const System& system, const double* X, ModeId mode_id, double fraction) {
   const mode::Frame& frame = system.frame();
   oracle::SegmentStart start;
   for (int i = 0; i < frame.n; ++i) {
@@ -60,14 +60,11 @@ inline oracle::SegmentStart oracle_start(const System& system, const double* X, 
   start.phase_fraction = fraction;
   start.mode = oracle_mode(system, mode_id);
   const auto zero_row = [&](const mode::ContactRow& contact, bool velocity) {
-    return contact.own >= 0 && X[velocity ? frame.u(contact.own) : contact.own] == 0.0;
+    return X[velocity ? frame.u(contact.own) : contact.own] == 0.0;
   };
   if (!frame.stops.empty()) start.touching = !start.mode.closed && zero_row(frame.stops[0], false);
   if (!frame.frictions.empty() && start.mode.friction != 0) {
-    const mode::ContactRow& row = frame.frictions[0];
-    const bool shared = row.own < 0;  // the stop's pair: its velocity is the stop's
-    start.no_slip =
-        zero_row(shared ? frame.stops[0] : row, true) && (!shared || system.model().frictions[0].belt_speed == 0.0);
+    start.no_slip = zero_row(frame.frictions[0], true);
   }
   return start;
 }

@@ -11,10 +11,17 @@
 ///   | stop     | gap > 0, or separating      | open                                 |
 ///   | stop     | gap = 0 and at rest         | closed, open                         |
 ///   | stop     | gap = 0 and approaching     | none: an impact comes first          |
+///   | compliant| delta < 0                   | off                                  |
+///   | compliant| delta = 0                   | off, on, detached                    |
+///   | compliant| delta > 0                   | on; detached too if it cannot pull   |
 ///
 /// and a combination *fits* if every guard it arms is positive at once: h > 0, or h = 0 with a positive first non-zero derivative
 /// (h = 0 for good also fits). For the paper's system this is its table (docs/mode_graph.md): after w = 0, stick if |f0| <= f_s,
 /// else slip with s = sgn f0; on the closed stop the only guard is f0 + f_s, so release needs f0 < -f_s however large f0 grows.
+///
+/// With several contacts at rest this is the complementarity problem of rigid-body dynamics (Pfeiffer and Glocker 1996, chapter 5), solved by
+/// going through the combinations in this order, the last contact's candidates changing fastest; among redundant contacts one that would
+/// have to pull is left open, at rest all the same. Combinations that certainly do not fit are refused before their mode is built.
 #include <span>
 
 #include "slapstick/flow/system.hpp"
@@ -31,14 +38,15 @@ int start_order(const mode::Mode& mode, int guard, const double* X, const double
 /// The mode that may start at X (with |X| in magnitude); writes the start order of each of its guards.
 /// A friction contact is at rest if its stored relative velocity is exactly zero, a stop touches if its gap is.
 /// @returns mode id, or -1 if no combination fits.
-int select_mode(const System& system, const double* X, const double* magnitude, std::span<int> orders);
+ModeId select_mode(const System& system, const double* X, const double* magnitude, std::span<int> orders);
 
-/// The mode of a state that is about to hit a stop: all stops open, friction contacts by their velocities.
-int approaching_mode(const System& system, const double* X);
+/// The mode of a state that is about to hit a stop: all stops open, the other contacts by their displacements and velocities.
+ModeId approaching_mode(const System& system, const double* X);
 
-/// w = row . p' - belt speed of a friction contact, and gap and gap rate of a stop, at X.
+/// w of a friction contact, gap of a stop and the rate at which it closes, depth delta of a compliant stop, at X: each one stored number.
 double sliding_velocity(const System& system, int contact, const double* X);
 double gap(const System& system, int stop, const double* X);
 double approach_velocity(const System& system, int stop, const double* X);
+double depth(const System& system, int compliant, const double* X);
 
 }  // namespace slapstick::flow

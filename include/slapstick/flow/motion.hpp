@@ -11,6 +11,8 @@
 ///   x*  the event's own condition made exact: gap = 0 or w = 0 in the stored state
 ///   x+  after the impact law; then `select_mode` decides the next mode
 ///
+/// Several contacts can have their events at one instant: whatever is within its rounding bound of zero there is made zero too.
+///
 /// An impact keeps momentum and turns w into -r w; friction gives no impulse. A touch whose depth cannot be told from zero is a
 /// `graze`: no impulse, contact at rest, the next mode by the forces. Infinitely many impacts in finite time are
 /// reported as one `chatter` event at their limit (flow/chatter.hpp).
@@ -32,7 +34,10 @@ enum class EventKind : std::uint8_t {
   stick,       ///< w reached zero and the contact sticks; also a stop that closes at rest
   release,     ///< stick or a closed stop ends
   graze,       ///< a guard touched zero without crossing it, within the rounding bound
-  chatter      ///< the limit of infinitely many impacts; the stop is closed
+  chatter,     ///< the limit of infinitely many impacts; the stop is closed
+  engage,      ///< a compliant stop begins to act
+  disengage,   ///< .. and ceases to
+  separate     ///< a compliant stop that had let go beyond its gap is back at it
 };
 
 /// "impact", "slip+", "slip-", "stick", "release", "graze", "chatter".
@@ -51,6 +56,8 @@ enum class Outcome { event, reached_end };
 /// Work done, part of the interface: a change in it is noticed by the tests.
 struct Counters {
   long events = 0, impacts = 0, segments = 0, windows = 0, evaluations = 0, grazes = 0;
+  long pile_ups =
+      0;  ///< chatters of several stops that were ended, unproven, where flights fell below the clock's rounding
 };
 
 struct MotionOptions {
@@ -77,7 +84,7 @@ class Motion {
   [[nodiscard]] Instant time() const { return now_; }
   [[nodiscard]] State state() const;        ///< the state now (after the last event), user's coordinates
   void state(std::span<double> out) const;  ///< the same without allocation
-  [[nodiscard]] int mode_id() const { return mode_; }
+  [[nodiscard]] ModeId mode_id() const { return mode_; }
   [[nodiscard]] const System& system() const { return *system_; }
   [[nodiscard]] const Counters& counters() const { return counters_; }
 
@@ -85,7 +92,7 @@ class Motion {
   /// evaluates it.
   struct Segment {
     Instant start;
-    int mode = 0;
+    ModeId mode = 0;
     double duration = 0.0;      ///< time units
     std::span<const double> X;  ///< extended state at its start
   };
@@ -101,7 +108,7 @@ class Motion {
   [[nodiscard]] std::span<const double> extended_before() const { return X_before_.span(); }
 
  private:
-  enum class Cause { impact, graze, reversal, force };
+  enum class Cause { impact, graze, reversal, force, compliant };
   struct Found {
     event::RootKind kind;
     int guard;
@@ -140,7 +147,18 @@ class Motion {
   void look(double x);
   void arrive(double x);
   void handle(int guard, bool graze);
-  void rest(const mode::ContactRow& contact, double speed);
+  void rest(const mode::ContactRow& contact);
+  void land(const mode::ContactRow& contact);
+  void gather_ties(int guard);
+  [[nodiscard]] bool within_noise(int guard, double value) const;
+  [[nodiscard]] std::span<const int> touching();
+  [[nodiscard]] int approaching() const;
+  void newton(int stop);
+  void moreau(std::span<const int> stops, bool plastic);
+  void strike_all();
+  void end_pile_up();
+  void compliant_limit(int compliant, mode::GuardKind kind);
+  void report_others(Cause cause, const mode::ContactStates& old);
   [[nodiscard]] int stop_touched_at_rest(int friction) const;
   void force_limit(int guard, int contact, bool graze);
   void touch(int stop, bool graze);
@@ -148,17 +166,20 @@ class Motion {
   bool end_chatter(double limit);
   void choose_mode();
   void settle(Cause cause);
-  void report_settled(Cause cause, int old_mode);
+  void report_settled(Cause cause, const mode::ContactStates& old);
   void report(EventKind kind, int contact, double w);
   void note_magnitude(Extended& X);
   [[noreturn]] void fail(const std::string& what) const;
   [[noreturn]] void fail_pile_up() const;
   [[nodiscard]] int stops() const { return static_cast<int>(system_->model().stops.size()); }
+  [[nodiscard]] int frictions() const { return static_cast<int>(system_->model().frictions.size()); }
+  [[nodiscard]] int compliants() const { return static_cast<int>(system_->model().compliant_stops.size()); }
 
   const System* system_;
   MotionOptions options_;
   Instant now_, segment_start_;
-  int mode_ = 0, segment_mode_ = 0;
+  ModeId mode_ = 0, segment_mode_ = 0;
+  const mode::Mode* here_ = nullptr;  ///< the mode of mode_
   Flight flight_;
   double arrived_x_ = 0.0;      ///< where in its window the last event was
   double elapsed_ = 0.0;        ///< time from the flight's start to now ..
@@ -174,13 +195,15 @@ class Motion {
   std::vector<int> orders_;    ///< of the zeros of the mode's guards at the start of the present window
   std::vector<bool> lingers_;  ///< guards that are not clear of their noise at its end
   mutable State before_;
-  std::array<Event, 8> pending_;       ///< the events of one instant, in order ..
-  int pending_count_ = 0, shown_ = 0;  ///< .. how many, and which one `event()` is
+  std::vector<Event> pending_;  ///< the events of one instant, in order ..
+  int shown_ = 0;               ///< .. and which one `event()` is
+  std::vector<int> touching_;
   const mode::Guard* hit_guard_ = nullptr;
   Counters counters_;
   std::int64_t budget_period_ = 0;
   long budget_events_ = 0;
-  long at_one_instant_ = 0;
+  long at_one_instant_ = 0;       ///< events since the clock has moved ..
+  std::uint32_t struck_now_ = 0;  ///< .. and the stops that were struck, bit by bit
 };
 
 }  // namespace slapstick

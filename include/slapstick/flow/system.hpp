@@ -1,30 +1,45 @@
 #pragma once
-/// A model made ready to run: contact coordinates, all modes with their operators, the impact law. Const and shareable.
+/// A model made ready to run: contact coordinates, its modes with their operators, the impact law. Const and shareable.
+#include <memory>
 #include <vector>
 
-#include "slapstick/mode/mode.hpp"
+#include "slapstick/flow/mode_table.hpp"
 
 namespace slapstick {
 
 /// Compiles a model once (about 0.1 ms for the paper's system); any number of `Motion`s on any threads then share it.
+///
+/// Modes are built when they are first asked for, and kept: of the 2^s 3^f combinations a motion meets a handful. Those of a model with
+/// up to eight are built at once, so that its motions allocate nothing.
 class System {
  public:
-  /// @throws InputError if the model is invalid, has more than one stop or more than one friction contact, or has time scales so far
-  /// apart that its windows cannot be computed in double precision.
+  static constexpr int most_contacts = 32;
+
+  /// @throws InputError if the model is invalid, has more than `most_contacts`, or has time scales so far apart that its windows cannot be
+  /// computed in double precision.
   explicit System(Model model);
 
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] const mode::Frame& frame() const { return frame_; }
   [[nodiscard]] double period() const { return period_; }  ///< forcing period, or 1
-  /// Windows of the mode with the shortest ones that a period holds: at most this many steps are flown in a period without events, and
-  /// each takes about 0.04 microseconds for the paper's system. Below 1 for a forcing so fast that a window holds several periods.
+  /// Windows that a period holds in the mode with the shortest ones (of those where nothing is held): about this many steps are flown in a
+  /// period without events, and each takes about 0.04 microseconds for the paper's system. Below 1 for a forcing so fast that a window
+  /// holds several periods.
   [[nodiscard]] double windows_per_period() const { return windows_per_period_; }
 
-  [[nodiscard]] int mode_count() const { return static_cast<int>(modes_.size()); }
-  [[nodiscard]] const mode::Mode& mode(int id) const { return modes_[id]; }
-  [[nodiscard]] int mode_id(const mode::ContactStates& states) const;
+  [[nodiscard]] ModeId mode_count() const { return mode_count_; }
+  /// Safe to call from several threads. @throws InputError as the constructor, about time scales
+  [[nodiscard]] const mode::Mode& mode(ModeId id) const {
+    const mode::Mode* known = modes_->find(id);
+    return known != nullptr ? *known : modes_->get(id, [this](ModeId wanted) { return build(wanted); });
+  }
+  /// The mode if it has been built, else null; and its system and guards alone, which are cheap and not kept.
+  [[nodiscard]] const mode::Mode* known_mode(ModeId id) const { return modes_->find(id); }
+  [[nodiscard]] mode::Outline outline(ModeId id) const;
+  [[nodiscard]] ModeId mode_id(const mode::ContactStates& states) const;
+  [[nodiscard]] mode::ContactStates states(ModeId id) const;
   /// A short name for tables and pictures: "slip+", "slip-", "stick", "free", each followed by "|closed" on a closed stop.
-  [[nodiscard]] std::string mode_name(int id) const;
+  [[nodiscard]] std::string mode_name(ModeId id) const;
 
   /// Change of u per unit change of the normal velocity of a stop: M^{-1} g^T / (g M^{-1} g^T), g the stop's row.
   [[nodiscard]] const mode::Vector& impulse(int stop) const { return impulses_[stop]; }
@@ -42,14 +57,17 @@ class System {
     return couplings_[static_cast<std::size_t>(stop) * frame_.frictions.size() + static_cast<std::size_t>(friction)];
   }
 
-  /// Contacts in one numbering: stops first, then friction contacts.
+  /// Contacts in one numbering: stops first, then friction contacts, then compliant stops.
   [[nodiscard]] std::string contact_name(int contact) const;
 
  private:
+  [[nodiscard]] mode::Mode build(ModeId id) const;
+
   Model model_;
   mode::Frame frame_;
   double period_, windows_per_period_ = 0.0;
-  std::vector<mode::Mode> modes_;
+  ModeId mode_count_ = 1;
+  std::unique_ptr<ModeTable> modes_;
   std::vector<mode::Vector> impulses_;
   std::vector<mode::RowVector> presses_;
   std::vector<Coupling> couplings_;

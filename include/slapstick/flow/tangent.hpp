@@ -7,7 +7,7 @@
 /// annihilates the slip direction exactly; a chatter limit annihilates gap and relative velocity. A graze is passed unchanged: the
 /// derivative is unbounded there.
 ///
-/// Vectors are in contact coordinates (p, u), 2 n long, at fixed time (phase).
+/// Vectors are in contact coordinates, the first n of p and of u (Frame), 2 n long, at fixed time (phase).
 /// Source: system page, section 3; Leine and Nijmeijer (2004), chapter 7.
 #include <Eigen/Dense>
 
@@ -18,16 +18,16 @@ namespace slapstick {
 class TangentMotion {
  public:
   /// Carries the columns of `tangents` (2n x k) along with a motion from `state`. Sets up its buffers here.
-  TangentMotion(const System& system, const State& state, Eigen::MatrixXd tangents, Instant start = {},
+  TangentMotion(const System& system, const State& state, const Eigen::MatrixXd& tangents, Instant start = {},
                 MotionOptions options = {});
 
   /// As Motion::advance; the tangents follow. Cost: one propagation per column and segment.
   Outcome advance(Instant end);
 
   [[nodiscard]] const Motion& motion() const { return motion_; }
-  [[nodiscard]] const Eigen::MatrixXd& tangents() const { return tangents_; }
+  [[nodiscard]] Eigen::MatrixXd tangents() const;
   /// Replaces the tangents (to normalise or orthogonalise them).
-  void set_tangents(const Eigen::MatrixXd& tangents) { tangents_ = tangents; }
+  void set_tangents(const Eigen::MatrixXd& tangents);
 
  private:
   void flow(const Motion::Segment& segment);
@@ -35,7 +35,7 @@ class TangentMotion {
   void hold_still();
 
   Motion motion_;
-  Eigen::MatrixXd tangents_;
+  Eigen::MatrixXd tangents_;  ///< of all d displacements and velocities
   std::vector<double> delta_, next_;
   event::Lanes out_;
   long segments_seen_ = 0;

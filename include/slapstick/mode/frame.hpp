@@ -3,13 +3,16 @@
 ///
 ///     p = W q - shift,   u = p' - drift
 ///
-/// The rows of W are the relative displacements x_a - x_b of the stops, then of the friction contacts (each only if independent
-/// of the rows before), completed by original coordinates, the last ones first. `shift` is the clearance on a stop's own row
-/// (so that the gap is -p) and `drift` the belt speed on a friction contact's own row, else 0. A gap and a relative velocity
-/// are then each one stored number, with a relative error of its own: exactly zero at contact, constant in stick.
+/// The rows of W are the relative displacements x_a - x_b of the stops, compliant stops and friction contacts, completed by original
+/// coordinates, the last ones first. `shift` is the clearance on a stop's own row (so that the gap is -p) and `drift` the belt speed
+/// on a friction contact's own row, else 0. A gap and a relative velocity are then each one stored number, with a relative error
+/// of its own: exactly zero at contact, constant in stick. Contacts whose numbers are equal or opposite share one.
 ///
-/// Extended state X in R^m, m = 2 n + 2 h + 1, h = number of distinct harmonics of the forcing:
-///     X = (p_1..p_n, u_1..u_n, cos j_1 theta, sin j_1 theta, .., 1),   theta = omega t.
+/// W has d >= n rows: a contact whose row depends on earlier ones (the second side of a two-sided stop, a loop of contacts) has a number of
+/// its own all the same. The first n rows are independent; the others follow from them, but for rounding (see `refresh`).
+///
+/// Extended state X in R^m, m = 2 d + 2 h + 1, h = number of distinct harmonics of the forcing:
+///     X = (p_1..p_d, u_1..u_d, cos j_1 theta, sin j_1 theta, .., 1),   theta = omega t.
 /// In every mode X' = A X.
 #include <Eigen/Dense>
 #include <vector>
@@ -22,41 +25,58 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 using RowVector = Eigen::RowVectorXd;
 
-/// A stop or friction contact seen in contact coordinates.
+/// A stop or friction contact seen in contact coordinates: its displacement is sign * p_own (a stop's: less the clearance), its velocity
+/// sign * u_own (a friction contact's: less the belt speed).
 struct ContactRow {
-  RowVector row;  ///< x_a - x_b = row . (p + shift)
-  int own =
-      -1;  ///< index of the coordinate p_own that is exactly this displacement, or -1 if it depends on earlier rows
+  int own = 0;
+  double sign = 1.0;
 };
 
 struct Frame {
   explicit Frame(const Model& model);
 
-  int n = 0;                   ///< coordinates
+  int n = 0;                   ///< coordinates of the model
+  int d = 0;                   ///< displacements stored, the first n independent
   std::vector<int> harmonics;  ///< distinct harmonics j > 0, ascending
-  Matrix W, W_inverse;
+  Matrix W;                    ///< d x n
+  Matrix W_inverse;            ///< of its first n rows
+  Matrix dependence;           ///< d x n: W = dependence * (first n rows of W)
   Vector shift, drift;
-  std::vector<ContactRow> stops, frictions;
-  Matrix mass_inverse;  ///< M^{-1} in contact coordinates
-  Matrix free;          ///< n x m: u' = free . X with no contact force
+  std::vector<ContactRow> stops, frictions, compliant;
+  Matrix mass_inverse;  ///< d x d: W M^{-1} W^T
+  Matrix free;          ///< d x m: u' = free . X with no contact force
 
-  [[nodiscard]] int size() const { return 2 * n + 2 * static_cast<int>(harmonics.size()) + 1; }
-  [[nodiscard]] int u(int i) const { return n + i; }
+  [[nodiscard]] int size() const { return 2 * d + 2 * static_cast<int>(harmonics.size()) + 1; }
+  [[nodiscard]] int u(int i) const { return d + i; }
   [[nodiscard]] int one() const { return size() - 1; }
 
-  /// Row over X of the displacement rate row . p' minus `speed`: the velocity of a pair relative to a belt.
-  [[nodiscard]] RowVector velocity_row(const ContactRow& contact, double speed) const;
-  /// Row over X of the gap clearance - (x_a - x_b).
-  [[nodiscard]] RowVector gap_row(const ContactRow& contact, double clearance) const;
+  /// +1 or -1 if the displacements i and j are those of one pair, else 0.
+  [[nodiscard]] int parallel(int i, int j) const;
+  /// Row over X of a contact's velocity, and of a stop's gap.
+  [[nodiscard]] RowVector velocity_row(const ContactRow& contact) const;
+  [[nodiscard]] RowVector gap_row(const ContactRow& contact) const;
+  /// Row over X of the force of a compliant stop, stiffness delta + damping delta'.
+  [[nodiscard]] RowVector push_row(const Model& model, int i) const;
   /// The rows p' = u + drift and the forcing oscillators of A; the rows u' are left zero.
   [[nodiscard]] Matrix kinematics(double omega) const;
 
   /// Writes p and u of a user's state (x_1, v_1, x_2, v_2, ..) into X. A gap of at most four roundings of its coordinates is zero.
   void enter(const double* state, double* X) const;
+  /// Sets the velocities (displacements) of all numbers of the pair of displacement i by that of i.
+  void match_velocities(int i, double* X) const;
+  void match_displacements(int i, double* X) const;
+  /// Sets what depends on the first n displacements and velocities by them, where that loses no digits: rounding would let the two drift
+  /// apart in the long run. What is near zero keeps its own number.
+  void refresh(double* X) const;
   /// Writes cos, sin of the harmonics at phase `fraction` (periods) and the constant 1 into X. One libm call per harmonic.
   void set_phase(double fraction, double* X) const;
-  /// Writes the user's state (x_1, v_1, ..) of X.
-  void leave(const double* X, double* state) const;
+  /// Writes the user's state (x_1, v_1, ..) of X; from the first n displacements and velocities.
+  void leave(const double* X, double* state) const { leave(X, X + d, state); }
+  void leave(const double* p, const double* velocity, double* state) const;
+
+ private:
+  void choose_displacements(const Model& model);
+  void set_dynamics(const Model& model);
 };
 
 }  // namespace slapstick::mode

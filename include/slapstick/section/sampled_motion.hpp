@@ -11,9 +11,9 @@ class SampledMotion {
   enum class Item { event, sample, end };
 
   struct Sample {
-    Instant time;  ///< k / samples_per_period exactly
-    int mode = 0;  ///< System::mode_name
-    State state;   ///< user's coordinates; just before an event that falls on this very instant
+    Instant time;     ///< k / samples_per_period exactly
+    ModeId mode = 0;  ///< System::mode_name
+    State state;      ///< user's coordinates; just before an event that falls on this very instant
   };
 
   /// Takes the motion over; its System must outlive this object. The first sample is at the first multiple of a period /

@@ -5,9 +5,9 @@
 namespace slapstick {
 
 struct StroboscopicPoint {
-  Instant time;  ///< fraction == the section's phase, exactly
-  int mode = 0;  ///< System::mode_name
-  State state;   ///< user's coordinates; just after an event that falls on this very instant
+  Instant time;     ///< fraction == the section's phase, exactly
+  ModeId mode = 0;  ///< System::mode_name
+  State state;      ///< user's coordinates; just after an event that falls on this very instant
 };
 
 class StroboscopicSection {

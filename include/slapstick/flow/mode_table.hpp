@@ -1,0 +1,40 @@
+#pragma once
+/// The modes of a System by their ids: built when first asked for, then kept and shared by all threads.
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <vector>
+
+#include "slapstick/mode/mode.hpp"
+
+namespace slapstick {
+
+/// A combination of contact states as one number: stops are digits of base 2, then friction contacts and compliant stops of base 3.
+using ModeId = std::int64_t;
+
+class ModeTable {
+ public:
+  explicit ModeTable(ModeId count) : flat_(count <= most_flat ? static_cast<std::size_t>(count) : 0) {}
+
+  /// Null if the mode was not asked for yet. Without a lock for a model with up to `most_flat` combinations.
+  [[nodiscard]] const mode::Mode* find(ModeId id) {
+    const auto place = static_cast<std::size_t>(id);
+    return place < flat_.size() ? flat_[place].load(std::memory_order_acquire) : find_locked(id);
+  }
+
+  /// The mode, built by `build` if need be.
+  const mode::Mode& get(ModeId id, const std::function<mode::Mode(ModeId)>& build);
+
+ private:
+  static constexpr ModeId most_flat = 4096;
+
+  const mode::Mode* find_locked(ModeId id);
+
+  std::vector<std::atomic<const mode::Mode*>> flat_;
+  std::map<ModeId, mode::Mode> all_;  ///< its nodes stay where they are
+  std::mutex mutex_;
+};
+
+}  // namespace slapstick

@@ -1,0 +1,125 @@
+#include "slapstick/flow/impact_law.hpp"
+
+#include <cmath>
+
+#include "slapstick/flow/mode_graph.hpp"
+
+namespace slapstick::flow {
+namespace {
+
+constexpr int most = System::most_contacts;
+using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most>;
+using Tableau = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, 2 * most + 2>;
+using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1>;
+
+/// Sets the velocity of a stop to `v` towards it, and that of the displacements of the same pair.
+void set_velocity(const mode::Frame& frame, const mode::ContactRow& stop, double v, double* X) {
+  X[frame.u(stop.own)] = stop.sign * v;
+  frame.match_velocities(stop.own, X);
+}
+
+/// Lemke's method for w = D z - q, w >= 0, z >= 0, w . z = 0. The tableau is I w - D z - 1 z0 = -q; columns w, z, z0, right-hand side.
+class Lemke {
+ public:
+  Lemke(const Square& D, const Column& q) : n_(D.rows()), T_(n_, 2 * n_ + 2), scale_(D.cwiseAbs().maxCoeff()) {
+    T_.leftCols(n_).setIdentity();
+    T_.middleCols(n_, n_) = -D;
+    T_.col(2 * n_).setConstant(-1.0);
+    T_.col(2 * n_ + 1) = -q;
+    for (Eigen::Index i = 0; i < n_; ++i) basis_[i] = static_cast<int>(i);
+  }
+
+  bool solve(Column& z) {
+    z.setZero(n_);
+    Eigen::Index row = 0;
+    if (T_.col(2 * n_ + 1).minCoeff(&row) >= 0.0) return true;
+    auto entering = static_cast<int>(2 * n_);
+    for (int step = 0; step < 50 * most; ++step) {
+      const int leaving = basis_[row];
+      pivot(row, entering);
+      if (leaving == 2 * n_) return read(z);
+      entering = leaving < n_ ? leaving + static_cast<int>(n_) : leaving - static_cast<int>(n_);
+      row = ratio_test(entering);
+      if (row < 0) return false;
+    }
+    return false;
+  }
+
+ private:
+  void pivot(Eigen::Index row, int column) {
+    T_.row(row) /= T_(row, column);
+    for (Eigen::Index i = 0; i < n_; ++i) {
+      const double factor = T_(i, column);
+      if (i != row && factor != 0.0) T_.row(i) -= factor * T_.row(row);
+    }
+    basis_[row] = column;
+  }
+
+  /// The row that limits the entering variable; z0's among equals, so that it ends as soon as it can. -1: a ray.
+  [[nodiscard]] Eigen::Index ratio_test(int entering) const {
+    Eigen::Index best = -1;
+    double least = INFINITY;
+    for (Eigen::Index i = 0; i < n_; ++i) {
+      const double slope = T_(i, entering);
+      if (slope <= 1e-12 * scale_) continue;
+      const double ratio = std::max(T_(i, 2 * n_ + 1), 0.0) / slope;
+      const bool ends = basis_[i] == 2 * n_ && ratio <= least * (1.0 + 1e-14);
+      if (ratio < least || ends) {
+        best = i;
+        least = ratio;
+      }
+    }
+    return best;
+  }
+
+  bool read(Column& z) const {
+    for (Eigen::Index i = 0; i < n_; ++i) {
+      if (basis_[i] >= n_ && basis_[i] < 2 * n_) z[basis_[i] - n_] = std::max(T_(i, 2 * n_ + 1), 0.0);
+    }
+    return true;
+  }
+
+  Eigen::Index n_;
+  Tableau T_;
+  double scale_;
+  std::array<int, most> basis_{};
+};
+
+}  // namespace
+
+void strike(const System& system, int stop, double restitution, double* X) {
+  const mode::Frame& frame = system.frame();
+  const double v = approach_velocity(system, stop, X);
+  for (int i = 0; i < frame.d; ++i) X[frame.u(i)] -= (1.0 + restitution) * v * system.impulse(stop)[i];
+  set_velocity(frame, frame.stops[stop], -restitution * v, X);
+}
+
+bool strike_together(const System& system, std::span<const int> stops, bool plastic, double* X, std::span<bool> hit) {
+  const mode::Frame& frame = system.frame();
+  const auto n = static_cast<Eigen::Index>(stops.size());
+  Square D(n, n);
+  Column q(n), after(n), P(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const mode::ContactRow& a = frame.stops[stops[i]];
+    const double v = approach_velocity(system, stops[i], X);
+    const double r = plastic ? 0.0 : system.model().stops[stops[i]].restitution;
+    q[i] = (1.0 + r) * v;
+    after[i] = -r * v;
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const mode::ContactRow& b = frame.stops[stops[j]];
+      D(i, j) = a.sign * b.sign * frame.mass_inverse(a.own, b.own);
+    }
+  }
+  if (!Lemke(D, q).solve(P)) return false;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const mode::ContactRow& a = frame.stops[stops[i]];
+    for (int j = 0; j < frame.d; ++j) X[frame.u(j)] -= P[i] * a.sign * frame.mass_inverse(j, a.own);
+  }
+  for (Eigen::Index i = 0; i < n; ++i) {
+    hit[i] = P[i] > 0.0;
+    if (hit[i]) set_velocity(frame, frame.stops[stops[i]], after[i], X);
+  }
+  return true;
+}
+
+}  // namespace slapstick::flow

@@ -1,0 +1,199 @@
+#include "slapstick/mode/outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slapstick::mode {
+namespace {
+
+/// Contacts that hold one pair still. Along the group's displacement the force f0 pushes back; a contact has its share sense * f0.
+struct Group {
+  int displacement;
+  std::vector<int> stops;      ///< closed stops
+  std::vector<int> frictions;  ///< sticking friction contacts
+};
+
+Group& fin_or_add(std::vector<Group>& groups, const Frame& frame, int displacement) {
+  for (Group& group : groups) {
+    if (frame.parallel(group.displacement, displacement) != 0) return group;
+  }
+  return groups.emplace_back(Group{displacement, {}, {}});
+}
+
+std::vector<Group> held_groups(const Frame& frame, const ContactStates& states) {
+  std::vector<Group> groups;
+  for (std::size_t i = 0; i < states.stops.size(); ++i) {
+    if (states.stops[i] == StopState::closed)
+      fin_or_add(groups, frame, frame.stops[i].own).stops.push_back(static_cast<int>(i));
+  }
+  for (std::size_t i = 0; i < states.frictions.size(); ++i) {
+    if (states.frictions[i] == FrictionState::stick)
+      fin_or_add(groups, frame, frame.frictions[i].own).frictions.push_back(static_cast<int>(i));
+  }
+  return groups;
+}
+
+/// +1 or -1: the sense of a contact along the displacement of its group.
+double sense(const Frame& frame, const Group& group, const ContactRow& contact) {
+  return contact.sign * frame.parallel(group.displacement, contact.own);
+}
+
+/// The solution of D lambda = rhs for a positive semidefinite D; the one of least norm where held contacts depend on each other.
+Matrix least_norm_solution(const Matrix& D, const Matrix& rhs) {
+  const Eigen::FullPivLU<Matrix> lu(D);
+  if (lu.isInvertible()) return lu.solve(rhs);
+  return D.completeOrthogonalDecomposition().solve(rhs);
+}
+
+/// Fills an Outline; holds what its parts share.
+class Builder {
+ public:
+  Builder(const Model& model, const Frame& frame, Outline& out)
+      : model_(model), frame_(frame), out_(out), d_(frame.d), m_(frame.size()), held_(held_groups(frame, out.states)) {}
+
+  void select_linear_system();
+  void arm_guards();
+  void note_guard_structure();
+
+ private:
+  void note_steady(const Matrix& G);
+  void arm_gap(int stop);
+  void arm_compliant(int i);
+  void arm_force(std::size_t k);
+
+  const Model& model_;
+  const Frame& frame_;
+  Outline& out_;
+  const int d_, m_;
+  std::vector<Group> held_;
+  Matrix holding_;  ///< f0 = holding X, one row per group
+};
+
+/// Along a displacement the holding force is f0 = -lambda, positive when it pushes a in the -x direction.
+void Builder::select_linear_system() {
+  Matrix acceleration = frame_.free;
+  for (std::size_t i = 0; i < out_.states.frictions.size(); ++i) {
+    const ContactRow& contact = frame_.frictions[i];
+    const double force = static_cast<double>(out_.states.frictions[i]) * model_.frictions[i].kinetic_friction;
+    acceleration.col(frame_.one()) -= force * contact.sign * frame_.mass_inverse.col(contact.own);
+  }
+  for (std::size_t i = 0; i < out_.states.compliant.size(); ++i) {
+    if (out_.states.compliant[i] != CompliantState::on) continue;
+    const ContactRow& contact = frame_.compliant[i];
+    acceleration -= contact.sign * frame_.mass_inverse.col(contact.own) * frame_.push_row(model_, static_cast<int>(i));
+  }
+  const auto count = static_cast<Eigen::Index>(held_.size());
+  Matrix G = Matrix::Zero(count, d_);
+  for (Eigen::Index k = 0; k < count; ++k) G(k, held_[k].displacement) = 1.0;
+  if (count > 0) {
+    holding_ = least_norm_solution(G * frame_.mass_inverse * G.transpose(), G * acceleration);
+    acceleration -= frame_.mass_inverse * G.transpose() * holding_;
+    note_steady(G);
+  }
+  out_.system = frame_.kinematics(model_.omega);
+  out_.system.middleRows(d_, d_) = acceleration;
+  for (int i = 0; i < d_; ++i) {
+    if (out_.steady[i]) out_.system.row(d_ + i).setZero();  // exactly
+  }
+}
+
+/// A displacement whose rate follows from the held ones has no acceleration.
+void Builder::note_steady(const Matrix& G) {
+  const Matrix held = (G * frame_.W).transpose();
+  const Eigen::CompleteOrthogonalDecomposition<Matrix> span(held);
+  for (int i = 0; i < d_; ++i) {
+    const Vector row = frame_.W.row(i).transpose();
+    out_.steady[i] = (held * span.solve(row) - row).norm() < 1e-10 * row.norm();
+  }
+}
+
+/// In the order in which events at one instant are handled: gaps, relative velocities, forces.
+void Builder::arm_guards() {
+  for (std::size_t i = 0; i < out_.states.stops.size(); ++i) {
+    if (out_.states.stops[i] == StopState::open) arm_gap(static_cast<int>(i));
+  }
+  for (std::size_t i = 0; i < out_.states.compliant.size(); ++i) arm_compliant(static_cast<int>(i));
+  for (std::size_t i = 0; i < out_.states.frictions.size(); ++i) {
+    const auto s = static_cast<double>(out_.states.frictions[i]);
+    if (s != 0.0)
+      out_.guards.push_back({GuardKind::slip, static_cast<int>(i), s * frame_.velocity_row(frame_.frictions[i])});
+  }
+  for (std::size_t k = 0; k < held_.size(); ++k) arm_force(k);
+}
+
+/// What a group can bear: friction up to the sum of its limits either way, stops any push on their side.
+void Builder::arm_force(std::size_t k) {
+  const Group& group = held_[k];
+  const RowVector f0 = holding_.row(static_cast<Eigen::Index>(k));
+  RowVector limit = RowVector::Zero(m_);
+  for (int i : group.frictions) limit[frame_.one()] += model_.frictions[i].static_friction;
+  bool above = true, below = true;  // does sense * f0 have a limit above, below?
+  for (int i : group.stops) (sense(frame_, group, frame_.stops[i]) > 0.0 ? above : below) = false;
+  const bool pressed = !group.stops.empty();
+  const int contact = pressed ? group.stops.front() : group.frictions.front();
+  const double side = pressed ? 1.0 : sense(frame_, group, frame_.frictions[contact]);
+  if (above) out_.guards.push_back({pressed ? GuardKind::press : GuardKind::stick_above, contact, limit - side * f0});
+  if (below) out_.guards.push_back({pressed ? GuardKind::press : GuardKind::stick_below, contact, limit + side * f0});
+}
+
+void Builder::arm_compliant(int i) {
+  const CompliantState state = out_.states.compliant[i];
+  const RowVector gap = frame_.gap_row(frame_.compliant[i]), force = frame_.push_row(model_, i);
+  const CompliantStop& stop = model_.compliant_stops[i];
+  const bool by_force = !stop.pulls && stop.damping > 0.0;
+  if (state == CompliantState::off)
+    out_.guards.push_back({GuardKind::engage, i, gap});
+  else if (state == CompliantState::on)
+    out_.guards.push_back({by_force ? GuardKind::let_go : GuardKind::leave, i, by_force ? force : RowVector(-gap)});
+  else {
+    out_.guards.push_back({GuardKind::leave, i, -gap});
+    out_.guards.push_back({GuardKind::push, i, -force});
+  }
+}
+
+void Builder::note_guard_structure() {
+  const Matrix kinematics = frame_.kinematics(model_.omega);
+  for (Guard& guard : out_.guards) {
+    const bool mechanical =
+        guard.row.tail(m_ - 2 * d_).isZero(0.0);  // a phase has the clock's rounding besides its own
+    if (mechanical && (guard.row.array() != 0.0).count() == 1) {
+      guard.row.cwiseAbs().maxCoeff(&guard.single);
+      guard.factor = guard.row[guard.single];
+    }
+    if (guard.kind != GuardKind::slip) continue;
+    for (std::size_t g = 0; g < out_.guards.size(); ++g) {
+      if (out_.guards[g].kind != GuardKind::gap) continue;
+      const RowVector rate = out_.guards[g].row * kinematics;  // gap' involves no acceleration
+      if ((rate + guard.row).isZero(0.0)) guard.falls_with = static_cast<int>(g);
+    }
+  }
+}
+
+/// An open gap needs no guard where it cannot close: constant where its pair is held, growing while its pair slips apart.
+void Builder::arm_gap(int stop) {
+  const ContactRow& contact = frame_.stops[stop];
+  bool on_belt = false;
+  for (std::size_t i = 0; i < out_.states.frictions.size(); ++i) {
+    if (model_.frictions[i].belt_speed != 0.0) {
+      on_belt = on_belt || out_.states.frictions[i] == FrictionState::stick;
+      continue;
+    }
+    const ContactRow& friction = frame_.frictions[i];
+    const double same = contact.sign * friction.sign * frame_.parallel(contact.own, friction.own);
+    if (same * static_cast<int>(out_.states.frictions[i]) < 0.0) return;
+  }
+  if (out_.steady[contact.own] && !on_belt) return;
+  out_.guards.push_back({GuardKind::gap, stop, frame_.gap_row(contact)});
+}
+
+}  // namespace
+
+Outline::Outline(const Model& model, const Frame& frame, ContactStates contact_states)
+    : states(std::move(contact_states)), steady(static_cast<std::size_t>(frame.d), false) {
+  Builder builder(model, frame, *this);
+  builder.select_linear_system();
+  builder.arm_guards();
+  builder.note_guard_structure();
+}
+
+}  // namespace slapstick::mode

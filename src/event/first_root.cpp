@@ -6,6 +6,9 @@
 namespace slapstick::event {
 namespace {
 
+/// More than all that underflow can take from a value and its rounding bound.
+constexpr double underflow = 0x1p-1060;
+
 /// An interval [0, end] on which g'' lies in [low, high].
 struct Curvature {
   double low, high, end;
@@ -69,7 +72,8 @@ bool settle(const Coefficients& a, double start, double low, double high, long& 
     const double step = -2.0 * g * g1 / (2.0 * g1 * g1 - g * g2);
     x += step;
     if (!(x >= low && x <= high)) return false;
-    if (std::abs(step) <= 0x1p-17 * (x - low)) {  // the next error is of the order of step^3
+    // The next error is of the order of step^3 times (g'' / 2 g')^2, which is large at a slow impact.
+    if (std::abs(step) <= 0x1p-17 * (x - low) && std::abs(step * g2) <= 0x1p-17 * std::abs(g1)) {
       zero = x;
       return true;
     }
@@ -132,7 +136,7 @@ void Search::evaluate(double x) {
   g_ = value(guard_.taylor, p);
   g1_ = value(first_, p);
   g2_ = value(second_, p);
-  noise_ = bound(Bound::noise_0) + x * (bound(Bound::noise_1) + x * bound(Bound::noise_2));
+  noise_ = underflow + bound(Bound::noise_0) + x * (bound(Bound::noise_1) + x * bound(Bound::noise_2));
   ++evaluations_;
 }
 
@@ -195,9 +199,10 @@ void Search::at_the_end(Root& root) {
 }
 
 void Search::restart_or_linger(Root& root) const {
-  root.kind = clear_ > 0.0 ? RootKind::restart : RootKind::none;
-  root.x = clear_ > 0.0 ? clear_ : 1.0;
-  root.lingers = clear_ <= 0.0;
+  constexpr double gain = 0.25;  // of a window: a guard that creeps along its noise shall not restart for ever
+  root.kind = clear_ >= gain ? RootKind::restart : RootKind::none;
+  root.x = clear_ >= gain ? clear_ : 1.0;
+  root.lingers = clear_ < gain;
 }
 
 /// g is within the noise at x_, or so near it that no step is possible. Steps d with (g'' + sup |g^(3)| d) d^2 / 8 <= noise: between two
@@ -254,7 +259,7 @@ void Search::run(Root& root) {
   g_ = guard_.taylor[0][0];
   g1_ = guard_.taylor[0][1];
   g2_ = 2.0 * guard_.taylor[0][2];
-  noise_ = bound(Bound::noise_0);
+  noise_ = underflow + bound(Bound::noise_0);
   near_ = near_start();
   for (;;) {
     if (g_ <= noise_) return walk_through_noise(root);

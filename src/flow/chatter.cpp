@@ -8,6 +8,11 @@
 namespace slapstick::flow {
 namespace {
 
+/// True if a contact that slips cannot come to rest: its velocity changes by less than it is. delta bounds |X - X_0|.
+bool slips_on(const System& system, int i, const double* X, const double* delta) {
+  return delta[system.frame().u(system.frame().frictions[i].own)] < std::abs(sliding_velocity(system, i, X));
+}
+
 /// The friction forces during the chatter, as accelerations of the chattering pair.
 struct Friction {
   double phi = 0.0;         ///< known: f_k on the same pair, against the motion
@@ -16,7 +21,8 @@ struct Friction {
   double unknown = 0.0;  ///< any value up to this: friction at rest on other pairs, whose state the impulses may change
 };
 
-Friction friction_on(const System& system, int stop, const double* X) {
+/// @param delta bound on the changes of X over the chatter, or null if none is known yet
+Friction friction_on(const System& system, int stop, const double* X, const double* delta) {
   Friction friction;
   for (int i = 0; i < static_cast<int>(system.model().frictions.size()); ++i) {
     const FrictionContact& contact = system.model().frictions[i];
@@ -25,13 +31,19 @@ Friction friction_on(const System& system, int stop, const double* X) {
     if (same_pair) {
       friction.phi += std::abs(effect) * contact.kinetic_friction;
       friction.phi_static += std::abs(effect) * contact.static_friction;
-    } else if (w != 0.0) {
+    } else if (w != 0.0 && (delta == nullptr || slips_on(system, i, X, delta))) {
       friction.steady -= std::copysign(contact.kinetic_friction, w) * effect;
     } else {
       friction.unknown += std::abs(effect) * contact.static_friction;
     }
   }
   return friction;
+}
+
+double row_product(const mode::RowVector& row, const double* X) {
+  double sum = 0.0;
+  for (Eigen::Index j = 0; j < row.size(); ++j) sum += row[j] * X[j];
+  return sum;
 }
 
 /// |u'| that friction can cause on coordinate i, at most.
@@ -97,41 +109,21 @@ double drift_of_R(const System& system, int stop, const double* X, double D, dou
   return drift;
 }
 
-/// True if no contact that was counted as steady can come to rest: its velocity changes by less than it is. delta bounds |X - X_0|.
-bool all_slip_on(const System& system, int stop, const double* X, const double* delta) {
-  const mode::Frame& frame = system.frame();
-  for (int i = 0; i < static_cast<int>(frame.frictions.size()); ++i) {
-    const auto [effect, same_pair] = system.coupling(stop, i);
-    const double w = std::abs(sliding_velocity(system, i, X));
-    if (same_pair || w == 0.0 || effect == 0.0) continue;
-    if (delta[frame.u(frame.frictions[i].own)] >= w) return false;
-  }
-  return true;
-}
-
-}  // namespace
-
-ChatterLimit prove_chatter(const System& system, int stop, const double* X, double tolerance,
-                           std::span<double> scratch) {
+/// The proof of the header, for friction as given; leaves the bounds on the changes of X in scratch[2 m ..].
+ChatterLimit prove(const System& system, int stop, const double* X, double tolerance, const Friction& friction,
+                   std::span<double> scratch) {
   const double r = system.model().stops[stop].restitution;
   const double v = -approach_velocity(system, stop, X);
-  double R = 0.0;
-  for (int j = 0; j < system.frame().size(); ++j) R += system.press(stop)[j] * X[j];
-  const Friction friction = friction_on(system, stop, X);
-  R += friction.steady;
-  // The error of the limit is about (duration^2 / period): too early to be worth a proof?
-  if (!(v < 100.0 * std::sqrt(tolerance * system.period()) * R)) return {};
-
-  if (!(v > 0.0) || !(r < 1.0) || R - friction.phi - friction.unknown <= 0.0 ||
-      R - friction.unknown <= friction.phi_static)
-    return {};
+  const double R = row_product(system.press(stop), X) + friction.steady;
+  if (R - friction.phi - friction.unknown <= 0.0 || R - friction.unknown <= friction.phi_static) return {};
   const double nominal_rho = r * std::sqrt((R - friction.phi) / (R + friction.phi));
+  if (!(nominal_rho < 1.0)) return {};
   const double nominal = series(v, R + friction.phi, R - friction.phi, nominal_rho);
 
   const double D = 2.0 * nominal;
   const double impulse_sum = 2.0 * (1.0 + r) / r * v * nominal_rho / (1.0 - nominal_rho);
   const double delta = drift_of_R(system, stop, X, D, impulse_sum, scratch) + friction.unknown;
-  if (!(delta < R) || !all_slip_on(system, stop, X, scratch.data() + 2 * system.frame().size())) return {};
+  if (!(delta < R)) return {};
   const double rise_min = R + friction.phi - delta, rise_max = R + friction.phi + delta;
   const double fall_min = R - friction.phi - delta, fall_max = R - friction.phi + delta;
   if (!(R - delta > friction.phi_static) || !(fall_min > 0.0)) return {};
@@ -142,6 +134,50 @@ ChatterLimit prove_chatter(const System& system, int stop, const double* X, doub
   const double error = std::max(longest - nominal, nominal - shortest);
   if (error > tolerance) return {};
   return {true, nominal, error};
+}
+
+/// Does any contact that was counted as steady come to rest?
+bool all_slip_on(const System& system, int stop, const double* X, const double* delta) {
+  for (int i = 0; i < static_cast<int>(system.model().frictions.size()); ++i) {
+    const auto [effect, same_pair] = system.coupling(stop, i);
+    if (same_pair || effect == 0.0 || sliding_velocity(system, i, X) == 0.0) continue;
+    if (!slips_on(system, i, X, delta)) return false;
+  }
+  return true;
+}
+
+/// A closed stop, or a compliant one, that pushes on the chattering pair is more than the proof looks at.
+bool coupled_to_others(const System& system, int stop, const double* X) {
+  const mode::Frame& frame = system.frame();
+  const int own = frame.stops[stop].own;
+  for (std::size_t i = 0; i < frame.stops.size(); ++i) {
+    const bool in_contact = static_cast<int>(i) != stop && gap(system, static_cast<int>(i), X) == 0.0;
+    if (in_contact && frame.mass_inverse(own, frame.stops[i].own) != 0.0) return true;
+  }
+  for (std::size_t i = 0; i < frame.compliant.size(); ++i) {
+    const bool acts = depth(system, static_cast<int>(i), X) >= 0.0;
+    if (acts && frame.mass_inverse(own, frame.compliant[i].own) != 0.0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+ChatterLimit prove_chatter(const System& system, int stop, const double* X, double tolerance,
+                           std::span<double> scratch) {
+  const double v = -approach_velocity(system, stop, X);
+  const Friction friction = friction_on(system, stop, X, nullptr);
+  const double R = row_product(system.press(stop), X) + friction.steady;
+  // The error of the limit is about (duration^2 / period): too early to be worth a proof?
+  if (!(v > 0.0) || !(v < 100.0 * std::sqrt(tolerance * system.period()) * R)) return {};
+  if (coupled_to_others(system, stop, X)) return {};
+
+  const ChatterLimit limit = prove(system, stop, X, tolerance, friction, scratch);
+  const double* delta = scratch.data() + 2 * system.frame().size();
+  if (!limit.proven || all_slip_on(system, stop, X, delta)) return limit;
+  // A contact that may come to rest on the way can push either way.
+  const ChatterLimit cautious = prove(system, stop, X, tolerance, friction_on(system, stop, X, delta), scratch);
+  return cautious;
 }
 
 }  // namespace slapstick::flow

@@ -47,6 +47,7 @@ Motion::Motion(const System& system, const State& initial, Instant start_at, Mot
   scratch_.assign(4 * X_.span().size(), 0.0);
   sample_out_.resize(X_.span().size() / 8);
   orders_.assign(guards, 0);
+  tail_orders_.assign(guards, 0);
   lingers_.assign(guards, false);
   before_.assign(2 * static_cast<std::size_t>(frame.n), 0.0);
   std::fill_n(phase_floor_.data() + 2 * frame.d, 2 * frame.harmonics.size(), 1.0);
@@ -141,6 +142,7 @@ Outcome Motion::advance(Instant end) {
 void Motion::begin_flight() {
   flight_ = {now_, 0};
   elapsed_ = 0.0;
+  lingers_.assign(lingers_.size(), false);
   X_window_ = X_;
   ++counters_.windows;
 }
@@ -186,9 +188,11 @@ bool Motion::fly(Instant end) {
   }
 }
 
+/// The first event before x_end; if there is none, the place where a search that could not decide wants to start anew.
 Motion::Found Motion::first_event_in_window(double x_end) {
   const mode::Mode& mode = *here_;
   Found found{event::RootKind::none, 0, x_end};
+  double restart = -1.0;
   int falling = -1;  // a gap that falls all over the window: its pair does not come to rest before the impact
   for (int g = 0; g < mode.guard_count(); ++g) {
     if (orders_[g] == flow::negative) return {event::RootKind::crossing, g, 0.0};
@@ -199,11 +203,14 @@ Motion::Found Motion::first_event_in_window(double x_end) {
     if (event::excluded(window.hull)) continue;
     mode.taylor(g, orders_[g], X_window_.data(), window.taylor);
     const event::Root root = event::first_root(window, found.x, counters_.evaluations);
-    if (root.kind != event::RootKind::none && (found.kind == event::RootKind::none || root.x < found.x))
+    if (root.kind == event::RootKind::restart)
+      restart = restart < 0.0 ? root.x : std::min(restart, root.x);
+    else if (root.kind != event::RootKind::none && (found.kind == event::RootKind::none || root.x < found.x))
       found = {root.kind, g, root.x};
     if (root.falls && orders_[g] == 0) falling = g;
     if (root.lingers) lingers_[g] = true;
   }
+  if (found.kind == event::RootKind::none && restart >= 0.0) return {event::RootKind::restart, 0, restart};
   return found;
 }
 

@@ -51,7 +51,7 @@ void Motion::handle(int guard, bool graze) {
 /// Is a guard that reads `value` here within its rounding bound of zero?
 bool Motion::within_noise(int guard, double value) const {
   const int order = orders_[guard];
-  if (order < 0 || order == flow::never) return false;
+  if (order < 0 || order == flow::never || std::abs(value) > 0x1p-30 * largest_magnitude()) return false;
   event::Hull hull;
   here_->enclose(guard, order, X_window_.data(), magnitude_.data(), hull);
   const double x = arrived_x_;
@@ -60,15 +60,29 @@ bool Motion::within_noise(int guard, double value) const {
   return std::abs(value) <= std::pow(x, order) * noise;
 }
 
+/// A bound on all numbers of the present window, up to a factor of some tens.
+double Motion::largest_magnitude() const {
+  double sum = 0.0;
+  for (const double size : magnitude_.span()) sum += size;
+  return sum;
+}
+
+bool Motion::of_one_pair(const mode::Guard& a, const mode::Guard& b) const {
+  const auto coupled = [&](const mode::Guard& gap, const mode::Guard& slip) {
+    return gap.kind == GuardKind::gap && slip.kind == GuardKind::slip &&
+           system_->coupling(gap.contact, slip.contact).same_pair;
+  };
+  return coupled(a, b) || coupled(b, a);
+}
+
 /// Other gaps and relative velocities that are zero at this instant, as far as rounding can tell, are made exactly zero: symmetric machines
 /// have their events in pairs.
 void Motion::gather_ties(int guard) {
   const auto& guards = here_->guards();
-  if (guards.size() < 3) return;  // one stop and one friction contact: see stop_touched_at_rest
   const mode::Frame& frame = system_->frame();
   for (int g = 0; g < static_cast<int>(guards.size()); ++g) {
     const int contact = guards[g].contact;
-    if (g == guard) continue;
+    if (g == guard || of_one_pair(guards[g], guards[guard])) continue;  // of one pair: see stop_touched_at_rest
     if (guards[g].kind == GuardKind::gap) {
       if (within_noise(g, flow::gap(*system_, contact, X_.data()))) land(frame.stops[contact]);
     } else if (guards[g].kind == GuardKind::engage || guards[g].kind == GuardKind::leave) {
@@ -157,9 +171,8 @@ void Motion::strike_all() {
       newton(stop);
     else
       moreau(touching_, false);
-    const double r = system_->model().stops[stop].restitution;
     struck_now_ |= std::uint32_t{1} << stop;
-    chatter_stop_ = rounds == 0 && r > 0.0 && r < 1.0 ? stop : -1;
+    chatter_stop_ = rounds == 0 && system_->model().stops[stop].restitution > 0.0 ? stop : -1;
   }
 }
 
@@ -292,6 +305,10 @@ bool Motion::end_chatter(double limit) {
     return false;
   }
   if (chatter.duration > limit) return false;
+  if (!tail_is_quiet(stop, chatter.duration)) {
+    chatter_stop_ = -1;
+    return false;
+  }
 
   // The pair's momentum does not see the impacts: flow the closed stop from the velocity after a fully plastic impact.
   const double begun = elapsed_;
@@ -311,6 +328,31 @@ bool Motion::end_chatter(double limit) {
   pending_.back().error = chatter.error;
   settle(Cause::force);
   return true;
+}
+
+/// True if no other contact has its event between the last impact and the limit of a chatter, which is flown with the stop closed.
+/// Friction that the impacts shake is not asked: the proof of the chatter allows it any force.
+bool Motion::tail_is_quiet(int stop, double duration) {
+  X_next_ = X_window_;
+  flow::strike(*system_, stop, 0.0, X_next_.data());
+  note_magnitude(X_next_);
+  std::vector<int>& orders = tail_orders_;
+  const ModeId id = flow::select_mode(*system_, X_next_.data(), magnitude_.data(), orders);
+  bool quiet = id >= 0;
+  const mode::Mode& closed = quiet ? system_->mode(id) : *here_;
+  for (int g = 0; quiet && g < closed.guard_count(); ++g) {
+    const mode::Guard& guard = closed.guards()[g];
+    const bool friction =
+        guard.kind == GuardKind::slip || guard.kind == GuardKind::stick_above || guard.kind == GuardKind::stick_below;
+    if (orders[g] == flow::never || (friction && system_->coupling(stop, guard.contact).effect != 0.0)) continue;
+    event::GuardWindow window;
+    closed.enclose(g, orders[g], X_next_.data(), magnitude_.data(), window.hull);
+    closed.taylor(g, orders[g], X_next_.data(), window.taylor);
+    const double x_end = duration / closed.window();
+    quiet = x_end < 1.0 && event::first_root(window, x_end, counters_.evaluations).kind == event::RootKind::none;
+  }
+  note_magnitude(X_window_);
+  return quiet;
 }
 
 void Motion::fail_pile_up() const {

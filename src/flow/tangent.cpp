@@ -55,7 +55,9 @@ void TangentMotion::flow(const Motion::Segment& segment) {
       std::copy_n(reinterpret_cast<const double*>(out_.data()), m, delta_.data());
     }
     mode.state_at(s / mode.window(), delta_.data(), next_.data());
-    for (int i = 0; i < d; ++i) next_[d + i] += system.frame().drift[i];  // state_at is affine in p', tangents are not
+    for (int i = 0; i < d; ++i) {  // state_at is affine in p', tangents are not; a held u is copied
+      if (!mode.steady(i)) next_[d + i] += system.frame().drift[i];
+    }
     std::copy_n(next_.data(), 2 * d, tangents_.col(column).data());
   }
 }

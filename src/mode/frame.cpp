@@ -84,16 +84,6 @@ Matrix symmetric(const SymmetricMatrix& entries, int n) {
   return Eigen::Map<const Matrix>(entries.data(), n, n);
 }
 
-/// Entries that are nothing but rounding become exactly zero: contacts that do not touch each other's motion stay apart.
-void drop_rounding(Matrix& matrix) {
-  const Vector size = matrix.diagonal().cwiseSqrt();
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-      if (std::abs(matrix(i, j)) <= 0x1p-48 * size[i] * size[j]) matrix(i, j) = 0.0;
-    }
-  }
-}
-
 }  // namespace
 
 Frame::Frame(const Model& model) : n(model.size()) {
@@ -156,12 +146,24 @@ void Frame::set_dynamics(const Model& model) {
   const Matrix M_inverse =
       lumped ? Matrix(M.diagonal().cwiseInverse().asDiagonal()) : Matrix(M.llt().solve(Matrix::Identity(n, n)));
   mass_inverse = W * M_inverse * W.transpose();
-  drop_rounding(mass_inverse);
-  Matrix force = load;
-  force.leftCols(n) -= K * W_inverse;
-  force.middleCols(d, n) -= C * W_inverse;
-  force.col(one()) -= K * W_inverse * shift.head(n) + C * W_inverse * drift.head(n);
+  drop_rounding(mass_inverse, W.cwiseAbs() * M_inverse.cwiseAbs() * W.cwiseAbs().transpose());
+  const Matrix stiffness = K * W_inverse, damping = C * W_inverse;
+  Matrix force = load, force_size = load.cwiseAbs();
+  force.leftCols(n) -= stiffness;
+  force.middleCols(d, n) -= damping;
+  force.col(one()) -= stiffness * shift.head(n) + damping * drift.head(n);
+  force_size.leftCols(n) += K.cwiseAbs() * W_inverse.cwiseAbs();
+  force_size.middleCols(d, n) += C.cwiseAbs() * W_inverse.cwiseAbs();
+  force_size.col(one()) +=
+      stiffness.cwiseAbs() * shift.head(n).cwiseAbs() + damping.cwiseAbs() * drift.head(n).cwiseAbs();
   free = W * (M_inverse * force);
+  free_size = W.cwiseAbs() * (M_inverse.cwiseAbs() * force_size);
+  drop_rounding(free, free_size);
+}
+
+void Frame::drop_rounding(Matrix& matrix, const Matrix& size) {
+  constexpr double roundings = 0x1p-47;  // 64 units
+  matrix = (matrix.array().abs() > roundings * size.array()).select(matrix, 0.0);
 }
 
 int Frame::parallel(int i, int j) const { return same_direction(W.row(i), W.row(j)); }
@@ -195,16 +197,18 @@ Matrix Frame::kinematics(double omega) const {
 
 void Frame::enter(const double* state, double* X) const {
   for (int i = 0; i < d; ++i) {
-    double p = 0.0, rate = 0.0, size = std::abs(shift[i]);
+    double p = 0.0, rate = 0.0, size = std::abs(shift[i]), speed = std::abs(drift[i]);
     for (int j = 0; j < n; ++j) {
       p += W(i, j) * state[2 * j];
       rate += W(i, j) * state[2 * j + 1];
       size += std::abs(W(i, j) * state[2 * j]);
+      speed += std::abs(W(i, j) * state[2 * j + 1]);
     }
     X[i] = p - shift[i];
     // A gap below the rounding of the coordinates it comes from is contact: a state written out on a closed stop reads back as one.
     if (shift[i] != 0.0 && std::abs(X[i]) <= 0x1p-51 * size) X[i] = 0.0;
     X[u(i)] = rate - drift[i];
+    if (drift[i] != 0.0 && std::abs(X[u(i)]) <= 0x1p-51 * speed) X[u(i)] = 0.0;  // so is rest on a belt
   }
 }
 

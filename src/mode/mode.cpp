@@ -56,10 +56,14 @@ void Mode::build_operators(const Frame& frame, const Model& model) {
       for (std::size_t k = 0; k < static_cast<std::size_t>(d_); ++k)
         coordinates_[(3 * k + j / 8) * m_ + i][j % 8] = series.taylor(guards + k, j, i);
     }
-    for (std::size_t g = 0; g < guards; ++g)
-      leading_noise_[g * m_ + i] = noise_factor_ * event::magnitude(taylor_[3 * g * m_ + i]);
+    for (std::size_t g = 0; g < guards; ++g) {
+      event::Lane8& noise = leading_noise_[g * m_ + i];
+      noise = noise_factor_ * event::magnitude(taylor_[3 * g * m_ + i]);
+      for (int j = 0; j < 8; ++j) noise[j] += series.error(g, j, i);
+    }
   }
   for (int g = 0; g < guard_count(); ++g) {
+    for (int i = 0; i < m_; ++i) remainders_.push_back(remainder(series, g, i));
     for (int order = 0; order < stored_orders; ++order) {
       for (int i = 0; i < m_; ++i) {
         const event::Hull hull = hull_column(g, order, i);
@@ -70,17 +74,22 @@ void Mode::build_operators(const Frame& frame, const Model& model) {
   }
 }
 
-/// The hull of column i of guard g, x^order divided out. The terms beyond the stored ones are below a quarter rounding of the largest.
-event::Hull Mode::hull_column(int g, int order, int i) const {
-  std::array<double, event::terms> a{};
+/// Bound on what the terms beyond the stored ones add to column i of guard g: a quarter rounding of the largest (docs/certainty.md).
+double Mode::remainder(const Series& series, int g, int i) {
   double largest = 0.0;
   for (int n = 0; n < event::terms; ++n) {
-    const double c = taylor_[(3 * g + n / 8) * m_ + i][n % 8];
-    largest = std::max(largest, std::abs(c));
-    if (n >= order) a[n - order] = c;
+    const auto row = static_cast<std::size_t>(g);
+    largest = std::max({largest, std::abs(series.taylor(row, n, i)), series.error(row, n, i)});
   }
+  return 0.25 * event::unit_roundoff * largest;
+}
+
+/// The hull of column i of guard g, x^order divided out.
+event::Hull Mode::hull_column(int g, int order, int i) const {
+  std::array<double, event::terms> a{};
+  for (int n = order; n < event::terms; ++n) a[n - order] = taylor_[(3 * g + n / 8) * m_ + i][n % 8];
   event::Hull hull = event::enclose(a.data(), event::terms - order, noise_factor_);
-  hull.bounds += 0.25 * event::unit_roundoff * largest * event::Lane8{1, 1, 1, 0, 0, 1, 1, 1};
+  hull.bounds += remainders_[g * m_ + i] * event::Lane8{1, 1, 1, 0, 0, 1, 1, 1};
   return hull;
 }
 

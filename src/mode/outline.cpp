@@ -38,11 +38,11 @@ double sense(const Frame& frame, const Group& group, const ContactRow& contact) 
   return contact.sign * frame.parallel(group.displacement, contact.own);
 }
 
-/// The solution of D lambda = rhs for a positive semidefinite D; the one of least norm where held contacts depend on each other.
-Matrix least_norm_solution(const Matrix& D, const Matrix& rhs) {
+/// The inverse of a positive semidefinite D; where held contacts depend on each other, the pseudoinverse, for the solution of least norm.
+Matrix least_norm_inverse(const Matrix& D) {
   const Eigen::FullPivLU<Matrix> lu(D);
-  if (lu.isInvertible()) return lu.solve(rhs);
-  return D.completeOrthogonalDecomposition().solve(rhs);
+  if (lu.isInvertible()) return lu.inverse();
+  return D.completeOrthogonalDecomposition().pseudoInverse();
 }
 
 /// Fills an Outline; holds what its parts share.
@@ -56,6 +56,7 @@ class Builder {
   void note_guard_structure();
 
  private:
+  void hold(Matrix& acceleration, Matrix& size);
   void note_steady(const Matrix& G);
   void arm_gap(int stop);
   void arm_compliant(int i);
@@ -71,30 +72,45 @@ class Builder {
 
 /// Along a displacement the holding force is f0 = -lambda, positive when it pushes a in the -x direction.
 void Builder::select_linear_system() {
-  Matrix acceleration = frame_.free;
+  Matrix acceleration = frame_.free, size = frame_.free_size;
   for (std::size_t i = 0; i < out_.states.frictions.size(); ++i) {
     const ContactRow& contact = frame_.frictions[i];
     const double force = static_cast<double>(out_.states.frictions[i]) * model_.frictions[i].kinetic_friction;
-    acceleration.col(frame_.one()) -= force * contact.sign * frame_.mass_inverse.col(contact.own);
+    const Vector change = force * contact.sign * frame_.mass_inverse.col(contact.own);
+    acceleration.col(frame_.one()) -= change;
+    size.col(frame_.one()) += change.cwiseAbs();
   }
   for (std::size_t i = 0; i < out_.states.compliant.size(); ++i) {
     if (out_.states.compliant[i] != CompliantState::on) continue;
     const ContactRow& contact = frame_.compliant[i];
-    acceleration -= contact.sign * frame_.mass_inverse.col(contact.own) * frame_.push_row(model_, static_cast<int>(i));
+    const Matrix change =
+        contact.sign * frame_.mass_inverse.col(contact.own) * frame_.push_row(model_, static_cast<int>(i));
+    acceleration -= change;
+    size += change.cwiseAbs();
   }
-  const auto count = static_cast<Eigen::Index>(held_.size());
-  Matrix G = Matrix::Zero(count, d_);
-  for (Eigen::Index k = 0; k < count; ++k) G(k, held_[k].displacement) = 1.0;
-  if (count > 0) {
-    holding_ = least_norm_solution(G * frame_.mass_inverse * G.transpose(), G * acceleration);
-    acceleration -= frame_.mass_inverse * G.transpose() * holding_;
-    note_steady(G);
-  }
+  Frame::drop_rounding(acceleration, size);
+  if (!held_.empty()) hold(acceleration, size);
   out_.system = frame_.kinematics(model_.omega);
   out_.system.middleRows(d_, d_) = acceleration;
   for (int i = 0; i < d_; ++i) {
     if (out_.steady[i]) out_.system.row(d_ + i).setZero();  // exactly
   }
+}
+
+/// Adds the forces that hold the groups.
+void Builder::hold(Matrix& acceleration, Matrix& size) {
+  const auto count = static_cast<Eigen::Index>(held_.size());
+  Matrix G = Matrix::Zero(count, d_);
+  for (Eigen::Index k = 0; k < count; ++k) G(k, held_[k].displacement) = 1.0;
+  const Matrix D_inverse = least_norm_inverse(G * frame_.mass_inverse * G.transpose());
+  const Matrix push = frame_.mass_inverse * G.transpose();
+  const Matrix holding_size = D_inverse.cwiseAbs() * (G * size);
+  holding_ = D_inverse * (G * acceleration);
+  Frame::drop_rounding(holding_, holding_size);
+  acceleration -= push * holding_;
+  size += push.cwiseAbs() * holding_size;
+  Frame::drop_rounding(acceleration, size);
+  note_steady(G);
 }
 
 /// A displacement whose rate follows from the held ones has no acceleration.

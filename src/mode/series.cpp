@@ -28,15 +28,20 @@ double few_bits(double x) {
 Series::Series(const Matrix& A, const std::vector<RowVector>& rows, double period) : reference_(reference_length(A)) {
   A_ = A.cast<long double>() * static_cast<long double>(reference_);
   const Eigen::Index m = A_.rows();
+  const Eigen::MatrixXd size_of_A = A_.cwiseAbs().cast<double>();
   for (const RowVector& row : rows) {
     auto& terms = scaled_.emplace_back();
     auto& sizes = magnitudes_.emplace_back();
+    auto& errors = errors_.emplace_back(static_cast<std::size_t>(m), 0.0);
+    RowVector error = RowVector::Zero(m);
     terms.push_back(row.cast<long double>());
     for (int n = 1; n < all_terms; ++n) {
       LongRow next = LongRow::Zero(m);
       for (Eigen::Index k = 0; k < m; ++k) {
         if (const long double factor = terms.back()[k] / n; factor != 0.0L) next += factor * A_.row(k);
       }
+      error = (error + event::unit_roundoff * terms.back().cwiseAbs().cast<double>()) * size_of_A / n;
+      errors.insert(errors.end(), error.begin(), error.end());
       terms.push_back(std::move(next));
     }
     for (const LongRow& term : terms) {
@@ -61,17 +66,19 @@ Series::Series(const Matrix& A, const std::vector<RowVector>& rows, double perio
       power *= ratio;
     }
   }
+  scale_errors(static_cast<double>(ratio));
 }
 
 bool Series::tail_is_negligible(double ratio) const {
   const auto columns = static_cast<std::size_t>(A_.rows());
-  for (const std::vector<double>& sizes : magnitudes_) {
+  for (std::size_t r = 0; r < magnitudes_.size(); ++r) {
+    const std::vector<double>&sizes = magnitudes_[r], &errors = errors_[r];
     for (std::size_t i = 0; i < columns; ++i) {
       double power = 1.0, largest = 0.0, tail = 0.0;
       for (int n = 0; n < all_terms; ++n, power *= ratio) {
         const double term = sizes[n * columns + i] * power;
         if (n < event::terms)
-          largest = std::max(largest, term);
+          largest = std::max({largest, term, errors[n * columns + i] * power});
         else
           tail += term;
       }
@@ -79,6 +86,19 @@ bool Series::tail_is_negligible(double ratio) const {
     }
   }
   return true;
+}
+
+void Series::scale_errors(double ratio) {
+  const auto columns = static_cast<std::size_t>(A_.rows());
+  for (auto& errors : errors_) {
+    double power = 1.0;
+    for (std::size_t n = 0; n < all_terms; ++n, power *= ratio)
+      for (std::size_t i = 0; i < columns; ++i) errors[n * columns + i] *= power;
+  }
+}
+
+double Series::error(std::size_t r, int n, int i) const {
+  return errors_[r][static_cast<std::size_t>(n * A_.rows() + i)];
 }
 
 double Series::taylor(std::size_t r, int n, int i) const { return static_cast<double>(scaled_[r][n][i]); }

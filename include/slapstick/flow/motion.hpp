@@ -150,6 +150,9 @@ class Motion {
   void rest(const mode::ContactRow& contact);
   void land(const mode::ContactRow& contact);
   void gather_ties(int guard);
+  [[nodiscard]] bool of_one_pair(const mode::Guard& a, const mode::Guard& b) const;
+  [[nodiscard]] double largest_magnitude() const;
+  [[nodiscard]] bool tail_is_quiet(int stop, double duration);
   [[nodiscard]] bool within_noise(int guard, double value) const;
   [[nodiscard]] std::span<const int> touching();
   [[nodiscard]] int approaching() const;
@@ -192,8 +195,9 @@ class Motion {
   Extended X_before_, X_segment_, X_next_, phase_floor_;
   mutable std::vector<double> scratch_;
   mutable event::Lanes sample_out_;
-  std::vector<int> orders_;    ///< of the zeros of the mode's guards at the start of the present window
-  std::vector<bool> lingers_;  ///< guards that are not clear of their noise at its end
+  std::vector<int> tail_orders_;  ///< the same at the start of a chatter's tail
+  std::vector<int> orders_;       ///< of the zeros of the mode's guards at the start of the present window
+  std::vector<bool> lingers_;     ///< guards that are not clear of their noise at its end
   mutable State before_;
   std::vector<Event> pending_;  ///< the events of one instant, in order ..
   int shown_ = 0;               ///< .. and which one `event()` is

@@ -45,6 +45,11 @@ struct Frame {
   std::vector<ContactRow> stops, frictions, compliant;
   Matrix mass_inverse;  ///< d x d: W M^{-1} W^T
   Matrix free;          ///< d x m: u' = free . X with no contact force
+  Matrix free_size;     ///< the sums of the sizes of the terms that each of its entries was made of
+
+  /// Sets entries to exactly zero that are nothing but rounding of terms of the given sizes: a force that the structure of the model makes
+  /// zero shall not be taken for one that is certainly negative.
+  static void drop_rounding(Matrix& matrix, const Matrix& size);
 
   [[nodiscard]] int size() const { return 2 * d + 2 * static_cast<int>(harmonics.size()) + 1; }
   [[nodiscard]] int u(int i) const { return d + i; }

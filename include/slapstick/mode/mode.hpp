@@ -44,13 +44,14 @@ class Mode {
   void build_operators(const Frame& frame, const Model& model);
   [[nodiscard]] Matrix flow_over_window(const Series& series, std::size_t first_coordinate, const Frame& frame,
                                         double omega) const;
+  static double remainder(const Series& series, int g, int i);
   [[nodiscard]] event::Hull hull_column(int g, int order, int column) const;
 
   /// Orders of a zero at the start whose hulls are stored; the others are rare and made from the Taylor rows.
   static constexpr int stored_orders = 3;
 
   Outline outline_;
-  std::vector<double> drift_;
+  std::vector<double> drift_, remainders_;
   int d_ = 0, m_ = 0, state_blocks_ = 0;
   double window_ = 1.0, window_in_periods_ = 1.0, noise_factor_ = 0.0;
   event::Lanes step_, taylor_, leading_noise_, coordinates_;

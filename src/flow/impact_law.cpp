@@ -1,5 +1,7 @@
 #include "slapstick/flow/impact_law.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "slapstick/flow/mode_graph.hpp"
@@ -94,32 +96,60 @@ void strike(const System& system, int stop, double restitution, double* X) {
   set_velocity(frame, frame.stops[stop], -restitution * v, X);
 }
 
-bool strike_together(const System& system, std::span<const int> stops, bool plastic, double* X, std::span<bool> hit) {
+namespace {
+
+/// D_ij = g_i M^{-1} g_j^T, and the velocities towards the stops.
+void assemble(const System& system, std::span<const int> stops, const double* X, Square& D, Column& v) {
   const mode::Frame& frame = system.frame();
   const auto n = static_cast<Eigen::Index>(stops.size());
-  Square D(n, n);
-  Column q(n), after(n), P(n);
+  D.resize(n, n);
+  v.resize(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const mode::ContactRow& a = frame.stops[stops[i]];
-    const double v = approach_velocity(system, stops[i], X);
-    const double r = plastic ? 0.0 : system.model().stops[stops[i]].restitution;
-    q[i] = (1.0 + r) * v;
-    after[i] = -r * v;
+    v[i] = approach_velocity(system, stops[i], X);
     for (Eigen::Index j = 0; j < n; ++j) {
       const mode::ContactRow& b = frame.stops[stops[j]];
       D(i, j) = a.sign * b.sign * frame.mass_inverse(a.own, b.own);
     }
   }
-  if (!Lemke(D, q).solve(P)) return false;
-  for (Eigen::Index i = 0; i < n; ++i) {
+}
+
+void push(const System& system, std::span<const int> stops, const Column& P, double* X) {
+  const mode::Frame& frame = system.frame();
+  for (std::size_t i = 0; i < stops.size(); ++i) {
     const mode::ContactRow& a = frame.stops[stops[i]];
-    for (int j = 0; j < frame.d; ++j) X[frame.u(j)] -= P[i] * a.sign * frame.mass_inverse(j, a.own);
+    for (int j = 0; j < frame.d; ++j)
+      X[frame.u(j)] -= P[static_cast<Eigen::Index>(i)] * a.sign * frame.mass_inverse(j, a.own);
   }
-  for (Eigen::Index i = 0; i < n; ++i) {
-    hit[i] = P[i] > 0.0;
-    if (hit[i]) set_velocity(frame, frame.stops[stops[i]], after[i], X);
+}
+
+}  // namespace
+
+bool strike_together(const System& system, std::span<const int> stops, double* X, std::span<bool> hit) {
+  Square D;
+  Column v, P;
+  assemble(system, stops, X, D, v);
+  Column q = v;
+  for (std::size_t i = 0; i < stops.size(); ++i)
+    q[static_cast<Eigen::Index>(i)] *= 1.0 + system.model().stops[stops[i]].restitution;
+  if (!Lemke(D, q).solve(P)) return false;
+  push(system, stops, P, X);
+  for (std::size_t i = 0; i < stops.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    hit[i] = P[k] > 0.0;
+    const double r = system.model().stops[stops[i]].restitution;
+    if (hit[i]) set_velocity(system.frame(), system.frame().stops[stops[i]], -r * v[k], X);
   }
   return true;
+}
+
+void bring_to_rest(const System& system, std::span<const int> stops, double* X) {
+  Square D;
+  Column v;
+  assemble(system, stops, X, D, v);
+  const Eigen::MatrixXd full = D;
+  push(system, stops, Column(full.completeOrthogonalDecomposition().solve(Eigen::VectorXd(v))), X);
+  for (int stop : stops) set_velocity(system.frame(), system.frame().stops[stop], 0.0, X);
 }
 
 }  // namespace slapstick::flow

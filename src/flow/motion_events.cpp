@@ -166,31 +166,28 @@ void Motion::strike_all() {
   if (at_one_instant_ > most_flights_at_one_instant) return end_pile_up();
   int rounds = 0;
   for (int stop = approaching(); stop >= 0; stop = approaching(), ++rounds) {
-    if (rounds > most_rounds) return moreau(touching(), true);
+    if (rounds > most_rounds) return end_pile_up();
     if (touching().size() == 1 || system_->model().impact_law == ImpactLaw::sequence)
       newton(stop);
     else
-      moreau(touching_, false);
+      moreau(touching_);
     struck_now_ |= std::uint32_t{1} << stop;
     chatter_stop_ = rounds == 0 && system_->model().stops[stop].restitution > 0.0 ? stop : -1;
   }
 }
 
-/// Stops that chatter against each other, where no proof of completeness is at hand, are closed once their flights are shorter than the
-/// clock's rounding: all that were struck at this instant, plastically and together.
+/// Stops that chatter against each other, where no proof of completeness is at hand, are brought to rest once their flights are shorter than
+/// the clock's rounding: all that were struck at this instant together. The forces then decide which of them stay closed.
 void Motion::end_pile_up() {
-  int first = -1;
+  touching_.clear();
   for (int s = 0; s < stops(); ++s) {
     if ((struck_now_ >> s & 1U) == 0 && flow::gap(*system_, s, X_.data()) != 0.0) continue;
     land(system_->frame().stops[s]);
-    if (first < 0) first = s;
+    touching_.push_back(s);
   }
-  std::array<bool, System::most_contacts> hit{};
-  const std::span<const int> all = touching();
-  if (!flow::strike_together(*system_, all, true, X_.data(), std::span(hit).first(all.size())))
-    fail("the impacts of this instant have no solution");
+  flow::bring_to_rest(*system_, touching_, X_.data());
   ++counters_.pile_ups;
-  report(EventKind::chatter, first, 0.0);
+  report(EventKind::chatter, touching_.front(), 0.0);
   pending_.back().error = 0x1p-53 * system_->period();
 }
 
@@ -201,11 +198,11 @@ void Motion::newton(int stop) {
   report(EventKind::impact, stop, w);
 }
 
-void Motion::moreau(std::span<const int> stops, bool plastic) {
+void Motion::moreau(std::span<const int> stops) {
   std::array<bool, System::most_contacts> hit{};
   std::array<double, System::most_contacts> w{};
   for (std::size_t i = 0; i < stops.size(); ++i) w[i] = flow::approach_velocity(*system_, stops[i], X_.data());
-  if (!flow::strike_together(*system_, stops, plastic, X_.data(), std::span(hit).first(stops.size())))
+  if (!flow::strike_together(*system_, stops, X_.data(), std::span(hit).first(stops.size())))
     fail("the impacts of this instant have no solution");
   for (std::size_t i = 0; i < stops.size(); ++i) {
     if (!hit[i] || w[i] <= 0.0) continue;  // one that was at rest transmits an impulse

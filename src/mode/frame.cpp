@@ -241,19 +241,33 @@ void Frame::match_displacements(int i, double* X) const {
   }
 }
 
-void Frame::refresh(double* X) const {
+namespace {
+
+/// One dependent number and the basis numbers it follows from: stored = sum_j coefficient_j (basis_j + offset_j) - offset.
+void reconcile(double& stored, double offset, const RowVector& coefficient, double* basis, const Vector& offsets) {
   constexpr double no_cancellation = 0.25;
+  double sum = -offset, size = std::abs(offset);
+  Eigen::Index movable = -1;
+  for (Eigen::Index j = 0; j < coefficient.size(); ++j) {
+    const double term = coefficient[j] * (basis[j] + offsets[j]);
+    sum += term;
+    size += std::abs(term);
+    const bool larger = movable < 0 || std::abs(basis[j]) > std::abs(basis[movable]);
+    if (coefficient[j] != 0.0 && basis[j] != 0.0 && larger) movable = j;
+  }
+  if (stored == 0.0) {
+    if (movable >= 0) basis[movable] -= sum / coefficient[movable];
+  } else if (std::abs(sum) >= no_cancellation * size) {
+    stored = sum;
+  }
+}
+
+}  // namespace
+
+void Frame::refresh(double* X) const {
   for (int i = n; i < d; ++i) {
-    double p = -shift[i], velocity = -drift[i], size = std::abs(shift[i]), speed = std::abs(drift[i]);
-    for (int j = 0; j < n; ++j) {
-      const double c = dependence(i, j), displaced = c * (X[j] + shift[j]), rate = c * (X[u(j)] + drift[j]);
-      p += displaced;
-      velocity += rate;
-      size += std::abs(displaced);
-      speed += std::abs(rate);
-    }
-    if (std::abs(p) >= no_cancellation * size) X[i] = p;
-    if (std::abs(velocity) >= no_cancellation * speed) X[u(i)] = velocity;
+    reconcile(X[i], shift[i], dependence.row(i), X, shift);
+    reconcile(X[u(i)], drift[i], dependence.row(i), X + d, drift);
   }
 }
 

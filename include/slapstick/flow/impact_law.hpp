@@ -19,9 +19,11 @@ namespace slapstick::flow {
 void strike(const System& system, int stop, double restitution, double* X);
 
 /// Moreau's law at stops with gap = 0, any sign of their velocities.
-/// @param plastic  take r = 0 at all of them
 /// @param hit  out: true for each stop of `stops` that got an impulse
 /// @returns false if the problem has no solution (then X is unchanged)
-bool strike_together(const System& system, std::span<const int> stops, bool plastic, double* X, std::span<bool> hit);
+bool strike_together(const System& system, std::span<const int> stops, double* X, std::span<bool> hit);
+
+/// Brings all these stops to rest, separating ones too: the end of their bouncing, D P = v, with P of least norm.
+void bring_to_rest(const System& system, std::span<const int> stops, double* X);
 
 }  // namespace slapstick::flow

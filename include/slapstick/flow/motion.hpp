@@ -157,7 +157,7 @@ class Motion {
   [[nodiscard]] std::span<const int> touching();
   [[nodiscard]] int approaching() const;
   void newton(int stop);
-  void moreau(std::span<const int> stops, bool plastic);
+  void moreau(std::span<const int> stops);
   void strike_all();
   void end_pile_up();
   void compliant_limit(int compliant, mode::GuardKind kind);

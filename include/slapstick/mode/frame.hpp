@@ -70,8 +70,9 @@ struct Frame {
   /// Sets the velocities (displacements) of all numbers of the pair of displacement i by that of i.
   void match_velocities(int i, double* X) const;
   void match_displacements(int i, double* X) const;
-  /// Sets what depends on the first n displacements and velocities by them, where that loses no digits: rounding would let the two drift
-  /// apart in the long run. What is near zero keeps its own number.
+  /// Makes the dependent numbers and the first n agree again, where rounding would let them drift apart in the long run. A dependent number
+  /// that is exactly zero (contact, rest) stays, and the largest of those it follows from gives way; one that is summed without
+  /// cancellation is set; one near zero keeps its own value, which is the more accurate.
   void refresh(double* X) const;
   /// Writes cos, sin of the harmonics at phase `fraction` (periods) and the constant 1 into X. One libm call per harmonic.
   void set_phase(double fraction, double* X) const;

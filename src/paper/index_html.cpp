@@ -109,7 +109,7 @@ std::string figure_section(const Options& options, const Shown& shown) {
 }
 
 std::string quantity_table(const Claim& claim) {
-  std::string out = "<details id=\"" + claim.id + "\"><summary>" + claim.id + ": " +
+  std::string out = "<details id=\"claim-" + claim.id + "\"><summary>" + claim.id + ": " +
                     std::to_string(claim.quantities.size()) +
                     " numbers</summary><table><tr><th>quantity<th>printed<th>computed<th>note</tr>\n";
   for (const Quantity& one : claim.quantities)
@@ -123,7 +123,7 @@ std::string claims_section(const std::vector<Claim>& claims) {
       "<h2 id=\"claims\">The claims</h2>\n<table><tr><th><th>the paper<th>computed<th>agree<th>why</tr>\n";
   for (const Claim& claim : claims) {
     const std::string agree(name(claim.agreement));
-    out += "<tr><td><a href=\"#" + claim.id + "\">" + claim.id + "</a><td>" + escaped(claim.printed) + "<td>" +
+    out += "<tr><td><a href=\"#claim-" + claim.id + "\">" + claim.id + "</a><td>" + escaped(claim.printed) + "<td>" +
            escaped(claim.computed) + "<td class=\"" + agree + "\">" + agree + "<td>" + escaped(claim.explanation) +
            "</tr>\n";
   }

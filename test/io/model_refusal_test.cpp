@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "slapstick/base/error.hpp"
-#include "slapstick/io/model_file.hpp"
+#include "io/refusal.hpp"
 
 namespace slapstick {
 namespace {
@@ -13,15 +12,6 @@ namespace {
 const std::string head = "name = 'm'\n";                               // line 1
 const std::string mass = "[[coordinate]]\nname = 'x1'\nmass = 'm'\n";  // lines 3, 4, 5 after one line of parameters
 const std::string good = head + "parameters.m = { value = 2, above = 0, below = 9 }\n" + mass;
-
-std::string refusal(const std::string& text, const Overrides& overrides = {}) {
-  try {
-    (void)ModelDefinition::parse(text, "f.toml").start(overrides);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 TEST(ModelFile, smallest_model) {
   EXPECT_EQ(refusal(good), "accepted");

@@ -10,6 +10,7 @@
 #include "slapstick/base/text.hpp"
 #include "slapstick/flow/stage.hpp"
 #include "slapstick/io/json.hpp"
+#include "slapstick/io/observer.hpp"
 #include "slapstick/section/sampled_motion.hpp"
 #include "verb.hpp"
 #include "work.hpp"
@@ -30,9 +31,17 @@ struct Options {
   bool progress = false;
 };
 
-std::vector<std::string> columns(std::vector<std::string> names, const Model& model, const char* last = nullptr) {
-  for (const std::string& name : state_names(model)) names.push_back(name);
-  if (last != nullptr) names.emplace_back(last);
+std::vector<std::string> event_columns(const ChosenModel& chosen) {
+  std::vector<std::string> names = {"time", "kind", "contact", "w"};
+  for (const std::string& name : state_names(chosen.model)) names.push_back(name);
+  return names;
+}
+
+std::vector<std::string> trajectory_columns(const ChosenModel& chosen) {
+  std::vector<std::string> names = {"time"};
+  for (const std::string& name : state_names(chosen.model)) names.push_back(name);
+  names.emplace_back("mode");
+  for (const Observable& observable : chosen.definition.observables()) names.push_back(observable.name);
   return names;
 }
 
@@ -45,10 +54,10 @@ class Run {
         end_(end),
         result_(options.out),
         plot_(options.plot),
-        picture_(system_) {
-    if (!options.events.empty())
-      events_.emplace(options.events, columns({"time", "kind", "contact", "w"}, chosen.model));
-    if (!options.trajectory.empty()) trajectory_.emplace(options.trajectory, columns({"time"}, chosen.model, "mode"));
+        picture_(system_),
+        observer_(chosen.definition.observer(chosen.overrides)) {
+    if (!options.events.empty()) events_.emplace(options.events, event_columns(chosen));
+    if (!options.trajectory.empty()) trajectory_.emplace(options.trajectory, trajectory_columns(chosen));
     const int wanted = trajectory_ ? static_cast<int>(options.samples) : plot_samples;
     if (plot_.wanted()) stride_ = (plot_samples + wanted - 1) / wanted;
     const int samples = trajectory_ || plot_.wanted() ? wanted * stride_ : 0;
@@ -105,11 +114,11 @@ class Run {
 
   void note_sample() {
     const SampledMotion::Sample& sample = motion_->sample();
-    if (trajectory_ && samples_ % stride_ == 0)
-      trajectory_->number(sample.time.seconds(system_.period()))
-          .numbers(sample.state)
-          .word(system_.mode_name(sample.mode))
-          .end_row();
+    if (trajectory_ && samples_ % stride_ == 0) {
+      const double time = sample.time.seconds(system_.period());
+      trajectory_->number(time).numbers(sample.state).word(system_.mode_name(sample.mode));
+      trajectory_->numbers(observer_.read(time, sample.state)).end_row();
+    }
     if (plot_.wanted() && sample.time >= plot_from_) picture_.add(sample.time, sample.state);
     ++samples_;
   }
@@ -144,6 +153,7 @@ class Run {
   Output result_;
   Plot plot_;
   MotionPlot picture_;
+  Observer observer_;
   std::optional<TableOutput> events_, trajectory_;
   std::optional<SampledMotion> motion_;
   std::array<long, 7> kinds_{};
@@ -186,7 +196,8 @@ Action add_simulate(Arguments& arguments) {
   arguments.number("--time", options->time, "T", "length in the model's unit of time, instead of --periods");
   arguments.text("--events", options->events, "F.csv",
                  "every event: time, kind, contact, w, and the state just before");
-  arguments.text("--trajectory", options->trajectory, "F.csv", "samples: time, state, mode");
+  arguments.text("--trajectory", options->trajectory, "F.csv",
+                 "samples: time, state, mode, and the model's observables");
   arguments.count("--samples", options->samples, 1, 1'000'000, "samples of --trajectory per forcing period (100)");
   arguments.text("--plot", options->plot, "F.png",
                  "picture of the last 20 periods: .png, .pdf or .svg; its data and script lie beside it");

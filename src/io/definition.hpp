@@ -18,8 +18,9 @@ struct Scalar {
   int line = 0;
 };
 
-/// What a key of a [[part]] holds: a Scalar, true or false, one line of text, or a list of tables with fields of their own.
-enum class Holds { number, flag, text, harmonics };
+/// What a key of a [[part]] holds: a Scalar, a Scalar whose expression may name states as well, true or false, one line of text, or a
+/// list of tables with fields of their own.
+enum class Holds { number, observed, flag, text, harmonics };
 
 struct FieldRule {
   std::string_view key;
@@ -86,6 +87,7 @@ struct Definition {
   std::vector<std::pair<std::string, Scalar>> start;            // by state name, in the file's order
   std::vector<Parameter> shown_parameters;                      // the same, as the public interface gives them
   std::vector<Group> shown_groups;
+  std::vector<Observable> shown_observables;
 
   [[nodiscard]] std::string place(int line) const { return source + ":" + std::to_string(line) + ": "; }
   [[nodiscard]] const std::vector<Part>& of(std::string_view kind) const {
@@ -108,6 +110,9 @@ struct Definition {
 
 /// The words of `impact_law`, in the order of the enumeration.
 [[nodiscard]] const std::vector<std::string>& impact_laws();
+
+/// What an observable's expression calls the gap of a stop: "gap_wall".
+[[nodiscard]] std::string gap_name(const std::string& stop);
 
 /// "spring 2" or "stop 'wall'".
 [[nodiscard]] std::string part_label(std::string_view kind, std::size_t index, const Part& part);

@@ -80,6 +80,13 @@ void ModelBuilder::add_motion(Model& model, const Part& part, double strength, b
   }
 }
 
+double ModelBuilder::base(std::size_t k, double omega, double time) const {
+  double sum = 0.0;
+  for (const Term& term : bases_[k])
+    sum += term.amplitude * (term.harmonic == 0 ? 1.0 : std::sin(term.harmonic * omega * time + term.phase));
+  return sum;
+}
+
 /// A two-sided stop stands for two: NAME_upper as it is written, and NAME_lower on x_b - x_a.
 void ModelBuilder::add_contacts(Model& model) {
   each("friction", [&](const Part& part) {

@@ -26,6 +26,9 @@ class ModelBuilder {
   /// @throws InputError with the file's line
   [[nodiscard]] State start(const Model& model) const;
 
+  /// The displacement of the k-th [[base]] at a time (after `model`).
+  [[nodiscard]] double base(std::size_t k, double omega, double time) const;
+
   /// The value of a number or expression; `where` is for the message. @throws InputError
   [[nodiscard]] double number(const Scalar& scalar, const std::string& where) const;
 

@@ -77,6 +77,13 @@ void check_override(const Parameter& parameter, double value) {
   if (!parameter.admits(value)) throw InputError(name + " is outside " + parameter.range());
 }
 
+Observable shown_observable(const Part& part) {
+  const auto& value = part.fields.find("value")->second;
+  const auto unit = part.texts.find("unit");
+  return {part.name, value.expression ? value.expression->text() : shown(value.number),
+          unit == part.texts.end() ? "" : unit->second, part.description};
+}
+
 const Parameter* find_parameter(const Definition& definition, const std::string& name) {
   for (const auto& entry : definition.parameters)
     if (entry.shown.name == name) return &entry.shown;
@@ -136,6 +143,7 @@ ModelDefinition ModelDefinition::parse(std::string_view text, const std::string&
     definition->shown_parameters.push_back(entry.shown);
   }
   for (const auto& entry : definition->groups) definition->shown_groups.push_back(entry.shown);
+  for (const auto& part : definition->of("observable")) definition->shown_observables.push_back(shown_observable(part));
   ModelDefinition model{std::move(definition)};
   (void)model.start();  // also builds
   return model;
@@ -146,6 +154,7 @@ const std::string& ModelDefinition::summary() const { return definition_->summar
 const std::string& ModelDefinition::notes() const { return definition_->notes; }
 const std::vector<Parameter>& ModelDefinition::parameters() const { return definition_->shown_parameters; }
 const std::vector<Group>& ModelDefinition::groups() const { return definition_->shown_groups; }
+const std::vector<Observable>& ModelDefinition::observables() const { return definition_->shown_observables; }
 
 std::map<std::string, double> ModelDefinition::values(const Overrides& overrides) const {
   const auto resolved = resolve(*definition_, overrides);

@@ -29,10 +29,12 @@ class PartReader {
     if (list->kind != TomlNode::Kind::list)
       tree_.fail(list->line, kind, std::string("expected [[") + kind + "]], found " + list->kind_name());
     tree_.check_count(*list, list->items.size(), kind);
+    if (kind == "observable") gather_observed();
     auto& parts = definition_.parts[kind];
     for (std::size_t i = 0; i < list->items.size(); ++i) parts.push_back(part(list->items[i], rule, i));
     if (kind == "coordinate") keep_coordinates(parts);
     if (kind == "base") keep_bases(parts);
+    if (kind == "observable") check_observables(parts);
   }
 
   /// A sweep's table has a column for its parameter beside those of the state.
@@ -69,6 +71,33 @@ class PartReader {
         if (std::find(used->begin(), used->end(), part.name) != used->end())
           tree_.fail(part.line, where, "name " + in_quotes(part.name) + " is used twice");
       bases_.push_back(part.name);
+    }
+  }
+
+  /// What an observable may name: parameters, the state, bases, the gaps of stops, and time.
+  void gather_observed() {
+    observed_ = tree_.parameters();
+    for (const auto* names : {&states_, &bases_}) observed_.insert(observed_.end(), names->begin(), names->end());
+    for (const char* kind : {"stop", "compliant_stop"})
+      for (const auto& part : definition_.of(kind)) {
+        if (part.flag("two_sided")) observed_.push_back(gap_name(part.name + "_lower"));
+        observed_.push_back(gap_name(part.flag("two_sided") ? part.name + "_upper" : part.name));
+      }
+    observed_.emplace_back("time");
+  }
+
+  /// An observable is a column beside the state, and must not be taken for something else.
+  void check_observables(const std::vector<Part>& parts) const {
+    auto used = observed_;
+    for (const auto& part : parts) {
+      const std::string where = "observable " + in_quotes(part.name);
+      tree_.check_new_name(part.name, part.line, "observable");
+      if (is_reserved(part.name))
+        tree_.fail(part.line, where, "this name is reserved (it is a column of tables, or the surroundings)");
+      if (tree_.is_parameter(part.name)) tree_.fail(part.line, where, "a parameter has this name");
+      if (std::find(used.begin(), used.end(), part.name) != used.end())
+        tree_.fail(part.line, where, "name " + in_quotes(part.name) + " is used twice");
+      used.push_back(part.name);
     }
   }
 
@@ -122,6 +151,8 @@ class PartReader {
         continue;
       }
       if (field.holds == Holds::number) part.fields[key] = tree_.scalar(*value, where + ": " + key);
+      if (field.holds == Holds::observed)
+        part.fields[key] = tree_.scalar(*value, where + ": " + key, "name", observed_);
       if (field.holds == Holds::flag) part.flags[key] = tree_.flag(*value, where + ": " + key);
       if (field.holds == Holds::text) part.texts[key] = tree_.text(node, key.c_str(), where);
       if (field.holds == Holds::harmonics) part.harmonics = harmonics(*value, where + ": " + key);
@@ -225,6 +256,7 @@ class PartReader {
   Definition& definition_;
   std::vector<std::string> coordinates_, bases_;  // names by index
   std::vector<std::string> states_;               // names of displacements and velocities
+  std::vector<std::string> observed_;             // what observables may name
 };
 
 }  // namespace

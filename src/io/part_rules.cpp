@@ -26,6 +26,7 @@ const std::vector<PartRule>& part_rules() {
         {"stiffness", true},
         {"damping"},
         {"pulls", false, Holds::flag}}},
+      {"observable", true, Ends::none, {{"value", true, Holds::observed}, {"unit", false, Holds::text}}},
   };
   return rules;
 }
@@ -74,6 +75,8 @@ const std::vector<std::string>& impact_laws() {
   static const std::vector<std::string> words = {"moreau", "sequence"};
   return words;
 }
+
+std::string gap_name(const std::string& stop) { return "gap_" + stop; }
 
 std::string part_label(std::string_view kind, std::size_t index, const Part& part) {
   std::string label(kind);

@@ -86,6 +86,11 @@ double TreeReader::plain_number(const TomlNode& node, const std::string& where) 
 }
 
 Scalar TreeReader::scalar(const TomlNode& node, const std::string& where) const {
+  return scalar(node, where, "parameter", parameters_);
+}
+
+Scalar TreeReader::scalar(const TomlNode& node, const std::string& where, const char* what,
+                          const std::vector<std::string>& known) const {
   Scalar scalar;
   scalar.line = node.line;
   if (node.kind != Kind::text) {
@@ -99,11 +104,13 @@ Scalar TreeReader::scalar(const TomlNode& node, const std::string& where) const 
   } catch (const InputError& error) {
     fail(node.line, where, error.what());
   }
-  for (const auto& name : scalar.expression->names())
-    if (!is_parameter(name))
-      fail(node.line, where,
-           "expression " + in_quotes(node.text) + ": unknown parameter " + in_quotes(name) +
-               suggestion(name, parameters_));
+  for (const auto& name : scalar.expression->names()) {
+    const auto meanings = std::count(known.begin(), known.end(), name);
+    const std::string expression = "expression " + in_quotes(node.text) + ": ";
+    if (meanings == 0)
+      fail(node.line, where, expression + "unknown " + what + " " + in_quotes(name) + suggestion(name, known));
+    if (meanings > 1) fail(node.line, where, expression + in_quotes(name) + " has two meanings here");
+  }
   return scalar;
 }
 

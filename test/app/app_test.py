@@ -205,6 +205,21 @@ def test_events_do_not_depend_on_what_else_is_written():
     assert os.path.getsize('p.png') > 1000 and os.path.exists('p.gp')
 
 
+def test_observables_are_columns_of_the_trajectory():
+    with open('m.toml', 'w', encoding='utf-8') as file:
+        file.write(good('show', 'impact-oscillator') + '[[observable]]\nname = "energy"\nvalue = "(x^2 + v^2) / 2"\n'
+                   '[[observable]]\nname = "late"\nvalue = "time - gap_stop"\n')
+    says(good('show', 'm.toml'), '[[observable]]', 'value = "(x^2 + v^2) / 2"')
+    good('simulate', 'm.toml', '--periods', '5', '--trajectory', 't.csv', '--events', 'e.csv', '--out', 'o.json')
+    columns, rows = table(read('t.csv'))
+    assert columns == ['time', 'x', 'v', 'mode', 'energy', 'late']
+    for time, x, v, _, energy, late in rows:
+        assert abs(float(energy) - (float(x) ** 2 + float(v) ** 2) / 2) < 1e-14
+        assert abs(float(late) - (float(time) + float(x))) < 1e-14  # clearance = 0
+    good('simulate', 'impact-oscillator', '--periods', '5', '--events', 'f.csv', '--out', 'p.json')
+    assert read('e.csv') == read('f.csv')
+
+
 def test_time_and_periods_are_the_same_length():
     a = good('simulate', 'vibro-impact', '--set', 'omega=2', '--periods', '7')
     b = good('simulate', 'vibro-impact', '--set', 'omega=2', '--time', repr(7 * math.pi))

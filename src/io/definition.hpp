@@ -70,6 +70,13 @@ struct GroupEntry {
   int line = 0;
 };
 
+/// One key of [scale].
+struct ScaleEntry {
+  Scalar value;
+  std::string unit;
+  int line = 0;
+};
+
 /// One key of [matrix]: n x n entries by rows.
 struct MatrixEntry {
   std::vector<Scalar> entries;
@@ -84,6 +91,7 @@ struct Definition {
   std::vector<GroupEntry> groups;
   std::map<std::string, std::vector<Part>, std::less<>> parts;  // by kind
   std::map<std::string, MatrixEntry, std::less<>> matrices;     // by matrix_keys()
+  std::map<std::string, ScaleEntry, std::less<>> scale;         // by scale_keys()
   std::vector<std::pair<std::string, Scalar>> start;            // by state name, in the file's order
   std::vector<Parameter> shown_parameters;                      // the same, as the public interface gives them
   std::vector<Group> shown_groups;
@@ -106,6 +114,9 @@ struct Definition {
 [[nodiscard]] const std::vector<std::string>& top_keys();
 [[nodiscard]] const std::vector<std::string>& parameter_keys();
 [[nodiscard]] const std::vector<std::string>& matrix_keys();
+/// Of [scale], in the order length, time, mass; and of each of its tables.
+[[nodiscard]] const std::vector<std::string>& scale_keys();
+[[nodiscard]] const std::vector<std::string>& quantity_keys();
 [[nodiscard]] const PartRule& harmonic_rule();
 
 /// The words of `impact_law`, in the order of the enumeration.

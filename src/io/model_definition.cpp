@@ -3,6 +3,7 @@
 
 #include "io/definition.hpp"
 #include "io/model_builder.hpp"
+#include "io/scale.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/nearest.hpp"
 
@@ -146,6 +147,7 @@ ModelDefinition ModelDefinition::parse(std::string_view text, const std::string&
   for (const auto& part : definition->of("observable")) definition->shown_observables.push_back(shown_observable(part));
   ModelDefinition model{std::move(definition)};
   (void)model.start();  // also builds
+  (void)model.physical();
   return model;
 }
 
@@ -172,8 +174,13 @@ State ModelDefinition::start(const Overrides& overrides) const {
   return builder.start(builder.model());
 }
 
+std::optional<PhysicalUnits> ModelDefinition::physical(const Overrides& overrides) const {
+  return physical_units(*definition_, values(overrides));
+}
+
 std::string ModelDefinition::to_toml(const Overrides& overrides) const {
   (void)start(overrides);  // the text must load again
+  (void)physical(overrides);
   return print_definition(*definition_, resolve(*definition_, overrides));
 }
 

@@ -49,6 +49,7 @@ class Printer {
     for (const auto& rule : part_rules())
       for (const auto& part : definition_.of(rule.kind)) print_part(rule, part);
     matrices();
+    scale();
     start();
     return std::move(out_);
   }
@@ -132,6 +133,16 @@ class Printer {
         if (i % n == n - 1) rows += "],";
       }
       line(key, rows + "\n]");
+    }
+  }
+
+  void scale() {
+    for (const auto& key : scale_keys()) {
+      const auto found = definition_.scale.find(key);
+      if (found == definition_.scale.end()) continue;
+      out_.append("\n[scale.").append(key).append("]\n");
+      line("value", scalar_text(found->second.value));
+      line("unit", toml_string(found->second.unit));
     }
   }
 

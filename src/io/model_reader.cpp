@@ -2,6 +2,7 @@
 #include <array>
 
 #include "io/part_reader.hpp"
+#include "io/scale.hpp"
 #include "slapstick/base/nearest.hpp"
 
 namespace slapstick {
@@ -26,6 +27,7 @@ class Reader {
     if (const auto* omega = root.find("omega")) definition_.omega = tree_.scalar(*omega, "omega");
     if (const auto* law = root.find("impact_law"))
       definition_.impact_law = static_cast<ImpactLaw>(tree_.word(*law, "impact_law", impact_laws()));
+    if (const auto* scale = root.find("scale")) read_scale(*scale);
     if (const auto* start = root.find("start")) read_start(*start, states);
     return std::move(definition_);
   }
@@ -118,6 +120,21 @@ class Reader {
     }
   }
 
+  void read_scale(const TomlNode& table) {
+    tree_.expect(table, Kind::table, "scale");
+    tree_.check_keys(table, "scale", scale_keys());
+    if (table.entries.empty()) tree_.fail(table.line, "scale", "it is empty");
+    for (const auto& [name, node] : table.entries) {
+      const std::string where = "scale: " + name;
+      tree_.expect(node, Kind::table, where);
+      tree_.check_keys(node, where, quantity_keys());
+      for (const auto& key : quantity_keys())
+        if (node.find(key) == nullptr) tree_.fail(node.line, where, "'" + key + "' is missing");
+      definition_.scale[name] = {tree_.scalar(*node.find("value"), where + ": value"), tree_.text(node, "unit", where),
+                                 node.line};
+    }
+  }
+
   void read_start(const TomlNode& table, const std::vector<std::string>& states) {
     tree_.expect(table, Kind::table, "start");
     tree_.check_keys(table, "start", states);
@@ -132,7 +149,9 @@ class Reader {
 }  // namespace
 
 Definition read_definition(std::string_view text, const std::string& source) {
-  return Reader(source).read(parse_toml(text, source));
+  auto definition = Reader(source).read(parse_toml(text, source));
+  check_units(definition);
+  return definition;
 }
 
 }  // namespace slapstick

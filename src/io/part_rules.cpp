@@ -7,7 +7,7 @@ namespace slapstick {
 
 const std::vector<PartRule>& part_rules() {
   static const std::vector<PartRule> rules = {
-      {"coordinate", true, Ends::none, {{"mass"}}},
+      {"coordinate", true, Ends::none, {{"mass"}, {"unit", false, Holds::text}}},
       {"base", true, Ends::none, {{"harmonics", true, Holds::harmonics}}},
       {"spring", false, Ends::moving, {{"stiffness", true}}},
       {"damper", false, Ends::moving, {{"coefficient", true}}},
@@ -53,8 +53,8 @@ std::vector<std::string> part_keys(const PartRule& rule) {
 
 const std::vector<std::string>& top_keys() {
   static const std::vector<std::string> keys = [] {
-    std::vector<std::string> all = {"name",       "summary", "notes", "omega", "impact_law",
-                                    "parameters", "groups",  "start", "matrix"};
+    std::vector<std::string> all = {"name",       "summary", "notes", "omega",  "impact_law",
+                                    "parameters", "groups",  "start", "matrix", "scale"};
     for (const auto& rule : part_rules()) all.emplace_back(rule.kind);
     return all;
   }();
@@ -68,6 +68,16 @@ const std::vector<std::string>& parameter_keys() {
 
 const std::vector<std::string>& matrix_keys() {
   static const std::vector<std::string> keys = {"mass", "damping", "stiffness"};
+  return keys;
+}
+
+const std::vector<std::string>& scale_keys() {
+  static const std::vector<std::string> keys = {"length", "time", "mass"};
+  return keys;
+}
+
+const std::vector<std::string>& quantity_keys() {
+  static const std::vector<std::string> keys = {"value", "unit"};
   return keys;
 }
 

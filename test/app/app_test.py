@@ -220,6 +220,26 @@ def test_observables_are_columns_of_the_trajectory():
     assert read('e.csv') == read('f.csv')
 
 
+def test_physical_tables_are_the_models_times_its_scale():
+    with open('m.toml', 'w', encoding='utf-8') as file:
+        file.write(good('show', 'vibro-impact') + '[scale]\nlength = { value = 2, unit = "mm" }\ntime = { value = 0.25, unit = "s" }\n'
+                   '[[observable]]\nname = "slip"\nvalue = "v1 - v2"\nunit = "m/s"\n')
+    words = ('simulate', 'm.toml', '--periods', '20', '--out', 'o.json')
+    good(*words, '--events', 'e.csv', '--trajectory', 't.csv')
+    good(*words, '--events', 'pe.csv', '--trajectory', 'pt.csv', '--physical')
+    factors = {'time': 0.25, 'w': 8, 'x1': 2, 'v1': 8, 'x2': 2, 'v2': 8, 'slip': 0.008, 'kind': None, 'contact': None, 'mode': None}
+    for plain, physical in (('e.csv', 'pe.csv'), ('t.csv', 'pt.csv')):
+        names, rows = table(read(plain))
+        headings, converted = table(read(physical))
+        assert [heading.split(' [')[0] for heading in headings] == names and len(rows) == len(converted)
+        for row, other in zip(rows, converted):
+            for name, value, number in zip(names, row, other):
+                assert number == value if factors[name] is None else abs(float(number) - factors[name] * float(value)) <= 1e-15 * abs(float(number))
+    assert headings == ['time [s]', 'x1 [mm]', 'v1 [mm/s]', 'x2 [mm]', 'v2 [mm/s]', 'mode', 'slip [m/s]']
+    says(refused(2, *words, '--physical'), '--physical', 'neither is given')
+    says(refused(2, 'simulate', 'vibro-impact', '--physical', '--events', 'x.csv'), '--physical', 'no [scale]')
+
+
 def test_time_and_periods_are_the_same_length():
     a = good('simulate', 'vibro-impact', '--set', 'omega=2', '--periods', '7')
     b = good('simulate', 'vibro-impact', '--set', 'omega=2', '--time', repr(7 * math.pi))

@@ -24,7 +24,7 @@ TEST(ModelFile, smallest_model) {
 TEST(ModelFile, unknown_names_suggest_the_nearest) {
   EXPECT_EQ(refusal("nmae = 'm'\n"), "f.toml:1: unknown key 'nmae'; did you mean 'name'?");
   EXPECT_EQ(refusal(good + "stifness = 1\n"),
-            "f.toml:6: coordinate 1: unknown key 'stifness'; known: description, name, mass");
+            "f.toml:6: coordinate 1: unknown key 'stifness'; known: description, name, mass, unit");
   EXPECT_EQ(refusal(good + "[[sprin]]\n"), "f.toml:6: unknown key 'sprin'; did you mean 'spring'?");
   EXPECT_EQ(refusal(good + "[[spring]]\nbetween = ['x1', 'ground']\nstifness = 1\n"),
             "f.toml:8: spring 1: unknown key 'stifness'; did you mean 'stiffness'?");

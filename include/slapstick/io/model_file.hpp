@@ -23,6 +23,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,6 +62,16 @@ struct Observable {
   std::string unit, description;
 };
 
+/// How tables in physical units follow from a motion: physical = factor * the model's number, a column each.
+struct PhysicalUnits {
+  struct Column {
+    std::string unit;  ///< "mm/s"
+    double factor = 1.0;
+  };
+  Column time, w;
+  std::vector<Column> state, observables;
+};
+
 /// Values given by name, as by `--set`. A parameter's own value wins over its group's.
 using Overrides = std::map<std::string, double>;
 
@@ -92,6 +103,9 @@ class ModelDefinition {
 
   /// What computes the observables along a motion. @throws InputError as `build`
   [[nodiscard]] Observer observer(const Overrides& overrides = {}) const;
+
+  /// The physical units of tables, by the file's [scale]; nothing if it has none. @throws InputError as `values`
+  [[nodiscard]] std::optional<PhysicalUnits> physical(const Overrides& overrides = {}) const;
 
   /// A complete file, with the overrides as the new defaults; reading it gives the same Model, and printing that the same text.
   /// Comments are not kept; descriptions and notes are. @throws InputError as `start`

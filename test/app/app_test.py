@@ -20,7 +20,7 @@ def test_help_and_version_are_results_not_errors():
 
 def test_every_verb_of_the_help_is_there():
     verbs = [line.split()[0] for line in good('--help').split('Verbs:\n')[1].split('\n\n')[0].splitlines()]
-    assert {'models', 'show', 'check', 'simulate', 'poincare', 'diagram'} <= set(verbs)
+    assert {'models', 'new', 'show', 'check', 'simulate', 'poincare', 'diagram'} <= set(verbs)
     for verb in verbs:
         says(good(verb, '--help'), 'slapstick ' + verb)
 
@@ -258,6 +258,25 @@ def test_show_set_and_check_go_round():
     with open('bad.toml', 'w', encoding='utf-8') as file:
         file.write(read('m.toml').replace('restitution = "restitution"', 'restitutoin = "restitution"'))
     says(refused(2, 'check', 'bad.toml'), 'bad.toml:', 'restitutoin')
+
+
+def test_new_writes_a_file_that_works_and_overwrites_none():
+    says(good('new', 'mine'), '"written": "mine.toml"', 'slapstick check mine.toml')
+    says(good('check', 'mine.toml'), '"sound": true', '"name": "mine"')
+    good('simulate', 'mine.toml', '--trajectory', 't.csv', '--out', 'o.json')
+    columns, rows = table(read('t.csv'))
+    assert columns == ['time', 'x1', 'v1', 'mode', 'energy'] and len(rows) == 10001
+    says(good('diagram', 'mine.toml', '--sweep', 'omega=0.8:1:2', '--impacts', '2', '--transient', '20'), 'omega,direction')
+    before = read('mine.toml')
+    for again in ('mine', 'mine.toml', './mine'):
+        says(refused(4, 'new', again), 'mine.toml', 'exists')
+    assert read('mine.toml') == before
+    os.symlink('nowhere', 'link.toml')
+    says(refused(4, 'new', 'link'), 'exists')
+    says(refused(4, 'new', 'no/such/folder/m'), 'no/such/folder/m.toml')
+    for bad in ('', 'a b', 'a"b', 'a\nb', 'x' * 65, '.toml', 'a/'):
+        says(refused(2, 'new', bad), 'NAME')
+    assert sorted(os.listdir('.')) == ['link.toml', 'mine.toml', 'o.json', 't.csv']
 
 
 def test_sections_are_those_of_the_motion():

@@ -120,6 +120,10 @@ class ModelDefinition {
 /// @throws InputError for an unknown name (the nearest is suggested), a missing or too large file, or its content
 [[nodiscard]] ModelDefinition load_model(const std::string& name_or_path);
 
+/// A commented file to start a model of one's own from: sound as it is, and with an example of every key, some switched off.
+/// @param name  letters, digits, '_' and '-'. @throws InputError
+[[nodiscard]] std::string new_model(const std::string& name);
+
 /// Names of the built-in models, in alphabetical order.
 [[nodiscard]] std::vector<std::string> builtin_models();
 

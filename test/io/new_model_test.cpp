@@ -2,36 +2,24 @@
 #include <gtest/gtest.h>
 
 #include "io/definition.hpp"
+#include "io/everything.hpp"
 #include "io/refusal.hpp"
 
 namespace slapstick {
 namespace {
 
-/// Every line that is switched off ("#key", not "# text") switched on.
-std::string all_on(const std::string& text) {
-  std::string out;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const auto end = text.find('\n', begin);
-    std::string line = text.substr(begin, end - begin);
-    if (line.size() > 1 && line[0] == '#' && line[1] != ' ') line.erase(0, 1);
-    out += line + "\n";
-    begin = end + 1;
-  }
-  return out;
-}
-
 TEST(NewModel, as_written_and_with_everything_switched_on) {
   const auto text = new_model("my-model");
   EXPECT_EQ(refusal(text), "accepted");
-  EXPECT_EQ(refusal(all_on(text)), "accepted");
+  EXPECT_EQ(refusal(switched_on(text)), "accepted");
   const auto model = ModelDefinition::parse(text, "f.toml").build();
   EXPECT_EQ(model.name, "my-model");
   EXPECT_TRUE(model.stops.size() == 1 && model.frictions.size() == 1 && model.forced());
-  EXPECT_EQ(ModelDefinition::parse(all_on(text), "f.toml").build().stops.size(), 2U);
+  EXPECT_EQ(ModelDefinition::parse(switched_on(text), "f.toml").build().stops.size(), 2U);
 }
 
 TEST(NewModel, every_key_has_an_example) {
-  const auto text = all_on(new_model("m"));
+  const auto text = everything();
   const auto shows = [&](const std::string& key) {
     EXPECT_TRUE(text.find("\n" + key + " = ") != std::string::npos ||
                 text.find("{ " + key + " = ") != std::string::npos ||

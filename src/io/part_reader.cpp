@@ -44,6 +44,8 @@ class PartReader {
       if (is_reserved(part.name))  // before another part is told that it knows no such coordinate
         tree_.fail(part.line, "coordinate " + in_quotes(part.name),
                    "this name is reserved (it is a column of tables, or the surroundings)");
+      if (Expression::reserves(part.name))  // an observable could not name it
+        tree_.fail(part.line, "coordinate " + in_quotes(part.name), "this is the name of a function or constant");
       coordinates_.push_back(part.name);
       names_only.coordinates.push_back({part.name, 1.0});
     }

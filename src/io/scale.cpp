@@ -155,21 +155,25 @@ std::optional<PhysicalUnits> physical_units(const Definition& definition, const 
                        " is outside [1e-50, 1e50]");
     scale[i] = value * parse_unit(found->second.unit).factor;
   }
-  const auto column = [&](const std::string& text) {
+  const auto column = [&](const std::string& text, int line) {
     const Unit unit = parse_unit(text);
     double factor = 1.0 / unit.factor;
     for (std::size_t i = 0; i < 3; ++i) factor *= std::pow(scale[i], unit.powers[i]);
+    if (!(factor >= 1e-200 && factor <= 1e200))
+      throw InputError(definition.place(line) + "scale: 1 is " + shown(factor) + " " + text +
+                       ", which is out of range");
     return PhysicalUnits::Column{text, factor};
   };
-  const auto& length = definition.scale.find("length")->second.unit;
-  const auto& time = definition.scale.find("time")->second.unit;
-  PhysicalUnits units{column(time), column(length + "/" + time), {}, {}};
+  const auto& length = definition.scale.find("length")->second;
+  const auto& time = definition.scale.find("time")->second;
+  PhysicalUnits units{column(time.unit, time.line), column(length.unit + "/" + time.unit, length.line), {}, {}};
   for (const auto& part : definition.of("coordinate")) {
     const auto* own = unit_text(part);
-    units.state.push_back(column(own ? *own : length));
-    units.state.push_back(column((own ? *own : length) + "/" + time));
+    const auto& text = own ? *own : length.unit;
+    units.state.push_back(column(text, part.line));
+    units.state.push_back(column(text + "/" + time.unit, part.line));
   }
-  for (const auto& part : definition.of("observable")) units.observables.push_back(column(*unit_text(part)));
+  for (const auto& part : definition.of("observable")) units.observables.push_back(column(*unit_text(part), part.line));
   return units;
 }
 

@@ -90,6 +90,8 @@ Unit parse_unit(const std::string& text) {
   finish();
   if (wanted)
     throw InputError("unit " + in_quotes(text) + ": a unit is missing at its end (write \"1\" for a plain number)");
+  if (!(product.factor >= 1e-100 && product.factor <= 1e100))
+    throw InputError("unit " + in_quotes(text) + " is too large or too small: beyond 1e100 of the basic units");
   return product;
 }
 

@@ -66,6 +66,8 @@ TEST(ModelFile, wrong_types_and_missing_keys) {
             "f.toml:2: parameter 'sin': this is the name of a function or constant");
   EXPECT_EQ(refusal(head + "parameters.'a b' = 1\n"),
             "f.toml:2: parameter 'a b': a name is 1 to 64 letters, digits and '_', beginning with a letter");
+  EXPECT_EQ(refusal(head + "[[coordinate]]\nname = 'pi'\nmass = 1\n"),
+            "f.toml:2: coordinate 'pi': this is the name of a function or constant");
   EXPECT_EQ(refusal(head + "parameters.x1 = 1\n[[coordinate]]\nname='x1'\nmass=1\n"),
             "f.toml:3: coordinate 'x1': a parameter has the name 'x1'");
   EXPECT_EQ(refusal(head + "[coordinate]\n"), "f.toml:2: coordinate: expected [[coordinate]], found a table");

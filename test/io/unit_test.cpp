@@ -42,6 +42,9 @@ TEST(Unit, refusals) {
   EXPECT_EQ(unit_refusal("m^"), "unit 'm^': a power is a whole number in [-9, 9]");
   EXPECT_EQ(unit_refusal("m^99999999999999999999"),
             "unit 'm^99999999999999999999': a power is a whole number in [-9, 9]");
+  std::string huge = "km^9";
+  for (int i = 0; i < 9; ++i) huge += " km^9";
+  EXPECT_TRUE(unit_refusal(huge).ends_with("is too large or too small: beyond 1e100 of the basic units"));
   EXPECT_EQ(unit_refusal("/s"), "unit '/s': a unit is missing before '/'");
   EXPECT_EQ(unit_refusal("m//s"), "unit 'm//s': a unit is missing before '/'");
   EXPECT_EQ(unit_refusal("m/"), "unit 'm/': a unit is missing at its end (write \"1\" for a plain number)");
@@ -105,6 +108,9 @@ TEST(Scale, its_own_keys) {
   EXPECT_EQ(scale(length), "f.toml:3: scale: 'time' is missing");
   EXPECT_EQ(scale(length + "time = { value = 1, unit = 's' }"), "accepted");
   EXPECT_EQ(scale(length + "time = { value = 1, unit = 'm' }"), "f.toml:4: scale: time: unit 'm' is not one of time");
+  EXPECT_EQ(
+      scale(length + "time = { value = 1e-50, unit = 's' }\n[[observable]]\nname = 'o'\nvalue = 1\nunit = '1/s^9'\n"),
+      "f.toml:5: scale: 1 is inf 1/s^9, which is out of range");
   EXPECT_EQ(scale(length + "time = { value = 1 }"), "f.toml:4: scale: time: 'unit' is missing");
   EXPECT_EQ(scale(length + "time = 1"), "f.toml:4: scale: time: expected a table, found a number");
   EXPECT_EQ(scale(length + "time = { value = 0, unit = 's' }"),

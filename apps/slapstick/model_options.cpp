@@ -107,6 +107,9 @@ RelativeMotion::RelativeMotion(const Model& model) {
   if (!model.stops.empty()) {
     a = model.stops[0].a;
     b = model.stops[0].b;
+  } else if (!model.compliant_stops.empty()) {
+    a = model.compliant_stops[0].a;
+    b = model.compliant_stops[0].b;
   } else if (!model.frictions.empty()) {
     a = model.frictions[0].a;
     b = model.frictions[0].b;

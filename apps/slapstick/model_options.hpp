@@ -61,7 +61,7 @@ template <class Make>
                                                                 const std::string& form);
 
 /// The displacement and velocity that a picture of the motion shows: x_a - x_b and v_a - v_b of the first stop, or else of the first
-/// friction contact, or else the first coordinate. A contact with the ground shows the coordinate itself.
+/// compliant stop, friction contact, or else the first coordinate. A contact with the ground shows the coordinate itself.
 struct RelativeMotion {
   explicit RelativeMotion(const Model& model);
   int a = 0, b = ground;

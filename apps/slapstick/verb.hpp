@@ -29,6 +29,7 @@ struct Verb {
 [[nodiscard]] const std::vector<Verb>& verbs();
 
 Action add_models(Arguments& arguments);
+Action add_new(Arguments& arguments);
 Action add_show(Arguments& arguments);
 Action add_check(Arguments& arguments);
 Action add_simulate(Arguments& arguments);

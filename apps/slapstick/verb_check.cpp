@@ -26,6 +26,7 @@ Action add_check(Arguments& arguments) {
     result.set("sound", true).set("name", chosen.model.name);
     result.set("coordinates", chosen.model.size())
         .set("stops", chosen.model.stops.size())
+        .set("compliant_stops", chosen.model.compliant_stops.size())
         .set("frictions", chosen.model.frictions.size());
     result.set("period", chosen.model.forcing_period())
         .set("forced", chosen.model.forced())

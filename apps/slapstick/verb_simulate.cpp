@@ -5,11 +5,13 @@
 #include "model_options.hpp"
 #include "motion_plot.hpp"
 #include "output.hpp"
+#include "physical.hpp"
 #include "progress.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/text.hpp"
 #include "slapstick/flow/stage.hpp"
 #include "slapstick/io/json.hpp"
+#include "slapstick/io/observer.hpp"
 #include "slapstick/section/sampled_motion.hpp"
 #include "verb.hpp"
 #include "work.hpp"
@@ -27,14 +29,8 @@ struct Options {
   double time = 0.0;
   long long samples = 100;
   std::string events, trajectory, plot, out;
-  bool progress = false;
+  bool physical = false, progress = false;
 };
-
-std::vector<std::string> columns(std::vector<std::string> names, const Model& model, const char* last = nullptr) {
-  for (const std::string& name : state_names(model)) names.push_back(name);
-  if (last != nullptr) names.emplace_back(last);
-  return names;
-}
 
 /// Everything a run writes to, opened before it starts.
 class Run {
@@ -45,10 +41,11 @@ class Run {
         end_(end),
         result_(options.out),
         plot_(options.plot),
-        picture_(system_) {
-    if (!options.events.empty())
-      events_.emplace(options.events, columns({"time", "kind", "contact", "w"}, chosen.model));
-    if (!options.trajectory.empty()) trajectory_.emplace(options.trajectory, columns({"time"}, chosen.model, "mode"));
+        picture_(system_),
+        observer_(chosen.definition.observer(chosen.overrides)),
+        units_(chosen, options.physical) {
+    if (!options.events.empty()) events_.emplace(options.events, units_.event_columns());
+    if (!options.trajectory.empty()) trajectory_.emplace(options.trajectory, units_.trajectory_columns());
     const int wanted = trajectory_ ? static_cast<int>(options.samples) : plot_samples;
     if (plot_.wanted()) stride_ = (plot_samples + wanted - 1) / wanted;
     const int samples = trajectory_ || plot_.wanted() ? wanted * stride_ : 0;
@@ -90,11 +87,11 @@ class Run {
     const Event& event = motion.event();
     ++kinds_[static_cast<std::size_t>(event.kind)];
     if (events_) {
-      events_->number(event.time.seconds(system_.period()))
+      events_->number(units_.time(event.time.seconds(system_.period())))
           .word(name(event.kind))
           .word(system_.contact_name(event.contact))
-          .number(event.w);
-      events_->numbers(motion.before()).end_row();
+          .number(units_.w(event.w));
+      events_->numbers(units_.state(motion.before())).end_row();
     }
     if (plot_.wanted() && event.time >= plot_from_) {
       const State before(motion.before().begin(), motion.before().end());
@@ -105,11 +102,11 @@ class Run {
 
   void note_sample() {
     const SampledMotion::Sample& sample = motion_->sample();
-    if (trajectory_ && samples_ % stride_ == 0)
-      trajectory_->number(sample.time.seconds(system_.period()))
-          .numbers(sample.state)
-          .word(system_.mode_name(sample.mode))
-          .end_row();
+    if (trajectory_ && samples_ % stride_ == 0) {
+      const double time = sample.time.seconds(system_.period());
+      trajectory_->number(units_.time(time)).numbers(units_.state(sample.state)).word(system_.mode_name(sample.mode));
+      trajectory_->numbers(units_.observables(observer_.read(time, sample.state))).end_row();
+    }
     if (plot_.wanted() && sample.time >= plot_from_) picture_.add(sample.time, sample.state);
     ++samples_;
   }
@@ -144,6 +141,8 @@ class Run {
   Output result_;
   Plot plot_;
   MotionPlot picture_;
+  Observer observer_;
+  TableUnits units_;
   std::optional<TableOutput> events_, trajectory_;
   std::optional<SampledMotion> motion_;
   std::array<long, 7> kinds_{};
@@ -186,11 +185,14 @@ Action add_simulate(Arguments& arguments) {
   arguments.number("--time", options->time, "T", "length in the model's unit of time, instead of --periods");
   arguments.text("--events", options->events, "F.csv",
                  "every event: time, kind, contact, w, and the state just before");
-  arguments.text("--trajectory", options->trajectory, "F.csv", "samples: time, state, mode");
+  arguments.text("--trajectory", options->trajectory, "F.csv",
+                 "samples: time, state, mode, and the model's observables");
   arguments.count("--samples", options->samples, 1, 1'000'000, "samples of --trajectory per forcing period (100)");
   arguments.text("--plot", options->plot, "F.png",
                  "picture of the last 20 periods: .png, .pdf or .svg; its data and script lie beside it");
   arguments.text("--out", options->out, "F.json", "write the summary there instead of to standard output");
+  arguments.flag("--physical", options->physical,
+                 "the tables in the physical units of the model's [scale]; all else stays in the model's numbers");
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
       "Example:\n  slapstick simulate vibro-impact --set omega=1.5 --state x1=-0.5,v1=0 --periods 50 --events "
@@ -201,6 +203,8 @@ Action add_simulate(Arguments& arguments) {
   return [options, &arguments](const Context& context) {
     if (arguments.given("--time") && arguments.given("--periods"))
       throw InputError("--time and --periods both give the length: choose one");
+    if (options->physical && options->events.empty() && options->trajectory.empty())
+      throw InputError("--physical: it is for --events and --trajectory, and neither is given");
     return simulate(*options, arguments.given("--time"), context);
   };
 }

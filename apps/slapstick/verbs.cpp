@@ -5,6 +5,7 @@ namespace slapstick::app {
 const std::vector<Verb>& verbs() {
   static const std::vector<Verb> all = {
       {"models", "list the built-in models", add_models},
+      {"new", "write a commented model file to start from", add_new},
       {"show", "print a model as TOML: its parameters, equations and start", add_show},
       {"check", "read and check a model file", add_check},
       {"simulate", "one exact trajectory: events, samples, a picture", add_simulate},

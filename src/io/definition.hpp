@@ -1,6 +1,5 @@
 #pragma once
-/// The content of a model file: what `model_reader` fills, `model_definition` evaluates and `model_printer` writes.
-#include <array>
+/// The content of a model file: what `model_reader` fills, `model_builder` evaluates and `model_printer` writes.
 #include <map>
 #include <optional>
 #include <string>
@@ -19,14 +18,18 @@ struct Scalar {
   int line = 0;
 };
 
-/// A key of a [[part]] that holds a Scalar.
+/// What a key of a [[part]] holds: a Scalar, a Scalar whose expression may name states as well, true or false, one line of text, or a
+/// list of tables with fields of their own.
+enum class Holds { number, observed, flag, text, harmonics };
+
 struct FieldRule {
   std::string_view key;
-  bool required;
+  bool required = false;
+  Holds holds = Holds::number;
 };
 
-/// How a [[part]] says what it acts on: not at all, `on = "x"`, or `between = ["x", "ground"]`.
-enum class Ends { none, on, between };
+/// How a [[part]] says what it acts on: not at all, `on = "x"`, or `between = ["x", "ground"]`; `moving` admits a [[base]] too.
+enum class Ends { none, on, between, moving };
 
 /// The grammar of one kind of [[part]]; reader, evaluation and printer all follow this table.
 struct PartRule {
@@ -39,10 +42,22 @@ struct PartRule {
 /// One [[part]] of the file.
 struct Part {
   std::string name, description;
-  int a = ground, b = ground;
+  int a = ground, b = ground;  // a coordinate, `ground`, or base_end(k)
   std::map<std::string, Scalar, std::less<>> fields;
+  std::map<std::string, bool, std::less<>> flags;
+  std::map<std::string, std::string, std::less<>> texts;
+  std::vector<Part> harmonics;
   int line = 0;
+
+  [[nodiscard]] bool flag(std::string_view key) const {
+    const auto found = flags.find(key);
+    return found != flags.end() && found->second;
+  }
 };
+
+/// The number that stands in Part::a and b for the k-th [[base]]; the same turns it back into k.
+constexpr int base_end(int k) { return -2 - k; }
+constexpr bool is_base(int end) { return end <= -2; }
 
 /// A parameter; `shown.value` is filled when all of them are known.
 struct ParameterEntry {
@@ -55,15 +70,32 @@ struct GroupEntry {
   int line = 0;
 };
 
+/// One key of [scale].
+struct ScaleEntry {
+  Scalar value;
+  std::string unit;
+  int line = 0;
+};
+
+/// One key of [matrix]: n x n entries by rows.
+struct MatrixEntry {
+  std::vector<Scalar> entries;
+  int line = 0;
+};
+
 struct Definition {
   std::string source, name, summary, notes;
   std::optional<Scalar> omega;
+  std::optional<ImpactLaw> impact_law;
   std::vector<ParameterEntry> parameters;
   std::vector<GroupEntry> groups;
   std::map<std::string, std::vector<Part>, std::less<>> parts;  // by kind
+  std::map<std::string, MatrixEntry, std::less<>> matrices;     // by matrix_keys()
+  std::map<std::string, ScaleEntry, std::less<>> scale;         // by scale_keys()
   std::vector<std::pair<std::string, Scalar>> start;            // by state name, in the file's order
   std::vector<Parameter> shown_parameters;                      // the same, as the public interface gives them
   std::vector<Group> shown_groups;
+  std::vector<Observable> shown_observables;
 
   [[nodiscard]] std::string place(int line) const { return source + ":" + std::to_string(line) + ": "; }
   [[nodiscard]] const std::vector<Part>& of(std::string_view kind) const {
@@ -75,6 +107,23 @@ struct Definition {
 
 /// The kinds of parts, in the order in which they are read and printed.
 [[nodiscard]] const std::vector<PartRule>& part_rules();
+[[nodiscard]] const PartRule& part_rule(std::string_view kind);
+
+/// Every key of a [[part]] of this kind, and of the file itself, a parameter, a harmonic of a base, and [matrix].
+[[nodiscard]] std::vector<std::string> part_keys(const PartRule& rule);
+[[nodiscard]] const std::vector<std::string>& top_keys();
+[[nodiscard]] const std::vector<std::string>& parameter_keys();
+[[nodiscard]] const std::vector<std::string>& matrix_keys();
+/// Of [scale], in the order length, time, mass; and of each of its tables.
+[[nodiscard]] const std::vector<std::string>& scale_keys();
+[[nodiscard]] const std::vector<std::string>& quantity_keys();
+[[nodiscard]] const PartRule& harmonic_rule();
+
+/// The words of `impact_law`, in the order of the enumeration.
+[[nodiscard]] const std::vector<std::string>& impact_laws();
+
+/// What an observable's expression calls the gap of a stop: "gap_wall".
+[[nodiscard]] std::string gap_name(const std::string& stop);
 
 /// "spring 2" or "stop 'wall'".
 [[nodiscard]] std::string part_label(std::string_view kind, std::size_t index, const Part& part);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <numbers>
 #include <optional>
@@ -88,20 +89,23 @@ const std::string& Expression::text() const { return compiled_->text; }
 const std::vector<std::string>& Expression::names() const { return compiled_->names; }
 
 double Expression::evaluate(const std::map<std::string, double>& values) const {
+  const double result = value(values);
+  if (std::isfinite(result)) return result;
+  std::string with;
+  for (const auto& name : compiled_->names)
+    with += (with.empty() ? " with " : ", ") + name + " = " + shown(values.at(name));
+  refuse(compiled_->text, "its value is " + shown(result) + with);
+}
+
+double Expression::value(const std::map<std::string, double>& values) const {
   auto& compiled = *compiled_;
   const std::scoped_lock lock(compiled.mutex);
-  std::string with;
   for (std::size_t i = 0; i < compiled.names.size(); ++i) compiled.values[i] = values.at(compiled.names[i]);
-  double result = 0.0;
   try {
-    result = compiled.parser.Eval();
-  } catch (const mu::ParserError& error) {
-    refuse(compiled.text, lowered(error.GetMsg()));
+    return compiled.parser.Eval();
+  } catch (const mu::ParserError&) {  // a function has no value there
+    return std::numeric_limits<double>::quiet_NaN();
   }
-  if (std::isfinite(result)) return result;
-  for (const auto& name : compiled.names)
-    with += (with.empty() ? " with " : ", ") + name + " = " + shown(values.at(name));
-  refuse(compiled.text, "its value is " + shown(result) + with);
 }
 
 bool Expression::reserves(std::string_view name) {

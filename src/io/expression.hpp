@@ -21,6 +21,8 @@ class Expression {
   /// @param values must hold all of `names`
   /// @throws InputError if the result is not finite; says with which values
   [[nodiscard]] double evaluate(const std::map<std::string, double>& values) const;
+  /// The same, but whatever the result: inf, or nan where there is none.
+  [[nodiscard]] double value(const std::map<std::string, double>& values) const;
 
   /// Whether a parameter may not have this name, because it is a function or constant here.
   static bool reserves(std::string_view name);

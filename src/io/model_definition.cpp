@@ -2,14 +2,13 @@
 #include <cmath>
 
 #include "io/definition.hpp"
-#include "model/fault.hpp"
+#include "io/model_builder.hpp"
+#include "io/scale.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/nearest.hpp"
 
 namespace slapstick {
 namespace {
-
-using Values = std::map<std::string, double>;
 
 /// Values of all parameters: overrides, plain numbers, and expressions in the order in which they need each other.
 class Evaluation {
@@ -73,101 +72,17 @@ class Evaluation {
   std::vector<std::string> open_;  // being evaluated
 };
 
-/// Fills a Model from the parts.
-class Builder {
- public:
-  Builder(const Definition& definition, const Values& values) : definition_(definition), values_(values) {}
-
-  Model model() {
-    Model model;
-    model.name = definition_.name;
-    if (definition_.omega) model.omega = number(*definition_.omega, "omega");
-    each("coordinate", [&](const Part& part) { model.coordinates.push_back({part.name, field(part, "mass")}); });
-    each("spring", [&](const Part& part) { model.springs.push_back({part.a, part.b, field(part, "stiffness")}); });
-    each("damper", [&](const Part& part) { model.dampers.push_back({part.a, part.b, field(part, "coefficient")}); });
-    each("force", [&](const Part& part) {
-      model.forces.push_back({part.a, whole(part, "harmonic", 1), field(part, "amplitude"), field(part, "phase", 0.0)});
-    });
-    each("friction", [&](const Part& part) {
-      const double limit = field(part, "static");
-      model.frictions.push_back(
-          {part.name, part.a, part.b, field(part, "belt_speed", 0.0), limit, field(part, "kinetic", limit)});
-    });
-    each("stop", [&](const Part& part) {
-      model.stops.push_back({part.name, part.a, part.b, field(part, "clearance"), field(part, "restitution")});
-    });
-    if (const auto fault = first_fault(model))
-      throw InputError(definition_.place(line_of(*fault)) + fault->place(model) + ": " + fault->what);
-    return model;
-  }
-
-  State start(const Model& model) const {
-    const auto names = state_names(model);
-    State state(names.size(), 0.0);
-    int line = 1;
-    for (const auto& [name, scalar] : definition_.start) {
-      const auto at = std::find(names.begin(), names.end(), name) - names.begin();
-      state[static_cast<std::size_t>(at)] = number(scalar, "start: " + name);
-      line = scalar.line;
-    }
-    if (const auto fault = first_fault(model, state))
-      throw InputError(definition_.place(line) + "start: " + fault->what);
-    return state;
-  }
-
- private:
-  template <class Add>
-  void each(const char* kind, Add add) {
-    kind_ = kind;
-    index_ = 0;
-    for (const auto& part : definition_.of(kind)) {
-      add(part);
-      ++index_;
-    }
-  }
-
-  double number(const Scalar& scalar, const std::string& where) const {
-    if (!scalar.expression) return scalar.number;
-    try {
-      return scalar.expression->evaluate(values_);
-    } catch (const InputError& error) {
-      throw InputError(definition_.place(scalar.line) + where + ": " + error.what());
-    }
-  }
-
-  std::string where(const Part& part, std::string_view key) const {
-    return part_label(kind_, index_, part).append(": ").append(key);
-  }
-
-  double field(const Part& part, std::string_view key, double fallback = 0.0) const {
-    const auto found = part.fields.find(key);
-    return found == part.fields.end() ? fallback : number(found->second, where(part, key));
-  }
-
-  int whole(const Part& part, std::string_view key, int fallback) const {
-    const double value = field(part, key, fallback);
-    if (value >= 0.0 && value <= 1e6 && value == std::floor(value)) return static_cast<int>(value);
-    throw InputError(definition_.place(part.fields.find(key)->second.line) + where(part, key) + " = " + shown(value) +
-                     " is not a whole number in [0, 1000000]");
-  }
-
-  int line_of(const Fault& fault) const {
-    if (fault.index < 0) return fault.field == "omega" && definition_.omega ? definition_.omega->line : 1;
-    const auto& part = definition_.of(fault.part)[static_cast<std::size_t>(fault.index)];
-    const auto found = part.fields.find(fault.field);
-    return found == part.fields.end() ? part.line : found->second.line;
-  }
-
-  const Definition& definition_;
-  const Values& values_;
-  std::string_view kind_;
-  std::size_t index_ = 0;
-};
-
 void check_override(const Parameter& parameter, double value) {
   const std::string name = "parameter " + in_quotes(parameter.name) + " = " + shown(value);
   if (!std::isfinite(value)) throw InputError(name + " is not a finite number");
   if (!parameter.admits(value)) throw InputError(name + " is outside " + parameter.range());
+}
+
+Observable shown_observable(const Part& part) {
+  const auto& value = part.fields.find("value")->second;
+  const auto unit = part.texts.find("unit");
+  return {part.name, value.expression ? value.expression->text() : shown(value.number),
+          unit == part.texts.end() ? "" : unit->second, part.description};
 }
 
 const Parameter* find_parameter(const Definition& definition, const std::string& name) {
@@ -229,8 +144,10 @@ ModelDefinition ModelDefinition::parse(std::string_view text, const std::string&
     definition->shown_parameters.push_back(entry.shown);
   }
   for (const auto& entry : definition->groups) definition->shown_groups.push_back(entry.shown);
+  for (const auto& part : definition->of("observable")) definition->shown_observables.push_back(shown_observable(part));
   ModelDefinition model{std::move(definition)};
   (void)model.start();  // also builds
+  (void)model.physical();
   return model;
 }
 
@@ -239,6 +156,7 @@ const std::string& ModelDefinition::summary() const { return definition_->summar
 const std::string& ModelDefinition::notes() const { return definition_->notes; }
 const std::vector<Parameter>& ModelDefinition::parameters() const { return definition_->shown_parameters; }
 const std::vector<Group>& ModelDefinition::groups() const { return definition_->shown_groups; }
+const std::vector<Observable>& ModelDefinition::observables() const { return definition_->shown_observables; }
 
 std::map<std::string, double> ModelDefinition::values(const Overrides& overrides) const {
   const auto resolved = resolve(*definition_, overrides);
@@ -247,17 +165,22 @@ std::map<std::string, double> ModelDefinition::values(const Overrides& overrides
 
 Model ModelDefinition::build(const Overrides& overrides) const {
   const auto numbers = values(overrides);
-  return Builder(*definition_, numbers).model();
+  return ModelBuilder(*definition_, numbers).model();
 }
 
 State ModelDefinition::start(const Overrides& overrides) const {
   const auto numbers = values(overrides);
-  Builder builder(*definition_, numbers);
+  ModelBuilder builder(*definition_, numbers);
   return builder.start(builder.model());
+}
+
+std::optional<PhysicalUnits> ModelDefinition::physical(const Overrides& overrides) const {
+  return physical_units(*definition_, values(overrides));
 }
 
 std::string ModelDefinition::to_toml(const Overrides& overrides) const {
   (void)start(overrides);  // the text must load again
+  (void)physical(overrides);
   return print_definition(*definition_, resolve(*definition_, overrides));
 }
 

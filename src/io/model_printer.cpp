@@ -42,10 +42,14 @@ class Printer {
     if (!definition_.summary.empty()) line("summary", toml_string(definition_.summary));
     if (!definition_.notes.empty()) line("notes", toml_notes(definition_.notes));
     if (definition_.omega) line("omega", scalar_text(*definition_.omega));
+    if (definition_.impact_law)
+      line("impact_law", toml_string(impact_laws()[static_cast<std::size_t>(*definition_.impact_law)]));
     for (const auto& entry : definition_.parameters) parameter(entry);
     groups();
     for (const auto& rule : part_rules())
       for (const auto& part : definition_.of(rule.kind)) print_part(rule, part);
+    matrices();
+    scale();
     start();
     return std::move(out_);
   }
@@ -85,7 +89,9 @@ class Printer {
   }
 
   std::string end_text(int index) const {
-    return index == ground ? "ground" : definition_.of("coordinate")[static_cast<std::size_t>(index)].name;
+    if (index == ground) return "ground";
+    if (is_base(index)) return definition_.of("base")[static_cast<std::size_t>(base_end(index))].name;
+    return definition_.of("coordinate")[static_cast<std::size_t>(index)].name;
   }
 
   void print_part(const PartRule& rule, const Part& part) {
@@ -93,10 +99,50 @@ class Printer {
     if (rule.named) line("name", toml_string(part.name));
     if (!part.description.empty()) line("description", toml_string(part.description));
     if (rule.ends == Ends::on) line("on", toml_string(end_text(part.a)));
-    if (rule.ends == Ends::between) line("between", short_list({end_text(part.a), end_text(part.b)}));
+    if (rule.ends == Ends::between || rule.ends == Ends::moving)
+      line("between", short_list({end_text(part.a), end_text(part.b)}));
+    print_fields(rule, part);
+    for (const auto& harmonic : part.harmonics) {
+      out_.append("\n[[").append(rule.kind).append(".harmonics]]\n");
+      print_fields(harmonic_rule(), harmonic);
+    }
+  }
+
+  void print_fields(const PartRule& rule, const Part& part) {
     for (const auto& field : rule.fields) {
-      const auto found = part.fields.find(field.key);
-      if (found != part.fields.end()) line(field.key, scalar_text(found->second));
+      const auto number = part.fields.find(field.key);
+      if (number != part.fields.end()) line(field.key, scalar_text(number->second));
+      const auto flag = part.flags.find(field.key);
+      if (flag != part.flags.end()) line(field.key, flag->second ? "true" : "false");
+      const auto text = part.texts.find(field.key);
+      if (text != part.texts.end() && !text->second.empty()) line(field.key, toml_string(text->second));
+    }
+  }
+
+  void matrices() {
+    if (definition_.matrices.empty()) return;
+    out_ += "\n[matrix]\n";
+    const auto n = definition_.of("coordinate").size();
+    for (const auto& key : matrix_keys()) {
+      const auto found = definition_.matrices.find(key);
+      if (found == definition_.matrices.end()) continue;
+      std::string rows = "[";
+      for (std::size_t i = 0; i < n * n; ++i) {
+        rows += i % n == 0 ? "\n  [" : i % n % 16 == 0 ? ",\n    " : ", ";  // a line has at most 4096 bytes
+        rows += scalar_text(found->second.entries[i]);
+        if (i % n == n - 1) rows += "],";
+      }
+      line(key, rows + "\n]");
+    }
+  }
+
+  void scale() {
+    for (const auto& key : scale_keys()) {
+      const auto found = definition_.scale.find(key);
+      if (found == definition_.scale.end()) continue;
+      out_.append("\n[scale.").append(key).append("]\n");
+      line("value", scalar_text(found->second.value));
+      line("unit", toml_string(found->second.unit));
     }
   }
 

@@ -1,3 +1,5 @@
+#include <stdexcept>
+
 #include "io/definition.hpp"
 #include "slapstick/base/text.hpp"
 
@@ -5,15 +7,86 @@ namespace slapstick {
 
 const std::vector<PartRule>& part_rules() {
   static const std::vector<PartRule> rules = {
-      {"coordinate", true, Ends::none, {{"mass", true}}},
-      {"spring", false, Ends::between, {{"stiffness", true}}},
-      {"damper", false, Ends::between, {{"coefficient", true}}},
-      {"force", false, Ends::on, {{"amplitude", true}, {"harmonic", false}, {"phase", false}}},
-      {"friction", true, Ends::between, {{"static", true}, {"kinetic", false}, {"belt_speed", false}}},
-      {"stop", true, Ends::between, {{"clearance", true}, {"restitution", true}}},
+      {"coordinate", true, Ends::none, {{"mass"}, {"unit", false, Holds::text}}},
+      {"base", true, Ends::none, {{"harmonics", true, Holds::harmonics}}},
+      {"spring", false, Ends::moving, {{"stiffness", true}}},
+      {"damper", false, Ends::moving, {{"coefficient", true}}},
+      {"force", false, Ends::on, {{"amplitude", true}, {"harmonic"}, {"phase"}}},
+      {"friction", true, Ends::between, {{"static", true}, {"kinetic"}, {"belt_speed"}}},
+      {"stop",
+       true,
+       Ends::between,
+       {{"two_sided", false, Holds::flag}, {"clearance", true}, {"clearance_lower"}, {"restitution", true}}},
+      {"compliant_stop",
+       true,
+       Ends::between,
+       {{"two_sided", false, Holds::flag},
+        {"clearance", true},
+        {"clearance_lower"},
+        {"stiffness", true},
+        {"damping"},
+        {"pulls", false, Holds::flag}}},
+      {"observable", true, Ends::none, {{"value", true, Holds::observed}, {"unit", false, Holds::text}}},
   };
   return rules;
 }
+
+const PartRule& harmonic_rule() {
+  static const PartRule rule = {"harmonic", false, Ends::none, {{"amplitude", true}, {"harmonic"}, {"phase"}}};
+  return rule;
+}
+
+const PartRule& part_rule(std::string_view kind) {
+  for (const auto& rule : part_rules())
+    if (rule.kind == kind) return rule;
+  throw std::logic_error("no such kind of part");
+}
+
+std::vector<std::string> part_keys(const PartRule& rule) {
+  std::vector<std::string> keys;
+  if (rule.kind != harmonic_rule().kind) keys.emplace_back("description");
+  if (rule.named) keys.emplace_back("name");
+  if (rule.ends != Ends::none) keys.emplace_back(rule.ends == Ends::on ? "on" : "between");
+  for (const auto& field : rule.fields) keys.emplace_back(field.key);
+  return keys;
+}
+
+const std::vector<std::string>& top_keys() {
+  static const std::vector<std::string> keys = [] {
+    std::vector<std::string> all = {"name",       "summary", "notes", "omega",  "impact_law",
+                                    "parameters", "groups",  "start", "matrix", "scale"};
+    for (const auto& rule : part_rules()) all.emplace_back(rule.kind);
+    return all;
+  }();
+  return keys;
+}
+
+const std::vector<std::string>& parameter_keys() {
+  static const std::vector<std::string> keys = {"value", "min", "max", "above", "below", "description", "unit"};
+  return keys;
+}
+
+const std::vector<std::string>& matrix_keys() {
+  static const std::vector<std::string> keys = {"mass", "damping", "stiffness"};
+  return keys;
+}
+
+const std::vector<std::string>& scale_keys() {
+  static const std::vector<std::string> keys = {"length", "time", "mass"};
+  return keys;
+}
+
+const std::vector<std::string>& quantity_keys() {
+  static const std::vector<std::string> keys = {"value", "unit"};
+  return keys;
+}
+
+const std::vector<std::string>& impact_laws() {
+  static const std::vector<std::string> words = {"moreau", "sequence"};
+  return words;
+}
+
+std::string gap_name(const std::string& stop) { return "gap_" + stop; }
 
 std::string part_label(std::string_view kind, std::size_t index, const Part& part) {
   std::string label(kind);

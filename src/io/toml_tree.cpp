@@ -91,6 +91,7 @@ class Converter {
       node.text = text->get();
     } else if (from.is_boolean()) {
       node.kind = TomlNode::Kind::boolean;
+      node.number = from.as_boolean()->get() ? 1.0 : 0.0;
     } else if (const auto* integer = from.as_integer()) {
       node.kind = TomlNode::Kind::number;
       node.number = static_cast<double>(integer->get());

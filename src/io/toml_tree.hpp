@@ -12,7 +12,7 @@ struct TomlNode {
   enum class Kind { text, number, boolean, date, list, table };
   Kind kind = Kind::table;
   std::string text;
-  double number = 0.0;
+  double number = 0.0;             ///< of a number; of a boolean 1 or 0
   std::vector<TomlNode> items;     ///< of a list
   std::vector<TomlEntry> entries;  ///< of a table, in the file's order
   int line = 0;

@@ -25,11 +25,6 @@ bool plain_name(std::string_view name) {
   return true;
 }
 
-/// Numbers beyond this, and masses and frequencies below its inverse, are refused: the engine multiplies a few of them (a square of
-/// a force over a mass is the largest), and every such product has to stay far inside the range of a double, which ends at 1e308.
-constexpr double largest = 1e50;
-constexpr double smallest = 1e-50;
-
 std::string assigned(std::string_view field, double value) { return std::string(field) + " = " + shown(value); }
 
 /// Checks of one part, each remembering only the first thing that is wrong.
@@ -91,14 +86,18 @@ void check_name(Check& check, const std::string& name, std::set<std::string>& us
   if (!used.insert(name).second) check.fail("name", "name " + in_quotes(name) + " is used twice");
 }
 
-Found check_coordinate(const Coordinate& coordinate, int index, std::set<std::string>& used) {
+/// @param massive  whether the mass matrix may hold what the coordinate's own mass lacks
+Found check_coordinate(const Coordinate& coordinate, int index, bool massive, std::set<std::string>& used) {
   Check check("coordinate", index);
   if (is_reserved(coordinate.name)) check.fail("name", "name " + in_quotes(coordinate.name) + " is reserved");
   check_name(check, coordinate.name, used);
   const auto velocity = velocity_name(coordinate.name);
   if (!used.insert(velocity).second)
     check.fail("name", "its velocity's name " + in_quotes(velocity) + " is used twice");
-  check.positive("mass", coordinate.mass);
+  if (massive)
+    check.not_negative("mass", coordinate.mass);
+  else
+    check.positive("mass", coordinate.mass);
   return check.result();
 }
 
@@ -150,6 +149,30 @@ Found check_stop(const Stop& stop, int index, const Model& model, std::set<std::
   return check.result();
 }
 
+Found check_compliant_stop(const CompliantStop& stop, int index, const Model& model, std::set<std::string>& used) {
+  Check check("compliant_stop", index);
+  check_name(check, stop.name, used);
+  check.ends(stop.a, stop.b, model);
+  check.sized("clearance", stop.clearance);
+  check.positive("stiffness", stop.stiffness);
+  check.not_negative("damping", stop.damping);
+  return check.result();
+}
+
+/// Two stops that face each other, one on x_a - x_b and one on x_b - x_a, must leave room between them.
+Found check_room(const Model& model) {
+  for (std::size_t i = 0; i < model.stops.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Stop &stop = model.stops[i], &other = model.stops[j];
+      const double room = stop.clearance + other.clearance;
+      if (stop.a != other.b || stop.b != other.a || room > 0.0) continue;
+      return Fault{"stop", static_cast<int>(i), "clearance",
+                   "clearance = " + shown(stop.clearance) + " leaves no room opposite stop " + in_quotes(other.name) +
+                       " with clearance = " + shown(other.clearance) + ": their sum must be positive"};
+    }
+  return std::nullopt;
+}
+
 /// omega and its highest multiple must be ordinary numbers, so that no later step overflows.
 Found check_omega(const Model& model) {
   Check check("model", -1);
@@ -165,6 +188,7 @@ Found check_omega(const Model& model) {
 double size_of_motion(const Model& model, const State& state) {
   double stiffness = 0.0, force = 0.0, size = 0.0;
   for (const auto& spring : model.springs) stiffness = std::max(stiffness, std::abs(spring.stiffness));
+  for (const double entry : model.stiffness) stiffness = std::max(stiffness, std::abs(entry));
   for (const auto& load : model.forces) force = std::max(force, std::abs(load.amplitude));
   for (const auto& friction : model.frictions) force = std::max(force, friction.static_friction);
   for (std::size_t i = 0; i < state.size(); i += 2) size = std::max(size, std::abs(state[i]));
@@ -172,16 +196,17 @@ double size_of_motion(const Model& model, const State& state) {
 }
 
 /// The engine measures displacements from the stop: a stop that is too far away costs the motion all its digits.
-std::optional<Fault> far_stop(const Model& model, const State& state) {
+template <class AnyStop>
+Found far_stop(const char* kind, const std::vector<AnyStop>& stops, double size) {
   constexpr double farthest = 1e12;
-  const double size = size_of_motion(model, state);
-  for (std::size_t i = 0; i < model.stops.size(); ++i) {
-    const Stop& stop = model.stops[i];
+  int index = 0;
+  for (const auto& stop : stops) {
     if (size > 0.0 && std::abs(stop.clearance) > farthest * size)
-      return Fault{"stop", static_cast<int>(i), "clearance",
+      return Fault{kind, index, "clearance",
                    "stop " + in_quotes(stop.name) + ": " + assigned("clearance", stop.clearance) +
                        " is more than 1e12 times the motion's size, of the order of " + shown(size) +
                        ", which rounding would swallow; leave out a stop that is never reached"};
+    ++index;
   }
   return std::nullopt;
 }
@@ -205,6 +230,7 @@ std::string part_name(const Fault& fault, const Model& model) {
   if (fault.part == "coordinate") return model.coordinates[i].name;
   if (fault.part == "friction") return model.frictions[i].name;
   if (fault.part == "stop") return model.stops[i].name;
+  if (fault.part == "compliant_stop") return model.compliant_stops[i].name;
   return "";
 }
 
@@ -221,21 +247,21 @@ std::string Fault::place(const Model& model) const {
 std::optional<Fault> first_fault(const Model& model) {
   if (model.coordinates.empty()) return Fault{"model", -1, "coordinate", "it has no coordinates"};
   std::set<std::string> states, contacts;
-  if (auto fault =
-          first_of(model.coordinates, [&](const auto& part, int i) { return check_coordinate(part, i, states); }))
-    return fault;
-  if (auto fault = first_of(model.springs, [&](const auto& part, int i) { return check_spring(part, i, model); }))
-    return fault;
-  if (auto fault = first_of(model.dampers, [&](const auto& part, int i) { return check_damper(part, i, model); }))
-    return fault;
-  if (auto fault = first_of(model.forces, [&](const auto& part, int i) { return check_force(part, i, model); }))
-    return fault;
-  if (auto fault =
-          first_of(model.frictions, [&](const auto& part, int i) { return check_friction(part, i, model, contacts); }))
-    return fault;
-  if (auto fault = first_of(model.stops, [&](const auto& part, int i) { return check_stop(part, i, model, contacts); }))
-    return fault;
-  return check_omega(model);
+  const bool massive = !model.mass.empty();
+  Found fault;
+  const auto look = [&](const auto& parts, auto check) {
+    if (!fault) fault = first_of(parts, check);
+  };
+  look(model.coordinates, [&](const auto& part, int i) { return check_coordinate(part, i, massive, states); });
+  if (!fault) fault = first_matrix_fault(model);
+  look(model.springs, [&](const auto& part, int i) { return check_spring(part, i, model); });
+  look(model.dampers, [&](const auto& part, int i) { return check_damper(part, i, model); });
+  look(model.forces, [&](const auto& part, int i) { return check_force(part, i, model); });
+  look(model.frictions, [&](const auto& part, int i) { return check_friction(part, i, model, contacts); });
+  look(model.stops, [&](const auto& part, int i) { return check_stop(part, i, model, contacts); });
+  look(model.compliant_stops, [&](const auto& part, int i) { return check_compliant_stop(part, i, model, contacts); });
+  if (!fault) fault = check_room(model);
+  return fault ? fault : check_omega(model);
 }
 
 std::optional<Fault> first_fault(const Model& model, const State& state) {
@@ -248,7 +274,9 @@ std::optional<Fault> first_fault(const Model& model, const State& state) {
     check.sized(names[i].c_str(), state[i]);
     if (check.result()) return check.result();
   }
-  if (auto fault = far_stop(model, state)) return fault;
+  const double size = size_of_motion(model, state);
+  if (auto fault = far_stop("stop", model.stops, size)) return fault;
+  if (auto fault = far_stop("compliant_stop", model.compliant_stops, size)) return fault;
   for (const auto& stop : model.stops) {
     const double xa = displacement(state, stop.a), xb = displacement(state, stop.b), gap = xa - xb;
     // A state written out on a closed stop may come back rounded beyond it (Frame::enter takes it as contact).

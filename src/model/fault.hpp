@@ -9,8 +9,9 @@
 namespace slapstick {
 
 struct Fault {
-  std::string part;   ///< "coordinate", "spring", "damper", "force", "friction", "stop", or "model"
-  int index = -1;     ///< which of them, from 0; -1 for the model itself
+  std::string
+      part;  ///< "coordinate", "spring", "damper", "force", "friction", "stop", "compliant_stop", "matrix" or "model"
+  int index = -1;     ///< which of them, from 0; -1 for the model itself and its matrices
   std::string field;  ///< the key as in a model file: "mass", "between", "static", ...; "" if it is not one field
   std::string what;   ///< "mass = -1 is not positive"
 
@@ -23,6 +24,14 @@ struct Fault {
 
 /// The first thing wrong with a start (model sound); part is "state", field the name of the number.
 [[nodiscard]] std::optional<Fault> first_fault(const Model& model, const State& state);
+
+/// The same for mass, damping and stiffness alone: size, symmetry, numbers, and a total mass matrix that is positive definite.
+[[nodiscard]] std::optional<Fault> first_matrix_fault(const Model& model);
+
+/// Numbers beyond `largest`, and masses and frequencies below `smallest`, are refused: the engine multiplies a few of them (a square of
+/// a force over a mass is the largest), and every such product has to stay far inside the range of a double, which ends at 1e308.
+inline constexpr double largest = 1e50;
+inline constexpr double smallest = 1e-50;
 
 /// Whether a coordinate may not have this name: tables have a column, or the surroundings are called so.
 [[nodiscard]] bool is_reserved(std::string_view name);

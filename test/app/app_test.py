@@ -20,7 +20,7 @@ def test_help_and_version_are_results_not_errors():
 
 def test_every_verb_of_the_help_is_there():
     verbs = [line.split()[0] for line in good('--help').split('Verbs:\n')[1].split('\n\n')[0].splitlines()]
-    assert {'models', 'show', 'check', 'simulate', 'poincare', 'diagram'} <= set(verbs)
+    assert {'models', 'new', 'show', 'check', 'simulate', 'poincare', 'diagram'} <= set(verbs)
     for verb in verbs:
         says(good(verb, '--help'), 'slapstick ' + verb)
 
@@ -205,6 +205,41 @@ def test_events_do_not_depend_on_what_else_is_written():
     assert os.path.getsize('p.png') > 1000 and os.path.exists('p.gp')
 
 
+def test_observables_are_columns_of_the_trajectory():
+    with open('m.toml', 'w', encoding='utf-8') as file:
+        file.write(good('show', 'impact-oscillator') + '[[observable]]\nname = "energy"\nvalue = "(x^2 + v^2) / 2"\n'
+                   '[[observable]]\nname = "late"\nvalue = "time - gap_stop"\n')
+    says(good('show', 'm.toml'), '[[observable]]', 'value = "(x^2 + v^2) / 2"')
+    good('simulate', 'm.toml', '--periods', '5', '--trajectory', 't.csv', '--events', 'e.csv', '--out', 'o.json')
+    columns, rows = table(read('t.csv'))
+    assert columns == ['time', 'x', 'v', 'mode', 'energy', 'late']
+    for time, x, v, _, energy, late in rows:
+        assert abs(float(energy) - (float(x) ** 2 + float(v) ** 2) / 2) < 1e-14
+        assert abs(float(late) - (float(time) + float(x))) < 1e-14  # clearance = 0
+    good('simulate', 'impact-oscillator', '--periods', '5', '--events', 'f.csv', '--out', 'p.json')
+    assert read('e.csv') == read('f.csv')
+
+
+def test_physical_tables_are_the_models_times_its_scale():
+    with open('m.toml', 'w', encoding='utf-8') as file:
+        file.write(good('show', 'vibro-impact') + '[scale]\nlength = { value = 2, unit = "mm" }\ntime = { value = 0.25, unit = "s" }\n'
+                   '[[observable]]\nname = "slip"\nvalue = "v1 - v2"\nunit = "m/s"\n')
+    words = ('simulate', 'm.toml', '--periods', '20', '--out', 'o.json')
+    good(*words, '--events', 'e.csv', '--trajectory', 't.csv')
+    good(*words, '--events', 'pe.csv', '--trajectory', 'pt.csv', '--physical')
+    factors = {'time': 0.25, 'w': 8, 'x1': 2, 'v1': 8, 'x2': 2, 'v2': 8, 'slip': 0.008, 'kind': None, 'contact': None, 'mode': None}
+    for plain, physical in (('e.csv', 'pe.csv'), ('t.csv', 'pt.csv')):
+        names, rows = table(read(plain))
+        headings, converted = table(read(physical))
+        assert [heading.split(' [')[0] for heading in headings] == names and len(rows) == len(converted)
+        for row, other in zip(rows, converted):
+            for name, value, number in zip(names, row, other):
+                assert number == value if factors[name] is None else abs(float(number) - factors[name] * float(value)) <= 1e-15 * abs(float(number))
+    assert headings == ['time [s]', 'x1 [mm]', 'v1 [mm/s]', 'x2 [mm]', 'v2 [mm/s]', 'mode', 'slip [m/s]']
+    says(refused(2, *words, '--physical'), '--physical', 'neither is given')
+    says(refused(2, 'simulate', 'vibro-impact', '--physical', '--events', 'x.csv'), '--physical', 'no [scale]')
+
+
 def test_time_and_periods_are_the_same_length():
     a = good('simulate', 'vibro-impact', '--set', 'omega=2', '--periods', '7')
     b = good('simulate', 'vibro-impact', '--set', 'omega=2', '--time', repr(7 * math.pi))
@@ -223,6 +258,25 @@ def test_show_set_and_check_go_round():
     with open('bad.toml', 'w', encoding='utf-8') as file:
         file.write(read('m.toml').replace('restitution = "restitution"', 'restitutoin = "restitution"'))
     says(refused(2, 'check', 'bad.toml'), 'bad.toml:', 'restitutoin')
+
+
+def test_new_writes_a_file_that_works_and_overwrites_none():
+    says(good('new', 'mine'), '"written": "mine.toml"', 'slapstick check mine.toml')
+    says(good('check', 'mine.toml'), '"sound": true', '"name": "mine"')
+    good('simulate', 'mine.toml', '--trajectory', 't.csv', '--out', 'o.json')
+    columns, rows = table(read('t.csv'))
+    assert columns == ['time', 'x1', 'v1', 'mode', 'energy'] and len(rows) == 10001
+    says(good('diagram', 'mine.toml', '--sweep', 'omega=0.8:1:2', '--impacts', '2', '--transient', '20'), 'omega,direction')
+    before = read('mine.toml')
+    for again in ('mine', 'mine.toml', './mine'):
+        says(refused(4, 'new', again), 'mine.toml', 'exists')
+    assert read('mine.toml') == before
+    os.symlink('nowhere', 'link.toml')
+    says(refused(4, 'new', 'link'), 'exists')
+    says(refused(4, 'new', 'no/such/folder/m'), 'no/such/folder/m.toml')
+    for bad in ('', 'a b', 'a"b', 'a\nb', 'x' * 65, '.toml', 'a/'):
+        says(refused(2, 'new', bad), 'NAME')
+    assert sorted(os.listdir('.')) == ['link.toml', 'mine.toml', 'o.json', 't.csv']
 
 
 def test_sections_are_those_of_the_motion():

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <random>
 
+#include "io/everything.hpp"
 #include "io/same_model.hpp"
 #include "slapstick/base/error.hpp"
 
@@ -31,6 +32,15 @@ std::string outcome(std::string_view text) {
 
 const std::string whole = load_model("vibro-impact").to_toml();
 
+/// Short, with every key: print leaves the comments out.
+const std::string full = ModelDefinition::parse(everything(), "f.toml").to_toml();
+
+TEST(HostileFile, a_file_with_every_key_prints_to_a_fixed_point) {
+  const auto again = ModelDefinition::parse(full, "f.toml");
+  EXPECT_EQ(again.to_toml(), full);
+  expect_same(again.build(), ModelDefinition::parse(everything(), "f.toml").build());
+}
+
 TEST(HostileFile, every_truncation_is_a_model_or_an_error) {
   int accepted = 0;
   for (std::size_t length = 0; length < whole.size(); ++length)
@@ -40,12 +50,34 @@ TEST(HostileFile, every_truncation_is_a_model_or_an_error) {
 
 TEST(HostileFile, every_flipped_byte_is_a_model_or_an_error) {
   std::mt19937 random(1);
-  for (std::size_t i = 0; i < whole.size(); ++i)
-    for (int repeat = 0; repeat < 3; ++repeat) {
-      auto text = whole;
-      text[i] = static_cast<char>(random() & 255);
-      (void)outcome(text);
-    }
+  for (const auto& file : {whole, full})
+    for (std::size_t i = 0; i < file.size(); ++i)
+      for (int repeat = 0; repeat < 3; ++repeat) {
+        auto text = file;
+        text[i] = static_cast<char>(random() & 255);
+        (void)outcome(text);
+      }
+}
+
+TEST(HostileFile, every_line_that_is_missing_or_doubled_is_a_model_or_an_error) {
+  for (std::size_t begin = 0; begin < full.size();) {
+    const auto end = full.find('\n', begin) + 1;
+    (void)outcome(full.substr(0, begin) + full.substr(end));
+    (void)outcome(full.substr(0, end) + full.substr(begin));
+    begin = end;
+  }
+}
+
+TEST(HostileFile, every_value_of_another_type_is_a_model_or_an_error) {
+  for (std::size_t begin = 0; begin < full.size();) {
+    const auto end = full.find('\n', begin);
+    const auto equals = full.find(" = ", begin);
+    if (equals < end)
+      for (const char* other : {"1", "-1e49", "true", "'x1'", "'gap_wall_upper'", "[]", "{}", "[[1, 0], [0, 1]]",
+                                "[{}]", "['x1', 'shaker']", "nan", "1e300", "07:32:00"})
+        (void)outcome(full.substr(0, equals + 3) + other + full.substr(end));
+    begin = end + 1;
+  }
 }
 
 TEST(HostileFile, random_pieces_are_a_model_or_an_error) {

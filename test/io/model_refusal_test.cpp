@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "slapstick/base/error.hpp"
-#include "slapstick/io/model_file.hpp"
+#include "io/refusal.hpp"
 
 namespace slapstick {
 namespace {
@@ -13,15 +12,6 @@ namespace {
 const std::string head = "name = 'm'\n";                               // line 1
 const std::string mass = "[[coordinate]]\nname = 'x1'\nmass = 'm'\n";  // lines 3, 4, 5 after one line of parameters
 const std::string good = head + "parameters.m = { value = 2, above = 0, below = 9 }\n" + mass;
-
-std::string refusal(const std::string& text, const Overrides& overrides = {}) {
-  try {
-    (void)ModelDefinition::parse(text, "f.toml").start(overrides);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 TEST(ModelFile, smallest_model) {
   EXPECT_EQ(refusal(good), "accepted");
@@ -34,7 +24,7 @@ TEST(ModelFile, smallest_model) {
 TEST(ModelFile, unknown_names_suggest_the_nearest) {
   EXPECT_EQ(refusal("nmae = 'm'\n"), "f.toml:1: unknown key 'nmae'; did you mean 'name'?");
   EXPECT_EQ(refusal(good + "stifness = 1\n"),
-            "f.toml:6: coordinate 1: unknown key 'stifness'; known: description, name, mass");
+            "f.toml:6: coordinate 1: unknown key 'stifness'; known: description, name, mass, unit");
   EXPECT_EQ(refusal(good + "[[sprin]]\n"), "f.toml:6: unknown key 'sprin'; did you mean 'spring'?");
   EXPECT_EQ(refusal(good + "[[spring]]\nbetween = ['x1', 'ground']\nstifness = 1\n"),
             "f.toml:8: spring 1: unknown key 'stifness'; did you mean 'stiffness'?");
@@ -76,6 +66,8 @@ TEST(ModelFile, wrong_types_and_missing_keys) {
             "f.toml:2: parameter 'sin': this is the name of a function or constant");
   EXPECT_EQ(refusal(head + "parameters.'a b' = 1\n"),
             "f.toml:2: parameter 'a b': a name is 1 to 64 letters, digits and '_', beginning with a letter");
+  EXPECT_EQ(refusal(head + "[[coordinate]]\nname = 'pi'\nmass = 1\n"),
+            "f.toml:2: coordinate 'pi': this is the name of a function or constant");
   EXPECT_EQ(refusal(head + "parameters.x1 = 1\n[[coordinate]]\nname='x1'\nmass=1\n"),
             "f.toml:3: coordinate 'x1': a parameter has the name 'x1'");
   EXPECT_EQ(refusal(head + "[coordinate]\n"), "f.toml:2: coordinate: expected [[coordinate]], found a table");

@@ -28,6 +28,14 @@ inline void expect_same(const Model& a, const Model& b) {
   same(a.stops, b.stops, [](const auto& p, const auto& q) {
     return p.name == q.name && p.a == q.a && p.b == q.b && p.clearance == q.clearance && p.restitution == q.restitution;
   });
+  same(a.compliant_stops, b.compliant_stops, [](const auto& p, const auto& q) {
+    return p.name == q.name && p.a == q.a && p.b == q.b && p.clearance == q.clearance && p.stiffness == q.stiffness &&
+           p.damping == q.damping && p.pulls == q.pulls;
+  });
+  EXPECT_EQ(a.mass, b.mass);
+  EXPECT_EQ(a.damping, b.damping);
+  EXPECT_EQ(a.stiffness, b.stiffness);
+  EXPECT_EQ(a.impact_law, b.impact_law);
 }
 
 }  // namespace slapstick

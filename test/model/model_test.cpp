@@ -25,6 +25,7 @@ Model two_blocks() {
   model.forces = {{0, 1, 1.0, 0.0}};
   model.frictions = {{"friction", 0, 1, 0.0, 0.15, 0.1}};
   model.stops = {{"stop", 0, 1, 0.0, 0.8}};
+  model.compliant_stops = {{"bumper", 1, ground, 2.0, 50.0, 0.5, false}};
   model.omega = 2.0;
   return model;
 }
@@ -56,6 +57,18 @@ TEST(Model, sound_model_is_accepted) {
   EXPECT_EQ(refusal([](Model& m) { m.stops[0].restitution = 1.0; }), "accepted");
   EXPECT_EQ(refusal([](Model& m) { m.frictions[0].kinetic_friction = 0.15; }), "accepted");
   EXPECT_EQ(refusal([](Model& m) { m.stops[0].a = ground; }), "accepted");
+}
+
+TEST(Model, matrices_add_to_the_elements) {
+  EXPECT_EQ(refusal([](Model& m) { m.damping = {-1, 0, 0, 0}; }), "accepted");     // a source of energy
+  EXPECT_EQ(refusal([](Model& m) { m.stiffness = {0, -9, -9, 0}; }), "accepted");  // buckled
+  EXPECT_EQ(refusal([](Model& m) { m.mass = {0, 3, 3, 0}; }), "accepted");         // 3^2 < 1 * 10
+  EXPECT_EQ(refusal([](Model& m) {
+              m.coordinates[0].mass = 0.0;
+              m.mass = {1, 0, 0, 0};
+            }),
+            "accepted");
+  EXPECT_NE(refusal([](Model& m) { m.mass = {1e60, 0, 0, 0}; }).find("too large"), std::string::npos);
 }
 
 TEST(Model, period_and_names) {
@@ -121,6 +134,38 @@ TEST(Model, every_refusal_names_part_and_value) {
   for (const auto& [spoil, message] : cases) EXPECT_EQ(refusal(spoil), message);
 }
 
+TEST(Model, refusals_of_compliant_stops_and_matrices) {
+  const std::vector<std::pair<std::function<void(Model&)>, std::string>> cases = {
+      {[](Model& m) {
+         m.stops.push_back({"back", 1, 0, 0.0, 0.8});
+       },
+       "stop 'back': clearance = 0 leaves no room opposite stop 'stop' with clearance = 0: their sum must be positive"},
+      {[](Model& m) { m.compliant_stops[0].name = "stop"; }, "compliant_stop 'stop': name 'stop' is used twice"},
+      {[](Model& m) { m.compliant_stops[0].stiffness = 0.0; },
+       "compliant_stop 'bumper': stiffness = 0 is not positive"},
+      {[](Model& m) { m.compliant_stops[0].damping = -1.0; }, "compliant_stop 'bumper': damping = -1 is negative"},
+      {[](Model& m) { m.compliant_stops[0].b = 1; }, "compliant_stop 'bumper': both ends are 'x2'"},
+      {[](Model& m) {
+         m.damping = {1, 2, 3};
+       },
+       "matrix: damping: has 3 entries, 4 needed"},
+      {[](Model& m) {
+         m.stiffness = {1, 2, 3, 4};
+       },
+       "matrix: stiffness: it is not symmetric: [x2, x1] = 3 differs from [x1, x2] = 2"},
+      {[](Model& m) {
+         m.mass = {0, 0, 0, -10};
+       },
+       "coordinate 'x2': it has no mass: its own and its entry of [matrix] mass add up to 0"},
+      {[](Model& m) {
+         m.mass = {9, 10, 10, 0};
+       },
+       "matrix: mass: with the coordinates' masses it is not positive definite: some motion of the coordinates up to "
+       "'x2' has no positive mass"},
+  };
+  for (const auto& [spoil, message] : cases) EXPECT_EQ(refusal(spoil), message);
+}
+
 TEST(Model, not_a_number_and_infinity_are_refused_in_every_field) {
   const std::vector<std::pair<std::string, std::function<double&(Model&)>>> fields = {
       {"mass", [](Model& m) -> double& { return m.coordinates[0].mass; }},
@@ -133,6 +178,9 @@ TEST(Model, not_a_number_and_infinity_are_refused_in_every_field) {
       {"kinetic", [](Model& m) -> double& { return m.frictions[0].kinetic_friction; }},
       {"clearance", [](Model& m) -> double& { return m.stops[0].clearance; }},
       {"restitution", [](Model& m) -> double& { return m.stops[0].restitution; }},
+      {"clearance", [](Model& m) -> double& { return m.compliant_stops[0].clearance; }},
+      {"stiffness", [](Model& m) -> double& { return m.compliant_stops[0].stiffness; }},
+      {"damping", [](Model& m) -> double& { return m.compliant_stops[0].damping; }},
       {"omega", [](Model& m) -> double& { return m.omega; }},
   };
   for (const auto& [field, at] : fields)

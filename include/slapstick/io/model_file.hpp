@@ -23,6 +23,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,10 +55,28 @@ struct Group {
   std::vector<std::string> members;
 };
 
+/// A quantity that is computed from the state for tables: "spring_force = stiffness * (x1 - x2)".
+struct Observable {
+  std::string name;
+  std::string expression;  ///< of parameters, the state, bases, `gap_NAME` of stops and `time`; or a plain number
+  std::string unit, description;
+};
+
+/// How tables in physical units follow from a motion: physical = factor * the model's number, a column each.
+struct PhysicalUnits {
+  struct Column {
+    std::string unit;  ///< "mm/s"
+    double factor = 1.0;
+  };
+  Column time, w;
+  std::vector<Column> state, observables;
+};
+
 /// Values given by name, as by `--set`. A parameter's own value wins over its group's.
 using Overrides = std::map<std::string, double>;
 
 struct Definition;  // the file's content; src/io/definition.hpp
+class Observer;     // slapstick/io/observer.hpp
 
 /// A model file that has been read and checked with its default values. Immutable, cheap to copy, safe to share between threads.
 class ModelDefinition {
@@ -71,6 +90,7 @@ class ModelDefinition {
   [[nodiscard]] const std::string& notes() const;                  ///< several lines, may be empty
   [[nodiscard]] const std::vector<Parameter>& parameters() const;  ///< in the file's order
   [[nodiscard]] const std::vector<Group>& groups() const;
+  [[nodiscard]] const std::vector<Observable>& observables() const;  ///< in the file's order
 
   /// Every parameter's value. @throws InputError if an override is unknown, not finite or out of range, or an expression is not finite
   [[nodiscard]] std::map<std::string, double> values(const Overrides& overrides = {}) const;
@@ -80,6 +100,12 @@ class ModelDefinition {
 
   /// The default initial state (2n numbers), checked against the stops. @throws InputError
   [[nodiscard]] State start(const Overrides& overrides = {}) const;
+
+  /// What computes the observables along a motion. @throws InputError as `build`
+  [[nodiscard]] Observer observer(const Overrides& overrides = {}) const;
+
+  /// The physical units of tables, by the file's [scale]; nothing if it has none. @throws InputError as `values`
+  [[nodiscard]] std::optional<PhysicalUnits> physical(const Overrides& overrides = {}) const;
 
   /// A complete file, with the overrides as the new defaults; reading it gives the same Model, and printing that the same text.
   /// Comments are not kept; descriptions and notes are. @throws InputError as `start`
@@ -93,6 +119,10 @@ class ModelDefinition {
 /// A built-in model by name, or a model file by a path that ends in ".toml".
 /// @throws InputError for an unknown name (the nearest is suggested), a missing or too large file, or its content
 [[nodiscard]] ModelDefinition load_model(const std::string& name_or_path);
+
+/// A commented file to start a model of one's own from: sound as it is, and with an example of every key, some switched off.
+/// @param name  letters, digits, '_' and '-'. @throws InputError
+[[nodiscard]] std::string new_model(const std::string& name);
 
 /// Names of the built-in models, in alphabetical order.
 [[nodiscard]] std::vector<std::string> builtin_models();

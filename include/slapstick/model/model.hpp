@@ -106,8 +106,9 @@ using State = std::vector<double>;
 /// Column names of a State: "x1", "v1", "x2", "v2".
 [[nodiscard]] std::vector<std::string> state_names(const Model& model);
 
-/// Checks everything that makes a model meaningless: non-finite numbers, masses <= 0, omega, f_k > f_s, restitution outside [0, 1],
-/// bad indices, a contact between a coordinate and itself, names used twice. Numbers beyond 1e50, and a mass or omega below 1e-50,
+/// Checks everything that makes a model meaningless: non-finite numbers, masses <= 0 (a mass matrix that is not positive definite),
+/// matrices that are not symmetric or not n x n, omega, f_k > f_s, restitution outside [0, 1], bad indices, a contact between a
+/// coordinate and itself, opposite stops without room between them, names used twice. Numbers beyond 1e50, and a mass or omega below 1e-50,
 /// are refused too: their products would leave the range of a double.
 /// @throws InputError naming the field, e.g. "stop 'gap': restitution = 1.2 is outside [0, 1]".
 void validate(const Model& model);

@@ -1,0 +1,196 @@
+#include "io/model_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "model/fault.hpp"
+#include "slapstick/base/text.hpp"
+
+namespace slapstick {
+
+/// Calls `add(part)` for every part of a kind; kind_ and index_ say which one it is, for messages.
+template <class Add>
+void ModelBuilder::each(const char* kind, Add add) {
+  kind_ = kind;
+  index_ = 0;
+  for (const auto& part : definition_.of(kind)) {
+    add(part);
+    ++index_;
+  }
+}
+
+double ModelBuilder::number(const Scalar& scalar, const std::string& where) const {
+  if (!scalar.expression) return scalar.number;
+  try {
+    return scalar.expression->evaluate(values_);
+  } catch (const InputError& error) {
+    throw InputError(definition_.place(scalar.line) + where + ": " + error.what());
+  }
+}
+
+std::string ModelBuilder::where(std::string_view key) const {
+  return part_label(kind_, index_, definition_.of(kind_)[index_]).append(": ").append(key);
+}
+
+double ModelBuilder::at(const Part& part, std::string_view key, double fallback, const std::string& place) const {
+  const auto found = part.fields.find(key);
+  return found == part.fields.end() ? fallback : number(found->second, place);
+}
+
+double ModelBuilder::field(const Part& part, std::string_view key, double fallback) const {
+  return at(part, key, fallback, where(key));
+}
+
+/// `harmonic` of a force or of one term of a base.
+int ModelBuilder::harmonic(const Part& part, const std::string& place) const {
+  const double value = at(part, "harmonic", 1.0, place);
+  if (value >= 0.0 && value <= 1e6 && value == std::floor(value)) return static_cast<int>(value);
+  throw InputError(definition_.place(part.fields.find("harmonic")->second.line) + place + " = " + shown(value) +
+                   " is not a whole number in [0, 1000000]");
+}
+
+/// Springs and dampers; to a base they are springs and dampers to ground, and a force for its motion.
+void ModelBuilder::add_links(Model& model) {
+  const auto end = [](int index) { return is_base(index) ? ground : index; };
+  each("spring", [&](const Part& part) {
+    const double stiffness = field(part, "stiffness");
+    model.springs.push_back({end(part.a), end(part.b), stiffness});
+    add_motion(model, part, stiffness, false);
+  });
+  each("damper", [&](const Part& part) {
+    const double coefficient = field(part, "coefficient");
+    model.dampers.push_back({end(part.a), end(part.b), coefficient});
+    add_motion(model, part, coefficient, true);
+  });
+}
+
+/// What a base passes on: strength * x_base, or strength * x_base' with
+/// x_base' = sum amplitude harmonic omega sin(harmonic omega t + phase + pi / 2).
+void ModelBuilder::add_motion(Model& model, const Part& part, double strength, bool velocity) {
+  const int base = is_base(part.a) ? part.a : part.b;
+  if (!is_base(base)) return;
+  const int coordinate = is_base(part.a) ? part.b : part.a;
+  for (const Term& term : bases_[static_cast<std::size_t>(base_end(base))]) {
+    if (velocity && term.harmonic == 0) continue;  // a constant displacement has no velocity
+    const double rate = velocity ? term.harmonic * model.omega : 1.0;
+    const double phase = velocity ? term.phase + std::numbers::pi / 2 : term.phase;
+    model.forces.push_back({coordinate, term.harmonic, strength * rate * term.amplitude, phase});
+    origins_["force"].push_back({kind_, index_});
+  }
+}
+
+double ModelBuilder::base(std::size_t k, double omega, double time) const {
+  double sum = 0.0;
+  for (const Term& term : bases_[k])
+    sum += term.amplitude * (term.harmonic == 0 ? 1.0 : std::sin(term.harmonic * omega * time + term.phase));
+  return sum;
+}
+
+/// A two-sided stop stands for two: NAME_upper as it is written, and NAME_lower on x_b - x_a.
+void ModelBuilder::add_contacts(Model& model) {
+  each("friction", [&](const Part& part) {
+    const double limit = field(part, "static");
+    model.frictions.push_back(
+        {part.name, part.a, part.b, field(part, "belt_speed", 0.0), limit, field(part, "kinetic", limit)});
+  });
+  const auto sides = [&](const Part& part, auto& stops, auto stop) {
+    auto& origins = origins_[std::string(kind_)];
+    origins.push_back({kind_, index_});
+    stops.push_back(stop);
+    if (!part.flag("two_sided")) return;
+    stops.back().name += "_upper";
+    stop.name += "_lower";
+    std::swap(stop.a, stop.b);
+    stop.clearance = field(part, "clearance_lower", stop.clearance);
+    origins.push_back({kind_, index_, true});
+    stops.push_back(stop);
+  };
+  each("stop", [&](const Part& part) {
+    sides(part, model.stops, Stop{part.name, part.a, part.b, field(part, "clearance"), field(part, "restitution")});
+  });
+  each("compliant_stop", [&](const Part& part) {
+    sides(part, model.compliant_stops,
+          CompliantStop{part.name, part.a, part.b, field(part, "clearance"), field(part, "stiffness"),
+                        field(part, "damping"), part.flag("pulls")});
+  });
+}
+
+void ModelBuilder::add_matrices(Model& model) const {
+  const auto n = static_cast<std::size_t>(model.size());
+  for (const auto& [key, matrix] : definition_.matrices) {
+    auto& entries = key == "mass" ? model.mass : key == "damping" ? model.damping : model.stiffness;
+    for (std::size_t i = 0; i < n * n; ++i)
+      entries.push_back(number(matrix.entries[i], "matrix: " + key + "[" + model.coordinates[i / n].name + ", " +
+                                                      model.coordinates[i % n].name + "]"));
+  }
+}
+
+Model ModelBuilder::model() {
+  Model model;
+  model.name = definition_.name;
+  model.impact_law = definition_.impact_law.value_or(ImpactLaw::moreau);
+  if (definition_.omega) model.omega = number(*definition_.omega, "omega");
+  each("coordinate", [&](const Part& part) { model.coordinates.push_back({part.name, field(part, "mass")}); });
+  each("base", [&](const Part& part) {
+    auto& terms = bases_.emplace_back();
+    for (const auto& term : part.harmonics) {
+      const auto place = where("harmonics ") + std::to_string(terms.size() + 1) + ": ";
+      terms.push_back({at(term, "amplitude", 0.0, place + "amplitude"), harmonic(term, place + "harmonic"),
+                       at(term, "phase", 0.0, place + "phase")});
+    }
+  });
+  each("force", [&](const Part& part) {
+    origins_["force"].push_back({kind_, index_});
+    model.forces.push_back(
+        {part.a, harmonic(part, where("harmonic")), field(part, "amplitude"), field(part, "phase", 0.0)});
+  });
+  add_links(model);
+  add_contacts(model);
+  add_matrices(model);
+  if (const auto fault = first_fault(model)) throw refusal(*fault, model);
+  return model;
+}
+
+const ModelBuilder::Origin* ModelBuilder::origin(const Fault& fault) const {
+  const auto found = origins_.find(fault.part);
+  return fault.index < 0 || found == origins_.end() ? nullptr : &found->second[static_cast<std::size_t>(fault.index)];
+}
+
+/// The fault at its line. Of a part that stands for another (a force for a base's spring) the line is the other's.
+InputError ModelBuilder::refusal(const Fault& fault, const Model& model) const {
+  int line = 1;
+  std::string place = fault.place(model);
+  if (fault.part == "matrix") {
+    line = definition_.matrices.find(fault.field)->second.line;
+  } else if (fault.index < 0) {
+    line = fault.field == "omega" && definition_.omega ? definition_.omega->line : 1;
+  } else {
+    const auto* from = origin(fault);
+    const std::string_view kind = from ? from->kind : std::string_view(fault.part);
+    const auto index = from ? from->index : static_cast<std::size_t>(fault.index);
+    const auto& part = definition_.of(kind)[index];
+    place = part_label(kind, index, part);
+    auto found = part.fields.find(fault.field);
+    if (from && from->lower && fault.field == "clearance" && part.fields.count("clearance_lower") != 0)
+      found = part.fields.find("clearance_lower");
+    line = found == part.fields.end() ? part.line : found->second.line;
+    if (kind != fault.part) place += ": with its base's motion, as a force";
+  }
+  return InputError(definition_.place(line) + place + ": " + fault.what);
+}
+
+State ModelBuilder::start(const Model& model) const {
+  const auto names = state_names(model);
+  State state(names.size(), 0.0);
+  int line = 1;
+  for (const auto& [name, scalar] : definition_.start) {
+    const auto at = std::find(names.begin(), names.end(), name) - names.begin();
+    state[static_cast<std::size_t>(at)] = number(scalar, "start: " + name);
+    line = scalar.line;
+  }
+  if (const auto fault = first_fault(model, state)) throw InputError(definition_.place(line) + "start: " + fault->what);
+  return state;
+}
+
+}  // namespace slapstick

@@ -1,0 +1,69 @@
+#pragma once
+/// From a Definition and the values of its parameters to a validated Model.
+///
+/// Two things of a file are not in a Model but stand for others: a two-sided stop is two Stops, and a [[base]] is the forces that its
+/// springs and dampers pass on. So each part of the Model remembers the part of the file that it came from, for messages.
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/definition.hpp"
+#include "slapstick/base/error.hpp"
+
+namespace slapstick {
+
+struct Fault;
+
+using Values = std::map<std::string, double>;
+
+class ModelBuilder {
+ public:
+  ModelBuilder(const Definition& definition, const Values& values) : definition_(definition), values_(values) {}
+
+  /// @throws InputError with the file's line
+  [[nodiscard]] Model model();
+  /// @throws InputError with the file's line
+  [[nodiscard]] State start(const Model& model) const;
+
+  /// The displacement of the k-th [[base]] at a time (after `model`).
+  [[nodiscard]] double base(std::size_t k, double omega, double time) const;
+
+  /// The value of a number or expression; `where` is for the message. @throws InputError
+  [[nodiscard]] double number(const Scalar& scalar, const std::string& where) const;
+
+ private:
+  struct Origin {
+    std::string_view kind;
+    std::size_t index;
+    bool lower = false;  ///< the lower side of a two-sided stop
+  };
+  /// One term of a prescribed motion: amplitude sin(harmonic omega t + phase).
+  struct Term {
+    double amplitude = 0.0;
+    int harmonic = 1;
+    double phase = 0.0;
+  };
+
+  template <class Add>
+  void each(const char* kind, Add add);
+  [[nodiscard]] std::string where(std::string_view key) const;
+  [[nodiscard]] double field(const Part& part, std::string_view key, double fallback = 0.0) const;
+  [[nodiscard]] double at(const Part& part, std::string_view key, double fallback, const std::string& place) const;
+  [[nodiscard]] int harmonic(const Part& part, const std::string& place) const;
+  void add_links(Model& model);
+  void add_motion(Model& model, const Part& part, double strength, bool velocity);
+  void add_contacts(Model& model);
+  void add_matrices(Model& model) const;
+  [[nodiscard]] const Origin* origin(const Fault& fault) const;
+  [[nodiscard]] InputError refusal(const Fault& fault, const Model& model) const;
+
+  const Definition& definition_;
+  const Values& values_;
+  std::string_view kind_;
+  std::size_t index_ = 0;
+  std::vector<std::vector<Term>> bases_;
+  std::map<std::string, std::vector<Origin>, std::less<>> origins_;  // by Fault::part
+};
+
+}  // namespace slapstick

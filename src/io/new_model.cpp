@@ -1,0 +1,140 @@
+#include "slapstick/base/error.hpp"
+#include "slapstick/base/text.hpp"
+#include "slapstick/io/model_file.hpp"
+
+namespace slapstick {
+namespace {
+
+/// What is switched off has no blank after '#': take the '#' away to switch it on. test/io/new_model_test.cpp switches all of it on.
+constexpr std::string_view page =
+    R"toml(# A model for slapstick. docs/model_file.md explains every key; `slapstick check @NAME@.toml` checks this file.
+# Lines like "#notes = ..." are switched off: remove the '#' to use them.
+name = "@NAME@"
+summary = "A mass on a spring, shaken by a force; it rubs on the ground and hits a wall"
+#notes = """
+#Where the numbers come from, what is special about them.
+#"""
+
+# Every number may be a number or, in quotes, an expression of the parameters below.
+omega = "omega"             # forcing frequency, in rad per unit of time
+#impact_law = "moreau"       # several stops hit at one instant: "moreau" (all at once) or "sequence" (one after another)
+
+# What --set and sweeps may change. Bounds: min and max (inside), above and below (outside).
+[parameters]
+omega = { value = 0.9, above = 0, description = "forcing frequency; the natural frequency is 1" }
+amplitude = { value = 1, description = "amplitude of the force" }
+damping_ratio = { value = 0.05, min = 0, below = 10, description = "fraction of critical damping" }
+static_friction = { value = 0.1, min = 0, unit = "1", description = "largest friction force in stick" }
+kinetic_friction = { value = "static_friction", min = 0, description = "friction force in slip; follows until it is set" }
+gap = { value = 1, min = 0, description = "distance of the wall" }
+restitution = { value = 0.7, min = 0, max = 1, description = "speed after / before an impact" }
+
+# One name that sets several parameters.
+[groups]
+friction = ["static_friction", "kinetic_friction"]
+
+# A displacement. The velocity of x1 is v1.
+[[coordinate]]
+name = "x1"
+mass = 1
+#unit = "mm"                 # of its columns; see [scale]
+
+#[[coordinate]]
+#name = "x2"
+#mass = 2
+
+# Between two coordinates, or one and "ground"; the force is stiffness * (x_a - x_b).
+[[spring]]
+between = ["x1", "ground"]
+stiffness = 1
+
+[[damper]]
+between = ["x1", "ground"]
+coefficient = "2 * damping_ratio"
+
+# amplitude * sin(harmonic * omega * t + phase); harmonic 0 is a constant force of size amplitude.
+[[force]]
+on = "x1"
+amplitude = "amplitude"
+harmonic = 1
+phase = "pi / 2"
+
+# A moving base, which springs and dampers may name.
+#[[base]]
+#name = "shaker"
+#harmonics = [{ amplitude = 0.1, harmonic = 1, phase = 0 }, { amplitude = 0.01, harmonic = 3 }]
+
+#[[spring]]
+#between = ["x2", "shaker"]
+#stiffness = 4
+
+# Coulomb friction. kinetic is static if it is absent.
+[[friction]]
+name = "ground_friction"
+between = ["x1", "ground"]
+static = "static_friction"
+kinetic = "kinetic_friction"
+belt_speed = 0
+
+# A rigid stop: x_a - x_b <= clearance. A floor below x1 would be between = ["ground", "x1"].
+[[stop]]
+name = "wall"
+between = ["x1", "ground"]
+clearance = "gap"
+restitution = "restitution"
+#two_sided = true            # a wall on both sides, in tables as wall_upper and wall_lower,
+#clearance_lower = 2         # at this distance; clearance if absent
+
+# A spring and damper that act beyond a gap. Unless it pulls, it lets go where its force would become negative.
+#[[compliant_stop]]
+#name = "bumper"
+#between = ["x1", "x2"]
+#clearance = 0.5
+#stiffness = 100
+#damping = 1
+#pulls = false
+#two_sided = true
+#clearance_lower = 0.5
+
+# A quantity of the state, as a column of `simulate --trajectory`: parameters, the state, gap_NAME of stops, time.
+[[observable]]
+name = "energy"
+value = "(x1^2 + v1^2) / 2"
+unit = "J"
+description = "kinetic and elastic energy"
+
+# Added to what the parts above give; n x n for n coordinates, symmetric.
+#[matrix]
+#mass = [[0, 0.1], [0.1, 0]]
+#damping = [[0, 0], [0, 0.2]]
+#stiffness = [[0, "-amplitude"], ["-amplitude", 0]]
+
+# What 1 is, for `simulate --physical`: physical = dimensionless * scale.
+#[scale]
+#length = { value = 5, unit = "mm" }
+#time = { value = 0.01, unit = "s" }
+#mass = { value = 0.2, unit = "kg" }
+
+# The initial state; 0 where nothing is said.
+[start]
+x1 = -0.5
+v1 = 0
+)toml";
+
+}  // namespace
+
+std::string new_model(const std::string& name) {
+  const auto fits = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  };
+  bool plain = !name.empty() && name.size() <= 64;
+  for (const char c : name) plain = plain && fits(c);
+  if (!plain) throw InputError("name " + in_quotes(name) + " is not 1 to 64 letters, digits, '_' and '-'");
+  std::string text(page);
+  const std::string mark = "@NAME@";
+  for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark, at + name.size()))
+    text.replace(at, mark.size(), name);
+  return text;
+}
+
+}  // namespace slapstick

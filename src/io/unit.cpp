@@ -1,0 +1,98 @@
+#include "io/unit.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <vector>
+
+#include "slapstick/base/error.hpp"
+#include "slapstick/base/nearest.hpp"
+
+namespace slapstick {
+namespace {
+
+struct Named {
+  const char* name;
+  Unit unit;
+};
+
+const std::vector<Named>& known_units() {
+  static const std::vector<Named> units = {
+      {"m", {1.0, {1, 0, 0}}},     {"km", {1e3, {1, 0, 0}}},    {"cm", {1e-2, {1, 0, 0}}},
+      {"mm", {1e-3, {1, 0, 0}}},   {"um", {1e-6, {1, 0, 0}}},   {"nm", {1e-9, {1, 0, 0}}},
+      {"in", {0.0254, {1, 0, 0}}}, {"ft", {0.3048, {1, 0, 0}}}, {"s", {1.0, {0, 1, 0}}},
+      {"ms", {1e-3, {0, 1, 0}}},   {"us", {1e-6, {0, 1, 0}}},   {"min", {60.0, {0, 1, 0}}},
+      {"h", {3600.0, {0, 1, 0}}},  {"kg", {1.0, {0, 0, 1}}},    {"g", {1e-3, {0, 0, 1}}},
+      {"mg", {1e-6, {0, 0, 1}}},   {"t", {1e3, {0, 0, 1}}},     {"N", {1.0, {1, -2, 1}}},
+      {"mN", {1e-3, {1, -2, 1}}},  {"kN", {1e3, {1, -2, 1}}},   {"MN", {1e6, {1, -2, 1}}},
+      {"J", {1.0, {2, -2, 1}}},    {"mJ", {1e-3, {2, -2, 1}}},  {"kJ", {1e3, {2, -2, 1}}},
+      {"W", {1.0, {2, -3, 1}}},    {"kW", {1e3, {2, -3, 1}}},   {"Pa", {1.0, {-1, -2, 1}}},
+      {"kPa", {1e3, {-1, -2, 1}}}, {"MPa", {1e6, {-1, -2, 1}}}, {"GPa", {1e9, {-1, -2, 1}}},
+      {"Hz", {1.0, {0, -1, 0}}},   {"rad", {1.0, {0, 0, 0}}},   {"deg", {std::numbers::pi / 180, {0, 0, 0}}},
+      {"1", {1.0, {0, 0, 0}}},     {"%", {1e-2, {0, 0, 0}}},
+  };
+  return units;
+}
+
+Unit named_unit(const std::string& name) {
+  std::vector<std::string> names;
+  for (const auto& known : known_units()) {
+    if (name == known.name) return known.unit;
+    names.emplace_back(known.name);
+  }
+  throw InputError("unknown unit " + in_quotes(name) + (name.size() > 2 ? suggestion(name, names) : std::string()) +
+                   " (docs/model_file.md lists them)");
+}
+
+/// "s" or "s^2" or "s^-2".
+void multiply(Unit& product, const std::string& factor, int sign) {
+  const auto caret = factor.find('^');
+  const Unit unit = named_unit(factor.substr(0, caret));
+  int power = 1;
+  if (caret != std::string::npos) {
+    const std::string text = factor.substr(caret + 1);
+    char* end = nullptr;
+    const long number = std::strtol(text.c_str(), &end, 10);
+    if (text.empty() || *end != '\0' || number < -9 || number > 9)
+      throw InputError("unit " + in_quotes(factor) + ": a power is a whole number in [-9, 9]");
+    power = static_cast<int>(number);
+  }
+  power *= sign;
+  product.factor *= std::pow(unit.factor, power);
+  for (std::size_t i = 0; i < product.powers.size(); ++i) product.powers[i] += power * unit.powers[i];
+}
+
+}  // namespace
+
+Unit parse_unit(const std::string& text) {
+  Unit product;
+  std::string factor;
+  int sign = 1;
+  bool wanted = true;  // after the beginning, '*' or '/'
+  const auto finish = [&] {
+    if (factor.empty()) return;
+    multiply(product, factor, sign);
+    factor.clear();
+    sign = 1;
+    wanted = false;
+  };
+  for (const char c : text) {
+    if (c != ' ' && c != '*' && c != '/') {
+      factor += c;
+      continue;
+    }
+    finish();
+    if (c == ' ') continue;
+    if (wanted) throw InputError("unit " + in_quotes(text) + ": a unit is missing before '" + c + "'");
+    wanted = true;
+    sign = c == '/' ? -1 : 1;
+  }
+  finish();
+  if (wanted)
+    throw InputError("unit " + in_quotes(text) + ": a unit is missing at its end (write \"1\" for a plain number)");
+  if (!(product.factor >= 1e-100 && product.factor <= 1e100))
+    throw InputError("unit " + in_quotes(text) + " is too large or too small: beyond 1e100 of the basic units");
+  return product;
+}
+
+}  // namespace slapstick

@@ -1,0 +1,53 @@
+/// docs/model_file.md names every key of the format, and its worked example is a model.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "io/definition.hpp"
+#include "io/refusal.hpp"
+
+namespace slapstick {
+namespace {
+
+std::string reference() {
+  std::ostringstream text;
+  text << std::ifstream(SLAPSTICK_REFERENCE).rdbuf();
+  return text.str();
+}
+
+TEST(Reference, the_worked_example_is_a_model) {
+  const std::string fence = "```toml\n", text = reference();
+  const auto begin = text.find(fence);
+  ASSERT_NE(begin, std::string::npos);
+  const auto example = text.substr(begin + fence.size(), text.find("```", begin + 3) - begin - fence.size());
+  EXPECT_EQ(refusal(example), "accepted");
+  const auto model = ModelDefinition::parse(example, "gear.toml").build();
+  EXPECT_EQ(model.compliant_stops.size(), 2U);
+  EXPECT_EQ(model.forces.size(), 2U);
+  EXPECT_TRUE(model.forced());
+}
+
+TEST(Reference, every_key_is_there) {
+  const auto text = reference();
+  const auto section = [&](const std::string& kind) {  // the rows of a part, up to the next part
+    const auto begin = text.find("| `[[" + kind + "]]`");
+    return begin == std::string::npos ? "" : text.substr(begin, text.find("| `[[", begin + 1) - begin);
+  };
+  for (const auto& rule : part_rules()) {
+    const auto rows = section(std::string(rule.kind));
+    for (const auto& key : part_keys(rule))
+      EXPECT_TRUE(key == "description" || rows.find("`" + key + "`") != std::string::npos) << rule.kind << ": " << key;
+  }
+  const auto named = [&](const std::string& key) {
+    EXPECT_TRUE(text.find("`" + key + "`") != std::string::npos || text.find("`[" + key + "]`") != std::string::npos ||
+                text.find("`[[" + key + "]]`") != std::string::npos)
+        << key;
+  };
+  for (const auto* keys : {&top_keys(), &parameter_keys(), &matrix_keys(), &scale_keys()})
+    for (const auto& key : *keys) named(key);
+  for (const auto& law : impact_laws()) named("\"" + law + "\"");
+}
+
+}  // namespace
+}  // namespace slapstick

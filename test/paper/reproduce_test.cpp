@@ -133,7 +133,7 @@ TEST(Reproduce, EveryPromisedFileIsThere) {
   for (const auto& file : run().result.files) EXPECT_TRUE(fs::exists(file)) << file;
   const std::string page = workshop::read(out / "index.html");
   EXPECT_NE(page.find("data:image/png;base64,"), std::string::npos);
-  for (const Claim& one : run().result.claims) EXPECT_NE(page.find("id=\"" + one.id + "\""), std::string::npos);
+  for (const Claim& one : run().result.claims) EXPECT_NE(page.find("id=\"claim-" + one.id + "\""), std::string::npos);
 }
 
 TEST(Reproduce, ProgressGoesForwardAndEveryPartIsTimed) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 
 #include "attractor/paper_system.hpp"
 #include "slapstick/base/error.hpp"
@@ -22,6 +23,8 @@ struct Expected {
   Attractor attractor;
   Chatter chatter;
 };
+
+void PrintTo(const Expected& expected, std::ostream* out) { *out << expected.label << " at " << expected.omega; }
 
 class PaperMotion : public testing::TestWithParam<Expected> {};
 

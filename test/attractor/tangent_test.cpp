@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
+#include <random>
+
 #include "attractor/paper_system.hpp"
 
 namespace slapstick {
@@ -18,15 +21,16 @@ State end_state(const System& system, const State& start, Instant end) {
 
 /// Central differences of the flow in the user's coordinates, Richardson-extrapolated: error about h^4.
 Eigen::MatrixXd differences(const System& system, const State& start, Instant end, double h) {
-  Eigen::MatrixXd result(4, 4);
-  for (int j = 0; j < 4; ++j) {
+  const auto size = static_cast<Eigen::Index>(start.size());
+  Eigen::MatrixXd result(size, size);
+  for (Eigen::Index j = 0; j < size; ++j) {
     const auto column = [&](double step) {
       State plus = start, minus = start;
       plus[j] += step;
       minus[j] -= step;
       const State a = end_state(system, plus, end), b = end_state(system, minus, end);
-      Eigen::VectorXd slope(4);
-      for (int i = 0; i < 4; ++i) slope[i] = (a[i] - b[i]) / (2.0 * step);
+      Eigen::VectorXd slope(size);
+      for (Eigen::Index i = 0; i < size; ++i) slope[i] = (a[i] - b[i]) / (2.0 * step);
       return slope;
     };
     result.col(j) = (4.0 * column(0.5 * h) - column(h)) / 3.0;
@@ -34,12 +38,13 @@ Eigen::MatrixXd differences(const System& system, const State& start, Instant en
   return result;
 }
 
-/// The tangent flow's Jacobian in the user's coordinates x1, v1, x2, v2.
+/// The tangent flow's Jacobian in the user's coordinates x1, v1, x2, v2, ..
 Eigen::MatrixXd tangent_jacobian(const System& system, const State& start, Instant end) {
-  Eigen::MatrixXd to_contact(4, 4);  // rows p1 p2 u1 u2, columns x1 v1 x2 v2
+  const int n = system.frame().n;
+  Eigen::MatrixXd to_contact(2 * n, 2 * n);  // rows p1 p2 .. u1 u2 .., columns x1 v1 x2 v2 ..
   to_contact.setZero();
-  for (int i = 0; i < 2; ++i) {
-    for (int j = 0; j < 2; ++j) to_contact(i, 2 * j) = to_contact(2 + i, 2 * j + 1) = system.frame().W(i, j);
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) to_contact(i, 2 * j) = to_contact(n + i, 2 * j + 1) = system.frame().W(i, j);
   }
   TangentMotion motion(system, start, to_contact);
   while (motion.advance(end) == Outcome::event) {
@@ -48,11 +53,13 @@ Eigen::MatrixXd tangent_jacobian(const System& system, const State& start, Insta
 }
 
 struct Case {
-  const char* what;
+  const char* what;  ///< ends the test's name
   test::PaperParameters parameters;
   State start;
   double periods;
 };
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.what; }
 
 class Jacobian : public testing::TestWithParam<Case> {};
 
@@ -67,13 +74,15 @@ TEST_P(Jacobian, matches_finite_differences_through_the_events) {
 
 INSTANTIATE_TEST_SUITE_P(
     events, Jacobian,
-    testing::Values(
-        Case{"slip only", {.omega = 2.2}, {-0.5, 0.3, 0.02, 0.05}, 0.2},
-        Case{"impact", {.omega = 2.2}, {-0.5, 0.3, 0.02, 0.05}, 0.6},
-        Case{"impact and reversals", {.omega = 2.2}, {-0.5, 0.3, 0.02, 0.05}, 3.3},
-        Case{"stick and release, f_k = f_s", {.omega = 1.5}, {-0.5, 0.3, 0.02, 0.05}, 2.2},
-        Case{"stick and release, f_k < f_s", {.omega = 1.5, .kinetic_friction = 0.1}, {-0.5, 0.3, 0.02, 0.05}, 2.2},
-        Case{"clearance", {.omega = 1.5, .clearance = 0.1}, {-0.5, 0.3, 0.02, 0.05}, 2.2}));
+    testing::Values(Case{"slip only", {.omega = 2.2}, {-0.5, 0.3, 0.02, 0.05}, 0.2},
+                    Case{"impact", {.omega = 2.2}, {-0.5, 0.3, 0.02, 0.05}, 0.6},
+                    Case{"impact and reversals", {.omega = 2.2}, {-0.5, 0.3, 0.02, 0.05}, 3.3},
+                    Case{"stick and release with f_k = f_s", {.omega = 1.5}, {-0.5, 0.3, 0.02, 0.05}, 2.2},
+                    Case{"stick and release with f_k below f_s",
+                         {.omega = 1.5, .kinetic_friction = 0.1},
+                         {-0.5, 0.3, 0.02, 0.05},
+                         2.2},
+                    Case{"clearance", {.omega = 1.5, .clearance = 0.1}, {-0.5, 0.3, 0.02, 0.05}, 2.2}));
 
 TEST(tangent, an_impact_at_the_very_start_counts) {
   const System system(paper_model({.omega = 2.2}));
@@ -107,6 +116,121 @@ TEST(tangent, chatter_limit_matches_finite_differences) {
   const Eigen::MatrixXd numerical = differences(system, start, end, 1e-5);
   EXPECT_LT((exact - numerical).cwiseAbs().maxCoeff(), 1e-6);
   EXPECT_LT((exact.row(0) - exact.row(2)).cwiseAbs().maxCoeff(), 1e-14);  // the blocks move as one
+}
+
+/// A mass on a spring and a belt of speed 1/2: it slips, sticks to the belt from about t = 2.03 to 3.50, slips on.
+Model mass_on_a_belt() {
+  Model model;
+  model.coordinates = {{"x", 1.0}};
+  model.springs = {{0, ground, 1.0}};
+  model.frictions = {{"belt", 0, ground, 0.5, 1.5, 1.0}};
+  return model;
+}
+
+TEST(tangent, through_stick_on_a_moving_belt_matches_finite_differences) {
+  const System system(mass_on_a_belt());
+  const State start = {0.1, 0.0};
+  for (const double time : {0.3, 1.0, 2.5, 5.0}) {
+    const Instant end = Instant{}.plus(time);
+    const Eigen::MatrixXd exact = tangent_jacobian(system, start, end);
+    const Eigen::MatrixXd numerical = differences(system, start, end, 1e-4);
+    EXPECT_LT((exact - numerical).cwiseAbs().maxCoeff(), 1e-9) << time << "\n" << exact << "\n\n" << numerical;
+  }
+}
+
+/// Chains of one to three bodies with a stop, a friction contact or both, half of them on belts.
+class RandomSystem {
+ public:
+  explicit RandomSystem(std::uint64_t seed) : random_(seed) {}
+
+  Model model() {
+    Model m;
+    const int n = integer(1, 3);
+    for (int i = 0; i < n; ++i) {
+      m.coordinates.push_back({"x" + std::to_string(i + 1), uniform(0.3, 3)});
+      m.springs.push_back({i, i == 0 ? ground : i - 1, uniform(0.5, 3)});
+      m.dampers.push_back({i, i == 0 ? ground : i - 1, uniform(0, 0.5)});
+    }
+    m.omega = uniform(0.5, 3);
+    m.forces = {{integer(0, n - 1), 1, uniform(0.5, 2), uniform(0, 6)}};
+    const int with = integer(0, 3);  // 0: friction only, 1: stop only, 2: both on one pair
+    constexpr double restitutions[] = {0.0, 0.3, 0.8, 1.0};
+    const auto [a, b] = pair(n);
+    if (with != 0) m.stops = {{"stop", a, b, uniform(-0.2, 0.4), restitutions[integer(0, 3)]}};
+    if (with == 1) return m;
+    const auto [c, d] = with == 2 ? std::pair{b, a} : pair(n);
+    const double f_s = uniform(0.1, 0.8);
+    m.frictions = {{"friction", c, d, integer(0, 1) == 0 ? uniform(-0.4, 0.4) : 0.0, f_s, f_s * uniform(0.3, 1)}};
+    return m;
+  }
+
+  State state(const Model& m) {
+    for (;;) {
+      State s;
+      for (int i = 0; i < m.size(); ++i) s.push_back(uniform(-0.6, 0.6)), s.push_back(uniform(-1, 1));
+      const auto at = [&](int i) { return i == ground ? 0.0 : s[2 * i]; };
+      if (m.stops.empty() || m.stops[0].clearance - at(m.stops[0].a) + at(m.stops[0].b) > 1e-2) return s;
+    }
+  }
+
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+
+ private:
+  int integer(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
+
+  std::pair<int, int> pair(int n) {
+    int a = integer(0, n - 1), b = integer(-1, n - 1);
+    if (a == b) b = ground;
+    if (integer(0, 1) == 0) std::swap(a, b);
+    return {a, b};
+  }
+
+  std::mt19937_64 random_;
+};
+
+std::string kinds(const System& system, const State& start, Instant end) {
+  Motion motion(system, start);
+  std::string all;
+  while (motion.advance(end) == Outcome::event) all += std::string(name(motion.event().kind)) + " ";
+  return all;
+}
+
+/// Do all starts that the differences are made of have the same events? Only there is the flow differentiable.
+bool same_events(const System& system, const State& start, Instant end, double h) {
+  const std::string expected = kinds(system, start, end);
+  for (std::size_t j = 0; j < start.size(); ++j) {
+    for (const double step : {-h, -0.5 * h, 0.5 * h, h}) {
+      State moved = start;
+      moved[j] += step;
+      if (kinds(system, moved, end) != expected) return false;
+    }
+  }
+  return true;
+}
+
+TEST(tangent, of_random_systems_matches_finite_differences) {
+  int compared = 0, on_a_belt = 0;
+  for (std::uint64_t k = 0; k < 300; ++k) {
+    RandomSystem random(k);
+    const System system(random.model());
+    const State start = random.state(system.model());
+    const Instant end = Instant{}.plus(random.uniform(0.3, 2.5));
+    constexpr double h = 2e-5;
+    if (!same_events(system, start, end, h)) continue;
+    const Eigen::MatrixXd exact = tangent_jacobian(system, start, end);
+    const Eigen::MatrixXd coarse = differences(system, start, end, h), fine = differences(system, start, end, 0.5 * h);
+    const double size = 1.0 + exact.cwiseAbs().maxCoeff(), own = (coarse - fine).cwiseAbs().maxCoeff();
+    EXPECT_LT((exact - coarse).cwiseAbs().maxCoeff(), std::max(1e-6 * size, 30.0 * own))
+        << "case " << k << ": " << kinds(system, start, end) << "\n"
+        << exact << "\n\n"
+        << coarse;
+    ++compared;
+    const auto& frictions = system.model().frictions;
+    on_a_belt += !frictions.empty() && frictions[0].belt_speed != 0.0 ? 1 : 0;
+  }
+  std::printf("%d systems compared, %d of them on belts\n", compared, on_a_belt);
+  EXPECT_GE(compared, 200);
+  EXPECT_GE(on_a_belt, 60);
 }
 
 }  // namespace

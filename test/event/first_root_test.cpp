@@ -154,6 +154,33 @@ TEST(FirstRoot, ZeroAtTheEndItselfIsReported) {  // half-open (0, x_end]
   EXPECT_LT(last.x, 1.0);
 }
 
+TEST(FirstRoot, GuardThatCreepsAlongItsNoiseIsNotRestartedByTinySteps) {  // a window would never end
+  int restarts = 0, lingering = 0;
+  for (int k = 1; k <= 7; ++k) {
+    for (const double floor : {2.0, 4.0, 7.0}) {
+      for (const double start : {9.0, 12.0, 30.0, 100.0}) {
+        // In units of the noise: (start - floor) (1 - x)^k + floor, positive all over the window.
+        Taylor a{};
+        double binomial = 1.0;
+        for (int n = 0; n <= k; ++n) {
+          a[n] = (start - floor) * (n % 2 == 0 ? binomial : -binomial);
+          binomial *= static_cast<double>(k - n) / (n + 1);
+        }
+        a[0] += floor;
+        long evaluations = 0;
+        const Root root = first_root(testing::window(a, 0, 1.0 / (25 * unit_roundoff)), 1.0, evaluations);
+        EXPECT_TRUE(root.kind == RootKind::none || root.kind == RootKind::restart) << k << " " << floor << " " << start;
+        const bool restart = root.kind == RootKind::restart;
+        EXPECT_TRUE(!restart || root.x >= 0.25) << root.x << " for " << k << " " << floor << " " << start;
+        restarts += restart ? 1 : 0;
+        lingering += root.lingers ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GE(restarts, 10);
+  EXPECT_GE(lingering, 10);
+}
+
 TEST(FirstRoot, SimpleZerosAndMissesAreCheap) {
   long evaluations = 0, cases = 0;
   for (int i = 1; i < 100; ++i, ++cases) {

@@ -1,4 +1,4 @@
-/// Chatter: complete, with varying force, incomplete, lossless, and the budget. Case numbers K are those of shared/reliability.md.
+/// Chatter: complete, with varying force, with friction, beside other events, incomplete, lossless, and the budget. Case numbers K are those of shared/reliability.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -120,6 +120,118 @@ TEST(Chatter, BesideASteadilySlidingBeltIsSummed) {  // once bounced on down to 
   ASSERT_FALSE(events.empty());
   EXPECT_EQ(std::ranges::count(events, EventKind::chatter, &Event::kind), 1);
   EXPECT_LT(events.size(), 60u);
+}
+
+TEST(Chatter, IsEndedByFrictionAloneAtAStopWithoutLoss) {  // r = 1 once bounced on without end
+  for (const double r : {1.0, 0.8}) {
+    for (const double f : {0.05, 0.25, 0.6}) {
+      Model m = oracle::ball(r);
+      m.frictions = {{"wall", ground, 0, 0.0, f, f}};
+      const System system(m);
+      Motion motion(system, {0.0, 1.0});
+      const auto events = run(motion, 100.0, 2000);
+      // A flight of speed v rises for v / (1 + f), falls for v / sqrt(1 - f^2), and ends with speed v sqrt((1 - f) / (1 + f)).
+      const double kept = r * std::sqrt((1 - f) / (1 + f));
+      const double end = (1 / (1 + f) + 1 / std::sqrt(1 - f * f)) / (1 - kept);
+      ASSERT_EQ(name(events.back().kind), "chatter") << r << " " << f << ", after " << events.size() << " events";
+      EXPECT_NEAR(events.back().time.seconds(1.0), end, 2e-15 * end) << r << " " << f;
+      EXPECT_EQ(system.mode_name(motion.mode_id()), "stick|closed");
+    }
+  }
+}
+
+TEST(Chatter, WithoutLossOnAReboundingPairThatRubsEndsAsInTheOracle) {
+  Model m;
+  m.coordinates = {{"x1", 0.69127120414392818}, {"x2", 2.2463262910838058}};
+  m.springs = {{0, ground, 1.5644099254959678}, {1, 0, 2.2134253966583457}};
+  m.dampers = {{0, ground, 0.45738100272794752}, {1, 0, 0.11813985095386832}};
+  m.forces = {{1, 1, 1.3041751757999147, 2.6195333890426085}};
+  m.stops = {{"stop", ground, 0, 0.20254659370344275, 1.0}};
+  m.frictions = {{"rub", ground, 0, 0.0, 0.25238042518403231, 0.25238042518403231}};
+  m.omega = 0.8816783179022365;
+  const State start = {-0.10547434006685796, -0.065593031373747501, 0.20240955243934411, -0.074076682475659128};
+  const System system(m);
+  Motion motion(system, start);
+  oracle::Oracle exact(m, start);
+  const testing::Comparison c =
+      testing::compare(testing::engine_events(motion, 7.0, 400), testing::oracle_events(exact, 7.0));
+  EXPECT_EQ(c.mismatch, "");
+  EXPECT_LE(c.worst, 1e-12);
+}
+
+/// Leaves out what happens within 1e-9 before each chatter's limit: bounces of 1e-13 that no double tells apart.
+std::vector<testing::Seen> without_tails(const std::vector<testing::Seen>& all) {
+  std::vector<testing::Seen> kept;
+  for (const testing::Seen& event : all) {
+    if (event.kind == "chatter")
+      std::erase_if(kept, [&](const testing::Seen& e) { return event.time - e.time < 1e-9; });
+    kept.push_back(event);
+  }
+  return kept;
+}
+
+TEST(Chatter, OfABallThatRubsOnASecondBodyTakesLittleWork) {  // their friction may rest in each flight
+  for (const double r : {0.3, 0.5, 0.8}) {
+    for (const double f : {0.05, 0.2, 0.6}) {
+      Model m = oracle::ball(r);
+      m.coordinates.push_back({"y", 1.0});
+      m.springs = {{1, ground, 1.0}};
+      m.frictions = {{"rub", 0, 1, 0.0, f, f}};
+      const System system(m);
+      Motion motion(system, {0.5, 0.0, 0.0, 0.0});
+      oracle::Oracle exact(m, {0.5, 0.0, 0.0, 0.0});
+      const auto engine = testing::engine_events(motion, 12.0, 2000);
+      EXPECT_LE(engine.size(), 300u) << r << " " << f;
+      EXPECT_LE(motion.counters().evaluations, 2000) << r << " " << f;
+      const testing::Comparison c =
+          testing::compare(without_tails(engine), without_tails(testing::oracle_events(exact, 12.0)));
+      EXPECT_EQ(c.mismatch, "") << r << " " << f;
+      EXPECT_LE(c.worst, 1e-14 * 12) << r << " " << f;
+    }
+  }
+}
+
+/// A ball that comes to rest at t = 4 exactly, and beside it a body on a rough plate that nothing joins to the ball.
+Model ball_and_a_body_elsewhere(double static_friction, double kinetic_friction) {
+  Model m = oracle::ball(0.5);
+  m.coordinates.push_back({"y", 1.0});
+  m.frictions = {{"plate", 1, ground, 0.0, static_friction, kinetic_friction}};
+  return m;
+}
+
+/// What happens besides impacts up to t = 6, which must be what the oracle sees: one event at `due`, and the chatter at 4.
+void expect_event_beside_the_chatter(const Model& model, const State& start, const char* kind, double due) {
+  const System system(model);
+  Motion motion(system, start);
+  auto engine = testing::engine_events(motion, 6.0, 200);
+  oracle::Oracle exact(model, start);
+  const testing::Comparison c = testing::compare(engine, testing::oracle_events(exact, 6.0));
+  EXPECT_EQ(c.mismatch, "") << due - 4;
+  EXPECT_LE(c.worst, 4e-15) << due - 4;
+  std::erase_if(engine, [](const testing::Seen& event) { return event.kind == "impact"; });
+  ASSERT_EQ(engine.size(), 2u) << due - 4;
+  const bool before = due < 4.0;
+  EXPECT_EQ(engine[before ? 0 : 1].kind, kind) << due - 4;
+  EXPECT_NEAR(engine[before ? 0 : 1].time, due, 4e-15);
+  EXPECT_EQ(engine[before ? 1 : 0].kind, "chatter") << due - 4;
+  EXPECT_NEAR(engine[before ? 1 : 0].time, 4.0, 4e-15);
+}
+
+constexpr double around_the_limit[] = {2e-8, 5e-9, 1e-9, -1e-9, -2e-8};
+
+TEST(ChatterTail, SeesASliderElsewhereComeToRest) {
+  for (const double d : around_the_limit)
+    expect_event_beside_the_chatter(ball_and_a_body_elsewhere(0.25, 0.25), {0.0, 1.0, 0.0, 0.25 * (4 - d)}, "stick",
+                                    4 - d);
+}
+
+TEST(ChatterTail, SeesAStuckBodyElsewhereReleased) {
+  for (const double d : around_the_limit) {
+    Model m = ball_and_a_body_elsewhere(0.5, 0.2);
+    m.omega = std::asin(0.5) / (4 - d);
+    m.forces.push_back({1, 1, 1.0, 0.0});
+    expect_event_beside_the_chatter(m, {0.0, 1.0, 0.0, 0.0}, "release", 4 - d);
+  }
 }
 
 TEST(Restitution, OfZeroIsOneImpactAndRest) {  // K22

@@ -127,6 +127,22 @@ Model mass_on_a_belt() {
   return model;
 }
 
+TEST(tangent, started_in_stick_loses_the_velocity_of_slip) {
+  // A small velocity of slip is gone after a time proportional to it, on either side: the end state does not depend on it to first order.
+  for (const double belt_speed : {0.5, 0.0}) {
+    Model model = mass_on_a_belt();
+    model.frictions[0].belt_speed = belt_speed;
+    const System system(model);
+    const State start = {0.1, belt_speed};
+    const Instant end = Instant{}.plus(0.7);
+    Eigen::MatrixXd expected(2, 2);
+    expected << 1.0, 0.0, 0.0, 0.0;
+    EXPECT_LT((differences(system, start, end, 1e-6) - expected).cwiseAbs().maxCoeff(), 1e-6);
+    const Eigen::MatrixXd jacobian = tangent_jacobian(system, start, end);
+    EXPECT_LT((jacobian - expected).cwiseAbs().maxCoeff(), 1e-15) << "belt " << belt_speed << "\n" << jacobian;
+  }
+}
+
 TEST(tangent, through_stick_on_a_moving_belt_matches_finite_differences) {
   const System system(mass_on_a_belt());
   const State start = {0.1, 0.0};

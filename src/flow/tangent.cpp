@@ -17,6 +17,7 @@ TangentMotion::TangentMotion(const System& system, const State& state, const Eig
                              MotionOptions options)
     : motion_(system, state, start, options) {
   set_tangents(tangents);
+  hold_still();  // a perturbed velocity of a contact at rest is slip for an instant of second order
   const auto padded = static_cast<std::size_t>((system.frame().size() + 7) / 8 * 8);
   delta_.assign(padded, 0.0);
   next_.assign(padded, 0.0);

@@ -167,17 +167,17 @@ InputError ModelBuilder::refusal(const Fault& fault, const Model& model) const {
     line = fault.field == "omega" && definition_.omega ? definition_.omega->line : 1;
   } else {
     const auto* from = origin(fault);
-    const std::string_view kind = from ? from->kind : std::string_view(fault.part);
+    const std::string_view kind = from ? from->kind : std::string_view{fault.part};
     const auto index = from ? from->index : static_cast<std::size_t>(fault.index);
     const auto& part = definition_.of(kind)[index];
     place = part_label(kind, index, part);
     auto found = part.fields.find(fault.field);
-    if (from && from->lower && fault.field == "clearance" && part.fields.count("clearance_lower") != 0)
+    if (from && from->lower && fault.field == "clearance" && part.fields.contains("clearance_lower"))
       found = part.fields.find("clearance_lower");
     line = found == part.fields.end() ? part.line : found->second.line;
     if (kind != fault.part) place += ": with its base's motion, as a force";
   }
-  return InputError(definition_.place(line) + place + ": " + fault.what);
+  return InputError{definition_.place(line) + place + ": " + fault.what};
 }
 
 State ModelBuilder::start(const Model& model) const {

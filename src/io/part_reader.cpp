@@ -57,7 +57,7 @@ class PartReader {
     const auto* matrix = root_.find("matrix");
     if (matrix != nullptr && matrix->find("mass") != nullptr) return;  // which may give them all
     for (const auto& part : parts)
-      if (part.fields.count("mass") == 0)
+      if (!part.fields.contains("mass"))
         tree_.fail(part.line, "coordinate " + in_quotes(part.name), "'mass' is missing");
   }
 
@@ -146,18 +146,29 @@ class PartReader {
 
   void read_fields(const TomlNode& node, const PartRule& rule, const std::string& where, Part& part) const {
     for (const auto& field : rule.fields) {
-      const std::string key(field.key);
+      const std::string key(field.key), place = where + ": " + key;
       const auto* value = node.find(key);
       if (value == nullptr) {
-        if (field.required) tree_.fail(node.line, where, "'" + key + "' is missing");
+        if (field.required) tree_.fail(node.line, where, in_quotes(key) + " is missing");
         continue;
       }
-      if (field.holds == Holds::number) part.fields[key] = tree_.scalar(*value, where + ": " + key);
-      if (field.holds == Holds::observed)
-        part.fields[key] = tree_.scalar(*value, where + ": " + key, "name", observed_);
-      if (field.holds == Holds::flag) part.flags[key] = tree_.flag(*value, where + ": " + key);
-      if (field.holds == Holds::text) part.texts[key] = tree_.text(node, key.c_str(), where);
-      if (field.holds == Holds::harmonics) part.harmonics = harmonics(*value, where + ": " + key);
+      switch (field.holds) {
+        case Holds::number:
+          part.fields[key] = tree_.scalar(*value, place);
+          break;
+        case Holds::observed:
+          part.fields[key] = tree_.scalar(*value, place, "name", observed_);
+          break;
+        case Holds::flag:
+          part.flags[key] = tree_.flag(*value, place);
+          break;
+        case Holds::text:
+          part.texts[key] = tree_.text(node, key.c_str(), where);
+          break;
+        case Holds::harmonics:
+          part.harmonics = harmonics(*value, place);
+          break;
+      }
     }
   }
 

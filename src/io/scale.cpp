@@ -79,7 +79,7 @@ class UnitCheck {
   }
 
   void demand_mass(const Unit& unit, const std::string& text, int line, const std::string& where) const {
-    if (unit.powers[2] != 0 && definition_.scale.count("mass") == 0)
+    if (unit.powers[2] != 0 && !definition_.scale.contains("mass"))
       fail(line, where, "unit " + in_quotes(text) + " has a mass in it, and [scale] has none");
   }
 

@@ -122,8 +122,11 @@ class Run {
     const Motion& motion = motion_->motion();
     Json parameters = Json::object(), events = Json::object(), work = Json::object(), end = Json::object();
     for (const auto& [name, value] : chosen.definition.values(chosen.overrides)) parameters.set(name, value);
-    for (std::size_t kind = 0; kind < kinds_.size(); ++kind)
-      events.set(name(static_cast<EventKind>(kind)), kinds_[kind]);
+    const bool compliant = !system_.model().compliant_stops.empty();
+    for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
+      const auto event = static_cast<EventKind>(kind);
+      if (event < EventKind::engage || compliant) events.set(name(event), kinds_[kind]);
+    }
     const Counters& counters = motion.counters();
     work.set("segments", counters.segments).set("windows", counters.windows).set("evaluations", counters.evaluations);
     end.set("time", motion.time().seconds(system_.period())).set("periods", motion.time().since({}));
@@ -145,7 +148,7 @@ class Run {
   TableUnits units_;
   std::optional<TableOutput> events_, trajectory_;
   std::optional<SampledMotion> motion_;
-  std::array<long, 7> kinds_{};
+  std::array<long, event_kinds> kinds_{};
   long samples_ = 0;
   int stride_ = 1;
 };

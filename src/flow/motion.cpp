@@ -22,8 +22,8 @@ double clock_rounding(double H) { return 0x1p-46 + 0x1p-51 / H; }
 }  // namespace
 
 std::string_view name(EventKind kind) {
-  constexpr std::string_view names[] = {"impact", "slip+",   "slip-",  "stick",     "release",
-                                        "graze",  "chatter", "engage", "disengage", "separate"};
+  constexpr std::string_view names[event_kinds] = {"impact", "slip+",   "slip-",  "stick",     "release",
+                                                   "graze",  "chatter", "engage", "disengage", "separate"};
   return names[static_cast<int>(kind)];
 }
 

@@ -25,8 +25,9 @@ constexpr long most_events_at_one_instant = 256;
 void Motion::handle(int guard, bool graze) {
   const mode::Guard& hit = here_->guards()[guard];
   hit_guard_ = &hit;
-  X_before_ = X_;
   const mode::Frame& frame = system_->frame();
+  if (hit.kind == GuardKind::gap) land(frame.stops[hit.contact]);  // so that x- can be started from
+  X_before_ = X_;
   gather_ties(guard);
   switch (hit.kind) {
     case GuardKind::gap:
@@ -134,7 +135,7 @@ void Motion::land(const mode::ContactRow& contact) {
 /// The gap has reached zero: an impact, or a graze without impulse.
 void Motion::touch(int stop, bool graze) {
   const mode::ContactRow& contact = system_->frame().stops[stop];
-  land(contact);
+  land(contact);  // found by a reversal
   if (graze || flow::approach_velocity(*system_, stop, X_.data()) <= 0.0) {
     rest(contact);
     report(EventKind::graze, stop, 0.0);
@@ -217,10 +218,11 @@ void Motion::compliant_limit(int compliant, GuardKind kind) {
   const bool was_on = here_->states().compliant[compliant] == mode::CompliantState::on;
   if (at_gap) land(system_->frame().compliant[compliant]);
   const bool begins = kind == GuardKind::engage || kind == GuardKind::push;
+  const mode::ContactRow& row = system_->frame().compliant[compliant];
   report(begins   ? EventKind::engage
          : was_on ? EventKind::disengage
                   : EventKind::separate,
-         stops() + frictions() + compliant, 0.0);
+         stops() + frictions() + compliant, row.sign * X_.data()[system_->frame().u(row.own)]);
   settle(Cause::compliant);
 }
 

@@ -116,7 +116,7 @@ std::string System::mode_name(ModeId id) const {
   const ContactStates all = states(id);
   std::string name;
   for (FrictionState state : all.frictions)
-    name += std::string(name.empty() ? "" : ",") + (state == FrictionState::stick       ? "stick"
+    name += std::string(name.empty() ? "" : "/") + (state == FrictionState::stick       ? "stick"
                                                     : state == FrictionState::slip_plus ? "slip+"
                                                                                         : "slip-");
   if (name.empty()) name = "free";

@@ -36,7 +36,7 @@ void Mode::build_operators(const Frame& frame, const Model& model) {
   std::vector<RowVector> rows;
   for (const Guard& guard : outline_.guards) rows.push_back(guard.row);
   for (int i = 0; i < d_; ++i) rows.push_back(RowVector::Unit(m_, i));
-  const Series series(outline_.system, rows, model.forcing_period());
+  const Series series(outline_.system, rows, d_, model.forcing_period());
   window_ = series.window();
   window_in_periods_ = series.window_in_periods();
   noise_factor_ = (m_ + 16.0) * event::unit_roundoff;
@@ -63,7 +63,7 @@ void Mode::build_operators(const Frame& frame, const Model& model) {
     }
   }
   for (int g = 0; g < guard_count(); ++g) {
-    for (int i = 0; i < m_; ++i) remainders_.push_back(remainder(series, g, i));
+    for (int i = 0; i < m_; ++i) remainders_.push_back(series.remainder(static_cast<std::size_t>(g), i));
     for (int order = 0; order < stored_orders; ++order) {
       for (int i = 0; i < m_; ++i) {
         const event::Hull hull = hull_column(g, order, i);
@@ -72,16 +72,6 @@ void Mode::build_operators(const Frame& frame, const Model& model) {
       }
     }
   }
-}
-
-/// Bound on what the terms beyond the stored ones add to column i of guard g: a quarter rounding of the largest (docs/certainty.md).
-double Mode::remainder(const Series& series, int g, int i) {
-  double largest = 0.0;
-  for (int n = 0; n < event::terms; ++n) {
-    const auto row = static_cast<std::size_t>(g);
-    largest = std::max({largest, std::abs(series.taylor(row, n, i)), series.error(row, n, i)});
-  }
-  return 0.25 * event::unit_roundoff * largest;
 }
 
 /// The hull of column i of guard g, x^order divided out.

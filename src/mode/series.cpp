@@ -1,6 +1,7 @@
 #include "mode/series.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace slapstick::mode {
@@ -25,81 +26,134 @@ double few_bits(double x) {
 
 }  // namespace
 
-Series::Series(const Matrix& A, const std::vector<RowVector>& rows, double period) : reference_(reference_length(A)) {
-  A_ = A.cast<long double>() * static_cast<long double>(reference_);
-  const Eigen::Index m = A_.rows();
-  const Eigen::MatrixXd size_of_A = A_.cwiseAbs().cast<double>();
-  for (const RowVector& row : rows) {
-    auto& terms = scaled_.emplace_back();
-    auto& sizes = magnitudes_.emplace_back();
-    auto& errors = errors_.emplace_back(static_cast<std::size_t>(m), 0.0);
-    RowVector error = RowVector::Zero(m);
-    terms.push_back(row.cast<long double>());
-    for (int n = 1; n < all_terms; ++n) {
-      LongRow next = LongRow::Zero(m);
-      for (Eigen::Index k = 0; k < m; ++k) {
-        if (const long double factor = terms.back()[k] / n; factor != 0.0L) next += factor * A_.row(k);
-      }
-      error = (error + event::unit_roundoff * terms.back().cwiseAbs().cast<double>()) * size_of_A / n;
-      errors.insert(errors.end(), error.begin(), error.end());
-      terms.push_back(std::move(next));
-    }
-    for (const LongRow& term : terms) {
-      for (Eigen::Index i = 0; i < m; ++i) sizes.push_back(static_cast<double>(std::abs(term[i])));
-    }
+Series::Series(const Matrix& A, const std::vector<RowVector>& rows, int displacements, double period)
+    : m_(A.rows()), d_(displacements), A_(static_cast<std::size_t>(m_)), reference_(reference_length(A)) {
+  for (Eigen::Index k = 0; k < m_; ++k) {
+    for (Eigen::Index i = 0; i < m_; ++i)
+      if (A(k, i) != 0.0)
+        A_[k].push_back({i, static_cast<long double>(A(k, i)) * static_cast<long double>(reference_)});
   }
+  for (const RowVector& row : rows) expand(row);
   // Bisection on the window length in units of the reference length; the tail grows with it.
   double low = 0.25, high = 4.0;
-  while (!tail_is_negligible(low)) low *= 0.25;
+  for (int k = 0; k < 40 && !tail_is_negligible(low); ++k) low *= 0.25;
   if (tail_is_negligible(high)) low = high;
   for (int k = 0; k < 12 && low < high; ++k) {
     const double middle = std::sqrt(low * high);
     (tail_is_negligible(middle) ? low : high) = middle;
   }
-  window_in_periods_ = few_bits(low * reference_ / period);
-  window_ = window_in_periods_ * period;
-  const long double ratio = static_cast<long double>(window_in_periods_) * period / reference_;
-  for (auto& terms : scaled_) {
-    long double power = 1.0L;
-    for (LongRow& term : terms) {
-      term *= power;
-      power *= ratio;
+  set_window(low, period);
+}
+
+/// The terms of one row, their sizes and errors, for a window of the reference length.
+void Series::expand(const RowVector& row) {
+  auto& terms = scaled_.emplace_back();
+  Matrix& size = sizes_.emplace_back(Matrix::Zero(all_terms, m_));
+  Matrix& error = errors_.emplace_back(Matrix::Zero(all_terms, m_));
+  terms.push_back(row.cast<long double>());
+  size.row(0) = row.cwiseAbs();
+  for (int n = 1; n < all_terms; ++n) {
+    LongRow next = LongRow::Zero(m_);
+    for (Eigen::Index k = 0; k < m_; ++k) {
+      const long double factor = terms.back()[k] / n;
+      const double uncertain = (error(n - 1, k) + event::unit_roundoff * size(n - 1, k)) / n;
+      if (factor == 0.0L && uncertain == 0.0) continue;
+      for (const Entry& entry : A_[k]) {
+        next[entry.column] += factor * entry.value;
+        error(n, entry.column) += uncertain * static_cast<double>(std::abs(entry.value));
+      }
     }
+    size.row(n) = next.cwiseAbs().cast<double>();
+    terms.push_back(std::move(next));
   }
-  scale_errors(static_cast<double>(ratio));
+}
+
+/// By columns, the largest of the kept terms.
+RowVector Series::largest(std::size_t r, double ratio) const {
+  RowVector out = RowVector::Zero(m_);
+  double power = 1.0;
+  for (int n = 0; n < event::terms; ++n, power *= ratio) out = out.cwiseMax(power * sizes_[r].row(n));
+  return out;
+}
+
+/// By rows and columns: the largest kept term in the column's block, of the row itself or of the displacements, the latter times what the row
+/// has of them. A part of the model far from a guard reaches it in a late term only, which no window could be measured by.
+std::vector<RowVector> Series::scales(double ratio) const {
+  const std::array<std::pair<Eigen::Index, Eigen::Index>, 4> blocks = {
+      {{0, d_}, {d_, d_}, {2 * d_, m_ - 1 - 2 * d_}, {m_ - 1, 1}}};
+  std::vector<RowVector> all;
+  RowVector common = RowVector::Zero(4);
+  for (std::size_t r = 0; r < sizes_.size(); ++r) {
+    const RowVector own = largest(r, ratio);
+    RowVector by_block = RowVector::Zero(4);
+    for (int b = 0; b < 4; ++b) {
+      const auto [begin, count] = blocks[b];
+      if (count > 0) by_block[b] = own.segment(begin, count).maxCoeff();
+    }
+    if (r + static_cast<std::size_t>(d_) >= sizes_.size()) common = common.cwiseMax(by_block);
+    all.push_back(by_block);
+  }
+  for (RowVector& by_block : all) {
+    double share = 0.0;
+    for (int b = 0; b < 4; ++b)
+      if (common[b] > 0.0) share = std::max(share, by_block[b] / common[b]);
+    RowVector scale(m_);
+    for (int b = 0; b < 4; ++b)
+      scale.segment(blocks[b].first, blocks[b].second).setConstant(std::max(by_block[b], share * common[b]));
+    by_block = scale;
+  }
+  return all;
+}
+
+/// The norm of A in which a row t counts max_i |t_i| / scale_i.
+double Series::norm(const RowVector& scale) const {
+  RowVector sum = RowVector::Zero(m_);
+  for (Eigen::Index k = 0; k < m_; ++k)
+    for (const Entry& entry : A_[k]) sum[entry.column] += scale[k] * static_cast<double>(std::abs(entry.value));
+  double norm = 0.0;
+  for (Eigen::Index i = 0; i < m_; ++i)
+    if (sum[i] > 0.0) norm = std::max(norm, scale[i] > 0.0 ? sum[i] / scale[i] : INFINITY);
+  return norm;
+}
+
+/// By columns, the sum of the dropped terms: n < 40 as they are, the others by their norm, |T_{39+k}| <= |T_39| nu^k 39! / (39 + k)!.
+RowVector Series::tail(std::size_t r, const RowVector& scale, double ratio) const {
+  RowVector sum = RowVector::Zero(m_);
+  double power = std::pow(ratio, event::terms);
+  for (int n = event::terms; n < all_terms; ++n, power *= ratio) sum += power * sizes_[r].row(n);
+  double last = 0.0;
+  for (Eigen::Index i = 0; i < m_; ++i)
+    if (scale[i] > 0.0) last = std::max(last, power / ratio * sizes_[r](all_terms - 1, i) / scale[i]);
+  const double nu = ratio * norm(scale);
+  if (last == 0.0) return sum;
+  if (!(nu < all_terms)) return RowVector::Constant(m_, INFINITY);
+  return sum + last * (nu / all_terms) / (1.0 - nu / (all_terms + 1)) * scale;
 }
 
 bool Series::tail_is_negligible(double ratio) const {
-  const auto columns = static_cast<std::size_t>(A_.rows());
-  for (std::size_t r = 0; r < magnitudes_.size(); ++r) {
-    const std::vector<double>&sizes = magnitudes_[r], &errors = errors_[r];
-    for (std::size_t i = 0; i < columns; ++i) {
-      double power = 1.0, largest = 0.0, tail = 0.0;
-      for (int n = 0; n < all_terms; ++n, power *= ratio) {
-        const double term = sizes[n * columns + i] * power;
-        if (n < event::terms)
-          largest = std::max({largest, term, errors[n * columns + i] * power});
-        else
-          tail += term;
-      }
-      if (tail > 0.25 * event::unit_roundoff * largest) return false;
-    }
+  const std::vector<RowVector> all = scales(ratio);
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    if ((tail(r, all[r], ratio).array() > 0.25 * event::unit_roundoff * all[r].array()).any()) return false;
   }
   return true;
 }
 
-void Series::scale_errors(double ratio) {
-  const auto columns = static_cast<std::size_t>(A_.rows());
-  for (auto& errors : errors_) {
-    double power = 1.0;
-    for (std::size_t n = 0; n < all_terms; ++n, power *= ratio)
-      for (std::size_t i = 0; i < columns; ++i) errors[n * columns + i] *= power;
+void Series::set_window(double low, double period) {
+  window_in_periods_ = few_bits(low * reference_ / period);
+  window_ = window_in_periods_ * period;
+  const long double ratio = static_cast<long double>(window_in_periods_) * period / reference_;
+  const std::vector<RowVector> all = scales(static_cast<double>(ratio));
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    remainders_.push_back(tail(r, all[r], static_cast<double>(ratio)));
+    long double power = 1.0L;
+    for (int n = 0; n < all_terms; ++n, power *= ratio) {
+      scaled_[r][n] *= power;
+      errors_[r].row(n) *= static_cast<double>(power);
+    }
   }
 }
 
-double Series::error(std::size_t r, int n, int i) const {
-  return errors_[r][static_cast<std::size_t>(n * A_.rows() + i)];
-}
+double Series::error(std::size_t r, int n, int i) const { return errors_[r](n, i); }
 
 double Series::taylor(std::size_t r, int n, int i) const { return static_cast<double>(scaled_[r][n][i]); }
 
@@ -110,7 +164,7 @@ RowVector Series::end_value(std::size_t r) const {
 }
 
 RowVector Series::end_slope(std::size_t r) const {
-  LongRow sum = LongRow::Zero(A_.rows());
+  LongRow sum = LongRow::Zero(m_);
   for (int n = all_terms - 1; n > 0; --n) sum += static_cast<long double>(n) * scaled_[r][n];
   return (sum / static_cast<long double>(window_)).cast<double>();
 }

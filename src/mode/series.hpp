@@ -12,12 +12,14 @@ namespace slapstick::mode {
 /// The entries of A are rounded. What that does to a term, e_n = (e_{n-1} + u |c A^{n-1} / (n-1)!|) |A| / n, tells a term that the structure of
 /// the model makes zero, and rounding does not, from one that is small.
 ///
-/// The window length H is the largest for which, row by row and column by column, the dropped terms n >= 24 are at most a quarter
-/// ulp of the largest kept term of that column, or of its error e_n, so that the remainder is covered by the rounding bound of the same column. As a number
-/// of periods H has at most 24 bits: multiples of it are exact, and a clock that counts windows loses nothing.
+/// The window length H is the largest for which, row by row, the dropped terms n >= 24 of every column are at most a quarter ulp of the scale of
+/// that column: the largest kept term in its block (displacements, velocities, phases, constant), of this row or of a displacement.
+/// What is dropped is bounded column by column and enters the bounds of every guard; beyond n = 39 by a norm in those scales. As a
+/// number of periods H has at most 24 bits: multiples of it are exact, and a clock that counts windows loses nothing.
 class Series {
  public:
-  Series(const Matrix& A, const std::vector<RowVector>& rows, double period);
+  /// @param rows  the last `displacements` of them read the displacements
+  Series(const Matrix& A, const std::vector<RowVector>& rows, int displacements, double period);
 
   [[nodiscard]] double window() const { return window_; }
   [[nodiscard]] double window_in_periods() const { return window_in_periods_; }
@@ -25,22 +27,36 @@ class Series {
   [[nodiscard]] double taylor(std::size_t r, int n, int i) const;
   /// e_n of that coefficient.
   [[nodiscard]] double error(std::size_t r, int n, int i) const;
+  /// Bound on what the terms n >= 24 of column i add to row r on the window, per unit of X_i.
+  [[nodiscard]] double remainder(std::size_t r, int i) const { return remainders_[r][i]; }
   /// Row r at the window's end, c exp(A H), and its time derivative there.
   [[nodiscard]] RowVector end_value(std::size_t r) const;
   [[nodiscard]] RowVector end_slope(std::size_t r) const;
 
  private:
-  using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
   using LongRow = Eigen::Matrix<long double, 1, Eigen::Dynamic>;
   static constexpr int all_terms = 40;
 
-  [[nodiscard]] bool tail_is_negligible(double ratio) const;
-  void scale_errors(double ratio);
+  /// A non-zero entry of a row of A times the reference length.
+  struct Entry {
+    Eigen::Index column;
+    long double value;
+  };
 
-  LongMatrix A_;                                 ///< A times the reference length
-  std::vector<std::vector<LongRow>> scaled_;     ///< [row][n]: c A^n / n! times window^n
-  std::vector<std::vector<double>> magnitudes_;  ///< [row][n * m + i]: |c A^n / n!| times the reference length^n
-  std::vector<std::vector<double>> errors_;      ///< [row][n * m + i]: e_n, scaled likewise
+  void expand(const RowVector& row);
+  [[nodiscard]] RowVector largest(std::size_t r, double ratio) const;
+  [[nodiscard]] std::vector<RowVector> scales(double ratio) const;
+  [[nodiscard]] RowVector tail(std::size_t r, const RowVector& scale, double ratio) const;
+  [[nodiscard]] double norm(const RowVector& scale) const;
+  [[nodiscard]] bool tail_is_negligible(double ratio) const;
+  void set_window(double ratio, double period);
+
+  Eigen::Index m_, d_;
+  std::vector<std::vector<Entry>> A_;         ///< by rows
+  std::vector<std::vector<LongRow>> scaled_;  ///< [row][n]: c A^n / n! times window^n
+  std::vector<Matrix> sizes_;                 ///< [row]: 40 x m, |c A^n / n!| times the reference length^n
+  std::vector<Matrix> errors_;                ///< [row]: 40 x m, e_n, times the window^n once it is known
+  std::vector<RowVector> remainders_;
   double reference_ = 1.0, window_ = 1.0, window_in_periods_ = 1.0;
 };
 

@@ -28,19 +28,21 @@
 namespace slapstick {
 
 enum class EventKind : std::uint8_t {
-  impact,      ///< a stop is hit
+  impact,      ///< a stop is hit, at speed w
   slip_plus,   ///< w reached zero and goes on slipping with s = +1
   slip_minus,  ///< the same with s = -1
   stick,       ///< w reached zero and the contact sticks; also a stop that closes at rest
   release,     ///< stick or a closed stop ends
   graze,       ///< a guard touched zero without crossing it, within the rounding bound
   chatter,     ///< the limit of infinitely many impacts; the stop is closed
-  engage,      ///< a compliant stop begins to act
-  disengage,   ///< .. and ceases to
+  engage,      ///< a compliant stop begins to act; w is its delta'
+  disengage,   ///< .. and ceases to, at delta' = w
   separate     ///< a compliant stop that had let go beyond its gap is back at it
 };
 
-/// "impact", "slip+", "slip-", "stick", "release", "graze", "chatter".
+inline constexpr std::size_t event_kinds = 10;
+
+/// "impact", "slip+", "slip-", "stick", "release", "graze", "chatter", "engage", "disengage", "separate".
 std::string_view name(EventKind kind);
 
 struct Event {

@@ -44,7 +44,6 @@ class Mode {
   void build_operators(const Frame& frame, const Model& model);
   [[nodiscard]] Matrix flow_over_window(const Series& series, std::size_t first_coordinate, const Frame& frame,
                                         double omega) const;
-  static double remainder(const Series& series, int g, int i);
   [[nodiscard]] event::Hull hull_column(int g, int order, int column) const;
 
   /// Orders of a zero at the start whose hulls are stored; the others are rare and made from the Taylor rows.

@@ -128,6 +128,7 @@ Outcome Motion::advance(Instant end) {
   }
   if (end <= now_) return Outcome::reached_end;
   const double limit = end.since(flight_.start) * system_->period();
+  if (!pending_.empty()) last_ = pending_[shown_];
   pending_.clear();
   shown_ = 0;
   if (chatter_stop_ >= 0 && end_chatter(limit)) return Outcome::event;

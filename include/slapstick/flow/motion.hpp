@@ -79,7 +79,8 @@ class Motion {
   /// @throws NumericalError with a replayable state if events pile up or no mode fits.
   Outcome advance(Instant end);
 
-  [[nodiscard]] const Event& event() const { return pending_[shown_]; }  ///< valid after Outcome::event
+  /// The last event; valid once there was one.
+  [[nodiscard]] const Event& event() const { return pending_.empty() ? last_ : pending_[shown_]; }
   /// The state just before the last event, in the user's coordinates.
   [[nodiscard]] std::span<const double> before() const;
 
@@ -203,6 +204,7 @@ class Motion {
   mutable State before_;
   std::vector<Event> pending_;  ///< the events of one instant, in order ..
   int shown_ = 0;               ///< .. and which one `event()` is
+  Event last_;
   std::vector<int> touching_;
   const mode::Guard* hit_guard_ = nullptr;
   Counters counters_;

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "library/case.hpp"
+#include "slapstick/io/table.hpp"
 
 namespace slapstick::library {
 namespace {
@@ -15,7 +16,7 @@ TEST_P(Published, number_comes_out) {
   const Entry& entry = all_cases()[GetParam()];
   const double value = measured(entry), expected = entry.at("expected").get<double>(),
                tolerance = entry.at("tolerance").get<double>();
-  RecordProperty("error", std::to_string(std::abs(value - expected)));
+  RecordProperty("error", number_text(std::abs(value - expected)));
   const auto what = entry.at("id").get<std::string>() + ", " + entry.at("quantity").get<std::string>();
   if (!entry.contains("disagrees")) {
     EXPECT_NEAR(value, expected, tolerance) << what;

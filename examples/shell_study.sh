@@ -5,6 +5,6 @@ grep -c impact events.csv
 for omega in 0.552 1.5 2.2 4.8 9; do
   echo "$omega $(slapstick classify mine.toml --set omega=$omega | grep '"class"')"
 done
-slapstick poincare mine.toml --set omega=9 --points 2000 --plot section.png --out points.csv
+slapstick poincare mine.toml --set omega=9 --transient 3000 --points 2000 --plot section.png --out points.csv
 slapstick diagram mine.toml --sweep omega=4:6:300 --direction both --plot diagram.png --out impacts.csv
 head -n 1 impacts.csv

@@ -98,12 +98,15 @@ sweep::DiagramProblem problem_of(const Options& options, const ChosenModel& chos
   return problem;
 }
 
-void write_table(TableOutput& table, const sweep::Diagram& diagram) {
+/// With several stops the last column says which one was hit.
+void write_table(TableOutput& table, const sweep::Diagram& diagram, const Model& model) {
   for (const sweep::DiagramPoint& point : diagram.points) {
     for (std::size_t i = 0; i < point.impacts.size(); ++i) {
       const auto row = point.impacts[i];
       table.number(point.parameter).word(point.direction == Direction::up ? "up" : "down");
-      table.number(row.w).number(row.flight).number(row.sliding).number(row.phase).numbers(row.state).end_row();
+      table.number(row.w).number(row.flight).number(row.sliding).number(row.phase).numbers(row.state);
+      if (model.stops.size() > 1) table.word(model.stops[row.stop].name);
+      table.end_row();
     }
   }
   table.commit();
@@ -175,6 +178,7 @@ int diagram(const Options& options, const Context& context) {
   const Plot plot(options.plot);
   std::vector<std::string> columns{sweep.name, "direction", "w", "flight", "sliding", "phase"};
   for (const std::string& name : state_names(chosen.model)) columns.push_back(name);
+  if (chosen.model.stops.size() > 1) columns.emplace_back("contact");
   TableOutput table(options.out, columns);
 
   sweep::DiagramProblem problem = problem_of(options, chosen, sweep);
@@ -185,7 +189,7 @@ int diagram(const Options& options, const Context& context) {
     problem.cancel = &context.stop;
     result = sweep::run_diagram(problem);
   }
-  write_table(table, result);
+  write_table(table, result, chosen.model);
   bool any = false;
   for (const sweep::DiagramPoint& point : result.points) any = any || point.impacts.size() > 0;
   const int status = plot.write_or_say(picture(result, sweep, problem.direction == Direction::both), !any,

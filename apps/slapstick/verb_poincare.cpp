@@ -53,7 +53,9 @@ bool impact_points(const Options& options, const System& system, Motion motion, 
   const bool whole = run_impacts(
       section, {options.transient + options.most_periods, 0.0}, &context.stop, [&](const SectionPoint& point) {
         table.number(point.time.seconds(system.period())).number(point.phase).number(point.w);
-        table.number(point.flight).number(point.sliding).numbers(point.state).end_row();
+        table.number(point.flight).number(point.sliding).numbers(point.state);
+        if (system.model().stops.size() > 1) table.word(system.contact_name(point.stop));
+        table.end_row();
         if (!options.plot.empty()) {
           cloud.x.push_back(point.phase);
           cloud.y.push_back(point.w);
@@ -119,6 +121,7 @@ int poincare(const Options& options, const Context& context) {
                                : std::vector<std::string>{"time", "phase"},
                        chosen.model);
   if (!impacts) names.emplace_back("mode");
+  if (impacts && chosen.model.stops.size() > 1) names.emplace_back("contact");
   TableOutput table(options.out, names);
   Cloud cloud;
   const bool whole =

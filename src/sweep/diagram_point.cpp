@@ -97,7 +97,7 @@ void record(const DiagramProblem& problem, Settled settled, DiagramPoint& point)
     const Instant end = after(section, problem.most_periods);
     interrupted = !run_impacts(section, end, problem.cancel, [&](const SectionPoint& impact) {
       if (!std::isnan(impact.flight))
-        point.impacts.add(impact.w, impact.flight, impact.sliding, impact.phase, impact.state);
+        point.impacts.add({impact.w, impact.flight, impact.sliding, impact.phase, impact.stop, impact.state});
       return point.impacts.size() < static_cast<std::size_t>(problem.impacts);
     });
     if (interrupted) return;
@@ -107,11 +107,11 @@ void record(const DiagramProblem& problem, Settled settled, DiagramPoint& point)
   point.done = !good || !interrupted;
 }
 
-void ImpactTable::add(double w, double flight, double sliding, double phase, const State& state) {
-  if (width_ == 0) width_ = 4 + state.size();
-  if (width_ != 4 + state.size()) throw std::logic_error("ImpactTable: states of different length");
-  numbers_.insert(numbers_.end(), {w, flight, sliding, phase});
-  numbers_.insert(numbers_.end(), state.begin(), state.end());
+void ImpactTable::add(const Row& row) {
+  if (width_ == 0) width_ = fixed + row.state.size();
+  if (width_ != fixed + row.state.size()) throw std::logic_error("ImpactTable: states of different length");
+  numbers_.insert(numbers_.end(), {row.w, row.flight, row.sliding, row.phase, static_cast<double>(row.stop)});
+  numbers_.insert(numbers_.end(), row.state.begin(), row.state.end());
 }
 
 }  // namespace slapstick::sweep

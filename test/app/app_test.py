@@ -205,6 +205,30 @@ def test_events_do_not_depend_on_what_else_is_written():
     assert os.path.getsize('p.png') > 1000 and os.path.exists('p.gp')
 
 
+def test_several_contacts_keep_their_tables_whole():
+    for model in ('bilinear-oscillator', 'two-blocks-on-belt'):  # compliant events; a mode name of two friction contacts
+        good('simulate', model, '--time', '20', '--trajectory', 't.csv', '--samples', '50', '--events', 'e.csv', '--out', 'o.json')
+        header, *rows = [line.split(',') for line in read('t.csv').splitlines()]
+        assert all(len(row) == len(header) for row in rows), model
+        times = [float(row[0]) for row in rows]
+        steps = {round((b - a) * 1e6) for a, b in zip(times, times[1:])}
+        assert len(steps) <= 2, (model, steps)  # of equal length, up to a rounding
+    good('simulate', 'bilinear-oscillator', '--periods', '20', '--events', 'e.csv', '--out', 'o.json')
+    kinds = [line.split(',')[1] for line in read('e.csv').splitlines()[1:]]
+    for kind in ('engage', 'disengage'):
+        assert kinds.count(kind) > 0
+        says(read('o.json'), '"%s": %d' % (kind, kinds.count(kind)))
+
+
+def test_sections_of_several_stops_say_which_was_hit():
+    good('poincare', 'two-sided-rattle', '--points', '40', '--out', 'p.csv')
+    good('diagram', 'two-sided-rattle', '--sweep', 'omega=1:1.2:3', '--impacts', '20', '--out', 'd.csv')
+    for name in ('p.csv', 'd.csv'):
+        header, *rows = [line.split(',') for line in read(name).splitlines()]
+        assert header[-1] == 'contact'
+        assert {row[-1] for row in rows} == {'stop_upper', 'stop_lower'}, name
+
+
 def test_observables_are_columns_of_the_trajectory():
     with open('m.toml', 'w', encoding='utf-8') as file:
         file.write(good('show', 'impact-oscillator') + '[[observable]]\nname = "energy"\nvalue = "(x^2 + v^2) / 2"\n'

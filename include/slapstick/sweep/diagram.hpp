@@ -47,18 +47,20 @@ class ImpactTable {
     double flight;                  ///< since the impact (or chatter limit) before, in forcing periods
     double sliding;                 ///< the part of it in which the friction contact slips
     double phase;                   ///< of the forcing, in [0, 1)
+    int stop;                       ///< which one was hit
     std::span<const double> state;  ///< just before the impact, user's coordinates
   };
   [[nodiscard]] std::size_t size() const { return width_ == 0 ? 0 : numbers_.size() / width_; }
   [[nodiscard]] Row operator[](std::size_t i) const {
     const double* row = numbers_.data() + i * width_;
-    return {row[0], row[1], row[2], row[3], {row + 4, width_ - 4}};
+    return {row[0], row[1], row[2], row[3], static_cast<int>(row[4]), {row + fixed, width_ - fixed}};
   }
   /// Appends a row. All states must have the same length.
-  void add(double w, double flight, double sliding, double phase, const State& state);
+  void add(const Row& row);
   friend bool operator==(const ImpactTable&, const ImpactTable&) = default;
 
  private:
+  static constexpr std::size_t fixed = 5;  ///< numbers before the state
   std::size_t width_ = 0;
   std::vector<double> numbers_;
 };

@@ -6,9 +6,9 @@ target_compile_options(slapstick_options INTERFACE -Wall -Wextra -Wpedantic -Wsh
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # GCC 12 warns inside its own AVX-512 intrinsics (its bug 105593) and std::string concatenation (105651).
   target_compile_options(slapstick_options INTERFACE -Wno-maybe-uninitialized -Wno-restrict)
-  # Vectors of eight doubles: no part of them crosses the library's interface by value, and std::array of them is meant.
-  target_compile_options(slapstick_options INTERFACE -Wno-psabi -Wno-ignored-attributes)
 endif()
+# Vectors of eight doubles: no part of them crosses the library's interface by value, and std::array of them is meant.
+target_compile_options(slapstick_options INTERFACE -Wno-psabi -Wno-ignored-attributes)
 if(SLAPSTICK_MARCH)
   target_compile_options(slapstick_options INTERFACE -march=${SLAPSTICK_MARCH})
 endif()

@@ -103,7 +103,7 @@ TEST(Network, CutsChangeNothing) {
     std::vector<Event> found;
     for (int k = 1; k <= 500; ++k)
       while (cut.advance(Instant{}.plus(k / 100.0)) == Outcome::event) found.push_back(cut.event());
-    std::erase_if(found, [&](const Event& e) { return e.time > Instant(5, 0.0); });
+    std::erase_if(found, [&](const Event& e) { return e.time > Instant{5, 0.0}; });
     // A cut inside the last bounces of a chatter lists them: compare the others.
     const auto plain = [](const std::vector<Event>& all) {
       std::string text;

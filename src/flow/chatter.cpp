@@ -176,8 +176,7 @@ ChatterLimit prove_chatter(const System& system, int stop, const double* X, doub
   const double* delta = scratch.data() + 2 * system.frame().size();
   if (!limit.proven || all_slip_on(system, stop, X, delta)) return limit;
   // A contact that may come to rest on the way can push either way.
-  const ChatterLimit cautious = prove(system, stop, X, tolerance, friction_on(system, stop, X, delta), scratch);
-  return cautious;
+  return prove(system, stop, X, tolerance, friction_on(system, stop, X, delta), scratch);
 }
 
 }  // namespace slapstick::flow

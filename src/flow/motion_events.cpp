@@ -135,7 +135,7 @@ void Motion::land(const mode::ContactRow& contact) {
 /// The gap has reached zero: an impact, or a graze without impulse.
 void Motion::touch(int stop, bool graze) {
   const mode::ContactRow& contact = system_->frame().stops[stop];
-  land(contact);  // found by a reversal
+  land(contact);  // not yet, if a reversal has found it
   if (graze || flow::approach_velocity(*system_, stop, X_.data()) <= 0.0) {
     rest(contact);
     report(EventKind::graze, stop, 0.0);
@@ -276,8 +276,7 @@ void Motion::report_others(Cause cause, const mode::ContactStates& old) {
   const mode::Frame& frame = system_->frame();
   const mode::ContactStates& now = here_->states();
   const auto of_event = [&](const mode::ContactRow& contact) {
-    const bool on_friction = hit_guard_->kind == GuardKind::slip || hit_guard_->kind == GuardKind::stick_above ||
-                             hit_guard_->kind == GuardKind::stick_below;
+    const bool on_friction = of_friction(hit_guard_->kind);
     const bool on_stop = hit_guard_->kind == GuardKind::gap || hit_guard_->kind == GuardKind::press;
     if (!on_friction && !on_stop) return false;
     const auto& own = on_friction ? frame.frictions[hit_guard_->contact] : frame.stops[hit_guard_->contact];
@@ -341,9 +340,8 @@ bool Motion::tail_is_quiet(int stop, double duration) {
   const mode::Mode& closed = quiet ? system_->mode(id) : *here_;
   for (int g = 0; quiet && g < closed.guard_count(); ++g) {
     const mode::Guard& guard = closed.guards()[g];
-    const bool friction =
-        guard.kind == GuardKind::slip || guard.kind == GuardKind::stick_above || guard.kind == GuardKind::stick_below;
-    if (orders[g] == flow::never || (friction && system_->coupling(stop, guard.contact).effect != 0.0)) continue;
+    const bool shaken = of_friction(guard.kind) && system_->coupling(stop, guard.contact).effect != 0.0;
+    if (orders[g] == flow::never || shaken) continue;
     event::GuardWindow window;
     closed.enclose(g, orders[g], X_next_.data(), magnitude_.data(), window.hull);
     closed.taylor(g, orders[g], X_next_.data(), window.taylor);

@@ -13,7 +13,7 @@ struct Group {
   std::vector<int> frictions;  ///< sticking friction contacts
 };
 
-Group& fin_or_add(std::vector<Group>& groups, const Frame& frame, int displacement) {
+Group& find_or_add(std::vector<Group>& groups, const Frame& frame, int displacement) {
   for (Group& group : groups) {
     if (frame.parallel(group.displacement, displacement) != 0) return group;
   }
@@ -24,11 +24,11 @@ std::vector<Group> held_groups(const Frame& frame, const ContactStates& states) 
   std::vector<Group> groups;
   for (std::size_t i = 0; i < states.stops.size(); ++i) {
     if (states.stops[i] == StopState::closed)
-      fin_or_add(groups, frame, frame.stops[i].own).stops.push_back(static_cast<int>(i));
+      find_or_add(groups, frame, frame.stops[i].own).stops.push_back(static_cast<int>(i));
   }
   for (std::size_t i = 0; i < states.frictions.size(); ++i) {
     if (states.frictions[i] == FrictionState::stick)
-      fin_or_add(groups, frame, frame.frictions[i].own).frictions.push_back(static_cast<int>(i));
+      find_or_add(groups, frame, frame.frictions[i].own).frictions.push_back(static_cast<int>(i));
   }
   return groups;
 }

@@ -11,6 +11,8 @@
 /// least rho = r sqrt(a_return_max / a_rise_min), and all flights together last at most
 ///     T <= v (1/a_rise + 1/sqrt(a_rise a_return))_max / (1 - rho).
 /// If rho < 1, T <= D and friction cannot hold the pair off the stop (R_0 - delta > static friction), chatter is proven complete.
+/// A closed or compliant stop that acts on the pair itself refuses the proof; the forces of those that reach it through springs only are not in
+/// the bound on R (over a window of D they move it by the order of D^2).
 /// The same series with the smallest and largest accelerations encloses the limit time.
 ///
 /// Source: reliability page, section 4; Nordmark and Piiroinen (2009), Budd and Dux (1994).

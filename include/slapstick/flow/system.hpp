@@ -7,7 +7,7 @@
 
 namespace slapstick {
 
-/// Compiles a model once (about 0.1 ms for the paper's system); any number of `Motion`s on any threads then share it.
+/// Compiles a model once (about 0.3 ms for the paper's system); any number of `Motion`s on any threads then share it.
 ///
 /// Modes are built when they are first asked for, and kept: of the 2^s 3^f combinations a motion meets a handful. Those of a model with
 /// up to eight are built at once, so that its motions allocate nothing.

@@ -7,6 +7,8 @@
 /// annihilates the slip direction exactly; a chatter limit annihilates gap and relative velocity. A graze is passed unchanged: the
 /// derivative is unbounded there.
 ///
+/// Impacts of several stops at one instant are passed by the matrix of one of them: right where the others do not act on its pair.
+///
 /// Vectors are in contact coordinates, the first n of p and of u (Frame), 2 n long, at fixed time (phase).
 /// Source: system page, section 3; Leine and Nijmeijer (2004), chapter 7.
 #include <Eigen/Dense>

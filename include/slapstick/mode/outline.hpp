@@ -33,6 +33,11 @@ enum class GuardKind {
   push     ///< compliant stop detached: minus the force it would have
 };
 
+/// True for the guards of friction contacts.
+[[nodiscard]] inline bool of_friction(GuardKind kind) {
+  return kind == GuardKind::slip || kind == GuardKind::stick_above || kind == GuardKind::stick_below;
+}
+
 struct Guard {
   GuardKind kind;
   int contact;    ///< index among the stops (gap, press), friction contacts (slip, stick) or compliant stops (others)

@@ -69,14 +69,13 @@ struct Table {
 
 }  // namespace
 
-Hull enclose(const double* a, int count, double noise_factor) {
+Hull enclose(const double* a, const double* size, int count, double noise_factor) {
   static const Table table;
   Lane8 bernstein{}, truncation{}, rounding{};
   for (int n = 0; n < count; ++n) {
-    const double size = std::abs(a[n]);
     bernstein += table.bernstein[n] * a[n];
-    truncation += table.truncation[n] * size;
-    rounding += table.rounding[n] * size;
+    truncation += table.truncation[n] * size[n];
+    rounding += table.rounding[n] * size[n];
   }
   return {bernstein, truncation + noise_factor * rounding};
 }

@@ -56,19 +56,21 @@ bool may_fit(const mode::Outline& outline, const double* X, const double* magnit
   constexpr double roundings = 64.0 * event::unit_roundoff;
   const auto m = outline.system.rows();
   mode::Vector term = Eigen::Map<const mode::Vector>(X, m), size = Eigen::Map<const mode::Vector>(magnitude, m);
-  std::vector<bool> open(outline.guards.size(), true);
-  for (int n = 0; n < 3; ++n) {
-    for (std::size_t g = 0; g < outline.guards.size(); ++g) {
-      if (!open[g]) continue;
-      const double value = outline.guards[g].row.dot(term);
-      const double noise = roundings * static_cast<double>(m) * outline.guards[g].row.cwiseAbs().dot(size);
+  std::vector<const mode::Guard*> open;  // those that may start with a zero
+  for (const mode::Guard& guard : outline.guards) open.push_back(&guard);
+  for (int n = 0;; ++n) {
+    std::vector<const mode::Guard*> zero;
+    for (const mode::Guard* guard : open) {
+      const double value = guard->row.dot(term);
+      const double noise = roundings * static_cast<double>(m) * guard->row.cwiseAbs().dot(size);
       if (value < -noise) return false;
-      if (value > noise) open[g] = false;
+      if (!(value > noise)) zero.push_back(guard);
     }
+    if (zero.empty() || n == 2) return true;
+    open.swap(zero);
     term = outline.system * term;
     size = outline.system.cwiseAbs() * size;
   }
-  return true;
 }
 
 }  // namespace
@@ -173,7 +175,7 @@ ModeId select_mode(const System& system, const double* X, const double* magnitud
   do {
     const ModeId id = choice.id();
     const mode::Mode* known = system.known_mode(id);
-    if (known == nullptr && !choice.only_one() && !may_fit(system.outline(id), X, magnitude)) continue;
+    if (known == nullptr && !choice.only_one() && !may_fit(*system.outline(id), X, magnitude)) continue;
     if (fits(system, known != nullptr ? *known : system.mode(id), X, magnitude, orders)) return id;
   } while (choice.next());
   return -1;

@@ -44,6 +44,8 @@ Motion::Motion(const System& system, const State& initial, Instant start_at, Mot
   const int guards = 1 + stops() + 2 * frictions() + 2 * compliants();
   touching_.reserve(stops());
   pending_.reserve(64 + 4 * guards);
+  hits_.reserve(guards);
+  strikes_.reserve(64);
   scratch_.assign(4 * X_.span().size(), 0.0);
   sample_out_.resize(X_.span().size() / 8);
   orders_.assign(guards, 0);
@@ -69,7 +71,10 @@ void Motion::start() {
   begin_segment();
   const auto& guards = here_->guards();
   for (std::size_t g = 0; g < guards.size(); ++g) {
-    if (guards[g].kind == mode::GuardKind::gap && guards[g].contact == stop) hit_guard_ = &guards[g];
+    if (guards[g].kind != mode::GuardKind::gap || flow::gap(*system_, guards[g].contact, X_.data()) != 0.0) continue;
+    if (flow::approach_velocity(*system_, guards[g].contact, X_.data()) <= 0.0) continue;
+    if (guards[g].contact == stop) hit_guard_ = &guards[g];
+    hits_.push_back(static_cast<int>(g));
   }
   X_before_ = X_;
   strike_all();
@@ -154,6 +159,8 @@ void Motion::begin_segment() {
   segment_begun_ = elapsed_;
   segment_duration_ = 0.0;
   hit_guard_ = nullptr;
+  hits_.clear();
+  strikes_.clear();
   X_segment_ = X_;
   ++counters_.segments;
 }

@@ -25,6 +25,7 @@ constexpr long most_events_at_one_instant = 256;
 void Motion::handle(int guard, bool graze) {
   const mode::Guard& hit = here_->guards()[guard];
   hit_guard_ = &hit;
+  hits_.push_back(guard);
   const mode::Frame& frame = system_->frame();
   if (hit.kind == GuardKind::gap) land(frame.stops[hit.contact]);  // so that x- can be started from
   X_before_ = X_;
@@ -85,12 +86,18 @@ void Motion::gather_ties(int guard) {
     const int contact = guards[g].contact;
     if (g == guard || of_one_pair(guards[g], guards[guard])) continue;  // of one pair: see stop_touched_at_rest
     if (guards[g].kind == GuardKind::gap) {
-      if (within_noise(g, flow::gap(*system_, contact, X_.data()))) land(frame.stops[contact]);
+      if (!within_noise(g, flow::gap(*system_, contact, X_.data()))) continue;
+      land(frame.stops[contact]);
     } else if (guards[g].kind == GuardKind::engage || guards[g].kind == GuardKind::leave) {
-      if (within_noise(g, flow::depth(*system_, contact, X_.data()))) land(frame.compliant[contact]);
+      if (!within_noise(g, flow::depth(*system_, contact, X_.data()))) continue;
+      land(frame.compliant[contact]);
     } else if (guards[g].kind == GuardKind::slip) {
-      if (within_noise(g, flow::sliding_velocity(*system_, contact, X_.data()))) rest(frame.frictions[contact]);
+      if (!within_noise(g, flow::sliding_velocity(*system_, contact, X_.data()))) continue;
+      rest(frame.frictions[contact]);
+    } else {
+      continue;
     }
+    hits_.push_back(g);
   }
 }
 
@@ -187,6 +194,8 @@ void Motion::end_pile_up() {
     touching_.push_back(s);
   }
   flow::bring_to_rest(*system_, touching_, X_.data());
+  strikes_.push_back({0, true});
+  for (int s : touching_) strikes_.back().stops |= std::uint32_t{1} << s;
   ++counters_.pile_ups;
   report(EventKind::chatter, touching_.front(), 0.0);
   pending_.back().error = 0x1p-53 * system_->period();
@@ -196,6 +205,7 @@ void Motion::newton(int stop) {
   const double w = flow::approach_velocity(*system_, stop, X_.data());
   flow::strike(*system_, stop, system_->model().stops[stop].restitution, X_.data());
   ++counters_.impacts;
+  strikes_.push_back({std::uint32_t{1} << stop});
   report(EventKind::impact, stop, w);
 }
 
@@ -205,7 +215,9 @@ void Motion::moreau(std::span<const int> stops) {
   for (std::size_t i = 0; i < stops.size(); ++i) w[i] = flow::approach_velocity(*system_, stops[i], X_.data());
   if (!flow::strike_together(*system_, stops, X_.data(), std::span(hit).first(stops.size())))
     fail("the impacts of this instant have no solution");
+  strikes_.push_back({});
   for (std::size_t i = 0; i < stops.size(); ++i) {
+    if (hit[i]) strikes_.back().stops |= std::uint32_t{1} << stops[i];
     if (!hit[i] || w[i] <= 0.0) continue;  // one that was at rest transmits an impulse
     ++counters_.impacts;
     report(EventKind::impact, stops[i], w[i]);

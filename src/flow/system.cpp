@@ -83,7 +83,9 @@ mode::Mode System::build(ModeId id) const {
   return built;
 }
 
-mode::Outline System::outline(ModeId id) const { return {model_, frame_, states(id)}; }
+std::shared_ptr<const mode::Outline> System::outline(ModeId id) const {
+  return modes_->outline(id, [this](ModeId wanted) { return mode::Outline(model_, frame_, states(wanted)); });
+}
 
 ModeId System::mode_id(const ContactStates& states) const {
   ModeId id = 0, stride = 1;

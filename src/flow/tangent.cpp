@@ -2,16 +2,9 @@
 
 #include <algorithm>
 
+#include "slapstick/flow/saltation.hpp"
+
 namespace slapstick {
-namespace {
-
-/// A X at an extended state, rows (p, u) only.
-Eigen::VectorXd velocity(const mode::Mode& mode, std::span<const double> X, int rows) {
-  const Eigen::Map<const Eigen::VectorXd> state(X.data(), mode.size());
-  return mode.system().topRows(rows) * state;
-}
-
-}  // namespace
 
 TangentMotion::TangentMotion(const System& system, const State& state, const Eigen::MatrixXd& tangents, Instant start,
                              MotionOptions options)
@@ -38,7 +31,10 @@ Outcome TangentMotion::advance(Instant end) {
     tangents_.topRows(d) -= system.impulse(stop) * depth;
   }
   flow(motion_.segment());
-  if (outcome == Outcome::event && !chatter) jump(motion_.event());
+  if (outcome == Outcome::event) {
+    if (motion_.event().kind != EventKind::graze) flow::pass_event(motion_, tangents_);
+    hold_still();
+  }
   return outcome;
 }
 
@@ -56,35 +52,8 @@ void TangentMotion::flow(const Motion::Segment& segment) {
       std::copy_n(reinterpret_cast<const double*>(out_.data()), m, delta_.data());
     }
     mode.state_at(s / mode.window(), delta_.data(), next_.data());
-    for (int i = 0; i < d; ++i) {  // state_at is affine in p', tangents are not; a held u is copied
-      if (!mode.steady(i)) next_[d + i] += system.frame().drift[i];
-    }
     std::copy_n(next_.data(), 2 * d, tangents_.col(column).data());
   }
-}
-
-void TangentMotion::jump(const Event& event) {
-  if (event.kind == EventKind::graze) return hold_still();
-  if (!motion_.hit_guard()) return;
-  const System& system = motion_.system();
-  const int d = system.frame().d;
-  const mode::Mode& before = system.mode(motion_.segment().mode);
-  const mode::RowVector& h = motion_.hit_guard()->row;
-  const Eigen::Map<const Eigen::VectorXd> X(motion_.extended_before().data(), before.size());
-  const double slope = h.dot(before.system() * X);
-  if (slope == 0.0) return;
-  const Eigen::VectorXd f_minus = velocity(before, motion_.extended_before(), 2 * d);
-  const Eigen::VectorXd f_plus = velocity(system.mode(motion_.mode_id()), motion_.extended(), 2 * d);
-  const Eigen::RowVectorXd dt = -(h.head(2 * d) * tangents_) / slope;
-  tangents_ += f_minus * dt;
-  if (event.kind == EventKind::impact) {
-    const double r = system.model().stops[event.contact].restitution;
-    const mode::ContactRow& g = system.frame().stops[event.contact];
-    const Eigen::RowVectorXd rate = g.sign * tangents_.row(d + g.own);
-    tangents_.bottomRows(d) -= (1.0 + r) * system.impulse(event.contact) * rate;
-  }
-  tangents_ -= f_plus * dt;
-  hold_still();
 }
 
 /// What the new mode holds still is exactly zero: the rank loss of stick.

@@ -46,14 +46,18 @@ void Mode::build_operators(const Frame& frame, const Model& model) {
   step_.assign(static_cast<std::size_t>(state_blocks_) * m_, event::Lane8{});
   taylor_.assign(3 * guards * m_, event::Lane8{});
   leading_noise_.assign(guards * m_, event::Lane8{});
-  coordinates_.assign(3 * static_cast<std::size_t>(d_) * m_, event::Lane8{});
+  const bool rows_stored = m_ <= most_stored_rows;
+  if (rows_stored)
+    coordinates_.assign(3 * static_cast<std::size_t>(d_) * m_, event::Lane8{});
+  else
+    terms_ = TermSum(outline_.system, d_);
 
   const Matrix flow = flow_over_window(series, guards, frame, model.omega);
   for (int i = 0; i < m_; ++i) {
     for (int r = 0; r < m_; ++r) step_[(r / 8) * m_ + i][r % 8] = flow(r, i);
     for (int j = 0; j < event::terms; ++j) {
       for (std::size_t g = 0; g < guards; ++g) taylor_[(3 * g + j / 8) * m_ + i][j % 8] = series.taylor(g, j, i);
-      for (std::size_t k = 0; k < static_cast<std::size_t>(d_); ++k)
+      for (std::size_t k = 0; rows_stored && k < static_cast<std::size_t>(d_); ++k)
         coordinates_[(3 * k + j / 8) * m_ + i][j % 8] = series.taylor(guards + k, j, i);
     }
     for (std::size_t g = 0; g < guards; ++g) {
@@ -74,12 +78,18 @@ void Mode::build_operators(const Frame& frame, const Model& model) {
   }
 }
 
+/// The bounds that a Taylor remainder adds to.
+constexpr event::Lane8 remainder_counts = {1, 1, 1, 0, 0, 1, 1, 1};
+
 /// The hull of column i of guard g, x^order divided out.
 event::Hull Mode::hull_column(int g, int order, int i) const {
-  std::array<double, event::terms> a{};
-  for (int n = order; n < event::terms; ++n) a[n - order] = taylor_[(3 * g + n / 8) * m_ + i][n % 8];
-  event::Hull hull = event::enclose(a.data(), event::terms - order, noise_factor_);
-  hull.bounds += remainders_[g * m_ + i] * event::Lane8{1, 1, 1, 0, 0, 1, 1, 1};
+  std::array<double, event::terms> a{}, size{};
+  for (int n = order; n < event::terms; ++n) {
+    a[n - order] = taylor_[(3 * g + n / 8) * m_ + i][n % 8];
+    size[n - order] = std::abs(a[n - order]);
+  }
+  event::Hull hull = event::enclose(a.data(), size.data(), event::terms - order, noise_factor_);
+  hull.bounds += remainders_[g * m_ + i] * remainder_counts;
   return hull;
 }
 
@@ -110,9 +120,12 @@ inline void multiply(const event::Lane8* data, int blocks, int m, const double* 
       break;
   }
   for (int b = 0; b < blocks; ++b, data += m) {
-    event::Lane8 sum = data[0] * x[0];
-    for (int i = 1; i < m; ++i) sum += data[i] * x[i];
-    out[b] = sum;
+    event::Lane8 sums[4] = {};  // four chains: an addition waits for the one before it
+    int i = 0;
+    for (; i + 4 <= m; i += 4)
+      for (int k = 0; k < 4; ++k) sums[k] += data[i + k] * x[i + k];
+    for (; i < m; ++i) sums[0] += data[i] * x[i];
+    out[b] = (sums[0] + sums[1]) + (sums[2] + sums[3]);
   }
 }
 
@@ -121,18 +134,29 @@ inline void multiply(const event::Lane8* data, int blocks, int m, const double* 
 void Mode::step(const double* X, event::Lane8* out) const { multiply(step_.data(), state_blocks_, m_, X, out); }
 
 void Mode::enclose(int g, int order, const double* X, const double* magnitude, event::Hull& out) const {
-  if (order < stored_orders) {
-    const auto at = static_cast<std::ptrdiff_t>(g * stored_orders + order) * m_;
-    multiply(hulls_.data() + at, 1, m_, X, &out.bernstein);
-    multiply(hull_bounds_.data() + at, 1, m_, magnitude, &out.bounds);
-    return;
-  }
-  out = event::Hull{{}, {}};
+  if (order >= stored_orders) return enclose_rare(g, order, X, magnitude, out);
+  const auto at = static_cast<std::ptrdiff_t>(g * stored_orders + order) * m_;
+  multiply(hulls_.data() + at, 1, m_, X, &out.bernstein);
+  multiply(hull_bounds_.data() + at, 1, m_, magnitude, &out.bounds);
+}
+
+/// The hull from the guard's Taylor coefficients and the sums of the sizes of their parts.
+void Mode::enclose_rare(int g, int order, const double* X, const double* magnitude, event::Hull& out) const {
+  const auto row = static_cast<std::ptrdiff_t>(3 * g) * m_;
+  event::Coefficients a, size{};
+  multiply(taylor_.data() + row, 3, m_, X, a.data());
+  double remainder = 0.0;
   for (int i = 0; i < m_; ++i) {
-    const event::Hull column = hull_column(g, order, i);
-    out.bernstein += column.bernstein * X[i];
-    out.bounds += column.bounds * magnitude[i];
+    remainder += remainders_[g * m_ + i] * magnitude[i];
+    for (int b = 0; b < 3; ++b) size[b] += event::magnitude(taylor_[row + b * m_ + i]) * magnitude[i];
   }
+  std::array<double, event::terms> values{}, sizes{};
+  for (int n = order; n < event::terms; ++n) {
+    values[n - order] = a[n / 8][n % 8];
+    sizes[n - order] = size[n / 8][n % 8];
+  }
+  out = event::enclose(values.data(), sizes.data(), event::terms - order, noise_factor_);
+  out.bounds += remainder * remainder_counts;
 }
 
 void Mode::taylor(int g, int order, const double* X, event::Coefficients& out) const {
@@ -147,13 +171,15 @@ void Mode::leading(int g, const double* X, const double* magnitude, event::Lane8
 }
 
 void Mode::state_at(double x, const double* X, double* out) const {
+  if (coordinates_.empty()) return terms_.state(x * window_, X, out);
   const event::Powers powers(x);
   const double per_time = 1.0 / window_;
   for (int k = 0; k < d_; ++k) {
     event::Coefficients a;
     multiply(coordinates_.data() + 3 * k * m_, 3, m_, X, a.data());
     out[k] = event::value(a, powers);
-    out[d_ + k] = outline_.steady[k] ? X[d_ + k] : event::value(event::derivative(a), powers) * per_time - drift_[k];
+    out[d_ + k] =
+        outline_.steady[k] ? X[d_ + k] : event::value(event::derivative(a), powers) * per_time - drift_[k] * X[m_ - 1];
   }
 }
 

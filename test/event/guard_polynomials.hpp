@@ -49,11 +49,14 @@ std::array<T, terms> bernstein(const Taylor& a) {
 /// itself, as in a mode of nine states, and the first one, as a sum of terms of this size in all, to 25 u of `size`.
 inline GuardWindow window(const Taylor& a, int order = 0, double size = 0.0) {
   GuardWindow guard{};
-  std::array<double, terms> g{};
-  for (int n = order; n < terms; ++n) g[n - order] = a[n];
+  std::array<double, terms> g{}, sizes{};
+  for (int n = order; n < terms; ++n) {
+    g[n - order] = a[n];
+    sizes[n - order] = std::abs(a[n]);
+  }
   for (int n = 0; n < terms; ++n) guard.taylor[n / 8][n % 8] = g[n];
   constexpr double factor = 25 * unit_roundoff;
-  guard.hull = enclose(g.data(), terms - order, factor);
+  guard.hull = enclose(g.data(), sizes.data(), terms - order, factor);
   const double more = std::max(0.0, factor * (size - std::abs(g[0])));
   guard.hull.bounds += more * Lane8{8, 0, 0, 1, 0, 0, 0, 0};
   return guard;

@@ -9,8 +9,8 @@
 namespace slapstick {
 namespace {
 
-using testing::NetworkShape;
-using testing::random_network;
+using test::NetworkShape;
+using test::random_network;
 
 double kinetic_energy(const Model& model, std::span<const double> state) {
   double energy = 0.0;
@@ -129,7 +129,7 @@ TEST(Network, TimeSteppingConvergesToTheEvents) {
     const auto events = testing::run(motion, T);
     if (events.size() < 3) continue;
     const State exact = motion.state();
-    const testing::TimeStepping reference(model);
+    const test::TimeStepping reference(model);
     const auto distance = [&](long steps) {
       const Eigen::VectorXd q = reference.positions(T / static_cast<double>(steps), steps);
       double d = 0.0;

@@ -5,7 +5,7 @@
 
 #include "slapstick/model/model.hpp"
 
-namespace slapstick::testing {
+namespace slapstick::test {
 
 struct NetworkShape {
   int most_coordinates = 8, most_contacts = 6;
@@ -77,4 +77,4 @@ class TimeStepping {
   std::vector<Row> stops_, frictions_;
 };
 
-}  // namespace slapstick::testing
+}  // namespace slapstick::test

@@ -3,7 +3,7 @@
 
 #include "flow/networks.hpp"
 
-namespace slapstick::testing {
+namespace slapstick::test {
 
 using Eigen::VectorXd;
 
@@ -79,4 +79,4 @@ VectorXd TimeStepping::positions(double h, long steps) const {
   return q;
 }
 
-}  // namespace slapstick::testing
+}  // namespace slapstick::test

@@ -201,6 +201,22 @@ TEST(WindowOperators, OfRandomSystemsStayWithinTheirNoiseInEveryMode) {
 }
 
 /// One family k = 1 .. 52; the error must not grow along it.
+TEST(WindowOperators, OfLargeSystemsWhichSumTermsInsteadOfStoringRows) {
+  std::mt19937_64 random(12);
+  for (int k = 0; k < 3; ++k) {
+    const Model model = random_model(random, 11 + 4 * k);
+    for (const StopState stop : {StopState::open, StopState::closed}) {
+      for (const FrictionState friction : {FrictionState::stick, FrictionState::slip_plus}) {
+        Check check(model, {{stop}, {friction}, {}}, static_cast<std::uint64_t>(k));
+        check.random_starts(2);
+        expect_bounded(check, "model " + std::to_string(k));
+        std::printf("%d coordinates: state error %.2f u, inside %.2f u\n", 11 + 4 * k, check.state_error,
+                    check.inside_error);
+      }
+    }
+  }
+}
+
 template <class Family>
 void expect_flat(const char* name, Family&& model_of) {
   double worst = 0.0, inside = 0.0, guard = 0.0;

@@ -32,9 +32,9 @@ struct Hull {
 
 inline constexpr int most_terms = 40;  ///< of a series that is given to `enclose`
 
-/// The hull of sum_{n<count} a_n x^n, count <= most_terms, where a_n is known to `noise_factor` |a_n|, noise_factor >= 16 u.
-/// Cost: four vector operations per term.
-Hull enclose(const double* a, int count, double noise_factor);
+/// The hull of sum_{n<count} a_n x^n, count <= most_terms, where a_n is known to `noise_factor` size[n], size[n] >= |a_n| and
+/// noise_factor >= 16 u. Cost: four vector operations per term.
+Hull enclose(const double* a, const double* size, int count, double noise_factor);
 
 /// True if g > 0 on [0, 1], by eight times its noise: no Bernstein coefficient is as low as the error bound.
 inline bool excluded(const Hull& hull) { return all_above(hull.bernstein, hull.bounds[hull_error]); }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <vector>
 
@@ -27,13 +28,18 @@ class ModeTable {
   /// The mode, built by `build` if need be.
   const mode::Mode& get(ModeId id, const std::function<mode::Mode(ModeId)>& build);
 
+  /// The outline of a mode that was perhaps only looked at, by `build` if need be. The first `most_outlines` are kept.
+  std::shared_ptr<const mode::Outline> outline(ModeId id, const std::function<mode::Outline(ModeId)>& build);
+
  private:
   static constexpr ModeId most_flat = 4096;
+  static constexpr std::size_t most_outlines = 1024;  ///< 36 MB for 32 coordinates
 
   const mode::Mode* find_locked(ModeId id);
 
   std::vector<std::atomic<const mode::Mode*>> flat_;
   std::map<ModeId, mode::Mode> all_;  ///< its nodes stay where they are
+  std::map<ModeId, std::shared_ptr<const mode::Outline>> outlines_;
   std::mutex mutex_;
 };
 

@@ -105,6 +105,14 @@ class Motion {
 
   /// The guard whose zero ended the last segment; null if the segment ended without one (cut, chatter limit).
   [[nodiscard]] const mode::Guard* hit_guard() const { return hit_guard_; }
+  /// The same and those that were zero at that instant too, as indices of that mode's guards.
+  [[nodiscard]] std::span<const int> hits() const { return hits_; }
+  /// The impacts that ended the last segment, in order: the stops, bit by bit, that got an impulse together.
+  struct Strike {
+    std::uint32_t stops = 0;
+    bool to_rest = false;  ///< whatever their restitution: the end of a pile-up
+  };
+  [[nodiscard]] std::span<const Strike> strikes() const { return strikes_; }
 
   /// The extended state now, and just before the last event, for analyses that work in contact coordinates.
   [[nodiscard]] std::span<const double> extended() const { return X_.span(); }
@@ -168,7 +176,6 @@ class Motion {
   [[nodiscard]] int stop_touched_at_rest(int friction) const;
   void force_limit(int guard, int contact, bool graze);
   void touch(int stop, bool graze);
-  void impact(int stop);
   bool end_chatter(double limit);
   void choose_mode();
   void settle(Cause cause);
@@ -207,6 +214,8 @@ class Motion {
   Event last_;
   std::vector<int> touching_;
   const mode::Guard* hit_guard_ = nullptr;
+  std::vector<int> hits_;
+  std::vector<Strike> strikes_;
   Counters counters_;
   std::int64_t budget_period_ = 0;
   long budget_events_ = 0;

@@ -33,9 +33,9 @@ class System {
     const mode::Mode* known = modes_->find(id);
     return known != nullptr ? *known : modes_->get(id, [this](ModeId wanted) { return build(wanted); });
   }
-  /// The mode if it has been built, else null; and its system and guards alone, which are cheap and not kept.
+  /// The mode if it has been built, else null; and its system and guards alone, which are cheaper.
   [[nodiscard]] const mode::Mode* known_mode(ModeId id) const { return modes_->find(id); }
-  [[nodiscard]] mode::Outline outline(ModeId id) const;
+  [[nodiscard]] std::shared_ptr<const mode::Outline> outline(ModeId id) const;
   [[nodiscard]] ModeId mode_id(const mode::ContactStates& states) const;
   [[nodiscard]] mode::ContactStates states(ModeId id) const;
   /// A short name for tables and pictures: "slip+", "slip-", "stick", "free", each followed by "|closed" on a closed stop.

@@ -1,13 +1,9 @@
 #pragma once
 /// Linearised flow through events: how small changes of the state are carried along a motion.
 ///
-/// Along a segment a tangent vector obeys delta' = A delta (no forcing, no constants). At an event with guard h, reset R and flows f-, f+
-///     dt = -(h . delta-) / (dh/dt-),     delta+ = R (delta- + f- dt) - f+ dt
-/// (the saltation matrix applied; dh/dt includes the forcing). R is the impact law at an impact, else the identity. Entering stick
-/// annihilates the slip direction exactly; a chatter limit annihilates gap and relative velocity. A graze is passed unchanged: the
-/// derivative is unbounded there.
-///
-/// Impacts of several stops at one instant are passed by the matrix of one of them: right where the others do not act on its pair.
+/// Along a segment a tangent vector obeys delta' = A delta (no forcing, no constants); at an event it passes the saltation matrix
+/// (flow/saltation.hpp). Entering stick annihilates the slip direction exactly; a chatter limit annihilates gap and relative velocity. A graze is
+/// passed unchanged: the derivative is unbounded there.
 ///
 /// Vectors are in contact coordinates, the first n of p and of u (Frame), 2 n long, at fixed time (phase).
 /// Source: system page, section 3; Leine and Nijmeijer (2004), chapter 7.
@@ -33,7 +29,6 @@ class TangentMotion {
 
  private:
   void flow(const Motion::Segment& segment);
-  void jump(const Event& event);
   void hold_still();
 
   Motion motion_;

@@ -4,6 +4,7 @@
 
 #include "slapstick/event/first_root.hpp"
 #include "slapstick/mode/outline.hpp"
+#include "slapstick/mode/term_sum.hpp"
 
 namespace slapstick::mode {
 
@@ -37,7 +38,7 @@ class Mode {
   void taylor(int g, int order, const double* X, event::Coefficients& out) const;
   /// The first eight Taylor coefficients of guard g and a bound on the rounding error of each.
   void leading(int g, const double* X, const double* magnitude, event::Lane8& coefficients, event::Lane8& noise) const;
-  /// p and u at time s = x window() into out (same layout as X; the phase part is not written).
+  /// p and u at time s = x window() into out, linear in X (same layout as X; the phase part is not written).
   void state_at(double x, const double* X, double* out) const;
 
  private:
@@ -45,15 +46,20 @@ class Mode {
   [[nodiscard]] Matrix flow_over_window(const Series& series, std::size_t first_coordinate, const Frame& frame,
                                         double omega) const;
   [[nodiscard]] event::Hull hull_column(int g, int order, int column) const;
+  void enclose_rare(int g, int order, const double* X, const double* magnitude, event::Hull& out) const;
 
   /// Orders of a zero at the start whose hulls are stored; the others are rare and made from the Taylor rows.
   static constexpr int stored_orders = 3;
+  /// Larger modes do not store the rows of their displacements (400 kB for 32 coordinates) but sum the terms of exp(A s) X.
+  static constexpr int most_stored_rows = 24;
 
   Outline outline_;
   std::vector<double> drift_, remainders_;
   int d_ = 0, m_ = 0, state_blocks_ = 0;
   double window_ = 1.0, window_in_periods_ = 1.0, noise_factor_ = 0.0;
-  event::Lanes step_, taylor_, leading_noise_, coordinates_;
+  event::Lanes step_, taylor_, leading_noise_;
+  event::Lanes coordinates_;  ///< Taylor rows of the displacements, or empty: then `terms_` is used
+  TermSum terms_;
   event::Lanes hulls_, hull_bounds_;  ///< [guard][order], see event::Hull
 };
 

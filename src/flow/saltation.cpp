@@ -1,0 +1,205 @@
+#include "slapstick/flow/saltation.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace slapstick::flow {
+namespace {
+
+using mode::ContactRow;
+using mode::ContactStates;
+using mode::GuardKind;
+
+/// Stops that are struck together and act on each other.
+struct Blow {
+  std::vector<int> stops;
+  bool to_rest = false;
+};
+
+class Passage {
+ public:
+  explicit Passage(const Motion& motion);
+  void carry(Eigen::MatrixXd& tangents);
+  void carry_at_once(Eigen::MatrixXd& tangents) const;
+
+ private:
+  [[nodiscard]] const ContactRow& row(const mode::Guard& guard) const;
+  [[nodiscard]] bool coupled(const ContactRow& a, const ContactRow& b) const;
+  [[nodiscard]] std::vector<Blow> separated(const Motion::Strike& strike) const;
+  [[nodiscard]] std::size_t owner(const ContactRow& contact) const;
+  [[nodiscard]] std::size_t owner(const Blow& blow) const;
+  void drop_hits_of_others();
+  void take_states(std::size_t k);
+  void apply(const Blow& blow, Eigen::Ref<Eigen::MatrixXd> velocities) const;
+  [[nodiscard]] Eigen::VectorXd flow(ModeId id, const Eigen::VectorXd& X) const;
+
+  const Motion& motion_;
+  const System& system_;
+  const mode::Frame& frame_;
+  const mode::Mode& before_;
+  std::vector<int> hits_;
+  std::vector<Blow> blows_;
+  ContactStates states_;  ///< while the guards are passed
+  Eigen::VectorXd X_;
+};
+
+Passage::Passage(const Motion& motion)
+    : motion_(motion),
+      system_(motion.system()),
+      frame_(system_.frame()),
+      before_(system_.mode(motion.segment().mode)),
+      hits_(motion.hits().begin(), motion.hits().end()),
+      states_(before_.states()),
+      X_(Eigen::Map<const Eigen::VectorXd>(motion.extended_before().data(), before_.size())) {
+  for (const Motion::Strike& strike : motion.strikes()) {
+    for (Blow& blow : separated(strike)) blows_.push_back(std::move(blow));
+  }
+  drop_hits_of_others();
+}
+
+const ContactRow& Passage::row(const mode::Guard& guard) const {
+  if (guard.kind == GuardKind::gap || guard.kind == GuardKind::press) return frame_.stops[guard.contact];
+  return mode::of_friction(guard.kind) ? frame_.frictions[guard.contact] : frame_.compliant[guard.contact];
+}
+
+bool Passage::coupled(const ContactRow& a, const ContactRow& b) const {
+  return frame_.mass_inverse(a.own, b.own) != 0.0;
+}
+
+/// The parts of a strike that do not act on each other.
+std::vector<Blow> Passage::separated(const Motion::Strike& strike) const {
+  std::vector<Blow> parts;
+  for (int stop = 0; stop < static_cast<int>(frame_.stops.size()); ++stop) {
+    if ((strike.stops >> stop & 1U) == 0) continue;
+    Blow joined{{stop}, strike.to_rest};
+    std::vector<Blow> others;
+    for (Blow& part : parts) {
+      const bool touched =
+          std::ranges::any_of(part.stops, [&](int s) { return coupled(frame_.stops[s], frame_.stops[stop]); });
+      if (touched)
+        joined.stops.insert(joined.stops.end(), part.stops.begin(), part.stops.end());
+      else
+        others.push_back(std::move(part));
+    }
+    others.push_back(std::move(joined));
+    parts.swap(others);
+  }
+  return parts;
+}
+
+/// The first guard whose pair shares a mass with the contact's; the last one if there is none.
+std::size_t Passage::owner(const ContactRow& contact) const {
+  for (std::size_t k = 0; k < hits_.size(); ++k)
+    if (coupled(row(before_.guards()[hits_[k]]), contact)) return k;
+  return hits_.size() - 1;
+}
+
+/// The guard that is the gap of one of the stops struck, or else the first that acts on one of them.
+std::size_t Passage::owner(const Blow& blow) const {
+  for (std::size_t k = 0; k < hits_.size(); ++k) {
+    const mode::Guard& guard = before_.guards()[hits_[k]];
+    if (guard.kind == GuardKind::gap && std::ranges::find(blow.stops, guard.contact) != blow.stops.end()) return k;
+  }
+  std::size_t first = hits_.size() - 1;
+  for (int stop : blow.stops) first = std::min(first, owner(frame_.stops[stop]));
+  return first;
+}
+
+/// A stop that was struck together with an earlier one has no event of its own.
+void Passage::drop_hits_of_others() {
+  for (std::size_t k = 1; k < hits_.size();) {
+    const mode::Guard& guard = before_.guards()[hits_[k]];
+    const bool taken = guard.kind == GuardKind::gap && std::ranges::any_of(blows_, [&](const Blow& blow) {
+                         return std::ranges::find(blow.stops, guard.contact) != blow.stops.end() && owner(blow) < k;
+                       });
+    if (taken)
+      hits_.erase(hits_.begin() + static_cast<std::ptrdiff_t>(k));
+    else
+      ++k;
+  }
+}
+
+/// The changes of contact states that belong to the k-th guard.
+void Passage::take_states(std::size_t k) {
+  const ContactStates& final = system_.mode(motion_.mode_id()).states();
+  if (k + 1 == hits_.size()) {
+    states_ = final;
+    return;
+  }
+  const auto take = [&](auto& states, const auto& last, const std::vector<ContactRow>& rows) {
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (owner(rows[i]) == k) states[i] = last[i];
+  };
+  take(states_.stops, final.stops, frame_.stops);
+  take(states_.frictions, final.frictions, frame_.frictions);
+  take(states_.compliant, final.compliant, frame_.compliant);
+}
+
+/// u+ = u - M^{-1} G^T D^{-1} (1 + r) G u, D = G M^{-1} G^T: each of the stops leaves with -r of the velocity it came with.
+void Passage::apply(const Blow& blow, Eigen::Ref<Eigen::MatrixXd> velocities) const {
+  const auto count = static_cast<Eigen::Index>(blow.stops.size());
+  Eigen::MatrixXd D(count, count), rates(count, velocities.cols()), push(frame_.d, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const ContactRow& a = frame_.stops[blow.stops[i]];
+    const double restitution = blow.to_rest ? 0.0 : system_.model().stops[blow.stops[i]].restitution;
+    rates.row(i) = (1.0 + restitution) * a.sign * velocities.row(a.own);
+    push.col(i) = a.sign * frame_.mass_inverse.col(a.own);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const ContactRow& b = frame_.stops[blow.stops[j]];
+      D(i, j) = a.sign * b.sign * frame_.mass_inverse(a.own, b.own);
+    }
+  }
+  if (count == 1)
+    velocities -= push * (rates / D(0, 0));
+  else
+    velocities -= push * D.completeOrthogonalDecomposition().solve(rates);
+}
+
+/// A X in a mode, which may exist between two guards only.
+Eigen::VectorXd Passage::flow(ModeId id, const Eigen::VectorXd& X) const {
+  const mode::Mode* known = system_.known_mode(id);
+  if (known != nullptr) return known->system() * X;
+  return system_.outline(id)->system * X;
+}
+
+void Passage::carry(Eigen::MatrixXd& tangents) {
+  const int d = frame_.d;
+  const Eigen::Map<const Eigen::VectorXd> after(motion_.extended().data(), before_.size());
+  for (std::size_t k = 0; k < hits_.size(); ++k) {
+    const mode::RowVector& h = before_.guards()[hits_[k]].row;
+    const Eigen::VectorXd f_minus = flow(system_.mode_id(states_), X_);
+    const double slope = h.dot(f_minus);
+    Eigen::RowVectorXd dt = Eigen::RowVectorXd::Zero(tangents.cols());
+    if (slope != 0.0) dt = -(h.head(2 * d) * tangents) / slope;
+    tangents += f_minus.head(2 * d) * dt;
+    for (const Blow& blow : blows_) {
+      if (owner(blow) != k) continue;
+      apply(blow, tangents.bottomRows(d));
+      apply(blow, X_.segment(d, d));
+    }
+    take_states(k);
+    if (k + 1 == hits_.size()) X_ = after;
+    tangents -= flow(system_.mode_id(states_), X_).head(2 * d) * dt;
+  }
+}
+
+/// Impacts without a time of their own, after a chatter limit, and the end of a pile-up: gaps and their rates are lost, the momentum is kept.
+void Passage::carry_at_once(Eigen::MatrixXd& tangents) const {
+  for (const Blow& blow : blows_) {
+    apply(blow, tangents.bottomRows(frame_.d));
+    if (blow.to_rest) apply(blow, tangents.topRows(frame_.d));
+  }
+}
+
+}  // namespace
+
+void pass_event(const Motion& motion, Eigen::MatrixXd& tangents) {
+  if (motion.hits().empty() && motion.strikes().empty()) return;
+  const bool piled_up = std::ranges::any_of(motion.strikes(), &Motion::Strike::to_rest);
+  if (motion.hits().empty() || piled_up)
+    Passage(motion).carry_at_once(tangents);
+  else
+    Passage(motion).carry(tangents);
+}
+
+}  // namespace slapstick::flow

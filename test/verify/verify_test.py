@@ -1,0 +1,366 @@
+"""The verifier proves motions whose closed form is known, and refuses every forgery of them for the stated reason.
+
+    verify_test.py PROGRAM test_NAME
+"""
+import subprocess
+import sys
+
+import motions
+from motions import line, number
+
+PROGRAM = sys.argv[1]
+ALL = [motions.ball, motions.chatter, motions.oscillator, motions.released, motions.twins, motions.touching, lambda: motions.lift(2),
+       lambda: motions.lift(3)]
+
+
+def check(lines):
+    """(exit status, everything printed) for a certificate."""
+    text = lines if isinstance(lines, bytes) else ('\n'.join(lines) + '\n').encode()
+    done = subprocess.run([PROGRAM, '-'], input=text, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False, timeout=60)
+    return done.returncode, done.stdout.decode()
+
+
+def proved(lines):
+    status, text = check(lines)
+    assert status == 0 and text.endswith('\nproved\n') and 'line ' not in text, text
+    return text
+
+
+def refused(lines, *reasons):
+    """Not proved; one line of the answer has all the reasons."""
+    status, text = check(lines)
+    assert status == 1 and '\nnot proved: ' in text, (status, text)
+    assert any(all(r in answer for r in reasons) for answer in text.splitlines() if answer.startswith('line ')), (reasons, text)
+
+
+def unreadable(lines, *reasons):
+    status, text = check(lines)
+    assert status == 2 and all(r in text for r in reasons), (status, reasons, text)
+
+
+def find(lines, start, nth=0):
+    return [i for i, text in enumerate(lines) if text.startswith(start)][nth]
+
+
+def forged(lines, start, words, nth=0):
+    """The certificate with words of one line, by their index, replaced."""
+    lines = list(lines)
+    i = find(lines, start, nth)
+    parts = lines[i].split(' ')
+    for k, value in words.items():
+        parts[k] = line(value)
+    lines[i] = ' '.join(parts)
+    return lines
+
+
+def value(lines, start, k, nth=0):
+    return float.fromhex(lines[find(lines, start, nth)].split(' ')[k])
+
+
+def without(lines, start, nth=0):
+    lines = list(lines)
+    del lines[find(lines, start, nth)]
+    return lines
+
+
+def test_closed_forms_are_proved():
+    for motion in ALL:
+        proved(motion())
+
+
+def test_the_report_counts_what_was_there():
+    text = proved(motions.ball())
+    assert '3 proved free of zeros by 4 steps, 0 at rest' in text and '2, of them 2 impacts' in text, text
+    assert 'chatter limits   1' in proved(motions.chatter())
+    assert 'touches          1' in proved(motions.touching())
+    assert 'ties             1' in proved(motions.twins())
+    assert '1 at rest' in proved(motions.released())
+
+
+def test_h_above_the_truth():
+    for motion in ALL:
+        lines = motion()
+        for n in range(sum(text.startswith('step ') for text in lines)):
+            h = value(lines, 'step', 2, n)
+            refused(forged(lines, 'step', {2: h * 1.1 + 1e-9}, n), 'step', ' h >= ', ' claimed')
+
+
+def test_h_above_the_truth_by_one_rounding():
+    lines = motions.ball()
+    refused(forged(lines, 'step', {2: 0.5 + 2.0 ** -53}), 'segment 0, guard 0 (gap): step 0: h >= 0.50000000000000011 claimed, it is 0.5')
+
+
+def test_slope_above_the_truth():
+    for motion in (motions.ball, motions.oscillator, motions.released):
+        lines = motion()
+        for n in range(sum(text.startswith('step ') for text in lines)):
+            refused(forged(lines, 'step', {3: value(lines, 'step', 3, n) + 0.02}, n), "h' >= ", ' claimed')
+
+
+def test_curvature_below_the_truth():
+    refused(forged(motions.ball(), 'step', {4: 1.0 - 2.0 ** -53}), "step 0: |h''| <= 0.99999999999999989 claimed, it is up to 1")
+    for motion in (motions.oscillator, motions.released):
+        lines = motion()
+        for n in range(sum(text.startswith('step ') for text in lines)):
+            refused(forged(lines, 'step', {4: 0.01 * value(lines, 'step', 4, n)}, n), "|h''| <= ", ' claimed')
+    refused(forged(motions.ball(), 'step', {4: -1.0}), 'M = -1 is negative')
+
+
+def test_curvature_that_is_small_at_the_ends_of_a_step_only():
+    # p'' = -p, one whole turn: the guard is 2 + sin(s), whose curvature vanishes at 0, pi and 2 pi.
+    lines = motions.head('turn', 3, 1, 1.0, [], [[1.0]])
+    lines += motions.mode(0, 'turns', [(0, [(1, 1.0)]), (1, [(0, -1.0)])], [('push', [(0, 1.0), (2, 2.0)])])
+    lines += [line('segment', 0, 0, 0, 0.0, 3.140625), line('state', 0.0, 1.0, 1.0), line('prove', 0, 0, 3.140625)]
+    end = [line('end', 'cut'), line('done', 1)]
+    refused(lines + [line('step', 0.0, 2.0, 1.0, 0.99, 3.140625)] + end, "|h''| <= 0.98999999999999999 claimed")
+    refused(lines + [line('step', 0.0, 2.0, 1.0, 1.2, 3.140625)] + end, 'its parabola is', 'not positive')
+    half = [line('step', 0.0, 2.0, 1.0, 1.02, 1.5703125), line('step', 1.5703125, 2.99, 0.0, 1.02, 1.5703125)]
+    proved(lines + half + end)
+
+
+def test_parabola_that_dips_below_zero():
+    lines = motions.ball()
+    refused(forged(lines, 'step', {4: 2.0}), 'its parabola is -0.49', 'at its end, not positive')
+    refused(forged(lines, 'step', {2: 0.0}), 'its parabola is 0 at its start, not positive')
+    refused(forged(lines, 'step', {3: -1.0}), 'at its end, not positive')
+
+
+def test_hole_between_steps():
+    lines = motions.ball()
+    refused(forged(lines, 'step', {5: 0.125 - 2.0 ** -56}, 2), 'segment 2', 'step 0: ends at', 'before the next starts')
+    lines = motions.oscillator()
+    s = value(lines, 'step', 1, 1)
+    refused(forged(lines, 'step', {1: s + 1e-9}, 1), 'before the next starts')
+    refused(without(lines, 'step', 2), 'before the next starts')
+    refused(without(lines, 'step', 0), 'not at 0')
+    refused(forged(lines, 'step', {1: 1e-300}, 0), 'not at 0')
+    refused(forged(lines, 'step', {1: 0.0}, 1), 'does not start behind the one before')
+
+
+def test_limit_that_is_not_reached_or_short():
+    lines = motions.ball()
+    refused(forged(lines, 'step', {5: 0.9}), 'ends at', 'before LIMIT')
+    short = forged(forged(lines, 'prove', {3: 0.9}), 'step', {5: 0.9})
+    refused(short, 'segment 0, guard 0 (gap): LIMIT = 0.90000000000000002 is 0.099999999999999978 short of DURATION, more than DELTA')
+    refused(forged(forged(lines, 'prove', {3: 0.2}, 2), 'step', {5: 0.075}, 3), 'LIMIT = 0.20000000000000001', 'short of DURATION')
+    refused(forged(lines, 'prove', {3: 1.5}, 2), 'is behind DURATION')
+    refused(without(lines, 'step', 1), 'there is no step')
+    twins = motions.twins()
+    refused(forged(forged(twins, 'prove', {3: 1.0 - 2.0 ** -29}, 1), 'step', {5: 1.0 - 2.0 ** -29}, 1), 'guard 1 (gap): LIMIT', 'short')
+
+
+def test_guard_that_is_left_out():
+    lines = motions.twins()
+    i = find(lines, 'prove', 1)
+    refused(lines[:i] + lines[i + 2:], 'segment 0, guard 1 (gap): neither `prove` nor `rest`')
+    refused(lines[:i] + lines[i - 2:], 'guard 0 (gap): is claimed twice')
+    # and one that the mode itself leaves out: the stop is not watched then
+    free = [text for text in motions.ball() if text.split(' ')[0] not in ('guard', 'prove', 'step')]
+    free = free[:find(free, 'end')] + [line('end', 'cut'), line('done', 1)]
+    refused(free, 'stop floor may close: no guard watches it')
+
+
+def test_wrong_order_of_the_zero_at_the_start():
+    lines = motions.ball()
+    refused(forged(lines, 'prove', {2: 1}), 'segment 0, guard 0 (gap): has no zero of order 1: derivative 0 is 0.5')
+    refused(forged(lines, 'prove', {2: 2}, 1), 'segment 1', 'has no zero of order 2: derivative 1 is 0.5')
+    refused(forged(lines, 'prove', {2: 0}, 1), 'segment 1', 'h >= 0.5 claimed, it is 0')
+    for order in (2, 3):
+        refused(forged(motions.lift(order), 'prove', {2: order - 1}), 'h >= ', ' claimed, it is 0')
+        refused(forged(motions.lift(order), 'prove', {2: order + 1}), f'derivative {order} is 1')
+    # The velocity leads into the stop: the guard starts downwards.
+    lines = forged(forged(motions.ball(), 'state', {2: 0.5}, 1), 'blow', {1: 1})
+    refused(lines, 'segment 1', 'h >= 0.5 claimed, it is -0.5')
+
+
+def test_zero_that_is_not_there():
+    lines = forged(motions.ball(), 'segment', {5: 0.75})
+    lines = forged(forged(lines, 'prove', {3: 0.75}), 'step', {5: 0.75})
+    refused(lines, 'segment 0, guard 0 (gap): has no zero at the end: it is 0.21')
+    # A force that only comes near its limit.
+    refused(forged(motions.released(), 'guard 0 stick', {7: 0.51}), 'guard 0 (stick): has no zero at the end')
+
+
+def test_zero_hidden_before_the_end():
+    # The ball falls through the floor at s = 1 and is cut at 1.5. Whatever is claimed of the step in which it does cannot be proved.
+    start = motions.BALL + motions.FALL + [line('segment', 0, 0, 0, 0.0, 1.5), line('state', -0.5, 0.0, 1.0), line('prove', 0, 0, 1.5)]
+    end = [line('end', 'cut'), line('done', 1)]
+    refused(start + [line('step', 0.0, 0.5, 0.0, 0.25, 1.5)] + end, "|h''| <= 0.25 claimed, it is up to 1")
+    jump = [line('step', 0.0, 0.5, 0.0, 1.0, 0.984375), line('step', 1.015625, 0.001, 0.0, 0.0, 0.5)]
+    refused(start + jump + end, 'before the next starts')
+    jump[1] = line('step', 0.984375, 1.0, 1.0, 1.0, 1.0)
+    refused(start + jump + end, 'h >= 1 claimed, it is 0.0155')
+    refused(start[:-1] + [line('rest', 0)] + end, 'guard 0 (gap): does not rest')
+
+
+def test_delta_that_hides_a_length_of_time():
+    lines = forged(motions.ball(), 'end', {3: 2.0 ** -29})
+    refused(lines, 'DELTA = 1.862645149230957e-09 is more than 2^-30 periods')
+
+
+def test_noise_that_is_no_rounding():
+    lines = motions.touching()
+    refused(forged(lines, 'end', {3: 2.0 ** -30}), 'NOISE = ', 'rounding explains')
+    refused(forged(lines, 'end', {3: 2.0 ** -60}), 'may be as low as', 'NOISE')
+    high = forged(lines, 'state', {1: -0.5 - 2.0 ** -30}, 0)
+    refused(high, 'at DURATION, more than NOISE')
+
+
+def test_rest_of_what_moves():
+    held = motions.released()
+    i, j = find(held, 'prove'), find(held, 'end')
+    refused(held[:i] + [line('rest', 0)] + held[j:], 'guard 0 (stick): does not rest')
+    lines = forged(motions.released(), 'state', {2: 2.0 ** -30})
+    refused(lines, 'guard 1 (slip): does not rest')
+    lines = motions.ball()
+    i = find(lines, 'prove')
+    refused(lines[:i] + [line('rest', 0)] + lines[i + 2:], 'guard 0 (gap): rests, and cannot end the segment')
+
+
+def test_wrong_impulse():
+    lines = motions.ball()
+    refused(forged(lines, 'state', {2: -0.5 - 2.0 ** -30}, 1), 'segment 1, number 1 of the state is -0.50000000093', 'it must be -0.5')
+    refused(without(lines, 'blow'), 'number 1 of the state is -0.5', 'it must be 1')
+    refused(forged(lines, 'blow', {1: 1}), 'number 1 of the state is -0.5', 'it must be 0')
+    refused(forged(lines, 'stop', {4: 0.6}), 'it must be -0.59999999999999998')
+    refused(forged(lines, 'inertia', {2: 0.0}), 'stop floor has no inertia')
+    twins = motions.twins()
+    refused(forged(twins, 'inertia 1', {2: 0.5}), 'number 3 of the state')
+    refused(forged(motions.oscillator(), 'state', {2: -0.6}, 1), 'number 1 of the state is -0.6')
+
+
+def test_blow_in_the_air():
+    lines = forged(motions.twins(), 'state', {2: -0.75})
+    refused(lines, 'stop two is struck with a gap of 0.25')
+
+
+def test_impacts_and_their_events():
+    lines = motions.ball()
+    refused(forged(lines, 'event', {3: 1.1}), 'no blow belongs to this impact at floor with w = 1.1')
+    refused(without(lines, 'event'), 'the impact at floor with w = 1 has no event')
+    i = find(lines, 'event')
+    refused(lines[:i] + [lines[i]] + lines[i:], 'no blow belongs to this impact')
+    refused(forged(lines, 'event', {2: 'ceiling'}), 'has no event')
+
+
+def test_displaced_start():
+    refused(forged(motions.ball(), 'state', {1: -1e-9}, 1), 'segment 1, number 0 of the state is -1')
+    held = motions.released()
+    refused(forged(held, 'state', {1: value(held, 'state', 1, 1) + 1e-9}, 1), 'number 0 of the state')
+    refused(forged(motions.ball(), 'state', {1: 0.5}), 'segment 0')
+    refused(forged(motions.chatter(), 'state', {1: 0.5}, 1), 'stop floor is passed')
+
+
+def test_clock_and_phases():
+    lines = motions.oscillator()
+    refused(forged(lines, 'segment', {4: value(lines, 'segment', 4, 1) + 1e-12}, 1), 'segment 1, begins', 'periods from where')
+    refused(forged(motions.ball(), 'segment', {3: 2}, 1), 'segment 1, begins 1 periods from where')
+    held = motions.released()
+    refused(forged(held, 'state', {3: value(held, 'state', 3, 1) + 1e-12}, 1), 'the phases at 2 are not those of the clock')
+    refused(forged(held, 'state', {4: -value(held, 'state', 4, 1)}, 1), 'the phases at 2 are not those of the clock')
+    refused(forged(held, 'state', {5: 2.0}), 'the last number of the state is not 1')
+    refused(forged(held, 'period', {1: 6.0}), 'phases do not turn a whole number of times in a period')
+
+
+def test_mode_that_is_no_mechanics():
+    refused(forged(motions.ball(), 'row 0', {4: 0.5}), "row 0 of its mode: a displacement's rate is not its velocity")
+    ball = motions.ball()
+    i = find(ball, 'row 1')
+    refused(ball[:i + 1] + [line('row', 2, 1, 0, 1.0)] + ball[i + 1:], 'row 2 of its mode: the constant does not stay')
+    refused(ball[:i - 1] + [line('row', 0, 2, 1, 1.0, 2, 1.0)] + ball[i:], "row 0 of its mode: a displacement's rate")
+
+
+def test_mode_that_changes_without_an_event():
+    lines = motions.ball()
+    i = find(lines, 'done')
+    lines = lines[:i] + motions.LIE + [line('segment', 3, 1, 2, 0.25, 0.0), line('state', -0.03125, 0.0, 1.0), line('end', 'cut'),
+                                       line('done', 4)]
+    refused(lines, 'segment 3, the mode has changed at `end cut`')
+    i = find(lines, 'end cut')
+    refused(lines[:i + 1] + [line('event', 'stick', 'floor', 0.0)] + lines[i + 1:], 'something happens at `end cut`')
+
+
+def test_chatter_without_what_must_be_there():
+    lines = motions.chatter()
+    refused(without(lines, 'blow 1'), 'the segment before has not brought stop floor to rest')
+    refused(forged(lines, 'end chatter', {3: 1e-9}), 'ERROR = 1.0000000000000001e-09 is more than 2^-49 periods')
+    falling = forged(lines, 'segment', {2: 0}, 1)
+    refused(falling, 'stop floor is not at rest in the segment that stands for its chatter')
+
+
+def test_segments_out_of_order():
+    lines = motions.ball()
+    a, b, c, e = find(lines, 'segment 0'), find(lines, 'segment 1'), find(lines, 'segment 2'), find(lines, 'done')
+    refused(lines[:a] + lines[b:c] + lines[a:b] + lines[c:], 'segment 0, it is called number 1')
+    refused(lines[:b] + lines[c:e] + [line('done', 2)], 'segment 1, it is called number 2')
+
+
+def test_file_that_ends_too_early():
+    for motion in ALL:
+        lines = motion()
+        for n in range(len(lines)):
+            unreadable(lines[:n] if n else b'', 'the file ends here, without `done`')
+    text = '\n'.join(motions.ball())
+    for n in range(len(text) - 6):
+        assert check(text[:n].encode())[0] != 0, n
+    unreadable(motions.ball() + ['done 3'], 'something follows `done`')
+    unreadable(forged(motions.ball(), 'done', {1: 4}), 'line 31: 4 is not')
+
+
+def test_every_line_is_needed():
+    for motion in ALL:
+        lines = motion()
+        for n in range(len(lines)):
+            assert check(lines[:n] + lines[n + 1:])[0] != 0, lines[n]
+
+
+def test_numbers_that_are_none():
+    lines = motions.ball()
+    for bad in ('nan', '-nan', 'inf', '-inf', '1', '0.5', '1e3', '0x1p+5000', '0x1', '0x1.00000000000001p+0', '', '0x1p+0 0x1p+0', 'x', '+0x1p+0',
+                '0x1p+0\t', '\0'):
+        for start, k in (('step', 2), ('step', 5), ('state', 1), ('segment', 5), ('end', 3), ('inertia', 2), ('period', 1), ('row', 4)):
+            i = find(lines, start)
+            parts = lines[i].split(' ')
+            parts[k] = bad
+            status, text = check(lines[:i] + [' '.join(parts)] + lines[i + 1:])
+            assert status == 2 and f'line {i + 1}: ' in text, (start, k, bad, status, text)
+    for bad in ('-1', '7', '1.0', '0x1p+0', '99999999999999999999', ''):
+        for start, k in (('sizes', 2), ('stop', 1), ('row', 2), ('row', 3), ('guard', 1), ('segment', 2), ('prove', 1), ('blow', 2)):
+            i = find(lines, start)
+            parts = lines[i].split(' ')
+            parts[k] = bad
+            status, text = check(lines[:i] + [' '.join(parts)] + lines[i + 1:])
+            assert status == 2, (start, k, bad, status, text)
+
+
+def test_garbage():
+    unreadable(b'\x00\xff' * 5000, 'line 1')
+    unreadable(['slapstick-certificate 2'] + motions.ball()[1:], 'line 1: 2 is not in the range 1 .. 1')
+    for n, text in enumerate(motions.ball()):
+        lines = motions.ball()
+        lines[n] = 'nonsense' + text
+        unreadable(lines, f'line {n + 1}: ', 'nonsense')
+        lines[n] = text + ' nonsense'
+        if not text.startswith(('model', 'mode', 'stop')):
+            unreadable(lines, f'line {n + 1}: ')
+
+
+def test_huge_numbers_end_in_a_refusal():
+    lines = motions.ball()
+    refused(forged(lines, 'segment', {5: 1e300}), 'is too long to be followed')
+    refused(forged(lines, 'row 1', {4: 1e300}), 'segment 0')
+    refused(forged(lines, 'state', {1: -1e300}), 'segment 0')
+    refused(forged(lines, 'state', {2: 1e308}), 'segment 0')
+    refused(forged(lines, 'step', {2: 1e308}), 'h >= 1e+308 claimed')
+
+
+def test_usage():
+    done = subprocess.run([PROGRAM, '--help'], stdout=subprocess.PIPE, check=False)
+    assert done.returncode == 0 and b'slapstick-verify FILE' in done.stdout
+    for words in ([], ['a', 'b'], ['/nonexistent']):
+        done = subprocess.run([PROGRAM, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
+        assert done.returncode == 2 and done.stdout == b'' and done.stderr, words
+
+
+if __name__ == '__main__':
+    globals()[sys.argv[2]]()

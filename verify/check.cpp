@@ -1,0 +1,148 @@
+#include "check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace verify {
+namespace {
+
+constexpr double rounding = 0x1p-40;  ///< of a state, in units of the sizes of what it was added up from
+constexpr double clock_rounding = 0x1p-48, phase_rounding = 0x1p-46;
+
+}  // namespace
+
+Checker::Checker(const Head& head, const std::map<long, Mode>& modes, const Refuse& refuse)
+    : head_(head), modes_(modes), refuse_([this, refuse](long line, const std::string& what) {
+        refuse(line, "segment " + std::to_string(tally_.segments) + ", " + what);
+      }) {}
+
+void Checker::segment(const Segment& segment) {
+  start(segment);
+  Flight flight(flow(segment.mode), modes_.at(segment.mode), segment, head_.period, tally_, refuse_);
+  flight.fly();
+  last_ = std::make_unique<Departure>(Departure{segment, std::move(flight.X), std::move(flight.size)});
+  blows(*last_);
+  ++tally_.segments;
+}
+
+const Flow& Checker::flow(long mode) {
+  std::unique_ptr<Flow>& flow = flows_[mode];
+  if (!flow) {
+    mode_is_mechanical(modes_.at(mode));
+    flow = std::make_unique<Flow>(modes_.at(mode), head_);
+  }
+  return *flow;
+}
+
+/// p' = u (+ the speed of a belt, but not under a stop), phases that turn j times per period, a constant that stays.
+void Checker::mode_is_mechanical(const Mode& mode) {
+  const auto fault = [&](std::size_t row, const char* what) {
+    refuse_(mode.line, "row " + std::to_string(row) + " of its mode: " + what);
+  };
+  const auto d = static_cast<std::size_t>(head_.d), one = static_cast<std::size_t>(head_.m - 1);
+  for (std::size_t i = 0; i < d; ++i) {
+    Entries row = mode.rows[i];
+    const bool under_stop =
+        std::any_of(head_.stops.begin(), head_.stops.end(), [&](const Stop& s) { return p(s) == i; });
+    if (!under_stop && row.size() == 2 && row[1].first == head_.m - 1) row.pop_back();
+    if (row != Entries{{static_cast<int>(d + i), 1.0}}) fault(i, "a displacement's rate is not its velocity");
+  }
+  for (std::size_t i = 2 * d; i < one; i += 2) {
+    const Entries &c = mode.rows[i], &s = mode.rows[i + 1];
+    const bool turns = c.size() == 1 && s.size() == 1 && c[0].first == static_cast<int>(i + 1) &&
+                       s[0].first == static_cast<int>(i) && c[0].second == -s[0].second;
+    const double j = turns ? harmonic(mode, i).near() : 0.0;
+    if (!(j > 0.5 && abs(harmonic(mode, i) - Ball(std::nearbyint(j))) <= Ball(0x1p-45 * j)))
+      fault(i, "phases do not turn a whole number of times in a period");
+  }
+  if (!mode.rows[one].empty()) fault(one, "the constant does not stay");
+}
+
+/// How often the phases at i, i + 1 turn in a period.
+Ball Checker::harmonic(const Mode& mode, std::size_t i) const {
+  return mode.rows[i + 1].empty() ? Ball(0.0)
+                                  : Ball(mode.rows[i + 1][0].second) * Ball(head_.period) / times(Ball::pi(), 2);
+}
+
+void Checker::start(const Segment& segment) {
+  const Mode& mode = modes_.at(segment.mode);
+  if (segment.number != tally_.segments) refuse_(segment.line, "it is called number " + std::to_string(segment.number));
+  phases(segment, mode);
+  stops(segment, mode);
+  if (segment.end.kind == EndKind::chatter) chatter(segment, mode);
+  if (last_ == nullptr) return;
+  clock(segment);
+  continuity(segment);
+  if (last_->segment.end.kind == EndKind::cut && last_->segment.mode != segment.mode)
+    refuse_(segment.line, "the mode has changed at `end cut`");
+}
+
+void Checker::phases(const Segment& segment, const Mode& mode) {
+  for (std::size_t i = 2 * static_cast<std::size_t>(head_.d); i + 1 < segment.state.size(); i += 2) {
+    Ball c, s;
+    cos_sin_pi(c, s, Ball(2.0 * std::nearbyint(harmonic(mode, i).near())) * Ball(segment.fraction));
+    if (!(abs(c - Ball(segment.state[i])) <= Ball(phase_rounding) &&
+          abs(s - Ball(segment.state[i + 1])) <= Ball(phase_rounding)))
+      refuse_(segment.line, "the phases at " + std::to_string(i) + " are not those of the clock: they are " +
+                                digits(c.near()) + ", " + digits(s.near()));
+  }
+  if (segment.state.back() != 1.0) refuse_(segment.line, "the last number of the state is not 1");
+}
+
+void Checker::clock(const Segment& segment) {
+  const Segment& before = last_->segment;
+  const Ball flown = Ball(before.duration) / Ball(head_.period);
+  const Ball shown =
+      Ball(static_cast<double>(segment.period - before.period)) + Ball(segment.fraction) - Ball(before.fraction);
+  if (!(abs(shown - flown) <= Ball(clock_rounding) + Ball(0x1p-50) * flown))
+    refuse_(segment.line, "begins " + digits((shown - flown).near()) + " periods from where the one before has ended");
+}
+
+void Checker::continuity(const Segment& segment) {
+  for (std::size_t i = 0; i < 2 * static_cast<std::size_t>(head_.d); ++i) {
+    const Ball jump = abs(Ball(segment.state[i]) - last_->X[i]);
+    const double allowed = rounding * last_->size[i];
+    if (jump.near() > 0.0) tally_.jump = std::max(tally_.jump, jump.near() / allowed);
+    if (!(jump <= Ball(allowed)))
+      refuse_(segment.line, "number " + std::to_string(i) + " of the state is " + digits(segment.state[i]) +
+                                ", it must be " + digits(last_->X[i].near()) + " to " + digits(allowed));
+  }
+}
+
+/// A stop that no guard watches is open or just closed, and cannot close further.
+void Checker::stops(const Segment& segment, const Mode& mode) {
+  double largest = 0.0;
+  for (int i = 0; i < head_.d; ++i) largest = std::max(largest, std::abs(segment.state[static_cast<std::size_t>(i)]));
+  for (const Stop& stop : head_.stops) {
+    const auto watched = [&](const char* kind, std::size_t index) {
+      return std::any_of(mode.guards.begin(), mode.guards.end(), [&](const Guard& guard) {
+        return guard.kind == kind && guard.row.size() == 1 && guard.row[0].first == static_cast<int>(index) &&
+               guard.row[0].second * stop.sign < 0.0;
+      });
+    };
+    if (watched("gap", p(stop))) continue;
+    const double gap = -stop.sign * segment.state[p(stop)], approach = stop.sign * segment.state[u(stop)];
+    const bool held = mode.rows[u(stop)].empty() && approach <= 0.0;
+    if (!held && !watched("slip", u(stop)))
+      refuse_(segment.line, "stop " + stop.name + " may close: no guard watches it");
+    if (!(gap >= -rounding * largest))
+      refuse_(segment.line, "stop " + stop.name + " is passed, its gap is " + digits(gap));
+  }
+}
+
+void Checker::chatter(const Segment& segment, const Mode& mode) {
+  const End& end = segment.end;
+  const Stop& stop = head_.stops[static_cast<std::size_t>(end.index)];
+  ++tally_.chatters;
+  const auto rests = [&](const Blow& b) {
+    return b.rest && std::count(b.stops.begin(), b.stops.end(), end.index) != 0;
+  };
+  if (last_ == nullptr || last_->segment.blows.empty() || !rests(last_->segment.blows.back()))
+    refuse_(end.line, "the segment before has not brought stop " + stop.name + " to rest");
+  if (!mode.rows[u(stop)].empty() || segment.state[u(stop)] != 0.0)
+    refuse_(end.line, "stop " + stop.name + " is not at rest in the segment that stands for its chatter");
+  if (!(end.size <= 0x1p-49 * head_.period))
+    refuse_(end.line, "ERROR = " + digits(end.size) + " is more than 2^-49 periods");
+}
+
+}  // namespace verify

@@ -104,10 +104,17 @@ void Reader::read_head() {
     if (!(stop.restitution >= 0.0 && stop.restitution <= 1.0)) fail("the restitution is not in [0, 1]");
     head_.stops.push_back(stop);
   }
-  for (int i = 0; i < head_.d; ++i) {
-    expect("inertia"), count(i, i);
-    head_.inertia.emplace_back();
-    for (int j = 0; j < head_.d; ++j) head_.inertia.back().push_back(real());
+  read_inertia();
+}
+
+void Reader::read_inertia() {
+  auto& V = head_.inertia;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(head_.d); ++i) {
+    expect("inertia"), count(static_cast<long>(i), static_cast<long>(i));
+    V.emplace_back();
+    for (int j = 0; j < head_.d; ++j) V.back().push_back(real());
+    for (std::size_t j = 0; j < i; ++j)
+      if (!(std::abs(V[i][j] - V[j][i]) <= 0x1p-40 * (V[i][i] + V[j][j]))) fail("the inertia is not symmetric");
     finish_line(), advance();
   }
 }

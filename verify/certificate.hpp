@@ -109,6 +109,7 @@ class Reader {
   void finish_line();
 
   void read_head();
+  void read_inertia();
   void read_mode();
   void read_claims(Segment& segment);
   void read_end(Segment& segment);

@@ -224,8 +224,11 @@ def test_wrong_impulse():
     refused(forged(lines, 'blow', {1: 1}), 'number 1 of the state is -0.5', 'it must be 0')
     refused(forged(lines, 'stop', {4: 0.6}), 'it must be -0.59999999999999998')
     refused(forged(lines, 'inertia', {2: 0.0}), 'stop floor has no inertia')
-    twins = motions.twins()
-    refused(forged(twins, 'inertia 1', {2: 0.5}), 'number 3 of the state')
+    twins = without(motions.twins(), 'event', 1)
+    twins[find(twins, 'blow')] = line('blow', 0, 0)
+    unreadable(forged(twins, 'inertia 1', {2: 0.5}), 'the inertia is not symmetric')
+    light = forged(forged(twins, 'inertia 0', {3: 0.5}), 'inertia 1', {2: 0.5})
+    refused(light, 'number 3 of the state is -0.5, it must be 0.25')
     refused(forged(motions.oscillator(), 'state', {2: -0.6}, 1), 'number 1 of the state is -0.6')
 
 
@@ -310,8 +313,10 @@ def test_file_that_ends_too_early():
 def test_every_line_is_needed():
     for motion in ALL:
         lines = motion()
-        for n in range(len(lines)):
-            assert check(lines[:n] + lines[n + 1:])[0] != 0, lines[n]
+        for n, text in enumerate(lines):
+            if text.startswith('event') and 'impact' not in text:
+                continue  # tells the reader what follows from the rest
+            assert check(lines[:n] + lines[n + 1:])[0] != 0, text
 
 
 def test_numbers_that_are_none():

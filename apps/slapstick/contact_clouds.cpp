@@ -16,12 +16,12 @@ constexpr std::array palette{colours::dark_blue, colours::vermillion, colours::g
 
 }  // namespace
 
-ContactClouds::ContactClouds(const Model& model, const StopChoice& choice) : stops_(chosen_stops(model, choice)) {
+ContactClouds::ContactClouds(const Model& model, const StopChoice& choice, Overlap overlap)
+    : stops_(chosen_stops(model, choice)) {
   for (const int contact : stops_) {
     figure::Points cloud{.colour = palette[clouds_.size() % palette.size()]};
     const auto above = std::min<std::size_t>(stops_.size() - 1 - clouds_.size(), 3);
-    cloud.diameter_mm *=
-        1.0 + static_cast<double>(above);  // where two agree, the first shows as a rim around the second
+    if (overlap == Overlap::rims) cloud.diameter_mm *= 1.0 + static_cast<double>(above);
     if (stops_.size() > 1) cloud.label = axis_text(stop_name(model, contact));
     clouds_.push_back(std::move(cloud));
   }

@@ -10,7 +10,8 @@ namespace slapstick::app {
 /// One cloud per chosen stop, with a legend if there are several.
 class ContactClouds {
  public:
-  ContactClouds(const Model& model, const StopChoice& choice);
+  enum class Overlap { rare, rims };  ///< rims: where points of two stops coincide, the first shows around the second
+  ContactClouds(const Model& model, const StopChoice& choice, Overlap overlap);
 
   void add(int contact, double x, double y);
   /// Those that have points.

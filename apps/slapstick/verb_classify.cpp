@@ -72,12 +72,10 @@ Action add_classify(Arguments& arguments) {
   auto options = std::make_shared<Options>();
   options->model.declare(arguments);
   options->model.declare_state(arguments);
-  arguments.count("--transient", options->transient, 0, 1'000'000'000,
-                  "forcing periods to leave out first; default 500");
-  arguments.count("--most-periods", options->most_periods, 10, 1'000'000'000,
-                  "search for a cycle this long; default 20000");
-  arguments.count("--most-n", options->most_n, 1, 4096, "longest cycle sought, in forcing periods; default 64");
-  options->stops.declare(arguments, "count and list the impacts of this stop only; may be repeated; default all");
+  arguments.count("--transient", options->transient, 0, 1'000'000'000, "forcing periods to leave out first (500)");
+  arguments.count("--most-periods", options->most_periods, 10, 1'000'000'000, "search for a cycle this long (20000)");
+  arguments.count("--most-n", options->most_n, 1, 4096, "longest cycle sought, in forcing periods (64)");
+  options->stops.declare(arguments, "count and list the impacts of this stop only; may be repeated (all)");
   arguments.text("--out", options->out, "FILE", "write the JSON there instead of to standard output");
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(

@@ -124,7 +124,7 @@ std::vector<figure::Points> clouds(const sweep::Diagram& diagram, const Model& m
   figure::Points up{.label = "up", .colour = figure::colours::dark_blue};
   figure::Points down{.label = "down", .colour = figure::colours::vermillion};
   up.diameter_mm = 2.0 * down.diameter_mm;  // where both directions agree, up shows as a rim around down
-  ContactClouds stops(model, problem.stops);
+  ContactClouds stops(model, problem.stops, ContactClouds::Overlap::rims);
   const bool both = problem.direction == Direction::both;
   for (const sweep::DiagramPoint& point : diagram.points) {
     figure::Points& cloud = point.direction == Direction::up ? up : down;
@@ -239,7 +239,7 @@ Action add_diagram(Arguments& arguments) {
   arguments.count("--most-periods", options->most_periods, 1, 1'000'000'000,
                   "end a recording here if impacts are rare (5000)");
   arguments.count("--threads", options->threads, 0, 1024, "0: all cores; the result is the same for any number (0)");
-  options->stops.declare(arguments, "record the impacts of this stop only; may be repeated; default all");
+  options->stops.declare(arguments, "record the impacts of this stop only; may be repeated (all)");
   arguments.text("--out", options->out, "F.csv", "write the impacts there instead of to standard output");
   arguments.text("--plot", options->plot, "F.png",
                  "diagrams of w and flight: .png, .pdf or .svg; its data and script lie beside it");

@@ -67,7 +67,11 @@ struct Found {
 class ImpactPoints {
  public:
   ImpactPoints(const Options& options, const System& system, const StopChoice& stops, TableOutput& table)
-      : options_(options), system_(system), table_(table), stops_(stops), clouds_(system.model(), stops) {}
+      : options_(options),
+        system_(system),
+        table_(table),
+        stops_(stops),
+        clouds_(system.model(), stops, ContactClouds::Overlap::rare) {}
 
   Found operator()(Motion motion, const Context& context) {
     Progress progress("points", static_cast<double>(options_.points), options_.progress);
@@ -200,7 +204,7 @@ Action add_poincare(Arguments& arguments) {
   arguments.count("--points", options->points, 1, 1'000'000'000, "points to record (1000)");
   arguments.count("--most-periods", options->most_periods, 1, 1'000'000'000,
                   "end the impact section here if impacts are rare (1000000, and after 10000 without an impact)");
-  options->stops.declare(arguments, "points are the impacts of this stop only; may be repeated; default all");
+  options->stops.declare(arguments, "points are the impacts of this stop only; may be repeated (all)");
   arguments.text("--out", options->out, "F.csv", "write the points there instead of to standard output");
   arguments.text("--plot", options->plot, "F.png",
                  "picture of the points: .png, .pdf or .svg; its data and script lie beside it");

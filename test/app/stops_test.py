@@ -154,4 +154,21 @@ def test_a_picture_is_about_the_chosen_stop():
     says(read('d.gp'), 'w at impact on stop')
 
 
+def test_the_documented_contact_force_is_the_one_that_acts():
+    """docs/model_file.md: the force of a compliant stop as an observable. Momentum is the integral of the forces."""
+    with open('pad.toml', 'w', encoding='utf-8') as file:
+        file.write('name = "pad"\nomega = 3\n[[coordinate]]\nname = "x"\nmass = 1\n[[force]]\non = "x"\namplitude = 1\nharmonic = 0\n'
+                   '[[force]]\non = "x"\namplitude = 6\n[[compliant_stop]]\nname = "pad"\nbetween = ["x", "ground"]\nclearance = 0.1\nstiffness = 9\n'
+                   'damping = 2\n[[observable]]\nname = "pressed"\nvalue = "gap_pad < 0 ? max(0, -9 * gap_pad + 2 * v) : 0"\n'
+                   '[[observable]]\nname = "driven"\nvalue = "1 + 6 * sin(3 * time)"\n[start]\nx = -1\n')
+    good('simulate', 'pad.toml', '--periods', '40', '--samples', '2000', '--trajectory', 't.csv', '--events', 'e.csv', '--out', 'o.json')
+    time, v, pressed, driven = ([float(value) for value in column(read('t.csv'), name)] for name in ('time', 'v', 'pressed', 'driven'))
+    impulse = sum((driven[i] - pressed[i] + driven[i + 1] - pressed[i + 1]) / 2 * (time[i + 1] - time[i]) for i in range(len(time) - 1))
+    onsets = [after for before, after in zip(pressed, pressed[1:]) if before == 0 < after]
+    bound = sum(onsets) * time[1] / 2 + 1e-4  # where the force jumps, the trapezoid is wrong by half a step of it at most
+    assert abs(v[-1] - v[0] - impulse) < bound < 1, (v[-1] - v[0], impulse, bound)
+    engaged = sum(kind == 'engage' for kind in column(read('e.csv'), 'kind'))
+    assert engaged == len(onsets) > 10, (engaged, onsets)
+
+
 main({name: case for name, case in globals().items() if name.startswith('test_')})

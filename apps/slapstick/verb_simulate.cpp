@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "certified_run.hpp"
 #include "model_options.hpp"
 #include "motion_plot.hpp"
 #include "output.hpp"
@@ -31,7 +32,7 @@ struct Options {
   double time = 0.0;
   long long samples = 100;
   StopOptions stop;
-  std::string events, trajectory, plot, out;
+  std::string events, trajectory, certify, plot, out;
   bool physical = false, progress = false;
 };
 
@@ -48,6 +49,7 @@ class Run {
         picture_(std::move(pair), system_.model().forced()),
         observer_(chosen.definition.observer(chosen.overrides)),
         units_(chosen, options.physical) {
+    if (!options.certify.empty()) certified_.emplace(options.certify);
     if (!options.events.empty()) events_.emplace(options.events, units_.event_columns());
     if (!options.trajectory.empty()) trajectory_.emplace(options.trajectory, units_.trajectory_columns());
     const int wanted = trajectory_ ? static_cast<int>(options.samples) : plot_samples;
@@ -78,10 +80,16 @@ class Run {
     return true;
   }
 
+  /// The run again, for its certificate. @returns false if it was stopped
+  bool certify(const State& start, const Context& context) {
+    return !certified_ || (*certified_)(system_, start, end_, options_.progress, context);
+  }
+
   /// @returns the exit status
   int write(bool complete, const ChosenModel& chosen, const State& start) {
     if (events_) events_->commit();
     if (trajectory_) trajectory_->commit();
+    if (certified_) certified_->commit();
     result_.write(summary(complete, chosen, start).dump() + "\n");
     result_.commit();
     if (plot_.wanted() && picture_.empty()) retrace();
@@ -153,6 +161,7 @@ class Run {
     json.set("model", chosen.model.name).set("parameters", std::move(parameters)).set("period", system_.period());
     json.set("complete", complete).set("start", state_json(start)).set("end", std::move(end));
     json.set("events", std::move(events)).set("work", std::move(work));
+    if (certified_) json.set("certificate", certified_->summary());
     return json;
   }
 
@@ -165,6 +174,7 @@ class Run {
   Observer observer_;
   TableUnits units_;
   std::optional<TableOutput> events_, trajectory_;
+  std::optional<CertifiedRun> certified_;
   std::optional<SampledMotion> motion_;
   std::optional<Retrace> retrace_;
   std::array<long, event_kinds> kinds_{};
@@ -189,12 +199,13 @@ int simulate(const Options& options, bool by_time, const Context& context) {
   roles.add("--out", options.out);
   roles.add("--events", options.events);
   roles.add("--trajectory", options.trajectory);
+  roles.add("--certify", options.certify);
   roles.add_plot(options.plot);
   const Instant end = end_of(options, by_time, chosen.model);
   const RelativeMotion pair(chosen.model, shown_contact(chosen.model, options.stop.choice(chosen.model)));
   System system = affordable_system(chosen, {end.since({}), by_time ? "--time" : "--periods"});
   Run run(options, chosen, std::move(system), start, end, pair);
-  const bool complete = run(context);
+  const bool complete = run(context) && run.certify(start, context);
   return run.write(complete, chosen, start);
 }
 
@@ -210,6 +221,8 @@ Action add_simulate(Arguments& arguments) {
                  "every event: time, kind, contact, w, and the state just before");
   arguments.text("--trajectory", options->trajectory, "F.csv",
                  "samples: time, state, mode, and the model's observables");
+  arguments.text("--certify", options->certify, "F.txt",
+                 "the proof that no event was missed, for slapstick-verify (docs/certificate.md)");
   arguments.count("--samples", options->samples, 1, 1'000'000, "samples of --trajectory per forcing period (100)");
   arguments.text("--plot", options->plot, "F.png",
                  "picture of the last 20 periods: .png, .pdf or .svg; its data and script lie beside it");

@@ -211,7 +211,9 @@ void decide_aperiodic(const attractor::RunFigures& run, const ClassifyOptions& o
 
 Classification classify(const System& system, const State& state, const ClassifyOptions& options) {
   if (!system.model().forced())
-    throw InputError("model '" + system.model().name + "' has no periodic forcing: n-p classes count forcing periods");
+    throw InputError("model '" + system.model().name +
+                     "' has no periodic forcing: n-p classes count forcing periods; "
+                     "`poincare --section event` shows its returns");
   Classification result;
   ReturnSearch search(system, state, options);
   search.discard(options.transient_periods);

@@ -74,7 +74,7 @@ void Certificate::mode(ModeId id) {
     line("guard", number(g) + " " + std::string(word(mode.guards()[g].kind)) + entries(mode.guards()[g].row));
 }
 
-void Certificate::run(Instant end) {
+void Certificate::run(Instant end, const std::function<bool(Instant)>& go_on) {
   for (;;) {
     const double piece = windows_per_piece * system_.mode(motion_.mode_id()).window_in_periods();
     const Instant stage = std::min(end, motion_.time().plus(piece));
@@ -87,7 +87,7 @@ void Certificate::run(Instant end) {
     }
     write_(text_);
     text_.clear();
-    if (outcome == Outcome::reached_end && stage == end) return;
+    if (!go_on(motion_.time()) || (outcome == Outcome::reached_end && stage == end)) return;
   }
 }
 

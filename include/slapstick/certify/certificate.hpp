@@ -23,8 +23,8 @@ class Certificate {
   /// @param write  takes the text, some lines at a time
   Certificate(const System& system, const State& start, std::function<void(const std::string&)> write);
 
-  /// Goes on to `end`. @throws NumericalError as Motion::advance
-  void run(Instant end);
+  /// Runs to `end`, or until `go_on(now)`, asked some times per period, returns false. @throws NumericalError as Motion::advance
+  void run(Instant end, const std::function<bool(Instant)>& go_on);
   /// The last line; nothing comes after it.
   void finish();
 

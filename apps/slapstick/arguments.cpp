@@ -118,6 +118,17 @@ bool Arguments::parse(std::vector<std::string> words) {
   return true;
 }
 
+std::string number_advice(const std::string& text) {
+  const std::size_t digits = text.find_first_not_of("+-.");
+  if (digits == std::string::npos || text[digits] < '0' || text[digits] > '9') return {};
+  const std::size_t end = text.find_first_not_of("0123456789.eE+-");
+  if (end == std::string::npos) return {};
+  if (text[end] == ',' && text.find_first_not_of("0123456789", end + 1) == std::string::npos)
+    return " (decimals have a point: 0.5, not 0,5)";
+  if (text[end] == ',' || text[end] == ';') return " (one number is expected here)";
+  return " (only the number, in the model's units: no unit, no expression)";
+}
+
 double parse_number(const std::string& argument, const std::string& text) {
   const char* begin = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
   const char* end = text.data() + text.size();
@@ -125,7 +136,8 @@ double parse_number(const std::string& argument, const std::string& text) {
   const auto [rest, error] = std::from_chars(begin, end, value);
   if (error == std::errc::result_out_of_range)
     throw InputError(argument + ": " + in_quotes(text) + " is too large or too small for a number");
-  if (error != std::errc() || rest != end) throw InputError(argument + ": " + in_quotes(text) + " is not a number");
+  if (error != std::errc() || rest != end)
+    throw InputError(argument + ": " + in_quotes(text) + " is not a number" + number_advice(text));
   if (!std::isfinite(value)) throw InputError(argument + ": " + in_quotes(text) + " is not finite");
   return value;
 }

@@ -47,6 +47,8 @@ class Arguments {
   std::unique_ptr<Parser> parser_;
 };
 
+/// What may help somebody whose `text` begins like a number and is none: " (decimals have a point: 0.5, not 0,5)"; or nothing.
+[[nodiscard]] std::string number_advice(const std::string& text);
 /// The number that `text` is, whole and finite. @throws InputError "ARGUMENT: 'text' is not a number"
 [[nodiscard]] double parse_number(const std::string& argument, const std::string& text);
 /// The same for a whole number in [least, most].

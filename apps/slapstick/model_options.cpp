@@ -9,19 +9,6 @@
 #include "slapstick/base/text.hpp"
 
 namespace slapstick::app {
-namespace {
-
-/// A name as an axis shows it, in gnuplot's notation: x1 as x_{1}; an underscore that is part of the name stays one.
-std::string axis_name(const std::string& name) {
-  const std::size_t digits = name.find_first_of("0123456789");
-  if (digits == 1 && name.find_first_not_of("0123456789", digits) == std::string::npos)
-    return name.substr(0, 1) + "_{" + name.substr(1) + "}";
-  std::string text;
-  for (const char c : name) text += c == '_' ? std::string("\\_") : std::string(1, c);
-  return text;
-}
-
-}  // namespace
 
 void ModelOptions::declare(Arguments& arguments) {
   arguments.positional("MODEL", source, "a built-in model (see `slapstick models`) or a .toml model file");
@@ -60,6 +47,9 @@ State ModelOptions::start(const ChosenModel& chosen, const Overrides& more) cons
   const std::vector<std::string> names = state_names(chosen.model);
   std::set<std::string> seen;
   for (const std::string& part : split(state, ',')) {
+    if (!seen.empty() && !part.empty() && part.find_first_not_of("0123456789") == std::string::npos)
+      throw InputError("--state: " + in_quotes(state) + ": " + in_quotes(part) + " has no name" +
+                       number_advice("0," + part));
     const auto [name, text] = name_and_text("--state", part, "NAME=NUMBER,..");
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) throw InputError("--state: unknown name " + in_quotes(name) + suggestion(name, names));
@@ -101,26 +91,6 @@ std::pair<std::string, std::string> name_and_text(const std::string& argument, c
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
     throw InputError(argument + ": " + in_quotes(text) + " is not of the form " + form);
   return {text.substr(0, equals), text.substr(equals + 1)};
-}
-
-RelativeMotion::RelativeMotion(const Model& model) {
-  if (!model.stops.empty()) {
-    a = model.stops[0].a;
-    b = model.stops[0].b;
-  } else if (!model.compliant_stops.empty()) {
-    a = model.compliant_stops[0].a;
-    b = model.compliant_stops[0].b;
-  } else if (!model.frictions.empty()) {
-    a = model.frictions[0].a;
-    b = model.frictions[0].b;
-  }
-  if (a == ground) std::swap(a, b);
-  const auto names = state_names(model);
-  const auto name = [&](int coordinate, int offset) {
-    return axis_name(names[2 * static_cast<std::size_t>(coordinate) + offset]);
-  };
-  displacement = name(a, 0) + (b == ground ? "" : " - " + name(b, 0));
-  velocity = name(a, 1) + (b == ground ? "" : " - " + name(b, 1));
 }
 
 }  // namespace slapstick::app

@@ -60,19 +60,4 @@ template <class Make>
 [[nodiscard]] std::pair<std::string, std::string> name_and_text(const std::string& argument, const std::string& text,
                                                                 const std::string& form);
 
-/// The displacement and velocity that a picture of the motion shows: x_a - x_b and v_a - v_b of the first stop, or else of the first
-/// compliant stop, friction contact, or else the first coordinate. A contact with the ground shows the coordinate itself.
-struct RelativeMotion {
-  explicit RelativeMotion(const Model& model);
-  int a = 0, b = ground;
-  std::string displacement, velocity;  ///< names for axes: "x_1 - x_2"
-  [[nodiscard]] double y(const State& state) const { return at(state, a, 0) - at(state, b, 0); }
-  [[nodiscard]] double w(const State& state) const { return at(state, a, 1) - at(state, b, 1); }
-
- private:
-  static double at(const State& state, int coordinate, int offset) {
-    return coordinate == ground ? 0.0 : state[2 * static_cast<std::size_t>(coordinate) + offset];
-  }
-};
-
 }  // namespace slapstick::app

@@ -15,6 +15,10 @@ figure::Figure MotionPlot::figure() const {
   figure.panels.push_back(curve(time, relative_.displacement, t_, y_));
   figure.panels.push_back(curve(time, relative_.velocity, t_, w_));
   figure.panels.front().height_share = 2;
+  for (const double limit : relative_.limits) {
+    figure.panels[0].marks.push_back({.x = limit});
+    figure.panels[1].marks.push_back({.y = limit});
+  }
   return figure;
 }
 

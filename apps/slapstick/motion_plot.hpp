@@ -1,21 +1,26 @@
 #pragma once
-/// The picture of `simulate`: phase portrait of the relative motion, and its time series.
-#include "model_options.hpp"
-#include "slapstick/base/clock.hpp"
+/// The picture of `simulate`: phase portrait of the relative motion, and its time series, with the stops of the pair.
+#include "relative_motion.hpp"
 #include "slapstick/figure/figure.hpp"
-#include "slapstick/flow/system.hpp"
+#include "slapstick/flow/motion.hpp"
 
 namespace slapstick::app {
 
 class MotionPlot {
  public:
-  explicit MotionPlot(const System& system) : relative_(system.model()), forced_(system.model().forced()) {}
+  MotionPlot(RelativeMotion relative, bool forced) : relative_(std::move(relative)), forced_(forced) {}
 
-  /// The next point of the curve; an event adds two, the states before and after.
+  /// The next point of the curve.
   void add(Instant time, const State& state) {
     t_.push_back(time.seconds(1.0));
     y_.push_back(relative_.y(state));
     w_.push_back(relative_.w(state));
+  }
+  /// An event is two points, the states before and after.
+  void add_event(const Motion& motion) {
+    const auto before = motion.before();
+    add(motion.event().time, State(before.begin(), before.end()));
+    add(motion.event().time, motion.state());
   }
   [[nodiscard]] bool empty() const { return t_.empty(); }
   [[nodiscard]] figure::Figure figure() const;

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <system_error>
+#include <utility>
 
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/text.hpp"
@@ -33,7 +34,11 @@ void Output::commit() {
 
 TableOutput::TableOutput(const std::string& path, const std::vector<std::string>& columns) : output_(path) {
   for (const std::string& column : columns) word(column);
-  end_row();
+  header_ = std::exchange(row_, {}) + '\n';
+}
+
+void TableOutput::write_header() {
+  if (!header_.empty()) output_.write(std::exchange(header_, {}));
 }
 
 TableOutput& TableOutput::number(double value) {
@@ -55,11 +60,15 @@ TableOutput& TableOutput::numbers(std::span<const double> values) {
 
 void TableOutput::end_row() {
   row_ += '\n';
+  write_header();
   output_.write(row_);
   row_.clear();
 }
 
-void TableOutput::commit() { output_.commit(); }
+void TableOutput::commit() {
+  write_header();
+  output_.commit();
+}
 
 Plot::Plot(const std::string& path) {
   if (path.empty()) return;

@@ -29,7 +29,8 @@ class Output {
   std::optional<AtomicFile> file_;
 };
 
-/// A CSV table of numbers and names on an Output. Names are model names or fixed words: they need no quotes.
+/// A CSV table of numbers and names on an Output. Names are model names or fixed words: they need no quotes. The header goes out with the
+/// first row or with `commit`: a table that is given up leaves nothing on standard output.
 class TableOutput {
  public:
   TableOutput(const std::string& path, const std::vector<std::string>& columns);
@@ -40,8 +41,10 @@ class TableOutput {
   void commit();
 
  private:
+  void write_header();
+
   Output output_;
-  std::string row_;
+  std::string header_, row_;
 };
 
 /// --plot F.png: the picture, with its script and data beside it.

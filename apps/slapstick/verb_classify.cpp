@@ -4,6 +4,7 @@
 #include "progress.hpp"
 #include "slapstick/attractor/classify.hpp"
 #include "slapstick/io/json.hpp"
+#include "stop_options.hpp"
 #include "verb.hpp"
 #include "work.hpp"
 
@@ -12,24 +13,29 @@ namespace {
 
 struct Options {
   ModelOptions model;
+  StopOptions stops;
   std::string out;
   long long transient = 500, most_periods = 20'000, most_n = 64;
   bool progress = false;
 };
 
-Json impacts_json(const std::vector<CycleImpact>& impacts, const std::vector<std::string>& names) {
+/// With several stops each impact says which one was hit.
+Json impacts_json(const std::vector<CycleImpact>& impacts, const Model& model) {
+  const auto names = state_names(model);
   Json list = Json::list();
   for (const CycleImpact& impact : impacts) {
     Json state = Json::object();
     for (std::size_t i = 0; i < names.size(); ++i) state.set(names[i], impact.state[i]);
     Json item = Json::object();
-    item.set("phase", impact.phase).set("w", impact.w).set("state", std::move(state));
+    item.set("phase", impact.phase).set("w", impact.w);
+    if (several_stops(model)) item.set("contact", stop_name(model, impact.contact));
+    item.set("state", std::move(state));
     list.push(std::move(item));
   }
   return list;
 }
 
-Json cycle_json(const Classification& found, Json json, const std::vector<std::string>& names) {
+Json cycle_json(const Classification& found, Json json, const Model& model) {
   json.set("n", found.n);
   json.set("p", found.chatter == Chatter::complete ? Json("inf") : Json(found.p));
   Json multipliers = Json::list();
@@ -38,7 +44,7 @@ Json cycle_json(const Classification& found, Json json, const std::vector<std::s
   json.set("sticking_fraction", found.sticking_fraction).set("multipliers", std::move(multipliers));
   json.set("return_distance", found.return_distance)
       .set("approach", found.approach)
-      .set("impacts", impacts_json(found.impacts, names));
+      .set("impacts", impacts_json(found.impacts, model));
   return json;
 }
 
@@ -50,7 +56,7 @@ Json result_json(const Classification& found, const ChosenModel& chosen) {
   json.set("model", chosen.model.name).set("parameters", std::move(parameters));
   json.set("class", found.label).set("attractor", std::string(name(found.attractor)));
   json.set("sticking", found.sticking).set("chatter", std::string(name(found.chatter)));
-  if (found.attractor == Attractor::periodic) json = cycle_json(found, std::move(json), names);
+  if (found.attractor == Attractor::periodic) json = cycle_json(found, std::move(json), chosen.model);
   json.set("exponent", found.exponent);
   if (found.attractor != Attractor::periodic)
     json.set("exponent_error", found.exponent_error).set("birkhoff_digits", found.digits);
@@ -66,15 +72,15 @@ Action add_classify(Arguments& arguments) {
   auto options = std::make_shared<Options>();
   options->model.declare(arguments);
   options->model.declare_state(arguments);
-  arguments.count("--transient", options->transient, 0, 1'000'000'000,
-                  "forcing periods to leave out first; default 500");
-  arguments.count("--most-periods", options->most_periods, 10, 1'000'000'000,
-                  "search for a cycle this long; default 20000");
-  arguments.count("--most-n", options->most_n, 1, 4096, "longest cycle sought, in forcing periods; default 64");
+  arguments.count("--transient", options->transient, 0, 1'000'000'000, "forcing periods to leave out first (500)");
+  arguments.count("--most-periods", options->most_periods, 10, 1'000'000'000, "search for a cycle this long (20000)");
+  arguments.count("--most-n", options->most_n, 1, 4096, "longest cycle sought, in forcing periods (64)");
+  options->stops.declare(arguments, "count and list the impacts of this stop only; may be repeated (all)");
   arguments.text("--out", options->out, "FILE", "write the JSON there instead of to standard output");
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
       "The class n-p-I or n-p-II: n forcing periods, p impacts (inf with complete chatter), II if the blocks stick.\n"
+      "A compliant stop counts by its engagements.\n"
       "A motion without a cycle is quasi-periodic, chaotic or undecided; docs/classify.md says how that is decided.\n"
       "  slapstick classify vibro-impact --set omega=1.5");
   return [options](const Context& context) {
@@ -83,6 +89,7 @@ Action add_classify(Arguments& arguments) {
     roles.add("--out", options->out);
     Output out(options->out);
     const ChosenModel chosen = options->model.load();
+    const StopChoice stops = options->stops.choice(chosen.model);
     const State start = options->model.start(chosen);
     constexpr double least_search = 10.0;  // periods
     const System system =
@@ -94,6 +101,7 @@ Action add_classify(Arguments& arguments) {
                  {.transient_periods = static_cast<int>(options->transient),
                   .most_periods = static_cast<int>(options->most_periods),
                   .most_n = static_cast<int>(options->most_n),
+                  .stops = stops,
                   .cancel = &context.stop,
                   .progress = [&](long periods) { progress.update(static_cast<double>(periods)); }});
     if (found.interrupted) return interrupted;

@@ -1,12 +1,16 @@
 /// slapstick diagram MODEL --sweep NAME=A:B:COUNT
+#include <algorithm>
 #include <cstdio>
 
+#include "axis_text.hpp"
+#include "contact_clouds.hpp"
 #include "model_options.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/text.hpp"
 #include "slapstick/sweep/diagram.hpp"
+#include "stop_options.hpp"
 #include "verb.hpp"
 #include "work.hpp"
 
@@ -17,6 +21,7 @@ using sweep::Direction;
 
 struct Options {
   ModelOptions model;
+  StopOptions stops;
   std::string sweep, direction = "up", start = "carry", out, plot;
   long long transient = 500, impacts = 200, most_periods = 5000, threads = 0;
   bool progress = false;
@@ -61,7 +66,7 @@ void check_size(const Options& options, const Sweep& sweep) {
 void check_ends(const Options& options, const ChosenModel& chosen, const Sweep& sweep) {
   if (chosen.overrides.count(sweep.name) != 0)
     throw InputError("--sweep: " + in_quotes(sweep.name) + " is given by --set too");
-  if (chosen.model.stops.empty())
+  if (stop_contacts(chosen.model).empty())
     throw InputError(
         "model " + in_quotes(chosen.model.name) + " has no stop, so a diagram has no impacts to show; " +
         (chosen.model.forced() ? "`poincare --section stroboscopic` needs none" : "`simulate` needs none"));
@@ -84,6 +89,7 @@ sweep::DiagramProblem problem_of(const Options& options, const ChosenModel& chos
   problem.start_at = [&options, &chosen, sweep](double value) {
     return options.model.start(chosen, {{sweep.name, value}});
   };
+  problem.stops = options.stops.choice(chosen.model);
   problem.from = sweep.from;
   problem.to = sweep.to;
   problem.count = sweep.count;
@@ -98,40 +104,56 @@ sweep::DiagramProblem problem_of(const Options& options, const ChosenModel& chos
   return problem;
 }
 
-/// With several stops the last column says which one was hit.
+/// With several stops the last column says which one was hit. If every value has failed, no table is made.
 void write_table(TableOutput& table, const sweep::Diagram& diagram, const Model& model) {
   for (const sweep::DiagramPoint& point : diagram.points) {
     for (std::size_t i = 0; i < point.impacts.size(); ++i) {
       const auto row = point.impacts[i];
       table.number(point.parameter).word(point.direction == Direction::up ? "up" : "down");
       table.number(row.w).number(row.flight).number(row.sliding).number(row.phase).numbers(row.state);
-      if (model.stops.size() > 1) table.word(model.stops[row.stop].name);
+      if (several_stops(model)) table.word(stop_name(model, row.contact));
       table.end_row();
     }
   }
-  table.commit();
+  if (std::ranges::any_of(diagram.points, [](const auto& point) { return point.failure.empty(); })) table.commit();
 }
 
-figure::Figure picture(const sweep::Diagram& diagram, const Sweep& sweep, bool both) {
+/// Both directions: a colour each. One: a colour for each stop.
+std::vector<figure::Points> clouds(const sweep::Diagram& diagram, const Model& model,
+                                   const sweep::DiagramProblem& problem, bool flight) {
+  figure::Points up{.label = "up", .colour = figure::colours::dark_blue};
+  figure::Points down{.label = "down", .colour = figure::colours::vermillion};
+  up.diameter_mm = 2.0 * down.diameter_mm;  // where both directions agree, up shows as a rim around down
+  ContactClouds stops(model, problem.stops, ContactClouds::Overlap::rims);
+  const bool both = problem.direction == Direction::both;
+  for (const sweep::DiagramPoint& point : diagram.points) {
+    figure::Points& cloud = point.direction == Direction::up ? up : down;
+    for (std::size_t i = 0; i < point.impacts.size(); ++i) {
+      const auto row = point.impacts[i];
+      const double y = flight ? row.flight : row.w;
+      if (!both) {
+        stops.add(row.contact, point.parameter, y);
+        continue;
+      }
+      cloud.x.push_back(point.parameter);
+      cloud.y.push_back(y);
+    }
+  }
+  if (!both) return stops.points();
+  std::vector<figure::Points> filled;
+  for (auto& cloud : {up, down})
+    if (!cloud.x.empty()) filled.push_back(cloud);
+  return filled;
+}
+
+figure::Figure picture(const sweep::Diagram& diagram, const Sweep& sweep, const Model& model,
+                       const sweep::DiagramProblem& problem) {
   figure::Figure figure{.width_cm = 17.5, .share_x = true};
   for (const bool flight : {false, true}) {
-    figure::Points up{.label = both ? "up" : "", .colour = figure::colours::dark_blue};
-    figure::Points down{.label = both ? "down" : "", .colour = figure::colours::vermillion};
-    if (both) up.diameter_mm = 2.0 * down.diameter_mm;  // where both directions agree, up shows as a rim around down
-    for (const sweep::DiagramPoint& point : diagram.points) {
-      figure::Points& cloud = point.direction == Direction::up ? up : down;
-      for (std::size_t i = 0; i < point.impacts.size(); ++i) {
-        cloud.x.push_back(point.parameter);
-        cloud.y.push_back(flight ? point.impacts[i].flight : point.impacts[i].w);
-      }
-    }
-    std::string name;
-    for (const char c : sweep.name) name += c == '_' ? std::string("\\_") : std::string(1, c);
-    figure::Panel panel{.x_label = name,
-                        .y_label = flight ? "flight / period" : "w at impact",
+    figure::Panel panel{.x_label = axis_text(sweep.name),
+                        .y_label = flight ? "flight / period" : "w at " + contact_words(model, problem.stops),
                         .x_range = figure::Range{sweep.from, sweep.to}};
-    for (auto& cloud : {up, down})
-      if (!cloud.x.empty()) panel.points.push_back(cloud);
+    panel.points = clouds(diagram, model, problem, flight);
     figure.panels.push_back(std::move(panel));
   }
   return figure;
@@ -145,7 +167,7 @@ std::string per_direction(long up, long down) {
 }
 
 /// Says on standard error what a table cannot. @throws NumericalError if a value failed
-void report(const sweep::Diagram& diagram, const Sweep& sweep) {
+void report(const sweep::Diagram& diagram, const Sweep& sweep, const std::string& noun) {
   long notes = 0, failures = 0, empty[2] = {};
   const sweep::DiagramPoint *note = nullptr, *failure = nullptr, *without = nullptr;
   for (const sweep::DiagramPoint& point : diagram.points) {
@@ -157,13 +179,14 @@ void report(const sweep::Diagram& diagram, const Sweep& sweep) {
   }
   const auto at = [&](const sweep::DiagramPoint& point) { return sweep.name + " = " + shown(point.parameter); };
   if (without != nullptr)
-    std::fprintf(stderr, "slapstick: no impacts at %s of the values, first %s (see --most-periods)\n",
+    std::fprintf(stderr, "slapstick: no %ss at %s of the values, first %s (see --most-periods)\n", noun.c_str(),
                  per_direction(empty[0], empty[1]).c_str(), at(*without).c_str());
   if (note != nullptr)
     std::fprintf(stderr, "slapstick: %ld values, first %s: %s\n", notes, at(*note).c_str(), note->note.c_str());
   if (failure != nullptr)
-    throw NumericalError(std::to_string(failures) + " of " + std::to_string(diagram.points.size()) +
-                         " values failed (the others are written), first " + at(*failure) + ": " + failure->failure);
+    throw NumericalError(std::to_string(failures) + " of " + std::to_string(diagram.points.size()) + " values failed" +
+                         (failures < static_cast<long>(diagram.points.size()) ? " (the others are written)" : "") +
+                         ", first " + at(*failure) + ": " + failure->failure);
 }
 
 int diagram(const Options& options, const Context& context) {
@@ -178,7 +201,7 @@ int diagram(const Options& options, const Context& context) {
   const Plot plot(options.plot);
   std::vector<std::string> columns{sweep.name, "direction", "w", "flight", "sliding", "phase"};
   for (const std::string& name : state_names(chosen.model)) columns.push_back(name);
-  if (chosen.model.stops.size() > 1) columns.emplace_back("contact");
+  if (several_stops(chosen.model)) columns.emplace_back("contact");
   TableOutput table(options.out, columns);
 
   sweep::DiagramProblem problem = problem_of(options, chosen, sweep);
@@ -192,9 +215,9 @@ int diagram(const Options& options, const Context& context) {
   write_table(table, result, chosen.model);
   bool any = false;
   for (const sweep::DiagramPoint& point : result.points) any = any || point.impacts.size() > 0;
-  const int status = plot.write_or_say(picture(result, sweep, problem.direction == Direction::both), !any,
-                                       result.complete ? done : interrupted);
-  report(result, sweep);
+  const int status =
+      plot.write_or_say(picture(result, sweep, chosen.model, problem), !any, result.complete ? done : interrupted);
+  report(result, sweep, contact_noun(chosen.model, problem.stops));
   return status;
 }
 
@@ -216,14 +239,18 @@ Action add_diagram(Arguments& arguments) {
   arguments.count("--most-periods", options->most_periods, 1, 1'000'000'000,
                   "end a recording here if impacts are rare (5000)");
   arguments.count("--threads", options->threads, 0, 1024, "0: all cores; the result is the same for any number (0)");
+  options->stops.declare(arguments, "record the impacts of this stop only; may be repeated (all)");
   arguments.text("--out", options->out, "F.csv", "write the impacts there instead of to standard output");
   arguments.text("--plot", options->plot, "F.png",
                  "diagrams of w and flight: .png, .pdf or .svg; its data and script lie beside it");
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
-      "Columns: the parameter, direction, w, flight, sliding, phase and the state just before each impact. A value "
-      "that fails is left out,\n"
-      "named on standard error, and makes the exit status 3.\n"
+      "Columns: the parameter, direction, w, flight, sliding, phase and the state just before each impact, with "
+      "several stops "
+      "also contact.\n"
+      "A compliant stop takes part by its engagements. A value that fails is left out, named on standard error, and "
+      "makes "
+      "the\nexit status 3.\n"
       "Example:\n  slapstick diagram vibro-impact --sweep omega=4:6:1000 --direction both --plot diagram.png --out "
       "impacts.csv");
   return [options, &arguments](const Context& context) {

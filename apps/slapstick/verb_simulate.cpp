@@ -2,17 +2,20 @@
 #include <algorithm>
 #include <array>
 
+#include "certified_run.hpp"
 #include "model_options.hpp"
 #include "motion_plot.hpp"
 #include "output.hpp"
 #include "physical.hpp"
 #include "progress.hpp"
+#include "retrace.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/text.hpp"
 #include "slapstick/flow/stage.hpp"
 #include "slapstick/io/json.hpp"
 #include "slapstick/io/observer.hpp"
 #include "slapstick/section/sampled_motion.hpp"
+#include "stop_options.hpp"
 #include "verb.hpp"
 #include "work.hpp"
 
@@ -28,22 +31,25 @@ struct Options {
   long long periods = 100;
   double time = 0.0;
   long long samples = 100;
-  std::string events, trajectory, plot, out;
+  StopOptions stop;
+  std::string events, trajectory, certify, plot, out;
   bool physical = false, progress = false;
 };
 
 /// Everything a run writes to, opened before it starts.
 class Run {
  public:
-  Run(const Options& options, const ChosenModel& chosen, System system, const State& start, Instant end)
+  Run(const Options& options, const ChosenModel& chosen, System system, const State& start, Instant end,
+      RelativeMotion pair)
       : system_(std::move(system)),
         options_(options),
         end_(end),
         result_(options.out),
         plot_(options.plot),
-        picture_(system_),
+        picture_(std::move(pair), system_.model().forced()),
         observer_(chosen.definition.observer(chosen.overrides)),
         units_(chosen, options.physical) {
+    if (!options.certify.empty()) certified_.emplace(options.certify);
     if (!options.events.empty()) events_.emplace(options.events, units_.event_columns());
     if (!options.trajectory.empty()) trajectory_.emplace(options.trajectory, units_.trajectory_columns());
     const int wanted = trajectory_ ? static_cast<int>(options.samples) : plot_samples;
@@ -51,6 +57,7 @@ class Run {
     const int samples = trajectory_ || plot_.wanted() ? wanted * stride_ : 0;
     plot_from_ = end.period >= plotted_periods ? Instant{end.period - plotted_periods, end.fraction} : Instant{};
     motion_.emplace(Motion(system_, start), samples, trajectory_ ? Instant{} : plot_from_);
+    if (plot_.wanted()) retrace_.emplace(motion_->motion(), plotted_periods);
   }
 
   /// @returns false if it was stopped before the end
@@ -66,18 +73,26 @@ class Run {
         if (++steps % 1024 == 0) progress.update(motion_->motion().time().since({}));
         if (context.stop.load(std::memory_order_relaxed)) return false;
       }
+      if (retrace_) retrace_->mark(motion_->motion());
       progress.update(stage.since({}));
       if (context.stop.load(std::memory_order_relaxed)) return stage == end_;
     } while (stage < end_);
     return true;
   }
 
+  /// The run again, for its certificate. @returns false if it was stopped
+  bool certify(const State& start, const Context& context) {
+    return !certified_ || (*certified_)(system_, start, end_, options_.progress, context);
+  }
+
   /// @returns the exit status
   int write(bool complete, const ChosenModel& chosen, const State& start) {
     if (events_) events_->commit();
     if (trajectory_) trajectory_->commit();
+    if (certified_) certified_->commit();
     result_.write(summary(complete, chosen, start).dump() + "\n");
     result_.commit();
+    if (plot_.wanted() && picture_.empty()) retrace();
     return plot_.write_or_say(picture_.figure(), picture_.empty(), complete ? done : interrupted);
   }
 
@@ -93,11 +108,8 @@ class Run {
           .number(units_.w(event.w));
       events_->numbers(units_.state(motion.before())).end_row();
     }
-    if (plot_.wanted() && event.time >= plot_from_) {
-      const State before(motion.before().begin(), motion.before().end());
-      picture_.add(event.time, before);
-      picture_.add(event.time, motion.state());
-    }
+    if (retrace_) retrace_->mark(motion);
+    if (plot_.wanted() && event.time >= plot_from_) picture_.add_event(motion);
   }
 
   void note_sample() {
@@ -109,6 +121,20 @@ class Run {
     }
     if (plot_.wanted() && sample.time >= plot_from_) picture_.add(sample.time, sample.state);
     ++samples_;
+  }
+
+  /// The picture of a run that was ended before the part that it was to show: the last periods that there are.
+  void retrace() {
+    const Instant end = motion_->motion().time();
+    const Motion& from = retrace_->from();
+    const double behind = end.since(from.time());
+    SampledMotion last(from, plot_samples, from.time().plus(std::max(0.0, behind - plotted_periods)));
+    for (auto item = last.next(end); item != SampledMotion::Item::end; item = last.next(end)) {
+      if (item == SampledMotion::Item::sample) picture_.add(last.sample().time, last.sample().state);
+      if (item == SampledMotion::Item::event &&
+          last.motion().event().time.since(from.time()) > behind - plotted_periods)
+        picture_.add_event(last.motion());
+    }
   }
 
   [[nodiscard]] Json state_json(const State& state) const {
@@ -135,6 +161,7 @@ class Run {
     json.set("model", chosen.model.name).set("parameters", std::move(parameters)).set("period", system_.period());
     json.set("complete", complete).set("start", state_json(start)).set("end", std::move(end));
     json.set("events", std::move(events)).set("work", std::move(work));
+    if (certified_) json.set("certificate", certified_->summary());
     return json;
   }
 
@@ -147,7 +174,9 @@ class Run {
   Observer observer_;
   TableUnits units_;
   std::optional<TableOutput> events_, trajectory_;
+  std::optional<CertifiedRun> certified_;
   std::optional<SampledMotion> motion_;
+  std::optional<Retrace> retrace_;
   std::array<long, event_kinds> kinds_{};
   long samples_ = 0;
   int stride_ = 1;
@@ -170,11 +199,13 @@ int simulate(const Options& options, bool by_time, const Context& context) {
   roles.add("--out", options.out);
   roles.add("--events", options.events);
   roles.add("--trajectory", options.trajectory);
+  roles.add("--certify", options.certify);
   roles.add_plot(options.plot);
   const Instant end = end_of(options, by_time, chosen.model);
+  const RelativeMotion pair(chosen.model, shown_contact(chosen.model, options.stop.choice(chosen.model)));
   System system = affordable_system(chosen, {end.since({}), by_time ? "--time" : "--periods"});
-  Run run(options, chosen, std::move(system), start, end);
-  const bool complete = run(context);
+  Run run(options, chosen, std::move(system), start, end, pair);
+  const bool complete = run(context) && run.certify(start, context);
   return run.write(complete, chosen, start);
 }
 
@@ -190,9 +221,12 @@ Action add_simulate(Arguments& arguments) {
                  "every event: time, kind, contact, w, and the state just before");
   arguments.text("--trajectory", options->trajectory, "F.csv",
                  "samples: time, state, mode, and the model's observables");
+  arguments.text("--certify", options->certify, "F.txt",
+                 "the proof that no event was missed, for slapstick-verify (docs/certificate.md)");
   arguments.count("--samples", options->samples, 1, 1'000'000, "samples of --trajectory per forcing period (100)");
   arguments.text("--plot", options->plot, "F.png",
                  "picture of the last 20 periods: .png, .pdf or .svg; its data and script lie beside it");
+  options->stop.declare(arguments, "the stop whose pair the picture shows (the first one)");
   arguments.text("--out", options->out, "F.json", "write the summary there instead of to standard output");
   arguments.flag("--physical", options->physical,
                  "the tables in the physical units of the model's [scale]; all else stays in the model's numbers");
@@ -200,14 +234,18 @@ Action add_simulate(Arguments& arguments) {
   arguments.footer(
       "Example:\n  slapstick simulate vibro-impact --set omega=1.5 --state x1=-0.5,v1=0 --periods 50 --events "
       "events.csv --plot motion.png\n"
-      "Events are impact, slip+, slip-, stick, release, graze and chatter (the limit of infinitely many impacts); w is "
-      "the relative\n"
-      "velocity just before. A model without forcing has a period of 1.");
+      "Events are impact, slip+, slip-, stick, release, graze, chatter (the limit of infinitely many impacts), and "
+      "engage,\n"
+      "disengage, separate of compliant stops; w is the relative velocity just before. A model without forcing has a "
+      "period of 1.");
   return [options, &arguments](const Context& context) {
     if (arguments.given("--time") && arguments.given("--periods"))
       throw InputError("--time and --periods both give the length: choose one");
     if (options->physical && options->events.empty() && options->trajectory.empty())
       throw InputError("--physical: it is for --events and --trajectory, and neither is given");
+    if (!options->stop.names.empty() && options->plot.empty())
+      throw InputError("--stop: it is for the picture of --plot, which is not given");
+    if (options->stop.names.size() > 1) throw InputError("--stop is given more than once: the picture shows one pair");
     return simulate(*options, arguments.given("--time"), context);
   };
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "attractor/exponent.hpp"
 #include "attractor/return_map.hpp"
@@ -108,6 +109,10 @@ void ReturnSearch::note_period() {
                speed = states_.back().tail(n).cwiseAbs().maxCoeff();
   scale_.head(n) = scale_.head(n).cwiseMax(position);
   scale_.tail(n) = scale_.tail(n).cwiseMax(speed);
+  // A velocity (or a displacement) that happens to vanish at phase 0 says nothing about the size of the motion.
+  const double omega = 2.0 * std::numbers::pi / system_.period(), least = 1e-3;
+  scale_.head(n) = scale_.head(n).cwiseMax(least * scale_.tail(n) / omega);
+  scale_.tail(n) = scale_.tail(n).cwiseMax(least * scale_.head(n) * omega);
   const long surplus = static_cast<long>(states_.size()) - (6L * options_.most_n + returns_compared);
   if (surplus > 0) {  // keep what comparisons can reach
     const long removed = surplus + 2L * options_.most_n;
@@ -162,7 +167,7 @@ bool ReturnSearch::accept(const VectorXd& x, int cycle, double d, Classification
   if (!multipliers.empty() && std::abs(multipliers.front()) > 1.0 + repelling) return false;
   result.attractor = Attractor::periodic;
   result.approach = d;
-  attractor::record_cycle(system_, attractor::user_state(system_, x), n, options_.cancel, result);
+  attractor::record_cycle(system_, attractor::user_state(system_, x), n, options_.stops, options_.cancel, result);
   result.return_distance = attractor::distance(map.image, x, scale_);
   result.multipliers = multipliers;
   return true;
@@ -206,7 +211,9 @@ void decide_aperiodic(const attractor::RunFigures& run, const ClassifyOptions& o
 
 Classification classify(const System& system, const State& state, const ClassifyOptions& options) {
   if (!system.model().forced())
-    throw InputError("model '" + system.model().name + "' has no periodic forcing: n-p classes count forcing periods");
+    throw InputError("model '" + system.model().name +
+                     "' has no periodic forcing: n-p classes count forcing periods; "
+                     "`poincare --section event` shows its returns");
   Classification result;
   ReturnSearch search(system, state, options);
   search.discard(options.transient_periods);
@@ -216,8 +223,9 @@ Classification classify(const System& system, const State& state, const Classify
     if (search.run(periods, result) || search.cancelled()) break;
     done += periods;
     const bool last = done >= options.most_periods;
-    const auto run = attractor::run_figures(
-        system, search.state(), last ? options.exponent_periods : options.exponent_periods / 4, options.cancel);
+    const auto run =
+        attractor::run_figures(system, search.state(), last ? options.exponent_periods : options.exponent_periods / 4,
+                               options.stops, options.cancel);
     if (search.cancelled()) break;
     decide_aperiodic(run, options, result);
     if (result.attractor == Attractor::quasi_periodic && search.still_approaching()) {

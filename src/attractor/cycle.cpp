@@ -10,7 +10,7 @@ PeriodEvents run_one_period(Motion& motion, Stop stop) {
   const Instant end{motion.time().period + 1, 0.0};
   run_to(motion, end, stop, [&] {
     const EventKind kind = motion.event().kind;
-    count.impacts += kind == EventKind::impact;
+    count.impacts += StopChoice().is_point(motion.event());
     count.sticks += kind == EventKind::stick;
     count.chatters += kind == EventKind::chatter;
   });
@@ -66,7 +66,8 @@ bool holds_still(const Motion& motion, ModeId mode) {
 
 }  // namespace
 
-void record_cycle(const System& system, const State& state, int n, Stop stop, Classification& out) {
+void record_cycle(const System& system, const State& state, int n, const StopChoice& stops, Stop stop,
+                  Classification& out) {
   Motion motion(system, state);
   std::vector<double> times, speeds;
   double still = 0.0;
@@ -89,15 +90,15 @@ void record_cycle(const System& system, const State& state, int n, Stop stop, Cl
   run_to(motion, {n, 0.0}, stop, [&] {
     const Event& event = motion.event();
     spend(event.time);
-    if (event.kind == EventKind::chatter) out.chatter = Chatter::complete;
-    if (event.kind != EventKind::impact) return;
+    if (event.kind == EventKind::chatter && stops.holds(event.contact)) out.chatter = Chatter::complete;
+    if (!stops.is_point(event)) return;
     const std::span<const double> before = motion.before();
-    out.impacts.push_back({event.time.fraction, event.w, State(before.begin(), before.end())});
+    out.impacts.push_back({event.time.fraction, event.w, event.contact, State(before.begin(), before.end())});
     note_impact();
   });
   spend(motion.time());
   run_to(motion, {2 * n, 0.0}, stop, [&] {  // a second cycle: a burst may run across its start
-    if (motion.event().kind == EventKind::impact) note_impact();
+    if (stops.is_point(motion.event())) note_impact();
   });
   out.p = static_cast<long>(out.impacts.size());
   out.sticking_fraction = still / n;

@@ -5,7 +5,7 @@
 
 namespace slapstick::attractor {
 
-/// Events within one forcing period.
+/// Events within one forcing period, of all contacts; engagements of compliant stops are impacts (section/stop_choice.hpp).
 struct PeriodEvents {
   int impacts = 0, sticks = 0, chatters = 0;
   friend bool operator==(const PeriodEvents&, const PeriodEvents&) = default;
@@ -25,8 +25,9 @@ State user_state(const System& system, const Eigen::VectorXd& contact);
 /// Distance of two contact states, positions and velocities each relative to `scale` (same layout).
 double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::VectorXd& scale);
 
-/// Runs `n` periods from `state` and fills in what the cycle holds: impacts, stick, chatter, label.
-void record_cycle(const System& system, const State& state, int n, Stop stop, Classification& out);
+/// Runs `n` periods from `state` and fills in what the cycle holds: impacts and chatter of the chosen stops, stick, label.
+void record_cycle(const System& system, const State& state, int n, const StopChoice& stops, Stop stop,
+                  Classification& out);
 
 /// Chatter of a sequence of impacts: incomplete if at least four in a row come ever slower and ever sooner.
 bool has_burst(const std::vector<double>& times, const std::vector<double>& speeds);

@@ -48,7 +48,7 @@ double birkhoff_digits(const std::vector<double>& sequence) {
   return std::min(16.0, -std::log10(std::abs(difference) / (high - low) + 1e-17));
 }
 
-RunFigures run_figures(const System& system, const State& state, int periods, Stop stop) {
+RunFigures run_figures(const System& system, const State& state, int periods, const StopChoice& stops, Stop stop) {
   const Eigen::Index size = 2 * system.frame().n;
   // A fixed direction with no symmetry: every run of the same motion gives the same bits.
   Eigen::MatrixXd tangent(size, 1);
@@ -56,19 +56,22 @@ RunFigures run_figures(const System& system, const State& state, int periods, St
   tangent.normalize();
   TangentMotion motion(system, state, tangent);
   RunFigures figures;
-  std::vector<double> growth, speeds, phases, times, strobe;
+  std::vector<double> growth, speeds, phases, strobe;
+  std::vector<double> chosen_speeds, chosen_times;
   bool dead = false;
   const int discard = periods / 20;  // until the tangent points along the fastest growing direction
   for (int k = 0; k < periods + discard; ++k) {
     const bool whole = run_to(motion, {k + 1, 0.0}, stop, [&] {
       const Event& event = motion.motion().event();
       figures.events.sticks += event.kind == EventKind::stick;
-      figures.events.chatters += event.kind == EventKind::chatter;
-      if (event.kind != EventKind::impact) return;
+      figures.events.chatters += event.kind == EventKind::chatter && stops.holds(event.contact);
+      if (!StopChoice().is_point(event)) return;
       ++figures.events.impacts;
       speeds.push_back(event.w);
-      times.push_back(event.time.since({}));
       phases.push_back(std::cos(2.0 * std::numbers::pi * event.time.fraction));
+      if (!stops.is_point(event)) return;
+      chosen_speeds.push_back(event.w);
+      chosen_times.push_back(event.time.since({}));
     });
     if (!whole) return figures;
     strobe.push_back(motion.motion().extended()[0]);
@@ -85,7 +88,7 @@ RunFigures run_figures(const System& system, const State& state, int periods, St
   figures.digits =
       speeds.size() >= 100 ? std::min(birkhoff_digits(speeds), birkhoff_digits(phases)) : birkhoff_digits(strobe);
   figures.state = motion.motion().state();
-  figures.burst = has_burst(times, speeds);
+  figures.burst = has_burst(chosen_times, chosen_speeds);
   return figures;
 }
 

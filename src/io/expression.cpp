@@ -80,7 +80,8 @@ Expression::Expression(const std::string& text) : compiled_(std::make_shared<Com
     compiled.parser.Eval(results);
     if (results != 1) refuse(text, "a ',' separates two values (write 0.5, not 0,5)");
   } catch (const mu::ParserError& error) {
-    refuse(text, lowered(error.GetMsg()));
+    const bool product = error.GetCode() == mu::ecUNEXPECTED_VAR;  // 1 kg, 2 x
+    refuse(text, lowered(error.GetMsg()) + (product ? " (a product is written with *, and a number has no unit)" : ""));
   }
 }
 

@@ -148,8 +148,20 @@ Model ModelBuilder::model() {
   add_links(model);
   add_contacts(model);
   add_matrices(model);
+  if (!definition_.omega) demand_no_forcing(model);
   if (const auto fault = first_fault(model)) throw refusal(*fault, model);
   return model;
+}
+
+/// Without `omega` there can be no harmonic > 0; the first one is named.
+void ModelBuilder::demand_no_forcing(const Model& model) const {
+  const auto found = std::ranges::find_if(model.forces, [](const Force& force) { return force.harmonic > 0; });
+  if (found == model.forces.end()) return;
+  const Origin& from = origins_.at("force")[static_cast<std::size_t>(found - model.forces.begin())];
+  const auto& part = definition_.of(from.kind)[from.index];
+  throw InputError(definition_.place(part.line) + part_label(from.kind, from.index, part) +
+                   (from.kind == "force" ? ": harmonic " : ": its base moves with harmonic ") +
+                   std::to_string(found->harmonic) + " of the forcing frequency, and the file has no 'omega'");
 }
 
 const ModelBuilder::Origin* ModelBuilder::origin(const Fault& fault) const {

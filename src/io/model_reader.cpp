@@ -137,6 +137,7 @@ class Reader {
 
   void read_start(const TomlNode& table, const std::vector<std::string>& states) {
     tree_.expect(table, Kind::table, "start");
+    if (states.empty()) tree_.fail(1, "model", "it has no coordinates");
     tree_.check_keys(table, "start", states);
     for (const auto& [name, node] : table.entries)
       definition_.start.emplace_back(name, tree_.scalar(node, "start: " + name));

@@ -218,6 +218,7 @@ class PartReader {
       if (rule.ends != Ends::moving) refuse_base(node, rule, where);
       return base_end(static_cast<int>(base - bases_.begin()));
     }
+    if (coordinates_.empty()) tree_.fail(1, "model", "it has no coordinates");
     auto known = coordinates_;
     if (rule.ends == Ends::moving) known.insert(known.end(), bases_.begin(), bases_.end());
     known.emplace_back("ground");

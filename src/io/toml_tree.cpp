@@ -136,7 +136,10 @@ TomlNode parse_toml(std::string_view text, const std::string& source) {
     const toml::table table = toml::parse(text);
     return Converter(source).convert(table, 0, 0);
   } catch (const toml::parse_error& error) {
-    throw InputError(place(source, error.source().begin.line) + one_line(error.description()));
+    const std::string what = one_line(error.description());
+    const bool rest = what.find("expected a comment or whitespace, saw") != std::string::npos;  // 0,5 or 1 kg
+    throw InputError(place(source, error.source().begin.line) + what +
+                     (rest ? " (a number is 0.5, not 0,5, and has no unit; an expression stands in quotes)" : ""));
   }
 }
 

@@ -28,8 +28,8 @@ bool ImpactSection::next(Instant end, SectionPoint& point) {
     if (outcome == Outcome::reached_end) return false;
     if (watcher_) watcher_(motion_);
     const Event& event = motion_.event();
-    if (event.kind != EventKind::impact) {
-      note(event.kind);
+    if (!stops_.is_point(event)) {
+      note(event);
       continue;
     }
     point.time = event.time;
@@ -37,7 +37,7 @@ bool ImpactSection::next(Instant end, SectionPoint& point) {
     point.flight = has_last_ ? event.time.since(last_) : std::numeric_limits<double>::quiet_NaN();
     point.sliding = has_last_ ? sliding_ : std::numeric_limits<double>::quiet_NaN();
     point.phase = event.time.fraction;
-    point.stop = event.contact;
+    point.contact = event.contact;
     point.state.assign(motion_.before().begin(), motion_.before().end());
     begin_flight();
     point_given_ = true;
@@ -45,8 +45,8 @@ bool ImpactSection::next(Instant end, SectionPoint& point) {
   }
 }
 
-void ImpactSection::note(EventKind kind) {
-  switch (kind) {
+void ImpactSection::note(const Event& event) {
+  switch (event.kind) {
     case EventKind::impact:
       break;
     case EventKind::stick:
@@ -68,7 +68,7 @@ void ImpactSection::note(EventKind kind) {
       break;
     case EventKind::chatter:
       ++between_.chatters;
-      begin_flight();
+      if (stops_.holds(event.contact)) begin_flight();
       break;
   }
 }

@@ -71,9 +71,9 @@ std::optional<Settled> settle(const DiagramProblem& problem, const Carried& carr
   bool interrupted = false;
   const bool good = attempt(point, [&] {
     auto system = std::make_shared<const System>(problem.model_at(point.parameter));
-    if (system->model().stops.empty())
+    if (stop_contacts(system->model()).empty())
       throw InputError("model '" + system->model().name + "' has no stop, so there are no impacts to record");
-    ImpactSection section(start_motion(problem, carried, *system, point));
+    ImpactSection section(start_motion(problem, carried, *system, point), problem.stops);
     const Instant end = after(section, problem.transient_periods);
     interrupted = !run_impacts(section, end, problem.cancel, [](const SectionPoint&) { return true; });
     if (interrupted) return;
@@ -97,7 +97,7 @@ void record(const DiagramProblem& problem, Settled settled, DiagramPoint& point)
     const Instant end = after(section, problem.most_periods);
     interrupted = !run_impacts(section, end, problem.cancel, [&](const SectionPoint& impact) {
       if (!std::isnan(impact.flight))
-        point.impacts.add({impact.w, impact.flight, impact.sliding, impact.phase, impact.stop, impact.state});
+        point.impacts.add({impact.w, impact.flight, impact.sliding, impact.phase, impact.contact, impact.state});
       return point.impacts.size() < static_cast<std::size_t>(problem.impacts);
     });
     if (interrupted) return;
@@ -110,7 +110,7 @@ void record(const DiagramProblem& problem, Settled settled, DiagramPoint& point)
 void ImpactTable::add(const Row& row) {
   if (width_ == 0) width_ = fixed + row.state.size();
   if (width_ != fixed + row.state.size()) throw std::logic_error("ImpactTable: states of different length");
-  numbers_.insert(numbers_.end(), {row.w, row.flight, row.sliding, row.phase, static_cast<double>(row.stop)});
+  numbers_.insert(numbers_.end(), {row.w, row.flight, row.sliding, row.phase, static_cast<double>(row.contact)});
   numbers_.insert(numbers_.end(), row.state.begin(), row.state.end());
 }
 

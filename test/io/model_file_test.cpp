@@ -176,6 +176,8 @@ TEST(HostileFile, names_that_are_no_regular_file) {
       (void)load_model(path);
     } catch (const InputError& error) {
       return error.what();
+    } catch (const StorageError& error) {
+      return std::string("storage: ") + error.what();
     }
     return "accepted";
   };
@@ -183,9 +185,9 @@ TEST(HostileFile, names_that_are_no_regular_file) {
   fs::create_directories(folder / "folder.toml");
   ASSERT_EQ(::mkfifo((folder / "pipe.toml").c_str(), 0600), 0);
   fs::create_symlink("loop.toml", folder / "loop.toml");
-  const auto named = [&](const char* name) { return "model file '" + (folder / name).string() + "': "; };
+  const auto named = [&](const char* name) { return "storage: model file '" + (folder / name).string() + "': "; };
   EXPECT_EQ(message(folder / "none.toml"), named("none.toml") + "no such file");
-  EXPECT_EQ(message(folder / "folder.toml"), named("folder.toml") + "not a regular file");
+  EXPECT_EQ(message(folder / "folder.toml"), named("folder.toml") + "this is a folder");
   EXPECT_EQ(message(folder / "pipe.toml"), named("pipe.toml") + "not a regular file");
   EXPECT_EQ(message(folder / "loop.toml"), named("loop.toml") + "Too many levels of symbolic links");
   EXPECT_EQ(message("vibro-impct"),

@@ -97,6 +97,38 @@ TEST(Diagram, RowsOfAPeriodicMotionAreOneRow) {
   }
 }
 
+/// x = sin of the phase, watched by pads too soft to matter at 0.5 and -0.5: an engagement of each per period, half a period apart.
+TEST(Diagram, RowsOfChosenCompliantStopsAreTheirOwnEngagements) {
+  DiagramProblem problem = over_omega(0.5, 0.8, 4);
+  problem.model_at = [](double clearance) {
+    Model model;
+    model.name = "watched";
+    model.coordinates = {{"x", 1.0}};
+    model.springs = {{0, ground, 1.0}};
+    model.dampers = {{0, ground, 0.25}};
+    model.forces = {{0, 1, 0.25, 0.0}};
+    model.compliant_stops = {{"up", 0, ground, clearance, 1e-9, 0.0, false},
+                             {"down", ground, 0, clearance, 1e-9, 0.0, false}};
+    model.omega = 1.0;
+    return model;
+  };
+  problem.start_at = [](double) { return State{0.0, 0.0}; };
+  for (const bool chosen : {false, true}) {
+    if (chosen) problem.stops = {problem.model_at(0.5), {"down"}};
+    for (const DiagramPoint& point : run_diagram(problem).points) {
+      ASSERT_EQ(point.failure, "");
+      ASSERT_EQ(point.impacts.size(), 30U) << point.parameter;
+      for (std::size_t i = 0; i < 30; ++i) {
+        EXPECT_NEAR(point.impacts[i].w, std::sqrt(1.0 - point.parameter * point.parameter), 1e-7);
+        EXPECT_NEAR(point.impacts[i].flight, chosen ? 1.0 : 0.5, 1e-7);
+        if (chosen) {
+          EXPECT_EQ(point.impacts[i].contact, 1);
+        }
+      }
+    }
+  }
+}
+
 TEST(Diagram, AFailingValueDoesNotAbortTheSweep) {
   DiagramProblem problem = over_omega(2.0, 2.4, 5);
   problem.model_at = [](double omega) {

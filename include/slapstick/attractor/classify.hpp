@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "slapstick/flow/motion.hpp"
+#include "slapstick/section/stop_choice.hpp"
 
 namespace slapstick {
 
@@ -36,6 +36,9 @@ struct ClassifyOptions {
   double newton_start = 1e-3;   ///< return distance below which Newton's method is tried
   int exponent_periods = 4000;  ///< length of the exponent and average runs
   double curve_digits = 5.0;
+  /// Whose impacts a cycle is counted and listed by: p, `impacts`, `chatter` and the label. Engagements of compliant stops count as impacts.
+  /// The attractor is the same for every choice.
+  StopChoice stops = {};
   const std::atomic<bool>* cancel = nullptr;  ///< set it and classify returns soon, with `interrupted`
   /// Called after every forcing period of the transient and the search with the number of them so far; at most transient_periods +
   /// most_periods, and less if a cycle is found early.
@@ -46,7 +49,8 @@ struct ClassifyOptions {
 struct CycleImpact {
   double phase = 0.0;  ///< fraction of a period
   double w = 0.0;
-  State state;  ///< just before, user's coordinates
+  int contact = 0;  ///< the stop that is hit: System::contact_name
+  State state;      ///< just before, user's coordinates
 };
 
 struct Classification {

@@ -117,7 +117,8 @@ class ModelDefinition {
 };
 
 /// A built-in model by name, or a model file by a path that ends in ".toml".
-/// @throws InputError for an unknown name (the nearest is suggested), a missing or too large file, or its content
+/// @throws InputError for an unknown name (the nearest is suggested), a file that is too large, or its content;
+/// StorageError for a file that is not there or cannot be read
 [[nodiscard]] ModelDefinition load_model(const std::string& name_or_path);
 
 /// A commented file to start a model of one's own from: sound as it is, and with an example of every key, some switched off.

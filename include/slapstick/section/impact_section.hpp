@@ -1,5 +1,6 @@
 #pragma once
-/// The impact section: the sequence of impacts of a motion, each seen just before it happens.
+/// The impact section: the sequence of impacts of a motion, each seen just before it happens. It may be that of some stops only, and a
+/// compliant stop takes part by its engagements (section/stop_choice.hpp): "impact" stands for both here.
 ///
 /// This is the paper's Poincare section (eq. 8): y = b, w > 0. Between two of its points lie a *flight* and, in it, the time in
 /// which the friction contact slips (the paper's t_f is called "sliding time" in its text and is plotted as the flight).
@@ -9,10 +10,11 @@
 ///              |-----|         |------|    sliding = sum of the two
 ///
 /// The limit of a complete chatter counts as the end of its last flight: the impact after a chatter has a flight that begins there.
+/// Events of stops that were not chosen end no flight.
 #include <functional>
 #include <limits>
 
-#include "slapstick/flow/motion.hpp"
+#include "slapstick/section/stop_choice.hpp"
 
 namespace slapstick {
 
@@ -24,7 +26,7 @@ struct SectionPoint {
   /// The part of `flight` in which a friction contact slips, in forcing periods; 0 without friction contacts, NaN where flight is.
   double sliding = std::numeric_limits<double>::quiet_NaN();
   double phase = 0.0;  ///< of the forcing, as a fraction of a period in [0, 1)
-  int stop = 0;        ///< index of the stop that is hit
+  int contact = 0;     ///< the stop that is hit: System::contact_name
   State state;         ///< just before the impact, user's coordinates
 };
 
@@ -37,7 +39,8 @@ struct Between {
 class ImpactSection {
  public:
   /// Takes the motion over; its System must outlive the section.
-  explicit ImpactSection(Motion motion) : motion_(std::move(motion)), seen_(motion_.time()) {}
+  explicit ImpactSection(Motion motion, StopChoice stops = {})
+      : motion_(std::move(motion)), stops_(stops), seen_(motion_.time()) {}
 
   /// Moves on to the next impact and writes it into `point`, or to `end` if none comes first.
   /// No allocation once `point.state` has its size. An impact exactly at `end` is a point.
@@ -45,7 +48,7 @@ class ImpactSection {
   /// @throws NumericalError as Motion::advance
   bool next(Instant end, SectionPoint& point);
 
-  /// Events other than impacts since the last point (or, before the first, since the section was made).
+  /// Other events, of any contact, since the last point (or, before the first, since the section was made).
   [[nodiscard]] const Between& between() const { return between_; }
 
   /// Called after every event, impacts included, while the motion stands there. Must not outlive what it refers to.
@@ -54,10 +57,11 @@ class ImpactSection {
   [[nodiscard]] const Motion& motion() const { return motion_; }
 
  private:
-  void note(EventKind kind);
+  void note(const Event& event);
   void begin_flight();
 
   Motion motion_;
+  StopChoice stops_;
   std::function<void(const Motion&)> watcher_;
   Instant seen_;  ///< up to here sliding_ is summed
   Instant last_;  ///< the impact or chatter limit before

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "slapstick/model/model.hpp"
+#include "slapstick/section/stop_choice.hpp"
 
 namespace slapstick::sweep {
 
@@ -33,7 +33,8 @@ struct DiagramProblem {
   int most_periods = 5000;      ///< a recording ends here if impacts are too rare, >= 1
   Direction direction = Direction::up;
   StartRule start = StartRule::carry;
-  int threads = 0;  ///< 0: all
+  StopChoice stops = {};  ///< whose impacts are recorded (section/stop_choice.hpp); those of other stops end no flight
+  int threads = 0;        ///< 0: all
   /// Called after every value with the numbers done and to do; from any of the threads, but never two at once.
   std::function<void(int done, int total)> progress;
   const std::atomic<bool>* cancel = nullptr;  ///< set it and the sweep returns soon with what is complete
@@ -47,7 +48,7 @@ class ImpactTable {
     double flight;                  ///< since the impact (or chatter limit) before, in forcing periods
     double sliding;                 ///< the part of it in which the friction contact slips
     double phase;                   ///< of the forcing, in [0, 1)
-    int stop;                       ///< which one was hit
+    int contact;                    ///< the stop that was hit: System::contact_name
     std::span<const double> state;  ///< just before the impact, user's coordinates
   };
   [[nodiscard]] std::size_t size() const { return width_ == 0 ? 0 : numbers_.size() / width_; }

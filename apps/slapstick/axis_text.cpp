@@ -1,0 +1,18 @@
+#include "axis_text.hpp"
+
+namespace slapstick::app {
+
+std::string axis_text(const std::string& name) {
+  std::string text;
+  for (const char c : name) text += c == '_' ? std::string("\\_") : std::string(1, c);
+  return text;
+}
+
+std::string axis_symbol(const std::string& name) {
+  const std::size_t digits = name.find_first_of("0123456789");
+  if (digits == 1 && name.find_first_not_of("0123456789", digits) == std::string::npos)
+    return name.substr(0, 1) + "_{" + name.substr(1) + "}";
+  return axis_text(name);
+}
+
+}  // namespace slapstick::app

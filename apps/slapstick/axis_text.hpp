@@ -1,0 +1,12 @@
+#pragma once
+/// Names of a model as the text of a picture, in gnuplot's enhanced notation.
+#include <string>
+
+namespace slapstick::app {
+
+/// Literally: an underscore stays one.
+[[nodiscard]] std::string axis_text(const std::string& name);
+/// As a symbol: x1 as x_{1}; else as axis_text.
+[[nodiscard]] std::string axis_symbol(const std::string& name);
+
+}  // namespace slapstick::app

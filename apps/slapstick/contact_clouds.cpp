@@ -1,0 +1,42 @@
+#include "contact_clouds.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include "axis_text.hpp"
+#include "stop_options.hpp"
+
+namespace slapstick::app {
+namespace {
+
+namespace colours = figure::colours;
+constexpr std::array palette{colours::dark_blue, colours::vermillion, colours::green,
+                             colours::orange,    colours::purple,     colours::sky_blue};
+
+}  // namespace
+
+ContactClouds::ContactClouds(const Model& model, const StopChoice& choice, Overlap overlap)
+    : stops_(chosen_stops(model, choice)) {
+  for (const int contact : stops_) {
+    figure::Points cloud{.colour = palette[clouds_.size() % palette.size()]};
+    const auto above = std::min<std::size_t>(stops_.size() - 1 - clouds_.size(), 3);
+    if (overlap == Overlap::rims) cloud.diameter_mm *= 1.0 + 0.5 * static_cast<double>(above);
+    if (stops_.size() > 1) cloud.label = axis_text(stop_name(model, contact));
+    clouds_.push_back(std::move(cloud));
+  }
+}
+
+void ContactClouds::add(int contact, double x, double y) {
+  const auto index = std::ranges::find(stops_, contact) - stops_.begin();
+  clouds_[static_cast<std::size_t>(index)].x.push_back(x);
+  clouds_[static_cast<std::size_t>(index)].y.push_back(y);
+}
+
+std::vector<figure::Points> ContactClouds::points() const {
+  std::vector<figure::Points> filled;
+  std::ranges::copy_if(clouds_, std::back_inserter(filled), [](const auto& cloud) { return !cloud.x.empty(); });
+  return filled;
+}
+
+}  // namespace slapstick::app

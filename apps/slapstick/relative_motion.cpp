@@ -1,0 +1,39 @@
+#include "relative_motion.hpp"
+
+#include <tuple>
+#include <utility>
+
+#include "axis_text.hpp"
+
+namespace slapstick::app {
+namespace {
+
+/// The two sides of a contact: stops first, then friction contacts, then compliant stops.
+std::pair<int, int> sides(const Model& model, std::size_t contact) {
+  const auto of = [](const auto& part) { return std::pair(part.a, part.b); };
+  if (contact < model.stops.size()) return of(model.stops[contact]);
+  contact -= model.stops.size();
+  if (contact < model.frictions.size()) return of(model.frictions[contact]);
+  return of(model.compliant_stops.at(contact - model.frictions.size()));
+}
+
+}  // namespace
+
+RelativeMotion::RelativeMotion(const Model& model, int contact) {
+  if (contact >= 0) std::tie(a, b) = sides(model, static_cast<std::size_t>(contact));
+  if (a == ground) std::swap(a, b);
+  const auto names = state_names(model);
+  const auto name = [&](int coordinate, int offset) {
+    return axis_symbol(names[2 * static_cast<std::size_t>(coordinate) + offset]);
+  };
+  displacement = name(a, 0) + (b == ground ? "" : " - " + name(b, 0));
+  velocity = name(a, 1) + (b == ground ? "" : " - " + name(b, 1));
+  const auto note = [&](const auto& stop) {
+    if (stop.a == a && stop.b == b) limits.push_back(stop.clearance);
+    if (stop.a == b && stop.b == a) limits.push_back(-stop.clearance);
+  };
+  for (const auto& stop : model.stops) note(stop);
+  for (const auto& stop : model.compliant_stops) note(stop);
+}
+
+}  // namespace slapstick::app

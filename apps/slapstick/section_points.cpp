@@ -1,0 +1,155 @@
+#include "section_points.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "contact_clouds.hpp"
+#include "progress.hpp"
+#include "relative_motion.hpp"
+#include "slapstick/base/error.hpp"
+#include "slapstick/section/run_impacts.hpp"
+#include "slapstick/section/stroboscopic_section.hpp"
+
+namespace slapstick::app {
+namespace {
+
+/// Ends at the last point, or where there is no next one: at the section's last period, or after `patience` periods without a point.
+class ImpactPoints {
+ public:
+  ImpactPoints(const PoincareOptions& options, const System& system, const StopChoice& stops, TableOutput& table)
+      : options_(options),
+        system_(system),
+        table_(table),
+        stops_(stops),
+        clouds_(system.model(), stops, ContactClouds::Overlap::rare) {}
+
+  Found operator()(Motion motion, const Context& context) {
+    Progress progress("points", static_cast<double>(options_.points), options_.progress);
+    ImpactSection section(std::move(motion), stops_);
+    const auto pass = [](const SectionPoint&) { return true; };
+    found_.whole = run_impacts(section, {options_.transient, 0.0}, &context.stop, pass);
+    const Instant last{options_.transient + options_.most_periods, 0.0};
+    Instant end, now = section.motion().time();
+    while (found_.whole && found_.points < options_.points && end < last) {
+      end = std::min(last, Instant{now.period + options_.patience, now.fraction});
+      const long long before = found_.points;
+      found_.whole = run_impacts(section, end, &context.stop, [&](const SectionPoint& point) {
+        note(point);
+        now = point.time;
+        progress.update(static_cast<double>(found_.points));
+        return found_.points < options_.points;
+      });
+      if (found_.points == before) break;
+    }
+    if (found_.whole && found_.points < options_.points) report(section.motion().time());
+    const Model& model = system_.model();
+    found_.panel.x_label = model.forced() ? "phase of the forcing / 2π" : "fraction of the unit of time";
+    found_.panel.y_label = "w just before the " + contact_words(model, stops_);
+    found_.panel.points = clouds_.points();
+    return std::move(found_);
+  }
+
+ private:
+  void note(const SectionPoint& point) {
+    table_.number(point.time.seconds(system_.period())).number(point.phase).number(point.w);
+    table_.number(point.flight).number(point.sliding).numbers(point.state);
+    if (several_stops(system_.model())) table_.word(stop_name(system_.model(), point.contact));
+    table_.end_row();
+    ++found_.points;
+    if (!options_.plot.empty()) clouds_.add(point.contact, point.phase, point.w);
+  }
+
+  /// Fewer points than were asked for. @throws NumericalError if there is none
+  void report(Instant end) const {
+    const Model& model = system_.model();
+    const auto what = " " + contact_noun(model, stops_) + "s in " + std::to_string(end.period - options_.transient) +
+                      " periods after the transient";
+    if (found_.points == 0)
+      throw NumericalError("no" + what + ": try another --set or --state" +
+                           (options_.stops.names.empty() ? "" : ", another --stop") + ", a longer --most-periods" +
+                           (model.forced() ? ", or --section stroboscopic" : ", or a shorter --transient"));
+    std::fprintf(stderr, "slapstick: only %lld%s (see --most-periods)\n", found_.points, what.c_str());
+  }
+
+  const PoincareOptions& options_;
+  const System& system_;
+  TableOutput& table_;
+  StopChoice stops_;
+  ContactClouds clouds_;
+  Found found_;
+};
+
+}  // namespace
+
+Found impact_points(const PoincareOptions& options, const StopChoice& stops, Motion motion, TableOutput& table,
+                    const Context& context) {
+  return ImpactPoints(options, motion.system(), stops, table)(std::move(motion), context);
+}
+
+Found strobe_points(const PoincareOptions& options, const StopChoice& stops, Motion motion, TableOutput& table,
+                    const Context& context) {
+  const System& system = motion.system();
+  const RelativeMotion relative(system.model(), shown_contact(system.model(), stops));
+  Found found{.panel = {.x_label = relative.displacement, .y_label = relative.velocity}};
+  for (const double limit : relative.limits) found.panel.marks.push_back({.x = limit});
+  figure::Points cloud;
+  Progress progress("points", static_cast<double>(options.points), options.progress);
+  StroboscopicSection section(std::move(motion), options.phase);
+  StroboscopicPoint point;
+  for (long long i = 0; i < options.transient + options.points; ++i) {
+    found.whole = section.next(point, &context.stop);
+    if (!found.whole) break;
+    if (i < options.transient) continue;
+    table.number(point.time.seconds(system.period())).number(point.time.fraction);
+    table.numbers(point.state).word(system.mode_name(point.mode)).end_row();
+    ++found.points;
+    if (!options.plot.empty()) {
+      cloud.x.push_back(relative.y(point.state));
+      cloud.y.push_back(relative.w(point.state));
+    }
+    progress.update(static_cast<double>(found.points));
+  }
+  found.panel.points.push_back(std::move(cloud));
+  return found;
+}
+
+/// The picture is the return map of the contact's displacement.
+Found event_points(const PoincareOptions& options, const EventChoice& events, Motion motion, TableOutput& table,
+                   const Context& context) {
+  const System& system = motion.system();
+  const RelativeMotion relative(system.model(), events.contact.value_or(shown_contact(system.model(), {})));
+  Found found{
+      .panel = {.x_label = relative.displacement + " at a point", .y_label = relative.displacement + " at the next"}};
+  figure::Points cloud;
+  Progress progress("points", static_cast<double>(options.points), options.progress);
+  found.whole = run_to(motion, {options.transient, 0.0}, &context.stop, [] {});
+  EventSection section(std::move(motion), events);
+  const Instant last{options.transient + options.most_periods, 0.0};
+  EventPoint point;
+  double before = 0.0;
+  while (found.whole && found.points < options.points) {
+    const Instant now = section.motion().time();
+    if (!section.next(std::min(last, Instant{now.period + options.patience, now.fraction}), point, &context.stop)) {
+      found.whole = !context.stop.load(std::memory_order_relaxed);
+      break;
+    }
+    table.number(point.time.seconds(system.period())).number(point.return_time).number(point.w);
+    table.numbers(point.state).word(system.contact_name(point.contact)).end_row();
+    if (found.points++ > 0) {
+      cloud.x.push_back(before);
+      cloud.y.push_back(relative.y(point.state));
+    }
+    before = relative.y(point.state);
+    progress.update(static_cast<double>(found.points));
+  }
+  const std::string in =
+      " in " + std::to_string(section.motion().time().period - options.transient) + " periods after the transient";
+  if (found.whole && found.points == 0)
+    throw NumericalError("no such event" + in + ": try another --event, --set or --state, or a longer --most-periods");
+  if (found.whole && found.points < options.points)
+    std::fprintf(stderr, "slapstick: only %lld events%s (see --most-periods)\n", found.points, in.c_str());
+  found.panel.points.push_back(std::move(cloud));
+  return found;
+}
+
+}  // namespace slapstick::app

@@ -1,0 +1,37 @@
+#pragma once
+/// The points of a section of a motion: into a table and a picture.
+#include "model_options.hpp"
+#include "output.hpp"
+#include "slapstick/section/event_section.hpp"
+#include "stop_options.hpp"
+#include "verb.hpp"
+
+namespace slapstick::app {
+
+/// What the command line says.
+struct PoincareOptions {
+  ModelOptions model;
+  StopOptions stops;
+  std::string section = "impact", event, out, plot;
+  double phase = 0.0;
+  long long transient = 500, points = 1000, most_periods = 1'000'000, patience = 10'000;
+  bool progress = false;
+};
+
+/// What a section gave.
+struct Found {
+  long long points = 0;
+  bool whole = true;  ///< false: stopped before its end
+  figure::Panel panel;
+};
+
+/// Each runs the transient, then writes points until there are enough, or none comes for `patience` periods.
+/// @throws NumericalError if there is no point
+[[nodiscard]] Found impact_points(const PoincareOptions& options, const StopChoice& stops, Motion motion,
+                                  TableOutput& table, const Context& context);
+[[nodiscard]] Found strobe_points(const PoincareOptions& options, const StopChoice& stops, Motion motion,
+                                  TableOutput& table, const Context& context);
+[[nodiscard]] Found event_points(const PoincareOptions& options, const EventChoice& events, Motion motion,
+                                 TableOutput& table, const Context& context);
+
+}  // namespace slapstick::app

@@ -1,0 +1,180 @@
+#include "slapstick/certify/certificate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "slapstick/flow/mode_graph.hpp"
+
+namespace slapstick::certify {
+namespace {
+
+std::string hex(double x) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), " %a", x);
+  return text.data();
+}
+
+std::string number(long long k) { return " " + std::to_string(k); }
+
+std::string_view word(mode::GuardKind kind) {
+  constexpr std::string_view words[] = {"gap", "slip", "stick", "stick", "press", "engage", "leave", "let-go", "push"};
+  return words[static_cast<int>(kind)];
+}
+
+/// " n j v j v ..": what is not zero in a row.
+std::string entries(const mode::RowVector& row) {
+  std::string text;
+  long count = 0;
+  for (Eigen::Index j = 0; j < row.size(); ++j) {
+    if (row[j] == 0.0) continue;
+    text += number(j) + hex(row[j]);
+    ++count;
+  }
+  return number(count) + text;
+}
+
+}  // namespace
+
+Certificate::Certificate(const System& system, const State& start, std::function<void(const std::string&)> write)
+    : system_(system), motion_(system, start), write_(std::move(write)) {
+  magnitude_.assign(static_cast<std::size_t>(system.frame().size()), 0.0);
+  head();
+}
+
+void Certificate::line(const char* word, const std::string& rest) { text_ += word + rest + "\n"; }
+
+void Certificate::head() {
+  const mode::Frame& frame = system_.frame();
+  line("slapstick-certificate", number(1));
+  line("model", " " + system_.model().name);
+  line("sizes", number(frame.size()) + number(frame.d));
+  line("period", hex(system_.period()));
+  for (std::size_t k = 0; k < frame.stops.size(); ++k) {
+    const Stop& stop = system_.model().stops[k];
+    line("stop", number(static_cast<long>(k)) + number(frame.stops[k].own) + hex(frame.stops[k].sign) +
+                     hex(stop.restitution) + " " + stop.name);
+  }
+  for (int i = 0; i < frame.d; ++i) {
+    std::string row = number(i);
+    for (int j = 0; j < frame.d; ++j) row += hex(frame.mass_inverse(i, j));
+    line("inertia", row);
+  }
+}
+
+void Certificate::mode(ModeId id) {
+  if (!shown_.insert(id).second) return;
+  const mode::Mode& mode = system_.mode(id);
+  line("mode", number(id) + " " + system_.mode_name(id));
+  for (Eigen::Index i = 0; i < mode.system().rows(); ++i) {
+    if (!mode.system().row(i).isZero(0.0)) line("row", number(i) + entries(mode.system().row(i)));
+  }
+  for (int g = 0; g < mode.guard_count(); ++g)
+    line("guard", number(g) + " " + std::string(word(mode.guards()[g].kind)) + entries(mode.guards()[g].row));
+}
+
+void Certificate::run(Instant end, const std::function<bool(Instant)>& go_on) {
+  for (;;) {
+    const double piece = windows_per_piece * system_.mode(motion_.mode_id()).window_in_periods();
+    const Instant stage = std::min(end, motion_.time().plus(piece));
+    const Outcome outcome = motion_.advance(stage);
+    if (motion_.counters().segments != seen_) segment(outcome == Outcome::event);
+    seen_ = motion_.counters().segments;
+    if (outcome == Outcome::event) {
+      const Event& event = motion_.event();
+      line("event", " " + std::string(name(event.kind)) + " " + system_.contact_name(event.contact) + hex(event.w));
+    }
+    write_(text_);
+    text_.clear();
+    if (!go_on(motion_.time()) || (outcome == Outcome::reached_end && stage == end)) return;
+  }
+}
+
+/// The segment that the motion has just flown. A chatter's segment begins at rest at its stop: the last impact's end says so.
+void Certificate::segment(bool ended_by_event) {
+  const Motion::Segment segment = motion_.segment();
+  const bool chatter = ended_by_event && motion_.event().kind == EventKind::chatter && motion_.hits().empty();
+  if (chatter) line("blow", number(1) + number(motion_.event().contact));
+  mode(segment.mode);
+  line("segment", number(tally_.segments++) + number(segment.mode) + number(segment.start.period) +
+                      hex(segment.start.fraction) + hex(segment.duration));
+  std::string state;
+  for (int i = 0; i < system_.frame().size(); ++i) state += hex(segment.X[i]);
+  line("state", state);
+  SegmentProof proof(system_.mode(segment.mode), segment.X.data(), segment.duration);
+  const bool zero = ended_by_event && !motion_.hits().empty();
+  guards(proof, ended_by_event);
+  if (zero)
+    hit(proof);
+  else if (chatter)
+    line("end chatter", number(motion_.event().contact) + hex(motion_.event().error));
+  else
+    line("end cut", "");
+  tally_.chatters += chatter ? 1 : 0;
+  blows();
+}
+
+/// All guards but the one whose zero ends the segment. Others that vanish with it are proved up to some roundings before.
+void Certificate::guards(SegmentProof& proof, bool ended_by_event) {
+  const Motion::Segment segment = motion_.segment();
+  const auto mechanical = 2 * static_cast<std::size_t>(system_.frame().d);
+  for (std::size_t i = 0; i < magnitude_.size(); ++i)
+    magnitude_[i] = i < mechanical ? std::abs(segment.X[i]) : 1.0;  // as Motion measures rounding
+  if (segment.duration == 0.0) return;
+  for (int g = 0; g < system_.mode(segment.mode).guard_count(); ++g) {
+    if (ended_by_event && !motion_.hits().empty() && motion_.hits().front() == g) continue;
+    print(g, guard(proof, g, ended_by_event ? proof.positive_until(g) : segment.duration));
+  }
+}
+
+GuardProof Certificate::guard(SegmentProof& proof, int g, double limit) {
+  const Motion::Segment segment = motion_.segment();
+  const int order = flow::start_order(system_.mode(segment.mode), g, segment.X.data(), magnitude_.data());
+  if (order == flow::never || order == flow::negative) return {flow::never, limit, true, {}};
+  return proof.prove(g, order, limit);
+}
+
+void Certificate::print(int g, const GuardProof& proof) {
+  ++tally_.guards;
+  if (!proof.reached) ++tally_.unproved;
+  if (proof.order == flow::never) return line("rest", number(g));
+  line("prove", number(g) + number(proof.order) + hex(proof.limit));
+  for (const Step& step : proof.steps)
+    line("step", hex(step.s) + hex(step.h) + hex(step.h1) + hex(step.M) + hex(step.d));
+  tally_.steps += static_cast<long>(proof.steps.size());
+}
+
+/// The guard whose zero ends the segment. Where 256 bits cannot tell a zero from a touch, the proof ends where they cannot.
+void Certificate::hit(SegmentProof& proof) {
+  const double duration = motion_.segment().duration;
+  const int g = motion_.hits().front();
+  if (duration == 0.0) return line("end zero", number(g) + hex(0.0));
+  const Zero zero = proof.zero_at_end(g);
+  GuardProof found = guard(proof, g, zero.certain ? duration - zero.delta : duration);
+  if (!zero.certain && !found.reached) {
+    found.limit = found.steps.empty() ? 0.0 : found.steps.back().s + found.steps.back().d;
+    found.reached = true;
+  }
+  print(g, found);
+  if (zero.certain) return line("end zero", number(g) + hex(zero.delta));
+  ++tally_.touches;
+  line("end touch", number(g) + hex(proof.size_from(g, found.limit)));
+}
+
+void Certificate::blows() {
+  for (const Motion::Strike& strike : motion_.strikes()) {
+    std::string stops = number(strike.to_rest ? 1 : 0);
+    for (int stop = 0; stop < static_cast<int>(system_.frame().stops.size()); ++stop)
+      if ((strike.stops >> stop & 1U) != 0) stops += number(stop);
+    line("blow", stops);
+  }
+}
+
+void Certificate::finish() {
+  line("done", number(tally_.segments));
+  write_(text_);
+  text_.clear();
+}
+
+}  // namespace slapstick::certify

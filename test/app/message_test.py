@@ -1,0 +1,99 @@
+"""What the program says when something is wrong with a number, a model file or a motion. One CTest case per function `test_...`."""
+import os
+import signal
+
+from program import good, main, read, refused, run, says, signalled
+
+HEAD = 'name = "m"\n'
+COORDINATE = '[[coordinate]]\nname = "x"\nmass = %s\n'
+FORCE = '[[force]]\non = "x"\namplitude = 1\n'
+
+
+def write(path, text):
+    with open(path, 'w', encoding='utf-8') as file:
+        file.write(text)
+    return path
+
+
+def test_a_forcing_without_omega_is_said_where_it_stands():
+    says(refused(2, 'check', write('f.toml', HEAD + COORDINATE % 1 + FORCE)), "f.toml:5: force 1: ", "no 'omega'")
+    base = '[[base]]\nname = "b"\nharmonics = [{amplitude = 1, harmonic = 3}]\n[[spring]]\nbetween = ["x", "b"]\nstiffness = 1\n'
+    says(refused(2, 'check', write('b.toml', HEAD + COORDINATE % 1 + base)), "b.toml:8: spring 1: its base", 'harmonic 3', "no 'omega'")
+    good('check', write('c.toml', HEAD + COORDINATE % 1 + FORCE + 'harmonic = 0\n'))
+    says(refused(2, 'check', write('z.toml', HEAD + 'omega = 0\n' + COORDINATE % 1 + FORCE)), 'z.toml:2:', 'omega = 0 is not positive')
+
+
+def test_a_file_without_coordinates_is_not_asked_for_their_names():
+    for text in (HEAD, HEAD + FORCE, HEAD + '[start]\nx = 1\n'):
+        says(refused(2, 'check', write('n.toml', text)), 'n.toml:1: model: it has no coordinates')
+
+
+def test_a_comma_or_a_unit_in_a_number_is_recognised():
+    comma, unit = 'decimals have a point: 0.5, not 0,5', 'no unit'
+    for words in (('simulate', 'vibro-impact', '--set', 'omega=%s'), ('simulate', 'vibro-impact', '--time', '%s'),
+                  ('diagram', 'vibro-impact', '--sweep', 'omega=%s:1:3')):
+        says(refused(2, *words[:-1], words[-1] % '0,5'), words[-2], "'0,5' is not a number", comma)
+        for text in ('1 kg', '1kg', '1.5e3m'):
+            says(refused(2, *words[:-1], words[-1] % text), words[-2], "'%s' is not a number" % text, unit)
+    says(refused(2, 'simulate', 'vibro-impact', '--state', 'x1=-0,5,v1=0'), '--state', comma)
+    says(refused(2, 'simulate', 'vibro-impact', '--set', 'omega=0.5,restitution=1'), 'one number')
+    assert '(' not in refused(2, 'simulate', 'vibro-impact', '--set', 'omega=kg')
+    for text in ('0,5', '1 kg'):
+        says(refused(2, 'check', write('u.toml', HEAD + COORDINATE % text)), 'u.toml:4: ', '0.5, not 0,5', 'no unit')
+    says(refused(2, 'check', write('q.toml', HEAD + COORDINATE % '"0,5"')), 'q.toml:4: ', 'write 0.5, not 0,5')
+    says(refused(2, 'check', write('q.toml', HEAD + COORDINATE % '"1 kg"')), 'q.toml:4: ', '"kg"', 'no unit')
+
+
+def test_a_model_file_that_cannot_be_read_is_status_4():
+    os.mkdir('folder.toml')
+    os.mkdir('folder')
+    for verb in ('check', 'show', 'simulate', 'classify', 'poincare'):
+        says(refused(4, verb, 'nothing.toml'), "'nothing.toml': no such file")
+    says(refused(4, 'check', 'no/such/m.toml'), 'no/such/m.toml')
+    for folder in ('folder.toml', 'folder', 'folder/', '.', '..'):
+        says(refused(4, 'check', folder), repr(folder), 'this is a folder')
+    says(refused(4, 'diagram', 'nothing.toml', '--sweep', 'a=1:2:3'), 'no such file')
+    os.mkfifo('pipe.toml')
+    says(refused(4, 'check', 'pipe.toml', timeout=10), 'not a regular file')
+    write('m.txt', HEAD + COORDINATE % 1)
+    says(refused(2, 'check', 'm.txt'), "'m.txt'", 'must end in .toml')
+
+
+def test_a_section_without_points_ends_soon_and_leaves_nothing():
+    words = ('poincare', 'vibro-impact', '--set', 'clearance=9')
+    with open('out.csv', 'wb') as out:
+        refused(3, *words, timeout=10, out=out)
+    assert read('out.csv') == ''
+    for more in ((), ('--out', 'p.csv'), ('--out', 'p.csv', '--plot', 'p.png')):
+        says(refused(3, *words, *more, timeout=10), 'no impacts in 10000 periods', '--state', '--most-periods', '--section stroboscopic')
+    says(refused(3, *words, '--most-periods', '20'), 'no impacts in 20 periods')
+    says(refused(3, *words, '--most-periods', '30000'), 'no impacts in 30000 periods')
+    says(refused(3, 'poincare', 'bouncing-ball', '--transient', '1000'), 'no impacts', 'a shorter --transient')
+    done = signalled(signal.SIGINT, 0.5, *words, '--most-periods', '1000000000', '--out', 'p.csv')
+    assert done.status == 130, (done.status, done.err)
+    assert os.listdir('.') == ['out.csv'], os.listdir('.')
+    done = run('poincare', 'bouncing-ball', '--transient', '0')  # it comes to rest after some points
+    assert done.status == 0 and 3 < done.out.count('\n') < 1000, done.status
+    says(done.err, 'only %d impacts' % (done.out.count('\n') - 1))
+
+
+def test_a_sweep_that_fails_everywhere_leaves_no_table():
+    endless = ['omega=1e-5', 'load=10', 'cosine=0', 'restitution=0.999999999']
+    words = [word for value in endless for word in ('--set', value)]
+    line = refused(3, 'diagram', 'impact-oscillator', *words, '--state', 'x=-0.001', '--sweep', 'damping_ratio=0:1e-9:2', '--transient', '1', '--out', 'd.csv')
+    says(line, '2 of 2 values failed, first damping_ratio = 0')
+    assert os.listdir('.') == []
+
+
+def test_ctrl_c_plots_the_last_periods_that_there_are():
+    for omega in ('4.9', '1e-4'):  # some events per period; a stage of many windows
+        done = signalled(signal.SIGINT, 1.0, 'simulate', 'vibro-impact', '--set', 'omega=' + omega, '--periods', '1000000', '--plot', 'p.png', patience=5)
+        assert done.status == 130 and done.err == '', (done.status, done.err)
+        end = float(done.out.split('"periods": ')[1].split(',')[0])
+        assert os.path.getsize('p.png') > 1000
+        times = [float(line.split(',')[2]) for line in read('p-plot.csv').splitlines()[1:] if line.split(',')[2]]
+        assert times == sorted(times) and times[0] >= end - 20.1 and abs(times[-1] - end) < 0.1, (omega, end, times[0], times[-1])
+        assert len(times) > 1000 or end < 20, (omega, len(times))
+
+
+main({name: case for name, case in globals().items() if name.startswith('test_')})

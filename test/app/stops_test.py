@@ -1,0 +1,174 @@
+"""Sections, classes and pictures of models with several stops, and with compliant ones. One CTest case per function `test_...`."""
+import os
+
+from program import good, main, read, refused, says, table
+
+# A wall for x1, a meeting of both, a buffer for x2.
+MIXED = '''name = "mixed"
+omega = "omega"
+[parameters]
+omega = 1.3
+[[coordinate]]
+name = "x1"
+mass = 1
+[[coordinate]]
+name = "x2"
+mass = 2
+[[spring]]
+between = ["x1", "ground"]
+stiffness = 1
+[[spring]]
+between = ["x2", "ground"]
+stiffness = 2
+[[damper]]
+between = ["x1", "x2"]
+coefficient = 0.1
+[[force]]
+on = "x1"
+amplitude = 1
+[[friction]]
+name = "rub"
+between = ["x1", "x2"]
+static = 0.02
+[[stop]]
+name = "wall"
+between = ["x1", "ground"]
+clearance = 0.5
+restitution = 0.7
+[[stop]]
+name = "meet"
+between = ["x2", "x1"]
+clearance = 0.6
+restitution = 0.8
+[[compliant_stop]]
+name = "buffer"
+between = ["x2", "ground"]
+clearance = 0.1
+stiffness = 20
+'''
+
+
+def mixed():
+    with open('mixed.toml', 'w', encoding='utf-8') as file:
+        file.write(MIXED)
+    return 'mixed.toml'
+
+
+def column(text, name):
+    columns, rows = table(text)
+    return [row[columns.index(name)] for row in rows]
+
+
+def close(a, b):
+    return abs(float(a) - float(b)) < 1e-9
+
+
+def test_the_flights_of_one_side_are_those_of_both_added_up():
+    words = ('poincare', 'two-sided-rattle', '--points')
+    both = good(*words, '40')
+    for side, other in (('stop_upper', 'stop_lower'), ('stop_lower', 'stop_upper')):
+        own = good(*words, '20', '--stop', side)
+        assert set(column(own, 'contact')) == {side}
+        times = [time for time, contact in zip(column(both, 'time'), column(both, 'contact')) if contact == side]
+        assert column(own, 'time')[:len(times)] == times
+        assert good(*words, '40', '--stop', side, '--stop', other) == both
+        for before, after, flight in zip(column(own, 'time'), column(own, 'time')[1:], column(own, 'flight')[1:]):
+            assert close(flight, (float(after) - float(before)) * 1.5 / (2 * 3.141592653589793)), flight  # omega = 1.5
+
+
+def test_every_verb_refuses_an_unknown_stop_and_lists_the_others():
+    for verb in (('poincare',), ('classify',), ('diagram', '--sweep', 'omega=1:2:3'), ('simulate', '--plot', 'p.png')):
+        words = (verb[0], 'two-sided-rattle', *verb[1:])
+        says(refused(2, *words, '--stop', 'stop'), "--stop: model 'two-sided-rattle' has no stop 'stop'; it has stop_upper, stop_lower")
+        refused(2, *words, '--stop', '')
+    says(refused(2, 'classify', 'coulomb-oscillator', '--stop', 'friction'), '--stop', 'nor any other')
+    says(refused(2, 'simulate', 'two-sided-rattle', '--stop', 'stop_upper'), '--stop', '--plot')
+    says(refused(2, 'simulate', 'two-sided-rattle', '--plot', 'p.png', '--stop', 'stop_upper', '--stop', 'stop_lower'), '--stop', 'one pair')
+    says(refused(2, 'poincare', 'two-sided-rattle', '--section', 'stroboscopic', '--stop', 'stop_upper'), '--stop', '--plot')
+    assert os.listdir('.') == []
+
+
+def test_classify_says_which_stop_each_impact_was_on():
+    both = good('classify', 'two-sided-rattle')
+    says(both, '"class": "1-2-I"', '"contact": "stop_upper"', '"contact": "stop_lower"')
+    for side, other in (('stop_upper', 'stop_lower'), ('stop_lower', 'stop_upper')):
+        one = good('classify', 'two-sided-rattle', '--stop', side)
+        says(one, '"class": "1-1-I"', '"p": 1,', '"contact": "%s"' % side)
+        assert other not in one
+        assert one.split('"state"')[-1] == both.split('"state"')[-1]
+    assert '"contact"' not in good('classify', 'vibro-impact')  # one stop: nothing to tell apart
+
+
+def test_every_library_model_with_a_stop_has_a_section():
+    for name, values, contacts in (('bilinear-oscillator', ('omega=1.5',), None), ('gear-pair', ('omega=1',), {'tooth_upper'}),
+                                   ('impact-pair', (), {'wall_upper', 'wall_lower'}), ('spool', (), None),
+                                   ('impact-absorber', (), {'gap_upper', 'gap_lower'}), ('vibro-impact', (), None)):
+        sets = [word for value in values for word in ('--set', value)]
+        text = good('poincare', name, *sets, '--points', '20')
+        assert len(table(text)[1]) == 20 and all(float(w) > 0 for w in column(text, 'w')), name
+        if contacts is not None:
+            assert set(column(text, 'contact')) <= contacts, name
+
+
+def test_engagements_are_the_points_of_compliant_stops():
+    words = ('bilinear-oscillator', '--set', 'omega=1.5')
+    good('simulate', *words, '--periods', '60', '--events', 'e.csv', '--out', 'o.json')
+    columns, rows = table(read('e.csv'))
+    engaged = [row for row in rows if row[1] == 'engage' and float(row[3]) > 0]
+    section = good('poincare', *words, '--transient', '0', '--points', str(len(engaged)))
+    assert column(section, 'time') == [row[0] for row in engaged] and column(section, 'w') == [row[3] for row in engaged]
+    diagram = good('diagram', 'bilinear-oscillator', '--sweep', 'omega=1.4:1.5:2', '--impacts', '6')
+    last = good('poincare', *words, '--points', '1')
+    assert any(close(w, column(last, 'w')[0]) for w in column(diagram, 'w')[6:])
+    p = int(good('classify', *words).split('"p": ')[1].split(',')[0])
+    assert p == good('classify', *words).count('"phase": ') > 0
+
+
+def test_both_kinds_of_stops_make_one_section_or_each_their_own():
+    all_of_them = good('poincare', mixed(), '--points', '300')
+    assert set(column(all_of_them, 'contact')) == {'wall', 'meet', 'buffer'}
+    for name in ('wall', 'meet', 'buffer'):
+        own = good('poincare', 'mixed.toml', '--points', '20', '--stop', name)
+        both = zip(column(all_of_them, 'time'), column(all_of_them, 'contact'))
+        assert [time for time, contact in both if contact == name][:20] == column(own, 'time'), name
+        swept = good('diagram', 'mixed.toml', '--sweep', 'omega=1.3:1.4:2', '--impacts', '5', '--stop', name)
+        assert set(column(swept, 'contact')) == {name}
+    says(good('check', 'mixed.toml'), '"stops": 2', '"compliant_stops": 1')
+
+
+def test_a_picture_is_about_the_chosen_stop():
+    labels = {'wall': ('x_{1}', 'v_{1}'), 'meet': ('x_{2} - x_{1}', 'v_{2} - v_{1}'), 'buffer': ('x_{2}', 'v_{2}')}
+    for name, (x, v) in labels.items():
+        good('simulate', mixed(), '--periods', '30', '--plot', 's.png', '--stop', name, '--out', 'o.json')
+        good('poincare', 'mixed.toml', '--points', '50', '--section', 'stroboscopic', '--plot', 'p.png', '--stop', name, '--out', 'p.csv')
+        for script in ('s.gp', 'p.gp'):
+            says(read(script), "label '%s' at" % x, "label '%s' at" % v)
+        good('poincare', 'mixed.toml', '--points', '50', '--plot', 'p.png', '--stop', name, '--out', 'p.csv')
+        says(read('p.gp'), 'engagement of buffer' if name == 'buffer' else 'impact on ' + name)
+    good('poincare', 'mixed.toml', '--points', '50', '--plot', 'p.png', '--out', 'p.csv')
+    says(read('p.gp'), 'w just before the contact', 'wall', 'meet', 'buffer')
+    good('diagram', 'two-sided-rattle', '--sweep', 'omega=1:1.2:3', '--impacts', '5', '--stop', 'stop_lower', '--plot', 'd.png', '--out', 'd.csv')
+    flights = [line.split(',')[3] for line in read('d-plot.csv').splitlines()[1:]]
+    assert flights == ['%r' % float(flight) for flight in column(read('d.csv'), 'flight')] or all(
+        close(a, b) for a, b in zip(flights, column(read('d.csv'), 'flight')))
+    says(read('d.gp'), 'w at impact on stop')
+
+
+def test_the_documented_contact_force_is_the_one_that_acts():
+    """docs/model_file.md: the force of a compliant stop as an observable. Momentum is the integral of the forces."""
+    with open('pad.toml', 'w', encoding='utf-8') as file:
+        file.write('name = "pad"\nomega = 3\n[[coordinate]]\nname = "x"\nmass = 1\n[[force]]\non = "x"\namplitude = 1\nharmonic = 0\n'
+                   '[[force]]\non = "x"\namplitude = 6\n[[compliant_stop]]\nname = "pad"\nbetween = ["x", "ground"]\nclearance = 0.1\nstiffness = 9\n'
+                   'damping = 2\n[[observable]]\nname = "pressed"\nvalue = "gap_pad < 0 ? max(0, -9 * gap_pad + 2 * v) : 0"\n'
+                   '[[observable]]\nname = "driven"\nvalue = "1 + 6 * sin(3 * time)"\n[start]\nx = -1\n')
+    good('simulate', 'pad.toml', '--periods', '40', '--samples', '2000', '--trajectory', 't.csv', '--events', 'e.csv', '--out', 'o.json')
+    time, v, pressed, driven = ([float(value) for value in column(read('t.csv'), name)] for name in ('time', 'v', 'pressed', 'driven'))
+    impulse = sum((driven[i] - pressed[i] + driven[i + 1] - pressed[i + 1]) / 2 * (time[i + 1] - time[i]) for i in range(len(time) - 1))
+    onsets = [after for before, after in zip(pressed, pressed[1:]) if before == 0 < after]
+    bound = sum(onsets) * time[1] / 2 + 1e-4  # where the force jumps, the trapezoid is wrong by half a step of it at most
+    assert abs(v[-1] - v[0] - impulse) < bound < 1, (v[-1] - v[0], impulse, bound)
+    engaged = sum(kind == 'engage' for kind in column(read('e.csv'), 'kind'))
+    assert engaged == len(onsets) > 10, (engaged, onsets)
+
+
+main({name: case for name, case in globals().items() if name.startswith('test_')})

@@ -224,13 +224,12 @@ void Flight::lower_bound(const Series& f, const Claim& claim, const Step& step, 
                digits(f.most(2, Ball(length(from, to))).near()) + " behind s = " + digits(from));
 }
 
-/// Behind the limit of a guard that touches: not below -NOISE.
+/// Behind the limit of a guard that touches.
 void Flight::deep(const Series& h, const Claim& claim, const Ball& t) {
-  const Ball least = h.b[0] - abs(h.b[1]) * t - h.most(2, t) * t * t;
-  if (!(least >= Ball(-segment_.end.size)))
+  const Ball most = h.most(0, t);
+  if (!(most <= Ball(segment_.end.size)))
     refuse(claim.line, static_cast<std::size_t>(claim.guard),
-           "may be as low as " + digits(least.near()) +
-               " between LIMIT and DURATION, NOISE = " + digits(segment_.end.size));
+           "is up to " + digits(most.near()) + " between LIMIT and DURATION, NOISE = " + digits(segment_.end.size));
 }
 
 void Flight::end() {

@@ -201,7 +201,7 @@ def test_delta_that_hides_a_length_of_time():
 def test_noise_that_is_no_rounding():
     lines = motions.touching()
     refused(forged(lines, 'end', {3: 2.0 ** -30}), 'NOISE = ', 'rounding explains')
-    refused(forged(lines, 'end', {3: 2.0 ** -60}), 'may be as low as', 'NOISE')
+    refused(forged(lines, 'end', {3: 2.0 ** -60}), 'between LIMIT and DURATION, NOISE')
     high = forged(lines, 'state', {1: -0.5 - 2.0 ** -30}, 0)
     refused(high, 'at DURATION, more than NOISE')
 
@@ -229,7 +229,7 @@ def test_wrong_impulse():
     unreadable(forged(twins, 'inertia 1', {2: 0.5}), 'the inertia is not symmetric')
     light = forged(forged(twins, 'inertia 0', {3: 0.5}), 'inertia 1', {2: 0.5})
     refused(light, 'number 3 of the state is -0.5, it must be 0.25')
-    refused(forged(motions.oscillator(), 'state', {2: -0.6}, 1), 'number 1 of the state is -0.6')
+    refused(forged(motions.oscillator(), 'state', {2: -0.6}, 1), 'number 1 of the state is -0.59999999999999998, it must be -0.692')
 
 
 def test_blow_in_the_air():
@@ -313,9 +313,10 @@ def test_file_that_ends_too_early():
 def test_every_line_is_needed():
     for motion in ALL:
         lines = motion()
+        struck = any(text.startswith('blow') for text in lines)
         for n, text in enumerate(lines):
-            if text.startswith('event') and 'impact' not in text:
-                continue  # tells the reader what follows from the rest
+            if text.startswith('event') and 'impact' not in text or text.startswith('stop') and not struck:
+                continue  # tells the reader what follows from the rest, or names what nothing happens to
             assert check(lines[:n] + lines[n + 1:])[0] != 0, text
 
 

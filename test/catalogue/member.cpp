@@ -87,7 +87,7 @@ Member make_member(const Entry& entry, const Entry& names) {
   }
   const Entry let = member.entry.value("let", Entry::object());
   for (const auto& [key, value] : let.items()) member.given[key] = library::number(value, member.given);
-  member.name = (entry.contains("disabled") ? "DISABLED_" : "") + name;
+  member.name = name;
   return member;
 }
 

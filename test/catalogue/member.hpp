@@ -46,7 +46,7 @@ using library::Values;
 
 /// One member of a family, its names put in.
 struct Member {
-  std::string name;  ///< K02_near_graze_hit_k_7, after DISABLED_ if it is
+  std::string name;  ///< K02_near_graze_hit_k_7
   Entry entry;
   Values given;  ///< the member's names
 };

@@ -12,30 +12,13 @@
 #include <algorithm>
 #include <tuple>
 
+#include "io/toml_text.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick {
 namespace {
 
 constexpr int deepest = 16;
-
-std::string place(const std::string& source, std::size_t line) { return source + ":" + std::to_string(line) + ": "; }
-
-/// What bounds the work of the parser, checked before it starts.
-void check_limits(std::string_view text, const std::string& source) {
-  if (text.size() > toml_size_limit)
-    throw InputError(source + ": larger than " + std::to_string(toml_size_limit) + " bytes");
-  std::size_t line = 1, begin = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '\0') throw InputError(place(source, line) + "a NUL byte");
-    if (text[i] == '\n') {
-      ++line;
-      begin = i + 1;
-    }
-    if (i + 1 - begin > toml_line_limit)
-      throw InputError(place(source, line) + "a line longer than " + std::to_string(toml_line_limit) + " bytes");
-  }
-}
 
 std::string one_line(std::string_view text) {
   std::string out;
@@ -58,7 +41,7 @@ class Converter {
     if (from.source().begin.line > line) line = from.source().begin.line;
     node.line = static_cast<int>(line);
     if (depth > deepest)
-      throw InputError(place(source_, line) + "nested more than " + std::to_string(deepest) + " deep");
+      throw InputError(toml_place(source_, line) + "nested more than " + std::to_string(deepest) + " deep");
     if (const auto* table = from.as_table()) {
       convert_table(*table, node, depth);
     } else if (const auto* array = from.as_array()) {
@@ -131,12 +114,12 @@ const char* TomlNode::kind_name() const {
 }
 
 TomlNode parse_toml(std::string_view text, const std::string& source) {
-  check_limits(text, source);
+  check_toml_text(text, source);
   try {
     const toml::table table = toml::parse(text);
     return Converter(source).convert(table, 0, 0);
   } catch (const toml::parse_error& error) {
-    throw InputError(place(source, error.source().begin.line) + one_line(error.description()));
+    throw InputError(toml_place(source, error.source().begin.line) + one_line(error.description()));
   }
 }
 

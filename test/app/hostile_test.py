@@ -1,7 +1,8 @@
 """Words and files that nobody should give: one line that says what is wrong, the exit status for it, and no file written or lost."""
 import os
+import subprocess
 
-from program import good, main, read, refused, run, says
+from program import PROGRAM, good, main, read, refused, run, says
 
 VERBS = [line.split()[0] for line in good('--help').split('Verbs:\n')[1].split('\n\n')[0].splitlines()]
 WITH_MODEL = [verb for verb in VERBS if 'MODEL' in good(verb, '--help')]
@@ -116,6 +117,34 @@ def test_the_model_file_is_never_overwritten_by_a_result():
         for out in ('m.toml', './m.toml', 'link.toml', os.path.abspath('m.toml')):
             says(refused(2, verb, 'm.toml', *NEEDED.get(verb, []), '--out', out), '--out', 'MODEL')
             assert read('m.toml') == before
+
+
+def test_combinations_of_options_that_make_no_sense():
+    says(refused(2, '--help', 'more'), "'more'")
+    says(refused(2, 'simulate', 'vibro-impact', '--plot', 'p.gif'), '--plot', '.png')
+    says(refused(2, 'poincare', 'vibro-impact', '--phase', '0.5'), '--phase', 'stroboscopic')
+    says(refused(2, 'diagram', 'vibro-impact', '--sweep', 'omega=1:2:1000000', '--impacts', '1000'), '--sweep', '--impacts 1000', 'rows')
+    assert os.listdir('.') == []
+
+
+def test_a_start_of_ones_own_where_the_models_own_does_not_fit():
+    words = ('simulate', 'vibro-impact', '--set', 'clearance=-1', '--periods', '2')
+    says(refused(2, *words), '--set clearance=-1')
+    says(good(*words, '--state', 'x1=-2,x2=0'), '"complete": true')
+
+
+def test_closed_standard_streams_take_no_file():
+    """A file that is opened as descriptor 1 would get what is meant for standard output."""
+    for closed in (0, 1, 2):
+        done = subprocess.run([PROGRAM, 'simulate', 'impact-oscillator', '--periods', '3', '--events', 'e.csv', '--out', 'o.json'],
+                              preexec_fn=lambda: os.close(closed), check=False, timeout=60)
+        assert done.returncode == 0 and read('e.csv').startswith('time,kind') and read('o.json').startswith('{')
+
+
+def test_a_picture_of_every_section():
+    for words in (['--section', 'stroboscopic'], ['--section', 'impact']):
+        good('poincare', 'vibro-impact', '--set', 'omega=4.9', '--points', '20', *words, '--plot', 'p.png', '--out', 'p.csv')
+        assert os.path.getsize('p.png') > 1000
 
 
 main({name: case for name, case in globals().items() if name.startswith('test_')})

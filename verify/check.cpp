@@ -101,7 +101,7 @@ void Checker::clock(const Segment& segment) {
 void Checker::continuity(const Segment& segment) {
   for (std::size_t i = 0; i < 2 * static_cast<std::size_t>(head_.d); ++i) {
     const Ball jump = abs(Ball(segment.state[i]) - last_->X[i]);
-    const double allowed = rounding * last_->size[i];
+    const double allowed = rounding * (last_->size[i] + size_of_pair(i));
     if (jump.near() > 0.0) tally_.jump = std::max(tally_.jump, jump.near() / allowed);
     if (!(jump <= Ball(allowed)))
       refuse_(segment.line, "number " + std::to_string(i) + " of the state is " + digits(segment.state[i]) +
@@ -109,21 +109,48 @@ void Checker::continuity(const Segment& segment) {
   }
 }
 
+/// The sizes of the other numbers of the same pair as number i: the engine lets such numbers follow from each other.
+double Checker::size_of_pair(std::size_t i) const {
+  const auto d = static_cast<std::size_t>(head_.d), at = i % d;
+  const auto& V = head_.inertia;
+  double sum = 0.0;
+  for (std::size_t j = 0; j < d; ++j)
+    if (j != at && V[at][at] == V[j][j] && std::abs(V[at][j]) == V[j][j]) sum += last_->size[i - at + j];
+  return sum;
+}
+
+/// Is there a slip guard v u_i > 0 that keeps the velocity towards the stop negative, with u_own = u_i or -u_i all along?
+bool Checker::slips_away(const Stop& stop, const Segment& segment, const Mode& mode) const {
+  double fastest = 0.0;
+  for (int i = 0; i < head_.d; ++i)
+    fastest = std::max(fastest, std::abs(segment.state[static_cast<std::size_t>(head_.d + i)]));
+  for (const Guard& guard : mode.guards) {
+    if (guard.kind != "slip" || guard.row.size() != 1) continue;
+    const auto i = static_cast<std::size_t>(guard.row[0].first);
+    const double turn =
+        guard.row[0].second * stop.sign > 0.0 ? -1.0 : 1.0;  // u_own = turn u_i leads away while the guard lasts
+    Entries rate = mode.rows[i];
+    for (auto& entry : rate) entry.second *= turn;
+    const double differs = stop.sign * (segment.state[u(stop)] - turn * segment.state[i]);
+    if (i >= static_cast<std::size_t>(head_.d) && rate == mode.rows[u(stop)] && differs <= rounding * fastest)
+      return true;
+  }
+  return false;
+}
+
 /// A stop that no guard watches is open or just closed, and cannot close further.
 void Checker::stops(const Segment& segment, const Mode& mode) {
   double largest = 0.0;
   for (int i = 0; i < head_.d; ++i) largest = std::max(largest, std::abs(segment.state[static_cast<std::size_t>(i)]));
   for (const Stop& stop : head_.stops) {
-    const auto watched = [&](const char* kind, std::size_t index) {
-      return std::any_of(mode.guards.begin(), mode.guards.end(), [&](const Guard& guard) {
-        return guard.kind == kind && guard.row.size() == 1 && guard.row[0].first == static_cast<int>(index) &&
-               guard.row[0].second * stop.sign < 0.0;
-      });
-    };
-    if (watched("gap", p(stop))) continue;
+    const bool watched = std::any_of(mode.guards.begin(), mode.guards.end(), [&](const Guard& guard) {
+      return guard.kind == "gap" && guard.row.size() == 1 && guard.row[0].first == stop.own &&
+             guard.row[0].second * stop.sign < 0.0;
+    });
+    if (watched) continue;
     const double gap = -stop.sign * segment.state[p(stop)], approach = stop.sign * segment.state[u(stop)];
     const bool held = mode.rows[u(stop)].empty() && approach <= 0.0;
-    if (!held && !watched("slip", u(stop)))
+    if (!held && !slips_away(stop, segment, mode))
       refuse_(segment.line, "stop " + stop.name + " may close: no guard watches it");
     if (!(gap >= -rounding * largest))
       refuse_(segment.line, "stop " + stop.name + " is passed, its gap is " + digits(gap));

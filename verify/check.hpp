@@ -31,6 +31,8 @@ class Checker {
   void phases(const Segment& segment, const Mode& mode);
   void clock(const Segment& segment);
   void continuity(const Segment& segment);
+  [[nodiscard]] double size_of_pair(std::size_t i) const;
+  [[nodiscard]] bool slips_away(const Stop& stop, const Segment& segment, const Mode& mode) const;
   void stops(const Segment& segment, const Mode& mode);
   void chatter(const Segment& segment, const Mode& mode);
   void blows(Departure& departure);

@@ -87,9 +87,6 @@ std::vector<bool> Flow::still(const Balls& x) const {
 
 Expansion::Expansion(const Flow& flow, const Balls& X, const Ball& reach, std::size_t least)
     : weight_(flow.weight), V_{X}, reach_(reach) {
-  const std::vector<bool> still = flow.still(X);
-  for (std::size_t i = 0; i < still.size(); ++i)
-    if (still[i]) weight_[i] = 0.0;
   constexpr double below = -240.0;  // log2 of the remainder
   const double start = magnitude(X, flow.weight), pace = std::log2(reach.near());
   least = std::max(least, 10 + static_cast<std::size_t>(4.0 * flow.nu * reach.near()));
@@ -103,6 +100,9 @@ Expansion::Expansion(const Flow& flow, const Balls& X, const Ball& reach, std::s
     if (n >= least && (n >= most || !(size > start + below))) break;
   }
   tail_ = times(no_less_than_norm(V_.back(), flow.weight), 2);
+  const std::vector<bool> still = flow.still(V_.back());
+  for (std::size_t i = 0; i < still.size(); ++i)
+    if (still[i] && V_.back()[i].is_zero()) weight_[i] = 0.0;
   V_.pop_back();
   // What the bound on the tail asks for; a NaN makes every claim unproven.
   if (!(times(Ball(flow.nu) * reach, 4) <= Ball(static_cast<double>(V_.size() - 8)))) tail_ = tail_ / Ball(0.0);

@@ -62,7 +62,7 @@ class Expansion {
   [[nodiscard]] Series of(const Balls& row, std::size_t drop = 0) const;
 
  private:
-  std::vector<double> weight_;  ///< 0 for what stays as it is: its terms are exact
+  std::vector<double> weight_;  ///< 0 where no term is missing
   std::vector<Balls> V_;
   Ball reach_, tail_;  ///< tail_: 2 |V_N|_w
 };

@@ -105,7 +105,7 @@ int run(const std::vector<std::string>& words) {
 int fail(int status, const char* message) {
   std::string line = std::string("slapstick: ") + message;
   for (char& c : line) {
-    if (c == '\n' || c == '\r') c = ' ';
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';  // a file's name, where it is not in quotes
   }
   std::fprintf(stderr, "%s\n", line.c_str());
   return status;

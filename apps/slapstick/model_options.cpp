@@ -88,7 +88,9 @@ InputError blame(const Overrides& sets, const std::function<bool(const Overrides
 std::pair<std::string, std::string> name_and_text(const std::string& argument, const std::string& text,
                                                   const std::string& form) {
   const auto equals = text.find('=');
-  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+  const bool plain =
+      in_quotes(text.substr(0, equals)) == "'" + text.substr(0, equals) + "'";  // messages repeat the name
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size() || !plain)
     throw InputError(argument + ": " + in_quotes(text) + " is not of the form " + form);
   return {text.substr(0, equals), text.substr(equals + 1)};
 }

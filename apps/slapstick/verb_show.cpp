@@ -18,6 +18,9 @@ Action add_show(Arguments& arguments) {
       "  slapstick show vibro-impact --set omega=4.9 --out mine.toml\n"
       "  slapstick simulate mine.toml");
   return [options](const Context&) {
+    FileRoles roles;
+    roles.add("MODEL", options->model.source);
+    roles.add("--out", options->out);
     const ChosenModel chosen = options->model.load();
     const std::string text = chosen.definition.to_toml(chosen.overrides);
     Output out(options->out);

@@ -54,9 +54,15 @@ double checked_window(const Model& model, const mode::Mode& mode, int displaceme
 /// A model with so few modes has them built at once.
 constexpr ModeId built_at_once = 8;
 
+/// In periods: a flight counts its windows as a number of the clock, whose steps this is far above.
+constexpr double shortest_cap = 0x1p-20;
+
 }  // namespace
 
-System::System(Model model) : model_(checked(std::move(model))), frame_(model_), period_(model_.forcing_period()) {
+System::System(Model model, SystemOptions options)
+    : model_(checked(std::move(model))), frame_(model_), options_(options), period_(model_.forcing_period()) {
+  if (!(options_.longest_window >= shortest_cap))
+    throw InputError("longest_window = " + shown(options_.longest_window) + " is not at least " + shown(shortest_cap));
   for (std::size_t i = 0; i < model_.stops.size(); ++i) mode_count_ *= 2;
   for (std::size_t i = 0; i < model_.frictions.size() + model_.compliant_stops.size(); ++i) mode_count_ *= 3;
   modes_ = std::make_unique<ModeTable>(mode_count_);
@@ -78,7 +84,7 @@ System::System(Model model) : model_(checked(std::move(model))), frame_(model_),
 }
 
 mode::Mode System::build(ModeId id) const {
-  mode::Mode built(model_, frame_, states(id));
+  mode::Mode built(model_, frame_, states(id), options_.longest_window);
   (void)checked_window(model_, built, frame_.d);
   return built;
 }

@@ -107,7 +107,6 @@ struct Definition {
 
 /// The kinds of parts, in the order in which they are read and printed.
 [[nodiscard]] const std::vector<PartRule>& part_rules();
-[[nodiscard]] const PartRule& part_rule(std::string_view kind);
 
 /// Every key of a [[part]] of this kind, and of the file itself, a parameter, a harmonic of a base, and [matrix].
 [[nodiscard]] std::vector<std::string> part_keys(const PartRule& rule);

@@ -1,5 +1,3 @@
-#include <stdexcept>
-
 #include "io/definition.hpp"
 #include "slapstick/base/text.hpp"
 
@@ -34,12 +32,6 @@ const std::vector<PartRule>& part_rules() {
 const PartRule& harmonic_rule() {
   static const PartRule rule = {"harmonic", false, Ends::none, {{"amplitude", true}, {"harmonic"}, {"phase"}}};
   return rule;
-}
-
-const PartRule& part_rule(std::string_view kind) {
-  for (const auto& rule : part_rules())
-    if (rule.kind == kind) return rule;
-  throw std::logic_error("no such kind of part");
 }
 
 std::vector<std::string> part_keys(const PartRule& rule) {

@@ -8,10 +8,10 @@
 
 namespace slapstick::mode {
 
-Mode::Mode(const Model& model, const Frame& frame, ContactStates states)
+Mode::Mode(const Model& model, const Frame& frame, ContactStates states, double longest_window)
     : outline_(model, frame, std::move(states)), d_(frame.d), m_(frame.size()) {
   drift_.assign(frame.drift.begin(), frame.drift.end());
-  build_operators(frame, model);
+  build_operators(frame, model, longest_window);
 }
 
 /// exp(A H): positions from their own series, u = p' - drift from its derivative, the oscillators as rotations.
@@ -32,11 +32,11 @@ Matrix Mode::flow_over_window(const Series& series, std::size_t first_coordinate
   return flow;
 }
 
-void Mode::build_operators(const Frame& frame, const Model& model) {
+void Mode::build_operators(const Frame& frame, const Model& model, double longest_window) {
   std::vector<RowVector> rows;
   for (const Guard& guard : outline_.guards) rows.push_back(guard.row);
   for (int i = 0; i < d_; ++i) rows.push_back(RowVector::Unit(m_, i));
-  const Series series(outline_.system, rows, d_, model.forcing_period());
+  const Series series(outline_.system, rows, d_, model.forcing_period(), longest_window);
   window_ = series.window();
   window_in_periods_ = series.window_in_periods();
   noise_factor_ = (m_ + 16.0) * event::unit_roundoff;

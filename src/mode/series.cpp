@@ -26,7 +26,8 @@ double few_bits(double x) {
 
 }  // namespace
 
-Series::Series(const Matrix& A, const std::vector<RowVector>& rows, int displacements, double period)
+Series::Series(const Matrix& A, const std::vector<RowVector>& rows, int displacements, double period,
+               double longest_window)
     : m_(A.rows()), d_(displacements), A_(static_cast<std::size_t>(m_)), reference_(reference_length(A)) {
   for (Eigen::Index k = 0; k < m_; ++k) {
     for (Eigen::Index i = 0; i < m_; ++i)
@@ -42,7 +43,7 @@ Series::Series(const Matrix& A, const std::vector<RowVector>& rows, int displace
     const double middle = std::sqrt(low * high);
     (tail_is_negligible(middle) ? low : high) = middle;
   }
-  set_window(low, period);
+  set_window(low, period, longest_window);
 }
 
 /// The terms of one row, their sizes and errors, for a window of the reference length.
@@ -138,8 +139,8 @@ bool Series::tail_is_negligible(double ratio) const {
   return true;
 }
 
-void Series::set_window(double low, double period) {
-  window_in_periods_ = few_bits(low * reference_ / period);
+void Series::set_window(double low, double period, double longest_window) {
+  window_in_periods_ = few_bits(std::min(low * reference_ / period, longest_window));
   window_ = window_in_periods_ * period;
   const long double ratio = static_cast<long double>(window_in_periods_) * period / reference_;
   const std::vector<RowVector> all = scales(static_cast<double>(ratio));

@@ -19,7 +19,8 @@ namespace slapstick::mode {
 class Series {
  public:
   /// @param rows  the last `displacements` of them read the displacements
-  Series(const Matrix& A, const std::vector<RowVector>& rows, int displacements, double period);
+  /// @param longest_window  in periods; H is no longer than this
+  Series(const Matrix& A, const std::vector<RowVector>& rows, int displacements, double period, double longest_window);
 
   [[nodiscard]] double window() const { return window_; }
   [[nodiscard]] double window_in_periods() const { return window_in_periods_; }
@@ -49,7 +50,7 @@ class Series {
   [[nodiscard]] RowVector tail(std::size_t r, const RowVector& scale, double ratio) const;
   [[nodiscard]] double norm(const RowVector& scale) const;
   [[nodiscard]] bool tail_is_negligible(double ratio) const;
-  void set_window(double ratio, double period);
+  void set_window(double ratio, double period, double longest_window);
 
   Eigen::Index m_, d_;
   std::vector<std::vector<Entry>> A_;         ///< by rows

@@ -1,4 +1,4 @@
-/// What holds for every motion: bits, memory, balances, bounds, mirror images. K numbers are those of shared/reliability.md.
+/// What holds for every motion: bits, memory, bounds, conventions. Balances and mirror images are in ../catalogue (K38 to K40).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -53,61 +53,6 @@ TEST(Compiler, DoesNotContractAProductAndASum) {
   EXPECT_EQ(event::value(p, event::Powers(1.0)), a - 1.0);
 }
 
-TEST(Impact, KeepsMomentumAndLosesTheKnownEnergy) {  // K40
-  const System system(oracle::vibro_impact(2.2));
-  Motion motion(system, start);
-  int impacts = 0;
-  while (impacts < 200 && motion.advance({1000, 0.0}) == Outcome::event) {
-    if (motion.event().kind != EventKind::impact) continue;
-    ++impacts;
-    const auto b = motion.before();
-    const State a = motion.state();
-    const double before = b[1] + 10 * b[3], after = a[1] + 10 * a[3], size = std::abs(b[1]) + std::abs(10 * b[3]);
-    EXPECT_NEAR(after, before, 2 * 0x1p-52 * size);
-    const double w = motion.event().w;
-    EXPECT_EQ(motion.extended()[0], 0.0) << "the gap is zero";
-    EXPECT_EQ(motion.extended()[2], -0.8 * w) << "w+ = -r w-";
-    const double lost = 0.5 * (b[1] * b[1] + 10 * b[3] * b[3] - a[1] * a[1] - 10 * a[3] * a[3]);
-    EXPECT_NEAR(lost, 0.5 * (10.0 / 11) * (1 - 0.8 * 0.8) * w * w, 1e-15 * (1 + b[1] * b[1] + 10 * b[3] * b[3]));
-  }
-  EXPECT_EQ(impacts, 200);
-}
-
-/// Gauss-Legendre nodes and weights of order eight on [-1, 1].
-constexpr double node[4] = {0.18343464249564981, 0.52553240991632899, 0.79666647741362674, 0.96028985649753623};
-constexpr double weight[4] = {0.36268378337836198, 0.31370664587788729, 0.22238103445337448, 0.10122853629037626};
-
-TEST(Segment, WorkOfTheForcesIsTheChangeOfEnergy) {  // K40
-  for (const double omega : frequencies) {
-    const System system(oracle::vibro_impact(omega));
-    Motion motion(system, start);
-    State x(4);
-    for (int n = 0; n < 60 && motion.advance({100, 0.0}) == Outcome::event; ++n) {
-      const Motion::Segment segment = motion.segment();
-      if (segment.duration == 0.0) continue;
-      const int sign = static_cast<int>(system.mode(segment.mode).states().frictions[0]);
-      const auto energy = [&](double s) {
-        motion.sample(s, x);
-        const double y = x[0] - x[2];
-        return 0.5 * (x[1] * x[1] + 10 * x[3] * x[3] + y * y + 5 * x[2] * x[2]);
-      };
-      const auto power = [&](double s) {
-        motion.sample(s, x);
-        const double t = 2 * 3.14159265358979323846 * segment.start.fraction + omega * s, w = x[1] - x[3];
-        return std::sin(t) * x[1] - 0.2 * w * w - x[3] * x[3] - sign * 0.15 * w;
-      };
-      const int pieces = 1 + static_cast<int>(segment.duration * 4 * (1 + omega));
-      const double half = 0.5 * segment.duration / pieces;
-      double work = 0.0;
-      for (int i = 0; i < pieces; ++i) {
-        for (int k = 0; k < 4; ++k)
-          work += half * weight[k] * (power((2 * i + 1 + node[k]) * half) + power((2 * i + 1 - node[k]) * half));
-      }
-      EXPECT_NEAR(energy(segment.duration) - energy(0.0), work, 1e-13) << omega << " segment " << n;
-    }
-  }
-}
-
 TEST(Gap, IsNeverPenetratedAndStickIsWithinItsForce) {
   for (const double omega : frequencies) {
     const System system(oracle::vibro_impact(omega));
@@ -134,27 +79,6 @@ TEST(Gap, IsNeverPenetratedAndStickIsWithinItsForce) {
   }
 }
 
-/// The model with every coordinate turned round: x -> -x.
-Model mirrored(Model m) {
-  for (Force& force : m.forces) force.amplitude = -force.amplitude;
-  for (Stop& stop : m.stops) std::swap(stop.a, stop.b);
-  for (FrictionContact& contact : m.frictions) contact.belt_speed = -contact.belt_speed;
-  return m;
-}
-
-TEST(Mirror, HasMirroredBits) {  // K39
-  for (const double omega : frequencies) {
-    const System system(oracle::vibro_impact(omega)), image(mirrored(oracle::vibro_impact(omega)));
-    Motion motion(system, start), mirror(image, {0.5, -0.0, -0.0, -0.0});
-    for (int i = 0; i < 300; ++i) {
-      ASSERT_EQ(motion.advance({200, 0.0}), mirror.advance({200, 0.0}));
-      ASSERT_EQ(motion.event().time, mirror.event().time) << omega << " event " << i;
-      const State a = motion.state(), b = mirror.state();
-      for (int k = 0; k < 4; ++k) ASSERT_EQ(a[k], -b[k]) << omega << " event " << i;
-    }
-  }
-}
-
 TEST(Mirror, OrientationOfAFrictionContactIsAConvention) {
   Model turned = oracle::vibro_impact(1.5);
   std::swap(turned.frictions[0].a, turned.frictions[0].b);
@@ -166,21 +90,6 @@ TEST(Mirror, OrientationOfAFrictionContactIsAConvention) {
     ASSERT_EQ(a.state(), b.state());
     const std::string_view kind = name(a.event().kind);
     ASSERT_EQ(name(b.event().kind), kind == "slip+" ? "slip-" : kind == "slip-" ? "slip+" : kind);
-  }
-}
-
-TEST(Event, IsNeverBeforeTheOneBefore) {
-  for (const double omega : frequencies) {
-    const System system(oracle::vibro_impact(omega));
-    Motion motion(system, start);
-    Instant last{};
-    int at_once = 0;
-    while (motion.advance({60, 0.0}) == Outcome::event) {
-      ASSERT_GE(motion.event().time, last);
-      at_once = motion.event().time == last ? at_once + 1 : 0;
-      EXPECT_LE(at_once, 4) << "K7: transitions at one instant";
-      last = motion.event().time;
-    }
   }
 }
 

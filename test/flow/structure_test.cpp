@@ -5,6 +5,7 @@
 #include <random>
 
 #include "flow/runs.hpp"
+#include "slapstick/base/error.hpp"
 
 namespace slapstick {
 namespace {
@@ -69,6 +70,20 @@ TEST(Windows, DoNotShrinkOverACancellationThatRoundingLeavesAlive) {
   m.stops = {{"stop", 1, 2, -0.31870955003299062, 1.0}};
   m.frictions = {{"floor", 2, ground, 0.0, 0.68882661157393832, 0.28518057747017883}};
   EXPECT_LE(windows_per_time_scale(m), 1.0);
+}
+
+TEST(Windows, AreNoLongerThanAsked) {
+  Model m;
+  m.coordinates = {{"x", 1.0}};
+  m.springs = {{0, ground, 1.0}};
+  const double natural = System(m).mode(0).window();  // the period is 1
+  for (const double longest : {1e300, 4.0, 0.5, 1e-3, 1e-6}) {
+    const double window = System(m, {longest}).mode(0).window();
+    EXPECT_LE(window, longest);
+    EXPECT_GE(window, std::min(natural, longest) * (1 - 0x1p-23));
+  }
+  for (const double longest : {0.0, -1.0, 1e-9, std::nan("")})
+    EXPECT_THROW(System(m, {longest}), InputError) << longest;
 }
 
 /// Engine and oracle have the same events; those that are no impacts are `expected`.

@@ -1,5 +1,6 @@
 #include "library/case.hpp"
 
+#include <filesystem>
 #include <fstream>
 
 #include "io/expression.hpp"
@@ -7,10 +8,10 @@
 namespace slapstick::library {
 namespace {
 
-Overrides overrides_of(const Entry& entry, const Overrides& extra) {
+Overrides overrides_of(const Entry& entry, const Overrides& extra, Values known) {
   Overrides overrides;
   const Entry set = entry.value("set", Entry::object());
-  for (const auto& [name, value] : set.items()) overrides[name] = number(value, overrides);
+  for (const auto& [name, value] : set.items()) known[name] = overrides[name] = number(value, known);
   for (const auto& [name, value] : extra) overrides[name] = value;
   return overrides;
 }
@@ -21,29 +22,34 @@ double number(const Entry& json, const Values& values) {
   return json.is_string() ? Expression(json.get<std::string>()).evaluate(values) : json.get<double>();
 }
 
-const std::vector<Entry>& all_cases() {
-  static const auto cases = [] {
-    std::vector<Entry> all;
-    for (const char* file : {"cases.json", "own_cases.json"})
-      for (Entry& entry : Entry::parse(std::ifstream(std::string(SLAPSTICK_CASES) + file))) all.push_back(entry);
-    return all;
-  }();
-  return cases;
+std::vector<Entry> read_entries(const std::string& path) {
+  std::vector<Entry> all;
+  for (Entry& entry : Entry::parse(std::ifstream(path))) {
+    const auto model = entry.at("model").get<std::string>();
+    if (model.ends_with(".toml")) entry["model"] = std::filesystem::path(path).replace_filename(model).string();
+    all.push_back(std::move(entry));
+  }
+  return all;
 }
 
-Setup::Setup(const Entry& entry_, const Overrides& extra)
+Setup::Setup(const Entry& entry_, const Overrides& extra, const Values& given, SystemOptions options)
     : entry(entry_),
-      overrides(overrides_of(entry_, extra)),
+      overrides(overrides_of(entry_, extra, given)),
       definition(load_model(entry_.at("model").get<std::string>())),
-      system(definition.build(overrides)),
+      system(definition.build(overrides), options),
       values(definition.values(overrides)),
       start(definition.start(overrides)) {
+  values.insert(given.begin(), given.end());
   values["T"] = system.period();
   const auto names = state_names(system.model());
   const Entry at = entry.value("start", Entry::object());
   for (const auto& [name, value] : at.items()) {
     if (name == "time") {
-      begin = Instant{}.plus(number(value, values) / system.period());
+      begin = begin.plus(number(value, values) / system.period());
+      continue;
+    }
+    if (name == "period") {
+      begin.period = static_cast<std::int64_t>(number(value, values));
       continue;
     }
     const auto place = std::find(names.begin(), names.end(), name);

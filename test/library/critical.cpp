@@ -1,7 +1,7 @@
 #include <Eigen/Dense>
 
 #include "attractor/return_map.hpp"
-#include "library/case.hpp"
+#include "library/published_cases.hpp"
 
 namespace slapstick::library {
 namespace {

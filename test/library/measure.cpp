@@ -1,30 +1,13 @@
 #include <cmath>
-#include <numbers>
 
 #include "attractor/return_map.hpp"
 #include "io/expression.hpp"
-#include "library/case.hpp"
+#include "library/notes.hpp"
+#include "library/published_cases.hpp"
 #include "slapstick/flow/tangent.hpp"
 
 namespace slapstick::library {
 namespace {
-
-Instant after(const Motion& motion, double time) { return motion.time().plus(time / motion.system().period()); }
-
-bool is(const Event& event, const std::string& kind, const System& system) {
-  const auto at = kind.find('@');
-  if (at != std::string::npos && system.contact_name(event.contact) != kind.substr(at + 1)) return false;
-  const auto word = kind.substr(0, at);
-  const bool friction = event.contact >= static_cast<int>(system.model().stops.size());
-  const bool reverses = event.kind == EventKind::slip_plus || event.kind == EventKind::slip_minus;
-  if (word == "turn") return friction && (reverses || event.kind == EventKind::stick);
-  return word == "event" || word == name(event.kind);
-}
-
-void note_state(Values& values, const System& system, std::span<const double> state, const std::string& suffix) {
-  const auto names = state_names(system.model());
-  for (std::size_t i = 0; i < names.size(); ++i) values[names[i] + suffix] = state[i];
-}
 
 /// Runs to each of the marks in turn and notes what was there.
 void run_to_marks(const Entry& marks, Motion& motion, Values& values) {
@@ -38,28 +21,8 @@ void run_to_marks(const Entry& marks, Motion& motion, Values& values) {
       left -= is(motion.event(), kind, system);
     }
     const auto suffix = "_at" + std::to_string(++count);
-    values["t" + suffix] = motion.event().time.seconds(system.period());
-    values["phase" + suffix] = 2 * std::numbers::pi * motion.event().time.fraction;
-    values["w" + suffix] = motion.event().w;
-    note_state(values, system, motion.before(), suffix);
+    note_event(values, motion, suffix);
   }
-}
-
-void count(const Motion& motion, Values& values) {
-  const System& system = motion.system();
-  const Event& event = motion.event();
-  values["impacts"] += event.kind == EventKind::impact;
-  values["chatters"] += event.kind == EventKind::chatter;
-  values["sticks"] += is(event, "stick", system);
-  values["turns"] += is(event, "turn", system);
-  values["engagements"] += event.kind == EventKind::engage;
-  if (is(event, "stick", system))
-    values["largest_stick"] = std::max(values["largest_stick"], std::abs(motion.before()[0]));
-}
-
-void start_counts(Values& values) {
-  for (const char* name : {"impacts", "chatters", "sticks", "turns", "engagements", "largest_stick"})
-    values[name] = 0.0;
 }
 
 /// Newton's method from the state at the next whole period; the motion goes on from the cycle.

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "library/case.hpp"
+#include "library/published_cases.hpp"
 #include "slapstick/io/table.hpp"
 
 namespace slapstick::library {

@@ -164,3 +164,16 @@ def touching():
     lines += [line('segment', 1, 0, 1, 0.0, 1.0), line('state', 0.0, 0.0, 1.0), line('prove', 0, 2, 1.0), line('step', 0.0, 0.5, 0.0, 0.0, 0.5),
               line('step', 0.5, 0.125, 0.5, 1.0, 0.5)]
     return lines + [line('end', 'cut'), line('done', 2)]
+
+
+def rattle():
+    """A mass that slides to the upper of two walls, slowed by friction: u' = -1/4 from 3. The lower wall sees it from the other side, and is
+    not watched while the slip guard lasts. X = (p, -1 - p, u, -u, cos, sin, 1): the phases have nothing to do with it."""
+    period = 2.0 * math.pi
+    lines = head('rattle', 7, 2, period, [(0, 1.0, 0.5, 'upper'), (1, 1.0, 0.5, 'lower')], [[1.0, -1.0], [-1.0, 1.0]])
+    lines += mode(0, 'slip+', [(0, [(2, 1.0)]), (1, [(3, 1.0)]), (2, [(6, -0.25)]), (3, [(6, 0.25)]), (4, [(5, -1.0)]), (5, [(4, 1.0)])],
+                  [('gap', [(0, -1.0)]), ('slip', [(2, 1.0)])])
+    lines += [line('segment', 0, 0, 0, 0.25, 0.25), line('state', -1.0, 0.0, 3.0, -3.0, 0.0, 1.0, 1.0)]
+    lines += [line('prove', 1, 0, 0.25), line('step', 0.0, 3.0, -0.25, 0.0, 0.25), line('prove', 0, 0, 0.25)]
+    lines += [line('step', 0.0, 1.0, -3.0, 0.25, 0.125), line('step', 0.125, 0.625, -2.96875, 0.25, 0.125)]
+    return lines + [line('end', 'cut'), line('done', 1)]

@@ -9,7 +9,7 @@ import motions
 from motions import line, number
 
 PROGRAM = sys.argv[1]
-ALL = [motions.ball, motions.chatter, motions.oscillator, motions.released, motions.twins, motions.touching, lambda: motions.lift(2),
+ALL = [motions.ball, motions.chatter, motions.oscillator, motions.released, motions.twins, motions.touching, motions.rattle, lambda: motions.lift(2),
        lambda: motions.lift(3)]
 
 
@@ -158,6 +158,14 @@ def test_guard_that_is_left_out():
     free = [text for text in motions.ball() if text.split(' ')[0] not in ('guard', 'prove', 'step')]
     free = free[:find(free, 'end')] + [line('end', 'cut'), line('done', 1)]
     refused(free, 'stop floor may close: no guard watches it')
+
+
+def test_stop_on_the_far_side_of_a_slipping_pair():
+    lines = motions.rattle()
+    refused(forged(lines, 'state', {4: -2.5}), 'segment 0, stop lower may close: no guard watches it')
+    refused(forged(lines, 'row 3', {4: 0.5}), 'stop lower may close')
+    refused(forged(lines, 'guard 1', {5: -1.0}), 'stop lower may close')
+    refused(forged(lines, 'state', {2: 0.125}), 'stop lower is passed, its gap is -0.125')
 
 
 def test_wrong_order_of_the_zero_at_the_start():

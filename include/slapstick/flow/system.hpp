@@ -1,11 +1,17 @@
 #pragma once
 /// A model made ready to run: contact coordinates, its modes with their operators, the impact law. Const and shareable.
+#include <cmath>
 #include <memory>
 #include <vector>
 
 #include "slapstick/flow/mode_table.hpp"
 
 namespace slapstick {
+
+struct SystemOptions {
+  /// Windows are no longer than this, in forcing periods (> 0). Events do not depend on it beyond rounding; the work does.
+  double longest_window = INFINITY;
+};
 
 /// Compiles a model once (about 0.3 ms for the paper's system); any number of `Motion`s on any threads then share it.
 ///
@@ -15,9 +21,9 @@ class System {
  public:
   static constexpr int most_contacts = 32;
 
-  /// @throws InputError if the model is invalid, has more than `most_contacts`, or has time scales so far apart that its windows cannot be
-  /// computed in double precision.
-  explicit System(Model model);
+  /// @throws InputError if the model or the option is invalid, or the model has more than `most_contacts`, or time scales so far apart that its
+  /// windows cannot be computed in double precision.
+  explicit System(Model model, SystemOptions options = {});
 
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] const mode::Frame& frame() const { return frame_; }
@@ -65,6 +71,7 @@ class System {
 
   Model model_;
   mode::Frame frame_;
+  SystemOptions options_;
   double period_, windows_per_period_ = 0.0;
   ModeId mode_count_ = 1;
   std::unique_ptr<ModeTable> modes_;

@@ -1,5 +1,6 @@
 #pragma once
 /// One mode: a combination of contact states, the linear system it selects, and that system's window operators.
+#include <cmath>
 #include <vector>
 
 #include "slapstick/event/first_root.hpp"
@@ -17,7 +18,8 @@ class Series;
 class Mode {
  public:
   /// Builds the mode. Cost: O(60 m^2) per coordinate and guard, once.
-  Mode(const Model& model, const Frame& frame, ContactStates states);
+  /// @param longest_window  in forcing periods; the window is no longer than this
+  Mode(const Model& model, const Frame& frame, ContactStates states, double longest_window = INFINITY);
 
   [[nodiscard]] const ContactStates& states() const { return outline_.states; }
   [[nodiscard]] const std::vector<Guard>& guards() const { return outline_.guards; }
@@ -42,7 +44,7 @@ class Mode {
   void state_at(double x, const double* X, double* out) const;
 
  private:
-  void build_operators(const Frame& frame, const Model& model);
+  void build_operators(const Frame& frame, const Model& model, double longest_window);
   [[nodiscard]] Matrix flow_over_window(const Series& series, std::size_t first_coordinate, const Frame& frame,
                                         double omega) const;
   [[nodiscard]] event::Hull hull_column(int g, int order, int column) const;

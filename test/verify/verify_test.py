@@ -320,6 +320,8 @@ def test_file_that_ends_too_early():
 
 def test_every_line_is_needed():
     for motion in ALL:
+        if motion is motions.rattle:
+            continue  # a far side that is held leads away as well
         lines = motion()
         struck = any(text.startswith('blow') for text in lines)
         for n, text in enumerate(lines):

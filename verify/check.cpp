@@ -6,15 +6,40 @@
 namespace verify {
 namespace {
 
-constexpr double rounding = 0x1p-40;  ///< of a state, in units of the sizes of what it was added up from
+constexpr double rounding = 0x1p-40;   ///< of a state, in units of the sizes of what it was added up from
+constexpr double dependent = 0x1p-40;  ///< what is left of its inertia when others are held, in units of it
 constexpr double clock_rounding = 0x1p-48, phase_rounding = 0x1p-46;
+
+/// Not below the exact difference that x is the rounding of; exact where nothing was lost.
+double rounded_up(double x) { return x == 0.0 ? 0.0 : std::nextafter(x, INFINITY); }
+
+/// Is displacement k a combination of the others? Then holding all of them holds it: nothing is left of its inertia.
+bool is_combination(std::vector<std::vector<double>> V, std::size_t k) {
+  const std::vector<std::vector<double>> whole = V;
+  std::vector<bool> held(V.size());
+  for (;;) {
+    std::size_t pivot = k;
+    double best = dependent;
+    for (std::size_t i = 0; i < V.size(); ++i)
+      if (i != k && !held[i] && V[i][i] > best * whole[i][i]) best = V[pivot = i][i] / whole[i][i];
+    if (pivot == k) return V[k][k] <= dependent * whole[k][k];
+    held[pivot] = true;
+    for (std::size_t i = 0; i < V.size(); ++i) {
+      if (held[i]) continue;
+      const double factor = V[i][pivot] / V[pivot][pivot];
+      for (std::size_t j = 0; j < V.size(); ++j) V[i][j] -= factor * V[pivot][j];
+    }
+  }
+}
 
 }  // namespace
 
 Checker::Checker(const Head& head, const std::map<long, Mode>& modes, const Refuse& refuse)
     : head_(head), modes_(modes), refuse_([this, refuse](long line, const std::string& what) {
         refuse(line, "segment " + std::to_string(tally_.segments) + ", " + what);
-      }) {}
+      }) {
+  for (std::size_t k = 0; k < head.inertia.size(); ++k) follows_.push_back(is_combination(head.inertia, k));
+}
 
 void Checker::segment(const Segment& segment) {
   start(segment);
@@ -101,7 +126,7 @@ void Checker::clock(const Segment& segment) {
 void Checker::continuity(const Segment& segment) {
   for (std::size_t i = 0; i < 2 * static_cast<std::size_t>(head_.d); ++i) {
     const Ball jump = abs(Ball(segment.state[i]) - last_->X[i]);
-    const double allowed = rounding * (last_->size[i] + size_of_pair(i));
+    const double allowed = rounding * (last_->size[i] + size_of_others(i));
     if (jump.near() > 0.0) tally_.jump = std::max(tally_.jump, jump.near() / allowed);
     if (!(jump <= Ball(allowed)))
       refuse_(segment.line, "number " + std::to_string(i) + " of the state is " + digits(segment.state[i]) +
@@ -109,33 +134,30 @@ void Checker::continuity(const Segment& segment) {
   }
 }
 
-/// The sizes of the other numbers of the same pair as number i: the engine lets such numbers follow from each other.
-double Checker::size_of_pair(std::size_t i) const {
-  const auto d = static_cast<std::size_t>(head_.d), at = i % d;
-  const auto& V = head_.inertia;
+/// What a number that follows from others is made of: all such numbers of its kind.
+double Checker::size_of_others(std::size_t i) const {
+  const std::size_t d = follows_.size(), block = i - i % d;
   double sum = 0.0;
-  for (std::size_t j = 0; j < d; ++j)
-    if (j != at && V[at][at] == V[j][j] && std::abs(V[at][j]) == V[j][j]) sum += last_->size[i - at + j];
+  for (std::size_t j = 0; j < d && follows_[i - block]; ++j)
+    if (follows_[j]) sum += last_->size[block + j];
   return sum;
 }
 
-/// Is there a slip guard v u_i > 0 that keeps the velocity towards the stop negative, with u_own = u_i or -u_i all along?
-bool Checker::slips_away(const Stop& stop, const Segment& segment, const Mode& mode) const {
-  double fastest = 0.0;
-  for (int i = 0; i < head_.d; ++i)
-    fastest = std::max(fastest, std::abs(segment.state[static_cast<std::size_t>(head_.d + i)]));
+/// The most that the velocity towards a stop can be, or infinity: it is constant, or a slip guard v u_i > 0 keeps it below a constant, because
+/// u_own -+ u_i does not change.
+double Checker::fastest_approach(const Stop& stop, const Segment& segment, const Mode& mode) const {
+  const double own = stop.sign * segment.state[u(stop)];
+  double least = mode.rows[u(stop)].empty() ? own : INFINITY;
   for (const Guard& guard : mode.guards) {
-    if (guard.kind != "slip" || guard.row.size() != 1) continue;
+    if (guard.kind != "slip" || guard.row.size() != 1 || guard.row[0].first < head_.d) continue;
     const auto i = static_cast<std::size_t>(guard.row[0].first);
     const double turn =
-        guard.row[0].second * stop.sign > 0.0 ? -1.0 : 1.0;  // u_own = turn u_i leads away while the guard lasts
+        guard.row[0].second * stop.sign > 0.0 ? -1.0 : 1.0;  // turn u_i leads away while the guard lasts
     Entries rate = mode.rows[i];
     for (auto& entry : rate) entry.second *= turn;
-    const double differs = stop.sign * (segment.state[u(stop)] - turn * segment.state[i]);
-    if (i >= static_cast<std::size_t>(head_.d) && rate == mode.rows[u(stop)] && differs <= rounding * fastest)
-      return true;
+    if (rate == mode.rows[u(stop)]) least = std::min(least, rounded_up(own - stop.sign * turn * segment.state[i]));
   }
-  return false;
+  return least;
 }
 
 /// A stop that no guard watches is open or just closed, and cannot close further.
@@ -148,9 +170,8 @@ void Checker::stops(const Segment& segment, const Mode& mode) {
              guard.row[0].second * stop.sign < 0.0;
     });
     if (watched) continue;
-    const double gap = -stop.sign * segment.state[p(stop)], approach = stop.sign * segment.state[u(stop)];
-    const bool held = mode.rows[u(stop)].empty() && approach <= 0.0;
-    if (!held && !slips_away(stop, segment, mode))
+    const double gap = -stop.sign * segment.state[p(stop)], approach = fastest_approach(stop, segment, mode);
+    if (!(approach <= 0.0 || Ball(approach) * Ball(segment.duration) <= Ball(gap)))
       refuse_(segment.line, "stop " + stop.name + " may close: no guard watches it");
     if (!(gap >= -rounding * largest))
       refuse_(segment.line, "stop " + stop.name + " is passed, its gap is " + digits(gap));

@@ -31,8 +31,8 @@ class Checker {
   void phases(const Segment& segment, const Mode& mode);
   void clock(const Segment& segment);
   void continuity(const Segment& segment);
-  [[nodiscard]] double size_of_pair(std::size_t i) const;
-  [[nodiscard]] bool slips_away(const Stop& stop, const Segment& segment, const Mode& mode) const;
+  [[nodiscard]] double size_of_others(std::size_t i) const;
+  [[nodiscard]] double fastest_approach(const Stop& stop, const Segment& segment, const Mode& mode) const;
   void stops(const Segment& segment, const Mode& mode);
   void chatter(const Segment& segment, const Mode& mode);
   void blows(Departure& departure);
@@ -44,7 +44,8 @@ class Checker {
 
   const Head& head_;
   const std::map<long, Mode>& modes_;
-  Refuse refuse_;  ///< names the segment
+  Refuse refuse_;              ///< names the segment
+  std::vector<bool> follows_;  ///< by displacement: it is a combination of others
   std::map<long, std::unique_ptr<Flow>> flows_;
   std::unique_ptr<Departure> last_;
   Tally tally_;

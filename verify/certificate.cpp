@@ -10,7 +10,7 @@ namespace verify {
 namespace {
 
 constexpr long most = 1'000'000'000'000'000;  ///< of a count; exact as a double, and no sum overflows
-constexpr long most_numbers = 10'000;         ///< of a state
+constexpr long most_numbers = 1000;           ///< of a state
 constexpr std::array kinds = {"gap", "slip", "stick", "press", "engage", "leave", "let-go", "push"};
 
 }  // namespace

@@ -236,21 +236,22 @@ void Flight::end() {
   const End& end = segment_.end;
   if (end.kind != EndKind::zero && end.kind != EndKind::touch) return;
   const auto g = static_cast<std::size_t>(end.index);
-  const Series h = Expansion(flow_, X, Ball(end.size)).of(flow_.guards[g]);
   const double noise = rounding * size_of(g, size);
   if (proofs_[g].claim != nullptr && proofs_[g].claim->rest) refuse(end.line, g, "rests, and cannot end the segment");
+  const Ball here = dot(flow_.guards[g], X);
   if (end.kind == EndKind::touch) {
     ++tally_.touches;
     if (!(end.size <= noise))
       refuse(end.line, g, "NOISE = " + digits(end.size) + ", rounding explains " + digits(noise));
-    if (!(h.b[0] <= Ball(end.size)))
-      refuse(end.line, g, "is " + digits(h.b[0].near()) + " at DURATION, more than NOISE");
+    if (!(abs(here) <= Ball(end.size)))
+      refuse(end.line, g, "is " + digits(here.near()) + " at DURATION, more than NOISE");
     return;
   }
   tally_.delta = std::max(tally_.delta, end.size / period_);
-  if (end.size > instant * period_) refuse(end.line, g, "DELTA = " + digits(end.size) + " is more than 2^-30 periods");
-  const Ball after = h.value(0, Ball(end.size));
-  if (segment_.duration > 0.0 ? !(after < Ball(0.0)) : !(abs(h.b[0]) <= Ball(noise)))
+  if (!(end.size <= instant * period_ && flow_.nu * end.size <= 16.0 * reach_of_series))
+    return refuse(end.line, g, "DELTA = " + digits(end.size) + " is more than 2^-30 periods");
+  const Ball delta(end.size), after = Expansion(flow_, X, delta).of(flow_.guards[g]).value(0, delta);
+  if (segment_.duration > 0.0 ? !(after < Ball(0.0)) : !(abs(here) <= Ball(noise)))
     refuse(end.line, g, "has no zero at the end: it is " + digits(after.near()) + " at DURATION + DELTA");
 }
 

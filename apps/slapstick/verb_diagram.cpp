@@ -57,6 +57,10 @@ void check_size(const Options& options, const Sweep& sweep) {
   constexpr double most = 1e8;
   const double rows = static_cast<double>(sweep.count) * static_cast<double>(options.impacts) *
                       (options.direction == "both" ? 2.0 : 1.0);
+  constexpr int most_values = 10'000'000;
+  if (sweep.count > most_values)
+    throw InputError("--sweep: " + std::to_string(sweep.count) + " values, more than the " +
+                     std::to_string(most_values) + " that one run keeps; sweep it in parts");
   if (rows > most)
     throw InputError("--sweep with --impacts " + std::to_string(options.impacts) + " may give " + shown(rows) +
                      " rows, more than the " + shown(most) + " that one run keeps; sweep it in parts");

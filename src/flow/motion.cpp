@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "slapstick/base/error.hpp"
+#include "slapstick/base/floating_point.hpp"
 #include "slapstick/flow/mode_graph.hpp"
 
 namespace slapstick {
@@ -39,6 +40,7 @@ Motion::Motion(const System& system, const State& initial, Instant start_at, Mot
       X_segment_(X_),
       X_next_(X_),
       phase_floor_(X_) {
+  const IeeeArithmetic ieee;
   validate(system.model(), initial);
   const mode::Frame& frame = system.frame();
   const int guards = 1 + stops() + 2 * frictions() + 2 * compliants();
@@ -87,9 +89,13 @@ State Motion::state() const {
   return out;
 }
 
-void Motion::state(std::span<double> out) const { system_->frame().leave(X_.data(), out.data()); }
+void Motion::state(std::span<double> out) const {
+  const IeeeArithmetic ieee;
+  system_->frame().leave(X_.data(), out.data());
+}
 
 std::span<const double> Motion::before() const {
+  const IeeeArithmetic ieee;
   system_->frame().leave(X_before_.data(), before_.data());
   return before_;
 }
@@ -99,6 +105,7 @@ Motion::Segment Motion::segment() const {
 }
 
 void Motion::sample(double s, std::span<double> out) const {
+  const IeeeArithmetic ieee;
   const mode::Mode& mode = system_->mode(segment_mode_);
   const int m = system_->frame().size();
   double* X = scratch_.data();
@@ -132,6 +139,7 @@ Outcome Motion::advance(Instant end) {
     return Outcome::event;
   }
   if (end <= now_) return Outcome::reached_end;
+  const IeeeArithmetic ieee;
   const double limit = end.since(flight_.start) * system_->period();
   if (!pending_.empty()) last_ = pending_[shown_];
   pending_.clear();

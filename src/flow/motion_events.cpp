@@ -279,12 +279,13 @@ void Motion::report_settled(Cause cause, const mode::ContactStates& old) {
     if (now.stops[i] == StopState::closed && old.stops[i] == StopState::open)
       report(EventKind::stick, static_cast<int>(i), 0.0);
   }
-  report_others(cause, old);
+  report_others(old);
 }
 
-/// Releases of contacts other than the one whose event this is, on other pairs than its own: its change of force has let them go.
-void Motion::report_others(Cause cause, const mode::ContactStates& old) {
-  if (cause == Cause::impact || hit_guard_ == nullptr || old.stops.size() + old.frictions.size() < 3) return;
+/// Releases of contacts other than the one whose event this is, on other pairs than its own: its change of force, or its impulse, has let
+/// them go.
+void Motion::report_others(const mode::ContactStates& old) {
+  if (hit_guard_ == nullptr || old.stops.size() + old.frictions.size() < 3) return;
   const mode::Frame& frame = system_->frame();
   const mode::ContactStates& now = here_->states();
   const auto of_event = [&](const mode::ContactRow& contact) {
@@ -300,7 +301,8 @@ void Motion::report_others(Cause cause, const mode::ContactStates& old) {
   }
   for (std::size_t i = 0; i < now.stops.size(); ++i) {
     const bool released = old.stops[i] == StopState::closed && now.stops[i] == StopState::open;
-    if (released && !of_event(frame.stops[i])) report(EventKind::release, static_cast<int>(i), 0.0);
+    const bool struck = (struck_now_ >> i & 1U) != 0;  // its impact says it all
+    if (released && !struck && !of_event(frame.stops[i])) report(EventKind::release, static_cast<int>(i), 0.0);
   }
 }
 

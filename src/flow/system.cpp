@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "slapstick/base/error.hpp"
+#include "slapstick/base/floating_point.hpp"
 #include "slapstick/base/text.hpp"
 
 namespace slapstick {
@@ -51,6 +52,9 @@ double checked_window(const Model& model, const mode::Mode& mode, int displaceme
   return window;
 }
 
+/// The clock's fraction of a period has 53 bits; a window must be many of its units.
+constexpr double most_windows_per_period = 0x1p48;
+
 /// A model with so few modes has them built at once.
 constexpr ModeId built_at_once = 8;
 
@@ -70,6 +74,11 @@ System::System(Model model, SystemOptions options)
   windows_per_period_ = period_ / mode(mode_id(free)).window();
   std::ranges::fill(free.compliant, CompliantState::on);
   windows_per_period_ = std::max(windows_per_period_, period_ / mode(mode_id(free)).window());
+  if (windows_per_period_ > most_windows_per_period)
+    throw InputError("model '" + model_.name + "' has " + shown(windows_per_period_) +
+                     " windows of its fastest motion in a forcing period, more than the clock can tell apart; raise "
+                     "omega or slow the "
+                     "model down");
   for (ModeId id = 0; id < mode_count_ && mode_count_ <= built_at_once; ++id) (void)mode(id);
   for (const mode::ContactRow& stop : frame_.stops) {
     impulses_.push_back(stop.sign * frame_.mass_inverse.col(stop.own) / frame_.mass_inverse(stop.own, stop.own));
@@ -84,6 +93,7 @@ System::System(Model model, SystemOptions options)
 }
 
 mode::Mode System::build(ModeId id) const {
+  const IeeeArithmetic ieee;
   mode::Mode built(model_, frame_, states(id), options_.longest_window);
   (void)checked_window(model_, built, frame_.d);
   return built;

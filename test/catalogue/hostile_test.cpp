@@ -194,8 +194,7 @@ TEST(K35, is_seen_switched_off_and_given_back) {
   EXPECT_EQ(found, expected);
 }
 
-/// Disabled: only the program and its threads look; a Motion that a library's user runs computes as the processor is left.
-TEST(K35, DISABLED_does_not_reach_a_motion_of_its_own) {
+TEST(K35, does_not_reach_a_motion_of_its_own) {
   const System system(free_oscillator());
   const State expected = tiny_oscillation(system);
   EXPECT_EQ(while_flushing([&] { return tiny_oscillation(system); }), expected);

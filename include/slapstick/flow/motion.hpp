@@ -172,7 +172,7 @@ class Motion {
   void strike_all();
   void end_pile_up();
   void compliant_limit(int compliant, mode::GuardKind kind);
-  void report_others(Cause cause, const mode::ContactStates& old);
+  void report_others(const mode::ContactStates& old);
   [[nodiscard]] int stop_touched_at_rest(int friction) const;
   void force_limit(int guard, int contact, bool graze);
   void touch(int stop, bool graze);

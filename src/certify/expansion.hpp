@@ -1,5 +1,6 @@
 #pragma once
 /// The guards of a segment as Taylor polynomials in a number type of choice, and lower parabolas of them.
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -26,7 +27,9 @@ class Expansion {
       for (Eigen::Index j = 0; j < mode.system().cols(); ++j)
         if (mode.system()(i, j) != 0.0)
           entries_.push_back({static_cast<int>(i), static_cast<int>(j), mode.system()(i, j)});
-    add_window(0.0, std::vector<Real>(X.begin(), X.end()));
+    std::vector<Real> start(X.begin(), X.end()), size = start;
+    for (Real& x : size) x = abs_of(x);
+    add_window(0.0, std::move(start), std::move(size));
   }
 
   [[nodiscard]] double rounding() const { return rounding_; }
@@ -53,15 +56,22 @@ class Expansion {
   struct Window {
     double begin;
     std::vector<std::vector<Real>> terms;  ///< A^n X / n!
+    std::vector<std::vector<Real>>
+        sizes;  ///< |A|^n s / n!, s the largest sums of sizes so far: what rounding is measured by
   };
 
-  void add_window(double begin, std::vector<Real> X) {
-    Window window{begin, {std::move(X)}};
+  void add_window(double begin, std::vector<Real> X, std::vector<Real> size) {
+    Window window{begin, {std::move(X)}, {std::move(size)}};
     for (int n = 1; n < terms_; ++n) {
-      std::vector<Real> next(window.terms[0].size(), Real(0));
-      for (const Entry& e : entries_) next[e.row] += Real(e.value) * window.terms.back()[e.column];
+      std::vector<Real> next(window.terms[0].size(), Real(0)), next_size = next;
+      for (const Entry& e : entries_) {
+        next[e.row] += Real(e.value) * window.terms.back()[e.column];
+        next_size[e.row] += Real(std::abs(e.value)) * window.sizes.back()[e.column];
+      }
       for (Real& x : next) x /= n;
+      for (Real& x : next_size) x /= n;
       window.terms.push_back(std::move(next));
+      window.sizes.push_back(std::move(next_size));
     }
     windows_.push_back(std::move(window));
   }
@@ -73,26 +83,29 @@ class Expansion {
       const Window& last = windows_.back();
       const double begin = last.begin + H;
       const Real x = Real(begin) - Real(last.begin);
-      std::vector<Real> X = last.terms.back();
+      std::vector<Real> X = last.terms.back(), size(X.size(), Real(0));
       for (int n = terms_ - 2; n >= 0; --n)
         for (std::size_t i = 0; i < X.size(); ++i) X[i] = X[i] * x + last.terms[n][i];
-      add_window(begin, std::move(X));
+      for (int n = terms_ - 1; n >= 0; --n)
+        for (std::size_t i = 0; i < X.size(); ++i) size[i] = size[i] * x + abs_of(last.terms[n][i]);
+      for (std::size_t i = 0; i < X.size(); ++i) size[i] = std::max(size[i], last.sizes[0][i]);
+      add_window(begin, std::move(X), std::move(size));
     }
     std::size_t w = windows_.size() - 1;
     while (w > 0 && s < windows_[w].begin) --w;
     return w;
   }
 
+  static Real abs_of(const Real& x) { return x < 0 ? Real(-x) : x; }
+
   Polynomial<Real> of_window(int g, std::size_t w) const {
-    using std::abs;
     const mode::RowVector& row = mode_.guards()[g].row;
     Polynomial<Real> p{std::vector<Real>(terms_, Real(0)), std::vector<Real>(terms_, Real(0))};
     for (int n = 0; n < terms_; ++n) {
       for (Eigen::Index i = 0; i < row.size(); ++i) {
         if (row[i] == 0.0) continue;
-        const Real part = Real(row[i]) * windows_[w].terms[n][i];
-        p.a[n] += part;
-        p.size[n] += abs(part);
+        p.a[n] += Real(row[i]) * windows_[w].terms[n][i];
+        p.size[n] += Real(std::abs(row[i])) * windows_[w].sizes[n][i];
       }
     }
     return p;

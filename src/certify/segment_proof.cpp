@@ -98,7 +98,7 @@ double SegmentProof::positive_until(int guard) {
 }
 
 Zero SegmentProof::zero_at_end(int guard) {
-  const double least = 0x1p-52 * duration_, most = 0x1p-20 * mode_.window();
+  const double least = std::nextafter(duration_, INFINITY) - duration_, most = 0x1p-20 * mode_.window();
   const Zero found = zero(narrow_->expansion, guard, duration_, least, most);
   return found.certain ? found : zero(wide(), guard, duration_, least, most);
 }

@@ -216,6 +216,7 @@ void Search::walk_through_noise(Root& root) {
     if (!(x_ < 1.0)) return restart_or_linger(root);
     evaluate(std::min(next, 1.0));
     if (!(std::abs(g_) > noise_)) continue;
+    root.doubtful = true;
     root.kind = g_ < 0.0 ? RootKind::crossing : RootKind::graze;
     root.x = g_ < 0.0 ? zero_between(before, x_) : minimum_between(start, x_);
     return;
@@ -291,9 +292,8 @@ Root first_root(const GuardWindow& guard, double x_end, long& evaluations) {
   else
     Search(guard, d, x_end, evaluations).run(root);
   if (root.x > x_end) {
-    root.kind = RootKind::none;
+    root = {};
     root.x = x_end;
-    root.falls = false;
   }
   return root;
 }

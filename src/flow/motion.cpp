@@ -33,6 +33,7 @@ Motion::Motion(const System& system, const State& initial, Instant start_at, Mot
       options_(options),
       now_(start_at),
       segment_start_(start_at),
+      origin_(system.frame().size()),
       X_(system.frame().size()),
       X_window_(X_),
       magnitude_(X_),
@@ -158,6 +159,7 @@ void Motion::begin_flight() {
   elapsed_ = 0.0;
   lingers_.assign(lingers_.size(), false);
   X_window_ = X_;
+  origin_.begin(X_window_.data());
   ++counters_.windows;
 }
 
@@ -183,6 +185,10 @@ bool Motion::fly(Instant end) {
     if (found.kind != event::RootKind::none && instant(found.x) > end) {
       look(std::min(to_end, 1.0));
       return false;
+    }
+    if (origin_.can_carry() && in_doubt(found)) {
+      sharpen_window();
+      continue;
     }
     switch (found.kind) {
       case event::RootKind::none:
@@ -215,19 +221,29 @@ Motion::Found Motion::first_event_in_window(double x_end) {
     if (found.x == 0.0 || orders_[g] == flow::never || (falling >= 0 && mode.guards()[g].falls_with == falling))
       continue;
     event::GuardWindow window;
-    mode.enclose(g, orders_[g], X_window_.data(), magnitude_.data(), window.hull);
+    window.hull = enclosed(g);
     if (event::excluded(window.hull)) continue;
     mode.taylor(g, orders_[g], X_window_.data(), window.taylor);
     const event::Root root = event::first_root(window, found.x, counters_.evaluations);
     if (root.kind == event::RootKind::restart)
       restart = restart < 0.0 ? root.x : std::min(restart, root.x);
     else if (root.kind != event::RootKind::none && (found.kind == event::RootKind::none || root.x < found.x))
-      found = {root.kind, g, root.x};
+      found = {root.kind, g, root.x, root.doubtful};
     if (root.falls && orders_[g] == 0) falling = g;
     if (root.lingers) lingers_[g] = true;
   }
   if (found.kind == event::RootKind::none && restart >= 0.0) return {event::RootKind::restart, 0, restart};
   return found;
+}
+
+/// The hull of a guard in the present window, with what earlier windows' rounding adds to its noise.
+event::Hull Motion::enclosed(int guard) const {
+  event::Hull hull, flown;
+  here_->enclose(guard, orders_[guard], X_window_.data(), magnitude_.data(), hull);
+  if (!origin_.stale()) return hull;
+  here_->enclose(guard, orders_[guard], X_window_.data(), origin_.largest(), flown);
+  event::add_noise(hull, flown.bounds, origin_.staleness());
+  return hull;
 }
 
 /// No event in this window: every guard is clear of its noise at its end, or lingers in it, or has been zero so far, as a force that
@@ -237,6 +253,7 @@ void Motion::next_window() {
   mode.step(X_window_.data(), X_next_.lanes().data());
   std::swap(X_window_, X_next_);
   ++counters_.windows;
+  origin_.pass(mode.window(), X_window_.data());
   if (++flight_.windows == windows_per_start) move_start(0.0, X_window_);
   note_magnitude(X_window_);
   for (int g = 0; g < mode.guard_count(); ++g) {
@@ -253,6 +270,28 @@ void Motion::restart_window(double x) {
   move_start(x, X_next_);
   std::swap(X_window_, X_next_);
   ++counters_.windows;
+  origin_.pass(x * mode.window(), X_window_.data());
+  note_magnitude(X_window_);
+  for (int g = 0; g < mode.guard_count(); ++g)
+    orders_[g] = flow::start_order(mode, g, X_window_.data(), magnitude_.data());
+}
+
+/// Would a sharper state perhaps decide otherwise what is an event, or which events are one?
+bool Motion::in_doubt(const Found& found) {
+  if (found.kind == event::RootKind::none || found.kind == event::RootKind::restart) return false;
+  if (found.doubtful) return true;
+  look(found.x);
+  for (int g = 0; g < here_->guard_count(); ++g) {
+    if (g != found.guard && within_noise(g, found.x)) return true;
+  }
+  return false;
+}
+
+/// A touch or a tie that the rounding of earlier windows leaves in doubt is looked at again, with the state that the flight's origin gives.
+void Motion::sharpen_window() {
+  const mode::Mode& mode = *here_;
+  origin_.carry(mode, X_window_.data());
+  move_start(0.0, X_window_);
   note_magnitude(X_window_);
   for (int g = 0; g < mode.guard_count(); ++g)
     orders_[g] = flow::start_order(mode, g, X_window_.data(), magnitude_.data());

@@ -50,13 +50,18 @@ void Motion::handle(int guard, bool graze) {
   }
 }
 
-/// Is a guard that reads `value` here within its rounding bound of zero?
-bool Motion::within_noise(int guard, double value) const {
+/// Is a gap or a velocity, at x of the window and in the state there, within its rounding bound of zero? False for forces.
+bool Motion::within_noise(int guard, double x) const {
+  const mode::Guard& h = here_->guards()[guard];
   const int order = orders_[guard];
-  if (order < 0 || order == flow::never || std::abs(value) > 0x1p-30 * largest_magnitude()) return false;
-  event::Hull hull;
-  here_->enclose(guard, order, X_window_.data(), magnitude_.data(), hull);
-  const double x = arrived_x_;
+  const bool force = h.kind != GuardKind::gap && h.kind != GuardKind::slip && h.kind != GuardKind::engage &&
+                     h.kind != GuardKind::leave;
+  if (force || order < 0 || order == flow::never) return false;
+  const double value = h.kind == GuardKind::gap    ? flow::gap(*system_, h.contact, X_.data())
+                       : h.kind == GuardKind::slip ? flow::sliding_velocity(*system_, h.contact, X_.data())
+                                                   : flow::depth(*system_, h.contact, X_.data());
+  if (std::abs(value) > 0x1p-30 * largest_magnitude()) return false;
+  const event::Hull hull = enclosed(guard);
   const double noise =
       hull.bounds[event::noise_0] + x * (hull.bounds[event::noise_1] + x * hull.bounds[event::noise_2]);
   return std::abs(value) <= std::pow(x, order) * noise;
@@ -85,18 +90,13 @@ void Motion::gather_ties(int guard) {
   for (int g = 0; g < static_cast<int>(guards.size()); ++g) {
     const int contact = guards[g].contact;
     if (g == guard || of_one_pair(guards[g], guards[guard])) continue;  // of one pair: see stop_touched_at_rest
-    if (guards[g].kind == GuardKind::gap) {
-      if (!within_noise(g, flow::gap(*system_, contact, X_.data()))) continue;
+    if (!within_noise(g, arrived_x_)) continue;
+    if (guards[g].kind == GuardKind::gap)
       land(frame.stops[contact]);
-    } else if (guards[g].kind == GuardKind::engage || guards[g].kind == GuardKind::leave) {
-      if (!within_noise(g, flow::depth(*system_, contact, X_.data()))) continue;
-      land(frame.compliant[contact]);
-    } else if (guards[g].kind == GuardKind::slip) {
-      if (!within_noise(g, flow::sliding_velocity(*system_, contact, X_.data()))) continue;
+    else if (guards[g].kind == GuardKind::slip)
       rest(frame.frictions[contact]);
-    } else {
-      continue;
-    }
+    else
+      land(frame.compliant[contact]);
     hits_.push_back(g);
   }
 }
@@ -122,8 +122,7 @@ int Motion::stop_touched_at_rest(int friction) const {
   for (int g = 0; g < mode.guard_count(); ++g) {
     const mode::Guard& guard = mode.guards()[g];
     if (guard.kind != GuardKind::gap || !system_->coupling(guard.contact, friction).same_pair) continue;
-    const double gap = flow::gap(*system_, guard.contact, X_.data());
-    if (gap <= 0.0 || within_noise(g, gap)) return guard.contact;
+    if (flow::gap(*system_, guard.contact, X_.data()) <= 0.0 || within_noise(g, arrived_x_)) return guard.contact;
   }
   return -1;
 }

@@ -5,7 +5,6 @@
 ///
 ///     "id", "title", "danger"     K02, "near graze, hit", what goes wrong where this is not looked after
 ///     "source"                    where the expected values are from
-///     "disabled"                  why the engine does not do it yet
 ///     "for"                       a family: {"k": "1..52", "r": [0.5, 0.8]} (all combinations), or a list of {name: value}; one test a member.
 ///                                 {k} in a text is replaced by its value, which is all that happens to a name in "texts"
 ///     "let"                       further names, from those before

@@ -41,14 +41,15 @@ class Momentum : public Watch {
     raise(law, std::abs(flow::approach_velocity(system_, event.contact, X) + stop.restitution * event.w));
     const auto before = motion.before();
     const State after = motion.state();
-    double change = 0.0, size = 0.0, inverse = 0.0;
+    double change = 0.0, size = 0.0, size_after = 0.0, inverse = 0.0;
     for (int i = 0; i < model_.size(); ++i) {
       const double m = model_.coordinates[i].mass, v = before[2 * i + 1];
       change += m * (after[2 * i + 1] - v);
       size += std::abs(m * v);
+      size_after += std::abs(m * after[2 * i + 1]);
       if (i == stop.a || i == stop.b) inverse += 1.0 / m;
     }
-    if (stop.a != ground && stop.b != ground) raise(momentum, std::abs(change) / size / 0x1p-52);
+    if (stop.a != ground && stop.b != ground) raise(momentum, std::abs(change) / std::max(size, size_after) / 0x1p-52);
     const double energy = kinetic(model_, before), lost = energy - kinetic(model_, after);
     const double expected = (1 - stop.restitution * stop.restitution) * event.w * event.w / (2 * inverse);
     raise(loss, std::abs(lost - expected) / energy);

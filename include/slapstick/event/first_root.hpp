@@ -24,7 +24,8 @@ enum class RootKind {
 struct Root {
   RootKind kind = RootKind::none;
   double x = 0.0;
-  bool falls = false;  ///< g' < 0 is proven on the whole window (only ever set with a crossing)
+  bool falls = false;     ///< g' < 0 is proven on the whole window (only ever set with a crossing)
+  bool doubtful = false;  ///< found within the noise, from the first zero or touch of the band on
   bool lingers =
       false;  ///< with none: g is within eight times its noise from start to end; judge it anew in the next window
 };

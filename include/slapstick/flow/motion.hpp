@@ -23,6 +23,7 @@
 #include <string_view>
 
 #include "slapstick/base/clock.hpp"
+#include "slapstick/flow/flight_origin.hpp"
 #include "slapstick/flow/system.hpp"
 
 namespace slapstick {
@@ -124,6 +125,7 @@ class Motion {
     event::RootKind kind;
     int guard;
     double x;
+    bool doubtful = false;
   };
 
   /// An extended state, padded to whole lanes.
@@ -153,6 +155,8 @@ class Motion {
   Found first_event_in_window(double x_end);
   void next_window();
   void restart_window(double x);
+  void sharpen_window();
+  [[nodiscard]] event::Hull enclosed(int guard) const;
   void move_start(double x, Extended& X);
   [[nodiscard]] Instant instant(double x) const;
   void look(double x);
@@ -164,7 +168,8 @@ class Motion {
   [[nodiscard]] bool of_one_pair(const mode::Guard& a, const mode::Guard& b) const;
   [[nodiscard]] double largest_magnitude() const;
   [[nodiscard]] bool tail_is_quiet(int stop, double duration);
-  [[nodiscard]] bool within_noise(int guard, double value) const;
+  [[nodiscard]] bool in_doubt(const Found& found);
+  [[nodiscard]] bool within_noise(int guard, double x) const;
   [[nodiscard]] std::span<const int> touching();
   [[nodiscard]] int approaching() const;
   void newton(int stop);
@@ -194,6 +199,7 @@ class Motion {
   ModeId mode_ = 0, segment_mode_ = 0;
   const mode::Mode* here_ = nullptr;  ///< the mode of mode_
   Flight flight_;
+  flow::FlightOrigin origin_;
   double arrived_x_ = 0.0;      ///< where in its window the last event was
   double elapsed_ = 0.0;        ///< time from the flight's start to now ..
   double segment_begun_ = 0.0;  ///< .. and to the segment's start

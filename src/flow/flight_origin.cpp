@@ -1,0 +1,60 @@
+#include "slapstick/flow/flight_origin.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slapstick::flow {
+namespace {
+
+using Wide = std::vector<long double>;
+
+/// exp(A s) X from its series, for |A| s <= 4 or a window, whose terms are negligible long before the 48th.
+Wide step(const mode::Matrix& A, long double s, const Wide& X) {
+  Wide sum = X, term = X;
+  for (int n = 1; n < 48; ++n) {
+    Wide next(X.size(), 0.0L);
+    for (std::size_t i = 0; i < X.size(); ++i) {
+      for (std::size_t j = 0; j < X.size(); ++j) {
+        const double a = A(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+        if (a != 0.0) next[i] += static_cast<long double>(a) * term[j];
+      }
+      next[i] *= s / n;
+      sum[i] += next[i];
+    }
+    term.swap(next);
+  }
+  return sum;
+}
+
+}  // namespace
+
+void FlightOrigin::set(const double* X) {
+  std::copy_n(X, X_.size(), X_.begin());
+  elapsed_ = 0.0L;
+  windows_ = 0;
+}
+
+void FlightOrigin::begin(const double* X) {
+  set(X);
+  std::ranges::transform(X_, largest_.begin(), [](double x) { return std::abs(x); });
+  staleness_ = 0.0;
+}
+
+void FlightOrigin::pass(double duration, const double* X) {
+  for (std::size_t i = 0; i < largest_.size(); ++i) largest_[i] = std::max(largest_[i], std::abs(X[i]));
+  elapsed_ += duration;
+  staleness_ = ++windows_;
+  if (windows_ >= most_windows) begin(X);
+}
+
+void FlightOrigin::carry(const mode::Mode& mode, double* X) {
+  Wide state(X_.begin(), X_.end());
+  const long double rate = mode.system().cwiseAbs().rowwise().sum().maxCoeff();
+  const long double count = std::max(1.0L, std::ceil(elapsed_ * std::min(0.25L * rate, 1.0L / mode.window())));
+  for (long double k = 0; k < count; ++k) state = step(mode.system(), elapsed_ / count, state);
+  std::ranges::transform(state, X, [](long double x) { return static_cast<double>(x); });
+  set(X);
+  staleness_ = carried;
+}
+
+}  // namespace slapstick::flow

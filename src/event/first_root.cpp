@@ -208,8 +208,15 @@ void Search::restart_or_linger(Root& root) const {
 /// g is within the noise at x_, or so near it that no step is possible. Steps d with (g'' + sup |g^(3)| d) d^2 / 8 <= noise: between two
 /// points of the band g is above -2 noise. The first point below the band proves a crossing, the first above it a graze.
 void Search::walk_through_noise(Root& root) {
+  constexpr long patience = 65'536;  // steps; a window that begins here is judged by its derivatives
   const double start = x_, before = last_;
+  const long begun = evaluations_;
   for (;;) {
+    if (evaluations_ - begun > patience) {
+      root.kind = RootKind::restart;
+      root.x = x_;
+      return;
+    }
     const double bend = std::max(g2_, 0.0) + bound(Bound::curvature_noise);
     const double d = std::min(std::sqrt(4.0 * noise_ / bend), std::cbrt(4.0 * noise_ / third()));
     const double next = std::max(x_ + d, std::nextafter(x_, 2.0));

@@ -57,14 +57,15 @@ double friction_rate(const System& system, int i) {
   return rate;
 }
 
-/// out = |A| v for the motion without friction.
-void magnitude_product(const System& system, const double* v, double* out) {
+/// out = |A| v, of the greater of |A| without contact forces, and with those of the mode that the flight is in.
+void magnitude_product(const System& system, const mode::Mode& here, const double* v, double* out) {
   const mode::Frame& frame = system.frame();
   const int m = frame.size();
   for (int i = 0; i < frame.d; ++i) {
     out[i] = v[frame.u(i)] + std::abs(frame.drift[i]) * v[frame.one()];
     double sum = 0.0;
-    for (int j = 0; j < m; ++j) sum += std::abs(frame.free(i, j)) * v[j];
+    for (int j = 0; j < m; ++j)
+      sum += std::max(std::abs(frame.free(i, j)), std::abs(here.system()(frame.u(i), j))) * v[j];
     out[frame.u(i)] = sum;
   }
   for (std::size_t k = 0; k < frame.harmonics.size(); ++k) {
@@ -81,8 +82,21 @@ double series(double v, double a_rise, double a_return, double rho) {
   return v * (1.0 / a_rise + 1.0 / std::sqrt(a_rise * a_return)) / (1.0 - rho);
 }
 
+/// Can any other stop, rigid or compliant, begin or cease to act while X stays within delta?
+bool others_change(const System& system, int stop, const double* X, const double* delta) {
+  const mode::Frame& frame = system.frame();
+  for (int i = 0; i < static_cast<int>(frame.stops.size()); ++i) {
+    const double open = gap(system, i, X);
+    if (i != stop && open > 0.0 && open <= delta[frame.stops[i].own]) return true;
+  }
+  for (int i = 0; i < static_cast<int>(frame.compliant.size()); ++i) {
+    if (std::abs(depth(system, i, X)) <= delta[frame.compliant[i].own]) return true;
+  }
+  return false;
+}
+
 /// Bound on |R(X(t)) - R_0| over a window of length D, or infinity if the bound on the states cannot be verified.
-double drift_of_R(const System& system, int stop, const double* X, double D, double impulse_sum,
+double drift_of_R(const System& system, const mode::Mode& here, int stop, const double* X, double D, double impulse_sum,
                   std::span<double> scratch) {
   const mode::Frame& frame = system.frame();
   const int m = frame.size();
@@ -91,27 +105,28 @@ double drift_of_R(const System& system, int stop, const double* X, double D, dou
   double* delta = rate + m;
   double* product = delta + m;
   for (int i = 0; i < m; ++i) magnitude[i] = std::abs(X[i]);
-  magnitude_product(system, magnitude, rate);
+  magnitude_product(system, here, magnitude, rate);
   for (int i = 0; i < frame.d; ++i) rate[frame.u(i)] += friction_rate(system, i);
   const auto jump = [&](int i) {
     return i >= frame.d && i < 2 * frame.d ? std::abs(system.impulse(stop)[i - frame.d]) * impulse_sum : 0.0;
   };
   for (int i = 0; i < m; ++i) delta[i] = 2.0 * (D * rate[i] + jump(i));
   // Positions move by the velocities' own bound, which the first guess has not seen yet: one more round before the check.
-  magnitude_product(system, delta, product);
+  magnitude_product(system, here, delta, product);
   for (int i = 0; i < m; ++i) delta[i] += 2.0 * D * product[i];
-  magnitude_product(system, delta, product);
+  magnitude_product(system, here, delta, product);
   double drift = 0.0;
   for (int i = 0; i < m; ++i) {
     if (D * (rate[i] + product[i]) + jump(i) > delta[i]) return INFINITY;
   }
+  if (others_change(system, stop, X, delta)) return INFINITY;
   for (int j = 0; j < m; ++j) drift += std::abs(system.press(stop)[j]) * delta[j];
   return drift;
 }
 
 /// The proof of the header, for friction as given; leaves the bounds on the changes of X in scratch[2 m ..].
-ChatterLimit prove(const System& system, int stop, const double* X, double tolerance, const Friction& friction,
-                   std::span<double> scratch) {
+ChatterLimit prove(const System& system, const mode::Mode& here, int stop, const double* X, double tolerance,
+                   const Friction& friction, std::span<double> scratch) {
   const double r = system.model().stops[stop].restitution;
   const double v = -approach_velocity(system, stop, X);
   const double R = row_product(system.press(stop), X) + friction.steady;
@@ -122,7 +137,7 @@ ChatterLimit prove(const System& system, int stop, const double* X, double toler
 
   const double D = 2.0 * nominal;
   const double impulse_sum = 2.0 * (1.0 + r) / r * v * nominal_rho / (1.0 - nominal_rho);
-  const double delta = drift_of_R(system, stop, X, D, impulse_sum, scratch) + friction.unknown;
+  const double delta = drift_of_R(system, here, stop, X, D, impulse_sum, scratch) + friction.unknown;
   if (!(delta < R)) return {};
   const double rise_min = R + friction.phi - delta, rise_max = R + friction.phi + delta;
   const double fall_min = R - friction.phi - delta, fall_max = R - friction.phi + delta;
@@ -163,7 +178,7 @@ bool coupled_to_others(const System& system, int stop, const double* X) {
 
 }  // namespace
 
-ChatterLimit prove_chatter(const System& system, int stop, const double* X, double tolerance,
+ChatterLimit prove_chatter(const System& system, const mode::Mode& here, int stop, const double* X, double tolerance,
                            std::span<double> scratch) {
   const double v = -approach_velocity(system, stop, X);
   const Friction friction = friction_on(system, stop, X, nullptr);
@@ -172,11 +187,11 @@ ChatterLimit prove_chatter(const System& system, int stop, const double* X, doub
   if (!(v > 0.0) || !(v < 100.0 * std::sqrt(tolerance * system.period()) * R)) return {};
   if (coupled_to_others(system, stop, X)) return {};
 
-  const ChatterLimit limit = prove(system, stop, X, tolerance, friction, scratch);
+  const ChatterLimit limit = prove(system, here, stop, X, tolerance, friction, scratch);
   const double* delta = scratch.data() + 2 * system.frame().size();
   if (!limit.proven || all_slip_on(system, stop, X, delta)) return limit;
   // A contact that may come to rest on the way can push either way.
-  return prove(system, stop, X, tolerance, friction_on(system, stop, X, delta), scratch);
+  return prove(system, here, stop, X, tolerance, friction_on(system, stop, X, delta), scratch);
 }
 
 }  // namespace slapstick::flow

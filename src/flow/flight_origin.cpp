@@ -36,12 +36,14 @@ void FlightOrigin::set(const double* X) {
 
 void FlightOrigin::begin(const double* X) {
   set(X);
-  std::ranges::transform(X_, largest_.begin(), [](double x) { return std::abs(x); });
+  size_ = 0.0;
+  for (std::size_t i = 0; i < X_.size(); ++i) size_ += largest_[i] = std::abs(X[i]);
   staleness_ = 0.0;
 }
 
 void FlightOrigin::pass(double duration, const double* X) {
-  for (std::size_t i = 0; i < largest_.size(); ++i) largest_[i] = std::max(largest_[i], std::abs(X[i]));
+  size_ = 0.0;
+  for (std::size_t i = 0; i < largest_.size(); ++i) size_ += largest_[i] = std::max(largest_[i], std::abs(X[i]));
   elapsed_ += duration;
   staleness_ = ++windows_;
   if (windows_ >= most_windows) begin(X);

@@ -132,7 +132,10 @@ bool strike_together(const System& system, std::span<const int> stops, double* X
   Column q = v;
   for (std::size_t i = 0; i < stops.size(); ++i)
     q[static_cast<Eigen::Index>(i)] *= 1.0 + system.model().stops[stops[i]].restitution;
-  if (!Lemke(D, q).solve(P)) return false;
+  // Lemke's method compares entries of D: in units in which its diagonal is one.
+  const Column unit = D.diagonal().cwiseSqrt().cwiseInverse();
+  if (!Lemke(unit.asDiagonal() * D * unit.asDiagonal(), unit.cwiseProduct(q)).solve(P)) return false;
+  P = P.cwiseProduct(unit).eval();
   push(system, stops, P, X);
   for (std::size_t i = 0; i < stops.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);

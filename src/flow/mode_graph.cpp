@@ -50,13 +50,14 @@ bool fits(const System& system, const mode::Mode& mode, const double* X, const d
   return true;
 }
 
-/// False if a guard of the mode certainly starts downwards. For modes without operators: the derivatives come from A itself, with a rounding
-/// bound that is generous. What passes is judged again by `fits`.
+/// False if a guard of the mode certainly starts downwards: by its value, or by its first derivative where all before are exactly zero. For
+/// modes without operators; a rounding bound that is more than theirs. So it refuses nothing that `fits` would take, and which mode is chosen
+/// does not depend on which ones were built before.
 bool may_fit(const mode::Outline& outline, const double* X, const double* magnitude) {
   constexpr double roundings = 64.0 * event::unit_roundoff;
   const auto m = outline.system.rows();
   mode::Vector term = Eigen::Map<const mode::Vector>(X, m), size = Eigen::Map<const mode::Vector>(magnitude, m);
-  std::vector<const mode::Guard*> open;  // those that may start with a zero
+  std::vector<const mode::Guard*> open;  // those that start with a zero
   for (const mode::Guard& guard : outline.guards) open.push_back(&guard);
   for (int n = 0;; ++n) {
     std::vector<const mode::Guard*> zero;
@@ -64,7 +65,7 @@ bool may_fit(const mode::Outline& outline, const double* X, const double* magnit
       const double value = guard->row.dot(term);
       const double noise = roundings * static_cast<double>(m) * guard->row.cwiseAbs().dot(size);
       if (value < -noise) return false;
-      if (!(value > noise)) zero.push_back(guard);
+      if (value == 0.0) zero.push_back(guard);
     }
     if (zero.empty() || n == 2) return true;
     open.swap(zero);
@@ -130,24 +131,54 @@ class Choice {
     return id;
   }
 
-  /// The next combination; the last contact's candidates change fastest. False if there is none.
+  /// The next combination: those in which few contacts differ from what they prefer come first. False if there is none.
   bool next() {
-    int c = count_ - 1;
-    while (c >= 0 && ++choice_[c] == offered_[c].count) choice_[c--] = 0;
-    return c >= 0;
+    if (next_digits()) return true;
+    if (!next_changed()) return false;
+    for (int k = 0; k < changes_; ++k) choice_[several_[changed_[k]]] = 1;
+    return true;
   }
 
   [[nodiscard]] bool only_one() const { return combinations_ == 1; }
 
  private:
   void add(const Candidates& candidates, int base) {
+    if (candidates.count > 1) several_[several_count_++] = count_;
     offered_[count_] = candidates;
     stride_[count_++] = next_stride_;
     next_stride_ *= base;
     combinations_ *= candidates.count;
   }
 
+  /// The next choice of the contacts that differ, among their candidates after the first.
+  bool next_digits() {
+    for (int k = changes_ - 1; k >= 0; --k) {
+      const int c = several_[changed_[k]];
+      if (++choice_[c] < offered_[c].count) return true;
+      choice_[c] = 1;
+    }
+    return false;
+  }
+
+  /// The next set of contacts that differ: of the same size in the order of their numbers, then of one more.
+  bool next_changed() {
+    for (int k = 0; k < changes_; ++k) choice_[several_[changed_[k]]] = 0;
+    int k = changes_ - 1;
+    while (k >= 0 && changed_[k] == several_count_ - changes_ + k) --k;
+    if (k < 0) {
+      if (++changes_ > several_count_) return false;
+      for (int i = 0; i < changes_; ++i) changed_[i] = i;
+      return true;
+    }
+    ++changed_[k];
+    for (int i = k + 1; i < changes_; ++i) changed_[i] = changed_[i - 1] + 1;
+    return true;
+  }
+
   std::array<Candidates, most_contacts> offered_;
+  std::array<int, most_contacts> several_{};  ///< contacts with more than one candidate
+  std::array<int, most_contacts> changed_{};  ///< those of `several_` that do not have their first, ascending
+  int several_count_ = 0, changes_ = 0;
   std::array<ModeId, most_contacts> stride_{};
   std::array<int, most_contacts> choice_{};
   ModeId next_stride_ = 1;

@@ -240,7 +240,8 @@ Motion::Found Motion::first_event_in_window(double x_end) {
 event::Hull Motion::enclosed(int guard) const {
   event::Hull hull, flown;
   here_->enclose(guard, orders_[guard], X_window_.data(), magnitude_.data(), hull);
-  if (!origin_.stale()) return hull;
+  const double coarse = 8.0 * origin_.staleness() * origin_.size() * here_->coarse_noise(guard);
+  if (!origin_.stale() || event::all_above(hull.bernstein, hull.bounds[event::hull_error] + coarse)) return hull;
   here_->enclose(guard, orders_[guard], X_window_.data(), origin_.largest(), flown);
   event::add_noise(hull, flown.bounds, origin_.staleness());
   return hull;
@@ -331,6 +332,7 @@ void Motion::arrive(double x) {
   if (last < now_) {
     at_one_instant_ = 0;
     struck_now_ = 0;
+    fastest_now_ = 0.0;
   }
   system_->frame().set_phase(now_.fraction, X_.data());
 }

@@ -16,9 +16,11 @@ using mode::StopState;
 
 namespace {
 
-constexpr int most_rounds = 16;  ///< of impacts without a flight between them, before they are ended together
-constexpr long most_flights_at_one_instant = 32;  ///< of stops that bounce faster than the clock can tell
-constexpr long most_events_at_one_instant = 256;
+/// Impacts at one instant, with or without flights that the clock cannot tell between them, are ended together once they are so much slower
+/// than the first of the instant, or so many.
+constexpr double slow_impacts = 0x1p-46;
+constexpr long most_impacts_at_one_instant = 10'000;
+constexpr long most_events_at_one_instant = 2 * most_impacts_at_one_instant;
 
 }  // namespace
 
@@ -170,28 +172,38 @@ int Motion::approaching() const {
 /// All impacts of this instant, by the model's law, until no stop in contact is approaching.
 void Motion::strike_all() {
   chatter_stop_ = -1;
-  if (at_one_instant_ > most_flights_at_one_instant) return end_pile_up();
   int rounds = 0;
   for (int stop = approaching(); stop >= 0; stop = approaching(), ++rounds) {
-    if (rounds > most_rounds) return end_pile_up();
+    const double speed = flow::approach_velocity(*system_, stop, X_.data());
+    fastest_now_ = std::max(fastest_now_, speed);
+    if (speed < slow_impacts * fastest_now_ || at_one_instant_ > most_impacts_at_one_instant) return end_pile_up();
     if (touching().size() == 1 || system_->model().impact_law == ImpactLaw::sequence)
       newton(stop);
     else
       moreau(touching_);
-    struck_now_ |= std::uint32_t{1} << stop;
+    struck_now_ |= strikes_.back().stops;
     chatter_stop_ = rounds == 0 && system_->model().stops[stop].restitution > 0.0 ? stop : -1;
   }
 }
 
-/// Stops that chatter against each other, where no proof of completeness is at hand, are brought to rest once their flights are shorter than
-/// the clock's rounding: all that were struck at this instant together. The forces then decide which of them stay closed.
+/// Stops that chatter against each other, where no proof of completeness is at hand, are brought to rest once their impacts at one instant have
+/// become slow: those that still approach, and all that were struck or touch and act on these. The forces then decide which of them stay closed.
 void Motion::end_pile_up() {
-  touching_.clear();
-  for (int s = 0; s < stops(); ++s) {
-    if ((struck_now_ >> s & 1U) == 0 && flow::gap(*system_, s, X_.data()) != 0.0) continue;
-    land(system_->frame().stops[s]);
-    touching_.push_back(s);
+  const mode::Frame& frame = system_->frame();
+  const auto candidate = [&](int s) {
+    return (struck_now_ >> s & 1U) != 0 || flow::gap(*system_, s, X_.data()) == 0.0;
+  };
+  touching_.assign(1, approaching());
+  for (std::size_t k = 0; k < touching_.size(); ++k) {
+    for (int s = 0; s < stops(); ++s) {
+      const bool acts = frame.mass_inverse(frame.stops[touching_[k]].own, frame.stops[s].own) != 0.0;
+      if (acts && candidate(s) && std::ranges::find(touching_, s) == touching_.end()) touching_.push_back(s);
+    }
   }
+  if (std::ranges::all_of(touching_, [&](int s) { return system_->model().stops[s].restitution == 1.0; }))
+    fail("impacts without loss follow each other without end at one instant");
+  std::ranges::sort(touching_);
+  for (int s : touching_) land(frame.stops[s]);
   flow::bring_to_rest(*system_, touching_, X_.data());
   strikes_.push_back({0, true});
   for (int s : touching_) strikes_.back().stops |= std::uint32_t{1} << s;
@@ -247,11 +259,24 @@ void Motion::choose_mode() {
   begin_flight();
 }
 
+/// The numbers of contacts that depend on each other are made to agree again. What that does to a gap by rounding is a contact, and perhaps
+/// an impact.
+void Motion::reconcile_contacts() {
+  if (system_->frame().d == system_->frame().n) return;
+  for (int round = 0; round < 8; ++round) {
+    system_->frame().refresh(X_.data());
+    for (int s = 0; s < stops(); ++s)
+      if (flow::gap(*system_, s, X_.data()) < 0.0) land(system_->frame().stops[s]);
+    if (approaching() < 0) return;
+    strike_all();
+  }
+}
+
 /// Decides the next mode after an event and reports what follows from it at once.
 void Motion::settle(Cause cause) {
   const mode::ContactStates& old = here_->states();
   if (approaching() >= 0) strike_all();  // a tie
-  if (system_->frame().d > system_->frame().n) system_->frame().refresh(X_.data());
+  reconcile_contacts();
   choose_mode();
   if (cause != Cause::impact) chatter_stop_ = -1;
   report_settled(cause, old);
@@ -309,8 +334,8 @@ void Motion::report_others(const mode::ContactStates& old) {
 /// within `limit` of the impact. A cut before the limit leaves the question to the next call.
 bool Motion::end_chatter(double limit) {
   const int stop = chatter_stop_;
-  const flow::ChatterLimit chatter =
-      flow::prove_chatter(*system_, stop, X_window_.data(), options_.chatter_tolerance * system_->period(), scratch_);
+  const flow::ChatterLimit chatter = flow::prove_chatter(*system_, *here_, stop, X_window_.data(),
+                                                         options_.chatter_tolerance * system_->period(), scratch_);
   if (!chatter.proven || flight_.windows > 0 || chatter.duration > 0.5 * here_->window()) {
     chatter_stop_ = -1;
     return false;

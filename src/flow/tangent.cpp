@@ -10,7 +10,7 @@ TangentMotion::TangentMotion(const System& system, const State& state, const Eig
                              MotionOptions options)
     : motion_(system, state, start, options) {
   set_tangents(tangents);
-  hold_still();  // a perturbed velocity of a contact at rest is slip for an instant of second order
+  if (motion_.hits().empty()) come_to_rest();
   const auto padded = static_cast<std::size_t>((system.frame().size() + 7) / 8 * 8);
   delta_.assign(padded, 0.0);
   next_.assign(padded, 0.0);
@@ -54,6 +54,27 @@ void TangentMotion::flow(const Motion::Segment& segment) {
     mode.state_at(s / mode.window(), delta_.data(), next_.data());
     std::copy_n(next_.data(), 2 * d, tangents_.col(column).data());
   }
+}
+
+/// At a start in stick or on a closed stop. A small velocity of slip there is gone after a time of its own size, a small gap after an impact:
+/// contact forces bring the pair to rest, and the momentum stays.
+void TangentMotion::come_to_rest() {
+  const mode::Frame& frame = motion_.system().frame();
+  const mode::Mode& mode = motion_.system().mode(motion_.mode_id());
+  const auto project = [&](const std::vector<int>& rows, Eigen::Index offset) {
+    if (rows.empty()) return;
+    const Eigen::MatrixXd push = frame.mass_inverse(Eigen::all, rows), D = push(rows, Eigen::all);
+    const Eigen::MatrixXd rates = tangents_.middleRows(offset, frame.d)(rows, Eigen::all);
+    tangents_.middleRows(offset, frame.d) -= push * D.completeOrthogonalDecomposition().solve(rates);
+  };
+  std::vector<int> held, closed;
+  for (int i = 0; i < frame.d; ++i)
+    if (mode.steady(i)) held.push_back(i);
+  for (std::size_t i = 0; i < frame.stops.size(); ++i)
+    if (mode.states().stops[i] == mode::StopState::closed) closed.push_back(frame.stops[i].own);
+  project(held, frame.d);
+  project(closed, 0);
+  hold_still();
 }
 
 /// What the new mode holds still is exactly zero: the rank loss of stick.

@@ -251,7 +251,7 @@ void reconcile(double& stored, double offset, const RowVector& coefficient, doub
   for (Eigen::Index j = 0; j < coefficient.size(); ++j) {
     const double term = coefficient[j] * (basis[j] + offsets[j]);
     sum += term;
-    size += std::abs(term);
+    size += std::abs(coefficient[j]) * (std::abs(basis[j]) + std::abs(offsets[j]));
     const bool larger = movable < 0 || std::abs(basis[j]) > std::abs(basis[movable]);
     if (coefficient[j] != 0.0 && basis[j] != 0.0 && larger) movable = j;
   }

@@ -36,7 +36,7 @@ void Mode::build_operators(const Frame& frame, const Model& model, double longes
   std::vector<RowVector> rows;
   for (const Guard& guard : outline_.guards) rows.push_back(guard.row);
   for (int i = 0; i < d_; ++i) rows.push_back(RowVector::Unit(m_, i));
-  const Series series(outline_.system, rows, d_, model.forcing_period(), longest_window);
+  const Series series(outline_.system, outline_.system_size, rows, d_, model.forcing_period(), longest_window);
   window_ = series.window();
   window_in_periods_ = series.window_in_periods();
   noise_factor_ = (m_ + 16.0) * event::unit_roundoff;
@@ -67,7 +67,13 @@ void Mode::build_operators(const Frame& frame, const Model& model, double longes
     }
   }
   for (int g = 0; g < guard_count(); ++g) {
-    for (int i = 0; i < m_; ++i) remainders_.push_back(series.remainder(static_cast<std::size_t>(g), i));
+    coarse_noise_.push_back(0.0);
+    for (int i = 0; i < m_; ++i) {
+      remainders_.push_back(series.remainder(static_cast<std::size_t>(g), i));
+      double size = 0.0;
+      for (int b = 0; b < 3; ++b) size += event::sum(event::magnitude(taylor_[(3 * g + b) * m_ + i]));
+      coarse_noise_[g] = std::max(coarse_noise_[g], noise_factor_ * size + remainders_.back());
+    }
     for (int order = 0; order < stored_orders; ++order) {
       for (int i = 0; i < m_; ++i) {
         const event::Hull hull = hull_column(g, order, i);

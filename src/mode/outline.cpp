@@ -38,10 +38,12 @@ double sense(const Frame& frame, const Group& group, const ContactRow& contact) 
   return contact.sign * frame.parallel(group.displacement, contact.own);
 }
 
-/// The inverse of a positive semidefinite D; where held contacts depend on each other, the pseudoinverse, for the solution of least norm.
+/// The inverse of a positive semidefinite D; where held contacts depend on each other, the pseudoinverse, for the solution of least norm. Whether
+/// they do is decided for a unit diagonal: a heavy mass is not a dependent one.
 Matrix least_norm_inverse(const Matrix& D) {
-  const Eigen::FullPivLU<Matrix> lu(D);
-  if (lu.isInvertible()) return lu.inverse();
+  const Vector scale = D.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::FullPivLU<Matrix> lu(Matrix(scale.asDiagonal() * D * scale.asDiagonal()));
+  if (lu.isInvertible()) return scale.asDiagonal() * lu.inverse() * scale.asDiagonal();
   return D.completeOrthogonalDecomposition().pseudoInverse();
 }
 
@@ -91,9 +93,13 @@ void Builder::select_linear_system() {
   Frame::drop_rounding(acceleration, size);
   if (!held_.empty()) hold(acceleration, size);
   out_.system = frame_.kinematics(model_.omega);
+  out_.system_size = out_.system.cwiseAbs();
   out_.system.middleRows(d_, d_) = acceleration;
+  out_.system_size.middleRows(d_, d_) = size.cwiseMax(acceleration.cwiseAbs());
   for (int i = 0; i < d_; ++i) {
-    if (out_.steady[i]) out_.system.row(d_ + i).setZero();  // exactly
+    if (!out_.steady[i]) continue;
+    out_.system.row(d_ + i).setZero();  // exactly
+    out_.system_size.row(d_ + i).setZero();
   }
 }
 

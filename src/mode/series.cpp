@@ -26,13 +26,14 @@ double few_bits(double x) {
 
 }  // namespace
 
-Series::Series(const Matrix& A, const std::vector<RowVector>& rows, int displacements, double period,
-               double longest_window)
+Series::Series(const Matrix& A, const Matrix& size, const std::vector<RowVector>& rows, int displacements,
+               double period, double longest_window)
     : m_(A.rows()), d_(displacements), A_(static_cast<std::size_t>(m_)), reference_(reference_length(A)) {
   for (Eigen::Index k = 0; k < m_; ++k) {
     for (Eigen::Index i = 0; i < m_; ++i)
       if (A(k, i) != 0.0)
-        A_[k].push_back({i, static_cast<long double>(A(k, i)) * static_cast<long double>(reference_)});
+        A_[k].push_back(
+            {i, static_cast<long double>(A(k, i)) * static_cast<long double>(reference_), size(k, i) * reference_});
   }
   for (const RowVector& row : rows) expand(row);
   // Bisection on the window length in units of the reference length; the tail grows with it.
@@ -57,11 +58,11 @@ void Series::expand(const RowVector& row) {
     LongRow next = LongRow::Zero(m_);
     for (Eigen::Index k = 0; k < m_; ++k) {
       const long double factor = terms.back()[k] / n;
-      const double uncertain = (error(n - 1, k) + event::unit_roundoff * size(n - 1, k)) / n;
-      if (factor == 0.0L && uncertain == 0.0) continue;
+      const double before = error(n - 1, k) / n, fresh = event::unit_roundoff * size(n - 1, k) / n;
+      if (factor == 0.0L && before == 0.0) continue;
       for (const Entry& entry : A_[k]) {
         next[entry.column] += factor * entry.value;
-        error(n, entry.column) += uncertain * static_cast<double>(std::abs(entry.value));
+        error(n, entry.column) += before * static_cast<double>(std::abs(entry.value)) + fresh * entry.size;
       }
     }
     size.row(n) = next.cwiseAbs().cast<double>();

@@ -9,8 +9,9 @@ namespace slapstick::mode {
 
 /// For X' = A X and functionals h = c . X:  h(s) = sum_n (c A^n / n!) s^n X.
 ///
-/// The entries of A are rounded. What that does to a term, e_n = (e_{n-1} + u |c A^{n-1} / (n-1)!|) |A| / n, tells a term that the structure of
-/// the model makes zero, and rounding does not, from one that is small.
+/// The entries of A are rounded, by u S, S the sizes of what they were made of. What that does to a term,
+/// e_n = (e_{n-1} |A| + u |c A^{n-1} / (n-1)!| S) / n, tells a term that the structure of the model makes zero, and rounding does not, from one
+/// that is small.
 ///
 /// The window length H is the largest for which, row by row, the dropped terms n >= 24 of every column are at most a quarter ulp of the scale of
 /// that column: the largest kept term in its block (displacements, velocities, phases, constant), of this row or of a displacement.
@@ -20,7 +21,9 @@ class Series {
  public:
   /// @param rows  the last `displacements` of them read the displacements
   /// @param longest_window  in periods; H is no longer than this
-  Series(const Matrix& A, const std::vector<RowVector>& rows, int displacements, double period, double longest_window);
+  /// @param size  S
+  Series(const Matrix& A, const Matrix& size, const std::vector<RowVector>& rows, int displacements, double period,
+         double longest_window);
 
   [[nodiscard]] double window() const { return window_; }
   [[nodiscard]] double window_in_periods() const { return window_in_periods_; }
@@ -42,6 +45,7 @@ class Series {
   struct Entry {
     Eigen::Index column;
     long double value;
+    double size;
   };
 
   void expand(const RowVector& row);

@@ -11,8 +11,9 @@
 /// least rho = r sqrt(a_return_max / a_rise_min), and all flights together last at most
 ///     T <= v (1/a_rise + 1/sqrt(a_rise a_return))_max / (1 - rho).
 /// If rho < 1, T <= D and friction cannot hold the pair off the stop (R_0 - delta > static friction), chatter is proven complete.
-/// A closed or compliant stop that acts on the pair itself refuses the proof; the forces of those that reach it through springs only are not in
-/// the bound on R (over a window of D they move it by the order of D^2).
+/// |A| is the greater of that without contact forces and that of the mode of the flight, so that compliant and closed stops elsewhere are in it. A
+/// closed or compliant stop that acts on the pair itself refuses the proof, and so does any other stop, rigid or compliant, that could be
+/// reached or left within Delta: the second side of a narrow clearance.
 /// The same series with the smallest and largest accelerations encloses the limit time.
 ///
 /// Source: reliability page, section 4; Nordmark and Piiroinen (2009), Budd and Dux (1994).
@@ -28,13 +29,14 @@ struct ChatterLimit {
   double error = 0.0;     ///< bound on the error of `duration`
 };
 
+/// @param here the mode of the flight that begins at X
 /// @param X extended state just after an impact of `stop` (gap = 0, separating).
 /// @param tolerance largest acceptable error of the limit time, in time units.
 /// @param scratch at least 4 m doubles.
 /// @returns proven = false if chatter is not complete, or not provable from this impact on, or its limit not yet known to `tolerance`:
 ///          the caller goes on bounce by bounce and asks again. Cost: one row product when the chatter is still too high
 ///          to be summed, else four products with |A|.
-ChatterLimit prove_chatter(const System& system, int stop, const double* X, double tolerance,
+ChatterLimit prove_chatter(const System& system, const mode::Mode& here, int stop, const double* X, double tolerance,
                            std::span<double> scratch);
 
 }  // namespace slapstick::flow

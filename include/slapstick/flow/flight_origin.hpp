@@ -27,6 +27,8 @@ class FlightOrigin {
   /// How much, in units of what one window's operators lose of `largest()`, the greatest |X| of the flight.
   [[nodiscard]] double staleness() const { return staleness_; }
   [[nodiscard]] const double* largest() const { return largest_.data(); }
+  /// The sum of those.
+  [[nodiscard]] double size() const { return size_; }
 
  private:
   static constexpr int most_windows = 4096;
@@ -35,7 +37,7 @@ class FlightOrigin {
   void set(const double* X);
 
   std::vector<double> X_, largest_;
-  double staleness_ = 0.0;
+  double size_ = 0.0, staleness_ = 0.0;
   long double elapsed_ = 0.0L;
   int windows_ = 0;
 };

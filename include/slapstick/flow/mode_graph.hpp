@@ -20,8 +20,9 @@
 /// else slip with s = sgn f0; on the closed stop the only guard is f0 + f_s, so release needs f0 < -f_s however large f0 grows.
 ///
 /// With several contacts at rest this is the complementarity problem of rigid-body dynamics (Pfeiffer and Glocker 1996, chapter 5), solved by
-/// going through the combinations in this order, the last contact's candidates changing fastest; among redundant contacts one that would
-/// have to pull is left open, at rest all the same. Combinations that certainly do not fit are refused before their mode is built.
+/// going through the combinations: first those in which one contact differs from what it prefers, then two, and so on; so a contact lets go only
+/// where it must, and a release costs as many tries as there are contacts, not as there are combinations. Among redundant contacts one that
+/// would have to pull is left open, at rest all the same. Combinations that certainly do not fit are refused before their mode is built.
 #include <span>
 
 #include "slapstick/flow/system.hpp"

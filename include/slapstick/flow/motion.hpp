@@ -176,6 +176,7 @@ class Motion {
   void moreau(std::span<const int> stops);
   void strike_all();
   void end_pile_up();
+  void reconcile_contacts();
   void compliant_limit(int compliant, mode::GuardKind kind);
   void report_others(const mode::ContactStates& old);
   [[nodiscard]] int stop_touched_at_rest(int friction) const;
@@ -226,6 +227,7 @@ class Motion {
   std::int64_t budget_period_ = 0;
   long budget_events_ = 0;
   long at_one_instant_ = 0;       ///< events since the clock has moved ..
+  double fastest_now_ = 0.0;      ///< .. the fastest impact among them ..
   std::uint32_t struck_now_ = 0;  ///< .. and the stops that were struck, bit by bit
 };
 

@@ -29,6 +29,7 @@ class TangentMotion {
 
  private:
   void flow(const Motion::Segment& segment);
+  void come_to_rest();
   void hold_still();
 
   Motion motion_;

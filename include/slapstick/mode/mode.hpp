@@ -34,6 +34,8 @@ class Mode {
 
   /// One step over a whole window: exp(A window()) X.
   void step(const double* X, event::Lane8* out) const;
+  /// A coarse bound of the rounding of guard g, anywhere on the window, for numbers whose sizes sum to 1.
+  [[nodiscard]] double coarse_noise(int g) const { return coarse_noise_[g]; }
   /// Guard g from its zero of order `order` at the window's start on: its hull (magnitude = |X|) ..
   void enclose(int g, int order, const double* X, const double* magnitude, event::Hull& out) const;
   /// .. and its Taylor coefficients a_order, a_{order+1}, ...
@@ -56,7 +58,7 @@ class Mode {
   static constexpr int most_stored_rows = 24;
 
   Outline outline_;
-  std::vector<double> drift_, remainders_;
+  std::vector<double> drift_, remainders_, coarse_noise_;
   int d_ = 0, m_ = 0, state_blocks_ = 0;
   double window_ = 1.0, window_in_periods_ = 1.0, noise_factor_ = 0.0;
   event::Lanes step_, taylor_, leading_noise_;

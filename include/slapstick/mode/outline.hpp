@@ -59,7 +59,8 @@ struct Outline {
   Outline(const Model& model, const Frame& frame, ContactStates contact_states);
 
   ContactStates states;
-  Matrix system;  ///< m x m
+  Matrix system;       ///< m x m
+  Matrix system_size;  ///< the sums of the sizes of the terms that each of its entries was made of
   std::vector<Guard>
       guards;  ///< in the order in which events at one instant are handled: gaps, relative velocities, forces
   std::vector<bool> steady;  ///< u_i keeps its value to the last bit: its pair is held

@@ -191,8 +191,8 @@ bool ReturnSearch::run(int periods, Classification& result) {
 /// Newton's method on the n-period map also finds cycles whose length divides n.
 int ReturnSearch::shortest_cycle(const VectorXd& x, int n) const {
   for (int d = 1; d < n; ++d) {
-    if (n % d == 0 && attractor::distance(attractor::return_map(system_, translations_, x, d, options_.cancel).image, x,
-                                          scale_) < 1e-8)
+    if (n % d == 0 &&
+        attractor::distance(attractor::return_map(translations_, x, d, options_.cancel).image, x, scale_) < 1e-8)
       return d;
   }
   return n;
@@ -201,7 +201,7 @@ int ReturnSearch::shortest_cycle(const VectorXd& x, int n) const {
 /// False if the cycle at x repels: a motion that began on it, or passes it closely, is not drawn to it.
 bool ReturnSearch::accept(const VectorXd& x, int cycle, double d, Classification& result) {
   const int n = shortest_cycle(x, cycle);
-  const attractor::MapValue map = attractor::return_map(system_, translations_, x, n, options_.cancel);
+  const attractor::MapValue map = attractor::return_map(translations_, x, n, options_.cancel);
   const auto multipliers = attractor::multipliers_of(map.jacobian);
   if (!multipliers.empty() && std::abs(multipliers.front()) > 1.0 + repelling) return false;
   result.attractor = Attractor::periodic;
@@ -216,7 +216,7 @@ bool ReturnSearch::accept(const VectorXd& x, int cycle, double d, Classification
 
 /// A stable fixed point of the n-period map close by that the motion is drawn to.
 bool ReturnSearch::try_newton(int n, Classification& result) {
-  const auto found = attractor::fixed_point(system_, translations_, back(0), n, scale_, options_.cancel);
+  const auto found = attractor::fixed_point(translations_, back(0), n, scale_, options_.cancel);
   if (!found || !found->stable()) return false;
   const double before = attractor::distance(back(0), found->x, scale_);
   if (before > 10.0 * options_.newton_start) return false;
@@ -263,7 +263,7 @@ Classification classify(const System& system, const State& state, const Classify
     if (search.run(periods, result) || search.cancelled()) break;
     done += periods;
     const bool last = done >= options.most_periods;
-    const auto run = attractor::run_figures(system, search.translations(), search.state(),
+    const auto run = attractor::run_figures(search.translations(), search.state(),
                                             last ? options.exponent_periods : options.exponent_periods / 4,
                                             options.stops, options.cancel);
     if (search.cancelled()) break;

@@ -16,8 +16,8 @@ struct RunFigures {
 };
 
 /// Follows the motion and one tangent, both modulo the translations, for `periods`; the exponent's error is the standard error of 20 batch means.
-RunFigures run_figures(const System& system, const Translations& translations, const State& state, int periods,
-                       const StopChoice& stops, Stop stop);
+RunFigures run_figures(const Translations& translations, const State& state, int periods, const StopChoice& stops,
+                       Stop stop);
 
 /// Digits to which the weighted Birkhoff averages (weight exp(-1/(t(1-t)))) of the two halves of a sequence agree, relative to its spread.
 /// On a smooth invariant curve the averages converge faster than any power of the length (Das, Sander and Yorke), on a

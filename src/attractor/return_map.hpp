@@ -15,7 +15,7 @@ struct MapValue {
 };
 
 /// P_n(x) of a representative x from phase 0 and its derivative through all events.
-MapValue return_map(const System& system, const Translations& translations, const Eigen::VectorXd& x, int n, Stop stop);
+MapValue return_map(const Translations& translations, const Eigen::VectorXd& x, int n, Stop stop);
 
 struct FixedPoint {
   Eigen::VectorXd x;
@@ -27,7 +27,7 @@ struct FixedPoint {
 std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& jacobian);
 
 /// Newton's method on P_n(x) = x from `x`; empty if it does not reach 1e-11 of `scale` in 12 steps, leaves the stops' side or is stopped.
-std::optional<FixedPoint> fixed_point(const System& system, const Translations& translations, Eigen::VectorXd x, int n,
+std::optional<FixedPoint> fixed_point(const Translations& translations, Eigen::VectorXd x, int n,
                                       const Eigen::VectorXd& scale, Stop stop);
 
 }  // namespace slapstick::attractor

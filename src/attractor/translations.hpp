@@ -20,6 +20,7 @@ class Translations {
  public:
   explicit Translations(const System& system);
 
+  [[nodiscard]] const System& system() const { return *system_; }
   [[nodiscard]] int count() const { return static_cast<int>(free_.size()); }
 
   /// Makes x, a contact state or a tangent, the representative of its class. @returns how far it was along each translation

@@ -155,6 +155,21 @@ TEST(drift, an_aperiodic_motion_keeps_its_kind_beside_a_mass_that_moves_away) {
   }
 }
 
+TEST(drift, the_multipliers_of_a_free_coupled_pair_are_those_of_its_relative_motion_and_its_mean_speed) {
+  // The pair moves as one along (1, 1), which is no single coordinate: Liouville's formula for what is left.
+  Model model = dragged_mass(0.3, 0.15);
+  model.coordinates.push_back({"y", 2.0});
+  model.springs = {{0, 1, 1.5}};
+  model.dampers.push_back({0, 1, 0.2});
+  const Classification found = classify(System(model), {0.4, 0.0, 0.0, 0.0});
+  EXPECT_EQ(found.label, "1-0-I");
+  ASSERT_EQ(found.multipliers.size(), 3u);
+  std::complex<double> product = 1.0;
+  for (const auto& multiplier : found.multipliers) product *= multiplier;
+  EXPECT_NEAR(product.real(), std::exp(-(0.5 / 1.0 + 0.2 / 2.0) * model.forcing_period()), 1e-12);
+  for (const double drift : found.drift) EXPECT_NEAR(drift, 0.5 * model.forcing_period(), 1e-9);
+}
+
 TEST(drift, a_model_with_a_wall_spring_has_none) {
   const Classification found = classify(System(test::paper_model({})), test::paper_start);
   EXPECT_TRUE(found.drift.empty());

@@ -7,11 +7,22 @@
 #include "progress.hpp"
 #include "relative_motion.hpp"
 #include "slapstick/base/error.hpp"
+#include "slapstick/section/creep_watch.hpp"
 #include "slapstick/section/run_impacts.hpp"
 #include "slapstick/section/stroboscopic_section.hpp"
 
 namespace slapstick::app {
 namespace {
+
+/// Says that the points are those of a transient.
+void say_creep(const CreepWatch& watch, const Model& model) {
+  const auto creep = watch.verdict();
+  if (!creep) return;
+  std::fprintf(stderr,
+               "slapstick: the points still creep (%s moves one way, by steps that shrink to %.3g in a quarter of the "
+               "recording): a slow transient, no curve; take a longer --transient\n",
+               state_names(model)[creep->number].c_str(), creep->ratio);
+}
 
 /// Ends at the last point, or where there is no next one: at the section's last period, or after `patience` periods without a point.
 class ImpactPoints {
@@ -21,7 +32,8 @@ class ImpactPoints {
         system_(system),
         table_(table),
         stops_(stops),
-        clouds_(system.model(), stops, ContactClouds::Overlap::rare) {}
+        clouds_(system.model(), stops, ContactClouds::Overlap::rare),
+        watch_(options.points, 2 * static_cast<std::size_t>(system.model().size())) {}
 
   Found operator()(Motion motion, const Context& context) {
     Progress progress("points", static_cast<double>(options_.points), options_.progress);
@@ -42,6 +54,7 @@ class ImpactPoints {
       if (found_.points == before) break;
     }
     if (found_.whole && found_.points < options_.points) report(section.motion().time());
+    say_creep(watch_, system_.model());
     const Model& model = system_.model();
     found_.panel.x_label = model.forced() ? "phase of the forcing / 2π" : "fraction of the unit of time";
     found_.panel.y_label = "w just before the " + contact_words(model, stops_);
@@ -56,6 +69,7 @@ class ImpactPoints {
     if (several_stops(system_.model())) table_.word(stop_name(system_.model(), point.contact));
     table_.end_row();
     ++found_.points;
+    watch_.add(point.state);
     if (!options_.plot.empty()) clouds_.add(point.contact, point.phase, point.w);
   }
 
@@ -76,6 +90,7 @@ class ImpactPoints {
   TableOutput& table_;
   StopChoice stops_;
   ContactClouds clouds_;
+  CreepWatch watch_;
   Found found_;
 };
 
@@ -96,6 +111,7 @@ Found strobe_points(const PoincareOptions& options, const StopChoice& stops, Mot
   Progress progress("points", static_cast<double>(options.points), options.progress);
   StroboscopicSection section(std::move(motion), options.phase);
   StroboscopicPoint point;
+  CreepWatch watch(options.points, 2 * static_cast<std::size_t>(system.model().size()));
   for (long long i = 0; i < options.transient + options.points; ++i) {
     found.whole = section.next(point, &context.stop);
     if (!found.whole) break;
@@ -103,12 +119,14 @@ Found strobe_points(const PoincareOptions& options, const StopChoice& stops, Mot
     table.number(point.time.seconds(system.period())).number(point.time.fraction);
     table.numbers(point.state).word(system.mode_name(point.mode)).end_row();
     ++found.points;
+    watch.add(point.state);
     if (!options.plot.empty()) {
       cloud.x.push_back(relative.y(point.state));
       cloud.y.push_back(relative.w(point.state));
     }
     progress.update(static_cast<double>(found.points));
   }
+  say_creep(watch, system.model());
   found.panel.points.push_back(std::move(cloud));
   return found;
 }

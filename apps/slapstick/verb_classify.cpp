@@ -62,6 +62,11 @@ Json result_json(const Classification& found, const ChosenModel& chosen) {
     json.set("exponent_error", found.exponent_error).set("birkhoff_digits", found.digits);
   if (found.attractor == Attractor::undecided && found.exponent < 0.0)
     json.set("hint", "the motion contracts: a cycle longer than --most-n or an approach longer than --most-periods");
+  if (!found.drift.empty()) {
+    Json drift = Json::object();
+    for (std::size_t i = 0; i < found.drift.size(); ++i) drift.set(chosen.model.coordinates[i].name, found.drift[i]);
+    json.set("drift", std::move(drift));
+  }
   json.set("periods_used", found.periods_used).set("state", std::move(state));
   return json;
 }

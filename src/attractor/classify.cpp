@@ -32,20 +32,26 @@ constexpr double repelling = 1e-6;  ///< a multiplier beyond 1 by more than its 
 class ReturnSearch {
  public:
   ReturnSearch(const System& system, const State& state, const ClassifyOptions& options)
-      : system_(system), options_(options), motion_(system, state) {
+      : system_(system), options_(options), translations_(system), motion_(system, state) {
+    home_ = translations_.take_out(motion_);
     scale_ = VectorXd::Constant(2 * system.frame().n, 1e-300);
   }
 
   /// Runs up to `periods` more; true once a cycle is found, which `result` then holds.
   bool run(int periods, Classification& result);
   [[nodiscard]] State state() const { return motion_.state(); }
+  [[nodiscard]] const attractor::Translations& translations() const { return translations_; }
+  /// A state moved back along the translations to where the start was.
+  [[nodiscard]] State at_home(const State& state) const { return translations_.moved(state, home_); }
+  /// By coordinate; zero if it cannot be told from none.
+  [[nodiscard]] std::vector<double> drift(const VectorXd& advance) const;
   [[nodiscard]] long periods() const { return motion_.time().period; }
   /// True if the last run was still closing in on a cycle: the nearest of its returns kept shrinking. An invariant curve, too, returns
   /// close to its start, but no closer as time goes on.
   [[nodiscard]] bool still_approaching() const { return approaching_; }
   void discard(int periods) {
     for (int k = 0; k < periods && !cancelled(); ++k) {
-      attractor::run_one_period(motion_, options_.cancel);
+      run_one_period(motion_);
       report();
     }
   }
@@ -57,8 +63,15 @@ class ReturnSearch {
     return attractor::distance(back(cycles_ago * n), back((cycles_ago + 1) * n), scale_);
   }
   [[nodiscard]] double widest_return(int n) const;
+  PeriodEvents run_one_period(Motion& motion) const {
+    const PeriodEvents events = attractor::run_one_period(motion, options_.cancel);
+    translations_.take_out(motion);
+    return events;
+  }
   void note_approach(int k, int periods);
   void note_period();
+  void note_size(const VectorXd& x);
+  void look_between();
   void report() const {
     if (options_.progress) options_.progress(periods());
   }
@@ -69,7 +82,9 @@ class ReturnSearch {
 
   const System& system_;
   const ClassifyOptions& options_;
+  attractor::Translations translations_;
   Motion motion_;
+  VectorXd home_;   ///< the start along each translation
   VectorXd scale_;  ///< size of the motion: positions share one number, velocities another
   std::vector<VectorXd> states_;
   std::vector<PeriodEvents> events_;
@@ -101,23 +116,38 @@ void ReturnSearch::note_approach(int k, int periods) {
 }
 
 void ReturnSearch::note_period() {
-  events_.push_back(attractor::run_one_period(motion_, options_.cancel));
+  events_.push_back(run_one_period(motion_));
   report();
   states_.push_back(attractor::contact_state(motion_));
+  note_size(states_.back());
+  const long surplus = static_cast<long>(states_.size()) - (6L * options_.most_n + returns_compared);
+  if (surplus > 0) {  // keep what comparisons can reach
+    const long removed = surplus + 2L * options_.most_n;
+    states_.erase(states_.begin(), states_.begin() + removed);
+    events_.erase(events_.begin(), events_.begin() + removed);
+  }
+}
+
+void ReturnSearch::note_size(const VectorXd& x) {
   const auto n = system_.frame().n;
-  const double position = states_.back().head(n).cwiseAbs().maxCoeff(),
-               speed = states_.back().tail(n).cwiseAbs().maxCoeff();
+  const double position = x.head(n).cwiseAbs().maxCoeff(), speed = x.tail(n).cwiseAbs().maxCoeff();
   scale_.head(n) = scale_.head(n).cwiseMax(position);
   scale_.tail(n) = scale_.tail(n).cwiseMax(speed);
   // A velocity (or a displacement) that happens to vanish at phase 0 says nothing about the size of the motion.
   const double omega = 2.0 * std::numbers::pi / system_.period(), least = 1e-3;
   scale_.head(n) = scale_.head(n).cwiseMax(least * scale_.tail(n) / omega);
   scale_.tail(n) = scale_.tail(n).cwiseMax(least * scale_.head(n) * omega);
-  const long surplus = static_cast<long>(states_.size()) - (6L * options_.most_n + returns_compared);
-  if (surplus > 0) {  // keep what comparisons can reach
-    const long removed = surplus + 2L * options_.most_n;
-    states_.erase(states_.begin(), states_.begin() + removed);
-    events_.erase(events_.begin(), events_.begin() + removed);
+}
+
+/// With translations a displacement is zero at every return by definition: what the motion is like in between says how large it is.
+void ReturnSearch::look_between() {
+  if (translations_.count() == 0) return;
+  constexpr int looks = 16;
+  Motion trial = motion_;
+  for (int k = 1; k < looks; ++k) {
+    const Instant next{motion_.time().period, static_cast<double>(k) / looks};
+    if (!run_to(trial, next, options_.cancel, [] {})) return;
+    note_size(attractor::contact_state(trial));
   }
 }
 
@@ -129,7 +159,16 @@ bool ReturnSearch::same_events(long n) const {
   return true;
 }
 
+std::vector<double> ReturnSearch::drift(const VectorXd& advance) const {
+  std::vector<double> by_coordinate = translations_.by_coordinate(advance);
+  for (double& length : by_coordinate) {
+    if (std::abs(length) <= options_.tolerance * scale_[0]) length = 0.0;
+  }
+  return by_coordinate;
+}
+
 bool ReturnSearch::run(int periods, Classification& result) {
+  look_between();
   for (int k = 0; k < periods && !cancelled(); ++k) {
     note_period();
     if (cancelled()) break;
@@ -153,7 +192,7 @@ bool ReturnSearch::run(int periods, Classification& result) {
 int ReturnSearch::shortest_cycle(const VectorXd& x, int n) const {
   for (int d = 1; d < n; ++d) {
     if (n % d == 0 &&
-        attractor::distance(attractor::return_map(system_, x, d, options_.cancel).image, x, scale_) < 1e-8)
+        attractor::distance(attractor::return_map(translations_, x, d, options_.cancel).image, x, scale_) < 1e-8)
       return d;
   }
   return n;
@@ -162,20 +201,22 @@ int ReturnSearch::shortest_cycle(const VectorXd& x, int n) const {
 /// False if the cycle at x repels: a motion that began on it, or passes it closely, is not drawn to it.
 bool ReturnSearch::accept(const VectorXd& x, int cycle, double d, Classification& result) {
   const int n = shortest_cycle(x, cycle);
-  const attractor::MapValue map = attractor::return_map(system_, x, n, options_.cancel);
+  const attractor::MapValue map = attractor::return_map(translations_, x, n, options_.cancel);
   const auto multipliers = attractor::multipliers_of(map.jacobian);
   if (!multipliers.empty() && std::abs(multipliers.front()) > 1.0 + repelling) return false;
   result.attractor = Attractor::periodic;
   result.approach = d;
-  attractor::record_cycle(system_, attractor::user_state(system_, x), n, options_.stops, options_.cancel, result);
+  attractor::record_cycle(system_, at_home(attractor::user_state(system_, x)), n, options_.stops, options_.cancel,
+                          result);
   result.return_distance = attractor::distance(map.image, x, scale_);
   result.multipliers = multipliers;
+  result.drift = drift(map.advance);
   return true;
 }
 
 /// A stable fixed point of the n-period map close by that the motion is drawn to.
 bool ReturnSearch::try_newton(int n, Classification& result) {
-  const auto found = attractor::fixed_point(system_, back(0), n, scale_, options_.cancel);
+  const auto found = attractor::fixed_point(translations_, back(0), n, scale_, options_.cancel);
   if (!found || !found->stable()) return false;
   const double before = attractor::distance(back(0), found->x, scale_);
   if (before > 10.0 * options_.newton_start) return false;
@@ -184,8 +225,7 @@ bool ReturnSearch::try_newton(int n, Classification& result) {
   const double cycles = slowest > 0.5 ? std::ceil(std::log(0.5) / std::log(slowest)) : 1.0;
   if (cycles * n > options_.most_periods) return false;
   Motion trial = motion_;
-  for (long k = 0; k < static_cast<long>(cycles) * n && !cancelled(); ++k)
-    attractor::run_one_period(trial, options_.cancel);
+  for (long k = 0; k < static_cast<long>(cycles) * n && !cancelled(); ++k) run_one_period(trial);
   const double after = attractor::distance(attractor::contact_state(trial), found->x, scale_);
   if (after > 0.8 * before + options_.tolerance) return false;
   return accept(found->x, n, after, result);
@@ -223,16 +263,17 @@ Classification classify(const System& system, const State& state, const Classify
     if (search.run(periods, result) || search.cancelled()) break;
     done += periods;
     const bool last = done >= options.most_periods;
-    const auto run =
-        attractor::run_figures(system, search.state(), last ? options.exponent_periods : options.exponent_periods / 4,
-                               options.stops, options.cancel);
+    const auto run = attractor::run_figures(search.translations(), search.state(),
+                                            last ? options.exponent_periods : options.exponent_periods / 4,
+                                            options.stops, options.cancel);
     if (search.cancelled()) break;
     decide_aperiodic(run, options, result);
     if (result.attractor == Attractor::quasi_periodic && search.still_approaching()) {
       result.attractor = Attractor::undecided;
       result.label = name(result.attractor);
     }
-    result.state = run.state;
+    result.state = search.at_home(run.state);
+    result.drift = search.drift(run.advance);
     const bool clear =
         result.attractor == Attractor::chaotic && run.exponent > 10.0 * run.exponent_error && run.exponent > 0.02;
     if (clear || last) break;

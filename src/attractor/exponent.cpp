@@ -48,14 +48,16 @@ double birkhoff_digits(const std::vector<double>& sequence) {
   return std::min(16.0, -std::log10(std::abs(difference) / (high - low) + 1e-17));
 }
 
-RunFigures run_figures(const System& system, const State& state, int periods, const StopChoice& stops, Stop stop) {
-  const Eigen::Index size = 2 * system.frame().n;
+RunFigures run_figures(const Translations& translations, const State& state, int periods, const StopChoice& stops,
+                       Stop stop) {
+  const Eigen::Index size = 2 * translations.system().frame().n;
   // A fixed direction with no symmetry: every run of the same motion gives the same bits.
   Eigen::MatrixXd tangent(size, 1);
   for (Eigen::Index i = 0; i < size; ++i) tangent(i, 0) = std::cos(1.0 + 2.0 * static_cast<double>(i));
   tangent.normalize();
-  TangentMotion motion(system, state, tangent);
+  TangentMotion motion(translations.system(), state, tangent);
   RunFigures figures;
+  figures.advance = Eigen::VectorXd::Zero(translations.count());
   std::vector<double> growth, speeds, phases, strobe;
   std::vector<double> chosen_speeds, chosen_times;
   bool dead = false;
@@ -74,7 +76,8 @@ RunFigures run_figures(const System& system, const State& state, int periods, co
       chosen_times.push_back(event.time.since({}));
     });
     if (!whole) return figures;
-    strobe.push_back(motion.motion().extended()[0]);
+    figures.advance += translations.take_out(motion) / (periods + discard);
+    strobe.push_back(contact_state(motion.motion())[translations.observed()]);
     const double norm = motion.tangents().norm();
     dead = dead || norm < 1e-280;
     if (dead) continue;

@@ -1,20 +1,23 @@
 #pragma once
 /// Largest Lyapunov exponent and weighted Birkhoff averages of one run.
 #include "attractor/cycle.hpp"
+#include "attractor/translations.hpp"
 
 namespace slapstick::attractor {
 
 struct RunFigures {
   double exponent = 0.0, exponent_error = 0.0;  ///< per forcing period; -infinity if every tangent dies out (stick)
-  double digits = 0.0;  ///< agreement of the weighted Birkhoff averages of two halves, decimal digits
-  PeriodEvents events;  ///< chatters: of the chosen stops
-  State state;          ///< at the end
-  bool burst = false;   ///< an incomplete chatter of the chosen stops
+  double digits = 0.0;      ///< agreement of the weighted Birkhoff averages of two halves, decimal digits
+  PeriodEvents events;      ///< chatters: of the chosen stops
+  State state;              ///< at the end; its class is represented as in Translations
+  Eigen::VectorXd advance;  ///< mean along each translation, per forcing period
+  bool burst = false;       ///< an incomplete chatter of the chosen stops
   double sticking_fraction = 0.0;
 };
 
-/// Follows the motion and one tangent for `periods`; the exponent's error is the standard error of 20 batch means.
-RunFigures run_figures(const System& system, const State& state, int periods, const StopChoice& stops, Stop stop);
+/// Follows the motion and one tangent, both modulo the translations, for `periods`; the exponent's error is the standard error of 20 batch means.
+RunFigures run_figures(const Translations& translations, const State& state, int periods, const StopChoice& stops,
+                       Stop stop);
 
 /// Digits to which the weighted Birkhoff averages (weight exp(-1/(t(1-t)))) of the two halves of a sequence agree, relative to its spread.
 /// On a smooth invariant curve the averages converge faster than any power of the length (Das, Sander and Yorke), on a

@@ -7,11 +7,14 @@
 
 namespace slapstick::attractor {
 
-MapValue return_map(const System& system, const Eigen::VectorXd& x, int n, Stop stop) {
+MapValue return_map(const Translations& translations, const Eigen::VectorXd& x, int n, Stop stop) {
   const Eigen::Index size = x.size();
-  TangentMotion motion(system, user_state(system, x), Eigen::MatrixXd::Identity(size, size));
+  TangentMotion motion(translations.system(), user_state(translations.system(), x),
+                       Eigen::MatrixXd::Identity(size, size));
   run_to(motion, {n, 0.0}, stop, [] {});
-  return {contact_state(motion.motion()), motion.tangents()};
+  MapValue value{contact_state(motion.motion()), translations.quotient(motion.tangents()), {}};
+  value.advance = translations.take_out(value.image);
+  return value;
 }
 
 std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& jacobian) {
@@ -23,16 +26,19 @@ std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& jacobian
   return sorted;
 }
 
-std::optional<FixedPoint> fixed_point(const System& system, Eigen::VectorXd x, int n, const Eigen::VectorXd& scale,
-                                      Stop stop) {
-  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(x.size(), x.size());
+std::optional<FixedPoint> fixed_point(const Translations& translations, Eigen::VectorXd x, int n,
+                                      const Eigen::VectorXd& scale, Stop stop) {
+  const Eigen::Index numbers = x.size() - translations.count();
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(numbers, numbers);
   try {
     for (int step = 0; step < 12; ++step) {
-      const MapValue value = return_map(system, x, n, stop);
+      const MapValue value = return_map(translations, x, n, stop);
       if (stopped(stop)) return {};
       const bool arrived = distance(value.image, x, scale) < 1e-11;
       if (arrived) return FixedPoint{x, multipliers_of(value.jacobian)};
-      const Eigen::VectorXd correction = (value.jacobian - identity).partialPivLu().solve(x - value.image);
+      const Eigen::VectorXd residual = x - value.image;
+      const Eigen::VectorXd correction =
+          translations.representative((value.jacobian - identity).partialPivLu().solve(translations.numbers(residual)));
       if (!correction.allFinite() || (correction.array().abs() / scale.array()).maxCoeff() > 0.5) return {};
       x += correction;
     }

@@ -15,7 +15,8 @@ struct Residual {
 Residual residual(const Entry& entry, const Eigen::VectorXd& x, double p) {
   const Entry& critical = entry.at("critical");
   const Setup setup(entry, {{critical.at("parameter").get<std::string>(), p}});
-  const auto map = attractor::return_map(setup.system, x, critical.at("n").get<int>(), nullptr);
+  const auto map =
+      attractor::return_map(attractor::Translations(setup.system), x, critical.at("n").get<int>(), nullptr);
   const Eigen::Index size = x.size();
   Values values = setup.values;
   values["trace"] = map.jacobian.trace();

@@ -30,11 +30,13 @@ Motion on_orbit(const Setup& setup, Motion motion, int n, Values& values) {
   const Instant end{motion.time().period + 1, 0.0};
   while (motion.advance(end) == Outcome::event) {
   }
-  const Eigen::VectorXd guess = attractor::contact_state(motion);
+  const attractor::Translations translations(setup.system);
+  Eigen::VectorXd guess = attractor::contact_state(motion);
+  translations.take_out(guess);
   const auto found =
-      attractor::fixed_point(setup.system, guess, n, Eigen::VectorXd::Constant(guess.size(), 1.0), nullptr);
+      attractor::fixed_point(translations, guess, n, Eigen::VectorXd::Constant(guess.size(), 1.0), nullptr);
   if (!found) throw std::runtime_error("Newton's method finds no cycle");
-  const auto map = attractor::return_map(setup.system, found->x, n, nullptr);
+  const auto map = attractor::return_map(translations, found->x, n, nullptr);
   values["multiplier"] = std::abs(found->multipliers.at(0));
   values["multiplier2"] = std::abs(found->multipliers.at(1));
   values["trace"] = map.jacobian.trace();

@@ -1,6 +1,9 @@
 #pragma once
 /// What a motion is after its transient: n-p-I / n-p-II, periodic, quasi-periodic or chaotic.
 ///
+/// States are compared modulo the rigid translations that the model does not notice: a drill that advances by the same amount every blow is
+/// periodic, with a `drift`. The multiplier 1 of every such translation is left out.
+///
 /// How it decides (docs/classify.md):
 ///  1. *Periodic.* The stroboscopic state returns after n periods: ||X_k - X_{k-n}|| <= `tolerance` for the smallest such n, with the same events
 ///     in both cycles. Close to a bifurcation convergence is slow, so a candidate with a return below `newton_start` is also
@@ -72,7 +75,10 @@ struct Classification {
   double digits = 0.0;          ///< agreement of the two weighted Birkhoff averages
   long periods_used = 0;
   bool interrupted = false;  ///< by `cancel`: nothing else is meant
-  State state;               ///< on the attractor, at phase 0 of a period: a start that needs no transient
+  /// How far the motion moves along the translations that the model does not notice (docs/classify.md), by coordinate: per cycle if
+  /// periodic, else on average per forcing period. Zero if that is below `tolerance`; empty if there is no such translation.
+  std::vector<double> drift;
+  State state;  ///< on the attractor, at phase 0 of a period: a start that needs no transient
 };
 
 /// Classifies the motion that starts at `state` at phase 0.

@@ -1,9 +1,12 @@
 #include "section_points.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
+#include "axis_text.hpp"
 #include "contact_clouds.hpp"
+#include "event_options.hpp"
 #include "progress.hpp"
 #include "relative_motion.hpp"
 #include "slapstick/base/error.hpp"
@@ -113,20 +116,32 @@ Found strobe_points(const PoincareOptions& options, const StopChoice& stops, Mot
   return found;
 }
 
-/// The picture is the return map of the contact's displacement.
+/// One coordinate of the return map.
+double mapped(Mapped quantity, const RelativeMotion& relative, const EventPoint& point) {
+  if (quantity == Mapped::displacement) return relative.y(point.state);
+  return quantity == Mapped::w ? point.w : point.return_time;
+}
+
+/// The picture is the return map: each point against the next.
 Found event_points(const PoincareOptions& options, const EventChoice& events, Motion motion, TableOutput& table,
                    const Context& context) {
   const System& system = motion.system();
-  const RelativeMotion relative(system.model(), events.contact.value_or(shown_contact(system.model(), {})));
-  Found found{
-      .panel = {.x_label = relative.displacement + " at a point", .y_label = relative.displacement + " at the next"}};
+  const Model& model = system.model();
+  const RelativeMotion relative(model, mapped_contact(events, model));
+  const Mapped quantity = mapped_quantity(events, model);
+  const std::string kind(name(events.kind));
+  const std::string label = quantity == Mapped::displacement ? relative.displacement
+                            : quantity == Mapped::w          ? "w"
+                                                             : "return time";
+  Found found{.panel = {.x_label = label + " at " + axis_text(kind) + " k",
+                        .y_label = label + " at " + axis_text(kind) + " k + 1"}};
   figure::Points cloud;
   Progress progress("points", static_cast<double>(options.points), options.progress);
   found.whole = run_to(motion, {options.transient, 0.0}, &context.stop, [] {});
   EventSection section(std::move(motion), events);
   const Instant last{options.transient + options.most_periods, 0.0};
   EventPoint point;
-  double before = 0.0;
+  double before = std::numeric_limits<double>::quiet_NaN();
   while (found.whole && found.points < options.points) {
     const Instant now = section.motion().time();
     if (!section.next(std::min(last, Instant{now.period + options.patience, now.fraction}), point, &context.stop)) {
@@ -135,11 +150,13 @@ Found event_points(const PoincareOptions& options, const EventChoice& events, Mo
     }
     table.number(point.time.seconds(system.period())).number(point.return_time).number(point.w);
     table.numbers(point.state).word(system.contact_name(point.contact)).end_row();
-    if (found.points++ > 0) {
+    const double now_mapped = mapped(quantity, relative, point);
+    if (!options.plot.empty() && !std::isnan(before)) {
       cloud.x.push_back(before);
-      cloud.y.push_back(relative.y(point.state));
+      cloud.y.push_back(now_mapped);
     }
-    before = relative.y(point.state);
+    before = now_mapped;
+    ++found.points;
     progress.update(static_cast<double>(found.points));
   }
   const std::string in =

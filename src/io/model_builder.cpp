@@ -164,7 +164,8 @@ void ModelBuilder::demand_no_forcing(const Model& model) const {
   const auto& part = definition_.of(from.kind)[from.index];
   throw InputError(definition_.place(part.line) + part_label(from.kind, from.index, part) +
                    (from.kind == "force" ? ": harmonic " : ": its base moves with harmonic ") +
-                   std::to_string(found->harmonic) + " of the forcing frequency, and the file has no 'omega'");
+                   std::to_string(found->harmonic) + " of the forcing frequency, and the file has no 'omega'" +
+                   (values_.contains("omega") ? ": write omega = \"omega\" above [parameters]" : ""));
 }
 
 const ModelBuilder::Origin* ModelBuilder::origin(const Fault& fault) const {

@@ -3,6 +3,7 @@
 
 #include "io/part_reader.hpp"
 #include "io/scale.hpp"
+#include "model/fault.hpp"
 #include "slapstick/base/nearest.hpp"
 
 namespace slapstick {
@@ -22,6 +23,7 @@ class Reader {
     definition_.summary = tree_.text(root, "summary", "model");
     definition_.notes = notes(root);
     know_scale(root);
+    know_states(root);
     read_parameters(root);
     read_groups(root);
     const auto states = read_parts(tree_, root, definition_);
@@ -56,6 +58,19 @@ class Reader {
     if (table == nullptr) return;
     for (const auto& key : scale_keys())
       if (table->find(key) != nullptr) tree_.know_parameter(scale_name(key));
+  }
+
+  /// Before anything is read, as every expression may name one by mistake.
+  void know_states(const TomlNode& root) {
+    tree_.know_state("time");
+    tree_.know_state("t");
+    const auto* list = root.find("coordinate");
+    if (list == nullptr) return;
+    for (const auto& item : list->items)
+      if (const auto* name = item.find("name"); name != nullptr && name->kind == Kind::text) {
+        tree_.know_state(name->text);
+        tree_.know_state(velocity_name(name->text));
+      }
   }
 
   void read_parameters(const TomlNode& root) {

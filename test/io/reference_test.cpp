@@ -43,6 +43,8 @@ TEST(Reference, the_worked_example_is_a_model) {
   EXPECT_TRUE(model.forced());
 }
 
+TEST(Reference, every_example_is_a_model) { EXPECT_EQ(examples().size(), 3U); }
+
 TEST(Reference, every_key_is_there) {
   const auto text = reference();
   const auto section = [&](const std::string& kind) {  // the rows of a part, up to the next part

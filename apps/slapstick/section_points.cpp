@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "axis_text.hpp"
 #include "contact_clouds.hpp"
@@ -46,8 +47,9 @@ class ImpactPoints {
     }
     if (found_.whole && found_.points < options_.points) report(section.motion().time());
     const Model& model = system_.model();
-    found_.panel.x_label = model.forced() ? "phase of the forcing / 2π" : "fraction of the unit of time";
-    found_.panel.y_label = "w just before the " + contact_words(model, stops_);
+    const std::string w = "w just before the " + contact_words(model, stops_);
+    found_.panel.x_label = model.forced() ? "phase of the forcing / 2π" : w;
+    found_.panel.y_label = model.forced() ? w : w + " after it";
     found_.panel.points = clouds_.points();
     return std::move(found_);
   }
@@ -59,7 +61,10 @@ class ImpactPoints {
     if (several_stops(system_.model())) table_.word(stop_name(system_.model(), point.contact));
     table_.end_row();
     ++found_.points;
-    if (!options_.plot.empty()) clouds_.add(point.contact, point.phase, point.w);
+    if (options_.plot.empty()) return;
+    if (system_.model().forced()) return clouds_.add(point.contact, point.phase, point.w);
+    if (!std::isnan(w_before_)) clouds_.add(point.contact, w_before_, point.w);  // without a phase: the return map
+    w_before_ = point.w;
   }
 
   /// Fewer points than were asked for. @throws NumericalError if there is none
@@ -79,6 +84,7 @@ class ImpactPoints {
   TableOutput& table_;
   StopChoice stops_;
   ContactClouds clouds_;
+  double w_before_ = std::numeric_limits<double>::quiet_NaN();
   Found found_;
 };
 

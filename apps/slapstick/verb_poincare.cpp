@@ -35,7 +35,7 @@ std::optional<figure::Range> x_reach(const std::vector<figure::Points>& clouds) 
     }
   }
   const double margin = 0.04 * (high - low);
-  if (!(margin > 1e-9 * std::max(std::abs(low), std::abs(high)))) return {};
+  if (!(margin > 4e-8 * std::max(std::abs(low), std::abs(high)))) return {};
   return figure::Range{low - margin, high + margin};
 }
 

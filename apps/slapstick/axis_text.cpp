@@ -9,6 +9,7 @@ std::string axis_text(const std::string& name) {
 }
 
 std::string axis_symbol(const std::string& name) {
+  if (name.size() > 2 && name.starts_with("v_")) return "v_{" + axis_symbol(name.substr(2)) + "}";
   const std::size_t digits = name.find_first_of("0123456789");
   if (digits == 1 && name.find_first_not_of("0123456789", digits) == std::string::npos)
     return name.substr(0, 1) + "_{" + name.substr(1) + "}";

@@ -6,7 +6,7 @@ namespace slapstick::app {
 
 /// Literally: an underscore stays one.
 [[nodiscard]] std::string axis_text(const std::string& name);
-/// As a symbol: x1 as x_{1}; else as axis_text.
+/// As a symbol: x1 as x_{1}, the velocity v_u1 as v_{u_{1}}; else as axis_text.
 [[nodiscard]] std::string axis_symbol(const std::string& name);
 
 }  // namespace slapstick::app

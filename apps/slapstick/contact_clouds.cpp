@@ -21,7 +21,7 @@ ContactClouds::ContactClouds(const Model& model, const StopChoice& choice, Overl
   for (const int contact : stops_) {
     figure::Points cloud{.colour = palette[clouds_.size() % palette.size()]};
     const auto above = std::min<std::size_t>(stops_.size() - 1 - clouds_.size(), 3);
-    if (overlap == Overlap::rims) cloud.diameter_mm *= 1.0 + 0.5 * static_cast<double>(above);
+    if (overlap == Overlap::rims && stops_.size() > 1) cloud.diameter_mm = 0.25 + 0.15 * static_cast<double>(above);
     if (stops_.size() > 1) cloud.label = axis_text(stop_name(model, contact));
     clouds_.push_back(std::move(cloud));
   }

@@ -26,8 +26,8 @@ RelativeMotion::RelativeMotion(const Model& model, int contact) {
   const auto name = [&](int coordinate, int offset) {
     return axis_symbol(names[2 * static_cast<std::size_t>(coordinate) + offset]);
   };
-  displacement = name(a, 0) + (b == ground ? "" : " - " + name(b, 0));
-  velocity = name(a, 1) + (b == ground ? "" : " - " + name(b, 1));
+  displacement = name(a, 0) + (b == ground ? "" : " \u2212 " + name(b, 0));
+  velocity = name(a, 1) + (b == ground ? "" : " \u2212 " + name(b, 1));
   const auto note = [&](const auto& stop) {
     if (stop.a == a && stop.b == b) limits.push_back(stop.clearance);
     if (stop.a == b && stop.b == a) limits.push_back(-stop.clearance);

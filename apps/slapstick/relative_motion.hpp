@@ -13,7 +13,7 @@ struct RelativeMotion {
   RelativeMotion(const Model& model, int contact);
 
   int a = 0, b = ground;
-  std::string displacement, velocity;  ///< names for axes: "x_1 - x_2"
+  std::string displacement, velocity;  ///< names for axes: "x_1 − x_2"
   std::vector<double> limits;          ///< y at which a stop, rigid or compliant, of this pair touches
   [[nodiscard]] double y(const State& state) const { return at(state, a, 0) - at(state, b, 0); }
   [[nodiscard]] double w(const State& state) const { return at(state, a, 1) - at(state, b, 1); }

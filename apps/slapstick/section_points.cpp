@@ -1,9 +1,13 @@
 #include "section_points.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <limits>
 
+#include "axis_text.hpp"
 #include "contact_clouds.hpp"
+#include "event_options.hpp"
 #include "progress.hpp"
 #include "relative_motion.hpp"
 #include "slapstick/base/error.hpp"
@@ -56,8 +60,9 @@ class ImpactPoints {
     if (found_.whole && found_.points < options_.points) report(section.motion().time());
     say_creep(watch_, system_.model());
     const Model& model = system_.model();
-    found_.panel.x_label = model.forced() ? "phase of the forcing / 2π" : "fraction of the unit of time";
-    found_.panel.y_label = "w just before the " + contact_words(model, stops_);
+    const std::string w = "w just before the " + contact_words(model, stops_);
+    found_.panel.x_label = model.forced() ? "phase of the forcing / 2π" : w;
+    found_.panel.y_label = model.forced() ? w : w + " after it";
     found_.panel.points = clouds_.points();
     return std::move(found_);
   }
@@ -70,7 +75,10 @@ class ImpactPoints {
     table_.end_row();
     ++found_.points;
     watch_.add(point.state);
-    if (!options_.plot.empty()) clouds_.add(point.contact, point.phase, point.w);
+    if (options_.plot.empty()) return;
+    if (system_.model().forced()) return clouds_.add(point.contact, point.phase, point.w);
+    if (!std::isnan(w_before_)) clouds_.add(point.contact, w_before_, point.w);  // without a phase: the return map
+    w_before_ = point.w;
   }
 
   /// Fewer points than were asked for. @throws NumericalError if there is none
@@ -91,6 +99,7 @@ class ImpactPoints {
   StopChoice stops_;
   ContactClouds clouds_;
   CreepWatch watch_;
+  double w_before_ = std::numeric_limits<double>::quiet_NaN();
   Found found_;
 };
 
@@ -131,20 +140,32 @@ Found strobe_points(const PoincareOptions& options, const StopChoice& stops, Mot
   return found;
 }
 
-/// The picture is the return map of the contact's displacement.
+/// One coordinate of the return map.
+double mapped(Mapped quantity, const RelativeMotion& relative, const EventPoint& point) {
+  if (quantity == Mapped::displacement) return relative.y(point.state);
+  return quantity == Mapped::w ? point.w : point.return_time;
+}
+
+/// The picture is the return map: each point against the next.
 Found event_points(const PoincareOptions& options, const EventChoice& events, Motion motion, TableOutput& table,
                    const Context& context) {
   const System& system = motion.system();
-  const RelativeMotion relative(system.model(), events.contact.value_or(shown_contact(system.model(), {})));
-  Found found{
-      .panel = {.x_label = relative.displacement + " at a point", .y_label = relative.displacement + " at the next"}};
+  const Model& model = system.model();
+  const RelativeMotion relative(model, mapped_contact(events, model));
+  const Mapped quantity = mapped_quantity(events, model);
+  const std::string kind(name(events.kind));
+  const std::string label = quantity == Mapped::displacement ? relative.displacement
+                            : quantity == Mapped::w          ? "w"
+                                                             : "return time";
+  Found found{.panel = {.x_label = label + " at " + axis_text(kind) + " k",
+                        .y_label = label + " at " + axis_text(kind) + " k + 1"}};
   figure::Points cloud;
   Progress progress("points", static_cast<double>(options.points), options.progress);
   found.whole = run_to(motion, {options.transient, 0.0}, &context.stop, [] {});
   EventSection section(std::move(motion), events);
   const Instant last{options.transient + options.most_periods, 0.0};
   EventPoint point;
-  double before = 0.0;
+  double before = std::numeric_limits<double>::quiet_NaN();
   while (found.whole && found.points < options.points) {
     const Instant now = section.motion().time();
     if (!section.next(std::min(last, Instant{now.period + options.patience, now.fraction}), point, &context.stop)) {
@@ -153,11 +174,13 @@ Found event_points(const PoincareOptions& options, const EventChoice& events, Mo
     }
     table.number(point.time.seconds(system.period())).number(point.return_time).number(point.w);
     table.numbers(point.state).word(system.contact_name(point.contact)).end_row();
-    if (found.points++ > 0) {
+    const double now_mapped = mapped(quantity, relative, point);
+    if (!options.plot.empty() && !std::isnan(before)) {
       cloud.x.push_back(before);
-      cloud.y.push_back(relative.y(point.state));
+      cloud.y.push_back(now_mapped);
     }
-    before = relative.y(point.state);
+    before = now_mapped;
+    ++found.points;
     progress.update(static_cast<double>(found.points));
   }
   const std::string in =

@@ -127,7 +127,7 @@ std::vector<figure::Points> clouds(const sweep::Diagram& diagram, const Model& m
                                    const sweep::DiagramProblem& problem, bool flight) {
   figure::Points up{.label = "up", .colour = figure::colours::dark_blue};
   figure::Points down{.label = "down", .colour = figure::colours::vermillion};
-  up.diameter_mm = 2.0 * down.diameter_mm;  // where both directions agree, up shows as a rim around down
+  down.diameter_mm = 0.25, up.diameter_mm = 0.5;  // where both directions agree, up shows as a rim around down
   ContactClouds stops(model, problem.stops, ContactClouds::Overlap::rims);
   const bool both = problem.direction == Direction::both;
   for (const sweep::DiagramPoint& point : diagram.points) {
@@ -155,7 +155,8 @@ figure::Figure picture(const sweep::Diagram& diagram, const Sweep& sweep, const 
   figure::Figure figure{.width_cm = 17.5, .share_x = true};
   for (const bool flight : {false, true}) {
     figure::Panel panel{.x_label = axis_text(sweep.name),
-                        .y_label = flight ? "flight / period" : "w at " + contact_words(model, problem.stops),
+                        .y_label = flight ? (model.forced() ? "flight / period" : "flight")
+                                          : "w at " + contact_words(model, problem.stops),
                         .x_range = figure::Range{sweep.from, sweep.to}};
     panel.points = clouds(diagram, model, problem, flight);
     figure.panels.push_back(std::move(panel));

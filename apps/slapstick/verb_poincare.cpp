@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "event_options.hpp"
 #include "model_options.hpp"
 #include "output.hpp"
 #include "section_points.hpp"
@@ -24,14 +25,6 @@ std::vector<std::string> columns(const std::string& section, const Model& model)
   return names;
 }
 
-EventChoice event_choice(const PoincareOptions& options, const System& system) {
-  try {
-    return parse_event_choice(options.event, system);
-  } catch (const InputError& error) {
-    throw InputError("--event: " + std::string(error.what()));
-  }
-}
-
 /// The range of the points and 4 % on either side. Nothing if they have no extent; the figure then finds a range.
 std::optional<figure::Range> x_reach(const std::vector<figure::Points>& clouds) {
   double low = INFINITY, high = -INFINITY;
@@ -42,7 +35,7 @@ std::optional<figure::Range> x_reach(const std::vector<figure::Points>& clouds) 
     }
   }
   const double margin = 0.04 * (high - low);
-  if (!(margin > 1e-9 * std::max(std::abs(low), std::abs(high)))) return {};
+  if (!(margin > 4e-8 * std::max(std::abs(low), std::abs(high)))) return {};
   return figure::Range{low - margin, high + margin};
 }
 
@@ -61,7 +54,8 @@ void check(const PoincareOptions& options, const Model& model) {
     throw InputError("--section impact: model " + in_quotes(model.name) +
                      " has no stop; --section event, and with forcing --section stroboscopic, need none");
   if (options.section == "stroboscopic" && !model.forced())
-    throw InputError("--section stroboscopic: model " + in_quotes(model.name) + " has no harmonic forcing");
+    throw InputError("--section stroboscopic: model " + in_quotes(model.name) +
+                     " has no harmonic forcing; --section event --event KIND needs none");
   if ((options.section == "event") == options.event.empty())
     throw InputError(options.event.empty() ? "--section event: name the events by --event KIND or KIND:CONTACT"
                                            : "--event belongs to --section event");
@@ -82,7 +76,7 @@ int poincare(const PoincareOptions& options, const Context& context) {
   const double periods = static_cast<double>(options.transient + (strobe ? options.points : 1));
   const System system = affordable_system(chosen, {periods, strobe ? "--transient or --points" : "--transient"});
   const Plot plot(options.plot);
-  const EventChoice events = options.section == "event" ? event_choice(options, system) : EventChoice{};
+  const EventChoice events = options.section == "event" ? event_choice(options.event, system) : EventChoice{};
   TableOutput table(options.out, columns(options.section, chosen.model));
   Motion motion(system, start);
   Found found = strobe                       ? strobe_points(options, stops, std::move(motion), table, context)

@@ -23,7 +23,7 @@ namespace slapstick::app {
 namespace {
 
 constexpr long long most_periods = 1'000'000'000'000;
-constexpr int plot_samples = 200;  // per period, at least
+constexpr int plot_samples = 1000;  // per period, at least
 constexpr int plotted_periods = 20;
 
 struct Options {
@@ -119,7 +119,7 @@ class Run {
       trajectory_->number(units_.time(time)).numbers(units_.state(sample.state)).word(system_.mode_name(sample.mode));
       trajectory_->numbers(units_.observables(observer_.read(time, sample.state))).end_row();
     }
-    if (plot_.wanted() && sample.time >= plot_from_) picture_.add(sample.time, sample.state);
+    if (plot_.wanted() && sample.time >= plot_from_) picture_.add_sample(sample.time, sample.state);
     ++samples_;
   }
 
@@ -130,7 +130,7 @@ class Run {
     const double behind = end.since(from.time());
     SampledMotion last(from, plot_samples, from.time().plus(std::max(0.0, behind - plotted_periods)));
     for (auto item = last.next(end); item != SampledMotion::Item::end; item = last.next(end)) {
-      if (item == SampledMotion::Item::sample) picture_.add(last.sample().time, last.sample().state);
+      if (item == SampledMotion::Item::sample) picture_.add_sample(last.sample().time, last.sample().state);
       if (item == SampledMotion::Item::event &&
           last.motion().event().time.since(from.time()) > behind - plotted_periods)
         picture_.add_event(last.motion());

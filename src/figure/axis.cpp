@@ -8,6 +8,9 @@
 namespace slapstick::figure {
 namespace {
 
+constexpr double least_span =
+    1e-6;  // of an automatic range to its largest number: the ticks' numbers then have at most 8 digits
+
 /// The step 1, 2 or 5 times a power of ten that gives at most `most` intervals.
 void choose_step(Axis& axis, int most) {
   const double least = (axis.range.max - axis.range.min) / std::max(most, 1);
@@ -85,8 +88,9 @@ Range padded(const Extent& extent, double padding, bool log) {
     return {std::pow(10.0, low - pad), std::pow(10.0, high + pad)};
   }
   const double span = extent.max - extent.min;
-  if (resolvable({extent.min, extent.max})) return {extent.min - padding * span, extent.max + padding * span};
   const double largest = std::max(std::fabs(extent.min), std::fabs(extent.max));
+  if (resolvable({extent.min, extent.max}) && span > least_span * largest)
+    return {extent.min - padding * span, extent.max + padding * span};
   const double around = largest > 1e-280 ? 0.1 * largest : 1.0;  // a constant, or as good as one in print
   return {extent.min - around, extent.max + around};
 }

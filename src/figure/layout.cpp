@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "slapstick/base/error.hpp"
+#include "slapstick/figure/raster.hpp"
 #include "text.hpp"
 
 namespace slapstick::figure {
@@ -24,12 +25,6 @@ struct Grid {
 
 bool is_lowest(const Figure& figure, const Grid& grid, std::size_t panel) {
   return panel + static_cast<std::size_t>(grid.columns) >= figure.panels.size();
-}
-
-bool wants_raster(const Panel& panel) {
-  return std::any_of(panel.points.begin(), panel.points.end(), [](const Points& p) {
-    return p.drawing == Drawing::raster || (p.drawing == Drawing::automatic && p.x.size() > raster_threshold);
-  });
 }
 
 /// The PNG's resolution (no resampling), or twice that where the points can fill it: one per pixel on average. With fewer, a
@@ -181,6 +176,15 @@ double default_height(const Figure& figure, const Grid& grid) {
 }
 
 }  // namespace
+
+bool wants_raster(const Panel& panel) {
+  std::size_t free = 0;
+  for (const Points& points : panel.points) {
+    if (points.drawing == Drawing::raster) return true;
+    if (points.drawing == Drawing::automatic) free += points.x.size();
+  }
+  return free > raster_threshold && panel.points.size() <= largest_series_count;
+}
 
 int rows_above(const Panel& panel, const PanelLayout& layout) {
   const int head = (panel.title.empty() ? 0 : 1) + (layout.legend == Legend::above ? 1 : 0);

@@ -1,6 +1,7 @@
 #pragma once
 /// Where everything stands on the paper, in cm from the lower left corner. Decided here and not by gnuplot, so that frames of
 /// stacked panels align, the raster knows its pixels, and nothing is cut off.
+#include <optional>
 #include <vector>
 
 #include "axis.hpp"
@@ -54,6 +55,12 @@ inline constexpr double legend_font = 0.9;  ///< relative to the figure's
 
 /// Rows of text above the frame: the title (or a lone tag), the legend if it stands there, mark labels.
 int rows_above(const Panel& panel, const PanelLayout& layout);
+
+/// Are its points drawn as an image?
+bool wants_raster(const Panel& panel);
+
+/// Of two named clouds in an image: the colour where both are, which is an entry of the legend too.
+std::optional<Colour> colour_of_both(const Panel& panel);
 
 /// Number of entries that the legend would have.
 int legend_entries(const Panel& panel);

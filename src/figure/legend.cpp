@@ -66,9 +66,20 @@ class Crowd {
 
 }  // namespace
 
+std::optional<Colour> colour_of_both(const Panel& panel) {
+  std::vector<Colour> named;
+  for (const auto& points : panel.points)
+    if (!points.label.empty()) named.push_back(points.colour);
+  if (named.size() != 2 || !wants_raster(panel)) return std::nullopt;
+  const auto ink = [](int a, int b) { return static_cast<std::uint8_t>(a * b / 255); };  // as inks, figure/raster.hpp
+  return Colour{ink(named[0].red, named[1].red), ink(named[0].green, named[1].green),
+                ink(named[0].blue, named[1].blue)};
+}
+
 int legend_entries(const Panel& panel) {
   const auto named = [](const auto& series) { return !series.label.empty(); };
-  return static_cast<int>(std::count_if(panel.points.begin(), panel.points.end(), named) +
+  return (colour_of_both(panel) ? 1 : 0) +
+         static_cast<int>(std::count_if(panel.points.begin(), panel.points.end(), named) +
                           std::count_if(panel.lines.begin(), panel.lines.end(), named));
 }
 

@@ -197,6 +197,8 @@ class PanelScript {
     for (const Points& points : panel_.points)
       if (!points.label.empty())
         parts.push_back("keyentry with points pt 5 ps 0.6 lc rgb " + quote_colour(points.colour) + title(points.label));
+    if (const auto both = colour_of_both(panel_))
+      parts.push_back("keyentry with points pt 5 ps 0.6 lc rgb " + quote_colour(*both) + title("both"));
   }
 
   std::string columns(std::size_t& column) const {

@@ -72,7 +72,7 @@ void check_panel(const Panel& panel, const std::string& where) {
   for (std::size_t i = 0; i < panel.lines.size(); ++i) lengths(panel.lines[i], "line", i);
   check(panel.points.size() <= largest_series_count ||
             !std::any_of(panel.points.begin(), panel.points.end(),
-                         [](const Points& p) { return p.x.size() > raster_threshold || p.drawing == Drawing::raster; }),
+                         [](const Points& p) { return p.drawing == Drawing::raster; }),
         where + ": an image holds at most 8 series of points");
   check_range(panel.x_range, panel.log_x, where + ": x");
   check_range(panel.y_range, panel.log_y, where + ": y");

@@ -66,7 +66,17 @@ bool Motion::within_noise(int guard, double x) const {
   const event::Hull hull = enclosed(guard);
   const double noise =
       hull.bounds[event::noise_0] + x * (hull.bounds[event::noise_1] + x * hull.bounds[event::noise_2]);
-  return std::abs(value) <= std::pow(x, order) * noise;
+  // Neither the event's place in the flight nor the clock is sharper than some roundings.
+  const double instant = 0x1p-50 * (elapsed_ + system_->period());
+  return std::abs(value) <= std::pow(x, order) * noise + instant * std::abs(rate(h));
+}
+
+/// The rate of a gap or a relative velocity in the state now.
+double Motion::rate(const mode::Guard& guard) const {
+  if (guard.single < 0) return 0.0;
+  double sum = 0.0;
+  for (int j = 0; j < here_->size(); ++j) sum += here_->system()(guard.single, j) * X_.data()[j];
+  return guard.factor * sum;
 }
 
 /// A bound on all numbers of the present window, up to a factor of some tens.
@@ -187,11 +197,13 @@ void Motion::strike_all() {
 }
 
 /// Stops that chatter against each other, where no proof of completeness is at hand, are brought to rest once their impacts at one instant have
-/// become slow: those that still approach, and all that were struck or touch and act on these. The forces then decide which of them stay closed.
+/// become slow: those that still approach, and all slow ones that were struck or touch and act on these. The forces then decide which of them
+/// stay closed.
 void Motion::end_pile_up() {
   const mode::Frame& frame = system_->frame();
   const auto candidate = [&](int s) {
-    return (struck_now_ >> s & 1U) != 0 || flow::gap(*system_, s, X_.data()) == 0.0;
+    const bool slow = std::abs(flow::approach_velocity(*system_, s, X_.data())) <= std::sqrt(slow_impacts) * fastest_now_;
+    return slow && ((struck_now_ >> s & 1U) != 0 || flow::gap(*system_, s, X_.data()) == 0.0);
   };
   touching_.assign(1, approaching());
   for (std::size_t k = 0; k < touching_.size(); ++k) {

@@ -92,8 +92,9 @@ struct Definition {
   std::map<std::string, std::vector<Part>, std::less<>> parts;  // by kind
   std::map<std::string, MatrixEntry, std::less<>> matrices;     // by matrix_keys()
   std::map<std::string, ScaleEntry, std::less<>> scale;         // by scale_keys()
-  std::vector<std::pair<std::string, Scalar>> start;            // by state name, in the file's order
-  std::vector<Parameter> shown_parameters;                      // the same, as the public interface gives them
+  std::vector<ParameterEntry> ones;                   // the same as parameters that no one sets: scale_length, ..
+  std::vector<std::pair<std::string, Scalar>> start;  // by state name, in the file's order
+  std::vector<Parameter> shown_parameters;            // the same, as the public interface gives them
   std::vector<Group> shown_groups;
   std::vector<Observable> shown_observables;
 
@@ -121,6 +122,9 @@ struct Definition {
 /// The words of `impact_law`, in the order of the enumeration.
 [[nodiscard]] const std::vector<std::string>& impact_laws();
 
+/// What expressions call the value of a key of [scale]: "scale_length".
+[[nodiscard]] std::string scale_name(const std::string& key);
+
 /// What an observable's expression calls the gap of a stop: "gap_wall".
 [[nodiscard]] std::string gap_name(const std::string& stop);
 
@@ -132,6 +136,9 @@ struct Definition {
 
 /// The file's text with these overrides (parameters only, groups resolved) as defaults.
 [[nodiscard]] std::string print_definition(const Definition& definition, const Overrides& overrides);
+
+/// The values of all parameters and of scale_length, .. . @throws InputError with the file's line
+[[nodiscard]] std::map<std::string, double> all_values(const Definition& definition, const Overrides& resolved);
 
 /// Groups replaced by their members, every name and number checked. @throws InputError
 [[nodiscard]] Overrides resolve(const Definition& definition, const Overrides& overrides);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "io/model_numbers.hpp"
 #include "model/fault.hpp"
 #include "slapstick/base/text.hpp"
 
@@ -23,7 +24,9 @@ void ModelBuilder::each(const char* kind, Add add) {
 double ModelBuilder::number(const Scalar& scalar, const std::string& where) const {
   if (!scalar.expression) return scalar.number;
   try {
-    return scalar.expression->evaluate(values_);
+    const double value = scalar.expression->evaluate(values_);
+    if (numbers_ != nullptr) numbers_->demand(*scalar.expression);
+    return value;
   } catch (const InputError& error) {
     throw InputError(definition_.place(scalar.line) + where + ": " + error.what());
   }
@@ -161,7 +164,8 @@ void ModelBuilder::demand_no_forcing(const Model& model) const {
   const auto& part = definition_.of(from.kind)[from.index];
   throw InputError(definition_.place(part.line) + part_label(from.kind, from.index, part) +
                    (from.kind == "force" ? ": harmonic " : ": its base moves with harmonic ") +
-                   std::to_string(found->harmonic) + " of the forcing frequency, and the file has no 'omega'");
+                   std::to_string(found->harmonic) + " of the forcing frequency, and the file has no 'omega'" +
+                   (values_.contains("omega") ? ": write omega = \"omega\" above [parameters]" : ""));
 }
 
 const ModelBuilder::Origin* ModelBuilder::origin(const Fault& fault) const {

@@ -14,12 +14,15 @@
 namespace slapstick {
 
 struct Fault;
+class ModelNumbers;
 
 using Values = std::map<std::string, double>;
 
 class ModelBuilder {
  public:
-  ModelBuilder(const Definition& definition, const Values& values) : definition_(definition), values_(values) {}
+  /// @param numbers  null: the units of parameters are not looked at
+  ModelBuilder(const Definition& definition, const Values& values, const ModelNumbers* numbers = nullptr)
+      : definition_(definition), values_(values), numbers_(numbers) {}
 
   /// @throws InputError with the file's line
   [[nodiscard]] Model model();
@@ -61,6 +64,7 @@ class ModelBuilder {
 
   const Definition& definition_;
   const Values& values_;
+  const ModelNumbers* numbers_;
   std::string_view kind_;
   std::size_t index_ = 0;
   std::vector<std::vector<Term>> bases_;

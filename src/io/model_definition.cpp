@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "io/definition.hpp"
-#include "io/model_builder.hpp"
+#include "io/model_numbers.hpp"
 #include "io/scale.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/nearest.hpp"
@@ -15,11 +15,13 @@ class Evaluation {
  public:
   Evaluation(const Definition& definition, const Overrides& overrides)
       : definition_(definition), overrides_(overrides) {
-    for (const auto& entry : definition.parameters) entries_[entry.shown.name] = &entry;
+    for (const auto* entries : {&definition.parameters, &definition.ones})
+      for (const auto& entry : *entries) entries_[entry.shown.name] = &entry;
   }
 
   Values all() {
-    for (const auto& entry : definition_.parameters) need(entry.shown.name);
+    for (const auto* entries : {&definition_.parameters, &definition_.ones})
+      for (const auto& entry : *entries) need(entry.shown.name);
     return std::move(values_);
   }
 
@@ -32,7 +34,9 @@ class Evaluation {
       values_[name] = given->second;
       return;
     }
-    const std::string where = definition_.place(entry.value.line) + "parameter " + in_quotes(name) + ": ";
+    const std::string where =
+        definition_.place(entry.value.line) +
+        (is_one(entry) ? "scale: " + name.substr(scale_name({}).size()) : "parameter " + in_quotes(name)) + ": ";
     double value = entry.value.number;
     if (const auto& expression = entry.value.expression) {
       if (std::find(open_.begin(), open_.end(), name) != open_.end())
@@ -45,6 +49,10 @@ class Evaluation {
     if (!entry.shown.admits(value))
       throw InputError(where + "value = " + shown(value) + " is outside " + entry.shown.range());
     values_[name] = value;
+  }
+
+  [[nodiscard]] bool is_one(const ParameterEntry& entry) const {
+    return std::ranges::any_of(definition_.ones, [&](const auto& one) { return &one == &entry; });
   }
 
   double evaluated(const Expression& expression, const std::string& where) const {
@@ -70,6 +78,19 @@ class Evaluation {
   std::map<std::string, const ParameterEntry*> entries_;
   Values values_;
   std::vector<std::string> open_;  // being evaluated
+};
+
+/// A definition with its parameters' values, whose units are right.
+struct Valued {
+  Valued(const Definition& definition, const Overrides& given)
+      : overrides(resolve(definition, given)),
+        values(all_values(definition, overrides)),
+        numbers(definition, values, overrides) {
+    numbers.check();
+  }
+  Overrides overrides;
+  Values values;
+  ModelNumbers numbers;  // refers to the two above
 };
 
 void check_override(const Parameter& parameter, double value) {
@@ -110,6 +131,10 @@ std::string Parameter::range() const {
   return text + (max_open || std::isinf(max) ? ")" : "]");
 }
 
+Values all_values(const Definition& definition, const Overrides& resolved) {
+  return Evaluation(definition, resolved).all();
+}
+
 Overrides resolve(const Definition& definition, const Overrides& overrides) {
   Overrides resolved;
   for (const auto& [name, value] : overrides)
@@ -138,7 +163,7 @@ ModelDefinition::ModelDefinition(std::shared_ptr<const Definition> definition) :
 
 ModelDefinition ModelDefinition::parse(std::string_view text, const std::string& source) {
   auto definition = std::make_shared<Definition>(read_definition(text, source));
-  const auto values = Evaluation(*definition, {}).all();
+  const auto values = all_values(*definition, {});
   for (auto& entry : definition->parameters) {
     entry.shown.value = values.at(entry.shown.name);
     definition->shown_parameters.push_back(entry.shown);
@@ -159,23 +184,24 @@ const std::vector<Group>& ModelDefinition::groups() const { return definition_->
 const std::vector<Observable>& ModelDefinition::observables() const { return definition_->shown_observables; }
 
 std::map<std::string, double> ModelDefinition::values(const Overrides& overrides) const {
-  const auto resolved = resolve(*definition_, overrides);
-  return Evaluation(*definition_, resolved).all();
+  auto values = all_values(*definition_, resolve(*definition_, overrides));
+  for (const auto& one : definition_->ones) values.erase(one.shown.name);
+  return values;
 }
 
 Model ModelDefinition::build(const Overrides& overrides) const {
-  const auto numbers = values(overrides);
-  return ModelBuilder(*definition_, numbers).model();
+  const Valued valued(*definition_, overrides);
+  return ModelBuilder(*definition_, valued.values, &valued.numbers).model();
 }
 
 State ModelDefinition::start(const Overrides& overrides) const {
-  const auto numbers = values(overrides);
-  ModelBuilder builder(*definition_, numbers);
+  const Valued valued(*definition_, overrides);
+  ModelBuilder builder(*definition_, valued.values, &valued.numbers);
   return builder.start(builder.model());
 }
 
 std::optional<PhysicalUnits> ModelDefinition::physical(const Overrides& overrides) const {
-  return physical_units(*definition_, values(overrides));
+  return physical_units(*definition_, all_values(*definition_, resolve(*definition_, overrides)));
 }
 
 std::string ModelDefinition::to_toml(const Overrides& overrides) const {

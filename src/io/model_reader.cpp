@@ -3,6 +3,7 @@
 
 #include "io/part_reader.hpp"
 #include "io/scale.hpp"
+#include "model/fault.hpp"
 #include "slapstick/base/nearest.hpp"
 
 namespace slapstick {
@@ -21,6 +22,8 @@ class Reader {
     if (definition_.name.empty()) tree_.fail(1, "model", "'name' is missing");
     definition_.summary = tree_.text(root, "summary", "model");
     definition_.notes = notes(root);
+    know_scale(root);
+    know_states(root);
     read_parameters(root);
     read_groups(root);
     const auto states = read_parts(tree_, root, definition_);
@@ -49,6 +52,27 @@ class Reader {
     return kept;
   }
 
+  /// Expressions may name what 1 is.
+  void know_scale(const TomlNode& root) {
+    const auto* table = root.find("scale");
+    if (table == nullptr) return;
+    for (const auto& key : scale_keys())
+      if (table->find(key) != nullptr) tree_.know_parameter(scale_name(key));
+  }
+
+  /// Before anything is read, as every expression may name one by mistake.
+  void know_states(const TomlNode& root) {
+    tree_.know_state("time");
+    tree_.know_state("t");
+    const auto* list = root.find("coordinate");
+    if (list == nullptr) return;
+    for (const auto& item : list->items)
+      if (const auto* name = item.find("name"); name != nullptr && name->kind == Kind::text) {
+        tree_.know_state(name->text);
+        tree_.know_state(velocity_name(name->text));
+      }
+  }
+
   void read_parameters(const TomlNode& root) {
     const auto* table = root.find("parameters");
     if (table == nullptr) return;
@@ -56,6 +80,8 @@ class Reader {
     tree_.check_count(*table, table->entries.size(), "parameters");
     for (const auto& [name, node] : table->entries) {
       tree_.check_new_name(name, node.line, "parameter");
+      if (tree_.is_parameter(name))
+        tree_.fail(node.line, "parameter " + in_quotes(name), "this is what expressions call the value of [scale]");
       tree_.know_parameter(name);
     }
     for (const auto& [name, node] : table->entries) definition_.parameters.push_back(parameter(name, node));
@@ -110,7 +136,8 @@ class Reader {
       tree_.check_count(node, node.items.size(), where);
       for (const auto& item : node.items) {
         tree_.expect(item, Kind::text, where);
-        if (!tree_.is_parameter(item.text))
+        const auto has = [&](const auto& entry) { return entry.shown.name == item.text; };
+        if (std::ranges::none_of(definition_.parameters, has))
           tree_.fail(item.line, where,
                      "unknown parameter " + in_quotes(item.text) + suggestion(item.text, tree_.parameters()));
         group.shown.members.push_back(item.text);
@@ -132,6 +159,11 @@ class Reader {
         if (node.find(key) == nullptr) tree_.fail(node.line, where, "'" + key + "' is missing");
       definition_.scale[name] = {tree_.scalar(*node.find("value"), where + ": value"), tree_.text(node, "unit", where),
                                  node.line};
+      ParameterEntry one;
+      one.shown.name = scale_name(name);
+      one.shown.unit = definition_.scale[name].unit;
+      one.value = definition_.scale[name].value;
+      definition_.ones.push_back(std::move(one));
     }
   }
 

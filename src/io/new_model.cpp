@@ -109,7 +109,8 @@ description = "kinetic and elastic energy"
 #damping = [[0, 0], [0, 0.2]]
 #stiffness = [[0, "-amplitude"], ["-amplitude", 0]]
 
-# What 1 is, for `simulate --physical`: physical = dimensionless * scale.
+# What 1 is, for `simulate --physical`: physical = dimensionless * scale. A parameter with such a unit holds a physical number,
+# which expressions divide by what 1 is: "speed / (scale_length / scale_time)".
 #[scale]
 #length = { value = 5, unit = "mm" }
 #time = { value = 0.01, unit = "s" }

@@ -69,7 +69,8 @@ const std::vector<double>& Observer::read(double time, const State& state) {
 }
 
 Observer ModelDefinition::observer(const Overrides& overrides) const {
-  return Observer(std::make_unique<Observer::Parts>(definition_, values(overrides)));
+  return Observer(
+      std::make_unique<Observer::Parts>(definition_, all_values(*definition_, resolve(*definition_, overrides))));
 }
 
 }  // namespace slapstick

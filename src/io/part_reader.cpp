@@ -14,8 +14,10 @@ class PartReader {
       : tree_(tree), root_(root), definition_(definition) {}
 
   std::vector<std::string> read() {
-    for (const auto& rule : part_rules()) read_kind(rule);
-    check_contact_names();
+    for (const auto& rule : part_rules()) {
+      if (rule.kind == "observable") check_contact_names();  // before gaps get their names
+      read_kind(rule);
+    }
     check_bases_are_used();
     read_matrices();
     return std::move(states_);
@@ -50,6 +52,12 @@ class PartReader {
       names_only.coordinates.push_back({part.name, 1.0});
     }
     states_ = state_names(names_only);
+    for (std::size_t i = 0; i < states_.size(); ++i)  // before anything follows from it
+      if (std::find(states_.begin(), states_.begin() + static_cast<std::ptrdiff_t>(i), states_[i]) !=
+          states_.begin() + static_cast<std::ptrdiff_t>(i))
+        tree_.fail(
+            parts[i / 2].line, part_label("coordinate", i / 2, parts[i / 2]),
+            std::string(i % 2 == 0 ? "name " : "its velocity's name ") + in_quotes(states_[i]) + " is used twice");
     for (std::size_t i = 0; i < states_.size(); ++i)
       if (tree_.is_parameter(states_[i]))
         tree_.fail(parts[i / 2].line, part_label("coordinate", i / 2, parts[i / 2]),
@@ -107,12 +115,15 @@ class PartReader {
   void check_contact_names() const {
     std::vector<std::string> used;
     for (const char* kind : {"friction", "stop", "compliant_stop"})
-      for (const auto& part : definition_.of(kind)) {
-        if (std::find(used.begin(), used.end(), part.name) != used.end())
-          tree_.fail(part.line, std::string(kind) + " " + in_quotes(part.name),
-                     "name " + in_quotes(part.name) + " is used twice");
-        used.push_back(part.name);
-      }
+      for (const auto& part : definition_.of(kind))
+        for (const char* side : {"", "_upper", "_lower"}) {
+          if (side[0] != '\0' && !part.flag("two_sided")) continue;
+          const auto name = part.name + side;
+          if (std::find(used.begin(), used.end(), name) != used.end())
+            tree_.fail(part.line, std::string(kind) + " " + in_quotes(part.name),
+                       "name " + in_quotes(name) + " is used twice");
+          used.push_back(name);
+        }
   }
 
   void check_bases_are_used() const {

@@ -78,6 +78,8 @@ const std::vector<std::string>& impact_laws() {
   return words;
 }
 
+std::string scale_name(const std::string& key) { return "scale_" + key; }
+
 std::string gap_name(const std::string& stop) { return "gap_" + stop; }
 
 std::string part_label(std::string_view kind, std::size_t index, const Part& part) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 #include "io/unit.hpp"
 #include "model/fault.hpp"
@@ -93,14 +94,10 @@ class UnitCheck {
     double coherent = 1.0;
     for (std::size_t i = 0; i < 3; ++i) coherent *= std::pow(scales[i].factor, unit.powers[i]);
     if (std::abs(unit.factor / coherent - 1.0) < 1e-12) return;
-    std::string units;
-    for (const auto& key : scale_keys()) {
-      const auto found = definition_.scale.find(key);
-      if (found != definition_.scale.end()) units += (units.empty() ? "" : ", ") + found->second.unit;
-    }
     fail(entry.value.line, where,
-         "unit " + in_quotes(text) + " is mixed with those of [scale] (" + units +
-             "): expressions do not convert, so give the number in products of these");
+         "unit " + in_quotes(text) + " is mixed with those of [scale]: expressions do not convert, so give " +
+             (unit.powers == Unit{}.powers ? "a plain number, of an angle in rad"
+                                           : "the number in " + unit_of_scale(definition_, unit.powers)));
   }
 
   /// Without [scale] units are what the numbers are in: all coordinates have one, or none has, and equal dimensions have equal units.
@@ -139,7 +136,36 @@ class UnitCheck {
 
 }  // namespace
 
+std::string unit_of_scale(const Definition& definition, const std::array<int, 3>& powers) {
+  std::string over, under;
+  for (const std::size_t i : {2U, 0U, 1U}) {  // kg m/s^2
+    if (powers[i] == 0) continue;
+    std::string& text = powers[i] > 0 ? over : under;
+    if (&text == &under || !text.empty()) text += powers[i] > 0 ? " " : "/";
+    text += definition.scale.at(scale_keys()[i]).unit;
+    if (std::abs(powers[i]) > 1) text += "^" + std::to_string(std::abs(powers[i]));
+  }
+  return (over.empty() ? "1" : over) + under;
+}
+
 void check_units(const Definition& definition) { UnitCheck(definition).check(); }
+
+/// The unit of the coordinates that contacts act on, if they agree: the column w holds relative velocities of all contacts.
+std::string common_length(const Definition& definition) {
+  const auto& fallback = definition.scale.find("length")->second.unit;
+  const auto& coordinates = definition.of("coordinate");
+  std::optional<std::string> common;
+  for (const char* kind : {"friction", "stop", "compliant_stop"})
+    for (const auto& part : definition.of(kind))
+      for (const int end : {part.a, part.b}) {
+        if (end < 0) continue;
+        const auto* own = unit_text(coordinates[static_cast<std::size_t>(end)]);
+        const auto& unit = own ? *own : fallback;
+        if (common && *common != unit) return fallback;
+        common = unit;
+      }
+  return common.value_or(fallback);
+}
 
 std::optional<PhysicalUnits> physical_units(const Definition& definition, const Values& values) {
   if (definition.scale.empty()) return std::nullopt;
@@ -166,7 +192,8 @@ std::optional<PhysicalUnits> physical_units(const Definition& definition, const 
   };
   const auto& length = definition.scale.find("length")->second;
   const auto& time = definition.scale.find("time")->second;
-  PhysicalUnits units{column(time.unit, time.line), column(length.unit + "/" + time.unit, length.line), {}, {}};
+  PhysicalUnits units{
+      column(time.unit, time.line), column(common_length(definition) + "/" + time.unit, length.line), {}, {}};
   for (const auto& part : definition.of("coordinate")) {
     const auto* own = unit_text(part);
     const auto& text = own ? *own : length.unit;

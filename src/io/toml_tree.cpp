@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "io/toml_remedy.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick {
@@ -57,6 +58,15 @@ std::string one_line(std::string_view text) {
       out += ' ';
   }
   return out;
+}
+
+std::string_view line_of(std::string_view text, std::size_t number) {
+  for (; number > 1; --number) {
+    const auto end = text.find('\n');
+    if (end == std::string_view::npos) return {};
+    text.remove_prefix(end + 1);
+  }
+  return text.substr(0, text.find('\n'));
 }
 
 class Converter {
@@ -146,10 +156,11 @@ TomlNode parse_toml(std::string_view text, const std::string& source) {
     const toml::table table = toml::parse(text);
     return Converter(source).convert(table, 0, 0);
   } catch (const toml::parse_error& error) {
-    const std::string what = one_line(error.description());
-    const bool rest = what.find("expected a comment or whitespace, saw") != std::string::npos;  // 0,5 or 1 kg
-    throw InputError(place(source, error.source().begin.line) + what +
-                     (rest ? " (a number is 0.5, not 0,5, and has no unit; an expression stands in quotes)" : ""));
+    const auto line = error.source().begin.line;
+    const std::string remedy = toml_remedy(line_of(text, line));
+    throw InputError(place(source, line) +
+                     (remedy.empty() ? one_line(error.description()) + " (an expression or text stands in quotes)"
+                                     : one_line(remedy)));
   }
 }
 

@@ -107,6 +107,12 @@ Scalar TreeReader::scalar(const TomlNode& node, const std::string& where, const 
   for (const auto& name : scalar.expression->names()) {
     const auto meanings = std::count(known.begin(), known.end(), name);
     const std::string expression = "expression " + in_quotes(node.text) + ": ";
+    if (meanings == 0 && &known == &parameters_ && holds(states_, name))
+      fail(
+          node.line, where,
+          expression + in_quotes(name) +
+              " changes with the motion: coefficients cannot depend on the state or on time, because a model is linear "
+              "between events (an [[observable]] can)");
     if (meanings == 0)
       fail(node.line, where, expression + "unknown " + what + " " + in_quotes(name) + suggestion(name, known));
     if (meanings > 1) fail(node.line, where, expression + in_quotes(name) + " has two meanings here");

@@ -27,6 +27,9 @@ class TreeReader {
   [[nodiscard]] const std::vector<std::string>& parameters() const { return parameters_; }
   [[nodiscard]] bool is_parameter(const std::string& name) const;
 
+  /// What changes in the course of a motion, which coefficients may not follow.
+  void know_state(const std::string& name) { states_.push_back(name); }
+
   [[noreturn]] void fail(int line, const std::string& where, const std::string& what) const;
   void expect(const TomlNode& node, Kind kind, const std::string& where) const;
   void check_keys(const TomlNode& table, const std::string& where, const std::vector<std::string>& known) const;
@@ -51,7 +54,7 @@ class TreeReader {
 
  private:
   std::string source_;
-  std::vector<std::string> parameters_;
+  std::vector<std::string> parameters_, states_;
 };
 
 }  // namespace slapstick

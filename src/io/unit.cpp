@@ -34,14 +34,48 @@ const std::vector<Named>& known_units() {
   return units;
 }
 
-Unit named_unit(const std::string& name) {
-  std::vector<std::string> names;
-  for (const auto& known : known_units()) {
-    if (name == known.name) return known.unit;
-    names.emplace_back(known.name);
+const Unit* find_unit(std::string_view name) {
+  for (const auto& known : known_units())
+    if (name == known.name) return &known.unit;
+  return nullptr;
+}
+
+/// "Nmm" as "N mm", "m/s2" as "m/s^2": two known names, or a name and its power, written together.
+std::string taken_apart(const std::string& name) {
+  for (std::size_t i = 1; i < name.size(); ++i) {
+    const std::string head = name.substr(0, i), tail = name.substr(i);
+    if (find_unit(head) == nullptr) continue;
+    if (i + 1 == name.size() && tail[0] >= '2' && tail[0] <= '9') return head + "^" + tail;
+    if (tail != "1" && !head.ends_with(tail) && find_unit(tail) != nullptr) return head + " " + tail;
   }
-  throw InputError("unknown unit " + in_quotes(name) + (name.size() > 2 ? suggestion(name, names) : std::string()) +
-                   " (docs/model_file.md lists them)");
+  return {};
+}
+
+/// What was meant, or else every name.
+std::string hint(const std::string& name) {
+  if (name == "rpm") return "; a speed of rotation is in rad/s (1 rpm = 0.10471975511965977 rad/s) or 1/min";
+  if (const auto parts = taken_apart(name); !parts.empty()) return "; did you mean " + in_quotes(parts) + "?";
+  std::vector<std::string> names;
+  std::string all;
+  for (const auto& known : known_units()) {
+    names.emplace_back(known.name);
+    all += (all.empty() ? "; known: " : " ") + names.back();
+  }
+  const std::string best = name.size() > 2 ? nearest(name, names) : "";
+  return best.empty() ? all : "; did you mean " + in_quotes(best) + "? (docs/model_file.md lists them)";
+}
+
+Unit named_unit(const std::string& name) {
+  if (const Unit* unit = find_unit(name)) return *unit;
+  throw InputError("unknown unit " + in_quotes(name) + hint(name));
+}
+
+/// Both characters that look like it, the micro sign and the Greek mu, as the u of "um".
+std::string with_ascii_micro(std::string text) {
+  for (const std::string_view micro : {"\u00b5", "\u03bc"})
+    for (auto at = text.find(micro); at != std::string::npos; at = text.find(micro, at))
+      text.replace(at, micro.size(), "u");
+  return text;
 }
 
 /// "s" or "s^2" or "s^-2".
@@ -64,7 +98,8 @@ void multiply(Unit& product, const std::string& factor, int sign) {
 
 }  // namespace
 
-Unit parse_unit(const std::string& text) {
+Unit parse_unit(const std::string& given) {
+  const std::string text = with_ascii_micro(given);
   Unit product;
   std::string factor;
   int sign = 1;

@@ -23,6 +23,29 @@ def test_a_forcing_without_omega_is_said_where_it_stands():
     says(refused(2, 'check', write('z.toml', HEAD + 'omega = 0\n' + COORDINATE % 1 + FORCE)), 'z.toml:2:', 'omega = 0 is not positive')
 
 
+def test_a_parameter_omega_is_not_the_forcing_frequency_until_the_file_says_so():
+    text = HEAD + '%s[parameters]\nomega = 2\n' + COORDINATE % 1 + FORCE
+    says(refused(2, 'check', write('o.toml', text % '')), "o.toml:7: force 1: ", 'write omega = "omega" above [parameters]')
+    good('check', write('o.toml', text % 'omega = "omega"\n'))
+
+
+def test_a_coefficient_that_follows_the_motion_is_told_from_a_misspelt_one():
+    for name in ('x', 'v', 'time', 't'):
+        says(refused(2, 'check', write('s.toml', HEAD + COORDINATE % '"1 + %s^2"' % name)), "s.toml:4: coordinate 'x': mass: ", "'%s' changes with the motion" % name, 'linear')
+    says(refused(2, 'check', write('s.toml', HEAD + '[parameters]\nk = "x"\n' + COORDINATE % 1)), "s.toml:3: parameter 'k': ", "'x' changes with the motion")
+    says(refused(2, 'check', write('s.toml', HEAD + COORDINATE % '"y"')), "unknown parameter 'y'")
+
+
+def test_a_name_used_twice_is_said_before_what_follows_from_it():
+    spring = '[[spring]]\nbetween = ["x", "y"]\nstiffness = "v"\n'
+    says(refused(2, 'check', write('d.toml', HEAD + spring + COORDINATE % 1 + COORDINATE % 1)), "d.toml:8: coordinate 'x': name 'x' is used twice")
+    velocity = '[[coordinate]]\nname = "v"\nmass = 1\n'
+    says(refused(2, 'check', write('d.toml', HEAD + spring + COORDINATE % 1 + velocity)), "d.toml:8: coordinate 'v': name 'v' is used twice")
+    stop = '[[stop]]\nname = "s%s"\nbetween = ["x", "ground"]\nclearance = 1\nrestitution = 0\ntwo_sided = %s\n'
+    observable = '[[observable]]\nname = "o"\nvalue = "gap_s_upper + nonsense"\n'
+    says(refused(2, 'check', write('d.toml', HEAD + COORDINATE % 1 + stop % ('', 'true') + stop % ('_upper', 'false') + observable)), "d.toml:11: stop 's_upper': name 's_upper' is used twice")
+
+
 def test_a_file_without_coordinates_is_not_asked_for_their_names():
     for text in (HEAD, HEAD + FORCE, HEAD + '[start]\nx = 1\n'):
         says(refused(2, 'check', write('n.toml', text)), 'n.toml:1: model: it has no coordinates')
@@ -38,8 +61,12 @@ def test_a_comma_or_a_unit_in_a_number_is_recognised():
     says(refused(2, 'simulate', 'vibro-impact', '--state', 'x1=-0,5,v1=0'), '--state', comma)
     says(refused(2, 'simulate', 'vibro-impact', '--set', 'omega=0.5,restitution=1'), 'one number')
     assert '(' not in refused(2, 'simulate', 'vibro-impact', '--set', 'omega=kg')
-    for text in ('0,5', '1 kg'):
-        says(refused(2, 'check', write('u.toml', HEAD + COORDINATE % text)), 'u.toml:4: ', '0.5, not 0,5', 'no unit')
+    for text, remedy in (('0,5', 'mass: write 0.5, not 0,5'), ('-10,25  # kg', 'mass: write -10.25, not -10,25'), ('1 kg', "'1 kg' is no number: a number has no unit"),
+                         ('2 * k', 'in quotes, mass = "2 * k"'), ('max(1, k)', 'in quotes, mass = "max(1, k)"'), ('-k', 'in quotes, mass = "-k"')):
+        says(refused(2, 'check', write('u.toml', HEAD + COORDINATE % text)), 'u.toml:4: mass: ', remedy)
+    for text, remedy in (('{ value = 0,5, min = 0 }', 'value: write 0.5'), ('{ min = 0, value = 2 * k }', 'value = "2 * k"')):
+        says(refused(2, 'check', write('u.toml', HEAD + '[parameters]\nk = %s\n' % text)), 'u.toml:3: value: ', remedy)
+    says(refused(2, 'check', write('u.toml', HEAD + 'summary = "a = b, c = 0,5"\n' + COORDINATE % '0,5')), 'u.toml:5: mass: ')
     says(refused(2, 'check', write('q.toml', HEAD + COORDINATE % '"0,5"')), 'q.toml:4: ', 'write 0.5, not 0,5')
     says(refused(2, 'check', write('q.toml', HEAD + COORDINATE % '"1 kg"')), 'q.toml:4: ', '"kg"', 'no unit')
 

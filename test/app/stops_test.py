@@ -1,4 +1,5 @@
 """Sections, classes and pictures of models with several stops, and with compliant ones. One CTest case per function `test_...`."""
+import math
 import os
 
 from program import good, main, read, refused, says, table
@@ -137,7 +138,7 @@ def test_both_kinds_of_stops_make_one_section_or_each_their_own():
 
 
 def test_a_picture_is_about_the_chosen_stop():
-    labels = {'wall': ('x_{1}', 'v_{1}'), 'meet': ('x_{2} - x_{1}', 'v_{2} - v_{1}'), 'buffer': ('x_{2}', 'v_{2}')}
+    labels = {'wall': ('x_{1}', 'v_{1}'), 'meet': ('x_{2} − x_{1}', 'v_{2} − v_{1}'), 'buffer': ('x_{2}', 'v_{2}')}
     for name, (x, v) in labels.items():
         good('simulate', mixed(), '--periods', '30', '--plot', 's.png', '--stop', name, '--out', 'o.json')
         good('poincare', 'mixed.toml', '--points', '50', '--section', 'stroboscopic', '--plot', 'p.png', '--stop', name, '--out', 'p.csv')
@@ -169,6 +170,29 @@ def test_the_documented_contact_force_is_the_one_that_acts():
     assert abs(v[-1] - v[0] - impulse) < bound < 1, (v[-1] - v[0], impulse, bound)
     engaged = sum(kind == 'engage' for kind in column(read('e.csv'), 'kind'))
     assert engaged == len(onsets) > 10, (engaged, onsets)
+
+
+def test_a_short_bounce_is_a_curve_not_a_polygon():
+    """20 periods with chatter: flights of a hundredth of a period have some ten points each."""
+    good('simulate', 'vibro-impact', '--set', 'omega=0.552', '--periods', '3', '--events', 'e.csv', '--plot', 'p.png', '--out', 's.json')
+    times = [float(row[2]) for row in table(read('p-plot.csv'))[1] if row[2]]
+    period = 2 * math.pi / 0.552
+    impacts = [float(row[0]) / period for row in table(read('e.csv'))[1] if row[1] == 'impact']
+    short = [(a, b) for a, b in zip(impacts, impacts[1:]) if 0.01 < b - a < 0.04]
+    assert len(short) > 3, impacts
+    for a, b in short:
+        assert sum(a < t < b for t in times) >= 900 * (b - a) - 2, (a, b)
+    assert len(times) < 3 * 1000, len(times)  # long flights are thinner
+
+
+def test_pictures_without_a_period_have_no_phase_and_no_period_on_their_axes():
+    good('poincare', 'bouncing-ball', '--transient', '0', '--points', '10', '--out', 'b.csv', '--plot', 'b.png')
+    pairs = [[float(word) for word in row] for row in table(read('b-plot.csv'))[1]]
+    assert len(pairs) == 9 and all(abs(after - 0.8 * w) < 1e-12 for w, after in pairs), pairs
+    good('diagram', 'bouncing-ball', '--sweep', 'restitution=0.5:0.9:5', '--start', 'reset', '--transient', '0', '--impacts', '5', '--most-periods', '50', '--out', 'd.csv', '--plot', 'd.png')
+    script = read('d.gp')
+    says(script, "label 'flight' at")
+    assert 'period' not in script.split('multiplot')[1]
 
 
 main({name: case for name, case in globals().items() if name.startswith('test_')})

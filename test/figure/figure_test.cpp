@@ -83,6 +83,38 @@ TEST_F(FigureTest, many_points_become_one_small_image_and_no_table) {
   EXPECT_LT(std::filesystem::file_size(files.pdf), 400000u);
 }
 
+TEST_F(FigureTest, where_two_named_clouds_overlap_in_an_image_the_legend_says_both) {
+  Points a = logistic_map(300, 100, 0.4), b = logistic_map(300, 100, 0.6);
+  a.label = "up", b.label = "down";
+  a.colour = {255, 102, 0}, b.colour = {102, 255, 255};
+  const auto says_both = [&](const std::vector<Points>& points) {
+    const std::string script =
+        workshop::read(write({.panels = {{.points = points}}}, folder / "a", {.pdf = false}).script);
+    return script.find("lc rgb '#666600' title 'both'") != std::string::npos;
+  };
+  EXPECT_TRUE(says_both({a, b}));
+  EXPECT_FALSE(says_both({a}));
+  a.drawing = b.drawing = Drawing::discs;
+  EXPECT_FALSE(says_both({a, b}));
+}
+
+TEST_F(FigureTest, clouds_that_are_many_points_together_are_an_image) {
+  const Points half{.x = std::vector<double>(raster_threshold / 2 + 1, 1), .y = half.x};
+  EXPECT_EQ(write({.panels = {{.points = {half, half}}}}, folder / "a", {.pdf = false}).rasters.size(), 1U);
+  EXPECT_EQ(write({.panels = {{.points = {half}}}}, folder / "b", {.pdf = false}).rasters.size(), 0U);
+  EXPECT_NO_THROW(write({.panels = {{.points = std::vector<Points>(9, half)}}}, folder / "c", {.pdf = false}));
+}
+
+TEST_F(FigureTest, numbers_of_an_axis_have_at_most_eight_digits) {
+  for (const double span : {1e-3, 1e-5, 2e-6, 1e-7, 1e-8, 2e-9}) {
+    const Points p{.x = {0.4859871, 0.4859871 + span}, .y = {-1.4582, -1.4582 - span}};
+    const std::string script =
+        workshop::read(write({.panels = {{.points = {p}}}}, folder / "a", {.pdf = false}).script);
+    for (const std::string axis : {"set format x '%.", "set format y '%."})
+      EXPECT_LE(std::stoi(script.substr(script.find(axis) + axis.size())), 8) << span;
+  }
+}
+
 TEST_F(FigureTest, same_figure_same_bytes) {
   const Figure figure{.panels = {{.points = {logistic_map(300, 100, 0.4)}, .lines = {sine(1, 3)}}}};
   const Files a = write(figure, folder / "a", {.pdf = false});

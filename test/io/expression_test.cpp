@@ -24,6 +24,32 @@ std::string refusal(const std::string& text, std::map<std::string, double> value
   return "accepted";
 }
 
+/// The list of docs/model_file.md.
+TEST(Expression, precedence_and_functions_are_as_documented) {
+  for (const auto& [text, value] : std::vector<std::pair<const char*, double>>{{"-2^2", -4},
+                                                                               {"2^3^2", 512},
+                                                                               {"2^-1", 0.5},
+                                                                               {"8 / 4 / 2", 1},
+                                                                               {"5 - 3 - 1", 1},
+                                                                               {"1 || 1 && 0", 1},
+                                                                               {"1 + 2 < 4 && 2 != 3", 1},
+                                                                               {"0 ? 1 : 0 ? 2 : 3", 3},
+                                                                               {"log(exp(2))", 2},
+                                                                               {"ln(exp(2))", 2},
+                                                                               {"log2(8)", 3},
+                                                                               {"log10(1000)", 3},
+                                                                               {"sign(-3)", -1},
+                                                                               {"rint(2.7)", 3},
+                                                                               {"max(3, 1, 2)", 3},
+                                                                               {"min(3, 1, 2)", 1},
+                                                                               {"sum(1, 2, 3)", 6},
+                                                                               {"avg(1, 2, 3)", 2}})
+    EXPECT_DOUBLE_EQ(Expression(text).evaluate({}), value) << text;
+  EXPECT_DOUBLE_EQ(Expression("atan2(1, -1)").evaluate({}), std::atan2(1, -1));
+  for (const char* absent : {"floor", "ceil", "round", "pow", "mod", "e", "cbrt"})
+    EXPECT_FALSE(Expression::reserves(absent)) << absent;
+}
+
 TEST(Expression, arithmetic) {
   EXPECT_EQ(Expression("2 * a * b").evaluate({{"a", 0.1}, {"b", 5}}), 2 * 0.1 * 5);
   EXPECT_EQ(Expression("-a^2").evaluate({{"a", 3}}), -9);

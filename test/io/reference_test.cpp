@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "io/definition.hpp"
@@ -16,17 +17,33 @@ std::string reference() {
   return text.str();
 }
 
-TEST(Reference, the_worked_example_is_a_model) {
+/// The fenced files of the page, by name.
+std::map<std::string, ModelDefinition> examples() {
   const std::string fence = "```toml\n", text = reference();
-  const auto begin = text.find(fence);
-  ASSERT_NE(begin, std::string::npos);
-  const auto example = text.substr(begin + fence.size(), text.find("```", begin + 3) - begin - fence.size());
-  EXPECT_EQ(refusal(example), "accepted");
-  const auto model = ModelDefinition::parse(example, "gear.toml").build();
+  std::map<std::string, ModelDefinition> models;
+  for (auto begin = text.find(fence); begin != std::string::npos; begin = text.find(fence, begin + 1)) {
+    const auto example = text.substr(begin + fence.size(), text.find("```", begin + 3) - begin - fence.size());
+    EXPECT_EQ(refusal(example), "accepted");
+    const auto model = ModelDefinition::parse(example, "example.toml");
+    models.emplace(model.name(), model);
+  }
+  return models;
+}
+
+TEST(Reference, the_example_of_units_gives_the_physical_number) {
+  const auto wiper = examples().at("wiper");
+  EXPECT_DOUBLE_EQ(wiper.build().frictions.at(0).belt_speed, 0.002);
+  EXPECT_DOUBLE_EQ(wiper.build().frictions[0].belt_speed * wiper.physical()->w.factor, 200.0);  // um/s
+}
+
+TEST(Reference, the_worked_example_is_a_model) {
+  const auto model = examples().at("gear-rattle").build();
   EXPECT_EQ(model.compliant_stops.size(), 2U);
   EXPECT_EQ(model.forces.size(), 2U);
   EXPECT_TRUE(model.forced());
 }
+
+TEST(Reference, every_example_is_a_model) { EXPECT_EQ(examples().size(), 3U); }
 
 TEST(Reference, every_key_is_there) {
   const auto text = reference();

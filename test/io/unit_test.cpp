@@ -34,9 +34,23 @@ TEST(Unit, products_and_powers) {
   EXPECT_EQ(parse_unit("1").factor, 1.0);
 }
 
+TEST(Unit, micro_as_people_type_it) {
+  for (const char* um : {"um", "\u00b5m", "\u03bcm"}) EXPECT_EQ(parse_unit(um).factor, 1e-6) << um;
+  EXPECT_EQ(parse_unit("m/\u00b5s^2").factor, parse_unit("m/us^2").factor);
+}
+
+TEST(Unit, products_and_powers_written_together_are_taken_apart) {
+  EXPECT_EQ(unit_refusal("Nmm"), "unknown unit 'Nmm'; did you mean 'N mm'?");
+  EXPECT_EQ(unit_refusal("Nm/rad"), "unknown unit 'Nm'; did you mean 'N m'?");
+  EXPECT_EQ(unit_refusal("m/s2"), "unknown unit 's2'; did you mean 's^2'?");
+  EXPECT_EQ(unit_refusal("rpm"),
+            "unknown unit 'rpm'; a speed of rotation is in rad/s (1 rpm = 0.10471975511965977 rad/s) or 1/min");
+}
+
 TEST(Unit, refusals) {
-  EXPECT_TRUE(unit_refusal("furlong").starts_with("unknown unit 'furlong'; known: m, km, cm,"));
-  EXPECT_EQ(unit_refusal("ks"), "unknown unit 'ks' (docs/model_file.md lists them)");  // too short to guess
+  for (const char* unit : {"furlong", "ks"})  // the second is too short to guess
+    EXPECT_TRUE(
+        unit_refusal(unit).starts_with("unknown unit '" + std::string(unit) + "'; known: m km cm mm um nm in ft"));
   EXPECT_EQ(unit_refusal("kNN"), "unknown unit 'kNN'; did you mean 'kN'? (docs/model_file.md lists them)");
   EXPECT_EQ(unit_refusal("m^x"), "unit 'm^x': a power is a whole number in [-9, 9]");
   EXPECT_EQ(unit_refusal("m^"), "unit 'm^': a power is a whole number in [-9, 9]");
@@ -52,13 +66,13 @@ TEST(Unit, refusals) {
 }
 
 const std::string scaled =  // 15 lines
-    "name = 'm'\n[scale]\nlength = { value = 0.5, unit = 'mm' }\ntime = { value = 'M / 8', unit = 'ms' }\n"
+    "name = 'm'\n[scale]\nlength = { value = 0.5, unit = 'mm' }\ntime = { value = 'D / 8', unit = 'ms' }\n"
     "mass = { value = 'M', unit = 'g' }\n[[coordinate]]\nname = 'x1'\nmass = 1\n[[coordinate]]\nname = 'x2'\n"
     "mass = 1\nunit = 'um'\n[[observable]]\nname = 'force'\nvalue = 'x1 - x2'\n";
 
 TEST(Scale, columns_are_physical_by_the_units_powers) {
   const auto definition =
-      ModelDefinition::parse(scaled + "unit = 'N'\n[parameters]\nM = { value = 4, unit = 'g' }\n", "f.toml");
+      ModelDefinition::parse(scaled + "unit = 'N'\n[parameters]\nM = { value = 4, unit = 'g' }\nD = 2\n", "f.toml");
   const auto units = definition.physical({{"M", 2}});
   ASSERT_TRUE(units);
   EXPECT_EQ(units->time.unit, "ms");
@@ -79,7 +93,7 @@ TEST(Scale, columns_are_physical_by_the_units_powers) {
 }
 
 TEST(Scale, missing_unknown_and_mixed_units_are_refused) {
-  const std::string m = "[parameters]\nM = 1\n";
+  const std::string m = "[parameters]\nM = 1\nD = 1\n";
   EXPECT_EQ(refusal(scaled + "unit = 'N'\n" + m), "accepted");
   EXPECT_EQ(refusal(scaled + m),
             "f.toml:13: observable 'force': 'unit' is missing: [scale] cannot turn it into a physical quantity "
@@ -88,11 +102,15 @@ TEST(Scale, missing_unknown_and_mixed_units_are_refused) {
     return refusal(scaled + "unit = 'N'\n" + m + "k = { value = 1, unit = '" + unit + "' }\n");
   };
   for (const char* fits : {"N", "N/mm", "g/ms^2", "1/ms", "mm/ms", "rad", "1"}) EXPECT_EQ(parameter(fits), "accepted");
-  for (const std::string mixed : {"N/m", "m", "s", "kg", "deg", "%"})
-    EXPECT_EQ(parameter(mixed), "f.toml:19: parameter 'k': unit '" + mixed +
-                                    "' is mixed with those of [scale] (mm, ms, g): expressions do not convert, so give "
-                                    "the number in products of these");
-  EXPECT_TRUE(parameter("smoot").starts_with("f.toml:19: parameter 'k': unknown unit 'smoot'; known: m, km"));
+  for (const auto& [mixed, right] : {std::pair<std::string, std::string>{"N/m", "the number in g/ms^2"},
+                                     {"m/s^2", "the number in mm/ms^2"},
+                                     {"1/s", "the number in 1/ms"},
+                                     {"J", "the number in g mm^2/ms^2"},
+                                     {"deg", "a plain number, of an angle in rad"},
+                                     {"%", "a plain number, of an angle in rad"}})
+    EXPECT_EQ(parameter(mixed), "f.toml:20: parameter 'k': unit '" + mixed +
+                                    "' is mixed with those of [scale]: expressions do not convert, so give " + right);
+  EXPECT_TRUE(parameter("smoot").starts_with("f.toml:20: parameter 'k': unknown unit 'smoot'; known: m km"));
   const std::string massless =
       "name='m'\n[scale]\nlength = { value = 1, unit = 'm' }\ntime = { value = 1, unit = 's' }\n"
       "[[coordinate]]\nname = 'x'\nmass = 1\n";
@@ -118,6 +136,23 @@ TEST(Scale, its_own_keys) {
   EXPECT_EQ(scale(length + "tme = { value = 0, unit = 's' }"),
             "f.toml:4: scale: unknown key 'tme'; did you mean 'time'?");
   EXPECT_TRUE(scale("length = { value = 1, unit = 'smoot' }").starts_with("f.toml:3: scale: length: unknown unit"));
+}
+
+TEST(Scale, w_is_in_the_unit_of_the_coordinates_that_contacts_act_on) {
+  const auto w_unit = [](const std::string& first, const std::string& second) {
+    return ModelDefinition::parse(
+               "name='m'\n[scale]\nlength = { value = 2, unit = 'mm' }\ntime = { value = 3, unit = 's' }\n"
+               "[[coordinate]]\nname = 'a'\nmass = 1\n" +
+                   first + "[[coordinate]]\nname = 'b'\nmass = 1\n" + second +
+                   "[[friction]]\nname = 'f'\nbetween = ['a', 'b']\nstatic = 1\n",
+               "f.toml")
+        .physical()
+        ->w;
+  };
+  EXPECT_EQ(w_unit("unit = 'um'\n", "unit = 'um'\n").unit, "um/s");
+  EXPECT_DOUBLE_EQ(w_unit("unit = 'um'\n", "unit = 'um'\n").factor, 2000.0 / 3.0);
+  EXPECT_EQ(w_unit("unit = 'um'\n", "").unit, "mm/s");
+  EXPECT_EQ(w_unit("", "").unit, "mm/s");
 }
 
 TEST(CoordinateUnit, without_scale_all_or_none_and_one_per_dimension) {

@@ -170,6 +170,7 @@ class Motion {
   [[nodiscard]] bool tail_is_quiet(int stop, double duration);
   [[nodiscard]] bool in_doubt(const Found& found);
   [[nodiscard]] bool within_noise(int guard, double x) const;
+  [[nodiscard]] double rate(const mode::Guard& guard) const;
   [[nodiscard]] std::span<const int> touching();
   [[nodiscard]] int approaching() const;
   void newton(int stop);

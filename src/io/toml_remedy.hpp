@@ -1,0 +1,11 @@
+#pragma once
+/// A line that is no TOML: what its author most likely meant.
+#include <string>
+#include <string_view>
+
+namespace slapstick {
+
+/// "mass: write 0.5, not 0,5" of the first `key = value` in the line whose value is neither a number nor in quotes; "" if there is none.
+[[nodiscard]] std::string toml_remedy(std::string_view line);
+
+}  // namespace slapstick

@@ -66,20 +66,23 @@ void Mode::build_operators(const Frame& frame, const Model& model, double longes
       for (int j = 0; j < 8; ++j) noise[j] += series.error(g, j, i);
     }
   }
-  for (int g = 0; g < guard_count(); ++g) {
-    coarse_noise_.push_back(0.0);
+  for (int g = 0; g < guard_count(); ++g) store_bounds(g, series);
+}
+
+/// What guard g adds to its hull, by column.
+void Mode::store_bounds(int g, const Series& series) {
+  coarse_noise_.push_back(0.0);
+  for (int i = 0; i < m_; ++i) {
+    remainders_.push_back(series.remainder(static_cast<std::size_t>(g), i));
+    double size = 0.0;
+    for (int b = 0; b < 3; ++b) size += event::sum(event::magnitude(taylor_[(3 * g + b) * m_ + i]));
+    coarse_noise_[g] = std::max(coarse_noise_[g], noise_factor_ * size + remainders_.back());
+  }
+  for (int order = 0; order < stored_orders; ++order) {
     for (int i = 0; i < m_; ++i) {
-      remainders_.push_back(series.remainder(static_cast<std::size_t>(g), i));
-      double size = 0.0;
-      for (int b = 0; b < 3; ++b) size += event::sum(event::magnitude(taylor_[(3 * g + b) * m_ + i]));
-      coarse_noise_[g] = std::max(coarse_noise_[g], noise_factor_ * size + remainders_.back());
-    }
-    for (int order = 0; order < stored_orders; ++order) {
-      for (int i = 0; i < m_; ++i) {
-        const event::Hull hull = hull_column(g, order, i);
-        hulls_.push_back(hull.bernstein);
-        hull_bounds_.push_back(hull.bounds);
-      }
+      const event::Hull hull = hull_column(g, order, i);
+      hulls_.push_back(hull.bernstein);
+      hull_bounds_.push_back(hull.bounds);
     }
   }
 }

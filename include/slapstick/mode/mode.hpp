@@ -47,6 +47,7 @@ class Mode {
 
  private:
   void build_operators(const Frame& frame, const Model& model, double longest_window);
+  void store_bounds(int g, const Series& series);
   [[nodiscard]] Matrix flow_over_window(const Series& series, std::size_t first_coordinate, const Frame& frame,
                                         double omega) const;
   [[nodiscard]] event::Hull hull_column(int g, int order, int column) const;

@@ -1,0 +1,177 @@
+/// Machines with several contacts in corners that a review found: each test failed before.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "slapstick/flow/motion.hpp"
+
+namespace slapstick {
+namespace {
+
+std::string numbered(const char* name, int i) { return name + std::to_string(i); }
+
+double kinetic(const Model& model, const State& state) {
+  double sum = 0.0;
+  for (int i = 0; i < model.size(); ++i) sum += 0.5 * model.coordinates[i].mass * state[2 * i + 1] * state[2 * i + 1];
+  return sum;
+}
+
+State end_of(const System& system, const State& start, Instant end) {
+  Motion motion(system, start);
+  while (motion.advance(end) == Outcome::event) {
+  }
+  EXPECT_EQ(motion.counters().pile_ups, 0);
+  return motion.state();
+}
+
+/// Equal balls in a row that touch, and a wall at its end if wanted.
+Model row_of_balls(int count, bool wall) {
+  Model m;
+  for (int i = 0; i < count; ++i) m.coordinates.push_back({numbered("x", i), 1.0});
+  for (int i = 0; i + 1 < count; ++i) m.stops.push_back({numbered("s", i), i, i + 1, 0.0, 1.0});
+  if (wall) m.stops.push_back({"wall", count - 1, ground, 0.0, 1.0});
+  m.impact_law = ImpactLaw::sequence;
+  return m;
+}
+
+TEST(SeveralContacts, NewtonsCradleOfTwelvePassesSixOn) {  // was brought to rest after sixteen rounds
+  const System system(row_of_balls(12, false));
+  State start(24, 0.0);
+  for (int i = 0; i < 6; ++i) start[2 * i] = -0.5, start[2 * i + 1] = 1.0;
+  const State end = end_of(system, start, {1, 0.0});
+  for (int i = 0; i < 12; ++i) EXPECT_EQ(end[2 * i + 1], i < 6 ? 0.0 : 1.0) << i;
+}
+
+TEST(SeveralContacts, BallsThrownAtAWallComeBackWithoutLoss) {
+  for (const int count : {4, 8, 20}) {
+    const System system(row_of_balls(count, true));
+    State start(2 * static_cast<std::size_t>(count), 0.0);
+    for (int i = 0; i < count; ++i) start[2 * i] = -0.5, start[2 * i + 1] = 1.0;
+    const State end = end_of(system, start, {1, 0.0});
+    EXPECT_NEAR(kinetic(system.model(), end), 0.5 * count, 1e-13) << count;
+    for (int i = 0; i < count; ++i) EXPECT_NEAR(end[2 * i + 1], -1.0, 1e-13) << count;
+  }
+}
+
+TEST(SeveralContacts, ModeDoesNotDependOnWhichModesWereBuiltBefore) {
+  for (double exponent = -16; exponent < -8; exponent += 0.5) {
+    Model m;
+    m.omega = 1.0;
+    for (int i = 0; i < 3; ++i) {
+      m.coordinates.push_back({numbered("x", i), 1.0});
+      m.frictions.push_back({numbered("f", i), i, ground, 0.0, 1.0, 1.0});
+      m.springs.push_back({i, ground, i == 0 ? 100.0 : 1.0});
+    }
+    m.forces = {{0, 0, 1.0 + std::pow(10.0, exponent), 0.0},
+                {0, 1, -1.0, 0.0}};  // above the limit for an instant, falling
+    const System cold(m), warm(m);
+    for (ModeId id = 0; id < warm.mode_count(); ++id) (void)warm.mode(id);
+    EXPECT_EQ(Motion(cold, State(6, 0.0)).mode_id(), Motion(warm, State(6, 0.0)).mode_id()) << exponent;
+  }
+}
+
+TEST(SeveralContacts, OneReleaseAmongManySticksAsksFewModes) {  // it took 3^n of them: minutes at sixteen blocks
+  Model m;
+  m.omega = 1.0;
+  constexpr int count = 24;
+  for (int i = 0; i < count; ++i) {
+    m.coordinates.push_back({numbered("x", i), 1.0});
+    if (i > 0) m.springs.push_back({i, i - 1, 1.0});
+    m.frictions.push_back({numbered("f", i), i, ground, 0.0, 1.0, 0.7});
+  }
+  m.forces.push_back({0, 1, 3.0, 0.0});
+  const System system(m);
+  Motion motion(system, State(2 * count, 0.0));
+  ASSERT_EQ(motion.advance({1, 0.0}), Outcome::event);
+  EXPECT_EQ(motion.event().kind, EventKind::release);
+  EXPECT_NEAR(motion.event().time.seconds(system.period()), std::asin(1.0 / 3.0), 1e-14);
+}
+
+TEST(SeveralContacts, MirrorMachineHitsWithBothHands) {
+  long all = 0;
+  for (const double stiffness : {1.0, 2.0, 5.0}) {
+    Model m;
+    m.omega = 1.1;
+    m.coordinates = {{"left", 1.0}, {"centre", 1.0}, {"right", 1.0}};
+    m.springs = {{0, ground, stiffness}, {2, ground, stiffness}};
+    m.dampers = {{0, ground, 0.05}, {2, ground, 0.05}};
+    m.forces = {{0, 1, 1.5, 0.0}, {2, 1, -1.5, 0.0}};
+    m.stops = {{"l", 0, 1, 0.7, 0.8}, {"r", 1, 2, 0.7, 0.8}};
+    const System system(m);
+    Motion motion(system, State(6, 0.0));
+    // The centre is free: a rounding of its velocity grows into a true difference of the gaps in some twenty impacts.
+    for (int impacts = 0; impacts < 8 && motion.advance({100, 0.0}) == Outcome::event;) {
+      impacts += motion.event().kind == EventKind::impact;
+      all += motion.event().kind == EventKind::impact;
+      ASSERT_LT(std::abs(motion.state()[3]), 1e-12) << stiffness << ", after " << impacts;
+    }
+  }
+  EXPECT_GE(all, 16);
+}
+
+TEST(SeveralContacts, ChatterHigherThanTheClearanceIsNotSummedOneSided) {
+  for (const double clearance : {1e-12, 1e-14}) {
+    Model m;
+    m.coordinates = {{"x", 1.0}};
+    m.forces = {{0, 0, 1.0, 0.0}};
+    m.stops = {{"right", 0, ground, clearance, 0.7}, {"left", ground, 0, 0.0, 0.7}};  // x in [0, clearance]
+    const System system(m);
+    const auto limit = [&](double tolerance) {
+      Motion motion(system, {0.0, 3e-6}, {}, {.chatter_tolerance = tolerance});
+      while (motion.advance({1, 0.0}) == Outcome::event)
+        if (motion.event().kind == EventKind::chatter) return motion.event().time.seconds(system.period());
+      return -1.0;
+    };
+    EXPECT_NEAR(limit(1e-15), limit(1e-40), 1e-15) << clearance;
+  }
+}
+
+TEST(SeveralContacts, HeavyBlockInStickIsReleasedOnTime) {  // was taken for a dependent contact beyond a ratio of 1e16
+  for (const double ratio : {1.0, 1e5, 1e9}) {
+    Model m;
+    m.omega = 1.0;
+    m.coordinates = {{"light", 1.0 / ratio}, {"heavy", ratio}};
+    m.frictions = {{"a", 0, ground, 0.0, 1.0, 1.0}, {"b", 1, ground, 0.0, 1.0, 1.0}};
+    m.forces = {{1, 1, 2.0, 0.0}};
+    const System system(m);
+    Motion motion(system, State(4, 0.0));
+    ASSERT_EQ(motion.advance({1, 0.0}), Outcome::event);
+    EXPECT_EQ(motion.event().kind, EventKind::release);
+    EXPECT_NEAR(motion.event().time.seconds(system.period()), std::asin(0.5), 1e-14) << ratio;
+  }
+}
+
+TEST(SeveralContacts, ADampedBufferThatPushesAgainBeyondItsGapEngages) {
+  // Pressed in and thrown out, the mass leaves the buffer's force at delta > 0; a pulse presses it in again before it is back at the gap.
+  Model m;
+  m.omega = 2.0;
+  m.coordinates = {{"x", 1.0}};
+  m.springs = {{0, ground, 0.1}};
+  m.forces = {{0, 0, 0.5, 0.0}, {0, 2, 1.0, 0.0}, {0, 1, 1.0, 0.3}};
+  m.compliant_stops = {{"buffer", 0, ground, 0.1, 1.0, 0.5, false}};
+  const System system(m);
+  Motion motion(system, {0.0, 1.0});
+  int again = 0;
+  EventKind last = EventKind::separate;
+  while (motion.advance({60, 0.0}) == Outcome::event) {
+    if (motion.event().kind == EventKind::engage && last == EventKind::disengage && motion.state()[0] > 0.1 + 1e-9)
+      ++again;
+    last = motion.event().kind;
+  }
+  EXPECT_GT(again, 0);
+}
+
+TEST(SeveralContacts, AnEventExactlyAtACutBelongsToIt) {
+  Model m;  // a ball: falls from 1/2 with acceleration 1, and hits the ground at exactly 1
+  m.coordinates = {{"x", 1.0}};
+  m.forces = {{0, 0, 1.0, 0.0}};
+  m.stops = {{"ground", 0, ground, 0.5, 0.5}};
+  const System system(m);
+  Motion motion(system, {0.0, 0.0});
+  ASSERT_EQ(motion.advance({1, 0.0}), Outcome::event);
+  EXPECT_EQ(motion.event().time, (Instant{1, 0.0}));
+  EXPECT_EQ(motion.event().kind, EventKind::impact);
+}
+
+}  // namespace
+}  // namespace slapstick

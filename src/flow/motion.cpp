@@ -186,10 +186,6 @@ bool Motion::fly(Instant end) {
       look(std::min(to_end, 1.0));
       return false;
     }
-    if (origin_.can_carry() && in_doubt(found)) {
-      sharpen_window();
-      continue;
-    }
     switch (found.kind) {
       case event::RootKind::none:
         if (x_end < 1.0) {
@@ -203,7 +199,12 @@ bool Motion::fly(Instant end) {
         break;
       case event::RootKind::crossing:
       case event::RootKind::graze:
-        arrive(found.x);
+        look(found.x);
+        if (origin_.can_carry() && in_doubt(found)) {
+          sharpen_window();
+          break;
+        }
+        stand(found.x);
         handle(found.guard, found.kind == event::RootKind::graze);
         return true;
     }
@@ -277,11 +278,9 @@ void Motion::restart_window(double x) {
     orders_[g] = flow::start_order(mode, g, X_window_.data(), magnitude_.data());
 }
 
-/// Would a sharper state perhaps decide otherwise what is an event, or which events are one?
-bool Motion::in_doubt(const Found& found) {
-  if (found.kind == event::RootKind::none || found.kind == event::RootKind::restart) return false;
+/// Would a sharper state perhaps decide otherwise what is an event, or which events are one? X_ is the state at the event.
+bool Motion::in_doubt(const Found& found) const {
   if (found.doubtful) return true;
-  look(found.x);
   for (int g = 0; g < here_->guard_count(); ++g) {
     if (g != found.guard && within_noise(g, found.x)) return true;
   }
@@ -327,6 +326,11 @@ void Motion::look(double x) {
 /// Moves to x of the present window, the clock as well.
 void Motion::arrive(double x) {
   look(x);
+  stand(x);
+}
+
+/// The same where the coordinates have been read.
+void Motion::stand(double x) {
   arrived_x_ = x;
   const Instant last = std::exchange(now_, std::max(now_, instant(x)));
   if (last < now_) {

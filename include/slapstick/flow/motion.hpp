@@ -161,6 +161,7 @@ class Motion {
   [[nodiscard]] Instant instant(double x) const;
   void look(double x);
   void arrive(double x);
+  void stand(double x);
   void handle(int guard, bool graze);
   void rest(const mode::ContactRow& contact);
   void land(const mode::ContactRow& contact);
@@ -168,7 +169,7 @@ class Motion {
   [[nodiscard]] bool of_one_pair(const mode::Guard& a, const mode::Guard& b) const;
   [[nodiscard]] double largest_magnitude() const;
   [[nodiscard]] bool tail_is_quiet(int stop, double duration);
-  [[nodiscard]] bool in_doubt(const Found& found);
+  [[nodiscard]] bool in_doubt(const Found& found) const;
   [[nodiscard]] bool within_noise(int guard, double x) const;
   [[nodiscard]] double rate(const mode::Guard& guard) const;
   [[nodiscard]] std::span<const int> touching();

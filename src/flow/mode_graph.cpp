@@ -176,10 +176,10 @@ class Choice {
   }
 
   std::array<Candidates, most_contacts> offered_;
-  std::array<int, most_contacts> several_{};  ///< contacts with more than one candidate
-  std::array<int, most_contacts> changed_{};  ///< those of `several_` that do not have their first, ascending
+  std::array<int, most_contacts> several_;  ///< contacts with more than one candidate
+  std::array<int, most_contacts> changed_;  ///< those of `several_` that do not have their first, ascending
   int several_count_ = 0, changes_ = 0;
-  std::array<ModeId, most_contacts> stride_{};
+  std::array<ModeId, most_contacts> stride_;
   std::array<int, most_contacts> choice_{};
   ModeId next_stride_ = 1;
   double combinations_ = 1.0;

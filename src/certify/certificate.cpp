@@ -131,7 +131,8 @@ void Certificate::guards(SegmentProof& proof, bool ended_by_event) {
 GuardProof Certificate::guard(SegmentProof& proof, int g, double limit) {
   const Motion::Segment segment = motion_.segment();
   const int order = flow::start_order(system_.mode(segment.mode), g, segment.X.data(), magnitude_.data());
-  if (order == flow::never || order == flow::negative) return {flow::never, limit, true, {}};
+  if (order == flow::never) return {flow::never, limit, true, {}};
+  if (order == flow::negative) return {0, limit, false, {}};  // nothing can be proved; the verifier says so
   return proof.prove(g, order, limit);
 }
 

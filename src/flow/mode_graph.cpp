@@ -50,8 +50,8 @@ bool fits(const System& system, const mode::Mode& mode, const double* X, const d
   return true;
 }
 
-/// False if a guard of the mode certainly starts downwards: by its value, or by its first derivative where all before are exactly zero. For
-/// modes without operators; a rounding bound that is more than theirs. So it refuses nothing that `fits` would take, and which mode is chosen
+/// False if a guard of the mode certainly starts downwards: by its value, or by a derivative where all before are exactly zero. For modes
+/// without operators; a rounding bound that is more than theirs. So it refuses nothing that `fits` would take, and which mode is chosen
 /// does not depend on which ones were built before.
 bool may_fit(const mode::Outline& outline, const double* X, const double* magnitude) {
   constexpr double roundings = 64.0 * event::unit_roundoff;
@@ -70,7 +70,7 @@ bool may_fit(const mode::Outline& outline, const double* X, const double* magnit
     if (zero.empty() || n == 2) return true;
     open.swap(zero);
     term = outline.system * term;
-    size = outline.system.cwiseAbs() * size;
+    size = outline.system_size * size;
   }
 }
 

@@ -76,7 +76,6 @@ void Motion::start() {
   for (std::size_t g = 0; g < guards.size(); ++g) {
     if (guards[g].kind != mode::GuardKind::gap || flow::gap(*system_, guards[g].contact, X_.data()) != 0.0) continue;
     if (flow::approach_velocity(*system_, guards[g].contact, X_.data()) <= 0.0) continue;
-    if (guards[g].contact == stop) hit_guard_ = &guards[g];
     hits_.push_back(static_cast<int>(g));
   }
   X_before_ = X_;
@@ -168,7 +167,6 @@ void Motion::begin_segment() {
   segment_mode_ = mode_;
   segment_begun_ = elapsed_;
   segment_duration_ = 0.0;
-  hit_guard_ = nullptr;
   hits_.clear();
   strikes_.clear();
   X_segment_ = X_;

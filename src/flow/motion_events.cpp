@@ -1,4 +1,5 @@
-/// What happens at an event: ties, rest, next mode, complete chatter; impacts are in motion_impacts.cpp. See flow/motion.hpp for the order of things.
+/// What happens at an event: ties, rest, next mode, complete chatter; impacts are in motion_impacts.cpp. See flow/motion.hpp for the order
+/// of things.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,7 +23,6 @@ constexpr long most_events_at_one_instant = 20'000;
 
 void Motion::handle(int guard, bool graze) {
   const mode::Guard& hit = here_->guards()[guard];
-  hit_guard_ = &hit;
   hits_.push_back(guard);
   const mode::Frame& frame = system_->frame();
   if (hit.kind == GuardKind::gap) land(frame.stops[hit.contact]);  // so that x- can be started from
@@ -209,12 +209,12 @@ void Motion::settle(Cause cause) {
 /// What the new mode says about the event: reversal or stick of a friction contact, a stop that has closed at rest.
 void Motion::report_settled(Cause cause, const mode::ContactStates& old) {
   const mode::ContactStates& now = here_->states();
+  const mode::Guard* hit = hit_guard();
   bool stuck = false;
   for (std::size_t i = 0; i < now.frictions.size(); ++i) {
     const int contact = stops() + static_cast<int>(i);
     const bool sticks = now.frictions[i] == FrictionState::stick;
-    const bool itself =
-        hit_guard_ != nullptr && hit_guard_->kind == GuardKind::slip && hit_guard_->contact == static_cast<int>(i);
+    const bool itself = hit != nullptr && hit->kind == GuardKind::slip && hit->contact == static_cast<int>(i);
     if (sticks && old.frictions[i] != FrictionState::stick) {
       report(EventKind::stick, contact, 0.0);
       stuck = true;
@@ -233,14 +233,15 @@ void Motion::report_settled(Cause cause, const mode::ContactStates& old) {
 /// Releases of contacts other than the one whose event this is, on other pairs than its own: its change of force, or its impulse, has let
 /// them go.
 void Motion::report_others(const mode::ContactStates& old) {
-  if (hit_guard_ == nullptr || old.stops.size() + old.frictions.size() < 3) return;
+  const mode::Guard* hit = hit_guard();
+  if (hit == nullptr || old.stops.size() + old.frictions.size() < 3) return;
   const mode::Frame& frame = system_->frame();
   const mode::ContactStates& now = here_->states();
   const auto of_event = [&](const mode::ContactRow& contact) {
-    const bool on_friction = of_friction(hit_guard_->kind);
-    const bool on_stop = hit_guard_->kind == GuardKind::gap || hit_guard_->kind == GuardKind::press;
+    const bool on_friction = of_friction(hit->kind);
+    const bool on_stop = hit->kind == GuardKind::gap || hit->kind == GuardKind::press;
     if (!on_friction && !on_stop) return false;
-    const auto& own = on_friction ? frame.frictions[hit_guard_->contact] : frame.stops[hit_guard_->contact];
+    const auto& own = on_friction ? frame.frictions[hit->contact] : frame.stops[hit->contact];
     return frame.parallel(own.own, contact.own) != 0;
   };
   for (std::size_t i = 0; i < now.frictions.size(); ++i) {

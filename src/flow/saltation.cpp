@@ -135,24 +135,15 @@ void Passage::take_states(std::size_t k) {
   take(states_.compliant, final.compliant, frame_.compliant);
 }
 
-/// u+ = u - M^{-1} G^T D^{-1} (1 + r) G u, D = G M^{-1} G^T: each of the stops leaves with -r of the velocity it came with.
+/// Each of the stops leaves with -r of the velocity it came with.
 void Passage::apply(const Blow& blow, Eigen::Ref<Eigen::MatrixXd> velocities) const {
-  const auto count = static_cast<Eigen::Index>(blow.stops.size());
-  Eigen::MatrixXd D(count, count), rates(count, velocities.cols()), push(frame_.d, count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const ContactRow& a = frame_.stops[blow.stops[i]];
-    const double restitution = blow.to_rest ? 0.0 : system_.model().stops[blow.stops[i]].restitution;
-    rates.row(i) = (1.0 + restitution) * a.sign * velocities.row(a.own);
-    push.col(i) = a.sign * frame_.mass_inverse.col(a.own);
-    for (Eigen::Index j = 0; j < count; ++j) {
-      const ContactRow& b = frame_.stops[blow.stops[j]];
-      D(i, j) = a.sign * b.sign * frame_.mass_inverse(a.own, b.own);
-    }
+  std::vector<int> rows;
+  Eigen::VectorXd factor(blow.stops.size());
+  for (int stop : blow.stops) {
+    factor[static_cast<Eigen::Index>(rows.size())] = blow.to_rest ? 1.0 : 1.0 + system_.model().stops[stop].restitution;
+    rows.push_back(frame_.stops[stop].own);
   }
-  if (count == 1)
-    velocities -= push * (rates / D(0, 0));
-  else
-    velocities -= push * D.completeOrthogonalDecomposition().solve(rates);
+  push_along(frame_, rows, factor, velocities);
 }
 
 /// A X in a mode, which may exist between two guards only.
@@ -192,6 +183,17 @@ void Passage::carry_at_once(Eigen::MatrixXd& tangents) const {
 }
 
 }  // namespace
+
+void push_along(const mode::Frame& frame, const std::vector<int>& rows, const Eigen::VectorXd& factor,
+                Eigen::Ref<Eigen::MatrixXd> block) {
+  if (rows.empty()) return;
+  const Eigen::MatrixXd push = frame.mass_inverse(Eigen::all, rows), D = push(rows, Eigen::all);
+  const Eigen::MatrixXd rates = factor.asDiagonal() * Eigen::MatrixXd(block(rows, Eigen::all));
+  if (rows.size() == 1)
+    block -= push * (rates / D(0, 0));
+  else
+    block -= push * D.completeOrthogonalDecomposition().solve(rates);
+}
 
 void pass_event(const Motion& motion, Eigen::MatrixXd& tangents) {
   if (motion.hits().empty() && motion.strikes().empty()) return;

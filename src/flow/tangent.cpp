@@ -23,12 +23,10 @@ Outcome TangentMotion::advance(Instant end) {
   segments_seen_ = motion_.counters().segments;
   const bool chatter = outcome == Outcome::event && motion_.event().kind == EventKind::chatter;
   if (chatter) {  // from the last impact to the limit: momentum is kept, the gap and its rate are lost
-    const System& system = motion_.system();
-    const int stop = motion_.event().contact, d = system.frame().d;
-    const mode::ContactRow& g = system.frame().stops[stop];
-    const Eigen::RowVectorXd rate = g.sign * tangents_.row(d + g.own), depth = g.sign * tangents_.row(g.own);
-    tangents_.bottomRows(d) -= system.impulse(stop) * rate;
-    tangents_.topRows(d) -= system.impulse(stop) * depth;
+    const mode::Frame& frame = motion_.system().frame();
+    const std::vector<int> own = {frame.stops[motion_.event().contact].own};
+    hold(own, frame.d);
+    hold(own, 0);
   }
   flow(motion_.segment());
   if (outcome == Outcome::event) {
@@ -61,20 +59,21 @@ void TangentMotion::flow(const Motion::Segment& segment) {
 void TangentMotion::come_to_rest() {
   const mode::Frame& frame = motion_.system().frame();
   const mode::Mode& mode = motion_.system().mode(motion_.mode_id());
-  const auto project = [&](const std::vector<int>& rows, Eigen::Index offset) {
-    if (rows.empty()) return;
-    const Eigen::MatrixXd push = frame.mass_inverse(Eigen::all, rows), D = push(rows, Eigen::all);
-    const Eigen::MatrixXd rates = tangents_.middleRows(offset, frame.d)(rows, Eigen::all);
-    tangents_.middleRows(offset, frame.d) -= push * D.completeOrthogonalDecomposition().solve(rates);
-  };
   std::vector<int> held, closed;
   for (int i = 0; i < frame.d; ++i)
     if (mode.steady(i)) held.push_back(i);
   for (std::size_t i = 0; i < frame.stops.size(); ++i)
     if (mode.states().stops[i] == mode::StopState::closed) closed.push_back(frame.stops[i].own);
-  project(held, frame.d);
-  project(closed, 0);
+  hold(held, frame.d);
+  hold(closed, 0);
   hold_still();
+}
+
+/// Takes the rates of these displacements, or the displacements themselves (first row `offset`), out of the tangents; the momentum stays.
+void TangentMotion::hold(const std::vector<int>& rows, Eigen::Index offset) {
+  const mode::Frame& frame = motion_.system().frame();
+  flow::push_along(frame, rows, Eigen::VectorXd::Ones(static_cast<Eigen::Index>(rows.size())),
+                   tangents_.middleRows(offset, frame.d));
 }
 
 /// What the new mode holds still is exactly zero: the rank loss of stick.

@@ -1,5 +1,7 @@
 #pragma once
 /// Jacobians of the flow by two routes: central differences of motions, and tangents carried along one.
+#include <gtest/gtest.h>
+
 #include <Eigen/Dense>
 #include <string>
 
@@ -65,6 +67,18 @@ inline bool same_events(const System& system, const State& start, Instant end, d
     }
   }
   return true;
+}
+
+/// Tangents against differences with a step h; to 1e-6, or to what halving h changes.
+inline void expect_equal_jacobians(const System& system, const State& start, Instant end, double h,
+                                   const std::string& what) {
+  const Eigen::MatrixXd exact = tangent_jacobian(system, start, end);
+  const Eigen::MatrixXd coarse = differences(system, start, end, h), fine = differences(system, start, end, 0.5 * h);
+  const double size = 1.0 + exact.cwiseAbs().maxCoeff(), own = (coarse - fine).cwiseAbs().maxCoeff();
+  EXPECT_LT((exact - coarse).cwiseAbs().maxCoeff(), std::max(1e-6 * size, 30.0 * own))
+      << what << ": " << kinds(system, start, end) << "\n"
+      << exact << "\n\n"
+      << coarse;
 }
 
 }  // namespace slapstick::test

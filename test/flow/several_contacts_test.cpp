@@ -1,4 +1,4 @@
-/// Machines with several contacts in corners that a review found: each test failed before.
+/// Machines with several contacts, in the corners where a review found wrong answers.
 #include <gtest/gtest.h>
 
 #include <cmath>

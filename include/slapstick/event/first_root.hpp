@@ -18,7 +18,7 @@ enum class RootKind {
   none,      ///< g > 0 on (0, x_end]
   crossing,  ///< g > 0 before x, certainly negative behind it
   graze,  ///< g > 0 before x and behind it; its minimum at x is zero within the noise, so touch and miss cannot be told apart
-  restart  ///< g is zero within the noise at the window's end: start a new window at x, where g is still clear of it
+  restart  ///< start a new window at x: g is zero within the noise at this one's end, and still clear of it at x; or a walk in the noise was long
 };
 
 struct Root {

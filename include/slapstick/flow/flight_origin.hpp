@@ -1,8 +1,9 @@
 #pragma once
 /// Where a flight began, and its state there: what a doubtful touch, windows later, is judged from.
 ///
-/// Every window's step rounds the state, by units of the largest numbers of the flight, also where they have become small. A guard that comes within that rounding of zero is looked at again with a state that was carried from
-/// the flight's origin with a 64-bit mantissa, so that touch, hit and miss do not depend on how many windows lie between.
+/// Every window's step rounds the state, by units of the largest numbers of the flight, also where they have become small. A guard that comes
+/// within that rounding of zero is looked at again with a state that was carried from the flight's origin with a 64-bit mantissa, so that
+/// touch, hit and miss do not depend on how many windows lie between.
 #include <vector>
 
 #include "slapstick/mode/mode.hpp"

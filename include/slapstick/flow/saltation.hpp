@@ -14,10 +14,18 @@
 ///
 /// Source: system page, section 3; Leine and Nijmeijer (2004), chapter 7.
 #include <Eigen/Dense>
+#include <vector>
 
 #include "slapstick/flow/motion.hpp"
 
 namespace slapstick::flow {
+
+/// u -> u - M^{-1} G^T D^+ F G u, D = G M^{-1} G^T: the rates of some displacements are changed by impulses along them, momentum is kept.
+/// @param rows    the displacements; if they depend on each other, any solution gives the same
+/// @param factor  F, one for each: 1 brings it to rest, 1 + r turns it back
+/// @param block   d rows, of velocities, or of displacements that follow them
+void push_along(const mode::Frame& frame, const std::vector<int>& rows, const Eigen::VectorXd& factor,
+                Eigen::Ref<Eigen::MatrixXd> block);
 
 /// Takes the columns of `tangents` (p and u of all d displacements) through the last event of `motion`, which must have ended a segment.
 void pass_event(const Motion& motion, Eigen::MatrixXd& tangents);

@@ -30,6 +30,7 @@ class TangentMotion {
  private:
   void flow(const Motion::Segment& segment);
   void come_to_rest();
+  void hold(const std::vector<int>& rows, Eigen::Index offset);
   void hold_still();
 
   Motion motion_;

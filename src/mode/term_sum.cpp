@@ -1,43 +1,90 @@
 #include "slapstick/mode/term_sum.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace slapstick::mode {
 namespace {
 
-double* numbers(event::Lanes& lanes) { return reinterpret_cast<double*>(lanes.data()); }
+/// Eight numbers at any place.
+typedef double Loose8 __attribute__((vector_size(64), aligned(8), may_alias));
+
+/// The displacements breadth first from one with few neighbours, so that neighbours come near each other.
+std::vector<int> cuthill_mckee(const Eigen::MatrixXd& system, int d) {
+  const auto linked = [&](int i, int j) {
+    const auto acts = [&](int a, int b) { return system(d + a, b) != 0.0 || system(d + a, d + b) != 0.0; };
+    return acts(i, j) || acts(j, i);
+  };
+  std::vector<int> degree(d), order, all(d);
+  for (int i = 0; i < d; ++i) {
+    all[i] = i;
+    for (int j = 0; j < d; ++j) degree[i] += linked(i, j);
+  }
+  const auto fewer = [&](int i, int j) { return std::pair(degree[i], i) < std::pair(degree[j], j); };
+  std::ranges::sort(all, fewer);
+  std::vector<bool> taken(d, false);
+  const auto take = [&](int i) {
+    if (!taken[i]) order.push_back(i);
+    taken[i] = true;
+  };
+  for (const int start : all) {
+    auto next = order.size();
+    for (take(start); next < order.size(); ++next) {
+      for (const int i : all)
+        if (linked(order[next], i)) take(i);
+    }
+  }
+  return order;
+}
 
 }  // namespace
 
 TermSum::TermSum(const Eigen::MatrixXd& system, int d)
-    : d_(d), blocks_((d + 7) / 8), phases_(static_cast<int>(system.rows()) - 2 * d) {
+    : d_(d), blocks_((d + 7) / 8), phases_(static_cast<int>(system.rows()) - 2 * d), order_(cuthill_mckee(system, d)) {
   const auto one = system.cols() - 1;
-  for (int i = 0; i < d; ++i) drift_.push_back(system(i, one));
+  for (const int i : order_) drift_.push_back(system(i, one));
   for (auto k = 2 * static_cast<Eigen::Index>(d); k < one; k += 2) frequencies_.push_back(system(k + 1, k));
-  for (int first = 0; first < d; first += 8) {
-    const int rows = std::min(8, d - first);
-    for (int column = 0; column <= one; ++column) {
-      if (system.block(d + first, column, rows, 1).isZero(0.0)) continue;
-      event::Lane8 value{};
-      for (int r = 0; r < rows; ++r) value[r] = system(d + first + r, column);
-      const int padding = 8 * blocks_ - d;
-      columns_.push_back(column + (column >= d ? padding : 0) + (column >= 2 * d ? padding : 0));
-      values_.push_back(value);
-    }
-    begins_.push_back(static_cast<int>(columns_.size()));
-  }
+  for (int block = 0; block < blocks_; ++block) store_block(system, block);
 }
 
-void TermSum::accelerate(double factor, const event::Lane8* term, event::Lane8* out) const {
-  const auto* x = reinterpret_cast<const double*>(term);
+void TermSum::store_block(const Eigen::MatrixXd& system, int block) {
+  const int first = 8 * block, rows = std::min(8, d_ - first);
+  const auto keep = [](Parts& parts, int place, const event::Lane8& values) {
+    if (event::greatest(event::magnitude(values)) > 0.0) parts.push_back({place, values});
+  };
+  for (const auto& [part, place] : {std::pair(0, p()), std::pair(d_, u())}) {
+    for (int from = 1 - 8; from < d_; ++from) {
+      event::Lane8 values{};
+      for (int r = 0; r < rows; ++r) {
+        const int column = from + r;
+        if (column >= 0 && column < d_) values[r] = system(d_ + order_[first + r], part + order_[column]);
+      }
+      keep(diagonals_, place + from, values);
+    }
+  }
+  for (int k = 0; k < phases_; ++k) {
+    event::Lane8 values{};
+    for (int r = 0; r < rows; ++r) values[r] = system(d_ + order_[first + r], 2 * d_ + k);
+    keep(columns_, phase() + k, values);
+  }
+  diagonals_end_.push_back(static_cast<int>(diagonals_.size()));
+  columns_end_.push_back(static_cast<int>(columns_.size()));
+}
+
+void TermSum::accelerate(double factor, const double* term, event::Lane8* out) const {
+  const Part* diagonal = diagonals_.data();
+  const Part* column = columns_.data();
   for (int b = 0; b < blocks_; ++b) {
     event::Lane8 even{}, odd{};  // two chains: an addition waits for the one before it
-    int k = begins_[b];
-    for (; k + 2 <= begins_[b + 1]; k += 2) {
-      even += values_[k] * x[columns_[k]];
-      odd += values_[k + 1] * x[columns_[k + 1]];
+    const Part* end = columns_.data() + columns_end_[b];
+    for (; column != end; ++column) odd += column->values * term[column->place];
+    end = diagonals_.data() + diagonals_end_[b];
+    for (; diagonal + 2 <= end; diagonal += 2) {
+      even += diagonal[0].values * *reinterpret_cast<const Loose8*>(term + diagonal[0].place);
+      odd += diagonal[1].values * *reinterpret_cast<const Loose8*>(term + diagonal[1].place);
     }
-    if (k < begins_[b + 1]) even += values_[k] * x[columns_[k]];
+    if (diagonal != end) even += diagonal->values * *reinterpret_cast<const Loose8*>(term + diagonal->place);
+    diagonal = end;
     out[b] = factor * (even + odd);
   }
 }
@@ -52,29 +99,39 @@ void TermSum::turn(double factor, const double* phase, double* out) const {
 }
 
 void TermSum::state(double s, const double* X, double* out) const {
-  const int phase = 16 * blocks_;
+  constexpr int ready = 96;
+  const int lanes = (phase() + phases_ + 7) / 8, needed = 2 * lanes + 2 * blocks_;
+  event::Lane8 space[ready];
+  event::Lanes more(needed > ready ? needed : 0);
+  event::Lane8* const work = needed > ready ? more.data() : space;
+  std::fill_n(work, needed, event::Lane8{});
+  event::Lane8 *term = work, *next = work + lanes, *const sum = next + lanes;
+  const auto numbers = [](event::Lane8* place) { return reinterpret_cast<double*>(place); };
+
   const double one = X[2 * d_ + phases_ - 1];  // 0 for a tangent
-  event::Lanes term(2 * blocks_ + (phases_ + 7) / 8), next(term.size());
-  std::copy_n(X, d_, numbers(term));
-  std::copy_n(X + d_, d_, numbers(term) + phase / 2);
-  std::copy_n(X + 2 * d_, phases_, numbers(term) + phase);
-  event::Lanes sum(term.begin(), term.begin() + 2 * blocks_);
-  for (int i = 0; i < d_; ++i) numbers(sum)[i] += s * one * drift_[i];
+  for (int i = 0; i < d_; ++i) {
+    numbers(term)[p() + i] = X[order_[i]];
+    numbers(sum)[i] = X[order_[i]] + s * one * drift_[i];
+    numbers(term)[u() + i] = numbers(sum)[8 * blocks_ + i] = X[d_ + order_[i]];
+  }
+  std::copy_n(X + 2 * d_, phases_, numbers(term) + phase());
   for (int n = 1; n < event::terms; ++n) {
     const double factor = s / n;
-    accelerate(factor, term.data(), next.data() + blocks_);
-    turn(factor, numbers(term) + phase, numbers(next) + phase);
+    event::Lane8 *const p_next = next + p() / 8, *const u_next = next + u() / 8;
+    accelerate(factor, numbers(term), u_next);
+    turn(factor, numbers(term) + phase(), numbers(next) + phase());
     for (int b = 0; b < blocks_; ++b) {
-      next[b] = factor * term[blocks_ + b];
-      sum[b] += next[b];
-      sum[blocks_ + b] += next[blocks_ + b];
+      p_next[b] = factor * term[u() / 8 + b];
+      sum[b] += p_next[b];
+      sum[blocks_ + b] += u_next[b];
     }
-    if (n == 1)
-      for (int i = 0; i < d_; ++i) numbers(next)[i] += s * one * drift_[i];
+    for (int i = 0; n == 1 && i < d_; ++i) numbers(p_next)[i] += s * one * drift_[i];
     std::swap(term, next);
   }
-  std::copy_n(numbers(sum), d_, out);
-  std::copy_n(numbers(sum) + phase / 2, d_, out + d_);
+  for (int i = 0; i < d_; ++i) {
+    out[order_[i]] = numbers(sum)[i];
+    out[d_ + order_[i]] = numbers(sum)[8 * blocks_ + i];
+  }
 }
 
 }  // namespace slapstick::mode

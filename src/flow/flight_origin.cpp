@@ -28,34 +28,29 @@ Wide step(const mode::Matrix& A, long double s, const Wide& X) {
 
 }  // namespace
 
-void FlightOrigin::set(const double* X) {
-  std::copy_n(X, X_.size(), X_.begin());
-  elapsed_ = 0.0L;
-  windows_ = 0;
-}
-
-void FlightOrigin::begin(const double* X) {
-  set(X);
-  size_ = 0.0;
-  for (std::size_t i = 0; i < X_.size(); ++i) size_ += largest_[i] = std::abs(X[i]);
-  staleness_ = 0.0;
-}
-
-void FlightOrigin::pass(double duration, const double* X) {
-  size_ = 0.0;
-  for (std::size_t i = 0; i < largest_.size(); ++i) size_ += largest_[i] = std::max(largest_[i], std::abs(X[i]));
+void FlightOrigin::pass(double duration, const event::Lanes& from, const event::Lanes& to) {
+  if (windows_ == 0) {
+    X_ = from;
+    elapsed_ = 0.0L;
+    if (staleness_ == 0.0) std::ranges::transform(from, largest_.begin(), event::magnitude);
+  }
+  event::Lane8 total{};
+  for (std::size_t b = 0; b < largest_.size(); ++b)
+    total += largest_[b] = event::larger(largest_[b], event::magnitude(to[b]));
+  size_ = event::sum(total);
   elapsed_ += duration;
   staleness_ = ++windows_;
-  if (windows_ >= most_windows) begin(X);
+  if (windows_ >= most_windows) begin();
 }
 
 void FlightOrigin::carry(const mode::Mode& mode, double* X) {
-  Wide state(X_.begin(), X_.end());
+  const auto* origin = reinterpret_cast<const double*>(X_.data());
+  Wide state(origin, origin + m_);
   const long double rate = mode.system().cwiseAbs().rowwise().sum().maxCoeff();
   const long double count = std::max(1.0L, std::ceil(elapsed_ * std::min(0.25L * rate, 1.0L / mode.window())));
   for (long double k = 0; k < count; ++k) state = step(mode.system(), elapsed_ / count, state);
   std::ranges::transform(state, X, [](long double x) { return static_cast<double>(x); });
-  set(X);
+  windows_ = 0;  // X is the origin now
   staleness_ = carried;
 }
 

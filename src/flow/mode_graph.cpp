@@ -55,6 +55,13 @@ bool fits(const System& system, const mode::Mode& mode, const double* X, const d
 /// does not depend on which ones were built before.
 bool may_fit(const mode::Outline& outline, const double* X, const double* magnitude) {
   constexpr double roundings = 64.0 * event::unit_roundoff;
+  bool zero_found = false;
+  for (const mode::Guard& guard : outline.guards) {
+    const double value = guard.at(X);
+    if (value < -roundings * static_cast<double>(outline.system.rows()) * guard.size(magnitude)) return false;
+    zero_found = zero_found || value == 0.0;
+  }
+  if (!zero_found) return true;
   const auto m = outline.system.rows();
   mode::Vector term = Eigen::Map<const mode::Vector>(X, m), size = Eigen::Map<const mode::Vector>(magnitude, m);
   std::vector<const mode::Guard*> open;  // those that start with a zero
@@ -78,7 +85,11 @@ bool may_fit(const mode::Outline& outline, const double* X, const double* magnit
 
 int start_order(const mode::Mode& mode, int guard, const double* X, const double* magnitude, int known) {
   const mode::Guard& h = mode.guards()[guard];
-  if (known == 0 && h.single >= 0 && h.factor * X[h.single] > 0.0) return 0;
+  if (known == 0) {
+    const double value = h.at(X), bound = h.single >= 0 ? 0.0 : rest_factor * mode.noise_factor() * h.size(magnitude);
+    if (value > bound) return 0;
+    if (value < -bound && h.single < 0) return negative;
+  }
   event::Lane8 a, noise;
   mode.leading(guard, X, magnitude, a, noise);
   for (int n = known; n < never; ++n) {

@@ -158,7 +158,7 @@ void Motion::begin_flight() {
   elapsed_ = 0.0;
   lingers_.assign(lingers_.size(), false);
   X_window_ = X_;
-  origin_.begin(X_window_.data());
+  origin_.begin();
   ++counters_.windows;
 }
 
@@ -219,6 +219,7 @@ Motion::Found Motion::first_event_in_window(double x_end) {
     if (orders_[g] == flow::negative) return {event::RootKind::crossing, g, 0.0};
     if (found.x == 0.0 || orders_[g] == flow::never || (falling >= 0 && mode.guards()[g].falls_with == falling))
       continue;
+    if (mode.large() && mode.excludes(g, orders_[g], X_window_.data(), size_, flown_noise(g))) continue;
     event::GuardWindow window;
     window.hull = enclosed(g);
     if (event::excluded(window.hull)) continue;
@@ -235,12 +236,17 @@ Motion::Found Motion::first_event_in_window(double x_end) {
   return found;
 }
 
+/// More than what the rounding of earlier windows adds to a guard's noise.
+double Motion::flown_noise(int guard) const {
+  return origin_.stale() ? 8.0 * origin_.staleness() * origin_.size() * here_->coarse_noise(guard) : 0.0;
+}
+
 /// The hull of a guard in the present window, with what earlier windows' rounding adds to its noise.
 event::Hull Motion::enclosed(int guard) const {
   event::Hull hull, flown;
   here_->enclose(guard, orders_[guard], X_window_.data(), magnitude_.data(), hull);
-  const double coarse = 8.0 * origin_.staleness() * origin_.size() * here_->coarse_noise(guard);
-  if (!origin_.stale() || event::all_above(hull.bernstein, hull.bounds[event::hull_error] + coarse)) return hull;
+  const double lowest = hull.bounds[event::hull_error] + flown_noise(guard);
+  if (!origin_.stale() || event::all_above(hull.bernstein, lowest)) return hull;
   here_->enclose(guard, orders_[guard], X_window_.data(), origin_.largest(), flown);
   event::add_noise(hull, flown.bounds, origin_.staleness());
   return hull;
@@ -251,9 +257,9 @@ event::Hull Motion::enclosed(int guard) const {
 void Motion::next_window() {
   const mode::Mode& mode = *here_;
   mode.step(X_window_.data(), X_next_.lanes().data());
+  origin_.pass(mode.window(), X_window_.lanes(), X_next_.lanes());
   std::swap(X_window_, X_next_);
   ++counters_.windows;
-  origin_.pass(mode.window(), X_window_.data());
   if (++flight_.windows == windows_per_start) move_start(0.0, X_window_);
   note_magnitude(X_window_);
   for (int g = 0; g < mode.guard_count(); ++g) {
@@ -268,9 +274,9 @@ void Motion::restart_window(double x) {
   const mode::Mode& mode = *here_;
   mode.state_at(x, X_window_.data(), X_next_.data());
   move_start(x, X_next_);
+  origin_.pass(x * mode.window(), X_window_.lanes(), X_next_.lanes());
   std::swap(X_window_, X_next_);
   ++counters_.windows;
-  origin_.pass(x * mode.window(), X_window_.data());
   note_magnitude(X_window_);
   for (int g = 0; g < mode.guard_count(); ++g)
     orders_[g] = flow::start_order(mode, g, X_window_.data(), magnitude_.data());
@@ -341,8 +347,10 @@ void Motion::stand(double x) {
 
 /// |X|, what rounding is measured by. The phase is known to the clock's rounding only, also where a sine vanishes: those count as one.
 void Motion::note_magnitude(Extended& X) {
+  event::Lane8 total{};
   for (std::size_t b = 0; b < X.lanes().size(); ++b)
-    magnitude_.lanes()[b] = event::larger(event::magnitude(X.lanes()[b]), phase_floor_.lanes()[b]);
+    total += magnitude_.lanes()[b] = event::larger(event::magnitude(X.lanes()[b]), phase_floor_.lanes()[b]);
+  size_ = event::sum(total);
 }
 
 }  // namespace slapstick

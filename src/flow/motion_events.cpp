@@ -58,7 +58,7 @@ bool Motion::within_noise(int guard, double x) const {
   const double value = h.kind == GuardKind::gap    ? flow::gap(*system_, h.contact, X_.data())
                        : h.kind == GuardKind::slip ? flow::sliding_velocity(*system_, h.contact, X_.data())
                                                    : flow::depth(*system_, h.contact, X_.data());
-  if (std::abs(value) > 0x1p-30 * largest_magnitude()) return false;
+  if (std::abs(value) > 0x1p-30 * size_) return false;
   const event::Hull hull = enclosed(guard);
   const double noise =
       hull.bounds[event::noise_0] + x * (hull.bounds[event::noise_1] + x * hull.bounds[event::noise_2]);
@@ -73,13 +73,6 @@ double Motion::rate(const mode::Guard& guard) const {
   double sum = 0.0;
   for (int j = 0; j < here_->size(); ++j) sum += here_->system()(guard.single, j) * X_.data()[j];
   return guard.factor * sum;
-}
-
-/// A bound on all numbers of the present window, up to a factor of some tens.
-double Motion::largest_magnitude() const {
-  double sum = 0.0;
-  for (const double size : magnitude_.span()) sum += size;
-  return sum;
 }
 
 bool Motion::of_one_pair(const mode::Guard& a, const mode::Guard& b) const {

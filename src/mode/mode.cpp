@@ -45,7 +45,6 @@ void Mode::build_operators(const Frame& frame, const Model& model, double longes
   state_blocks_ = (m_ + 7) / 8;
   step_.assign(static_cast<std::size_t>(state_blocks_) * m_, event::Lane8{});
   taylor_.assign(3 * guards * m_, event::Lane8{});
-  leading_noise_.assign(guards * m_, event::Lane8{});
   const bool rows_stored = m_ <= most_stored_rows;
   if (rows_stored)
     coordinates_.assign(3 * static_cast<std::size_t>(d_) * m_, event::Lane8{});
@@ -60,13 +59,28 @@ void Mode::build_operators(const Frame& frame, const Model& model, double longes
       for (std::size_t k = 0; rows_stored && k < static_cast<std::size_t>(d_); ++k)
         coordinates_[(3 * k + j / 8) * m_ + i][j % 8] = series.taylor(guards + k, j, i);
     }
-    for (std::size_t g = 0; g < guards; ++g) {
-      event::Lane8& noise = leading_noise_[g * m_ + i];
-      noise = noise_factor_ * event::magnitude(taylor_[3 * g * m_ + i]);
-      for (int j = 0; j < 8; ++j) noise[j] += series.error(g, j, i);
+  }
+  for (int g = 0; g < guard_count(); ++g) {
+    store_start(series, g);
+    store_bounds(g, series);
+  }
+}
+
+/// The leading coefficients' rounding bounds; of a large mode, both packed: they reach a few neighbours only.
+void Mode::store_start(const Series& series, int g) {
+  for (int i = 0; i < m_; ++i) {
+    const event::Lane8& leading = taylor_[3 * g * m_ + i];
+    event::Lane8 noise = noise_factor_ * event::magnitude(leading);
+    for (int j = 0; j < 8; ++j) noise[j] += series.error(static_cast<std::size_t>(g), j, i);
+    if (!coordinates_.empty())
+      leading_noise_.push_back(noise);
+    else if (event::greatest(noise) > 0.0) {
+      starts_.add(i, leading);
+      start_noise_.add(i, noise);
     }
   }
-  for (int g = 0; g < guard_count(); ++g) store_bounds(g, series);
+  starts_.close();
+  start_noise_.close();
 }
 
 /// What guard g adds to its hull, by column.
@@ -84,7 +98,24 @@ void Mode::store_bounds(int g, const Series& series) {
       hulls_.push_back(hull.bernstein);
       hull_bounds_.push_back(hull.bounds);
     }
+    if (coordinates_.empty()) store_near_hull(g, order);
   }
+}
+
+/// The columns of the hull just stored without those that are small beside the largest, and what that and the bounds amount to.
+void Mode::store_near_hull(int g, int order) {
+  constexpr double small = 0x1p-18, up = 1.0 + 0x1p-40;  // more than the rounding of the sums
+  const auto at = static_cast<std::size_t>(g * stored_orders + order) * m_;
+  double largest = 0.0, error = 0.0;
+  for (int i = 0; i < m_; ++i) largest = std::max(largest, event::greatest(event::magnitude(hulls_[at + i])));
+  for (int i = 0; i < m_; ++i) {
+    const double size = event::greatest(event::magnitude(hulls_[at + i]));
+    const bool near = size > small * largest;
+    if (near) near_hulls_.add(i, hulls_[at + i]);
+    error = std::max(error, hull_bounds_[at + i][event::hull_error] + (near ? 0.0 : size));
+  }
+  near_hulls_.close();
+  far_errors_.push_back(up * error);
 }
 
 /// The bounds that a Taylor remainder adds to.
@@ -175,6 +206,11 @@ void Mode::taylor(int g, int order, const double* X, event::Coefficients& out) c
 
 void Mode::leading(int g, const double* X, const double* magnitude, event::Lane8& coefficients,
                    event::Lane8& noise) const {
+  if (coordinates_.empty()) {
+    coefficients = starts_.times(g, X);
+    noise = start_noise_.times(g, magnitude);
+    return;
+  }
   multiply(taylor_.data() + static_cast<std::ptrdiff_t>(3 * g) * m_, 1, m_, X, &coefficients);
   multiply(leading_noise_.data() + static_cast<std::ptrdiff_t>(g) * m_, 1, m_, magnitude, &noise);
 }

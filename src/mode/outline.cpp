@@ -176,11 +176,13 @@ void Builder::arm_compliant(int i) {
 void Builder::note_guard_structure() {
   const Matrix kinematics = frame_.kinematics(model_.omega);
   for (Guard& guard : out_.guards) {
+    for (int i = 0; i < m_; ++i)
+      if (guard.row[i] != 0.0) guard.entries.push_back({i, guard.row[i]});
     const bool mechanical =
         guard.row.tail(m_ - 2 * d_).isZero(0.0);  // a phase has the clock's rounding besides its own
-    if (mechanical && (guard.row.array() != 0.0).count() == 1) {
-      guard.row.cwiseAbs().maxCoeff(&guard.single);
-      guard.factor = guard.row[guard.single];
+    if (mechanical && guard.entries.size() == 1) {
+      guard.single = guard.entries.front().column;
+      guard.factor = guard.entries.front().value;
     }
     if (guard.kind != GuardKind::slip) continue;
     for (std::size_t g = 0; g < out_.guards.size(); ++g) {

@@ -12,12 +12,15 @@ namespace slapstick::flow {
 
 class FlightOrigin {
  public:
-  explicit FlightOrigin(int size) : X_(static_cast<std::size_t>(size)), largest_(X_) {}
+  explicit FlightOrigin(int size) : m_(size), X_((size + 7) / 8), largest_(X_) {}
 
-  /// A flight begins at X.
-  void begin(const double* X);
-  /// A window, or part of one, of this duration has been flown; X is the state after it, from which the count begins anew when it is high.
-  void pass(double duration, const double* X);
+  /// A flight begins. Most end in their first window: only `pass` writes anything down.
+  void begin() {
+    windows_ = 0;
+    staleness_ = 0.0;
+  }
+  /// A window, or part of one, of this duration has been flown, between these states. When the count is high, it begins anew.
+  void pass(double duration, const event::Lanes& from, const event::Lanes& to);
   /// Carries the origin to now and writes its state into X, rounded once. Cost: some microseconds per period of the fastest motion.
   void carry(const mode::Mode& mode, double* X);
 
@@ -27,7 +30,7 @@ class FlightOrigin {
   [[nodiscard]] bool can_carry() const { return windows_ > 0; }
   /// How much, in units of what one window's operators lose of `largest()`, the greatest |X| of the flight.
   [[nodiscard]] double staleness() const { return staleness_; }
-  [[nodiscard]] const double* largest() const { return largest_.data(); }
+  [[nodiscard]] const double* largest() const { return reinterpret_cast<const double*>(largest_.data()); }
   /// The sum of those.
   [[nodiscard]] double size() const { return size_; }
 
@@ -35,9 +38,8 @@ class FlightOrigin {
   static constexpr int most_windows = 4096;
   static constexpr double carried = 0x1p-12;  ///< what 64 bits lose, in that unit
 
-  void set(const double* X);
-
-  std::vector<double> X_, largest_;
+  int m_;
+  event::Lanes X_, largest_;
   double size_ = 0.0, staleness_ = 0.0;
   long double elapsed_ = 0.0L;
   int windows_ = 0;

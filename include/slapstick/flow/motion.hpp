@@ -137,6 +137,7 @@ class Motion {
     [[nodiscard]] const double* data() const { return reinterpret_cast<const double*>(lanes_.data()); }
     [[nodiscard]] std::span<const double> span() const { return {data(), 8 * lanes_.size()}; }
     event::Lanes& lanes() { return lanes_; }
+    [[nodiscard]] const event::Lanes& lanes() const { return lanes_; }
 
    private:
     event::Lanes lanes_;
@@ -158,6 +159,7 @@ class Motion {
   void restart_window(double x);
   void sharpen_window();
   [[nodiscard]] event::Hull enclosed(int guard) const;
+  [[nodiscard]] double flown_noise(int guard) const;
   void move_start(double x, Extended& X);
   [[nodiscard]] Instant instant(double x) const;
   void look(double x);
@@ -168,7 +170,6 @@ class Motion {
   void land(const mode::ContactRow& contact);
   void gather_ties(int guard);
   [[nodiscard]] bool of_one_pair(const mode::Guard& a, const mode::Guard& b) const;
-  [[nodiscard]] double largest_magnitude() const;
   [[nodiscard]] bool tail_is_quiet(int stop, double duration);
   [[nodiscard]] bool in_doubt(const Found& found) const;
   [[nodiscard]] bool within_noise(int guard, double x) const;
@@ -212,6 +213,7 @@ class Motion {
   Extended X_;             ///< now
   Extended X_window_;      ///< at the start of the present window
   Extended magnitude_;     ///< what its rounding is measured by, see note_magnitude
+  double size_ = 0.0;      ///< the sum of that
   Extended X_before_, X_segment_, X_next_, phase_floor_;
   mutable std::vector<double> scratch_;
   mutable event::Lanes sample_out_;

@@ -1,5 +1,6 @@
 #pragma once
 /// The outline of a mode: the linear system that a combination of contact states selects, and the guards that end it.
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -48,6 +49,24 @@ struct Guard {
   /// h = factor * X[single] if the row has one entry only, for p or u (then h has no rounding error but its own), else -1.
   int single = -1;
   double factor = 0.0;
+
+  /// The entries of the row that are not zero.
+  struct Entry {
+    int column;
+    double value;
+  };
+  std::vector<Entry> entries = {};
+  /// h at X, and the sum of the sizes of its terms (magnitude = |X|).
+  [[nodiscard]] double at(const double* X) const {
+    double sum = 0.0;
+    for (const Entry& entry : entries) sum += entry.value * X[entry.column];
+    return sum;
+  }
+  [[nodiscard]] double size(const double* magnitude) const {
+    double sum = 0.0;
+    for (const Entry& entry : entries) sum += std::abs(entry.value) * magnitude[entry.column];
+    return sum;
+  }
 };
 
 /// X' = system X in a combination of contact states, and what must stay positive while it lasts. Cost: O(m^3), some microseconds.

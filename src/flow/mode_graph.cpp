@@ -1,6 +1,8 @@
 #include "slapstick/flow/mode_graph.hpp"
 
 #include <array>
+#include <cmath>
+#include <cstdint>
 
 namespace slapstick::flow {
 namespace {
@@ -8,13 +10,16 @@ namespace {
 /// The state where a guard was located carries the error of its root as well as its own rounding.
 constexpr double rest_factor = 8.0;
 
+/// A number that is far above the smallest ones, times any window.
+constexpr double no_underflow = 0x1p-900;
+
 constexpr int most_contacts = System::most_contacts;
 
 /// What one contact offers, as digits of a mode id (stop: open 0, closed 1; friction: slip- 0, stick 1, slip+ 2; compliant: off 0, on 1,
 /// detached 2).
 struct Candidates {
-  std::array<int, 3> digit;
-  int count;
+  std::array<std::int8_t, 3> digit;
+  std::int8_t count;
 };
 
 Candidates friction_candidates(double w) {
@@ -86,9 +91,12 @@ bool may_fit(const mode::Outline& outline, const double* X, const double* magnit
 int start_order(const mode::Mode& mode, int guard, const double* X, const double* magnitude, int known) {
   const mode::Guard& h = mode.guards()[guard];
   if (known == 0) {
-    const double value = h.at(X), bound = h.single >= 0 ? 0.0 : rest_factor * mode.noise_factor() * h.size(magnitude);
+    const double value = h.single >= 0 ? h.factor * X[h.single] : h.at(X);
+    const double bound = h.single >= 0 ? 0.0 : rest_factor * mode.noise_factor() * h.size(magnitude);
     if (value > bound) return 0;
-    if (value < -bound && h.single < 0) return negative;
+    if (value < -bound) return negative;
+    const double rate = value == 0.0 && h.rate >= 0 ? h.factor * X[h.rate] : 0.0;
+    if (std::abs(rate) > no_underflow) return rate > 0.0 ? 1 : negative;
   }
   event::Lane8 a, noise;
   mode.leading(guard, X, magnitude, a, noise);
@@ -150,7 +158,7 @@ class Choice {
     return true;
   }
 
-  [[nodiscard]] bool only_one() const { return combinations_ == 1; }
+  [[nodiscard]] bool only_one() const { return several_count_ == 0; }
 
  private:
   void add(const Candidates& candidates, int base) {
@@ -158,7 +166,6 @@ class Choice {
     offered_[count_] = candidates;
     stride_[count_++] = next_stride_;
     next_stride_ *= base;
-    combinations_ *= candidates.count;
   }
 
   /// The next choice of the contacts that differ, among their candidates after the first.
@@ -193,7 +200,6 @@ class Choice {
   std::array<ModeId, most_contacts> stride_;
   std::array<int, most_contacts> choice_{};
   ModeId next_stride_ = 1;
-  double combinations_ = 1.0;
   int count_ = 0;
 };
 

@@ -156,7 +156,7 @@ Outcome Motion::advance(Instant end) {
 void Motion::begin_flight() {
   flight_ = {now_, 0};
   elapsed_ = 0.0;
-  lingers_.assign(lingers_.size(), false);
+  clear_lingers();
   X_window_ = X_;
   origin_.begin();
   ++counters_.windows;
@@ -219,7 +219,7 @@ Motion::Found Motion::first_event_in_window(double x_end) {
     if (orders_[g] == flow::negative) return {event::RootKind::crossing, g, 0.0};
     if (found.x == 0.0 || orders_[g] == flow::never || (falling >= 0 && mode.guards()[g].falls_with == falling))
       continue;
-    if (mode.large() && mode.excludes(g, orders_[g], X_window_.data(), size_, flown_noise(g))) continue;
+    if (mode.excludes(g, orders_[g], X_window_.data(), size_, flown_noise(g))) continue;
     event::GuardWindow window;
     window.hull = enclosed(g);
     if (event::excluded(window.hull)) continue;
@@ -230,7 +230,7 @@ Motion::Found Motion::first_event_in_window(double x_end) {
     else if (root.kind != event::RootKind::none && (found.kind == event::RootKind::none || root.x < found.x))
       found = {root.kind, g, root.x, root.doubtful};
     if (root.falls && orders_[g] == 0) falling = g;
-    if (root.lingers) lingers_[g] = true;
+    if (root.lingers) any_lingers_ = lingers_[g] = true;
   }
   if (found.kind == event::RootKind::none && restart >= 0.0) return {event::RootKind::restart, 0, restart};
   return found;
@@ -265,8 +265,13 @@ void Motion::next_window() {
   for (int g = 0; g < mode.guard_count(); ++g) {
     const bool unclear = orders_[g] == flow::never || lingers_[g];
     orders_[g] = unclear ? flow::start_order(mode, g, X_window_.data(), magnitude_.data()) : 0;
-    lingers_[g] = false;
   }
+  clear_lingers();
+}
+
+void Motion::clear_lingers() {
+  if (any_lingers_) lingers_.assign(lingers_.size(), false);
+  any_lingers_ = false;
 }
 
 /// The root search could not decide at the window's end: a new window, from x of this one on, has that place inside.
@@ -336,8 +341,9 @@ void Motion::arrive(double x) {
 /// The same where the coordinates have been read.
 void Motion::stand(double x) {
   arrived_x_ = x;
-  const Instant last = std::exchange(now_, std::max(now_, instant(x)));
-  if (last < now_) {
+  const Instant at = instant(x);
+  if (now_ < at) {
+    now_ = at;
     at_one_instant_ = 0;
     struck_now_ = 0;
     fastest_now_ = 0.0;

@@ -98,24 +98,24 @@ void Mode::store_bounds(int g, const Series& series) {
       hulls_.push_back(hull.bernstein);
       hull_bounds_.push_back(hull.bounds);
     }
-    if (coordinates_.empty()) store_near_hull(g, order);
+    store_quick_look(g, order);
   }
 }
 
-/// The columns of the hull just stored without those that are small beside the largest, and what that and the bounds amount to.
-void Mode::store_near_hull(int g, int order) {
+/// Of the hull just stored: the largest bound and, of a large mode, the columns without those that are small beside the largest.
+void Mode::store_quick_look(int g, int order) {
   constexpr double small = 0x1p-18, up = 1.0 + 0x1p-40;  // more than the rounding of the sums
   const auto at = static_cast<std::size_t>(g * stored_orders + order) * m_;
   double largest = 0.0, error = 0.0;
   for (int i = 0; i < m_; ++i) largest = std::max(largest, event::greatest(event::magnitude(hulls_[at + i])));
   for (int i = 0; i < m_; ++i) {
     const double size = event::greatest(event::magnitude(hulls_[at + i]));
-    const bool near = size > small * largest;
-    if (near) near_hulls_.add(i, hulls_[at + i]);
+    const bool near = !coordinates_.empty() || size > small * largest;
+    if (near && coordinates_.empty()) near_hulls_.add(i, hulls_[at + i]);
     error = std::max(error, hull_bounds_[at + i][event::hull_error] + (near ? 0.0 : size));
   }
   near_hulls_.close();
-  far_errors_.push_back(up * error);
+  quick_errors_.push_back(up * error);
 }
 
 /// The bounds that a Taylor remainder adds to.
@@ -172,6 +172,17 @@ inline void multiply(const event::Lane8* data, int blocks, int m, const double* 
 }  // namespace
 
 void Mode::step(const double* X, event::Lane8* out) const { multiply(step_.data(), state_blocks_, m_, X, out); }
+
+bool Mode::excludes(int g, int order, const double* X, double size, double more) const {
+  if (order >= stored_orders) return false;
+  const int k = g * stored_orders + order;
+  event::Lane8 bernstein;
+  if (coordinates_.empty())
+    bernstein = near_hulls_.times(k, X);
+  else
+    multiply(hulls_.data() + static_cast<std::ptrdiff_t>(k) * m_, 1, m_, X, &bernstein);
+  return event::all_above(bernstein, quick_errors_[k] * size + more);
+}
 
 void Mode::enclose(int g, int order, const double* X, const double* magnitude, event::Hull& out) const {
   if (order >= stored_orders) return enclose_rare(g, order, X, magnitude, out);

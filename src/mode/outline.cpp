@@ -183,6 +183,7 @@ void Builder::note_guard_structure() {
     if (mechanical && guard.entries.size() == 1) {
       guard.single = guard.entries.front().column;
       guard.factor = guard.entries.front().value;
+      if (guard.single < d_ && frame_.drift[guard.single] == 0.0) guard.rate = frame_.u(guard.single);
     }
     if (guard.kind != GuardKind::slip) continue;
     for (std::size_t g = 0; g < out_.guards.size(); ++g) {

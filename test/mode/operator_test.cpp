@@ -43,7 +43,7 @@ class Check {
   double hull_error = 0.0;
   double mean_guard_error = 0.0;
   long guard_count = 0;
-  long excluded = 0, excluded_at_once = 0;  ///< hulls of a large mode, by themselves and by the quick look
+  long excluded = 0, excluded_at_once = 0;  ///< guards, by their hulls and by the quick look
 
   [[nodiscard]] const Mode& mode() const { return mode_; }
 
@@ -118,7 +118,7 @@ class Check {
       const double error = abs(on_hull(hull.bernstein, x) - quotient(exact, order, x)).convert_to<double>();
       if (error > 0.0) hull_error = std::max(hull_error, error / hull.bounds[event::hull_error]);
     }
-    if (mode_.large()) quick_look(g, order, hull);
+    quick_look(g, order, hull);
   }
 
   /// It must claim nothing that the hull cannot prove, with what more noise ever.

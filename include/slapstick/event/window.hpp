@@ -5,6 +5,10 @@
 ///     h(x) = sum_{j<8} x^j (a_j + x^8 (a_{8+j} + x^8 a_{16+j})),
 /// a dozen operations deep instead of the 46 of Horner's rule, with the same operations in the same order for every
 /// instruction set (the compiler maps Lane8 to whatever vectors the machine has; contraction to FMA is off).
+#if defined(__AVX512F__)
+#include <immintrin.h>
+#endif
+
 #include <cstddef>
 #include <new>
 #include <vector>
@@ -46,21 +50,32 @@ inline Lane8 magnitude(const Lane8& v) { return v < 0.0 ? -v : v; }
 inline Lane8 smaller(const Lane8& a, const Lane8& b) { return a < b ? a : b; }
 inline Lane8 larger(const Lane8& a, const Lane8& b) { return a > b ? a : b; }
 
+/// Halves and quarters of the same.
+typedef double Lane4 __attribute__((vector_size(32)));
+typedef double Lane2 __attribute__((vector_size(16)));
+inline Lane4 lower(const Lane8& v) { return __builtin_shufflevector(v, v, 0, 1, 2, 3); }
+inline Lane4 upper(const Lane8& v) { return __builtin_shufflevector(v, v, 4, 5, 6, 7); }
+inline Lane2 lower(const Lane4& v) { return __builtin_shufflevector(v, v, 0, 1); }
+inline Lane2 upper(const Lane4& v) { return __builtin_shufflevector(v, v, 2, 3); }
+
 /// Least and greatest lane, and the sum of all lanes, each in a fixed order: halves, quarters, neighbours.
 inline double least(const Lane8& v) {
-  const Lane8 half = smaller(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3));
-  const Lane8 quarter = smaller(half, __builtin_shufflevector(half, half, 2, 3, 0, 1, 6, 7, 4, 5));
+  const Lane4 low = lower(v), high = upper(v), half = low < high ? low : high;
+  const Lane2 left = lower(half), right = upper(half), quarter = left < right ? left : right;
   return quarter[0] < quarter[1] ? quarter[0] : quarter[1];
 }
 inline double greatest(const Lane8& v) { return -least(-v); }
 /// True if every lane is above `bound`; false for NaN.
 inline bool all_above(const Lane8& v, double bound) {
+#if defined(__AVX512F__)
+  return _mm512_cmp_pd_mask(v, _mm512_set1_pd(bound), _CMP_GT_OQ) == 0xff;
+#endif
   constexpr Lane8 yes = {1, 1, 1, 1, 1, 1, 1, 1};
   return least(v > bound ? yes : Lane8{}) > 0.0;
 }
 inline double sum(const Lane8& v) {
-  const Lane8 half = v + __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3);
-  const Lane8 quarter = half + __builtin_shufflevector(half, half, 2, 3, 0, 1, 6, 7, 4, 5);
+  const Lane4 half = lower(v) + upper(v);
+  const Lane2 quarter = lower(half) + upper(half);
   return quarter[0] + quarter[1];
 }
 

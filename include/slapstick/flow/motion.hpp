@@ -133,6 +133,14 @@ class Motion {
   class Extended {
    public:
     explicit Extended(int size) : lanes_((size + 7) / 8) {}
+    Extended(const Extended&) = default;
+    Extended(Extended&&) = default;
+    Extended& operator=(const Extended& X) {  // of the same size; a call of memmove takes longer
+      for (std::size_t b = 0; b < lanes_.size(); ++b) lanes_[b] = X.lanes_[b];
+      return *this;
+    }
+    Extended& operator=(Extended&&) = default;
+    ~Extended() = default;
     double* data() { return reinterpret_cast<double*>(lanes_.data()); }
     [[nodiscard]] const double* data() const { return reinterpret_cast<const double*>(lanes_.data()); }
     [[nodiscard]] std::span<const double> span() const { return {data(), 8 * lanes_.size()}; }
@@ -152,6 +160,7 @@ class Motion {
 
   void start();
   void begin_flight();
+  void clear_lingers();
   void begin_segment();
   bool fly(Instant end);
   Found first_event_in_window(double x_end);
@@ -220,6 +229,7 @@ class Motion {
   std::vector<int> orders_;       ///< of the zeros of the mode's guards at the start of the present window
   std::vector<int> tail_orders_;  ///< the same at the start of a chatter's tail
   std::vector<bool> lingers_;     ///< guards that are not clear of their noise at its end
+  bool any_lingers_ = false;
   mutable State before_;
   std::vector<Event> pending_;  ///< the events of one instant, in order ..
   int shown_ = 0;               ///< .. and which one `event()` is

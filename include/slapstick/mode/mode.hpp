@@ -37,17 +37,11 @@ class Mode {
   void step(const double* X, event::Lane8* out) const;
   /// The rounding of a guard at the start is within this times Guard::size.
   [[nodiscard]] double noise_factor() const { return noise_factor_; }
-  /// True for a mode that `excludes` can speak of.
-  [[nodiscard]] bool large() const { return !near_hulls_.empty(); }
   /// A coarse bound of the rounding of guard g, anywhere on the window, for numbers whose sizes sum to 1.
   [[nodiscard]] double coarse_noise(int g) const { return coarse_noise_[g]; }
-  /// A quick look at a guard of a large mode: true only if it is excluded, also where its noise is `more` than X's own. size: sum of |X|.
-  /// It takes the columns of the hull that are not small; what it leaves out, and the bounds, it replaces by their largest.
-  [[nodiscard]] bool excludes(int g, int order, const double* X, double size, double more) const {
-    if (order >= stored_orders) return false;
-    const int k = g * stored_orders + order;
-    return event::all_above(near_hulls_.times(k, X), far_errors_[k] * size + more);
-  }
+  /// A quick look at a guard: true only if it is excluded, also where its noise is `more` than X's own. size: sum of |X|. The bounds are replaced
+  /// by the largest of all columns, and of a large mode the columns of the hull that are small by theirs.
+  [[nodiscard]] bool excludes(int g, int order, const double* X, double size, double more) const;
   /// Guard g from its zero of order `order` at the window's start on: its hull (magnitude = |X|) ..
   void enclose(int g, int order, const double* X, const double* magnitude, event::Hull& out) const;
   /// .. and its Taylor coefficients a_order, a_{order+1}, ...
@@ -61,7 +55,7 @@ class Mode {
   void build_operators(const Frame& frame, const Model& model, double longest_window);
   void store_start(const Series& series, int g);
   void store_bounds(int g, const Series& series);
-  void store_near_hull(int g, int order);
+  void store_quick_look(int g, int order);
   [[nodiscard]] Matrix flow_over_window(const Series& series, std::size_t first_coordinate, const Frame& frame,
                                         double omega) const;
   [[nodiscard]] event::Hull hull_column(int g, int order, int column) const;
@@ -80,10 +74,10 @@ class Mode {
   event::Lanes coordinates_;  ///< Taylor rows of the displacements, or empty: then `terms_` is used
   TermSum terms_;
   event::Lanes hulls_, hull_bounds_;  ///< [guard][order], see event::Hull
+  std::vector<double> quick_errors_;  ///< [guard][order], of `excludes`, per unit of any X_i
   // Larger modes only:
-  PackedRows near_hulls_;            ///< [guard][order], the columns that matter; the others are within ..
-  std::vector<double> far_errors_;   ///< .. this, with the bounds, per unit of any X_i
-  PackedRows starts_, start_noise_;  ///< the leading coefficients of each guard
+  PackedRows near_hulls_;            ///< [guard][order], the columns that are not small
+  PackedRows starts_, start_noise_;  ///< the leading coefficients of each guard, and their rounding bounds
 };
 
 }  // namespace slapstick::mode

@@ -49,6 +49,8 @@ struct Guard {
   /// h = factor * X[single] if the row has one entry only, for p or u (then h has no rounding error but its own), else -1.
   int single = -1;
   double factor = 0.0;
+  /// Then, if X[single] is a displacement without drift, the index of its velocity: h' = factor * X[rate]. Else -1.
+  int rate = -1;
 
   /// The entries of the row that are not zero.
   struct Entry {

@@ -122,6 +122,13 @@ void Frame::choose_displacements(const Model& model) {
   W_inverse = W.topRows(n).inverse();
   dependence = W * W_inverse;
   dependence.topRows(n).setIdentity();
+  const auto slack = [&](const Vector& offset) {
+    Matrix sum = dependence * offset.head(n) - offset;
+    drop_rounding(sum, dependence.cwiseAbs() * offset.head(n).cwiseAbs() + offset.cwiseAbs());
+    return Vector(sum);
+  };
+  shift_slack = slack(shift);
+  drift_slack = slack(drift);
 }
 
 void Frame::set_dynamics(const Model& model) {
@@ -243,15 +250,16 @@ void Frame::match_displacements(int i, double* X) const {
 
 namespace {
 
-/// One dependent number and the basis numbers it follows from: stored = sum_j coefficient_j (basis_j + offset_j) - offset.
-void reconcile(double& stored, double offset, const RowVector& coefficient, double* basis, const Vector& offsets) {
+/// One dependent number and the basis numbers it follows from: stored = sum_j coefficient_j basis_j + slack. The offsets themselves do not
+/// enter: their rounding is more than the gaps of stops that are about to close together, and would never let them come to rest.
+void reconcile(double& stored, double slack, const RowVector& coefficient, double* basis) {
   constexpr double no_cancellation = 0.25;
-  double sum = -offset, size = std::abs(offset);
+  double sum = slack, size = std::abs(slack);
   Eigen::Index movable = -1;
   for (Eigen::Index j = 0; j < coefficient.size(); ++j) {
-    const double term = coefficient[j] * (basis[j] + offsets[j]);
+    const double term = coefficient[j] * basis[j];
     sum += term;
-    size += std::abs(coefficient[j]) * (std::abs(basis[j]) + std::abs(offsets[j]));
+    size += std::abs(term);
     const bool larger = movable < 0 || std::abs(basis[j]) > std::abs(basis[movable]);
     if (coefficient[j] != 0.0 && basis[j] != 0.0 && larger) movable = j;
   }
@@ -266,8 +274,8 @@ void reconcile(double& stored, double offset, const RowVector& coefficient, doub
 
 void Frame::refresh(double* X) const {
   for (int i = n; i < d; ++i) {
-    reconcile(X[i], shift[i], dependence.row(i), X, shift);
-    reconcile(X[u(i)], drift[i], dependence.row(i), X + d, drift);
+    reconcile(X[i], shift_slack[i], dependence.row(i), X);
+    reconcile(X[u(i)], drift_slack[i], dependence.row(i), X + d);
   }
 }
 

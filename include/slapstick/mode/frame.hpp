@@ -42,6 +42,9 @@ struct Frame {
   Matrix W_inverse;            ///< of its first n rows
   Matrix dependence;           ///< d x n: W = dependence * (first n rows of W)
   Vector shift, drift;
+  /// dependence * shift - shift, the constant between a dependent displacement and those it follows from, and the same of the drifts. Zero
+  /// where that is rounding: clearances that add up, as 0.1 + 0.2 and 0.3, let all gaps of a loop close at once.
+  Vector shift_slack, drift_slack;
   std::vector<ContactRow> stops, frictions, compliant;
   Matrix mass_inverse;  ///< d x d: W M^{-1} W^T
   Matrix free;          ///< d x m: u' = free . X with no contact force

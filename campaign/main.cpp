@@ -1,0 +1,16 @@
+#include "campaign.hpp"
+
+namespace campaign {
+
+const std::vector<Campaign>& campaigns() {
+  static const std::vector<Campaign> all = {
+      {"segments", "random segments, half of them near-grazes, against a certain search", "segments", 1'000'000'000,
+       run_segments},
+      {"wide", "the same against a search with 113 bits throughout", "segments", 10'000'000, run_wide},
+  };
+  return all;
+}
+
+}  // namespace campaign
+
+int main(int count, char** arguments) { return campaign::campaign_main(count, arguments); }

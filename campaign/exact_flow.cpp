@@ -51,7 +51,7 @@ void ExactFlow::set_grid(const Matrix& A) {
 
 void ExactFlow::set_guard(const Matrix& A, const RowVector& row, Guard& guard) const {
   std::vector<Quad> D(row.begin(), row.end());
-  std::vector<double> value(m_, 0.0), bend(m_, 0.0), left_out(m_, 0.0);
+  std::vector<double> value(m_, 0.0), bend(m_, 0.0), left_out(m_, 0.0), left_out_of_long(m_, 0.0);
   for (int n = 0; n < 40; ++n) {
     if (n < terms) guard.taylor.insert(guard.taylor.end(), D.begin(), D.end());
     std::vector<Quad> next(m_, Quad(0));
@@ -59,14 +59,17 @@ void ExactFlow::set_guard(const Matrix& A, const RowVector& row, Guard& guard) c
       value[i] += size_of(D[i]);
       bend[i] += n * (n - 1) * size_of(D[i]);
       if (n >= terms) left_out[i] += size_of(D[i]);
+      if (n >= useful<long double>) left_out_of_long[i] += size_of(D[i]);
       for (int k = 0; k < m_; ++k) next[k] += D[i] * Quad(A(i, k)) * Quad(spacing_) / (n + 1);
     }
     D.swap(next);
   }
   const double all = *std::max_element(value.begin(), value.end());
-  for (int i = 0; i < m_; ++i)
-    if (!(left_out[i] <= 0x1p-106 * std::max(value[i], 0x1p-10 * all)))
+  for (int i = 0; i < m_; ++i) {
+    const double size = std::max(value[i], 0x1p-10 * all);
+    if (!(left_out[i] <= 0x1p-106 * size && left_out_of_long[i] <= 0x1p-66 * size))
       throw std::logic_error("the grid of the reference is too wide");
+  }
   guard.taylor_long.assign(guard.taylor.begin(), guard.taylor.end());
   set_bounds(value, bend, guard);
 }
@@ -136,11 +139,12 @@ void ExactFlow::polynomial(int guard, const T* X_j, T* out) const {
     D = guards_[guard].taylor.data();
   else
     D = guards_[guard].taylor_long.data();
-  for (int n = 0; n < terms; ++n, D += m_) {
+  for (int n = 0; n < useful<T>; ++n, D += m_) {
     T sum = 0;
     for (int i = 0; i < m_; ++i) sum += D[i] * X_j[i];
     out[n] = sum;
   }
+  std::fill(out + useful<T>, out + terms, T(0));
 }
 
 void ExactFlow::magnitudes(int guard, const double* X, long double* out) const {

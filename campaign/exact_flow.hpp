@@ -3,7 +3,7 @@
 /// campaigns. Of the engine it takes only what defines the problem, A and the guards' rows, as stored doubles.
 ///
 /// About a point s_j a guard is h(s_j + x d) = sum_n D_n X_j x^n, D_n = c A^n d^n / n!, X_j = exp(A s_j) X. With d a sixteenth of an engine's
-/// window twenty terms leave less than 2^-110; the constructor adds up what is left out and refuses more.
+/// window twenty terms leave less than 2^-106 (fifteen, for 64 bits, 2^-66); the constructor adds up what is left out and refuses more.
 #include <vector>
 
 #include "slapstick/mode/mode.hpp"
@@ -15,6 +15,9 @@ __extension__ typedef __float128 Quad;
 class ExactFlow {
  public:
   static constexpr int terms = 20;
+  /// As many as T can tell from none.
+  template <class T>
+  static constexpr int useful = std::is_same_v<T, Quad> ? terms : 15;
 
   /// @param spacing  d  @param count  of intervals
   ExactFlow(const slapstick::mode::Mode& mode, double spacing, int count);

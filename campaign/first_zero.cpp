@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "sign_zero.hpp"
 
@@ -53,7 +54,11 @@ class Segment {
       if (found.kind != Kind::touch) return take(found, j);
       return take(search<Quad, IntervalSearch<Quad>>(j, Quad(0x1p-104)), j);
     }
-    return take(search<Quad, SignSearch<Quad>>(j, Quad(0x1p-104)), j);
+    const auto found = search<Quad, SignSearch<Quad>>(j, Quad(0x1p-104));
+    const auto check = search<Quad, IntervalSearch<Quad>>(j, Quad(0x1p-104));
+    if (found.kind != check.kind || size_of(found.x - check.x) > Quad(0x1p-30))
+      throw std::logic_error("the two searches of the reference contradict each other");
+    return take(check, j);
   }
 
   template <class T, class Search>

@@ -7,7 +7,7 @@ namespace campaign {
 /// How the truth is found.
 enum class Method {
   quick,  ///< intervals excluded in doubles, the rest searched with 64 bits (interval_zero.hpp), in doubt with 113
-  wide    ///< everything with 113 bits, the rest by signs (sign_zero.hpp)
+  wide    ///< everything with 113 bits, the rest by interval_zero.hpp and by signs (sign_zero.hpp), which must agree
 };
 
 struct Truth {

@@ -51,7 +51,7 @@ class IntervalSearch {
 
   [[nodiscard]] Jet jet(T x) const {
     T f = 0, f1 = 0, f2 = 0;
-    for (int n = ExactFlow::terms - 1; n >= 0; --n) {
+    for (int n = ExactFlow::useful<T> - 1; n >= 0; --n) {
       f2 = f2 * x + f1;
       f1 = f1 * x + f;
       f = f * x + a_[n];

@@ -74,16 +74,23 @@ class SegmentJudge {
       if (g == near_graze && truth.low) note_depth(truth);
       if (g == end_.guard)
         judge_event(truth, orders[g]);
-      else if (truth.kind == Kind::crossing && truth.time < end_.time - blur(truth, scene_.duration()))
+      else if (truth.kind == Kind::crossing && passed(truth))
         fault(verdicts_.missed, "missed", g, truth);
     }
     if (end_.guard < 0) ++verdicts_.misses;
   }
 
  private:
+  /// Is the zero certainly before the segment's end? One that belongs to a graze lies up to slope / curvature before its minimum.
+  [[nodiscard]] bool passed(const Truth& truth) const {
+    const double dip = end_.graze && depth(truth) <= graze_depth ? 1.5 * truth.slope / truth.bend : 0.0;
+    return truth.time + dip < end_.time - blur(truth, scene_.duration());
+  }
+
   void judge_event(const Truth& truth, int order) {
     if (truth.kind == Kind::touch) ++verdicts_.undecided;
-    if (end_.speed ? depth(truth) <= graze_depth : end_.graze) return judge_graze(truth, order);
+    if (end_.speed && depth(truth) <= graze_depth) return void(++verdicts_.rests_in_noise);
+    if (end_.graze && !end_.speed) return judge_graze(truth, order);
     ++(end_.graze ? verdicts_.grazes : verdicts_.hits);
     if (truth.kind == Kind::touch) return;
     if (truth.kind == Kind::none)
@@ -101,7 +108,7 @@ class SegmentJudge {
       if (truth.kind == Kind::crossing) return fault(verdicts_.missed, "taken for a graze", end_.guard, truth);
       return fault(order > 0 ? verdicts_.doubled : verdicts_.wrong, "false graze", end_.guard, truth);
     }
-    verdicts_.deepest_graze = std::max(verdicts_.deepest_graze, depth(truth));
+    if (end_.graze) verdicts_.deepest_graze = std::max(verdicts_.deepest_graze, depth(truth));
   }
 
   /// Of the minimum, as a share of the scale; behind a zero that is no minimum, by its slope and curvature.
@@ -150,7 +157,7 @@ class SegmentJudge {
 
 void Verdicts::add(const Verdicts& o) {
   scenes += o.scenes, segments += o.segments, adversarial += o.adversarial, hits += o.hits, misses += o.misses,
-      grazes += o.grazes;
+      grazes += o.grazes, rests_in_noise += o.rests_in_noise;
   missed += o.missed, wrong += o.wrong, doubled += o.doubled, undecided += o.undecided, unjudged += o.unjudged;
   for (std::size_t k = 0; k < depths.size(); ++k) depths[k] += o.depths[k];
   deepest_graze = std::max(deepest_graze, o.deepest_graze);

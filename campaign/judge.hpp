@@ -15,8 +15,10 @@ struct Verdicts {
   long segments = 0;     ///< judged,
   long adversarial = 0;  ///< of them near-grazes by construction: a minimum within half the guard's scale was met
   long hits = 0, misses = 0, grazes = 0;
-  long missed = 0;     ///< there is a zero, and the motion passed it
-  long wrong = 0;      ///< an event where there is no zero
+  long rests_in_noise =
+      0;            ///< a relative velocity whose least value is within the noise: stick or reversal, whichever is said
+  long missed = 0;  ///< there is a zero, and the motion passed it
+  long wrong = 0;   ///< an event where there is no zero
   long doubled = 0;    ///< the same, of the guard whose zero began the segment
   long undecided = 0;  ///< touches that 113 bits cannot decide either
   long unjudged = 0;   ///< segments whose start is zero only within rounding (after a release), or that chatter ended

@@ -70,7 +70,7 @@ class Tuning {
     long double u = 0, move = -h_[j] / r_[j];
     for (int i = 0; i < 5; ++i) {
       long double f = 0, f1 = 0, f2 = 0, r = 0;
-      for (int n = ExactFlow::terms - 1; n >= 0; --n) {
+      for (int n = ExactFlow::useful<long double> - 1; n >= 0; --n) {
         f2 = f2 * u + f1;
         f1 = f1 * u + f;
         f = f * u + a[n] + move * b[n];

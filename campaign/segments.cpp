@@ -7,7 +7,7 @@ namespace {
 
 using slapstick::Json;
 
-/// A scene whose near-grazes are rare (friction brings it to rest first) is left after a twentieth of the others' segments.
+/// What follows an impact is examined too, but for two of three near-grazes, lest they fall below a half. A scene whose near-grazes are rare (friction brings it to rest first) is left after a twentieth of the others' segments.
 void examine_scene(Random& random, long count, Method method, Verdicts& verdicts) {
   Scene scene(random);
   NearGrazes near_grazes(scene, random);
@@ -15,17 +15,17 @@ void examine_scene(Random& random, long count, Method method, Verdicts& verdicts
   long attempts = 0, made = 0;
   const long before = verdicts.segments;
   while (verdicts.segments < before + count) {
-    const bool wanted = 2 * verdicts.adversarial <= verdicts.segments;
+    const bool wanted = 20 * verdicts.adversarial <= 11 * verdicts.segments;
     bool have = false;
-    for (int i = 0; wanted && i < 4 && !have; ++i) {
+    for (int i = 0; wanted && i < 16 && !have; ++i) {
       have = near_grazes.next(start);
       ++attempts;
     }
     if (!have) start = random_start(scene, random);
     const long reached = verdicts.adversarial;
-    judge_motion(scene, start, method, 2, verdicts);
+    judge_motion(scene, start, method, wanted && !random.one_in(3) ? 1 : 2, verdicts);
     made += verdicts.adversarial - reached;
-    if (attempts > 400 && 4 * made < attempts && verdicts.segments > before + count / 20) return;
+    if (attempts > 400 && 5 * made < attempts && verdicts.segments > before + count / 20) return;
   }
 }
 
@@ -48,11 +48,12 @@ Json depths(const Verdicts& verdicts) {
 Report report(const Verdicts& v, long done) {
   Report out;
   out.done = done;
-  out.passed = v.sound() && 100 * v.adversarial >= 45 * v.segments && v.grazes > 0;
+  out.passed = v.sound() && 2 * v.adversarial >= v.segments && v.grazes > 0;
   Json faults = Json::list();
   for (const std::string& fault : v.faults) faults.push(fault);
   out.figures.set("segments", v.segments).set("adversarial", v.adversarial).set("systems", v.scenes);
   out.figures.set("hits", v.hits).set("misses", v.misses).set("grazes", v.grazes);
+  out.figures.set("rests_in_noise", v.rests_in_noise);
   out.figures.set("missed", v.missed).set("false", v.wrong).set("doubled", v.doubled);
   out.figures.set("undecided_by_the_reference", v.undecided).set("unjudged", v.unjudged);
   out.figures.set("deepest_graze", v.deepest_graze).set("worst_time_in_noise", v.worst_time);

@@ -13,21 +13,28 @@ class SignSearch {
   SignSearch(const Polynomial& a, T error) : a_(a), error_(error) {}
 
   IntervalZero<T> first() {
-    Polynomial b;
-    for (int j = 0; j <= degree; ++j) {
-      T weight = 1;
-      b[j] = a_[0];
-      for (int n = 1; n <= j; ++n) {
-        weight = weight * (j - n + 1) / (degree - n + 1);
-        b[j] += weight * a_[n];
-      }
-    }
+    Polynomial b{};
+    for (int j = 0; j <= degree; ++j)
+      for (int n = 0; n <= j; ++n) b[j] += weights()[j][n] * a_[n];
     if (!search(b, 0, 1, 0)) out_.kind = Kind::none;
     return out_;
   }
 
  private:
   static constexpr int degree = ExactFlow::terms - 1;
+
+  /// Bernstein coefficients of x^n: binomial(j, n) / binomial(degree, n).
+  static const std::array<Polynomial, ExactFlow::terms>& weights() {
+    static const auto all = [] {
+      std::array<Polynomial, ExactFlow::terms> w{};
+      for (int j = 0; j <= degree; ++j) {
+        w[j][0] = 1;
+        for (int n = 1; n <= j; ++n) w[j][n] = w[j][n - 1] * (j - n + 1) / (degree - n + 1);
+      }
+      return w;
+    }();
+    return all;
+  }
 
   bool search(const Polynomial& b, T low, T width, int depth) {
     int changes = 0;
@@ -37,7 +44,7 @@ class SignSearch {
       if (b[j] < least) least = b[j];
     }
     if (least > error_) return false;
-    if (changes == 1 && b[0] > error_ && b[degree] < -error_) return bisect(b, low, width);
+    if (changes == 1 && b[0] > error_ && b[degree] < -error_) return settle(low, low + width);
     if (depth > 60) return end(Kind::touch, low + width / 2);
     Polynomial left, right = b;
     for (int j = 0; j <= degree; ++j) {
@@ -47,20 +54,19 @@ class SignSearch {
     return search(left, low, width / 2, depth + 1) || search(right, low + width / 2, width / 2, depth + 1);
   }
 
-  /// Regula falsi with a bisection in every third step; the value by de Casteljau's scheme.
-  bool bisect(const Polynomial& b, T low, T width) {
-    T left = 0, right = 1, f_left = b[0], f_right = b[degree], x = 0;
+  /// The only zero in an interval that begins above and ends below: Newton's steps kept inside by bisection.
+  bool settle(T low, T high) {
+    T x = high;
     for (int i = 0; i < 300; ++i) {
-      x = i % 3 == 2 ? (left + right) / 2 : (left * f_right - right * f_left) / (f_right - f_left);
-      if (!(x > left && x < right)) x = (left + right) / 2;
-      Polynomial c = b;
-      for (int j = degree; j > 0; --j)
-        for (int k = 0; k < j; ++k) c[k] += x * (c[k + 1] - c[k]);
-      if (size_of(c[0]) <= error_ || !(x > left && x < right)) break;
-      (c[0] > 0 ? left : right) = x;
-      (c[0] > 0 ? f_left : f_right) = c[0];
+      T f = 0, slope = 0;
+      for (int n = degree; n >= 0; --n) slope = slope * x + f, f = f * x + a_[n];
+      (f > 0 ? low : high) = x;
+      T next = x - f / slope;
+      if (!(next > low && next < high)) next = (low + high) / 2;
+      if (size_of(f) <= error_ || !(next > low && next < high)) break;
+      x = next;
     }
-    return end(Kind::crossing, low + width * x);
+    return end(Kind::crossing, x);
   }
 
   bool end(Kind kind, T x) {

@@ -6,6 +6,8 @@
 #include <optional>
 #include <span>
 
+#include "slapstick/base/error.hpp"
+
 namespace campaign {
 namespace {
 
@@ -158,7 +160,8 @@ class SegmentJudge {
 void Verdicts::add(const Verdicts& o) {
   scenes += o.scenes, segments += o.segments, adversarial += o.adversarial, hits += o.hits, misses += o.misses,
       grazes += o.grazes, rests_in_noise += o.rests_in_noise;
-  missed += o.missed, wrong += o.wrong, doubled += o.doubled, undecided += o.undecided, unjudged += o.unjudged;
+  failed += o.failed, missed += o.missed, wrong += o.wrong, doubled += o.doubled, undecided += o.undecided,
+      unjudged += o.unjudged;
   for (std::size_t k = 0; k < depths.size(); ++k) depths[k] += o.depths[k];
   deepest_graze = std::max(deepest_graze, o.deepest_graze);
   worst_time = std::max(worst_time, o.worst_time);
@@ -166,7 +169,9 @@ void Verdicts::add(const Verdicts& o) {
     if (faults.size() < 20) faults.push_back(fault);
 }
 
-void judge_motion(Scene& scene, const Start& start, Method method, int most_segments, Verdicts& verdicts) {
+namespace {
+
+void follow(Scene& scene, const Start& start, Method method, int most_segments, Verdicts& verdicts) {
   Motion motion(scene.system(), start.state, {0, start.phase});
   int near_graze = start.guard;
   for (int segment = 0; segment < most_segments;) {
@@ -184,6 +189,17 @@ void judge_motion(Scene& scene, const Start& start, Method method, int most_segm
     if (!event) return;
     near_graze = -1;
     ++segment;
+  }
+}
+
+}  // namespace
+
+void judge_motion(Scene& scene, const Start& start, Method method, int most_segments, Verdicts& verdicts) {
+  try {
+    follow(scene, start, method, most_segments, verdicts);
+  } catch (const slapstick::NumericalError& error) {
+    ++verdicts.failed;
+    if (verdicts.faults.size() < 5) verdicts.faults.push_back(scene.system().model().name + ": " + error.what());
   }
 }
 

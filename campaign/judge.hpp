@@ -20,6 +20,7 @@ struct Verdicts {
   long missed = 0;  ///< there is a zero, and the motion passed it
   long wrong = 0;   ///< an event where there is no zero
   long doubled = 0;    ///< the same, of the guard whose zero began the segment
+  long failed = 0;     ///< the engine gave up
   long undecided = 0;  ///< touches that 113 bits cannot decide either
   long unjudged = 0;   ///< segments whose start is zero only within rounding (after a release), or that chatter ended
   std::array<long, 64>
@@ -29,7 +30,7 @@ struct Verdicts {
   std::vector<std::string> faults;
 
   void add(const Verdicts& other);
-  [[nodiscard]] bool sound() const { return missed + wrong + doubled == 0; }
+  [[nodiscard]] bool sound() const { return missed + wrong + doubled + failed == 0; }
 };
 
 /// Follows the motion from a start for up to `most_segments` segments and judges each.

@@ -105,26 +105,29 @@ class Tuning {
 
 }  // namespace
 
-Start random_start(const Scene& scene, Random& random) { return {scene.state(random), random.uniform(0.0, 1.0)}; }
+Start random_start(const Scene& scene, Random& random) { return {scene.state(random), scene.phase(random)}; }
 
 NearGrazes::Base NearGrazes::fresh() const {
   const auto& stops = scene_.system().model().stops;
   Base base{random_start(scene_, random_), 0, !stops.empty() && stops[0].a >= 0 && random_.one_in(4)};
   base.knob = base.in_contact ? 2 * stops[0].a + 1 : random_.below(static_cast<int>(base.start.state.size()));
-  if (!base.in_contact) return base;
-  State& state = base.start.state;
-  state[2 * stops[0].a] = stops[0].clearance + (stops[0].b < 0 ? 0.0 : state[2 * stops[0].b]);
-  state[base.knob] = velocity(state, stops[0].b) - std::abs(state[base.knob]);
+  if (base.in_contact) touch(base);
   return base;
+}
+
+/// Puts the first stop's sides in contact, leaving.
+void NearGrazes::touch(Base& base) const {
+  const slapstick::Stop& stop = scene_.system().model().stops[0];
+  State& state = base.start.state;
+  state[2 * stop.a] = stop.clearance + (stop.b < 0 ? 0.0 : state[2 * stop.b]);
+  state[base.knob] = velocity(state, stop.b) - std::abs(state[base.knob] - velocity(state, stop.b));
 }
 
 NearGrazes::Base NearGrazes::varied() const {
   Base base = good_[random_.below(static_cast<int>(good_.size()))];
-  for (std::size_t i = base.in_contact ? 1 : 0; i < base.start.state.size(); ++i)
-    if (!(base.in_contact && i + 1 == static_cast<std::size_t>(base.knob)))
-      base.start.state[i] += 0.1 * random_.uniform(-1.0, 1.0);
-  base.start.phase += 0.05 * random_.uniform(-1.0, 1.0);
-  base.start.phase -= std::floor(base.start.phase);
+  for (double& x : base.start.state) x += 0.1 * random_.uniform(-1.0, 1.0);
+  base.start.phase += 0.1 * (scene_.phase(random_) - base.start.phase);
+  if (base.in_contact) touch(base);
   return base;
 }
 

@@ -31,6 +31,7 @@ class NearGrazes {
   };
   [[nodiscard]] Base fresh() const;
   [[nodiscard]] Base varied() const;
+  void touch(Base& base) const;
 
   Scene& scene_;
   Random& random_;

@@ -15,7 +15,7 @@ double at(const State& state, int coordinate) { return coordinate == slapstick::
 
 }  // namespace
 
-Scene::Scene(Random& random) : system_(std::make_unique<System>(random_model(random))) {
+Scene::Scene(Random& random, Phase phase) : system_(std::make_unique<System>(random_model(random))), phase_(phase) {
   intervals_ = 48 + random.below(81);
   spacing_ = system_->period() / system_->windows_per_period() / 16.0;
   const double reach = random.decades(-0.5, 0.5);
@@ -46,6 +46,8 @@ bool Scene::lawful(const State& state) const {
     return at(state, stop.a) - at(state, stop.b) < stop.clearance;
   });
 }
+
+double Scene::phase(Random& random) const { return phase_ == Phase::zero ? 0.0 : random.uniform(0.0, 1.0); }
 
 State Scene::state(Random& random) const {
   State state(reach_.size());

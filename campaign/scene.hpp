@@ -13,7 +13,8 @@ namespace campaign {
 class Scene {
  public:
   /// A random oscillator of one to three masses, or a built-in model at a random frequency.
-  explicit Scene(Random& random);
+  enum class Phase { any, zero };  ///< at which motions start
+  explicit Scene(Random& random, Phase phase = Phase::any);
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
@@ -28,12 +29,15 @@ class Scene {
   /// Extended state of a user's state at a phase.
   void enter(const slapstick::State& state, double phase, double* X) const;
 
+  /// A random phase to start at, in periods.
+  double phase(Random& random) const;
   /// All gaps are open.
   [[nodiscard]] bool lawful(const slapstick::State& state) const;
 
  private:
   std::unique_ptr<slapstick::System> system_;
   slapstick::State middle_, reach_;  ///< of each number of a random state
+  Phase phase_;
   int intervals_ = 0;
   double spacing_ = 0.0;
   std::map<slapstick::ModeId, std::unique_ptr<ExactFlow>> flows_;

@@ -54,7 +54,7 @@ Report report(const Verdicts& v, long done) {
   out.figures.set("segments", v.segments).set("adversarial", v.adversarial).set("systems", v.scenes);
   out.figures.set("hits", v.hits).set("misses", v.misses).set("grazes", v.grazes);
   out.figures.set("rests_in_noise", v.rests_in_noise);
-  out.figures.set("missed", v.missed).set("false", v.wrong).set("doubled", v.doubled);
+  out.figures.set("missed", v.missed).set("false", v.wrong).set("doubled", v.doubled).set("failed", v.failed);
   out.figures.set("undecided_by_the_reference", v.undecided).set("unjudged", v.unjudged);
   out.figures.set("deepest_graze", v.deepest_graze).set("worst_time_in_noise", v.worst_time);
   out.figures.set("adversarial_by_depth", depths(v)).set("faults", faults);

@@ -100,6 +100,19 @@ void ExactFlow::set_bounds(const std::vector<double>& values, const std::vector<
   }
 }
 
+double ExactFlow::reach(int rows, const double* X) const {
+  double largest = 0.0;
+  for (int j = 0; j <= count_; ++j) {
+    for (int i = 0; i < rows; ++i) {
+      const long double* row = &grid_long_[(static_cast<std::size_t>(j) * m_ + i) * m_];
+      double sum = 0.0;
+      for (int k = 0; k < m_; ++k) sum += static_cast<double>(std::abs(row[k])) * std::abs(X[k]);
+      largest = std::max(largest, sum);
+    }
+  }
+  return largest;
+}
+
 double ExactFlow::weigh(const std::vector<double>& weights, const double* X) const {
   double sum = 0.0;
   for (int i = 0; i < m_; ++i) sum += weights[i] * std::abs(X[i]);

@@ -43,6 +43,9 @@ class ExactFlow {
   /// Sums of the sizes of the terms that those at the start are made of.
   void magnitudes(int guard, const double* X, long double* out) const;
 
+  /// The largest sum of sizes |exp(A s_j)| |X| in the first `rows` rows: what relative errors of X can come to.
+  [[nodiscard]] double reach(int rows, const double* X) const;
+
   /// |h| is at most this on the whole grid, and a bound on every sum of magnitudes that is made on the way.
   [[nodiscard]] double size(int guard, const double* X) const { return weigh(guards_[guard].size, X); }
   /// |h''| d^2 is at most this on the whole grid.

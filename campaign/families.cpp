@@ -65,7 +65,7 @@ struct Tally {
   }
 };
 
-/// Runs from random states: largest error of any number, in units of the largest number of the run. Samples lie at 2^-n of a period apart, which the
+/// Runs from random states: largest error of any number, in units of what a relative error 1 of the start would come to. Samples lie at 2^-n of a period apart, which the
 /// clock holds exactly.
 double worst_error(const Family& family, int k, Random random, long starts) {
   const System system(family.at(std::ldexp(1.0, -k)));
@@ -79,17 +79,16 @@ double worst_error(const Family& family, int k, Random random, long starts) {
     for (double& x : state) x = random.uniform(-1.0, 1.0);
     Motion motion(system, state);
     const std::vector<double> X(motion.extended().begin(), motion.extended().end());
-    double error = 0.0, size = 1.0;
+    double error = 0.0;
     for (int j = 1; j <= samples; ++j) {
       std::array<Quad, 32> exact;
       motion.advance(Instant{}.plus(j * step));
       flow.state<Quad>(j, X.data(), exact.data());
       for (int n = 0; n < 2 * system.frame().d; ++n) {
         error = std::max(error, std::abs(static_cast<double>(Quad(motion.extended()[n]) - exact[n])));
-        size = std::max(size, std::abs(static_cast<double>(exact[n])));
       }
     }
-    worst = std::max(worst, error / size);
+    worst = std::max(worst, error / flow.reach(2 * system.frame().d, X.data()));
   }
   return worst;
 }

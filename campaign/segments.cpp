@@ -30,7 +30,7 @@ void examine_scene(Random& random, long count, Method method, Verdicts& verdicts
 }
 
 Verdicts examine(Random random, long count, Method method) {
-  const long scene = std::max(count / 2, 1L);
+  const long scene = std::max(count / 20, 1L);
   Verdicts verdicts;
   while (verdicts.segments < count) {
     examine_scene(random, std::min(scene, count - verdicts.segments), method, verdicts);

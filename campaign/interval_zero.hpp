@@ -87,12 +87,11 @@ class IntervalSearch {
     T left = low, right = high, u = (low + high) / 2;
     for (int i = 0; i < 60; ++i) {
       const Jet c = jet(u);
+      const T step = c.f1 / c.f2;
+      if (size_of(step) * size_of(c.f1) <= error_ / 8) break;
       (c.f1 < 0 ? left : right) = u;
-      T next = u - c.f1 / c.f2;
-      if (!(next > left && next < right)) next = (left + right) / 2;
-      const bool settled = size_of(next - u) * size_of(c.f1) <= error_ / 8;
-      u = next;
-      if (settled) break;
+      u -= step;
+      if (!(u > left && u < right)) u = (left + right) / 2;
     }
     const Jet c = jet(u);
     note(c.f, u);

@@ -1,0 +1,20 @@
+#include "campaign.hpp"
+
+namespace campaign {
+
+const std::vector<Campaign>& campaigns() {
+  static const std::vector<Campaign> all = {
+      {"segments", "random segments, half of them near-grazes, against a certain search", "segments", 1'000'000'000,
+       run_segments},
+      {"wide", "the same against a search with 113 bits throughout", "segments", 10'000'000, run_wide},
+      {"balls", "random motions proved by certificates in ball arithmetic", "segments", 100'000, run_balls},
+      {"noise", "the rounding bound of guards against exact values", "evaluations", 1'000'000'000, run_noise},
+      {"orbit", "drift of stable orbits", "periods", 10'000'000, run_orbit},
+      {"families", "error near resonance and near defective matrices", "starts", 1'000, run_families},
+  };
+  return all;
+}
+
+}  // namespace campaign
+
+int main(int count, char** arguments) { return campaign::campaign_main(count, arguments); }

@@ -34,6 +34,8 @@ Action add_show(Arguments& arguments);
 Action add_check(Arguments& arguments);
 Action add_simulate(Arguments& arguments);
 Action add_classify(Arguments& arguments);
+Action add_orbit(Arguments& arguments);
+Action add_continue(Arguments& arguments);
 Action add_poincare(Arguments& arguments);
 Action add_diagram(Arguments& arguments);
 Action add_reproduce(Arguments& arguments);

@@ -10,6 +10,8 @@ const std::vector<Verb>& verbs() {
       {"check", "read and check a model file", add_check},
       {"simulate", "one exact trajectory: events, samples, a picture", add_simulate},
       {"classify", "what the motion is after its transient: n-p-I, n-p-II, quasi-periodic, chaotic", add_classify},
+      {"orbit", "a periodic orbit by Newton's method, stable or not: class, multipliers, impacts, energy", add_orbit},
+      {"continue", "a branch of periodic orbits in one parameter, with its bifurcations by name", add_continue},
       {"poincare", "points of a section: at every impact, or once per forcing period", add_poincare},
       {"diagram", "bifurcation diagram over a parameter, on all cores", add_diagram},
       {"reproduce", "every figure and claim of the paper, into a folder", add_reproduce},

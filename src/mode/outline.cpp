@@ -157,6 +157,11 @@ void Builder::arm_gap(int stop) {
 
 }  // namespace
 
+std::string_view name(GuardKind kind) {
+  constexpr std::string_view words[] = {"gap", "slip", "stick", "stick", "press", "engage", "leave", "let-go", "push"};
+  return words[static_cast<int>(kind)];
+}
+
 Outline::Outline(const Model& model, const Frame& frame, ContactStates contact_states)
     : states(std::move(contact_states)), steady(static_cast<std::size_t>(frame.d), false) {
   Builder builder(model, frame, *this);

@@ -132,7 +132,7 @@ Energy energy(const Problem& problem, const Orbit& orbit) {
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
     const Leg& leg = orbit.shape.legs[i];
     account.leg(leg, orbit.x[i], orbit.t[i], orbit.t[i + 1]);
-    const mode::ContactStates& next = orbit.shape.legs[(i + 1) % orbit.legs()].states;
+    const Leg& next = orbit.shape.legs[(i + 1) % orbit.legs()];
     account.end(leg, leg_value(set, leg, next, orbit.x[i], orbit.t[i], orbit.t[i + 1]));
   }
   return total;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "slapstick/base/error.hpp"
 
@@ -76,7 +77,7 @@ Linearised linearise(const Problem& problem, const ModeSet& set, const Orbit& or
     at.defects.push_back(defect);
     const Leg& leg = orbit.shape.legs[i];
     const Leg& next = orbit.shape.legs[(i + 1) % k];
-    at.legs.push_back(leg_value(set, leg, next.states, orbit.x[i], orbit.t[i], orbit.t[i + 1]));
+    at.legs.push_back(leg_value(set, leg, next, orbit.x[i], orbit.t[i], orbit.t[i + 1]));
     const LegValue& value = at.legs.back();
     const auto row = static_cast<Index>(i);
     if (leg.ending == Ending::cut) {
@@ -116,6 +117,10 @@ VectorXd sizes(const Problem& problem, const Orbit& orbit) {
     displacement = std::max(displacement, x.head(n).cwiseAbs().maxCoeff());
     velocity = std::max(velocity, x.tail(n).cwiseAbs().maxCoeff());
   }
+  // At events displacements may all be zero, as those of a lone mass at its stop: a radian of motion at that velocity is a size too.
+  const double radian = (forced(orbit) ? 1.0 : orbit.t.back() - orbit.t.front()) * problem.base().period() / (2.0 * std::numbers::pi);
+  displacement = std::max(displacement, velocity * radian);
+  velocity = std::max(velocity, displacement / radian);
   VectorXd state(2 * n);
   state << VectorXd::Constant(n, displacement > 0.0 ? displacement : 1.0),
       VectorXd::Constant(n, velocity > 0.0 ? velocity : 1.0);
@@ -168,10 +173,9 @@ NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condi
       const Linearised at = linearise(problem, set, orbit);
       VectorXd step = newton_step(at, conditions, moved, scale);
       if (!step.allFinite()) return result;
-      double defects = 0.0;
+      result.last_step = step.cwiseAbs().maxCoeff();
       for (const VectorXd& defect : at.defects)
-        defects = std::max(defects, (defect.array() / std::max(1e-300, scale.head(problem.numbers()).maxCoeff())).abs().maxCoeff());
-      result.last_step = std::max(step.cwiseAbs().maxCoeff(), defects);
+        result.last_step = std::max(result.last_step, problem.translations().numbers(defect).cwiseQuotient(scale.head(problem.numbers())).cwiseAbs().maxCoeff());
       if (result.steps == 1) result.first_step = result.last_step;
       const double fraction = std::min(1.0, longest_step / step.cwiseAbs().maxCoeff());
       const VectorXd change = fraction * step.cwiseProduct(scale);

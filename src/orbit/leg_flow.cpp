@@ -75,16 +75,17 @@ void strike(const ModeSet& set, const Leg& leg, Jet& X) {
   }
 }
 
-/// The contact states of the columns of an extended jet, with what a mode holds still set to zero.
-Jet contact_jet(const ModeSet& set, const mode::ContactStates& held, const Jet& X) {
+/// The contact states of the columns of an extended jet, with what the next mode holds still set to zero.
+Jet contact_jet(const ModeSet& set, const Leg& next, const Jet& X) {
   const mode::Frame& frame = set.frame();
   Jet x(2 * frame.n, X.states, X.parameters);
   x.all << X.all.topRows(frame.n), X.all.middleRows(frame.d, frame.n);
-  const mode::Outline& outline = set.mode(held).outline;
+  if (next.ending == Ending::chatter) return x;
+  const mode::Outline& outline = set.mode(next.states).outline;
   for (int i = 0; i < frame.n; ++i)
     if (outline.steady[i]) x.all.row(frame.n + i).setZero();
   for (std::size_t i = 0; i < frame.stops.size(); ++i)
-    if (held.stops[i] == mode::StopState::closed && frame.stops[i].own < frame.n)
+    if (next.states.stops[i] == mode::StopState::closed && frame.stops[i].own < frame.n)
       x.all.row(frame.stops[i].own).setZero();
   return x;
 }
@@ -177,7 +178,7 @@ Jet leg_start(const ModeSet& set, const Leg& leg, const VectorXd& x, double t_be
   return X;
 }
 
-LegValue leg_value(const ModeSet& set, const Leg& leg, const mode::ContactStates& next, const VectorXd& x, double t_begin,
+LegValue leg_value(const ModeSet& set, const Leg& leg, const Leg& next, const VectorXd& x, double t_begin,
                    double t_end) {
   const ModeRates& mode = set.mode(leg.states);
   Jet X = leg_start(set, leg, x, t_begin);

@@ -48,8 +48,8 @@ struct LegValue {
   Jet h;      ///< of the ending: 0 where it is met; one row. Empty columns for a cut
 };
 
-/// @param next  the states of the leg that follows
-[[nodiscard]] LegValue leg_value(const ModeSet& set, const Leg& leg, const mode::ContactStates& next, const Eigen::VectorXd& x,
+/// @param next  the leg that follows: what its mode holds still is zero from its start on, but for the speed that the tail of a chatter begins with
+[[nodiscard]] LegValue leg_value(const ModeSet& set, const Leg& leg, const Leg& next, const Eigen::VectorXd& x,
                                  double t_begin, double t_end);
 
 /// The extended state at the leg's start, after the plastic impact if the leg is the tail of a chatter.

@@ -35,6 +35,12 @@ bool zero_by_event(const mode::Frame& frame, const Leg& before, const mode::Guar
   return false;
 }
 
+/// Is this the relative velocity of the pair whose gap ends the leg? Its value there is the speed of the impact, which is watched by itself.
+bool is_speed_of(const mode::Frame& frame, const Leg& leg, const mode::Guard& guard) {
+  if (leg.ending != Ending::guard || !of_gap(leg.kind) || guard.kind != GuardKind::slip) return false;
+  return frame.parallel(displacement(frame, leg.kind, leg.contact), frame.frictions[guard.contact].own) != 0;
+}
+
 /// A leg sampled: the extended state at equal distances.
 struct Course {
   Course(const ModeSet& set, const Leg& leg, const VectorXd& x, double t_begin, double duration)
@@ -133,7 +139,8 @@ std::vector<TestValue> test_values(const ModeSet& set, const Orbit& orbit) {
     const auto& guards = course.mode.outline.guards;
     for (std::size_t g = 0; g < guards.size(); ++g) {
       const bool ending = leg.ending == Ending::guard && guards[g].kind == leg.kind && guards[g].contact == leg.contact;
-      const Least least = least_value(course, guards[g], !zero_by_event(set.frame(), before, guards[g]), !ending);
+      const bool with_end = !ending && !is_speed_of(set.frame(), leg, guards[g]);
+      const Least least = least_value(course, guards[g], !zero_by_event(set.frame(), before, guards[g]), with_end);
       all.push_back({Test::guard, i, guards[g].kind, guards[g].contact, least.value, least.at / set.period()});
     }
     if (leg.ending == Ending::guard) {

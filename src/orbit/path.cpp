@@ -29,7 +29,12 @@ MatrixXd bordered(const Problem& problem, const Linearised& at, std::size_t legs
 /// The direction along which the equations stay solved.
 VectorXd tangent_at(const Problem& problem, const Linearised& at, std::size_t legs, const VectorXd& units, const VectorXd& forward) {
   VectorXd last = forward;
-  if (last.size() == 0) last = VectorXd::Unit(at.by.cols(), problem.parameter_column(legs, 0));
+  if (last.size() == 0) {  // of a matrix with one row too few the last singular vector
+    const MatrixXd matrix = bordered(problem, at, legs, units, VectorXd::Unit(at.by.cols(), 0));
+    const Eigen::JacobiSVD<MatrixXd> svd(matrix.topRows(matrix.rows() - 1), Eigen::ComputeFullV);
+    last = svd.matrixV().rightCols(1);
+    if (last[problem.parameter_column(legs, 0)] < 0.0) last = -last;
+  }
   const MatrixXd matrix = bordered(problem, at, legs, units, last);
   VectorXd tangent = matrix.partialPivLu().solve(VectorXd::Unit(matrix.rows(), matrix.rows() - 1));
   tangent.normalize();

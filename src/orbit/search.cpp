@@ -15,6 +15,7 @@ using Eigen::VectorXd;
 
 constexpr double near_return = 0.25;    ///< relative distance of a state to its image from which Newton's method is tried
 constexpr double same_orbit = 1e-6;     ///< relative distance of two orbits' states at one event
+constexpr double settled = 1e-3;        ///< relative distance of a motion from the orbit that it has settled on
 constexpr int longest_cycle = 64;
 
 /// Is it one of these, perhaps begun at another event, or in another period?
@@ -45,15 +46,15 @@ bool repeats(const Orbit& orbit) {
   return false;
 }
 
-/// An orbit from where a motion stands, if there is one near.
+/// An orbit from where a motion stands, if there is one whose state is within so much of the motion's.
 std::optional<Solution> orbit_from(const Problem& problem, const System& system, const Motion& motion, int n,
-                                   const std::atomic<bool>* stop) {
+                                   double within, const std::atomic<bool>* stop) {
   const std::optional<Orbit> guess = record(motion, n, stop);
   if (!guess) return std::nullopt;
   Orbit start = *guess;
   start.values = problem.values();
   const std::optional<Orbit> orbit = refine(problem, start);
-  if (!orbit) return std::nullopt;
+  if (!orbit || (orbit->x[0] - start.x[0]).norm() > within * start.x[0].norm()) return std::nullopt;
   Solution solution = describe(problem, *orbit, &system);
   if (!solution.is_motion) return std::nullopt;
   return solution;
@@ -90,7 +91,7 @@ class Hunt {
       const VectorXd& before = states[states.size() - static_cast<std::size_t>(n)];
       if ((now - before).norm() > near_return * size_.norm()) continue;
       const Motion& start = at[at.size() - static_cast<std::size_t>(n)];
-      add(orbit_from(problem_, system_, start, n, options_.stop));
+      add(orbit_from(problem_, system_, start, n, INFINITY, options_.stop));
     }
   }
 
@@ -137,9 +138,9 @@ std::optional<Solution> settle(const Problem& problem, const System& system, con
                                const std::atomic<bool>* stop) {
   Motion motion(system, state);
   if (!run_to(motion, {transient, 0.0}, stop, [] {})) return std::nullopt;
-  if (n != 0 || !system.model().forced()) return orbit_from(problem, system, motion, n, stop);
+  if (n != 0 || !system.model().forced()) return orbit_from(problem, system, motion, n, settled, stop);
   for (int cycle = 1; cycle <= longest_cycle; ++cycle) {
-    auto found = orbit_from(problem, system, motion, cycle, stop);
+    auto found = orbit_from(problem, system, motion, cycle, settled, stop);
     if (found || stopped(stop)) return found;
   }
   return std::nullopt;

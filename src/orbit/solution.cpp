@@ -103,6 +103,28 @@ Solution describe(const Problem& problem, Orbit orbit, const System* system) {
   return found;
 }
 
+std::vector<EventOfOrbit> events(const Problem& problem, const Orbit& orbit) {
+  const ModeSet set(problem.family(), orbit.values);
+  const mode::Frame& frame = set.frame();
+  std::vector<EventOfOrbit> all;
+  for (std::size_t i = 0; i < orbit.legs(); ++i) {
+    const Leg& leg = orbit.shape.legs[i];
+    if (leg.ending == Ending::cut) continue;
+    const Leg& next = orbit.shape.legs[(i + 1) % orbit.legs()];
+    const LegValue value = leg_value(set, leg, next, orbit.x[i], orbit.t[i], orbit.t[i + 1]);
+    EventOfOrbit event{leg.event, leg.event_contact, orbit.t[i + 1], 0.0, State(2 * static_cast<std::size_t>(frame.n)), next.states};
+    const Eigen::VectorXd X = value.X_end.value();
+    frame.leave(X.data(), X.data() + frame.d, event.before.data());
+    const auto stops = frame.stops.size(), frictions = frame.frictions.size(), at = static_cast<std::size_t>(leg.event_contact);
+    const mode::ContactRow& row = at < stops               ? frame.stops[at]
+                                  : at < stops + frictions ? frame.frictions[at - stops]
+                                                           : frame.compliant[at - stops - frictions];
+    event.w = row.sign * X[frame.u(row.own)];
+    all.push_back(std::move(event));
+  }
+  return all;
+}
+
 std::optional<Orbit> refine(const Problem& problem, Orbit guess) {
   const NewtonResult result = solve(problem, guess, fixed_parameters(problem, guess.legs()), 20);
   if (!result.converged) return std::nullopt;

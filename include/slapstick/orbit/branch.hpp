@@ -34,6 +34,7 @@ struct SpecialPoint {
   std::string outcome;     ///< of a change of events: "persistence", "non-smooth fold", "jump"
   double rotation = 0.0;   ///< NS: rho in (0, 1/2)
   std::size_t after = 0;   ///< it lies behind this point of the branch
+  std::size_t test = 0;    ///< GR, SL, CH, CO: which of the orbit's margins is zero (src/orbit/margins.hpp)
 };
 
 struct Branch {
@@ -60,6 +61,37 @@ struct ContinuationOptions {
 
 /// The cycle of twice the length that is born at a PD, as an approximate orbit to follow from; and the other branch at a BP.
 [[nodiscard]] std::optional<Orbit> doubled(const Problem& problem, const SpecialPoint& pd);
+
+struct CurvePoint {
+  std::vector<double> values;  ///< of the two parameters
+  Solution solution;
+};
+
+/// What else happens on a curve: a point of codimension two.
+struct CurveEvent {
+  std::string what;  ///< "another multiplier is -1", "the orbit ceases to be a motion: ..", "the curve turns back in NAME"
+  std::vector<double> values;
+  std::size_t after = 0;
+};
+
+struct Curve {
+  std::vector<CurvePoint> points;
+  std::vector<CurveEvent> met;
+  std::string ended;
+  bool failed = false;
+};
+
+struct CurveOptions {
+  double from = 0.0, to = 0.0;              ///< range of the first
+  double second_from = 0.0, second_to = 0.0;  ///< .. and the second parameter
+  double longest_step = 0.01;               ///< arclength in units of both ranges and the orbit's size
+  int most_points = 500;                    ///< each way
+  const std::atomic<bool>* stop = nullptr;
+  std::function<void(long points)> progress = {};
+};
+
+/// The locus of a special point, found in the family's first parameter, when the second varies too.
+[[nodiscard]] Curve locus(const Problem& problem, const SpecialPoint& point, const CurveOptions& options);
 
 /// d value / d (each parameter of `full`, a family whose first parameters are those of the branch's), along which the special point persists.
 [[nodiscard]] std::vector<double> sensitivity(const Family& full, const std::vector<double>& values, const SpecialPoint& point);

@@ -1,6 +1,7 @@
 #pragma once
 /// Periodic orbits, stable or not: Newton's method from a guess, what an orbit is, and a search for many.
 #include <complex>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -55,6 +56,19 @@ struct Solution {
 /// Newton's method at fixed parameters from an approximate orbit; the sequence of events is the guess's.
 /// @returns empty if it does not converge
 [[nodiscard]] std::optional<Orbit> refine(const Problem& problem, Orbit guess);
+
+/// An event of an orbit, with the state just before it.
+struct EventOfOrbit {
+  EventKind kind = EventKind::impact;
+  int contact = 0;       ///< System::contact_name
+  double t = 0.0;        ///< as Orbit::t
+  double w = 0.0;        ///< relative velocity of the contact's pair just before
+  State before;          ///< user's coordinates
+  mode::ContactStates after;
+};
+
+/// In order, from the end of the first leg on; none for an orbit without events.
+[[nodiscard]] std::vector<EventOfOrbit> events(const Problem& problem, const Orbit& orbit);
 
 [[nodiscard]] Energy energy(const Problem& problem, const Orbit& orbit);
 [[nodiscard]] std::vector<Margin> margins(const Problem& problem, const Orbit& orbit);

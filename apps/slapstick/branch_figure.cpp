@@ -71,12 +71,13 @@ class Lines {
 
 }  // namespace
 
-figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const std::string& parameter, const orbit::Problem& problem) {
+figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const std::string& parameter,
+                             const orbit::Problem& problem) {
   figure::Panel panel;
   panel.x_label = axis_text(parameter);
   panel.y_label = "impact speed w";
-  const std::array<figure::Colour, 4> palette = {figure::colours::black, figure::colours::dark_blue, figure::colours::vermillion,
-                                                 figure::colours::green};
+  const std::array<figure::Colour, 4> palette = {figure::colours::black, figure::colours::dark_blue,
+                                                 figure::colours::vermillion, figure::colours::green};
   figure::Points special{.label = "", .colour = figure::colours::vermillion, .diameter_mm = 0.9};
   for (std::size_t b = 0; b < branches.size(); ++b) {
     Lines lines(panel, palette[b % palette.size()]);
@@ -87,7 +88,7 @@ figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const s
       const double top = *std::ranges::max_element(y);
       special.x.push_back(point.value);
       special.y.push_back(top);
-      panel.marks.push_back({.x = point.value, .y = top, .label = " " + std::string(name(point.type)), .colour = figure::colours::black});
+      panel.marks.push_back({.x = point.value, .label = std::string(name(point.type))});
     }
   }
   if (!special.x.empty()) panel.points.push_back(std::move(special));

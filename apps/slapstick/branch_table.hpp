@@ -7,7 +7,7 @@
 
 namespace slapstick::app {
 
-[[nodiscard]] std::string branch_table(const std::vector<orbit::Branch>& branches, const std::string& parameter, const System& system);
+[[nodiscard]] std::string branch_table(const std::vector<orbit::Branch>& branches, const std::string& parameter);
 
 /// Follows the doubled orbits of the period doublings of the branches so far, until there are `most` branches.
 void follow_doublings(const orbit::Problem& problem, std::vector<orbit::Branch>& branches, std::size_t most,

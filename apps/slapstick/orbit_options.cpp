@@ -9,9 +9,11 @@
 namespace slapstick::app {
 
 void OrbitOptions::declare(Arguments& arguments) {
-  arguments.text("--orbit", orbit, "N-P",
-                 "forcing periods and impacts per cycle, e.g. 1-1 or 2-inf; N alone for any impacts (what the motion settles on)");
-  arguments.count("--transient", transient, 0, 1'000'000'000, "forcing periods to leave out before the first try (500)");
+  arguments.text(
+      "--orbit", orbit, "N-P",
+      "forcing periods and impacts per cycle, e.g. 1-1 or 2-inf; N alone for any impacts (what the motion settles on)");
+  arguments.count("--transient", transient, 0, 1'000'000'000,
+                  "forcing periods to leave out before the first try (500)");
   arguments.count("--starts", starts, 1, 1'000'000, "motions that a search looks through (64)");
   arguments.count("--seed", seed, 0, 4'000'000'000, "of the starts of a search (1)");
 }
@@ -37,20 +39,46 @@ OrbitClass parse_orbit(const std::string& text) {
   return wanted;
 }
 
+ParameterRange parse_range(const std::string& argument, const std::string& text) {
+  const auto parts = split(text, ':');
+  if (parts.size() != 2) throw InputError(argument + ": " + in_quotes(text) + " is not of the form A:B");
+  const ParameterRange range{parse_number(argument + " A", parts[0]), parse_number(argument + " B", parts[1])};
+  if (!(range.from < range.to))
+    throw InputError(argument + ": A = " + shown(range.from) + " is not below B = " + shown(range.to));
+  return range;
+}
+
+double present_value(const ChosenModel& chosen, const std::string& parameter, const ParameterRange& range) {
+  const auto values = chosen.definition.values(chosen.overrides);
+  std::string member = parameter;
+  for (const Group& group : chosen.definition.groups())
+    if (group.name == parameter) member = group.members.front();
+  const auto found = values.find(member);
+  if (found == values.end())
+    throw InputError("model " + in_quotes(chosen.model.name) + " has no parameter " + in_quotes(parameter));
+  if (found->second < range.from || found->second > range.to)
+    throw InputError("--range: " + parameter + " = " + shown(found->second) +
+                     ", where the first orbit is sought, is outside " + shown(range.from) + ":" + shown(range.to) +
+                     "; give a value inside by --set " + parameter + "=VALUE");
+  return found->second;
+}
+
 orbit::Family family_of(const ChosenModel& chosen, const std::vector<std::string>& parameters) {
   const auto overrides = [&chosen, parameters](const std::vector<double>& values) {
     Overrides all = chosen.overrides;
     for (std::size_t i = 0; i < parameters.size(); ++i) all[parameters[i]] = values.at(i);
     return all;
   };
-  return {parameters, [&chosen, overrides](const std::vector<double>& values) { return chosen.definition.build(overrides(values)); },
-          [&chosen, overrides, parameters](const std::vector<double>& values, std::size_t which) {
-            return chosen.definition.rate(parameters.at(which), overrides(values));
-          }};
+  return {
+      parameters,
+      [&chosen, overrides](const std::vector<double>& values) { return chosen.definition.build(overrides(values)); },
+      [&chosen, overrides, parameters](const std::vector<double>& values, std::size_t which) {
+        return chosen.definition.rate(parameters.at(which), overrides(values));
+      }};
 }
 
-orbit::Solution find_orbit(const orbit::Problem& problem, const System& system, const State& start, const OrbitOptions& options,
-                           const std::atomic<bool>& stop) {
+orbit::Solution find_orbit(const orbit::Problem& problem, const System& system, const State& start,
+                           const OrbitOptions& options, const std::atomic<bool>& stop) {
   const OrbitClass wanted = parse_orbit(options.orbit);
   if (wanted.n != 0 && !system.model().forced())
     throw InputError("--orbit: model " + in_quotes(system.model().name) +
@@ -62,7 +90,8 @@ orbit::Solution find_orbit(const orbit::Problem& problem, const System& system, 
     note(*found);
   }
   if (wanted.n == 0)
-    throw NumericalError("no periodic orbit: the motion does not settle on one within " + std::to_string(options.transient) +
+    throw NumericalError("no periodic orbit: the motion does not settle on one within " +
+                         std::to_string(options.transient) +
                          " periods (--transient); --orbit N-P searches for unstable ones");
   orbit::SearchOptions search;
   search.only_n = wanted.n;
@@ -74,7 +103,8 @@ orbit::Solution find_orbit(const orbit::Problem& problem, const System& system, 
     note(found);
   }
   throw NumericalError("no " + options.orbit + " orbit found from " + std::to_string(options.starts) + " motions" +
-                       (seen.empty() ? "" : " (found: " + seen + ")") + "; more --starts, another --state or parameter may help");
+                       (seen.empty() ? "" : " (found: " + seen + ")") +
+                       "; more --starts, another --state or parameter may help");
 }
 
 Json solution_json(const orbit::Solution& solution) {
@@ -110,7 +140,8 @@ Json events_json(const orbit::Problem& problem, const orbit::Solution& solution,
   for (const orbit::EventOfOrbit& event : orbit::events(problem, solution.orbit)) {
     Json item = Json::object();
     item.set("time", event.t * system.period()).set("kind", std::string(name(event.kind)));
-    item.set("contact", system.contact_name(event.contact)).set("mode_after", system.mode_name(system.mode_id(event.after)));
+    item.set("contact", system.contact_name(event.contact))
+        .set("mode_after", system.mode_name(system.mode_id(event.after)));
     list.push(std::move(item));
   }
   return list;
@@ -134,7 +165,9 @@ Json margins_json(const std::vector<orbit::Margin>& margins, const System& syste
     const bool stop = margin.kind == mode::GuardKind::gap || margin.kind == mode::GuardKind::press;
     const int contact = margin.contact + (stop ? 0 : friction ? stops : stops + frictions);
     Json item = Json::object();
-    item.set("guard", std::string(mode::name(margin.kind))).set("contact", system.contact_name(contact)).set("value", margin.value);
+    item.set("guard", std::string(mode::name(margin.kind)))
+        .set("contact", system.contact_name(contact))
+        .set("value", margin.value);
     list.push(std::move(item));
   }
   return list;

@@ -12,22 +12,32 @@
 namespace slapstick::app {
 
 struct OrbitOptions {
-  std::string orbit;               ///< --orbit N-P
-  long long transient = 500;       ///< --transient
-  long long starts = 64, seed = 1; ///< --starts, --seed
+  std::string orbit;                ///< --orbit N-P
+  long long transient = 500;        ///< --transient
+  long long starts = 64, seed = 1;  ///< --starts, --seed
 
   void declare(Arguments& arguments);
 };
 
 /// The parts of --orbit "N-P"; P may be "inf" (complete chatter) or left out.
 struct OrbitClass {
-  int n = 0;                 ///< 0: any
-  std::optional<long> p;     ///< none: any
+  int n = 0;              ///< 0: any
+  std::optional<long> p;  ///< none: any
   bool chatter = false;
   [[nodiscard]] bool admits(const orbit::Solution& solution) const;
 };
 /// @throws InputError naming --orbit
 [[nodiscard]] OrbitClass parse_orbit(const std::string& text);
+
+struct ParameterRange {
+  double from = 0.0, to = 0.0;
+};
+/// Reads "A:B", A < B. @throws InputError naming the argument
+[[nodiscard]] ParameterRange parse_range(const std::string& argument, const std::string& text);
+
+/// The value that a parameter or group has by --set or default. @throws InputError if there is none, or it is outside the range
+[[nodiscard]] double present_value(const ChosenModel& chosen, const std::string& parameter,
+                                   const ParameterRange& range);
 
 /// The chosen model as a function of some of its parameters or groups, beside what --set says.
 [[nodiscard]] orbit::Family family_of(const ChosenModel& chosen, const std::vector<std::string>& parameters);

@@ -36,6 +36,7 @@ Action add_simulate(Arguments& arguments);
 Action add_classify(Arguments& arguments);
 Action add_orbit(Arguments& arguments);
 Action add_continue(Arguments& arguments);
+Action add_curve(Arguments& arguments);
 Action add_poincare(Arguments& arguments);
 Action add_diagram(Arguments& arguments);
 Action add_reproduce(Arguments& arguments);

@@ -27,32 +27,6 @@ struct Options {
   bool table = false, stay = false, progress = false;
 };
 
-struct Range {
-  double from = 0.0, to = 0.0;
-};
-
-Range parse_range(const std::string& text) {
-  const auto parts = split(text, ':');
-  if (parts.size() != 2) throw InputError("--range: " + in_quotes(text) + " is not of the form A:B");
-  const Range range{parse_number("--range A", parts[0]), parse_number("--range B", parts[1])};
-  if (!(range.from < range.to)) throw InputError("--range: A = " + shown(range.from) + " is not below B = " + shown(range.to));
-  return range;
-}
-
-/// The value that the parameter has without --range; it must lie inside.
-double present_value(const ChosenModel& chosen, const std::string& parameter, const Range& range) {
-  const auto values = chosen.definition.values(chosen.overrides);
-  std::string member = parameter;
-  for (const Group& group : chosen.definition.groups())
-    if (group.name == parameter) member = group.members.front();
-  const auto found = values.find(member);
-  if (found == values.end()) throw InputError("--param: model " + in_quotes(chosen.model.name) + " has no parameter " + in_quotes(parameter));
-  if (found->second < range.from || found->second > range.to)
-    throw InputError("--range: " + parameter + " = " + shown(found->second) + ", where the first orbit is sought, is outside " +
-                     shown(range.from) + ":" + shown(range.to) + "; give one inside by --set " + parameter + "=VALUE");
-  return found->second;
-}
-
 Json point_json(const orbit::Solution& solution) {
   Json json = Json::object();
   json.set("param", solution.orbit.values[0]);
@@ -61,7 +35,8 @@ Json point_json(const orbit::Solution& solution) {
   return json;
 }
 
-Json special_json(const orbit::SpecialPoint& special, const std::vector<std::string>& names, const std::vector<double>& rates) {
+Json special_json(const orbit::SpecialPoint& special, const std::vector<std::string>& names,
+                  const std::vector<double>& rates) {
   Json json = Json::object();
   json.set("type", std::string(name(special.type))).set("param", special.value).set("error", special.error);
   const Json rest = solution_json(special.solution);
@@ -78,7 +53,8 @@ Json special_json(const orbit::SpecialPoint& special, const std::vector<std::str
   return json;
 }
 
-orbit::ContinuationOptions continuation(const Options& options, const Range& range, const std::atomic<bool>& stop) {
+orbit::ContinuationOptions continuation(const Options& options, const ParameterRange& range,
+                                        const std::atomic<bool>& stop) {
   orbit::ContinuationOptions how;
   how.from = range.from;
   how.to = range.to;
@@ -99,7 +75,8 @@ Json branch_json(const orbit::Branch& branch, const ChosenModel& chosen, const O
     std::vector<double> rates;
     if (!options.sensitivity.empty()) {
       std::vector<double> values = {point.value};
-      for (const std::string& other : options.sensitivity) values.push_back(present_value(chosen, other, {-INFINITY, INFINITY}));
+      for (const std::string& other : options.sensitivity)
+        values.push_back(present_value(chosen, other, {-INFINITY, INFINITY}));
       rates = orbit::sensitivity(family_of(chosen, names), values, point);
     }
     special.push(special_json(point, options.sensitivity, rates));
@@ -116,7 +93,7 @@ int run(const Options& options, const Context& context) {
   Output out(options.out);
   const Plot plot(options.plot);
   const ChosenModel chosen = options.model.load();
-  const Range range = parse_range(options.range);
+  const ParameterRange range = parse_range("--range", options.range);
   const double value = present_value(chosen, options.parameter, range);
   const State start = options.model.start(chosen);
   const System system = affordable_system(chosen, {static_cast<double>(options.orbit.transient) + 1.0, "--transient"});
@@ -128,7 +105,7 @@ int run(const Options& options, const Context& context) {
   std::vector<orbit::Branch> branches = {orbit::follow(*problem, first.orbit, how)};
   follow_doublings(*problem, branches, static_cast<std::size_t>(options.branches), how);
   if (options.table) {
-    out.write(branch_table(branches, options.parameter, system));
+    out.write(branch_table(branches, options.parameter));
   } else {
     Json json = branch_json(branches.front(), chosen, options);
     json.set("model", chosen.model.name).set("parameter", options.parameter);
@@ -152,18 +129,22 @@ Action add_continue(Arguments& arguments) {
   options->model.declare_state(arguments);
   options->orbit.declare(arguments);
   arguments.text("--param", options->parameter, "NAME", "the parameter, or group of them, to continue in");
-  arguments.text("--range", options->range, "A:B", "its range; the branch is followed both ways from the value of the first orbit");
+  arguments.text("--range", options->range, "A:B",
+                 "its range; the branch is followed both ways from the value of the first orbit");
   arguments.number("--step", options->step, "S", "longest step along the branch, as a part of the range (0.01)");
   arguments.count("--points", options->points, 1, 1'000'000, "most points each way (2000)");
-  arguments.count("--branches", options->branches, 1, 100, "follow the doubled orbits of PD points too, up to so many branches (1)");
+  arguments.count("--branches", options->branches, 1, 100,
+                  "follow the doubled orbits of PD points too, up to so many branches (1)");
   arguments.flag("--same-events", options->stay, "end the branch where its sequence of events changes");
-  arguments.repeated("--sensitivity", options->sensitivity, "NAME", "give d param / d NAME of each special point; may be repeated");
+  arguments.repeated("--sensitivity", options->sensitivity, "NAME",
+                     "give d param / d NAME of each special point; may be repeated");
   arguments.flag("--table", options->table, "write a table instead of JSON");
   arguments.text("--plot", options->plot, "F.png", "draw impact speeds along the branches (.png, .pdf or .svg)");
   arguments.text("--out", options->out, "FILE", "write the result there instead of to standard output");
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
-      "Special points: LP fold, PD period doubling, NS torus, BP branches cross, GR a stop is grazed, SL stick gained or lost,\n"
+      "Special points: LP fold, PD period doubling, NS torus, BP branches cross, GR a stop is grazed, SL stick gained "
+      "or lost,\n"
       "CH complete chatter begins or ends, CO two events meet. docs/continuation.md says how they are found.\n"
       "  slapstick continue vibro-impact --set omega=2.2 --orbit 1-1 --param omega --range 1:4 --table");
   return [options](const Context& context) { return run(*options, context); };

@@ -61,7 +61,8 @@ Action add_orbit(Arguments& arguments) {
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
       "A periodic orbit, stable or not, by Newton's method on the closed form of its legs, checked by a simulation.\n"
-      "Without --orbit: the one that the motion settles on. A search that finds nothing is no proof that there is nothing.\n"
+      "Without --orbit: the one that the motion settles on. A search that finds nothing is no proof that there is "
+      "nothing.\n"
       "  slapstick orbit vibro-impact --set omega=2.9 --orbit 1-1");
   return [options](const Context& context) {
     FileRoles roles;
@@ -71,13 +72,16 @@ Action add_orbit(Arguments& arguments) {
     const ChosenModel chosen = options->model.load();
     const State start = options->model.start(chosen);
     if (options->all && !chosen.model.forced())
-      throw InputError("--all: model '" + chosen.model.name + "' has no forcing, so there are no n-period orbits to search for");
-    const System system = affordable_system(chosen, {static_cast<double>(options->orbit.transient) + 1.0, "--transient"});
+      throw InputError("--all: model '" + chosen.model.name +
+                       "' has no forcing, so there are no n-period orbits to search for");
+    const System system =
+        affordable_system(chosen, {static_cast<double>(options->orbit.transient) + 1.0, "--transient"});
     const auto problem = orbit::pose(family_of(chosen, {}), {});
     Json json = head_json(chosen);
     if (options->all) {
       json.set("orbits", search_json(*options, *problem, system, start, context.stop));
-      json.set("note", "found from " + std::to_string(options->orbit.starts) + " motions; a search is no proof of completeness");
+      json.set("note", "found from " + std::to_string(options->orbit.starts) +
+                           " motions; a search is no proof of completeness");
     } else {
       const orbit::Solution found = find_orbit(*problem, system, start, options->orbit, context.stop);
       json.set("converged", true);

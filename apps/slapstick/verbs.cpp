@@ -12,6 +12,7 @@ const std::vector<Verb>& verbs() {
       {"classify", "what the motion is after its transient: n-p-I, n-p-II, quasi-periodic, chaotic", add_classify},
       {"orbit", "a periodic orbit by Newton's method, stable or not: class, multipliers, impacts, energy", add_orbit},
       {"continue", "a branch of periodic orbits in one parameter, with its bifurcations by name", add_continue},
+      {"curve", "the locus of a bifurcation of `continue` in two parameters", add_curve},
       {"poincare", "points of a section: at every impact, or once per forcing period", add_poincare},
       {"diagram", "bifurcation diagram over a parameter, on all cores", add_diagram},
       {"reproduce", "every figure and claim of the paper, into a folder", add_reproduce},

@@ -16,6 +16,8 @@ namespace {
 
 using Eigen::VectorXd;
 
+constexpr double straight = 0.95;  ///< least cosine between the tangents of neighbouring points
+
 /// Follows one direction from a point.
 class Follower {
  public:
@@ -31,7 +33,7 @@ class Follower {
   bool accept(PathPoint& at, PathPoint next, double length);
   bool change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why);
   void smooth_points(const PathPoint& at, const PathPoint& next, double length);
-  void end_at_boundary(const PathPoint& at, double length);
+  bool end_at_boundary(PathPoint& at);
   void end(std::string why, bool failed);
 
   const Problem& problem_;
@@ -61,40 +63,41 @@ Solution Follower::solution_of(const PathPoint& point, Verification* seen) const
 
 /// Special points that leave the events as they are.
 void Follower::smooth_points(const PathPoint& at, const PathPoint& next, double length) {
+  constexpr double merged = 1e-3;  // at a fold or crossing that is known to 1e-10 in the parameter, states are to 1e-5
   for (SpecialPoint& special : smooth_special_points(problem_, at, next, length, range_)) {
+    const bool doubling =
+        (special.type == SpecialType::LP || special.type == SpecialType::BP) && repeats(special.solution.orbit, merged);
     special.after = branch_.points.size() - 1;
+    if (doubling) {
+      special.type = SpecialType::PD;
+      special.what = "the branch leaves a shorter orbit, which doubles";
+      end("meets the orbit of which it is the double at " + shown(special.value), false);
+    }
     branch_.special.push_back(std::move(special));
+    if (doubling) return;
   }
 }
 
-/// The last point of a branch is on the boundary of the range.
-void Follower::end_at_boundary(const PathPoint& at, double length) {
-  PathPoint beyond = *step_to(problem_, at, length, range_);
-  const double wall = value(beyond) > options_.to ? options_.to : options_.from;
-  double a = 0.0, b = length;
-  std::optional<PathPoint> last;
-  for (int k = 0; k < 60 && b - a > 1e-14; ++k) {
-    const double part = (wall - value(at)) / (value(beyond) - value(at));
-    const double s = k < 20 && std::isfinite(part) ? a + (b - a) * std::clamp(part, 0.0, 1.0) : 0.5 * (a + b);
-    auto point = step_to(problem_, at, s, range_);
-    if (!point) break;
-    const double off = value(*point) - wall;
-    if (std::abs(off) <= 1e-13 * range_) {
-      last = std::move(point);
-      break;
-    }
-    const bool over = wall == options_.to ? off > 0.0 : off < 0.0;
-    (over ? b : a) = s;
-    if (over) beyond = *point;
-    last = std::move(point);
+/// The last point of a branch is on the boundary of the range, if the tangent leads there. @returns false if the branch goes on
+bool Follower::end_at_boundary(PathPoint& at) {
+  const double wall = at.watched.turn > 0.0 ? options_.to : options_.from;
+  const double length = (wall - value(at)) / (at.watched.turn * range_);
+  if (length < 1e-12) {
+    end("range", false);
+    return true;
   }
-  if (last) {
-    last->orbit.values[0] = wall;
-    if (auto orbit = refine(problem_, last->orbit)) branch_.points.push_back(describe(problem_, *orbit, nullptr));
-    const System system(problem_.family().model(branch_.points.back().orbit.values));
-    branch_.points.back() = describe(problem_, branch_.points.back().orbit, &system);
-  }
+  Orbit last = at.orbit;
+  const ModeSet set(problem_.family(), last.values);
+  move(problem_, linearise(problem_, set, last), length * at.tangent.cwiseProduct(at.units), 0.0, last);
+  last.values[0] = wall;
+  const std::optional<Orbit> orbit = refine(problem_, last);
+  if (!orbit) return false;
+  PathPoint next = point_of(problem_, *orbit, range_, at.tangent);
+  if (at.tangent.dot(next.tangent) < straight) return false;
+  if (!accept(at, std::move(next), length)) return true;
+  if (value(at) != wall) return false;  // the events have changed on the way
   end("range", false);
+  return true;
 }
 
 /// Between `at` and `beyond` the motion's events change. Notes the point and goes on with new ones. @returns false if the branch ends
@@ -105,7 +108,9 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
       step_ = 0.25 * length;
       return true;
     }
-    end("the motion has other events than the orbit behind " + problem_.family().names[0] + " = " + shown(value(at)) + " (" + why + ")", true);
+    end("the motion has other events than the orbit behind " + problem_.family().names[0] + " = " + shown(value(at)) +
+            " (" + why + ")",
+        true);
     return false;
   }
   SpecialPoint special = std::move(change->special);
@@ -115,7 +120,8 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
   special.outcome = next ? (next->folds ? "non-smooth fold" : "persistence") : "jump";
   branch_.special.push_back(special);
   if (!next) {
-    end(std::string(name(special.type)) + " at " + shown(special.value) + ": no orbit is born there", !options_.through_changes);
+    end(std::string(name(special.type)) + " at " + shown(special.value) + ": no orbit is born there",
+        !options_.through_changes);
     return false;
   }
   at = std::move(next->point);
@@ -136,6 +142,7 @@ bool Follower::accept(PathPoint& at, PathPoint next, double length) {
   }
   if (!solution.is_motion) return change_events(at, next, length, solution.why);
   smooth_points(at, next, length);
+  if (ended_) return false;
   branch_.points.push_back(std::move(solution));
   if (!seen.same_chatter && !seen.seen.shape.legs.empty()) {
     Orbit renewed = seen.seen;
@@ -156,27 +163,31 @@ void Follower::run(PathPoint at) {
   const Orbit first = at.orbit;
   for (int count = 0; !ended_ && count < options_.most_points; ++count) {
     if (stopped(options_.stop)) return end("stopped", true);
+    if (!inside(value(at) + step_ * at.watched.turn * range_)) {
+      if (end_at_boundary(at)) return;
+      step_ *= 0.5;
+      if (step_ < options_.shortest_step) return end("range", false);
+      continue;
+    }
     int newton = 0;
     std::optional<PathPoint> next = step_to(problem_, at, step_, range_, &newton);
     const double bend = next ? at.tangent.dot(next->tangent) : -1.0;
-    if (!next || (bend < 0.95 && step_ > 1e-4)) {
+    if (!next || !inside(value(*next)) || (bend < straight && step_ > 1e-4)) {
       step_ *= 0.5;
       if (step_ < options_.shortest_step)
-        return end("Newton's method does not converge behind " + problem_.family().names[0] + " = " + shown(value(at)), true);
+        return end("Newton's method does not converge behind " + problem_.family().names[0] + " = " + shown(value(at)),
+                   true);
       continue;
-    }
-    if (!inside(value(*next)) && inside(value(at))) {
-      PathPoint before = at;
-      const double length = step_;
-      const System system(problem_.family().model(at.orbit.values));
-      end_at_boundary(before, length);
-      return;
     }
     const double taken = step_;
     if (!accept(at, std::move(*next), taken)) return;
-    if (step_ == taken) step_ = std::min(options_.longest_step, newton <= 4 && bend > 0.995 ? 1.5 * step_ : newton > 6 ? 0.7 * step_ : step_);
+    if (step_ == taken)
+      step_ = std::min(options_.longest_step, newton <= 4 && bend > 0.995 ? 1.5 * step_
+                                              : newton > 6                ? 0.7 * step_
+                                                                          : step_);
     if (options_.progress) options_.progress(value(at), static_cast<long>(branch_.points.size()));
-    const bool back = count > 3 && first.legs() == at.orbit.legs() && std::abs(value(at) - first.values[0]) < 1e-3 * range_ * taken &&
+    const bool back = count > 3 && first.legs() == at.orbit.legs() &&
+                      std::abs(value(at) - first.values[0]) < 1e-3 * range_ * taken &&
                       (at.orbit.x[0] - first.x[0]).norm() < 1e-3 * taken * first.x[0].norm();
     if (back) return end("closed", false);
   }
@@ -190,7 +201,7 @@ Branch joined(Branch down, Branch up) {
   const std::size_t first = all.points.size() - 1;
   all.points.insert(all.points.end(), up.points.begin() + 1, up.points.end());
   for (auto special = down.special.rbegin(); special != down.special.rend(); ++special) {
-    special->after = first - special->after - 1;
+    special->after = first > special->after ? first - special->after - 1 : 0;
     all.special.push_back(std::move(*special));
   }
   for (SpecialPoint& special : up.special) {
@@ -212,7 +223,8 @@ std::string_view name(SpecialType type) {
 Branch follow(const Problem& problem, const Orbit& start, const ContinuationOptions& options) {
   const double value = start.values.at(0);
   if (!(value >= options.from && value <= options.to))
-    throw InputError(problem.family().names[0] + " = " + shown(value) + " is outside the range " + shown(options.from) + ":" + shown(options.to));
+    throw InputError(problem.family().names[0] + " = " + shown(value) + " is outside the range " + shown(options.from) +
+                     ":" + shown(options.to));
   const double range = options.to - options.from;
   const PathPoint first = point_of(problem, start, range, {});
   const System system(problem.family().model(start.values));

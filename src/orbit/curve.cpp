@@ -14,6 +14,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double rim = 1e-4;  ///< so near to the end of a range, as a part of it, a curve has come to it
+
 /// Follows f = 0 on the surface of orbits over two parameters. Near a point the surface has two tangent directions; the curve's is the one along
 /// which f does not change, the other is where Newton's correction of f goes.
 class CurveFollower {
@@ -29,15 +31,21 @@ class CurveFollower {
     Orbit orbit;
     VectorXd units;
     VectorXd along, across;  ///< of length 1, orthogonal, in units
+    VectorXd
+        tangent;  ///< of the branch in the first parameter, never turned round along the curve: f may depend on its sense
     Watched watched;
   };
 
-  [[nodiscard]] Place place(Orbit orbit, const VectorXd& forward) const;
+  [[nodiscard]] Place place(Orbit orbit, const Place* before) const;
   [[nodiscard]] std::optional<Orbit> moved(const Place& from, double along, double across) const;
   [[nodiscard]] std::optional<double> f(const Place& from, double along, double across) const;
   [[nodiscard]] std::optional<Orbit> corrected(const Place& from, double step) const;
   void note(const Place& before, const Place& now, Curve& curve) const;
-  [[nodiscard]] bool inside(const Orbit& orbit) const;
+  [[nodiscard]] bool inside(const std::vector<double>& values) const;
+  /// The parameters at a distance along the tangent.
+  [[nodiscard]] std::vector<double> ahead(const Place& here, double step) const;
+  [[nodiscard]] bool at_the_rim(const Place& here) const;
+  [[nodiscard]] std::optional<Place> next_place(const Place& here, double step) const;
   [[nodiscard]] MatrixXd surface(const Linearised& at, const VectorXd& units) const;
 
   const Problem& problem_;
@@ -45,9 +53,9 @@ class CurveFollower {
   const CurveOptions& options_;
 };
 
-bool CurveFollower::inside(const Orbit& orbit) const {
-  return orbit.values[0] >= options_.from && orbit.values[0] <= options_.to && orbit.values[1] >= options_.second_from &&
-         orbit.values[1] <= options_.second_to;
+bool CurveFollower::inside(const std::vector<double>& values) const {
+  return values[0] >= options_.from && values[0] <= options_.to && values[1] >= options_.second_from &&
+         values[1] <= options_.second_to;
 }
 
 /// Two orthonormal columns: the tangent plane of the surface.
@@ -70,14 +78,13 @@ std::optional<Orbit> CurveFollower::moved(const Place& from, double along, doubl
   return orbit;
 }
 
-/// The other orientation of the branch's tangent must not change f's sign: it is chosen by the one at the place.
 std::optional<double> CurveFollower::f(const Place& from, double along, double across) const {
   const std::optional<Orbit> orbit = moved(from, along, across);
   if (!orbit) return std::nullopt;
-  return defining(point_, point_of(problem_, *orbit, options_.to - options_.from, {}).watched);
+  return defining(point_, point_of(problem_, *orbit, options_.to - options_.from, from.tangent).watched);
 }
 
-CurveFollower::Place CurveFollower::place(Orbit orbit, const VectorXd& forward) const {
+CurveFollower::Place CurveFollower::place(Orbit orbit, const Place* before) const {
   constexpr double h = 1e-5;
   Place here;
   here.units = arclength_units(problem_, orbit, options_.to - options_.from);
@@ -85,6 +92,10 @@ CurveFollower::Place CurveFollower::place(Orbit orbit, const VectorXd& forward) 
   const ModeSet set(problem_.family(), orbit.values);
   const MatrixXd plane = surface(linearise(problem_, set, orbit), here.units);
   here.orbit = std::move(orbit);
+  PathPoint point =
+      point_of(problem_, here.orbit, options_.to - options_.from, before != nullptr ? before->tangent : VectorXd());
+  here.tangent = std::move(point.tangent);
+  here.watched = std::move(point.watched);
   here.along = plane.col(0);
   here.across = plane.col(1);
   const auto slope = [&](double a, double b) {
@@ -94,10 +105,10 @@ CurveFollower::Place CurveFollower::place(Orbit orbit, const VectorXd& forward) 
   };
   const double p = slope(1.0, 0.0), q = slope(0.0, 1.0), size = std::hypot(p, q);
   if (!(size > 0.0)) throw NumericalError("curve: the special point is degenerate at " + shown(here.orbit.values[0]));
-  const VectorXd along = (q * plane.col(0) - p * plane.col(1)) / size, across = (p * plane.col(0) + q * plane.col(1)) / size;
-  here.along = forward.size() > 0 && along.dot(forward) < 0.0 ? VectorXd(-along) : along;
+  const VectorXd along = (q * plane.col(0) - p * plane.col(1)) / size,
+                 across = (p * plane.col(0) + q * plane.col(1)) / size;
+  here.along = before != nullptr && along.dot(before->along) < 0.0 ? VectorXd(-along) : along;
   here.across = across;
-  here.watched = point_of(problem_, here.orbit, options_.to - options_.from, {}).watched;
   return here;
 }
 
@@ -121,15 +132,20 @@ std::optional<Orbit> CurveFollower::corrected(const Place& from, double step) co
 
 /// Signs that have changed beside the one that is zero all along.
 void CurveFollower::note(const Place& before, const Place& now, Curve& curve) const {
-  const auto add = [&](const std::string& what) { curve.met.push_back({what, now.orbit.values, curve.points.size() - 1}); };
+  const auto add = [&](const std::string& what) {
+    curve.met.push_back({what, now.orbit.values, curve.points.size() - 1});
+  };
   const auto changes = [](double a, double b) { return (a < 0.0) != (b < 0.0); };
   if (point_.type != SpecialType::PD && changes(before.watched.flip, now.watched.flip)) add("a multiplier passes -1");
-  if (point_.type != SpecialType::LP && changes(before.watched.turn, now.watched.turn)) add("a fold of the branch: a multiplier passes +1");
-  if (point_.type != SpecialType::NS && point_.type != SpecialType::PD && changes(before.watched.torus, now.watched.torus))
+  if (point_.type != SpecialType::LP && changes(before.watched.turn, now.watched.turn))
+    add("a fold of the branch: a multiplier passes +1");
+  if (point_.type != SpecialType::NS && point_.type != SpecialType::PD &&
+      changes(before.watched.torus, now.watched.torus))
     add("two multipliers whose product is 1");
   for (int j = 0; j < 2; ++j) {
     const Index column = problem_.parameter_column(before.orbit.legs(), j);
-    if (changes(before.along[column], now.along[column])) add("the curve turns back in " + problem_.family().names[static_cast<std::size_t>(j)]);
+    if (changes(before.along[column], now.along[column]))
+      add("the curve turns back in " + problem_.family().names[static_cast<std::size_t>(j)]);
   }
   for (std::size_t i = 0; i < before.watched.tests.size(); ++i) {
     const bool own = static_cast<int>(point_.type) >= static_cast<int>(SpecialType::GR) && i == point_.test;
@@ -138,29 +154,50 @@ void CurveFollower::note(const Place& before, const Place& now, Curve& curve) co
   }
 }
 
+std::vector<double> CurveFollower::ahead(const Place& here, double step) const {
+  std::vector<double> values = here.orbit.values;
+  for (Index j = 0; j < 2; ++j) {
+    const Index column = problem_.parameter_column(here.orbit.legs(), j);
+    values[static_cast<std::size_t>(j)] += step * here.along[column] * here.units[column];
+  }
+  return values;
+}
+
+bool CurveFollower::at_the_rim(const Place& here) const {
+  std::vector<double> values = here.orbit.values;
+  for (Index j = 0; j < 2; ++j) {
+    const Index column = problem_.parameter_column(here.orbit.legs(), j);
+    values[static_cast<std::size_t>(j)] += std::copysign(rim * here.units[column], here.along[column]);
+  }
+  return !inside(values);
+}
+
+std::optional<CurveFollower::Place> CurveFollower::next_place(const Place& here, double step) const {
+  try {
+    if (const auto found = corrected(here, step)) return place(*found, &here);
+  } catch (const InputError&) {  // no model there
+  } catch (const NumericalError&) {
+  }
+  return std::nullopt;
+}
+
 Curve CurveFollower::run(Orbit orbit, double sign) {
   Curve curve;
-  Place here = place(std::move(orbit), {});
+  curve.ended = "points";
+  Place here = place(std::move(orbit), nullptr);
   if (here.along[problem_.parameter_column(here.orbit.legs(), 1)] * sign < 0.0) here.along = -here.along;
   double step = 0.25 * options_.longest_step;
   curve.points.push_back({here.orbit.values, describe(problem_, here.orbit, nullptr)});
-  while (static_cast<int>(curve.points.size()) < options_.most_points) {
-    if (stopped(options_.stop)) break;
+  while (static_cast<int>(curve.points.size()) < options_.most_points && !stopped(options_.stop)) {
     std::optional<Place> next;
-    try {
-      if (const auto found = corrected(here, step)) next = place(*found, here.along);
-    } catch (const InputError&) {  // no model there
-    } catch (const NumericalError&) {
-    }
-    if (!next || here.along.dot(next->along) < 0.9) {
+    if (inside(ahead(here, step))) next = next_place(here, step);
+    if (!next || here.along.dot(next->along) < 0.9 || !inside(next->orbit.values)) {
       step *= 0.5;
       if (step > 1e-7) continue;
-      curve.ended = "no convergence behind " + shown(here.orbit.values[0]) + ", " + shown(here.orbit.values[1]);
-      curve.failed = true;
-      return curve;
-    }
-    if (!inside(next->orbit)) {
-      curve.ended = "range";
+      curve.failed = !at_the_rim(here);
+      curve.ended = curve.failed
+                        ? "no convergence behind " + shown(here.orbit.values[0]) + ", " + shown(here.orbit.values[1])
+                        : "range";
       return curve;
     }
     note(here, *next, curve);
@@ -169,7 +206,6 @@ Curve CurveFollower::run(Orbit orbit, double sign) {
     step = std::min(options_.longest_step, 1.4 * step);
     if (options_.progress) options_.progress(static_cast<long>(curve.points.size()));
   }
-  curve.ended = "points";
   return curve;
 }
 
@@ -184,7 +220,7 @@ Curve locus(const Problem& problem, const SpecialPoint& point, const CurveOption
   const std::size_t first = all.points.size() - 1;
   all.points.insert(all.points.end(), up.points.begin() + 1, up.points.end());
   for (auto event = down.met.rbegin(); event != down.met.rend(); ++event) {
-    event->after = first - event->after - 1;
+    event->after = first > event->after ? first - event->after - 1 : 0;
     all.met.push_back(std::move(*event));
   }
   for (CurveEvent& event : up.met) {

@@ -13,8 +13,10 @@ using Eigen::VectorXd;
 using mode::GuardKind;
 
 /// Nodes and weights of Gauss and Legendre on [-1, 1], eight points; exact to degree 15.
-constexpr std::array<double, 4> nodes = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
-constexpr std::array<double, 4> weights = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
+constexpr std::array<double, 4> nodes = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
+                                         0.9602898564975363};
+constexpr std::array<double, 4> weights = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
+                                           0.1012285362903763};
 
 class Account {
  public:
@@ -29,7 +31,9 @@ class Account {
  private:
   void powers(const ModeRates& mode, const VectorXd& X, double weight);
   void friction_power(const ModeRates& mode, std::size_t i, const VectorXd& X, double weight);
-  [[nodiscard]] VectorXd velocity(const VectorXd& u) const { return frame_.W_inverse * (u + frame_.drift.head(frame_.n)); }
+  [[nodiscard]] VectorXd velocity(const VectorXd& u) const {
+    return frame_.W_inverse * (u + frame_.drift.head(frame_.n));
+  }
   [[nodiscard]] double kinetic(const VectorXd& u) const;
 
   const ModeSet& set_;

@@ -14,7 +14,7 @@ using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
-constexpr double enough = 1e-13;     ///< a step, relative to the orbit's size, after which there is nothing to gain
+constexpr double enough = 1e-13;  ///< a step, relative to the orbit's size, after which there is nothing to gain
 constexpr double longest_step = 0.5;
 
 /// x_0 by its numbers: the columns of representatives.
@@ -106,7 +106,8 @@ void move(const Problem& problem, const Linearised& at, const VectorXd& change, 
   const std::size_t k = orbit.legs();
   for (std::size_t i = 0; i < k; ++i) orbit.x[i] += at.states[i] * change + fraction * at.defects[i];
   for (std::size_t i = 0; i <= k; ++i) orbit.t[i] += change[problem.instant_column(i)];
-  for (Index j = 0; j < problem.parameters(); ++j) orbit.values[static_cast<std::size_t>(j)] += change[problem.parameter_column(k, j)];
+  for (Index j = 0; j < problem.parameters(); ++j)
+    orbit.values[static_cast<std::size_t>(j)] += change[problem.parameter_column(k, j)];
   orbit.advance = at.advance;
 }
 
@@ -118,7 +119,8 @@ VectorXd sizes(const Problem& problem, const Orbit& orbit) {
     velocity = std::max(velocity, x.tail(n).cwiseAbs().maxCoeff());
   }
   // At events displacements may all be zero, as those of a lone mass at its stop: a radian of motion at that velocity is a size too.
-  const double radian = (forced(orbit) ? 1.0 : orbit.t.back() - orbit.t.front()) * problem.base().period() / (2.0 * std::numbers::pi);
+  const double radian =
+      (forced(orbit) ? 1.0 : orbit.t.back() - orbit.t.front()) * problem.base().period() / (2.0 * std::numbers::pi);
   displacement = std::max(displacement, velocity * radian);
   velocity = std::max(velocity, displacement / radian);
   VectorXd state(2 * n);
@@ -143,7 +145,8 @@ std::vector<Condition> fixed_parameters(const Problem& problem, std::size_t legs
 namespace {
 
 /// One step from the linearisation: the change of the unknowns; not finite where the matrix is singular.
-VectorXd newton_step(const Linearised& at, const std::vector<Condition>& conditions, const VectorXd& moved, const VectorXd& scale) {
+VectorXd newton_step(const Linearised& at, const std::vector<Condition>& conditions, const VectorXd& moved,
+                     const VectorXd& scale) {
   const auto more = static_cast<Index>(conditions.size());
   MatrixXd matrix(at.by.rows() + more, at.by.cols());
   VectorXd right(matrix.rows());
@@ -175,7 +178,9 @@ NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condi
       if (!step.allFinite()) return result;
       result.last_step = step.cwiseAbs().maxCoeff();
       for (const VectorXd& defect : at.defects)
-        result.last_step = std::max(result.last_step, problem.translations().numbers(defect).cwiseQuotient(scale.head(problem.numbers())).cwiseAbs().maxCoeff());
+        result.last_step = std::max(
+            result.last_step,
+            problem.translations().numbers(defect).cwiseQuotient(scale.head(problem.numbers())).cwiseAbs().maxCoeff());
       if (result.steps == 1) result.first_step = result.last_step;
       const double fraction = std::min(1.0, longest_step / step.cwiseAbs().maxCoeff());
       const VectorXd change = fraction * step.cwiseProduct(scale);
@@ -195,7 +200,8 @@ NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condi
   return result;
 }
 
-ReturnRates return_rates(const Problem& problem, const ModeSet& set, const Orbit& orbit, const std::vector<LegValue>& legs) {
+ReturnRates return_rates(const Problem& problem, const ModeSet& set, const Orbit& orbit,
+                         const std::vector<LegValue>& legs) {
   const std::size_t k = orbit.legs();
   const Index size = 2 * problem.base().frame().n, n = size / 2, columns = size + problem.parameters();
   MatrixXd dx = MatrixXd::Zero(size, columns);

@@ -41,8 +41,8 @@ class Problem {
 };
 
 struct Linearised {
-  Eigen::VectorXd residual;           ///< k endings, the closing, the time: k + numbers + 1
-  Eigen::MatrixXd by;                 ///< its derivative by the unknowns
+  Eigen::VectorXd residual;              ///< k endings, the closing, the time: k + numbers + 1
+  Eigen::MatrixXd by;                    ///< its derivative by the unknowns
   std::vector<Eigen::MatrixXd> states;   ///< of x_i by the unknowns ..
   std::vector<Eigen::VectorXd> defects;  ///< .. and what x_i has to make good
   std::vector<LegValue> legs;
@@ -87,7 +87,7 @@ struct ReturnRates {
                                        const std::vector<LegValue>& legs);
 
 /// Solution::multipliers. `legs`: of a linearisation of the orbit as it is; begun elsewhere it is linearised anew.
-[[nodiscard]] std::vector<std::complex<double>> multipliers(const Problem& problem, const ModeSet& set, const Orbit& orbit,
-                                                            const std::vector<LegValue>& legs);
+[[nodiscard]] std::vector<std::complex<double>> multipliers(const Problem& problem, const ModeSet& set,
+                                                            const Orbit& orbit, const std::vector<LegValue>& legs);
 
 }  // namespace slapstick::orbit

@@ -40,7 +40,8 @@ void step(const ModeRates& mode, Index d, double s, Jet& X) {
 }
 
 /// Impulses along some displacements: u -> u - M^{-1} G^T D^+ F G u, of all columns of a jet.
-void push(const ModeSet& set, const std::vector<int>& rows, const VectorXd& factor, const MatrixXd& factor_rates, Jet& X) {
+void push(const ModeSet& set, const std::vector<int>& rows, const VectorXd& factor, const MatrixXd& factor_rates,
+          Jet& X) {
   const mode::Frame& frame = set.frame();
   const Index d = frame.d;
   const MatrixXd S = frame.mass_inverse(Eigen::all, rows), D = S(rows, Eigen::all);
@@ -121,7 +122,8 @@ Jet chatter_jet(const ModeSet& set, int stop, const Jet& X, double t_begin, doub
   double phi = 0.0, R = own.sign * frame.free.row(own.own).dot(X.value());
   for (std::size_t i = 0; i < frame.frictions.size(); ++i) {
     const mode::ContactRow& contact = frame.frictions[i];
-    const double w = contact.sign * X.value()[frame.u(contact.own)], kinetic = set.model().frictions[i].kinetic_friction;
+    const double w = contact.sign * X.value()[frame.u(contact.own)],
+                 kinetic = set.model().frictions[i].kinetic_friction;
     const double effect = own.sign * contact.sign * frame.mass_inverse(own.own, contact.own);
     if (frame.parallel(own.own, contact.own) != 0)
       phi += std::abs(effect) * kinetic;

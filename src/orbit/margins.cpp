@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "orbit/equations.hpp"
 #include "orbit/leg_flow.hpp"
 #include "slapstick/orbit/periodic_orbit.hpp"
-#include "orbit/equations.hpp"
 
 namespace slapstick::orbit {
 namespace {
@@ -14,7 +14,8 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using mode::GuardKind;
 
-constexpr double samples_per_step = 8.0;  ///< of ModeRates::longest_step: what a guard does between them is found by its slope
+constexpr double samples_per_step =
+    8.0;  ///< of ModeRates::longest_step: what a guard does between them is found by its slope
 
 bool of_gap(GuardKind kind) { return kind == GuardKind::gap || kind == GuardKind::engage || kind == GuardKind::leave; }
 
@@ -29,8 +30,10 @@ int displacement(const mode::Frame& frame, GuardKind kind, int contact) {
 bool zero_by_event(const mode::Frame& frame, const Leg& before, const mode::Guard& guard) {
   if (before.ending == Ending::cut) return false;
   const GuardKind kind = before.ending == Ending::chatter ? GuardKind::gap : before.kind;
-  if (frame.parallel(displacement(frame, kind, before.contact), displacement(frame, guard.kind, guard.contact)) == 0) return false;
-  if (of_gap(guard.kind)) return of_gap(kind) || kind == GuardKind::press || kind == GuardKind::let_go || kind == GuardKind::push;
+  if (frame.parallel(displacement(frame, kind, before.contact), displacement(frame, guard.kind, guard.contact)) == 0)
+    return false;
+  if (of_gap(guard.kind))
+    return of_gap(kind) || kind == GuardKind::press || kind == GuardKind::let_go || kind == GuardKind::push;
   if (guard.kind == GuardKind::slip) return mode::of_friction(kind) || kind == GuardKind::press;
   return false;
 }
@@ -46,7 +49,8 @@ struct Course {
   Course(const ModeSet& set, const Leg& leg, const VectorXd& x, double t_begin, double duration)
       : mode(set.mode(leg.states)) {
     const double s = duration * set.period();
-    const auto count = static_cast<std::size_t>(std::max(4.0, std::ceil(samples_per_step * std::abs(s) / mode.longest_step)));
+    const auto count =
+        static_cast<std::size_t>(std::max(4.0, std::ceil(samples_per_step * std::abs(s) / mode.longest_step)));
     step = s / static_cast<double>(count);
     Jet X = leg_start(set, leg, x, t_begin);
     Jet bare(X.all.rows(), 0, 0);
@@ -75,7 +79,8 @@ struct Least {
 /// The zero of the guard's slope between two samples, the slope being negative at the first; by the secant rule, kept within.
 void take_minimum(const Course& course, const mode::Guard& guard, std::size_t i, Least& least) {
   const mode::Matrix& A = course.mode.outline.system;
-  double a = 0.0, b = course.step, slope_a = guard.row * (A * course.states[i]), slope_b = guard.row * (A * course.states[i + 1]);
+  double a = 0.0, b = course.step, slope_a = guard.row * (A * course.states[i]),
+         slope_b = guard.row * (A * course.states[i + 1]);
   Jet X(course.states[i].size(), 0, 0);
   double s = 0.0;
   for (int k = 0; k < 60; ++k) {
@@ -115,7 +120,8 @@ double beyond_stick(const ModeSet& set, const Orbit& orbit, std::size_t leg, con
   double least = std::numeric_limits<double>::infinity();
   const int own = set.frame().frictions[contact].own;
   for (const mode::Guard& guard : outline.guards) {
-    const bool force = guard.kind == GuardKind::stick_above || guard.kind == GuardKind::stick_below || guard.kind == GuardKind::press;
+    const bool force =
+        guard.kind == GuardKind::stick_above || guard.kind == GuardKind::stick_below || guard.kind == GuardKind::press;
     if (force && set.frame().parallel(displacement(set.frame(), guard.kind, guard.contact), own) != 0)
       least = std::min(least, guard.row.dot(X_end));
   }
@@ -145,12 +151,14 @@ std::vector<TestValue> test_values(const ModeSet& set, const Orbit& orbit) {
     }
     if (leg.ending == Ending::guard) {
       const mode::RowVector& row = guards[course.mode.guard(leg.kind, leg.contact)].row;
-      all.push_back({Test::speed, i, leg.kind, leg.contact, -row.dot(course.mode.outline.system * course.states.back()), orbit.duration(i)});
+      all.push_back({Test::speed, i, leg.kind, leg.contact, -row.dot(course.mode.outline.system * course.states.back()),
+                     orbit.duration(i)});
     }
     if (leg.ending != Ending::cut)
       all.push_back({Test::duration, i, leg.kind, leg.contact, orbit.duration(i), orbit.duration(i)});
     if (passes_without_stick(orbit, i))
-      all.push_back({Test::no_stick, i, leg.kind, leg.contact, beyond_stick(set, orbit, i, course.states.back()), orbit.duration(i)});
+      all.push_back({Test::no_stick, i, leg.kind, leg.contact, beyond_stick(set, orbit, i, course.states.back()),
+                     orbit.duration(i)});
   }
   return all;
 }
@@ -160,7 +168,8 @@ std::vector<Margin> margins(const Problem& problem, const Orbit& orbit) {
   std::vector<Margin> least;
   for (const TestValue& test : test_values(set, orbit)) {
     if (test.test != Test::guard || !std::isfinite(test.value)) continue;
-    const auto same = std::ranges::find_if(least, [&](const Margin& m) { return m.kind == test.kind && m.contact == test.contact; });
+    const auto same =
+        std::ranges::find_if(least, [&](const Margin& m) { return m.kind == test.kind && m.contact == test.contact; });
     if (same == least.end())
       least.push_back({test.kind, test.contact, test.value});
     else

@@ -15,7 +15,8 @@ using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
 /// The equations, all parameters but the first fixed, and one row more; in units of arclength, rows of size 1.
-MatrixXd bordered(const Problem& problem, const Linearised& at, std::size_t legs, const VectorXd& units, const VectorXd& last_row) {
+MatrixXd bordered(const Problem& problem, const Linearised& at, std::size_t legs, const VectorXd& units,
+                  const VectorXd& last_row) {
   const Index others = problem.parameters() - 1;
   MatrixXd matrix(at.by.rows() + others + 1, at.by.cols());
   matrix.topRows(at.by.rows()) = at.by * units.asDiagonal();
@@ -27,7 +28,8 @@ MatrixXd bordered(const Problem& problem, const Linearised& at, std::size_t legs
 }
 
 /// The direction along which the equations stay solved.
-VectorXd tangent_at(const Problem& problem, const Linearised& at, std::size_t legs, const VectorXd& units, const VectorXd& forward) {
+VectorXd tangent_at(const Problem& problem, const Linearised& at, std::size_t legs, const VectorXd& units,
+                    const VectorXd& forward) {
   VectorXd last = forward;
   if (last.size() == 0) {  // of a matrix with one row too few the last singular vector
     const MatrixXd matrix = bordered(problem, at, legs, units, VectorXd::Unit(at.by.cols(), 0));
@@ -56,6 +58,18 @@ double flip_product(const std::vector<std::complex<double>>& multipliers) {
 
 }  // namespace
 
+bool repeats(const Orbit& orbit, double tolerance) {
+  for (std::size_t part = 1; part < orbit.legs(); ++part) {
+    if (orbit.legs() % part != 0) continue;
+    bool same = true;
+    for (std::size_t i = 0; same && i + part < orbit.legs(); ++i)
+      same = orbit.shape.legs[i] == orbit.shape.legs[i + part] &&
+             (orbit.x[i] - orbit.x[i + part]).norm() <= tolerance * orbit.x[i].norm();
+    if (same) return true;
+  }
+  return false;
+}
+
 VectorXd arclength_units(const Problem& problem, const Orbit& orbit, double range) {
   VectorXd units = sizes(problem, orbit);
   units[problem.parameter_column(orbit.legs(), 0)] = range;
@@ -78,7 +92,8 @@ PathPoint point_of(const Problem& problem, Orbit orbit, double range, const Vect
   return point;
 }
 
-std::optional<PathPoint> step_to(const Problem& problem, const PathPoint& from, double length, double range, int* steps) {
+std::optional<PathPoint> step_to(const Problem& problem, const PathPoint& from, double length, double range,
+                                 int* steps) {
   try {
     Orbit orbit = from.orbit;
     const ModeSet set(problem.family(), orbit.values);

@@ -8,6 +8,9 @@ namespace slapstick::orbit {
 /// The unknowns of arclength: sizes of the orbit, a period, the range of the parameter.
 [[nodiscard]] Eigen::VectorXd arclength_units(const Problem& problem, const Orbit& orbit, double range);
 
+/// Whether a cycle is a shorter one several times over, within so much of its states.
+[[nodiscard]] bool repeats(const Orbit& orbit, double tolerance);
+
 /// What is watched along a branch.
 struct Watched {
   double turn = 0.0;   ///< the tangent's component in the parameter: zero at a fold
@@ -30,7 +33,8 @@ struct PathPoint {
 [[nodiscard]] PathPoint point_of(const Problem& problem, Orbit orbit, double range, const Eigen::VectorXd& forward);
 
 /// The point at an arclength from another; empty if Newton's method does not get there. `steps`: Newton's.
-[[nodiscard]] std::optional<PathPoint> step_to(const Problem& problem, const PathPoint& from, double length, double range, int* steps = nullptr);
+[[nodiscard]] std::optional<PathPoint> step_to(const Problem& problem, const PathPoint& from, double length,
+                                               double range, int* steps = nullptr);
 
 /// The zero of a function of the points between `from` and the point at `length`, where it has the other sign.
 struct Located {

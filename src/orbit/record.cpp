@@ -13,8 +13,8 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double far_off = 0.3;       ///< a cycle's length may be this much off, relative to it
-constexpr double same_instant = 1e-6; ///< periods
+constexpr double far_off = 0.3;        ///< a cycle's length may be this much off, relative to it
+constexpr double same_instant = 1e-8;  ///< periods
 constexpr long most_events_autonomous = 400;
 
 /// An event as the end of a leg, and the state behind it.
@@ -46,7 +46,8 @@ std::optional<Leg> ended_leg(const Motion& motion) {
 }
 
 /// Runs on to the next event that ends a leg, or to `end`. @returns empty at the end, or (and sets `touched`) after a graze
-std::optional<Seen> next_event(Motion& motion, std::int64_t zero, Instant end, bool& touched, const std::atomic<bool>* stop) {
+std::optional<Seen> next_event(Motion& motion, std::int64_t zero, Instant end, bool& touched,
+                               const std::atomic<bool>* stop) {
   const long seen = motion.counters().segments;
   Instant stage = motion.time();
   while (!stopped(stop)) {
@@ -91,7 +92,8 @@ Orbit without_events(Motion motion, int n) {
   return orbit;
 }
 
-std::optional<Orbit> record_autonomous(Motion& motion, std::vector<Seen> events, Instant end, const std::atomic<bool>* stop) {
+std::optional<Orbit> record_autonomous(Motion& motion, std::vector<Seen> events, Instant end,
+                                       const std::atomic<bool>* stop) {
   bool touched = false;
   const std::int64_t zero = motion.time().period;
   events.front().t = motion.time().since({zero, 0.0});
@@ -161,7 +163,8 @@ std::size_t freest_leg(const System& system, const Orbit& orbit) {
   std::size_t best = 0;
   const auto better = [&](std::size_t a, std::size_t b) {
     const auto& legs = orbit.shape.legs;
-    if ((legs[a].ending == Ending::chatter) != (legs[b].ending == Ending::chatter)) return legs[b].ending == Ending::chatter;
+    if ((legs[a].ending == Ending::chatter) != (legs[b].ending == Ending::chatter))
+      return legs[b].ending == Ending::chatter;
     const int p = held(system, legs[a]), q = held(system, legs[b]);
     return p != q ? p < q : orbit.duration(a) > orbit.duration(b);
   };
@@ -181,20 +184,6 @@ State middle(const System& system, const Orbit& orbit, std::size_t leg) {
   return attractor::user_state(system, x);
 }
 
-/// Legs without the impacts that a chatter's sum follows: how many were flown one by one does not matter.
-std::vector<std::size_t> without_bursts(const std::vector<Leg>& legs) {
-  std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < legs.size(); ++i) {
-    if (legs[i].ending == Ending::chatter) {
-      while (!kept.empty() && legs[kept.back()].event == EventKind::impact && legs[kept.back()].kind == mode::GuardKind::gap &&
-             legs[kept.back()].contact == legs[i].contact)
-        kept.pop_back();
-    }
-    kept.push_back(i);
-  }
-  return kept;
-}
-
 std::string mismatch(const System& system, std::size_t i, const Leg* seen, const Leg* wanted) {
   const auto called = [&](const Leg* leg) {
     return leg == nullptr ? "nothing" : std::string(name(leg->event)) + " " + system.contact_name(leg->event_contact);
@@ -204,65 +193,124 @@ std::string mismatch(const System& system, std::size_t i, const Leg* seen, const
 
 }  // namespace
 
+namespace {
+
+/// Do impacts of one stop, and slips between them, lead from this leg to a chatter's sum? How many are flown one by one does not matter.
+bool in_burst(const Orbit& orbit, std::size_t leg) {
+  for (std::size_t i = 0; i < orbit.legs(); ++i) {
+    const Leg& next = orbit.shape.legs[(leg + i) % orbit.legs()];
+    if (next.ending == Ending::chatter) return true;
+    if (next.ending == Ending::cut || (next.kind != mode::GuardKind::gap && next.kind != mode::GuardKind::slip))
+      return false;
+  }
+  return false;
+}
+
+/// Legs at which a check begins: those in which least is held, where a state in the user's coordinates loses nothing, and no short flights of a
+/// burst, whose gap it would lose.
+std::vector<std::size_t> starts(const System& system, const Orbit& orbit) {
+  const int least = held(system, orbit.shape.legs[freest_leg(system, orbit)]);
+  std::vector<std::size_t> legs;
+  for (std::size_t i = 0; i < orbit.legs(); ++i)
+    if (orbit.shape.legs[i].ending != Ending::chatter && held(system, orbit.shape.legs[i]) == least &&
+        orbit.duration(i) > 1e-3 * (orbit.t.back() - orbit.t.front()))
+      legs.push_back(i);
+  if (legs.empty()) legs.push_back(freest_leg(system, orbit));
+  return legs;
+}
+
+/// One check: from the middle of a leg to the middle of the next check's.
+class Check {
+ public:
+  Check(const System& system, const Orbit& orbit, Verification& result)
+      : system_(system), orbit_(orbit), result_(result) {}
+
+  /// @param next  the next check's leg; may be larger than the number of legs: then it is in the next cycle. @returns false on a mismatch
+  bool run(std::size_t first, std::size_t next);
+
+ private:
+  bool refuse(const std::string& why) {
+    result_.why = why;
+    return false;
+  }
+
+  const System& system_;
+  const Orbit& orbit_;
+  Verification& result_;
+};
+
+bool Check::run(std::size_t first, std::size_t next) {
+  const double t_middle = orbit_.t[first] + 0.5 * orbit_.duration(first), whole = std::floor(t_middle);
+  const double cycle = orbit_.t.back() - orbit_.t.front();
+  Motion motion(system_, middle(system_, orbit_, first), {static_cast<std::int64_t>(whole), t_middle - whole});
+  if (motion.mode_id() != system_.mode_id(orbit_.shape.legs[first].states))
+    return refuse("leg " + std::to_string(first + 1) + " starts in mode " + system_.mode_name(motion.mode_id()));
+  bool touched = false;
+  for (std::size_t i = first; i < next; ++i) {
+    const std::size_t leg = i % orbit_.legs();
+    const double due = orbit_.t[leg + 1] + (i >= orbit_.legs() ? cycle : 0.0);
+    const std::optional<Seen> seen =
+        next_event(motion, 0, Instant{}.plus(due + 2.0 * same_instant * std::max(1.0, cycle)), touched, nullptr);
+    if (touched) return refuse("the motion grazes in leg " + std::to_string(leg + 1));
+    const Leg* wanted = &orbit_.shape.legs[leg];
+    if (!seen || !(seen->leg == *wanted)) {
+      const bool burst = in_burst(orbit_, leg) && seen &&
+                         (seen->leg.ending == Ending::chatter || seen->leg.kind == mode::GuardKind::gap ||
+                          seen->leg.kind == mode::GuardKind::slip);
+      if (!burst) return refuse(mismatch(system_, leg, seen ? &seen->leg : nullptr, wanted));
+      result_.same_chatter = false;
+      return true;
+    }
+    if (std::abs(seen->t - due) > same_instant * std::max(1.0, cycle))
+      return refuse(mismatch(system_, leg, &seen->leg, wanted) + ", at another instant");
+  }
+  const std::size_t half = next % orbit_.legs();
+  const double stop = orbit_.t[half] + 0.5 * orbit_.duration(half) + (next >= orbit_.legs() ? cycle : 0.0);
+  const std::optional<Seen> early = next_event(motion, 0, Instant{}.plus(stop), touched, nullptr);
+  if (touched) return refuse("the motion grazes in leg " + std::to_string(half + 1));
+  if (early) return refuse(mismatch(system_, half, &early->leg, nullptr));
+  return true;
+}
+
+/// The motion's own cycle, where its number of impacts before a chatter's sum is another one.
+Orbit as_seen(const System& system, const Orbit& orbit) {
+  Orbit turned = orbit;
+  rotate(turned, freest_leg(system, orbit));
+  const double t_middle = turned.t[0] + 0.5 * turned.duration(0), whole = std::floor(t_middle);
+  const Motion motion(system, middle(system, turned, 0), {static_cast<std::int64_t>(whole), t_middle - whole});
+  return record(motion, orbit.shape.n).value_or(Orbit{});
+}
+
+}  // namespace
+
 Verification verify(const System& system, const Orbit& orbit) {
   Verification result;
-  const std::size_t first = orbit.shape.legs[0].ending == Ending::cut ? 0 : freest_leg(system, orbit);
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
     if (orbit.duration(i) > 0.0) continue;
-    result.why = "a leg of the cycle has no positive duration";
+    result.why = "leg " + std::to_string(i + 1) + " has no positive duration";
     return result;
   }
-  Orbit turned = orbit;
-  rotate(turned, first);
-  const double t_middle = turned.t[0] + 0.5 * turned.duration(0);
-  const double cycle = turned.t.back() - turned.t[0];
-  std::vector<Seen> seen;
-  bool touched = false;
   try {
-    const auto whole = static_cast<std::int64_t>(std::floor(t_middle));
-    Motion motion(system, middle(system, turned, 0), {whole, t_middle - static_cast<double>(whole)});
-    if (motion.mode_id() != system.mode_id(turned.shape.legs[0].states)) {
-      result.why = "the motion starts in mode " + system.mode_name(motion.mode_id());
+    if (orbit.shape.legs[0].ending == Ending::cut) {
+      Motion motion(system, middle(system, orbit, 0), Instant{}.plus(orbit.t[0] + 0.5 * orbit.duration(0)));
+      bool touched = false;
+      const std::optional<Seen> seen = next_event(motion, 0, motion.time().plus(orbit.duration(0)), touched, nullptr);
+      if (seen) result.why = mismatch(system, 0, &seen->leg, nullptr);
+      result.is_motion = !seen && !touched;
       return result;
     }
-    while (auto event = next_event(motion, 0, Instant{}.plus(t_middle + cycle), touched, nullptr)) seen.push_back(std::move(*event));
-  } catch (const std::runtime_error& error) {
+    const std::vector<std::size_t> legs = starts(system, orbit);
+    Check check(system, orbit, result);
+    for (std::size_t j = 0; j < legs.size(); ++j) {
+      const std::size_t next = j + 1 < legs.size() ? legs[j + 1] : legs[0] + orbit.legs();
+      if (!check.run(legs[j], next)) return result;
+    }
+    result.is_motion = true;
+    if (!result.same_chatter) result.seen = as_seen(system, orbit);
+  } catch (const InputError& error) {
     result.why = error.what();
-    return result;
-  }
-  if (touched) {
-    result.why = "the motion grazes";
-    return result;
-  }
-  std::vector<Leg> legs;
-  for (const Seen& event : seen) legs.push_back(event.leg);
-  if (turned.shape.legs[0].ending == Ending::cut) {
-    result.is_motion = legs.empty();
-    if (!legs.empty()) result.why = mismatch(system, 0, &legs[0], nullptr);
-    return result;
-  }
-  const auto a = without_bursts(legs), b = without_bursts(turned.shape.legs);
-  for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
-    const Leg* p = i < a.size() ? &legs[a[i]] : nullptr;
-    const Leg* q = i < b.size() ? &turned.shape.legs[b[i]] : nullptr;
-    if (p == nullptr || q == nullptr || !(*p == *q)) {
-      result.why = mismatch(system, i, p, q);
-      return result;
-    }
-    if (std::abs(seen[a[i]].t - turned.t[b[i] + 1]) > same_instant * std::max(1.0, cycle)) {
-      result.why = mismatch(system, i, p, q) + ", at another instant";
-      return result;
-    }
-  }
-  result.is_motion = true;
-  result.same_chatter = legs.size() == turned.legs();
-  if (!result.same_chatter && orbit.shape.n > 0) {  // recorded from the last event on, which closes the cycle
-    std::vector<Seen> cycle_events;
-    Seen closing = seen.back();
-    closing.t -= cycle;
-    cycle_events.push_back(std::move(closing));
-    cycle_events.insert(cycle_events.end(), seen.begin(), seen.end());
-    result.seen = orbit_of(cycle_events, seen.size(), orbit.shape.n);
+  } catch (const NumericalError& error) {
+    result.why = error.what();
   }
   return result;
 }

@@ -12,15 +12,15 @@ namespace slapstick::orbit {
 /// @returns empty if there is no such event, or the motion grazes; an orbit with one leg if there are no events within n periods
 [[nodiscard]] std::optional<Orbit> record(const Motion& start, int n, const std::atomic<bool>* stop = nullptr);
 
-/// The same for a motion that starts inside an orbit's leg, and so that legs are numbered as there.
 struct Verification {
   bool is_motion = false;
-  Orbit seen;          ///< what the motion did
-  bool same_chatter = true;  ///< false: the same but for the number of impacts before a chatter was summed
-  std::string why;     ///< "event 3: slip- pad where the orbit has stick pad"
+  bool same_chatter = true;  ///< false: but for the number of impacts before a chatter is summed
+  Orbit seen;                ///< then: the motion's own; without legs if its cycle was not found
+  std::string why;           ///< "event 3: slip- pad where the orbit has stick pad"
 };
 
-/// Runs the certified simulator over one cycle, from the middle of its freest leg, and compares events, modes and instants.
+/// Runs the certified simulator over every leg of a cycle, from the middle of each leg in which least is held to the next, and compares events,
+/// modes and instants. Piece by piece, so that an unstable orbit is not lost on the way.
 /// @param system  of the orbit's own parameters
 [[nodiscard]] Verification verify(const System& system, const Orbit& orbit);
 

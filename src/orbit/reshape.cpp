@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "attractor/cycle.hpp"
 #include "orbit/record.hpp"
@@ -15,8 +16,11 @@ namespace {
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
+constexpr std::size_t most_held = 4;  ///< legs whose length is held in turn
+
 /// A motion from inside a leg of an orbit that may itself be no motion any more.
-std::optional<Motion> motion_from(const System& system, const ModeSet& set, const Orbit& orbit, std::size_t leg, double part) {
+std::optional<Motion> motion_from(const System& system, const ModeSet& set, const Orbit& orbit, std::size_t leg,
+                                  double part) {
   const ModeRates& mode = set.mode(orbit.shape.legs[leg].states);
   Jet X = leg_start(set, orbit.shape.legs[leg], orbit.x[leg], orbit.t[leg]);
   flow(mode, part * orbit.duration(leg) * set.period(), X);
@@ -27,6 +31,17 @@ std::optional<Motion> motion_from(const System& system, const ModeSet& set, cons
   x << X.value().head(n), X.value().segment(system.frame().d, n);
   const double t = orbit.t[leg] + part * orbit.duration(leg), whole = std::floor(t);
   return Motion(system, attractor::user_state(system, x), {static_cast<std::int64_t>(whole), t - whole});
+}
+
+/// Do two cycles have the same legs, wherever they begin?
+bool same_cycle(const Orbit& a, const Orbit& b) {
+  if (a.legs() != b.legs()) return false;
+  std::vector<Leg> turned = a.shape.legs;
+  for (std::size_t k = 0; k < turned.size(); ++k) {
+    if (turned == b.shape.legs) return true;
+    std::ranges::rotate(turned, turned.begin() + 1);
+  }
+  return false;
 }
 
 /// The cycles that motions from inside an orbit's legs show, each shape once.
@@ -41,6 +56,9 @@ std::vector<Orbit> shapes_near(const Problem& problem, const Orbit& orbit) {
         if (!motion) continue;
         std::optional<Orbit> seen = record(*motion, orbit.shape.n);
         if (!seen) continue;
+        const bool new_shape =
+            std::ranges::none_of(shapes, [&](const Orbit& other) { return same_cycle(other, *seen); });
+        if (!new_shape || same_cycle(orbit, *seen)) continue;
         seen->values = orbit.values;
         shapes.push_back(std::move(*seen));
       } catch (const InputError&) {  // behind a stop
@@ -59,10 +77,14 @@ bool is_motion(const Problem& problem, const Orbit& orbit) {
   }
 }
 
-/// Newton's method from a guess: at its own parameter, and with the parameter free and one instant after another held.
+/// Newton's method from a guess: at its own parameter, and with the parameter free and the length of one of the shortest legs held.
 std::optional<Orbit> solved(const Problem& problem, const Orbit& guess) {
   if (auto orbit = refine(problem, guess); orbit && is_motion(problem, *orbit)) return orbit;
-  for (std::size_t event = 1; event < guess.legs(); ++event) {
+  std::vector<std::size_t> events(guess.legs());
+  std::iota(events.begin(), events.end(), std::size_t{1});
+  std::ranges::sort(events, {}, [&](std::size_t event) { return guess.duration(event - 1); });
+  if (events.size() > most_held) events.resize(most_held);
+  for (const std::size_t event : events) {
     Orbit orbit = guess;
     std::vector<Condition> conditions = fixed_parameters(problem, orbit.legs());
     conditions[0].row.setZero();

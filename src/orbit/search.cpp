@@ -3,7 +3,7 @@
 #include <random>
 
 #include "attractor/cycle.hpp"
-#include "orbit/equations.hpp"
+#include "orbit/path.hpp"
 #include "orbit/record.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/orbit/periodic_orbit.hpp"
@@ -13,9 +13,9 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double near_return = 0.25;    ///< relative distance of a state to its image from which Newton's method is tried
-constexpr double same_orbit = 1e-6;     ///< relative distance of two orbits' states at one event
-constexpr double settled = 1e-3;        ///< relative distance of a motion from the orbit that it has settled on
+constexpr double near_return = 0.25;  ///< relative distance of a state to its image from which Newton's method is tried
+constexpr double same_orbit = 1e-6;   ///< relative distance of two orbits' states at one event
+constexpr double settled = 1e-3;      ///< relative distance of a motion from the orbit that it has settled on
 constexpr int longest_cycle = 64;
 
 /// Is it one of these, perhaps begun at another event, or in another period?
@@ -31,19 +31,6 @@ bool known(const std::vector<Solution>& found, const Orbit& orbit) {
     }
     return false;
   });
-}
-
-/// A cycle that is a shorter one several times over.
-bool repeats(const Orbit& orbit) {
-  for (std::size_t part = 1; part < orbit.legs(); ++part) {
-    if (orbit.legs() % part != 0) continue;
-    bool same = true;
-    for (std::size_t i = 0; same && i + part < orbit.legs(); ++i)
-      same = orbit.shape.legs[i] == orbit.shape.legs[i + part] &&
-             (orbit.x[i] - orbit.x[i + part]).norm() <= same_orbit * orbit.x[i].norm();
-    if (same) return true;
-  }
-  return false;
 }
 
 /// An orbit from where a motion stands, if there is one whose state is within so much of the motion's.
@@ -96,7 +83,7 @@ class Hunt {
   }
 
   void add(std::optional<Solution> solution) {
-    if (!solution || repeats(solution->orbit) || known(found_, solution->orbit)) return;
+    if (!solution || repeats(solution->orbit, same_orbit) || known(found_, solution->orbit)) return;
     found_.push_back(std::move(*solution));
   }
 
@@ -109,7 +96,8 @@ class Hunt {
 
 }  // namespace
 
-std::vector<Solution> search(const Problem& problem, const System& system, const State& state, const SearchOptions& options) {
+std::vector<Solution> search(const Problem& problem, const System& system, const State& state,
+                             const SearchOptions& options) {
   Hunt hunt(problem, system, options);
   std::mt19937 random(options.seed);
   std::normal_distribution<double> normal;

@@ -44,7 +44,8 @@ std::vector<double> sensitivity(const Family& full, const std::vector<double>& v
     move(problem, linear, length * direction.cwiseProduct(at.units), 0.0, moved);
     std::vector<Condition> conditions = fixed_parameters(problem, legs);
     conditions[0].row = at.tangent.cwiseQuotient(at.units).transpose();
-    if (!solve(problem, moved, conditions).converged) throw NumericalError("sensitivity: no orbit beside the special point");
+    if (!solve(problem, moved, conditions).converged)
+      throw NumericalError("sensitivity: no orbit beside the special point");
     return defining(point, point_of(problem, moved, range, at.tangent).watched);
   };
   const auto rate = [&](const VectorXd& direction) {

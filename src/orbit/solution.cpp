@@ -18,7 +18,8 @@ using Eigen::MatrixXd;
 std::vector<Index> held_numbers(const mode::Frame& frame, const mode::Outline& outline) {
   std::vector<Index> held;
   for (std::size_t i = 0; i < frame.stops.size(); ++i)
-    if (outline.states.stops[i] == mode::StopState::closed && frame.stops[i].own < frame.n) held.push_back(frame.stops[i].own);
+    if (outline.states.stops[i] == mode::StopState::closed && frame.stops[i].own < frame.n)
+      held.push_back(frame.stops[i].own);
   for (int i = 0; i < frame.n; ++i)
     if (outline.steady[i]) held.push_back(frame.n + i);
   return held;
@@ -103,6 +104,17 @@ Solution describe(const Problem& problem, Orbit orbit, const System* system) {
   return found;
 }
 
+namespace {
+
+/// The event's own condition made exact, as a Motion does, so that the state can be started from.
+void land(const mode::Frame& frame, const Leg& leg, Eigen::VectorXd& X) {
+  if (leg.ending != Ending::guard) return;
+  if (leg.kind == mode::GuardKind::gap) X[frame.stops[leg.contact].own] = 0.0;
+  if (leg.kind == mode::GuardKind::slip) X[frame.u(frame.frictions[leg.contact].own)] = 0.0;
+}
+
+}  // namespace
+
 std::vector<EventOfOrbit> events(const Problem& problem, const Orbit& orbit) {
   const ModeSet set(problem.family(), orbit.values);
   const mode::Frame& frame = set.frame();
@@ -112,10 +124,13 @@ std::vector<EventOfOrbit> events(const Problem& problem, const Orbit& orbit) {
     if (leg.ending == Ending::cut) continue;
     const Leg& next = orbit.shape.legs[(i + 1) % orbit.legs()];
     const LegValue value = leg_value(set, leg, next, orbit.x[i], orbit.t[i], orbit.t[i + 1]);
-    EventOfOrbit event{leg.event, leg.event_contact, orbit.t[i + 1], 0.0, State(2 * static_cast<std::size_t>(frame.n)), next.states};
-    const Eigen::VectorXd X = value.X_end.value();
+    EventOfOrbit event{leg.event,  leg.event_contact, orbit.t[i + 1], 0.0, State(2 * static_cast<std::size_t>(frame.n)),
+                       next.states};
+    Eigen::VectorXd X = value.X_end.value();
+    land(frame, leg, X);
     frame.leave(X.data(), X.data() + frame.d, event.before.data());
-    const auto stops = frame.stops.size(), frictions = frame.frictions.size(), at = static_cast<std::size_t>(leg.event_contact);
+    const auto stops = frame.stops.size(), frictions = frame.frictions.size(),
+               at = static_cast<std::size_t>(leg.event_contact);
     const mode::ContactRow& row = at < stops               ? frame.stops[at]
                                   : at < stops + frictions ? frame.frictions[at - stops]
                                                            : frame.compliant[at - stops - frictions];

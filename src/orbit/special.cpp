@@ -37,8 +37,8 @@ std::string stick_of(const System& system, int friction) {
 
 }  // namespace
 
-std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const PathPoint& from, const PathPoint& to, double length,
-                                                double range) {
+std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const PathPoint& from, const PathPoint& to,
+                                                double length, double range) {
   struct Kind {
     SpecialType type;
     Value value;
@@ -92,8 +92,8 @@ std::string describe(const TestValue& test, const Itinerary& shape, const System
                             system.contact_name(shape.legs[test.leg].event_contact);
   switch (test.test) {
     case Test::duration:
-      return "leg " + std::to_string(test.leg + 1) + " (" + system.mode_name(system.mode_id(shape.legs[test.leg].states)) +
-             ") shrinks to nothing";
+      return "leg " + std::to_string(test.leg + 1) + " (" +
+             system.mode_name(system.mode_id(shape.legs[test.leg].states)) + ") shrinks to nothing";
     case Test::no_stick:
       return "the holding force of " + stick_of(system, test.contact) + " comes to static friction" + after;
     case Test::speed:
@@ -117,7 +117,8 @@ std::string describe(const TestValue& test, const Itinerary& shape, const System
   }
 }
 
-std::optional<Change> find_change(const Problem& problem, const PathPoint& from, const PathPoint& to, double length, double range) {
+std::optional<Change> find_change(const Problem& problem, const PathPoint& from, const PathPoint& to, double length,
+                                  double range) {
   std::optional<Change> first;
   double nearest_length = INFINITY;
   for (std::size_t i = 0; i < from.watched.tests.size(); ++i) {

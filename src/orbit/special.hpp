@@ -6,8 +6,8 @@
 namespace slapstick::orbit {
 
 /// Those that leave the sequence of events as it is: LP, PD, NS, BP, in the order in which the branch meets them.
-[[nodiscard]] std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const PathPoint& from, const PathPoint& to,
-                                                              double length, double range);
+[[nodiscard]] std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const PathPoint& from,
+                                                              const PathPoint& to, double length, double range);
 
 /// The first point at which the orbit ceases to be a motion.
 struct Change {
@@ -15,8 +15,8 @@ struct Change {
   PathPoint at;
   TestValue test;
 };
-[[nodiscard]] std::optional<Change> find_change(const Problem& problem, const PathPoint& from, const PathPoint& to, double length,
-                                                double range);
+[[nodiscard]] std::optional<Change> find_change(const Problem& problem, const PathPoint& from, const PathPoint& to,
+                                                double length, double range);
 
 /// The function whose zero a special point is.
 [[nodiscard]] double defining(const SpecialPoint& point, const Watched& watched);

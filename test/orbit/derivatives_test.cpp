@@ -29,7 +29,8 @@ class Derivatives : public testing::TestWithParam<Case> {};
 std::vector<double> present(const Case& c) {
   const auto all = load_model(c.model).values(c.set);
   std::vector<double> values;
-  for (const std::string& name : c.parameters) values.push_back(name == "friction" ? all.at("kinetic_friction") : all.at(name));
+  for (const std::string& name : c.parameters)
+    values.push_back(name == "friction" ? all.at("kinetic_friction") : all.at(name));
   return values;
 }
 
@@ -75,8 +76,7 @@ TEST_P(Derivatives, ByParametersAreThoseOfNeighbouringOrbits) {
     };
     const double h = 2e-4 * std::max(0.1, std::abs(at[static_cast<std::size_t>(j)]));
     const auto difference = [&](double step) { return VectorXd((beside(step) - beside(-step)) / (2.0 * step)); };
-    const VectorXd extrapolated =
-        (64.0 * difference(0.25 * h) - 20.0 * difference(0.5 * h) + difference(h)) / 45.0;
+    const VectorXd extrapolated = (64.0 * difference(0.25 * h) - 20.0 * difference(0.5 * h) + difference(h)) / 45.0;
     const VectorXd scale = units.head(state_columns);
     const double size = exact.cwiseQuotient(scale).cwiseAbs().maxCoeff();
     EXPECT_LT((exact - extrapolated).cwiseQuotient(scale).cwiseAbs().maxCoeff(), 1e-7 * std::max(1.0, size))
@@ -88,11 +88,12 @@ const std::vector<std::string> paper = {"omega", "restitution", "friction", "cle
 
 INSTANTIATE_TEST_SUITE_P(
     Orbit, Derivatives,
-    testing::Values(Case{"vibro-impact", {{"omega", 2.2}}, paper, "impact stop, slip+ friction"},
-                    Case{"vibro-impact", {{"omega", 1.5}}, paper, "stick friction, release friction"},
-                    Case{"impact-oscillator", {{"omega", 2.0}}, {"omega", "restitution", "clearance", "cosine"}, "impact stop"},
-                    Case{"coulomb-oscillator", {}, {"omega", "static_friction", "amplitude"}, "slip"},
-                    Case{"bilinear-oscillator", {}, {"omega", "stiffness_ratio", "clearance", "damping_ratio"}, "engage"}));
+    testing::Values(
+        Case{"vibro-impact", {{"omega", 2.2}}, paper, "impact stop, slip+ friction"},
+        Case{"vibro-impact", {{"omega", 1.5}}, paper, "stick friction, release friction"},
+        Case{"impact-oscillator", {{"omega", 2.0}}, {"omega", "restitution", "clearance", "cosine"}, "impact stop"},
+        Case{"coulomb-oscillator", {}, {"omega", "static_friction", "amplitude"}, "slip"},
+        Case{"bilinear-oscillator", {}, {"omega", "stiffness_ratio", "clearance", "damping_ratio"}, "engage"}));
 
 /// A direction that stick annihilates has the multiplier zero, not a rounding of it.
 TEST(Multipliers, OfStickAreExactlyZero) {

@@ -27,30 +27,30 @@ enum class SpecialType : std::uint8_t { LP, PD, NS, BP, GR, SL, CH, CO };
 
 struct SpecialPoint {
   SpecialType type = SpecialType::LP;
-  double value = 0.0;      ///< of the parameter
-  double error = 0.0;      ///< of it: the last change of the refinement
+  double value = 0.0;  ///< of the parameter
+  double error = 0.0;  ///< of it: the last change of the refinement
   Solution solution;
-  std::string what;        ///< "the gap of stop touches zero in leg 2", "stick of block is lost"
-  std::string outcome;     ///< of a change of events: "persistence", "non-smooth fold", "jump"
-  double rotation = 0.0;   ///< NS: rho in (0, 1/2)
-  std::size_t after = 0;   ///< it lies behind this point of the branch
-  std::size_t test = 0;    ///< GR, SL, CH, CO: which of the orbit's margins is zero (src/orbit/margins.hpp)
+  std::string what;       ///< "the gap of stop touches zero in leg 2", "stick of block is lost"
+  std::string outcome;    ///< of a change of events: "persistence", "non-smooth fold", "jump"
+  double rotation = 0.0;  ///< NS: rho in (0, 1/2)
+  std::size_t after = 0;  ///< it lies behind this point of the branch
+  std::size_t test = 0;   ///< GR, SL, CH, CO: which of the orbit's margins is zero (src/orbit/margins.hpp)
 };
 
 struct Branch {
   std::vector<Solution> points;
   std::vector<SpecialPoint> special;
-  std::string ended;       ///< why it ends: "range", "closed", "points", or what went wrong, with the last good value
-  bool failed = false;     ///< it ends before the range does
+  std::string ended;    ///< why it ends: "range", "closed", "points", or what went wrong, with the last good value
+  bool failed = false;  ///< it ends before the range does
 };
 
 struct ContinuationOptions {
-  double from = 0.0, to = 0.0;       ///< range of the parameter; the branch is followed both ways from the first orbit
-  int most_points = 1000;            ///< each way
-  double step = 0.01;                ///< first and
-  double longest_step = 0.02;        ///< .. largest arclength; 1 is the whole range, or a change of the orbit by its own size
+  double from = 0.0, to = 0.0;  ///< range of the parameter; the branch is followed both ways from the first orbit
+  int most_points = 1000;       ///< each way
+  double step = 0.01;           ///< first and
+  double longest_step = 0.02;  ///< .. largest arclength; 1 is the whole range, or a change of the orbit by its own size
   double shortest_step = 1e-8;
-  bool through_changes = true;       ///< go on with a new sequence of events
+  bool through_changes = true;  ///< go on with a new sequence of events
   const std::atomic<bool>* stop = nullptr;
   std::function<void(double value, long points)> progress = {};
 };
@@ -69,7 +69,8 @@ struct CurvePoint {
 
 /// What else happens on a curve: a point of codimension two.
 struct CurveEvent {
-  std::string what;  ///< "another multiplier is -1", "the orbit ceases to be a motion: ..", "the curve turns back in NAME"
+  std::string
+      what;  ///< "another multiplier is -1", "the orbit ceases to be a motion: ..", "the curve turns back in NAME"
   std::vector<double> values;
   std::size_t after = 0;
 };
@@ -82,10 +83,10 @@ struct Curve {
 };
 
 struct CurveOptions {
-  double from = 0.0, to = 0.0;              ///< range of the first
+  double from = 0.0, to = 0.0;                ///< range of the first
   double second_from = 0.0, second_to = 0.0;  ///< .. and the second parameter
-  double longest_step = 0.01;               ///< arclength in units of both ranges and the orbit's size
-  int most_points = 500;                    ///< each way
+  double longest_step = 0.01;                 ///< arclength in units of both ranges and the orbit's size
+  int most_points = 500;                      ///< each way
   const std::atomic<bool>* stop = nullptr;
   std::function<void(long points)> progress = {};
 };
@@ -94,6 +95,7 @@ struct CurveOptions {
 [[nodiscard]] Curve locus(const Problem& problem, const SpecialPoint& point, const CurveOptions& options);
 
 /// d value / d (each parameter of `full`, a family whose first parameters are those of the branch's), along which the special point persists.
-[[nodiscard]] std::vector<double> sensitivity(const Family& full, const std::vector<double>& values, const SpecialPoint& point);
+[[nodiscard]] std::vector<double> sensitivity(const Family& full, const std::vector<double>& values,
+                                              const SpecialPoint& point);
 
 }  // namespace slapstick::orbit

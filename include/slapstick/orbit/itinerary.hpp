@@ -41,8 +41,8 @@ struct Orbit {
   Itinerary shape;
   std::vector<double> values;      ///< of the family's parameters
   std::vector<Eigen::VectorXd> x;  ///< contact state at the start of each leg
-  std::vector<double> t;           ///< instants of events 0 .. k, in forcing periods (in time, without forcing): k + 1 numbers
-  Eigen::VectorXd advance;         ///< along each of the model's rigid translations, per cycle
+  std::vector<double> t;    ///< instants of events 0 .. k, in forcing periods (in time, without forcing): k + 1 numbers
+  Eigen::VectorXd advance;  ///< along each of the model's rigid translations, per cycle
 
   [[nodiscard]] std::size_t legs() const { return shape.legs.size(); }
   [[nodiscard]] double duration(std::size_t leg) const { return t[leg + 1] - t[leg]; }

@@ -18,10 +18,10 @@ class Problem;  // the equations of a family's orbits
 
 /// Where the energy of a cycle comes from and goes, in the model's units. `input` - all sinks = 0 but for rounding.
 struct Energy {
-  double input = 0.0;                ///< by forces and belts
-  double damping = 0.0;              ///< in dampers, the damping matrix and compliant stops
-  std::vector<double> friction;      ///< in each friction contact
-  std::vector<double> impacts;       ///< in each stop, by the first of those that are struck together
+  double input = 0.0;            ///< by forces and belts
+  double damping = 0.0;          ///< in dampers, the damping matrix and compliant stops
+  std::vector<double> friction;  ///< in each friction contact
+  std::vector<double> impacts;   ///< in each stop, by the first of those that are struck together
   [[nodiscard]] double balance() const;
 };
 
@@ -38,13 +38,13 @@ struct Solution {
   /// Of the return map at fixed time, largest modulus first; those of directions that stick or a closed stop annihilates are exactly zero. The
   /// multiplier 1 of each rigid translation, and without forcing the one of the motion along itself, are left out.
   std::vector<std::complex<double>> multipliers;
-  std::string label;        ///< "1-1-II"; without forcing "p = 1, II"
-  long impacts = 0;         ///< per cycle; meaningless with complete chatter
-  bool chatter = false;     ///< complete
+  std::string label;     ///< "1-1-II"; without forcing "p = 1, II"
+  long impacts = 0;      ///< per cycle; meaningless with complete chatter
+  bool chatter = false;  ///< complete
   bool sticking = false;
-  double cycle = 0.0;       ///< period of the orbit, time units
-  bool is_motion = false;   ///< the certified simulator does the same
-  std::string why;          ///< .. or does not
+  double cycle = 0.0;         ///< period of the orbit, time units
+  bool is_motion = false;     ///< the certified simulator does the same
+  std::string why;            ///< .. or does not
   std::vector<double> drift;  ///< along rigid translations, by coordinate, per cycle; empty without such
 
   [[nodiscard]] bool stable() const { return multipliers.empty() || std::abs(multipliers.front()) < 1.0; }
@@ -60,10 +60,10 @@ struct Solution {
 /// An event of an orbit, with the state just before it.
 struct EventOfOrbit {
   EventKind kind = EventKind::impact;
-  int contact = 0;       ///< System::contact_name
-  double t = 0.0;        ///< as Orbit::t
-  double w = 0.0;        ///< relative velocity of the contact's pair just before
-  State before;          ///< user's coordinates
+  int contact = 0;  ///< System::contact_name
+  double t = 0.0;   ///< as Orbit::t
+  double w = 0.0;   ///< relative velocity of the contact's pair just before
+  State before;     ///< user's coordinates
   mode::ContactStates after;
 };
 
@@ -74,12 +74,12 @@ struct EventOfOrbit {
 [[nodiscard]] std::vector<Margin> margins(const Problem& problem, const Orbit& orbit);
 
 struct SearchOptions {
-  int most_n = 1;              ///< forcing periods per cycle, all up to this; ignored without forcing
-  std::optional<int> only_n;   ///< .. or this only
-  int starts = 64;             ///< motions that are looked through for near returns
-  int periods = 200;           ///< length of each
+  int most_n = 1;                  ///< forcing periods per cycle, all up to this; ignored without forcing
+  std::optional<int> only_n = {};  ///< .. or this only
+  int starts = 64;                 ///< motions that are looked through for near returns
+  int periods = 200;               ///< length of each
   std::uint32_t seed = 1;
-  double spread = 1.0;         ///< starts are this many times the size of the first motion around it
+  double spread = 1.0;  ///< starts are this many times the size of the first motion around it
   const std::atomic<bool>* stop = nullptr;
   std::function<void(int starts)> progress = {};
 };
@@ -91,7 +91,7 @@ struct SearchOptions {
 
 /// The orbit that the motion from `state` settles on after so many periods, if Newton's method from there finds one.
 /// @param n  forcing periods per cycle; 0: the least up to 64 for which the motion nearly returns
-[[nodiscard]] std::optional<Solution> settle(const Problem& problem, const System& system, const State& state, long transient, int n,
-                                             const std::atomic<bool>* stop = nullptr);
+[[nodiscard]] std::optional<Solution> settle(const Problem& problem, const System& system, const State& state,
+                                             long transient, int n, const std::atomic<bool>* stop = nullptr);
 
 }  // namespace slapstick::orbit

@@ -1,6 +1,7 @@
 #include "branch_figure.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <array>
 #include <cmath>
 
@@ -11,13 +12,16 @@ namespace {
 
 using orbit::Solution;
 
-/// What stands for an orbit: the speeds of its impacts, in order; without impacts the first coordinate at its events.
+/// What stands for an orbit: the speeds of its impacts; without impacts the first coordinate at its events. In falling order: which event a cycle
+/// begins with may change along a branch.
 std::vector<double> heights(const orbit::Problem& problem, const Solution& solution) {
   std::vector<double> speeds, places;
   for (const orbit::EventOfOrbit& event : orbit::events(problem, solution.orbit)) {
     if (event.kind == EventKind::impact || event.kind == EventKind::engage) speeds.push_back(event.w);
     places.push_back(event.before.front());
   }
+  std::ranges::sort(speeds, std::greater<>());
+  std::ranges::sort(places, std::greater<>());
   if (!speeds.empty()) return speeds;
   if (!places.empty()) return places;
   return {solution.orbit.x.front()[0]};

@@ -1,6 +1,7 @@
 /// slapstick curve MODEL --from TYPE --params A,B
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "axis_text.hpp"
 #include "orbit_options.hpp"
@@ -80,7 +81,7 @@ Json curve_json(const orbit::Curve& curve, const std::vector<std::string>& names
     for (std::size_t i = 0; i < 2; ++i) item.set(names[i], point.values[i]);
     const Json rest = solution_json(point.solution);
     for (const auto& [key, value] : std::get<Json::Object>(rest.value()))
-      if (key == "class" || key == "period" || key == "multipliers") item.set(key, value);
+      if (key == "class" || key == "period" || key == "multipliers" || key == "is_motion" || key == "why") item.set(key, value);
     points.push(std::move(item));
   }
   for (const orbit::CurveEvent& event : curve.met) {
@@ -95,7 +96,7 @@ figure::Figure curve_figure(const orbit::Curve& curve, const std::vector<std::st
   figure::Panel panel{.x_label = axis_text(names[0]), .y_label = axis_text(names[1])};
   figure::Line line{.label = type};
   for (const orbit::CurvePoint& point : curve.points) {
-    line.x.push_back(point.values[0]);
+    line.x.push_back(point.solution.is_motion ? point.values[0] : std::nan(""));  // a gap where the orbit is no motion
     line.y.push_back(point.values[1]);
   }
   panel.lines.push_back(std::move(line));

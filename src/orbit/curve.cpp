@@ -45,6 +45,8 @@ class CurveFollower {
   /// The parameters at a distance along the tangent.
   [[nodiscard]] std::vector<double> ahead(const Place& here, double step) const;
   [[nodiscard]] bool at_the_rim(const Place& here) const;
+  [[nodiscard]] CurvePoint point_of_curve(const Place& here) const;
+  [[nodiscard]] bool is_own(std::size_t test) const;
   [[nodiscard]] std::optional<Place> next_place(const Place& here, double step) const;
   [[nodiscard]] MatrixXd surface(const Linearised& at, const VectorXd& units) const;
 
@@ -130,6 +132,23 @@ std::optional<Orbit> CurveFollower::corrected(const Place& from, double step) co
   return moved(from, step, b);
 }
 
+/// Is this margin the one that is zero all along?
+bool CurveFollower::is_own(std::size_t test) const {
+  return static_cast<int>(point_.type) >= static_cast<int>(SpecialType::GR) && test == point_.test;
+}
+
+/// On a curve of GR, SL, CH or CO the simulator cannot decide; whether the orbit is a motion but for that is seen from its other margins.
+CurvePoint CurveFollower::point_of_curve(const Place& here) const {
+  CurvePoint point{here.orbit.values, describe(problem_, here.orbit, nullptr)};
+  point.solution.is_motion = true;
+  for (std::size_t i = 0; i < here.watched.tests.size() && point.solution.is_motion; ++i) {
+    if (is_own(i) || here.watched.tests[i].value >= 0.0) continue;
+    point.solution.is_motion = false;
+    point.solution.why = describe(here.watched.tests[i], here.orbit.shape, problem_.base());
+  }
+  return point;
+}
+
 /// Signs that have changed beside the one that is zero all along.
 void CurveFollower::note(const Place& before, const Place& now, Curve& curve) const {
   const auto add = [&](const std::string& what) {
@@ -148,8 +167,7 @@ void CurveFollower::note(const Place& before, const Place& now, Curve& curve) co
       add("the curve turns back in " + problem_.family().names[static_cast<std::size_t>(j)]);
   }
   for (std::size_t i = 0; i < before.watched.tests.size(); ++i) {
-    const bool own = static_cast<int>(point_.type) >= static_cast<int>(SpecialType::GR) && i == point_.test;
-    if (!own && before.watched.tests[i].value > 0.0 && now.watched.tests[i].value < 0.0)
+    if (!is_own(i) && before.watched.tests[i].value > 0.0 && now.watched.tests[i].value < 0.0)
       add("the events change: " + describe(now.watched.tests[i], now.orbit.shape, problem_.base()));
   }
 }
@@ -187,7 +205,7 @@ Curve CurveFollower::run(Orbit orbit, double sign) {
   Place here = place(std::move(orbit), nullptr);
   if (here.along[problem_.parameter_column(here.orbit.legs(), 1)] * sign < 0.0) here.along = -here.along;
   double step = 0.25 * options_.longest_step;
-  curve.points.push_back({here.orbit.values, describe(problem_, here.orbit, nullptr)});
+  curve.points.push_back(point_of_curve(here));
   while (static_cast<int>(curve.points.size()) < options_.most_points && !stopped(options_.stop)) {
     std::optional<Place> next;
     if (inside(ahead(here, step))) next = next_place(here, step);
@@ -201,7 +219,7 @@ Curve CurveFollower::run(Orbit orbit, double sign) {
       return curve;
     }
     note(here, *next, curve);
-    curve.points.push_back({next->orbit.values, describe(problem_, next->orbit, nullptr)});
+    curve.points.push_back(point_of_curve(*next));
     here = std::move(*next);
     step = std::min(options_.longest_step, 1.4 * step);
     if (options_.progress) options_.progress(static_cast<long>(curve.points.size()));

@@ -1,6 +1,7 @@
 #include "paper/branches.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <cmath>
 
 #include "paper/claims.hpp"
@@ -57,6 +58,7 @@ std::vector<double> impact_speeds(const orbit::Problem& problem, const orbit::So
   std::vector<double> speeds;
   for (const orbit::EventOfOrbit& event : orbit::events(problem, point.orbit))
     if (event.kind == EventKind::impact) speeds.push_back(event.w);
+  std::ranges::sort(speeds, std::greater<>());  // which event a cycle begins with may change along a branch
   return speeds;
 }
 

@@ -64,7 +64,7 @@ struct ContinuationOptions {
 
 struct CurvePoint {
   std::vector<double> values;  ///< of the two parameters
-  Solution solution;
+  Solution solution;           ///< is_motion: no other margin than the point's own is used up
 };
 
 /// What else happens on a curve: a point of codimension two.

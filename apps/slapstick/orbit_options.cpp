@@ -98,6 +98,7 @@ orbit::Solution find_orbit(const orbit::Problem& problem, const System& system, 
   search.starts = static_cast<int>(options.starts);
   search.seed = static_cast<std::uint32_t>(options.seed);
   search.stop = &stop;
+  search.enough = [&](const orbit::Solution& found) { return wanted.admits(found); };
   for (const orbit::Solution& found : orbit::search(problem, system, start, search)) {
     if (wanted.admits(found)) return found;
     note(found);

@@ -57,7 +57,7 @@ class Hunt {
     Motion motion(system_, start);
     std::vector<VectorXd> states;
     std::vector<Motion> at;
-    for (int k = 0; k < options_.periods && !stopped(options_.stop); ++k) {
+    for (int k = 0; k < options_.periods && !enough_ && !stopped(options_.stop); ++k) {
       states.push_back(attractor::contact_state(motion));
       at.push_back(motion);
       if (at.size() > static_cast<std::size_t>(longest_cycle) + 1) at.erase(at.begin());
@@ -67,6 +67,7 @@ class Hunt {
   }
 
   std::vector<Solution> found() && { return std::move(found_); }
+  [[nodiscard]] bool enough() const { return enough_; }
   [[nodiscard]] VectorXd size() const { return size_; }
 
  private:
@@ -84,6 +85,7 @@ class Hunt {
 
   void add(std::optional<Solution> solution) {
     if (!solution || repeats(solution->orbit, same_orbit) || known(found_, solution->orbit)) return;
+    enough_ = options_.enough && options_.enough(*solution);
     found_.push_back(std::move(*solution));
   }
 
@@ -92,6 +94,7 @@ class Hunt {
   const SearchOptions& options_;
   VectorXd size_;
   std::vector<Solution> found_;
+  bool enough_ = false;
 };
 
 }  // namespace
@@ -101,7 +104,7 @@ std::vector<Solution> search(const Problem& problem, const System& system, const
   Hunt hunt(problem, system, options);
   std::mt19937 random(options.seed);
   std::normal_distribution<double> normal;
-  for (int i = 0; i < options.starts && !stopped(options.stop); ++i) {
+  for (int i = 0; i < options.starts && !hunt.enough() && !stopped(options.stop); ++i) {
     State start = state;
     if (i > 0) {
       Eigen::VectorXd x = hunt.size();

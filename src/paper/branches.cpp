@@ -39,6 +39,7 @@ orbit::Orbit first_orbit(const Study& study, const orbit::Problem& problem, cons
   orbit::SearchOptions options;
   options.only_n = reach.n;
   options.stop = study.options().cancel;
+  options.enough = [](const orbit::Solution& found) { return found.impacts == 1; };
   for (const orbit::Solution& found : orbit::search(problem, system, study.rest(), options))
     if (found.impacts == 1) return found.orbit;
   study.course().check();

@@ -82,6 +82,7 @@ struct SearchOptions {
   double spread = 1.0;  ///< starts are this many times the size of the first motion around it
   const std::atomic<bool>* stop = nullptr;
   std::function<void(int starts)> progress = {};
+  std::function<bool(const Solution&)> enough = {};  ///< ends the search with the first orbit for which it is true
 };
 
 /// Looks for orbits: from motions that start at `state` and around it, every near return is refined. No proof of completeness.

@@ -18,11 +18,6 @@ std::string hex(double x) {
 
 std::string number(long long k) { return " " + std::to_string(k); }
 
-std::string_view word(mode::GuardKind kind) {
-  constexpr std::string_view words[] = {"gap", "slip", "stick", "stick", "press", "engage", "leave", "let-go", "push"};
-  return words[static_cast<int>(kind)];
-}
-
 /// " n j v j v ..": what is not zero in a row.
 std::string entries(const mode::RowVector& row) {
   std::string text;
@@ -71,7 +66,7 @@ void Certificate::mode(ModeId id) {
     if (!mode.system().row(i).isZero(0.0)) line("row", number(i) + entries(mode.system().row(i)));
   }
   for (int g = 0; g < mode.guard_count(); ++g)
-    line("guard", number(g) + " " + std::string(word(mode.guards()[g].kind)) + entries(mode.guards()[g].row));
+    line("guard", number(g) + " " + std::string(name(mode.guards()[g].kind)) + entries(mode.guards()[g].row));
 }
 
 void Certificate::run(Instant end, const std::function<bool(Instant)>& go_on) {

@@ -140,6 +140,9 @@ struct Definition {
 /// The values of all parameters and of scale_length, .. . @throws InputError with the file's line
 [[nodiscard]] std::map<std::string, double> all_values(const Definition& definition, const Overrides& resolved);
 
+/// That a model has no parameter or group of this name; the nearest one is suggested.
+[[noreturn]] void refuse_parameter(const Definition& definition, const std::string& name);
+
 /// Groups replaced by their members, every name and number checked. @throws InputError
 [[nodiscard]] Overrides resolve(const Definition& definition, const Overrides& overrides);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "io/dual_expression.hpp"
 #include "io/model_numbers.hpp"
 #include "model/fault.hpp"
 #include "slapstick/base/text.hpp"
@@ -32,53 +33,68 @@ double ModelBuilder::number(const Scalar& scalar, const std::string& where) cons
   }
 }
 
+Dual ModelBuilder::dual(const Scalar& scalar, const std::string& where) const {
+  if (rates_ == nullptr || !scalar.expression) return {number(scalar, where)};
+  const Dual result = differentiated(*scalar.expression, *rates_);
+  if (std::isfinite(result.rate) && std::isfinite(result.value)) return result;
+  std::string with, broken;
+  for (const auto& name : scalar.expression->names()) {
+    with += (with.empty() ? " with " : ", ") + name + " = " + shown(values_.at(name));
+    if (!std::isfinite(rates_->at(name).rate)) broken = ", as " + in_quotes(name) + " has none";
+  }
+  throw InputError(definition_.place(scalar.line) + where + ": expression " + in_quotes(scalar.expression->text()) +
+                   ": it has no derivative" + with + broken);
+}
+
 std::string ModelBuilder::where(std::string_view key) const {
   return part_label(kind_, index_, definition_.of(kind_)[index_]).append(": ").append(key);
 }
 
-double ModelBuilder::at(const Part& part, std::string_view key, double fallback, const std::string& place) const {
+Dual ModelBuilder::at(const Part& part, std::string_view key, const Dual& fallback, const std::string& place) const {
   const auto found = part.fields.find(key);
-  return found == part.fields.end() ? fallback : number(found->second, place);
+  return found == part.fields.end() ? fallback : dual(found->second, place);
 }
 
-double ModelBuilder::field(const Part& part, std::string_view key, double fallback) const {
+Dual ModelBuilder::field(const Part& part, std::string_view key, const Dual& fallback) const {
   return at(part, key, fallback, where(key));
 }
 
 /// `harmonic` of a force or of one term of a base.
 int ModelBuilder::harmonic(const Part& part, const std::string& place) const {
-  const double value = at(part, "harmonic", 1.0, place);
-  if (value >= 0.0 && value <= 1e6 && value == std::floor(value)) return static_cast<int>(value);
+  const Dual number = at(part, "harmonic", Dual{1.0}, place);
+  const double value = number.value;
+  const bool whole = value >= 0.0 && value <= 1e6 && value == std::floor(value);
+  if (whole && !number.varies) return static_cast<int>(value);
   throw InputError(definition_.place(part.fields.find("harmonic")->second.line) + place + " = " + shown(value) +
-                   " is not a whole number in [0, 1000000]");
+                   (whole ? " is a whole number, which has no derivative" : " is not a whole number in [0, 1000000]"));
 }
 
 /// Springs and dampers; to a base they are springs and dampers to ground, and a force for its motion.
 void ModelBuilder::add_links(Model& model) {
   const auto end = [](int index) { return is_base(index) ? ground : index; };
   each("spring", [&](const Part& part) {
-    const double stiffness = field(part, "stiffness");
-    model.springs.push_back({end(part.a), end(part.b), stiffness});
+    const Dual stiffness = field(part, "stiffness");
+    model.springs.push_back({end(part.a), end(part.b), written(stiffness)});
     add_motion(model, part, stiffness, false);
   });
   each("damper", [&](const Part& part) {
-    const double coefficient = field(part, "coefficient");
-    model.dampers.push_back({end(part.a), end(part.b), coefficient});
+    const Dual coefficient = field(part, "coefficient");
+    model.dampers.push_back({end(part.a), end(part.b), written(coefficient)});
     add_motion(model, part, coefficient, true);
   });
 }
 
 /// What a base passes on: strength * x_base, or strength * x_base' with
 /// x_base' = sum amplitude harmonic omega sin(harmonic omega t + phase + pi / 2).
-void ModelBuilder::add_motion(Model& model, const Part& part, double strength, bool velocity) {
+void ModelBuilder::add_motion(Model& model, const Part& part, const Dual& strength, bool velocity) {
   const int base = is_base(part.a) ? part.a : part.b;
   if (!is_base(base)) return;
   const int coordinate = is_base(part.a) ? part.b : part.a;
   for (const Term& term : bases_[static_cast<std::size_t>(base_end(base))]) {
     if (velocity && term.harmonic == 0) continue;  // a constant displacement has no velocity
-    const double rate = velocity ? term.harmonic * model.omega : 1.0;
-    const double phase = velocity ? term.phase + std::numbers::pi / 2 : term.phase;
-    model.forces.push_back({coordinate, term.harmonic, strength * rate * term.amplitude, phase});
+    const Dual frequency = velocity ? Dual{static_cast<double>(term.harmonic)} * omega_ : Dual{1.0};
+    const Dual phase = velocity ? term.phase + Dual{std::numbers::pi / 2} : term.phase;
+    model.forces.push_back({coordinate, term.harmonic, written(strength * frequency * term.amplitude), written(phase)});
     origins_["force"].push_back({kind_, index_});
   }
 }
@@ -86,16 +102,17 @@ void ModelBuilder::add_motion(Model& model, const Part& part, double strength, b
 double ModelBuilder::base(std::size_t k, double omega, double time) const {
   double sum = 0.0;
   for (const Term& term : bases_[k])
-    sum += term.amplitude * (term.harmonic == 0 ? 1.0 : std::sin(term.harmonic * omega * time + term.phase));
+    sum +=
+        term.amplitude.value * (term.harmonic == 0 ? 1.0 : std::sin(term.harmonic * omega * time + term.phase.value));
   return sum;
 }
 
 /// A two-sided stop stands for two: NAME_upper as it is written, and NAME_lower on x_b - x_a.
 void ModelBuilder::add_contacts(Model& model) {
   each("friction", [&](const Part& part) {
-    const double limit = field(part, "static");
-    model.frictions.push_back(
-        {part.name, part.a, part.b, field(part, "belt_speed", 0.0), limit, field(part, "kinetic", limit)});
+    const Dual limit = field(part, "static");
+    model.frictions.push_back({part.name, part.a, part.b, written(part, "belt_speed"), written(limit),
+                               written(field(part, "kinetic", limit))});
   });
   const auto sides = [&](const Part& part, auto& stops, auto stop) {
     auto& origins = origins_[std::string(kind_)];
@@ -105,17 +122,17 @@ void ModelBuilder::add_contacts(Model& model) {
     stops.back().name += "_upper";
     stop.name += "_lower";
     std::swap(stop.a, stop.b);
-    stop.clearance = field(part, "clearance_lower", stop.clearance);
+    stop.clearance = written(field(part, "clearance_lower", field(part, "clearance")));
     origins.push_back({kind_, index_, true});
     stops.push_back(stop);
   };
   each("stop", [&](const Part& part) {
-    sides(part, model.stops, Stop{part.name, part.a, part.b, field(part, "clearance"), field(part, "restitution")});
+    sides(part, model.stops, Stop{part.name, part.a, part.b, written(part, "clearance"), written(part, "restitution")});
   });
   each("compliant_stop", [&](const Part& part) {
     sides(part, model.compliant_stops,
-          CompliantStop{part.name, part.a, part.b, field(part, "clearance"), field(part, "stiffness"),
-                        field(part, "damping"), part.flag("pulls")});
+          CompliantStop{part.name, part.a, part.b, written(part, "clearance"), written(part, "stiffness"),
+                        written(part, "damping"), part.flag("pulls")});
   });
 }
 
@@ -124,33 +141,39 @@ void ModelBuilder::add_matrices(Model& model) const {
   for (const auto& [key, matrix] : definition_.matrices) {
     auto& entries = key == "mass" ? model.mass : key == "damping" ? model.damping : model.stiffness;
     for (std::size_t i = 0; i < n * n; ++i)
-      entries.push_back(number(matrix.entries[i], "matrix: " + key + "[" + model.coordinates[i / n].name + ", " +
-                                                      model.coordinates[i % n].name + "]"));
+      entries.push_back(written(dual(matrix.entries[i], "matrix: " + key + "[" + model.coordinates[i / n].name + ", " +
+                                                            model.coordinates[i % n].name + "]")));
   }
 }
 
-Model ModelBuilder::model() {
+Model ModelBuilder::assembled() {
   Model model;
   model.name = definition_.name;
   model.impact_law = definition_.impact_law.value_or(ImpactLaw::moreau);
-  if (definition_.omega) model.omega = number(*definition_.omega, "omega");
-  each("coordinate", [&](const Part& part) { model.coordinates.push_back({part.name, field(part, "mass")}); });
+  if (definition_.omega) omega_ = dual(*definition_.omega, "omega");
+  model.omega = written(omega_);
+  each("coordinate", [&](const Part& part) { model.coordinates.push_back({part.name, written(part, "mass")}); });
   each("base", [&](const Part& part) {
     auto& terms = bases_.emplace_back();
     for (const auto& term : part.harmonics) {
       const auto place = where("harmonics ") + std::to_string(terms.size() + 1) + ": ";
-      terms.push_back({at(term, "amplitude", 0.0, place + "amplitude"), harmonic(term, place + "harmonic"),
-                       at(term, "phase", 0.0, place + "phase")});
+      terms.push_back({at(term, "amplitude", {}, place + "amplitude"), harmonic(term, place + "harmonic"),
+                       at(term, "phase", {}, place + "phase")});
     }
   });
   each("force", [&](const Part& part) {
     origins_["force"].push_back({kind_, index_});
     model.forces.push_back(
-        {part.a, harmonic(part, where("harmonic")), field(part, "amplitude"), field(part, "phase", 0.0)});
+        {part.a, harmonic(part, where("harmonic")), written(part, "amplitude"), written(part, "phase")});
   });
   add_links(model);
   add_contacts(model);
   add_matrices(model);
+  return model;
+}
+
+Model ModelBuilder::model() {
+  Model model = assembled();
   if (!definition_.omega) demand_no_forcing(model);
   if (const auto fault = first_fault(model)) throw refusal(*fault, model);
   return model;

@@ -135,6 +135,14 @@ Values all_values(const Definition& definition, const Overrides& resolved) {
   return Evaluation(definition, resolved).all();
 }
 
+void refuse_parameter(const Definition& definition, const std::string& name) {
+  std::vector<std::string> known;
+  for (const auto& entry : definition.parameters) known.push_back(entry.shown.name);
+  for (const auto& entry : definition.groups) known.push_back(entry.shown.name);
+  throw InputError("model " + in_quotes(definition.name) + " has no parameter " + in_quotes(name) +
+                   suggestion(name, known));
+}
+
 Overrides resolve(const Definition& definition, const Overrides& overrides) {
   Overrides resolved;
   for (const auto& [name, value] : overrides)
@@ -146,13 +154,7 @@ Overrides resolve(const Definition& definition, const Overrides& overrides) {
   for (const auto& [name, value] : overrides) {
     if (find_group(definition, name) != nullptr) continue;
     const auto* parameter = find_parameter(definition, name);
-    if (parameter == nullptr) {
-      std::vector<std::string> known;
-      for (const auto& entry : definition.parameters) known.push_back(entry.shown.name);
-      for (const auto& entry : definition.groups) known.push_back(entry.shown.name);
-      throw InputError("model " + in_quotes(definition.name) + " has no parameter " + in_quotes(name) +
-                       suggestion(name, known));
-    }
+    if (parameter == nullptr) refuse_parameter(definition, name);
     check_override(*parameter, value);
     resolved[name] = value;
   }

@@ -4,22 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "mode/assembly.hpp"
+
 namespace slapstick::mode {
 namespace {
-
-/// Row over q of x_a - x_b.
-RowVector pair_row(int n, int a, int b) {
-  RowVector row = RowVector::Zero(n);
-  if (a != ground) row[a] += 1.0;
-  if (b != ground) row[b] -= 1.0;
-  return row;
-}
-
-/// Adds coefficient * row^T row to a matrix: the stiffness or damping of one element.
-void add_element(Matrix& matrix, int a, int b, double coefficient) {
-  const RowVector row = pair_row(static_cast<int>(matrix.rows()), a, b);
-  matrix += coefficient * row.transpose() * row;
-}
 
 /// The displacements to store, while they are gathered.
 struct Displacements {
@@ -79,11 +67,6 @@ std::vector<int> independent_first(Displacements& all, int n) {
   return order;
 }
 
-Matrix symmetric(const SymmetricMatrix& entries, int n) {
-  if (entries.empty()) return Matrix::Zero(n, n);
-  return Eigen::Map<const Matrix>(entries.data(), n, n);
-}
-
 }  // namespace
 
 Frame::Frame(const Model& model) : n(model.size()) {
@@ -132,11 +115,8 @@ void Frame::choose_displacements(const Model& model) {
 }
 
 void Frame::set_dynamics(const Model& model) {
-  Matrix M = symmetric(model.mass, n), C = symmetric(model.damping, n), K = symmetric(model.stiffness, n);
+  const Matrix K = stiffness_matrix(model), C = damping_matrix(model), M_inverse = inverse_mass(model);
   Matrix load = Matrix::Zero(n, size());
-  for (int i = 0; i < n; ++i) M(i, i) += model.coordinates[i].mass;
-  for (const Spring& spring : model.springs) add_element(K, spring.a, spring.b, spring.stiffness);
-  for (const Damper& damper : model.dampers) add_element(C, damper.a, damper.b, damper.coefficient);
   for (const Force& force : model.forces) {
     if (force.harmonic == 0) {
       load(force.coordinate, one()) += force.amplitude;
@@ -149,9 +129,6 @@ void Frame::set_dynamics(const Model& model) {
   }
 
   // q'' = M^{-1} (load X - C q' - K q),  q = W^{-1} (p + shift),  q' = W^{-1} (u + drift),  u' = W q''
-  const bool lumped = M.isDiagonal(0.0);
-  const Matrix M_inverse =
-      lumped ? Matrix(M.diagonal().cwiseInverse().asDiagonal()) : Matrix(M.llt().solve(Matrix::Identity(n, n)));
   mass_inverse = W * M_inverse * W.transpose();
   drop_rounding(mass_inverse, W.cwiseAbs() * M_inverse.cwiseAbs() * W.cwiseAbs().transpose());
   const Matrix stiffness = K * W_inverse, damping = C * W_inverse;

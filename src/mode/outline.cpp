@@ -3,55 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mode/held.hpp"
+
 namespace slapstick::mode {
 namespace {
-
-/// Contacts that hold one pair still. Along the group's displacement the force f0 pushes back; a contact has its share sense * f0.
-struct Group {
-  int displacement;
-  std::vector<int> stops;      ///< closed stops
-  std::vector<int> frictions;  ///< sticking friction contacts
-};
-
-Group& find_or_add(std::vector<Group>& groups, const Frame& frame, int displacement) {
-  for (Group& group : groups) {
-    if (frame.parallel(group.displacement, displacement) != 0) return group;
-  }
-  return groups.emplace_back(Group{displacement, {}, {}});
-}
-
-std::vector<Group> held_groups(const Frame& frame, const ContactStates& states) {
-  std::vector<Group> groups;
-  for (std::size_t i = 0; i < states.stops.size(); ++i) {
-    if (states.stops[i] == StopState::closed)
-      find_or_add(groups, frame, frame.stops[i].own).stops.push_back(static_cast<int>(i));
-  }
-  for (std::size_t i = 0; i < states.frictions.size(); ++i) {
-    if (states.frictions[i] == FrictionState::stick)
-      find_or_add(groups, frame, frame.frictions[i].own).frictions.push_back(static_cast<int>(i));
-  }
-  return groups;
-}
-
-/// +1 or -1: the sense of a contact along the displacement of its group.
-double sense(const Frame& frame, const Group& group, const ContactRow& contact) {
-  return contact.sign * frame.parallel(group.displacement, contact.own);
-}
-
-/// The inverse of a positive semidefinite D; where held contacts depend on each other, the pseudoinverse, for the solution of least norm. Whether
-/// they do is decided for a unit diagonal: a heavy mass is not a dependent one.
-Matrix least_norm_inverse(const Matrix& D) {
-  const Vector scale = D.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::FullPivLU<Matrix> lu(Matrix(scale.asDiagonal() * D * scale.asDiagonal()));
-  if (lu.isInvertible()) return scale.asDiagonal() * lu.inverse() * scale.asDiagonal();
-  return D.completeOrthogonalDecomposition().pseudoInverse();
-}
 
 /// Fills an Outline; holds what its parts share.
 class Builder {
  public:
   Builder(const Model& model, const Frame& frame, Outline& out)
-      : model_(model), frame_(frame), out_(out), d_(frame.d), m_(frame.size()), held_(held_groups(frame, out.states)) {}
+      : model_(model), frame_(frame), out_(out), d_(frame.d), m_(frame.size()), held_(held_pairs(frame, out.states)) {}
 
   void select_linear_system();
   void arm_guards();
@@ -62,14 +23,13 @@ class Builder {
   void note_steady(const Matrix& G);
   void arm_gap(int stop);
   void arm_compliant(int i);
-  void arm_force(std::size_t k);
 
   const Model& model_;
   const Frame& frame_;
   Outline& out_;
   const int d_, m_;
-  std::vector<Group> held_;
-  Matrix holding_;  ///< f0 = holding X, one row per group
+  std::vector<HeldPair> held_;
+  Matrix holding_;  ///< f0 = holding X, one row per held pair
 };
 
 /// Along a displacement the holding force is f0 = -lambda, positive when it pushes a in the -x direction.
@@ -103,11 +63,9 @@ void Builder::select_linear_system() {
   }
 }
 
-/// Adds the forces that hold the groups.
+/// Adds the forces that hold the pairs.
 void Builder::hold(Matrix& acceleration, Matrix& size) {
-  const auto count = static_cast<Eigen::Index>(held_.size());
-  Matrix G = Matrix::Zero(count, d_);
-  for (Eigen::Index k = 0; k < count; ++k) G(k, held_[k].displacement) = 1.0;
+  const Matrix G = selection(held_, d_);
   const Matrix D_inverse = least_norm_inverse(G * frame_.mass_inverse * G.transpose());
   const Matrix push = frame_.mass_inverse * G.transpose();
   const Matrix holding_size = D_inverse.cwiseAbs() * (G * size);
@@ -140,22 +98,11 @@ void Builder::arm_guards() {
     if (s != 0.0)
       out_.guards.push_back({GuardKind::slip, static_cast<int>(i), s * frame_.velocity_row(frame_.frictions[i])});
   }
-  for (std::size_t k = 0; k < held_.size(); ++k) arm_force(k);
-}
-
-/// What a group can bear: friction up to the sum of its limits either way, stops any push on their side.
-void Builder::arm_force(std::size_t k) {
-  const Group& group = held_[k];
-  const RowVector f0 = holding_.row(static_cast<Eigen::Index>(k));
-  RowVector limit = RowVector::Zero(m_);
-  for (int i : group.frictions) limit[frame_.one()] += model_.frictions[i].static_friction;
-  bool above = true, below = true;  // does sense * f0 have a limit above, below?
-  for (int i : group.stops) (sense(frame_, group, frame_.stops[i]) > 0.0 ? above : below) = false;
-  const bool pressed = !group.stops.empty();
-  const int contact = pressed ? group.stops.front() : group.frictions.front();
-  const double side = pressed ? 1.0 : sense(frame_, group, frame_.frictions[contact]);
-  if (above) out_.guards.push_back({pressed ? GuardKind::press : GuardKind::stick_above, contact, limit - side * f0});
-  if (below) out_.guards.push_back({pressed ? GuardKind::press : GuardKind::stick_below, contact, limit + side * f0});
+  for (const ForceLimit& limit : force_limits(frame_, held_)) {
+    const RowVector friction = friction_limit(held_[limit.pair], model_) * RowVector::Unit(m_, frame_.one());
+    const RowVector f0 = holding_.row(static_cast<Eigen::Index>(limit.pair));
+    out_.guards.push_back({limit.kind, limit.contact, friction + limit.side * f0});
+  }
 }
 
 void Builder::arm_compliant(int i) {
@@ -212,6 +159,11 @@ void Builder::arm_gap(int stop) {
 }
 
 }  // namespace
+
+std::string_view name(GuardKind kind) {
+  constexpr std::string_view words[] = {"gap", "slip", "stick", "stick", "press", "engage", "leave", "let-go", "push"};
+  return words[static_cast<int>(kind)];
+}
 
 Outline::Outline(const Model& model, const Frame& frame, ContactStates contact_states)
     : states(std::move(contact_states)), steady(static_cast<std::size_t>(frame.d), false) {

@@ -1,25 +1,14 @@
 /// Figures 2, 6, 8 and the comparison with the print: bifurcation diagrams along omega.
 #include <charconv>
 
+#include "paper/diagrams.hpp"
 #include "paper/figures.hpp"
 #include "slapstick/base/text.hpp"
 #include "slapstick/io/table.hpp"
-#include "slapstick/sweep/diagram.hpp"
 
 namespace slapstick::paper {
-namespace {
 
-using figure::Panel;
-using figure::Points;
-
-struct Range {
-  double from, to;
-  int values, impacts;
-  int transient_periods = 500;
-};
-
-/// Up and down through the range, carrying the state. `share`: which part of the current part's progress this is.
-sweep::Diagram diagram(const Study& study, const Overrides& with, const Range& range, int share = 0, int shares = 1) {
+sweep::Diagram diagram(const Study& study, const Overrides& with, const Range& range, int share, int shares) {
   sweep::DiagramProblem problem;
   problem.model_at = [&study, with](double omega) {
     Overrides all = with;
@@ -42,6 +31,11 @@ sweep::Diagram diagram(const Study& study, const Overrides& with, const Range& r
   if (!done.complete) throw Interrupted{};
   return done;
 }
+
+namespace {
+
+using figure::Panel;
+using figure::Points;
 
 /// Nine digits: enough to redraw a figure, and half the bytes; `slapstick diagram` gives all seventeen.
 std::string short_number(double value) {

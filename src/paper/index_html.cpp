@@ -52,6 +52,14 @@ constexpr Shown figures[] = {
      "the influence of the dry friction is not obvious in the lower excitation frequencies, only the velocity of "
      "impact becomes smaller with increased friction. But in higher frequencies, less periodic motions take place",
      "f_s = f_k = 0, 0.05, 0.1, 0.15, 0.2, 0.3; the paper does not print its values."},
+    {"branches", "Branches of n-1 orbits", "",
+     "Grey: attractors. Lines: the branches of 1-1 to 5-1 orbits, stable solid, unstable dashed. Above: what happens, "
+     "by name; the numbers are in the "
+     "table of claims. A window of n-1 motion begins where the orbit grazes the stop (GR) and ends where it doubles "
+     "(PD) or gives way to a torus (NS)."},
+    {"bounds", "The windows of 1-1 and 2-1 motion over friction", "",
+     "GR: the next impact appears; PD: the orbit doubles. Each curve is one bifurcation, continued in both "
+     "parameters."},
     {"print", "The printed parameters", "",
      "The diagram of Fig. 2 with the values used here (a), with the printed R = 0.08 (b), and with f_k = 0.1 below f_s "
      "= 0.15 (c). Grey: what the paper prints."},

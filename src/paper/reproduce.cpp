@@ -1,5 +1,6 @@
 #include "slapstick/paper/reproduce.hpp"
 
+#include "paper/branches.hpp"
 #include "paper/claims.hpp"
 #include "paper/figures.hpp"
 #include "paper/report.hpp"
@@ -11,15 +12,11 @@ namespace {
 
 /// With the seconds that each takes on two cores.
 std::vector<PlannedPart> plan() {
-  return {{"Fig. 2", 12},
-          {"Figs. 3-5", 1},
-          {"Fig. 6", 11},
-          {"Fig. 7", 1.5},
-          {"Fig. 8", 16},
-          {"r = 0.08 and f_k < f_s", 10},
-          {"attractors over omega", 35},
-          {"windows to 1e-4", 12},
-          {"claims", 20}};
+  return {{"Fig. 2", 12},          {"Figs. 3-5", 1},
+          {"Fig. 6", 11},          {"Fig. 7", 1.5},
+          {"Fig. 8", 16},          {"r = 0.08 and f_k < f_s", 10},
+          {"branches", 12},        {"attractors over omega", 35},
+          {"windows to 1e-4", 12}, {"claims", 20}};
 }
 
 void prepare(const std::filesystem::path& folder) {
@@ -39,7 +36,14 @@ std::vector<Claim> run(Study& study) {
     study.draw();  // at once: a run that is stopped leaves the pictures it came to
   }
   study.course().next();
+  const Branches branches = make_branches(study);
+  fig_branches(study, branches);
+  fig_bounds(study, branches);
+  study.draw();
+  study.course().next();
   std::vector<Claim> claims = check_claims(study);  // begins two more parts
+  claims.push_back(claim_branches(branches));
+  claims.push_back(claim_bounds(branches));
   study.course().finish();
   return claims;
 }

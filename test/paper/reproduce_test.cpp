@@ -67,7 +67,7 @@ TEST(Reproduce, AllClaimsAreAnswered) {
     EXPECT_FALSE(one.printed.empty() || one.computed.empty() || one.explanation.empty()) << one.id;
     EXPECT_TRUE(one.quantities.size() > 0 || one.id == "coexisting") << one.id;
   }
-  EXPECT_EQ(ids, "C1 C2 C3 C4 C5 C6 C7 C8 C9 print coexisting ");
+  EXPECT_EQ(ids, "C1 C2 C3 C4 C5 C6 C7 C8 C9 print coexisting branches bounds ");
 }
 
 // Enclosures from the stroboscopic return of the engine's events in steps of 0.001, found by hand before this study was written.

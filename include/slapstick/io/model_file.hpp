@@ -98,6 +98,12 @@ class ModelDefinition {
   /// The validated model. @throws InputError as `values`, and with the file's line for what `validate` refuses
   [[nodiscard]] Model build(const Overrides& overrides = {}) const;
 
+  /// The derivative of `build` with respect to a parameter or group, at its present value: a Model of the same shape in which every number is
+  /// the derivative of that number (names, indices, harmonics, impact law as in the model). Of a group the members move together that have no
+  /// override of their own; parameters that follow others by an expression follow here too. Exact but for rounding, also at the ends of ranges.
+  /// @throws InputError as `build`, for an unknown name, or naming a number that has no derivative (a kink of min, max, abs, ?:)
+  [[nodiscard]] Model rate(const std::string& parameter, const Overrides& overrides = {}) const;
+
   /// The default initial state (2n numbers), checked against the stops. @throws InputError
   [[nodiscard]] State start(const Overrides& overrides = {}) const;
 

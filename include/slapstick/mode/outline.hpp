@@ -2,6 +2,7 @@
 /// The outline of a mode: the linear system that a combination of contact states selects, and the guards that end it.
 #include <cmath>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "slapstick/mode/frame.hpp"
@@ -33,6 +34,9 @@ enum class GuardKind {
   let_go,  ///< compliant stop that pushes: its force
   push     ///< compliant stop detached: minus the force it would have
 };
+
+/// "gap", "slip", "stick" (either limit), "press", "engage", "leave", "let-go", "push".
+[[nodiscard]] std::string_view name(GuardKind kind);
 
 /// True for the guards of friction contacts.
 [[nodiscard]] inline bool of_friction(GuardKind kind) {

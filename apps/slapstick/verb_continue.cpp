@@ -1,0 +1,153 @@
+/// slapstick continue MODEL --param NAME --range A:B
+#include <algorithm>
+#include <cmath>
+
+#include "axis_text.hpp"
+#include "branch_figure.hpp"
+#include "branch_table.hpp"
+#include "orbit_options.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+#include "slapstick/base/error.hpp"
+#include "slapstick/base/text.hpp"
+#include "slapstick/orbit/branch.hpp"
+#include "verb.hpp"
+#include "work.hpp"
+
+namespace slapstick::app {
+namespace {
+
+struct Options {
+  ModelOptions model;
+  OrbitOptions orbit;
+  std::string parameter, range, out, plot;
+  std::vector<std::string> sensitivity;
+  long long points = 2000, branches = 1;
+  double step = 0.01;
+  bool table = false, stay = false, progress = false;
+};
+
+Json point_json(const orbit::Solution& solution) {
+  Json json = Json::object();
+  json.set("param", solution.orbit.values[0]);
+  const Json rest = solution_json(solution);
+  for (const auto& [key, value] : std::get<Json::Object>(rest.value())) json.set(key, value);
+  return json;
+}
+
+Json special_json(const orbit::SpecialPoint& special, const std::vector<std::string>& names,
+                  const std::vector<double>& rates) {
+  Json json = Json::object();
+  json.set("type", std::string(name(special.type))).set("param", special.value).set("error", special.error);
+  const Json rest = solution_json(special.solution);
+  for (const auto& [key, value] : std::get<Json::Object>(rest.value()))
+    if (key != "is_motion" && key != "why") json.set(key, value);
+  json.set("what", special.what);
+  if (!special.outcome.empty()) json.set("outcome", special.outcome);
+  if (special.type == orbit::SpecialType::NS) json.set("rotation", special.rotation);
+  if (!names.empty()) {
+    Json sensitivity = Json::object();
+    for (std::size_t j = 0; j < names.size(); ++j) sensitivity.set(names[j], rates[j]);
+    json.set("sensitivity", std::move(sensitivity));
+  }
+  return json;
+}
+
+orbit::ContinuationOptions continuation(const Options& options, const ParameterRange& range,
+                                        const std::atomic<bool>& stop) {
+  orbit::ContinuationOptions how;
+  how.from = range.from;
+  how.to = range.to;
+  how.most_points = static_cast<int>(options.points);
+  how.step = 0.5 * options.step;
+  how.longest_step = options.step;
+  how.through_changes = !options.stay;
+  how.stop = &stop;
+  return how;
+}
+
+Json branch_json(const orbit::Branch& branch, const ChosenModel& chosen, const Options& options) {
+  Json json = Json::object(), points = Json::list(), special = Json::list();
+  for (const orbit::Solution& point : branch.points) points.push(point_json(point));
+  std::vector<std::string> names = {options.parameter};
+  names.insert(names.end(), options.sensitivity.begin(), options.sensitivity.end());
+  for (const orbit::SpecialPoint& point : branch.special) {
+    std::vector<double> rates;
+    if (!options.sensitivity.empty()) {
+      std::vector<double> values = {point.value};
+      for (const std::string& other : options.sensitivity)
+        values.push_back(present_value(chosen, other, {-INFINITY, INFINITY}));
+      rates = orbit::sensitivity(family_of(chosen, names), values, point);
+    }
+    special.push(special_json(point, options.sensitivity, rates));
+  }
+  json.set("points", std::move(points)).set("special", std::move(special)).set("ended", branch.ended);
+  return json;
+}
+
+int run(const Options& options, const Context& context) {
+  FileRoles roles;
+  roles.add("MODEL", options.model.source);
+  roles.add("--out", options.out);
+  roles.add_plot(options.plot);
+  Output out(options.out);
+  const Plot plot(options.plot);
+  const ChosenModel chosen = options.model.load();
+  const ParameterRange range = parse_range("--range", options.range);
+  const double value = present_value(chosen, options.parameter, range);
+  const State start = options.model.start(chosen);
+  const System system = affordable_system(chosen, {static_cast<double>(options.orbit.transient) + 1.0, "--transient"});
+  const auto problem = orbit::pose(family_of(chosen, {options.parameter}), {value});
+  const orbit::Solution first = find_orbit(*problem, system, start, options.orbit, context.stop);
+  Progress progress("points at most", 2.0 * static_cast<double>(options.points), options.progress);
+  orbit::ContinuationOptions how = continuation(options, range, context.stop);
+  how.progress = [&](double, long points) { progress.update(static_cast<double>(points)); };
+  std::vector<orbit::Branch> branches = {orbit::follow(*problem, first.orbit, how)};
+  follow_doublings(*problem, branches, static_cast<std::size_t>(options.branches), how);
+  if (options.table) {
+    out.write(branch_table(branches, options.parameter));
+  } else {
+    Json json = branch_json(branches.front(), chosen, options);
+    json.set("model", chosen.model.name).set("parameter", options.parameter);
+    Json others = Json::list();
+    for (std::size_t i = 1; i < branches.size(); ++i) others.push(branch_json(branches[i], chosen, options));
+    if (branches.size() > 1) json.set("doubled", std::move(others));
+    out.write(json.dump() + "\n");
+  }
+  out.commit();
+  if (plot.wanted()) plot.write(branch_figure(branches, options.parameter, *problem));
+  if (context.stop.load()) return interrupted;
+  if (!branches.front().failed) return done;
+  throw NumericalError("continue: " + branches.front().ended + "; the points so far are written");
+}
+
+}  // namespace
+
+Action add_continue(Arguments& arguments) {
+  auto options = std::make_shared<Options>();
+  options->model.declare(arguments);
+  options->model.declare_state(arguments);
+  options->orbit.declare(arguments);
+  arguments.text("--param", options->parameter, "NAME", "the parameter, or group of them, to continue in");
+  arguments.text("--range", options->range, "A:B",
+                 "its range; the branch is followed both ways from the value of the first orbit");
+  arguments.number("--step", options->step, "S", "longest step along the branch, as a part of the range (0.01)");
+  arguments.count("--points", options->points, 1, 1'000'000, "most points each way (2000)");
+  arguments.count("--branches", options->branches, 1, 100,
+                  "follow the doubled orbits of PD points too, up to so many branches (1)");
+  arguments.flag("--same-events", options->stay, "end the branch where its sequence of events changes");
+  arguments.repeated("--sensitivity", options->sensitivity, "NAME",
+                     "give d param / d NAME of each special point; may be repeated");
+  arguments.flag("--table", options->table, "write a table instead of JSON");
+  arguments.text("--plot", options->plot, "F.png", "draw impact speeds along the branches (.png, .pdf or .svg)");
+  arguments.text("--out", options->out, "FILE", "write the result there instead of to standard output");
+  arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
+  arguments.footer(
+      "Special points: LP fold, PD period doubling, NS torus, BP branches cross, GR a stop is grazed, SL stick gained "
+      "or lost,\n"
+      "CH complete chatter begins or ends, CO two events meet. docs/continuation.md says how they are found.\n"
+      "  slapstick continue vibro-impact --set omega=2.2 --orbit 1-1 --param omega --range 1:4 --table");
+  return [options](const Context& context) { return run(*options, context); };
+}
+
+}  // namespace slapstick::app

@@ -1,0 +1,168 @@
+/// slapstick curve MODEL --from TYPE --params A,B
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "axis_text.hpp"
+#include "orbit_options.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+#include "slapstick/base/error.hpp"
+#include "slapstick/base/text.hpp"
+#include "slapstick/orbit/branch.hpp"
+#include "verb.hpp"
+#include "work.hpp"
+
+namespace slapstick::app {
+namespace {
+
+struct Options {
+  ModelOptions model;
+  OrbitOptions orbit;
+  std::string from, parameters, out, plot;
+  std::vector<std::string> ranges;
+  long long which = 1, points = 500;
+  double step = 0.01;
+  bool progress = false;
+};
+
+std::vector<std::string> two_names(const std::string& text) {
+  std::vector<std::string> names = split(text, ',');
+  if (names.size() != 2 || names[0].empty() || names[1].empty() || names[0] == names[1])
+    throw InputError("--params: " + in_quotes(text) + " is not of the form A,B with two different parameters");
+  return names;
+}
+
+/// --range NAME=A:B for each of the two.
+std::array<ParameterRange, 2> ranges_of(const Options& options, const std::vector<std::string>& names) {
+  std::array<std::optional<ParameterRange>, 2> found;
+  for (const std::string& text : options.ranges) {
+    const auto [name, range] = name_and_text("--range", text, "NAME=A:B");
+    const auto place = std::ranges::find(names, name) - names.begin();
+    if (place == 2)
+      throw InputError("--range: " + in_quotes(name) + " is none of --params " + names[0] + "," + names[1]);
+    found[static_cast<std::size_t>(place)] = parse_range("--range " + name, range);
+  }
+  for (std::size_t i = 0; i < 2; ++i)
+    if (!found[i]) throw InputError("--range: give " + names[i] + "=A:B too");
+  return {*found[0], *found[1]};
+}
+
+/// The K-th special point of the wanted type on the branch in the first parameter.
+orbit::SpecialPoint special_point(const Options& options, const ChosenModel& chosen,
+                                  const std::vector<std::string>& names, const ParameterRange& range,
+                                  const std::atomic<bool>& stop) {
+  const State start = options.model.start(chosen);
+  const double value = present_value(chosen, names[0], range);
+  const System system = affordable_system(chosen, {static_cast<double>(options.orbit.transient) + 1.0, "--transient"});
+  const auto problem = orbit::pose(family_of(chosen, {names[0]}), {value});
+  const orbit::Solution first = find_orbit(*problem, system, start, options.orbit, stop);
+  orbit::ContinuationOptions how;
+  how.from = range.from;
+  how.to = range.to;
+  how.stop = &stop;
+  const orbit::Branch branch = orbit::follow(*problem, first.orbit, how);
+  std::string seen;
+  long long count = 0;
+  for (const orbit::SpecialPoint& special : branch.special) {
+    seen += (seen.empty() ? "" : ", ") + std::string(name(special.type)) + " at " + shown(special.value);
+    if (name(special.type) == options.from && ++count == options.which) return special;
+  }
+  throw NumericalError("curve: no " + options.from +
+                       (options.which > 1 ? " number " + std::to_string(options.which) : "") + " on the branch of " +
+                       first.label + " in " + names[0] + " (found: " + (seen.empty() ? "none" : seen) + "; " +
+                       branch.ended + ")");
+}
+
+Json curve_json(const orbit::Curve& curve, const std::vector<std::string>& names) {
+  Json points = Json::list(), met = Json::list(), json = Json::object();
+  for (const orbit::CurvePoint& point : curve.points) {
+    Json item = Json::object();
+    for (std::size_t i = 0; i < 2; ++i) item.set(names[i], point.values[i]);
+    const Json rest = solution_json(point.solution);
+    for (const auto& [key, value] : std::get<Json::Object>(rest.value()))
+      if (key == "class" || key == "period" || key == "multipliers" || key == "is_motion" || key == "why") item.set(key, value);
+    points.push(std::move(item));
+  }
+  for (const orbit::CurveEvent& event : curve.met) {
+    Json item = Json::object();
+    for (std::size_t i = 0; i < 2; ++i) item.set(names[i], event.values[i]);
+    met.push(item.set("what", event.what).set("after", event.after));
+  }
+  return json.set("points", std::move(points)).set("met", std::move(met)).set("ended", curve.ended);
+}
+
+figure::Figure curve_figure(const orbit::Curve& curve, const std::vector<std::string>& names, const std::string& type) {
+  figure::Panel panel{.x_label = axis_text(names[0]), .y_label = axis_text(names[1])};
+  figure::Line line{.label = type};
+  for (const orbit::CurvePoint& point : curve.points) {
+    line.x.push_back(point.solution.is_motion ? point.values[0] : std::nan(""));  // a gap where the orbit is no motion
+    line.y.push_back(point.values[1]);
+  }
+  panel.lines.push_back(std::move(line));
+  figure::Figure figure;
+  figure.panels.push_back(std::move(panel));
+  return figure;
+}
+
+int run(const Options& options, const Context& context) {
+  FileRoles roles;
+  roles.add("MODEL", options.model.source);
+  roles.add("--out", options.out);
+  roles.add_plot(options.plot);
+  Output out(options.out);
+  const Plot plot(options.plot);
+  const ChosenModel chosen = options.model.load();
+  const std::vector<std::string> names = two_names(options.parameters);
+  const auto ranges = ranges_of(options, names);
+  const double second = present_value(chosen, names[1], ranges[1]);
+  orbit::SpecialPoint special = special_point(options, chosen, names, ranges[0], context.stop);
+  special.solution.orbit.values = {special.value, second};
+  const auto problem = orbit::pose(family_of(chosen, names), special.solution.orbit.values);
+  Progress progress("points at most", 2.0 * static_cast<double>(options.points), options.progress);
+  orbit::CurveOptions how{
+      .from = ranges[0].from, .to = ranges[0].to, .second_from = ranges[1].from, .second_to = ranges[1].to};
+  how.longest_step = options.step;
+  how.most_points = static_cast<int>(options.points);
+  how.stop = &context.stop;
+  how.progress = [&](long points) { progress.update(static_cast<double>(points)); };
+  const orbit::Curve curve = orbit::locus(*problem, special, how);
+  Json json = Json::object();
+  json.set("model", chosen.model.name).set("type", options.from);
+  const Json rest = curve_json(curve, names);
+  for (const auto& [key, value] : std::get<Json::Object>(rest.value())) json.set(key, value);
+  out.write(json.dump() + "\n");
+  out.commit();
+  if (plot.wanted()) plot.write(curve_figure(curve, names, options.from));
+  if (context.stop.load()) return interrupted;
+  if (!curve.failed) return done;
+  throw NumericalError("curve: " + curve.ended + "; the points so far are written");
+}
+
+}  // namespace
+
+Action add_curve(Arguments& arguments) {
+  auto options = std::make_shared<Options>();
+  options->from = "PD";
+  options->model.declare(arguments);
+  options->model.declare_state(arguments);
+  options->orbit.declare(arguments);
+  arguments.choice("--from", options->from, {"LP", "PD", "NS", "BP", "GR", "SL", "CH", "CO"},
+                   "the type of special point to follow (PD)");
+  arguments.text("--params", options->parameters, "A,B", "the two parameters; the point is sought along the first");
+  arguments.repeated("--range", options->ranges, "NAME=A:B", "range of a parameter; give both");
+  arguments.count("--which", options->which, 1, 1000, "the K-th point of that type along the branch (1)");
+  arguments.number("--step", options->step, "S", "longest step along the curve, as a part of the ranges (0.01)");
+  arguments.count("--points", options->points, 2, 1'000'000, "most points each way (500)");
+  arguments.text("--plot", options->plot, "F.png", "draw the curve (.png, .pdf or .svg)");
+  arguments.text("--out", options->out, "FILE", "write the JSON there instead of to standard output");
+  arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
+  arguments.footer(
+      "The locus of a special point of `continue` in two parameters, with the points of codimension two met on the "
+      "way.\n"
+      "  slapstick curve vibro-impact --orbit 1-1 --from PD --params omega,friction --range omega=2:4 --range "
+      "friction=0:0.5");
+  return [options](const Context& context) { return run(*options, context); };
+}
+
+}  // namespace slapstick::app

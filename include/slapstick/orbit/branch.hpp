@@ -1,0 +1,101 @@
+#pragma once
+/// Branches of periodic orbits: pseudo-arclength continuation in one parameter, with every point at which something changes.
+///
+/// An orbit is followed with its sequence of events fixed. Between two points of the branch each of these is watched for a change of sign, and the
+/// change is refined on the branch until the parameter is known to `parameter_tolerance`:
+///
+///   LP  fold: the branch turns back in the parameter            PD  a multiplier -1: period doubling
+///   NS  a pair of multipliers e^{+-2 pi i rho}                   BP  a multiplier +1 that is no fold: branches cross, a symmetry breaks
+///   GR  a stop is touched, or an impact's speed has gone to zero    SL  stick is gained or lost
+///   CH  a complete chatter begins or ends                       CO  two events meet
+///
+/// The last four change the sequence. There the sequence is built anew from what the motion does beyond, and the branch goes on: in the same
+/// direction (*persistence*), or back (*non-smooth fold*), or ends where no orbit is born (*jump*). Every point is checked by the certified
+/// simulator; one that is no motion has `is_motion` false, and says why.
+///
+/// Source: Doedel, Keller and Kernevez (1991), Govaerts (2000) for the test functions; di Bernardo et al. (2008) for GR and SL.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "slapstick/orbit/periodic_orbit.hpp"
+
+namespace slapstick::orbit {
+
+enum class SpecialType : std::uint8_t { LP, PD, NS, BP, GR, SL, CH, CO };
+[[nodiscard]] std::string_view name(SpecialType type);
+
+struct SpecialPoint {
+  SpecialType type = SpecialType::LP;
+  double value = 0.0;  ///< of the parameter
+  double error = 0.0;  ///< of it: the last change of the refinement
+  Solution solution;
+  std::string what;       ///< "the gap of stop touches zero in leg 2", "stick of block is lost"
+  std::string outcome;    ///< of a change of events: "persistence", "non-smooth fold", "jump"
+  double rotation = 0.0;  ///< NS: rho in (0, 1/2)
+  std::size_t after = 0;  ///< it lies behind this point of the branch
+  std::size_t test = 0;   ///< GR, SL, CH, CO: which of the orbit's margins is zero (src/orbit/margins.hpp)
+};
+
+struct Branch {
+  std::vector<Solution> points;
+  std::vector<SpecialPoint> special;
+  std::string ended;    ///< why it ends: "range", "closed", "points", or what went wrong, with the last good value
+  bool failed = false;  ///< it ends before the range does
+};
+
+struct ContinuationOptions {
+  double from = 0.0, to = 0.0;  ///< range of the parameter; the branch is followed both ways from the first orbit
+  int most_points = 1000;       ///< each way
+  double step = 0.01;           ///< first and
+  double longest_step = 0.02;  ///< .. largest arclength; 1 is the whole range, or a change of the orbit by its own size
+  double shortest_step = 1e-8;
+  bool through_changes = true;  ///< go on with a new sequence of events
+  const std::atomic<bool>* stop = nullptr;
+  std::function<void(double value, long points)> progress = {};
+};
+
+/// Follows the branch through `start`, an orbit that solves its equations, in the family's first parameter.
+/// @throws InputError if `start` is outside the range
+[[nodiscard]] Branch follow(const Problem& problem, const Orbit& start, const ContinuationOptions& options);
+
+/// The cycle of twice the length that is born at a PD, as an approximate orbit to follow from; and the other branch at a BP.
+[[nodiscard]] std::optional<Orbit> doubled(const Problem& problem, const SpecialPoint& pd);
+
+struct CurvePoint {
+  std::vector<double> values;  ///< of the two parameters
+  Solution solution;           ///< is_motion: no other margin than the point's own is used up
+};
+
+/// What else happens on a curve: a point of codimension two.
+struct CurveEvent {
+  std::string
+      what;  ///< "another multiplier is -1", "the orbit ceases to be a motion: ..", "the curve turns back in NAME"
+  std::vector<double> values;
+  std::size_t after = 0;
+};
+
+struct Curve {
+  std::vector<CurvePoint> points;
+  std::vector<CurveEvent> met;
+  std::string ended;
+  bool failed = false;
+};
+
+struct CurveOptions {
+  double from = 0.0, to = 0.0;                ///< range of the first
+  double second_from = 0.0, second_to = 0.0;  ///< .. and the second parameter
+  double longest_step = 0.01;                 ///< arclength in units of both ranges and the orbit's size
+  int most_points = 500;                      ///< each way
+  const std::atomic<bool>* stop = nullptr;
+  std::function<void(long points)> progress = {};
+};
+
+/// The locus of a special point, found in the family's first parameter, when the second varies too.
+[[nodiscard]] Curve locus(const Problem& problem, const SpecialPoint& point, const CurveOptions& options);
+
+/// d value / d (each parameter of `full`, a family whose first parameters are those of the branch's), along which the special point persists.
+[[nodiscard]] std::vector<double> sensitivity(const Family& full, const std::vector<double>& values,
+                                              const SpecialPoint& point);
+
+}  // namespace slapstick::orbit

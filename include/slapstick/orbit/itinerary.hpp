@@ -1,0 +1,57 @@
+#pragma once
+/// The shape of a periodic orbit: which modes it passes, what ends each, and what happens there; and the orbit itself.
+///
+/// A cycle is cut at its events into *legs*. Leg i starts just after event i, in one mode, and its end is event i + 1; the last leg ends at
+/// event 0, one cycle later. With the shape fixed, an orbit is a smooth function of the model's parameters, also where it is no motion any
+/// more: past a graze, where it reaches behind a stop, its equations go on. So the points where shapes change are regular points.
+#include <Eigen/Dense>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "slapstick/flow/motion.hpp"
+
+namespace slapstick::orbit {
+
+/// What ends a leg.
+enum class Ending : std::uint8_t {
+  guard,    ///< the zero of a guard of the leg's mode
+  chatter,  ///< the limit of a complete chatter whose impacts after the leg's start are summed
+  cut       ///< nothing: an orbit without events, cut at phase 0
+};
+
+struct Leg {
+  mode::ContactStates states;
+  Ending ending = Ending::guard;
+  mode::GuardKind kind = mode::GuardKind::gap;  ///< of the guard; its contact is
+  int contact = 0;                              ///< .. this, or the stop that chatters
+  std::vector<Motion::Strike> strikes;          ///< the impacts at the end, in order
+  EventKind event = EventKind::impact;          ///< what the end is called (the first of the events of its instant)
+  int event_contact = 0;                        ///< System::contact_name
+  friend bool operator==(const Leg& a, const Leg& b);
+};
+
+struct Itinerary {
+  std::vector<Leg> legs;
+  int n = 0;  ///< forcing periods per cycle; 0 for a model without forcing, whose period is unknown
+};
+
+/// A periodic orbit, or an approximation to one. A *contact state* is the first n of p and of u (mode/frame.hpp).
+struct Orbit {
+  Itinerary shape;
+  std::vector<double> values;      ///< of the family's parameters
+  std::vector<Eigen::VectorXd> x;  ///< contact state at the start of each leg
+  std::vector<double> t;    ///< instants of events 0 .. k, in forcing periods (in time, without forcing): k + 1 numbers
+  Eigen::VectorXd advance;  ///< along each of the model's rigid translations, per cycle
+
+  [[nodiscard]] std::size_t legs() const { return shape.legs.size(); }
+  [[nodiscard]] double duration(std::size_t leg) const { return t[leg + 1] - t[leg]; }
+};
+
+/// Makes leg `first` the first one. Times stay in order; those of the legs before it move on by a cycle.
+void rotate(Orbit& orbit, std::size_t first);
+
+/// "impact wall, slip- pad, stick pad": for messages and tables.
+[[nodiscard]] std::string describe(const Itinerary& shape, const System& system);
+
+}  // namespace slapstick::orbit

@@ -1,0 +1,36 @@
+#pragma once
+/// A number and its derivative with respect to a parameter, in the arithmetic of expressions: forward differentiation, exact but for rounding.
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace slapstick {
+
+/// `rate` is nan where there is no derivative: a kink, a jump, an end of the domain. A number that does not vary may stand on one.
+struct Dual {
+  double value = 0.0;
+  double rate = 0.0;
+  bool varies = false;  ///< it depends on the parameter, even where its derivative happens to be 0
+};
+
+using Duals = std::map<std::string, Dual>;
+
+Dual operator-(const Dual& a);
+Dual operator+(const Dual& a, const Dual& b);
+Dual operator-(const Dual& a, const Dual& b);
+Dual operator*(const Dual& a, const Dual& b);
+Dual operator/(const Dual& a, const Dual& b);
+Dual power(const Dual& base, const Dual& exponent);
+
+/// "<", "<=", ">", ">=", "==" or "!=": 1 or 0, which does not vary, but jumps where the sides are equal and one of them varies.
+Dual compare(std::string_view relation, const Dual& a, const Dual& b);
+Dual both(const Dual& a, const Dual& b);
+Dual either(const Dual& a, const Dual& b);
+/// condition ? a : b. At a jump of the condition it has a derivative if a and b agree in value and derivative.
+Dual choose(const Dual& condition, const Dual& a, const Dual& b);
+
+/// A function of expressions by its name: "sqrt", "atan2", "min", .. . One that there is not has no derivative.
+Dual call(std::string_view function, const std::vector<Dual>& arguments);
+
+}  // namespace slapstick

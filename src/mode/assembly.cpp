@@ -1,0 +1,50 @@
+#include "mode/assembly.hpp"
+
+namespace slapstick::mode {
+namespace {
+
+/// Adds coefficient * row^T row to a matrix: the stiffness or damping of one element.
+void add_element(Matrix& matrix, int a, int b, double coefficient) {
+  const RowVector row = pair_row(static_cast<int>(matrix.rows()), a, b);
+  matrix += coefficient * row.transpose() * row;
+}
+
+Matrix symmetric(const SymmetricMatrix& entries, int n) {
+  if (entries.empty()) return Matrix::Zero(n, n);
+  return Eigen::Map<const Matrix>(entries.data(), n, n);
+}
+
+}  // namespace
+
+RowVector pair_row(int n, int a, int b) {
+  RowVector row = RowVector::Zero(n);
+  if (a != ground) row[a] += 1.0;
+  if (b != ground) row[b] -= 1.0;
+  return row;
+}
+
+Matrix mass_matrix(const Model& model) {
+  Matrix M = symmetric(model.mass, model.size());
+  for (int i = 0; i < model.size(); ++i) M(i, i) += model.coordinates[i].mass;
+  return M;
+}
+
+Matrix damping_matrix(const Model& model) {
+  Matrix C = symmetric(model.damping, model.size());
+  for (const Damper& damper : model.dampers) add_element(C, damper.a, damper.b, damper.coefficient);
+  return C;
+}
+
+Matrix stiffness_matrix(const Model& model) {
+  Matrix K = symmetric(model.stiffness, model.size());
+  for (const Spring& spring : model.springs) add_element(K, spring.a, spring.b, spring.stiffness);
+  return K;
+}
+
+Matrix inverse_mass(const Model& model) {
+  const Matrix M = mass_matrix(model);
+  if (M.isDiagonal(0.0)) return M.diagonal().cwiseInverse().asDiagonal();
+  return M.llt().solve(Matrix::Identity(M.rows(), M.cols()));
+}
+
+}  // namespace slapstick::mode

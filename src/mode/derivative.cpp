@@ -1,0 +1,198 @@
+#include "slapstick/mode/derivative.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mode/assembly.hpp"
+#include "mode/held.hpp"
+#include "slapstick/base/error.hpp"
+#include "slapstick/base/text.hpp"
+
+namespace slapstick::mode {
+namespace {
+
+/// The derivatives of the shifts, or of the drifts. Contacts that share a number must agree in its derivative.
+class SharedRates {
+ public:
+  SharedRates(Vector& rates, const char* shared, const char* quantities)
+      : rates_(rates), owners_(static_cast<std::size_t>(rates.size())), shared_(shared), quantities_(quantities) {}
+
+  template <class Contact>
+  void set(const char* kind, const Contact& contact, const ContactRow& row, double rate) {
+    auto& owner = owners_[static_cast<std::size_t>(row.own)];
+    const std::string name = kind + (" " + in_quotes(contact.name));
+    double& known = rates_[row.own];
+    if (owner.empty()) {
+      owner = name;
+      known = row.sign * rate;
+    } else if (std::abs(known - row.sign * rate) > 0x1p-40 * (std::abs(known) + std::abs(rate))) {
+      throw InputError(owner + " and " + name + " share one " + shared_ + " because their " + quantities_ +
+                       " agree, and the parameter parts them: change both, or start from different " + quantities_);
+    }
+  }
+
+ private:
+  Vector& rates_;
+  std::vector<std::string> owners_;
+  const char *shared_, *quantities_;
+};
+
+/// Of `load` in Frame, amplitude (sin(phase) cos(j theta) + cos(phase) sin(j theta)).
+Matrix load_rate(const Model& model, const Model& rate, const Frame& frame) {
+  Matrix load = Matrix::Zero(frame.n, frame.size());
+  for (std::size_t i = 0; i < model.forces.size(); ++i) {
+    const Force &force = model.forces[i], &change = rate.forces[i];
+    if (force.harmonic == 0) {
+      load(force.coordinate, frame.one()) += change.amplitude;
+      continue;
+    }
+    const auto k = std::ranges::find(frame.harmonics, force.harmonic) - frame.harmonics.begin();
+    const double sine = std::sin(force.phase), cosine = std::cos(force.phase), turn = force.amplitude * change.phase;
+    load(force.coordinate, 2 * frame.d + 2 * k) += change.amplitude * sine + turn * cosine;
+    load(force.coordinate, 2 * frame.d + 2 * k + 1) += change.amplitude * cosine - turn * sine;
+  }
+  return load;
+}
+
+/// Fills an OutlineDerivative; the steps are those of Outline, each with its derivative beside it.
+class Differentiator {
+ public:
+  Differentiator(const Model& model, const Model& rate, const Frame& frame, const FrameDerivative& change,
+                 const Outline& outline)
+      : model_(model),
+        rate_(rate),
+        frame_(frame),
+        change_(change),
+        outline_(outline),
+        held_(held_pairs(frame, outline.states)),
+        acceleration_(frame.free),
+        acceleration_rate_(change.free) {}
+
+  [[nodiscard]] Matrix system();
+  [[nodiscard]] std::vector<RowVector> guards() const;
+
+ private:
+  void push_away(const ContactRow& contact, const RowVector& force, const RowVector& force_rate);
+  void hold();
+  [[nodiscard]] RowVector compliant_rate(const Guard& guard) const;
+
+  const Model &model_, &rate_;
+  const Frame& frame_;
+  const FrameDerivative& change_;
+  const Outline& outline_;
+  std::vector<HeldPair> held_;
+  Matrix acceleration_, acceleration_rate_, holding_rate_;
+};
+
+/// A force on b along a contact's displacement, the opposite on a.
+void Differentiator::push_away(const ContactRow& contact, const RowVector& force, const RowVector& force_rate) {
+  const Vector column = contact.sign * frame_.mass_inverse.col(contact.own);
+  acceleration_ -= column * force;
+  acceleration_rate_ -= column * force_rate + contact.sign * change_.mass_inverse.col(contact.own) * force;
+}
+
+/// holding = D^+ G a and a - M^{-1} G^T holding. The range of D is that of G W, a constant one, so that (D^+)' = -D^+ D' D^+ on it, whether or
+/// not held contacts depend on each other.
+void Differentiator::hold() {
+  const Matrix G = selection(held_, frame_.d);
+  const Matrix D_inverse = least_norm_inverse(G * frame_.mass_inverse * G.transpose());
+  const Matrix D_rate = G * change_.mass_inverse * G.transpose();
+  const Matrix holding = D_inverse * (G * acceleration_);
+  holding_rate_ = D_inverse * (G * acceleration_rate_ - D_rate * holding);
+  acceleration_rate_ -=
+      change_.mass_inverse * G.transpose() * holding + frame_.mass_inverse * G.transpose() * holding_rate_;
+}
+
+Matrix Differentiator::system() {
+  const RowVector one = RowVector::Unit(frame_.size(), frame_.one());
+  for (std::size_t i = 0; i < frame_.frictions.size(); ++i) {
+    const auto s = static_cast<double>(outline_.states.frictions[i]);
+    push_away(frame_.frictions[i], s * model_.frictions[i].kinetic_friction * one,
+              s * rate_.frictions[i].kinetic_friction * one);
+  }
+  for (std::size_t i = 0; i < frame_.compliant.size(); ++i) {
+    if (outline_.states.compliant[i] != CompliantState::on) continue;
+    const int stop = static_cast<int>(i);
+    push_away(frame_.compliant[i], frame_.push_row(model_, stop), frame_.push_row(rate_, stop));
+  }
+  if (!held_.empty()) hold();
+  Matrix A = frame_.kinematics(change_.omega);
+  for (int i = 0; i < frame_.d; ++i) {
+    A(i, frame_.u(i)) = 0.0;  // p' = u + drift
+    A(i, frame_.one()) = change_.drift[i];
+    if (outline_.steady[static_cast<std::size_t>(i)]) acceleration_rate_.row(i).setZero();
+  }
+  A.middleRows(frame_.d, frame_.d) = acceleration_rate_;
+  return A;
+}
+
+/// Guards of gaps and velocities are single numbers; those of forces change.
+std::vector<RowVector> Differentiator::guards() const {
+  const std::vector<ForceLimit> limits = force_limits(frame_, held_);
+  std::vector<RowVector> rows;
+  std::size_t next = 0;
+  for (const Guard& guard : outline_.guards) {
+    RowVector row = RowVector::Zero(frame_.size());
+    if (guard.kind == GuardKind::stick_above || guard.kind == GuardKind::stick_below ||
+        guard.kind == GuardKind::press) {
+      const ForceLimit& limit = limits[next++];
+      row = limit.side * holding_rate_.row(static_cast<Eigen::Index>(limit.pair));
+      row[frame_.one()] += friction_limit(held_[limit.pair], rate_);
+    } else if (guard.kind == GuardKind::let_go || guard.kind == GuardKind::push || guard.kind == GuardKind::leave) {
+      row = compliant_rate(guard);
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+RowVector Differentiator::compliant_rate(const Guard& guard) const {
+  const RowVector force = frame_.push_row(rate_, guard.contact);
+  if (guard.kind == GuardKind::let_go) return force;
+  if (guard.kind == GuardKind::push) return -force;
+  const CompliantStop& stop = model_.compliant_stops[guard.contact];
+  if (stop.pulls || outline_.states.compliant[guard.contact] != CompliantState::on)
+    return RowVector::Zero(frame_.size());
+  // delta here, with no damping; (stiffness delta + damping delta') / stiffness as soon as there is some
+  return rate_.compliant_stops[guard.contact].damping / stop.stiffness *
+         frame_.velocity_row(frame_.compliant[guard.contact]);
+}
+
+}  // namespace
+
+FrameDerivative::FrameDerivative(const Model& model, const Model& rate, const Frame& frame)
+    : shift(Vector::Zero(frame.d)), drift(Vector::Zero(frame.d)), omega(rate.omega) {
+  SharedRates shifts(shift, "displacement", "clearances"), drifts(drift, "velocity", "belt speeds");
+  const auto own = [&](const char* kind, const auto& stop, const ContactRow& row, double clearance) {
+    shifts.set(kind, stop, row, clearance);
+    drifts.set(kind, stop, row, 0.0);
+  };
+  for (std::size_t i = 0; i < model.stops.size(); ++i)
+    own("stop", model.stops[i], frame.stops[i], rate.stops[i].clearance);
+  for (std::size_t i = 0; i < model.compliant_stops.size(); ++i)
+    own("compliant stop", model.compliant_stops[i], frame.compliant[i], rate.compliant_stops[i].clearance);
+  for (std::size_t i = 0; i < model.frictions.size(); ++i)
+    drifts.set("friction contact", model.frictions[i], frame.frictions[i], rate.frictions[i].belt_speed);
+
+  // free = W M^{-1} force;  force = load X - C q' - K q,  q = W^{-1} (p + shift),  q' = W^{-1} (u + drift)
+  const Eigen::Index n = frame.n;
+  const Matrix K = stiffness_matrix(model), C = damping_matrix(model);
+  const Matrix K_rate = stiffness_matrix(rate) * frame.W_inverse, C_rate = damping_matrix(rate) * frame.W_inverse;
+  Matrix force = load_rate(model, rate, frame);
+  force.leftCols(n) -= K_rate;
+  force.middleCols(frame.d, n) -= C_rate;
+  force.col(frame.one()) -= K_rate * frame.shift.head(n) + K * (frame.W_inverse * shift.head(n));
+  force.col(frame.one()) -= C_rate * frame.drift.head(n) + C * (frame.W_inverse * drift.head(n));
+  const Matrix W_over_M = frame.W * inverse_mass(model), M_rate = mass_matrix(rate);
+  mass_inverse = -W_over_M * M_rate * W_over_M.transpose();
+  free = W_over_M * (force - M_rate * (frame.W_inverse * frame.free.topRows(n)));
+}
+
+OutlineDerivative::OutlineDerivative(const Model& model, const Model& rate, const Frame& frame,
+                                     const FrameDerivative& change, const Outline& outline) {
+  Differentiator differentiator(model, rate, frame, change, outline);
+  system = differentiator.system();
+  guards = differentiator.guards();
+}
+
+}  // namespace slapstick::mode

@@ -1,0 +1,243 @@
+#include "slapstick/orbit/branch.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "orbit/path.hpp"
+#include "orbit/record.hpp"
+#include "orbit/reshape.hpp"
+#include "orbit/special.hpp"
+#include "slapstick/base/error.hpp"
+#include "slapstick/base/text.hpp"
+
+namespace slapstick::orbit {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double straight = 0.95;  ///< least cosine between the tangents of neighbouring points
+
+/// Follows one direction from a point.
+class Follower {
+ public:
+  Follower(const Problem& problem, const ContinuationOptions& options, Branch& branch)
+      : problem_(problem), options_(options), range_(options.to - options.from), branch_(branch) {}
+
+  void run(PathPoint at);
+
+ private:
+  [[nodiscard]] double value(const PathPoint& point) const { return point.orbit.values[0]; }
+  [[nodiscard]] bool inside(double v) const { return v >= options_.from && v <= options_.to; }
+  [[nodiscard]] Solution solution_of(const PathPoint& point, Verification* seen) const;
+  bool accept(PathPoint& at, PathPoint next, double length);
+  bool change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why);
+  void smooth_points(const PathPoint& at, const PathPoint& next, double length);
+  bool end_at_boundary(PathPoint& at);
+  void end(std::string why, bool failed);
+
+  const Problem& problem_;
+  const ContinuationOptions& options_;
+  double range_;
+  Branch& branch_;
+  double step_ = 0.0;
+  bool ended_ = false;
+};
+
+void Follower::end(std::string why, bool failed) {
+  branch_.ended = std::move(why);
+  branch_.failed = failed;
+  ended_ = true;
+}
+
+/// Runs the simulator over the cycle. Where only the number of impacts before a chatter's sum has changed, `seen` has the orbit as it is now.
+Solution Follower::solution_of(const PathPoint& point, Verification* seen) const {
+  const System system(problem_.family().model(point.orbit.values));
+  Solution solution = describe(problem_, point.orbit, nullptr);
+  Verification verification = verify(system, point.orbit);
+  solution.is_motion = verification.is_motion;
+  solution.why = verification.why;
+  if (seen != nullptr) *seen = std::move(verification);
+  return solution;
+}
+
+/// Special points that leave the events as they are.
+void Follower::smooth_points(const PathPoint& at, const PathPoint& next, double length) {
+  constexpr double merged = 1e-3;  // at a fold or crossing that is known to 1e-10 in the parameter, states are to 1e-5
+  for (SpecialPoint& special : smooth_special_points(problem_, at, next, length, range_)) {
+    const bool doubling =
+        (special.type == SpecialType::LP || special.type == SpecialType::BP) && repeats(special.solution.orbit, merged);
+    special.after = branch_.points.size() - 1;
+    if (doubling) {
+      special.type = SpecialType::PD;
+      special.what = "the branch leaves a shorter orbit, which doubles";
+      end("meets the orbit of which it is the double at " + shown(special.value), false);
+    }
+    branch_.special.push_back(std::move(special));
+    if (doubling) return;
+  }
+}
+
+/// The last point of a branch is on the boundary of the range, if the tangent leads there. @returns false if the branch goes on
+bool Follower::end_at_boundary(PathPoint& at) {
+  const double wall = at.watched.turn > 0.0 ? options_.to : options_.from;
+  const double length = (wall - value(at)) / (at.watched.turn * range_);
+  if (length < 1e-12) {
+    end("range", false);
+    return true;
+  }
+  Orbit last = at.orbit;
+  const ModeSet set(problem_.family(), last.values);
+  move(problem_, linearise(problem_, set, last), length * at.tangent.cwiseProduct(at.units), 0.0, last);
+  last.values[0] = wall;
+  const std::optional<Orbit> orbit = refine(problem_, last);
+  if (!orbit) return false;
+  PathPoint next = point_of(problem_, *orbit, range_, at.tangent);
+  if (at.tangent.dot(next.tangent) < straight) return false;
+  if (!accept(at, std::move(next), length)) return true;
+  if (value(at) != wall) return false;  // the events have changed on the way
+  end("range", false);
+  return true;
+}
+
+/// Between `at` and `beyond` the motion's events change. Notes the point and goes on with new ones. @returns false if the branch ends
+bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why) {
+  std::optional<Change> change = find_change(problem_, at, beyond, length, range_);
+  if (!change) {
+    if (length > options_.shortest_step) {
+      step_ = 0.25 * length;
+      return true;
+    }
+    end("the motion has other events than the orbit behind " + problem_.family().names[0] + " = " + shown(value(at)) +
+            " (" + why + ")",
+        true);
+    return false;
+  }
+  SpecialPoint special = std::move(change->special);
+  special.after = branch_.points.size() - 1;
+  std::optional<Reshaped> next;
+  if (options_.through_changes) next = reshape(problem_, change->at, range_);
+  special.outcome = next ? (next->folds ? "non-smooth fold" : "persistence") : "jump";
+  branch_.special.push_back(special);
+  if (!next) {
+    end(std::string(name(special.type)) + " at " + shown(special.value) + ": no orbit is born there",
+        !options_.through_changes);
+    return false;
+  }
+  at = std::move(next->point);
+  branch_.points.push_back(solution_of(at, nullptr));
+  step_ = std::min(step_, options_.step);
+  return true;
+}
+
+/// Takes a step, or makes it shorter. @returns false if the branch ends
+bool Follower::accept(PathPoint& at, PathPoint next, double length) {
+  Verification seen;
+  Solution solution;
+  try {
+    solution = solution_of(next, &seen);
+  } catch (const std::runtime_error& error) {
+    end(error.what(), true);
+    return false;
+  }
+  if (!solution.is_motion) return change_events(at, next, length, solution.why);
+  smooth_points(at, next, length);
+  if (ended_) return false;
+  branch_.points.push_back(std::move(solution));
+  if (!seen.same_chatter && !seen.seen.shape.legs.empty()) {
+    Orbit renewed = seen.seen;
+    renewed.values = next.orbit.values;
+    if (auto orbit = refine(problem_, renewed)) {
+      const bool grows = next.watched.turn > 0.0;
+      next = point_of(problem_, *orbit, range_, {});
+      if (!grows) next.tangent = -next.tangent;
+      next.watched.turn = grows ? std::abs(next.watched.turn) : -std::abs(next.watched.turn);
+    }
+  }
+  at = std::move(next);
+  return true;
+}
+
+void Follower::run(PathPoint at) {
+  step_ = options_.step;
+  const Orbit first = at.orbit;
+  for (int count = 0; !ended_ && count < options_.most_points; ++count) {
+    if (stopped(options_.stop)) return end("stopped", true);
+    if (!inside(value(at) + step_ * at.watched.turn * range_)) {
+      if (end_at_boundary(at)) return;
+      step_ *= 0.5;
+      if (step_ < options_.shortest_step) return end("range", false);
+      continue;
+    }
+    int newton = 0;
+    std::optional<PathPoint> next = step_to(problem_, at, step_, range_, &newton);
+    const double bend = next ? at.tangent.dot(next->tangent) : -1.0;
+    if (!next || !inside(value(*next)) || (bend < straight && step_ > 1e-4)) {
+      step_ *= 0.5;
+      if (step_ < options_.shortest_step)
+        return end("Newton's method does not converge behind " + problem_.family().names[0] + " = " + shown(value(at)),
+                   true);
+      continue;
+    }
+    const double taken = step_;
+    if (!accept(at, std::move(*next), taken)) return;
+    if (step_ == taken)
+      step_ = std::min(options_.longest_step, newton <= 4 && bend > 0.995 ? 1.5 * step_
+                                              : newton > 6                ? 0.7 * step_
+                                                                          : step_);
+    if (options_.progress) options_.progress(value(at), static_cast<long>(branch_.points.size()));
+    const bool back = count > 3 && first.legs() == at.orbit.legs() &&
+                      std::abs(value(at) - first.values[0]) < 1e-3 * range_ * taken &&
+                      (at.orbit.x[0] - first.x[0]).norm() < 1e-3 * taken * first.x[0].norm();
+    if (back) return end("closed", false);
+  }
+  if (!ended_) end("points", true);
+}
+
+/// One branch from the two directions in which it was followed from its first point.
+Branch joined(Branch down, Branch up) {
+  Branch all;
+  all.points.assign(down.points.rbegin(), down.points.rend());
+  const std::size_t first = all.points.size() - 1;
+  all.points.insert(all.points.end(), up.points.begin() + 1, up.points.end());
+  for (auto special = down.special.rbegin(); special != down.special.rend(); ++special) {
+    special->after = first > special->after ? first - special->after - 1 : 0;
+    all.special.push_back(std::move(*special));
+  }
+  for (SpecialPoint& special : up.special) {
+    special.after += first;
+    all.special.push_back(std::move(special));
+  }
+  all.ended = "down: " + down.ended + "; up: " + up.ended;
+  all.failed = down.failed || up.failed;
+  return all;
+}
+
+}  // namespace
+
+std::string_view name(SpecialType type) {
+  constexpr std::array<std::string_view, 8> names = {"LP", "PD", "NS", "BP", "GR", "SL", "CH", "CO"};
+  return names[static_cast<std::size_t>(type)];
+}
+
+Branch follow(const Problem& problem, const Orbit& start, const ContinuationOptions& options) {
+  const double value = start.values.at(0);
+  if (!(value >= options.from && value <= options.to))
+    throw InputError(problem.family().names[0] + " = " + shown(value) + " is outside the range " + shown(options.from) +
+                     ":" + shown(options.to));
+  const double range = options.to - options.from;
+  const PathPoint first = point_of(problem, start, range, {});
+  const System system(problem.family().model(start.values));
+  Branch down, up;
+  up.points.push_back(describe(problem, start, &system));
+  down.points.push_back(up.points.front());
+  PathPoint backwards = first;
+  backwards.tangent = -backwards.tangent;
+  backwards.watched.turn = -backwards.watched.turn;
+  backwards.watched.cross = -backwards.watched.cross;
+  Follower(problem, options, down).run(std::move(backwards));
+  Follower(problem, options, up).run(first);
+  return joined(std::move(down), std::move(up));
+}
+
+}  // namespace slapstick::orbit

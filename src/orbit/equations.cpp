@@ -1,0 +1,232 @@
+#include "orbit/equations.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "slapstick/base/error.hpp"
+
+namespace slapstick::orbit {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::RowVectorXd;
+using Eigen::VectorXd;
+
+constexpr double enough = 1e-13;  ///< a step, relative to the orbit's size, after which there is nothing to gain
+constexpr double longest_step = 0.5;
+
+/// x_0 by its numbers: the columns of representatives.
+MatrixXd representatives(const Problem& problem, Index size) {
+  MatrixXd all(size, problem.numbers());
+  for (Index j = 0; j < problem.numbers(); ++j)
+    all.col(j) = problem.translations().representative(VectorXd::Unit(problem.numbers(), j));
+  return all;
+}
+
+/// The columns' classes modulo translations, as their numbers.
+MatrixXd classes(const Problem& problem, const MatrixXd& columns) {
+  MatrixXd all(problem.numbers(), columns.cols());
+  for (Index j = 0; j < columns.cols(); ++j) {
+    VectorXd x = columns.col(j);
+    problem.translations().take_out(x);
+    all.col(j) = problem.translations().numbers(x);
+  }
+  return all;
+}
+
+/// The derivative of a jet of leg i by the unknowns, when the leg's start is x + states v + defect.
+MatrixXd chain(const Problem& problem, const Jet& jet, const MatrixXd& states, std::size_t leg, std::size_t legs) {
+  MatrixXd by = jet.by_state() * states;
+  by.col(problem.instant_column(leg)) += jet.by_begin();
+  by.col(problem.instant_column(leg + 1)) += jet.by_end();
+  for (Index p = 0; p < jet.parameters; ++p) by.col(problem.parameter_column(legs, p)) += jet.by_parameter().col(p);
+  return by;
+}
+
+bool forced(const Orbit& orbit) { return orbit.shape.n > 0; }
+
+}  // namespace
+
+Problem::Problem(Family family, const std::vector<double>& values)
+    : family_(std::move(family)),
+      values_(values),
+      base_(std::make_shared<const System>(family_.model(values))),
+      translations_(*base_) {}
+
+Index Problem::numbers() const { return 2 * base_->frame().n - translations_.count(); }
+Index Problem::unknowns(std::size_t legs) const { return numbers() + static_cast<Index>(legs) + 1 + parameters(); }
+Index Problem::instant_column(std::size_t event) const { return numbers() + static_cast<Index>(event); }
+Index Problem::parameter_column(std::size_t legs, Index j) const {
+  return numbers() + static_cast<Index>(legs) + 1 + j;
+}
+
+Linearised linearise(const Problem& problem, const ModeSet& set, const Orbit& orbit) {
+  const std::size_t k = orbit.legs();
+  const auto rows = static_cast<Index>(k);
+  const Index N = problem.unknowns(k), size = 2 * problem.base().frame().n;
+  Linearised at;
+  at.residual = VectorXd::Zero(rows + problem.numbers() + 1);
+  at.by = MatrixXd::Zero(at.residual.size(), N);
+  MatrixXd states = MatrixXd::Zero(size, N);
+  states.leftCols(problem.numbers()) = representatives(problem, size);
+  VectorXd defect = VectorXd::Zero(size);
+  for (std::size_t i = 0; i < k; ++i) {
+    at.states.push_back(states);
+    at.defects.push_back(defect);
+    const Leg& leg = orbit.shape.legs[i];
+    const Leg& next = orbit.shape.legs[(i + 1) % k];
+    at.legs.push_back(leg_value(set, leg, next, orbit.x[i], orbit.t[i], orbit.t[i + 1]));
+    const LegValue& value = at.legs.back();
+    const auto row = static_cast<Index>(i);
+    if (leg.ending == Ending::cut) {
+      at.residual[row] = orbit.t[0];
+      at.by(row, problem.instant_column(0)) = 1.0;
+    } else {
+      at.residual[row] = value.h.value()[0] + value.h.by_state().row(0).dot(defect);
+      at.by.row(row) = chain(problem, value.h, states, i, k);
+    }
+    const VectorXd expected = i + 1 < k ? orbit.x[i + 1] : orbit.x[0];
+    const VectorXd missed = value.after.value() - expected + value.after.by_state() * defect;
+    states = chain(problem, value.after, states, i, k);
+    defect = missed;
+  }
+  states.leftCols(problem.numbers()) -= representatives(problem, size);
+  at.advance = problem.translations().take_out(defect);
+  at.residual.segment(rows, problem.numbers()) = problem.translations().numbers(defect);
+  at.by.middleRows(rows, problem.numbers()) = classes(problem, states);
+  at.residual.tail(1)[0] = forced(orbit) ? orbit.t[k] - orbit.t[0] - orbit.shape.n : orbit.t[0];
+  at.by(at.by.rows() - 1, problem.instant_column(0)) = forced(orbit) ? -1.0 : 1.0;
+  if (forced(orbit)) at.by(at.by.rows() - 1, problem.instant_column(k)) = 1.0;
+  return at;
+}
+
+void move(const Problem& problem, const Linearised& at, const VectorXd& change, double fraction, Orbit& orbit) {
+  const std::size_t k = orbit.legs();
+  for (std::size_t i = 0; i < k; ++i) orbit.x[i] += at.states[i] * change + fraction * at.defects[i];
+  for (std::size_t i = 0; i <= k; ++i) orbit.t[i] += change[problem.instant_column(i)];
+  for (Index j = 0; j < problem.parameters(); ++j)
+    orbit.values[static_cast<std::size_t>(j)] += change[problem.parameter_column(k, j)];
+  orbit.advance = at.advance;
+}
+
+VectorXd sizes(const Problem& problem, const Orbit& orbit) {
+  const Index n = problem.base().frame().n;
+  double displacement = 0.0, velocity = 0.0;
+  for (const VectorXd& x : orbit.x) {
+    displacement = std::max(displacement, x.head(n).cwiseAbs().maxCoeff());
+    velocity = std::max(velocity, x.tail(n).cwiseAbs().maxCoeff());
+  }
+  // At events displacements may all be zero, as those of a lone mass at its stop: a radian of motion at that velocity is a size too.
+  const double radian =
+      (forced(orbit) ? 1.0 : orbit.t.back() - orbit.t.front()) * problem.base().period() / (2.0 * std::numbers::pi);
+  displacement = std::max(displacement, velocity * radian);
+  velocity = std::max(velocity, displacement / radian);
+  VectorXd state(2 * n);
+  state << VectorXd::Constant(n, displacement > 0.0 ? displacement : 1.0),
+      VectorXd::Constant(n, velocity > 0.0 ? velocity : 1.0);
+  VectorXd all = VectorXd::Ones(problem.unknowns(orbit.legs()));
+  all.head(problem.numbers()) = problem.translations().numbers(state);
+  for (Index j = 0; j < problem.parameters(); ++j) {
+    const double value = std::abs(orbit.values[static_cast<std::size_t>(j)]);
+    all[problem.parameter_column(orbit.legs(), j)] = value > 0.0 ? value : 1.0;
+  }
+  return all;
+}
+
+std::vector<Condition> fixed_parameters(const Problem& problem, std::size_t legs) {
+  std::vector<Condition> conditions;
+  for (Index j = 0; j < problem.parameters(); ++j)
+    conditions.push_back({RowVectorXd::Unit(problem.unknowns(legs), problem.parameter_column(legs, j))});
+  return conditions;
+}
+
+namespace {
+
+/// One step from the linearisation: the change of the unknowns; not finite where the matrix is singular.
+VectorXd newton_step(const Linearised& at, const std::vector<Condition>& conditions, const VectorXd& moved,
+                     const VectorXd& scale) {
+  const auto more = static_cast<Index>(conditions.size());
+  MatrixXd matrix(at.by.rows() + more, at.by.cols());
+  VectorXd right(matrix.rows());
+  matrix.topRows(at.by.rows()) = at.by;
+  right.head(at.residual.size()) = -at.residual;
+  for (Index c = 0; c < more; ++c) {
+    matrix.row(at.by.rows() + c) = conditions[static_cast<std::size_t>(c)].row;
+    right[at.by.rows() + c] = -conditions[static_cast<std::size_t>(c)].row.dot(moved);
+  }
+  matrix = matrix * scale.asDiagonal();
+  const VectorXd largest = matrix.cwiseAbs().rowwise().maxCoeff().cwiseMax(1e-300);
+  matrix = largest.cwiseInverse().asDiagonal() * matrix;
+  right = right.cwiseQuotient(largest);
+  return matrix.partialPivLu().solve(right);
+}
+
+}  // namespace
+
+NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condition>& conditions, int most_steps) {
+  const VectorXd scale = sizes(problem, orbit);
+  VectorXd moved = VectorXd::Zero(scale.size());
+  NewtonResult result;
+  double before = INFINITY;
+  try {
+    for (result.steps = 1; result.steps <= most_steps; ++result.steps) {
+      const ModeSet set(problem.family(), orbit.values);
+      const Linearised at = linearise(problem, set, orbit);
+      VectorXd step = newton_step(at, conditions, moved, scale);
+      if (!step.allFinite()) return result;
+      result.last_step = step.cwiseAbs().maxCoeff();
+      for (const VectorXd& defect : at.defects)
+        result.last_step = std::max(
+            result.last_step,
+            problem.translations().numbers(defect).cwiseQuotient(scale.head(problem.numbers())).cwiseAbs().maxCoeff());
+      if (result.steps == 1) result.first_step = result.last_step;
+      const double fraction = std::min(1.0, longest_step / step.cwiseAbs().maxCoeff());
+      const VectorXd change = fraction * step.cwiseProduct(scale);
+      moved += change;
+      move(problem, at, change, fraction, orbit);
+      // Quadratic convergence: the next step would be its square. Rounding ends it in any case.
+      const bool stalled = result.last_step < 1e-10 && result.last_step > 0.1 * before;
+      if (result.last_step < enough || stalled) {
+        result.converged = true;
+        return result;
+      }
+      before = result.last_step;
+    }
+  } catch (const InputError&) {  // no such model
+  } catch (const NumericalError&) {
+  }
+  return result;
+}
+
+ReturnRates return_rates(const Problem& problem, const ModeSet& set, const Orbit& orbit,
+                         const std::vector<LegValue>& legs) {
+  const std::size_t k = orbit.legs();
+  const Index size = 2 * problem.base().frame().n, n = size / 2, columns = size + problem.parameters();
+  MatrixXd dx = MatrixXd::Zero(size, columns);
+  dx.leftCols(size).setIdentity();
+  RowVectorXd dt = RowVectorXd::Zero(columns);
+  for (std::size_t i = 0; i < k; ++i) {
+    const LegValue& leg = legs[i];
+    RowVectorXd dt_end = RowVectorXd::Zero(columns);
+    if (orbit.shape.legs[i].ending != Ending::cut) {
+      RowVectorXd dh = leg.h.by_state() * dx + leg.h.by_begin() * dt;
+      dh.tail(problem.parameters()) += leg.h.by_parameter();
+      dt_end = -dh / leg.h.by_end()[0];
+    }
+    dx = leg.after.by_state() * dx + leg.after.by_begin() * dt + leg.after.by_end() * dt_end;
+    dx.rightCols(problem.parameters()) += leg.after.by_parameter();
+    dt = dt_end;
+  }
+  // At fixed time: the flow of the first leg takes back what the last instant came late.
+  const Jet start = leg_start(set, orbit.shape.legs[0], orbit.x[0], orbit.t[0]);
+  const ModeRates& mode = set.mode(orbit.shape.legs[0].states);
+  const VectorXd rate = set.period() * (mode.outline.system * start.value());
+  VectorXd flow(size);
+  flow << rate.head(n), rate.segment(problem.base().frame().d, n);
+  dx -= flow * dt;
+  return {problem.translations().quotient(dx.leftCols(size)), classes(problem, dx.rightCols(problem.parameters()))};
+}
+
+}  // namespace slapstick::orbit

@@ -1,0 +1,93 @@
+#pragma once
+/// The equations of a periodic orbit of a given shape, and Newton's method on them.
+///
+/// Unknowns v: the contact state x_0 just after event 0 (modulo the model's rigid translations), the instants t_0 .. t_k of the events, and the
+/// parameters. Equations: each leg ends at the zero of its guard; the state after the last leg is x_0; t_k - t_0 = n (without forcing: t_0 = 0).
+/// The states x_1 .. x_{k-1} are unknowns too (multiple shooting) and eliminated by the recursion
+///     dx_{i+1} = r_i + (d after_i) (dx_i, dt_i, dt_{i+1}, dp),
+/// so that a step costs a matrix of 2n + k + 1 rows. No guard's slope is divided by: at a graze, where one is zero, the equations are regular.
+#include <Eigen/Dense>
+#include <complex>
+#include <memory>
+#include <optional>
+
+#include "attractor/translations.hpp"
+#include "orbit/leg_flow.hpp"
+
+namespace slapstick::orbit {
+
+/// A family and what does not change along it.
+class Problem {
+ public:
+  /// @throws InputError as the family and System
+  Problem(Family family, const std::vector<double>& values);
+
+  [[nodiscard]] const Family& family() const { return family_; }
+  [[nodiscard]] const std::vector<double>& values() const { return values_; }  ///< of the parameters, at `base`
+  [[nodiscard]] const System& base() const { return *base_; }
+  [[nodiscard]] const attractor::Translations& translations() const { return translations_; }
+  [[nodiscard]] Eigen::Index parameters() const { return static_cast<Eigen::Index>(family_.names.size()); }
+  /// Unknowns of an orbit with so many legs: numbers of x_0, instants, parameters.
+  [[nodiscard]] Eigen::Index numbers() const;
+  [[nodiscard]] Eigen::Index unknowns(std::size_t legs) const;
+  [[nodiscard]] Eigen::Index instant_column(std::size_t event) const;
+  [[nodiscard]] Eigen::Index parameter_column(std::size_t legs, Eigen::Index j) const;
+
+ private:
+  Family family_;
+  std::vector<double> values_;
+  std::shared_ptr<const System> base_;
+  attractor::Translations translations_;
+};
+
+struct Linearised {
+  Eigen::VectorXd residual;              ///< k endings, the closing, the time: k + numbers + 1
+  Eigen::MatrixXd by;                    ///< its derivative by the unknowns
+  std::vector<Eigen::MatrixXd> states;   ///< of x_i by the unknowns ..
+  std::vector<Eigen::VectorXd> defects;  ///< .. and what x_i has to make good
+  std::vector<LegValue> legs;
+  Eigen::VectorXd advance;
+};
+
+/// @throws NumericalError, InputError as the family
+[[nodiscard]] Linearised linearise(const Problem& problem, const ModeSet& set, const Orbit& orbit);
+
+/// Moves an orbit by a change of its unknowns; its inner states by `at`'s elimination, and by this fraction of what they have to make good.
+void move(const Problem& problem, const Linearised& at, const Eigen::VectorXd& change, double fraction, Orbit& orbit);
+
+/// Typical sizes of the unknowns: the orbit's largest displacement and velocity, a period, the parameters' own.
+[[nodiscard]] Eigen::VectorXd sizes(const Problem& problem, const Orbit& orbit);
+
+/// One more condition on the unknowns, so that the matrix is square: row . (v - v_0) = 0 at the first step's v_0.
+struct Condition {
+  Eigen::RowVectorXd row;
+};
+
+struct NewtonResult {
+  bool converged = false;
+  int steps = 0;
+  double last_step = 0.0;  ///< relative to `sizes`
+  double first_step = 0.0;
+};
+
+/// Newton's method with as many conditions as there are parameters: all of them fixed, or all but one and an arclength.
+/// The orbit is where it came to, converged or not. Never throws for numbers: a model that cannot be made, or overflow, is "not converged".
+NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condition>& conditions, int most_steps = 12);
+
+/// All parameters are as they are.
+[[nodiscard]] std::vector<Condition> fixed_parameters(const Problem& problem, std::size_t legs);
+
+/// The derivative of the return map at fixed time, from just after event 0 to a cycle later, by the contact state and by the parameters, modulo
+/// translations: (2n - k) x ... As flow/tangent.hpp gives it; there from a motion, here from the orbit's own legs.
+struct ReturnRates {
+  Eigen::MatrixXd by_state;
+  Eigen::MatrixXd by_parameter;
+};
+[[nodiscard]] ReturnRates return_rates(const Problem& problem, const ModeSet& set, const Orbit& orbit,
+                                       const std::vector<LegValue>& legs);
+
+/// Solution::multipliers. `legs`: of a linearisation of the orbit as it is; begun elsewhere it is linearised anew.
+[[nodiscard]] std::vector<std::complex<double>> multipliers(const Problem& problem, const ModeSet& set,
+                                                            const Orbit& orbit, const std::vector<LegValue>& legs);
+
+}  // namespace slapstick::orbit

@@ -1,0 +1,35 @@
+#include "slapstick/orbit/itinerary.hpp"
+
+#include <algorithm>
+
+namespace slapstick::orbit {
+
+bool operator==(const Leg& a, const Leg& b) {
+  const auto same_strike = [](const Motion::Strike& p, const Motion::Strike& q) {
+    return p.stops == q.stops && p.to_rest == q.to_rest;
+  };
+  return a.states == b.states && a.ending == b.ending &&
+         (a.ending == Ending::cut || (a.kind == b.kind && a.contact == b.contact)) &&
+         std::ranges::equal(a.strikes, b.strikes, same_strike);
+}
+
+void rotate(Orbit& orbit, std::size_t first) {
+  const std::size_t k = orbit.legs();
+  const double cycle = orbit.t[k] - orbit.t[0];
+  std::vector<double> t(orbit.t.begin() + static_cast<std::ptrdiff_t>(first), orbit.t.end() - 1);
+  for (std::size_t i = 0; i <= first; ++i) t.push_back(orbit.t[i] + cycle);
+  orbit.t = std::move(t);
+  std::ranges::rotate(orbit.x, orbit.x.begin() + static_cast<std::ptrdiff_t>(first));
+  std::ranges::rotate(orbit.shape.legs, orbit.shape.legs.begin() + static_cast<std::ptrdiff_t>(first));
+}
+
+std::string describe(const Itinerary& shape, const System& system) {
+  std::string text;
+  for (const Leg& leg : shape.legs) {
+    if (leg.ending == Ending::cut) return "no events";
+    text += (text.empty() ? "" : ", ") + std::string(name(leg.event)) + " " + system.contact_name(leg.event_contact);
+  }
+  return text;
+}
+
+}  // namespace slapstick::orbit

@@ -1,0 +1,202 @@
+#include "orbit/leg_flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace slapstick::orbit {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double negligible = 0x1p-60;  ///< a term, against the sum, that ends it
+constexpr int most_terms = 80;
+
+/// Largest of each column over the displacements, the velocities and the rest: three rows that are not of one unit.
+MatrixXd block_sizes(const MatrixXd& Z, Index d) {
+  MatrixXd sizes(3, Z.cols());
+  sizes << Z.topRows(d).cwiseAbs().colwise().maxCoeff(), Z.middleRows(d, d).cwiseAbs().colwise().maxCoeff(),
+      Z.bottomRows(Z.rows() - 2 * d).cwiseAbs().colwise().maxCoeff();
+  return sizes;
+}
+
+/// One step of the series of exp(A s).
+void step(const ModeRates& mode, Index d, double s, Jet& X) {
+  MatrixXd term = X.all;
+  MatrixXd sizes = block_sizes(X.all, d);
+  int small = 0;
+  for (int j = 1; j <= most_terms && small < 3; ++j) {
+    MatrixXd next = mode.outline.system * term;
+    for (Index p = 0; p < X.parameters; ++p)
+      next.col(next.cols() - X.parameters + p) += mode.rates[static_cast<std::size_t>(p)].system * term.col(0);
+    term = (s / j) * next;
+    X.all += term;
+    const MatrixXd added = block_sizes(term, d);
+    sizes = sizes.cwiseMax(added);
+    small = (added.array() <= negligible * sizes.array()).all() ? small + 1 : 0;
+  }
+}
+
+/// Impulses along some displacements: u -> u - M^{-1} G^T D^+ F G u, of all columns of a jet.
+void push(const ModeSet& set, const std::vector<int>& rows, const VectorXd& factor, const MatrixXd& factor_rates,
+          Jet& X) {
+  const mode::Frame& frame = set.frame();
+  const Index d = frame.d;
+  const MatrixXd S = frame.mass_inverse(Eigen::all, rows), D = S(rows, Eigen::all);
+  const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(D);
+  const MatrixXd before = X.all.middleRows(d, d)(rows, Eigen::all);
+  const MatrixXd impulses = solver.solve(factor.asDiagonal() * before);
+  X.all.middleRows(d, d) -= S * impulses;
+  for (Index p = 0; p < X.parameters; ++p) {
+    const MatrixXd S_rate = set.frame_rate(static_cast<std::size_t>(p)).mass_inverse(Eigen::all, rows);
+    const VectorXd load = factor_rates.col(p).cwiseProduct(before.col(0)) - S_rate(rows, Eigen::all) * impulses.col(0);
+    X.by_parameter().col(p).segment(d, d) -= S * solver.solve(load) + S_rate * impulses.col(0);
+  }
+}
+
+/// The impacts of one instant, in order.
+void strike(const ModeSet& set, const Leg& leg, Jet& X) {
+  for (const Motion::Strike& strike : leg.strikes) {
+    std::vector<int> rows;
+    std::vector<int> stops;
+    for (int stop = 0; stop < static_cast<int>(set.frame().stops.size()); ++stop)
+      if ((strike.stops >> stop & 1U) != 0) stops.push_back(stop);
+    VectorXd factor = VectorXd::Ones(static_cast<Index>(stops.size()));
+    MatrixXd rates = MatrixXd::Zero(factor.size(), X.parameters);
+    for (std::size_t i = 0; i < stops.size(); ++i) {
+      rows.push_back(set.frame().stops[stops[i]].own);
+      if (strike.to_rest) continue;
+      factor[static_cast<Index>(i)] += set.model().stops[stops[i]].restitution;
+      for (Index p = 0; p < X.parameters; ++p)
+        rates(static_cast<Index>(i), p) = set.rate(static_cast<std::size_t>(p)).stops[stops[i]].restitution;
+    }
+    push(set, rows, factor, rates, X);
+  }
+}
+
+/// The contact states of the columns of an extended jet, with what the next mode holds still set to zero.
+Jet contact_jet(const ModeSet& set, const Leg& next, const Jet& X) {
+  const mode::Frame& frame = set.frame();
+  Jet x(2 * frame.n, X.states, X.parameters);
+  x.all << X.all.topRows(frame.n), X.all.middleRows(frame.d, frame.n);
+  if (next.ending == Ending::chatter) return x;
+  const mode::Outline& outline = set.mode(next.states).outline;
+  for (int i = 0; i < frame.n; ++i)
+    if (outline.steady[i]) x.all.row(frame.n + i).setZero();
+  for (std::size_t i = 0; i < frame.stops.size(); ++i)
+    if (next.states.stops[i] == mode::StopState::closed && frame.stops[i].own < frame.n)
+      x.all.row(frame.stops[i].own).setZero();
+  return x;
+}
+
+/// The rows p' = u + drift and the phases of A X, times the period: the derivative of the phases by the instant.
+VectorXd phase_rate(const ModeSet& set, const VectorXd& X) {
+  const mode::Frame& frame = set.frame();
+  VectorXd rate = VectorXd::Zero(X.size());
+  for (std::size_t k = 0; k < frame.harmonics.size(); ++k) {
+    const auto c = static_cast<Index>(2 * frame.d + 2 * k);
+    const double turn = 2.0 * std::numbers::pi * frame.harmonics[k];
+    rate[c] = -turn * X[c + 1];
+    rate[c + 1] = turn * X[c];
+  }
+  return rate;
+}
+
+/// h of a guard's zero.
+Jet guard_jet(const ModeRates& mode, const Leg& leg, const Jet& X) {
+  const std::size_t g = mode.guard(leg.kind, leg.contact);
+  Jet h(1, X.states, X.parameters);
+  h.all = mode.outline.guards[g].row * X.all;
+  for (Index p = 0; p < X.parameters; ++p)
+    h.by_parameter()(0, p) += mode.rates[static_cast<std::size_t>(p)].guards[g].dot(X.value());
+  return h;
+}
+
+/// h = s - v q: the series of all flights that follow a separation at speed v (flow/chatter.hpp). The tail is so short that the change of q over
+/// it, of the size of v, is left out of the derivatives.
+Jet chatter_jet(const ModeSet& set, int stop, const Jet& X, double t_begin, double t_end) {
+  const mode::Frame& frame = set.frame();
+  const mode::ContactRow& own = frame.stops[stop];
+  double phi = 0.0, R = own.sign * frame.free.row(own.own).dot(X.value());
+  for (std::size_t i = 0; i < frame.frictions.size(); ++i) {
+    const mode::ContactRow& contact = frame.frictions[i];
+    const double w = contact.sign * X.value()[frame.u(contact.own)],
+                 kinetic = set.model().frictions[i].kinetic_friction;
+    const double effect = own.sign * contact.sign * frame.mass_inverse(own.own, contact.own);
+    if (frame.parallel(own.own, contact.own) != 0)
+      phi += std::abs(effect) * kinetic;
+    else if (w != 0.0)
+      R -= std::copysign(kinetic, w) * effect;
+  }
+  const double r = set.model().stops[stop].restitution;
+  const double rise = R + phi, fall = R - phi, rho = r * std::sqrt(fall / rise);
+  const double q = (1.0 / rise + 1.0 / std::sqrt(rise * fall)) / (1.0 - rho);
+  Jet h(1, X.states, X.parameters);
+  h.all = q * own.sign * X.all.row(frame.u(own.own));  // separating: the pair's velocity towards the stop is -v
+  h.all(0, 0) += (t_end - t_begin) * set.period();
+  h.by_begin()[0] -= set.period();
+  h.by_end()[0] += set.period();
+  for (Index p = 0; p < X.parameters; ++p)
+    h.by_parameter()(0, p) += (t_end - t_begin) * set.period_rate(static_cast<std::size_t>(p));
+  return h;
+}
+
+}  // namespace
+
+Jet extended(const ModeSet& set, const VectorXd& x, double t) {
+  const mode::Frame& frame = set.frame();
+  const Index n = frame.n, d = frame.d, count = static_cast<Index>(set.parameters());
+  Jet X(frame.size(), 2 * n, count);
+  VectorXd value = VectorXd::Zero(frame.size());
+  value.head(d) = frame.dependence * (x.head(n) + frame.shift.head(n)) - frame.shift;
+  value.segment(d, d) = frame.dependence * (x.tail(n) + frame.drift.head(n)) - frame.drift;
+  value.head(n) = x.head(n);  // exactly
+  value.segment(d, n) = x.tail(n);
+  frame.set_phase(t, value.data());
+  X.value() = value;
+  X.by_state().topLeftCorner(d, n) = frame.dependence;
+  X.by_state().block(d, n, d, n) = frame.dependence;
+  X.by_begin() = phase_rate(set, value);
+  for (Index p = 0; p < count; ++p) {
+    const mode::FrameDerivative& rate = set.frame_rate(static_cast<std::size_t>(p));
+    X.by_parameter().col(p).head(d) = frame.dependence * rate.shift.head(n) - rate.shift;
+    X.by_parameter().col(p).segment(d, d) = frame.dependence * rate.drift.head(n) - rate.drift;
+  }
+  return X;
+}
+
+void flow(const ModeRates& mode, double s, Jet& X) {
+  const Index d = static_cast<Index>(mode.outline.steady.size());
+  const double steps = std::max(1.0, std::ceil(std::abs(s) / mode.longest_step));
+  for (double i = 0.0; i < steps; ++i) step(mode, d, s / steps, X);
+}
+
+Jet leg_start(const ModeSet& set, const Leg& leg, const VectorXd& x, double t_begin) {
+  Jet X = extended(set, x, t_begin);
+  if (leg.ending == Ending::chatter)
+    push(set, {set.frame().stops[leg.contact].own}, VectorXd::Ones(1), MatrixXd::Zero(1, X.parameters), X);
+  return X;
+}
+
+LegValue leg_value(const ModeSet& set, const Leg& leg, const Leg& next, const VectorXd& x, double t_begin,
+                   double t_end) {
+  const ModeRates& mode = set.mode(leg.states);
+  Jet X = leg_start(set, leg, x, t_begin);
+  const double T = set.period(), s = (t_end - t_begin) * T;
+  flow(mode, s, X);
+  const VectorXd rate = mode.outline.system * X.value();
+  X.by_begin() -= T * rate;
+  X.by_end() += T * rate;
+  for (Index p = 0; p < X.parameters; ++p)
+    X.by_parameter().col(p) += (t_end - t_begin) * set.period_rate(static_cast<std::size_t>(p)) * rate;
+  Jet h(1, X.states, X.parameters);
+  if (leg.ending == Ending::guard) h = guard_jet(mode, leg, X);
+  if (leg.ending == Ending::chatter) h = chatter_jet(set, leg.contact, extended(set, x, t_begin), t_begin, t_end);
+  Jet struck = X;
+  strike(set, leg, struck);
+  return {std::move(X), contact_jet(set, next, struck), std::move(h)};
+}
+
+}  // namespace slapstick::orbit

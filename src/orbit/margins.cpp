@@ -1,0 +1,181 @@
+#include "orbit/margins.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "orbit/equations.hpp"
+#include "orbit/leg_flow.hpp"
+#include "slapstick/orbit/periodic_orbit.hpp"
+
+namespace slapstick::orbit {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using mode::GuardKind;
+
+constexpr double samples_per_step =
+    8.0;  ///< of ModeRates::longest_step: what a guard does between them is found by its slope
+
+bool of_gap(GuardKind kind) { return kind == GuardKind::gap || kind == GuardKind::engage || kind == GuardKind::leave; }
+
+/// The displacement of a guard's contact.
+int displacement(const mode::Frame& frame, GuardKind kind, int contact) {
+  if (mode::of_friction(kind)) return frame.frictions[contact].own;
+  if (kind == GuardKind::gap || kind == GuardKind::press) return frame.stops[contact].own;
+  return frame.compliant[contact].own;
+}
+
+/// Is this guard zero at a leg's start because of the event there?
+bool zero_by_event(const mode::Frame& frame, const Leg& before, const mode::Guard& guard) {
+  if (before.ending == Ending::cut) return false;
+  const GuardKind kind = before.ending == Ending::chatter ? GuardKind::gap : before.kind;
+  if (frame.parallel(displacement(frame, kind, before.contact), displacement(frame, guard.kind, guard.contact)) == 0)
+    return false;
+  if (of_gap(guard.kind))
+    return of_gap(kind) || kind == GuardKind::press || kind == GuardKind::let_go || kind == GuardKind::push;
+  if (guard.kind == GuardKind::slip) return mode::of_friction(kind) || kind == GuardKind::press;
+  return false;
+}
+
+/// Is this the relative velocity of the pair whose gap ends the leg? Its value there is the speed of the impact, which is watched by itself.
+bool is_speed_of(const mode::Frame& frame, const Leg& leg, const mode::Guard& guard) {
+  if (leg.ending != Ending::guard || !of_gap(leg.kind) || guard.kind != GuardKind::slip) return false;
+  return frame.parallel(displacement(frame, leg.kind, leg.contact), frame.frictions[guard.contact].own) != 0;
+}
+
+/// A leg sampled: the extended state at equal distances.
+struct Course {
+  Course(const ModeSet& set, const Leg& leg, const VectorXd& x, double t_begin, double duration)
+      : mode(set.mode(leg.states)) {
+    const double s = duration * set.period();
+    const auto count =
+        static_cast<std::size_t>(std::max(4.0, std::ceil(samples_per_step * std::abs(s) / mode.longest_step)));
+    step = s / static_cast<double>(count);
+    Jet X = leg_start(set, leg, x, t_begin);
+    Jet bare(X.all.rows(), 0, 0);
+    bare.value() = X.value();
+    for (std::size_t i = 0; i <= count; ++i) {
+      states.emplace_back(bare.value());
+      if (i < count) flow(mode, step, bare);
+    }
+  }
+
+  const ModeRates& mode;
+  double step = 0.0;
+  std::vector<VectorXd> states;
+};
+
+struct Least {
+  double value = std::numeric_limits<double>::infinity();
+  double at = 0.0;  ///< time from the leg's start
+  void take(double candidate, double when) {
+    if (candidate >= value) return;
+    value = candidate;
+    at = when;
+  }
+};
+
+/// The zero of the guard's slope between two samples, the slope being negative at the first; by the secant rule, kept within.
+void take_minimum(const Course& course, const mode::Guard& guard, std::size_t i, Least& least) {
+  const mode::Matrix& A = course.mode.outline.system;
+  double a = 0.0, b = course.step, slope_a = guard.row * (A * course.states[i]),
+         slope_b = guard.row * (A * course.states[i + 1]);
+  Jet X(course.states[i].size(), 0, 0);
+  double s = 0.0;
+  for (int k = 0; k < 60; ++k) {
+    s = a + (b - a) * std::clamp(slope_a / (slope_a - slope_b), 0.01, 0.99);
+    X.value() = course.states[i];
+    flow(course.mode, s, X);
+    const double slope = guard.row * (A * VectorXd(X.value()));
+    if (slope == 0.0 || b - a < 1e-14 * std::abs(course.step)) break;
+    (slope < 0.0 ? a : b) = s;
+    (slope < 0.0 ? slope_a : slope_b) = slope;
+  }
+  least.take(guard.row.dot(X.value()), static_cast<double>(i) * course.step + s);
+}
+
+Least least_value(const Course& course, const mode::Guard& guard, bool with_start, bool with_end) {
+  const mode::Matrix& A = course.mode.outline.system;
+  const std::size_t last = course.states.size() - 1;
+  Least least;
+  if (with_start) least.take(guard.row.dot(course.states.front()), 0.0);
+  if (with_end) least.take(guard.row.dot(course.states.back()), static_cast<double>(last) * course.step);
+  double slope = guard.row * (A * course.states[0]);
+  for (std::size_t i = 0; i < last; ++i) {
+    const double next = guard.row * (A * course.states[i + 1]);
+    if (slope < 0.0 && next >= 0.0) take_minimum(course, guard, i, least);
+    slope = next;
+  }
+  return least;
+}
+
+/// Static friction is exceeded by so much where a velocity passes zero at the end of a leg and the contact does not stick.
+double beyond_stick(const ModeSet& set, const Orbit& orbit, std::size_t leg, const VectorXd& X_end) {
+  const std::size_t next = (leg + 1) % orbit.legs();
+  mode::ContactStates stuck = orbit.shape.legs[next].states;
+  const int contact = orbit.shape.legs[leg].contact;
+  stuck.frictions[contact] = mode::FrictionState::stick;
+  const mode::Outline& outline = set.mode(stuck).outline;
+  double least = std::numeric_limits<double>::infinity();
+  const int own = set.frame().frictions[contact].own;
+  for (const mode::Guard& guard : outline.guards) {
+    const bool force =
+        guard.kind == GuardKind::stick_above || guard.kind == GuardKind::stick_below || guard.kind == GuardKind::press;
+    if (force && set.frame().parallel(displacement(set.frame(), guard.kind, guard.contact), own) != 0)
+      least = std::min(least, guard.row.dot(X_end));
+  }
+  return -least;
+}
+
+bool passes_without_stick(const Orbit& orbit, std::size_t leg) {
+  const Leg& here = orbit.shape.legs[leg];
+  if (here.ending != Ending::guard || here.kind != GuardKind::slip) return false;
+  return orbit.shape.legs[(leg + 1) % orbit.legs()].states.frictions[here.contact] != mode::FrictionState::stick;
+}
+
+}  // namespace
+
+std::vector<TestValue> test_values(const ModeSet& set, const Orbit& orbit) {
+  std::vector<TestValue> all;
+  for (std::size_t i = 0; i < orbit.legs(); ++i) {
+    const Leg& leg = orbit.shape.legs[i];
+    const Leg& before = orbit.shape.legs[(i + orbit.legs() - 1) % orbit.legs()];
+    const Course course(set, leg, orbit.x[i], orbit.t[i], orbit.duration(i));
+    const auto& guards = course.mode.outline.guards;
+    for (std::size_t g = 0; g < guards.size(); ++g) {
+      const bool ending = leg.ending == Ending::guard && guards[g].kind == leg.kind && guards[g].contact == leg.contact;
+      const bool with_end = !ending && !is_speed_of(set.frame(), leg, guards[g]);
+      const Least least = least_value(course, guards[g], !zero_by_event(set.frame(), before, guards[g]), with_end);
+      all.push_back({Test::guard, i, guards[g].kind, guards[g].contact, least.value, least.at / set.period()});
+    }
+    if (leg.ending == Ending::guard) {
+      const mode::RowVector& row = guards[course.mode.guard(leg.kind, leg.contact)].row;
+      all.push_back({Test::speed, i, leg.kind, leg.contact, -row.dot(course.mode.outline.system * course.states.back()),
+                     orbit.duration(i)});
+    }
+    if (leg.ending != Ending::cut)
+      all.push_back({Test::duration, i, leg.kind, leg.contact, orbit.duration(i), orbit.duration(i)});
+    if (passes_without_stick(orbit, i))
+      all.push_back({Test::no_stick, i, leg.kind, leg.contact, beyond_stick(set, orbit, i, course.states.back()),
+                     orbit.duration(i)});
+  }
+  return all;
+}
+
+std::vector<Margin> margins(const Problem& problem, const Orbit& orbit) {
+  const ModeSet set(problem.family(), orbit.values);
+  std::vector<Margin> least;
+  for (const TestValue& test : test_values(set, orbit)) {
+    if (test.test != Test::guard || !std::isfinite(test.value)) continue;
+    const auto same =
+        std::ranges::find_if(least, [&](const Margin& m) { return m.kind == test.kind && m.contact == test.contact; });
+    if (same == least.end())
+      least.push_back({test.kind, test.contact, test.value});
+    else
+      same->value = std::min(same->value, test.value);
+  }
+  return least;
+}
+
+}  // namespace slapstick::orbit

@@ -1,0 +1,34 @@
+#pragma once
+/// How far an orbit is from not being a motion: smooth functions of the orbit that are positive for a motion and change sign where its events change.
+#include <limits>
+#include <vector>
+
+#include "slapstick/orbit/itinerary.hpp"
+#include "slapstick/orbit/mode_set.hpp"
+
+namespace slapstick::orbit {
+
+enum class Test : std::uint8_t {
+  guard,  ///< the least value of a guard within a leg, or at its ends where it is not zero there by the events themselves
+  speed,     ///< how fast the guard of the leg's end falls through zero; of a gap, the speed of the impact
+  duration,  ///< of a leg, in periods
+  no_stick  ///< by how much the holding force exceeds static friction where a contact's velocity passes zero without stick
+};
+
+struct TestValue {
+  Test test = Test::guard;
+  std::size_t leg = 0;
+  mode::GuardKind kind = mode::GuardKind::gap;
+  int contact = 0;
+  double value = std::numeric_limits<double>::infinity();  ///< infinite where a guard has no minimum
+  double at = 0.0;  ///< of a guard's least value: when, in periods from the leg's start
+
+  [[nodiscard]] bool same_kind(const TestValue& other) const {
+    return test == other.test && leg == other.leg && kind == other.kind && contact == other.contact;
+  }
+};
+
+/// All of them, in an order that depends on the shape alone.
+[[nodiscard]] std::vector<TestValue> test_values(const ModeSet& set, const Orbit& orbit);
+
+}  // namespace slapstick::orbit

@@ -1,0 +1,142 @@
+#include "orbit/path.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slapstick/base/error.hpp"
+#include "slapstick/orbit/periodic_orbit.hpp"
+
+namespace slapstick::orbit {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::RowVectorXd;
+using Eigen::VectorXd;
+
+/// The equations, all parameters but the first fixed, and one row more; in units of arclength, rows of size 1.
+MatrixXd bordered(const Problem& problem, const Linearised& at, std::size_t legs, const VectorXd& units,
+                  const VectorXd& last_row) {
+  const Index others = problem.parameters() - 1;
+  MatrixXd matrix(at.by.rows() + others + 1, at.by.cols());
+  matrix.topRows(at.by.rows()) = at.by * units.asDiagonal();
+  for (Index j = 0; j < others; ++j)
+    matrix.row(at.by.rows() + j) = RowVectorXd::Unit(at.by.cols(), problem.parameter_column(legs, j + 1));
+  matrix.bottomRows(1) = last_row.transpose();
+  const VectorXd largest = matrix.cwiseAbs().rowwise().maxCoeff().cwiseMax(1e-300);
+  return largest.cwiseInverse().asDiagonal() * matrix;
+}
+
+/// The direction along which the equations stay solved.
+VectorXd tangent_at(const Problem& problem, const Linearised& at, std::size_t legs, const VectorXd& units,
+                    const VectorXd& forward) {
+  VectorXd last = forward;
+  if (last.size() == 0) {  // of a matrix with one row too few the last singular vector
+    const MatrixXd matrix = bordered(problem, at, legs, units, VectorXd::Unit(at.by.cols(), 0));
+    const Eigen::JacobiSVD<MatrixXd> svd(matrix.topRows(matrix.rows() - 1), Eigen::ComputeFullV);
+    last = svd.matrixV().rightCols(1);
+    if (last[problem.parameter_column(legs, 0)] < 0.0) last = -last;
+  }
+  const MatrixXd matrix = bordered(problem, at, legs, units, last);
+  VectorXd tangent = matrix.partialPivLu().solve(VectorXd::Unit(matrix.rows(), matrix.rows() - 1));
+  tangent.normalize();
+  return tangent.dot(last) < 0.0 ? VectorXd(-tangent) : tangent;
+}
+
+double pair_product(const std::vector<std::complex<double>>& multipliers) {
+  std::complex<double> product = 1.0;
+  for (std::size_t i = 0; i < multipliers.size(); ++i)
+    for (std::size_t j = i + 1; j < multipliers.size(); ++j) product *= multipliers[i] * multipliers[j] - 1.0;
+  return product.real();
+}
+
+double flip_product(const std::vector<std::complex<double>>& multipliers) {
+  std::complex<double> product = 1.0;
+  for (const auto& multiplier : multipliers) product *= multiplier + 1.0;
+  return product.real();
+}
+
+}  // namespace
+
+bool repeats(const Orbit& orbit, double tolerance) {
+  for (std::size_t part = 1; part < orbit.legs(); ++part) {
+    if (orbit.legs() % part != 0) continue;
+    bool same = true;
+    for (std::size_t i = 0; same && i + part < orbit.legs(); ++i)
+      same = orbit.shape.legs[i] == orbit.shape.legs[i + part] &&
+             (orbit.x[i] - orbit.x[i + part]).norm() <= tolerance * orbit.x[i].norm();
+    if (same) return true;
+  }
+  return false;
+}
+
+VectorXd arclength_units(const Problem& problem, const Orbit& orbit, double range) {
+  VectorXd units = sizes(problem, orbit);
+  units[problem.parameter_column(orbit.legs(), 0)] = range;
+  return units;
+}
+
+PathPoint point_of(const Problem& problem, Orbit orbit, double range, const VectorXd& forward) {
+  PathPoint point;
+  const ModeSet set(problem.family(), orbit.values);
+  const Linearised at = linearise(problem, set, orbit);
+  point.units = arclength_units(problem, orbit, range);
+  point.tangent = tangent_at(problem, at, orbit.legs(), point.units, forward);
+  point.watched.turn = point.tangent[problem.parameter_column(orbit.legs(), 0)];
+  point.watched.cross = bordered(problem, at, orbit.legs(), point.units, point.tangent).partialPivLu().determinant();
+  point.watched.multipliers = multipliers(problem, set, orbit, at.legs);
+  point.watched.flip = flip_product(point.watched.multipliers);
+  point.watched.torus = pair_product(point.watched.multipliers);
+  point.watched.tests = test_values(set, orbit);
+  point.orbit = std::move(orbit);
+  return point;
+}
+
+std::optional<PathPoint> step_to(const Problem& problem, const PathPoint& from, double length, double range,
+                                 int* steps) {
+  try {
+    Orbit orbit = from.orbit;
+    const ModeSet set(problem.family(), orbit.values);
+    const Linearised at = linearise(problem, set, orbit);
+    const VectorXd change = length * from.tangent.cwiseProduct(from.units);
+    move(problem, at, change, 0.0, orbit);
+    std::vector<Condition> conditions = fixed_parameters(problem, orbit.legs());
+    conditions[0].row = from.tangent.cwiseQuotient(from.units).transpose();
+    const NewtonResult result = solve(problem, orbit, conditions, 8);
+    if (steps != nullptr) *steps = result.steps;
+    if (!result.converged) return std::nullopt;
+    return point_of(problem, std::move(orbit), range, from.tangent);
+  } catch (const InputError&) {  // no model there
+  } catch (const NumericalError&) {
+  }
+  return std::nullopt;
+}
+
+std::optional<Located> locate(const Problem& problem, const PathPoint& from, double length, double range,
+                              const std::function<double(const Watched&)>& f, double f_to) {
+  constexpr double enough = 1e-13;
+  double a = 0.0, b = length, f_a = f(from.watched), f_b = f_to;
+  std::optional<Located> best;
+  double value = from.orbit.values[0];
+  int side = 0;
+  for (int k = 0; k < 60; ++k) {
+    double s = (a * f_b - b * f_a) / (f_b - f_a);
+    if (!std::isfinite(s) || k > 40) s = 0.5 * (a + b);
+    std::optional<PathPoint> point = step_to(problem, from, s, range);
+    if (!point) return best;
+    const double f_s = f(point->watched), change = std::abs(point->orbit.values[0] - value);
+    value = point->orbit.values[0];
+    best = Located{std::move(*point), s, change};
+    if (f_s == 0.0 || change <= enough * range || b - a <= enough) break;
+    const bool left = (f_s > 0.0) == (f_a > 0.0);
+    (left ? a : b) = s;
+    (left ? f_a : f_b) = f_s;
+    // Illinois: the end that stays is halved, so that it moves next time.
+    if (left && side == 1) f_b *= 0.5;
+    if (!left && side == -1) f_a *= 0.5;
+    side = left ? 1 : -1;
+  }
+  return best;
+}
+
+}  // namespace slapstick::orbit

@@ -1,0 +1,48 @@
+#pragma once
+/// The points of a branch near one another: tangent, predictor, corrector, and the functions whose zeros are special points.
+#include "orbit/equations.hpp"
+#include "orbit/margins.hpp"
+
+namespace slapstick::orbit {
+
+/// The unknowns of arclength: sizes of the orbit, a period, the range of the parameter.
+[[nodiscard]] Eigen::VectorXd arclength_units(const Problem& problem, const Orbit& orbit, double range);
+
+/// Whether a cycle is a shorter one several times over, within so much of its states.
+[[nodiscard]] bool repeats(const Orbit& orbit, double tolerance);
+
+/// What is watched along a branch.
+struct Watched {
+  double turn = 0.0;   ///< the tangent's component in the parameter: zero at a fold
+  double cross = 0.0;  ///< determinant bordered by the tangent: zero where branches cross
+  double flip = 0.0;   ///< prod (mu + 1)
+  double torus = 0.0;  ///< prod (mu_i mu_j - 1) of all pairs
+  std::vector<std::complex<double>> multipliers;
+  std::vector<TestValue> tests;
+};
+
+struct PathPoint {
+  Orbit orbit;
+  Eigen::VectorXd units;
+  Eigen::VectorXd tangent;  ///< of length 1 in `units`, in the direction in which the branch is followed
+  Watched watched;
+};
+
+/// A point of a branch from an orbit that solves its equations.
+/// @param forward  a direction it shall not turn against, in the unknowns divided by `units`; empty: the parameter grows
+[[nodiscard]] PathPoint point_of(const Problem& problem, Orbit orbit, double range, const Eigen::VectorXd& forward);
+
+/// The point at an arclength from another; empty if Newton's method does not get there. `steps`: Newton's.
+[[nodiscard]] std::optional<PathPoint> step_to(const Problem& problem, const PathPoint& from, double length,
+                                               double range, int* steps = nullptr);
+
+/// The zero of a function of the points between `from` and the point at `length`, where it has the other sign.
+struct Located {
+  PathPoint point;
+  double length = 0.0;
+  double error = 0.0;  ///< last change of the parameter
+};
+[[nodiscard]] std::optional<Located> locate(const Problem& problem, const PathPoint& from, double length, double range,
+                                            const std::function<double(const Watched&)>& f, double f_to);
+
+}  // namespace slapstick::orbit

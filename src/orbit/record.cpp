@@ -1,0 +1,318 @@
+#include "orbit/record.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "attractor/cycle.hpp"
+#include "orbit/leg_flow.hpp"
+#include "slapstick/base/error.hpp"
+
+namespace slapstick::orbit {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double far_off = 0.3;        ///< a cycle's length may be this much off, relative to it
+constexpr double same_instant = 1e-8;  ///< periods
+constexpr long most_events_autonomous = 400;
+
+/// An event as the end of a leg, and the state behind it.
+struct Seen {
+  Leg leg;
+  double t;  ///< periods since the start's own
+  VectorXd x;
+};
+
+/// What ended the last segment; empty for a touch that changes nothing, or none of a leg's endings.
+std::optional<Leg> ended_leg(const Motion& motion) {
+  const System& system = motion.system();
+  const Event& event = motion.event();
+  Leg leg;
+  leg.states = system.mode(motion.segment().mode).states();
+  leg.event = event.kind;
+  leg.event_contact = event.contact;
+  leg.strikes.assign(motion.strikes().begin(), motion.strikes().end());
+  if (event.kind == EventKind::chatter) {
+    leg.ending = Ending::chatter;
+    leg.contact = event.contact;
+    return leg;
+  }
+  const mode::Guard* hit = motion.hit_guard();
+  if (hit == nullptr || event.kind == EventKind::graze) return std::nullopt;
+  leg.kind = hit->kind;
+  leg.contact = hit->contact;
+  return leg;
+}
+
+/// Runs on to the next event that ends a leg, or to `end`. @returns empty at the end, or (and sets `touched`) after a graze
+std::optional<Seen> next_event(Motion& motion, std::int64_t zero, Instant end, bool& touched,
+                               const std::atomic<bool>* stop) {
+  const long seen = motion.counters().segments;
+  Instant stage = motion.time();
+  while (!stopped(stop)) {
+    stage = next_stage(motion.system(), stage, end);
+    if (motion.advance(stage) != Outcome::event) {
+      if (stage >= end) return std::nullopt;
+      continue;
+    }
+    if (motion.counters().segments == seen) continue;  // a further event of the instant before
+    const std::optional<Leg> leg = ended_leg(motion);
+    if (!leg) {
+      touched = true;
+      return std::nullopt;
+    }
+    return Seen{*leg, motion.event().time.since({zero, 0.0}), attractor::contact_state(motion)};
+  }
+  return std::nullopt;
+}
+
+Orbit orbit_of(const std::vector<Seen>& events, std::size_t k, int n) {
+  Orbit orbit;
+  orbit.shape.n = n;
+  for (std::size_t i = 0; i <= k; ++i) {
+    orbit.t.push_back(events[i].t);
+    if (i < k) orbit.x.push_back(events[i].x);
+    if (i > 0) orbit.shape.legs.push_back(events[i].leg);
+  }
+  const double whole = n > 0 ? std::floor(orbit.t[0]) : orbit.t[0];
+  for (double& t : orbit.t) t -= whole;
+  return orbit;
+}
+
+/// The linear response: one leg from phase 0 to phase 0.
+Orbit without_events(Motion motion, int n) {
+  Orbit orbit;
+  Leg leg;
+  leg.states = motion.system().mode(motion.mode_id()).states();
+  leg.ending = Ending::cut;
+  orbit.shape = {{leg}, n};
+  orbit.x = {attractor::contact_state(motion)};
+  orbit.t = {0.0, static_cast<double>(n)};
+  return orbit;
+}
+
+std::optional<Orbit> record_autonomous(Motion& motion, std::vector<Seen> events, Instant end,
+                                       const std::atomic<bool>* stop) {
+  bool touched = false;
+  const std::int64_t zero = motion.time().period;
+  events.front().t = motion.time().since({zero, 0.0});
+  VectorXd size = events.front().x.cwiseAbs();
+  std::size_t best = 0;
+  double least = 0.1;
+  for (long count = 0; count < most_events_autonomous; ++count) {
+    const std::optional<Seen> seen = next_event(motion, zero, end, touched, stop);
+    if (!seen || touched) break;
+    events.push_back(*seen);
+    size = size.cwiseMax(seen->x.cwiseAbs());
+    if (!(seen->leg == events.front().leg)) continue;
+    const double distance = (seen->x - events.front().x).norm() / size.norm();
+    if (distance < 0.5 * least) {
+      least = distance;
+      best = events.size() - 1;
+    }
+    if (distance < 1e-6) break;
+  }
+  if (best == 0) return std::nullopt;
+  return orbit_of(events, best, 0);
+}
+
+}  // namespace
+
+std::optional<Orbit> record(const Motion& start, int n, const std::atomic<bool>* stop) {
+  Motion motion = start;
+  const std::int64_t zero = motion.time().period;
+  bool touched = false;
+  const int cycle = std::max(1, n);
+  constexpr int patience = 1'000'000;  // periods of 1 that an autonomous motion may take to its next event
+  const Instant limit = motion.time().plus(n > 0 ? n : patience);
+  std::vector<Seen> events;
+  if (auto first = next_event(motion, zero, limit, touched, stop)) events.push_back(std::move(*first));
+  if (touched || stopped(stop)) return std::nullopt;
+  if (events.empty()) {
+    if (n == 0) return std::nullopt;
+    motion.advance({motion.time().period + 1, 0.0});
+    return without_events(motion, n);
+  }
+  if (n == 0) return record_autonomous(motion, events, motion.time().plus(patience), stop);
+  const Instant end = motion.time().plus(cycle * (1.0 + far_off));
+  std::size_t best = 0;
+  double least = far_off * cycle;
+  while (auto seen = next_event(motion, zero, end, touched, stop)) {
+    events.push_back(std::move(*seen));
+    const double off = std::abs(events.back().t - events.front().t - cycle);
+    if (off > least || !(events.back().leg == events.front().leg)) continue;
+    least = off;
+    best = events.size() - 1;
+  }
+  if (touched || best == 0) return std::nullopt;
+  return orbit_of(events, best, n);
+}
+
+namespace {
+
+/// Held numbers of a leg: the fewer, the freer.
+int held(const System& system, const Leg& leg) {
+  const mode::Mode& mode = system.mode(system.mode_id(leg.states));
+  int count = 0;
+  for (int i = 0; i < system.frame().d; ++i) count += mode.steady(i) ? 1 : 0;
+  return count;
+}
+
+std::size_t freest_leg(const System& system, const Orbit& orbit) {
+  std::size_t best = 0;
+  const auto better = [&](std::size_t a, std::size_t b) {
+    const auto& legs = orbit.shape.legs;
+    if ((legs[a].ending == Ending::chatter) != (legs[b].ending == Ending::chatter))
+      return legs[b].ending == Ending::chatter;
+    const int p = held(system, legs[a]), q = held(system, legs[b]);
+    return p != q ? p < q : orbit.duration(a) > orbit.duration(b);
+  };
+  for (std::size_t i = 1; i < orbit.legs(); ++i)
+    if (better(i, best)) best = i;
+  return best;
+}
+
+/// The user's state in the middle of a leg.
+State middle(const System& system, const Orbit& orbit, std::size_t leg) {
+  const ModeSet set(constant_family(system.model()), {});
+  Jet X = leg_start(set, orbit.shape.legs[leg], orbit.x[leg], orbit.t[leg]);
+  flow(set.mode(orbit.shape.legs[leg].states), 0.5 * orbit.duration(leg) * set.period(), X);
+  const int n = system.frame().n;
+  VectorXd x(2 * n);
+  x << X.value().head(n), X.value().segment(system.frame().d, n);
+  return attractor::user_state(system, x);
+}
+
+std::string mismatch(const System& system, std::size_t i, const Leg* seen, const Leg* wanted) {
+  const auto called = [&](const Leg* leg) {
+    return leg == nullptr ? "nothing" : std::string(name(leg->event)) + " " + system.contact_name(leg->event_contact);
+  };
+  return "event " + std::to_string(i + 1) + ": " + called(seen) + " where the orbit has " + called(wanted);
+}
+
+}  // namespace
+
+namespace {
+
+/// Do impacts of one stop, and slips between them, lead from this leg to a chatter's sum? How many are flown one by one does not matter.
+bool in_burst(const Orbit& orbit, std::size_t leg) {
+  for (std::size_t i = 0; i < orbit.legs(); ++i) {
+    const Leg& next = orbit.shape.legs[(leg + i) % orbit.legs()];
+    if (next.ending == Ending::chatter) return true;
+    if (next.ending == Ending::cut || (next.kind != mode::GuardKind::gap && next.kind != mode::GuardKind::slip))
+      return false;
+  }
+  return false;
+}
+
+/// Legs at which a check begins: those in which least is held, where a state in the user's coordinates loses nothing, and no short flights of a
+/// burst, whose gap it would lose.
+std::vector<std::size_t> starts(const System& system, const Orbit& orbit) {
+  const int least = held(system, orbit.shape.legs[freest_leg(system, orbit)]);
+  std::vector<std::size_t> legs;
+  for (std::size_t i = 0; i < orbit.legs(); ++i)
+    if (orbit.shape.legs[i].ending != Ending::chatter && held(system, orbit.shape.legs[i]) == least &&
+        orbit.duration(i) > 1e-3 * (orbit.t.back() - orbit.t.front()))
+      legs.push_back(i);
+  if (legs.empty()) legs.push_back(freest_leg(system, orbit));
+  return legs;
+}
+
+/// One check: from the middle of a leg to the middle of the next check's.
+class Check {
+ public:
+  Check(const System& system, const Orbit& orbit, Verification& result)
+      : system_(system), orbit_(orbit), result_(result) {}
+
+  /// @param next  the next check's leg; may be larger than the number of legs: then it is in the next cycle. @returns false on a mismatch
+  bool run(std::size_t first, std::size_t next);
+
+ private:
+  bool refuse(const std::string& why) {
+    result_.why = why;
+    return false;
+  }
+
+  const System& system_;
+  const Orbit& orbit_;
+  Verification& result_;
+};
+
+bool Check::run(std::size_t first, std::size_t next) {
+  const double t_middle = orbit_.t[first] + 0.5 * orbit_.duration(first), whole = std::floor(t_middle);
+  const double cycle = orbit_.t.back() - orbit_.t.front();
+  Motion motion(system_, middle(system_, orbit_, first), {static_cast<std::int64_t>(whole), t_middle - whole});
+  if (motion.mode_id() != system_.mode_id(orbit_.shape.legs[first].states))
+    return refuse("leg " + std::to_string(first + 1) + " starts in mode " + system_.mode_name(motion.mode_id()));
+  bool touched = false;
+  for (std::size_t i = first; i < next; ++i) {
+    const std::size_t leg = i % orbit_.legs();
+    const double due = orbit_.t[leg + 1] + (i >= orbit_.legs() ? cycle : 0.0);
+    const std::optional<Seen> seen =
+        next_event(motion, 0, Instant{}.plus(due + 2.0 * same_instant * std::max(1.0, cycle)), touched, nullptr);
+    if (touched) return refuse("the motion grazes in leg " + std::to_string(leg + 1));
+    const Leg* wanted = &orbit_.shape.legs[leg];
+    if (!seen || !(seen->leg == *wanted)) {
+      const bool burst = in_burst(orbit_, leg) && seen &&
+                         (seen->leg.ending == Ending::chatter || seen->leg.kind == mode::GuardKind::gap ||
+                          seen->leg.kind == mode::GuardKind::slip);
+      if (!burst) return refuse(mismatch(system_, leg, seen ? &seen->leg : nullptr, wanted));
+      result_.same_chatter = false;
+      return true;
+    }
+    if (std::abs(seen->t - due) > same_instant * std::max(1.0, cycle))
+      return refuse(mismatch(system_, leg, &seen->leg, wanted) + ", at another instant");
+  }
+  const std::size_t half = next % orbit_.legs();
+  const double stop = orbit_.t[half] + 0.5 * orbit_.duration(half) + (next >= orbit_.legs() ? cycle : 0.0);
+  const std::optional<Seen> early = next_event(motion, 0, Instant{}.plus(stop), touched, nullptr);
+  if (touched) return refuse("the motion grazes in leg " + std::to_string(half + 1));
+  if (early) return refuse(mismatch(system_, half, &early->leg, nullptr));
+  return true;
+}
+
+/// The motion's own cycle, where its number of impacts before a chatter's sum is another one.
+Orbit as_seen(const System& system, const Orbit& orbit) {
+  Orbit turned = orbit;
+  rotate(turned, freest_leg(system, orbit));
+  const double t_middle = turned.t[0] + 0.5 * turned.duration(0), whole = std::floor(t_middle);
+  const Motion motion(system, middle(system, turned, 0), {static_cast<std::int64_t>(whole), t_middle - whole});
+  return record(motion, orbit.shape.n).value_or(Orbit{});
+}
+
+}  // namespace
+
+Verification verify(const System& system, const Orbit& orbit) {
+  Verification result;
+  for (std::size_t i = 0; i < orbit.legs(); ++i) {
+    if (orbit.duration(i) > 0.0) continue;
+    result.why = "leg " + std::to_string(i + 1) + " has no positive duration";
+    return result;
+  }
+  try {
+    if (orbit.shape.legs[0].ending == Ending::cut) {
+      Motion motion(system, middle(system, orbit, 0), Instant{}.plus(orbit.t[0] + 0.5 * orbit.duration(0)));
+      bool touched = false;
+      const std::optional<Seen> seen = next_event(motion, 0, motion.time().plus(orbit.duration(0)), touched, nullptr);
+      if (seen) result.why = mismatch(system, 0, &seen->leg, nullptr);
+      result.is_motion = !seen && !touched;
+      return result;
+    }
+    const std::vector<std::size_t> legs = starts(system, orbit);
+    Check check(system, orbit, result);
+    for (std::size_t j = 0; j < legs.size(); ++j) {
+      const std::size_t next = j + 1 < legs.size() ? legs[j + 1] : legs[0] + orbit.legs();
+      if (!check.run(legs[j], next)) return result;
+    }
+    result.is_motion = true;
+    if (!result.same_chatter) result.seen = as_seen(system, orbit);
+  } catch (const InputError& error) {
+    result.why = error.what();
+  } catch (const NumericalError& error) {
+    result.why = error.what();
+  }
+  return result;
+}
+
+}  // namespace slapstick::orbit

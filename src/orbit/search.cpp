@@ -1,0 +1,140 @@
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "attractor/cycle.hpp"
+#include "orbit/path.hpp"
+#include "orbit/record.hpp"
+#include "slapstick/base/error.hpp"
+#include "slapstick/orbit/periodic_orbit.hpp"
+
+namespace slapstick::orbit {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double near_return = 0.25;  ///< relative distance of a state to its image from which Newton's method is tried
+constexpr double same_orbit = 1e-6;   ///< relative distance of two orbits' states at one event
+constexpr double settled = 1e-3;      ///< relative distance of a motion from the orbit that it has settled on
+constexpr int longest_cycle = 64;
+
+/// Is it one of these, perhaps begun at another event, or in another period?
+bool known(const std::vector<Solution>& found, const Orbit& orbit) {
+  return std::ranges::any_of(found, [&](const Solution& other) {
+    if (other.orbit.legs() != orbit.legs() || other.orbit.shape.n != orbit.shape.n) return false;
+    for (std::size_t shift = 0; shift < orbit.legs(); ++shift) {
+      const VectorXd& a = orbit.x[0];
+      const VectorXd& b = other.orbit.x[shift];
+      if ((a - b).norm() > same_orbit * std::max(a.norm(), b.norm())) continue;
+      const double turns = orbit.t[0] - other.orbit.t[shift];
+      if (orbit.shape.n == 0 || std::abs(turns - std::round(turns)) < same_orbit) return true;
+    }
+    return false;
+  });
+}
+
+/// An orbit from where a motion stands, if there is one whose state is within so much of the motion's.
+std::optional<Solution> orbit_from(const Problem& problem, const System& system, const Motion& motion, int n,
+                                   double within, const std::atomic<bool>* stop) {
+  const std::optional<Orbit> guess = record(motion, n, stop);
+  if (!guess) return std::nullopt;
+  Orbit start = *guess;
+  start.values = problem.values();
+  const std::optional<Orbit> orbit = refine(problem, start);
+  if (!orbit || (orbit->x[0] - start.x[0]).norm() > within * start.x[0].norm()) return std::nullopt;
+  Solution solution = describe(problem, *orbit, &system);
+  if (!solution.is_motion) return std::nullopt;
+  return solution;
+}
+
+/// Runs a motion from phase 0 and tries every near return.
+class Hunt {
+ public:
+  Hunt(const Problem& problem, const System& system, const SearchOptions& options)
+      : problem_(problem), system_(system), options_(options) {}
+
+  void run(const State& start) {
+    Motion motion(system_, start);
+    std::vector<VectorXd> states;
+    std::vector<Motion> at;
+    for (int k = 0; k < options_.periods && !enough_ && !stopped(options_.stop); ++k) {
+      states.push_back(attractor::contact_state(motion));
+      at.push_back(motion);
+      if (at.size() > static_cast<std::size_t>(longest_cycle) + 1) at.erase(at.begin());
+      run_to(motion, {k + 1, 0.0}, options_.stop, [] {});
+      try_returns(states, at, attractor::contact_state(motion));
+    }
+  }
+
+  std::vector<Solution> found() && { return std::move(found_); }
+  [[nodiscard]] bool enough() const { return enough_; }
+  [[nodiscard]] VectorXd size() const { return size_; }
+
+ private:
+  void try_returns(const std::vector<VectorXd>& states, const std::vector<Motion>& at, const VectorXd& now) {
+    if (size_.size() == 0) size_ = VectorXd::Zero(now.size());
+    size_ = size_.cwiseMax(now.cwiseAbs());
+    const int most = options_.only_n.value_or(options_.most_n);
+    for (int n = options_.only_n.value_or(1); n <= most && n <= static_cast<int>(states.size()); ++n) {
+      const VectorXd& before = states[states.size() - static_cast<std::size_t>(n)];
+      if ((now - before).norm() > near_return * size_.norm()) continue;
+      const Motion& start = at[at.size() - static_cast<std::size_t>(n)];
+      add(orbit_from(problem_, system_, start, n, INFINITY, options_.stop));
+    }
+  }
+
+  void add(std::optional<Solution> solution) {
+    if (!solution || repeats(solution->orbit, same_orbit) || known(found_, solution->orbit)) return;
+    enough_ = options_.enough && options_.enough(*solution);
+    found_.push_back(std::move(*solution));
+  }
+
+  const Problem& problem_;
+  const System& system_;
+  const SearchOptions& options_;
+  VectorXd size_;
+  std::vector<Solution> found_;
+  bool enough_ = false;
+};
+
+}  // namespace
+
+std::vector<Solution> search(const Problem& problem, const System& system, const State& state,
+                             const SearchOptions& options) {
+  Hunt hunt(problem, system, options);
+  std::mt19937 random(options.seed);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < options.starts && !hunt.enough() && !stopped(options.stop); ++i) {
+    State start = state;
+    if (i > 0) {
+      Eigen::VectorXd x = hunt.size();
+      for (double& number : x) number *= options.spread * normal(random);
+      start = attractor::user_state(system, x);
+    }
+    try {
+      hunt.run(start);
+    } catch (const InputError&) {  // a start behind a stop
+    } catch (const NumericalError&) {
+    }
+    if (options.progress) options.progress(i + 1);
+  }
+  std::vector<Solution> found = std::move(hunt).found();
+  std::ranges::stable_sort(found, {}, [](const Solution& s) {
+    return std::pair(s.orbit.shape.n, s.chatter ? std::numeric_limits<long>::max() : s.impacts);
+  });
+  return found;
+}
+
+std::optional<Solution> settle(const Problem& problem, const System& system, const State& state, long transient, int n,
+                               const std::atomic<bool>* stop) {
+  Motion motion(system, state);
+  if (!run_to(motion, {transient, 0.0}, stop, [] {})) return std::nullopt;
+  if (n != 0 || !system.model().forced()) return orbit_from(problem, system, motion, n, settled, stop);
+  for (int cycle = 1; cycle <= longest_cycle; ++cycle) {
+    auto found = orbit_from(problem, system, motion, cycle, settled, stop);
+    if (found || stopped(stop)) return found;
+  }
+  return std::nullopt;
+}
+
+}  // namespace slapstick::orbit

@@ -1,0 +1,67 @@
+#include <cmath>
+
+#include "orbit/path.hpp"
+#include "orbit/special.hpp"
+#include "slapstick/base/error.hpp"
+#include "slapstick/orbit/branch.hpp"
+
+namespace slapstick::orbit {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double h = 1e-4;  ///< of the differences of a point's defining function, in units of arclength
+
+}  // namespace
+
+/// On the solutions v(s, q) of the equations, s arclength and q another parameter, f(v) = 0 keeps the point what it is:
+/// ds/dq = -(df/dq) / (df/ds), and d value / dq = dp/dq + dp/ds ds/dq. The directions are exact, the derivatives of f central differences
+/// of points that solve the equations, extrapolated.
+std::vector<double> sensitivity(const Family& full, const std::vector<double>& values, const SpecialPoint& point) {
+  const Problem problem(full, values);
+  Orbit orbit = point.solution.orbit;
+  orbit.values = values;
+  const double range = std::max(1e-3, std::abs(values[0]));
+  const PathPoint at = point_of(problem, orbit, range, {});
+  const std::size_t legs = orbit.legs();
+  const ModeSet set(problem.family(), orbit.values);
+  const Linearised linear = linearise(problem, set, orbit);
+  const auto along = [&](Index parameter) {  // at the same place of the branch, another parameter moves by its unit
+    MatrixXd matrix(linear.by.cols(), linear.by.cols());
+    const Index rows = linear.by.rows();
+    matrix.topRows(rows) = linear.by * at.units.asDiagonal();
+    matrix.row(rows) = at.tangent.transpose();
+    for (Index j = 1; j < problem.parameters(); ++j)
+      matrix.row(rows + j) = Eigen::RowVectorXd::Unit(matrix.cols(), problem.parameter_column(legs, j));
+    VectorXd right = VectorXd::Zero(matrix.rows());
+    right[rows + parameter] = 1.0;
+    return VectorXd(matrix.partialPivLu().solve(right));
+  };
+  const auto value_at = [&](const VectorXd& direction, double length) {
+    Orbit moved = orbit;
+    move(problem, linear, length * direction.cwiseProduct(at.units), 0.0, moved);
+    std::vector<Condition> conditions = fixed_parameters(problem, legs);
+    conditions[0].row = at.tangent.cwiseQuotient(at.units).transpose();
+    if (!solve(problem, moved, conditions).converged)
+      throw NumericalError("sensitivity: no orbit beside the special point");
+    return defining(point, point_of(problem, moved, range, at.tangent).watched);
+  };
+  const auto rate = [&](const VectorXd& direction) {
+    const auto difference = [&](double d) { return (value_at(direction, d) - value_at(direction, -d)) / (2.0 * d); };
+    return (4.0 * difference(0.5 * h) - difference(h)) / 3.0;
+  };
+  const double by_length = rate(at.tangent);
+  std::vector<double> result;
+  const Index place = problem.parameter_column(legs, 0);
+  for (Index j = 1; j < problem.parameters(); ++j) {
+    const VectorXd direction = along(j);
+    const double ds = -rate(direction) / by_length;
+    const double moved = (direction[place] + at.tangent[place] * ds) * at.units[place];
+    result.push_back(moved / at.units[problem.parameter_column(legs, j)]);
+  }
+  return result;
+}
+
+}  // namespace slapstick::orbit

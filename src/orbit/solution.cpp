@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "attractor/return_map.hpp"
+#include "orbit/equations.hpp"
+#include "orbit/record.hpp"
+#include "slapstick/orbit/periodic_orbit.hpp"
+#include "slapstick/section/stop_choice.hpp"
+
+namespace slapstick::orbit {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+/// The numbers of a contact state that a mode holds at zero: velocities of held pairs, gaps of closed stops.
+std::vector<Index> held_numbers(const mode::Frame& frame, const mode::Outline& outline) {
+  std::vector<Index> held;
+  for (std::size_t i = 0; i < frame.stops.size(); ++i)
+    if (outline.states.stops[i] == mode::StopState::closed && frame.stops[i].own < frame.n)
+      held.push_back(frame.stops[i].own);
+  for (int i = 0; i < frame.n; ++i)
+    if (outline.steady[i]) held.push_back(frame.n + i);
+  return held;
+}
+
+/// The leg in which most is held still: there the rank that stick takes is seen as rows that are exactly zero.
+std::size_t most_held_leg(const ModeSet& set, const Orbit& orbit) {
+  std::size_t best = 0, most = 0;
+  for (std::size_t i = 0; i < orbit.legs(); ++i) {
+    const std::size_t held = held_numbers(set.frame(), set.mode(orbit.shape.legs[i].states).outline).size();
+    if (held > most && orbit.shape.legs[i].ending != Ending::chatter) {
+      most = held;
+      best = i;
+    }
+  }
+  return best;
+}
+
+/// Without the multiplier of the motion along itself, which is 1.
+void drop_own_direction(std::vector<std::complex<double>>& multipliers) {
+  const auto nearest = std::ranges::min_element(multipliers, {}, [](auto m) { return std::abs(m - 1.0); });
+  if (nearest != multipliers.end()) multipliers.erase(nearest);
+}
+
+/// Impacts, and engagements of compliant stops, at the end of a leg.
+long points(const Leg& leg) {
+  if (leg.ending == Ending::cut) return 0;
+  if (leg.event == EventKind::engage) return 1;
+  long count = 0;
+  for (const Motion::Strike& strike : leg.strikes) count += std::popcount(strike.stops);
+  return count;
+}
+
+}  // namespace
+
+std::vector<std::complex<double>> multipliers(const Problem& problem, const ModeSet& set, const Orbit& orbit,
+                                              const std::vector<LegValue>& legs) {
+  const std::size_t first = most_held_leg(set, orbit);
+  MatrixXd map;
+  if (first == 0) {
+    map = return_rates(problem, set, orbit, legs).by_state;
+  } else {
+    Orbit turned = orbit;
+    rotate(turned, first);
+    std::vector<LegValue> turned_legs = legs;
+    std::ranges::rotate(turned_legs, turned_legs.begin() + static_cast<std::ptrdiff_t>(first));
+    map = return_rates(problem, set, turned, turned_legs).by_state;
+  }
+  std::vector<Index> free;
+  for (Index i = 0; i < map.rows(); ++i)
+    if ((map.row(i).array() != 0.0).any()) free.push_back(i);
+  auto all = attractor::multipliers_of(map(free, free));
+  if (orbit.shape.n == 0) drop_own_direction(all);
+  all.resize(all.size() + static_cast<std::size_t>(map.rows()) - free.size(), 0.0);
+  return all;
+}
+
+std::shared_ptr<const Problem> pose(const Family& family, const std::vector<double>& values) {
+  return std::make_shared<const Problem>(family, values);
+}
+
+Solution describe(const Problem& problem, Orbit orbit, const System* system) {
+  const ModeSet set(problem.family(), orbit.values);
+  Solution found;
+  found.multipliers = multipliers(problem, set, orbit, linearise(problem, set, orbit).legs);
+  for (const Leg& leg : orbit.shape.legs) {
+    found.impacts += points(leg);
+    found.chatter = found.chatter || leg.ending == Ending::chatter;
+    found.sticking = found.sticking || !held_numbers(set.frame(), set.mode(leg.states).outline).empty();
+  }
+  const std::string p = found.chatter ? "inf" : std::to_string(found.impacts);
+  const std::string n = orbit.shape.n > 0 ? std::to_string(orbit.shape.n) : "free";
+  found.label = n + "-" + p + (found.sticking ? "-II" : "-I");
+  found.cycle = (orbit.t.back() - orbit.t.front()) * set.period();
+  if (problem.translations().count() > 0) found.drift = problem.translations().by_coordinate(orbit.advance);
+  if (system != nullptr) {
+    const Verification verification = verify(*system, orbit);
+    found.is_motion = verification.is_motion;
+    found.why = verification.why;
+  }
+  found.orbit = std::move(orbit);
+  return found;
+}
+
+namespace {
+
+/// The event's own condition made exact, as a Motion does, so that the state can be started from.
+void land(const mode::Frame& frame, const Leg& leg, Eigen::VectorXd& X) {
+  if (leg.ending != Ending::guard) return;
+  if (leg.kind == mode::GuardKind::gap) X[frame.stops[leg.contact].own] = 0.0;
+  if (leg.kind == mode::GuardKind::slip) X[frame.u(frame.frictions[leg.contact].own)] = 0.0;
+}
+
+}  // namespace
+
+std::vector<EventOfOrbit> events(const Problem& problem, const Orbit& orbit) {
+  const ModeSet set(problem.family(), orbit.values);
+  const mode::Frame& frame = set.frame();
+  std::vector<EventOfOrbit> all;
+  for (std::size_t i = 0; i < orbit.legs(); ++i) {
+    const Leg& leg = orbit.shape.legs[i];
+    if (leg.ending == Ending::cut) continue;
+    const Leg& next = orbit.shape.legs[(i + 1) % orbit.legs()];
+    const LegValue value = leg_value(set, leg, next, orbit.x[i], orbit.t[i], orbit.t[i + 1]);
+    EventOfOrbit event{leg.event,  leg.event_contact, orbit.t[i + 1], 0.0, State(2 * static_cast<std::size_t>(frame.n)),
+                       next.states};
+    Eigen::VectorXd X = value.X_end.value();
+    land(frame, leg, X);
+    frame.leave(X.data(), X.data() + frame.d, event.before.data());
+    const auto stops = frame.stops.size(), frictions = frame.frictions.size(),
+               at = static_cast<std::size_t>(leg.event_contact);
+    const mode::ContactRow& row = at < stops               ? frame.stops[at]
+                                  : at < stops + frictions ? frame.frictions[at - stops]
+                                                           : frame.compliant[at - stops - frictions];
+    event.w = row.sign * X[frame.u(row.own)];
+    all.push_back(std::move(event));
+  }
+  return all;
+}
+
+std::optional<Orbit> refine(const Problem& problem, Orbit guess) {
+  const NewtonResult result = solve(problem, guess, fixed_parameters(problem, guess.legs()), 20);
+  if (!result.converged) return std::nullopt;
+  return guess;
+}
+
+}  // namespace slapstick::orbit

@@ -1,0 +1,28 @@
+#pragma once
+/// Special points between two points of a branch: found by a change of sign, refined on the branch.
+#include "orbit/path.hpp"
+#include "slapstick/orbit/branch.hpp"
+
+namespace slapstick::orbit {
+
+/// Those that leave the sequence of events as it is: LP, PD, NS, BP, in the order in which the branch meets them.
+[[nodiscard]] std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const PathPoint& from,
+                                                              const PathPoint& to, double length, double range);
+
+/// The first point at which the orbit ceases to be a motion.
+struct Change {
+  SpecialPoint special;
+  PathPoint at;
+  TestValue test;
+};
+[[nodiscard]] std::optional<Change> find_change(const Problem& problem, const PathPoint& from, const PathPoint& to,
+                                                double length, double range);
+
+/// The function whose zero a special point is.
+[[nodiscard]] double defining(const SpecialPoint& point, const Watched& watched);
+
+/// What a test's zero means: its type, and in words.
+[[nodiscard]] SpecialType type_of(const TestValue& test, const Itinerary& shape);
+[[nodiscard]] std::string describe(const TestValue& test, const Itinerary& shape, const System& system);
+
+}  // namespace slapstick::orbit

@@ -1,0 +1,56 @@
+#include <algorithm>
+#include <cmath>
+
+#include "orbit/path.hpp"
+#include "slapstick/orbit/branch.hpp"
+
+namespace slapstick::orbit {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double amplitude = 1e-3;  ///< of the first orbit behind a PD, in units of arclength
+
+/// An orbit run through twice.
+Orbit twice(const Orbit& orbit) {
+  Orbit two = orbit;
+  const double cycle = orbit.t.back() - orbit.t.front();
+  two.shape.n *= 2;
+  two.shape.legs.insert(two.shape.legs.end(), orbit.shape.legs.begin(), orbit.shape.legs.end());
+  two.x.insert(two.x.end(), orbit.x.begin(), orbit.x.end());
+  for (std::size_t i = 1; i <= orbit.legs(); ++i) two.t.push_back(orbit.t[i] + cycle);
+  two.advance *= 2.0;
+  return two;
+}
+
+/// The direction that solves the linearised equations at a fixed parameter, but for the smallest residual: there the new branch leaves.
+VectorXd new_direction(const Problem& problem, const Orbit& orbit, const VectorXd& units) {
+  const ModeSet set(problem.family(), orbit.values);
+  const Linearised at = linearise(problem, set, orbit);
+  MatrixXd matrix(at.by.rows() + problem.parameters(), at.by.cols());
+  matrix.topRows(at.by.rows()) = at.by * units.asDiagonal();
+  matrix.bottomRows(problem.parameters()).setZero();
+  matrix.bottomRightCorner(problem.parameters(), problem.parameters()).setIdentity();
+  const VectorXd largest = matrix.cwiseAbs().rowwise().maxCoeff().cwiseMax(1e-300);
+  matrix = largest.cwiseInverse().asDiagonal() * matrix;
+  const Eigen::JacobiSVD<MatrixXd> svd(matrix, Eigen::ComputeFullV);
+  return svd.matrixV().rightCols(1);
+}
+
+}  // namespace
+
+std::optional<Orbit> doubled(const Problem& problem, const SpecialPoint& pd) {
+  Orbit orbit = twice(pd.solution.orbit);
+  const VectorXd units = arclength_units(problem, orbit, std::max(1e-3, std::abs(pd.value)));
+  const VectorXd direction = new_direction(problem, orbit, units);
+  const ModeSet set(problem.family(), orbit.values);
+  const Linearised at = linearise(problem, set, orbit);
+  move(problem, at, amplitude * direction.cwiseProduct(units), 0.0, orbit);
+  std::vector<Condition> conditions = fixed_parameters(problem, orbit.legs());
+  conditions[0].row = direction.cwiseQuotient(units).transpose();
+  if (!solve(problem, orbit, conditions, 12).converged) return std::nullopt;
+  return orbit;
+}
+
+}  // namespace slapstick::orbit

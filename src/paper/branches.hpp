@@ -1,0 +1,37 @@
+#pragma once
+/// Beyond the paper: the branches of n-1 orbits continued through stability and instability, what bounds its windows, and how friction moves that.
+#include "paper/study.hpp"
+#include "slapstick/orbit/branch.hpp"
+#include "slapstick/paper/claim.hpp"
+
+namespace slapstick::paper {
+
+/// The branch of n-1 orbits along omega.
+struct NBranch {
+  int n = 1;
+  orbit::Branch branch;
+  std::vector<std::vector<double>> speeds;  ///< of the impacts of each point
+};
+
+/// A bound of the 1-1 or 2-1 window as a curve over omega and friction.
+struct BoundCurve {
+  std::string label;  ///< "1-1, PD"
+  orbit::Curve curve;
+};
+
+struct Branches {
+  std::vector<NBranch> all;  ///< n = 1 to 5
+  std::vector<BoundCurve> bounds;
+};
+
+/// Runs them in parallel. @throws Interrupted
+[[nodiscard]] Branches make_branches(const Study& study);
+
+void fig_branches(Study& study, const Branches& branches);  ///< over the brute-force diagram
+void fig_bounds(Study& study, const Branches& branches);    ///< in the (omega, friction) plane
+
+/// Every special point, and the type of what bounds each window.
+[[nodiscard]] Claim claim_branches(const Branches& branches);
+[[nodiscard]] Claim claim_bounds(const Branches& branches);
+
+}  // namespace slapstick::paper

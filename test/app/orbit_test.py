@@ -1,0 +1,73 @@
+"""orbit, continue and curve from the command line: the stable part of their results, and what they refuse."""
+from program import good, main, read, refused, run, says, table  # noqa: F401
+
+PAPER = ('vibro-impact', '--set', 'omega=2.7')
+
+
+def number(text, key, which=0):
+    """The K-th number of that key in a JSON text."""
+    parts = text.split('"%s": ' % key)
+    return float(parts[1 + which].split(',')[0].split('\n')[0].strip(' "}]'))
+
+
+def test_orbit_has_the_stable_keys_of_the_command_line():
+    text = good('orbit', *PAPER, '--orbit', '1-1')
+    says(text, '"converged": true', '"class": "1-1-I"', '"period"', '"multipliers"', '"impacts"', '"time"', '"phase"', '"w"', '"state"')
+
+
+def test_unstable_orbits_are_found_where_simulation_leaves_them():
+    says(good('orbit', 'vibro-impact', '--set', 'omega=2.9', '--orbit', '1-1'), '"stable": false')
+
+
+def test_an_impact_of_an_orbit_is_a_state_to_start_from():
+    text = good('orbit', *PAPER, '--orbit', '1-1')
+    state = ','.join('%s=%.17g' % (name, number(text, name)) for name in ('x1', 'v1', 'x2', 'v2'))
+    good('simulate', *PAPER, '--state', state, '--periods', '1')
+
+
+def test_a_branch_names_its_doubling_to_ten_digits():
+    text = good('continue', *PAPER, '--orbit', '1-1', '--param', 'omega', '--range', '2.6:2.9')
+    says(text, '"points"', '"special"', '"type": "PD"')
+    special = text[text.index('"special"'):]
+    assert abs(number(special, 'param') - 2.8459562956064) < 1e-10, number(special, 'param')
+
+
+def test_a_table_is_for_people():
+    text = good('continue', *PAPER, '--orbit', '1-1', '--param', 'omega', '--range', '2.6:2.9', '--table')
+    says(text, 'BR', 'TY', 'omega', 'PD', '2.84595629561', 'stable', 'unstable', 'range')
+
+
+def test_the_same_command_gives_the_same_bytes():
+    words = ('continue', *PAPER, '--orbit', '1-1', '--param', 'friction', '--range', '0.05:0.25')
+    assert good(*words) == good(*words)
+
+
+def test_a_group_may_be_swept_and_its_sensitivity_is_the_slope_of_the_curve():
+    text = good('continue', *PAPER, '--orbit', '1-1', '--param', 'omega', '--range', '2.6:2.9', '--sensitivity', 'friction')
+    slope = number(text[text.index('"sensitivity"'):], 'friction')
+    at = []
+    for friction in ('0.149', '0.151'):
+        other = good('continue', *PAPER, '--set', 'friction=' + friction, '--orbit', '1-1', '--param', 'omega', '--range', '2.6:2.9')
+        at.append(number(other[other.index('"special"'):], 'param'))
+    assert abs((at[1] - at[0]) / 0.002 - slope) < 1e-5, (at, slope)
+
+
+def test_a_curve_starts_at_its_point_and_ends_at_its_range():
+    text = good('curve', *PAPER, '--orbit', '1-1', '--from', 'PD', '--params', 'omega,friction', '--range', 'omega=2.6:3', '--range', 'friction=0.1:0.2')
+    says(text, '"type": "PD"', '"points"', '"ended": "down: range; up: range"')
+
+
+def test_what_cannot_be_is_refused_by_name():
+    says(refused(2, 'orbit', *PAPER, '--orbit', '1:1'), '--orbit', 'N-P')
+    says(refused(2, 'orbit', *PAPER, '--orbit', '0-1'), '--orbit')
+    says(refused(2, 'orbit', 'belt', '--orbit', '1-1'), '--orbit', 'no forcing')
+    says(refused(2, 'continue', *PAPER, '--param', 'omgea', '--range', '2:3'), 'omgea')
+    says(refused(2, 'continue', *PAPER, '--param', 'omega', '--range', '3:4'), '--range', '2.7')
+    says(refused(2, 'continue', *PAPER, '--param', 'omega', '--range', '3'), '--range', 'A:B')
+    says(refused(2, 'curve', *PAPER, '--params', 'omega', '--range', 'omega=2:3'), '--params')
+    says(refused(2, 'curve', *PAPER, '--params', 'omega,friction', '--range', 'omega=2:3'), 'friction')
+    says(refused(3, 'orbit', *PAPER, '--orbit', '1-7', '--starts', '2'), '1-7')
+
+
+if __name__ == '__main__':
+    main({name: case for name, case in globals().items() if name.startswith('test_')})

@@ -1,0 +1,120 @@
+/// Branches: what changes along them, by a second route each.
+#include <gtest/gtest.h>
+
+#include "attractor/cycle.hpp"
+#include "families.hpp"
+#include "slapstick/attractor/classify.hpp"
+#include "slapstick/base/error.hpp"
+
+namespace slapstick::test {
+namespace {
+
+TEST(Branch, RefusesAStartOutsideItsRange) {
+  const Posed posed("vibro-impact", {}, {"omega"}, {2.2});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  EXPECT_THROW((void)orbit::follow(*posed.problem, first->orbit, {.from = 2.5, .to = 3.0}), InputError);
+}
+
+/// What a motion that starts on an orbit becomes at another frequency.
+std::string label_at(double omega, const orbit::Orbit& orbit) {
+  const Posed posed("vibro-impact", {{"omega", omega}}, {}, {});
+  const double whole = std::floor(orbit.t[0]);
+  Eigen::VectorXd x = orbit.x[0];
+  x[0] = std::min(x[0], 0.0);  // the gap is -x[0], but for the rounding of Newton's method
+  Motion motion(posed.system, attractor::user_state(posed.system, x),
+                {static_cast<std::int64_t>(whole), orbit.t[0] - whole});
+  while (motion.advance({static_cast<std::int64_t>(whole) + 1, 0.0}) == Outcome::event) {
+  }
+  return classify(posed.system, motion.state(), {.transient_periods = 3000}).label;
+}
+
+/// What the attractor is on either side of each special point of the 1-1 branch, by brute force.
+TEST(Branch, OfThePaperChangesWhereItsAttractorDoes) {
+  const Posed posed("vibro-impact", {}, {"omega"}, {2.2});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 1.1135, .to = 2.9});
+  EXPECT_FALSE(branch.failed) << branch.ended;
+  const std::vector<std::pair<std::string, std::pair<std::string, std::string>>> expected = {
+      {"GR", {"", "1-1-I"}}, {"SL", {"1-1-I", "1-1-II"}}, {"SL", {"1-1-II", "1-1-I"}}, {"PD", {"1-1-I", "2-2-I"}}};
+  std::size_t k = 0;
+  for (const orbit::SpecialPoint& point : branch.special) {
+    const std::string below = label_at(point.value - 3e-4, point.solution.orbit),
+                      above = label_at(point.value + 3e-4, point.solution.orbit);
+    if (below == above) continue;  // a reversal more or less within the sticking motion
+    ASSERT_LT(k, expected.size());
+    EXPECT_EQ(name(point.type), expected[k].first) << point.value;
+    if (!expected[k].second.first.empty()) {  // below the graze the 1-2 orbit is unstable and other attractors live
+      EXPECT_EQ(below, expected[k].second.first) << point.value;
+    }
+    EXPECT_EQ(above, expected[k].second.second) << point.value;
+    ++k;
+  }
+  EXPECT_EQ(k, expected.size());
+  for (const orbit::Solution& point : branch.points)
+    EXPECT_TRUE(point.is_motion) << point.orbit.values[0] << " " << point.why;
+}
+
+/// Every point is a motion of its own, unstable ones too: the simulator ends a cycle where it began.
+TEST(Branch, UnstablePointsAreOrbitsOfTheSimulator) {
+  const Posed posed("vibro-impact", {}, {"omega"}, {2.2});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 2.2, .to = 4.0});
+  const orbit::Solution& last = branch.points.back();
+  EXPECT_FALSE(last.stable());
+  const System system(posed.definition.build({{"omega", last.orbit.values[0]}}));
+  const double whole = std::floor(last.orbit.t[0]);
+  Motion motion(system, attractor::user_state(system, last.orbit.x[0]),
+                {static_cast<std::int64_t>(whole), last.orbit.t[0] - whole});
+  const Eigen::VectorXd begin = attractor::contact_state(motion);
+  for (std::size_t i = 0; i < last.orbit.legs(); ++i)
+    ASSERT_EQ(motion.advance(motion.time().plus(2.0)), Outcome::event);
+  EXPECT_LT((attractor::contact_state(motion) - begin).norm(), 1e-11 * begin.norm());
+}
+
+/// A search finds the unstable orbit from which a doubled one was born, beside that one.
+TEST(Search, FindsStableAndUnstableOrbits) {
+  const Posed posed("vibro-impact", {{"omega", 2.88}}, {}, {});
+  const auto found =
+      orbit::search(*posed.problem, posed.system, posed.start(), {.most_n = 2, .starts = 8, .periods = 100});
+  std::string all;
+  for (const orbit::Solution& solution : found)
+    all += solution.label + (solution.stable() ? " stable, " : " unstable, ");
+  EXPECT_NE(all.find("1-1-I unstable"), std::string::npos) << all;
+  EXPECT_NE(all.find("2-2-I stable"), std::string::npos) << all;
+}
+
+/// A complete chatter: infinitely many impacts, some thirty of them flown, the rest summed; still one isolated orbit with exact multipliers.
+TEST(Orbit, OfCompleteChatterIsSolved) {
+  const Posed posed("vibro-impact", {{"omega", 0.55}}, {}, {});
+  const auto found = posed.settled();
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->label, "1-inf-II");
+  const Classification seen = classify(posed.system, posed.start());
+  ASSERT_FALSE(seen.multipliers.empty());
+  EXPECT_NEAR(std::abs(found->multipliers.front()), std::abs(seen.multipliers.front()), 1e-7);
+  EXPECT_LT(std::abs(orbit::energy(*posed.problem, found->orbit).balance()),
+            1e-10 * orbit::energy(*posed.problem, found->orbit).input);
+}
+
+/// A model without forcing: the period is an unknown. On the belt: the closed form of stick and slip.
+TEST(Orbit, OfAnAutonomousModelHasItsOwnPeriod) {
+  const Posed posed("belt", {}, {}, {});
+  const auto found = posed.settled();
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->is_motion) << found->why;
+  Motion motion(posed.system, posed.start());
+  double last = 0.0, period = 0.0;
+  for (int k = 0; k < 40; ++k) {
+    ASSERT_EQ(motion.advance({1'000'000, 0.0}), Outcome::event);
+    if (motion.event().kind != EventKind::release) continue;
+    period = motion.event().time.since({}) - last;
+    last = motion.event().time.since({});
+  }
+  EXPECT_NEAR(found->cycle, period, 1e-11 * period);
+}
+
+}  // namespace
+}  // namespace slapstick::test

@@ -1,0 +1,43 @@
+#pragma once
+/// Model files as families, for tests.
+#include "slapstick/io/model_file.hpp"
+#include "slapstick/orbit/branch.hpp"
+#include "slapstick/orbit/periodic_orbit.hpp"
+
+namespace slapstick::test {
+
+/// A model with fixed overrides as a function of some parameters, its Problem, and the System at the values given.
+struct Posed {
+  Posed(const std::string& model, Overrides fixed, std::vector<std::string> parameters, std::vector<double> present)
+      : definition(load_model(model)),
+        overrides(std::move(fixed)),
+        names(std::move(parameters)),
+        values(std::move(present)),
+        family{names, [this](const std::vector<double>& v) { return definition.build(at(v)); },
+               [this](const std::vector<double>& v, std::size_t j) { return definition.rate(names.at(j), at(v)); }},
+        system(definition.build(at(values))),
+        problem(orbit::pose(family, values)) {}
+  Posed(const Posed&) = delete;
+  Posed& operator=(const Posed&) = delete;
+
+  [[nodiscard]] Overrides at(const std::vector<double>& v) const {
+    Overrides all = overrides;
+    for (std::size_t j = 0; j < names.size(); ++j) all[names[j]] = v.at(j);
+    return all;
+  }
+  [[nodiscard]] State start() const { return definition.start(at(values)); }
+  /// The orbit that the motion from the model's start settles on.
+  [[nodiscard]] std::optional<orbit::Solution> settled(int n = 0, long transient = 500) const {
+    return orbit::settle(*problem, system, start(), transient, n);
+  }
+
+  ModelDefinition definition;
+  Overrides overrides;
+  std::vector<std::string> names;
+  std::vector<double> values;
+  orbit::Family family;
+  System system;
+  std::shared_ptr<const orbit::Problem> problem;
+};
+
+}  // namespace slapstick::test

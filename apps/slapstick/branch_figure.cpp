@@ -12,9 +12,9 @@ namespace {
 
 using orbit::Solution;
 
-/// What stands for an orbit: the speeds of its impacts; without impacts the first coordinate at its events. In falling order: which event a cycle
+/// What stands for an orbit: the speeds of its impacts; if no orbit of the branches has any, the first coordinate at its events. In falling order: which event a cycle
 /// begins with may change along a branch.
-std::vector<double> heights(const orbit::Problem& problem, const Solution& solution) {
+std::vector<double> heights(const orbit::Problem& problem, const Solution& solution, bool impacts) {
   std::vector<double> speeds, places;
   for (const orbit::EventOfOrbit& event : orbit::events(problem, solution.orbit)) {
     if (event.kind == EventKind::impact || event.kind == EventKind::engage) speeds.push_back(event.w);
@@ -22,7 +22,7 @@ std::vector<double> heights(const orbit::Problem& problem, const Solution& solut
   }
   std::ranges::sort(speeds, std::greater<>());
   std::ranges::sort(places, std::greater<>());
-  if (!speeds.empty()) return speeds;
+  if (impacts) return speeds;
   if (!places.empty()) return places;
   return {solution.orbit.x.front()[0]};
 }
@@ -73,26 +73,47 @@ class Lines {
   std::vector<double> last_;
 };
 
+bool problem_has_impacts(const std::vector<orbit::Branch>& branches) {
+  return std::ranges::any_of(branches, [](const orbit::Branch& branch) {
+    return std::ranges::any_of(branch.points, [](const Solution& point) { return point.impacts > 0; });
+  });
+}
+
+/// A name above the frame; of several that nearly coincide the first has one.
+void add_label(figure::Panel& panel, double x, const std::string& label, const std::vector<double>& all) {
+  constexpr double beside = 0.02;
+  constexpr std::size_t most = 16;
+  const auto [least, largest] = std::ranges::minmax_element(all);
+  const double width = std::max(*largest - *least, 1e-12);
+  const bool taken = std::ranges::any_of(panel.marks, [&](const figure::Mark& mark) { return std::abs(*mark.x - x) < beside * width; });
+  if (taken || panel.marks.size() >= most)
+    panel.marks.push_back({.x = x});
+  else
+    panel.marks.push_back({.x = x, .label = label});
+}
+
 }  // namespace
 
 figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const std::string& parameter,
                              const orbit::Problem& problem) {
   figure::Panel panel;
   panel.x_label = axis_text(parameter);
-  panel.y_label = "impact speed w";
+  panel.y_label = problem_has_impacts(branches) ? "impact speed w" : "first coordinate at the events";
+  const bool impacts = problem_has_impacts(branches);
   const std::array<figure::Colour, 4> palette = {figure::colours::black, figure::colours::dark_blue,
                                                  figure::colours::vermillion, figure::colours::green};
   figure::Points special{.label = "", .colour = figure::colours::vermillion, .diameter_mm = 0.9};
   for (std::size_t b = 0; b < branches.size(); ++b) {
     Lines lines(panel, palette[b % palette.size()]);
-    for (const Solution& point : branches[b].points) lines.add(point.orbit.values[0], heights(problem, point), point);
+    for (const Solution& point : branches[b].points) lines.add(point.orbit.values[0], heights(problem, point, impacts), point);
     lines.flush();
     for (const orbit::SpecialPoint& point : branches[b].special) {
-      const std::vector<double> y = heights(problem, point.solution);
+      const std::vector<double> y = heights(problem, point.solution, impacts);
+      if (y.empty()) continue;
       const double top = *std::ranges::max_element(y);
       special.x.push_back(point.value);
       special.y.push_back(top);
-      panel.marks.push_back({.x = point.value, .label = std::string(name(point.type))});
+      add_label(panel, point.value, std::string(name(point.type)), special.x);
     }
   }
   if (!special.x.empty()) panel.points.push_back(std::move(special));

@@ -30,16 +30,17 @@ OrbitClass parse_orbit(const std::string& text) {
   const std::string form = "--orbit: " + in_quotes(text) + " is not of the form N-P, as 1-1 or 2-inf";
   if (parts.size() > 3 || (parts.size() == 3 && parts[2] != "I" && parts[2] != "II")) throw InputError(form);
   OrbitClass wanted;
-  wanted.n = static_cast<int>(parse_integer("--orbit N", parts[0], 1, 1000));
+  wanted.n = static_cast<int>(parse_integer("--orbit N-P", parts[0], 1, 1000));
   if (parts.size() == 1) return wanted;
   if (parts[1] == "inf")
     wanted.chatter = true;
   else
-    wanted.p = parse_integer("--orbit P", parts[1], 0, 100'000);
+    wanted.p = parse_integer("--orbit N-P", parts[1], 0, 100'000);
   return wanted;
 }
 
 ParameterRange parse_range(const std::string& argument, const std::string& text) {
+  if (text.empty()) throw InputError(argument + " is needed: A:B");
   const auto parts = split(text, ':');
   if (parts.size() != 2) throw InputError(argument + ": " + in_quotes(text) + " is not of the form A:B");
   const ParameterRange range{parse_number(argument + " A", parts[0]), parse_number(argument + " B", parts[1])};
@@ -48,19 +49,43 @@ ParameterRange parse_range(const std::string& argument, const std::string& text)
   return range;
 }
 
-double present_value(const ChosenModel& chosen, const std::string& parameter, const ParameterRange& range) {
+namespace {
+
+/// The parameters that a name stands for.
+std::vector<std::string> members(const ModelDefinition& definition, const std::string& name) {
+  for (const Group& group : definition.groups())
+    if (group.name == name) return group.members;
+  return {name};
+}
+
+}  // namespace
+
+double present_value(const ChosenModel& chosen, const std::string& argument, const std::string& parameter) {
+  if (parameter.empty()) throw InputError(argument + " is needed: the name of a parameter");
   const auto values = chosen.definition.values(chosen.overrides);
-  std::string member = parameter;
-  for (const Group& group : chosen.definition.groups())
-    if (group.name == parameter) member = group.members.front();
-  const auto found = values.find(member);
-  if (found == values.end())
-    throw InputError("model " + in_quotes(chosen.model.name) + " has no parameter " + in_quotes(parameter));
-  if (found->second < range.from || found->second > range.to)
-    throw InputError("--range: " + parameter + " = " + shown(found->second) +
-                     ", where the first orbit is sought, is outside " + shown(range.from) + ":" + shown(range.to) +
-                     "; give a value inside by --set " + parameter + "=VALUE");
-  return found->second;
+  const auto found = values.find(members(chosen.definition, parameter).front());
+  if (found != values.end()) return found->second;
+  try {
+    (void)chosen.definition.values({{parameter, 1.0}});
+  } catch (const InputError& error) {
+    throw InputError(argument + ": " + without_place(error.what()));
+  }
+  throw InputError(argument + ": model " + in_quotes(chosen.model.name) + " has no parameter " + in_quotes(parameter));
+}
+
+double value_inside(const ChosenModel& chosen, const std::string& argument, const std::string& parameter, const ParameterRange& range) {
+  const double value = present_value(chosen, argument, parameter);
+  if (value < range.from || value > range.to)
+    throw InputError("--range: " + parameter + " = " + shown(value) + ", where the first orbit is sought, is outside " + shown(range.from) + ":" +
+                     shown(range.to) + "; give a value inside by --set " + parameter + "=VALUE");
+  for (const std::string& member : members(chosen.definition, parameter)) {
+    for (const Parameter& own : chosen.definition.parameters()) {
+      if (own.name != member) continue;
+      for (const double end : {range.from, range.to})
+        if (!own.admits(end)) throw InputError("--range: " + parameter + " = " + shown(end) + " is outside " + own.range());
+    }
+  }
+  return value;
 }
 
 orbit::Family family_of(const ChosenModel& chosen, const std::vector<std::string>& parameters) {
@@ -90,9 +115,8 @@ orbit::Solution find_orbit(const orbit::Problem& problem, const System& system, 
     note(*found);
   }
   if (wanted.n == 0)
-    throw NumericalError("no periodic orbit: the motion does not settle on one within " +
-                         std::to_string(options.transient) +
-                         " periods (--transient); --orbit N-P searches for unstable ones");
+    throw NumericalError("no periodic orbit: the motion does not settle on one within " + std::to_string(options.transient) +
+                         " periods (--transient)" + (system.model().forced() ? "; --orbit N-P searches for unstable ones" : ""));
   orbit::SearchOptions search;
   search.only_n = wanted.n;
   search.starts = static_cast<int>(options.starts);

@@ -35,9 +35,13 @@ struct ParameterRange {
 /// Reads "A:B", A < B. @throws InputError naming the argument
 [[nodiscard]] ParameterRange parse_range(const std::string& argument, const std::string& text);
 
-/// The value that a parameter or group has by --set or default. @throws InputError if there is none, or it is outside the range
-[[nodiscard]] double present_value(const ChosenModel& chosen, const std::string& parameter,
-                                   const ParameterRange& range);
+/// The value that a parameter or group has by --set or default. @throws InputError naming the argument if there is none (the nearest is
+/// suggested)
+[[nodiscard]] double present_value(const ChosenModel& chosen, const std::string& argument, const std::string& parameter);
+
+/// The same inside a range. @throws InputError if it is outside, or the range is not within the parameter's own
+[[nodiscard]] double value_inside(const ChosenModel& chosen, const std::string& argument, const std::string& parameter,
+                                  const ParameterRange& range);
 
 /// The chosen model as a function of some of its parameters or groups, beside what --set says.
 [[nodiscard]] orbit::Family family_of(const ChosenModel& chosen, const std::vector<std::string>& parameters);

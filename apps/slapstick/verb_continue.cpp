@@ -76,13 +76,22 @@ Json branch_json(const orbit::Branch& branch, const ChosenModel& chosen, const O
     if (!options.sensitivity.empty()) {
       std::vector<double> values = {point.value};
       for (const std::string& other : options.sensitivity)
-        values.push_back(present_value(chosen, other, {-INFINITY, INFINITY}));
+        values.push_back(present_value(chosen, "--sensitivity", other));
       rates = orbit::sensitivity(family_of(chosen, names), values, point);
     }
     special.push(special_json(point, options.sensitivity, rates));
   }
   json.set("points", std::move(points)).set("special", std::move(special)).set("ended", branch.ended);
   return json;
+}
+
+/// What can be known to be wrong before the work.
+void check(const Options& options, const ChosenModel& chosen) {
+  if (!(options.step > 0.0 && options.step <= 0.2)) throw InputError("--step: " + shown(options.step) + " is outside (0, 0.2]");
+  for (const std::string& name : options.sensitivity) {
+    (void)present_value(chosen, "--sensitivity", name);
+    if (name == options.parameter) throw InputError("--sensitivity: " + in_quotes(name) + " is the parameter of --param");
+  }
 }
 
 int run(const Options& options, const Context& context) {
@@ -94,7 +103,8 @@ int run(const Options& options, const Context& context) {
   const Plot plot(options.plot);
   const ChosenModel chosen = options.model.load();
   const ParameterRange range = parse_range("--range", options.range);
-  const double value = present_value(chosen, options.parameter, range);
+  const double value = value_inside(chosen, "--param", options.parameter, range);
+  check(options, chosen);
   const State start = options.model.start(chosen);
   const System system = affordable_system(chosen, {static_cast<double>(options.orbit.transient) + 1.0, "--transient"});
   const auto problem = orbit::pose(family_of(chosen, {options.parameter}), {value});

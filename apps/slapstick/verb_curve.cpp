@@ -53,7 +53,7 @@ orbit::SpecialPoint special_point(const Options& options, const ChosenModel& cho
                                   const std::vector<std::string>& names, const ParameterRange& range,
                                   const std::atomic<bool>& stop) {
   const State start = options.model.start(chosen);
-  const double value = present_value(chosen, names[0], range);
+  const double value = value_inside(chosen, "--params", names[0], range);
   const System system = affordable_system(chosen, {static_cast<double>(options.orbit.transient) + 1.0, "--transient"});
   const auto problem = orbit::pose(family_of(chosen, {names[0]}), {value});
   const orbit::Solution first = find_orbit(*problem, system, start, options.orbit, stop);
@@ -115,7 +115,8 @@ int run(const Options& options, const Context& context) {
   const ChosenModel chosen = options.model.load();
   const std::vector<std::string> names = two_names(options.parameters);
   const auto ranges = ranges_of(options, names);
-  const double second = present_value(chosen, names[1], ranges[1]);
+  const double second = value_inside(chosen, "--params", names[1], ranges[1]);
+  if (!(options.step > 0.0 && options.step <= 0.2)) throw InputError("--step: " + shown(options.step) + " is outside (0, 0.2]");
   orbit::SpecialPoint special = special_point(options, chosen, names, ranges[0], context.stop);
   special.solution.orbit.values = {special.value, second};
   const auto problem = orbit::pose(family_of(chosen, names), special.solution.orbit.values);

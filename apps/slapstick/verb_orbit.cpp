@@ -1,4 +1,6 @@
 /// slapstick orbit MODEL
+#include <algorithm>
+
 #include "orbit_options.hpp"
 #include "output.hpp"
 #include "progress.hpp"
@@ -14,7 +16,7 @@ struct Options {
   OrbitOptions orbit;
   std::string out;
   bool all = false, progress = false;
-  long long most_n = 1, most_p = 1'000'000;
+  long long most_n = 0, most_p = -1;  ///< as given; without --all they have no meaning
 };
 
 Json whole_json(const orbit::Problem& problem, const orbit::Solution& solution, const System& system) {
@@ -36,14 +38,14 @@ Json search_json(const Options& options, const orbit::Problem& problem, const Sy
                  const std::atomic<bool>& stop) {
   Progress progress("motions", static_cast<double>(options.orbit.starts), options.progress);
   orbit::SearchOptions search;
-  search.most_n = static_cast<int>(options.most_n);
+  search.most_n = static_cast<int>(std::max(1LL, options.most_n));
   search.starts = static_cast<int>(options.orbit.starts);
   search.seed = static_cast<std::uint32_t>(options.orbit.seed);
   search.stop = &stop;
   search.progress = [&](int motions) { progress.update(motions); };
   Json list = Json::list();
   for (const orbit::Solution& found : orbit::search(problem, system, start, search))
-    if (found.impacts <= options.most_p) list.push(whole_json(problem, found, system));
+    if (options.most_p < 0 || found.impacts <= options.most_p) list.push(whole_json(problem, found, system));
   return list;
 }
 
@@ -71,6 +73,8 @@ Action add_orbit(Arguments& arguments) {
     Output out(options->out);
     const ChosenModel chosen = options->model.load();
     const State start = options->model.start(chosen);
+    if (options->all && !options->orbit.orbit.empty()) throw InputError("--all lists every orbit; --orbit has no meaning with it");
+    if (!options->all && (options->most_n > 0 || options->most_p >= 0)) throw InputError("--max-n and --max-p need --all");
     if (options->all && !chosen.model.forced())
       throw InputError("--all: model '" + chosen.model.name +
                        "' has no forcing, so there are no n-period orbits to search for");

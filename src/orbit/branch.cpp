@@ -18,6 +18,10 @@ using Eigen::VectorXd;
 
 constexpr double straight = 0.95;  ///< least cosine between the tangents of neighbouring points
 
+bool chatters(const Orbit& orbit) {
+  return std::ranges::any_of(orbit.shape.legs, [](const Leg& leg) { return leg.ending == Ending::chatter; });
+}
+
 /// Follows one direction from a point.
 class Follower {
  public:
@@ -34,6 +38,7 @@ class Follower {
   bool change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why);
   void smooth_points(const PathPoint& at, const PathPoint& next, double length);
   bool end_at_boundary(PathPoint& at);
+  [[nodiscard]] bool retraces(const Orbit& orbit) const;
   void end(std::string why, bool failed);
 
   const Problem& problem_;
@@ -70,6 +75,7 @@ void Follower::smooth_points(const PathPoint& at, const PathPoint& next, double 
     special.after = branch_.points.size() - 1;
     if (doubling) {
       special.type = SpecialType::PD;
+      special.birth = true;
       special.what = "the branch leaves a shorter orbit, which doubles";
       end("meets the orbit of which it is the double at " + shown(special.value), false);
     }
@@ -100,6 +106,20 @@ bool Follower::end_at_boundary(PathPoint& at) {
   return true;
 }
 
+/// Does an orbit lie on the branch as it was followed so far?
+bool Follower::retraces(const Orbit& orbit) const {
+  constexpr double same = 1e-3;  // of an orbit's size: between two points the branch is nearly straight
+  for (std::size_t i = 0; i + 1 < branch_.points.size(); ++i) {
+    const Orbit &a = branch_.points[i].orbit, &b = branch_.points[i + 1].orbit;
+    const double span = b.values[0] - a.values[0], part = (orbit.values[0] - a.values[0]) / span;
+    if (a.legs() != orbit.legs() || b.legs() != orbit.legs() || !(part >= 0.0 && part <= 1.0)) continue;
+    if (!(a.shape.legs == orbit.shape.legs) || !(b.shape.legs == orbit.shape.legs)) continue;
+    const VectorXd between = (1.0 - part) * a.x[0] + part * b.x[0];
+    if ((between - orbit.x[0]).norm() < same * between.norm() && std::abs((1.0 - part) * a.t[0] + part * b.t[0] - orbit.t[0]) < same) return true;
+  }
+  return false;
+}
+
 /// Between `at` and `beyond` the motion's events change. Notes the point and goes on with new ones. @returns false if the branch ends
 bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why) {
   std::optional<Change> change = find_change(problem_, at, beyond, length, range_);
@@ -116,12 +136,21 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
   SpecialPoint special = std::move(change->special);
   special.after = branch_.points.size() - 1;
   std::optional<Reshaped> next;
-  if (options_.through_changes) next = reshape(problem_, change->at, range_);
-  special.outcome = next ? (next->folds ? "non-smooth fold" : "persistence") : "jump";
+  if (options_.through_changes) next = reshape(problem_, change->at, change->test, range_);
+  special.outcome = next                       ? (next->folds ? "non-smooth fold" : "persistence")
+                    : options_.through_changes ? "none found"
+                                               : "not followed";
+  if (next && chatters(next->point.orbit) != chatters(at.orbit)) special.type = SpecialType::CH;
   branch_.special.push_back(special);
   if (!next) {
-    end(std::string(name(special.type)) + " at " + shown(special.value) + ": no orbit is born there",
-        !options_.through_changes);
+    end(std::string(name(special.type)) + " at " + shown(special.value) +
+            (options_.through_changes ? ": no orbit was found beyond, a jump or a failure of the search" : ": the events change"),
+        options_.through_changes);
+    return false;
+  }
+  if (retraces(next->point.orbit)) {
+    branch_.special.back().outcome = "the branch as it came";
+    end(std::string(name(special.type)) + " at " + shown(special.value) + ": from there on the branch runs back over itself", false);
     return false;
   }
   at = std::move(next->point);
@@ -150,8 +179,7 @@ bool Follower::accept(PathPoint& at, PathPoint next, double length) {
     if (auto orbit = refine(problem_, renewed)) {
       const bool grows = next.watched.turn > 0.0;
       next = point_of(problem_, *orbit, range_, {});
-      if (!grows) next.tangent = -next.tangent;
-      next.watched.turn = grows ? std::abs(next.watched.turn) : -std::abs(next.watched.turn);
+      if ((next.watched.turn > 0.0) != grows) next = point_of(problem_, *orbit, range_, VectorXd(-next.tangent));
     }
   }
   at = std::move(next);
@@ -170,13 +198,13 @@ void Follower::run(PathPoint at) {
       continue;
     }
     int newton = 0;
-    std::optional<PathPoint> next = step_to(problem_, at, step_, range_, &newton);
+    std::string why = "Newton's method does not converge";
+    std::optional<PathPoint> next = step_to(problem_, at, step_, range_, &newton, &why);
     const double bend = next ? at.tangent.dot(next->tangent) : -1.0;
     if (!next || !inside(value(*next)) || (bend < straight && step_ > 1e-4)) {
       step_ *= 0.5;
       if (step_ < options_.shortest_step)
-        return end("Newton's method does not converge behind " + problem_.family().names[0] + " = " + shown(value(at)),
-                   true);
+        return end("behind " + problem_.family().names[0] + " = " + shown(value(at)) + ": " + why, true);
       continue;
     }
     const double taken = step_;
@@ -191,7 +219,7 @@ void Follower::run(PathPoint at) {
                       (at.orbit.x[0] - first.x[0]).norm() < 1e-3 * taken * first.x[0].norm();
     if (back) return end("closed", false);
   }
-  if (!ended_) end("points", true);
+  if (!ended_) end(std::to_string(options_.most_points) + " points each way, the most allowed", true);
 }
 
 /// One branch from the two directions in which it was followed from its first point.

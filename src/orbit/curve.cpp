@@ -46,13 +46,14 @@ class CurveFollower {
   [[nodiscard]] std::vector<double> ahead(const Place& here, double step) const;
   [[nodiscard]] bool at_the_rim(const Place& here) const;
   [[nodiscard]] CurvePoint point_of_curve(const Place& here) const;
-  [[nodiscard]] bool is_own(std::size_t test) const;
+  void note_own(const Watched& at);
   [[nodiscard]] std::optional<Place> next_place(const Place& here, double step) const;
   [[nodiscard]] MatrixXd surface(const Linearised& at, const VectorXd& units) const;
 
   const Problem& problem_;
   const SpecialPoint& point_;
   const CurveOptions& options_;
+  std::vector<bool> own_;
 };
 
 bool CurveFollower::inside(const std::vector<double>& values) const {
@@ -132,9 +133,16 @@ std::optional<Orbit> CurveFollower::corrected(const Place& from, double step) co
   return moved(from, step, b);
 }
 
-/// Is this margin the one that is zero all along?
-bool CurveFollower::is_own(std::size_t test) const {
-  return static_cast<int>(point_.type) >= static_cast<int>(SpecialType::GR) && test == point_.test;
+/// The margins that are zero all along: the point's own, and those that say the same in other words.
+void CurveFollower::note_own(const Watched& at) {
+  constexpr double zero = 1e-6;
+  own_.assign(at.tests.size(), false);
+  for (std::size_t i = 0; i < at.tests.size(); ++i) {
+    double largest = 0.0;
+    for (const TestValue& other : at.tests)
+      if (other.test == at.tests[i].test && std::isfinite(other.value)) largest = std::max(largest, std::abs(other.value));
+    own_[i] = std::abs(at.tests[i].value) <= zero * largest;
+  }
 }
 
 /// On a curve of GR, SL, CH or CO the simulator cannot decide; whether the orbit is a motion but for that is seen from its other margins.
@@ -142,7 +150,7 @@ CurvePoint CurveFollower::point_of_curve(const Place& here) const {
   CurvePoint point{here.orbit.values, describe(problem_, here.orbit, nullptr)};
   point.solution.is_motion = true;
   for (std::size_t i = 0; i < here.watched.tests.size() && point.solution.is_motion; ++i) {
-    if (is_own(i) || here.watched.tests[i].value >= 0.0) continue;
+    if (own_[i] || here.watched.tests[i].value >= 0.0) continue;
     point.solution.is_motion = false;
     point.solution.why = describe(here.watched.tests[i], here.orbit.shape, problem_.base());
   }
@@ -167,7 +175,7 @@ void CurveFollower::note(const Place& before, const Place& now, Curve& curve) co
       add("the curve turns back in " + problem_.family().names[static_cast<std::size_t>(j)]);
   }
   for (std::size_t i = 0; i < before.watched.tests.size(); ++i) {
-    if (!is_own(i) && before.watched.tests[i].value > 0.0 && now.watched.tests[i].value < 0.0)
+    if (!own_[i] && before.watched.tests[i].value > 0.0 && now.watched.tests[i].value < 0.0)
       add("the events change: " + describe(now.watched.tests[i], now.orbit.shape, problem_.base()));
   }
 }
@@ -204,6 +212,7 @@ Curve CurveFollower::run(Orbit orbit, double sign) {
   curve.ended = "points";
   Place here = place(std::move(orbit), nullptr);
   if (here.along[problem_.parameter_column(here.orbit.legs(), 1)] * sign < 0.0) here.along = -here.along;
+  note_own(here.watched);
   double step = 0.25 * options_.longest_step;
   curve.points.push_back(point_of_curve(here));
   while (static_cast<int>(curve.points.size()) < options_.most_points && !stopped(options_.stop)) {

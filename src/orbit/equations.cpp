@@ -181,7 +181,6 @@ NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condi
         result.last_step = std::max(
             result.last_step,
             problem.translations().numbers(defect).cwiseQuotient(scale.head(problem.numbers())).cwiseAbs().maxCoeff());
-      if (result.steps == 1) result.first_step = result.last_step;
       const double fraction = std::min(1.0, longest_step / step.cwiseAbs().maxCoeff());
       const VectorXd change = fraction * step.cwiseProduct(scale);
       moved += change;
@@ -194,8 +193,10 @@ NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condi
       }
       before = result.last_step;
     }
-  } catch (const InputError&) {  // no such model
-  } catch (const NumericalError&) {
+  } catch (const InputError& error) {
+    result.refusal = error.what();
+  } catch (const NumericalError& error) {
+    result.refusal = error.what();
   }
   return result;
 }

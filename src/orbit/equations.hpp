@@ -67,7 +67,7 @@ struct NewtonResult {
   bool converged = false;
   int steps = 0;
   double last_step = 0.0;  ///< relative to `sizes`
-  double first_step = 0.0;
+  std::string refusal;     ///< why there is no model where a step led, if that is it
 };
 
 /// Newton's method with as many conditions as there are parameters: all of them fixed, or all but one and an arclength.

@@ -96,15 +96,21 @@ void take_minimum(const Course& course, const mode::Guard& guard, std::size_t i,
 }
 
 Least least_value(const Course& course, const mode::Guard& guard, bool with_start, bool with_end) {
+  constexpr double clear = 1e-9;  // of the guard's size in the leg: what is nearer to a zero at the start is its rounding
   const mode::Matrix& A = course.mode.outline.system;
   const std::size_t last = course.states.size() - 1;
+  std::vector<double> values;
+  for (const VectorXd& X : course.states) values.push_back(guard.row.dot(X));
+  double size = 0.0, highest = 0.0;
+  for (const double value : values) size = std::max(size, std::abs(value));
   Least least;
-  if (with_start) least.take(guard.row.dot(course.states.front()), 0.0);
-  if (with_end) least.take(guard.row.dot(course.states.back()), static_cast<double>(last) * course.step);
+  if (with_start) least.take(values.front(), 0.0);
+  if (with_end) least.take(values.back(), static_cast<double>(last) * course.step);
   double slope = guard.row * (A * course.states[0]);
   for (std::size_t i = 0; i < last; ++i) {
     const double next = guard.row * (A * course.states[i + 1]);
-    if (slope < 0.0 && next >= 0.0) take_minimum(course, guard, i, least);
+    highest = std::max(highest, values[i]);
+    if (slope < 0.0 && next >= 0.0 && (with_start || highest > clear * size)) take_minimum(course, guard, i, least);
     slope = next;
   }
   return least;

@@ -93,7 +93,7 @@ PathPoint point_of(const Problem& problem, Orbit orbit, double range, const Vect
 }
 
 std::optional<PathPoint> step_to(const Problem& problem, const PathPoint& from, double length, double range,
-                                 int* steps) {
+                                 int* steps, std::string* why) {
   try {
     Orbit orbit = from.orbit;
     const ModeSet set(problem.family(), orbit.values);
@@ -104,10 +104,13 @@ std::optional<PathPoint> step_to(const Problem& problem, const PathPoint& from, 
     conditions[0].row = from.tangent.cwiseQuotient(from.units).transpose();
     const NewtonResult result = solve(problem, orbit, conditions, 8);
     if (steps != nullptr) *steps = result.steps;
+    if (why != nullptr && !result.refusal.empty()) *why = result.refusal;
     if (!result.converged) return std::nullopt;
     return point_of(problem, std::move(orbit), range, from.tangent);
-  } catch (const InputError&) {  // no model there
-  } catch (const NumericalError&) {
+  } catch (const InputError& error) {
+    if (why != nullptr) *why = error.what();
+  } catch (const NumericalError& error) {
+    if (why != nullptr) *why = error.what();
   }
   return std::nullopt;
 }

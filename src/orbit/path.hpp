@@ -32,9 +32,10 @@ struct PathPoint {
 /// @param forward  a direction it shall not turn against, in the unknowns divided by `units`; empty: the parameter grows
 [[nodiscard]] PathPoint point_of(const Problem& problem, Orbit orbit, double range, const Eigen::VectorXd& forward);
 
-/// The point at an arclength from another; empty if Newton's method does not get there. `steps`: Newton's.
+/// The point at an arclength from another; empty if Newton's method does not get there. `steps`: Newton's; `why`: set where the model is refused.
 [[nodiscard]] std::optional<PathPoint> step_to(const Problem& problem, const PathPoint& from, double length,
-                                               double range, int* steps = nullptr);
+                                               double range, int* steps = nullptr,
+                                               std::string* why = nullptr);
 
 /// The zero of a function of the points between `from` and the point at `length`, where it has the other sign.
 struct Located {

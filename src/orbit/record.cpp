@@ -229,6 +229,7 @@ class Check {
   bool run(std::size_t first, std::size_t next);
 
  private:
+  [[nodiscard]] bool to_chatter(Motion& motion, Seen seen) const;
   bool refuse(const std::string& why) {
     result_.why = why;
     return false;
@@ -238,6 +239,18 @@ class Check {
   const Orbit& orbit_;
   Verification& result_;
 };
+
+/// Runs on to the limit of the burst that an event is part of.
+bool Check::to_chatter(Motion& motion, Seen seen) const {
+  constexpr int most = 1000;
+  bool touched = false;
+  for (int k = 0; k < most && seen.leg.ending != Ending::chatter; ++k) {
+    auto next = next_event(motion, 0, motion.time().plus(1.0), touched, nullptr);
+    if (!next) return false;
+    seen = std::move(*next);
+  }
+  return seen.leg.ending == Ending::chatter;
+}
 
 bool Check::run(std::size_t first, std::size_t next) {
   const double t_middle = orbit_.t[first] + 0.5 * orbit_.duration(first), whole = std::floor(t_middle);
@@ -257,9 +270,10 @@ bool Check::run(std::size_t first, std::size_t next) {
       const bool burst = in_burst(orbit_, leg) && seen &&
                          (seen->leg.ending == Ending::chatter || seen->leg.kind == mode::GuardKind::gap ||
                           seen->leg.kind == mode::GuardKind::slip);
-      if (!burst) return refuse(mismatch(system_, leg, seen ? &seen->leg : nullptr, wanted));
+      if (!burst || !to_chatter(motion, *seen)) return refuse(mismatch(system_, leg, seen ? &seen->leg : nullptr, wanted));
       result_.same_chatter = false;
-      return true;
+      while (orbit_.shape.legs[i % orbit_.legs()].ending != Ending::chatter) ++i;
+      continue;
     }
     if (std::abs(seen->t - due) > same_instant * std::max(1.0, cycle))
       return refuse(mismatch(system_, leg, &seen->leg, wanted) + ", at another instant");

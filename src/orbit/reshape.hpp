@@ -10,7 +10,8 @@ struct Reshaped {
 };
 
 /// @param change  where the events change; the old branch is followed along its tangent
-/// @returns empty if no orbit with the events of the motion beyond is found near
-[[nodiscard]] std::optional<Reshaped> reshape(const Problem& problem, const PathPoint& change, double range);
+/// @param test    the margin that is used up there
+/// @returns empty if no orbit with the events of the motion beyond is found whose branch, followed back, comes to the change
+[[nodiscard]] std::optional<Reshaped> reshape(const Problem& problem, const PathPoint& change, const TestValue& test, double range);
 
 }  // namespace slapstick::orbit

@@ -1,4 +1,6 @@
+#include <array>
 #include <cmath>
+#include <functional>
 
 #include "orbit/path.hpp"
 #include "orbit/special.hpp"
@@ -12,13 +14,34 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double h = 1e-4;  ///< of the differences of a point's defining function, in units of arclength
+/// Steps of the differences of a point's defining function, in units of arclength; the two that agree best are believed if they agree at all.
+constexpr std::array<double, 6> steps = {1e-3, 2e-4, 4e-5, 8e-6, 1.6e-6, 3.2e-7};
+constexpr double agreement = 1e-3;
+
+/// The ratio of two differences that changes least from step to step; not a number if it never settles.
+double best_ratio(const std::function<double(double)>& ratio) {
+  double best = std::nan(""), least = agreement, before = std::nan("");
+  for (const double h : steps) {
+    double now = std::nan("");
+    try {
+      now = ratio(h);
+    } catch (const NumericalError&) {  // too far
+    }
+    const double change = std::abs(now - before) / std::max(std::abs(now), 1e-6);
+    if (change < least) {
+      least = change;
+      best = now;
+    }
+    before = now;
+  }
+  return best;
+}
 
 }  // namespace
 
 /// On the solutions v(s, q) of the equations, s arclength and q another parameter, f(v) = 0 keeps the point what it is:
 /// ds/dq = -(df/dq) / (df/ds), and d value / dq = dp/dq + dp/ds ds/dq. The directions are exact, the derivatives of f central differences
-/// of points that solve the equations, extrapolated.
+/// of points that solve the equations.
 std::vector<double> sensitivity(const Family& full, const std::vector<double>& values, const SpecialPoint& point) {
   const Problem problem(full, values);
   Orbit orbit = point.solution.orbit;
@@ -48,16 +71,14 @@ std::vector<double> sensitivity(const Family& full, const std::vector<double>& v
       throw NumericalError("sensitivity: no orbit beside the special point");
     return defining(point, point_of(problem, moved, range, at.tangent).watched);
   };
-  const auto rate = [&](const VectorXd& direction) {
-    const auto difference = [&](double d) { return (value_at(direction, d) - value_at(direction, -d)) / (2.0 * d); };
-    return (4.0 * difference(0.5 * h) - difference(h)) / 3.0;
+  const auto rate = [&](const VectorXd& direction, double h) {
+    return (value_at(direction, h) - value_at(direction, -h)) / (2.0 * h);
   };
-  const double by_length = rate(at.tangent);
   std::vector<double> result;
   const Index place = problem.parameter_column(legs, 0);
   for (Index j = 1; j < problem.parameters(); ++j) {
     const VectorXd direction = along(j);
-    const double ds = -rate(direction) / by_length;
+    const double ds = best_ratio([&](double h) { return -rate(direction, h) / rate(at.tangent, h); });
     const double moved = (direction[place] + at.tangent[place] * ds) * at.units[place];
     result.push_back(moved / at.units[problem.parameter_column(legs, j)]);
   }

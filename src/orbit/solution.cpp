@@ -71,7 +71,8 @@ std::vector<std::complex<double>> multipliers(const Problem& problem, const Mode
   std::vector<Index> free;
   for (Index i = 0; i < map.rows(); ++i)
     if ((map.row(i).array() != 0.0).any()) free.push_back(i);
-  auto all = attractor::multipliers_of(map(free, free));
+  std::vector<std::complex<double>> all;
+  if (!free.empty()) all = attractor::multipliers_of(map(free, free));
   if (orbit.shape.n == 0) drop_own_direction(all);
   all.resize(all.size() + static_cast<std::size_t>(map.rows()) - free.size(), 0.0);
   return all;

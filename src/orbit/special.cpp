@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "orbit/record.hpp"
+
 namespace slapstick::orbit {
 namespace {
 
@@ -76,14 +78,13 @@ std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const Pa
 }
 
 SpecialType type_of(const TestValue& test, const Itinerary& shape) {
-  const bool stop = test.kind == mode::GuardKind::gap || test.kind == mode::GuardKind::press;
   if (test.test == Test::duration) {
     const auto& states = shape.legs[test.leg].states.frictions;
     const bool sticks = std::ranges::find(states, mode::FrictionState::stick) != states.end();
     return sticks ? SpecialType::SL : SpecialType::CO;
   }
   if (test.test == Test::no_stick || mode::of_friction(test.kind)) return SpecialType::SL;
-  return stop ? SpecialType::GR : SpecialType::GR;
+  return SpecialType::GR;
 }
 
 std::string describe(const TestValue& test, const Itinerary& shape, const System& system) {
@@ -95,7 +96,7 @@ std::string describe(const TestValue& test, const Itinerary& shape, const System
       return "leg " + std::to_string(test.leg + 1) + " (" +
              system.mode_name(system.mode_id(shape.legs[test.leg].states)) + ") shrinks to nothing";
     case Test::no_stick:
-      return "the holding force of " + stick_of(system, test.contact) + " comes to static friction" + after;
+      return "the holding force of " + stick_of(system, test.contact) + " comes to static friction" + after + " (crossing-sliding)";
     case Test::speed:
       return test.kind == mode::GuardKind::gap ? "the speed of the impact" + after + " goes to zero"
                                                : "the rate of the guard" + after + " goes to zero";
@@ -106,10 +107,11 @@ std::string describe(const TestValue& test, const Itinerary& shape, const System
     case mode::GuardKind::gap:
       return "the gap of " + system.contact_name(test.contact) + " touches zero" + leg;
     case mode::GuardKind::slip:
-      return "the velocity of " + stick_of(system, test.contact) + " touches zero" + leg;
+      return "the velocity of " + stick_of(system, test.contact) + " touches zero" + leg + " (grazing-sliding)";
     case mode::GuardKind::stick_above:
     case mode::GuardKind::stick_below:
-      return "the holding force of " + stick_of(system, test.contact) + " touches static friction" + leg;
+      return "the holding force of " + stick_of(system, test.contact) + " touches static friction" + leg +
+             (test.at == 0.0 ? " (switching-sliding)" : " (adding-sliding)");
     case mode::GuardKind::press:
       return "the force of " + system.contact_name(test.contact) + " touches zero" + leg;
     default:
@@ -117,29 +119,50 @@ std::string describe(const TestValue& test, const Itinerary& shape, const System
   }
 }
 
+namespace {
+
+bool is_motion(const Problem& problem, const Orbit& orbit) {
+  return verify(System(problem.family().model(orbit.values)), orbit).is_motion;
+}
+
+/// Does the simulator agree that the orbit is a motion before a place of the branch, and none behind it?
+bool changes_there(const Problem& problem, const PathPoint& from, double length, double place, double range) {
+  // Near a graze an impact's depth is the square of its speed: closer than this the simulator could not tell.
+  const double beside = std::max(1e-3 * length, 1e-6);
+  const std::optional<PathPoint> before = step_to(problem, from, std::max(0.5 * place, place - beside), range), behind = step_to(problem, from, place + beside, range);
+  return (!before || is_motion(problem, before->orbit)) && (!behind || !is_motion(problem, behind->orbit));
+}
+
+}  // namespace
+
 std::optional<Change> find_change(const Problem& problem, const PathPoint& from, const PathPoint& to, double length,
                                   double range) {
-  std::optional<Change> first;
-  double nearest_length = INFINITY;
+  std::vector<std::pair<std::size_t, Located>> candidates;
   for (std::size_t i = 0; i < from.watched.tests.size(); ++i) {
     const double before = from.watched.tests[i].value, behind = to.watched.tests[i].value;
     if (!(before > 0.0) || !(behind < 0.0)) continue;
     const auto value = [i](const Watched& watched) { return watched.tests[i].value; };
-    std::optional<Located> located = locate(problem, from, length, range, value, behind);
-    if (!located || located->length >= nearest_length) continue;
-    nearest_length = located->length;
-    Change change;
-    change.test = from.watched.tests[i];
-    change.special.test = i;
-    change.special.type = type_of(change.test, from.orbit.shape);
-    change.special.value = located->point.orbit.values[0];
-    change.special.error = located->error;
-    change.special.what = describe(change.test, from.orbit.shape, problem.base());
-    change.special.solution = describe(problem, located->point.orbit, nullptr);
-    change.at = std::move(located->point);
-    first = std::move(change);
+    if (auto located = locate(problem, from, length, range, value, behind)) candidates.emplace_back(i, std::move(*located));
   }
-  return first;
+  // Of margins that are used up together the speed of an event says most.
+  std::ranges::sort(candidates, {}, [&](const auto& candidate) {
+    const bool speed = from.watched.tests[candidate.first].test == Test::speed;
+    return std::pair(std::floor(candidate.second.length / (1e-6 * length)), speed ? 0 : 1);
+  });
+  for (auto& [test, located] : candidates) {
+    if (!changes_there(problem, from, length, located.length, range)) continue;
+    Change change;
+    change.test = located.point.watched.tests[test];
+    change.special.test = test;
+    change.special.type = type_of(change.test, from.orbit.shape);
+    change.special.value = located.point.orbit.values[0];
+    change.special.error = located.error;
+    change.special.what = describe(change.test, from.orbit.shape, problem.base());
+    change.special.solution = describe(problem, located.point.orbit, nullptr);
+    change.at = std::move(located.point);
+    return change;
+  }
+  return std::nullopt;
 }
 
 double defining(const SpecialPoint& point, const Watched& watched) {

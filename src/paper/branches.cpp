@@ -96,11 +96,45 @@ std::string label_of(int n) { return std::to_string(n) + "-1-"; }
 
 }  // namespace
 
+namespace {
+
+/// The branch that is born where the window of n-1 motion ends in a period doubling, and the one that is born where that doubles, ..
+std::vector<NBranch> make_doubled(const Study& study, const NBranch& of) {
+  constexpr int generations = 3;
+  constexpr double reach = 0.15;
+  std::vector<NBranch> result;
+  const auto bounds = bounds_of(of.branch, label_of(of.n));
+  if (bounds.size() < 2 || bounds[1].type != orbit::SpecialType::PD) return result;
+  orbit::SpecialPoint pd = bounds[1];
+  for (int generation = 0; generation < generations; ++generation) {
+    const auto problem = orbit::pose(family(study, {"omega"}), {pd.value});
+    const auto start = orbit::doubled(*problem, pd);
+    if (!start) break;
+    orbit::ContinuationOptions options{.from = pd.value - reach, .to = pd.value + reach};
+    options.step = 1e-3;
+    options.stop = study.options().cancel;
+    NBranch next{2 * pd.solution.orbit.shape.n, orbit::follow(*problem, *start, options), {}};
+    const auto again = std::ranges::find_if(next.branch.special, [&](const orbit::SpecialPoint& point) {
+      return point.type == orbit::SpecialType::PD && !point.birth;
+    });
+    result.push_back(next);
+    if (again == next.branch.special.end()) break;
+    pd = *again;
+  }
+  return result;
+}
+
+}  // namespace
+
 Branches make_branches(const Study& study) {
   Branches result;
   result.all.resize(std::size(reaches));
   study.each(static_cast<int>(std::size(reaches)),
              [&](int i) { result.all[static_cast<std::size_t>(i)] = make_branch(study, reaches[i]); });
+  std::vector<std::vector<NBranch>> doubled(3);
+  study.each(3, [&](int i) { doubled[static_cast<std::size_t>(i)] = make_doubled(study, result.all[static_cast<std::size_t>(i)]); });
+  for (auto& family_of_one : doubled)
+    for (NBranch& branch : family_of_one) result.doubled.push_back(std::move(branch));
   std::vector<std::pair<const NBranch*, orbit::SpecialPoint>> bounds;
   for (std::size_t i = 0; i < 2; ++i)
     for (const orbit::SpecialPoint& point : bounds_of(result.all[i].branch, label_of(result.all[i].n)))
@@ -113,32 +147,35 @@ Branches make_branches(const Study& study) {
   return result;
 }
 
+namespace {
+
+void add_quantities(Claim& claim, const std::string& of, const orbit::Branch& branch) {
+  for (const orbit::SpecialPoint& point : branch.special) {
+    std::string note = point.what;
+    if (point.type == orbit::SpecialType::NS) note += ", rotation " + fixed(point.rotation, 6);
+    if (!point.outcome.empty()) note += "; " + point.outcome;
+    claim.quantities.push_back({of + ": " + std::string(name(point.type)) + " of " + point.solution.label, "", fixed(point.value, 9), point.value, note});
+  }
+}
+
+}  // namespace
+
 Claim claim_branches(const Branches& branches) {
-  Claim claim{
-      "branches", "The paper shows attractors only, and names few bifurcations.", "", Agreement::not_claimed, "", {}};
+  Claim claim{"branches", "The paper shows attractors only, and names few bifurcations.", "", Agreement::not_claimed, "", {}};
   std::string windows;
   for (const NBranch& of : branches.all) {
-    const std::string label = label_of(of.n);
-    const auto bounds = bounds_of(of.branch, label);
+    const std::string label = std::to_string(of.n) + "-1";
+    const auto bounds = bounds_of(of.branch, label_of(of.n));
     if (bounds.size() == 2)
-      windows += (windows.empty() ? "" : "; ") + label.substr(0, label.size() - 1) + " from " +
-                 std::string(name(bounds[0].type)) + " " + fixed(bounds[0].value, 6) + " to " +
+      windows += (windows.empty() ? "" : "; ") + label + " from " + std::string(name(bounds[0].type)) + " " + fixed(bounds[0].value, 6) + " to " +
                  std::string(name(bounds[1].type)) + " " + fixed(bounds[1].value, 6);
-    for (const orbit::SpecialPoint& point : of.branch.special) {
-      std::string note = point.what;
-      if (point.type == orbit::SpecialType::NS) note += ", rotation " + fixed(point.rotation, 6);
-      if (!point.outcome.empty()) note += "; " + point.outcome;
-      claim.quantities.push_back(
-          {"branch of " + label + ": " + std::string(name(point.type)) + " of " + point.solution.label, "",
-           fixed(point.value, 9), point.value, note});
-    }
+    add_quantities(claim, "branch of " + label, of.branch);
   }
+  for (const NBranch& of : branches.doubled) add_quantities(claim, "doubled branch of " + std::to_string(of.n) + " periods", of.branch);
   claim.computed = "Windows of stable n-1 motion: " + windows + ".";
   claim.explanation =
-      "Branches of n-1 orbits, followed by continuation through stable and unstable orbits. LP fold, PD period "
-      "doubling, NS Neimark-Sacker, "
-      "GR grazing: the next impact appears, SL a stick phase or a reversal appears. Every point was run by the "
-      "simulator.";
+      "Branches of n-1 orbits, followed by continuation through stable and unstable orbits, and those born at the doublings that end the windows of n = 1, 2, 3. LP "
+      "fold, PD period doubling, NS Neimark-Sacker, GR grazing: the next impact appears, SL a stick phase or a reversal appears. Every point was run by the simulator.";
   return claim;
 }
 

@@ -21,6 +21,7 @@ struct BoundCurve {
 
 struct Branches {
   std::vector<NBranch> all;  ///< n = 1 to 5
+  std::vector<NBranch> doubled;  ///< of the doublings that end the windows of n = 1 to 3, and of their doublings
   std::vector<BoundCurve> bounds;
 };
 

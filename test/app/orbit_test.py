@@ -58,7 +58,7 @@ def test_a_curve_starts_at_its_point_and_ends_at_its_range():
 
 
 def test_what_cannot_be_is_refused_by_name():
-    says(refused(2, 'orbit', *PAPER, '--orbit', '1:1'), '--orbit', 'N-P')
+    says(refused(2, 'orbit', *PAPER, '--orbit', '1:1'), '--orbit', '1:1')
     says(refused(2, 'orbit', *PAPER, '--orbit', '0-1'), '--orbit')
     says(refused(2, 'orbit', 'belt', '--orbit', '1-1'), '--orbit', 'no forcing')
     says(refused(2, 'continue', *PAPER, '--param', 'omgea', '--range', '2:3'), 'omgea')

@@ -2,7 +2,7 @@
 /// Branches of periodic orbits: pseudo-arclength continuation in one parameter, with every point at which something changes.
 ///
 /// An orbit is followed with its sequence of events fixed. Between two points of the branch each of these is watched for a change of sign, and the
-/// change is refined on the branch until the parameter is known to `parameter_tolerance`:
+/// change is refined on the branch until the parameter no longer changes (1e-13 of the range; a BP, where the equations are singular, to some 1e-5):
 ///
 ///   LP  fold: the branch turns back in the parameter            PD  a multiplier -1: period doubling
 ///   NS  a pair of multipliers e^{+-2 pi i rho}                   BP  a multiplier +1 that is no fold: branches cross, a symmetry breaks
@@ -10,7 +10,8 @@
 ///   CH  a complete chatter begins or ends                       CO  two events meet
 ///
 /// The last four change the sequence. There the sequence is built anew from what the motion does beyond, and the branch goes on: in the same
-/// direction (*persistence*), or back (*non-smooth fold*), or ends where no orbit is born (*jump*). Every point is checked by the certified
+/// direction (*persistence*), or back (*non-smooth fold*), or ends: no orbit of the new sequence was found whose branch comes from there
+/// (*none found*), as at a jump. Every point is checked by the certified
 /// simulator; one that is no motion has `is_motion` false, and says why.
 ///
 /// Source: Doedel, Keller and Kernevez (1991), Govaerts (2000) for the test functions; di Bernardo et al. (2008) for GR and SL.
@@ -31,8 +32,9 @@ struct SpecialPoint {
   double error = 0.0;  ///< of it: the last change of the refinement
   Solution solution;
   std::string what;       ///< "the gap of stop touches zero in leg 2", "stick of block is lost"
-  std::string outcome;    ///< of a change of events: "persistence", "non-smooth fold", "jump"
+  std::string outcome;    ///< of a change of events: "persistence", "non-smooth fold", "none found", ..
   double rotation = 0.0;  ///< NS: rho in (0, 1/2)
+  bool birth = false;      ///< PD: seen from the doubled orbit, whose branch begins there
   std::size_t after = 0;  ///< it lies behind this point of the branch
   std::size_t test = 0;   ///< GR, SL, CH, CO: which of the orbit's margins is zero (src/orbit/margins.hpp)
 };
@@ -59,7 +61,7 @@ struct ContinuationOptions {
 /// @throws InputError if `start` is outside the range
 [[nodiscard]] Branch follow(const Problem& problem, const Orbit& start, const ContinuationOptions& options);
 
-/// The cycle of twice the length that is born at a PD, as an approximate orbit to follow from; and the other branch at a BP.
+/// The cycle of twice the length that is born at a PD, to follow from. Empty at the birth of a doubled branch, or if none is found.
 [[nodiscard]] std::optional<Orbit> doubled(const Problem& problem, const SpecialPoint& pd);
 
 struct CurvePoint {

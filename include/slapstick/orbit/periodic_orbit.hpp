@@ -38,7 +38,7 @@ struct Solution {
   /// Of the return map at fixed time, largest modulus first; those of directions that stick or a closed stop annihilates are exactly zero. The
   /// multiplier 1 of each rigid translation, and without forcing the one of the motion along itself, are left out.
   std::vector<std::complex<double>> multipliers;
-  std::string label;     ///< "1-1-II"; without forcing "p = 1, II"
+  std::string label;     ///< "1-1-II"; without forcing "free-1-II"
   long impacts = 0;      ///< per cycle; meaningless with complete chatter
   bool chatter = false;  ///< complete
   bool sticking = false;

@@ -7,6 +7,7 @@
 
 #include "attractor/jacobians.hpp"
 #include "attractor/paper_system.hpp"
+#include "property/machine.hpp"
 
 namespace slapstick {
 namespace {
@@ -119,66 +120,23 @@ TEST(tangent, through_stick_on_a_moving_belt_matches_finite_differences) {
   }
 }
 
-/// Chains of one to three bodies with a stop, a friction contact or both, half of them on belts.
-class RandomSystem {
- public:
-  explicit RandomSystem(std::uint64_t seed) : random_(seed) {}
-
-  Model model() {
-    Model m;
-    const int n = integer(1, 3);
-    for (int i = 0; i < n; ++i) {
-      m.coordinates.push_back({"x" + std::to_string(i + 1), uniform(0.3, 3)});
-      m.springs.push_back({i, i == 0 ? ground : i - 1, uniform(0.5, 3)});
-      m.dampers.push_back({i, i == 0 ? ground : i - 1, uniform(0, 0.5)});
-    }
-    m.omega = uniform(0.5, 3);
-    m.forces = {{integer(0, n - 1), 1, uniform(0.5, 2), uniform(0, 6)}};
-    const int with = integer(0, 3);  // 0: friction only, 1: stop only, 2: both on one pair
-    constexpr double restitutions[] = {0.0, 0.3, 0.8, 1.0};
-    const auto [a, b] = pair(n);
-    if (with != 0) m.stops = {{"stop", a, b, uniform(-0.2, 0.4), restitutions[integer(0, 3)]}};
-    if (with == 1) return m;
-    const auto [c, d] = with == 2 ? std::pair{b, a} : pair(n);
-    const double f_s = uniform(0.1, 0.8);
-    m.frictions = {{"friction", c, d, integer(0, 1) == 0 ? uniform(-0.4, 0.4) : 0.0, f_s, f_s * uniform(0.3, 1)}};
-    return m;
-  }
-
-  State state(const Model& m) {
-    for (;;) {
-      State s;
-      for (int i = 0; i < m.size(); ++i) s.push_back(uniform(-0.6, 0.6)), s.push_back(uniform(-1, 1));
-      const auto at = [&](int i) { return i == ground ? 0.0 : s[2 * i]; };
-      if (m.stops.empty() || m.stops[0].clearance - at(m.stops[0].a) + at(m.stops[0].b) > 1e-2) return s;
-    }
-  }
-
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-
- private:
-  int integer(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
-
-  std::pair<int, int> pair(int n) {
-    int a = integer(0, n - 1), b = integer(-1, n - 1);
-    if (a == b) b = ground;
-    if (integer(0, 1) == 0) std::swap(a, b);
-    return {a, b};
-  }
-
-  std::mt19937_64 random_;
-};
-
 TEST(tangent, of_random_systems_matches_finite_differences) {
+  const test::Shape shape{.most_coordinates = 3,
+                          .most_stops = 1,
+                          .most_frictions = 1,
+                          .most_compliant = 0,
+                          .most_restitution = 1.0,
+                          .least_gap = 1e-2,
+                          .at_rest = false};
   int compared = 0, on_a_belt = 0;
-  for (std::uint64_t k = 0; k < 300; ++k) {
-    RandomSystem random(k);
-    const System system(random.model());
-    const State start = random.state(system.model());
-    const Instant end = Instant{}.plus(random.uniform(0.3, 2.5));
+  for (std::uint64_t k = 0; k < 400; ++k) {
+    const test::Machine machine = test::random_machine(k, shape);
+    const System system(machine.model);
+    std::mt19937_64 random(k);
+    const Instant end = Instant{}.plus(std::uniform_real_distribution<double>(0.3, 2.5)(random));
     constexpr double h = 2e-5;
-    if (!same_events(system, start, end, h)) continue;
-    test::expect_equal_jacobians(system, start, end, h, "case " + std::to_string(k));
+    if (!same_events(system, machine.start, end, h)) continue;
+    test::expect_equal_jacobians(system, machine.start, end, h, "case " + std::to_string(k));
     ++compared;
     const auto& frictions = system.model().frictions;
     on_a_belt += !frictions.empty() && frictions[0].belt_speed != 0.0 ? 1 : 0;

@@ -6,6 +6,7 @@
 
 #include "flow/runs.hpp"
 #include "oracle/models.hpp"
+#include "slapstick/flow/chatter.hpp"
 
 namespace slapstick {
 namespace {
@@ -151,6 +152,25 @@ TEST(ChatterTail, SeesAStuckBodyElsewhereReleased) {
     m.forces.push_back({1, 1, 1.0, 0.0});
     expect_event_beside_the_chatter(m, {0.0, 1.0, 0.0, 0.0}, "release", 4 - d);
   }
+}
+
+/// A mass pressed onto its stop with R = 1 - x / 10, which may fall by some 0.1 within the chatter: static friction of 0.999 might then hold it off the
+/// stop, a little less might not. At this tolerance the difference is far from rounding.
+TEST(Chatter, IsNotProvenWhereStaticFrictionMightHoldThePairOff) {
+  const auto proven = [](double static_friction) {
+    Model m;
+    m.coordinates = {{"x", 1.0}};
+    m.springs = {{0, ground, 0.1}};
+    m.forces = {{0, 0, 1.0, 0.0}};
+    m.stops = {{"stop", 0, ground, 0.0, 0.3}};
+    m.frictions = {{"friction", 0, ground, 0.0, static_friction, 0.0}};
+    const System system(m);
+    const Motion motion(system, {0.0, -0.1});
+    std::vector<double> scratch(4 * static_cast<std::size_t>(system.frame().size()));
+    return flow::prove_chatter(system, system.mode(motion.mode_id()), 0, motion.extended().data(), 1.0, scratch).proven;
+  };
+  EXPECT_TRUE(proven(0.1));
+  EXPECT_FALSE(proven(0.999));
 }
 
 }  // namespace

@@ -1,10 +1,9 @@
-/// Where a run is cut makes no difference: advance(end) anywhere, also at an event, and on.
+/// Where a run is cut makes no difference: advance(end) at places made to be hard, also at an event, and on. Random ones are in ../property.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "flow/runs.hpp"
 #include "oracle/models.hpp"
@@ -65,16 +64,6 @@ TEST_P(Cut, IntoEqualStepsGivesTheSameEvents) {
     std::vector<Instant> cuts;
     for (int i = 1; i < 6 * steps; ++i) cuts.push_back(Instant{}.plus(static_cast<double>(i) / steps));
     expect_same(system, run_with_cuts(system, start, cuts, end), whole, std::to_string(steps) + " steps");
-  }
-}
-
-TEST_P(Cut, AtRandomGivesTheSameEvents) {
-  std::mt19937_64 random(5);
-  for (int k = 0; k < 30; ++k) {
-    std::vector<Instant> cuts;
-    for (int i = 0; i < 20; ++i) cuts.push_back(Instant{}.plus(std::uniform_real_distribution<double>(0, 6)(random)));
-    std::ranges::sort(cuts);
-    expect_same(system, run_with_cuts(system, start, cuts, end), whole, "cut " + std::to_string(k));
   }
 }
 

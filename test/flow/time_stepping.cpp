@@ -1,7 +1,7 @@
+#include "flow/time_stepping.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "flow/networks.hpp"
 
 namespace slapstick::test {
 
@@ -61,9 +61,10 @@ void TimeStepping::contact_impulses(const VectorXd& middle, const VectorXd& befo
   }
 }
 
-VectorXd TimeStepping::positions(double h, long steps) const {
+VectorXd TimeStepping::positions(const State& start, double h, long steps) const {
   const int n = model_.size();
-  VectorXd q = VectorXd::Zero(n), v = q;
+  VectorXd q(n), v(n);
+  for (int i = 0; i < n; ++i) q[i] = start[2 * i], v[i] = start[2 * i + 1];
   for (long k = 0; k < steps; ++k) {
     const double t = (static_cast<double>(k) + 0.5) * h;
     const VectorXd middle = q + 0.5 * h * v;

@@ -1,9 +1,9 @@
 #include "branch_figure.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "axis_text.hpp"
 
@@ -85,7 +85,8 @@ void add_label(figure::Panel& panel, double x, const std::string& label, const s
   constexpr std::size_t most = 16;
   const auto [least, largest] = std::ranges::minmax_element(all);
   const double width = std::max(*largest - *least, 1e-12);
-  const bool taken = std::ranges::any_of(panel.marks, [&](const figure::Mark& mark) { return std::abs(*mark.x - x) < beside * width; });
+  const bool taken = std::ranges::any_of(
+      panel.marks, [&](const figure::Mark& mark) { return std::abs(*mark.x - x) < beside * width; });
   if (taken || panel.marks.size() >= most)
     panel.marks.push_back({.x = x});
   else
@@ -105,7 +106,8 @@ figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const s
   figure::Points special{.label = "", .colour = figure::colours::vermillion, .diameter_mm = 0.9};
   for (std::size_t b = 0; b < branches.size(); ++b) {
     Lines lines(panel, palette[b % palette.size()]);
-    for (const Solution& point : branches[b].points) lines.add(point.orbit.values[0], heights(problem, point, impacts), point);
+    for (const Solution& point : branches[b].points)
+      lines.add(point.orbit.values[0], heights(problem, point, impacts), point);
     lines.flush();
     for (const orbit::SpecialPoint& point : branches[b].special) {
       const std::vector<double> y = heights(problem, point.solution, impacts);

@@ -15,7 +15,9 @@ std::string row(std::size_t branch, std::size_t point, std::string_view type, do
   std::array<char, 160> text{};
   std::snprintf(text.data(), text.size(), "%3zu %5zu  %-2s  %18.12g  %-10s %12.6g %12.6g  %-8s  ", branch, point,
                 std::string(type).c_str(), value, solution.label.c_str(), solution.cycle, largest,
-                std::abs(largest - 1.0) < 1e-6 ? "" : largest < 1.0 ? "stable" : "unstable");
+                std::abs(largest - 1.0) < 1e-6 ? ""
+                : largest < 1.0                ? "stable"
+                                               : "unstable");
   return text.data() + what + "\n";
 }
 

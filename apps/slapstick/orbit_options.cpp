@@ -73,16 +73,19 @@ double present_value(const ChosenModel& chosen, const std::string& argument, con
   throw InputError(argument + ": model " + in_quotes(chosen.model.name) + " has no parameter " + in_quotes(parameter));
 }
 
-double value_inside(const ChosenModel& chosen, const std::string& argument, const std::string& parameter, const ParameterRange& range) {
+double value_inside(const ChosenModel& chosen, const std::string& argument, const std::string& parameter,
+                    const ParameterRange& range) {
   const double value = present_value(chosen, argument, parameter);
   if (value < range.from || value > range.to)
-    throw InputError("--range: " + parameter + " = " + shown(value) + ", where the first orbit is sought, is outside " + shown(range.from) + ":" +
-                     shown(range.to) + "; give a value inside by --set " + parameter + "=VALUE");
+    throw InputError("--range: " + parameter + " = " + shown(value) + ", where the first orbit is sought, is outside " +
+                     shown(range.from) + ":" + shown(range.to) + "; give a value inside by --set " + parameter +
+                     "=VALUE");
   for (const std::string& member : members(chosen.definition, parameter)) {
     for (const Parameter& own : chosen.definition.parameters()) {
       if (own.name != member) continue;
       for (const double end : {range.from, range.to})
-        if (!own.admits(end)) throw InputError("--range: " + parameter + " = " + shown(end) + " is outside " + own.range());
+        if (!own.admits(end))
+          throw InputError("--range: " + parameter + " = " + shown(end) + " is outside " + own.range());
     }
   }
   return value;
@@ -115,8 +118,9 @@ orbit::Solution find_orbit(const orbit::Problem& problem, const System& system, 
     note(*found);
   }
   if (wanted.n == 0)
-    throw NumericalError("no periodic orbit: the motion does not settle on one within " + std::to_string(options.transient) +
-                         " periods (--transient)" + (system.model().forced() ? "; --orbit N-P searches for unstable ones" : ""));
+    throw NumericalError("no periodic orbit: the motion does not settle on one within " +
+                         std::to_string(options.transient) + " periods (--transient)" +
+                         (system.model().forced() ? "; --orbit N-P searches for unstable ones" : ""));
   orbit::SearchOptions search;
   search.only_n = wanted.n;
   search.starts = static_cast<int>(options.starts);

@@ -37,7 +37,8 @@ struct ParameterRange {
 
 /// The value that a parameter or group has by --set or default. @throws InputError naming the argument if there is none (the nearest is
 /// suggested)
-[[nodiscard]] double present_value(const ChosenModel& chosen, const std::string& argument, const std::string& parameter);
+[[nodiscard]] double present_value(const ChosenModel& chosen, const std::string& argument,
+                                   const std::string& parameter);
 
 /// The same inside a range. @throws InputError if it is outside, or the range is not within the parameter's own
 [[nodiscard]] double value_inside(const ChosenModel& chosen, const std::string& argument, const std::string& parameter,

@@ -87,10 +87,12 @@ Json branch_json(const orbit::Branch& branch, const ChosenModel& chosen, const O
 
 /// What can be known to be wrong before the work.
 void check(const Options& options, const ChosenModel& chosen) {
-  if (!(options.step > 0.0 && options.step <= 0.2)) throw InputError("--step: " + shown(options.step) + " is outside (0, 0.2]");
+  if (!(options.step > 0.0 && options.step <= 0.2))
+    throw InputError("--step: " + shown(options.step) + " is outside (0, 0.2]");
   for (const std::string& name : options.sensitivity) {
     (void)present_value(chosen, "--sensitivity", name);
-    if (name == options.parameter) throw InputError("--sensitivity: " + in_quotes(name) + " is the parameter of --param");
+    if (name == options.parameter)
+      throw InputError("--sensitivity: " + in_quotes(name) + " is the parameter of --param");
   }
 }
 

@@ -81,7 +81,8 @@ Json curve_json(const orbit::Curve& curve, const std::vector<std::string>& names
     for (std::size_t i = 0; i < 2; ++i) item.set(names[i], point.values[i]);
     const Json rest = solution_json(point.solution);
     for (const auto& [key, value] : std::get<Json::Object>(rest.value()))
-      if (key == "class" || key == "period" || key == "multipliers" || key == "is_motion" || key == "why") item.set(key, value);
+      if (key == "class" || key == "period" || key == "multipliers" || key == "is_motion" || key == "why")
+        item.set(key, value);
     points.push(std::move(item));
   }
   for (const orbit::CurveEvent& event : curve.met) {
@@ -116,7 +117,8 @@ int run(const Options& options, const Context& context) {
   const std::vector<std::string> names = two_names(options.parameters);
   const auto ranges = ranges_of(options, names);
   const double second = value_inside(chosen, "--params", names[1], ranges[1]);
-  if (!(options.step > 0.0 && options.step <= 0.2)) throw InputError("--step: " + shown(options.step) + " is outside (0, 0.2]");
+  if (!(options.step > 0.0 && options.step <= 0.2))
+    throw InputError("--step: " + shown(options.step) + " is outside (0, 0.2]");
   orbit::SpecialPoint special = special_point(options, chosen, names, ranges[0], context.stop);
   special.solution.orbit.values = {special.value, second};
   const auto problem = orbit::pose(family_of(chosen, names), special.solution.orbit.values);

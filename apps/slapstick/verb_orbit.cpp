@@ -73,8 +73,10 @@ Action add_orbit(Arguments& arguments) {
     Output out(options->out);
     const ChosenModel chosen = options->model.load();
     const State start = options->model.start(chosen);
-    if (options->all && !options->orbit.orbit.empty()) throw InputError("--all lists every orbit; --orbit has no meaning with it");
-    if (!options->all && (options->most_n > 0 || options->most_p >= 0)) throw InputError("--max-n and --max-p need --all");
+    if (options->all && !options->orbit.orbit.empty())
+      throw InputError("--all lists every orbit; --orbit has no meaning with it");
+    if (!options->all && (options->most_n > 0 || options->most_p >= 0))
+      throw InputError("--max-n and --max-p need --all");
     if (options->all && !chosen.model.forced())
       throw InputError("--all: model '" + chosen.model.name +
                        "' has no forcing, so there are no n-period orbits to search for");

@@ -115,7 +115,9 @@ bool Follower::retraces(const Orbit& orbit) const {
     if (a.legs() != orbit.legs() || b.legs() != orbit.legs() || !(part >= 0.0 && part <= 1.0)) continue;
     if (!(a.shape.legs == orbit.shape.legs) || !(b.shape.legs == orbit.shape.legs)) continue;
     const VectorXd between = (1.0 - part) * a.x[0] + part * b.x[0];
-    if ((between - orbit.x[0]).norm() < same * between.norm() && std::abs((1.0 - part) * a.t[0] + part * b.t[0] - orbit.t[0]) < same) return true;
+    if ((between - orbit.x[0]).norm() < same * between.norm() &&
+        std::abs((1.0 - part) * a.t[0] + part * b.t[0] - orbit.t[0]) < same)
+      return true;
   }
   return false;
 }
@@ -144,13 +146,16 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
   branch_.special.push_back(special);
   if (!next) {
     end(std::string(name(special.type)) + " at " + shown(special.value) +
-            (options_.through_changes ? ": no orbit was found beyond, a jump or a failure of the search" : ": the events change"),
+            (options_.through_changes ? ": no orbit was found beyond, a jump or a failure of the search"
+                                      : ": the events change"),
         options_.through_changes);
     return false;
   }
   if (retraces(next->point.orbit)) {
     branch_.special.back().outcome = "the branch as it came";
-    end(std::string(name(special.type)) + " at " + shown(special.value) + ": from there on the branch runs back over itself", false);
+    end(std::string(name(special.type)) + " at " + shown(special.value) +
+            ": from there on the branch runs back over itself",
+        false);
     return false;
   }
   at = std::move(next->point);

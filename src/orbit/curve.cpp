@@ -140,7 +140,8 @@ void CurveFollower::note_own(const Watched& at) {
   for (std::size_t i = 0; i < at.tests.size(); ++i) {
     double largest = 0.0;
     for (const TestValue& other : at.tests)
-      if (other.test == at.tests[i].test && std::isfinite(other.value)) largest = std::max(largest, std::abs(other.value));
+      if (other.test == at.tests[i].test && std::isfinite(other.value))
+        largest = std::max(largest, std::abs(other.value));
     own_[i] = std::abs(at.tests[i].value) <= zero * largest;
   }
 }

@@ -96,7 +96,8 @@ void take_minimum(const Course& course, const mode::Guard& guard, std::size_t i,
 }
 
 Least least_value(const Course& course, const mode::Guard& guard, bool with_start, bool with_end) {
-  constexpr double clear = 1e-9;  // of the guard's size in the leg: what is nearer to a zero at the start is its rounding
+  constexpr double clear =
+      1e-9;  // of the guard's size in the leg: what is nearer to a zero at the start is its rounding
   const mode::Matrix& A = course.mode.outline.system;
   const std::size_t last = course.states.size() - 1;
   std::vector<double> values;

@@ -92,8 +92,8 @@ PathPoint point_of(const Problem& problem, Orbit orbit, double range, const Vect
   return point;
 }
 
-std::optional<PathPoint> step_to(const Problem& problem, const PathPoint& from, double length, double range,
-                                 int* steps, std::string* why) {
+std::optional<PathPoint> step_to(const Problem& problem, const PathPoint& from, double length, double range, int* steps,
+                                 std::string* why) {
   try {
     Orbit orbit = from.orbit;
     const ModeSet set(problem.family(), orbit.values);

@@ -34,8 +34,7 @@ struct PathPoint {
 
 /// The point at an arclength from another; empty if Newton's method does not get there. `steps`: Newton's; `why`: set where the model is refused.
 [[nodiscard]] std::optional<PathPoint> step_to(const Problem& problem, const PathPoint& from, double length,
-                                               double range, int* steps = nullptr,
-                                               std::string* why = nullptr);
+                                               double range, int* steps = nullptr, std::string* why = nullptr);
 
 /// The zero of a function of the points between `from` and the point at `length`, where it has the other sign.
 struct Located {

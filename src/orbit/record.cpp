@@ -270,7 +270,8 @@ bool Check::run(std::size_t first, std::size_t next) {
       const bool burst = in_burst(orbit_, leg) && seen &&
                          (seen->leg.ending == Ending::chatter || seen->leg.kind == mode::GuardKind::gap ||
                           seen->leg.kind == mode::GuardKind::slip);
-      if (!burst || !to_chatter(motion, *seen)) return refuse(mismatch(system_, leg, seen ? &seen->leg : nullptr, wanted));
+      if (!burst || !to_chatter(motion, *seen))
+        return refuse(mismatch(system_, leg, seen ? &seen->leg : nullptr, wanted));
       result_.same_chatter = false;
       while (orbit_.shape.legs[i % orbit_.legs()].ending != Ending::chatter) ++i;
       continue;

@@ -115,7 +115,9 @@ std::vector<Orbit> without_impact(const ModeSet& set, const Orbit& orbit, const 
     leg.contact = static_cast<int>(i);
     leg.strikes.clear();
     const auto next = reversed.shape.legs[1].states.frictions[i];
-    leg.event = next == mode::FrictionState::slip_plus ? EventKind::slip_plus : next == mode::FrictionState::stick ? EventKind::stick : EventKind::slip_minus;
+    leg.event = next == mode::FrictionState::slip_plus ? EventKind::slip_plus
+                : next == mode::FrictionState::stick   ? EventKind::stick
+                                                       : EventKind::slip_minus;
     leg.event_contact = static_cast<int>(frame.stops.size() + i);
     shapes.push_back(std::move(reversed));
   }
@@ -150,7 +152,8 @@ bool comes_from(const Problem& problem, const PathPoint& next, double critical, 
 }
 
 /// The point of a new orbit, led away from the change; empty if it does not come from there.
-std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, const Orbit& orbit, double length, double range) {
+std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, const Orbit& orbit, double length,
+                             double range) {
   const double critical = change.orbit.values[0], away = orbit.values[0] - critical;
   if (away == 0.0 || std::abs(away) > 10.0 * length * range) return std::nullopt;
   Reshaped next{point_of(problem, orbit, range, {}), away * change.watched.turn < 0.0};

@@ -12,6 +12,7 @@ struct Reshaped {
 /// @param change  where the events change; the old branch is followed along its tangent
 /// @param test    the margin that is used up there
 /// @returns empty if no orbit with the events of the motion beyond is found whose branch, followed back, comes to the change
-[[nodiscard]] std::optional<Reshaped> reshape(const Problem& problem, const PathPoint& change, const TestValue& test, double range);
+[[nodiscard]] std::optional<Reshaped> reshape(const Problem& problem, const PathPoint& change, const TestValue& test,
+                                              double range);
 
 }  // namespace slapstick::orbit

@@ -96,7 +96,8 @@ std::string describe(const TestValue& test, const Itinerary& shape, const System
       return "leg " + std::to_string(test.leg + 1) + " (" +
              system.mode_name(system.mode_id(shape.legs[test.leg].states)) + ") shrinks to nothing";
     case Test::no_stick:
-      return "the holding force of " + stick_of(system, test.contact) + " comes to static friction" + after + " (crossing-sliding)";
+      return "the holding force of " + stick_of(system, test.contact) + " comes to static friction" + after +
+             " (crossing-sliding)";
     case Test::speed:
       return test.kind == mode::GuardKind::gap ? "the speed of the impact" + after + " goes to zero"
                                                : "the rate of the guard" + after + " goes to zero";
@@ -129,7 +130,8 @@ bool is_motion(const Problem& problem, const Orbit& orbit) {
 bool changes_there(const Problem& problem, const PathPoint& from, double length, double place, double range) {
   // Near a graze an impact's depth is the square of its speed: closer than this the simulator could not tell.
   const double beside = std::max(1e-3 * length, 1e-6);
-  const std::optional<PathPoint> before = step_to(problem, from, std::max(0.5 * place, place - beside), range), behind = step_to(problem, from, place + beside, range);
+  const std::optional<PathPoint> before = step_to(problem, from, std::max(0.5 * place, place - beside), range),
+                                 behind = step_to(problem, from, place + beside, range);
   return (!before || is_motion(problem, before->orbit)) && (!behind || !is_motion(problem, behind->orbit));
 }
 
@@ -142,7 +144,8 @@ std::optional<Change> find_change(const Problem& problem, const PathPoint& from,
     const double before = from.watched.tests[i].value, behind = to.watched.tests[i].value;
     if (!(before > 0.0) || !(behind < 0.0)) continue;
     const auto value = [i](const Watched& watched) { return watched.tests[i].value; };
-    if (auto located = locate(problem, from, length, range, value, behind)) candidates.emplace_back(i, std::move(*located));
+    if (auto located = locate(problem, from, length, range, value, behind))
+      candidates.emplace_back(i, std::move(*located));
   }
   // Of margins that are used up together the speed of an event says most.
   std::ranges::sort(candidates, {}, [&](const auto& candidate) {

@@ -49,7 +49,8 @@ std::optional<Orbit> doubled(const Problem& problem, const SpecialPoint& pd) {
   move(problem, at, amplitude * direction.cwiseProduct(units), 0.0, orbit);
   std::vector<Condition> conditions = fixed_parameters(problem, orbit.legs());
   conditions[0].row = direction.cwiseQuotient(units).transpose();
-  if (pd.birth || !solve(problem, orbit, conditions, 12).converged || repeats(orbit, 0.01 * amplitude)) return std::nullopt;
+  if (pd.birth || !solve(problem, orbit, conditions, 12).converged || repeats(orbit, 0.01 * amplitude))
+    return std::nullopt;
   return orbit;
 }
 

@@ -107,7 +107,8 @@ void fig_bounds(Study& study, const Branches& branches) {
                       .dash = b % 2 == 0 ? figure::Dash::dashed : figure::Dash::solid,
                       .width_pt = 1.2};
     for (const orbit::CurvePoint& point : branches.bounds[b].curve.points) {
-      line.x.push_back(point.solution.is_motion ? point.values[0] : std::nan(""));  // a gap where the orbit is no motion
+      line.x.push_back(point.solution.is_motion ? point.values[0]
+                                                : std::nan(""));  // a gap where the orbit is no motion
       line.y.push_back(point.values[1]);
       table.word("\"" + branches.bounds[b].label + "\"").number(point.values[0]).number(point.values[1]).end_row();
     }

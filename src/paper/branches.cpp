@@ -1,8 +1,8 @@
 #include "paper/branches.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <cmath>
+#include <functional>
 
 #include "paper/claims.hpp"
 #include "slapstick/base/error.hpp"
@@ -131,14 +131,18 @@ Branches make_branches(const Study& study) {
   result.all.resize(std::size(reaches));
   study.each(static_cast<int>(std::size(reaches)),
              [&](int i) { result.all[static_cast<std::size_t>(i)] = make_branch(study, reaches[i]); });
+  study.course().next();
   std::vector<std::vector<NBranch>> doubled(3);
-  study.each(3, [&](int i) { doubled[static_cast<std::size_t>(i)] = make_doubled(study, result.all[static_cast<std::size_t>(i)]); });
+  study.each(3, [&](int i) {
+    doubled[static_cast<std::size_t>(i)] = make_doubled(study, result.all[static_cast<std::size_t>(i)]);
+  });
   for (auto& family_of_one : doubled)
     for (NBranch& branch : family_of_one) result.doubled.push_back(std::move(branch));
   std::vector<std::pair<const NBranch*, orbit::SpecialPoint>> bounds;
   for (std::size_t i = 0; i < 2; ++i)
     for (const orbit::SpecialPoint& point : bounds_of(result.all[i].branch, label_of(result.all[i].n)))
       bounds.emplace_back(&result.all[i], point);
+  study.course().next();
   result.bounds.resize(bounds.size());
   study.each(static_cast<int>(bounds.size()), [&](int i) {
     const auto k = static_cast<std::size_t>(i);
@@ -154,28 +158,34 @@ void add_quantities(Claim& claim, const std::string& of, const orbit::Branch& br
     std::string note = point.what;
     if (point.type == orbit::SpecialType::NS) note += ", rotation " + fixed(point.rotation, 6);
     if (!point.outcome.empty()) note += "; " + point.outcome;
-    claim.quantities.push_back({of + ": " + std::string(name(point.type)) + " of " + point.solution.label, "", fixed(point.value, 9), point.value, note});
+    claim.quantities.push_back({of + ": " + std::string(name(point.type)) + " of " + point.solution.label, "",
+                                fixed(point.value, 9), point.value, note});
   }
 }
 
 }  // namespace
 
 Claim claim_branches(const Branches& branches) {
-  Claim claim{"branches", "The paper shows attractors only, and names few bifurcations.", "", Agreement::not_claimed, "", {}};
+  Claim claim{
+      "branches", "The paper shows attractors only, and names few bifurcations.", "", Agreement::not_claimed, "", {}};
   std::string windows;
   for (const NBranch& of : branches.all) {
     const std::string label = std::to_string(of.n) + "-1";
     const auto bounds = bounds_of(of.branch, label_of(of.n));
     if (bounds.size() == 2)
-      windows += (windows.empty() ? "" : "; ") + label + " from " + std::string(name(bounds[0].type)) + " " + fixed(bounds[0].value, 6) + " to " +
-                 std::string(name(bounds[1].type)) + " " + fixed(bounds[1].value, 6);
+      windows += (windows.empty() ? "" : "; ") + label + " from " + std::string(name(bounds[0].type)) + " " +
+                 fixed(bounds[0].value, 6) + " to " + std::string(name(bounds[1].type)) + " " +
+                 fixed(bounds[1].value, 6);
     add_quantities(claim, "branch of " + label, of.branch);
   }
-  for (const NBranch& of : branches.doubled) add_quantities(claim, "doubled branch of " + std::to_string(of.n) + " periods", of.branch);
+  for (const NBranch& of : branches.doubled)
+    add_quantities(claim, "doubled branch of " + std::to_string(of.n) + " periods", of.branch);
   claim.computed = "Windows of stable n-1 motion: " + windows + ".";
   claim.explanation =
-      "Branches of n-1 orbits, followed by continuation through stable and unstable orbits, and those born at the doublings that end the windows of n = 1, 2, 3. LP "
-      "fold, PD period doubling, NS Neimark-Sacker, GR grazing: the next impact appears, SL a stick phase or a reversal appears. Every point was run by the simulator.";
+      "Branches of n-1 orbits, followed by continuation through stable and unstable orbits, and those born at the "
+      "doublings that end the windows of n = 1, 2, 3. LP "
+      "fold, PD period doubling, NS Neimark-Sacker, GR grazing: the next impact appears, SL a stick phase or a "
+      "reversal appears. Every point was run by the simulator.";
   return claim;
 }
 

@@ -20,12 +20,12 @@ struct BoundCurve {
 };
 
 struct Branches {
-  std::vector<NBranch> all;  ///< n = 1 to 5
+  std::vector<NBranch> all;      ///< n = 1 to 5
   std::vector<NBranch> doubled;  ///< of the doublings that end the windows of n = 1 to 3, and of their doublings
   std::vector<BoundCurve> bounds;
 };
 
-/// Runs them in parallel. @throws Interrupted
+/// Runs them in parallel, in the present part of the course and two more. @throws Interrupted
 [[nodiscard]] Branches make_branches(const Study& study);
 
 void fig_branches(Study& study, const Branches& branches);  ///< over the brute-force diagram

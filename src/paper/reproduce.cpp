@@ -36,7 +36,8 @@ std::vector<Claim> run(Study& study) {
     study.draw();  // at once: a run that is stopped leaves the pictures it came to
   }
   study.course().next();
-  const Branches branches = make_branches(study);
+  const Branches branches = make_branches(study);  // begins two more parts
+  study.course().next();
   fig_branches(study, branches);
   fig_bounds(study, branches);
   study.draw();

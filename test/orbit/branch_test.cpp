@@ -1,6 +1,9 @@
 /// Branches: what changes along them, by a second route each.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "attractor/cycle.hpp"
 #include "families.hpp"
 #include "slapstick/attractor/classify.hpp"
@@ -54,6 +57,80 @@ TEST(Branch, OfThePaperChangesWhereItsAttractorDoes) {
   EXPECT_EQ(k, expected.size());
   for (const orbit::Solution& point : branch.points)
     EXPECT_TRUE(point.is_motion) << point.orbit.values[0] << " " << point.why;
+}
+
+/// A coarse step over several changes places them where a fine one does: margins that are rounding are no changes.
+TEST(Branch, SpecialPointsDoNotDependOnTheRange) {
+  const Posed posed("vibro-impact", {}, {"omega"}, {2.2});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  for (const auto& [from, to] : {std::pair(1.05, 4.0), std::pair(1.3, 3.2), std::pair(1.4, 2.3)}) {
+    const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = from, .to = to});
+    std::vector<double> stick;
+    for (const orbit::SpecialPoint& point : branch.special)
+      if (point.type == orbit::SpecialType::SL && point.value > 1.4) stick.push_back(point.value);
+    ASSERT_EQ(stick.size(), 3U) << from;
+    EXPECT_NEAR(stick[0], 1.4617750474838, 1e-9) << from;
+    EXPECT_NEAR(stick[1], 1.5681567254004, 1e-9) << from;
+    EXPECT_NEAR(stick[2], 1.6044013956145, 1e-9) << from;
+  }
+}
+
+/// An impact whose speed goes to zero is lost, not the branch: the orbit without it goes on.
+TEST(Branch, GoesOnWithoutAnImpactThatIsLost) {
+  const Posed posed("vibro-impact", {}, {"clearance"}, {0.0});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.0, .to = 0.4});
+  EXPECT_FALSE(branch.failed) << branch.ended;
+  ASSERT_FALSE(branch.points.empty());
+  EXPECT_EQ(branch.points.back().impacts, 0);
+  EXPECT_TRUE(branch.points.back().is_motion);
+  EXPECT_EQ(branch.points.back().orbit.values[0], 0.4);
+  const auto graze = std::ranges::find(branch.special, orbit::SpecialType::GR, &orbit::SpecialPoint::type);
+  ASSERT_NE(graze, branch.special.end());
+  EXPECT_NEAR(graze->value, 0.24955384, 1e-7);
+}
+
+/// Linear response and impacting orbits meet at one graze, from whichever side it is reached.
+TEST(Branch, MeetsAGrazeFromBothSidesAtTheSameValue) {
+  const double exact = 1.0 / std::sqrt(9.16);  // 1 / |1 - w^2 + 2 i z w| at w = 2, z = 0.1
+  const Posed outside("impact-oscillator", {}, {"clearance"}, {0.5});
+  const auto first = outside.settled(1);
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*outside.problem, first->orbit, {.from = 0.25, .to = 0.6});
+  const auto graze = std::ranges::find(branch.special, orbit::SpecialType::GR, &orbit::SpecialPoint::type);
+  ASSERT_NE(graze, branch.special.end());
+  EXPECT_NEAR(graze->value, exact, 1e-11);
+}
+
+/// A branch that was born at a doubling is not doubled there again.
+TEST(Branch, IsNotDoubledAtItsBirth) {
+  const Posed posed("shaken-table", {{"restitution", 0.5}}, {"acceleration"}, {1.4});
+  const auto first = posed.settled(1);
+  ASSERT_TRUE(first);
+  const orbit::ContinuationOptions options{.from = 1.3, .to = 1.6};
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, options);
+  ASSERT_EQ(branch.special.size(), 1U);
+  const auto doubled = orbit::doubled(*posed.problem, branch.special.front());
+  ASSERT_TRUE(doubled);
+  const orbit::Branch second = orbit::follow(*posed.problem, *doubled, options);
+  ASSERT_FALSE(second.special.empty());
+  EXPECT_TRUE(second.special.front().birth);
+  EXPECT_FALSE(orbit::doubled(*posed.problem, second.special.front()));
+}
+
+/// A block that only sticks, or one whose every direction is annihilated, has no multiplier but zeros.
+TEST(Orbit, WithoutAFreeDirectionHasZeroMultipliers) {
+  const Posed posed("impact-oscillator", {{"restitution", 0.0}}, {}, {});
+  const auto found = posed.settled();
+  if (found) {
+    for (const auto& multiplier : found->multipliers) EXPECT_LT(std::abs(multiplier), 1.0);
+  }
+  const Posed block("sliding-block", {}, {}, {});
+  const auto slides = block.settled();
+  ASSERT_TRUE(slides);
+  for (const auto& multiplier : slides->multipliers) EXPECT_EQ(multiplier, 0.0);
 }
 
 /// Every point is a motion of its own, unstable ones too: the simulator ends a cycle where it began.

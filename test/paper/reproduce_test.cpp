@@ -140,7 +140,7 @@ TEST(Reproduce, ProgressGoesForwardAndEveryPartIsTimed) {
   EXPECT_GT(run().reports, 50);
   EXPECT_FALSE(run().backwards);
   EXPECT_EQ(run().finished.size(), run().result.parts.size());
-  EXPECT_EQ(run().finished.size(), 9U);
+  EXPECT_EQ(run().finished.size(), 13U);
 }
 
 TEST(Reproduce, AFolderThatCannotBeMadeIsRefusedAtOnce) {

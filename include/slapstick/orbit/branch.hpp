@@ -34,7 +34,7 @@ struct SpecialPoint {
   std::string what;       ///< "the gap of stop touches zero in leg 2", "stick of block is lost"
   std::string outcome;    ///< of a change of events: "persistence", "non-smooth fold", "none found", ..
   double rotation = 0.0;  ///< NS: rho in (0, 1/2)
-  bool birth = false;      ///< PD: seen from the doubled orbit, whose branch begins there
+  bool birth = false;     ///< PD: seen from the doubled orbit, whose branch begins there
   std::size_t after = 0;  ///< it lies behind this point of the branch
   std::size_t test = 0;   ///< GR, SL, CH, CO: which of the orbit's margins is zero (src/orbit/margins.hpp)
 };

@@ -38,6 +38,7 @@ class Follower {
   bool change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why);
   void smooth_points(const PathPoint& at, const PathPoint& next, double length);
   bool end_at_boundary(PathPoint& at);
+  [[nodiscard]] bool between(const Orbit& a, const Orbit& b, const Orbit& orbit) const;
   [[nodiscard]] bool retraces(const Orbit& orbit) const;
   void end(std::string why, bool failed);
 
@@ -106,19 +107,28 @@ bool Follower::end_at_boundary(PathPoint& at) {
   return true;
 }
 
+/// Does an orbit lie between two neighbouring points of a branch, perhaps begun at another event?
+bool Follower::between(const Orbit& a, const Orbit& b, const Orbit& orbit) const {
+  constexpr double same = 1e-3;  // of an orbit's size: between two points the branch is nearly straight
+  const double part = (orbit.values[0] - a.values[0]) / (b.values[0] - a.values[0]);
+  if (a.legs() != orbit.legs() || !(a.shape.legs == b.shape.legs) || !(part >= 0.0 && part <= 1.0)) return false;
+  for (std::size_t shift = 0; shift < a.legs(); ++shift) {
+    bool equal = true;
+    for (std::size_t i = 0; equal && i < a.legs(); ++i) {
+      const std::size_t k = (i + shift) % a.legs();
+      const VectorXd x = (1.0 - part) * a.x[k] + part * b.x[k];
+      equal = a.shape.legs[k] == orbit.shape.legs[i] &&
+              (x - orbit.x[i]).norm() < same * std::max(x.norm(), orbit.x[i].norm());
+    }
+    if (equal) return true;
+  }
+  return false;
+}
+
 /// Does an orbit lie on the branch as it was followed so far?
 bool Follower::retraces(const Orbit& orbit) const {
-  constexpr double same = 1e-3;  // of an orbit's size: between two points the branch is nearly straight
-  for (std::size_t i = 0; i + 1 < branch_.points.size(); ++i) {
-    const Orbit &a = branch_.points[i].orbit, &b = branch_.points[i + 1].orbit;
-    const double span = b.values[0] - a.values[0], part = (orbit.values[0] - a.values[0]) / span;
-    if (a.legs() != orbit.legs() || b.legs() != orbit.legs() || !(part >= 0.0 && part <= 1.0)) continue;
-    if (!(a.shape.legs == orbit.shape.legs) || !(b.shape.legs == orbit.shape.legs)) continue;
-    const VectorXd between = (1.0 - part) * a.x[0] + part * b.x[0];
-    if ((between - orbit.x[0]).norm() < same * between.norm() &&
-        std::abs((1.0 - part) * a.t[0] + part * b.t[0] - orbit.t[0]) < same)
-      return true;
-  }
+  for (std::size_t i = 0; i + 1 < branch_.points.size(); ++i)
+    if (between(branch_.points[i].orbit, branch_.points[i + 1].orbit, orbit)) return true;
   return false;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "slapstick/base/error.hpp"
 
@@ -112,17 +111,21 @@ void move(const Problem& problem, const Linearised& at, const VectorXd& change, 
 }
 
 VectorXd sizes(const Problem& problem, const Orbit& orbit) {
-  const Index n = problem.base().frame().n;
+  constexpr int samples =
+      4;  // of each leg: at its events an orbit may be next to nothing, as a lone mass that grazes its stop
+  const ModeSet set(constant_family(problem.family().model(orbit.values)), {});
+  const Index n = set.frame().n, d = set.frame().d;
   double displacement = 0.0, velocity = 0.0;
-  for (const VectorXd& x : orbit.x) {
-    displacement = std::max(displacement, x.head(n).cwiseAbs().maxCoeff());
-    velocity = std::max(velocity, x.tail(n).cwiseAbs().maxCoeff());
+  for (std::size_t i = 0; i < orbit.legs(); ++i) {
+    const Jet start = leg_start(set, orbit.shape.legs[i], orbit.x[i], orbit.t[i]);
+    Jet X(start.all.rows(), 0, 0);
+    X.value() = start.value();
+    for (int k = 0; k <= samples; ++k) {
+      displacement = std::max(displacement, X.value().head(n).cwiseAbs().maxCoeff());
+      velocity = std::max(velocity, X.value().segment(d, n).cwiseAbs().maxCoeff());
+      flow(set.mode(orbit.shape.legs[i].states), orbit.duration(i) * set.period() / samples, X);
+    }
   }
-  // At events displacements may all be zero, as those of a lone mass at its stop: a radian of motion at that velocity is a size too.
-  const double radian =
-      (forced(orbit) ? 1.0 : orbit.t.back() - orbit.t.front()) * problem.base().period() / (2.0 * std::numbers::pi);
-  displacement = std::max(displacement, velocity * radian);
-  velocity = std::max(velocity, displacement / radian);
   VectorXd state(2 * n);
   state << VectorXd::Constant(n, displacement > 0.0 ? displacement : 1.0),
       VectorXd::Constant(n, velocity > 0.0 ? velocity : 1.0);

@@ -100,10 +100,25 @@ std::optional<Orbit> solved(const Problem& problem, const Orbit& guess) {
 
 namespace {
 
+/// The cycle of one leg without its event, from phase 0.
+Orbit uncut(const ModeSet& set, const Orbit& orbit) {
+  Orbit plain = orbit;
+  const double wait = std::ceil(orbit.t[0]) - orbit.t[0];
+  Jet X = leg_start(set, orbit.shape.legs[0], orbit.x[0], orbit.t[0]);
+  flow(set.mode(orbit.shape.legs[0].states), wait * set.period(), X);
+  const int n = set.frame().n;
+  plain.x[0] << X.value().head(n), X.value().segment(set.frame().d, n);
+  plain.shape.legs[0].ending = Ending::cut;
+  plain.shape.legs[0].strikes.clear();
+  plain.t = {0.0, static_cast<double>(orbit.shape.n)};
+  return plain;
+}
+
 /// An impact whose speed goes to zero is no more: its leg and the next are one, or a velocity of the same pair passes zero there instead.
 std::vector<Orbit> without_impact(const ModeSet& set, const Orbit& orbit, const TestValue& test) {
   std::vector<Orbit> shapes;
-  if (test.test != Test::speed || test.kind != mode::GuardKind::gap || orbit.legs() < 2) return shapes;
+  if (test.test != Test::speed || test.kind != mode::GuardKind::gap) return shapes;
+  if (orbit.legs() == 1) return {uncut(set, orbit)};
   Orbit turned = orbit;
   rotate(turned, test.leg);  // the impact ends the first leg
   const mode::Frame& frame = set.frame();
@@ -128,6 +143,59 @@ std::vector<Orbit> without_impact(const ModeSet& set, const Orbit& orbit, const 
     shapes.push_back(std::move(turned));
   }
   return shapes;
+}
+
+/// A gap that touches zero within a leg: an impact of no speed is put there, and the cycle begins with it.
+std::vector<Orbit> with_impact(const ModeSet& set, const Orbit& orbit, const TestValue& test) {
+  if (test.test != Test::guard || test.kind != mode::GuardKind::gap) return {};
+  Orbit split = orbit;
+  const Leg& old = orbit.shape.legs[test.leg];
+  const double at = orbit.t[test.leg] + test.at;
+  Jet X = leg_start(set, old, orbit.x[test.leg], orbit.t[test.leg]);
+  flow(set.mode(old.states), test.at * set.period(), X);
+  const int n = set.frame().n, own = set.frame().stops[test.contact].own;
+  VectorXd x(2 * n);
+  x << X.value().head(n), X.value().segment(set.frame().d, n);
+  if (own < n) x[own] = 0.0;
+  Leg impact = old;
+  impact.ending = Ending::guard;
+  impact.kind = mode::GuardKind::gap;
+  impact.contact = impact.event_contact = test.contact;
+  impact.event = EventKind::impact;
+  impact.strikes = {{1U << test.contact, false}};
+  if (old.ending == Ending::cut) {  // one leg, from the impact to the impact
+    split.shape.legs = {impact};
+    split.x = {x};
+    split.t = {at, at + orbit.shape.n};
+    return {split};
+  }
+  const auto place = static_cast<std::ptrdiff_t>(test.leg);
+  split.shape.legs.insert(split.shape.legs.begin() + place, impact);
+  split.x.insert(split.x.begin() + place + 1, x);
+  split.t.insert(split.t.begin() + place + 1, at);
+  return {split};
+}
+
+/// The branch of a shape of which the orbit at the change is one already, by arclength to either side of it.
+std::optional<Reshaped> leaving(const Problem& problem, const PathPoint& change, const Orbit& shape, double range) {
+  Orbit orbit = shape;
+  std::vector<Condition> conditions = fixed_parameters(problem, orbit.legs());
+  if (!solve(problem, orbit, conditions, 12).converged)
+    orbit = shape;  // singular at the change itself: it is the solution
+  const double critical = change.orbit.values[0];
+  if (std::abs(orbit.values[0] - critical) > 1e-9 * range) return std::nullopt;
+  const PathPoint start = point_of(problem, orbit, range, {});
+  for (const double sense : {1.0, -1.0}) {
+    for (const double length : {1e-4, 1e-3, 5e-3}) {
+      PathPoint from = start;
+      from.tangent = sense * start.tangent;
+      std::optional<PathPoint> next = step_to(problem, from, length, range);
+      if (!next || !is_motion(problem, next->orbit)) continue;
+      const bool folds = (next->orbit.values[0] - critical) * change.watched.turn < 0.0;
+      return Reshaped{std::move(*next), folds};
+    }
+  }
+  return std::nullopt;
 }
 
 /// Does the branch of a new orbit come from the change: has it, followed back, a margin that is zero there?
@@ -171,11 +239,14 @@ std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, co
 std::optional<Reshaped> reshape(const Problem& problem, const PathPoint& change, const TestValue& test, double range) {
   const double critical = change.orbit.values[0];
   const ModeSet set(problem.family(), change.orbit.values);
+  std::vector<Orbit> known = without_impact(set, change.orbit, test);
+  std::ranges::copy(with_impact(set, change.orbit, test), std::back_inserter(known));
+  for (const Orbit& shape : known)
+    if (auto next = leaving(problem, change, shape, range)) return next;
   for (double length : {1e-6, 1e-5, 1e-4, 1e-3}) {
     const std::optional<PathPoint> beyond = step_to(problem, change, length, range);
     if (!beyond) continue;
-    std::vector<Orbit> guesses = shapes_near(problem, beyond->orbit);
-    std::ranges::copy(without_impact(set, beyond->orbit, test), std::back_inserter(guesses));
+    const std::vector<Orbit> guesses = shapes_near(problem, beyond->orbit);
     for (double side : {1.0, -1.0}) {  // where the old branch would have gone on, then where it came from
       for (Orbit guess : guesses) {
         guess.values[0] = critical + side * (beyond->orbit.values[0] - critical);

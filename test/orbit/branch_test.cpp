@@ -102,6 +102,15 @@ TEST(Branch, MeetsAGrazeFromBothSidesAtTheSameValue) {
   const auto graze = std::ranges::find(branch.special, orbit::SpecialType::GR, &orbit::SpecialPoint::type);
   ASSERT_NE(graze, branch.special.end());
   EXPECT_NEAR(graze->value, exact, 1e-11);
+  EXPECT_EQ(graze->outcome, "persistence");
+  const Posed inside("impact-oscillator", {}, {"clearance"}, {0.2});
+  const auto hitting = inside.settled(1);
+  ASSERT_TRUE(hitting);
+  const orbit::Branch back = orbit::follow(*inside.problem, hitting->orbit, {.from = 0.15, .to = 0.6});
+  const auto same = std::ranges::find(back.special, orbit::SpecialType::GR, &orbit::SpecialPoint::type);
+  ASSERT_NE(same, back.special.end());
+  EXPECT_NEAR(same->value, exact, 1e-9);
+  EXPECT_EQ(back.points.back().impacts, 0) << back.ended;
 }
 
 /// A branch that was born at a doubling is not doubled there again.

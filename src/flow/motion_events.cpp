@@ -139,6 +139,19 @@ void Motion::land(const mode::ContactRow& contact) {
   system_->frame().match_displacements(contact.own, X_.data());
 }
 
+/// The force of a compliant stop has reached zero: made exactly so by the speed of its pair, so that it is not let go twice. A damper so weak that
+/// this would be more than rounding is left as it is.
+void Motion::let_off(int compliant) {
+  constexpr double rounding = 0x1p-40;
+  const CompliantStop& stop = system_->model().compliant_stops[compliant];
+  const mode::ContactRow& row = system_->frame().compliant[compliant];
+  double& u = X_.data()[system_->frame().u(row.own)];
+  const double exact = -stop.stiffness / stop.damping * X_.data()[row.own];
+  if (!(std::abs(exact - u) <= rounding * std::abs(u))) return;
+  u = exact;
+  system_->frame().match_velocities(row.own, X_.data());
+}
+
 /// The gap has reached zero: an impact, or a graze without impulse.
 void Motion::touch(int stop, bool graze) {
   const mode::ContactRow& contact = system_->frame().stops[stop];
@@ -156,7 +169,7 @@ void Motion::touch(int stop, bool graze) {
 void Motion::compliant_limit(int compliant, GuardKind kind) {
   const bool at_gap = kind == GuardKind::engage || kind == GuardKind::leave;
   const bool was_on = here_->states().compliant[compliant] == mode::CompliantState::on;
-  if (at_gap) land(system_->frame().compliant[compliant]);
+  at_gap ? land(system_->frame().compliant[compliant]) : let_off(compliant);
   const bool begins = kind == GuardKind::engage || kind == GuardKind::push;
   const mode::ContactRow& row = system_->frame().compliant[compliant];
   report(begins   ? EventKind::engage

@@ -12,11 +12,19 @@ namespace {
 
 /// With the seconds that each takes on two cores.
 std::vector<PlannedPart> plan() {
-  return {{"Fig. 2", 12},          {"Figs. 3-5", 1},
-          {"Fig. 6", 11},          {"Fig. 7", 1.5},
-          {"Fig. 8", 16},          {"r = 0.08 and f_k < f_s", 10},
-          {"branches", 12},        {"attractors over omega", 35},
-          {"windows to 1e-4", 12}, {"claims", 20}};
+  return {{"Fig. 2", 12},
+          {"Figs. 3-5", 1},
+          {"Fig. 6", 11},
+          {"Fig. 7", 1.5},
+          {"Fig. 8", 16},
+          {"r = 0.08 and f_k < f_s", 10},
+          {"branches of n-1", 3},
+          {"doubled branches", 3},
+          {"bounds over friction", 2},
+          {"attractors beneath", 5},
+          {"attractors over omega", 35},
+          {"windows to 1e-4", 12},
+          {"claims", 20}};
 }
 
 void prepare(const std::filesystem::path& folder) {

@@ -8,7 +8,7 @@
 /// an event makes due at the same instant follows as an event of its own at the same time.
 ///
 ///   x-  state just before the event (what Event::before shows)
-///   x*  the event's own condition made exact: gap = 0 or w = 0 in the stored state
+///   x*  the event's own condition made exact: gap = 0, w = 0 or (compliant stops) force = 0 in the stored state
 ///   x+  after the impact law; then `select_mode` decides the next mode
 ///
 /// Several contacts can have their events at one instant: whatever is within its rounding bound of zero there is made zero too.
@@ -177,6 +177,7 @@ class Motion {
   void handle(int guard, bool graze);
   void rest(const mode::ContactRow& contact);
   void land(const mode::ContactRow& contact);
+  void let_off(int compliant);
   void gather_ties(int guard);
   [[nodiscard]] bool of_one_pair(const mode::Guard& a, const mode::Guard& b) const;
   [[nodiscard]] bool tail_is_quiet(int stop, double duration);

@@ -9,5 +9,7 @@ inline constexpr std::array<double, 4> omegas{2.2, 1.5, 4.9, 0.552};
 
 /// Registers the rows of slapstick itself.
 void register_slapstick();
+/// .. and of chains with many contacts.
+void register_chains();
 
 }  // namespace slapstick::bench

@@ -41,6 +41,7 @@ void register_peer(const char* name, PeerRun (*peer)(double, int, double), doubl
 
 int main(int argc, char** argv) {
   slapstick::bench::register_slapstick();
+  slapstick::bench::register_chains();
   register_peer("odeint_rkf78_1e-12", slapstick::bench::run_odeint, 1e-12);
   register_peer("cvode_adams_1e-9", slapstick::bench::run_cvode, 1e-9);
   benchmark::Initialize(&argc, argv);

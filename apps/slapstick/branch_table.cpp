@@ -52,15 +52,18 @@ std::string branch_table(const std::vector<orbit::Branch>& branches, const std::
   return text;
 }
 
-void follow_doublings(const orbit::Problem& problem, std::vector<orbit::Branch>& branches, std::size_t most,
-                      const orbit::ContinuationOptions& how) {
-  for (std::size_t b = 0; b < branches.size() && branches.size() < most; ++b) {
+void follow_born(const orbit::Problem& problem, std::vector<orbit::Branch>& branches, std::size_t most,
+                 const orbit::ContinuationOptions& how) {
+  for (std::size_t b = 0; b < branches.size(); ++b) {
     const std::vector<orbit::SpecialPoint> specials = branches[b].special;
     for (const orbit::SpecialPoint& special : specials) {
-      if (special.type != orbit::SpecialType::PD || branches.size() >= most) continue;
-      const std::optional<orbit::Orbit> start = orbit::doubled(problem, special);
-      if (!start || start->values[0] < how.from || start->values[0] > how.to) continue;
-      branches.push_back(orbit::follow(problem, *start, how));
+      for (const orbit::Orbit& start : special.born) {
+        if (branches.size() >= most) return;
+        const bool known =
+            std::ranges::any_of(branches, [&](const orbit::Branch& branch) { return orbit::lies_on(branch, start); });
+        if (known || start.values[0] < how.from || start.values[0] > how.to) continue;
+        branches.push_back(orbit::follow(problem, start, how));
+      }
     }
   }
 }

@@ -9,8 +9,8 @@ namespace slapstick::app {
 
 [[nodiscard]] std::string branch_table(const std::vector<orbit::Branch>& branches, const std::string& parameter);
 
-/// Follows the doubled orbits of the period doublings of the branches so far, until there are `most` branches.
-void follow_doublings(const orbit::Problem& problem, std::vector<orbit::Branch>& branches, std::size_t most,
-                      const orbit::ContinuationOptions& how);
+/// Follows what is born at the special points of the branches so far, and of those, until there are `most` branches.
+void follow_born(const orbit::Problem& problem, std::vector<orbit::Branch>& branches, std::size_t most,
+                 const orbit::ContinuationOptions& how);
 
 }  // namespace slapstick::app

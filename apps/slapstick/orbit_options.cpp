@@ -91,20 +91,6 @@ double value_inside(const ChosenModel& chosen, const std::string& argument, cons
   return value;
 }
 
-orbit::Family family_of(const ChosenModel& chosen, const std::vector<std::string>& parameters) {
-  const auto overrides = [&chosen, parameters](const std::vector<double>& values) {
-    Overrides all = chosen.overrides;
-    for (std::size_t i = 0; i < parameters.size(); ++i) all[parameters[i]] = values.at(i);
-    return all;
-  };
-  return {
-      parameters,
-      [&chosen, overrides](const std::vector<double>& values) { return chosen.definition.build(overrides(values)); },
-      [&chosen, overrides, parameters](const std::vector<double>& values, std::size_t which) {
-        return chosen.definition.rate(parameters.at(which), overrides(values));
-      }};
-}
-
 orbit::Solution find_orbit(const orbit::Problem& problem, const System& system, const State& start,
                            const OrbitOptions& options, const std::atomic<bool>& stop) {
   const OrbitClass wanted = parse_orbit(options.orbit);

@@ -44,9 +44,6 @@ struct ParameterRange {
 [[nodiscard]] double value_inside(const ChosenModel& chosen, const std::string& argument, const std::string& parameter,
                                   const ParameterRange& range);
 
-/// The chosen model as a function of some of its parameters or groups, beside what --set says.
-[[nodiscard]] orbit::Family family_of(const ChosenModel& chosen, const std::vector<std::string>& parameters);
-
 /// The orbit that is meant: the one that the motion from the start settles on if it is of the class, else the first of that class that a search
 /// finds. @throws NumericalError saying what was tried and found instead
 [[nodiscard]] orbit::Solution find_orbit(const orbit::Problem& problem, const System& system, const State& start,

@@ -77,7 +77,7 @@ Json branch_json(const orbit::Branch& branch, const ChosenModel& chosen, const O
       std::vector<double> values = {point.value};
       for (const std::string& other : options.sensitivity)
         values.push_back(present_value(chosen, "--sensitivity", other));
-      rates = orbit::sensitivity(family_of(chosen, names), values, point);
+      rates = orbit::sensitivity(chosen.definition.family(names, chosen.overrides), values, point);
     }
     special.push(special_json(point, options.sensitivity, rates));
   }
@@ -109,13 +109,13 @@ int run(const Options& options, const Context& context) {
   check(options, chosen);
   const State start = options.model.start(chosen);
   const System system = affordable_system(chosen, {static_cast<double>(options.orbit.transient) + 1.0, "--transient"});
-  const auto problem = orbit::pose(family_of(chosen, {options.parameter}), {value});
+  const auto problem = orbit::pose(chosen.definition.family({options.parameter}, chosen.overrides), {value});
   const orbit::Solution first = find_orbit(*problem, system, start, options.orbit, context.stop);
   Progress progress("points at most", 2.0 * static_cast<double>(options.points), options.progress);
   orbit::ContinuationOptions how = continuation(options, range, context.stop);
   how.progress = [&](double, long points) { progress.update(static_cast<double>(points)); };
   std::vector<orbit::Branch> branches = {orbit::follow(*problem, first.orbit, how)};
-  follow_doublings(*problem, branches, static_cast<std::size_t>(options.branches), how);
+  follow_born(*problem, branches, static_cast<std::size_t>(options.branches), how);
   if (options.table) {
     out.write(branch_table(branches, options.parameter));
   } else {
@@ -123,7 +123,7 @@ int run(const Options& options, const Context& context) {
     json.set("model", chosen.model.name).set("parameter", options.parameter);
     Json others = Json::list();
     for (std::size_t i = 1; i < branches.size(); ++i) others.push(branch_json(branches[i], chosen, options));
-    if (branches.size() > 1) json.set("doubled", std::move(others));
+    if (branches.size() > 1) json.set("born", std::move(others));
     out.write(json.dump() + "\n");
   }
   out.commit();
@@ -146,7 +146,7 @@ Action add_continue(Arguments& arguments) {
   arguments.number("--step", options->step, "S", "longest step along the branch, as a part of the range (0.01)");
   arguments.count("--points", options->points, 1, 1'000'000, "most points each way (2000)");
   arguments.count("--branches", options->branches, 1, 100,
-                  "follow the doubled orbits of PD points too, up to so many branches (1)");
+                  "follow the branches that are born at special points too, up to so many in all (1)");
   arguments.flag("--same-events", options->stay, "end the branch where its sequence of events changes");
   arguments.repeated("--sensitivity", options->sensitivity, "NAME",
                      "give d param / d NAME of each special point; may be repeated");

@@ -55,7 +55,7 @@ orbit::SpecialPoint special_point(const Options& options, const ChosenModel& cho
   const State start = options.model.start(chosen);
   const double value = value_inside(chosen, "--params", names[0], range);
   const System system = affordable_system(chosen, {static_cast<double>(options.orbit.transient) + 1.0, "--transient"});
-  const auto problem = orbit::pose(family_of(chosen, {names[0]}), {value});
+  const auto problem = orbit::pose(chosen.definition.family({names[0]}, chosen.overrides), {value});
   const orbit::Solution first = find_orbit(*problem, system, start, options.orbit, stop);
   orbit::ContinuationOptions how;
   how.from = range.from;
@@ -121,7 +121,7 @@ int run(const Options& options, const Context& context) {
     throw InputError("--step: " + shown(options.step) + " is outside (0, 0.2]");
   orbit::SpecialPoint special = special_point(options, chosen, names, ranges[0], context.stop);
   special.solution.orbit.values = {special.value, second};
-  const auto problem = orbit::pose(family_of(chosen, names), special.solution.orbit.values);
+  const auto problem = orbit::pose(chosen.definition.family(names, chosen.overrides), special.solution.orbit.values);
   Progress progress("points at most", 2.0 * static_cast<double>(options.points), options.progress);
   orbit::CurveOptions how{
       .from = ranges[0].from, .to = ranges[0].to, .second_from = ranges[1].from, .second_to = ranges[1].to};

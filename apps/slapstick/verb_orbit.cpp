@@ -82,7 +82,7 @@ Action add_orbit(Arguments& arguments) {
                        "' has no forcing, so there are no n-period orbits to search for");
     const System system =
         affordable_system(chosen, {static_cast<double>(options->orbit.transient) + 1.0, "--transient"});
-    const auto problem = orbit::pose(family_of(chosen, {}), {});
+    const auto problem = orbit::pose(chosen.definition.family({}, chosen.overrides), {});
     Json json = head_json(chosen);
     if (options->all) {
       json.set("orbits", search_json(*options, *problem, system, start, context.stop));

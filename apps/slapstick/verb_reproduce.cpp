@@ -69,7 +69,9 @@ Action add_reproduce(Arguments& arguments) {
   arguments.text("--out", options->out, "DIR", "folder for the page, the figures and their data (out)");
   arguments.count("--threads", options->threads, 0, 1024, "0: all cores; the result is the same for any number (0)");
   arguments.flag("--quick", options->quick, "the same on coarse grids, in seconds: a trial, not for print");
-  arguments.footer("Writes index.html, claims.json and figures 2 to 8 of the paper. About two minutes on two cores. Beyond the paper: the branches of its orbits and the bounds of its windows.");
+  arguments.footer(
+      "Writes index.html, claims.json and figures 2 to 8 of the paper. About two minutes on two cores. Beyond the "
+      "paper: the branches of its orbits and the bounds of its windows.");
   return [options](const Context& context) { return reproduce(*options, context); };
 }
 

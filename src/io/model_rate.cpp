@@ -65,4 +65,16 @@ Model ModelDefinition::rate(const std::string& parameter, const Overrides& overr
   return ModelBuilder(*definition_, values, rates.all()).rate();
 }
 
+Family ModelDefinition::family(const std::vector<std::string>& parameters, const Overrides& overrides) const {
+  const auto with = [parameters, overrides](const std::vector<double>& values) {
+    Overrides all = overrides;
+    for (std::size_t i = 0; i < parameters.size(); ++i) all[parameters[i]] = values.at(i);
+    return all;
+  };
+  return {parameters, [own = *this, with](const std::vector<double>& values) { return own.build(with(values)); },
+          [own = *this, with, parameters](const std::vector<double>& values, std::size_t which) {
+            return own.rate(parameters.at(which), with(values));
+          }};
+}
+
 }  // namespace slapstick

@@ -8,6 +8,7 @@
 #include "orbit/record.hpp"
 #include "orbit/reshape.hpp"
 #include "orbit/special.hpp"
+#include "orbit/two_ways.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/text.hpp"
 
@@ -16,10 +17,39 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double straight = 0.95;  ///< least cosine between the tangents of neighbouring points
+constexpr double shortest_for_pairs = 1e-4;  ///< arclength that may hold two special points of one type
+constexpr double straight = 0.95;            ///< least cosine between the tangents of neighbouring points
 
-bool chatters(const Orbit& orbit) {
-  return std::ranges::any_of(orbit.shape.legs, [](const Leg& leg) { return leg.ending == Ending::chatter; });
+/// Does an orbit lie between two neighbouring points of a branch, perhaps begun at another event?
+bool between(const Orbit& a, const Orbit& b, const Orbit& orbit) {
+  constexpr double same = 1e-3;  // of an orbit's size: between two points the branch is nearly straight
+  const double part = (orbit.values[0] - a.values[0]) / (b.values[0] - a.values[0]);
+  if (a.legs() != orbit.legs() || !(a.shape.legs == b.shape.legs) || !(part >= 0.0 && part <= 1.0)) return false;
+  for (std::size_t shift = 0; shift < a.legs(); ++shift) {
+    bool equal = true;
+    for (std::size_t i = 0; equal && i < a.legs(); ++i) {
+      const std::size_t k = (i + shift) % a.legs();
+      const VectorXd x = (1.0 - part) * a.x[k] + part * b.x[k];
+      equal = a.shape.legs[k] == orbit.shape.legs[i] &&
+              (x - orbit.x[i]).norm() < same * std::max(x.norm(), orbit.x[i].norm());
+    }
+    if (equal) return true;
+  }
+  return false;
+}
+
+int outside(const Watched& watched) {
+  constexpr double clear = 1e-7;  // of the circle: what lies on it all along is nothing that passes
+  return static_cast<int>(
+      std::ranges::count_if(watched.multipliers, [](const auto& mu) { return std::abs(mu) > 1.0 + clear; }));
+}
+
+/// Do the special points between two points of a branch account for the multipliers that have passed the unit circle? Where a pair of special
+/// points of one type lies between them, their test functions show nothing.
+bool explained(const Watched& from, const Watched& to, const std::vector<SpecialPoint>& between) {
+  int most = 0;
+  for (const SpecialPoint& special : between) most += special.type == SpecialType::NS ? 2 : 1;
+  return std::abs(outside(to) - outside(from)) <= most;
 }
 
 /// Follows one direction from a point.
@@ -36,10 +66,10 @@ class Follower {
   [[nodiscard]] Solution solution_of(const PathPoint& point, Verification* seen) const;
   bool accept(PathPoint& at, PathPoint next, double length);
   bool change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why);
-  void smooth_points(const PathPoint& at, const PathPoint& next, double length);
+  void end_at(SpecialPoint special, const Change& change, bool shorter, bool retraces);
+  void go_on(PathPoint& at, SpecialPoint special, Reshaped next);
+  void add(std::vector<SpecialPoint> smooth);
   bool end_at_boundary(PathPoint& at);
-  [[nodiscard]] bool between(const Orbit& a, const Orbit& b, const Orbit& orbit) const;
-  [[nodiscard]] bool retraces(const Orbit& orbit) const;
   void end(std::string why, bool failed);
 
   const Problem& problem_;
@@ -67,16 +97,17 @@ Solution Follower::solution_of(const PathPoint& point, Verification* seen) const
   return solution;
 }
 
-/// Special points that leave the events as they are.
-void Follower::smooth_points(const PathPoint& at, const PathPoint& next, double length) {
+/// Notes special points that leave the events as they are. A branch ends where its orbit becomes a shorter one run through twice.
+void Follower::add(std::vector<SpecialPoint> smooth) {
   constexpr double merged = 1e-3;  // at a fold or crossing that is known to 1e-10 in the parameter, states are to 1e-5
-  for (SpecialPoint& special : smooth_special_points(problem_, at, next, length, range_)) {
+  for (SpecialPoint& special : smooth) {
     const bool doubling =
         (special.type == SpecialType::LP || special.type == SpecialType::BP) && repeats(special.solution.orbit, merged);
     special.after = branch_.points.size() - 1;
     if (doubling) {
       special.type = SpecialType::PD;
       special.birth = true;
+      special.born.clear();
       special.what = "the branch leaves a shorter orbit, which doubles";
       end("meets the orbit of which it is the double at " + shown(special.value), false);
     }
@@ -107,31 +138,6 @@ bool Follower::end_at_boundary(PathPoint& at) {
   return true;
 }
 
-/// Does an orbit lie between two neighbouring points of a branch, perhaps begun at another event?
-bool Follower::between(const Orbit& a, const Orbit& b, const Orbit& orbit) const {
-  constexpr double same = 1e-3;  // of an orbit's size: between two points the branch is nearly straight
-  const double part = (orbit.values[0] - a.values[0]) / (b.values[0] - a.values[0]);
-  if (a.legs() != orbit.legs() || !(a.shape.legs == b.shape.legs) || !(part >= 0.0 && part <= 1.0)) return false;
-  for (std::size_t shift = 0; shift < a.legs(); ++shift) {
-    bool equal = true;
-    for (std::size_t i = 0; equal && i < a.legs(); ++i) {
-      const std::size_t k = (i + shift) % a.legs();
-      const VectorXd x = (1.0 - part) * a.x[k] + part * b.x[k];
-      equal = a.shape.legs[k] == orbit.shape.legs[i] &&
-              (x - orbit.x[i]).norm() < same * std::max(x.norm(), orbit.x[i].norm());
-    }
-    if (equal) return true;
-  }
-  return false;
-}
-
-/// Does an orbit lie on the branch as it was followed so far?
-bool Follower::retraces(const Orbit& orbit) const {
-  for (std::size_t i = 0; i + 1 < branch_.points.size(); ++i)
-    if (between(branch_.points[i].orbit, branch_.points[i + 1].orbit, orbit)) return true;
-  return false;
-}
-
 /// Between `at` and `beyond` the motion's events change. Notes the point and goes on with new ones. @returns false if the branch ends
 bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why) {
   std::optional<Change> change = find_change(problem_, at, beyond, length, range_);
@@ -147,31 +153,66 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
   }
   SpecialPoint special = std::move(change->special);
   special.after = branch_.points.size() - 1;
-  std::optional<Reshaped> next;
-  if (options_.through_changes) next = reshape(problem_, change->at, change->test, range_);
-  special.outcome = next                       ? (next->folds ? "non-smooth fold" : "persistence")
-                    : options_.through_changes ? "none found"
-                                               : "not followed";
-  if (next && chatters(next->point.orbit) != chatters(at.orbit)) special.type = SpecialType::CH;
-  branch_.special.push_back(special);
-  if (!next) {
-    end(std::string(name(special.type)) + " at " + shown(special.value) +
-            (options_.through_changes ? ": no orbit was found beyond, a jump or a failure of the search"
-                                      : ": the events change"),
-        options_.through_changes);
+  std::vector<Reshaped> found;
+  if (options_.through_changes) found = reshape(problem_, change->at, change->test, range_);
+  const bool shorter = std::ranges::any_of(found, [](const Reshaped& next) { return repeats(next.point.orbit, 1e-6); });
+  const bool retraces = !found.empty() && lies_on(branch_, found.front().point.orbit);
+  if (found.empty() || shorter || retraces) {
+    end_at(std::move(special), *change, shorter, retraces);
     return false;
   }
-  if (retraces(next->point.orbit)) {
-    branch_.special.back().outcome = "the branch as it came";
-    end(std::string(name(special.type)) + " at " + shown(special.value) +
-            ": from there on the branch runs back over itself",
-        false);
-    return false;
-  }
-  at = std::move(next->point);
-  branch_.points.push_back(solution_of(at, nullptr));
-  step_ = std::min(step_, options_.step);
+  for (std::size_t i = 1; i < found.size(); ++i) special.born.push_back(found[i].point.orbit);
+  go_on(at, std::move(special), std::move(found.front()));
   return true;
+}
+
+/// The branch ends where its events change.
+void Follower::end_at(SpecialPoint special, const Change& change, bool shorter, bool retraces) {
+  std::string why = "the events change";
+  bool failed = false;
+  if (shorter) {
+    special.outcome = why = "from there on it is a shorter orbit, run through more than once";
+  } else if (retraces) {
+    special.outcome = "the branch as it came";
+    why = "from there on the branch runs back over itself";
+  } else if (!options_.through_changes) {
+    special.outcome = "not followed";
+    failed = true;
+  } else if (const std::string left = special.solution.stable() ? behind(problem_, change.at, range_) : std::string();
+             !left.empty()) {
+    special.outcome = "jump to " + left;
+    why = "a jump: the motion goes over to " + left;
+  } else {
+    special.outcome = "none found";
+    why = "no orbit was found beyond, a jump or a failure of the search";
+    failed = true;
+  }
+  end(std::string(name(special.type)) + " at " + shown(special.value) + ": " + why, failed);
+  branch_.special.push_back(std::move(special));
+}
+
+/// .. or goes on with new ones.
+void Follower::go_on(PathPoint& at, SpecialPoint special, Reshaped next) {
+  special.outcome = next.folds ? "non-smooth fold" : "persistence";
+  Solution first = solution_of(next.point, nullptr);
+  if (next.gathering) {
+    const Orbit& orbit = next.gathering->point.orbit;
+    SpecialPoint onset = special;
+    onset.type = SpecialType::CH;
+    onset.value = orbit.values[0];
+    onset.error = next.gathering->error;
+    onset.solution = describe(problem_, orbit, nullptr);
+    onset.what = "a complete chatter begins: impacts without end are added one by one";
+    special.outcome = "the first of infinitely many changes up to " + shown(onset.value);
+    branch_.special.push_back(std::move(special));
+    branch_.special.push_back(std::move(onset));
+  } else {
+    if (special.solution.chatter && !first.chatter) special.type = SpecialType::CH;
+    branch_.special.push_back(std::move(special));
+  }
+  at = std::move(next.point);
+  branch_.points.push_back(std::move(first));
+  step_ = std::min(step_, options_.step);
 }
 
 /// Takes a step, or makes it shorter. @returns false if the branch ends
@@ -185,7 +226,12 @@ bool Follower::accept(PathPoint& at, PathPoint next, double length) {
     return false;
   }
   if (!solution.is_motion) return change_events(at, next, length, solution.why);
-  smooth_points(at, next, length);
+  std::vector<SpecialPoint> smooth = smooth_special_points(problem_, at, next, length, range_);
+  if (length > shortest_for_pairs && !explained(at.watched, next.watched, smooth)) {
+    step_ = 0.5 * length;
+    return true;
+  }
+  add(std::move(smooth));
   if (ended_) return false;
   branch_.points.push_back(std::move(solution));
   if (!seen.same_chatter && !seen.seen.shape.legs.empty()) {
@@ -229,31 +275,11 @@ void Follower::run(PathPoint at) {
                                               : newton > 6                ? 0.7 * step_
                                                                           : step_);
     if (options_.progress) options_.progress(value(at), static_cast<long>(branch_.points.size()));
-    const bool back = count > 3 && first.legs() == at.orbit.legs() &&
-                      std::abs(value(at) - first.values[0]) < 1e-3 * range_ * taken &&
-                      (at.orbit.x[0] - first.x[0]).norm() < 1e-3 * taken * first.x[0].norm();
-    if (back) return end("closed", false);
+    const std::size_t last = branch_.points.size() - 1;
+    if (last > 3 && between(branch_.points[last - 1].orbit, branch_.points[last].orbit, first))
+      return end("closed", false);
   }
   if (!ended_) end(std::to_string(options_.most_points) + " points each way, the most allowed", true);
-}
-
-/// One branch from the two directions in which it was followed from its first point.
-Branch joined(Branch down, Branch up) {
-  Branch all;
-  all.points.assign(down.points.rbegin(), down.points.rend());
-  const std::size_t first = all.points.size() - 1;
-  all.points.insert(all.points.end(), up.points.begin() + 1, up.points.end());
-  for (auto special = down.special.rbegin(); special != down.special.rend(); ++special) {
-    special->after = first > special->after ? first - special->after - 1 : 0;
-    all.special.push_back(std::move(*special));
-  }
-  for (SpecialPoint& special : up.special) {
-    special.after += first;
-    all.special.push_back(std::move(special));
-  }
-  all.ended = "down: " + down.ended + "; up: " + up.ended;
-  all.failed = down.failed || up.failed;
-  return all;
 }
 
 }  // namespace
@@ -261,6 +287,12 @@ Branch joined(Branch down, Branch up) {
 std::string_view name(SpecialType type) {
   constexpr std::array<std::string_view, 8> names = {"LP", "PD", "NS", "BP", "GR", "SL", "CH", "CO"};
   return names[static_cast<std::size_t>(type)];
+}
+
+bool lies_on(const Branch& branch, const Orbit& orbit) {
+  for (std::size_t i = 0; i + 1 < branch.points.size(); ++i)
+    if (between(branch.points[i].orbit, branch.points[i + 1].orbit, orbit)) return true;
+  return false;
 }
 
 Branch follow(const Problem& problem, const Orbit& start, const ContinuationOptions& options) {
@@ -274,13 +306,9 @@ Branch follow(const Problem& problem, const Orbit& start, const ContinuationOpti
   Branch down, up;
   up.points.push_back(describe(problem, start, &system));
   down.points.push_back(up.points.front());
-  PathPoint backwards = first;
-  backwards.tangent = -backwards.tangent;
-  backwards.watched.turn = -backwards.watched.turn;
-  backwards.watched.cross = -backwards.watched.cross;
-  Follower(problem, options, down).run(std::move(backwards));
+  Follower(problem, options, down).run(reversed(first));
   Follower(problem, options, up).run(first);
-  return joined(std::move(down), std::move(up));
+  return joined(std::move(down), std::move(up), &Branch::special);
 }
 
 }  // namespace slapstick::orbit

@@ -3,6 +3,7 @@
 
 #include "orbit/path.hpp"
 #include "orbit/special.hpp"
+#include "orbit/two_ways.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/text.hpp"
 #include "slapstick/orbit/branch.hpp"
@@ -64,8 +65,7 @@ bool CurveFollower::inside(const std::vector<double>& values) const {
 /// Two orthonormal columns: the tangent plane of the surface.
 MatrixXd CurveFollower::surface(const Linearised& at, const VectorXd& units) const {
   MatrixXd matrix = at.by * units.asDiagonal();
-  const VectorXd largest = matrix.cwiseAbs().rowwise().maxCoeff().cwiseMax(1e-300);
-  matrix = largest.cwiseInverse().asDiagonal() * matrix;
+  level_rows(matrix);
   return Eigen::JacobiSVD<MatrixXd>(matrix, Eigen::ComputeFullV).matrixV().rightCols(2);
 }
 
@@ -243,21 +243,8 @@ Curve locus(const Problem& problem, const SpecialPoint& point, const CurveOption
   if (problem.parameters() != 2) throw InputError("curve: a family of two parameters is needed");
   CurveFollower follower(problem, point, options);
   Orbit start = point.solution.orbit;
-  Curve down = follower.run(start, -1.0), up = follower.run(start, 1.0), all;
-  all.points.assign(down.points.rbegin(), down.points.rend());
-  const std::size_t first = all.points.size() - 1;
-  all.points.insert(all.points.end(), up.points.begin() + 1, up.points.end());
-  for (auto event = down.met.rbegin(); event != down.met.rend(); ++event) {
-    event->after = first > event->after ? first - event->after - 1 : 0;
-    all.met.push_back(std::move(*event));
-  }
-  for (CurveEvent& event : up.met) {
-    event.after += first;
-    all.met.push_back(std::move(event));
-  }
-  all.ended = "down: " + down.ended + "; up: " + up.ended;
-  all.failed = down.failed || up.failed;
-  return all;
+  Curve down = follower.run(start, -1.0);
+  return joined(std::move(down), follower.run(start, 1.0), &Curve::met);
 }
 
 }  // namespace slapstick::orbit

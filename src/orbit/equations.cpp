@@ -138,6 +138,12 @@ VectorXd sizes(const Problem& problem, const Orbit& orbit) {
   return all;
 }
 
+VectorXd level_rows(MatrixXd& matrix) {
+  VectorXd largest = matrix.cwiseAbs().rowwise().maxCoeff().cwiseMax(1e-300);
+  matrix = largest.cwiseInverse().asDiagonal() * matrix;
+  return largest;
+}
+
 std::vector<Condition> fixed_parameters(const Problem& problem, std::size_t legs) {
   std::vector<Condition> conditions;
   for (Index j = 0; j < problem.parameters(); ++j)
@@ -160,9 +166,7 @@ VectorXd newton_step(const Linearised& at, const std::vector<Condition>& conditi
     right[at.by.rows() + c] = -conditions[static_cast<std::size_t>(c)].row.dot(moved);
   }
   matrix = matrix * scale.asDiagonal();
-  const VectorXd largest = matrix.cwiseAbs().rowwise().maxCoeff().cwiseMax(1e-300);
-  matrix = largest.cwiseInverse().asDiagonal() * matrix;
-  right = right.cwiseQuotient(largest);
+  right = right.cwiseQuotient(level_rows(matrix));
   return matrix.partialPivLu().solve(right);
 }
 

@@ -58,6 +58,9 @@ void move(const Problem& problem, const Linearised& at, const Eigen::VectorXd& c
 /// Typical sizes of the unknowns: the orbit's largest displacement and velocity, a period, the parameters' own.
 [[nodiscard]] Eigen::VectorXd sizes(const Problem& problem, const Orbit& orbit);
 
+/// Divides each row of a matrix by its largest entry. @returns those
+Eigen::VectorXd level_rows(Eigen::MatrixXd& matrix);
+
 /// One more condition on the unknowns, so that the matrix is square: row . (v - v_0) = 0 at the first step's v_0.
 struct Condition {
   Eigen::RowVectorXd row;

@@ -180,6 +180,21 @@ Jet leg_start(const ModeSet& set, const Leg& leg, const VectorXd& x, double t_be
   return X;
 }
 
+VectorXd state_within(const ModeSet& set, const Orbit& orbit, std::size_t leg, double after) {
+  const Jet start = leg_start(set, orbit.shape.legs[leg], orbit.x[leg], orbit.t[leg]);
+  Jet X(start.all.rows(), 0, 0);
+  X.value() = start.value();
+  flow(set.mode(orbit.shape.legs[leg].states), after * set.period(), X);
+  return X.value();
+}
+
+VectorXd contact_state(const ModeSet& set, const VectorXd& X) {
+  const Index n = set.frame().n, d = set.frame().d;
+  VectorXd x(2 * n);
+  x << X.head(n), X.segment(d, n);
+  return x;
+}
+
 LegValue leg_value(const ModeSet& set, const Leg& leg, const Leg& next, const VectorXd& x, double t_begin,
                    double t_end) {
   const ModeRates& mode = set.mode(leg.states);

@@ -55,4 +55,10 @@ struct LegValue {
 /// The extended state at the leg's start, after the plastic impact if the leg is the tail of a chatter.
 [[nodiscard]] Jet leg_start(const ModeSet& set, const Leg& leg, const Eigen::VectorXd& x, double t_begin);
 
+/// The extended state so many periods after the start of one of an orbit's legs; no derivatives.
+[[nodiscard]] Eigen::VectorXd state_within(const ModeSet& set, const Orbit& orbit, std::size_t leg, double after);
+
+/// The contact state of an extended one.
+[[nodiscard]] Eigen::VectorXd contact_state(const ModeSet& set, const Eigen::VectorXd& X);
+
 }  // namespace slapstick::orbit

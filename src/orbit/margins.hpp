@@ -22,10 +22,6 @@ struct TestValue {
   int contact = 0;
   double value = std::numeric_limits<double>::infinity();  ///< infinite where a guard has no minimum
   double at = 0.0;  ///< of a guard's least value: when, in periods from the leg's start
-
-  [[nodiscard]] bool same_kind(const TestValue& other) const {
-    return test == other.test && leg == other.leg && kind == other.kind && contact == other.contact;
-  }
 };
 
 /// All of them, in an order that depends on the shape alone.

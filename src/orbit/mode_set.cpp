@@ -26,10 +26,6 @@ std::vector<Model> all_rates(const Family& family, const std::vector<double>& va
 
 }  // namespace
 
-Family constant_family(const Model& model) {
-  return {{}, [model](const std::vector<double>&) { return model; }, {}};
-}
-
 std::size_t ModeRates::guard(mode::GuardKind kind, int contact) const {
   for (std::size_t g = 0; g < outline.guards.size(); ++g)
     if (outline.guards[g].kind == kind && outline.guards[g].contact == contact) return g;

@@ -14,30 +14,19 @@ using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
-/// The equations, all parameters but the first fixed, and one row more; in units of arclength, rows of size 1.
-MatrixXd bordered(const Problem& problem, const Linearised& at, std::size_t legs, const VectorXd& units,
-                  const VectorXd& last_row) {
-  const Index others = problem.parameters() - 1;
-  MatrixXd matrix(at.by.rows() + others + 1, at.by.cols());
-  matrix.topRows(at.by.rows()) = at.by * units.asDiagonal();
-  for (Index j = 0; j < others; ++j)
-    matrix.row(at.by.rows() + j) = RowVectorXd::Unit(at.by.cols(), problem.parameter_column(legs, j + 1));
-  matrix.bottomRows(1) = last_row.transpose();
-  const VectorXd largest = matrix.cwiseAbs().rowwise().maxCoeff().cwiseMax(1e-300);
-  return largest.cwiseInverse().asDiagonal() * matrix;
-}
-
 /// The direction along which the equations stay solved.
 VectorXd tangent_at(const Problem& problem, const Linearised& at, std::size_t legs, const VectorXd& units,
                     const VectorXd& forward) {
   VectorXd last = forward;
   if (last.size() == 0) {  // of a matrix with one row too few the last singular vector
-    const MatrixXd matrix = bordered(problem, at, legs, units, VectorXd::Unit(at.by.cols(), 0));
+    MatrixXd matrix = bordered(problem, at, legs, units, VectorXd::Unit(at.by.cols(), 0));
+    level_rows(matrix);
     const Eigen::JacobiSVD<MatrixXd> svd(matrix.topRows(matrix.rows() - 1), Eigen::ComputeFullV);
     last = svd.matrixV().rightCols(1);
     if (last[problem.parameter_column(legs, 0)] < 0.0) last = -last;
   }
-  const MatrixXd matrix = bordered(problem, at, legs, units, last);
+  MatrixXd matrix = bordered(problem, at, legs, units, last);
+  level_rows(matrix);
   VectorXd tangent = matrix.partialPivLu().solve(VectorXd::Unit(matrix.rows(), matrix.rows() - 1));
   tangent.normalize();
   return tangent.dot(last) < 0.0 ? VectorXd(-tangent) : tangent;
@@ -57,6 +46,17 @@ double flip_product(const std::vector<std::complex<double>>& multipliers) {
 }
 
 }  // namespace
+
+MatrixXd bordered(const Problem& problem, const Linearised& at, std::size_t legs, const VectorXd& units,
+                  const VectorXd& last_row) {
+  const Index others = problem.parameters() - 1;
+  MatrixXd matrix(at.by.rows() + others + 1, at.by.cols());
+  matrix.topRows(at.by.rows()) = at.by * units.asDiagonal();
+  for (Index j = 0; j < others; ++j)
+    matrix.row(at.by.rows() + j) = RowVectorXd::Unit(at.by.cols(), problem.parameter_column(legs, j + 1));
+  matrix.bottomRows(1) = last_row.transpose();
+  return matrix;
+}
 
 bool repeats(const Orbit& orbit, double tolerance) {
   for (std::size_t part = 1; part < orbit.legs(); ++part) {
@@ -83,12 +83,21 @@ PathPoint point_of(const Problem& problem, Orbit orbit, double range, const Vect
   point.units = arclength_units(problem, orbit, range);
   point.tangent = tangent_at(problem, at, orbit.legs(), point.units, forward);
   point.watched.turn = point.tangent[problem.parameter_column(orbit.legs(), 0)];
-  point.watched.cross = bordered(problem, at, orbit.legs(), point.units, point.tangent).partialPivLu().determinant();
+  MatrixXd crossing = bordered(problem, at, orbit.legs(), point.units, point.tangent);
+  level_rows(crossing);
+  point.watched.cross = crossing.partialPivLu().determinant();
   point.watched.multipliers = multipliers(problem, set, orbit, at.legs);
   point.watched.flip = flip_product(point.watched.multipliers);
   point.watched.torus = pair_product(point.watched.multipliers);
   point.watched.tests = test_values(set, orbit);
   point.orbit = std::move(orbit);
+  return point;
+}
+
+PathPoint reversed(PathPoint point) {
+  point.tangent = -point.tangent;
+  point.watched.turn = -point.watched.turn;
+  point.watched.cross = -point.watched.cross;
   return point;
 }
 

@@ -8,6 +8,10 @@ namespace slapstick::orbit {
 /// The unknowns of arclength: sizes of the orbit, a period, the range of the parameter.
 [[nodiscard]] Eigen::VectorXd arclength_units(const Problem& problem, const Orbit& orbit, double range);
 
+/// The equations, all parameters but the first fixed, and one row more; the unknowns in units of arclength.
+[[nodiscard]] Eigen::MatrixXd bordered(const Problem& problem, const Linearised& at, std::size_t legs,
+                                       const Eigen::VectorXd& units, const Eigen::VectorXd& last_row);
+
 /// Whether a cycle is a shorter one several times over, within so much of its states.
 [[nodiscard]] bool repeats(const Orbit& orbit, double tolerance);
 
@@ -31,6 +35,9 @@ struct PathPoint {
 /// A point of a branch from an orbit that solves its equations.
 /// @param forward  a direction it shall not turn against, in the unknowns divided by `units`; empty: the parameter grows
 [[nodiscard]] PathPoint point_of(const Problem& problem, Orbit orbit, double range, const Eigen::VectorXd& forward);
+
+/// The same point, followed the other way.
+[[nodiscard]] PathPoint reversed(PathPoint point);
 
 /// The point at an arclength from another; empty if Newton's method does not get there. `steps`: Newton's; `why`: set where the model is refused.
 [[nodiscard]] std::optional<PathPoint> step_to(const Problem& problem, const PathPoint& from, double length,

@@ -4,25 +4,17 @@
 #include <cmath>
 
 #include "attractor/cycle.hpp"
-#include "orbit/leg_flow.hpp"
+#include "orbit/equations.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::orbit {
 namespace {
 
-using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double far_off = 0.3;        ///< a cycle's length may be this much off, relative to it
 constexpr double same_instant = 1e-8;  ///< periods
 constexpr long most_events_autonomous = 400;
-
-/// An event as the end of a leg, and the state behind it.
-struct Seen {
-  Leg leg;
-  double t;  ///< periods since the start's own
-  VectorXd x;
-};
 
 /// What ended the last segment; empty for a touch that changes nothing, or none of a leg's endings.
 std::optional<Leg> ended_leg(const Motion& motion) {
@@ -45,7 +37,8 @@ std::optional<Leg> ended_leg(const Motion& motion) {
   return leg;
 }
 
-/// Runs on to the next event that ends a leg, or to `end`. @returns empty at the end, or (and sets `touched`) after a graze
+}  // namespace
+
 std::optional<Seen> next_event(Motion& motion, std::int64_t zero, Instant end, bool& touched,
                                const std::atomic<bool>* stop) {
   const long seen = motion.counters().segments;
@@ -66,6 +59,8 @@ std::optional<Seen> next_event(Motion& motion, std::int64_t zero, Instant end, b
   }
   return std::nullopt;
 }
+
+namespace {
 
 Orbit orbit_of(const std::vector<Seen>& events, std::size_t k, int n) {
   Orbit orbit;
@@ -173,15 +168,12 @@ std::size_t freest_leg(const System& system, const Orbit& orbit) {
   return best;
 }
 
-/// The user's state in the middle of a leg.
-State middle(const System& system, const Orbit& orbit, std::size_t leg) {
+/// A motion from the middle of a leg.
+Motion from_middle(const System& system, const Orbit& orbit, std::size_t leg) {
   const ModeSet set(constant_family(system.model()), {});
-  Jet X = leg_start(set, orbit.shape.legs[leg], orbit.x[leg], orbit.t[leg]);
-  flow(set.mode(orbit.shape.legs[leg].states), 0.5 * orbit.duration(leg) * set.period(), X);
-  const int n = system.frame().n;
-  VectorXd x(2 * n);
-  x << X.value().head(n), X.value().segment(system.frame().d, n);
-  return attractor::user_state(system, x);
+  const VectorXd X = state_within(set, orbit, leg, 0.5 * orbit.duration(leg));
+  return Motion(system, attractor::user_state(system, contact_state(set, X)),
+                Instant{}.plus(orbit.t[leg] + 0.5 * orbit.duration(leg)));
 }
 
 std::string mismatch(const System& system, std::size_t i, const Leg* seen, const Leg* wanted) {
@@ -190,10 +182,6 @@ std::string mismatch(const System& system, std::size_t i, const Leg* seen, const
   };
   return "event " + std::to_string(i + 1) + ": " + called(seen) + " where the orbit has " + called(wanted);
 }
-
-}  // namespace
-
-namespace {
 
 /// Do impacts of one stop, and slips between them, lead from this leg to a chatter's sum? How many are flown one by one does not matter.
 bool in_burst(const Orbit& orbit, std::size_t leg) {
@@ -253,9 +241,8 @@ bool Check::to_chatter(Motion& motion, Seen seen) const {
 }
 
 bool Check::run(std::size_t first, std::size_t next) {
-  const double t_middle = orbit_.t[first] + 0.5 * orbit_.duration(first), whole = std::floor(t_middle);
   const double cycle = orbit_.t.back() - orbit_.t.front();
-  Motion motion(system_, middle(system_, orbit_, first), {static_cast<std::int64_t>(whole), t_middle - whole});
+  Motion motion = from_middle(system_, orbit_, first);
   if (motion.mode_id() != system_.mode_id(orbit_.shape.legs[first].states))
     return refuse("leg " + std::to_string(first + 1) + " starts in mode " + system_.mode_name(motion.mode_id()));
   bool touched = false;
@@ -291,12 +278,18 @@ bool Check::run(std::size_t first, std::size_t next) {
 Orbit as_seen(const System& system, const Orbit& orbit) {
   Orbit turned = orbit;
   rotate(turned, freest_leg(system, orbit));
-  const double t_middle = turned.t[0] + 0.5 * turned.duration(0), whole = std::floor(t_middle);
-  const Motion motion(system, middle(system, turned, 0), {static_cast<std::int64_t>(whole), t_middle - whole});
-  return record(motion, orbit.shape.n).value_or(Orbit{});
+  return record(from_middle(system, turned, 0), orbit.shape.n).value_or(Orbit{});
 }
 
 }  // namespace
+
+bool is_motion(const Problem& problem, const Orbit& orbit) {
+  try {
+    return verify(System(problem.family().model(orbit.values)), orbit).is_motion;
+  } catch (const InputError&) {
+    return false;
+  }
+}
 
 Verification verify(const System& system, const Orbit& orbit) {
   Verification result;
@@ -307,7 +300,7 @@ Verification verify(const System& system, const Orbit& orbit) {
   }
   try {
     if (orbit.shape.legs[0].ending == Ending::cut) {
-      Motion motion(system, middle(system, orbit, 0), Instant{}.plus(orbit.t[0] + 0.5 * orbit.duration(0)));
+      Motion motion = from_middle(system, orbit, 0);
       bool touched = false;
       const std::optional<Seen> seen = next_event(motion, 0, motion.time().plus(orbit.duration(0)), touched, nullptr);
       if (seen) result.why = mismatch(system, 0, &seen->leg, nullptr);

@@ -7,8 +7,21 @@
 
 namespace slapstick::orbit {
 
+class Problem;
+
+/// An event as the end of a leg, and the contact state behind it.
+struct Seen {
+  Leg leg;
+  double t;  ///< periods since the start of period `zero`
+  Eigen::VectorXd x;
+};
+
+/// Runs on to the next event that ends a leg, or to `end`. @returns empty at the end, or (and sets `touched`) after a graze
+[[nodiscard]] std::optional<Seen> next_event(Motion& motion, std::int64_t zero, Instant end, bool& touched,
+                                             const std::atomic<bool>* stop);
+
 /// An orbit of the shape that a motion has from its first event on: over the n periods after it, up to the same event in the same modes nearest to
-/// n periods later (n = 0: up to the event nearest in state, within `most_events`). Its equations need not be met.
+/// n periods later (n = 0: up to the event nearest in state, within 400 events). Its equations need not be met.
 /// @returns empty if there is no such event, or the motion grazes; an orbit with one leg if there are no events within n periods
 [[nodiscard]] std::optional<Orbit> record(const Motion& start, int n, const std::atomic<bool>* stop = nullptr);
 
@@ -23,5 +36,8 @@ struct Verification {
 /// modes and instants. Piece by piece, so that an unstable orbit is not lost on the way.
 /// @param system  of the orbit's own parameters
 [[nodiscard]] Verification verify(const System& system, const Orbit& orbit);
+
+/// The same at the orbit's own parameters; false where there is no model.
+[[nodiscard]] bool is_motion(const Problem& problem, const Orbit& orbit);
 
 }  // namespace slapstick::orbit

@@ -1,7 +1,6 @@
 #include "orbit/reshape.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <numeric>
@@ -14,7 +13,6 @@
 namespace slapstick::orbit {
 namespace {
 
-using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t most_held = 4;  ///< legs whose length is held in turn
@@ -22,16 +20,11 @@ constexpr std::size_t most_held = 4;  ///< legs whose length is held in turn
 /// A motion from inside a leg of an orbit that may itself be no motion any more.
 std::optional<Motion> motion_from(const System& system, const ModeSet& set, const Orbit& orbit, std::size_t leg,
                                   double part) {
-  const ModeRates& mode = set.mode(orbit.shape.legs[leg].states);
-  Jet X = leg_start(set, orbit.shape.legs[leg], orbit.x[leg], orbit.t[leg]);
-  flow(mode, part * orbit.duration(leg) * set.period(), X);
-  for (const mode::Guard& guard : mode.outline.guards)
-    if (guard.row.dot(X.value()) <= 0.0) return std::nullopt;
-  const int n = system.frame().n;
-  VectorXd x(2 * n);
-  x << X.value().head(n), X.value().segment(system.frame().d, n);
-  const double t = orbit.t[leg] + part * orbit.duration(leg), whole = std::floor(t);
-  return Motion(system, attractor::user_state(system, x), {static_cast<std::int64_t>(whole), t - whole});
+  const double after = part * orbit.duration(leg);
+  const VectorXd X = state_within(set, orbit, leg, after);
+  for (const mode::Guard& guard : set.mode(orbit.shape.legs[leg].states).outline.guards)
+    if (guard.row.dot(X) <= 0.0) return std::nullopt;
+  return Motion(system, attractor::user_state(system, contact_state(set, X)), Instant{}.plus(orbit.t[leg] + after));
 }
 
 /// Do two cycles have the same legs, wherever they begin?
@@ -45,38 +38,79 @@ bool same_cycle(const Orbit& a, const Orbit& b) {
   return false;
 }
 
-/// The cycles that motions from inside an orbit's legs show, each shape once.
-std::vector<Orbit> shapes_near(const Problem& problem, const Orbit& orbit) {
-  std::vector<Orbit> shapes;
-  const System system(problem.family().model(orbit.values));
-  const ModeSet set(constant_family(system.model()), {});
-  for (std::size_t leg = 0; leg < orbit.legs(); ++leg) {
+/// The legs that a motion from inside the first leg shows, until it ends one of the orbit's own legs as the orbit does; the rest as in the orbit.
+/// Unlike a whole cycle of the motion it needs no stability.
+std::optional<Orbit> spliced(const Orbit& orbit, Motion motion) {
+  constexpr int most_events = 12;
+  constexpr double at_its_time = 0.02;  // of a cycle
+  const double cycle = orbit.t.back() - orbit.t.front();
+  const Instant end = Instant{}.plus(orbit.t.back());
+  bool touched = false;
+  Orbit other = orbit;
+  other.shape.legs.clear();
+  other.x = {orbit.x[0]};
+  other.t = {orbit.t[0]};
+  for (int k = 0; k < most_events; ++k) {
+    const std::optional<Seen> seen = next_event(motion, 0, end, touched, nullptr);
+    if (!seen || touched) return std::nullopt;
+    other.shape.legs.push_back(seen->leg);
+    other.t.push_back(seen->t);
+    for (std::size_t i = 0; i + 1 < orbit.legs(); ++i) {
+      if (!(orbit.shape.legs[i] == seen->leg) || std::abs(orbit.t[i + 1] - seen->t) > at_its_time * cycle) continue;
+      const auto from = static_cast<std::ptrdiff_t>(i) + 1;
+      Orbit whole = other;
+      whole.shape.legs.insert(whole.shape.legs.end(), orbit.shape.legs.begin() + from, orbit.shape.legs.end());
+      whole.x.insert(whole.x.end(), orbit.x.begin() + from, orbit.x.end());
+      whole.t.insert(whole.t.end(), orbit.t.begin() + from + 1, orbit.t.end());
+      if (!(whole.shape.legs == orbit.shape.legs)) return whole;
+    }
+    other.x.push_back(seen->x);
+  }
+  return std::nullopt;
+}
+
+/// Cycles of other shapes that motions from inside an orbit's legs show, each shape once: whole cycles, and, from about the leg at which the
+/// events change, pieces in place of the orbit's own.
+class NearbyShapes {
+ public:
+  NearbyShapes(const Problem& problem, const Orbit& orbit)
+      : orbit_(orbit), system_(problem.family().model(orbit.values)), set_(constant_family(system_.model()), {}) {}
+
+  [[nodiscard]] std::vector<Orbit> about(std::size_t changed) {
+    for (std::size_t leg = 0; leg < orbit_.legs(); ++leg)
+      from(orbit_, leg, [&](const Motion& motion) { return record(motion, orbit_.shape.n); });
+    for (std::size_t before = 0; before < std::min<std::size_t>(3, orbit_.legs()); ++before) {
+      Orbit turned = orbit_;
+      rotate(turned, (changed + orbit_.legs() - before) % orbit_.legs());
+      from(turned, 0, [&](const Motion& motion) { return spliced(turned, motion); });
+    }
+    return std::move(shapes_);
+  }
+
+ private:
+  template <class See>
+  void from(const Orbit& orbit, std::size_t leg, const See& see) {
     for (double part : {0.5, 0.1, 0.9}) {
       try {
-        const std::optional<Motion> motion = motion_from(system, set, orbit, leg, part);
-        if (!motion) continue;
-        std::optional<Orbit> seen = record(*motion, orbit.shape.n);
-        if (!seen) continue;
-        const bool new_shape =
-            std::ranges::none_of(shapes, [&](const Orbit& other) { return same_cycle(other, *seen); });
-        if (!new_shape || same_cycle(orbit, *seen)) continue;
-        seen->values = orbit.values;
-        shapes.push_back(std::move(*seen));
+        if (const std::optional<Motion> motion = motion_from(system_, set_, orbit, leg, part)) add(see(*motion));
       } catch (const InputError&) {  // behind a stop
       } catch (const NumericalError&) {
       }
     }
   }
-  return shapes;
-}
 
-bool is_motion(const Problem& problem, const Orbit& orbit) {
-  try {
-    return verify(System(problem.family().model(orbit.values)), orbit).is_motion;
-  } catch (const InputError&) {
-    return false;
+  void add(std::optional<Orbit> seen) {
+    const auto known = [&](const Orbit& other) { return same_cycle(other, *seen); };
+    if (!seen || same_cycle(orbit_, *seen) || std::ranges::any_of(shapes_, known)) return;
+    seen->values = orbit_.values;
+    shapes_.push_back(std::move(*seen));
   }
-}
+
+  const Orbit& orbit_;
+  System system_;
+  ModeSet set_;
+  std::vector<Orbit> shapes_;
+};
 
 /// Newton's method from a guess: at its own parameter, and with the parameter free and the length of one of the shortest legs held.
 std::optional<Orbit> solved(const Problem& problem, const Orbit& guess) {
@@ -96,18 +130,10 @@ std::optional<Orbit> solved(const Problem& problem, const Orbit& guess) {
   return std::nullopt;
 }
 
-}  // namespace
-
-namespace {
-
 /// The cycle of one leg without its event, from phase 0.
 Orbit uncut(const ModeSet& set, const Orbit& orbit) {
   Orbit plain = orbit;
-  const double wait = std::ceil(orbit.t[0]) - orbit.t[0];
-  Jet X = leg_start(set, orbit.shape.legs[0], orbit.x[0], orbit.t[0]);
-  flow(set.mode(orbit.shape.legs[0].states), wait * set.period(), X);
-  const int n = set.frame().n;
-  plain.x[0] << X.value().head(n), X.value().segment(set.frame().d, n);
+  plain.x[0] = contact_state(set, state_within(set, orbit, 0, std::ceil(orbit.t[0]) - orbit.t[0]));
   plain.shape.legs[0].ending = Ending::cut;
   plain.shape.legs[0].strikes.clear();
   plain.t = {0.0, static_cast<double>(orbit.shape.n)};
@@ -151,12 +177,8 @@ std::vector<Orbit> with_impact(const ModeSet& set, const Orbit& orbit, const Tes
   Orbit split = orbit;
   const Leg& old = orbit.shape.legs[test.leg];
   const double at = orbit.t[test.leg] + test.at;
-  Jet X = leg_start(set, old, orbit.x[test.leg], orbit.t[test.leg]);
-  flow(set.mode(old.states), test.at * set.period(), X);
-  const int n = set.frame().n, own = set.frame().stops[test.contact].own;
-  VectorXd x(2 * n);
-  x << X.value().head(n), X.value().segment(set.frame().d, n);
-  if (own < n) x[own] = 0.0;
+  VectorXd x = contact_state(set, state_within(set, orbit, test.leg, test.at));
+  if (const int own = set.frame().stops[test.contact].own; own < set.frame().n) x[own] = 0.0;
   Leg impact = old;
   impact.ending = Ending::guard;
   impact.kind = mode::GuardKind::gap;
@@ -187,76 +209,104 @@ std::optional<Reshaped> leaving(const Problem& problem, const PathPoint& change,
   const PathPoint start = point_of(problem, orbit, range, {});
   for (const double sense : {1.0, -1.0}) {
     for (const double length : {1e-4, 1e-3, 5e-3}) {
-      PathPoint from = start;
-      from.tangent = sense * start.tangent;
-      std::optional<PathPoint> next = step_to(problem, from, length, range);
+      std::optional<PathPoint> next = step_to(problem, sense > 0.0 ? start : reversed(start), length, range);
       if (!next || !is_motion(problem, next->orbit)) continue;
       const bool folds = (next->orbit.values[0] - critical) * change.watched.turn < 0.0;
-      return Reshaped{std::move(*next), folds};
+      return Reshaped{std::move(*next), folds, {}};
     }
   }
   return std::nullopt;
 }
 
-/// Does the branch of a new orbit come from the change: has it, followed back, a margin that is zero there?
-bool comes_from(const Problem& problem, const PathPoint& next, double critical, double range) {
-  constexpr double same = 1e-7;  // of the range
-  PathPoint back = next;
-  back.tangent = -back.tangent;
+/// Where the events of a new orbit's branch begin, followed back towards the change; empty if that is not there.
+/// @param same  how far off it may be, of the range
+std::optional<Located> beginning(const Problem& problem, const PathPoint& next, double critical, double same,
+                                 double range) {
+  const PathPoint back = reversed(next);
   const double turn = std::abs(next.watched.turn);
   const double near = turn > 0.0 ? std::abs(next.orbit.values[0] - critical) / (turn * range) : 0.0;
   for (double length : {1.5 * near, 4.0 * near, 20.0 * near}) {
-    if (!(length > 0.0) || length > 0.05) return false;
+    if (!(length > 0.0) || length > 0.05) break;
     const std::optional<PathPoint> beyond = step_to(problem, back, length, range);
     if (!beyond) continue;
     for (std::size_t i = 0; i < back.watched.tests.size(); ++i) {
       if (!(back.watched.tests[i].value > 0.0) || !(beyond->watched.tests[i].value < 0.0)) continue;
       const auto value = [i](const Watched& watched) { return watched.tests[i].value; };
-      const auto located = locate(problem, back, length, range, value, beyond->watched.tests[i].value);
-      if (located && std::abs(located->point.orbit.values[0] - critical) < same * range) return true;
+      auto located = locate(problem, back, length, range, value, beyond->watched.tests[i].value);
+      if (located && std::abs(located->point.orbit.values[0] - critical) < same * range) return located;
     }
   }
-  return false;
+  return std::nullopt;
 }
 
-/// The point of a new orbit, led away from the change; empty if it does not come from there.
+bool chatters(const Orbit& orbit) {
+  return std::ranges::any_of(orbit.shape.legs, [](const Leg& leg) { return leg.ending == Ending::chatter; });
+}
+
+/// The point of a new orbit, led away from the change; empty if it does not come from there. Between orbits with a complete chatter and without
+/// lie infinitely many changes, which gather where the one with the chatter begins: there the nearest of them stands for all.
 std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, const Orbit& orbit, double length,
                              double range) {
+  constexpr double same = 1e-7, gathering = 30.0;
   const double critical = change.orbit.values[0], away = orbit.values[0] - critical;
   if (away == 0.0 || std::abs(away) > 10.0 * length * range) return std::nullopt;
-  Reshaped next{point_of(problem, orbit, range, {}), away * change.watched.turn < 0.0};
-  if (next.point.watched.turn * away < 0.0) {
-    next.point.tangent = -next.point.tangent;
-    next.point.watched.turn = -next.point.watched.turn;
-    next.point.watched.cross = -next.point.watched.cross;
-  }
-  if (!comes_from(problem, next.point, critical, range)) return std::nullopt;
+  Reshaped next{point_of(problem, orbit, range, {}), away * change.watched.turn < 0.0, {}};
+  if (next.point.watched.turn * away < 0.0) next.point = reversed(std::move(next.point));
+  const bool gathers = chatters(orbit) != chatters(change.orbit);
+  auto begins = beginning(problem, next.point, critical, gathers ? gathering * length : same, range);
+  if (!begins) return std::nullopt;
+  if (gathers && chatters(orbit)) next.gathering = std::move(begins);
   return next;
 }
 
 }  // namespace
 
-std::optional<Reshaped> reshape(const Problem& problem, const PathPoint& change, const TestValue& test, double range) {
+std::vector<Reshaped> reshape(const Problem& problem, const PathPoint& change, const TestValue& test, double range) {
   const double critical = change.orbit.values[0];
   const ModeSet set(problem.family(), change.orbit.values);
-  std::vector<Orbit> known = without_impact(set, change.orbit, test);
-  std::ranges::copy(with_impact(set, change.orbit, test), std::back_inserter(known));
-  for (const Orbit& shape : known)
-    if (auto next = leaving(problem, change, shape, range)) return next;
+  std::vector<Reshaped> all;
+  const auto add = [&](std::optional<Reshaped> next) {
+    const auto known = [&](const Reshaped& other) {
+      return other.folds == next->folds && same_cycle(other.point.orbit, next->point.orbit);
+    };
+    if (next && std::ranges::none_of(all, known)) all.push_back(std::move(*next));
+  };
+  std::vector<Orbit> shapes = without_impact(set, change.orbit, test);
+  std::ranges::copy(with_impact(set, change.orbit, test), std::back_inserter(shapes));
+  for (const Orbit& shape : shapes) add(leaving(problem, change, shape, range));
   for (double length : {1e-6, 1e-5, 1e-4, 1e-3}) {
+    if (!all.empty()) break;
     const std::optional<PathPoint> beyond = step_to(problem, change, length, range);
     if (!beyond) continue;
-    const std::vector<Orbit> guesses = shapes_near(problem, beyond->orbit);
+    const std::vector<Orbit> guesses = NearbyShapes(problem, beyond->orbit).about(test.leg);
     for (double side : {1.0, -1.0}) {  // where the old branch would have gone on, then where it came from
       for (Orbit guess : guesses) {
         guess.values[0] = critical + side * (beyond->orbit.values[0] - critical);
-        const std::optional<Orbit> orbit = solved(problem, guess);
-        if (!orbit) continue;
-        if (auto next = born(problem, change, *orbit, length, range)) return next;
+        if (const auto orbit = solved(problem, guess)) add(born(problem, change, *orbit, length, range));
       }
     }
   }
-  return std::nullopt;
+  return all;
+}
+
+std::string behind(const Problem& problem, const PathPoint& change, double range) {
+  constexpr double distance = 1e-4;  // of the range
+  constexpr long transient = 500;
+  const double value = change.orbit.values[0] + std::copysign(distance * range, change.watched.turn);
+  try {
+    const auto there = pose(problem.family(), {value});
+    const System system(problem.family().model({value}));
+    const ModeSet set(constant_family(system.model()), {});
+    for (std::size_t leg = 0; leg < change.orbit.legs(); ++leg) {
+      const auto motion = motion_from(system, set, change.orbit, leg, 0.5);
+      if (!motion) continue;
+      const std::optional<Solution> found = settle(*there, *motion, transient, 0);
+      return found ? found->label : std::string();
+    }
+  } catch (const InputError&) {
+  } catch (const NumericalError&) {
+  }
+  return {};
 }
 
 }  // namespace slapstick::orbit

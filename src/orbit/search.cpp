@@ -127,8 +127,13 @@ std::vector<Solution> search(const Problem& problem, const System& system, const
 
 std::optional<Solution> settle(const Problem& problem, const System& system, const State& state, long transient, int n,
                                const std::atomic<bool>* stop) {
-  Motion motion(system, state);
-  if (!run_to(motion, {transient, 0.0}, stop, [] {})) return std::nullopt;
+  return settle(problem, Motion(system, state), transient, n, stop);
+}
+
+std::optional<Solution> settle(const Problem& problem, Motion motion, long transient, int n,
+                               const std::atomic<bool>* stop) {
+  const System& system = motion.system();
+  if (!run_to(motion, {motion.time().period + transient, 0.0}, stop, [] {})) return std::nullopt;
   if (n != 0 || !system.model().forced()) return orbit_from(problem, system, motion, n, settled, stop);
   for (int cycle = 1; cycle <= longest_cycle; ++cycle) {
     auto found = orbit_from(problem, system, motion, cycle, settled, stop);

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "orbit/crossing.hpp"
 #include "orbit/record.hpp"
+#include "orbit/switching.hpp"
 
 namespace slapstick::orbit {
 namespace {
@@ -52,7 +54,10 @@ std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const Pa
   std::vector<std::pair<double, SpecialPoint>> found;
   for (const Kind& kind : kinds) {
     if (!changes_sign(kind.value(from.watched), kind.value(to.watched))) continue;
-    const std::optional<Located> located = locate(problem, from, length, range, kind.value, kind.value(to.watched));
+    std::optional<Located> located = locate(problem, from, length, range, kind.value, kind.value(to.watched));
+    if (kind.type == SpecialType::BP)
+      if (auto sharper = locate_crossing(problem, from, located ? located->length : 0.5 * length, range))
+        located = std::move(sharper);
     if (!located) continue;
     const Watched& there = located->point.watched;
     SpecialPoint special;
@@ -69,8 +74,19 @@ std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const Pa
                    : kind.type == SpecialType::BP ? "branches cross"
                    : kind.type == SpecialType::PD ? "period doubling"
                                                   : "torus";
+    if (kind.type == SpecialType::PD) special.born = doubled(problem, located->point.orbit);
+    if (kind.type == SpecialType::BP) special.born = crossing_branch(problem, located->point);
     found.emplace_back(located->length, std::move(special));
   }
+  // The branch that leaves a symmetric one turns back in the parameter where it leaves: no fold of its own.
+  constexpr double one_place = 1e-3;  // arclength
+  std::vector<double> crossings;
+  for (const auto& [length_to, special] : found)
+    if (special.type == SpecialType::BP) crossings.push_back(length_to);
+  std::erase_if(found, [&](const auto& entry) {
+    const auto here = [&](double place) { return std::abs(place - entry.first) < one_place; };
+    return entry.second.type == SpecialType::LP && std::ranges::any_of(crossings, here);
+  });
   std::ranges::sort(found, {}, [](const auto& entry) { return entry.first; });
   std::vector<SpecialPoint> points;
   for (auto& entry : found) points.push_back(std::move(entry.second));
@@ -121,10 +137,6 @@ std::string describe(const TestValue& test, const Itinerary& shape, const System
 }
 
 namespace {
-
-bool is_motion(const Problem& problem, const Orbit& orbit) {
-  return verify(System(problem.family().model(orbit.values)), orbit).is_motion;
-}
 
 /// Does the simulator agree that the orbit is a motion before a place of the branch, and none behind it?
 bool changes_there(const Problem& problem, const PathPoint& from, double length, double place, double range) {

@@ -1,8 +1,9 @@
+#include "orbit/switching.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "orbit/path.hpp"
-#include "slapstick/orbit/branch.hpp"
 
 namespace slapstick::orbit {
 namespace {
@@ -32,26 +33,24 @@ VectorXd new_direction(const Problem& problem, const Orbit& orbit, const VectorX
   matrix.topRows(at.by.rows()) = at.by * units.asDiagonal();
   matrix.bottomRows(problem.parameters()).setZero();
   matrix.bottomRightCorner(problem.parameters(), problem.parameters()).setIdentity();
-  const VectorXd largest = matrix.cwiseAbs().rowwise().maxCoeff().cwiseMax(1e-300);
-  matrix = largest.cwiseInverse().asDiagonal() * matrix;
+  level_rows(matrix);
   const Eigen::JacobiSVD<MatrixXd> svd(matrix, Eigen::ComputeFullV);
   return svd.matrixV().rightCols(1);
 }
 
 }  // namespace
 
-std::optional<Orbit> doubled(const Problem& problem, const SpecialPoint& pd) {
-  Orbit orbit = twice(pd.solution.orbit);
-  const VectorXd units = arclength_units(problem, orbit, std::max(1e-3, std::abs(pd.value)));
+std::vector<Orbit> doubled(const Problem& problem, const Orbit& pd) {
+  Orbit orbit = twice(pd);
+  const VectorXd units = arclength_units(problem, orbit, std::max(1e-3, std::abs(pd.values[0])));
   const VectorXd direction = new_direction(problem, orbit, units);
   const ModeSet set(problem.family(), orbit.values);
   const Linearised at = linearise(problem, set, orbit);
   move(problem, at, amplitude * direction.cwiseProduct(units), 0.0, orbit);
   std::vector<Condition> conditions = fixed_parameters(problem, orbit.legs());
   conditions[0].row = direction.cwiseQuotient(units).transpose();
-  if (pd.birth || !solve(problem, orbit, conditions, 12).converged || repeats(orbit, 0.01 * amplitude))
-    return std::nullopt;
-  return orbit;
+  if (!solve(problem, orbit, conditions, 12).converged || repeats(orbit, 0.01 * amplitude)) return {};
+  return {orbit};
 }
 
 }  // namespace slapstick::orbit

@@ -19,18 +19,6 @@ struct Reach {
 constexpr Reach reaches[] = {
     {1, 2.2, 0.9, 5.0}, {2, 4.5, 2.8, 6.5}, {3, 6.3, 4.5, 8.0}, {4, 8.2, 6.0, 9.5}, {5, 9.2, 7.5, 10.0}};
 
-orbit::Family family(const Study& study, const std::vector<std::string>& names) {
-  const auto with = [names](const std::vector<double>& values) {
-    Overrides all;
-    for (std::size_t i = 0; i < names.size(); ++i) all[names[i]] = values.at(i);
-    return all;
-  };
-  return {names, [&study, with](const std::vector<double>& values) { return study.definition().build(with(values)); },
-          [&study, with, names](const std::vector<double>& values, std::size_t which) {
-            return study.definition().rate(names.at(which), with(values));
-          }};
-}
-
 /// The n-1 orbit at the start of a reach: what the motion from rest settles on, or else what a search finds.
 orbit::Orbit first_orbit(const Study& study, const orbit::Problem& problem, const Reach& reach) {
   const System system = study.system({}, reach.start);
@@ -47,7 +35,7 @@ orbit::Orbit first_orbit(const Study& study, const orbit::Problem& problem, cons
 }
 
 orbit::Branch follow(const Study& study, const Reach& reach) {
-  const auto problem = orbit::pose(family(study, {"omega"}), {reach.start});
+  const auto problem = orbit::pose(study.definition().family({"omega"}), {reach.start});
   orbit::ContinuationOptions options{.from = reach.from, .to = reach.to};
   options.step = 0.002;
   options.longest_step = 0.01;
@@ -65,7 +53,7 @@ std::vector<double> impact_speeds(const orbit::Problem& problem, const orbit::So
 
 NBranch make_branch(const Study& study, const Reach& reach) {
   NBranch all{reach.n, follow(study, reach), {}};
-  const auto problem = orbit::pose(family(study, {"omega"}), {reach.start});
+  const auto problem = orbit::pose(study.definition().family({"omega"}), {reach.start});
   for (const orbit::Solution& point : all.branch.points) all.speeds.push_back(impact_speeds(*problem, point));
   return all;
 }
@@ -85,7 +73,7 @@ std::vector<orbit::SpecialPoint> bounds_of(const orbit::Branch& branch, const st
 BoundCurve make_bound(const Study& study, const NBranch& of, const orbit::SpecialPoint& point) {
   orbit::SpecialPoint at = point;
   at.solution.orbit.values = {point.value, 0.15};
-  const auto problem = orbit::pose(family(study, {"omega", "friction"}), at.solution.orbit.values);
+  const auto problem = orbit::pose(study.definition().family({"omega", "friction"}), at.solution.orbit.values);
   orbit::CurveOptions options{.from = 0.5, .to = 7.0, .second_from = 0.0, .second_to = 0.5};
   options.longest_step = 0.02;
   options.stop = study.options().cancel;
@@ -107,13 +95,12 @@ std::vector<NBranch> make_doubled(const Study& study, const NBranch& of) {
   if (bounds.size() < 2 || bounds[1].type != orbit::SpecialType::PD) return result;
   orbit::SpecialPoint pd = bounds[1];
   for (int generation = 0; generation < generations; ++generation) {
-    const auto problem = orbit::pose(family(study, {"omega"}), {pd.value});
-    const auto start = orbit::doubled(*problem, pd);
-    if (!start) break;
+    const auto problem = orbit::pose(study.definition().family({"omega"}), {pd.value});
+    if (pd.born.empty()) break;
     orbit::ContinuationOptions options{.from = pd.value - reach, .to = pd.value + reach};
     options.step = 1e-3;
     options.stop = study.options().cancel;
-    NBranch next{2 * pd.solution.orbit.shape.n, orbit::follow(*problem, *start, options), {}};
+    NBranch next{2 * pd.solution.orbit.shape.n, orbit::follow(*problem, pd.born.front(), options), {}};
     const auto again = std::ranges::find_if(next.branch.special, [&](const orbit::SpecialPoint& point) {
       return point.type == orbit::SpecialType::PD && !point.birth;
     });

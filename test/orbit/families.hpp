@@ -13,8 +13,7 @@ struct Posed {
         overrides(std::move(fixed)),
         names(std::move(parameters)),
         values(std::move(present)),
-        family{names, [this](const std::vector<double>& v) { return definition.build(at(v)); },
-               [this](const std::vector<double>& v, std::size_t j) { return definition.rate(names.at(j), at(v)); }},
+        family(definition.family(names, overrides)),
         system(definition.build(at(values))),
         problem(orbit::pose(family, values)) {}
   Posed(const Posed&) = delete;
@@ -35,7 +34,7 @@ struct Posed {
   Overrides overrides;
   std::vector<std::string> names;
   std::vector<double> values;
-  orbit::Family family;
+  Family family;
   System system;
   std::shared_ptr<const orbit::Problem> problem;
 };

@@ -28,7 +28,7 @@
 #include <string_view>
 #include <vector>
 
-#include "slapstick/model/model.hpp"
+#include "slapstick/model/family.hpp"
 
 namespace slapstick {
 
@@ -103,6 +103,9 @@ class ModelDefinition {
   /// override of their own; parameters that follow others by an expression follow here too. Exact but for rounding, also at the ends of ranges.
   /// @throws InputError as `build`, for an unknown name, or naming a number that has no derivative (a kink of min, max, abs, ?:)
   [[nodiscard]] Model rate(const std::string& parameter, const Overrides& overrides = {}) const;
+
+  /// The model as a function of some of its parameters or groups, the others as in `overrides`.
+  [[nodiscard]] Family family(const std::vector<std::string>& parameters, const Overrides& overrides = {}) const;
 
   /// The default initial state (2n numbers), checked against the stops. @throws InputError
   [[nodiscard]] State start(const Overrides& overrides = {}) const;

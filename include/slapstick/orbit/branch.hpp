@@ -31,18 +31,20 @@ struct SpecialPoint {
   double value = 0.0;  ///< of the parameter
   double error = 0.0;  ///< of it: the last change of the refinement
   Solution solution;
-  std::string what;       ///< "the gap of stop touches zero in leg 2", "stick of block is lost"
-  std::string outcome;    ///< of a change of events: "persistence", "non-smooth fold", "none found", ..
-  double rotation = 0.0;  ///< NS: rho in (0, 1/2)
-  bool birth = false;     ///< PD: seen from the doubled orbit, whose branch begins there
-  std::size_t after = 0;  ///< it lies behind this point of the branch
-  std::size_t test = 0;   ///< GR, SL, CH, CO: which of the orbit's margins is zero (src/orbit/margins.hpp)
+  std::string what;         ///< "the gap of stop touches zero in leg 2", "stick of block is lost"
+  std::string outcome;      ///< of a change of events: "persistence", "non-smooth fold", "none found", ..
+  double rotation = 0.0;    ///< NS: rho in (0, 1/2)
+  bool birth = false;       ///< PD: seen from the doubled orbit, whose branch begins there
+  std::vector<Orbit> born;  ///< orbits from which other branches that begin here or cross can be followed
+  std::size_t after = 0;    ///< it lies behind this point of the branch
+  std::size_t test = 0;     ///< GR, SL, CH, CO: which of the orbit's margins is zero (src/orbit/margins.hpp)
 };
 
 struct Branch {
   std::vector<Solution> points;
   std::vector<SpecialPoint> special;
-  std::string ended;    ///< why it ends: "range", "closed", "points", or what went wrong, with the last good value
+  std::string
+      ended;  ///< why it ends: "range", "closed", "1000 points each way, the most allowed", or what went wrong, with the last good value
   bool failed = false;  ///< it ends before the range does
 };
 
@@ -61,8 +63,8 @@ struct ContinuationOptions {
 /// @throws InputError if `start` is outside the range
 [[nodiscard]] Branch follow(const Problem& problem, const Orbit& start, const ContinuationOptions& options);
 
-/// The cycle of twice the length that is born at a PD, to follow from. Empty at the birth of a doubled branch, or if none is found.
-[[nodiscard]] std::optional<Orbit> doubled(const Problem& problem, const SpecialPoint& pd);
+/// Is an orbit one of the branch's, perhaps begun at another event? Between its points the branch is taken for straight.
+[[nodiscard]] bool lies_on(const Branch& branch, const Orbit& orbit);
 
 struct CurvePoint {
   std::vector<double> values;  ///< of the two parameters
@@ -71,8 +73,7 @@ struct CurvePoint {
 
 /// What else happens on a curve: a point of codimension two.
 struct CurveEvent {
-  std::string
-      what;  ///< "another multiplier is -1", "the orbit ceases to be a motion: ..", "the curve turns back in NAME"
+  std::string what;  ///< "a multiplier passes -1", "the events change: ..", "the curve turns back in NAME"
   std::vector<double> values;
   std::size_t after = 0;
 };

@@ -7,7 +7,7 @@
 
 #include "slapstick/mode/derivative.hpp"
 #include "slapstick/mode/outline.hpp"
-#include "slapstick/orbit/family.hpp"
+#include "slapstick/model/family.hpp"
 
 namespace slapstick::orbit {
 

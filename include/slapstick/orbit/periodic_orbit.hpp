@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "slapstick/flow/stage.hpp"
-#include "slapstick/orbit/family.hpp"
+#include "slapstick/model/family.hpp"
 #include "slapstick/orbit/itinerary.hpp"
 
 namespace slapstick::orbit {
@@ -94,5 +94,8 @@ struct SearchOptions {
 /// @param n  forcing periods per cycle; 0: the least up to 64 for which the motion nearly returns
 [[nodiscard]] std::optional<Solution> settle(const Problem& problem, const System& system, const State& state,
                                              long transient, int n, const std::atomic<bool>* stop = nullptr);
+/// The same from where a motion of the problem's own parameters stands.
+[[nodiscard]] std::optional<Solution> settle(const Problem& problem, Motion motion, long transient, int n,
+                                             const std::atomic<bool>* stop = nullptr);
 
 }  // namespace slapstick::orbit

@@ -6,7 +6,7 @@
 
 #include "slapstick/model/model.hpp"
 
-namespace slapstick::orbit {
+namespace slapstick {
 
 /// Both functions may throw an InputError where there is no model, or none that is differentiable.
 struct Family {
@@ -17,6 +17,8 @@ struct Family {
 };
 
 /// A model that depends on nothing.
-[[nodiscard]] Family constant_family(const Model& model);
+[[nodiscard]] inline Family constant_family(const Model& model) {
+  return {{}, [model](const std::vector<double>&) { return model; }, {}};
+}
 
-}  // namespace slapstick::orbit
+}  // namespace slapstick

@@ -1,0 +1,185 @@
+#include "orbit/crossing.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "slapstick/base/error.hpp"
+
+namespace slapstick::orbit {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int nodes = 8;             ///< of the interpolation; even: none is at the crossing itself
+constexpr double half_width = 0.01;  ///< of the interpolated piece, arclength
+constexpr double amplitude = 2e-3;   ///< of the orbits beside a crossing, arclength
+constexpr double difference = 1e-4;  ///< over which J is differentiated
+constexpr double well_known = 1e-8;  ///< of the range: what the place may be uncertain by
+
+/// All numbers of an orbit but its shape, in a row.
+VectorXd numbers_of(const Orbit& orbit) {
+  const Index size = orbit.x[0].size(), legs = static_cast<Index>(orbit.legs());
+  VectorXd all(size * legs + legs + 1 + static_cast<Index>(orbit.values.size()) + orbit.advance.size());
+  Index at = 0;
+  for (const VectorXd& x : orbit.x) all.segment(size * at++, size) = x;
+  all.tail(all.size() - size * legs) << VectorXd::Map(orbit.t.data(), legs + 1),
+      VectorXd::Map(orbit.values.data(), static_cast<Index>(orbit.values.size())), orbit.advance;
+  return all;
+}
+
+Orbit with_numbers(Orbit orbit, const VectorXd& all) {
+  const Index size = orbit.x[0].size();
+  const double* at = all.data();
+  for (VectorXd& x : orbit.x) x = VectorXd::Map(at, size), at += size;
+  for (double& t : orbit.t) t = *at++;
+  for (double& value : orbit.values) value = *at++;
+  orbit.advance = VectorXd::Map(at, orbit.advance.size());
+  return orbit;
+}
+
+/// The polynomial through values at some places (barycentric form).
+class Interpolant {
+ public:
+  void add(double place, VectorXd value) {
+    places_.push_back(place);
+    values_.push_back(std::move(value));
+  }
+
+  [[nodiscard]] VectorXd at(double s) const {
+    VectorXd sum = VectorXd::Zero(values_[0].size());
+    double weights = 0.0;
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      if (s == places_[k]) return values_[k];
+      double weight = 1.0 / (s - places_[k]);
+      for (std::size_t j = 0; j < places_.size(); ++j)
+        if (j != k) weight *= half_width / (places_[k] - places_[j]);
+      sum += weight * values_[k];
+      weights += weight;
+    }
+    return sum / weights;
+  }
+
+ private:
+  std::vector<double> places_;
+  std::vector<VectorXd> values_;
+};
+
+/// The determinant that is zero at a crossing, smooth along a branch: units, row and scales are those of one point.
+class Determinant {
+ public:
+  Determinant(const Problem& problem, const PathPoint& base) : problem_(problem), base_(base) {
+    MatrixXd matrix = at(base.orbit);
+    scales_ = level_rows(matrix);
+  }
+
+  [[nodiscard]] double operator()(const Orbit& orbit) const {
+    return (scales_.cwiseInverse().asDiagonal() * at(orbit)).partialPivLu().determinant();
+  }
+
+ private:
+  [[nodiscard]] MatrixXd at(const Orbit& orbit) const {
+    const ModeSet set(problem_.family(), orbit.values);
+    return bordered(problem_, linearise(problem_, set, orbit), orbit.legs(), base_.units, base_.tangent);
+  }
+
+  const Problem& problem_;
+  const PathPoint& base_;
+  VectorXd scales_;
+};
+
+/// The zero of the first component near a place.
+std::optional<double> zero(const Interpolant& f, double near) {
+  double a = near - 0.1 * half_width, b = near + 0.1 * half_width, f_a = f.at(a)[0];
+  for (int k = 0; k < 50; ++k) {
+    const double f_b = f.at(b)[0];
+    if (f_b == 0.0 || f_a == f_b || std::abs(b - a) < 1e-15) return b;
+    const double next = b - f_b * (b - a) / (f_b - f_a);
+    if (!(std::abs(next - near) < half_width)) return std::nullopt;
+    a = b;
+    f_a = f_b;
+    b = next;
+  }
+  return b;
+}
+
+/// The direction of a branch in the unknowns, from two orbits of it.
+VectorXd direction(const Problem& problem, const Orbit& a, const Orbit& b, const VectorXd& units) {
+  VectorXd along(units.size());
+  const auto legs = static_cast<Index>(a.legs());
+  along.head(problem.numbers()) = problem.translations().numbers(b.x[0] - a.x[0]);
+  for (Index i = 0; i <= legs; ++i)
+    along[problem.instant_column(static_cast<std::size_t>(i))] =
+        b.t[static_cast<std::size_t>(i)] - a.t[static_cast<std::size_t>(i)];
+  for (Index j = 0; j < problem.parameters(); ++j)
+    along[problem.parameter_column(a.legs(), j)] =
+        b.values[static_cast<std::size_t>(j)] - a.values[static_cast<std::size_t>(j)];
+  return along.cwiseQuotient(units).normalized();
+}
+
+}  // namespace
+
+std::optional<Located> locate_crossing(const Problem& problem, const PathPoint& from, double near, double range) {
+  const Determinant determinant(problem, from);
+  Interpolant all, fewer, orbits;
+  for (int k = 0; k < nodes; ++k) {
+    const double s = near + half_width * std::cos((2 * k + 1) * std::numbers::pi / (2 * nodes));
+    const std::optional<PathPoint> point = step_to(problem, from, s, range);
+    if (!point) return std::nullopt;
+    const VectorXd value = VectorXd::Constant(1, determinant(point->orbit));
+    all.add(s, value);
+    if (k > 0 && k + 1 < nodes) fewer.add(s, value);
+    orbits.add(s, numbers_of(point->orbit));
+  }
+  const std::optional<double> place = zero(all, near), check = zero(fewer, near);
+  if (!place || !check) return std::nullopt;
+  const auto orbit_at = [&](double s) { return with_numbers(from.orbit, orbits.at(s)); };
+  Located found{point_of(problem, orbit_at(*place), range, from.tangent), *place, 0.0};
+  found.error = std::abs(orbit_at(*check).values[0] - found.point.orbit.values[0]);
+  if (!(found.error < well_known * range)) return std::nullopt;
+  constexpr double beside = 0.1 * half_width;
+  found.point.tangent = direction(problem, orbit_at(*place - beside), orbit_at(*place + beside), found.point.units);
+  found.point.watched.turn = found.point.tangent[problem.parameter_column(from.orbit.legs(), 0)];
+  found.point.watched.cross = 0.0;
+  return found;
+}
+
+std::vector<Orbit> crossing_branch(const Problem& problem, const PathPoint& at) {
+  const ModeSet set(problem.family(), at.orbit.values);
+  const Linearised here = linearise(problem, set, at.orbit);
+  const std::size_t legs = at.orbit.legs();
+  const auto jacobian = [&](const Linearised& there) {
+    const MatrixXd matrix = bordered(problem, there, legs, at.units, at.tangent);
+    return MatrixXd(matrix.topRows(matrix.rows() - 1));
+  };
+  MatrixXd J = jacobian(here);
+  const VectorXd scales = level_rows(J);
+  const Eigen::JacobiSVD<MatrixXd> svd(J, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const MatrixXd null = svd.matrixV().rightCols(2);
+  const VectorXd psi = svd.matrixU().rightCols(1).cwiseQuotient(scales);
+  const VectorXd own = (null * (null.transpose() * at.tangent)).normalized();
+  const VectorXd in_plane = null.transpose() * own;
+  const VectorXd other = null.col(0) * -in_plane[1] + null.col(1) * in_plane[0];
+  const auto displaced = [&](double length) {
+    Orbit orbit = at.orbit;
+    move(problem, here, length * other.cwiseProduct(at.units), 0.0, orbit);
+    return jacobian(linearise(problem, ModeSet(problem.family(), orbit.values), orbit));
+  };
+  const MatrixXd rate = (displaced(difference) - displaced(-difference)) / (2.0 * difference);
+  const double mixed = psi.dot(rate * own), square = psi.dot(rate * other);
+  const VectorXd direction = (2.0 * mixed * other - square * own).normalized();
+  std::vector<Orbit> beside;
+  if (!direction.allFinite() || std::abs(direction.dot(other)) < 1e-3) return beside;
+  for (const double sense : {1.0, -1.0}) {
+    Orbit orbit = at.orbit;
+    move(problem, here, sense * amplitude * direction.cwiseProduct(at.units), 0.0, orbit);
+    std::vector<Condition> conditions = fixed_parameters(problem, legs);
+    conditions[0].row = direction.cwiseQuotient(at.units).transpose();
+    if (solve(problem, orbit, conditions, 12).converged) beside.push_back(std::move(orbit));
+  }
+  return beside;
+}
+
+}  // namespace slapstick::orbit

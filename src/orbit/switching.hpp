@@ -1,0 +1,14 @@
+#pragma once
+/// From a period doubling to the orbit of twice the length.
+#include <vector>
+
+#include "slapstick/orbit/itinerary.hpp"
+
+namespace slapstick::orbit {
+
+class Problem;
+
+/// The cycle of twice the length that is born at a PD, to follow from; none if it is not found.
+[[nodiscard]] std::vector<Orbit> doubled(const Problem& problem, const Orbit& pd);
+
+}  // namespace slapstick::orbit

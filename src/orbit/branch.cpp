@@ -66,7 +66,7 @@ class Follower {
   [[nodiscard]] Solution solution_of(const PathPoint& point, Verification* seen) const;
   bool accept(PathPoint& at, PathPoint next, double length);
   bool change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why);
-  void end_at(SpecialPoint special, const Change& change, bool shorter, bool retraces);
+  void end_at(SpecialPoint special, const Orbit& before, const PathPoint& change, bool shorter, bool retraces);
   void go_on(PathPoint& at, SpecialPoint special, Reshaped next);
   void add(std::vector<SpecialPoint> smooth);
   bool end_at_boundary(PathPoint& at);
@@ -154,11 +154,11 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
   SpecialPoint special = std::move(change->special);
   special.after = branch_.points.size() - 1;
   std::vector<Reshaped> found;
-  if (options_.through_changes) found = reshape(problem_, change->at, change->test, range_);
+  if (options_.through_changes) found = reshape(problem_, at.orbit, change->at, change->test, range_);
   const bool shorter = std::ranges::any_of(found, [](const Reshaped& next) { return repeats(next.point.orbit, 1e-6); });
   const bool retraces = !found.empty() && lies_on(branch_, found.front().point.orbit);
   if (found.empty() || shorter || retraces) {
-    end_at(std::move(special), *change, shorter, retraces);
+    end_at(std::move(special), at.orbit, change->at, shorter, retraces);
     return false;
   }
   for (std::size_t i = 1; i < found.size(); ++i) special.born.push_back(found[i].point.orbit);
@@ -167,7 +167,7 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
 }
 
 /// The branch ends where its events change.
-void Follower::end_at(SpecialPoint special, const Change& change, bool shorter, bool retraces) {
+void Follower::end_at(SpecialPoint special, const Orbit& before, const PathPoint& change, bool shorter, bool retraces) {
   std::string why = "the events change";
   bool failed = false;
   if (shorter) {
@@ -178,7 +178,8 @@ void Follower::end_at(SpecialPoint special, const Change& change, bool shorter, 
   } else if (!options_.through_changes) {
     special.outcome = "not followed";
     failed = true;
-  } else if (const std::string left = special.solution.stable() ? behind(problem_, change.at, range_) : std::string();
+  } else if (const std::string left =
+                 special.solution.stable() ? behind(problem_, before, change, range_) : std::string();
              !left.empty()) {
     special.outcome = "jump to " + left;
     why = "a jump: the motion goes over to " + left;
@@ -196,18 +197,17 @@ void Follower::go_on(PathPoint& at, SpecialPoint special, Reshaped next) {
   special.outcome = next.folds ? "non-smooth fold" : "persistence";
   Solution first = solution_of(next.point, nullptr);
   if (next.gathering) {
-    const Orbit& orbit = next.gathering->point.orbit;
     SpecialPoint onset = special;
     onset.type = SpecialType::CH;
-    onset.value = orbit.values[0];
-    onset.error = next.gathering->error;
-    onset.solution = describe(problem_, orbit, nullptr);
-    onset.what = "a complete chatter begins: impacts without end are added one by one";
-    special.outcome = "the first of infinitely many changes up to " + shown(onset.value);
-    branch_.special.push_back(std::move(special));
+    onset.value = 0.5 * (next.gathering->first + next.gathering->second);
+    onset.error = next.gathering->second - next.gathering->first;
+    onset.what = "infinitely many changes gather, " + std::string(first.chatter ? "behind" : "before") +
+                 " which is a complete chatter";
+    special.outcome = "one of infinitely many changes";
+    if (first.chatter) branch_.special.push_back(special);
     branch_.special.push_back(std::move(onset));
-  } else {
-    if (special.solution.chatter && !first.chatter) special.type = SpecialType::CH;
+    if (!first.chatter) branch_.special.push_back(std::move(special));
+  } else if (!next.renewed) {
     branch_.special.push_back(std::move(special));
   }
   at = std::move(next.point);

@@ -16,6 +16,8 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr std::size_t most_held = 4;  ///< legs whose length is held in turn
+constexpr double nothing =
+    1e-3;  ///< of a leg's length at the point before: so short it is at a change where it vanishes
 
 /// A motion from inside a leg of an orbit that may itself be no motion any more.
 std::optional<Motion> motion_from(const System& system, const ModeSet& set, const Orbit& orbit, std::size_t leg,
@@ -25,6 +27,10 @@ std::optional<Motion> motion_from(const System& system, const ModeSet& set, cons
   for (const mode::Guard& guard : set.mode(orbit.shape.legs[leg].states).outline.guards)
     if (guard.row.dot(X) <= 0.0) return std::nullopt;
   return Motion(system, attractor::user_state(system, contact_state(set, X)), Instant{}.plus(orbit.t[leg] + after));
+}
+
+bool chatters(const Orbit& orbit) {
+  return std::ranges::any_of(orbit.shape.legs, [](const Leg& leg) { return leg.ending == Ending::chatter; });
 }
 
 /// Do two cycles have the same legs, wherever they begin?
@@ -140,13 +146,24 @@ Orbit uncut(const ModeSet& set, const Orbit& orbit) {
   return plain;
 }
 
+/// Does a leg shrink to nothing from one orbit to the next?
+bool vanishes(const Orbit& before, const Orbit& orbit, std::size_t leg) {
+  return orbit.duration(leg) < nothing * before.duration(leg);
+}
+
 /// An impact whose speed goes to zero is no more: its leg and the next are one, or a velocity of the same pair passes zero there instead.
-std::vector<Orbit> without_impact(const ModeSet& set, const Orbit& orbit, const TestValue& test) {
+std::vector<Orbit> without_impact(const ModeSet& set, const Orbit& before, const Orbit& orbit, const TestValue& test) {
   std::vector<Orbit> shapes;
   if (test.test != Test::speed || test.kind != mode::GuardKind::gap) return shapes;
   if (orbit.legs() == 1) return {uncut(set, orbit)};
   Orbit turned = orbit;
   rotate(turned, test.leg);  // the impact ends the first leg
+  for (std::size_t i = test.leg + 1; turned.legs() > 2 && vanishes(before, orbit, i % orbit.legs()); ++i) {
+    // what follows an impact of no speed at once is no more either
+    turned.shape.legs.erase(turned.shape.legs.begin() + 1);
+    turned.x.erase(turned.x.begin() + 1);
+    turned.t.erase(turned.t.begin() + 1);
+  }
   const mode::Frame& frame = set.frame();
   for (std::size_t i = 0; i < frame.frictions.size(); ++i) {
     if (frame.parallel(frame.frictions[i].own, frame.stops[test.contact].own) == 0) continue;
@@ -169,6 +186,32 @@ std::vector<Orbit> without_impact(const ModeSet& set, const Orbit& orbit, const 
     shapes.push_back(std::move(turned));
   }
   return shapes;
+}
+
+/// Legs that have shrunk to nothing. Between two of one mode: those are one leg. Between two stops of one velocity: the second is the first's.
+std::vector<Orbit> merged(const Orbit& before, const Orbit& orbit) {
+  for (std::size_t i = 0; i < orbit.legs(); ++i) {
+    Orbit turned = orbit;
+    rotate(turned, i);
+    std::size_t gone = 0;
+    while (gone + 2 < turned.legs() && vanishes(before, orbit, (i + gone + 1) % orbit.legs())) ++gone;
+    if (gone == 0) continue;
+    Leg& first = turned.shape.legs[0];
+    const Leg& last = turned.shape.legs[gone];
+    auto count = static_cast<std::ptrdiff_t>(gone);
+    if (first.states == turned.shape.legs[gone + 1].states) {
+      ++count;
+    } else if (first.kind == mode::GuardKind::slip && last.kind == first.kind && last.contact == first.contact) {
+      turned.shape.legs[gone].states = first.states;
+    } else {
+      continue;
+    }
+    turned.shape.legs.erase(turned.shape.legs.begin(), turned.shape.legs.begin() + count);
+    turned.x.erase(turned.x.begin() + 1, turned.x.begin() + 1 + count);
+    turned.t.erase(turned.t.begin() + 1, turned.t.begin() + 1 + count);
+    return {turned};
+  }
+  return {};
 }
 
 /// A gap that touches zero within a leg: an impact of no speed is put there, and the cycle begins with it.
@@ -199,7 +242,8 @@ std::vector<Orbit> with_impact(const ModeSet& set, const Orbit& orbit, const Tes
 }
 
 /// The branch of a shape of which the orbit at the change is one already, by arclength to either side of it.
-std::optional<Reshaped> leaving(const Problem& problem, const PathPoint& change, const Orbit& shape, double range) {
+std::optional<Reshaped> leaving(const Problem& problem, const PathPoint& change, double sense_before,
+                                const Orbit& shape, double range) {
   Orbit orbit = shape;
   std::vector<Condition> conditions = fixed_parameters(problem, orbit.legs());
   if (!solve(problem, orbit, conditions, 12).converged)
@@ -211,8 +255,8 @@ std::optional<Reshaped> leaving(const Problem& problem, const PathPoint& change,
     for (const double length : {1e-4, 1e-3, 5e-3}) {
       std::optional<PathPoint> next = step_to(problem, sense > 0.0 ? start : reversed(start), length, range);
       if (!next || !is_motion(problem, next->orbit)) continue;
-      const bool folds = (next->orbit.values[0] - critical) * change.watched.turn < 0.0;
-      return Reshaped{std::move(*next), folds, {}};
+      const bool folds = (next->orbit.values[0] - critical) * sense_before < 0.0;
+      return Reshaped{std::move(*next), folds, false, {}};
     }
   }
   return std::nullopt;
@@ -239,29 +283,40 @@ std::optional<Located> beginning(const Problem& problem, const PathPoint& next, 
   return std::nullopt;
 }
 
-bool chatters(const Orbit& orbit) {
-  return std::ranges::any_of(orbit.shape.legs, [](const Leg& leg) { return leg.ending == Ending::chatter; });
+/// Is the longest leg of one much the same in the other?
+bool resembles(const Orbit& a, const Orbit& b) {
+  constexpr double much_the_same = 0.01;
+  std::size_t longest = 0;
+  for (std::size_t i = 1; i < a.legs(); ++i)
+    if (a.duration(i) > a.duration(longest)) longest = i;
+  for (std::size_t i = 0; i < b.legs(); ++i)
+    if (b.shape.legs[i].states == a.shape.legs[longest].states &&
+        (a.x[longest] - b.x[i]).norm() < much_the_same * a.x[longest].norm())
+      return true;
+  return false;
 }
 
 /// The point of a new orbit, led away from the change; empty if it does not come from there. Between orbits with a complete chatter and without
 /// lie infinitely many changes, which gather where the one with the chatter begins: there the nearest of them stands for all.
-std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, const Orbit& orbit, double length,
-                             double range) {
+std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, double sense_before, const Orbit& orbit,
+                             double length, double range) {
   constexpr double same = 1e-7, gathering = 30.0;
   const double critical = change.orbit.values[0], away = orbit.values[0] - critical;
   if (away == 0.0 || std::abs(away) > 10.0 * length * range) return std::nullopt;
-  Reshaped next{point_of(problem, orbit, range, {}), away * change.watched.turn < 0.0, {}};
+  Reshaped next{point_of(problem, orbit, range, {}), away * sense_before < 0.0, false, {}};
   if (next.point.watched.turn * away < 0.0) next.point = reversed(std::move(next.point));
-  const bool gathers = chatters(orbit) != chatters(change.orbit);
-  auto begins = beginning(problem, next.point, critical, gathers ? gathering * length : same, range);
-  if (!begins) return std::nullopt;
-  if (gathers && chatters(orbit)) next.gathering = std::move(begins);
+  const bool chatter = chatters(orbit) || chatters(change.orbit), gathers = chatters(orbit) != chatters(change.orbit);
+  const auto begins = beginning(problem, next.point, critical, gathers ? gathering * length : same, range);
+  if (!begins && !(chatter && resembles(orbit, change.orbit))) return std::nullopt;
+  next.renewed = chatter && !gathers && !begins;
+  if (gathers) next.gathering = std::minmax(critical, begins ? begins->point.orbit.values[0] : orbit.values[0]);
   return next;
 }
 
 }  // namespace
 
-std::vector<Reshaped> reshape(const Problem& problem, const PathPoint& change, const TestValue& test, double range) {
+std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const PathPoint& change,
+                              const TestValue& test, double range) {
   const double critical = change.orbit.values[0];
   const ModeSet set(problem.family(), change.orbit.values);
   std::vector<Reshaped> all;
@@ -271,28 +326,32 @@ std::vector<Reshaped> reshape(const Problem& problem, const PathPoint& change, c
     };
     if (next && std::ranges::none_of(all, known)) all.push_back(std::move(*next));
   };
-  std::vector<Orbit> shapes = without_impact(set, change.orbit, test);
+  const double sense = std::copysign(1.0, critical - before.values[0]);
+  std::vector<Orbit> shapes = without_impact(set, before, change.orbit, test);
   std::ranges::copy(with_impact(set, change.orbit, test), std::back_inserter(shapes));
-  for (const Orbit& shape : shapes) add(leaving(problem, change, shape, range));
+  std::ranges::copy(merged(before, change.orbit), std::back_inserter(shapes));
+  for (const Orbit& shape : shapes) add(leaving(problem, change, sense, shape, range));
   for (double length : {1e-6, 1e-5, 1e-4, 1e-3}) {
     if (!all.empty()) break;
-    const std::optional<PathPoint> beyond = step_to(problem, change, length, range);
-    if (!beyond) continue;
-    const std::vector<Orbit> guesses = NearbyShapes(problem, beyond->orbit).about(test.leg);
+    Orbit beyond = change.orbit;  // as it is, where its own equations lead no further
+    beyond.values[0] += sense * length * range;
+    if (const auto point = step_to(problem, change, length, range)) beyond = point->orbit;
+    const std::vector<Orbit> guesses = NearbyShapes(problem, beyond).about(test.leg);
     for (double side : {1.0, -1.0}) {  // where the old branch would have gone on, then where it came from
       for (Orbit guess : guesses) {
-        guess.values[0] = critical + side * (beyond->orbit.values[0] - critical);
-        if (const auto orbit = solved(problem, guess)) add(born(problem, change, *orbit, length, range));
+        guess.values[0] = critical + side * (beyond.values[0] - critical);
+        if (const auto orbit = solved(problem, guess)) add(born(problem, change, sense, *orbit, length, range));
       }
     }
   }
   return all;
 }
 
-std::string behind(const Problem& problem, const PathPoint& change, double range) {
+std::string behind(const Problem& problem, const Orbit& before, const PathPoint& change, double range) {
   constexpr double distance = 1e-4;  // of the range
   constexpr long transient = 500;
-  const double value = change.orbit.values[0] + std::copysign(distance * range, change.watched.turn);
+  const double value =
+      change.orbit.values[0] + std::copysign(distance * range, change.orbit.values[0] - before.values[0]);
   try {
     const auto there = pose(problem.family(), {value});
     const System system(problem.family().model({value}));

@@ -5,18 +5,21 @@
 namespace slapstick::orbit {
 
 struct Reshaped {
-  PathPoint point;                   ///< a motion; its tangent leads away from the change
-  bool folds = false;                ///< it lies on the side of the parameter from which the old branch came
-  std::optional<Located> gathering;  ///< where its complete chatter begins, infinitely many changes behind this one
+  PathPoint point;       ///< a motion; its tangent leads away from the change
+  bool folds = false;    ///< it lies on the side of the parameter from which the old branch came
+  bool renewed = false;  ///< the same motion, whose chatter is summed from another impact on: no change
+  /// A complete chatter begins or ends between these values of the parameter; infinitely many changes gather there.
+  std::optional<std::pair<double, double>> gathering;
 };
 
-/// @param change  where the events change; the old branch is followed along its tangent
+/// @param before  a point of the old branch on the way to
+/// @param change  .. where the events change
 /// @param test    the margin that is used up there
 /// @returns the orbits with the events of the motion beyond whose branches, followed back, come to the change
-[[nodiscard]] std::vector<Reshaped> reshape(const Problem& problem, const PathPoint& change, const TestValue& test,
-                                            double range);
+[[nodiscard]] std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const PathPoint& change,
+                                            const TestValue& test, double range);
 
 /// What the motion settles on behind a change, in a word: the label of an orbit. Empty if on none within some hundred periods.
-[[nodiscard]] std::string behind(const Problem& problem, const PathPoint& change, double range);
+[[nodiscard]] std::string behind(const Problem& problem, const Orbit& before, const PathPoint& change, double range);
 
 }  // namespace slapstick::orbit

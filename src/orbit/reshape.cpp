@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "attractor/cycle.hpp"
+#include "orbit/coincident.hpp"
 #include "orbit/record.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/orbit/periodic_orbit.hpp"
@@ -16,8 +17,6 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr std::size_t most_held = 4;  ///< legs whose length is held in turn
-constexpr double nothing =
-    1e-3;  ///< of a leg's length at the point before: so short it is at a change where it vanishes
 
 /// A motion from inside a leg of an orbit that may itself be no motion any more.
 std::optional<Motion> motion_from(const System& system, const ModeSet& set, const Orbit& orbit, std::size_t leg,
@@ -136,111 +135,6 @@ std::optional<Orbit> solved(const Problem& problem, const Orbit& guess) {
   return std::nullopt;
 }
 
-/// The cycle of one leg without its event, from phase 0.
-Orbit uncut(const ModeSet& set, const Orbit& orbit) {
-  Orbit plain = orbit;
-  plain.x[0] = contact_state(set, state_within(set, orbit, 0, std::ceil(orbit.t[0]) - orbit.t[0]));
-  plain.shape.legs[0].ending = Ending::cut;
-  plain.shape.legs[0].strikes.clear();
-  plain.t = {0.0, static_cast<double>(orbit.shape.n)};
-  return plain;
-}
-
-/// Does a leg shrink to nothing from one orbit to the next?
-bool vanishes(const Orbit& before, const Orbit& orbit, std::size_t leg) {
-  return orbit.duration(leg) < nothing * before.duration(leg);
-}
-
-/// An impact whose speed goes to zero is no more: its leg and the next are one, or a velocity of the same pair passes zero there instead.
-std::vector<Orbit> without_impact(const ModeSet& set, const Orbit& before, const Orbit& orbit, const TestValue& test) {
-  std::vector<Orbit> shapes;
-  if (test.test != Test::speed || test.kind != mode::GuardKind::gap) return shapes;
-  if (orbit.legs() == 1) return {uncut(set, orbit)};
-  Orbit turned = orbit;
-  rotate(turned, test.leg);  // the impact ends the first leg
-  for (std::size_t i = test.leg + 1; turned.legs() > 2 && vanishes(before, orbit, i % orbit.legs()); ++i) {
-    // what follows an impact of no speed at once is no more either
-    turned.shape.legs.erase(turned.shape.legs.begin() + 1);
-    turned.x.erase(turned.x.begin() + 1);
-    turned.t.erase(turned.t.begin() + 1);
-  }
-  const mode::Frame& frame = set.frame();
-  for (std::size_t i = 0; i < frame.frictions.size(); ++i) {
-    if (frame.parallel(frame.frictions[i].own, frame.stops[test.contact].own) == 0) continue;
-    Orbit reversed = turned;
-    Leg& leg = reversed.shape.legs[0];
-    leg.kind = mode::GuardKind::slip;
-    leg.contact = static_cast<int>(i);
-    leg.strikes.clear();
-    const auto next = reversed.shape.legs[1].states.frictions[i];
-    leg.event = next == mode::FrictionState::slip_plus ? EventKind::slip_plus
-                : next == mode::FrictionState::stick   ? EventKind::stick
-                                                       : EventKind::slip_minus;
-    leg.event_contact = static_cast<int>(frame.stops.size() + i);
-    shapes.push_back(std::move(reversed));
-  }
-  if (turned.shape.legs[0].states == turned.shape.legs[1].states) {
-    turned.shape.legs.erase(turned.shape.legs.begin());
-    turned.x.erase(turned.x.begin() + 1);
-    turned.t.erase(turned.t.begin() + 1);
-    shapes.push_back(std::move(turned));
-  }
-  return shapes;
-}
-
-/// Legs that have shrunk to nothing. Between two of one mode: those are one leg. Between two stops of one velocity: the second is the first's.
-std::vector<Orbit> merged(const Orbit& before, const Orbit& orbit) {
-  for (std::size_t i = 0; i < orbit.legs(); ++i) {
-    Orbit turned = orbit;
-    rotate(turned, i);
-    std::size_t gone = 0;
-    while (gone + 2 < turned.legs() && vanishes(before, orbit, (i + gone + 1) % orbit.legs())) ++gone;
-    if (gone == 0) continue;
-    Leg& first = turned.shape.legs[0];
-    const Leg& last = turned.shape.legs[gone];
-    auto count = static_cast<std::ptrdiff_t>(gone);
-    if (first.states == turned.shape.legs[gone + 1].states) {
-      ++count;
-    } else if (first.kind == mode::GuardKind::slip && last.kind == first.kind && last.contact == first.contact) {
-      turned.shape.legs[gone].states = first.states;
-    } else {
-      continue;
-    }
-    turned.shape.legs.erase(turned.shape.legs.begin(), turned.shape.legs.begin() + count);
-    turned.x.erase(turned.x.begin() + 1, turned.x.begin() + 1 + count);
-    turned.t.erase(turned.t.begin() + 1, turned.t.begin() + 1 + count);
-    return {turned};
-  }
-  return {};
-}
-
-/// A gap that touches zero within a leg: an impact of no speed is put there, and the cycle begins with it.
-std::vector<Orbit> with_impact(const ModeSet& set, const Orbit& orbit, const TestValue& test) {
-  if (test.test != Test::guard || test.kind != mode::GuardKind::gap) return {};
-  Orbit split = orbit;
-  const Leg& old = orbit.shape.legs[test.leg];
-  const double at = orbit.t[test.leg] + test.at;
-  VectorXd x = contact_state(set, state_within(set, orbit, test.leg, test.at));
-  if (const int own = set.frame().stops[test.contact].own; own < set.frame().n) x[own] = 0.0;
-  Leg impact = old;
-  impact.ending = Ending::guard;
-  impact.kind = mode::GuardKind::gap;
-  impact.contact = impact.event_contact = test.contact;
-  impact.event = EventKind::impact;
-  impact.strikes = {{1U << test.contact, false}};
-  if (old.ending == Ending::cut) {  // one leg, from the impact to the impact
-    split.shape.legs = {impact};
-    split.x = {x};
-    split.t = {at, at + orbit.shape.n};
-    return {split};
-  }
-  const auto place = static_cast<std::ptrdiff_t>(test.leg);
-  split.shape.legs.insert(split.shape.legs.begin() + place, impact);
-  split.x.insert(split.x.begin() + place + 1, x);
-  split.t.insert(split.t.begin() + place + 1, at);
-  return {split};
-}
-
 /// The branch of a shape of which the orbit at the change is one already, by arclength to either side of it.
 std::optional<Reshaped> leaving(const Problem& problem, const PathPoint& change, double sense_before,
                                 const Orbit& shape, double range) {
@@ -327,10 +221,7 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
     if (next && std::ranges::none_of(all, known)) all.push_back(std::move(*next));
   };
   const double sense = std::copysign(1.0, critical - before.values[0]);
-  std::vector<Orbit> shapes = without_impact(set, before, change.orbit, test);
-  std::ranges::copy(with_impact(set, change.orbit, test), std::back_inserter(shapes));
-  std::ranges::copy(merged(before, change.orbit), std::back_inserter(shapes));
-  for (const Orbit& shape : shapes) add(leaving(problem, change, sense, shape, range));
+  for (const Orbit& shape : coincident(set, before, change.orbit, test)) add(leaving(problem, change, sense, shape, range));
   for (double length : {1e-6, 1e-5, 1e-4, 1e-3}) {
     if (!all.empty()) break;
     Orbit beyond = change.orbit;  // as it is, where its own equations lead no further

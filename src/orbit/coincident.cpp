@@ -1,0 +1,154 @@
+#include "orbit/coincident.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "orbit/leg_flow.hpp"
+
+namespace slapstick::orbit {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double nothing = 1e-3;   ///< of a leg's length at the point before: so short it is at a change where it vanishes
+constexpr double no_speed = 1e-6;  ///< of an orbit's largest: an impact that vanishes
+
+/// The cycle of one leg without its event, from phase 0.
+Orbit uncut(const ModeSet& set, const Orbit& orbit) {
+  Orbit plain = orbit;
+  plain.x[0] = contact_state(set, state_within(set, orbit, 0, std::ceil(orbit.t[0]) - orbit.t[0]));
+  plain.shape.legs[0].ending = Ending::cut;
+  plain.shape.legs[0].strikes.clear();
+  plain.t = {0.0, static_cast<double>(orbit.shape.n)};
+  return plain;
+}
+
+/// Does a leg shrink to nothing from one orbit to the next?
+bool vanishes(const Orbit& before, const Orbit& orbit, std::size_t leg) {
+  return orbit.duration(leg) < nothing * before.duration(leg);
+}
+
+/// An impact whose speed goes to zero is no more: its leg and the next are one, or a velocity of the same pair passes zero there instead.
+std::vector<Orbit> without_impact(const ModeSet& set, const Orbit& before, const Orbit& orbit, const TestValue& test) {
+  std::vector<Orbit> shapes;
+  if (test.test != Test::speed || test.kind != mode::GuardKind::gap) return shapes;
+  if (orbit.legs() == 1) return {uncut(set, orbit)};
+  Orbit turned = orbit;
+  rotate(turned, test.leg);  // the impact ends the first leg
+  for (std::size_t i = test.leg + 1; turned.legs() > 2 && vanishes(before, orbit, i % orbit.legs()); ++i) {
+    // what follows an impact of no speed at once is no more either
+    turned.shape.legs.erase(turned.shape.legs.begin() + 1);
+    turned.x.erase(turned.x.begin() + 1);
+    turned.t.erase(turned.t.begin() + 1);
+  }
+  const mode::Frame& frame = set.frame();
+  for (std::size_t i = 0; i < frame.frictions.size(); ++i) {
+    if (frame.parallel(frame.frictions[i].own, frame.stops[test.contact].own) == 0) continue;
+    Orbit reversed = turned;
+    Leg& leg = reversed.shape.legs[0];
+    leg.kind = mode::GuardKind::slip;
+    leg.contact = static_cast<int>(i);
+    leg.strikes.clear();
+    const auto next = reversed.shape.legs[1].states.frictions[i];
+    leg.event = next == mode::FrictionState::slip_plus ? EventKind::slip_plus
+                : next == mode::FrictionState::stick   ? EventKind::stick
+                                                       : EventKind::slip_minus;
+    leg.event_contact = static_cast<int>(frame.stops.size() + i);
+    shapes.push_back(std::move(reversed));
+  }
+  if (turned.shape.legs[0].states == turned.shape.legs[1].states) {
+    turned.shape.legs.erase(turned.shape.legs.begin());
+    turned.x.erase(turned.x.begin() + 1);
+    turned.t.erase(turned.t.begin() + 1);
+    shapes.push_back(std::move(turned));
+  }
+  return shapes;
+}
+
+/// Legs that have shrunk to nothing. Between two of one mode: those are one leg. Between two stops of one velocity: the second is the first's.
+std::vector<Orbit> merged(const Orbit& before, const Orbit& orbit) {
+  for (std::size_t i = 0; i < orbit.legs(); ++i) {
+    Orbit turned = orbit;
+    rotate(turned, i);
+    std::size_t gone = 0;
+    while (gone + 2 < turned.legs() && vanishes(before, orbit, (i + gone + 1) % orbit.legs())) ++gone;
+    if (gone == 0) continue;
+    Leg& first = turned.shape.legs[0];
+    const Leg& last = turned.shape.legs[gone];
+    auto count = static_cast<std::ptrdiff_t>(gone);
+    if (first.states == turned.shape.legs[gone + 1].states) {
+      ++count;
+    } else if (first.kind == mode::GuardKind::slip && last.kind == first.kind && last.contact == first.contact) {
+      turned.shape.legs[gone].states = first.states;
+    } else {
+      continue;
+    }
+    turned.shape.legs.erase(turned.shape.legs.begin(), turned.shape.legs.begin() + count);
+    turned.x.erase(turned.x.begin() + 1, turned.x.begin() + 1 + count);
+    turned.t.erase(turned.t.begin() + 1, turned.t.begin() + 1 + count);
+    return {turned};
+  }
+  return {};
+}
+
+/// A gap that touches zero within a leg: an impact of no speed is put there, and the cycle begins with it.
+std::vector<Orbit> with_impact(const ModeSet& set, const Orbit& orbit, const TestValue& test) {
+  if (test.test != Test::guard || test.kind != mode::GuardKind::gap) return {};
+  Orbit split = orbit;
+  const Leg& old = orbit.shape.legs[test.leg];
+  const double at = orbit.t[test.leg] + test.at;
+  VectorXd x = contact_state(set, state_within(set, orbit, test.leg, test.at));
+  if (const int own = set.frame().stops[test.contact].own; own < set.frame().n) x[own] = 0.0;
+  Leg impact = old;
+  impact.ending = Ending::guard;
+  impact.kind = mode::GuardKind::gap;
+  impact.contact = impact.event_contact = test.contact;
+  impact.event = EventKind::impact;
+  impact.strikes = {{1U << test.contact, false}};
+  if (old.ending == Ending::cut) {  // one leg, from the impact to the impact
+    split.shape.legs = {impact};
+    split.x = {x};
+    split.t = {at, at + orbit.shape.n};
+    return {split};
+  }
+  const auto place = static_cast<std::ptrdiff_t>(test.leg);
+  split.shape.legs.insert(split.shape.legs.begin() + place, impact);
+  split.x.insert(split.x.begin() + place + 1, x);
+  split.t.insert(split.t.begin() + place + 1, at);
+  return {split};
+}
+
+/// Where several impacts lose their speed together, as in symmetric orbits: without the others too.
+Orbit without_all(const ModeSet& set, Orbit orbit) {
+  for (std::size_t most = orbit.legs(); most > 0; --most) {
+    const std::vector<TestValue> tests = test_values(set, orbit);
+    const auto impact = [](const TestValue& test) { return test.test == Test::speed && test.kind == mode::GuardKind::gap; };
+    double largest = 0.0;
+    for (const TestValue& test : tests)
+      if (impact(test)) largest = std::max(largest, std::abs(test.value));
+    const auto next = std::ranges::find_if(
+        tests, [&](const TestValue& test) { return impact(test) && std::abs(test.value) < no_speed * largest; });
+    if (next == tests.end()) break;
+    std::vector<Orbit> fewer = without_impact(set, orbit, orbit, *next);
+    if (fewer.empty()) break;
+    orbit = std::move(fewer.front());
+  }
+  return orbit;
+}
+
+}  // namespace
+
+std::vector<Orbit> coincident(const ModeSet& set, const Orbit& before, const Orbit& orbit, const TestValue& test) {
+  std::vector<Orbit> shapes;
+  for (const Orbit& fewer : without_impact(set, before, orbit, test)) {
+    const Orbit fewest = without_all(set, fewer);
+    if (fewest.legs() < fewer.legs()) shapes.push_back(fewest);
+    shapes.push_back(fewer);
+  }
+  std::ranges::copy(with_impact(set, orbit, test), std::back_inserter(shapes));
+  std::ranges::copy(merged(before, orbit), std::back_inserter(shapes));
+  return shapes;
+}
+
+}  // namespace slapstick::orbit

@@ -24,7 +24,7 @@ constexpr double straight = 0.95;            ///< least cosine between the tange
 bool between(const Orbit& a, const Orbit& b, const Orbit& orbit) {
   constexpr double same = 1e-3;  // of an orbit's size: between two points the branch is nearly straight
   const double part = (orbit.values[0] - a.values[0]) / (b.values[0] - a.values[0]);
-  if (a.legs() != orbit.legs() || !(a.shape.legs == b.shape.legs) || !(part >= 0.0 && part <= 1.0)) return false;
+  if (!(part >= 0.0 && part <= 1.0) || a.legs() != orbit.legs() || !(a.shape.legs == b.shape.legs)) return false;
   for (std::size_t shift = 0; shift < a.legs(); ++shift) {
     bool equal = true;
     for (std::size_t i = 0; equal && i < a.legs(); ++i) {
@@ -35,6 +35,13 @@ bool between(const Orbit& a, const Orbit& b, const Orbit& orbit) {
     }
     if (equal) return true;
   }
+  return false;
+}
+
+/// Does it lie on the first points of a branch?
+bool lies_on_first(std::size_t count, const Branch& branch, const Orbit& orbit) {
+  for (std::size_t i = 0; i + 1 < count; ++i)
+    if (between(branch.points[i].orbit, branch.points[i + 1].orbit, orbit)) return true;
   return false;
 }
 
@@ -68,15 +75,23 @@ class Follower {
   bool change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why);
   void end_at(SpecialPoint special, const Orbit& before, const PathPoint& change, bool shorter, bool retraces);
   void go_on(PathPoint& at, SpecialPoint special, Reshaped next);
-  void add(std::vector<SpecialPoint> smooth);
+  void look_for_pairs(const PathPoint& at, const PathPoint& next, double length);
+  void add(std::vector<SpecialPoint> smooth, std::size_t after);
   bool end_at_boundary(PathPoint& at);
+  bool runs_over_itself();
   void end(std::string why, bool failed);
 
   const Problem& problem_;
   const ContinuationOptions& options_;
   double range_;
   Branch& branch_;
+  struct Before {
+    PathPoint point;
+    double length;  ///< from there to the next one
+  };
+  std::optional<Before> before_;
   double step_ = 0.0;
+  int old_points_ = 0;  ///< latest points that lie on the branch as it was followed before
   bool ended_ = false;
 };
 
@@ -97,13 +112,37 @@ Solution Follower::solution_of(const PathPoint& point, Verification* seen) const
   return solution;
 }
 
+/// A test function that comes near zero and turns back may have passed it twice. Looks at the vertex of the parabola through three neighbouring points.
+void Follower::look_for_pairs(const PathPoint& at, const PathPoint& next, double length) {
+  constexpr std::array<double Watched::*, 3> functions = {&Watched::flip, &Watched::torus, &Watched::turn};
+  if (!before_ || !(before_->point.orbit.shape.legs == next.orbit.shape.legs)) return;
+  const double back = before_->length;
+  for (const auto f : functions) {
+    const double a = before_->point.watched.*f, b = at.watched.*f, c = next.watched.*f;
+    if (!(a * b > 0.0 && b * c > 0.0 && std::abs(b) <= std::abs(a) && std::abs(b) <= std::abs(c))) continue;
+    const double left = (b - a) / back, right = (c - b) / length, bend = 2.0 * (right - left) / (back + length);
+    const double slope = (left * length + right * back) / (back + length), vertex = -slope / bend;
+    if (!(std::abs(vertex) > 0.0)) continue;
+    const bool earlier = vertex < 0.0;
+    const PathPoint& from = earlier ? before_->point : at;
+    const PathPoint& to = earlier ? at : next;
+    const double whole = earlier ? back : length, part = earlier ? back + vertex : vertex;
+    const std::optional<PathPoint> middle = step_to(problem_, from, part, range_);
+    if (!middle || !(middle->watched.*f * b < 0.0)) continue;
+    const std::size_t after = branch_.points.size() - (earlier ? 2 : 1);
+    add(smooth_special_points(problem_, from, *middle, part, range_), after);
+    add(smooth_special_points(problem_, *middle, to, whole - part, range_), after);
+    return;
+  }
+}
+
 /// Notes special points that leave the events as they are. A branch ends where its orbit becomes a shorter one run through twice.
-void Follower::add(std::vector<SpecialPoint> smooth) {
+void Follower::add(std::vector<SpecialPoint> smooth, std::size_t after) {
   constexpr double merged = 1e-3;  // at a fold or crossing that is known to 1e-10 in the parameter, states are to 1e-5
   for (SpecialPoint& special : smooth) {
     const bool doubling =
         (special.type == SpecialType::LP || special.type == SpecialType::BP) && repeats(special.solution.orbit, merged);
-    special.after = branch_.points.size() - 1;
+    special.after = after;
     if (doubling) {
       special.type = SpecialType::PD;
       special.birth = true;
@@ -135,6 +174,20 @@ bool Follower::end_at_boundary(PathPoint& at) {
   if (!accept(at, std::move(next), length)) return true;
   if (value(at) != wall) return false;  // the events have changed on the way
   end("range", false);
+  return true;
+}
+
+/// After a crossing a branch may come upon itself. It ends there, without the points that it has twice.
+bool Follower::runs_over_itself() {
+  constexpr std::size_t neighbours = 10;
+  constexpr int certain = 5;  // one or two may be near: where branches cross, at folds
+  const std::size_t count = branch_.points.size();
+  const bool old = count > neighbours && lies_on_first(count - neighbours, branch_, branch_.points.back().orbit);
+  old_points_ = old ? old_points_ + 1 : 0;
+  if (old_points_ < certain) return false;
+  branch_.points.resize(count - certain);
+  std::erase_if(branch_.special, [&](const SpecialPoint& special) { return special.after >= branch_.points.size(); });
+  end("runs over itself from " + shown(branch_.points.back().orbit.values[0]) + " on", false);
   return true;
 }
 
@@ -231,9 +284,12 @@ bool Follower::accept(PathPoint& at, PathPoint next, double length) {
     step_ = 0.5 * length;
     return true;
   }
-  add(std::move(smooth));
+  if (smooth.empty()) look_for_pairs(at, next, length);
+  add(std::move(smooth), branch_.points.size() - 1);
   if (ended_) return false;
+  before_ = Before{at, length};
   branch_.points.push_back(std::move(solution));
+  if (runs_over_itself()) return false;
   if (!seen.same_chatter && !seen.seen.shape.legs.empty()) {
     Orbit renewed = seen.seen;
     renewed.values = next.orbit.values;
@@ -289,11 +345,7 @@ std::string_view name(SpecialType type) {
   return names[static_cast<std::size_t>(type)];
 }
 
-bool lies_on(const Branch& branch, const Orbit& orbit) {
-  for (std::size_t i = 0; i + 1 < branch.points.size(); ++i)
-    if (between(branch.points[i].orbit, branch.points[i + 1].orbit, orbit)) return true;
-  return false;
-}
+bool lies_on(const Branch& branch, const Orbit& orbit) { return lies_on_first(branch.points.size(), branch, orbit); }
 
 Branch follow(const Problem& problem, const Orbit& start, const ContinuationOptions& options) {
   const double value = start.values.at(0);
@@ -301,13 +353,18 @@ Branch follow(const Problem& problem, const Orbit& start, const ContinuationOpti
     throw InputError(problem.family().names[0] + " = " + shown(value) + " is outside the range " + shown(options.from) +
                      ":" + shown(options.to));
   const double range = options.to - options.from;
-  const PathPoint first = point_of(problem, start, range, {});
   const System system(problem.family().model(start.values));
+  const Solution solution = describe(problem, start, &system);
+  if (!solution.isolated())
+    throw NumericalError("the orbit is one of a family (a multiplier is 1): orbits lie beside it at the same " +
+                         problem.family().names[0] + ", and there is no branch to follow");
+  const PathPoint first = point_of(problem, start, range, {});
   Branch down, up;
-  up.points.push_back(describe(problem, start, &system));
+  up.points.push_back(solution);
   down.points.push_back(up.points.front());
-  Follower(problem, options, down).run(reversed(first));
   Follower(problem, options, up).run(first);
+  if (up.ended == "closed") return up;
+  Follower(problem, options, down).run(reversed(first));
   return joined(std::move(down), std::move(up), &Branch::special);
 }
 

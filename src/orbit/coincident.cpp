@@ -11,7 +11,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double nothing = 1e-3;   ///< of a leg's length at the point before: so short it is at a change where it vanishes
+constexpr double nothing =
+    1e-2;  ///< of a leg's length at the point before: so short it is at a change where it vanishes
 constexpr double no_speed = 1e-6;  ///< of an orbit's largest: an impact that vanishes
 
 /// The cycle of one leg without its event, from phase 0.
@@ -123,7 +124,9 @@ std::vector<Orbit> with_impact(const ModeSet& set, const Orbit& orbit, const Tes
 Orbit without_all(const ModeSet& set, Orbit orbit) {
   for (std::size_t most = orbit.legs(); most > 0; --most) {
     const std::vector<TestValue> tests = test_values(set, orbit);
-    const auto impact = [](const TestValue& test) { return test.test == Test::speed && test.kind == mode::GuardKind::gap; };
+    const auto impact = [](const TestValue& test) {
+      return test.test == Test::speed && test.kind == mode::GuardKind::gap;
+    };
     double largest = 0.0;
     for (const TestValue& test : tests)
       if (impact(test)) largest = std::max(largest, std::abs(test.value));

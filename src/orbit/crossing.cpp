@@ -14,7 +14,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int nodes = 8;             ///< of the interpolation; even: none is at the crossing itself
-constexpr double half_width = 0.01;  ///< of the interpolated piece, arclength
 constexpr double amplitude = 2e-3;   ///< of the orbits beside a crossing, arclength
 constexpr double difference = 1e-4;  ///< over which J is differentiated
 constexpr double well_known = 1e-8;  ///< of the range: what the place may be uncertain by
@@ -43,6 +42,8 @@ Orbit with_numbers(Orbit orbit, const VectorXd& all) {
 /// The polynomial through values at some places (barycentric form).
 class Interpolant {
  public:
+  explicit Interpolant(double half_width) : half_width_(half_width) {}
+
   void add(double place, VectorXd value) {
     places_.push_back(place);
     values_.push_back(std::move(value));
@@ -55,14 +56,30 @@ class Interpolant {
       if (s == places_[k]) return values_[k];
       double weight = 1.0 / (s - places_[k]);
       for (std::size_t j = 0; j < places_.size(); ++j)
-        if (j != k) weight *= half_width / (places_[k] - places_[j]);
+        if (j != k) weight *= half_width_ / (places_[k] - places_[j]);
       sum += weight * values_[k];
       weights += weight;
     }
     return sum / weights;
   }
 
+  /// The zero of the first component near a place, by the secant rule.
+  [[nodiscard]] std::optional<double> zero(double near) const {
+    double a = near - 0.1 * half_width_, b = near + 0.1 * half_width_, f_a = at(a)[0];
+    for (int k = 0; k < 50; ++k) {
+      const double f_b = at(b)[0];
+      if (f_b == 0.0 || f_a == f_b || std::abs(b - a) < 1e-15) return b;
+      const double next = b - f_b * (b - a) / (f_b - f_a);
+      if (!(std::abs(next - near) < half_width_)) return std::nullopt;
+      a = b;
+      f_a = f_b;
+      b = next;
+    }
+    return b;
+  }
+
  private:
+  double half_width_;
   std::vector<double> places_;
   std::vector<VectorXd> values_;
 };
@@ -90,21 +107,6 @@ class Determinant {
   VectorXd scales_;
 };
 
-/// The zero of the first component near a place.
-std::optional<double> zero(const Interpolant& f, double near) {
-  double a = near - 0.1 * half_width, b = near + 0.1 * half_width, f_a = f.at(a)[0];
-  for (int k = 0; k < 50; ++k) {
-    const double f_b = f.at(b)[0];
-    if (f_b == 0.0 || f_a == f_b || std::abs(b - a) < 1e-15) return b;
-    const double next = b - f_b * (b - a) / (f_b - f_a);
-    if (!(std::abs(next - near) < half_width)) return std::nullopt;
-    a = b;
-    f_a = f_b;
-    b = next;
-  }
-  return b;
-}
-
 /// The direction of a branch in the unknowns, from two orbits of it.
 VectorXd direction(const Problem& problem, const Orbit& a, const Orbit& b, const VectorXd& units) {
   VectorXd along(units.size());
@@ -121,28 +123,36 @@ VectorXd direction(const Problem& problem, const Orbit& a, const Orbit& b, const
 
 }  // namespace
 
-std::optional<Located> locate_crossing(const Problem& problem, const PathPoint& from, double near, double range) {
-  const Determinant determinant(problem, from);
-  Interpolant all, fewer, orbits;
+std::optional<Located> locate_between(const Problem& problem, const PathPoint& from, double near, double half_width,
+                                      double range, const std::function<double(const PathPoint&)>& f) {
+  Interpolant all(half_width), fewer(half_width), orbits(half_width);
   for (int k = 0; k < nodes; ++k) {
     const double s = near + half_width * std::cos((2 * k + 1) * std::numbers::pi / (2 * nodes));
     const std::optional<PathPoint> point = step_to(problem, from, s, range);
     if (!point) return std::nullopt;
-    const VectorXd value = VectorXd::Constant(1, determinant(point->orbit));
+    const VectorXd value = VectorXd::Constant(1, f(*point));
     all.add(s, value);
     if (k > 0 && k + 1 < nodes) fewer.add(s, value);
     orbits.add(s, numbers_of(point->orbit));
   }
-  const std::optional<double> place = zero(all, near), check = zero(fewer, near);
+  const std::optional<double> place = all.zero(near), check = fewer.zero(near);
   if (!place || !check) return std::nullopt;
   const auto orbit_at = [&](double s) { return with_numbers(from.orbit, orbits.at(s)); };
   Located found{point_of(problem, orbit_at(*place), range, from.tangent), *place, 0.0};
   found.error = std::abs(orbit_at(*check).values[0] - found.point.orbit.values[0]);
   if (!(found.error < well_known * range)) return std::nullopt;
-  constexpr double beside = 0.1 * half_width;
+  const double beside = 0.1 * half_width;
   found.point.tangent = direction(problem, orbit_at(*place - beside), orbit_at(*place + beside), found.point.units);
   found.point.watched.turn = found.point.tangent[problem.parameter_column(from.orbit.legs(), 0)];
-  found.point.watched.cross = 0.0;
+  return found;
+}
+
+std::optional<Located> locate_crossing(const Problem& problem, const PathPoint& from, double near, double range) {
+  constexpr double half_width = 0.01;
+  const Determinant determinant(problem, from);
+  auto found = locate_between(problem, from, near, half_width, range,
+                              [&](const PathPoint& point) { return determinant(point.orbit); });
+  if (found) found->point.watched.cross = 0.0;
   return found;
 }
 

@@ -170,10 +170,52 @@ VectorXd newton_step(const Linearised& at, const std::vector<Condition>& conditi
   return matrix.partialPivLu().solve(right);
 }
 
+/// The numbers of an orbit as unknowns.
+VectorXd unknowns_of(const Problem& problem, const Orbit& orbit) {
+  VectorXd all(problem.unknowns(orbit.legs()));
+  VectorXd x = orbit.x[0];
+  problem.translations().take_out(x);
+  all << problem.translations().numbers(x), VectorXd::Map(orbit.t.data(), static_cast<Index>(orbit.t.size())),
+      VectorXd::Map(orbit.values.data(), problem.parameters());
+  return all;
+}
+
+/// Where orbits lie among the unknowns of one of the same shape, begun at any event that the shape lets them begin at, in the nearest period.
+std::vector<VectorXd> places(const Problem& problem, const std::vector<Orbit>& orbits, const Orbit& of) {
+  std::vector<VectorXd> all;
+  for (const Orbit& orbit : orbits) {
+    if (orbit.legs() != of.legs() || orbit.shape.n != of.shape.n) continue;
+    for (std::size_t first = 0; first < orbit.legs(); ++first) {
+      Orbit turned = orbit;
+      rotate(turned, first);
+      if (!(turned.shape.legs == of.shape.legs)) continue;
+      const double periods = forced(of) ? std::round(of.t[0] - turned.t[0]) : 0.0;
+      for (double& t : turned.t) t += periods;
+      all.push_back(unknowns_of(problem, turned));
+    }
+  }
+  return all;
+}
+
+/// The factor of a Newton step s at v when solutions v_i are taken out: 1 / (1 - g . s), g the gradient of log prod (1 + reach / |v - v_i|^2).
+double deflation(const std::vector<VectorXd>& taken_out, const VectorXd& v, const VectorXd& scale,
+                 const VectorXd& step) {
+  constexpr double reach = 0.1 * 0.1;  // squared: farther away, as a part of the orbit's size, nothing is to be felt
+  double slope = 0.0;
+  for (const VectorXd& other : taken_out) {
+    const VectorXd away = (v - other).cwiseQuotient(scale);
+    const double square = away.squaredNorm();
+    slope -= 2.0 * reach * away.dot(step) / (square * (reach + square));
+  }
+  return 1.0 / (1.0 - slope);
+}
+
 }  // namespace
 
-NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condition>& conditions, int most_steps) {
+NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condition>& conditions, int most_steps,
+                   const std::vector<Orbit>& besides) {
   const VectorXd scale = sizes(problem, orbit);
+  const std::vector<VectorXd> taken_out = places(problem, besides, orbit);
   VectorXd moved = VectorXd::Zero(scale.size());
   NewtonResult result;
   double before = INFINITY;
@@ -182,6 +224,7 @@ NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condi
       const ModeSet set(problem.family(), orbit.values);
       const Linearised at = linearise(problem, set, orbit);
       VectorXd step = newton_step(at, conditions, moved, scale);
+      if (!taken_out.empty()) step *= deflation(taken_out, unknowns_of(problem, orbit), scale, step);
       if (!step.allFinite()) return result;
       result.last_step = step.cwiseAbs().maxCoeff();
       for (const VectorXd& defect : at.defects)

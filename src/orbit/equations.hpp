@@ -75,7 +75,10 @@ struct NewtonResult {
 
 /// Newton's method with as many conditions as there are parameters: all of them fixed, or all but one and an arclength.
 /// The orbit is where it came to, converged or not. Never throws for numbers: a model that cannot be made, or overflow, is "not converged".
-NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condition>& conditions, int most_steps = 12);
+/// @param besides  orbits v_i that are no solutions any more (deflation): the residual is multiplied by prod_i (1 + 0.1^2 / |v - v_i|^2), which makes
+///                 a step longer or shorter, or turns it round. Source: Farrell, Birkisson and Funke (2015)
+NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condition>& conditions, int most_steps = 12,
+                   const std::vector<Orbit>& besides = {});
 
 /// All parameters are as they are.
 [[nodiscard]] std::vector<Condition> fixed_parameters(const Problem& problem, std::size_t legs);

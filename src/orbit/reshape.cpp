@@ -221,7 +221,8 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
     if (next && std::ranges::none_of(all, known)) all.push_back(std::move(*next));
   };
   const double sense = std::copysign(1.0, critical - before.values[0]);
-  for (const Orbit& shape : coincident(set, before, change.orbit, test)) add(leaving(problem, change, sense, shape, range));
+  for (const Orbit& shape : coincident(set, before, change.orbit, test))
+    add(leaving(problem, change, sense, shape, range));
   for (double length : {1e-6, 1e-5, 1e-4, 1e-3}) {
     if (!all.empty()) break;
     Orbit beyond = change.orbit;  // as it is, where its own equations lead no further
@@ -251,7 +252,7 @@ std::string behind(const Problem& problem, const Orbit& before, const PathPoint&
       const auto motion = motion_from(system, set, change.orbit, leg, 0.5);
       if (!motion) continue;
       const std::optional<Solution> found = settle(*there, *motion, transient, 0);
-      return found ? found->label : std::string();
+      return found ? found->label : "no periodic orbit within " + std::to_string(transient) + " periods";
     }
   } catch (const InputError&) {
   } catch (const NumericalError&) {

@@ -19,7 +19,8 @@ struct Reshaped {
 [[nodiscard]] std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const PathPoint& change,
                                             const TestValue& test, double range);
 
-/// What the motion settles on behind a change, in a word: the label of an orbit. Empty if on none within some hundred periods.
+/// What the motion settles on behind a change, in words: the label of an orbit, or that it is none within some hundred periods. Empty if that cannot
+/// be seen.
 [[nodiscard]] std::string behind(const Problem& problem, const Orbit& before, const PathPoint& change, double range);
 
 }  // namespace slapstick::orbit

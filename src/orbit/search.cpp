@@ -17,16 +17,17 @@ constexpr double near_return = 0.25;  ///< relative distance of a state to its i
 constexpr double same_orbit = 1e-6;   ///< relative distance of two orbits' states at one event
 constexpr double settled = 1e-3;      ///< relative distance of a motion from the orbit that it has settled on
 constexpr int longest_cycle = 64;
+constexpr int from_one_guess = 4;  ///< orbits at most
 
 /// Is it one of these, perhaps begun at another event, or in another period?
-bool known(const std::vector<Solution>& found, const Orbit& orbit) {
-  return std::ranges::any_of(found, [&](const Solution& other) {
-    if (other.orbit.legs() != orbit.legs() || other.orbit.shape.n != orbit.shape.n) return false;
+bool known(const std::vector<Orbit>& found, const Orbit& orbit) {
+  return std::ranges::any_of(found, [&](const Orbit& other) {
+    if (other.legs() != orbit.legs() || other.shape.n != orbit.shape.n) return false;
     for (std::size_t shift = 0; shift < orbit.legs(); ++shift) {
       const VectorXd& a = orbit.x[0];
-      const VectorXd& b = other.orbit.x[shift];
+      const VectorXd& b = other.x[shift];
       if ((a - b).norm() > same_orbit * std::max(a.norm(), b.norm())) continue;
-      const double turns = orbit.t[0] - other.orbit.t[shift];
+      const double turns = orbit.t[0] - other.t[shift];
       if (orbit.shape.n == 0 || std::abs(turns - std::round(turns)) < same_orbit) return true;
     }
     return false;
@@ -78,21 +79,34 @@ class Hunt {
     for (int n = options_.only_n.value_or(1); n <= most && n <= static_cast<int>(states.size()); ++n) {
       const VectorXd& before = states[states.size() - static_cast<std::size_t>(n)];
       if ((now - before).norm() > near_return * size_.norm()) continue;
-      const Motion& start = at[at.size() - static_cast<std::size_t>(n)];
-      add(orbit_from(problem_, system_, start, n, INFINITY, options_.stop));
+      if (auto guess = record(at[at.size() - static_cast<std::size_t>(n)], n, options_.stop)) refine_all(*guess);
     }
   }
 
-  void add(std::optional<Solution> solution) {
-    if (!solution || repeats(solution->orbit, same_orbit) || known(found_, solution->orbit)) return;
-    enough_ = options_.enough && options_.enough(*solution);
-    found_.push_back(std::move(*solution));
+  /// The orbits that Newton's method comes to from a guess: each new one is taken out, and the guess used again.
+  void refine_all(Orbit guess) {
+    guess.values = problem_.values();
+    for (int i = 0; i < from_one_guess && !enough_; ++i) {
+      const std::optional<Orbit> orbit = refine(problem_, guess, i == 0 ? std::vector<Orbit>{} : seen_);
+      if (!orbit || known(seen_, *orbit)) return;
+      add(*orbit);
+    }
+  }
+
+  void add(const Orbit& orbit) {
+    seen_.push_back(orbit);
+    if (repeats(orbit, same_orbit)) return;
+    Solution solution = describe(problem_, orbit, &system_);
+    if (!solution.is_motion) return;
+    enough_ = options_.enough && options_.enough(solution);
+    found_.push_back(std::move(solution));
   }
 
   const Problem& problem_;
   const System& system_;
   const SearchOptions& options_;
   VectorXd size_;
+  std::vector<Orbit> seen_;  ///< all that solve their equations, motions or not
   std::vector<Solution> found_;
   bool enough_ = false;
 };

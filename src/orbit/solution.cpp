@@ -141,8 +141,9 @@ std::vector<EventOfOrbit> events(const Problem& problem, const Orbit& orbit) {
   return all;
 }
 
-std::optional<Orbit> refine(const Problem& problem, Orbit guess) {
-  const NewtonResult result = solve(problem, guess, fixed_parameters(problem, guess.legs()), 20);
+std::optional<Orbit> refine(const Problem& problem, Orbit guess, const std::vector<Orbit>& besides) {
+  const int most_steps = besides.empty() ? 20 : 60;  // a step that is turned round leads into the unknown
+  const NewtonResult result = solve(problem, guess, fixed_parameters(problem, guess.legs()), most_steps, besides);
   if (!result.converged) return std::nullopt;
   return guess;
 }

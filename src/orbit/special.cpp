@@ -138,6 +138,20 @@ std::string describe(const TestValue& test, const Itinerary& shape, const System
 
 namespace {
 
+/// The zero of a margin. Where a leg shrinks to nothing between two zeros of one guard, the equations are singular: there by interpolation.
+std::optional<Located> locate_margin(const Problem& problem, const PathPoint& from, const PathPoint& to, double length,
+                                     double range, std::size_t test) {
+  const auto value = [test](const Watched& watched) { return watched.tests[test].value; };
+  std::optional<Located> located = locate(problem, from, length, range, value, value(to.watched));
+  if (!located || std::abs(value(located->point.watched)) <= 1e-9 * value(from.watched)) return located;
+  for (const double part : {0.5, 0.1, 0.02}) {
+    auto sharper = locate_between(problem, from, located->length, part * std::min(length, 0.02), range,
+                                  [&](const PathPoint& point) { return value(point.watched); });
+    if (sharper) return sharper;
+  }
+  return located;
+}
+
 /// Does the simulator agree that the orbit is a motion before a place of the branch, and none behind it?
 bool changes_there(const Problem& problem, const PathPoint& from, double length, double place, double range) {
   // Near a graze an impact's depth is the square of its speed: closer than this the simulator could not tell.
@@ -155,8 +169,7 @@ std::optional<Change> find_change(const Problem& problem, const PathPoint& from,
   for (std::size_t i = 0; i < from.watched.tests.size(); ++i) {
     const double before = from.watched.tests[i].value, behind = to.watched.tests[i].value;
     if (!(before > 0.0) || !(behind < 0.0)) continue;
-    const auto value = [i](const Watched& watched) { return watched.tests[i].value; };
-    if (auto located = locate(problem, from, length, range, value, behind))
+    if (auto located = locate_margin(problem, from, to, length, range, i))
       candidates.emplace_back(i, std::move(*located));
   }
   // Of margins that are used up together the speed of an event says most.

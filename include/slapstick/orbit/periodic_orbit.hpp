@@ -1,5 +1,6 @@
 #pragma once
 /// Periodic orbits, stable or not: Newton's method from a guess, what an orbit is, and a search for many.
+#include <algorithm>
 #include <complex>
 #include <functional>
 #include <memory>
@@ -47,6 +48,10 @@ struct Solution {
   std::string why;            ///< .. or does not
   std::vector<double> drift;  ///< along rigid translations, by coordinate, per cycle; empty without such
 
+  /// False for one of a family at the same parameters, as of a mass that sticks anywhere in an interval.
+  [[nodiscard]] bool isolated() const {
+    return std::ranges::none_of(multipliers, [](auto mu) { return std::abs(mu - 1.0) < 1e-10; });
+  }
   [[nodiscard]] bool stable() const { return multipliers.empty() || std::abs(multipliers.front()) < 1.0; }
 };
 
@@ -54,8 +59,9 @@ struct Solution {
 [[nodiscard]] Solution describe(const Problem& problem, Orbit orbit, const System* system);
 
 /// Newton's method at fixed parameters from an approximate orbit; the sequence of events is the guess's.
+/// @param besides  orbits that it shall not come to (deflation); those of other shapes are of no effect
 /// @returns empty if it does not converge
-[[nodiscard]] std::optional<Orbit> refine(const Problem& problem, Orbit guess);
+[[nodiscard]] std::optional<Orbit> refine(const Problem& problem, Orbit guess, const std::vector<Orbit>& besides = {});
 
 /// An event of an orbit, with the state just before it.
 struct EventOfOrbit {

@@ -1,0 +1,183 @@
+/// Where branches change their events, cross or end: each by a second route.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "families.hpp"
+#include "slapstick/base/error.hpp"
+
+namespace slapstick::test {
+namespace {
+
+using orbit::SpecialType;
+
+orbit::Branch branch_of(const std::string& model, const Overrides& fixed, const std::string& parameter, double at,
+                        orbit::ContinuationOptions options) {
+  const Posed posed(model, fixed, {parameter}, {at});
+  const auto first = posed.settled();
+  if (!first) throw NumericalError("no orbit at " + std::to_string(at));
+  return orbit::follow(*posed.problem, first->orbit, options);
+}
+
+std::vector<double> values(const orbit::Branch& branch, SpecialType type) {
+  std::vector<double> all;
+  for (const orbit::SpecialPoint& point : branch.special)
+    if (point.type == type) all.push_back(point.value);
+  std::ranges::sort(all);
+  return all;
+}
+
+/// What the motion from the model's start settles on.
+std::string attractor(const std::string& model, Overrides all, const std::string& parameter, double value) {
+  all[parameter] = value;
+  const auto found = Posed(model, all, {}, {}).settled(0, 2000);
+  return found ? found->label : "none";
+}
+
+/// A leg that shrinks to nothing makes the equations singular on its side of the point; on the other side it is an ordinary zero of a margin.
+TEST(Change, IsTheSameFromBothSides) {
+  const orbit::Branch up = branch_of("spool", {}, "frequency", 255.0, {.from = 255.0, .to = 265.0}),
+                      down = branch_of("spool", {}, "frequency", 265.0, {.from = 255.0, .to = 265.0});
+  const std::vector<double> a = values(up, SpecialType::SL), b = values(down, SpecialType::SL);
+  ASSERT_EQ(a.size(), 2U) << up.ended;
+  ASSERT_EQ(b.size(), 2U) << down.ended;
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(a[k], b[k], 1e-10 * a[k]);
+  const orbit::Branch right = branch_of("vibro-impact", {}, "omega", 2.2, {.from = 1.2, .to = 2.3}),
+                      left = branch_of("vibro-impact", {}, "omega", 1.4, {.from = 1.2, .to = 2.3});
+  const std::vector<double> c = values(right, SpecialType::SL), d = values(left, SpecialType::SL);
+  ASSERT_EQ(c.size(), 3U);
+  ASSERT_EQ(d.size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(c[k], d[k], 1e-10);
+}
+
+/// A spring that is just touched is engaged and let go at one instant. The 2-2 orbit beyond gains its third contact there, by brute force too.
+TEST(Change, OfACompliantStopIsPassed) {
+  const orbit::Branch branch =
+      branch_of("bilinear-oscillator", {}, "clearance", 0.0, {.from = -0.36, .to = 0.01, .most_points = 300});
+  const std::vector<double> touches = values(branch, SpecialType::GR);
+  ASSERT_EQ(touches.size(), 2U) << branch.ended;
+  EXPECT_EQ(branch.points.front().label, "2-2-I") << branch.ended;
+  EXPECT_EQ(attractor("bilinear-oscillator", {}, "clearance", touches[0] - 1e-3), "2-2-I");
+  EXPECT_EQ(attractor("bilinear-oscillator", {}, "clearance", touches[0] + 1e-3), "2-3-I");
+}
+
+/// The symmetric motion between two stops loses its symmetry at two points; the branch that crosses there was not scripted, and by brute force the
+/// two contacts of a period have different speeds between them.
+TEST(Crossing, OfASymmetricOrbitLeadsToAsymmetricOnes) {
+  const Posed posed("two-sided-rattle", {}, {"omega"}, {1.5});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  const orbit::ContinuationOptions options{.from = 1.0, .to = 1.6};
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, options);
+  const std::vector<double> crossings = values(branch, SpecialType::BP);
+  ASSERT_EQ(crossings.size(), 2U) << branch.ended;
+  const auto bp = std::ranges::find(branch.special, SpecialType::BP, &orbit::SpecialPoint::type);
+  EXPECT_LT(bp->error, 1e-10);
+  ASSERT_EQ(bp->born.size(), 2U);
+  const orbit::Branch other = orbit::follow(*posed.problem, bp->born[0], options);
+  const std::vector<double> seen = values(other, SpecialType::BP);  // from the other branch, on which it is a fold
+  ASSERT_FALSE(seen.empty()) << other.ended;
+  EXPECT_NEAR(seen.front(), bp->value, 1e-9);
+  for (const double fold : values(other, SpecialType::LP))
+    for (const double crossing : crossings) EXPECT_GT(std::abs(fold - crossing), 1e-4);
+  const auto speeds_differ = [](double omega) {
+    const Posed at("two-sided-rattle", {{"omega", omega}}, {}, {});
+    const auto found = at.settled(1, 3000);
+    if (!found) return std::string("no orbit");
+    std::vector<double> speeds;
+    for (const orbit::EventOfOrbit& event : orbit::events(*at.problem, found->orbit))
+      if (event.kind == EventKind::impact) speeds.push_back(std::abs(event.w));
+    return std::string(std::abs(speeds.at(0) - speeds.at(1)) > 1e-3 ? "asymmetric" : "symmetric");
+  };
+  EXPECT_EQ(speeds_differ(crossings[0] - 3e-3), "symmetric");
+  EXPECT_EQ(speeds_differ(crossings[1] + 3e-3), "symmetric");
+}
+
+/// Both stops of a symmetric orbit lose their second impacts at one point.
+TEST(Change, OfSeveralImpactsTogetherIsPassed) {
+  const orbit::Branch branch = branch_of("two-sided-rattle", {}, "omega", 0.75, {.from = 0.7, .to = 1.0});
+  const auto has = [&](const char* label) {
+    return std::ranges::any_of(branch.points, [&](const orbit::Solution& point) { return point.label == label; });
+  };
+  EXPECT_FALSE(branch.failed) << branch.ended;
+  EXPECT_TRUE(has("1-4-I"));
+  EXPECT_TRUE(has("1-2-I"));
+}
+
+/// Towards a complete chatter infinitely many impacts are added; the branch goes on behind them, and says where they gather.
+TEST(Change, ToACompleteChatterIsPassed) {
+  const orbit::Branch branch =
+      branch_of("vibro-impact", {{"omega", 2.2}}, "restitution", 0.00542, {.from = 0.005, .to = 0.0056});
+  const std::vector<double> onset = values(branch, SpecialType::CH);
+  ASSERT_EQ(onset.size(), 1U) << branch.ended;
+  EXPECT_TRUE(branch.points.front().chatter) << branch.ended;
+  EXPECT_FALSE(branch.points.back().chatter);
+  EXPECT_EQ(attractor("vibro-impact", {{"omega", 2.2}}, "restitution", onset[0] - 2e-6), "1-inf-II");
+  EXPECT_NE(attractor("vibro-impact", {{"omega", 2.2}}, "restitution", onset[0] + 2e-6), "1-inf-II");
+}
+
+/// The stick-slip cycle on a belt ends where damping is too strong; what is left is steady sliding.
+TEST(Change, WithNothingBehindItIsAJump) {
+  const orbit::Branch branch = branch_of("belt", {}, "damping_ratio", 0.02, {.from = 0.0, .to = 0.3});
+  ASSERT_FALSE(branch.special.empty());
+  EXPECT_EQ(branch.special.back().type, SpecialType::SL);
+  EXPECT_TRUE(branch.special.back().outcome.starts_with("jump to no periodic orbit")) << branch.special.back().outcome;
+  EXPECT_FALSE(branch.failed);
+  EXPECT_NE(attractor("belt", {}, "damping_ratio", branch.special.back().value - 1e-5), "none");
+  EXPECT_EQ(attractor("belt", {}, "damping_ratio", branch.special.back().value + 1e-5), "none");
+}
+
+/// A bubble of doubled orbits that opens and closes between two points of the branch: no sign changes there. The bubble was found with short steps.
+TEST(Branch, SeesADoublingThatIsTakenBackBetweenTwoPoints) {
+  const Overrides damped = {{"damping_ratio", 0.0688}};
+  const orbit::ContinuationOptions fine{.from = 0.89, .to = 0.95, .step = 1e-3, .longest_step = 2e-3},
+      coarse{.from = 0.89, .to = 0.95, .step = 0.05, .longest_step = 0.1};
+  const std::vector<double> all =
+      values(branch_of("bilinear-oscillator", damped, "omega", 0.945, fine), SpecialType::PD);
+  const orbit::Branch quick = branch_of("bilinear-oscillator", damped, "omega", 0.945, coarse);
+  const std::vector<double> again = values(quick, SpecialType::PD);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_LT(all[1] - all[0], 0.002);
+  ASSERT_EQ(again.size(), 2U) << quick.points.size() << " points";
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(all[k], again[k], 1e-9);
+}
+
+/// A mass that sticks for ever is one of a family: there is no branch.
+TEST(Branch, OfAFamilyIsRefused) {
+  const Posed posed("coulomb-oscillator", {{"amplitude", 0.1}}, {"omega"}, {0.8});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  EXPECT_FALSE(first->isolated());
+  EXPECT_THROW((void)orbit::follow(*posed.problem, first->orbit, {.from = 0.5, .to = 1.0}), NumericalError);
+}
+
+/// Below a fold of the rattle two orbits of one shape live side by side. From a guess near one, with that one taken out, Newton's
+/// method comes to the other.
+TEST(Deflation, FindsTheOtherOrbitOfAFold) {
+  const Posed posed("two-sided-rattle", {}, {"omega"}, {0.8});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.75, .to = 1.0});
+  const std::vector<double> folds = values(branch, SpecialType::LP);
+  ASSERT_FALSE(folds.empty());
+  const Posed there("two-sided-rattle", {{"omega", folds.back() - 2e-2}}, {}, {});
+  const auto near = std::ranges::min_element(branch.points, {}, [&](const orbit::Solution& point) {
+    return point.label == first->label ? std::abs(point.orbit.values[0] - folds.back() + 2e-2) : INFINITY;
+  });
+  orbit::Orbit guess = near->orbit;
+  guess.values.clear();
+  const auto one = orbit::refine(*there.problem, guess);
+  ASSERT_TRUE(one);
+  orbit::Orbit aside = *one;
+  for (Eigen::VectorXd& x : aside.x) x *= 1.05;
+  const auto again = orbit::refine(*there.problem, aside);
+  ASSERT_TRUE(again);
+  EXPECT_LT((again->x[0] - one->x[0]).norm(), 1e-9);
+  const auto other = orbit::refine(*there.problem, aside, {*one});
+  ASSERT_TRUE(other);
+  EXPECT_GT((other->x[0] - one->x[0]).norm(), 1e-3);
+}
+
+}  // namespace
+}  // namespace slapstick::test

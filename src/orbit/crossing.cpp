@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "slapstick/base/error.hpp"
+#include "slapstick/orbit/periodic_orbit.hpp"
 
 namespace slapstick::orbit {
 namespace {
@@ -154,6 +155,25 @@ std::optional<Located> locate_crossing(const Problem& problem, const PathPoint& 
                               [&](const PathPoint& point) { return determinant(point.orbit); });
   if (found) found->point.watched.cross = 0.0;
   return found;
+}
+
+std::optional<Located> crossing_near(const Problem& problem, const Orbit& orbit, double range) {
+  for (const double aside :
+       {0.02, -0.02, 0.005, -0.005}) {  // of the range, on the branch, where the equations are regular
+    Orbit start = orbit;
+    start.values[0] -= aside * range;
+    const std::optional<Orbit> beside = refine(problem, start);
+    if (!beside) continue;
+    const PathPoint from = point_of(problem, *beside, range, {});
+    double near = aside / from.watched.turn;
+    for (int k = 0; k < 5 && std::abs(near) < 10.0 * std::abs(aside); ++k) {
+      auto found = locate_crossing(problem, from, near, range);
+      if (!found) break;
+      if (std::abs(found->length - near) < 1e-3) return found;
+      near = found->length;
+    }
+  }
+  return std::nullopt;
 }
 
 std::vector<Orbit> crossing_branch(const Problem& problem, const PathPoint& at) {

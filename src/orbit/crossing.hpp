@@ -21,6 +21,9 @@ namespace slapstick::orbit {
 [[nodiscard]] std::optional<Located> locate_crossing(const Problem& problem, const PathPoint& from, double near,
                                                      double range);
 
+/// The crossing near an orbit that is one at other values of the parameters, in the first of which it is sought.
+[[nodiscard]] std::optional<Located> crossing_near(const Problem& problem, const Orbit& orbit, double range);
+
 /// Orbits on the branch that crosses at a point, one to either side; empty if the crossing is degenerate.
 [[nodiscard]] std::vector<Orbit> crossing_branch(const Problem& problem, const PathPoint& at);
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "orbit/crossing_curve.hpp"
 #include "orbit/path.hpp"
 #include "orbit/special.hpp"
 #include "orbit/two_ways.hpp"
@@ -241,6 +242,9 @@ Curve CurveFollower::run(Orbit orbit, double sign) {
 
 Curve locus(const Problem& problem, const SpecialPoint& point, const CurveOptions& options) {
   if (problem.parameters() != 2) throw InputError("curve: a family of two parameters is needed");
+  if (point.type == SpecialType::BP)
+    return joined(crossing_curve(problem, point, options, -1.0), crossing_curve(problem, point, options, 1.0),
+                  &Curve::met);
   CurveFollower follower(problem, point, options);
   Orbit start = point.solution.orbit;
   Curve down = follower.run(start, -1.0);

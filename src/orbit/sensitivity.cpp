@@ -2,7 +2,7 @@
 #include <cmath>
 #include <functional>
 
-#include "orbit/path.hpp"
+#include "orbit/crossing.hpp"
 #include "orbit/special.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/orbit/branch.hpp"
@@ -39,6 +39,26 @@ double best_ratio(const std::function<double(double)>& ratio) {
 
 }  // namespace
 
+namespace {
+
+/// At a crossing the equations are singular: it is located at either side in each parameter.
+std::vector<double> crossing_sensitivity(const Problem& problem, const Orbit& orbit, double range) {
+  constexpr double part = 1e-4;
+  std::vector<double> result;
+  for (std::size_t j = 1; j < orbit.values.size(); ++j) {
+    const double h = part * std::max(std::abs(orbit.values[j]), 1e-2);
+    Orbit low = orbit, high = orbit;
+    low.values[j] -= h;
+    high.values[j] += h;
+    const auto below = crossing_near(problem, low, range), above = crossing_near(problem, high, range);
+    result.push_back(below && above ? (above->point.orbit.values[0] - below->point.orbit.values[0]) / (2.0 * h)
+                                    : std::nan(""));
+  }
+  return result;
+}
+
+}  // namespace
+
 /// On the solutions v(s, q) of the equations, s arclength and q another parameter, f(v) = 0 keeps the point what it is:
 /// ds/dq = -(df/dq) / (df/ds), and d value / dq = dp/dq + dp/ds ds/dq. The directions are exact, the derivatives of f central differences
 /// of points that solve the equations.
@@ -47,6 +67,7 @@ std::vector<double> sensitivity(const Family& full, const std::vector<double>& v
   Orbit orbit = point.solution.orbit;
   orbit.values = values;
   const double range = std::max(1e-3, std::abs(values[0]));
+  if (point.type == SpecialType::BP) return crossing_sensitivity(problem, orbit, range);
   const PathPoint at = point_of(problem, orbit, range, {});
   const std::size_t legs = orbit.legs();
   const ModeSet set(problem.family(), orbit.values);

@@ -94,6 +94,35 @@ TEST(Crossing, OfASymmetricOrbitLeadsToAsymmetricOnes) {
   EXPECT_EQ(speeds_differ(crossings[1] + 3e-3), "symmetric");
 }
 
+/// In two parameters the crossings of a symmetric family form a curve, here with a turning point. On it lie those of every single branch.
+TEST(Crossing, IsFollowedInTwoParameters) {
+  const Posed posed("two-sided-rattle", {}, {"omega", "restitution"}, {1.5, 0.7});
+  const Posed single("two-sided-rattle", {}, {"omega"}, {1.5});
+  const auto first = single.settled();
+  ASSERT_TRUE(first);
+  const orbit::ContinuationOptions range{.from = 1.0, .to = 1.6};
+  const orbit::Branch branch = orbit::follow(*single.problem, first->orbit, range);
+  auto bp = *std::ranges::find(branch.special, SpecialType::BP, &orbit::SpecialPoint::type);
+  bp.solution.orbit.values.push_back(0.7);
+  const orbit::Curve curve = orbit::locus(
+      *posed.problem, bp, {.from = 1.0, .to = 1.6, .second_from = 0.5, .second_to = 0.9, .longest_step = 0.05});
+  EXPECT_FALSE(curve.failed) << curve.ended;
+  ASSERT_GT(curve.points.size(), 20U);
+  const orbit::CurvePoint& other = curve.points[curve.points.size() / 4];
+  const std::vector<double> there =
+      values(branch_of("two-sided-rattle", {{"restitution", other.values[1]}}, "omega", other.values[0], range),
+             SpecialType::BP);
+  const bool on_the_branch =
+      std::ranges::any_of(there, [&](double value) { return std::abs(value - other.values[0]) < 1e-9; });
+  EXPECT_TRUE(on_the_branch) << other.values[0] << " " << other.values[1];
+  const std::vector<double> rate = orbit::sensitivity(posed.family, {bp.value, 0.7}, bp);
+  const auto near = [&](double r) {
+    const auto all = values(branch_of("two-sided-rattle", {{"restitution", r}}, "omega", 1.5, range), SpecialType::BP);
+    return *std::ranges::min_element(all, {}, [&](double value) { return std::abs(value - bp.value); });
+  };
+  EXPECT_NEAR(rate.at(0), (near(0.701) - near(0.699)) / 0.002, 1e-4);
+}
+
 /// Both stops of a symmetric orbit lose their second impacts at one point.
 TEST(Change, OfSeveralImpactsTogetherIsPassed) {
   const orbit::Branch branch = branch_of("two-sided-rattle", {}, "omega", 0.75, {.from = 0.7, .to = 1.0});

@@ -1,11 +1,26 @@
 #include "axis_text.hpp"
 
+#include <algorithm>
+#include <set>
+#include <vector>
+
 namespace slapstick::app {
 
 std::string axis_text(const std::string& name) {
   std::string text;
   for (const char c : name) text += c == '_' ? std::string("\\_") : std::string(1, c);
   return text;
+}
+
+std::string parameter_axis(const ModelDefinition& definition, const std::string& name) {
+  std::vector<std::string> members = {name};
+  for (const Group& group : definition.groups())
+    if (group.name == name) members = group.members;
+  std::set<std::string> units;
+  for (const Parameter& parameter : definition.parameters())
+    if (std::ranges::find(members, parameter.name) != members.end()) units.insert(parameter.unit);
+  const bool one = units.size() == 1 && !units.begin()->empty() && *units.begin() != "1";
+  return axis_text(name) + (one ? " [" + axis_text(*units.begin()) + "]" : "");
 }
 
 std::string axis_symbol(const std::string& name) {

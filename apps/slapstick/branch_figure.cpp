@@ -4,27 +4,29 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <optional>
 
-#include "axis_text.hpp"
+#include "branch_table.hpp"
 
 namespace slapstick::app {
 namespace {
 
 using orbit::Solution;
 
-/// What stands for an orbit: the speeds of its impacts; if no orbit of the branches has any, the first coordinate at its events. In falling order: which event a cycle
-/// begins with may change along a branch.
-std::vector<double> heights(const orbit::Problem& problem, const Solution& solution, bool impacts) {
+/// What stands for an orbit: the speeds of its impacts, or 0; or the first coordinate at its events. In falling order: which event a cycle begins with may
+/// change along a branch.
+std::vector<double> heights(const orbit::Problem& problem, const Solution& solution, bool of_speeds) {
   std::vector<double> speeds, places;
   for (const orbit::EventOfOrbit& event : orbit::events(problem, solution.orbit)) {
     if (event.kind == EventKind::impact || event.kind == EventKind::engage) speeds.push_back(event.w);
     places.push_back(event.before.front());
   }
-  std::ranges::sort(speeds, std::greater<>());
-  std::ranges::sort(places, std::greater<>());
-  if (impacts) return speeds;
-  if (!places.empty()) return places;
-  return {solution.orbit.x.front()[0]};
+  if (places.empty()) places.push_back(orbit::at_phase_zero(problem, solution.orbit).front());
+  if (speeds.empty()) speeds.push_back(0.0);
+  std::vector<double>& all = of_speeds ? speeds : places;
+  std::ranges::sort(all, std::greater<>());
+  return all;
 }
 
 /// One line per impact; a change of their number, or of stability, begins new ones.
@@ -35,13 +37,13 @@ class Lines {
   void add(double x, const std::vector<double>& y, const Solution& solution) {
     const bool same = open_.size() == y.size() && stable_ == solution.stable() && drawn_ == solution.is_motion;
     if (!same) {
-      const bool goes_on = open_.size() == y.size() && !last_.empty();
+      const bool paired = open_.size() == y.size();
       flush();
       open_.assign(y.size(), {});
       stable_ = solution.stable();
       drawn_ = solution.is_motion;
-      if (goes_on)
-        for (std::size_t i = 0; i < y.size(); ++i) push(i, last_x_, last_[i]);
+      for (std::size_t i = 0; !last_.empty() && i < y.size(); ++i)
+        if (const auto from = paired ? std::optional(last_[i]) : nearest(y[i])) push(i, last_x_, *from);
     }
     for (std::size_t i = 0; i < y.size(); ++i) push(i, x, y[i]);
     last_x_ = x;
@@ -60,6 +62,13 @@ class Lines {
   }
 
  private:
+  /// The end of a line that the one which begins at y goes on from, if there is one.
+  [[nodiscard]] std::optional<double> nearest(double y) const {
+    constexpr double near = 0.02;
+    const auto off = [y](double other) { return std::abs(other - y); };
+    const double best = *std::ranges::min_element(last_, {}, off);
+    return off(best) < near * std::abs(y) ? std::optional(best) : std::nullopt;
+  }
   void push(std::size_t i, double x, double y) {
     open_[i].x.push_back(x);
     open_[i].y.push_back(y);
@@ -73,55 +82,77 @@ class Lines {
   std::vector<double> last_;
 };
 
-bool problem_has_impacts(const std::vector<orbit::Branch>& branches) {
+bool have_impacts(const std::vector<orbit::Branch>& branches) {
   return std::ranges::any_of(branches, [](const orbit::Branch& branch) {
     return std::ranges::any_of(branch.points, [](const Solution& point) { return point.impacts > 0; });
   });
 }
 
-/// A name above the frame; of several that nearly coincide the first has one.
-void add_label(figure::Panel& panel, double x, const std::string& label, const std::vector<double>& all) {
-  constexpr double beside = 0.02;
+/// The lines of a branch. A change of events ends those of the old sequence and begins those of the new one.
+void add_lines(figure::Panel& panel, const orbit::Branch& branch, figure::Colour colour,
+               const std::function<std::vector<double>(const Solution&)>& heights_of) {
+  Lines lines(panel, colour);
+  auto special = branch.special.begin();
+  for (std::size_t i = 0; i < branch.points.size(); ++i) {
+    lines.add(branch.points[i].orbit.values[0], heights_of(branch.points[i]), branch.points[i]);
+    for (; special != branch.special.end() && special->after == i; ++special) {
+      if (!classes_around(branch, *special)) continue;
+      const bool before = special->solution.orbit.legs() == branch.points[i].orbit.legs();
+      lines.add(special->value, heights_of(special->solution), branch.points[before ? i : i + 1]);
+    }
+  }
+  lines.flush();
+}
+
+/// Vertical lines, with names above the frame. Of several of one type that nearly coincide one is named; the more there are, the farther that reaches.
+void add_marks(figure::Panel& panel, std::vector<std::pair<double, std::string>> specials) {
   constexpr std::size_t most = 16;
-  const auto [least, largest] = std::ranges::minmax_element(all);
-  const double width = std::max(*largest - *least, 1e-12);
-  const bool taken = std::ranges::any_of(
-      panel.marks, [&](const figure::Mark& mark) { return std::abs(*mark.x - x) < beside * width; });
-  if (taken || panel.marks.size() >= most)
-    panel.marks.push_back({.x = x});
-  else
-    panel.marks.push_back({.x = x, .label = label});
+  std::ranges::sort(specials);
+  const double width = specials.empty() ? 0.0 : specials.back().first - specials.front().first;
+  for (double beside = 0.02; beside < 1.0; beside *= 1.5) {
+    std::map<std::string, double> last;  // of each type the last that was named
+    std::vector<figure::Mark> marks;
+    std::size_t named = 0;
+    for (const auto& [x, type] : specials) {
+      const auto seen = last.find(type);
+      const bool taken = seen != last.end() && x - seen->second < beside * width;
+      marks.push_back({.x = x, .label = taken ? "" : type});
+      if (taken) continue;
+      last[type] = x;
+      ++named;
+    }
+    if (named > most) continue;
+    panel.marks = std::move(marks);
+    return;
+  }
 }
 
 }  // namespace
 
-figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const std::string& parameter,
-                             const orbit::Problem& problem) {
-  figure::Panel panel;
-  panel.x_label = axis_text(parameter);
-  panel.y_label = problem_has_impacts(branches) ? "impact speed w" : "first coordinate at the events";
-  const bool impacts = problem_has_impacts(branches);
+figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const std::string& x_label,
+                             const orbit::Problem& problem, const SettledMotions& beneath) {
+  const bool speeds = beneath.speeds || have_impacts(branches);
+  const auto heights_of = [&](const Solution& solution) { return heights(problem, solution, speeds); };
+  figure::Panel panel{.x_label = x_label, .y_label = speeds ? "impact speed w" : "first coordinate at the events"};
   const std::array<figure::Colour, 4> palette = {figure::colours::black, figure::colours::dark_blue,
                                                  figure::colours::vermillion, figure::colours::green};
-  figure::Points special{.label = "", .colour = figure::colours::vermillion, .diameter_mm = 0.9};
+  figure::Points dots{.colour = figure::colours::vermillion, .drawing = figure::Drawing::discs, .diameter_mm = 0.9};
+  std::vector<std::pair<double, std::string>> specials;
   for (std::size_t b = 0; b < branches.size(); ++b) {
-    Lines lines(panel, palette[b % palette.size()]);
-    for (const Solution& point : branches[b].points)
-      lines.add(point.orbit.values[0], heights(problem, point, impacts), point);
-    lines.flush();
+    add_lines(panel, branches[b], palette[b % palette.size()], heights_of);
     for (const orbit::SpecialPoint& point : branches[b].special) {
-      const std::vector<double> y = heights(problem, point.solution, impacts);
-      if (y.empty()) continue;
-      const double top = *std::ranges::max_element(y);
-      special.x.push_back(point.value);
-      special.y.push_back(top);
-      add_label(panel, point.value, std::string(name(point.type)), special.x);
+      dots.x.push_back(point.value);
+      dots.y.push_back(heights_of(point.solution).front());
+      specials.emplace_back(point.value, name(point.type));
     }
   }
-  if (!special.x.empty()) panel.points.push_back(std::move(special));
+  add_marks(panel, std::move(specials));
+  if (!beneath.cloud.x.empty()) panel.points.push_back(beneath.cloud);
+  if (!dots.x.empty()) panel.points.push_back(std::move(dots));
   figure::Figure figure;
   figure.panels.push_back(std::move(panel));
-  figure.caption = "stable: solid; unstable: dashed";
+  figure.caption = beneath.cloud.x.empty() ? "stable: solid; unstable: dashed"
+                                           : "stable: solid; unstable: dashed; grey: motions that settle";
   return figure;
 }
 

@@ -1,14 +1,16 @@
 #pragma once
-/// Branches as a picture: impact speeds over the parameter, stable solid, unstable dashed, special points marked and named.
+/// Branches as a picture: impact speeds over the parameter, stable solid, unstable dashed, special points marked and named, over the
+/// motions that settle, if there are some. Where a branch has no impacts it is drawn at speed 0; if nothing has impacts, the first coordinate at the events is drawn.
 #include <string>
 #include <vector>
 
+#include "settled_motions.hpp"
 #include "slapstick/figure/figure.hpp"
 #include "slapstick/orbit/branch.hpp"
 
 namespace slapstick::app {
 
-[[nodiscard]] figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const std::string& parameter,
-                                           const orbit::Problem& problem);
+[[nodiscard]] figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const std::string& x_label,
+                                           const orbit::Problem& problem, const SettledMotions& beneath);
 
 }  // namespace slapstick::app

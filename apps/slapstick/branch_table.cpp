@@ -21,6 +21,37 @@ std::string row(std::size_t branch, std::size_t point, std::string_view type, do
   return text.data() + what + "\n";
 }
 
+std::string short_number(double value) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.5g", value);
+  return text.data();
+}
+
+/// As docs/continuation.md calls it.
+std::string coefficient_name(orbit::SpecialType type) {
+  return type == orbit::SpecialType::LP ? "a" : type == orbit::SpecialType::PD ? "c" : "l1";
+}
+
+/// What a special point is, in words.
+std::string words(const orbit::Branch& branch, const orbit::SpecialPoint& special) {
+  std::string what = special.what;
+  if (special.type == orbit::SpecialType::NS) what += ", rotation " + shown(special.rotation);
+  const orbit::NormalForm& form = special.normal_form;
+  if (!form.what.empty()) what += ", " + form.what;
+  if (form.coefficient) what += ", " + coefficient_name(special.type) + " = " + short_number(*form.coefficient);
+  if (const auto classes = classes_around(branch, special)) what += "; " + classes->first + " -> " + classes->second;
+  if (!special.outcome.empty()) what += "; " + special.outcome;
+  return what;
+}
+
+/// "; d omega / d friction = -0.31"
+std::string rates(const Sensitivities& of, std::size_t special, const std::string& parameter) {
+  std::string text;
+  for (std::size_t j = 0; j < of.names.size(); ++j)
+    text += "; d " + parameter + " / d " + of.names[j] + " = " + short_number(of.rates[special][j]);
+  return text;
+}
+
 std::string head(const std::string& parameter) {
   std::array<char, 160> text{};
   std::snprintf(text.data(), text.size(), "%3s %5s  %-2s  %18.60s  %-10s %12s %12s\n", "BR", "PT", "TY",
@@ -30,7 +61,16 @@ std::string head(const std::string& parameter) {
 
 }  // namespace
 
-std::string branch_table(const std::vector<orbit::Branch>& branches, const std::string& parameter) {
+std::optional<std::pair<std::string, std::string>> classes_around(const orbit::Branch& branch,
+                                                                  const orbit::SpecialPoint& special) {
+  const bool goes_on = special.outcome == "persistence" || special.outcome == "non-smooth fold" ||
+                       special.outcome == "one of infinitely many changes";
+  if (!goes_on || special.after + 1 >= branch.points.size()) return std::nullopt;
+  return std::pair(branch.points[special.after].label, branch.points[special.after + 1].label);
+}
+
+std::string branch_table(const std::vector<orbit::Branch>& branches, const std::string& parameter,
+                         const std::vector<Sensitivities>& sensitivities) {
   std::string text = head(parameter);
   for (std::size_t b = 0; b < branches.size(); ++b) {
     const orbit::Branch& branch = branches[b];
@@ -41,10 +81,9 @@ std::string branch_table(const std::vector<orbit::Branch>& branches, const std::
         text +=
             row(b + 1, i + 1, "EP", point.orbit.values[0], point, point.is_motion ? "" : "not a motion: " + point.why);
       for (; special != branch.special.end() && special->after == i; ++special) {
-        std::string what = special->what;
-        if (special->type == orbit::SpecialType::NS) what += ", rotation " + shown(special->rotation);
-        if (!special->outcome.empty()) what += "; " + special->outcome;
-        text += row(b + 1, i + 1, name(special->type), special->value, special->solution, what);
+        const auto place = static_cast<std::size_t>(special - branch.special.begin());
+        text += row(b + 1, i + 1, name(special->type), special->value, special->solution,
+                    words(branch, *special) + rates(sensitivities[b], place, parameter));
       }
     }
     text += "    " + std::to_string(branch.points.size()) + " points; " + branch.ended + "\n";

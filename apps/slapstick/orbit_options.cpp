@@ -136,15 +136,20 @@ Json solution_json(const orbit::Solution& solution) {
   return json;
 }
 
+Json state_json(const State& state, const Model& model) {
+  const auto names = state_names(model);
+  Json json = Json::object();
+  for (std::size_t i = 0; i < names.size(); ++i) json.set(names[i], state[i]);
+  return json;
+}
+
 Json impacts_json(const orbit::Problem& problem, const orbit::Solution& solution, const System& system) {
-  const auto names = state_names(system.model());
   Json list = Json::list();
   for (const orbit::EventOfOrbit& event : orbit::events(problem, solution.orbit)) {
     if (event.kind != EventKind::impact && event.kind != EventKind::engage) continue;
-    Json state = Json::object(), item = Json::object();
-    for (std::size_t i = 0; i < names.size(); ++i) state.set(names[i], event.before[i]);
+    Json item = Json::object();
     item.set("time", event.t * system.period()).set("phase", event.t - std::floor(event.t)).set("w", event.w);
-    item.set("contact", system.contact_name(event.contact)).set("state", std::move(state));
+    item.set("contact", system.contact_name(event.contact)).set("state", state_json(event.before, system.model()));
     list.push(std::move(item));
   }
   return list;

@@ -1,6 +1,7 @@
 /// slapstick continue MODEL --param NAME --range A:B
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "axis_text.hpp"
 #include "branch_figure.hpp"
@@ -8,6 +9,7 @@
 #include "orbit_options.hpp"
 #include "output.hpp"
 #include "progress.hpp"
+#include "settled_motions.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/text.hpp"
 #include "slapstick/orbit/branch.hpp"
@@ -22,7 +24,7 @@ struct Options {
   OrbitOptions orbit;
   std::string parameter, range, out, plot;
   std::vector<std::string> sensitivity;
-  long long points = 2000, branches = 1;
+  long long points = 2000, branches = 1, diagram = 0;
   double step = 0.01;
   bool table = false, stay = false, progress = false;
 };
@@ -35,8 +37,8 @@ Json point_json(const orbit::Solution& solution) {
   return json;
 }
 
-Json special_json(const orbit::SpecialPoint& special, const std::vector<std::string>& names,
-                  const std::vector<double>& rates) {
+Json special_json(const orbit::Branch& branch, std::size_t which, const Sensitivities& sensitivities) {
+  const orbit::SpecialPoint& special = branch.special[which];
   Json json = Json::object();
   json.set("type", std::string(name(special.type))).set("param", special.value).set("error", special.error);
   const Json rest = solution_json(special.solution);
@@ -44,10 +46,16 @@ Json special_json(const orbit::SpecialPoint& special, const std::vector<std::str
     if (key != "is_motion" && key != "why") json.set(key, value);
   json.set("what", special.what);
   if (!special.outcome.empty()) json.set("outcome", special.outcome);
+  if (const auto classes = classes_around(branch, special))
+    json.set("class_before", classes->first).set("class_behind", classes->second);
   if (special.type == orbit::SpecialType::NS) json.set("rotation", special.rotation);
-  if (!names.empty()) {
+  if (special.normal_form.coefficient)
+    json.set("coefficient", *special.normal_form.coefficient).set("coefficient_error", special.normal_form.error);
+  if (!special.normal_form.what.empty()) json.set("normal_form", special.normal_form.what);
+  if (!sensitivities.names.empty()) {
     Json sensitivity = Json::object();
-    for (std::size_t j = 0; j < names.size(); ++j) sensitivity.set(names[j], rates[j]);
+    for (std::size_t j = 0; j < sensitivities.names.size(); ++j)
+      sensitivity.set(sensitivities.names[j], sensitivities.rates[which][j]);
     json.set("sensitivity", std::move(sensitivity));
   }
   return json;
@@ -66,21 +74,23 @@ orbit::ContinuationOptions continuation(const Options& options, const ParameterR
   return how;
 }
 
-Json branch_json(const orbit::Branch& branch, const ChosenModel& chosen, const Options& options) {
+Sensitivities sensitivities(const orbit::Branch& branch, const ChosenModel& chosen, const Options& options) {
+  Sensitivities all{options.sensitivity, {}};
+  if (all.names.empty()) return all;
+  std::vector<std::string> names = {options.parameter};
+  names.insert(names.end(), all.names.begin(), all.names.end());
+  for (const orbit::SpecialPoint& point : branch.special) {
+    std::vector<double> values = {point.value};
+    for (const std::string& other : all.names) values.push_back(present_value(chosen, "--sensitivity", other));
+    all.rates.push_back(orbit::sensitivity(chosen.definition.family(names, chosen.overrides), values, point));
+  }
+  return all;
+}
+
+Json branch_json(const orbit::Branch& branch, const Sensitivities& rates) {
   Json json = Json::object(), points = Json::list(), special = Json::list();
   for (const orbit::Solution& point : branch.points) points.push(point_json(point));
-  std::vector<std::string> names = {options.parameter};
-  names.insert(names.end(), options.sensitivity.begin(), options.sensitivity.end());
-  for (const orbit::SpecialPoint& point : branch.special) {
-    std::vector<double> rates;
-    if (!options.sensitivity.empty()) {
-      std::vector<double> values = {point.value};
-      for (const std::string& other : options.sensitivity)
-        values.push_back(present_value(chosen, "--sensitivity", other));
-      rates = orbit::sensitivity(chosen.definition.family(names, chosen.overrides), values, point);
-    }
-    special.push(special_json(point, options.sensitivity, rates));
-  }
+  for (std::size_t i = 0; i < branch.special.size(); ++i) special.push(special_json(branch, i, rates));
   json.set("points", std::move(points)).set("special", std::move(special)).set("ended", branch.ended);
   return json;
 }
@@ -89,11 +99,45 @@ Json branch_json(const orbit::Branch& branch, const ChosenModel& chosen, const O
 void check(const Options& options, const ChosenModel& chosen) {
   if (!(options.step > 0.0 && options.step <= 0.2))
     throw InputError("--step: " + shown(options.step) + " is outside (0, 0.2]");
+  if (options.diagram == 1) throw InputError("--diagram: a range has two ends; 1 is too few values");
+  if (options.diagram > 0 && options.plot.empty())
+    throw InputError("--diagram is drawn beneath the branches of --plot; give both");
   for (const std::string& name : options.sensitivity) {
     (void)present_value(chosen, "--sensitivity", name);
     if (name == options.parameter)
       throw InputError("--sensitivity: " + in_quotes(name) + " is the parameter of --param");
   }
+}
+
+void write(Output& out, const std::vector<orbit::Branch>& branches, const ChosenModel& chosen, const Options& options) {
+  std::vector<Sensitivities> rates;
+  for (const orbit::Branch& branch : branches) rates.push_back(sensitivities(branch, chosen, options));
+  if (options.table) {
+    out.write(branch_table(branches, options.parameter, rates));
+  } else {
+    Json json = branch_json(branches.front(), rates.front());
+    json.set("model", chosen.model.name).set("parameter", options.parameter);
+    Json others = Json::list();
+    for (std::size_t i = 1; i < branches.size(); ++i) others.push(branch_json(branches[i], rates[i]));
+    if (branches.size() > 1) json.set("born", std::move(others));
+    out.write(json.dump() + "\n");
+  }
+  out.commit();
+}
+
+/// The picture, over the motions that settle if --diagram asks for them.
+void draw(const Plot& plot, const std::vector<orbit::Branch>& branches, const ChosenModel& chosen,
+          const orbit::Problem& problem, const Options& options, const std::atomic<bool>& stop) {
+  SettledMotions settled;
+  if (options.diagram > 0)
+    settled = settled_motions(chosen, options.model, options.parameter,
+                              {parse_range("--range", options.range), static_cast<int>(options.diagram),
+                               static_cast<int>(options.orbit.transient), options.progress},
+                              stop);
+  if (settled.failed > 0)
+    std::fprintf(stderr, "slapstick: %ld values of --diagram failed and are left out, first: %s\n", settled.failed,
+                 settled.failure.c_str());
+  plot.write(branch_figure(branches, parameter_axis(chosen.definition, options.parameter), problem, settled));
 }
 
 int run(const Options& options, const Context& context) {
@@ -116,18 +160,8 @@ int run(const Options& options, const Context& context) {
   how.progress = [&](double, long points) { progress.update(static_cast<double>(points)); };
   std::vector<orbit::Branch> branches = {orbit::follow(*problem, first.orbit, how)};
   follow_born(*problem, branches, static_cast<std::size_t>(options.branches), how);
-  if (options.table) {
-    out.write(branch_table(branches, options.parameter));
-  } else {
-    Json json = branch_json(branches.front(), chosen, options);
-    json.set("model", chosen.model.name).set("parameter", options.parameter);
-    Json others = Json::list();
-    for (std::size_t i = 1; i < branches.size(); ++i) others.push(branch_json(branches[i], chosen, options));
-    if (branches.size() > 1) json.set("born", std::move(others));
-    out.write(json.dump() + "\n");
-  }
-  out.commit();
-  if (plot.wanted()) plot.write(branch_figure(branches, options.parameter, *problem));
+  write(out, branches, chosen, options);
+  if (plot.wanted()) draw(plot, branches, chosen, *problem, options, context.stop);
   if (context.stop.load()) return interrupted;
   if (!branches.front().failed) return done;
   throw NumericalError("continue: " + branches.front().ended + "; the points so far are written");
@@ -152,6 +186,8 @@ Action add_continue(Arguments& arguments) {
                      "give d param / d NAME of each special point; may be repeated");
   arguments.flag("--table", options->table, "write a table instead of JSON");
   arguments.text("--plot", options->plot, "F.png", "draw impact speeds along the branches (.png, .pdf or .svg)");
+  arguments.count("--diagram", options->diagram, 0, 100'000,
+                  "with --plot: draw the motions that settle at so many values beneath, as `diagram` finds them (0)");
   arguments.text("--out", options->out, "FILE", "write the result there instead of to standard output");
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(

@@ -93,8 +93,9 @@ Json curve_json(const orbit::Curve& curve, const std::vector<std::string>& names
   return json.set("points", std::move(points)).set("met", std::move(met)).set("ended", curve.ended);
 }
 
-figure::Figure curve_figure(const orbit::Curve& curve, const std::vector<std::string>& names, const std::string& type) {
-  figure::Panel panel{.x_label = axis_text(names[0]), .y_label = axis_text(names[1])};
+figure::Figure curve_figure(const orbit::Curve& curve, const ModelDefinition& definition,
+                            const std::vector<std::string>& names, const std::string& type) {
+  figure::Panel panel{.x_label = parameter_axis(definition, names[0]), .y_label = parameter_axis(definition, names[1])};
   figure::Line line{.label = type};
   for (const orbit::CurvePoint& point : curve.points) {
     line.x.push_back(point.solution.is_motion ? point.values[0] : std::nan(""));  // a gap where the orbit is no motion
@@ -136,7 +137,7 @@ int run(const Options& options, const Context& context) {
   for (const auto& [key, value] : std::get<Json::Object>(rest.value())) json.set(key, value);
   out.write(json.dump() + "\n");
   out.commit();
-  if (plot.wanted()) plot.write(curve_figure(curve, names, options.from));
+  if (plot.wanted()) plot.write(curve_figure(curve, chosen.definition, names, options.from));
   if (context.stop.load()) return interrupted;
   if (!curve.failed) return done;
   throw NumericalError("curve: " + curve.ended + "; the points so far are written");

@@ -150,11 +150,12 @@ std::vector<figure::Points> clouds(const sweep::Diagram& diagram, const Model& m
   return filled;
 }
 
-figure::Figure picture(const sweep::Diagram& diagram, const Sweep& sweep, const Model& model,
+figure::Figure picture(const sweep::Diagram& diagram, const Sweep& sweep, const ChosenModel& chosen,
                        const sweep::DiagramProblem& problem) {
+  const Model& model = chosen.model;
   figure::Figure figure{.width_cm = 17.5, .share_x = true};
   for (const bool flight : {false, true}) {
-    figure::Panel panel{.x_label = axis_text(sweep.name),
+    figure::Panel panel{.x_label = parameter_axis(chosen.definition, sweep.name),
                         .y_label = flight ? (model.forced() ? "flight / period" : "flight")
                                           : "w at " + contact_words(model, problem.stops),
                         .x_range = figure::Range{sweep.from, sweep.to}};
@@ -221,7 +222,7 @@ int diagram(const Options& options, const Context& context) {
   bool any = false;
   for (const sweep::DiagramPoint& point : result.points) any = any || point.impacts.size() > 0;
   const int status =
-      plot.write_or_say(picture(result, sweep, chosen.model, problem), !any, result.complete ? done : interrupted);
+      plot.write_or_say(picture(result, sweep, chosen, problem), !any, result.complete ? done : interrupted);
   report(result, sweep, contact_noun(chosen.model, problem.stops));
   return status;
 }

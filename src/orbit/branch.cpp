@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "orbit/normal_form.hpp"
 #include "orbit/path.hpp"
 #include "orbit/record.hpp"
 #include "orbit/reshape.hpp"
@@ -149,7 +150,8 @@ void Follower::add(std::vector<SpecialPoint> smooth, std::size_t after) {
       special.born.clear();
       special.what = "the branch leaves a shorter orbit, which doubles";
       end("meets the orbit of which it is the double at " + shown(special.value), false);
-    }
+    } else if (special.type != SpecialType::BP)
+      special.normal_form = normal_form(problem_, special);
     branch_.special.push_back(std::move(special));
     if (doubling) return;
   }

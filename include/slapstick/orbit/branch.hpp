@@ -16,6 +16,7 @@
 ///
 /// Source: Doedel, Keller and Kernevez (1991), Govaerts (2000) for the test functions; di Bernardo et al. (2008) for GR and SL.
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,13 @@ namespace slapstick::orbit {
 
 enum class SpecialType : std::uint8_t { LP, PD, NS, BP, GR, SL, CH, CO };
 [[nodiscard]] std::string_view name(SpecialType type);
+
+/// The first coefficient beyond the linear terms: LP a, PD c, NS l1 (src/orbit/normal_form.hpp has formulas, units and what follows from it).
+struct NormalForm {
+  std::optional<double> coefficient;
+  double error = 0.0;  ///< of it
+  std::string what;    ///< "supercritical", "subcritical"; or why there is no coefficient
+};
 
 struct SpecialPoint {
   SpecialType type = SpecialType::LP;
@@ -38,6 +46,8 @@ struct SpecialPoint {
   std::vector<Orbit> born;  ///< orbits from which other branches that begin here or cross can be followed
   std::size_t after = 0;    ///< it lies behind this point of the branch
   std::size_t test = 0;     ///< GR, SL, CH, CO: which of the orbit's margins is zero (src/orbit/margins.hpp)
+
+  NormalForm normal_form;  ///< of LP, PD, NS
 };
 
 struct Branch {

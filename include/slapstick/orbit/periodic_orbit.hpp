@@ -73,6 +73,10 @@ struct EventOfOrbit {
   mode::ContactStates after;
 };
 
+/// The orbit's state at the first instant of phase 0 (without forcing: just after event 0), user's coordinates: what a simulation starts from. Of an
+/// unstable orbit its rounding grows by the multipliers.
+[[nodiscard]] State at_phase_zero(const Problem& problem, const Orbit& orbit);
+
 /// In order, from the end of the first leg on; none for an orbit without events.
 [[nodiscard]] std::vector<EventOfOrbit> events(const Problem& problem, const Orbit& orbit);
 

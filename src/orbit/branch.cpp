@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "orbit/lies_on.hpp"
 #include "orbit/normal_form.hpp"
 #include "orbit/path.hpp"
 #include "orbit/record.hpp"
@@ -20,31 +21,6 @@ using Eigen::VectorXd;
 
 constexpr double shortest_for_pairs = 1e-4;  ///< arclength that may hold two special points of one type
 constexpr double straight = 0.95;            ///< least cosine between the tangents of neighbouring points
-
-/// Does an orbit lie between two neighbouring points of a branch, perhaps begun at another event?
-bool between(const Orbit& a, const Orbit& b, const Orbit& orbit) {
-  constexpr double same = 1e-3;  // of an orbit's size: between two points the branch is nearly straight
-  const double part = (orbit.values[0] - a.values[0]) / (b.values[0] - a.values[0]);
-  if (!(part >= 0.0 && part <= 1.0) || a.legs() != orbit.legs() || !(a.shape.legs == b.shape.legs)) return false;
-  for (std::size_t shift = 0; shift < a.legs(); ++shift) {
-    bool equal = true;
-    for (std::size_t i = 0; equal && i < a.legs(); ++i) {
-      const std::size_t k = (i + shift) % a.legs();
-      const VectorXd x = (1.0 - part) * a.x[k] + part * b.x[k];
-      equal = a.shape.legs[k] == orbit.shape.legs[i] &&
-              (x - orbit.x[i]).norm() < same * std::max(x.norm(), orbit.x[i].norm());
-    }
-    if (equal) return true;
-  }
-  return false;
-}
-
-/// Does it lie on the first points of a branch?
-bool lies_on_first(std::size_t count, const Branch& branch, const Orbit& orbit) {
-  for (std::size_t i = 0; i + 1 < count; ++i)
-    if (between(branch.points[i].orbit, branch.points[i + 1].orbit, orbit)) return true;
-  return false;
-}
 
 int outside(const Watched& watched) {
   constexpr double clear = 1e-7;  // of the circle: what lies on it all along is nothing that passes
@@ -76,6 +52,8 @@ class Follower {
   bool change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why);
   void end_at(SpecialPoint special, const Orbit& before, const PathPoint& change, bool shorter, bool retraces);
   void go_on(PathPoint& at, SpecialPoint special, Reshaped next);
+  [[nodiscard]] SpecialPoint onset(const Reshaped& next, const Solution& nearest, bool begins) const;
+  bool leave_chatter(PathPoint& at);
   void look_for_pairs(const PathPoint& at, const PathPoint& next, double length);
   void add(std::vector<SpecialPoint> smooth, std::size_t after);
   bool end_at_boundary(PathPoint& at);
@@ -247,20 +225,44 @@ void Follower::end_at(SpecialPoint special, const Orbit& before, const PathPoint
   branch_.special.push_back(std::move(special));
 }
 
+/// A complete chatter begins or ends: where infinitely many changes gather.
+SpecialPoint Follower::onset(const Reshaped& next, const Solution& nearest, bool begins) const {
+  SpecialPoint special;
+  special.type = SpecialType::CH;
+  special.value = 0.5 * (next.gathering->first + next.gathering->second);
+  special.error = next.gathering->second - next.gathering->first;
+  special.solution = nearest;
+  special.what =
+      "infinitely many changes gather, " + std::string(begins ? "behind" : "before") + " which is a complete chatter";
+  special.outcome = next.folds ? "non-smooth fold" : "persistence";
+  special.after = branch_.points.size() - 1;
+  return special;
+}
+
+/// Near its onset a chatter's equations are hardly solvable. Looks for the orbits behind the onset. @returns false if there are none
+bool Follower::leave_chatter(PathPoint& at) {
+  const std::size_t count = branch_.points.size();
+  if (!options_.through_changes || count < 2 || !branch_.points.back().chatter) return false;
+  const Orbit& before = branch_.points[count - 2].orbit;
+  std::vector<Reshaped> found = reshape(problem_, before, at, TestValue{}, range_);
+  std::erase_if(found, [](const Reshaped& next) { return !next.gathering || next.folds; });
+  if (found.empty()) return false;
+  branch_.special.push_back(onset(found.front(), branch_.points.back(), false));
+  at = std::move(found.front().point);
+  branch_.points.push_back(solution_of(at, nullptr));
+  step_ = options_.step;
+  return true;
+}
+
 /// .. or goes on with new ones.
 void Follower::go_on(PathPoint& at, SpecialPoint special, Reshaped next) {
   special.outcome = next.folds ? "non-smooth fold" : "persistence";
   Solution first = solution_of(next.point, nullptr);
   if (next.gathering) {
-    SpecialPoint onset = special;
-    onset.type = SpecialType::CH;
-    onset.value = 0.5 * (next.gathering->first + next.gathering->second);
-    onset.error = next.gathering->second - next.gathering->first;
-    onset.what = "infinitely many changes gather, " + std::string(first.chatter ? "behind" : "before") +
-                 " which is a complete chatter";
+    SpecialPoint here = onset(next, special.solution, first.chatter);
     special.outcome = "one of infinitely many changes";
     if (first.chatter) branch_.special.push_back(special);
-    branch_.special.push_back(std::move(onset));
+    branch_.special.push_back(std::move(here));
     if (!first.chatter) branch_.special.push_back(std::move(special));
   } else if (!next.renewed) {
     branch_.special.push_back(std::move(special));
@@ -322,6 +324,7 @@ void Follower::run(PathPoint at) {
     const double bend = next ? at.tangent.dot(next->tangent) : -1.0;
     if (!next || !inside(value(*next)) || (bend < straight && step_ > 1e-4)) {
       step_ *= 0.5;
+      if (step_ < options_.shortest_step && leave_chatter(at)) continue;
       if (step_ < options_.shortest_step)
         return end("behind " + problem_.family().names[0] + " = " + shown(value(at)) + ": " + why, true);
       continue;
@@ -346,8 +349,6 @@ std::string_view name(SpecialType type) {
   constexpr std::array<std::string_view, 8> names = {"LP", "PD", "NS", "BP", "GR", "SL", "CH", "CO"};
   return names[static_cast<std::size_t>(type)];
 }
-
-bool lies_on(const Branch& branch, const Orbit& orbit) { return lies_on_first(branch.points.size(), branch, orbit); }
 
 Branch follow(const Problem& problem, const Orbit& start, const ContinuationOptions& options) {
   const double value = start.values.at(0);

@@ -117,6 +117,15 @@ class NearbyShapes {
   std::vector<Orbit> shapes_;
 };
 
+/// None where there is no model.
+std::vector<Orbit> shapes_about(const Problem& problem, const Orbit& orbit, std::size_t changed) {
+  try {
+    return NearbyShapes(problem, orbit).about(changed);
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 /// Newton's method from a guess: at its own parameter, and with the parameter free and the length of one of the shortest legs held.
 std::optional<Orbit> solved(const Problem& problem, const Orbit& guess) {
   if (auto orbit = refine(problem, guess); orbit && is_motion(problem, *orbit)) return orbit;
@@ -228,7 +237,7 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
     Orbit beyond = change.orbit;  // as it is, where its own equations lead no further
     beyond.values[0] += sense * length * range;
     if (const auto point = step_to(problem, change, length, range)) beyond = point->orbit;
-    const std::vector<Orbit> guesses = NearbyShapes(problem, beyond).about(test.leg);
+    const std::vector<Orbit> guesses = shapes_about(problem, beyond, test.leg);
     for (double side : {1.0, -1.0}) {  // where the old branch would have gone on, then where it came from
       for (Orbit guess : guesses) {
         guess.values[0] = critical + side * (beyond.values[0] - critical);

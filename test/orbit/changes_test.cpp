@@ -110,8 +110,7 @@ TEST(Crossing, IsFollowedInTwoParameters) {
   ASSERT_GT(curve.points.size(), 20U);
   const orbit::CurvePoint& other = curve.points[curve.points.size() / 4];
   const std::vector<double> there =
-      values(branch_of("two-sided-rattle", {{"restitution", other.values[1]}}, "omega", 1.59, range),
-             SpecialType::BP);
+      values(branch_of("two-sided-rattle", {{"restitution", other.values[1]}}, "omega", 1.59, range), SpecialType::BP);
   const bool on_the_branch =
       std::ranges::any_of(there, [&](double value) { return std::abs(value - other.values[0]) < 1e-9; });
   EXPECT_TRUE(on_the_branch) << other.values[0] << " " << other.values[1];
@@ -144,6 +143,18 @@ TEST(Change, ToACompleteChatterIsPassed) {
   EXPECT_FALSE(branch.points.back().chatter);
   EXPECT_EQ(attractor("vibro-impact", {{"omega", 2.2}}, "restitution", onset[0] - 2e-6), "1-inf-II");
   EXPECT_NE(attractor("vibro-impact", {{"omega", 2.2}}, "restitution", onset[0] + 2e-6), "1-inf-II");
+}
+
+/// From within the chatter the same onset is met.
+TEST(Change, FromACompleteChatterIsPassed) {
+  const orbit::ContinuationOptions range{.from = 0.005, .to = 0.0056};
+  const orbit::Branch up = branch_of("vibro-impact", {{"omega", 2.2}}, "restitution", 0.0052, range),
+                      down = branch_of("vibro-impact", {{"omega", 2.2}}, "restitution", 0.0055, range);
+  const std::vector<double> a = values(up, SpecialType::CH), b = values(down, SpecialType::CH);
+  ASSERT_EQ(a.size(), 1U) << up.ended;
+  ASSERT_EQ(b.size(), 1U) << down.ended;
+  EXPECT_NEAR(a[0], b[0], 1e-6);
+  EXPECT_FALSE(up.points.back().chatter) << up.ended;
 }
 
 /// The stick-slip cycle on a belt ends where damping is too strong; what is left is steady sliding.

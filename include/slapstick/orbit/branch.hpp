@@ -2,7 +2,7 @@
 /// Branches of periodic orbits: pseudo-arclength continuation in one parameter, with every point at which something changes.
 ///
 /// An orbit is followed with its sequence of events fixed. Between two points of the branch each of these is watched for a change of sign, and the
-/// change is refined on the branch until the parameter no longer changes (1e-13 of the range; a BP, where the equations are singular, to some 1e-5):
+/// change is refined on the branch until the parameter no longer changes (1e-13 of the range; by interpolation where the equations are singular):
 ///
 ///   LP  fold: the branch turns back in the parameter            PD  a multiplier -1: period doubling
 ///   NS  a pair of multipliers e^{+-2 pi i rho}                   BP  a multiplier +1 that is no fold: branches cross, a symmetry breaks
@@ -10,8 +10,8 @@
 ///   CH  a complete chatter begins or ends                       CO  two events meet
 ///
 /// The last four change the sequence. There the sequence is built anew from what the motion does beyond, and the branch goes on: in the same
-/// direction (*persistence*), or back (*non-smooth fold*), or ends: no orbit of the new sequence was found whose branch comes from there
-/// (*none found*), as at a jump. Every point is checked by the certified
+/// direction (*persistence*), or back (*non-smooth fold*), or ends: no orbit of the new sequence was found whose branch comes from there. From a
+/// stable orbit the motion then makes a *jump*, and what it goes over to is named; else *none found*. Every point is checked by the certified
 /// simulator; one that is no motion has `is_motion` false, and says why.
 ///
 /// Source: Doedel, Keller and Kernevez (1991), Govaerts (2000) for the test functions; di Bernardo et al. (2008) for GR and SL.
@@ -39,8 +39,8 @@ struct SpecialPoint {
   double value = 0.0;  ///< of the parameter
   double error = 0.0;  ///< of it: the last change of the refinement
   Solution solution;
-  std::string what;         ///< "the gap of stop touches zero in leg 2", "stick of block is lost"
-  std::string outcome;      ///< of a change of events: "persistence", "non-smooth fold", "none found", ..
+  std::string what;     ///< "the gap of stop touches zero in leg 2", "stick of block is lost"
+  std::string outcome;  ///< of a change of events: "persistence", "non-smooth fold", "jump to 1-2-I", "none found", ..
   double rotation = 0.0;    ///< NS: rho in (0, 1/2)
   bool birth = false;       ///< PD: seen from the doubled orbit, whose branch begins there
   std::vector<Orbit> born;  ///< orbits from which other branches that begin here or cross can be followed

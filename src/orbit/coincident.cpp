@@ -18,7 +18,8 @@ constexpr double no_speed = 1e-6;  ///< of an orbit's largest: an impact that va
 /// The cycle of one leg without its event, from phase 0.
 Orbit uncut(const ModeSet& set, const Orbit& orbit) {
   Orbit plain = orbit;
-  plain.x[0] = contact_state(set, state_within(set, orbit, 0, std::ceil(orbit.t[0]) - orbit.t[0]));
+  plain.x = {contact_state(set, state_within(set, orbit, 0, std::ceil(orbit.t[0]) - orbit.t[0]))};
+  plain.shape.legs.resize(1);
   plain.shape.legs[0].ending = Ending::cut;
   plain.shape.legs[0].strikes.clear();
   plain.t = {0.0, static_cast<double>(orbit.shape.n)};
@@ -68,13 +69,14 @@ std::vector<Orbit> without_impact(const ModeSet& set, const Orbit& before, const
 }
 
 /// Legs that have shrunk to nothing. Between two of one mode: those are one leg. Between two stops of one velocity: the second is the first's.
-std::vector<Orbit> merged(const Orbit& before, const Orbit& orbit) {
+std::vector<Orbit> merged(const ModeSet& set, const Orbit& before, const Orbit& orbit) {
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
     Orbit turned = orbit;
     rotate(turned, i);
     std::size_t gone = 0;
-    while (gone + 2 < turned.legs() && vanishes(before, orbit, (i + gone + 1) % orbit.legs())) ++gone;
+    while (gone + 1 < turned.legs() && vanishes(before, orbit, (i + gone + 1) % orbit.legs())) ++gone;
     if (gone == 0) continue;
+    if (gone + 1 == turned.legs()) return orbit.shape.n > 0 ? std::vector{uncut(set, turned)} : std::vector<Orbit>{};
     Leg& first = turned.shape.legs[0];
     const Leg& last = turned.shape.legs[gone];
     auto count = static_cast<std::ptrdiff_t>(gone);
@@ -150,7 +152,7 @@ std::vector<Orbit> coincident(const ModeSet& set, const Orbit& before, const Orb
     shapes.push_back(fewer);
   }
   std::ranges::copy(with_impact(set, orbit, test), std::back_inserter(shapes));
-  std::ranges::copy(merged(before, orbit), std::back_inserter(shapes));
+  std::ranges::copy(merged(set, before, orbit), std::back_inserter(shapes));
   return shapes;
 }
 

@@ -62,6 +62,16 @@ TEST(Change, OfACompliantStopIsPassed) {
   EXPECT_EQ(attractor("bilinear-oscillator", {}, "clearance", touches[0] + 1e-3), "2-3-I");
 }
 
+/// The only contact of a period vanishes: the linear response is left, whose amplitude is the gap there.
+TEST(Change, WithoutTheLastContactIsPassed) {
+  const orbit::Branch branch = branch_of("gear-pair", {}, "omega", 1.3, {.from = 1.2, .to = 1.6});
+  ASSERT_FALSE(branch.special.empty()) << branch.ended;
+  const orbit::SpecialPoint& point = branch.special.back();
+  EXPECT_EQ(point.type, SpecialType::GR);
+  EXPECT_EQ(point.outcome == "persistence" || point.outcome == "non-smooth fold", true) << point.outcome;
+  EXPECT_EQ(branch.points.back().label, "1-0-I") << branch.ended;
+}
+
 /// The symmetric motion between two stops loses its symmetry at two points; the branch that crosses there was not scripted, and by brute force the
 /// two contacts of a period have different speeds between them.
 TEST(Crossing, OfASymmetricOrbitLeadsToAsymmetricOnes) {

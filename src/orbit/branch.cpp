@@ -212,7 +212,7 @@ void Follower::end_at(SpecialPoint special, const Orbit& before, const PathPoint
     special.outcome = "not followed";
     failed = true;
   } else if (const std::string left =
-                 special.solution.stable() ? behind(problem_, before, change, range_) : std::string();
+                 branch_.points.back().stable() ? behind(problem_, before, change, range_) : std::string();
              !left.empty()) {
     special.outcome = "jump to " + left;
     why = "a jump: the motion goes over to " + left;

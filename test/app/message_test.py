@@ -114,7 +114,7 @@ def test_a_sweep_that_fails_everywhere_leaves_no_table():
 
 def test_ctrl_c_plots_the_last_periods_that_there_are():
     for omega, periods in (('4.9', '100000000'), ('1e-4', '1000000')):  # some events per period; a stage of many windows
-        done = signalled(signal.SIGINT, 1.0, 'simulate', 'vibro-impact', '--set', 'omega=' + omega, '--periods', periods, '--plot', 'p.png', patience=5)
+        done = signalled(signal.SIGINT, 1.0, 'simulate', 'vibro-impact', '--set', 'omega=' + omega, '--periods', periods, '--plot', 'p.png', patience=20)
         assert done.status == 130 and done.err == '', (done.status, done.err)
         end = float(done.out.split('"periods": ')[1].split(',')[0])
         assert os.path.getsize('p.png') > 1000

@@ -1,5 +1,7 @@
 """orbit, continue and curve from the command line: the stable part of their results, and what they refuse."""
-from program import good, main, read, refused, run, says, table  # noqa: F401
+import os
+
+from program import good, main, read, refused, says, table
 
 PAPER = ('vibro-impact', '--set', 'omega=2.7')
 
@@ -25,6 +27,32 @@ def test_an_impact_of_an_orbit_is_a_state_to_start_from():
     good('simulate', *PAPER, '--state', state, '--periods', '1')
 
 
+def state_of(text, names):
+    """The orbit's own state as --state takes it, and its numbers."""
+    part = text[text.index('"state": {'):]
+    numbers = [number(part, name) for name in names]
+    return ','.join('%s=%.17g' % pair for pair in zip(names, numbers)), numbers
+
+
+def comes_back(model, names, periods):
+    """A simulation from the state that `orbit` gives is there again after the cycle."""
+    text = good('orbit', *model)
+    state, begin = state_of(text, names)
+    good('simulate', *model, '--state', state, '--periods', str(periods), '--trajectory', 't.csv')
+    columns, rows = table(read('t.csv'))
+    end = [float(rows[-1][columns.index(name)]) for name in names]
+    size = max(abs(x) for x in begin)
+    assert all(abs(a - b) < 1e-9 * size for a, b in zip(begin, end)), (begin, end)
+
+
+def test_a_simulation_from_the_state_of_an_orbit_is_the_orbit():
+    names = ('x1', 'v1', 'x2', 'v2')
+    comes_back(PAPER, names, 1)
+    comes_back(('vibro-impact', '--set', 'omega=1.5'), names, 1)  # sticks on its way
+    comes_back(('vibro-impact', '--set', 'omega=0.55'), names, 1)  # complete chatter
+    comes_back(('coulomb-oscillator',), ('x', 'v'), 1)
+
+
 def test_a_branch_names_its_doubling_to_ten_digits():
     text = good('continue', *PAPER, '--orbit', '1-1', '--param', 'omega', '--range', '2.6:2.9')
     says(text, '"points"', '"special"', '"type": "PD"')
@@ -35,6 +63,41 @@ def test_a_branch_names_its_doubling_to_ten_digits():
 def test_a_table_is_for_people():
     text = good('continue', *PAPER, '--orbit', '1-1', '--param', 'omega', '--range', '2.6:2.9', '--table')
     says(text, 'BR', 'TY', 'omega', 'PD', '2.84595629561', 'stable', 'unstable', 'range')
+
+
+def test_special_points_say_what_grows_there():
+    words = ('continue', *PAPER, '--orbit', '1-1', '--param', 'omega', '--range', '2.6:2.9')
+    says(good(*words, '--table'), 'period doubling, supercritical, c = ')
+    text = good(*words)
+    says(text, '"normal_form": "supercritical"')
+    assert number(text, 'coefficient_error') < 1e-4 * number(text, 'coefficient')
+
+
+def test_a_table_has_sensitivities_and_the_classes_around_a_change():
+    words = ('continue', 'vibro-impact', '--set', 'omega=1.5', '--orbit', '1-1', '--param', 'omega', '--range', '1.4:1.5', '--sensitivity', 'friction')
+    text = good(*words)
+    special = text[text.index('"special"'):]
+    says(special, '"class_before": "1-1-I"', '"class_behind": "1-1-II"')
+    says(good(*words, '--table'), '1-1-I -> 1-1-II; persistence; d omega / d friction = %.5g' % number(special[special.index('"sensitivity"'):], 'friction'))
+
+
+def points_drawn(*words):
+    """The first column of the picture's data that is no line's: x of the cloud, then y."""
+    good('continue', *words, '--table', '--out', 't.txt', '--plot', 'b.png')
+    assert os.path.getsize('b.png') > 0
+    return table(read('b-plot.csv'))
+
+
+def test_branches_are_drawn_over_the_motions_that_settle():
+    words = (*PAPER, '--orbit', '1-1', '--param', 'omega', '--range', '2.6:2.9')
+    bare, _ = points_drawn(*words)
+    columns, rows = points_drawn(*words, '--diagram', '7')
+    assert len(columns) == len(bare) + 2, (bare, columns)
+    values = sorted({round(float(row[0]), 12) for row in rows if row[0]})
+    assert values == [round(2.6 + 0.05 * i, 12) for i in range(7)], values
+    columns, rows = points_drawn('coulomb-oscillator', '--param', 'omega', '--range', '0.7:0.9', '--diagram', '3')  # no stop: its turning points
+    heights = [abs(float(row[1])) for row in rows if row[0]]
+    assert heights and min(heights) > 1.0, heights
 
 
 def test_the_same_command_gives_the_same_bytes():
@@ -64,6 +127,8 @@ def test_what_cannot_be_is_refused_by_name():
     says(refused(2, 'continue', *PAPER, '--param', 'omgea', '--range', '2:3'), 'omgea')
     says(refused(2, 'continue', *PAPER, '--param', 'omega', '--range', '3:4'), '--range', '2.7')
     says(refused(2, 'continue', *PAPER, '--param', 'omega', '--range', '3'), '--range', 'A:B')
+    says(refused(2, 'continue', *PAPER, '--param', 'omega', '--range', '2.6:2.9', '--diagram', '9'), '--diagram', '--plot')
+    says(refused(2, 'continue', *PAPER, '--param', 'omega', '--range', '2.6:2.9', '--diagram', '1', '--plot', 'b.png'), '--diagram')
     says(refused(2, 'curve', *PAPER, '--params', 'omega', '--range', 'omega=2:3'), '--params')
     says(refused(2, 'curve', *PAPER, '--params', 'omega,friction', '--range', 'omega=2:3'), 'friction')
     says(refused(3, 'orbit', *PAPER, '--orbit', '1-7', '--starts', '2'), '1-7')

@@ -127,6 +127,15 @@ void add_marks(figure::Panel& panel, std::vector<std::pair<double, std::string>>
   }
 }
 
+/// The values of the parameter that are shown: they fill the frame.
+std::optional<figure::Range> range_of(const std::vector<orbit::Branch>& branches, const figure::Points& cloud) {
+  std::vector<double> values = cloud.x;
+  for (const orbit::Branch& branch : branches)
+    for (const Solution& point : branch.points) values.push_back(point.orbit.values[0]);
+  const auto [least, largest] = std::ranges::minmax(values);
+  return least < largest ? std::optional(figure::Range{least, largest}) : std::nullopt;
+}
+
 }  // namespace
 
 figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const std::string& x_label,
@@ -147,6 +156,7 @@ figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const s
     }
   }
   add_marks(panel, std::move(specials));
+  panel.x_range = range_of(branches, beneath.cloud);
   if (!beneath.cloud.x.empty()) panel.points.push_back(beneath.cloud);
   if (!dots.x.empty()) panel.points.push_back(std::move(dots));
   figure::Figure figure;

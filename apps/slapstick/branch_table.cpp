@@ -35,7 +35,7 @@ std::string coefficient_name(orbit::SpecialType type) {
 /// What a special point is, in words.
 std::string words(const orbit::Branch& branch, const orbit::SpecialPoint& special) {
   std::string what = special.what;
-  if (special.type == orbit::SpecialType::NS) what += ", rotation " + shown(special.rotation);
+  if (special.type == orbit::SpecialType::NS) what += ", rotation " + short_number(special.rotation);
   const orbit::NormalForm& form = special.normal_form;
   if (!form.what.empty()) what += ", " + form.what;
   if (form.coefficient) what += ", " + coefficient_name(special.type) + " = " + short_number(*form.coefficient);

@@ -48,12 +48,21 @@ struct Values {
   const ChosenModel& chosen;
   const ModelOptions& options;
   const std::string& parameter;
+  const std::function<State(double value)>& instead;
   [[nodiscard]] Model model(double value) const {
     Overrides values = chosen.overrides;
     values[parameter] = value;
     return chosen.definition.build(values);
   }
-  [[nodiscard]] State start(double value) const { return options.start(chosen, {{parameter, value}}); }
+  [[nodiscard]] State start(double value) const {
+    try {
+      const State own = options.start(chosen, {{parameter, value}});
+      validate(model(value), own);
+      return own;
+    } catch (const InputError&) {
+      return instead(value);
+    }
+  }
 };
 
 void add_speeds(const Values& values, const SettledRange& at, const std::atomic<bool>& stop, SettledMotions& all) {
@@ -96,11 +105,12 @@ void add_places(const Values& values, const SettledRange& at, const std::atomic<
 }  // namespace
 
 SettledMotions settled_motions(const ChosenModel& chosen, const ModelOptions& options, const std::string& parameter,
-                               const SettledRange& at, const std::atomic<bool>& stop) {
+                               const SettledRange& at, const std::function<State(double value)>& instead,
+                               const std::atomic<bool>& stop) {
   SettledMotions all;
-  all.cloud.colour = figure::colours::light_grey;
+  all.cloud.colour = {150, 150, 150};
   all.cloud.diameter_mm = 0.3;
-  const Values values{chosen, options, parameter};
+  const Values values{chosen, options, parameter, instead};
   if (stop_contacts(chosen.model).empty())
     add_places(values, at, stop, all);
   else

@@ -1,6 +1,7 @@
 #pragma once
 /// The motions that settle over a range of a parameter, as a cloud of points: what a branch is drawn over.
 #include <atomic>
+#include <functional>
 #include <string>
 
 #include "orbit_options.hpp"
@@ -23,9 +24,10 @@ struct SettledRange {
 };
 
 /// With stops as `diagram` finds them, the state carried on both ways from the start at the first and the last value; without, from
-/// the start at each value.
+/// the start at each value. `instead` gives a start where the model's own is none, as behind a stop that has moved.
 [[nodiscard]] SettledMotions settled_motions(const ChosenModel& chosen, const ModelOptions& options,
                                              const std::string& parameter, const SettledRange& at,
+                                             const std::function<State(double value)>& instead,
                                              const std::atomic<bool>& stop);
 
 }  // namespace slapstick::app

@@ -128,12 +128,17 @@ void write(Output& out, const std::vector<orbit::Branch>& branches, const Chosen
 /// The picture, over the motions that settle if --diagram asks for them.
 void draw(const Plot& plot, const std::vector<orbit::Branch>& branches, const ChosenModel& chosen,
           const orbit::Problem& problem, const Options& options, const std::atomic<bool>& stop) {
+  const auto nearest = [&](double value) {  // the state of the orbit of the branch that is nearest to a value
+    const auto& points = branches.front().points;
+    const auto off = [&](const orbit::Solution& point) { return std::abs(point.orbit.values[0] - value); };
+    return orbit::at_phase_zero(problem, std::ranges::min_element(points, {}, off)->orbit);
+  };
   SettledMotions settled;
   if (options.diagram > 0)
     settled = settled_motions(chosen, options.model, options.parameter,
                               {parse_range("--range", options.range), static_cast<int>(options.diagram),
                                static_cast<int>(options.orbit.transient), options.progress},
-                              stop);
+                              nearest, stop);
   if (settled.failed > 0)
     std::fprintf(stderr, "slapstick: %ld values of --diagram failed and are left out, first: %s\n", settled.failed,
                  settled.failure.c_str());

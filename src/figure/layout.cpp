@@ -183,7 +183,8 @@ bool wants_raster(const Panel& panel) {
     if (points.drawing == Drawing::raster) return true;
     if (points.drawing == Drawing::automatic) free += points.x.size();
   }
-  return free > raster_threshold && panel.points.size() <= largest_series_count;
+  return free > raster_threshold &&
+         std::ranges::count_if(panel.points, in_raster) <= static_cast<std::ptrdiff_t>(largest_series_count);
 }
 
 int rows_above(const Panel& panel, const PanelLayout& layout) {

@@ -58,6 +58,8 @@ int rows_above(const Panel& panel, const PanelLayout& layout);
 
 /// Are its points drawn as an image?
 bool wants_raster(const Panel& panel);
+/// Whether a series is part of the image of such a panel.
+inline bool in_raster(const Points& points) { return points.drawing != Drawing::discs; }
 
 /// Of two named clouds in an image: the colour where both are, which is an entry of the legend too.
 std::optional<Colour> colour_of_both(const Panel& panel);

@@ -69,7 +69,7 @@ class Crowd {
 std::optional<Colour> colour_of_both(const Panel& panel) {
   std::vector<Colour> named;
   for (const auto& points : panel.points)
-    if (!points.label.empty()) named.push_back(points.colour);
+    if (!points.label.empty() && in_raster(points)) named.push_back(points.colour);
   if (named.size() != 2 || !wants_raster(panel)) return std::nullopt;
   const auto ink = [](int a, int b) { return static_cast<std::uint8_t>(a * b / 255); };  // as inks, figure/raster.hpp
   return Colour{ink(named[0].red, named[1].red), ink(named[0].green, named[1].green),

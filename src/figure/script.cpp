@@ -195,7 +195,7 @@ class PanelScript {
                     number(x.min + 0.5 * dx) + "," + number(y.min + 0.5 * dy) + ") dx=" + number(dx) +
                     " dy=" + number(dy) + " using 1:2:3:4" + (fill ? " axes x2y2" : "") + " with rgbalpha notitle");
     for (const Points& points : panel_.points)
-      if (!points.label.empty())
+      if (!points.label.empty() && in_raster(points))
         parts.push_back("keyentry with points pt 5 ps 0.6 lc rgb " + quote_colour(points.colour) + title(points.label));
     if (const auto both = colour_of_both(panel_))
       parts.push_back("keyentry with points pt 5 ps 0.6 lc rgb " + quote_colour(*both) + title("both"));

@@ -41,8 +41,8 @@ Table tabulate(const Figure& figure, const Layout& layout) {
       table.series.push_back(
           {series_name(panel, p, series.label, kind, index), &series.x, &series.y, panel.log_x, panel.log_y});
     };
-    for (std::size_t i = 0; i < panel.points.size() && !layout.panels[p].raster; ++i)
-      take(panel.points[i], "points", i, chosen.points);
+    for (std::size_t i = 0; i < panel.points.size(); ++i)
+      if (!layout.panels[p].raster || !in_raster(panel.points[i])) take(panel.points[i], "points", i, chosen.points);
     for (std::size_t i = 0; i < panel.lines.size(); ++i) take(panel.lines[i], "line", i, chosen.lines);
     table.panels.push_back(std::move(chosen));
   }

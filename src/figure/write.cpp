@@ -70,7 +70,7 @@ void check_panel(const Panel& panel, const std::string& where) {
   };
   for (std::size_t i = 0; i < panel.points.size(); ++i) lengths(panel.points[i], "points", i);
   for (std::size_t i = 0; i < panel.lines.size(); ++i) lengths(panel.lines[i], "line", i);
-  check(panel.points.size() <= largest_series_count ||
+  check(std::ranges::count_if(panel.points, in_raster) <= static_cast<std::ptrdiff_t>(largest_series_count) ||
             !std::any_of(panel.points.begin(), panel.points.end(),
                          [](const Points& p) { return p.drawing == Drawing::raster; }),
         where + ": an image holds at most 8 series of points");
@@ -100,6 +100,7 @@ std::string draw_raster(const Panel& panel, const PanelLayout& at) {
   std::vector<Counts> counts;
   std::vector<Colour> colours;
   for (const Points& points : panel.points) {
+    if (!in_raster(points)) continue;
     counts.push_back(count_points(points.x, points.y, window, at.raster_width, at.raster_height));
     spread_one_pixel(counts.back());
     colours.push_back(points.colour);

@@ -105,6 +105,15 @@ TEST_F(FigureTest, clouds_that_are_many_points_together_are_an_image) {
   EXPECT_NO_THROW(write({.panels = {{.points = std::vector<Points>(9, half)}}}, folder / "c", {.pdf = false}));
 }
 
+/// Few marked points over a dense cloud are not lost in its image.
+TEST_F(FigureTest, discs_beside_an_image_stay_discs) {
+  const Points marked{.x = {3.0, 3.5}, .y = {0.5, 0.4}, .drawing = Drawing::discs, .diameter_mm = 0.9};
+  const Files files = write({.panels = {{.points = {logistic_map(400, 100, 0.3), marked}}}}, folder / "a");
+  EXPECT_EQ(files.rasters.size(), 1U);
+  EXPECT_NE(workshop::read(files.script).find("with points pt 7"), std::string::npos);
+  EXPECT_NE(workshop::read(files.data).find("3.5,0.4"), std::string::npos);
+}
+
 TEST_F(FigureTest, numbers_of_an_axis_have_at_most_eight_digits) {
   for (const double span : {1e-3, 1e-5, 2e-6, 1e-7, 1e-8, 2e-9}) {
     const Points p{.x = {0.4859871, 0.4859871 + span}, .y = {-1.4582, -1.4582 - span}};

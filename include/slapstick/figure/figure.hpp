@@ -32,7 +32,7 @@ inline constexpr Colour grey{110, 110, 110}, light_grey{190, 190, 190};
 }  // namespace colours
 
 /// How points are drawn. `automatic`: as a raster if the panel has more than `raster_threshold` such points (and at
-/// most 8 series), else as discs. Rastered series of one panel share one image; where two named ones overlap, the legend says "both".
+/// most 8 series), else as discs. `discs`: always. Rastered series of one panel share one image; where two named ones overlap, the legend says "both".
 enum class Drawing { automatic, discs, raster };
 inline constexpr std::size_t raster_threshold = 20000;
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double rounding = 0x1p-40;   ///< of a state, in units of the sizes of what it was added up from
 constexpr double dependent = 0x1p-40;  ///< what is left of its inertia when others are held, in units of it
-constexpr double clock_rounding = 0x1p-48, phase_rounding = 0x1p-46;
+constexpr double clock_rounding = 0x1p-48, flight_rounding = 0x1p-50, phase_rounding = 0x1p-46;
 
 /// Not below the exact difference that x is the rounding of; exact where nothing was lost.
 double rounded_up(double x) { return x == 0.0 ? 0.0 : std::nextafter(x, INFINITY); }
@@ -46,6 +46,7 @@ void Checker::segment(const Segment& segment) {
   Flight flight(flow(segment.mode), modes_.at(segment.mode), segment, head_.period, tally_, refuse_);
   flight.fly();
   last_ = std::make_unique<Departure>(Departure{segment, std::move(flight.X), std::move(flight.size)});
+  displace(*last_);
   blows(*last_);
   ++tally_.segments;
 }
@@ -119,8 +120,15 @@ void Checker::clock(const Segment& segment) {
   const Ball flown = Ball(before.duration) / Ball(head_.period);
   const Ball shown =
       Ball(static_cast<double>(segment.period - before.period)) + Ball(segment.fraction) - Ball(before.fraction);
-  if (!(abs(shown - flown) <= Ball(clock_rounding) + Ball(0x1p-50) * flown))
+  if (!(abs(shown - flown) <= Ball(clock_rounding) + Ball(flight_rounding) * flown))
     refuse_(segment.line, "begins " + digits((shown - flown).near()) + " periods from where the one before has ended");
+}
+
+/// The instant of the end is known to a rounding of the clock, and a displacement to its way in that time: that much its size is more.
+void Checker::displace(Departure& end) const {
+  const double instant = clock_rounding * head_.period + flight_rounding * end.segment.duration;
+  const auto d = static_cast<std::size_t>(head_.d);
+  for (std::size_t i = 0; i < d; ++i) end.size[i] += instant / rounding * end.size[d + i];
 }
 
 void Checker::continuity(const Segment& segment) {

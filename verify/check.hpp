@@ -30,6 +30,7 @@ class Checker {
   void start(const Segment& segment);
   void phases(const Segment& segment, const Mode& mode);
   void clock(const Segment& segment);
+  void displace(Departure& end) const;
   void continuity(const Segment& segment);
   [[nodiscard]] double size_of_others(std::size_t i) const;
   [[nodiscard]] double fastest_approach(const Stop& stop, const Segment& segment, const Mode& mode) const;

@@ -148,10 +148,7 @@ void Certificate::hit(SegmentProof& proof) {
   if (duration == 0.0) return line("end zero", number(g) + hex(0.0));
   const Zero zero = proof.zero_at_end(g);
   GuardProof found = guard(proof, g, zero.certain ? duration - zero.delta : duration);
-  if (!zero.certain && !found.reached) {
-    found.limit = found.steps.empty() ? 0.0 : found.steps.back().s + found.steps.back().d;
-    found.reached = true;
-  }
+  if (!zero.certain && !found.reached) found.end_at_last_step();
   print(g, found);
   if (zero.certain) return line("end zero", number(g) + hex(zero.delta));
   ++tally_.touches;

@@ -166,6 +166,37 @@ def touching():
     return lines + [line('end', 'cut'), line('done', 2)]
 
 
+def flat(depth=2.0 ** -47, flown=2.0 ** -24, delta=1.5 * 2.0 ** -24):
+    """The same ball, thrown so that its gap (s - 1)^2 / 2 - depth dips below zero by no more than rounding: where it does is known to DELTA only."""
+    duration = 1.0 - flown
+    limit = duration - delta
+    lines = BALL + mode(0, 'slows', [(0, [(1, 1.0)]), (1, [(2, -1.0)])], [('gap', [(0, -1.0)])])
+    lines += [line('segment', 0, 0, 0, 0.0, duration), line('state', -0.5 + depth, 1.0, 1.0), line('prove', 0, 0, limit)]
+    # At s = 1 - q the guard is q^2 / 2 - depth, its slope -q; steps of a power of two up to q / 3 lose no digit.
+    q = 1.0
+    while 1.0 - q < limit:
+        d = min(2.0 ** math.floor(math.log2(q / 3.0)), limit - (1.0 - q))
+        lines.append(line('step', 1.0 - q, q * q / 2.0 - depth, -q, 1.0, d))
+        q -= d
+    lines += [line('end', 'zero', 0, delta), line('blow', 0, 0), line('event', 'impact', 'floor', flown)]
+    lines += [line('segment', 1, 0, 0, duration, 0.0), line('state', 0.0, -flown / 2.0, 1.0)]
+    return lines + [line('end', 'cut'), line('done', 2)]
+
+
+def tie(gap=2.0 ** -50):
+    """Two bodies without forces, the second one behind the first by less than the clock can tell, reach their stops at one instant."""
+    flight = 2.0 ** -40
+    lines = head('tie', 5, 2, 1.0, [(0, 1.0, 0.5, 'one'), (1, 1.0, 0.5, 'two')], [[1.0, 0.0], [0.0, 1.0]])
+    lines += mode(0, 'flies', [(0, [(2, 1.0)]), (1, [(3, 1.0)])], [('gap', [(0, -1.0)]), ('gap', [(1, -1.0)])])
+    lines += [line('segment', 0, 0, 0, 0.0, flight), line('state', -flight, -flight - gap, 1.0, 1.0, 1.0)]
+    limit = flight * 0.5
+    lines += [line('prove', 0, 0, limit), line('step', 0.0, flight, -1.0, 0.0, limit)]
+    lines += [line('prove', 1, 0, flight), line('step', 0.0, flight + gap, -1.0, 0.0, flight), line('end', 'zero', 0, limit)]
+    lines += [line('blow', 0, 0, 1), line('event', 'impact', 'one', 1.0), line('event', 'impact', 'two', 1.0)]
+    lines += [line('segment', 1, 0, 0, flight, 0.0), line('state', 0.0, 0.0, -0.5, -0.5, 1.0)]
+    return lines + [line('end', 'cut'), line('done', 2)]
+
+
 def rattle():
     """A mass that slides to the upper of two walls, slowed by friction: u' = -1/4 from 3. The lower wall sees it from the other side, and is
     not watched while the slip guard lasts. X = (p, -1 - p, u, -u, cos, sin, 1): the phases have nothing to do with it."""

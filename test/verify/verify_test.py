@@ -11,7 +11,7 @@ import motions
 from motions import line, number
 
 PROGRAM = sys.argv[1]
-ALL = [motions.ball, motions.chatter, motions.oscillator, motions.released, motions.twins, motions.touching, motions.rattle, lambda: motions.lift(2),
+ALL = [motions.ball, motions.chatter, motions.oscillator, motions.released, motions.twins, motions.touching, motions.flat, motions.tie, motions.rattle, lambda: motions.lift(2),
        lambda: motions.lift(3)]
 
 
@@ -151,7 +151,8 @@ def test_limit_that_is_not_reached_or_short():
     refused(forged(lines, 'prove', {3: 1.5}, 2), 'is behind DURATION')
     refused(without(lines, 'step', 1), 'there is no step')
     twins = motions.twins()
-    refused(forged(forged(twins, 'prove', {3: 1.0 - 2.0 ** -29}, 1), 'step', {5: 1.0 - 2.0 ** -29}, 1), 'guard 1 (gap): LIMIT', 'short')
+    refused(forged(forged(twins, 'prove', {3: 1.0 - 2.0 ** -29}, 1), 'step', {5: 1.0 - 2.0 ** -29}, 1), 'guard 1 (gap): is up to',
+            'between LIMIT and DURATION, rounding explains')
 
 
 def test_guard_that_is_left_out():
@@ -232,6 +233,23 @@ def test_zero_that_is_not_there_in_no_time():
 def test_delta_that_hides_a_length_of_time():
     lines = forged(motions.ball(), 'end', {3: 2.0 ** -29})
     refused(lines, 'DELTA = 1.862645149230957e-09 is more than 2^-30 periods')
+
+
+def test_zero_that_is_called_flat_and_is_not():
+    assert 'flat zeros       1, within 8.9e-08 periods' in proved(motions.flat())
+    deep = motions.flat(2.0 ** -31, 2.0 ** -16, 1.5 * 2.0 ** -16)
+    refused(deep, 'DELTA = 2.288818359375e-05 is more than 2^-30 periods, and h is more than rounding there')
+    refused(deep, 'guard 0 (gap): is up to', 'between LIMIT and DURATION, rounding explains')
+    # Before the dip, and behind it, h is positive.
+    refused(forged(motions.flat(), 'end', {3: 2.0 ** -22}), 'has no zero at the end')
+
+
+def test_contacts_that_are_no_tie():
+    assert 'largest jump     0.25 ' in proved(motions.tie()), proved(motions.tie())
+    refused(motions.tie(2.0 ** -46), 'stop two is struck with a gap of 1.42')
+    refused(motions.tie(2.0 ** -46), 'number 1 of the state is 0, it must be -1.42')
+    slow = motions.tie(2.0 ** -46)
+    refused(forged(slow, 'period', {1: 0.125}), 'stop two is struck with a gap of 1.42')
 
 
 def test_noise_that_is_no_rounding():
@@ -396,7 +414,7 @@ def test_huge_numbers_end_in_a_refusal():
     refused(forged(lines, 'state', {1: -1e300}), 'segment 0')
     refused(forged(lines, 'state', {2: 1e308}), 'segment 0')
     refused(forged(lines, 'step', {2: 1e308}), 'h >= 1e+308 claimed')
-    refused(forged(lines, 'end', {3: 1e300}), 'DELTA = 1.0000000000000001e+300 is more than 2^-30 periods')
+    refused(forged(lines, 'end', {3: 1e300}), 'DELTA = 1.0000000000000001e+300 is too long to be followed')
     refused(forged(motions.touching(), 'end', {3: 1e300}), 'NOISE = 1.0000000000000001e+300, rounding explains')
 
 

@@ -145,9 +145,10 @@ void Limit::state(const std::vector<double>& sizes) const {
   const Balls off = scaled(D, sum(product(A, apart), rounded));
   for (std::size_t i = 0; i < 2 * static_cast<std::size_t>(head_.d); ++i) {
     if (i == p_ || i == u_) continue;  // zero in both
-    if (!(off[i] <= Ball(rounding * sizes[i])))
+    const Ball allowed = Ball(rounding) * (Ball(sizes[i]) + delta_[i]);
+    if (!(off[i] <= allowed))
       refuse("number " + std::to_string(i) + " of the state at the limit is known to " + digits(off[i].near()) +
-             " only, rounding is " + digits(rounding * sizes[i]));
+             " only, rounding is " + digits(allowed.near()));
   }
 }
 

@@ -26,6 +26,9 @@ class Ball {
   friend bool operator>(const Ball& a, const Ball& b) { return b < a; }
   friend bool operator>=(const Ball& a, const Ball& b) { return b <= a; }
   friend Ball abs(Ball a) { return arb_abs(a.x_, a.x_), a; }
+  friend Ball sqrt(Ball a) { return arb_sqrt(a.x_, a.x_, bits), a; }
+  /// A ball that contains the greater of the two.
+  friend Ball greater(Ball a, const Ball& b) { return arb_max(a.x_, a.x_, b.x_, bits), a; }
   friend Ball power(Ball a, ulong n) { return arb_pow_ui(a.x_, a.x_, n, bits), a; }
   /// The ball a, widened by the numbers up to |e|.
   friend Ball widen(Ball a, const Ball& e) { return arb_add_error(a.x_, e.x_), a; }

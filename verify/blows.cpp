@@ -93,6 +93,7 @@ void Checker::blow(Departure& departure, const Blow& blow) {
     if (!(D[i][i] > Ball(0.0))) return refuse_(blow.line, "stop " + stop.name + " has no inertia");
     speed[i] = 2.0 * departure.size[u(stop)] / D[i][i].near();
   }
+  departure.rests_from = Ball(stops.front()->sign) * departure.X[u(*stops.front())];
   const Balls impulse = solve(D, b);
   for (std::size_t i = 0; i < static_cast<std::size_t>(head_.d); ++i) {
     const std::size_t row = static_cast<std::size_t>(head_.d) + i;

@@ -162,6 +162,7 @@ bool Reader::next(Segment& segment) {
   for (int i = 0; i < head_.m; ++i) segment.state.push_back(real());
   finish_line(), advance();
   read_claims(segment);
+  if (at("tail")) read_tail(segment);
   read_end(segment);
   ++segments_;
   return true;
@@ -182,6 +183,17 @@ void Reader::read_claims(Segment& segment) {
   }
 }
 
+void Reader::read_tail(Segment& segment) {
+  Tail& tail = segment.tail;
+  tail.line = line_;
+  for (long* id : {&tail.rise, &tail.back, &tail.hold}) {
+    *id = count(0, most);
+    if (!modes_.contains(*id)) fail("mode " + std::to_string(*id) + " is not there");
+  }
+  for (double* x : {&tail.duration, &tail.rise_least, &tail.rise_most, &tail.fall_least, &tail.fall_most}) *x = real();
+  finish_line(), advance();
+}
+
 void Reader::read_end(Segment& segment) {
   expect("end");
   End& end = segment.end;
@@ -196,6 +208,7 @@ void Reader::read_end(Segment& segment) {
   } else if (kind != "cut") {
     fail("there is no end `" + kind + "`");
   }
+  if ((segment.tail.line != 0) != (end.kind == EndKind::chatter)) fail("`tail` and `end chatter` belong together");
   if (kind != "cut") end.size = real();
   if (!(end.size >= 0.0)) fail("a bound is negative");
   for (finish_line(), advance(); at("blow") || at("event"); finish_line(), advance()) {

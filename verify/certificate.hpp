@@ -65,6 +65,13 @@ struct End {
   double size = 0.0;  ///< DELTA, NOISE or ERROR
 };
 
+/// How the limit of a chatter is proved: modes, a bound of the time, of the accelerations towards the stop on the way away from it and back.
+struct Tail {
+  long line = 0;  ///< 0: there is none
+  long rise = 0, back = 0, hold = 0;
+  double duration = 0.0, rise_least = 0.0, rise_most = 0.0, fall_least = 0.0, fall_most = 0.0;
+};
+
 struct Blow {
   long line;
   bool rest;
@@ -82,6 +89,7 @@ struct Segment {
   double fraction = 0.0, duration = 0.0;
   std::vector<double> state;
   std::vector<Claim> claims;
+  Tail tail;
   End end;
   std::vector<Blow> blows;
   std::vector<Event> events;
@@ -112,6 +120,7 @@ class Reader {
   void read_inertia();
   void read_mode();
   void read_claims(Segment& segment);
+  void read_tail(Segment& segment);
   void read_end(Segment& segment);
 
   std::istream& in_;

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tail.hpp"
+
 namespace verify {
 namespace {
 
 constexpr double rounding = 0x1p-40;   ///< of a state, in units of the sizes of what it was added up from
 constexpr double dependent = 0x1p-40;  ///< what is left of its inertia when others are held, in units of it
-constexpr double clock_rounding = 0x1p-48, phase_rounding = 0x1p-46;
+constexpr double clock_rounding = 0x1p-48, flight_rounding = 0x1p-50, phase_rounding = 0x1p-46;
 
 /// Not below the exact difference that x is the rounding of; exact where nothing was lost.
 double rounded_up(double x) { return x == 0.0 ? 0.0 : std::nextafter(x, INFINITY); }
@@ -45,7 +47,10 @@ void Checker::segment(const Segment& segment) {
   start(segment);
   Flight flight(flow(segment.mode), modes_.at(segment.mode), segment, head_.period, tally_, refuse_);
   flight.fly();
-  last_ = std::make_unique<Departure>(Departure{segment, std::move(flight.X), std::move(flight.size)});
+  auto departure = std::make_unique<Departure>(Departure{segment, std::move(flight.X), std::move(flight.size)});
+  blur(*departure, flow(segment.mode));
+  if (segment.end.kind == EndKind::chatter) chatter(segment, departure->size);
+  last_ = std::move(departure);
   blows(*last_);
   ++tally_.segments;
 }
@@ -94,7 +99,6 @@ void Checker::start(const Segment& segment) {
   if (segment.number != tally_.segments) refuse_(segment.line, "it is called number " + std::to_string(segment.number));
   phases(segment, mode);
   stops(segment, mode);
-  if (segment.end.kind == EndKind::chatter) chatter(segment, mode);
   if (last_ == nullptr) return;
   clock(segment);
   continuity(segment);
@@ -119,8 +123,15 @@ void Checker::clock(const Segment& segment) {
   const Ball flown = Ball(before.duration) / Ball(head_.period);
   const Ball shown =
       Ball(static_cast<double>(segment.period - before.period)) + Ball(segment.fraction) - Ball(before.fraction);
-  if (!(abs(shown - flown) <= Ball(clock_rounding) + Ball(0x1p-50) * flown))
+  if (!(abs(shown - flown) <= Ball(clock_rounding) + Ball(flight_rounding) * flown))
     refuse_(segment.line, "begins " + digits((shown - flown).near()) + " periods from where the one before has ended");
+}
+
+/// The instant of the end is known to a rounding of the clock, and a number of the state to its rate times that: so much its size is more.
+void Checker::blur(Departure& end, const Flow& flow) const {
+  const double instant = clock_rounding * head_.period + flight_rounding * end.segment.duration;
+  for (std::size_t i = 0; i < 2 * static_cast<std::size_t>(head_.d); ++i)
+    end.size[i] += instant / rounding * std::abs(dot(flow.A[i], end.X).near());
 }
 
 void Checker::continuity(const Segment& segment) {
@@ -178,19 +189,27 @@ void Checker::stops(const Segment& segment, const Mode& mode) {
   }
 }
 
-void Checker::chatter(const Segment& segment, const Mode& mode) {
+/// A segment on the closed stop that stands for infinitely many impacts.
+void Checker::chatter(const Segment& segment, const std::vector<double>& sizes) {
   const End& end = segment.end;
+  const Tail& tail = segment.tail;
   const Stop& stop = head_.stops[static_cast<std::size_t>(end.index)];
   ++tally_.chatters;
-  const auto rests = [&](const Blow& b) {
-    return b.rest && std::count(b.stops.begin(), b.stops.end(), end.index) != 0;
-  };
-  if (last_ == nullptr || last_->segment.blows.empty() || !rests(last_->segment.blows.back()))
-    refuse_(end.line, "the segment before has not brought stop " + stop.name + " to rest");
-  if (!mode.rows[u(stop)].empty() || segment.state[u(stop)] != 0.0)
-    refuse_(end.line, "stop " + stop.name + " is not at rest in the segment that stands for its chatter");
+  if (last_ == nullptr || last_->segment.blows.empty() || !last_->segment.blows.back().rest ||
+      last_->segment.blows.back().stops != std::vector<int>{end.index})
+    return refuse_(end.line, "the segment before has not brought stop " + stop.name + " to rest");
+  if (!modes_.at(segment.mode).rows[u(stop)].empty() || segment.state[u(stop)] != 0.0 || segment.state[p(stop)] != 0.0)
+    return refuse_(end.line, "stop " + stop.name + " is not at rest in the segment that stands for its chatter");
   if (!(end.size <= 0x1p-49 * head_.period))
     refuse_(end.line, "ERROR = " + digits(end.size) + " is more than 2^-49 periods");
+  Limit limit(head_, segment, flow(tail.rise), flow(tail.back), flow(segment.mode), Ball(0.0) - last_->rests_from,
+              refuse_);
+  limit.check(sizes);
+  const bool up = limit.guards(modes_.at(tail.rise), flow(tail.rise), true);
+  const bool down = limit.guards(modes_.at(tail.back), flow(tail.back), false);
+  if (tail.rise == tail.back) return;
+  if (!up || !down) refuse_(tail.line, "a mode of the tail is for both directions");
+  limit.holds_not(modes_.at(tail.hold), flow(tail.hold));
 }
 
 }  // namespace verify

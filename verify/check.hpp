@@ -22,6 +22,7 @@ class Checker {
     Segment segment;
     Balls X;
     std::vector<double> size;
+    Ball rests_from = {};  ///< velocity towards the stop that the last blow has brought to rest
   };
 
   const Flow& flow(long mode);
@@ -30,11 +31,12 @@ class Checker {
   void start(const Segment& segment);
   void phases(const Segment& segment, const Mode& mode);
   void clock(const Segment& segment);
+  void blur(Departure& end, const Flow& flow) const;
   void continuity(const Segment& segment);
   [[nodiscard]] double size_of_others(std::size_t i) const;
   [[nodiscard]] double fastest_approach(const Stop& stop, const Segment& segment, const Mode& mode) const;
   void stops(const Segment& segment, const Mode& mode);
-  void chatter(const Segment& segment, const Mode& mode);
+  void chatter(const Segment& segment, const std::vector<double>& sizes);
   void blows(Departure& departure);
   void blow(Departure& departure, const Blow& blow);
   void report_of(const Departure& departure, const Blow& blow, std::vector<bool>& found);

@@ -103,15 +103,22 @@ void Flight::limit_reaches(const Claim& claim) {
     refuse(claim.line, g, "LIMIT = " + digits(claim.limit) + " is behind DURATION = " + digits(segment_.duration));
   if (missing <= 0.0 || touch) return;
   if (zero) {
-    tally_.delta = std::max(tally_.delta, missing / period_);
     if (missing > end.size + 0x1p-52 * segment_.duration)
       refuse(claim.line, g, text + ", more than DELTA = " + digits(end.size));
-  } else if (end.kind == EndKind::cut || missing > instant * period_) {
+  } else if (end.kind == EndKind::cut) {
     refuse(claim.line, g, text);
+  } else if (missing > instant * period_) {
+    note_flat(missing);
   } else {
     ++tally_.ties;
     tally_.tie = std::max(tally_.tie, missing / period_);
   }
+}
+
+/// A zero or a tie whose place rounding leaves open for longer than an instant: between, |h| must be within rounding.
+void Flight::note_flat(double length) {
+  ++tally_.flats;
+  tally_.flat = std::max(tally_.flat, length / period_);
 }
 
 std::vector<double> Flight::cuts() {
@@ -184,7 +191,10 @@ void Flight::piece(const Expansion& about, double from, double to) {
     else if (from < proof.claim->limit)
       step(about, proof, from, to);
     else if (segment_.end.kind == EndKind::touch && segment_.end.index == proof.claim->guard)
-      deep(about.of(flow_.guards[g]), *proof.claim, Ball(to) - Ball(from));
+      flat(about.of(flow_.guards[g]), *proof.claim, Ball(to) - Ball(from), segment_.end.size, "NOISE = ");
+    else if (segment_.duration - proof.claim->limit > instant * period_)
+      flat(about.of(flow_.guards[g]), *proof.claim, Ball(to) - Ball(from), rounding * size_of(g, size),
+           "rounding explains ");
   }
 }
 
@@ -224,12 +234,12 @@ void Flight::lower_bound(const Series& f, const Claim& claim, const Step& step, 
                digits(f.most(2, Ball(length(from, to))).near()) + " behind s = " + digits(from));
 }
 
-/// Behind the limit of a guard that touches.
-void Flight::deep(const Series& h, const Claim& claim, const Ball& t) {
+/// Behind the limit of a guard that touches, or whose zero is flat.
+void Flight::flat(const Series& h, const Claim& claim, const Ball& t, double allowed, const char* why) {
   const Ball most = h.most(0, t);
-  if (!(most <= Ball(segment_.end.size)))
+  if (!(most <= Ball(allowed)))
     refuse(claim.line, static_cast<std::size_t>(claim.guard),
-           "is up to " + digits(most.near()) + " between LIMIT and DURATION, NOISE = " + digits(segment_.end.size));
+           "is up to " + digits(most.near()) + " between LIMIT and DURATION, " + why + digits(allowed));
 }
 
 void Flight::end() {
@@ -247,10 +257,18 @@ void Flight::end() {
       refuse(end.line, g, "is " + digits(here.near()) + " at DURATION, more than NOISE");
     return;
   }
-  tally_.delta = std::max(tally_.delta, end.size / period_);
-  if (!(end.size <= instant * period_ && flow_.nu * end.size <= 16.0 * reach_of_series))
-    return refuse(end.line, g, "DELTA = " + digits(end.size) + " is more than 2^-30 periods");
-  const Ball delta(end.size), after = Expansion(flow_, X, delta).of(flow_.guards[g]).value(0, delta);
+  if (!(flow_.nu * end.size <= 16.0 * reach_of_series))
+    return refuse(end.line, g, "DELTA = " + digits(end.size) + " is too long to be followed");
+  const Ball delta(end.size);
+  const Series behind = Expansion(flow_, X, delta).of(flow_.guards[g]);
+  if (end.size <= instant * period_)
+    tally_.delta = std::max(tally_.delta, end.size / period_);
+  else if (behind.most(0, delta) <= Ball(noise))
+    note_flat(end.size);
+  else
+    refuse(end.line, g,
+           "DELTA = " + digits(end.size) + " is more than 2^-30 periods, and h is more than rounding there");
+  const Ball after = behind.value(0, delta);
   if (segment_.duration > 0.0 ? !(after < Ball(0.0)) : !(abs(here) <= Ball(noise)))
     refuse(end.line, g, "has no zero at the end: it is " + digits(after.near()) + " at DURATION + DELTA");
 }

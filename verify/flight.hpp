@@ -17,10 +17,13 @@ using Refuse = std::function<void(long, const std::string&)>;
 
 /// What is counted, and the largest of what is allowed to be small. Times in forcing periods.
 struct Tally {
-  long segments = 0, guards = 0, steps = 0, rests = 0, touches = 0, chatters = 0, ties = 0, events = 0, impacts = 0;
-  double delta = 0.0;  ///< DELTA, and by what an `end zero` guard's LIMIT is shorter
+  long segments = 0, guards = 0, steps = 0, rests = 0, touches = 0, chatters = 0, ties = 0, flats = 0, events = 0,
+       impacts = 0;
+  double delta = 0.0;  ///< DELTA
   double tie = 0.0;    ///< by what the LIMIT of a guard that vanishes together with another is shorter than DURATION
-  double jump = 0.0;   ///< in units of its allowance
+  double flat =
+      0.0;  ///< DELTA, or what LIMIT is short by, of zeros that rounding leaves open for longer than an instant
+  double jump = 0.0;  ///< in units of its allowance
 };
 
 class Flight {
@@ -40,13 +43,14 @@ class Flight {
   void collect();
   bool steps_follow(const Claim& claim);
   void limit_reaches(const Claim& claim);
+  void note_flat(double length);
   [[nodiscard]] std::vector<double> cuts();
   void order(const Expansion& about, const Claim& claim);
   void piece(const Expansion& about, double from, double to);
   void at_rest(const Series& h, const Claim& claim, const Ball& t, double size_there);
   void step(const Expansion& about, Proof& proof, double from, double to);
   void lower_bound(const Series& f, const Claim& claim, const Step& step, double from, double to);
-  void deep(const Series& h, const Claim& claim, const Ball& t);
+  void flat(const Series& h, const Claim& claim, const Ball& t, double allowed, const char* why);
   void end();
   [[nodiscard]] double size_of(std::size_t guard, const std::vector<double>& sizes) const;
   void refuse(long line, std::size_t guard, const std::string& what) const;

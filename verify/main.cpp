@@ -27,8 +27,10 @@ void report(const Head& head, const Tally& t, long refused) {
   std::printf("guards           %ld proved free of zeros by %ld steps, %ld at rest\n", t.guards, t.steps, t.rests);
   std::printf("events           %ld, of them %ld impacts\n", t.events, t.impacts);
   std::printf("touches          %ld (whether there is a zero cannot be decided)\n", t.touches);
-  std::printf("chatter limits   %ld (their own proof is not part of a certificate)\n", t.chatters);
+  std::printf("chatter limits   %ld proved\n", t.chatters);
   std::printf("ties             %ld, within %.2g periods\n", t.ties, t.tie);
+  std::printf("flat zeros       %ld, within %.2g periods (there, the guard is no more than rounding)\n", t.flats,
+              t.flat);
   std::printf("largest DELTA    %.2g periods\n", t.delta);
   std::printf("largest jump     %.2g of what rounding is allowed\n", t.jump);
   if (refused == 0)

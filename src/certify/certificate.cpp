@@ -73,6 +73,8 @@ void Certificate::run(Instant end, const std::function<bool(Instant)>& go_on) {
   for (;;) {
     const double piece = windows_per_piece * system_.mode(motion_.mode_id()).window_in_periods();
     const Instant stage = std::min(end, motion_.time().plus(piece));
+    begun_.assign(motion_.extended().begin(), motion_.extended().end());
+    begun_in_ = motion_.mode_id();
     const Outcome outcome = motion_.advance(stage);
     if (motion_.counters().segments != seen_) segment(outcome == Outcome::event);
     seen_ = motion_.counters().segments;
@@ -90,7 +92,12 @@ void Certificate::run(Instant end, const std::function<bool(Instant)>& go_on) {
 void Certificate::segment(bool ended_by_event) {
   const Motion::Segment segment = motion_.segment();
   const bool chatter = ended_by_event && motion_.event().kind == EventKind::chatter && motion_.hits().empty();
-  if (chatter) line("blow", number(1) + number(motion_.event().contact));
+  LimitProof limit;
+  if (chatter) {
+    limit = this->limit();
+    line("blow", number(1) + number(motion_.event().contact));
+    for (const ModeId id : {limit.rise, limit.back, limit.hold}) mode(id);
+  }
   mode(segment.mode);
   line("segment", number(tally_.segments++) + number(segment.mode) + number(segment.start.period) +
                       hex(segment.start.fraction) + hex(segment.duration));
@@ -103,7 +110,7 @@ void Certificate::segment(bool ended_by_event) {
   if (zero)
     hit(proof);
   else if (chatter)
-    line("end chatter", number(motion_.event().contact) + hex(motion_.event().error));
+    end_chatter(limit);
   else
     line("end cut", "");
   tally_.chatters += chatter ? 1 : 0;
@@ -148,14 +155,25 @@ void Certificate::hit(SegmentProof& proof) {
   if (duration == 0.0) return line("end zero", number(g) + hex(0.0));
   const Zero zero = proof.zero_at_end(g);
   GuardProof found = guard(proof, g, zero.certain ? duration - zero.delta : duration);
-  if (!zero.certain && !found.reached) {
-    found.limit = found.steps.empty() ? 0.0 : found.steps.back().s + found.steps.back().d;
-    found.reached = true;
-  }
+  if (!zero.certain && !found.reached) found.end_at_last_step();
   print(g, found);
   if (zero.certain) return line("end zero", number(g) + hex(zero.delta));
   ++tally_.touches;
   line("end touch", number(g) + hex(proof.size_from(g, found.limit)));
+}
+
+/// The flight of the chatter was to begin at the last impact.
+LimitProof Certificate::limit() const {
+  const int stop = motion_.event().contact;
+  const Motion::Segment segment = motion_.segment();
+  const double v = -flow::approach_velocity(system_, stop, begun_.data());
+  return prove_limit(system_, stop, begun_in_, segment.mode, segment.X.data(), v, segment.duration);
+}
+
+void Certificate::end_chatter(const LimitProof& proof) {
+  line("tail", number(proof.rise) + number(proof.back) + number(proof.hold) + hex(proof.longest) +
+                   hex(proof.rise_least) + hex(proof.rise_most) + hex(proof.fall_least) + hex(proof.fall_most));
+  line("end chatter", number(motion_.event().contact) + hex(proof.error));
 }
 
 void Certificate::blows() {

@@ -67,6 +67,15 @@ double positive_before(Expansion<Real>& expansion, int guard, double s, double l
 
 }  // namespace
 
+void GuardProof::end_at_last_step() {
+  for (limit = 0.0; !steps.empty(); steps.pop_back()) {
+    limit = std::nextafter(steps.back().s + steps.back().d, 0.0);  // whatever the sum has gained
+    if (limit > steps.back().s) break;
+    limit = 0.0;
+  }
+  reached = true;
+}
+
 struct SegmentProof::Narrow {
   Expansion<long double> expansion;
 };

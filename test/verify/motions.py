@@ -73,15 +73,53 @@ def ball():
     return lines + [line('end', 'cut'), line('done', 3)]
 
 
+def at_rest(n, closed, period, duration, state, guard, end):
+    """Segment n, in which constant guards last: (0, h) .."""
+    lines = [line('segment', n, closed, period, 0.0, duration), line('state', *state)]
+    for g, h in enumerate(guard if duration > 0.0 else ()):
+        lines += [line('prove', g, 0, duration), line('step', 0.0, h, 0.0, 0.0, duration)]
+    return lines + end
+
+
 def chatter():
-    """The ball comes to rest: after its first impact the limit of the bouncing, 3 times 1/2 away, then it lies still."""
+    """The ball leaves its first impact at 1/2: flights of 1, 1/2, 1/4, .., then it lies still."""
     lines = BALL + FALL + [line('segment', 0, 0, 0, 0.0, 1.0), line('state', -0.5, 0.0, 1.0), line('prove', 0, 0, 1.0 - DELTA),
-                           line('step', 0.0, 0.5, 0.0, 1.0, 1.0 - DELTA)] + IMPACT + [line('blow', 1, 0)]
-    for n, (period, end) in enumerate(((1, line('end', 'chatter', 0, 2.0 ** -60)), (2, line('end', 'cut')))):
-        lines += LIE if n == 0 else []
-        lines += [line('segment', n + 1, 1, period, 0.0, 1.0), line('state', 0.0, 0.0, 1.0), line('prove', 0, 0, 1.0),
-                  line('step', 0.0, 1.0, 0.0, 0.0, 1.0), end]
-    return lines + [line('done', 3)]
+                           line('step', 0.0, 0.5, 0.0, 1.0, 1.0 - DELTA)] + IMPACT + [line('blow', 1, 0)] + LIE
+    end = [line('tail', 0, 0, 0, 2.0, 1.0, 1.0, 1.0, 1.0), line('end', 'chatter', 0, 2.0 ** -60)]
+    lines += at_rest(1, 1, 1, 2.0, (0.0, 0.0, 1.0), [1.0], end)
+    return lines + at_rest(2, 1, 3, 1.0, (0.0, 0.0, 1.0), [1.0], [line('end', 'cut')]) + [line('done', 3)]
+
+
+def rubbing():
+    """A ball in a tube: weight 5/2, friction 3/2. It leaves the stop at 1, slowed by 4, and returns by 1: half as fast, and after the impact a
+    quarter. Flights of 1/4 + 1/2 times the speed: one unit of time in all. At rest the stop and friction carry the weight."""
+    slide = [(0, [(1, 1.0)])]
+    lines = head('rubbing', 3, 1, 1.0, [(0, 1.0, 0.5, 'floor')], [[1.0]])
+    lines += mode(0, 'slip+', slide + [(1, [(2, 1.0)])], [('gap', [(0, -1.0)]), ('slip', [(1, 1.0)])])
+    lines += [line('segment', 0, 0, 0, 0.0, 2.0), line('state', -2.0, 0.0, 1.0), line('prove', 0, 0, 2.0 - DELTA),
+              line('step', 0.0, 2.0, 0.0, 1.0, 2.0 - DELTA), line('prove', 1, 1, 2.0), line('step', 0.0, 1.0, 0.0, 0.0, 2.0),
+              line('end', 'zero', 0, DELTA), line('blow', 0, 0), line('event', 'impact', 'floor', 2.0), line('blow', 1, 0)]
+    lines += mode(1, 'slip-', slide + [(1, [(2, 4.0)])], [('slip', [(1, -1.0)])])
+    lines += mode(2, 'stick', slide, [('stick', [(2, -1.0)])])
+    lines += mode(3, 'stick|closed', slide, [('press', [(2, 4.0)])])
+    end = [line('tail', 1, 0, 2, 1.0, 4.0, 4.0, 1.0, 1.0), line('end', 'chatter', 0, 2.0 ** -60)]
+    lines += at_rest(1, 3, 2, 1.0, (0.0, 0.0, 1.0), [4.0], end)
+    return lines + at_rest(2, 3, 3, 0.0, (0.0, 0.0, 1.0), [], [line('end', 'cut')]) + [line('done', 3)]
+
+
+def neighbour(gap=64.0):
+    """The ball of `chatter` shakes a second body, by half of its own changes of speed, that has a stop of its own at a distance. X = (p1, p2, u1, u2, 1)."""
+    lines = head('neighbour', 5, 2, 1.0, [(0, 1.0, 0.5, 'floor'), (1, 1.0, 0.5, 'wall')], [[1.0, 0.5], [0.5, 1.0]])
+    move = [(0, [(2, 1.0)]), (1, [(3, 1.0)])]
+    lines += mode(0, 'free', move + [(2, [(4, 1.0)])], [('gap', [(0, -1.0)]), ('gap', [(1, -1.0)])])
+    lines += [line('segment', 0, 0, 0, 0.0, 1.0), line('state', -0.5, -gap, 0.0, 0.0, 1.0), line('prove', 0, 0, 1.0 - DELTA),
+              line('step', 0.0, 0.5, 0.0, 1.0, 1.0 - DELTA), line('prove', 1, 0, 1.0), line('step', 0.0, gap, 0.0, 0.0, 1.0)] + IMPACT
+    lines += [line('blow', 1, 0)] + mode(1, 'closed', move + [(3, [(4, -0.5)])], [('press', [(4, 1.0)]), ('gap', [(1, -1.0)])])
+    lines += [line('segment', 1, 1, 1, 0.0, 2.0), line('state', 0.0, -gap, 0.0, -0.5, 1.0), line('prove', 0, 0, 2.0),
+              line('step', 0.0, 1.0, 0.0, 0.0, 2.0), line('prove', 1, 0, 2.0), line('step', 0.0, gap, 0.5, 0.5, 2.0)]
+    lines += [line('tail', 0, 0, 0, 2.0, 1.0, 1.0, 1.0, 1.0), line('end', 'chatter', 0, 2.0 ** -60)]
+    lines += [line('segment', 2, 1, 3, 0.0, 0.0), line('state', 0.0, -gap - 2.0, 0.0, -1.5, 1.0)]
+    return lines + [line('end', 'cut'), line('done', 3)]
 
 
 def lift(order):
@@ -163,6 +201,37 @@ def touching():
     lines += [line('end', 'touch', 0, 2.0 ** -43), line('event', 'graze', 'floor', 0.0)]
     lines += [line('segment', 1, 0, 1, 0.0, 1.0), line('state', 0.0, 0.0, 1.0), line('prove', 0, 2, 1.0), line('step', 0.0, 0.5, 0.0, 0.0, 0.5),
               line('step', 0.5, 0.125, 0.5, 1.0, 0.5)]
+    return lines + [line('end', 'cut'), line('done', 2)]
+
+
+def flat(depth=2.0 ** -47, flown=2.0 ** -24, delta=1.5 * 2.0 ** -24):
+    """The same ball, thrown so that its gap (s - 1)^2 / 2 - depth dips below zero by no more than rounding: where it does is known to DELTA only."""
+    duration = 1.0 - flown
+    limit = duration - delta
+    lines = BALL + mode(0, 'slows', [(0, [(1, 1.0)]), (1, [(2, -1.0)])], [('gap', [(0, -1.0)])])
+    lines += [line('segment', 0, 0, 0, 0.0, duration), line('state', -0.5 + depth, 1.0, 1.0), line('prove', 0, 0, limit)]
+    # At s = 1 - q the guard is q^2 / 2 - depth, its slope -q; steps of a power of two up to q / 3 lose no digit.
+    q = 1.0
+    while 1.0 - q < limit:
+        d = min(2.0 ** math.floor(math.log2(q / 3.0)), limit - (1.0 - q))
+        lines.append(line('step', 1.0 - q, q * q / 2.0 - depth, -q, 1.0, d))
+        q -= d
+    lines += [line('end', 'zero', 0, delta), line('blow', 0, 0), line('event', 'impact', 'floor', flown)]
+    lines += [line('segment', 1, 0, 0, duration, 0.0), line('state', 0.0, -flown / 2.0, 1.0)]
+    return lines + [line('end', 'cut'), line('done', 2)]
+
+
+def tie(gap=2.0 ** -50):
+    """Two bodies without forces, the second one behind the first by less than the clock can tell, reach their stops at one instant."""
+    flight = 2.0 ** -40
+    lines = head('tie', 5, 2, 1.0, [(0, 1.0, 0.5, 'one'), (1, 1.0, 0.5, 'two')], [[1.0, 0.0], [0.0, 1.0]])
+    lines += mode(0, 'flies', [(0, [(2, 1.0)]), (1, [(3, 1.0)])], [('gap', [(0, -1.0)]), ('gap', [(1, -1.0)])])
+    lines += [line('segment', 0, 0, 0, 0.0, flight), line('state', -flight, -flight - gap, 1.0, 1.0, 1.0)]
+    limit = flight * 0.5
+    lines += [line('prove', 0, 0, limit), line('step', 0.0, flight, -1.0, 0.0, limit)]
+    lines += [line('prove', 1, 0, flight), line('step', 0.0, flight + gap, -1.0, 0.0, flight), line('end', 'zero', 0, limit)]
+    lines += [line('blow', 0, 0, 1), line('event', 'impact', 'one', 1.0), line('event', 'impact', 'two', 1.0)]
+    lines += [line('segment', 1, 0, 0, flight, 0.0), line('state', 0.0, 0.0, -0.5, -0.5, 1.0)]
     return lines + [line('end', 'cut'), line('done', 2)]
 
 

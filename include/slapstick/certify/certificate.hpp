@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "slapstick/certify/limit_proof.hpp"
 #include "slapstick/certify/segment_proof.hpp"
 #include "slapstick/flow/motion.hpp"
 
@@ -13,7 +14,7 @@ namespace slapstick::certify {
 struct Tally {
   long segments = 0, guards = 0, steps = 0;
   long touches = 0;   ///< zeros that could not be decided with 256 bits
-  long chatters = 0;  ///< limits of complete chatter, whose proof is not part of the certificate
+  long chatters = 0;  ///< limits of complete chatter
   long unproved = 0;  ///< guards whose steps do not reach their limit: the verifier will say so
 };
 
@@ -42,6 +43,8 @@ class Certificate {
   void print(int g, const GuardProof& proof);
   void hit(SegmentProof& proof);
   void blows();
+  LimitProof limit() const;
+  void end_chatter(const LimitProof& proof);
   void line(const char* word, const std::string& rest);
 
   const System& system_;
@@ -50,7 +53,9 @@ class Certificate {
   std::string text_;
   std::set<ModeId> shown_;
   std::vector<double> magnitude_;
-  long seen_ = 0;  ///< segments of the motion
+  std::vector<double> begun_;  ///< the motion's extended state before it went on ..
+  ModeId begun_in_ = 0;        ///< .. and the mode of its flight
+  long seen_ = 0;              ///< segments of the motion
   Tally tally_;
 };
 

@@ -20,6 +20,8 @@ struct GuardProof {
   double limit = 0.0;   ///< no zero on (0, limit] ..
   bool reached = true;  ///< .. or false: the steps end before, and prove it up to their end only
   std::vector<Step> steps;
+  /// Lowers the limit to what the steps reach, as real numbers.
+  void end_at_last_step();
 };
 
 /// The zero of a guard at the end of a segment.

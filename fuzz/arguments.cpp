@@ -17,10 +17,14 @@ using Words = std::vector<std::string>;
 
 /// Writes no file, and does nothing that cannot be stopped.
 bool harmless(const Words& words) {
-  static const Words verbs = {"check", "show", "simulate", "classify", "poincare", "diagram"};
-  static const Words options = {"--set",          "--state",   "--sweep",     "--periods",   "--time",   "--samples",
-                                "--physical",     "--section", "--phase",     "--transient", "--points", "--impacts",
-                                "--most-periods", "--most-n",  "--direction", "--start"};
+  static const Words verbs = {"check",   "show",  "simulate", "classify", "poincare",
+                              "diagram", "orbit", "continue", "curve"};
+  static const Words options = {
+      "--set",         "--state",     "--sweep", "--periods",   "--time",   "--samples",    "--physical",
+      "--section",     "--phase",     "--event", "--transient", "--points", "--impacts",    "--most-periods",
+      "--most-n",      "--direction", "--start", "--stop",      "--orbit",  "--starts",     "--seed",
+      "--all",         "--max-n",     "--max-p", "--param",     "--params", "--range",      "--step",
+      "--same-events", "--branches",  "--table", "--from",      "--which",  "--sensitivity"};
   const auto known = [](const Words& list, const std::string& word) {
     return std::find(list.begin(), list.end(), word) != list.end();
   };

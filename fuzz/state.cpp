@@ -9,15 +9,22 @@
 namespace slapstick::fuzz {
 namespace {
 
-void check(const std::vector<std::string>& lines) {
-  app::ModelOptions options;
-  options.state = lines.front();
-  options.sets.assign(lines.begin() + 1, lines.end());
-  const app::ChosenModel chosen = options.with_sets(small_model());
+void check_start(const app::ModelOptions& options, const app::ChosenModel& chosen) {
   const State start = options.start(chosen);
   demand(start.size() == 2 * static_cast<std::size_t>(chosen.model.size()), "a start has all numbers");
   for (const double number : start) demand(std::isfinite(number), "a start is finite");
   validate(chosen.model, start);
+}
+
+void check(const std::vector<std::string>& lines) {
+  static const app::ChosenModel as_it_is = app::ModelOptions{}.with_sets(small_model());
+  app::ModelOptions options;
+  options.state = lines.front();
+  options.sets.assign(lines.begin() + 1, lines.end());
+  if (options.sets.empty())
+    check_start(options, as_it_is);
+  else
+    check_start(options, options.with_sets(small_model()));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// What the fuzz targets share. A target makes of any bytes a value, an InputError or a NumericalError; anything else ends the program,
+/// What the fuzz targets share. A target makes of any bytes a value or one of the three errors of base/error.hpp; anything else ends the program,
 /// which is how libFuzzer (./dev fuzz) and the replay of the corpus (replay.cpp) learn of it.
 #include <cstddef>
 #include <cstdint>
@@ -35,6 +35,8 @@ bool succeeds(const Run& run) {
   } catch (const InputError& error) {
     message = error.what();
   } catch (const NumericalError& error) {
+    message = error.what();
+  } catch (const StorageError& error) {  // MODEL is a file that is not there
     message = error.what();
   }
   demand(!message.empty() && message.find_first_of("\n\r") == std::string::npos, "a message is one line", message);

@@ -19,8 +19,9 @@ void ModelOptions::declare_state(Arguments& arguments) {
   arguments.text("--state", state, "x1=..,v1=..", "initial state; what is not named is the model's own start");
 }
 
-ChosenModel ModelOptions::load() const {
-  ModelDefinition definition = load_model(source);
+ChosenModel ModelOptions::load() const { return with_sets(load_model(source)); }
+
+ChosenModel ModelOptions::with_sets(ModelDefinition definition) const {
   Overrides overrides;
   for (const std::string& set : sets) {
     const auto [name, text] = name_and_text("--set", set, "NAME=VALUE");

@@ -26,6 +26,8 @@ struct ModelOptions {
   void declare_state(Arguments& arguments);  ///< --state
   /// @throws InputError naming the argument
   [[nodiscard]] ChosenModel load() const;
+  /// The same, of a definition that was read before; MODEL is not looked at.
+  [[nodiscard]] ChosenModel with_sets(ModelDefinition definition) const;
   /// The start: the model's own, with the numbers of --state in place of it. `more` are parameter values on top of --set.
   [[nodiscard]] State start(const ChosenModel& chosen, const Overrides& more = {}) const;
 };

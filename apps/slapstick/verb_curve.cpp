@@ -1,11 +1,10 @@
 /// slapstick curve MODEL --from TYPE --params A,B
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "axis_text.hpp"
 #include "orbit_options.hpp"
 #include "output.hpp"
+#include "parameter_ranges.hpp"
 #include "progress.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/text.hpp"
@@ -25,28 +24,6 @@ struct Options {
   double step = 0.01;
   bool progress = false;
 };
-
-std::vector<std::string> two_names(const std::string& text) {
-  std::vector<std::string> names = split(text, ',');
-  if (names.size() != 2 || names[0].empty() || names[1].empty() || names[0] == names[1])
-    throw InputError("--params: " + in_quotes(text) + " is not of the form A,B with two different parameters");
-  return names;
-}
-
-/// --range NAME=A:B for each of the two.
-std::array<ParameterRange, 2> ranges_of(const Options& options, const std::vector<std::string>& names) {
-  std::array<std::optional<ParameterRange>, 2> found;
-  for (const std::string& text : options.ranges) {
-    const auto [name, range] = name_and_text("--range", text, "NAME=A:B");
-    const auto place = std::ranges::find(names, name) - names.begin();
-    if (place == 2)
-      throw InputError("--range: " + in_quotes(name) + " is none of --params " + names[0] + "," + names[1]);
-    found[static_cast<std::size_t>(place)] = parse_range("--range " + name, range);
-  }
-  for (std::size_t i = 0; i < 2; ++i)
-    if (!found[i]) throw InputError("--range: give " + names[i] + "=A:B too");
-  return {*found[0], *found[1]};
-}
 
 /// The K-th special point of the wanted type on the branch in the first parameter.
 orbit::SpecialPoint special_point(const Options& options, const ChosenModel& chosen,
@@ -115,8 +92,8 @@ int run(const Options& options, const Context& context) {
   Output out(options.out);
   const Plot plot(options.plot);
   const ChosenModel chosen = options.model.load();
-  const std::vector<std::string> names = two_names(options.parameters);
-  const auto ranges = ranges_of(options, names);
+  const std::vector<std::string> names = two_parameters(options.parameters);
+  const auto ranges = two_ranges(options.ranges, names);
   const double second = value_inside(chosen, "--params", names[1], ranges[1]);
   if (!(options.step > 0.0 && options.step <= 0.2))
     throw InputError("--step: " + shown(options.step) + " is outside (0, 0.2]");

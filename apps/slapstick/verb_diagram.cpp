@@ -6,6 +6,7 @@
 #include "contact_clouds.hpp"
 #include "model_options.hpp"
 #include "output.hpp"
+#include "parameter_ranges.hpp"
 #include "progress.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/text.hpp"
@@ -26,24 +27,6 @@ struct Options {
   long long transient = 500, impacts = 200, most_periods = 5000, threads = 0;
   bool progress = false;
 };
-
-struct Sweep {
-  std::string name;
-  double from = 0.0, to = 0.0;
-  int count = 0;
-};
-
-Sweep parse_sweep(const std::string& text) {
-  const auto [name, range] = name_and_text("--sweep", text, "NAME=A:B:COUNT");
-  const auto parts = split(range, ':');
-  if (parts.size() != 3) throw InputError("--sweep: " + in_quotes(text) + " is not of the form NAME=A:B:COUNT");
-  Sweep sweep{name, parse_number("--sweep A", parts[0]), parse_number("--sweep B", parts[1]),
-              static_cast<int>(parse_integer("--sweep COUNT", parts[2], 2, 100'000'000))};
-  if (!(sweep.from < sweep.to))
-    throw InputError("--sweep: A = " + shown(sweep.from) + " is not below B = " + shown(sweep.to) +
-                     " (use --direction down to sweep downwards)");
-  return sweep;
-}
 
 /// The model at one value; the same function for the check at both ends and for the sweep.
 Overrides values_at(const ChosenModel& chosen, const Sweep& sweep, double value) {

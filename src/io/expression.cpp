@@ -14,24 +14,17 @@
 
 namespace slapstick {
 
-struct Expression::Compiled {
-  std::string text;
-  std::vector<std::string> names;
-  std::vector<double> values;  // what the parser's variables point to
-  mu::Parser parser;
-  std::mutex mutex;  // guards values and parser
-};
-
 namespace {
 
 constexpr std::size_t longest = 400;
 
-mu::Parser fresh_parser() {
-  mu::Parser parser;
-  parser.ClearConst();
-  parser.DefineConst("pi", std::numbers::pi);
-  return parser;
-}
+class FormulaParser : public mu::Parser {
+ public:
+  FormulaParser() {
+    ClearConst();
+    DefineConst("pi", std::numbers::pi);
+  }
+};
 
 /// muParser also knows strings and assignments; neither has a place in a formula.
 std::optional<std::string> foreign(const std::string& text) {
@@ -63,19 +56,25 @@ std::string lowered(std::string text) {
 
 }  // namespace
 
-Expression::Expression(const std::string& text) : compiled_(std::make_shared<Compiled>()) {
+struct Expression::Compiled {
+  std::string text;
+  std::vector<std::string> names;
+  std::vector<double> values;  // what the parser's variables point to
+  FormulaParser parser;
+  std::mutex mutex;  // guards values and parser
+};
+
+Expression::Expression(const std::string& text) {
   if (const auto reason = foreign(text)) refuse(text, *reason);
+  compiled_ = std::make_shared<Compiled>();
   auto& compiled = *compiled_;
   compiled.text = text;
   try {
-    auto scout = fresh_parser();
-    scout.SetExpr(text);
-    for (const auto& [name, unused] : scout.GetUsedVar()) compiled.names.push_back(name);
+    compiled.parser.SetExpr(text);
+    for (const auto& [name, unused] : compiled.parser.GetUsedVar()) compiled.names.push_back(name);
     compiled.values.assign(compiled.names.size(), 1.0);
-    compiled.parser = fresh_parser();
     for (std::size_t i = 0; i < compiled.names.size(); ++i)
       compiled.parser.DefineVar(compiled.names[i], &compiled.values[i]);
-    compiled.parser.SetExpr(text);
     int results = 0;
     compiled.parser.Eval(results);
     if (results != 1) refuse(text, "a ',' separates two values (write 0.5, not 0,5)");
@@ -110,7 +109,7 @@ double Expression::value(const std::map<std::string, double>& values) const {
 }
 
 bool Expression::reserves(std::string_view name) {
-  static const mu::Parser parser = fresh_parser();
+  static const FormulaParser parser;
   return name == "pi" || parser.GetFunDef().count(std::string(name)) != 0;
 }
 

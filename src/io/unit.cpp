@@ -42,6 +42,8 @@ const Unit* find_unit(std::string_view name) {
 
 /// "Nmm" as "N mm", "m/s2" as "m/s^2": two known names, or a name and its power, written together.
 std::string taken_apart(const std::string& name) {
+  constexpr std::size_t longest = 3;  // of the known names
+  if (name.size() > 2 * longest) return {};
   for (std::size_t i = 1; i < name.size(); ++i) {
     const std::string head = name.substr(0, i), tail = name.substr(i);
     if (find_unit(head) == nullptr) continue;

@@ -19,8 +19,9 @@ void rotate(Orbit& orbit, std::size_t first) {
   std::vector<double> t(orbit.t.begin() + static_cast<std::ptrdiff_t>(first), orbit.t.end() - 1);
   for (std::size_t i = 0; i <= first; ++i) t.push_back(orbit.t[i] + cycle);
   orbit.t = std::move(t);
-  std::ranges::rotate(orbit.x, orbit.x.begin() + static_cast<std::ptrdiff_t>(first));
-  std::ranges::rotate(orbit.shape.legs, orbit.shape.legs.begin() + static_cast<std::ptrdiff_t>(first));
+  std::vector<Leg>& legs = orbit.shape.legs;
+  std::rotate(orbit.x.begin(), orbit.x.begin() + static_cast<std::ptrdiff_t>(first), orbit.x.end());
+  std::rotate(legs.begin(), legs.begin() + static_cast<std::ptrdiff_t>(first), legs.end());
 }
 
 std::string describe(const Itinerary& shape, const System& system) {

@@ -38,7 +38,7 @@ bool same_cycle(const Orbit& a, const Orbit& b) {
   std::vector<Leg> turned = a.shape.legs;
   for (std::size_t k = 0; k < turned.size(); ++k) {
     if (turned == b.shape.legs) return true;
-    std::ranges::rotate(turned, turned.begin() + 1);
+    std::rotate(turned.begin(), turned.begin() + 1, turned.end());
   }
   return false;
 }

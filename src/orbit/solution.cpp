@@ -65,7 +65,7 @@ std::vector<std::complex<double>> multipliers(const Problem& problem, const Mode
     Orbit turned = orbit;
     rotate(turned, first);
     std::vector<LegValue> turned_legs = legs;
-    std::ranges::rotate(turned_legs, turned_legs.begin() + static_cast<std::ptrdiff_t>(first));
+    std::rotate(turned_legs.begin(), turned_legs.begin() + static_cast<std::ptrdiff_t>(first), turned_legs.end());
     map = return_rates(problem, set, turned, turned_legs).by_state;
   }
   std::vector<Index> free;

@@ -97,10 +97,12 @@ class Draw {
   void stop(Machine& m, int most, double r) {
     auto& all = m.model.stops;
     if (static_cast<int>(all.size()) >= most) return;
-    const auto [a, b] = pair(m.model);
+    const std::pair ends = pair(m.model);
+    const auto [a, b] = ends;
     const double y = between(m.start, a, b);
     const double gap = shape_.least_gap == 0.0 && one_in(6) ? 0.0 : real(shape_.least_gap, 0.8);
-    if (std::ranges::any_of(all, [&](const Stop& s) { return (s.a == a && s.b == b) || (s.a == b && s.b == a); }))
+    if (std::ranges::any_of(all,
+                            [&](const Stop& s) { return std::pair(s.a, s.b) == ends || std::pair(s.b, s.a) == ends; }))
       return;  // one side of a pair has one stop: see the other side below
     all.push_back({numbered("stop", all.size()), a, b, y + gap, r});
     if (static_cast<int>(all.size()) < most && one_in(3))

@@ -37,8 +37,9 @@ namespace slapstick {
   std::size_t continued = 0;
   if (word.size() > 100) return {};
   for (const auto& candidate : candidates) {
-    const std::size_t distance = edit_distance(word, candidate);
-    if (distance < least && distance < std::max(word.size(), candidate.size())) {
+    const auto [shorter, longest] = std::minmax({word.size(), candidate.size()});
+    const std::size_t distance = longest - shorter < least ? edit_distance(word, candidate) : least;
+    if (distance < least && distance < longest) {
       least = distance;
       best = candidate;
     }

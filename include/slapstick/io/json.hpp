@@ -21,12 +21,14 @@ class Json {
   using Value = std::variant<std::nullptr_t, bool, std::int64_t, double, std::string, List, Object>;
 
   Json() = default;  ///< null
+  // NOLINTBEGIN(google-explicit-constructor): values stand for themselves
   Json(bool value) : value_(value) {}
   Json(double value) : value_(value) {}
   Json(const char* text) : value_(std::string(text)) {}
   Json(std::string text) : value_(std::move(text)) {}
   template <class Integer, class = std::enable_if_t<std::is_integral_v<Integer> && !std::is_same_v<Integer, bool>>>
   Json(Integer value) : value_(static_cast<std::int64_t>(value)) {}
+  // NOLINTEND(google-explicit-constructor)
 
   static Json object() { return Json(Value(Object{})); }
   static Json list() { return Json(Value(List{})); }

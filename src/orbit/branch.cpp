@@ -50,7 +50,7 @@ class Follower {
   [[nodiscard]] Solution solution_of(const PathPoint& point, Verification* seen) const;
   bool accept(PathPoint& at, PathPoint next, double length);
   bool change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why);
-  void end_at(SpecialPoint special, const Orbit& before, const PathPoint& change, bool shorter, bool retraces);
+  void end_at(SpecialPoint special, const std::string& left, bool shorter, bool retraces);
   void go_on(PathPoint& at, SpecialPoint special, Reshaped next);
   [[nodiscard]] SpecialPoint onset(const Reshaped& next, const Solution& nearest, bool begins) const;
   bool leave_chatter(PathPoint& at);
@@ -186,12 +186,20 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
   }
   SpecialPoint special = std::move(change->special);
   special.after = branch_.points.size() - 1;
+  // At a touch multipliers are infinite, or 0 / 0: those of the point before say more.
+  special.solution.multipliers = branch_.points.back().multipliers;
   std::vector<Reshaped> found;
-  if (options_.through_changes) found = reshape(problem_, at.orbit, change->at, change->test, range_);
+  if (options_.through_changes) found = reshape(problem_, at.orbit, change->at, change->test, range_, options_.stop);
+  std::string left;  // where a stable motion goes when there is no branch
+  if (found.empty() && options_.through_changes && branch_.points.back().stable()) {
+    Behind there = behind(problem_, at.orbit, change->at, range_, options_.stop);
+    left = there.what;
+    if (there.next) found.push_back(std::move(*there.next));
+  }
   const bool shorter = std::ranges::any_of(found, [](const Reshaped& next) { return repeats(next.point.orbit, 1e-6); });
   const bool retraces = !found.empty() && lies_on(branch_, found.front().point.orbit);
   if (found.empty() || shorter || retraces) {
-    end_at(std::move(special), at.orbit, change->at, shorter, retraces);
+    end_at(std::move(special), left, shorter, retraces);
     return false;
   }
   for (std::size_t i = 1; i < found.size(); ++i) special.born.push_back(found[i].point.orbit);
@@ -199,8 +207,8 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
   return true;
 }
 
-/// The branch ends where its events change.
-void Follower::end_at(SpecialPoint special, const Orbit& before, const PathPoint& change, bool shorter, bool retraces) {
+/// The branch ends where its events change. @param left  what the motion goes over to, if that is known
+void Follower::end_at(SpecialPoint special, const std::string& left, bool shorter, bool retraces) {
   std::string why = "the events change";
   bool failed = false;
   if (shorter) {
@@ -211,9 +219,7 @@ void Follower::end_at(SpecialPoint special, const Orbit& before, const PathPoint
   } else if (!options_.through_changes) {
     special.outcome = "not followed";
     failed = true;
-  } else if (const std::string left =
-                 branch_.points.back().stable() ? behind(problem_, before, change, range_) : std::string();
-             !left.empty()) {
+  } else if (!left.empty()) {
     special.outcome = "jump to " + left;
     why = "a jump: the motion goes over to " + left;
   } else {
@@ -244,7 +250,7 @@ bool Follower::leave_chatter(PathPoint& at) {
   const std::size_t count = branch_.points.size();
   if (!options_.through_changes || count < 2 || !branch_.points.back().chatter) return false;
   const Orbit& before = branch_.points[count - 2].orbit;
-  std::vector<Reshaped> found = reshape(problem_, before, at, TestValue{}, range_);
+  std::vector<Reshaped> found = reshape(problem_, before, at, TestValue{}, range_, options_.stop);
   std::erase_if(found, [](const Reshaped& next) { return !next.gathering || next.folds; });
   if (found.empty()) return false;
   branch_.special.push_back(onset(found.front(), branch_.points.back(), false));

@@ -122,6 +122,16 @@ std::vector<Orbit> with_impact(const ModeSet& set, const Orbit& orbit, const Tes
   return {split};
 }
 
+/// How many impacts lose their speed from one orbit to the next?
+int lost_impacts(const ModeSet& set, const Orbit& before, const Orbit& orbit) {
+  const std::vector<TestValue> was = test_values(set, before), is = test_values(set, orbit);
+  int count = 0;
+  for (std::size_t i = 0; i < std::min(was.size(), is.size()); ++i)
+    if (is[i].test == Test::speed && is[i].kind == mode::GuardKind::gap && is[i].value < nothing * was[i].value)
+      ++count;
+  return count;
+}
+
 /// Where several impacts lose their speed together, as in symmetric orbits: without the others too.
 Orbit without_all(const ModeSet& set, Orbit orbit) {
   for (std::size_t most = orbit.legs(); most > 0; --most) {
@@ -146,8 +156,9 @@ Orbit without_all(const ModeSet& set, Orbit orbit) {
 
 std::vector<Orbit> coincident(const ModeSet& set, const Orbit& before, const Orbit& orbit, const TestValue& test) {
   std::vector<Orbit> shapes;
+  const bool several = lost_impacts(set, before, orbit) > 1;
   for (const Orbit& fewer : without_impact(set, before, orbit, test)) {
-    const Orbit fewest = without_all(set, fewer);
+    const Orbit fewest = several ? without_all(set, fewer) : fewer;
     if (fewest.legs() < fewer.legs()) shapes.push_back(fewest);
     shapes.push_back(fewer);
   }

@@ -15,6 +15,7 @@ using Eigen::VectorXd;
 
 constexpr double enough = 1e-13;  ///< a step, relative to the orbit's size, after which there is nothing to gain
 constexpr double longest_step = 0.5;
+constexpr double far_too_long = 5.0;  ///< a leg, against the cycle that Newton's method began with: it goes nowhere
 
 /// x_0 by its numbers: the columns of representatives.
 MatrixXd representatives(const Problem& problem, Index size) {
@@ -170,6 +171,12 @@ VectorXd newton_step(const Linearised& at, const std::vector<Condition>& conditi
   return matrix.partialPivLu().solve(right);
 }
 
+double longest_leg(const Orbit& orbit) {
+  double longest = 0.0;
+  for (std::size_t i = 0; i < orbit.legs(); ++i) longest = std::max(longest, std::abs(orbit.duration(i)));
+  return longest;
+}
+
 /// The numbers of an orbit as unknowns.
 VectorXd unknowns_of(const Problem& problem, const Orbit& orbit) {
   VectorXd all(problem.unknowns(orbit.legs()));
@@ -216,6 +223,7 @@ NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condi
                    const std::vector<Orbit>& besides) {
   const VectorXd scale = sizes(problem, orbit);
   const std::vector<VectorXd> taken_out = places(problem, besides, orbit);
+  const double longest = orbit.t.back() - orbit.t.front();
   VectorXd moved = VectorXd::Zero(scale.size());
   NewtonResult result;
   double before = INFINITY;
@@ -235,6 +243,7 @@ NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condi
       const VectorXd change = fraction * step.cwiseProduct(scale);
       moved += change;
       move(problem, at, change, fraction, orbit);
+      if (longest_leg(orbit) > far_too_long * longest) return result;
       // Quadratic convergence: the next step would be its square. Rounding ends it in any case.
       const bool stalled = result.last_step < 1e-10 && result.last_step > 0.1 * before;
       if (result.last_step < enough || stalled) {

@@ -1,6 +1,7 @@
 #include "orbit/lies_on.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace slapstick::orbit {
 
@@ -15,8 +16,10 @@ bool between(const Orbit& a, const Orbit& b, const Orbit& orbit) {
     for (std::size_t i = 0; equal && i < a.legs(); ++i) {
       const std::size_t k = (i + shift) % a.legs();
       const VectorXd x = (1.0 - part) * a.x[k] + part * b.x[k];
+      const double t = (1.0 - part) * a.t[k] + part * b.t[k];
       equal = a.shape.legs[k] == orbit.shape.legs[i] &&
-              (x - orbit.x[i]).norm() < same * std::max(x.norm(), orbit.x[i].norm());
+              (x - orbit.x[i]).norm() < same * std::max(x.norm(), orbit.x[i].norm()) &&
+              (orbit.shape.n == 0 || std::abs(std::remainder(t - orbit.t[i], 1.0)) < same);
     }
     if (equal) return true;
   }

@@ -16,6 +16,7 @@ namespace {
 
 using Eigen::VectorXd;
 
+constexpr long transient = 500;       ///< forcing periods that a motion is given to settle
 constexpr std::size_t most_held = 4;  ///< legs whose length is held in turn
 
 /// A motion from inside a leg of an orbit that may itself be no motion any more.
@@ -187,8 +188,7 @@ std::optional<Located> beginning(const Problem& problem, const PathPoint& next, 
 }
 
 /// Is the longest leg of one much the same in the other?
-bool resembles(const Orbit& a, const Orbit& b) {
-  constexpr double much_the_same = 0.01;
+bool resembles(const Orbit& a, const Orbit& b, double much_the_same) {
   std::size_t longest = 0;
   for (std::size_t i = 1; i < a.legs(); ++i)
     if (a.duration(i) > a.duration(longest)) longest = i;
@@ -210,7 +210,7 @@ std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, do
   if (next.point.watched.turn * away < 0.0) next.point = reversed(std::move(next.point));
   const bool chatter = chatters(orbit) || chatters(change.orbit), gathers = chatters(orbit) != chatters(change.orbit);
   const auto begins = beginning(problem, next.point, critical, gathers ? gathering * length : same, range);
-  if (!begins && !(chatter && resembles(orbit, change.orbit))) return std::nullopt;
+  if (!begins && !(chatter && resembles(orbit, change.orbit, 0.01))) return std::nullopt;
   next.renewed = chatter && !gathers && !begins;
   if (gathers) next.gathering = std::minmax(critical, begins ? begins->point.orbit.values[0] : orbit.values[0]);
   return next;
@@ -219,7 +219,7 @@ std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, do
 }  // namespace
 
 std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const PathPoint& change,
-                              const TestValue& test, double range) {
+                              const TestValue& test, double range, const std::atomic<bool>* stop) {
   const double critical = change.orbit.values[0];
   const ModeSet set(problem.family(), change.orbit.values);
   std::vector<Reshaped> all;
@@ -240,6 +240,7 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
     const std::vector<Orbit> guesses = shapes_about(problem, beyond, test.leg);
     for (double side : {1.0, -1.0}) {  // where the old branch would have gone on, then where it came from
       for (Orbit guess : guesses) {
+        if (stopped(stop)) return all;
         guess.values[0] = critical + side * (beyond.values[0] - critical);
         if (const auto orbit = solved(problem, guess)) add(born(problem, change, sense, *orbit, length, range));
       }
@@ -248,25 +249,44 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
   return all;
 }
 
-std::string behind(const Problem& problem, const Orbit& before, const PathPoint& change, double range) {
-  constexpr double distance = 1e-4;  // of the range
-  constexpr long transient = 500;
-  const double value =
-      change.orbit.values[0] + std::copysign(distance * range, change.orbit.values[0] - before.values[0]);
+namespace {
+
+/// What a motion from the orbit at a change settles on when the parameter is moved on by so much.
+std::optional<Solution> settled_behind(const Problem& problem, const PathPoint& change, double move,
+                                       const std::atomic<bool>* stop) {
   try {
-    const auto there = pose(problem.family(), {value});
-    const System system(problem.family().model({value}));
+    std::vector<double> values = change.orbit.values;
+    values[0] += move;
+    const auto there = pose(problem.family(), values);
+    const System system(problem.family().model(values));
     const ModeSet set(constant_family(system.model()), {});
-    for (std::size_t leg = 0; leg < change.orbit.legs(); ++leg) {
-      const auto motion = motion_from(system, set, change.orbit, leg, 0.5);
-      if (!motion) continue;
-      const std::optional<Solution> found = settle(*there, *motion, transient, 0);
-      return found ? found->label : "no periodic orbit within " + std::to_string(transient) + " periods";
-    }
+    for (std::size_t leg = 0; leg < change.orbit.legs(); ++leg)
+      if (const auto motion = motion_from(system, set, change.orbit, leg, 0.5))
+        return settle(*there, *motion, transient, 0, stop);
   } catch (const InputError&) {
   } catch (const NumericalError&) {
   }
-  return {};
+  return std::nullopt;
+}
+
+}  // namespace
+
+Behind behind(const Problem& problem, const Orbit& before, const PathPoint& change, double range,
+              const std::atomic<bool>* stop) {
+  constexpr double near = 1e-3;  // of a leg's state: just behind a change a motion that goes on has hardly moved
+  const double critical = change.orbit.values[0], sense = std::copysign(1.0, critical - before.values[0]);
+  Behind result;
+  result.what = "no periodic orbit within " + std::to_string(transient) + " periods";
+  for (const double distance : {1e-6, 1e-5, 1e-4}) {
+    auto found = settled_behind(problem, change, sense * distance * range, stop);
+    if (!found) continue;
+    result.what = found->label;
+    if (!resembles(found->orbit, change.orbit, near)) return result;
+    result.next = Reshaped{point_of(problem, found->orbit, range, {}), false, false, {}};
+    if (result.next->point.watched.turn * sense < 0.0) result.next->point = reversed(std::move(result.next->point));
+    return result;
+  }
+  return result;
 }
 
 }  // namespace slapstick::orbit

@@ -17,10 +17,14 @@ struct Reshaped {
 /// @param test    the margin that is used up there
 /// @returns the orbits with the events of the motion beyond whose branches, followed back, come to the change
 [[nodiscard]] std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const PathPoint& change,
-                                            const TestValue& test, double range);
+                                            const TestValue& test, double range, const std::atomic<bool>* stop);
 
-/// What the motion settles on behind a change, in words: the label of an orbit, or that it is none within some hundred periods. Empty if that cannot
-/// be seen.
-[[nodiscard]] std::string behind(const Problem& problem, const Orbit& before, const PathPoint& change, double range);
+/// What the motion does just behind a change of a stable orbit, by running it.
+struct Behind {
+  std::string what;  ///< the label of the orbit that it settles on, or that it is none within some hundred periods
+  std::optional<Reshaped> next;  ///< that orbit, if it has hardly moved: no jump
+};
+[[nodiscard]] Behind behind(const Problem& problem, const Orbit& before, const PathPoint& change, double range,
+                            const std::atomic<bool>* stop);
 
 }  // namespace slapstick::orbit

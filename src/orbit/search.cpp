@@ -34,6 +34,24 @@ bool known(const std::vector<Orbit>& found, const Orbit& orbit) {
   });
 }
 
+/// Of an orbit that is a shorter one several times over, that one.
+Orbit once(const Orbit& orbit) {
+  for (std::size_t part = 1; part < orbit.legs(); ++part) {
+    Orbit shorter = orbit;
+    shorter.shape.legs.resize(part);
+    shorter.x.resize(part);
+    shorter.t.resize(part + 1);
+    const auto times = static_cast<int>(orbit.legs() / part);
+    shorter.shape.n = orbit.shape.n / times;
+    if (orbit.legs() % part == 0 && orbit.shape.n % times == 0 &&
+        (orbit.x[part] - orbit.x[0]).norm() <= same_orbit * orbit.x[0].norm() &&
+        std::equal(orbit.shape.legs.begin() + static_cast<std::ptrdiff_t>(part), orbit.shape.legs.end(),
+                   orbit.shape.legs.begin()))
+      return shorter;
+  }
+  return orbit;
+}
+
 /// An orbit from where a motion stands, if there is one whose state is within so much of the motion's.
 std::optional<Solution> orbit_from(const Problem& problem, const System& system, const Motion& motion, int n,
                                    double within, const std::atomic<bool>* stop) {
@@ -41,7 +59,8 @@ std::optional<Solution> orbit_from(const Problem& problem, const System& system,
   if (!guess) return std::nullopt;
   Orbit start = *guess;
   start.values = problem.values();
-  const std::optional<Orbit> orbit = refine(problem, start);
+  std::optional<Orbit> orbit = refine(problem, start);
+  if (orbit && repeats(*orbit, same_orbit)) orbit = refine(problem, once(*orbit));
   if (!orbit || (orbit->x[0] - start.x[0]).norm() > within * start.x[0].norm()) return std::nullopt;
   Solution solution = describe(problem, *orbit, &system);
   if (!solution.is_motion) return std::nullopt;

@@ -55,9 +55,12 @@ std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const Pa
   for (const Kind& kind : kinds) {
     if (!changes_sign(kind.value(from.watched), kind.value(to.watched))) continue;
     std::optional<Located> located = locate(problem, from, length, range, kind.value, kind.value(to.watched));
-    if (kind.type == SpecialType::BP)
-      if (auto sharper = locate_crossing(problem, from, located ? located->length : 0.5 * length, range))
-        located = std::move(sharper);
+    if (kind.type == SpecialType::BP) {
+      constexpr double merged = 1e-3;  // a doubled orbit may be told from its birth by so much
+      auto sharper = locate_crossing(problem, from, located ? located->length : 0.5 * length, range);
+      if (!sharper && !(located && repeats(located->point.orbit, merged))) continue;
+      if (sharper) located = std::move(sharper);
+    }
     if (!located) continue;
     const Watched& there = located->point.watched;
     SpecialPoint special;

@@ -187,15 +187,15 @@ std::optional<Located> beginning(const Problem& problem, const PathPoint& next, 
   return std::nullopt;
 }
 
-/// Is the longest leg of one much the same in the other?
+/// Is a long leg of one much the same in the other?
 bool resembles(const Orbit& a, const Orbit& b, double much_the_same) {
-  std::size_t longest = 0;
-  for (std::size_t i = 1; i < a.legs(); ++i)
-    if (a.duration(i) > a.duration(longest)) longest = i;
-  for (std::size_t i = 0; i < b.legs(); ++i)
-    if (b.shape.legs[i].states == a.shape.legs[longest].states &&
-        (a.x[longest] - b.x[i]).norm() < much_the_same * a.x[longest].norm())
-      return true;
+  constexpr double long_enough = 0.1;  // of a cycle
+  for (std::size_t i = 0; i < a.legs(); ++i) {
+    if (a.duration(i) < long_enough * (a.t.back() - a.t.front())) continue;
+    for (std::size_t j = 0; j < b.legs(); ++j)
+      if (b.shape.legs[j].states == a.shape.legs[i].states && (a.x[i] - b.x[j]).norm() < much_the_same * a.x[i].norm())
+        return true;
+  }
   return false;
 }
 
@@ -251,22 +251,35 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
 
 namespace {
 
-/// What a motion from the orbit at a change settles on when the parameter is moved on by so much.
-std::optional<Solution> settled_behind(const Problem& problem, const PathPoint& change, double move,
-                                       const std::atomic<bool>* stop) {
+/// A motion from the orbit at a change when the parameter is moved on by so much: the orbit that it settles on, and whether it has gone from where it was.
+struct Course {
+  std::optional<Solution> settled;
+  bool gone = false;
+};
+
+Course course_behind(const Problem& problem, const PathPoint& change, double move, const std::atomic<bool>* stop) {
+  constexpr double far = 0.01;  // of the state
+  Course course;
   try {
     std::vector<double> values = change.orbit.values;
     values[0] += move;
     const auto there = pose(problem.family(), values);
     const System system(problem.family().model(values));
     const ModeSet set(constant_family(system.model()), {});
-    for (std::size_t leg = 0; leg < change.orbit.legs(); ++leg)
-      if (const auto motion = motion_from(system, set, change.orbit, leg, 0.5))
-        return settle(*there, *motion, transient, 0, stop);
+    for (std::size_t leg = 0; leg < change.orbit.legs(); ++leg) {
+      std::optional<Motion> motion = motion_from(system, set, change.orbit, leg, 0.5);
+      if (!motion) continue;
+      course.settled = settle(*there, *motion, transient, 0, stop);
+      const VectorXd start = attractor::contact_state(*motion);
+      const Instant end = motion->time().plus(static_cast<double>(transient * std::max(1, change.orbit.shape.n)));
+      const bool ran = run_to(*motion, end, stop, [] {});
+      course.gone = ran && (attractor::contact_state(*motion) - start).norm() > far * start.norm();
+      return course;
+    }
   } catch (const InputError&) {
   } catch (const NumericalError&) {
   }
-  return std::nullopt;
+  return course;
 }
 
 }  // namespace
@@ -276,14 +289,19 @@ Behind behind(const Problem& problem, const Orbit& before, const PathPoint& chan
   constexpr double near = 1e-3;  // of a leg's state: just behind a change a motion that goes on has hardly moved
   const double critical = change.orbit.values[0], sense = std::copysign(1.0, critical - before.values[0]);
   Behind result;
-  result.what = "no periodic orbit within " + std::to_string(transient) + " periods";
   for (const double distance : {1e-6, 1e-5, 1e-4}) {
-    auto found = settled_behind(problem, change, sense * distance * range, stop);
-    if (!found) continue;
-    result.what = found->label;
-    if (!resembles(found->orbit, change.orbit, near)) return result;
-    result.next = Reshaped{point_of(problem, found->orbit, range, {}), false, false, {}};
-    if (result.next->point.watched.turn * sense < 0.0) result.next->point = reversed(std::move(result.next->point));
+    Course course = course_behind(problem, change, sense * distance * range, stop);
+    if (course.settled) {
+      const Orbit& orbit = course.settled->orbit;
+      if (resembles(orbit, change.orbit, near) || resembles(change.orbit, orbit, near)) {
+        result.next = Reshaped{point_of(problem, orbit, range, {}), false, false, {}};
+        if (result.next->point.watched.turn * sense < 0.0) result.next->point = reversed(std::move(result.next->point));
+        return result;
+      }
+    }
+    if (!course.gone) continue;
+    result.what =
+        course.settled ? course.settled->label : "no periodic orbit within " + std::to_string(transient) + " periods";
     return result;
   }
   return result;

@@ -21,7 +21,8 @@ struct Reshaped {
 
 /// What the motion does just behind a change of a stable orbit, by running it.
 struct Behind {
-  std::string what;  ///< the label of the orbit that it settles on, or that it is none within some hundred periods
+  std::string
+      what;  ///< if it leaves: the label of the orbit that it settles on, or that it is none within some hundred periods
   std::optional<Reshaped> next;  ///< that orbit, if it has hardly moved: no jump
 };
 [[nodiscard]] Behind behind(const Problem& problem, const Orbit& before, const PathPoint& change, double range,

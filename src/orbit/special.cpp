@@ -39,6 +39,16 @@ std::string stick_of(const System& system, int friction) {
   return system.contact_name(static_cast<int>(system.model().stops.size()) + friction);
 }
 
+/// A crossing by interpolation; as it was found only if it is the birth of a doubled orbit, which may be told from that by so much.
+std::optional<Located> sharpened(const Problem& problem, const PathPoint& from, std::optional<Located> rough,
+                                 double length, double range) {
+  constexpr double merged = 1e-3;
+  auto sharper = locate_crossing(problem, from, rough ? rough->length : 0.5 * length, range);
+  if (sharper) return sharper;
+  if (rough && repeats(rough->point.orbit, merged)) return rough;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const PathPoint& from, const PathPoint& to,
@@ -55,12 +65,7 @@ std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const Pa
   for (const Kind& kind : kinds) {
     if (!changes_sign(kind.value(from.watched), kind.value(to.watched))) continue;
     std::optional<Located> located = locate(problem, from, length, range, kind.value, kind.value(to.watched));
-    if (kind.type == SpecialType::BP) {
-      constexpr double merged = 1e-3;  // a doubled orbit may be told from its birth by so much
-      auto sharper = locate_crossing(problem, from, located ? located->length : 0.5 * length, range);
-      if (!sharper && !(located && repeats(located->point.orbit, merged))) continue;
-      if (sharper) located = std::move(sharper);
-    }
+    if (kind.type == SpecialType::BP) located = sharpened(problem, from, std::move(located), length, range);
     if (!located) continue;
     const Watched& there = located->point.watched;
     SpecialPoint special;

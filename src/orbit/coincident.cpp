@@ -13,7 +13,8 @@ using Eigen::VectorXd;
 
 constexpr double nothing =
     1e-2;  ///< of a leg's length at the point before: so short it is at a change where it vanishes
-constexpr double no_speed = 1e-6;  ///< of an orbit's largest: an impact that vanishes
+constexpr double no_speed =
+    1e-4;  ///< of the largest at the point before: an impact that vanishes, as the root of the distance
 
 /// The cycle of one leg without its event, from phase 0.
 Orbit uncut(const ModeSet& set, const Orbit& orbit) {
@@ -122,28 +123,26 @@ std::vector<Orbit> with_impact(const ModeSet& set, const Orbit& orbit, const Tes
   return {split};
 }
 
+bool impact_speed(const TestValue& test) { return test.test == Test::speed && test.kind == mode::GuardKind::gap; }
+
 /// How many impacts lose their speed from one orbit to the next?
 int lost_impacts(const ModeSet& set, const Orbit& before, const Orbit& orbit) {
   const std::vector<TestValue> was = test_values(set, before), is = test_values(set, orbit);
   int count = 0;
   for (std::size_t i = 0; i < std::min(was.size(), is.size()); ++i)
-    if (is[i].test == Test::speed && is[i].kind == mode::GuardKind::gap && is[i].value < nothing * was[i].value)
-      ++count;
+    if (impact_speed(is[i]) && is[i].value < nothing * was[i].value) ++count;
   return count;
 }
 
 /// Where several impacts lose their speed together, as in symmetric orbits: without the others too.
-Orbit without_all(const ModeSet& set, Orbit orbit) {
+Orbit without_all(const ModeSet& set, const Orbit& before, Orbit orbit) {
+  double largest = 0.0;
+  for (const TestValue& test : test_values(set, before))
+    if (impact_speed(test)) largest = std::max(largest, std::abs(test.value));
   for (std::size_t most = orbit.legs(); most > 0; --most) {
     const std::vector<TestValue> tests = test_values(set, orbit);
-    const auto impact = [](const TestValue& test) {
-      return test.test == Test::speed && test.kind == mode::GuardKind::gap;
-    };
-    double largest = 0.0;
-    for (const TestValue& test : tests)
-      if (impact(test)) largest = std::max(largest, std::abs(test.value));
     const auto next = std::ranges::find_if(
-        tests, [&](const TestValue& test) { return impact(test) && std::abs(test.value) < no_speed * largest; });
+        tests, [&](const TestValue& test) { return impact_speed(test) && std::abs(test.value) < no_speed * largest; });
     if (next == tests.end()) break;
     std::vector<Orbit> fewer = without_impact(set, orbit, orbit, *next);
     if (fewer.empty()) break;
@@ -158,7 +157,7 @@ std::vector<Orbit> coincident(const ModeSet& set, const Orbit& before, const Orb
   std::vector<Orbit> shapes;
   const bool several = lost_impacts(set, before, orbit) > 1;
   for (const Orbit& fewer : without_impact(set, before, orbit, test)) {
-    const Orbit fewest = several ? without_all(set, fewer) : fewer;
+    const Orbit fewest = several ? without_all(set, before, fewer) : fewer;
     if (fewest.legs() < fewer.legs()) shapes.push_back(fewest);
     shapes.push_back(fewer);
   }

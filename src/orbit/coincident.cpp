@@ -11,10 +11,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double nothing =
-    1e-2;  ///< of a leg's length at the point before: so short it is at a change where it vanishes
-constexpr double no_speed =
-    1e-4;  ///< of the largest at the point before: an impact that vanishes, as the root of the distance
+constexpr double nothing = 1e-2;   ///< of a leg's length, or an impact's speed, at the point before: it vanishes
+constexpr double no_speed = 1e-4;  ///< of the largest speed at the point before: so much is left by rounding
 
 /// The cycle of one leg without its event, from phase 0.
 Orbit uncut(const ModeSet& set, const Orbit& orbit) {
@@ -25,6 +23,16 @@ Orbit uncut(const ModeSet& set, const Orbit& orbit) {
   plain.shape.legs[0].strikes.clear();
   plain.t = {0.0, static_cast<double>(orbit.shape.n)};
   return plain;
+}
+
+/// Leaves out so many legs from one on, and as many events and states from the first leg's end on.
+void leave_out(Orbit& orbit, std::ptrdiff_t leg, std::ptrdiff_t count) {
+  const auto cut = [count](auto& list, std::ptrdiff_t from) {
+    list.erase(list.begin() + from, list.begin() + from + count);
+  };
+  cut(orbit.shape.legs, leg);
+  cut(orbit.x, 1);
+  cut(orbit.t, 1);
 }
 
 /// Does a leg shrink to nothing from one orbit to the next?
@@ -41,9 +49,7 @@ std::vector<Orbit> without_impact(const ModeSet& set, const Orbit& before, const
   rotate(turned, test.leg);  // the impact ends the first leg
   for (std::size_t i = test.leg + 1; turned.legs() > 2 && vanishes(before, orbit, i % orbit.legs()); ++i) {
     // what follows an impact of no speed at once is no more either
-    turned.shape.legs.erase(turned.shape.legs.begin() + 1);
-    turned.x.erase(turned.x.begin() + 1);
-    turned.t.erase(turned.t.begin() + 1);
+    leave_out(turned, 1, 1);
   }
   const mode::Frame& frame = set.frame();
   for (std::size_t i = 0; i < frame.frictions.size(); ++i) {
@@ -61,9 +67,7 @@ std::vector<Orbit> without_impact(const ModeSet& set, const Orbit& before, const
     shapes.push_back(std::move(reversed));
   }
   if (turned.shape.legs[0].states == turned.shape.legs[1].states) {
-    turned.shape.legs.erase(turned.shape.legs.begin());
-    turned.x.erase(turned.x.begin() + 1);
-    turned.t.erase(turned.t.begin() + 1);
+    leave_out(turned, 0, 1);
     shapes.push_back(std::move(turned));
   }
   return shapes;
@@ -88,9 +92,7 @@ std::vector<Orbit> merged(const ModeSet& set, const Orbit& before, const Orbit& 
     } else {
       continue;
     }
-    turned.shape.legs.erase(turned.shape.legs.begin(), turned.shape.legs.begin() + count);
-    turned.x.erase(turned.x.begin() + 1, turned.x.begin() + 1 + count);
-    turned.t.erase(turned.t.begin() + 1, turned.t.begin() + 1 + count);
+    leave_out(turned, 0, count);
     return {turned};
   }
   return {};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 namespace slapstick::orbit {
 namespace {
@@ -186,6 +187,21 @@ VectorXd state_within(const ModeSet& set, const Orbit& orbit, std::size_t leg, d
   X.value() = start.value();
   flow(set.mode(orbit.shape.legs[leg].states), after * set.period(), X);
   return X.value();
+}
+
+std::ptrdiff_t held(const ModeSet& set, const Leg& leg) {
+  return std::ranges::count(set.mode(leg.states).outline.steady, true);
+}
+
+std::size_t freest_leg(const ModeSet& set, const Orbit& orbit) {
+  const auto rank = [&](std::size_t i) {
+    const Leg& leg = orbit.shape.legs[i];
+    return std::tuple(leg.ending == Ending::chatter, held(set, leg), -orbit.duration(i));
+  };
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < orbit.legs(); ++i)
+    if (rank(i) < rank(best)) best = i;
+  return best;
 }
 
 VectorXd contact_state(const ModeSet& set, const VectorXd& X) {

@@ -58,6 +58,11 @@ struct LegValue {
 /// The extended state so many periods after the start of one of an orbit's legs; no derivatives.
 [[nodiscard]] Eigen::VectorXd state_within(const ModeSet& set, const Orbit& orbit, std::size_t leg, double after);
 
+/// How many velocities the mode of a leg holds still: the fewer, the freer.
+[[nodiscard]] std::ptrdiff_t held(const ModeSet& set, const Leg& leg);
+/// The leg in which least is held, of several the longest; a chatter's tail only if there is nothing else.
+[[nodiscard]] std::size_t freest_leg(const ModeSet& set, const Orbit& orbit);
+
 /// The contact state of an extended one.
 [[nodiscard]] Eigen::VectorXd contact_state(const ModeSet& set, const Eigen::VectorXd& X);
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <tuple>
 #include <utility>
 
 #include "slapstick/base/error.hpp"
@@ -105,19 +104,6 @@ Complex target(const SpecialPoint& point) {
 
 }  // namespace
 
-std::size_t freest_leg(const Problem& problem, const Orbit& orbit) {
-  const ModeSet set = set_of(problem, orbit);
-  const auto rank = [&](std::size_t i) {
-    const Leg& leg = orbit.shape.legs[i];
-    const auto held = std::ranges::count(set.mode(leg.states).outline.steady, true);
-    return std::tuple(leg.ending == Ending::chatter, held, -orbit.duration(i));
-  };
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < orbit.legs(); ++i)
-    if (rank(i) < rank(best)) best = i;
-  return best;
-}
-
 FixedPhaseMap::FixedPhaseMap(const Problem& problem, Orbit orbit, std::size_t leg)
     : problem_(&problem),
       orbit_(begun(std::move(orbit), leg)),
@@ -192,7 +178,7 @@ NormalForm normal_form(const Problem& problem, const SpecialPoint& point) {
   NormalForm form;
   try {
     const Orbit& orbit = point.solution.orbit;
-    const FixedPhaseMap map(problem, orbit, freest_leg(problem, orbit));
+    const FixedPhaseMap map(problem, orbit, freest_leg(set_of(problem, orbit), orbit));
     const Critical direction = critical(map.jacobian(VectorXd::Zero(map.sizes().size())), target(point));
     if (std::abs(direction.mu - target(point)) > same) {
       form.what = "the critical multiplier is not that of a simple eigenvector";

@@ -46,9 +46,6 @@ class FixedPhaseMap {
   Eigen::VectorXd sizes_;
 };
 
-/// The leg in which least is held still; of these the longest.
-[[nodiscard]] std::size_t freest_leg(const Problem& problem, const Orbit& orbit);
-
 /// An eigenvector and what is dual to it.
 struct Critical {
   std::complex<double> mu;

@@ -146,28 +146,6 @@ std::optional<Orbit> record(const Motion& start, int n, const std::atomic<bool>*
 
 namespace {
 
-/// Held numbers of a leg: the fewer, the freer.
-int held(const System& system, const Leg& leg) {
-  const mode::Mode& mode = system.mode(system.mode_id(leg.states));
-  int count = 0;
-  for (int i = 0; i < system.frame().d; ++i) count += mode.steady(i) ? 1 : 0;
-  return count;
-}
-
-std::size_t freest_leg(const System& system, const Orbit& orbit) {
-  std::size_t best = 0;
-  const auto better = [&](std::size_t a, std::size_t b) {
-    const auto& legs = orbit.shape.legs;
-    if ((legs[a].ending == Ending::chatter) != (legs[b].ending == Ending::chatter))
-      return legs[b].ending == Ending::chatter;
-    const int p = held(system, legs[a]), q = held(system, legs[b]);
-    return p != q ? p < q : orbit.duration(a) > orbit.duration(b);
-  };
-  for (std::size_t i = 1; i < orbit.legs(); ++i)
-    if (better(i, best)) best = i;
-  return best;
-}
-
 /// A motion from the middle of a leg.
 Motion from_middle(const System& system, const Orbit& orbit, std::size_t leg) {
   const ModeSet set(constant_family(system.model()), {});
@@ -197,13 +175,15 @@ bool in_burst(const Orbit& orbit, std::size_t leg) {
 /// Legs at which a check begins: those in which least is held, where a state in the user's coordinates loses nothing, and no short flights of a
 /// burst, whose gap it would lose.
 std::vector<std::size_t> starts(const System& system, const Orbit& orbit) {
-  const int least = held(system, orbit.shape.legs[freest_leg(system, orbit)]);
+  const ModeSet set(constant_family(system.model()), {});
+  const std::size_t freest = freest_leg(set, orbit);
+  const std::ptrdiff_t least = held(set, orbit.shape.legs[freest]);
   std::vector<std::size_t> legs;
   for (std::size_t i = 0; i < orbit.legs(); ++i)
-    if (orbit.shape.legs[i].ending != Ending::chatter && held(system, orbit.shape.legs[i]) == least &&
+    if (orbit.shape.legs[i].ending != Ending::chatter && held(set, orbit.shape.legs[i]) == least &&
         orbit.duration(i) > 1e-3 * (orbit.t.back() - orbit.t.front()))
       legs.push_back(i);
-  if (legs.empty()) legs.push_back(freest_leg(system, orbit));
+  if (legs.empty()) legs.push_back(freest);
   return legs;
 }
 
@@ -277,7 +257,7 @@ bool Check::run(std::size_t first, std::size_t next) {
 /// The motion's own cycle, where its number of impacts before a chatter's sum is another one.
 Orbit as_seen(const System& system, const Orbit& orbit) {
   Orbit turned = orbit;
-  rotate(turned, freest_leg(system, orbit));
+  rotate(turned, freest_leg(ModeSet(constant_family(system.model()), {}), orbit));
   return record(from_middle(system, turned, 0), orbit.shape.n).value_or(Orbit{});
 }
 

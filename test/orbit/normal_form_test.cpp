@@ -200,7 +200,8 @@ TEST(NormalForm, ForetellsTheRadiusOfAStableTorus) {
   const orbit::SpecialPoint& point = only(branch, SpecialType::NS);
   ASSERT_EQ(point.normal_form.what, "supercritical");
   EXPECT_NEAR(point.rotation, 0.41521, 1e-5);
-  const Beside beside(posed, point, orbit::freest_leg(*posed.problem, point.solution.orbit));
+  const Beside beside(
+      posed, point, orbit::freest_leg(orbit::ModeSet(posed.family, point.solution.orbit.values), point.solution.orbit));
   const double away = 1e-4;
   const double far = Circling(beside, point.value + away).mean(0.7, 16'000, 8'000),
                near = Circling(beside, point.value + 0.5 * away).mean(0.7, 32'000, 8'000);
@@ -214,7 +215,8 @@ TEST(NormalForm, ForetellsWhereMotionsLeaveASubcriticalTorus) {
   const orbit::Branch branch = branch_of(posed, 8.9, 9.6);
   const orbit::SpecialPoint& point = only(branch, SpecialType::NS);
   ASSERT_EQ(point.normal_form.what, "subcritical");
-  const Beside beside(posed, point, orbit::freest_leg(*posed.problem, point.solution.orbit));
+  const Beside beside(
+      posed, point, orbit::freest_leg(orbit::ModeSet(posed.family, point.solution.orbit.values), point.solution.orbit));
   const Circling circling(beside, point.value - 1e-4);
   EXPECT_LT(circling.mean(0.95, 5'000, 1'000), circling.mean(0.95, 0, 1'000));
   EXPECT_GT(circling.mean(1.05, 5'000, 1'000), circling.mean(1.05, 0, 1'000));

@@ -160,7 +160,7 @@ std::vector<Orbit> coincident(const ModeSet& set, const Orbit& before, const Orb
   const bool several = lost_impacts(set, before, orbit) > 1;
   for (const Orbit& fewer : without_impact(set, before, orbit, test)) {
     const Orbit fewest = several ? without_all(set, before, fewer) : fewer;
-    if (fewest.legs() < fewer.legs()) shapes.push_back(fewest);
+    if (!(fewest.shape.legs == fewer.shape.legs)) shapes.push_back(fewest);
     shapes.push_back(fewer);
   }
   std::ranges::copy(with_impact(set, orbit, test), std::back_inserter(shapes));

@@ -163,6 +163,18 @@ TEST(Change, OfSeveralImpactsTogetherIsPassed) {
   EXPECT_TRUE(has("1-2-I"));
 }
 
+/// .. and all that there are: the response without impacts is left, whose graze is met from its own side at the same value.
+TEST(Change, OfAllImpactsTogetherIsPassed) {
+  const orbit::Branch branch = branch_of("impact-absorber", {}, "clearance", 1,
+                                         {.from = 0.05, .to = 5.0, .most_points = 1500}),
+                      plain = branch_of("impact-absorber", {}, "clearance", 3.0, {.from = 1.2, .to = 5.0});
+  EXPECT_EQ(branch.points.back().label, "1-0-I") << branch.ended;
+  const std::vector<double> a = values(branch, SpecialType::GR), b = values(plain, SpecialType::GR);
+  ASSERT_FALSE(a.empty());
+  ASSERT_FALSE(b.empty());
+  EXPECT_TRUE(std::ranges::any_of(b, [&](double value) { return std::abs(value - a.back()) < 1e-9; }));
+}
+
 /// Towards a complete chatter infinitely many impacts are added; the branch goes on behind them, and says where they gather.
 TEST(Change, ToACompleteChatterIsPassed) {
   const orbit::Branch branch =

@@ -36,6 +36,13 @@ bool explained(const Watched& from, const Watched& to, const std::vector<Special
   return std::abs(outside(to) - outside(from)) <= most;
 }
 
+/// Is a leg's length less than this part of what it was?
+bool shrinks(const Orbit& from, const Orbit& to, double part) {
+  for (std::size_t i = 0; i < from.legs(); ++i)
+    if (to.duration(i) < part * from.duration(i)) return true;
+  return false;
+}
+
 /// Follows one direction from a point.
 class Follower {
  public:
@@ -54,6 +61,7 @@ class Follower {
   void go_on(PathPoint& at, SpecialPoint special, Reshaped next);
   [[nodiscard]] SpecialPoint onset(const Reshaped& next, const Solution& nearest, bool begins) const;
   bool leave_chatter(PathPoint& at);
+  void look_beside_change(const PathPoint& from, double length);
   void look_for_pairs(const PathPoint& at, const PathPoint& next, double length);
   void add(std::vector<SpecialPoint> smooth, std::size_t after);
   bool end_at_boundary(PathPoint& at);
@@ -112,6 +120,17 @@ void Follower::look_for_pairs(const PathPoint& at, const PathPoint& next, double
     add(smooth_special_points(problem_, from, *middle, part, range_), after);
     add(smooth_special_points(problem_, *middle, to, whole - part, range_), after);
     return;
+  }
+}
+
+/// Special points between a point of the branch and a change of events at `length` from there. An impact that loses its speed lets a multiplier grow
+/// without bound: one that doubles lies close by. Where a leg shrinks to nothing the equations are singular: not so close.
+void Follower::look_beside_change(const PathPoint& from, double length) {
+  constexpr double nothing = 1e-3;
+  for (const double part : {1.0 - 1e-6, 1.0 - 1e-2}) {
+    const std::optional<PathPoint> last = step_to(problem_, from, part * length, range_);
+    if (!last || shrinks(from.orbit, last->orbit, nothing)) continue;
+    return add(smooth_special_points(problem_, from, *last, part * length, range_), branch_.points.size() - 1);
   }
 }
 
@@ -184,6 +203,8 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
         true);
     return false;
   }
+  look_beside_change(at, change->length);
+  if (ended_) return false;
   SpecialPoint special = std::move(change->special);
   special.after = branch_.points.size() - 1;
   // At a touch multipliers are infinite, or 0 / 0: those of the point before say more.
@@ -272,6 +293,8 @@ void Follower::go_on(PathPoint& at, SpecialPoint special, Reshaped next) {
     if (!first.chatter) branch_.special.push_back(std::move(special));
   } else if (!next.renewed) {
     branch_.special.push_back(std::move(special));
+    if (next.length > 0.0) look_beside_change(reversed(next.point), next.length);
+    if (ended_) return;
   }
   at = std::move(next.point);
   branch_.points.push_back(std::move(first));

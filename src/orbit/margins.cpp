@@ -156,13 +156,17 @@ std::vector<TestValue> test_values(const ModeSet& set, const Orbit& orbit) {
       const Least least = least_value(course, guards[g], !zero_by_event(set.frame(), before, guards[g]), with_end);
       all.push_back({Test::guard, i, guards[g].kind, guards[g].contact, least.value, least.at / set.period()});
     }
+    bool starts_at_end = false;
     if (leg.ending == Ending::guard) {
-      const mode::RowVector& row = guards[course.mode.guard(leg.kind, leg.contact)].row;
-      all.push_back({Test::speed, i, leg.kind, leg.contact, -row.dot(course.mode.outline.system * course.states.back()),
-                     orbit.duration(i)});
+      const mode::Guard& end = guards[course.mode.guard(leg.kind, leg.contact)];
+      starts_at_end = zero_by_event(set.frame(), before, end);
+      all.push_back({Test::speed, i, leg.kind, leg.contact,
+                     -end.row.dot(course.mode.outline.system * course.states.back()), orbit.duration(i),
+                     starts_at_end});
     }
     if (leg.ending != Ending::cut)
-      all.push_back({Test::duration, i, leg.kind, leg.contact, orbit.duration(i), orbit.duration(i)});
+      all.push_back(
+          {Test::duration, i, leg.kind, leg.contact, orbit.duration(i), orbit.duration(i), starts_at_end});
     if (passes_without_stick(orbit, i))
       all.push_back({Test::no_stick, i, leg.kind, leg.contact, beyond_stick(set, orbit, i, course.states.back()),
                      orbit.duration(i)});

@@ -22,6 +22,8 @@ struct TestValue {
   int contact = 0;
   double value = std::numeric_limits<double>::infinity();  ///< infinite where a guard has no minimum
   double at = 0.0;  ///< of a guard's least value: when, in periods from the leg's start
+  /// Speed, duration: the guard that ends the leg is zero where it starts. A leg without length solves its equation too, and near one it is singular.
+  bool starts_at_end = false;
 };
 
 /// All of them, in an order that depends on the shape alone.

@@ -159,7 +159,7 @@ std::optional<Reshaped> leaving(const Problem& problem, const PathPoint& change,
       std::optional<PathPoint> next = step_to(problem, sense > 0.0 ? start : reversed(start), length, range);
       if (!next || !is_motion(problem, next->orbit)) continue;
       const bool folds = (next->orbit.values[0] - critical) * sense_before < 0.0;
-      return Reshaped{std::move(*next), folds, false, {}};
+      return Reshaped{std::move(*next), folds, false, {}, length};
     }
   }
   return std::nullopt;
@@ -205,12 +205,13 @@ std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, do
   constexpr double same = 1e-7, gathering = 30.0;
   const double critical = change.orbit.values[0], away = orbit.values[0] - critical;
   if (away == 0.0 || std::abs(away) > 10.0 * length * range) return std::nullopt;
-  Reshaped next{point_of(problem, orbit, range, {}), away * sense_before < 0.0, false, {}};
+  Reshaped next{point_of(problem, orbit, range, {}), away * sense_before < 0.0, false, {}, 0.0};
   if (next.point.watched.turn * away < 0.0) next.point = reversed(std::move(next.point));
   const bool chatter = chatters(orbit) || chatters(change.orbit), gathers = chatters(orbit) != chatters(change.orbit);
   const auto begins = beginning(problem, next.point, critical, gathers ? gathering * length : same, range);
   if (!begins && !(chatter && resembles(orbit, change.orbit, 0.01))) return std::nullopt;
   next.renewed = chatter && !gathers && !begins;
+  if (begins) next.length = begins->length;
   if (gathers) next.gathering = std::minmax(critical, begins ? begins->point.orbit.values[0] : orbit.values[0]);
   return next;
 }
@@ -293,7 +294,7 @@ Behind behind(const Problem& problem, const Orbit& before, const PathPoint& chan
     if (course.settled) {
       const Orbit& orbit = course.settled->orbit;
       if (resembles(orbit, change.orbit, near) || resembles(change.orbit, orbit, near)) {
-        result.next = Reshaped{point_of(problem, orbit, range, {}), false, false, {}};
+        result.next = Reshaped{point_of(problem, orbit, range, {}), false, false, {}, 0.0};
         if (result.next->point.watched.turn * sense < 0.0) result.next->point = reversed(std::move(result.next->point));
         return result;
       }

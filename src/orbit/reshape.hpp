@@ -10,6 +10,7 @@ struct Reshaped {
   bool renewed = false;  ///< the same motion, whose chatter is summed from another impact on: no change
   /// A complete chatter begins or ends between these values of the parameter; infinitely many changes gather there.
   std::optional<std::pair<double, double>> gathering;
+  double length = 0.0;  ///< from the change to there; 0 where that is not known
 };
 
 /// @param before  a point of the old branch on the way to

@@ -101,12 +101,46 @@ std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const Pa
   return points;
 }
 
-SpecialType type_of(const TestValue& test, const Itinerary& shape) {
-  if (test.test == Test::duration) {
-    const auto& states = shape.legs[test.leg].states.frictions;
-    const bool sticks = std::ranges::find(states, mode::FrictionState::stick) != states.end();
-    return sticks ? SpecialType::SL : SpecialType::CO;
+namespace {
+
+bool sticks(const Leg& leg, int friction) { return leg.states.frictions[friction] == mode::FrictionState::stick; }
+
+/// The legs about one.
+struct Neighbours {
+  const Leg& before;
+  const Leg& leg;
+  const Leg& next;
+};
+
+Neighbours about(const Itinerary& shape, std::size_t leg) {
+  const std::size_t count = shape.legs.size();
+  return {shape.legs[(leg + count - 1) % count], shape.legs[leg], shape.legs[(leg + 1) % count]};
+}
+
+/// The friction contact whose stick is gained or lost, or goes on without a slip, where a leg shrinks to nothing; -1 if there is none.
+int stick_at_stake(const TestValue& test, const Itinerary& shape) {
+  const auto [before, leg, next] = about(shape, test.leg);
+  if (test.starts_at_end && mode::of_friction(test.kind)) return test.contact;
+  for (int i = 0; i < static_cast<int>(leg.states.frictions.size()); ++i)
+    if (sticks(leg, i) && !sticks(before, i) && !sticks(next, i)) return i;
+  return -1;
+}
+
+/// How sliding changes where a leg of this contact shrinks to nothing, by the legs about it (di Bernardo et al. 2008, section 8.2).
+std::string_view kind_of_sliding(const TestValue& test, const Itinerary& shape, int friction) {
+  const auto [before, leg, next] = about(shape, test.leg);
+  if (sticks(leg, friction)) {
+    const bool crosses = before.states.frictions[friction] != next.states.frictions[friction];
+    return crosses ? " (crossing-sliding)" : " (grazing-sliding)";
   }
+  const int held = (sticks(before, friction) ? 1 : 0) + (sticks(next, friction) ? 1 : 0);
+  return held == 2 ? " (adding-sliding)" : held == 1 ? " (switching-sliding)" : " (grazing-sliding)";
+}
+
+}  // namespace
+
+SpecialType type_of(const TestValue& test, const Itinerary& shape) {
+  if (test.test == Test::duration) return stick_at_stake(test, shape) >= 0 ? SpecialType::SL : SpecialType::CO;
   if (test.test == Test::no_stick || mode::of_friction(test.kind)) return SpecialType::SL;
   return SpecialType::GR;
 }
@@ -116,9 +150,12 @@ std::string describe(const TestValue& test, const Itinerary& shape, const System
   const std::string after = " at " + std::string(name(shape.legs[test.leg].event)) + " " +
                             system.contact_name(shape.legs[test.leg].event_contact);
   switch (test.test) {
-    case Test::duration:
+    case Test::duration: {
+      const int friction = stick_at_stake(test, shape);
       return "leg " + std::to_string(test.leg + 1) + " (" +
-             system.mode_name(system.mode_id(shape.legs[test.leg].states)) + ") shrinks to nothing";
+             system.mode_name(system.mode_id(shape.legs[test.leg].states)) + ") shrinks to nothing" +
+             std::string(friction < 0 ? "" : kind_of_sliding(test, shape, friction));
+    }
     case Test::no_stick:
       return "the holding force of " + stick_of(system, test.contact) + " comes to static friction" + after +
              " (crossing-sliding)";
@@ -149,15 +186,22 @@ namespace {
 /// The zero of a margin. Where a leg shrinks to nothing between two zeros of one guard, the equations are singular: there by interpolation.
 std::optional<Located> locate_margin(const Problem& problem, const PathPoint& from, const PathPoint& to, double length,
                                      double range, std::size_t test) {
+  constexpr double nothing = 1e-2, enough = 1e-12;
   const auto value = [test](const Watched& watched) { return watched.tests[test].value; };
   std::optional<Located> located = locate(problem, from, length, range, value, value(to.watched));
-  if (!located || std::abs(value(located->point.watched)) <= 1e-9 * value(from.watched)) return located;
+  const std::size_t leg = from.watched.tests[test].leg;
+  const bool regular = located && std::abs(value(located->point.watched)) <= 1e-9 * value(from.watched);
+  const bool empty = located && from.watched.tests[test].starts_at_end &&
+                     located->point.orbit.duration(leg) < nothing * from.orbit.duration(leg);
+  if (!located || (regular && !empty)) return located;
+  std::optional<Located> best;
   for (const double part : {0.5, 0.1, 0.02}) {
     auto sharper = locate_between(problem, from, located->length, part * std::min(length, 0.02), range,
                                   [&](const PathPoint& point) { return value(point.watched); });
-    if (sharper) return sharper;
+    if (sharper && (!best || sharper->error < best->error)) best = std::move(sharper);
+    if (best && best->error <= enough * range) break;
   }
-  return located;
+  return best ? best : located;
 }
 
 /// Does the simulator agree that the orbit is a motion before a place of the branch, and none behind it?
@@ -180,10 +224,12 @@ std::optional<Change> find_change(const Problem& problem, const PathPoint& from,
     if (auto located = locate_margin(problem, from, to, length, range, i))
       candidates.emplace_back(i, std::move(*located));
   }
-  // Of margins that are used up together the speed of an event says most.
+  // Of margins that are used up together the speed of an impact says most, and of a slip that is no more its length.
   std::ranges::sort(candidates, {}, [&](const auto& candidate) {
-    const bool speed = from.watched.tests[candidate.first].test == Test::speed;
-    return std::pair(std::floor(candidate.second.length / (1e-6 * length)), speed ? 0 : 1);
+    const TestValue& test = from.watched.tests[candidate.first];
+    const bool slip = test.starts_at_end && mode::of_friction(test.kind);
+    const bool says_most = test.test == (slip ? Test::duration : Test::speed);
+    return std::pair(std::floor(candidate.second.length / (1e-6 * length)), says_most ? 0 : 1);
   });
   for (auto& [test, located] : candidates) {
     if (!changes_there(problem, from, length, located.length, range)) continue;
@@ -196,6 +242,7 @@ std::optional<Change> find_change(const Problem& problem, const PathPoint& from,
     change.special.what = describe(change.test, from.orbit.shape, problem.base());
     change.special.solution = describe(problem, located.point.orbit, nullptr);
     change.at = std::move(located.point);
+    change.length = located.length;
     return change;
   }
   return std::nullopt;

@@ -13,6 +13,7 @@ namespace slapstick::orbit {
 struct Change {
   SpecialPoint special;
   PathPoint at;
+  double length = 0.0;  ///< from `from` to there
   TestValue test;
 };
 [[nodiscard]] std::optional<Change> find_change(const Problem& problem, const PathPoint& from, const PathPoint& to,

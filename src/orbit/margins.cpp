@@ -76,43 +76,71 @@ struct Least {
   }
 };
 
-/// The zero of the guard's slope between two samples, the slope being negative at the first; by the secant rule, kept within.
-void take_minimum(const Course& course, const mode::Guard& guard, std::size_t i, Least& least) {
-  const mode::Matrix& A = course.mode.outline.system;
-  double a = 0.0, b = course.step, slope_a = guard.row * (A * course.states[i]),
-         slope_b = guard.row * (A * course.states[i + 1]);
-  Jet X(course.states[i].size(), 0, 0);
-  double s = 0.0;
-  for (int k = 0; k < 60; ++k) {
-    s = a + (b - a) * std::clamp(slope_a / (slope_a - slope_b), 0.01, 0.99);
-    X.value() = course.states[i];
-    flow(course.mode, s, X);
-    const double slope = guard.row * (A * VectorXd(X.value()));
-    if (slope == 0.0 || b - a < 1e-14 * std::abs(course.step)) break;
-    (slope < 0.0 ? a : b) = s;
-    (slope < 0.0 ? slope_a : slope_b) = slope;
+/// A sum of a state's components along one step of a course.
+class AlongStep {
+ public:
+  AlongStep(const Course& course, mode::RowVector row, std::size_t i)
+      : course_(course), row_(std::move(row)), start_(course.states[i]) {}
+
+  [[nodiscard]] double at(double s) const {
+    Jet X(start_.size(), 0, 0);
+    X.value() = start_;
+    flow(course_.mode, s, X);
+    return row_.dot(X.value());
   }
-  least.take(guard.row.dot(X.value()), static_cast<double>(i) * course.step + s);
-}
+
+  /// Where it is zero between two places at which its signs differ; by the secant rule, kept within.
+  [[nodiscard]] double zero(double a, double b) const {
+    double f_a = at(a), f_b = at(b), s = a;
+    for (int k = 0; k < 60; ++k) {
+      s = a + (b - a) * std::clamp(f_a / (f_a - f_b), 0.01, 0.99);
+      const double f = at(s);
+      if (f == 0.0 || b - a < 1e-14 * std::abs(course_.step)) break;
+      const bool left = (f < 0.0) == (f_a < 0.0);
+      (left ? a : b) = s;
+      (left ? f_a : f_b) = f;
+    }
+    return s;
+  }
+
+ private:
+  const Course& course_;
+  mode::RowVector row_;
+  const VectorXd& start_;
+};
 
 Least least_value(const Course& course, const mode::Guard& guard, bool with_start, bool with_end) {
   constexpr double clear =
       1e-9;  // of the guard's size in the leg: what is nearer to a zero at the start is its rounding
-  const mode::Matrix& A = course.mode.outline.system;
+  const mode::RowVector slope_row = guard.row * course.mode.outline.system,
+                        bend_row = slope_row * course.mode.outline.system;
   const std::size_t last = course.states.size() - 1;
-  std::vector<double> values;
-  for (const VectorXd& X : course.states) values.push_back(guard.row.dot(X));
+  std::vector<double> values, slopes, bends;
+  for (const VectorXd& X : course.states) {
+    values.push_back(guard.row.dot(X));
+    slopes.push_back(slope_row.dot(X));
+    bends.push_back(bend_row.dot(X));
+  }
   double size = 0.0, highest = 0.0;
   for (const double value : values) size = std::max(size, std::abs(value));
   Least least;
   if (with_start) least.take(values.front(), 0.0);
   if (with_end) least.take(values.back(), static_cast<double>(last) * course.step);
-  double slope = guard.row * (A * course.states[0]);
   for (std::size_t i = 0; i < last; ++i) {
-    const double next = guard.row * (A * course.states[i + 1]);
+    const AlongStep value(course, guard.row, i), slope(course, slope_row, i);
+    const auto take_minimum = [&](double a, double b) {
+      if (!with_start && !(highest > clear * size)) return;
+      const double s = slope.zero(a, b);
+      least.take(value.at(s), static_cast<double>(i) * course.step + s);
+    };
     highest = std::max(highest, values[i]);
-    if (slope < 0.0 && next >= 0.0 && (with_start || highest > clear * size)) take_minimum(course, guard, i, least);
-    slope = next;
+    if (slopes[i] < 0.0 && slopes[i + 1] >= 0.0) take_minimum(0.0, course.step);
+    // A minimum and a maximum in one step: the slope turns back between them.
+    if (slopes[i] * slopes[i + 1] <= 0.0 || bends[i] * bends[i + 1] >= 0.0 || bends[i] * slopes[i] > 0.0) continue;
+    const double turn = AlongStep(course, bend_row, i).zero(0.0, course.step);
+    if (slope.at(turn) * slopes[i] >= 0.0) continue;
+    highest = std::max(highest, value.at(turn));
+    slopes[i] < 0.0 ? take_minimum(0.0, turn) : take_minimum(turn, course.step);
   }
   return least;
 }

@@ -53,6 +53,10 @@ class Follower {
 
  private:
   [[nodiscard]] double value(const PathPoint& point) const { return point.orbit.values[0]; }
+  /// The onset of a chatter is not come nearer to than its equations, of ever more impacts, are solvable.
+  [[nodiscard]] double shortest_step() const {
+    return branch_.points.back().chatter ? std::max(1e-6, options_.shortest_step) : options_.shortest_step;
+  }
   [[nodiscard]] bool inside(double v) const { return v >= options_.from && v <= options_.to; }
   [[nodiscard]] Solution solution_of(const PathPoint& point, Verification* seen) const;
   bool accept(PathPoint& at, PathPoint next, double length);
@@ -61,6 +65,7 @@ class Follower {
   void go_on(PathPoint& at, SpecialPoint special, Reshaped next);
   [[nodiscard]] SpecialPoint onset(const Reshaped& next, const Solution& nearest, bool begins) const;
   bool leave_chatter(PathPoint& at);
+  bool end_cascade(PathPoint& at);
   void look_beside_change(const PathPoint& from, double length);
   void look_for_pairs(const PathPoint& at, const PathPoint& next, double length);
   void add(std::vector<SpecialPoint> smooth, std::size_t after);
@@ -193,11 +198,12 @@ bool Follower::runs_over_itself() {
 /// Between `at` and `beyond` the motion's events change. Notes the point and goes on with new ones. @returns false if the branch ends
 bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why) {
   std::optional<Change> change = find_change(problem_, at, beyond, length, range_);
-  if (!change) {
-    if (length > options_.shortest_step) {
+  if (!change || fades(at.orbit, change->test.leg)) {
+    if (length > shortest_step()) {
       step_ = 0.25 * length;
       return true;
     }
+    if (leave_chatter(at) || end_cascade(at)) return !ended_;
     end("the motion has other events than the orbit behind " + problem_.family().names[0] + " = " + shown(value(at)) +
             " (" + why + ")",
         true);
@@ -281,6 +287,53 @@ bool Follower::leave_chatter(PathPoint& at) {
   return true;
 }
 
+/// Every change of a cascade towards a complete chatter adds an impact, and their places converge like a geometric series: the branch has an end. Where
+/// the impacts have become too short to be followed, its limit by Aitken's rule. Goes on with the chatter beyond. @returns false if this is no cascade
+bool Follower::end_cascade(PathPoint& at) {
+  constexpr std::size_t needed = 5;
+  constexpr double slowest = 0.95, alike = 0.1, near = 0.02;  // of the range, from the last point to the limit
+  if (!options_.through_changes || branch_.points.back().chatter) return false;
+  std::vector<double> places;
+  std::vector<long> impacts;
+  for (const SpecialPoint& special : branch_.special) {
+    if (special.type != SpecialType::GR) continue;
+    places.push_back(special.value);
+    impacts.push_back(branch_.points[special.after].impacts);
+  }
+  if (places.size() < needed) return false;
+  const double* last = places.data() + places.size() - 1;
+  const double ratio = (last[0] - last[-1]) / (last[-1] - last[-2]),
+               before = (last[-1] - last[-2]) / (last[-2] - last[-3]);
+  const long* count = impacts.data() + impacts.size() - 1;
+  const bool one_more = count[0] == count[-1] + 1 && count[-1] == count[-2] + 1 && count[-2] == count[-3] + 1;
+  const auto aitken = [](double v, double step, double q) { return v + step * q / (1.0 - q); };
+  const double limit = aitken(last[0], last[0] - last[-1], ratio),
+               earlier = aitken(last[-1], last[-1] - last[-2], before);
+  if (!one_more || !(ratio > 0.0 && ratio < slowest) || std::abs(ratio - before) > alike ||
+      std::abs(limit - value(at)) > near * range_)
+    return false;
+  SpecialPoint special;
+  special.type = SpecialType::CH;
+  special.value = limit;
+  special.error = std::abs(limit - earlier);
+  special.solution = branch_.points.back();
+  special.what =
+      "infinitely many changes gather, each with an impact more, ratio " + shown(std::round(1e4 * ratio) / 1e4);
+  special.after = branch_.points.size() - 1;
+  std::optional<Reshaped> next = beyond_cascade(problem_, at, limit, range_, options_.stop);
+  const bool retraces = next && lies_on(branch_, next->point.orbit);
+  special.outcome = next ? "persistence" : "the branch ends";
+  branch_.special.push_back(std::move(special));
+  if (!next || retraces) {
+    end(std::string("CH at ") + shown(limit) + ": a cascade, which gathers there", false);
+    return true;
+  }
+  at = std::move(next->point);
+  branch_.points.push_back(solution_of(at, nullptr));
+  step_ = options_.step;
+  return true;
+}
+
 /// .. or goes on with new ones.
 void Follower::go_on(PathPoint& at, SpecialPoint special, Reshaped next) {
   special.outcome = next.folds ? "non-smooth fold" : "persistence";
@@ -344,7 +397,7 @@ void Follower::run(PathPoint at) {
     if (!inside(value(at) + step_ * at.watched.turn * range_)) {
       if (end_at_boundary(at)) return;
       step_ *= 0.5;
-      if (step_ < options_.shortest_step) return end("range", false);
+      if (step_ < shortest_step()) return end("range", false);
       continue;
     }
     int newton = 0;
@@ -353,9 +406,12 @@ void Follower::run(PathPoint at) {
     const double bend = next ? at.tangent.dot(next->tangent) : -1.0;
     if (!next || !inside(value(*next)) || (bend < straight && step_ > 1e-4)) {
       step_ *= 0.5;
-      if (step_ < options_.shortest_step && leave_chatter(at)) continue;
-      if (step_ < options_.shortest_step)
+      if (step_ < shortest_step() && (leave_chatter(at) || end_cascade(at))) continue;
+      if (step_ < shortest_step()) {
+        if (branch_.points.back().chatter)
+          why += "; the onset of the chatter may be near, and no orbit was found beyond";
         return end("behind " + problem_.family().names[0] + " = " + shown(value(at)) + ": " + why, true);
+      }
       continue;
     }
     const double taken = step_;

@@ -144,6 +144,21 @@ std::optional<Orbit> record(const Motion& start, int n, const std::atomic<bool>*
   return orbit_of(events, best, n);
 }
 
+bool in_burst(const Orbit& orbit, std::size_t leg) {
+  for (std::size_t i = 0; i < orbit.legs(); ++i) {
+    const Leg& next = orbit.shape.legs[(leg + i) % orbit.legs()];
+    if (next.ending == Ending::chatter) return true;
+    if (next.ending == Ending::cut || (next.kind != mode::GuardKind::gap && next.kind != mode::GuardKind::slip))
+      return false;
+  }
+  return false;
+}
+
+bool fades(const Orbit& orbit, std::size_t leg) {
+  constexpr double short_flight = 1e-6;  // of a cycle
+  return in_burst(orbit, leg) && orbit.duration(leg) < short_flight * (orbit.t.back() - orbit.t.front());
+}
+
 namespace {
 
 /// A motion from the middle of a leg.
@@ -159,17 +174,6 @@ std::string mismatch(const System& system, std::size_t i, const Leg* seen, const
     return leg == nullptr ? "nothing" : std::string(name(leg->event)) + " " + system.contact_name(leg->event_contact);
   };
   return "event " + std::to_string(i + 1) + ": " + called(seen) + " where the orbit has " + called(wanted);
-}
-
-/// Do impacts of one stop, and slips between them, lead from this leg to a chatter's sum? How many are flown one by one does not matter.
-bool in_burst(const Orbit& orbit, std::size_t leg) {
-  for (std::size_t i = 0; i < orbit.legs(); ++i) {
-    const Leg& next = orbit.shape.legs[(leg + i) % orbit.legs()];
-    if (next.ending == Ending::chatter) return true;
-    if (next.ending == Ending::cut || (next.kind != mode::GuardKind::gap && next.kind != mode::GuardKind::slip))
-      return false;
-  }
-  return false;
 }
 
 /// Legs at which a check begins: those in which least is held, where a state in the user's coordinates loses nothing, and no short flights of a
@@ -275,6 +279,10 @@ Verification verify(const System& system, const Orbit& orbit) {
   Verification result;
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
     if (orbit.duration(i) > 0.0) continue;
+    if (fades(orbit, i)) {
+      result.same_chatter = false;
+      continue;
+    }
     result.why = "leg " + std::to_string(i + 1) + " has no positive duration";
     return result;
   }

@@ -232,8 +232,10 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
   const double sense = std::copysign(1.0, critical - before.values[0]);
   for (const Orbit& shape : coincident(set, before, change.orbit, test))
     add(leaving(problem, change, sense, shape, range));
-  for (double length : {1e-6, 1e-5, 1e-4, 1e-3}) {
-    if (!all.empty()) break;
+  const double longest =
+      chatters(change.orbit) ? 1e-2 : 1e-3;  // near its onset a chatter's equations are hardly solvable
+  for (double length : {1e-6, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2}) {
+    if (!all.empty() || length > longest) break;
     Orbit beyond = change.orbit;  // as it is, where its own equations lead no further
     beyond.values[0] += sense * length * range;
     if (const auto point = step_to(problem, change, length, range)) beyond = point->orbit;
@@ -247,6 +249,32 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
     }
   }
   return all;
+}
+
+std::optional<Reshaped> beyond_cascade(const Problem& problem, const PathPoint& last, double limit, double range,
+                                       const std::atomic<bool>* stop) {
+  constexpr long few = 5;  // a complete chatter forgets what was before it
+  for (const double length : {1e-6, 1e-5, 1e-4, 1e-3}) {
+    for (const double side : {1.0, -1.0}) {
+      try {
+        std::vector<double> values = last.orbit.values;
+        values[0] = limit + side * length * range;
+        const auto there = pose(problem.family(), values);
+        const ModeSet set(constant_family(there->base().model()), {});
+        const std::optional<Motion> motion =
+            motion_from(there->base(), set, last.orbit, freest_leg(set, last.orbit), 0.5);
+        if (!motion) continue;
+        const auto settled = settle(*there, *motion, few, last.orbit.shape.n, stop);
+        if (!settled || !settled->chatter || !resembles(settled->orbit, last.orbit, 0.1)) continue;
+        Reshaped next{point_of(problem, settled->orbit, range, {}), false, false, std::minmax(limit, values[0]), 0.0};
+        if (next.point.watched.turn * side < 0.0) next.point = reversed(std::move(next.point));
+        return next;
+      } catch (const InputError&) {
+      } catch (const NumericalError&) {
+      }
+    }
+  }
+  return std::nullopt;
 }
 
 namespace {

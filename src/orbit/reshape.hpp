@@ -20,6 +20,11 @@ struct Reshaped {
 [[nodiscard]] std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const PathPoint& change,
                                             const TestValue& test, double range, const std::atomic<bool>* stop);
 
+/// The orbit with a complete chatter beyond a cascade, whose every change adds an impact.
+/// @param last  a point of the branch near the end of the cascade  @param limit  the value of the parameter where the changes gather
+[[nodiscard]] std::optional<Reshaped> beyond_cascade(const Problem& problem, const PathPoint& last, double limit,
+                                                     double range, const std::atomic<bool>* stop);
+
 /// What the motion does just behind a change of a stable orbit, by running it.
 struct Behind {
   std::string

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
+#include "orbit/hidden.hpp"
 #include "orbit/lies_on.hpp"
 #include "orbit/normal_form.hpp"
+#include "orbit/onset.hpp"
 #include "orbit/path.hpp"
 #include "orbit/record.hpp"
 #include "orbit/reshape.hpp"
@@ -21,27 +24,6 @@ using Eigen::VectorXd;
 
 constexpr double shortest_for_pairs = 1e-4;  ///< arclength that may hold two special points of one type
 constexpr double straight = 0.95;            ///< least cosine between the tangents of neighbouring points
-
-int outside(const Watched& watched) {
-  constexpr double clear = 1e-7;  // of the circle: what lies on it all along is nothing that passes
-  return static_cast<int>(
-      std::ranges::count_if(watched.multipliers, [](const auto& mu) { return std::abs(mu) > 1.0 + clear; }));
-}
-
-/// Do the special points between two points of a branch account for the multipliers that have passed the unit circle? Where a pair of special
-/// points of one type lies between them, their test functions show nothing.
-bool explained(const Watched& from, const Watched& to, const std::vector<SpecialPoint>& between) {
-  int most = 0;
-  for (const SpecialPoint& special : between) most += special.type == SpecialType::NS ? 2 : 1;
-  return std::abs(outside(to) - outside(from)) <= most;
-}
-
-/// Is a leg's length less than this part of what it was?
-bool shrinks(const Orbit& from, const Orbit& to, double part) {
-  for (std::size_t i = 0; i < from.legs(); ++i)
-    if (to.duration(i) < part * from.duration(i)) return true;
-  return false;
-}
 
 /// Follows one direction from a point.
 class Follower {
@@ -63,10 +45,11 @@ class Follower {
   bool change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why);
   void end_at(SpecialPoint special, const std::string& left, bool shorter, bool retraces);
   void go_on(PathPoint& at, SpecialPoint special, Reshaped next);
-  [[nodiscard]] SpecialPoint onset(const Reshaped& next, const Solution& nearest, bool begins) const;
   bool leave_chatter(PathPoint& at);
   bool end_cascade(PathPoint& at);
-  void look_beside_change(const PathPoint& from, double length);
+  bool turn_round(PathPoint& at);
+  void add_onset(SpecialPoint special, const std::string& outcome);
+  void restart(PathPoint& at, PathPoint from);
   void look_for_pairs(const PathPoint& at, const PathPoint& next, double length);
   void add(std::vector<SpecialPoint> smooth, std::size_t after);
   bool end_at_boundary(PathPoint& at);
@@ -82,6 +65,12 @@ class Follower {
     double length;  ///< from there to the next one
   };
   std::optional<Before> before_;
+  /// The first point behind the onset of a chatter, in the other direction, and what the branch had then.
+  struct Onset {
+    PathPoint other_way;
+    std::size_t points, special;
+  };
+  std::optional<Onset> onset_;
   double step_ = 0.0;
   int old_points_ = 0;  ///< latest points that lie on the branch as it was followed before
   bool ended_ = false;
@@ -104,39 +93,10 @@ Solution Follower::solution_of(const PathPoint& point, Verification* seen) const
   return solution;
 }
 
-/// A test function that comes near zero and turns back may have passed it twice. Looks at the vertex of the parabola through three neighbouring points.
 void Follower::look_for_pairs(const PathPoint& at, const PathPoint& next, double length) {
-  constexpr std::array<double Watched::*, 3> functions = {&Watched::flip, &Watched::torus, &Watched::turn};
   if (!before_ || !(before_->point.orbit.shape.legs == next.orbit.shape.legs)) return;
-  const double back = before_->length;
-  for (const auto f : functions) {
-    const double a = before_->point.watched.*f, b = at.watched.*f, c = next.watched.*f;
-    if (!(a * b > 0.0 && b * c > 0.0 && std::abs(b) <= std::abs(a) && std::abs(b) <= std::abs(c))) continue;
-    const double left = (b - a) / back, right = (c - b) / length, bend = 2.0 * (right - left) / (back + length);
-    const double slope = (left * length + right * back) / (back + length), vertex = -slope / bend;
-    if (!(std::abs(vertex) > 0.0)) continue;
-    const bool earlier = vertex < 0.0;
-    const PathPoint& from = earlier ? before_->point : at;
-    const PathPoint& to = earlier ? at : next;
-    const double whole = earlier ? back : length, part = earlier ? back + vertex : vertex;
-    const std::optional<PathPoint> middle = step_to(problem_, from, part, range_);
-    if (!middle || !(middle->watched.*f * b < 0.0)) continue;
-    const std::size_t after = branch_.points.size() - (earlier ? 2 : 1);
-    add(smooth_special_points(problem_, from, *middle, part, range_), after);
-    add(smooth_special_points(problem_, *middle, to, whole - part, range_), after);
-    return;
-  }
-}
-
-/// Special points between a point of the branch and a change of events at `length` from there. An impact that loses its speed lets a multiplier grow
-/// without bound: one that doubles lies close by. Where a leg shrinks to nothing the equations are singular: not so close.
-void Follower::look_beside_change(const PathPoint& from, double length) {
-  constexpr double nothing = 1e-3;
-  for (const double part : {1.0 - 1e-6, 1.0 - 1e-2}) {
-    const std::optional<PathPoint> last = step_to(problem_, from, part * length, range_);
-    if (!last || shrinks(from.orbit, last->orbit, nothing)) continue;
-    return add(smooth_special_points(problem_, from, *last, part * length, range_), branch_.points.size() - 1);
-  }
+  Pair pair = pair_within(problem_, {before_->point, at, next, before_->length, length}, range_);
+  add(std::move(pair.points), branch_.points.size() - (pair.earlier ? 2 : 1));
 }
 
 /// Notes special points that leave the events as they are. A branch ends where its orbit becomes a shorter one run through twice.
@@ -203,13 +163,13 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
       step_ = 0.25 * length;
       return true;
     }
-    if (leave_chatter(at) || end_cascade(at)) return !ended_;
+    if (leave_chatter(at) || turn_round(at) || end_cascade(at)) return !ended_;
     end("the motion has other events than the orbit behind " + problem_.family().names[0] + " = " + shown(value(at)) +
             " (" + why + ")",
         true);
     return false;
   }
-  look_beside_change(at, change->length);
+  add(beside_change(problem_, at, change->length, range_), branch_.points.size() - 1);
   if (ended_) return false;
   SpecialPoint special = std::move(change->special);
   special.after = branch_.points.size() - 1;
@@ -258,80 +218,73 @@ void Follower::end_at(SpecialPoint special, const std::string& left, bool shorte
   branch_.special.push_back(std::move(special));
 }
 
-/// A complete chatter begins or ends: where infinitely many changes gather.
-SpecialPoint Follower::onset(const Reshaped& next, const Solution& nearest, bool begins) const {
-  SpecialPoint special;
-  special.type = SpecialType::CH;
-  special.value = 0.5 * (next.gathering->first + next.gathering->second);
-  special.error = next.gathering->second - next.gathering->first;
-  special.solution = nearest;
-  special.what =
-      "infinitely many changes gather, " + std::string(begins ? "behind" : "before") + " which is a complete chatter";
-  special.outcome = next.folds ? "non-smooth fold" : "persistence";
-  special.after = branch_.points.size() - 1;
-  return special;
-}
-
-/// Near its onset a chatter's equations are hardly solvable. Looks for the orbits behind the onset. @returns false if there are none
+/// Near its onset a chatter's equations, of ever more impacts, are hardly solvable. Looks for the orbits behind the onset; where none is found, the
+/// branch ends at the onset. @returns false if it is none
 bool Follower::leave_chatter(PathPoint& at) {
   const std::size_t count = branch_.points.size();
   if (!options_.through_changes || count < 2 || !branch_.points.back().chatter) return false;
+  constexpr double clear = 1e-4;  // nearer to the onset impacts are too many and too short to be followed
   const Orbit& before = branch_.points[count - 2].orbit;
-  std::vector<Reshaped> found = reshape(problem_, before, at, TestValue{}, range_, options_.stop);
+  std::vector<Reshaped> found = reshape(problem_, before, at, TestValue{}, range_, options_.stop, clear);
   std::erase_if(found, [](const Reshaped& next) { return !next.gathering || next.folds; });
-  if (found.empty()) return false;
-  branch_.special.push_back(onset(found.front(), branch_.points.back(), false));
-  at = std::move(found.front().point);
-  branch_.points.push_back(solution_of(at, nullptr));
+  if (found.empty() && !chatter_lengthens(branch_)) return false;
+  const double reach = shortest_step() * range_;
+  add_onset(onset({value(at) - reach, value(at) + reach}, branch_.points.back(), false),
+            found.empty() ? "the branch ends" : "persistence");
+  if (!found.empty()) {
+    restart(at, std::move(found.front().point));
+    onset_ = Onset{reversed(at), branch_.points.size(), branch_.special.size()};
+  } else {
+    end("CH at " + shown(value(at)) + ": the complete chatter begins there, from orbits with ever more impacts", false);
+  }
+  return true;
+}
+
+/// Behind the onset of a chatter one direction leads on, the other back towards the onset, through ever more impacts. @returns false if it was not that
+bool Follower::turn_round(PathPoint& at) {
+  constexpr double near = 1e-3;  // of the range
+  if (!onset_ || branch_.points.back().chatter ||
+      std::abs(value(at) - onset_->other_way.orbit.values[0]) > near * range_)
+    return false;
+  at = std::move(onset_->other_way);
+  branch_.points.resize(onset_->points);
+  branch_.special.resize(onset_->special);
+  onset_.reset();
+  before_.reset();
   step_ = options_.step;
   return true;
 }
 
-/// Every change of a cascade towards a complete chatter adds an impact, and their places converge like a geometric series: the branch has an end. Where
-/// the impacts have become too short to be followed, its limit by Aitken's rule. Goes on with the chatter beyond. @returns false if this is no cascade
+/// Where the impacts of a cascade have become too short to be followed: its limit, and the complete chatter beyond.
+/// @returns false if this is no cascade
 bool Follower::end_cascade(PathPoint& at) {
-  constexpr std::size_t needed = 5;
-  constexpr double slowest = 0.95, alike = 0.1, near = 0.02;  // of the range, from the last point to the limit
+  constexpr double near = 0.02;  // of the range, from the last point to the limit
   if (!options_.through_changes || branch_.points.back().chatter) return false;
-  std::vector<double> places;
-  std::vector<long> impacts;
-  for (const SpecialPoint& special : branch_.special) {
-    if (special.type != SpecialType::GR) continue;
-    places.push_back(special.value);
-    impacts.push_back(branch_.points[special.after].impacts);
-  }
-  if (places.size() < needed) return false;
-  const double* last = places.data() + places.size() - 1;
-  const double ratio = (last[0] - last[-1]) / (last[-1] - last[-2]),
-               before = (last[-1] - last[-2]) / (last[-2] - last[-3]);
-  const long* count = impacts.data() + impacts.size() - 1;
-  const bool one_more = count[0] == count[-1] + 1 && count[-1] == count[-2] + 1 && count[-2] == count[-3] + 1;
-  const auto aitken = [](double v, double step, double q) { return v + step * q / (1.0 - q); };
-  const double limit = aitken(last[0], last[0] - last[-1], ratio),
-               earlier = aitken(last[-1], last[-1] - last[-2], before);
-  if (!one_more || !(ratio > 0.0 && ratio < slowest) || std::abs(ratio - before) > alike ||
-      std::abs(limit - value(at)) > near * range_)
-    return false;
-  SpecialPoint special;
-  special.type = SpecialType::CH;
-  special.value = limit;
-  special.error = std::abs(limit - earlier);
-  special.solution = branch_.points.back();
-  special.what =
-      "infinitely many changes gather, each with an impact more, ratio " + shown(std::round(1e4 * ratio) / 1e4);
+  const std::optional<CascadeLimit> limit = cascade_limit(branch_);
+  if (!limit || std::abs(limit->value - value(at)) > near * range_) return false;
+  SpecialPoint special = onset({limit->value, limit->value}, branch_.points.back(), true);
+  special.error = limit->error;
+  special.what += " (a cascade, ratio " + shown(std::round(1e4 * limit->ratio) / 1e4) + ")";
+  std::optional<Reshaped> next = beyond_cascade(problem_, at, limit->value, range_, options_.stop);
+  if (next && lies_on(branch_, next->point.orbit)) next.reset();
+  add_onset(std::move(special), next ? "persistence" : "the branch ends");
+  if (next)
+    restart(at, std::move(next->point));
+  else
+    end("CH at " + shown(limit->value) + ": a cascade, which gathers there", false);
+  return true;
+}
+
+void Follower::add_onset(SpecialPoint special, const std::string& outcome) {
+  special.outcome = outcome;
   special.after = branch_.points.size() - 1;
-  std::optional<Reshaped> next = beyond_cascade(problem_, at, limit, range_, options_.stop);
-  const bool retraces = next && lies_on(branch_, next->point.orbit);
-  special.outcome = next ? "persistence" : "the branch ends";
   branch_.special.push_back(std::move(special));
-  if (!next || retraces) {
-    end(std::string("CH at ") + shown(limit) + ": a cascade, which gathers there", false);
-    return true;
-  }
-  at = std::move(next->point);
+}
+
+void Follower::restart(PathPoint& at, PathPoint from) {
+  at = std::move(from);
   branch_.points.push_back(solution_of(at, nullptr));
   step_ = options_.step;
-  return true;
 }
 
 /// .. or goes on with new ones.
@@ -339,14 +292,15 @@ void Follower::go_on(PathPoint& at, SpecialPoint special, Reshaped next) {
   special.outcome = next.folds ? "non-smooth fold" : "persistence";
   Solution first = solution_of(next.point, nullptr);
   if (next.gathering) {
-    SpecialPoint here = onset(next, special.solution, first.chatter);
-    special.outcome = "one of infinitely many changes";
+    SpecialPoint here = onset(*next.gathering, special.solution, first.chatter);
+    const std::string outcome = std::exchange(special.outcome, "one of infinitely many changes");
     if (first.chatter) branch_.special.push_back(special);
-    branch_.special.push_back(std::move(here));
+    add_onset(std::move(here), outcome);
     if (!first.chatter) branch_.special.push_back(std::move(special));
   } else if (!next.renewed) {
     branch_.special.push_back(std::move(special));
-    if (next.length > 0.0) look_beside_change(reversed(next.point), next.length);
+    if (next.length > 0.0)
+      add(beside_change(problem_, reversed(next.point), next.length, range_), branch_.points.size() - 1);
     if (ended_) return;
   }
   at = std::move(next.point);
@@ -406,7 +360,7 @@ void Follower::run(PathPoint at) {
     const double bend = next ? at.tangent.dot(next->tangent) : -1.0;
     if (!next || !inside(value(*next)) || (bend < straight && step_ > 1e-4)) {
       step_ *= 0.5;
-      if (step_ < shortest_step() && (leave_chatter(at) || end_cascade(at))) continue;
+      if (step_ < shortest_step() && (leave_chatter(at) || turn_round(at) || end_cascade(at))) continue;
       if (step_ < shortest_step()) {
         if (branch_.points.back().chatter)
           why += "; the onset of the chatter may be near, and no orbit was found beyond";
@@ -429,11 +383,6 @@ void Follower::run(PathPoint at) {
 }
 
 }  // namespace
-
-std::string_view name(SpecialType type) {
-  constexpr std::array<std::string_view, 8> names = {"LP", "PD", "NS", "BP", "GR", "SL", "CH", "CO"};
-  return names[static_cast<std::size_t>(type)];
-}
 
 Branch follow(const Problem& problem, const Orbit& start, const ContinuationOptions& options) {
   const double value = start.values.at(0);

@@ -219,7 +219,7 @@ std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, do
 }  // namespace
 
 std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const PathPoint& change,
-                              const TestValue& test, double range, const std::atomic<bool>* stop) {
+                              const TestValue& test, double range, const std::atomic<bool>* stop, double nearest) {
   const double critical = change.orbit.values[0];
   const ModeSet set(problem.family(), change.orbit.values);
   std::vector<Reshaped> all;
@@ -235,6 +235,7 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
   const double longest =
       chatters(change.orbit) ? 1e-2 : 1e-3;  // near its onset a chatter's equations are hardly solvable
   for (double length : {1e-6, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2}) {
+    if (length < nearest) continue;
     if (!all.empty() || length > longest) break;
     Orbit beyond = change.orbit;  // as it is, where its own equations lead no further
     beyond.values[0] += sense * length * range;

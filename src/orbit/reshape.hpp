@@ -16,9 +16,11 @@ struct Reshaped {
 /// @param before  a point of the old branch on the way to
 /// @param change  .. where the events change
 /// @param test    the margin that is used up there
+/// @param nearest  how far from the change the motion is first looked at, of the range
 /// @returns the orbits with the events of the motion beyond whose branches, followed back, come to the change
 [[nodiscard]] std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const PathPoint& change,
-                                            const TestValue& test, double range, const std::atomic<bool>* stop);
+                                            const TestValue& test, double range, const std::atomic<bool>* stop,
+                                            double nearest = 1e-6);
 
 /// The orbit with a complete chatter beyond a cascade, whose every change adds an impact.
 /// @param last  a point of the branch near the end of the cascade  @param limit  the value of the parameter where the changes gather

@@ -263,4 +263,9 @@ double defining(const SpecialPoint& point, const Watched& watched) {
   }
 }
 
+std::string_view name(SpecialType type) {
+  constexpr std::array<std::string_view, 8> names = {"LP", "PD", "NS", "BP", "GR", "SL", "CH", "CO"};
+  return names[static_cast<std::size_t>(type)];
+}
+
 }  // namespace slapstick::orbit

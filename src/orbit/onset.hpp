@@ -1,0 +1,23 @@
+#pragma once
+/// Where a complete chatter begins or ends: infinitely many changes of events, each with an impact more, gather there.
+#include "slapstick/orbit/branch.hpp"
+
+namespace slapstick::orbit {
+
+/// The special point.
+/// @param between  two values of the parameter that it lies between  @param nearest  the orbit  @param begins  the chatter lies behind it
+[[nodiscard]] SpecialPoint onset(std::pair<double, double> between, const Solution& nearest, bool begins);
+
+/// The end of a cascade: the places of its changes converge like a geometric series, whose ratio tends to the coefficient of restitution.
+struct CascadeLimit {
+  double value = 0.0;  ///< by Aitken's rule
+  double error = 0.0;  ///< of it: what the last place has changed
+  double ratio = 0.0;
+};
+/// @returns empty if the last grazes of a branch, as it was followed, are no cascade
+[[nodiscard]] std::optional<CascadeLimit> cascade_limit(const Branch& branch);
+
+/// Has the last stretch of a branch a chatter with so many more impacts than where it began that its onset is near?
+[[nodiscard]] bool chatter_lengthens(const Branch& branch);
+
+}  // namespace slapstick::orbit

@@ -1,0 +1,90 @@
+/// Branches as wholes: the same from either end, and where they end.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "families.hpp"
+
+namespace slapstick::test {
+namespace {
+
+using orbit::SpecialType;
+
+struct Followed {
+  std::string model, parameter;
+  double at;
+  orbit::ContinuationOptions options;
+};
+
+/// A special point that lies in one step with a change of events, or beside a graze where a multiplier grows without bound, must not depend on where
+/// the steps fall. From the other end they fall elsewhere.
+TEST(BranchFromEitherEnd, HasTheSameSpecialPoints) {
+  const std::vector<Followed> cases = {
+      {"impact-oscillator", "omega", 2.0, {.from = 2.0 / 3.0, .to = 6.0}},
+      {"impact-friction-oscillator", "omega", 2.0, {.from = 2.0 / 3.0, .to = 6.0}},
+      {"bilinear-oscillator", "clearance", 0.0, {.from = -1.0, .to = 1.0}},
+      {"gear-pair", "error", 0.05, {.from = 0.02, .to = 0.15}},
+      {"sliding-block", "amplitude", 1.0, {.from = 0.4, .to = 3.0}},
+  };
+  for (const Followed& followed : cases) {
+    const Posed posed(followed.model, {}, {followed.parameter}, {followed.at});
+    const auto first = posed.settled();
+    ASSERT_TRUE(first) << followed.model;
+    const orbit::Branch whole = orbit::follow(*posed.problem, first->orbit, followed.options);
+    EXPECT_FALSE(whole.failed) << followed.model << ": " << whole.ended;
+    ASSERT_FALSE(whole.special.empty()) << followed.model;
+    for (const orbit::Solution* end : {&whole.points.front(), &whole.points.back()}) {
+      const orbit::Branch again = orbit::follow(*posed.problem, end->orbit, followed.options);
+      ASSERT_EQ(again.special.size(), whole.special.size()) << followed.model << " from " << end->orbit.values[0];
+      const auto near = [&](const orbit::SpecialPoint& a) {
+        return std::ranges::any_of(again.special, [&](const orbit::SpecialPoint& b) {
+          return a.type == b.type && std::abs(a.value - b.value) < 1e-9;
+        });
+      };
+      for (const orbit::SpecialPoint& point : whole.special)
+        EXPECT_TRUE(near(point)) << followed.model << " from " << end->orbit.values[0] << ": " << name(point.type)
+                                 << " " << point.value;
+    }
+  }
+}
+
+/// Does a ball that a shaken table has released come to rest before the table releases it again?
+bool comes_to_rest(double restitution, double acceleration) {
+  const Model model = load_model("shaken-table").build({{"restitution", restitution}, {"acceleration", acceleration}});
+  const System system(model);
+  const double release = std::asin(1.0 / acceleration) / (2.0 * std::numbers::pi);
+  Motion motion(system, {0.0, 0.0}, Instant{}.plus(release - 0.05));
+  const Instant again = Instant{}.plus(release + 1.0);
+  while (motion.advance(again) == Outcome::event)
+    if (motion.event().kind == EventKind::chatter) return true;
+  return false;
+}
+
+/// Orbits with ever more impacts, each behind a graze that the branch turns back at, gather where a ball that is released comes to rest just as it is
+/// released again. That place is found by one simulation of one period, and the places' distances shrink by the coefficient of restitution.
+TEST(Cascade, GathersWhereACompleteChatterBegins) {
+  for (const double restitution : {0.5, 0.4}) {
+    const Posed posed("shaken-table", {{"restitution", restitution}}, {"acceleration"}, {1.2});
+    const auto first = posed.settled();
+    ASSERT_TRUE(first);
+    const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 1.02, .to = 2.8});
+    const auto onset = std::ranges::find(branch.special, SpecialType::CH, &orbit::SpecialPoint::type);
+    ASSERT_NE(onset, branch.special.end()) << branch.ended;
+    double rests = onset->value - 0.05, bounces = onset->value + 0.05;
+    ASSERT_TRUE(comes_to_rest(restitution, rests));
+    ASSERT_FALSE(comes_to_rest(restitution, bounces));
+    while (bounces - rests > 1e-10) {
+      const double middle = 0.5 * (rests + bounces);
+      (comes_to_rest(restitution, middle) ? rests : bounces) = middle;
+    }
+    EXPECT_NEAR(onset->value, rests, onset->error) << onset->what;
+    EXPECT_LT(onset->error, 1e-5);
+    EXPECT_EQ(branch.points.front().label, "1-inf-II") << branch.ended;
+    EXPECT_FALSE(branch.failed) << branch.ended;
+  }
+}
+
+}  // namespace
+}  // namespace slapstick::test

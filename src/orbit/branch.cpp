@@ -9,6 +9,7 @@
 #include "orbit/path.hpp"
 #include "orbit/record.hpp"
 #include "orbit/reshape.hpp"
+#include "orbit/same_motion.hpp"
 #include "orbit/special.hpp"
 #include "orbit/two_ways.hpp"
 #include "slapstick/base/error.hpp"
@@ -134,7 +135,8 @@ void Follower::look_beside_change(const PathPoint& from, double length) {
   }
 }
 
-/// Notes special points that leave the events as they are. A branch ends where its orbit becomes a shorter one run through twice.
+/// Notes special points that leave the events as they are. A branch ends where its orbit becomes a shorter one run through twice, or the symmetric
+/// one behind which it has the mirror images of its orbits.
 void Follower::add(std::vector<SpecialPoint> smooth, std::size_t after) {
   constexpr double merged = 1e-3;  // at a fold or crossing that is known to 1e-10 in the parameter, states are to 1e-5
   for (SpecialPoint& special : smooth) {
@@ -149,8 +151,10 @@ void Follower::add(std::vector<SpecialPoint> smooth, std::size_t after) {
       end("meets the orbit of which it is the double at " + shown(special.value), false);
     } else if (special.type != SpecialType::BP)
       special.normal_form = normal_form(problem_, special);
+    if (special.type == SpecialType::BP && images_begin(problem_, branch_.points.back().orbit, special.solution.orbit))
+      end("behind the symmetric orbit at " + shown(special.value) + " are the mirror images of this branch's", false);
     branch_.special.push_back(std::move(special));
-    if (doubling) return;
+    if (ended_) return;
   }
 }
 
@@ -218,7 +222,7 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
     if (there.next) found.push_back(std::move(*there.next));
   }
   const bool shorter = std::ranges::any_of(found, [](const Reshaped& next) { return repeats(next.point.orbit, 1e-6); });
-  const bool retraces = !found.empty() && lies_on(branch_, found.front().point.orbit);
+  const bool retraces = !found.empty() && lies_on_first(branch_.points.size(), branch_, found.front().point.orbit);
   if (found.empty() || shorter || retraces) {
     end_at(std::move(special), left, shorter, retraces);
     return false;

@@ -193,8 +193,7 @@ std::vector<TestValue> test_values(const ModeSet& set, const Orbit& orbit) {
                      starts_at_end});
     }
     if (leg.ending != Ending::cut)
-      all.push_back(
-          {Test::duration, i, leg.kind, leg.contact, orbit.duration(i), orbit.duration(i), starts_at_end});
+      all.push_back({Test::duration, i, leg.kind, leg.contact, orbit.duration(i), orbit.duration(i), starts_at_end});
     if (passes_without_stick(orbit, i))
       all.push_back({Test::no_stick, i, leg.kind, leg.contact, beyond_stick(set, orbit, i, course.states.back()),
                      orbit.duration(i)});

@@ -81,6 +81,14 @@ def test_a_table_has_sensitivities_and_the_classes_around_a_change():
     says(good(*words, '--table'), '1-1-I -> 1-1-II; persistence; d omega / d friction = %.5g' % number(special[special.index('"sensitivity"'):], 'friction'))
 
 
+def test_a_broken_symmetry_is_followed_once():
+    text = good('continue', 'two-sided-rattle', '--set', 'omega=1.6', '--param', 'omega', '--range', '1.2:1.7', '--branches', '3', '--table')
+    says(text, "a symmetry breaks: the crossing branch's sides are mirror images", 'behind the symmetric orbit at 1.47422312')
+    branches = [[line.split()[3] for line in part.splitlines() if ' GR ' in line] for part in text.split(' points; ')[1:]]
+    places = [tuple(sorted(branch)) for branch in branches if branch]
+    assert places and len(set(places)) == len(places), places
+
+
 def points_drawn(*words):
     """The first column of the picture's data that is no line's: x of the cloud, then y."""
     good('continue', *words, '--table', '--out', 't.txt', '--plot', 'b.png')

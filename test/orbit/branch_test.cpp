@@ -223,6 +223,15 @@ TEST(Search, FindsStableAndUnstableOrbits) {
   EXPECT_NE(all.find("2-2-I stable"), std::string::npos) << all;
 }
 
+/// How many of a chatter's impacts are legs of an orbit depends on where a motion was recorded: it is one motion all the same, also run through twice.
+TEST(Search, ListsAChatteringOrbitOnce) {
+  const Posed posed("vibro-impact", {{"omega", 0.5}}, {}, {});
+  const auto found =
+      orbit::search(*posed.problem, posed.system, posed.start(), {.most_n = 2, .starts = 3, .periods = 60});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found.front().label, "1-inf-II");
+}
+
 /// A complete chatter: infinitely many impacts, some thirty of them flown, the rest summed; still one isolated orbit with exact multipliers.
 TEST(Orbit, OfCompleteChatterIsSolved) {
   const Posed posed("vibro-impact", {{"omega", 0.55}}, {}, {});

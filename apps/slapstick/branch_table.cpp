@@ -102,11 +102,17 @@ class Descent {
   void follow(const orbit::Orbit& start, std::string& what) {
     if (start.values[0] < how_.from || start.values[0] > how_.to || known(start, what)) return;
     orbit::Branch branch = orbit::follow(problem_, start, how_);
-    const orbit::Orbit& inner = branch.points[branch.points.size() / 2].orbit;  // away from where branches meet
-    if (!known(inner, what)) branches_.push_back(std::move(branch));
+    if (!known(typical(branch), what)) branches_.push_back(std::move(branch));
   }
 
  private:
+  /// The orbit that Newton's method knows best: the most stable one, away from where branches meet.
+  static const orbit::Orbit& typical(const orbit::Branch& branch) {
+    const auto largest = [](const orbit::Solution& point) {
+      return point.multipliers.empty() ? 0.0 : std::abs(point.multipliers.front());
+    };
+    return std::ranges::min_element(branch.points, {}, largest)->orbit;
+  }
   /// Of a mirror image it is said.
   bool known(const orbit::Orbit& orbit, std::string& what) const {
     for (std::size_t b = 0; b < branches_.size(); ++b) {

@@ -37,22 +37,29 @@ bool lies_on_first(std::size_t count, const Branch& branch, const Orbit& orbit) 
 
 namespace {
 
-/// A branch's own orbit at a value of the parameter, by Newton's method from between two neighbouring points, or from the nearer one where the events
-/// change between them.
-std::optional<Orbit> orbit_at(const Problem& problem, const Orbit& a, const Orbit& b, double value) {
+/// A branch's own orbits at a value of the parameter, by Newton's method from between two neighbouring points; from both where the events change between
+/// them.
+std::vector<Orbit> orbits_at(const Problem& problem, const Orbit& a, const Orbit& b, double value) {
   constexpr double beyond = 0.1;  // of a step: where two orbits meet, neither is quite between the other's points
   const double part = (value - a.values[0]) / (b.values[0] - a.values[0]);
-  if (!(part >= -beyond && part <= 1.0 + beyond)) return std::nullopt;
-  Orbit guess = part < 0.5 ? a : b;
-  guess.values[0] = value;
+  if (!(part >= -beyond && part <= 1.0 + beyond)) return {};
+  std::vector<Orbit> guesses = {a};
   const bool same_events = a.shape.legs == b.shape.legs;
   if (same_events) {
+    Orbit& guess = guesses[0];
     for (std::size_t i = 0; i < a.legs(); ++i) guess.x[i] = (1.0 - part) * a.x[i] + part * b.x[i];
     for (std::size_t i = 0; i <= a.legs(); ++i) guess.t[i] = (1.0 - part) * a.t[i] + part * b.t[i];
+  } else {
+    guesses.push_back(b);
   }
-  std::optional<Orbit> orbit = refine(problem, guess);
   const bool inside = same_events && part >= 0.0 && part <= 1.0;
-  return orbit && (inside || is_motion(problem, *orbit)) ? orbit : std::nullopt;
+  std::vector<Orbit> found;
+  for (Orbit& guess : guesses) {
+    guess.values[0] = value;
+    const std::optional<Orbit> orbit = refine(problem, guess);
+    if (orbit && (inside || is_motion(problem, *orbit))) found.push_back(*orbit);
+  }
+  return found;
 }
 
 using Distance = double (*)(const Problem& problem, const Orbit& a, const Orbit& b);
@@ -63,8 +70,9 @@ bool meets(const Problem& problem, const Branch& branch, const Orbit& orbit, Dis
     const Orbit &a = branch.points[i].orbit, &b = branch.points[i + 1].orbit;
     if (a.shape.n != orbit.shape.n) continue;
     if (orbit.shape.n == 0 && between(a, b, orbit)) return true;
-    const std::optional<Orbit> own = orbit_at(problem, a, b, orbit.values[0]);
-    if (own && distance(problem, orbit, *own) < same) return true;
+    const std::vector<Orbit> own = orbits_at(problem, a, b, orbit.values[0]);
+    if (std::ranges::any_of(own, [&](const Orbit& other) { return distance(problem, orbit, other) < same; }))
+      return true;
   }
   return false;
 }

@@ -166,6 +166,21 @@ TEST(Symmetry, ImageIsTheMotionFromTheReversedState) {
   EXPECT_FALSE(orbit::image_lies_on(*posed.problem, branch, first->orbit));
 }
 
+/// A branch that goes on to its own images comes back over itself: every place on it is listed once.
+TEST(Symmetry, LeadsABranchOverNoPlaceTwice) {
+  const Posed posed("two-sided-rattle", {}, {"omega"}, {1.5});
+  const auto first = posed.settled(1);
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.3, .to = 4.0});
+  std::vector<double> places;
+  for (const orbit::SpecialPoint& point : branch.special)
+    if (point.type != orbit::SpecialType::BP) places.push_back(point.value);
+  ASSERT_GT(places.size(), 10U);
+  std::ranges::sort(places);
+  const auto twice = std::ranges::adjacent_find(places, [](double a, double b) { return b - a < 1e-7; });
+  EXPECT_EQ(twice, places.end()) << branch.ended;
+}
+
 /// A load, or walls that are not about the middle of the spring, leave no image; a middle elsewhere does.
 TEST(Symmetry, IsTheModelsAboutAnyPoint) {
   const auto is_own_image = [](double load, double upper, double lower) {

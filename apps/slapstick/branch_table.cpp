@@ -63,8 +63,7 @@ std::string head(const std::string& parameter) {
 
 std::optional<std::pair<std::string, std::string>> classes_around(const orbit::Branch& branch,
                                                                   const orbit::SpecialPoint& special) {
-  const bool goes_on = special.outcome == "persistence" || special.outcome == "non-smooth fold" ||
-                       special.outcome == "one of infinitely many changes";
+  const bool goes_on = special.outcome == "persistence" || special.outcome == "non-smooth fold";
   if (!goes_on || special.after + 1 >= branch.points.size()) return std::nullopt;
   return std::pair(branch.points[special.after].label, branch.points[special.after + 1].label);
 }

@@ -60,7 +60,7 @@ class Follower {
   bool change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why);
   void end_at(SpecialPoint special, const std::string& left, bool shorter, bool retraces);
   void go_on(PathPoint& at, SpecialPoint special, Reshaped next);
-  [[nodiscard]] SpecialPoint onset(const Reshaped& next, const Solution& nearest, bool begins) const;
+  [[nodiscard]] SpecialPoint onset(const Reshaped& next, const Solution& nearest) const;
   bool leave_chatter(PathPoint& at);
   void look_beside_change(const PathPoint& from, double length);
   void look_for_pairs(const PathPoint& at, const PathPoint& next, double length);
@@ -257,14 +257,13 @@ void Follower::end_at(SpecialPoint special, const std::string& left, bool shorte
 }
 
 /// A complete chatter begins or ends: where infinitely many changes gather.
-SpecialPoint Follower::onset(const Reshaped& next, const Solution& nearest, bool begins) const {
+SpecialPoint Follower::onset(const Reshaped& next, const Solution& nearest) const {
   SpecialPoint special;
   special.type = SpecialType::CH;
   special.value = 0.5 * (next.gathering->first + next.gathering->second);
   special.error = next.gathering->second - next.gathering->first;
   special.solution = nearest;
-  special.what =
-      "infinitely many changes gather, " + std::string(begins ? "behind" : "before") + " which is a complete chatter";
+  special.what = "infinitely many changes gather at the onset of a complete chatter";
   special.outcome = next.folds ? "non-smooth fold" : "persistence";
   special.after = branch_.points.size() - 1;
   return special;
@@ -278,7 +277,7 @@ bool Follower::leave_chatter(PathPoint& at) {
   std::vector<Reshaped> found = reshape(problem_, before, at, TestValue{}, range_, options_.stop);
   std::erase_if(found, [](const Reshaped& next) { return !next.gathering || next.folds; });
   if (found.empty()) return false;
-  branch_.special.push_back(onset(found.front(), branch_.points.back(), false));
+  branch_.special.push_back(onset(found.front(), branch_.points.back()));
   at = std::move(found.front().point);
   branch_.points.push_back(solution_of(at, nullptr));
   step_ = options_.step;
@@ -290,7 +289,7 @@ void Follower::go_on(PathPoint& at, SpecialPoint special, Reshaped next) {
   special.outcome = next.folds ? "non-smooth fold" : "persistence";
   Solution first = solution_of(next.point, nullptr);
   if (next.gathering) {
-    SpecialPoint here = onset(next, special.solution, first.chatter);
+    SpecialPoint here = onset(next, special.solution);
     special.outcome = "one of infinitely many changes";
     if (first.chatter) branch_.special.push_back(special);
     branch_.special.push_back(std::move(here));

@@ -104,9 +104,11 @@ void add_lines(figure::Panel& panel, const orbit::Branch& branch, figure::Colour
   lines.flush();
 }
 
-/// Vertical lines, with names above the frame. Of several of one type that nearly coincide one is named; the more there are, the farther that reaches.
+/// Vertical lines, with names above the frame: one for all points that the eye cannot tell apart. Of several of one type that nearly coincide one is named;
+/// the more there are, the farther that reaches.
 void add_marks(figure::Panel& panel, std::vector<std::pair<double, std::string>> specials) {
   constexpr std::size_t most = 16;
+  constexpr double line = 0.004;  // of the width
   std::ranges::sort(specials);
   const double width = specials.empty() ? 0.0 : specials.back().first - specials.front().first;
   for (double beside = 0.02; beside < 1.0; beside *= 1.5) {
@@ -114,10 +116,11 @@ void add_marks(figure::Panel& panel, std::vector<std::pair<double, std::string>>
     std::vector<figure::Mark> marks;
     std::size_t named = 0;
     for (const auto& [x, type] : specials) {
+      if (marks.empty() || x - *marks.back().x > line * width) marks.push_back({.x = x});
       const auto seen = last.find(type);
-      const bool taken = seen != last.end() && x - seen->second < beside * width;
-      marks.push_back({.x = x, .label = taken ? "" : type});
-      if (taken) continue;
+      if (seen != last.end() && x - seen->second < beside * width) continue;
+      std::string& label = marks.back().label;
+      label += (label.empty() ? "" : " ") + type;
       last[type] = x;
       ++named;
     }

@@ -63,8 +63,7 @@ std::string head(const std::string& parameter) {
 
 std::optional<std::pair<std::string, std::string>> classes_around(const orbit::Branch& branch,
                                                                   const orbit::SpecialPoint& special) {
-  const bool goes_on = special.outcome == "persistence" || special.outcome == "non-smooth fold" ||
-                       special.outcome == "one of infinitely many changes";
+  const bool goes_on = special.outcome == "persistence" || special.outcome == "non-smooth fold";
   if (!goes_on || special.after + 1 >= branch.points.size()) return std::nullopt;
   return std::pair(branch.points[special.after].label, branch.points[special.after + 1].label);
 }
@@ -91,18 +90,56 @@ std::string branch_table(const std::vector<orbit::Branch>& branches, const std::
   return text;
 }
 
+namespace {
+
+/// Follows what is born at special points, each branch once, and one of each two that are mirror images.
+class Descent {
+ public:
+  Descent(const orbit::Problem& problem, std::vector<orbit::Branch>& branches, const orbit::ContinuationOptions& how)
+      : problem_(problem), branches_(branches), how_(how) {}
+
+  void follow(const orbit::Orbit& start, std::string& what) {
+    if (start.values[0] < how_.from || start.values[0] > how_.to || known(start, what)) return;
+    orbit::Branch branch = orbit::follow(problem_, start, how_);
+    if (!known(typical(branch), what)) branches_.push_back(std::move(branch));
+  }
+
+ private:
+  /// The orbit that Newton's method knows best: the most stable one, away from where branches meet.
+  static const orbit::Orbit& typical(const orbit::Branch& branch) {
+    const auto largest = [](const orbit::Solution& point) {
+      return point.multipliers.empty() ? 0.0 : std::abs(point.multipliers.front());
+    };
+    return std::ranges::min_element(branch.points, {}, largest)->orbit;
+  }
+  /// Of a mirror image it is said.
+  bool known(const orbit::Orbit& orbit, std::string& what) const {
+    for (std::size_t b = 0; b < branches_.size(); ++b) {
+      if (orbit::lies_on(problem_, branches_[b], orbit)) return true;
+      if (!orbit::image_lies_on(problem_, branches_[b], orbit)) continue;
+      what += ", the mirror image of branch " + std::to_string(b + 1) + " is born";
+      return true;
+    }
+    return false;
+  }
+
+  const orbit::Problem& problem_;
+  std::vector<orbit::Branch>& branches_;
+  const orbit::ContinuationOptions& how_;
+};
+
+}  // namespace
+
 void follow_born(const orbit::Problem& problem, std::vector<orbit::Branch>& branches, std::size_t most,
                  const orbit::ContinuationOptions& how) {
+  Descent descent(problem, branches, how);
   for (std::size_t b = 0; b < branches.size(); ++b) {
-    const std::vector<orbit::SpecialPoint> specials = branches[b].special;
-    for (const orbit::SpecialPoint& special : specials) {
-      for (const orbit::Orbit& start : special.born) {
-        if (branches.size() >= most) return;
-        const bool known =
-            std::ranges::any_of(branches, [&](const orbit::Branch& branch) { return orbit::lies_on(branch, start); });
-        if (known || start.values[0] < how.from || start.values[0] > how.to) continue;
-        branches.push_back(orbit::follow(problem, start, how));
-      }
+    for (std::size_t k = 0; k < branches[b].special.size(); ++k) {
+      const std::vector<orbit::Orbit> born = branches[b].special[k].born;
+      std::string what;
+      for (const orbit::Orbit& start : born)
+        if (branches.size() < most) descent.follow(start, what);
+      branches[b].special[k].what += what;
     }
   }
 }

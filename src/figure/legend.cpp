@@ -36,11 +36,16 @@ class Crowd {
  public:
   Crowd(const PanelLayout& layout, Share share) : layout_(layout), share_(share) {}
 
-  void point(double x, double y) {
-    const double across = layout_.x.place(x), up = layout_.y.place(y);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const double from_side = corners[i].right ? 1 - across : across, from_end = corners[i].top ? 1 - up : up;
-      if (from_side >= 0 && from_side <= share_.across && from_end >= 0 && from_end <= share_.up) ++inside_[i];
+  void point(double x, double y) { place(layout_.x.place(x), layout_.y.place(y)); }
+
+  /// Of a mark what is drawn over the legend: lines through the whole frame, and labels.
+  void mark(const Mark& mark) {
+    constexpr int samples = 64;
+    if (mark.x_end || (!mark.x && !mark.y)) return;
+    if (mark.x && mark.y) return point(*mark.x, *mark.y);
+    for (int k = 0; k <= samples; ++k) {
+      const double f = static_cast<double>(k) / samples;
+      mark.x ? place(layout_.x.place(*mark.x), f) : place(f, layout_.y.place(*mark.y));
     }
   }
 
@@ -59,6 +64,14 @@ class Crowd {
   }
 
  private:
+  /// A place as shares of the frame.
+  void place(double across, double up) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const double from_side = corners[i].right ? 1 - across : across, from_end = corners[i].top ? 1 - up : up;
+      if (from_side >= 0 && from_side <= share_.across && from_end >= 0 && from_end <= share_.up) ++inside_[i];
+    }
+  }
+
   const PanelLayout& layout_;
   Share share_;
   std::array<long, 4> inside_{};
@@ -92,8 +105,7 @@ Legend place_legend(const Panel& panel, const PanelLayout& layout, double em_cm)
   for (const auto& points : panel.points)
     for (std::size_t i = 0; i < points.x.size(); ++i) crowd.point(points.x[i], points.y[i]);
   for (const auto& line : panel.lines) crowd.line(line);
-  for (const auto& mark : panel.marks)
-    if (mark.x && mark.y && !mark.x_end) crowd.point(*mark.x, *mark.y);
+  for (const auto& mark : panel.marks) crowd.mark(mark);
   return crowd.free_corner();
 }
 

@@ -12,6 +12,7 @@
 #include "orbit/path.hpp"
 #include "orbit/record.hpp"
 #include "orbit/reshape.hpp"
+#include "orbit/same_motion.hpp"
 #include "orbit/special.hpp"
 #include "orbit/two_ways.hpp"
 #include "slapstick/base/error.hpp"
@@ -99,7 +100,8 @@ void Follower::look_for_pairs(const PathPoint& at, const PathPoint& next, double
   add(std::move(pair.points), branch_.points.size() - (pair.earlier ? 2 : 1));
 }
 
-/// Notes special points that leave the events as they are. A branch ends where its orbit becomes a shorter one run through twice.
+/// Notes special points that leave the events as they are. A branch ends where its orbit becomes a shorter one run through twice, or the symmetric
+/// one behind which it has the mirror images of its orbits.
 void Follower::add(std::vector<SpecialPoint> smooth, std::size_t after) {
   constexpr double merged = 1e-3;  // at a fold or crossing that is known to 1e-10 in the parameter, states are to 1e-5
   for (SpecialPoint& special : smooth) {
@@ -114,8 +116,10 @@ void Follower::add(std::vector<SpecialPoint> smooth, std::size_t after) {
       end("meets the orbit of which it is the double at " + shown(special.value), false);
     } else if (special.type != SpecialType::BP)
       special.normal_form = normal_form(problem_, special);
+    if (special.type == SpecialType::BP && images_begin(problem_, branch_.points.back().orbit, special.solution.orbit))
+      end("behind the symmetric orbit at " + shown(special.value) + " are the mirror images of this branch's", false);
     branch_.special.push_back(std::move(special));
-    if (doubling) return;
+    if (ended_) return;
   }
 }
 
@@ -184,7 +188,7 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
     if (there.next) found.push_back(std::move(*there.next));
   }
   const bool shorter = std::ranges::any_of(found, [](const Reshaped& next) { return repeats(next.point.orbit, 1e-6); });
-  const bool retraces = !found.empty() && lies_on(branch_, found.front().point.orbit);
+  const bool retraces = !found.empty() && lies_on_first(branch_.points.size(), branch_, found.front().point.orbit);
   if (found.empty() || shorter || retraces) {
     end_at(std::move(special), left, shorter, retraces);
     return false;
@@ -229,7 +233,7 @@ bool Follower::leave_chatter(PathPoint& at) {
   std::erase_if(found, [](const Reshaped& next) { return !next.gathering || next.folds; });
   if (found.empty() && !chatter_lengthens(branch_)) return false;
   const double reach = shortest_step() * range_;
-  add_onset(onset({value(at) - reach, value(at) + reach}, branch_.points.back(), false),
+  add_onset(onset({value(at) - reach, value(at) + reach}, branch_.points.back()),
             found.empty() ? "the branch ends" : "persistence");
   if (!found.empty()) {
     restart(at, std::move(found.front().point));
@@ -262,7 +266,7 @@ bool Follower::end_cascade(PathPoint& at) {
   if (!options_.through_changes || branch_.points.back().chatter) return false;
   const std::optional<CascadeLimit> limit = cascade_limit(branch_);
   if (!limit || std::abs(limit->value - value(at)) > near * range_) return false;
-  SpecialPoint special = onset({limit->value, limit->value}, branch_.points.back(), true);
+  SpecialPoint special = onset({limit->value, limit->value}, branch_.points.back());
   special.error = limit->error;
   special.what += " (a cascade, ratio " + shown(std::round(1e4 * limit->ratio) / 1e4) + ")";
   std::optional<Reshaped> next = beyond_cascade(problem_, at, limit->value, range_, options_.stop);
@@ -292,7 +296,7 @@ void Follower::go_on(PathPoint& at, SpecialPoint special, Reshaped next) {
   special.outcome = next.folds ? "non-smooth fold" : "persistence";
   Solution first = solution_of(next.point, nullptr);
   if (next.gathering) {
-    SpecialPoint here = onset(*next.gathering, special.solution, first.chatter);
+    SpecialPoint here = onset(*next.gathering, special.solution);
     const std::string outcome = std::exchange(special.outcome, "one of infinitely many changes");
     if (first.chatter) branch_.special.push_back(special);
     add_onset(std::move(here), outcome);

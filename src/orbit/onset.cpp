@@ -5,14 +5,13 @@
 
 namespace slapstick::orbit {
 
-SpecialPoint onset(std::pair<double, double> between, const Solution& nearest, bool begins) {
+SpecialPoint onset(std::pair<double, double> between, const Solution& nearest) {
   SpecialPoint special;
   special.type = SpecialType::CH;
   special.value = 0.5 * (between.first + between.second);
   special.error = std::abs(between.second - between.first);
   special.solution = nearest;
-  special.what =
-      "infinitely many changes gather, " + std::string(begins ? "behind" : "before") + " which is a complete chatter";
+  special.what = "infinitely many changes gather at the onset of a complete chatter";
   return special;
 }
 

@@ -5,8 +5,8 @@
 namespace slapstick::orbit {
 
 /// The special point.
-/// @param between  two values of the parameter that it lies between  @param nearest  the orbit  @param begins  the chatter lies behind it
-[[nodiscard]] SpecialPoint onset(std::pair<double, double> between, const Solution& nearest, bool begins);
+/// @param between  two values of the parameter that it lies between  @param nearest  the orbit
+[[nodiscard]] SpecialPoint onset(std::pair<double, double> between, const Solution& nearest);
 
 /// The end of a cascade: the places of its changes converge like a geometric series, whose ratio tends to the coefficient of restitution.
 struct CascadeLimit {

@@ -5,6 +5,7 @@
 #include "attractor/cycle.hpp"
 #include "orbit/path.hpp"
 #include "orbit/record.hpp"
+#include "orbit/same_motion.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/orbit/periodic_orbit.hpp"
 
@@ -19,19 +20,31 @@ constexpr double settled = 1e-3;      ///< relative distance of a motion from th
 constexpr int longest_cycle = 64;
 constexpr int from_one_guess = 4;  ///< orbits at most
 
-/// Is it one of these, perhaps begun at another event, or in another period?
-bool known(const std::vector<Orbit>& found, const Orbit& orbit) {
-  return std::ranges::any_of(found, [&](const Orbit& other) {
-    if (other.legs() != orbit.legs() || other.shape.n != orbit.shape.n) return false;
-    for (std::size_t shift = 0; shift < orbit.legs(); ++shift) {
-      const VectorXd& a = orbit.x[0];
-      const VectorXd& b = other.x[shift];
-      if ((a - b).norm() > same_orbit * std::max(a.norm(), b.norm())) continue;
-      const double turns = orbit.t[0] - other.t[shift];
-      if (orbit.shape.n == 0 || std::abs(turns - std::round(turns)) < same_orbit) return true;
-    }
-    return false;
-  });
+/// Do two cycles have the same legs, begun at another event or in another period?
+bool same_legs(const Orbit& a, const Orbit& b) {
+  if (a.legs() != b.legs()) return false;
+  for (std::size_t shift = 0; shift < a.legs(); ++shift) {
+    if ((a.x[0] - b.x[shift]).norm() > same_orbit * std::max(a.x[0].norm(), b.x[shift].norm())) continue;
+    const double turns = a.t[0] - b.t[shift];
+    if (a.shape.n == 0 || std::abs(turns - std::round(turns)) < same_orbit) return true;
+  }
+  return false;
+}
+
+/// Is it one of these? Equal legs tell soonest. Others may be the same motion: how many impacts of a chatter are legs of their own is a matter of where
+/// it was recorded.
+bool known(const Problem& problem, const std::vector<Orbit>& found, const Orbit& orbit) {
+  const auto alike = [&](const Orbit& other) { return other.shape.n == orbit.shape.n && same_legs(orbit, other); };
+  const auto same = [&](const Orbit& other) { return apart(problem, orbit, other) < same_orbit; };
+  return std::ranges::any_of(found, alike) || std::ranges::any_of(found, same);
+}
+
+/// Is it a shorter cycle several times over?
+bool is_multiple(const Problem& problem, const Orbit& orbit) {
+  if (repeats(orbit, same_orbit)) return true;
+  for (int periods = 1; 2 * periods <= orbit.shape.n; ++periods)
+    if (orbit.shape.n % periods == 0 && apart_from_later(problem, orbit, periods) < same_orbit) return true;
+  return false;
 }
 
 /// Of an orbit that is a shorter one several times over, that one.
@@ -107,14 +120,14 @@ class Hunt {
     guess.values = problem_.values();
     for (int i = 0; i < from_one_guess && !enough_; ++i) {
       const std::optional<Orbit> orbit = refine(problem_, guess, i == 0 ? std::vector<Orbit>{} : seen_);
-      if (!orbit || known(seen_, *orbit)) return;
+      if (!orbit || known(problem_, seen_, *orbit)) return;
       add(*orbit);
     }
   }
 
   void add(const Orbit& orbit) {
     seen_.push_back(orbit);
-    if (repeats(orbit, same_orbit)) return;
+    if (is_multiple(problem_, orbit)) return;
     Solution solution = describe(problem_, orbit, &system_);
     if (!solution.is_motion) return;
     enough_ = options_.enough && options_.enough(solution);

@@ -6,6 +6,7 @@
 
 #include "orbit/crossing.hpp"
 #include "orbit/record.hpp"
+#include "orbit/same_motion.hpp"
 #include "orbit/switching.hpp"
 
 namespace slapstick::orbit {
@@ -37,6 +38,16 @@ double rotation(const Watched& watched) {
 
 std::string stick_of(const System& system, int friction) {
   return system.contact_name(static_cast<int>(system.model().stops.size()) + friction);
+}
+
+/// The branch that crosses at a BP. Of two sides that are mirror images, but for what is of second order in their distance, one is kept.
+void add_crossing_branch(const Problem& problem, const PathPoint& at, SpecialPoint& crossing) {
+  constexpr double second_order = 0.05;
+  std::vector<Orbit>& sides = crossing.born = crossing_branch(problem, at);
+  if (sides.size() < 2) return;
+  if (apart_from_image(problem, sides[0], sides[1]) > second_order * apart(problem, sides[0], sides[1])) return;
+  crossing.what = "a symmetry breaks: the crossing branch's sides are mirror images";
+  sides.pop_back();
 }
 
 /// A crossing by interpolation; as it was found only if it is the birth of a doubled orbit, which may be told from that by so much.
@@ -83,7 +94,7 @@ std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const Pa
                    : kind.type == SpecialType::PD ? "period doubling"
                                                   : "torus";
     if (kind.type == SpecialType::PD) special.born = doubled(problem, located->point.orbit);
-    if (kind.type == SpecialType::BP) special.born = crossing_branch(problem, located->point);
+    if (kind.type == SpecialType::BP) add_crossing_branch(problem, located->point, special);
     found.emplace_back(located->length, std::move(special));
   }
   // The branch that leaves a symmetric one turns back in the parameter where it leaves: no fold of its own.

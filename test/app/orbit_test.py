@@ -1,7 +1,7 @@
 """orbit, continue and curve from the command line: the stable part of their results, and what they refuse."""
 import os
 
-from program import good, main, read, refused, says, table
+from program import good, main, read, refused, run, says, table
 
 PAPER = ('vibro-impact', '--set', 'omega=2.7')
 
@@ -79,6 +79,24 @@ def test_a_table_has_sensitivities_and_the_classes_around_a_change():
     special = text[text.index('"special"'):]
     says(special, '"class_before": "1-1-I"', '"class_behind": "1-1-II"')
     says(good(*words, '--table'), '1-1-I -> 1-1-II; persistence; d omega / d friction = %.5g' % number(special[special.index('"sensitivity"'):], 'friction'))
+
+
+def test_a_broken_symmetry_is_followed_once():
+    text = good('continue', 'two-sided-rattle', '--set', 'omega=1.6', '--param', 'omega', '--range', '1.2:1.7', '--branches', '3', '--table')
+    says(text, "a symmetry breaks: the crossing branch's sides are mirror images", 'behind the symmetric orbit at 1.47422312')
+    branches = [[line.split()[3] for line in part.splitlines() if ' GR ' in line] for part in text.split(' points; ')[1:]]
+    places = [tuple(sorted(branch)) for branch in branches if branch]
+    assert places and len(set(places)) == len(places), places
+
+
+def test_the_onset_of_chatter_reads_the_same_from_both_sides():
+    for start in ('0.0052', '0.0055'):
+        lines = run('continue', 'vibro-impact', '--set', 'omega=2.2', '--set', 'restitution=' + start, '--param', 'restitution', '--range', '0.005:0.0056', '--table').out.splitlines()
+        onset = [line for line in lines if ' CH ' in line]
+        assert len(onset) == 1, lines
+        says(onset[0], 'at the onset of a complete chatter; 1-inf-II -> 1-', '; persistence')
+        nearest = [line for line in lines if 'one of infinitely many changes' in line]
+        assert all('->' not in line for line in nearest), nearest
 
 
 def points_drawn(*words):

@@ -98,6 +98,21 @@ TEST_F(FigureTest, where_two_named_clouds_overlap_in_an_image_the_legend_says_bo
   EXPECT_FALSE(says_both({a, b}));
 }
 
+/// Lines that mark a value go through the whole frame, also through a corner without data.
+TEST_F(FigureTest, no_mark_crosses_the_legend) {
+  const auto key = [&](const std::vector<Mark>& marks) {
+    const Panel panel{
+        .x_range = Range{0, 1}, .y_range = Range{0, 1}, .points = {{{0.5}, {0.5}, "data"}}, .marks = marks};
+    const std::string script = workshop::read(write({.panels = {panel}}, folder / "a", {.pdf = false}).script);
+    return script.substr(script.find("\n  set key ") + 11, 25);
+  };
+  EXPECT_EQ(key({}), "inside vertical top right");
+  EXPECT_EQ(key({{.x = 0.4}}), "inside vertical top right");
+  EXPECT_EQ(key({{.x = 0.95}}), "inside vertical top left ");
+  EXPECT_EQ(key({{.y = 0.95}}), "inside vertical bottom ri");
+  EXPECT_EQ(key({{.x = 0.95}, {.x = 0.05}}).substr(0, 9), "at screen");
+}
+
 TEST_F(FigureTest, clouds_that_are_many_points_together_are_an_image) {
   const Points half{.x = std::vector<double>(raster_threshold / 2 + 1, 1), .y = half.x};
   EXPECT_EQ(write({.panels = {{.points = {half, half}}}}, folder / "a", {.pdf = false}).rasters.size(), 1U);

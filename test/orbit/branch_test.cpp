@@ -128,6 +128,74 @@ TEST(Branch, IsNotDoubledAtItsBirth) {
   EXPECT_TRUE(second.special.front().born.empty());
 }
 
+/// A mass between equal stops: where its symmetric orbit loses the symmetry, a branch and its mirror image are born. One is followed, from the
+/// symmetric orbit to where it comes back to it.
+TEST(Symmetry, IsBrokenToABranchAndItsImage) {
+  const Posed posed("two-sided-rattle", {}, {"omega"}, {1.6});
+  const auto first = posed.settled(1);
+  ASSERT_TRUE(first);
+  const orbit::ContinuationOptions options{.from = 1.0, .to = 1.7};
+  const orbit::Branch trunk = orbit::follow(*posed.problem, first->orbit, options);
+  ASSERT_EQ(trunk.special.size(), 2U);
+  for (const orbit::SpecialPoint& point : trunk.special) {
+    ASSERT_EQ(name(point.type), "BP");
+    EXPECT_EQ(point.born.size(), 1U) << point.what;
+  }
+  const orbit::Branch broken = orbit::follow(*posed.problem, trunk.special.back().born.front(), options);
+  EXPECT_FALSE(broken.failed) << broken.ended;
+  EXPECT_NEAR(broken.special.front().value, trunk.special.front().value, 1e-8);
+  EXPECT_NEAR(broken.special.back().value, trunk.special.back().value, 1e-8);
+  EXPECT_EQ(std::ranges::count(broken.special, orbit::SpecialType::BP, &orbit::SpecialPoint::type), 2);
+  EXPECT_FALSE(orbit::lies_on(*posed.problem, broken, first->orbit));
+  EXPECT_TRUE(orbit::lies_on(*posed.problem, trunk, first->orbit));
+}
+
+/// The image by a second route: the motion from the reversed state, half a period later, settles on it.
+TEST(Symmetry, ImageIsTheMotionFromTheReversedState) {
+  const Posed posed("two-sided-rattle", {}, {"omega"}, {1.4});
+  const auto first = posed.settled(1);
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 1.39, .to = 1.41});
+  State reversed = orbit::at_phase_zero(*posed.problem, first->orbit);
+  for (double& number : reversed) number = -number;
+  const auto image = orbit::settle(*posed.problem, Motion(posed.system, reversed, {0, 0.5}), 200, 1);
+  ASSERT_TRUE(image);
+  EXPECT_TRUE(orbit::lies_on(*posed.problem, branch, first->orbit));
+  EXPECT_FALSE(orbit::lies_on(*posed.problem, branch, image->orbit));
+  EXPECT_TRUE(orbit::image_lies_on(*posed.problem, branch, image->orbit));
+  EXPECT_FALSE(orbit::image_lies_on(*posed.problem, branch, first->orbit));
+}
+
+/// A branch that goes on to its own images comes back over itself: every place on it is listed once.
+TEST(Symmetry, LeadsABranchOverNoPlaceTwice) {
+  const Posed posed("two-sided-rattle", {}, {"omega"}, {1.5});
+  const auto first = posed.settled(1);
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.3, .to = 4.0});
+  std::vector<double> places;
+  for (const orbit::SpecialPoint& point : branch.special)
+    if (point.type != orbit::SpecialType::BP) places.push_back(point.value);
+  ASSERT_GT(places.size(), 10U);
+  std::ranges::sort(places);
+  const auto twice = std::ranges::adjacent_find(places, [](double a, double b) { return b - a < 1e-7; });
+  EXPECT_EQ(twice, places.end()) << branch.ended;
+}
+
+/// A load, or walls that are not about the middle of the spring, leave no image; a middle elsewhere does.
+TEST(Symmetry, IsTheModelsAboutAnyPoint) {
+  const auto is_own_image = [](double load, double upper, double lower) {
+    const Posed posed("two-sided-rattle", {{"load", load}, {"clearance", upper}, {"clearance_lower", lower}}, {"omega"},
+                      {1.6});
+    const auto first = posed.settled(1);
+    const orbit::Branch branch = orbit::follow(*posed.problem, first.value().orbit, {.from = 1.59, .to = 1.61});
+    return orbit::image_lies_on(*posed.problem, branch, first->orbit);
+  };
+  EXPECT_TRUE(is_own_image(0.0, 0.5, 0.5));
+  EXPECT_TRUE(is_own_image(0.1, 0.6, 0.4));
+  EXPECT_FALSE(is_own_image(0.1, 0.5, 0.5));
+  EXPECT_FALSE(is_own_image(0.0, 0.6, 0.4));
+}
+
 /// A block that only sticks, or one whose every direction is annihilated, has no multiplier but zeros.
 TEST(Orbit, WithoutAFreeDirectionHasZeroMultipliers) {
   const Posed posed("impact-oscillator", {{"restitution", 0.0}}, {}, {});
@@ -168,6 +236,15 @@ TEST(Search, FindsStableAndUnstableOrbits) {
     all += solution.label + (solution.stable() ? " stable, " : " unstable, ");
   EXPECT_NE(all.find("1-1-I unstable"), std::string::npos) << all;
   EXPECT_NE(all.find("2-2-I stable"), std::string::npos) << all;
+}
+
+/// How many of a chatter's impacts are legs of an orbit depends on where a motion was recorded: it is one motion all the same, also run through twice.
+TEST(Search, ListsAChatteringOrbitOnce) {
+  const Posed posed("vibro-impact", {{"omega", 0.5}}, {}, {});
+  const auto found =
+      orbit::search(*posed.problem, posed.system, posed.start(), {.most_n = 2, .starts = 3, .periods = 60});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found.front().label, "1-inf-II");
 }
 
 /// A complete chatter: infinitely many impacts, some thirty of them flown, the rest summed; still one isolated orbit with exact multipliers.

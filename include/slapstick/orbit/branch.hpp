@@ -73,8 +73,10 @@ struct ContinuationOptions {
 /// @throws InputError if `start` is outside the range
 [[nodiscard]] Branch follow(const Problem& problem, const Orbit& start, const ContinuationOptions& options);
 
-/// Is an orbit one of the branch's, perhaps begun at another event? Between its points the branch is taken for straight.
-[[nodiscard]] bool lies_on(const Branch& branch, const Orbit& orbit);
+/// Is an orbit one of the branch's, wherever it begins? By Newton's method from the points beside it to the branch's own orbit at its parameter.
+[[nodiscard]] bool lies_on(const Problem& problem, const Branch& branch, const Orbit& orbit);
+/// Is it the mirror image of one: all displacements reversed about a point, half a forcing period later? False without forcing.
+[[nodiscard]] bool image_lies_on(const Problem& problem, const Branch& branch, const Orbit& orbit);
 
 struct CurvePoint {
   std::vector<double> values;  ///< of the two parameters

@@ -1,0 +1,108 @@
+#include "orbit/same_motion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace slapstick::orbit {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// The states of an orbit over the instants.
+class States {
+ public:
+  States(const Problem& problem, const Orbit& orbit)
+      : problem_(problem), orbit_(orbit), set_(constant_family(problem.family().model(orbit.values)), {}) {}
+
+  /// Numbers of the state modulo translations, displacements first.
+  [[nodiscard]] VectorXd at(double t) const {
+    const double cycle = orbit_.t.back() - orbit_.t.front(), after = t - orbit_.t.front();
+    const double within = orbit_.t.front() + after - cycle * std::floor(after / cycle);
+    std::size_t leg = 0;
+    while (leg + 1 < orbit_.legs() && orbit_.t[leg + 1] <= within) ++leg;
+    VectorXd x = contact_state(set_, state_within(set_, orbit_, leg, within - orbit_.t[leg]));
+    problem_.translations().take_out(x);
+    return problem_.translations().numbers(x);
+  }
+
+ private:
+  const Problem& problem_;
+  const Orbit& orbit_;
+  ModeSet set_;
+};
+
+/// Instants in the longest legs, away from events.
+std::vector<double> instants(const Orbit& orbit) {
+  constexpr std::size_t most_legs = 4;
+  constexpr std::array<double, 3> parts = {0.3, 0.5, 0.8};
+  std::vector<std::size_t> legs(orbit.legs());
+  std::iota(legs.begin(), legs.end(), std::size_t{0});
+  std::erase_if(legs, [&](std::size_t leg) { return orbit.shape.legs[leg].ending == Ending::chatter; });
+  std::ranges::sort(legs, {}, [&](std::size_t leg) { return -orbit.duration(leg); });
+  legs.resize(std::min(legs.size(), most_legs));
+  std::vector<double> all;
+  for (const std::size_t leg : legs)
+    for (const double part : parts) all.push_back(orbit.t[leg] + part * orbit.duration(leg));
+  return all;
+}
+
+/// What is left of the differences of two motions (`sense` -1), or of their sums less the sum of their displacements' own middle (+1), in units of the sizes.
+double misfit(const std::vector<VectorXd>& a, const std::vector<VectorXd>& b, double sense, Index velocities) {
+  const Index count = a.front().size(), displacements = count - velocities;
+  VectorXd size = VectorXd::Zero(count), low = VectorXd::Constant(count, INFINITY), high = -low;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    const VectorXd left = a[k] + sense * b[k];
+    low = low.cwiseMin(left);
+    high = high.cwiseMax(left);
+    size = size.cwiseMax(a[k].cwiseAbs()).cwiseMax(b[k].cwiseAbs());
+  }
+  const auto worst = [&](Index from, Index number, bool may_be_constant) {
+    if (number == 0) return 0.0;
+    const double spread = may_be_constant ? (high - low).segment(from, number).maxCoeff()
+                                          : low.cwiseAbs().cwiseMax(high.cwiseAbs()).segment(from, number).maxCoeff();
+    const double of = size.segment(from, number).maxCoeff();
+    return of > 0.0 ? spread / of : 0.0;
+  };
+  return std::max(worst(0, displacements, sense > 0.0), worst(displacements, velocities, false));
+}
+
+/// @param sense  as misfit's; @param later  how many periods after a's instants b is seen, and then `more` times a period later still: the least
+double least_misfit(const Problem& problem, const Orbit& a, const Orbit& b, double sense, double later, int more) {
+  const std::vector<double> when = instants(a);
+  if (a.shape.n == 0 || a.shape.n != b.shape.n || when.empty()) return INFINITY;
+  const States of_a(problem, a), of_b(problem, b);
+  std::vector<VectorXd> left, right;
+  for (const double t : when) left.push_back(of_a.at(t));
+  double least = INFINITY;
+  for (int period = 0; period <= more; ++period) {
+    right.clear();
+    for (const double t : when) right.push_back(of_b.at(t + later + period));
+    least = std::min(least, misfit(left, right, sense, problem.base().frame().n));
+  }
+  return least;
+}
+
+}  // namespace
+
+double apart(const Problem& problem, const Orbit& a, const Orbit& b) {
+  return least_misfit(problem, a, b, -1.0, 0.0, a.shape.n - 1);
+}
+
+double apart_from_later(const Problem& problem, const Orbit& orbit, int periods) {
+  return least_misfit(problem, orbit, orbit, -1.0, periods, 0);
+}
+
+double apart_from_image(const Problem& problem, const Orbit& a, const Orbit& b) {
+  return least_misfit(problem, a, b, 1.0, 0.5, a.shape.n - 1);
+}
+
+bool images_begin(const Problem& problem, const Orbit& before, const Orbit& crossing) {
+  constexpr double symmetric = 1e-4, rounding = 1e-6;  // at a crossing states are known to 1e-5
+  const double left = apart_from_image(problem, crossing, crossing);
+  return left < symmetric && apart_from_image(problem, before, before) > std::max(10.0 * left, rounding);
+}
+
+}  // namespace slapstick::orbit

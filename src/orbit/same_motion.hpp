@@ -1,0 +1,23 @@
+#pragma once
+/// Whether two orbits are one motion, whatever their legs and wherever they begin; or mirror images of one another.
+///
+/// A model that does not change when all displacements are reversed about some point and the forcing is taken half a period later (as a mass between
+/// equal stops) has with an orbit x(t) also its image c - x(t + T/2). A symmetric orbit is its own; what a broken symmetry leaves comes in pairs.
+#include "orbit/equations.hpp"
+
+namespace slapstick::orbit {
+
+/// The largest distance of the two motions' states modulo translations, over some phases in the long legs of `a`, by displacements and velocities each
+/// relative to their largest: rounding for one motion, chattering ones too. Infinite without forcing, where there is no phase, and for other n.
+[[nodiscard]] double apart(const Problem& problem, const Orbit& a, const Orbit& b);
+
+/// The same of an orbit and itself so many periods later.
+[[nodiscard]] double apart_from_later(const Problem& problem, const Orbit& orbit, int periods);
+
+/// The same of the first orbit and the image of the second, for the c that fits.
+[[nodiscard]] double apart_from_image(const Problem& problem, const Orbit& a, const Orbit& b);
+
+/// Does a branch of asymmetric orbits cross one of symmetric orbits? Behind the crossing it has the mirror images of its own.
+[[nodiscard]] bool images_begin(const Problem& problem, const Orbit& before, const Orbit& crossing);
+
+}  // namespace slapstick::orbit

@@ -34,8 +34,9 @@ double weighted_size(const Coefficients& a, Weight weight) {
 }
 
 /// sum_{n>2} n (n - 1) |a_n|, which |g'' - 2 a_2| stays below on [0, 1].
-double bend_change(const Coefficients& a) {
-  return weighted_size(a, [](int n) { return n < 3 ? 0.0 : n * (n - 1.0); });
+double bend_change(Coefficients a) {
+  a[0][2] = 0.0;
+  return weighted_size(a, [](int n) { return n * (n - 1.0); });
 }
 
 /// On the whole window, from the second differences: g'' = 42 sum_j (b_{j+2} - 2 b_{j+1} + b_j) B_j within curvature_error. Where that error
@@ -219,9 +220,8 @@ void Search::walk_through_noise(Root& root) {
     }
     const double bend = std::max(g2_, 0.0) + bound(Bound::curvature_noise);
     const double d = std::min(std::sqrt(4.0 * noise_ / bend), std::cbrt(4.0 * noise_ / third()));
-    const double next = std::max(x_ + d, std::nextafter(x_, 2.0));
     if (!(x_ < 1.0)) return restart_or_linger(root);
-    evaluate(std::min(next, 1.0));
+    evaluate(std::min(x_ + d, 1.0));
     if (!(std::abs(g_) > noise_)) continue;
     root.doubtful = true;
     root.kind = g_ < 0.0 ? RootKind::crossing : RootKind::graze;
@@ -240,7 +240,7 @@ double Search::zero_between(double low, double high) const {
     (g > 0.0 ? low : high) = x;
     double next = x - g / g1;
     if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (g == 0.0 || std::abs(next - x) <= 0x1p-52 * x || !(next > low && next < high)) return x;
+    if (g == 0.0 || std::abs(next - x) <= 0x1p-52 * x) return x;
     x = next;
   }
   return x;

@@ -42,6 +42,11 @@ std::optional<std::string> foreign(const std::string& text) {
   return std::nullopt;
 }
 
+/// muParser's optimizer joins constants by && and || as integers: 0.5 && 2 would be 0. Formulas without these keep it, and their rounding.
+bool has_logic(const std::string& text) {
+  return text.find("&&") != std::string::npos || text.find("||") != std::string::npos;
+}
+
 [[noreturn]] void refuse(const std::string& text, const std::string& what) {
   throw InputError("expression " + in_quotes(text) + ": " + what);
 }
@@ -70,6 +75,7 @@ Expression::Expression(const std::string& text) {
   auto& compiled = *compiled_;
   compiled.text = text;
   try {
+    if (has_logic(text)) compiled.parser.EnableOptimizer(false);
     compiled.parser.SetExpr(text);
     for (const auto& [name, unused] : compiled.parser.GetUsedVar()) compiled.names.push_back(name);
     compiled.values.assign(compiled.names.size(), 1.0);

@@ -159,20 +159,6 @@ Found check_compliant_stop(const CompliantStop& stop, int index, const Model& mo
   return check.result();
 }
 
-/// Two stops that face each other, one on x_a - x_b and one on x_b - x_a, must leave room between them.
-Found check_room(const Model& model) {
-  for (std::size_t i = 0; i < model.stops.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      const Stop &stop = model.stops[i], &other = model.stops[j];
-      const double room = stop.clearance + other.clearance;
-      if (stop.a != other.b || stop.b != other.a || room > 0.0) continue;
-      return Fault{"stop", static_cast<int>(i), "clearance",
-                   "clearance = " + shown(stop.clearance) + " leaves no room opposite stop " + in_quotes(other.name) +
-                       " with clearance = " + shown(other.clearance) + ": their sum must be positive"};
-    }
-  return std::nullopt;
-}
-
 /// omega and its highest multiple must be ordinary numbers, so that no later step overflows.
 Found check_omega(const Model& model) {
   Check check("model", -1);
@@ -260,7 +246,7 @@ std::optional<Fault> first_fault(const Model& model) {
   look(model.frictions, [&](const auto& part, int i) { return check_friction(part, i, model, contacts); });
   look(model.stops, [&](const auto& part, int i) { return check_stop(part, i, model, contacts); });
   look(model.compliant_stops, [&](const auto& part, int i) { return check_compliant_stop(part, i, model, contacts); });
-  if (!fault) fault = check_room(model);
+  if (!fault) fault = first_room_fault(model);
   return fault ? fault : check_omega(model);
 }
 

@@ -28,6 +28,9 @@ struct Fault {
 /// The same for mass, damping and stiffness alone: size, symmetry, numbers, and a total mass matrix that is positive definite.
 [[nodiscard]] std::optional<Fault> first_matrix_fault(const Model& model);
 
+/// The same for the stops together (each of them sound): two that face each other, or a loop of them, with no position that obeys all.
+[[nodiscard]] std::optional<Fault> first_room_fault(const Model& model);
+
 /// Numbers beyond `largest`, and masses and frequencies below `smallest`, are refused: the engine multiplies a few of them (a square of
 /// a force over a mass is the largest), and every such product has to stay far inside the range of a double, which ends at 1e308.
 inline constexpr double largest = 1e50;

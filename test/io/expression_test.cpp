@@ -62,6 +62,20 @@ TEST(Expression, arithmetic) {
   EXPECT_EQ(Expression("b + a").names(), (std::vector<std::string>{"a", "b"}));
 }
 
+TEST(Expression, fractions_are_true_among_constants_too) {  // muParser makes integers of constants: 0.5 && 2 was 0
+  const std::vector<std::string> numbers = {"0", "0.5", "-0.25", "1e-300", "1e300", "2"};
+  for (const auto& p : numbers)
+    for (const auto& q : numbers) {
+      const bool both = p != "0" && q != "0", either = p != "0" || q != "0";
+      const std::map<std::string, double> values = {{"a", std::stod(p)}, {"b", std::stod(q)}};
+      for (const auto& [left, right] :
+           std::vector<std::pair<std::string, std::string>>{{p, q}, {"a", q}, {p, "b"}, {"a", "b"}}) {
+        EXPECT_EQ(Expression(left + " && " + right).evaluate(values), both ? 1.0 : 0.0) << left << " " << right;
+        EXPECT_EQ(Expression(left + " || " + right).evaluate(values), either ? 1.0 : 0.0) << left << " " << right;
+      }
+    }
+}
+
 TEST(Expression, refusals_are_one_line_and_name_the_trouble) {
   EXPECT_EQ(refusal("1 / a", {{"a", 0}}), "expression '1 / a': its value is inf with a = 0");
   EXPECT_EQ(refusal("sqrt(a) + b", {{"a", -1}, {"b", 2}}).substr(0, 42), "expression 'sqrt(a) + b': its value is -na");

@@ -52,7 +52,13 @@ CASES = [
     ('long namespace of short functions', {'src/a.cpp': 'namespace {\n' + 'int f() {\n  return 1;\n}\n' * 30 + '}\n'}, None),
     ('long table', {'src/a.cpp': 'constexpr int table[] = {\n' + '  1,\n' * 80 + '};\n'}, None),
     ('braces in a comment', {'src/a.cpp': '/* void f() {\n' + '\n' * 60 + '} */\n'}, None),
-    ('nothing to check', {'README.md': ''}, 'no C++ file'),
+    ('script', {'test/a_test.py': '# line\n' * 401}, 'test/a_test.py: 401 lines, the limit is 400'),
+    ('script with braces', {'test/a_test.py': 'a = {\n' + '    1: 2,\n' * 80 + '}\n'}, None),
+    ('function of a script at the limit', {'test/a_test.py': 'def f():\n' + '    pass\n' * 49}, None),
+    ('function of a script', {'test/a_test.py': '\ndef f():\n' + '    pass\n' * 50}, 'test/a_test.py:2: ' + too_long('f')),
+    ('method of a script', {'test/a_test.py': 'class A:\n    def f(self):\n' + '        pass\n' * 50}, 'test/a_test.py:2: ' + too_long('f')),
+
+    ('nothing to check', {'README.md': ''}, 'no C++ or Python file'),
 ]
 
 sys.exit(trees.run(sys.argv[1], CASES))

@@ -2,67 +2,11 @@
 
     verify_test.py PROGRAM test_NAME [SLAPSTICK]
 """
-import os
-import subprocess
 import sys
-import tempfile
 
 import motions
-from motions import line, number
-
-PROGRAM = sys.argv[1]
-ALL = [motions.ball, motions.chatter, motions.rubbing, motions.oscillator, motions.released, motions.twins, motions.touching, motions.flat, motions.tie, motions.rattle, lambda: motions.lift(2),
-       lambda: motions.lift(3)]
-
-
-def check(lines):
-    """(exit status, everything printed) for a certificate."""
-    text = lines if isinstance(lines, bytes) else ('\n'.join(lines) + '\n').encode()
-    done = subprocess.run([PROGRAM, '-'], input=text, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False, timeout=60)
-    return done.returncode, done.stdout.decode()
-
-
-def proved(lines):
-    status, text = check(lines)
-    assert status == 0 and text.endswith('\nproved\n') and 'line ' not in text, text
-    return text
-
-
-def refused(lines, *reasons):
-    """Not proved; one line of the answer has all the reasons."""
-    status, text = check(lines)
-    assert status == 1 and '\nnot proved: ' in text, (status, text)
-    assert any(all(r in answer for r in reasons) for answer in text.splitlines() if answer.startswith('line ')), (reasons, text)
-
-
-def unreadable(lines, *reasons):
-    status, text = check(lines)
-    assert status == 2 and all(r in text for r in reasons), (status, reasons, text)
-
-
-def find(lines, start, nth=0):
-    return [i for i, text in enumerate(lines) if text.startswith(start)][nth]
-
-
-def forged(lines, start, words, nth=0):
-    """The certificate with words of one line, by their index, replaced."""
-    lines = list(lines)
-    i = find(lines, start, nth)
-    parts = lines[i].split(' ')
-    for k, value in words.items():
-        parts[k] = line(value)
-    lines[i] = ' '.join(parts)
-    return lines
-
-
-def value(lines, start, k, nth=0):
-    return float.fromhex(lines[find(lines, start, nth)].split(' ')[k])
-
-
-def without(lines, start, nth=0):
-    lines = list(lines)
-    del lines[find(lines, start, nth)]
-    return lines
+from forgery import ALL, certificate_of, find, forged, proved, refused, unreadable, value, without
+from motions import line
 
 
 def test_closed_forms_are_proved():
@@ -337,172 +281,11 @@ def test_mode_that_changes_without_an_event():
     refused(lines[:i + 1] + [line('event', 'stick', 'floor', 0.0)] + lines[i + 1:], 'something happens at `end cut`')
 
 
-def test_chatter_without_what_must_be_there():
-    lines = motions.chatter()
-    refused(without(lines, 'blow 1'), 'the segment before has not brought stop floor to rest')
-    refused(forged(lines, 'end chatter', {3: 1e-9}), 'ERROR = 1.0000000000000001e-09 is more than 2^-49 periods')
-    falling = forged(lines, 'segment', {2: 0}, 1)
-    refused(falling, 'stop floor is not at rest in the segment that stands for its chatter')
-    refused(forged(lines, 'state', {1: -2.0 ** -60}, 1), 'stop floor is not at rest')
-    unreadable(without(lines, 'tail'), '`tail` and `end chatter` belong together')
-    i = find(lines, 'tail')
-    unreadable(lines[:i] + [lines[i], 'end cut'] + lines[i + 2:], '`tail` and `end chatter` belong together')
-    for k in (1, 2, 3):
-        unreadable(forged(lines, 'tail', {k: 9}), 'mode 9 is not there')
-
-
-def test_chatter_limit_that_comes_later_than_claimed():
-    for motion in (motions.chatter, motions.rubbing, motions.neighbour):
-        lines = motion()
-        D = value(lines, 'tail', 4)
-        refused(forged(lines, 'tail', {4: D * (1.0 - 2.0 ** -53)}), 'all flights together last up to', 'more than D')
-        proved(forged(lines, 'tail', {4: D * 1.5}))
-        n = find(lines, 'segment 1')
-        for longer in (2.0 ** -50, -2.0 ** -50):
-            moved = forged(lines[n:], 'segment 1', {5: D + longer})
-            refused(lines[:n] + moved, 'the limit is between', 'further than ERROR')
-
-
-def test_chatter_whose_accelerations_are_others():
-    lines = motions.rubbing()
-    for k in (5, 6, 7, 8):
-        a = value(lines, 'tail', k)
-        wrong = a * (1.0 + 2.0 ** -52) if k % 2 == 1 else a * (1.0 - 2.0 ** -52)
-        refused(forged(lines, 'tail', {k: wrong}), 'the acceleration on the way', 'is claimed to be in')
-    refused(forged(lines, 'tail', {7: 0.0}), 'an acceleration is not positive')
-    # Bounds that are true and too far apart: neither the ratio nor the limit follows from them.
-    refused(forged(lines, 'tail', {8: 16.0}), 'the impacts may get no slower: their ratio is up to 1')
-    refused(forged(lines, 'tail', {5: 3.9375}), 'further than ERROR')
-
-
-def test_chatter_with_another_restitution():
-    for motion in (motions.chatter, motions.rubbing):
-        refused(forged(motion(), 'stop', {4: 0.5 + 2.0 ** -40}), 'the limit is between')
-        refused(forged(motion(), 'stop', {4: 0.0}), 'the pair does not leave stop floor')
-    refused(forged(motions.chatter(), 'stop', {4: 1.0}), 'the impacts may get no slower: their ratio is up to 1')
-
-
-def test_chatter_that_reaches_another_guard():
-    for gap in (0.5, 4.0):
-        refused(motions.neighbour(gap), 'stop wall may be reached or left before the limit')
-    refused(motions.neighbour(4.0), 'guard 1 (gap) of the way away from stop floor: it may come to zero')
-    # A contact elsewhere that slips at first, and is shaken.
-    lines = motions.neighbour()
-    i = find(lines, 'guard 1')
-    slip = lambda u: lines[:i + 1] + [line('guard', 2, 'slip', 2, 3, -1.0, 4, u)] + lines[i + 1:]
-    refused(slip(0.0), 'guard 2 (slip) of the way away from stop floor: it may come to zero, it is 0.5')
-    refused(slip(64.0), 'guard 2 (slip): neither `prove` nor `rest`')  # only what is not of the chatter is missing
-
-
-def test_chatter_that_friction_stops_in_the_air():
-    lines = motions.rubbing()
-    held = find(lines, 'guard 0 stick')
-    for force in (1.0, 0.0):
-        stuck = lines[:held] + [line('guard', 0, 'stick', 1, 2, force)] + lines[held + 1:]
-        refused(stuck, 'friction may hold the pair off stop floor')
-    refused(forged(lines, 'tail', {3: 1}), 'in the mode that would hold the pair off the stop it is not held')
-    # Friction for one direction both ways
-    refused(forged(lines, 'tail', {1: 0}), 'guard 1 (slip) of the way away from stop floor: it is for the other direction')
-    refused(forged(lines, 'tail', {2: 1}), 'guard 0 (slip) of the way back to stop floor: it is for the other direction')
-    refused(without(lines, 'guard 0 slip'), 'a mode of the tail is for both directions')
-
-
-def test_chatter_that_leaves_the_state_elsewhere():
-    # On the closed stop the second body is pulled at 1/2. Another pull is another state at the limit.
-    lines = motions.neighbour()
-    pulled = forged(lines, 'row 3', {4: -0.25})
-    refused(pulled, 'number 3 of the state at the limit is known to', 'rounding is')
-    # Impulses that shake it otherwise
-    refused(forged(forged(lines, 'inertia 0', {3: 0.25}), 'inertia 1', {2: 0.25}), 'number 3 of the state at the limit')
-    # A spring so stiff that nothing bounds the state for so long
-    rows = [(0, [(2, 1.0)]), (1, [(3, 1.0)]), (2, [(4, 1.0)]), (3, [(1, -1024.0)])]
-    stiff = motions.mode(2, 'stiff', rows, [])
-    i = find(lines, 'mode 1')
-    refused(forged(lines[:i] + stiff + lines[i:], 'tail', {1: 2, 2: 2, 3: 2}), 'the state may leave its box within D = 2')
-
-
 def test_segments_out_of_order():
     lines = motions.ball()
     a, b, c, e = find(lines, 'segment 0'), find(lines, 'segment 1'), find(lines, 'segment 2'), find(lines, 'done')
     refused(lines[:a] + lines[b:c] + lines[a:b] + lines[c:], 'segment 0, it is called number 1')
     refused(lines[:b] + lines[c:e] + [line('done', 2)], 'segment 1, it is called number 2')
-
-
-def test_file_that_ends_too_early():
-    for motion in ALL:
-        lines = motion()
-        for n in range(len(lines)):
-            unreadable(lines[:n] if n else b'', 'the file ends here, without `done`')
-    text = '\n'.join(motions.ball())
-    for n in range(len(text) - 6):
-        assert check(text[:n].encode())[0] != 0, n
-    unreadable(motions.ball() + ['done 3'], 'something follows `done`')
-    unreadable(forged(motions.ball(), 'done', {1: 4}), 'line 31: 4 is not')
-
-
-def test_every_line_is_needed():
-    for motion in ALL:
-        if motion is motions.rattle:
-            continue  # a far side that is held leads away as well
-        lines = motion()
-        struck = any(text.startswith('blow') for text in lines)
-        for n, text in enumerate(lines):
-            if text.startswith('event') and 'impact' not in text or text.startswith('stop') and not struck:
-                continue  # tells the reader what follows from the rest, or names what nothing happens to
-            assert check(lines[:n] + lines[n + 1:])[0] != 0, text
-
-
-def test_numbers_that_are_none():
-    lines = motions.ball()
-    for bad in ('nan', '-nan', 'inf', '-inf', '1', '0.5', '1e3', '0x1p+5000', '0x1', '0x1.00000000000001p+0', '', '0x1p+0 0x1p+0', 'x', '+0x1p+0',
-                '0x1p+0\t', '\0'):
-        for start, k in (('step', 2), ('step', 5), ('state', 1), ('segment', 5), ('end', 3), ('inertia', 2), ('period', 1), ('row', 4)):
-            i = find(lines, start)
-            parts = lines[i].split(' ')
-            parts[k] = bad
-            status, text = check(lines[:i] + [' '.join(parts)] + lines[i + 1:])
-            assert status == 2 and f'line {i + 1}: ' in text, (start, k, bad, status, text)
-    for bad in ('-1', '7', '1.0', '0x1p+0', '99999999999999999999', ''):
-        for start, k in (('sizes', 2), ('stop', 1), ('row', 2), ('row', 3), ('guard', 1), ('segment', 2), ('prove', 1), ('blow', 2)):
-            i = find(lines, start)
-            parts = lines[i].split(' ')
-            parts[k] = bad
-            status, text = check(lines[:i] + [' '.join(parts)] + lines[i + 1:])
-            assert status == 2, (start, k, bad, status, text)
-
-
-def test_garbage():
-    unreadable(b'\x00\xff' * 5000, 'line 1')
-    unreadable(['slapstick-certificate 2'] + motions.ball()[1:], 'line 1: 2 is not in the range 1 .. 1')
-    for n, text in enumerate(motions.ball()):
-        lines = motions.ball()
-        lines[n] = 'nonsense' + text
-        unreadable(lines, f'line {n + 1}: ', 'nonsense')
-        lines[n] = text + ' nonsense'
-        if not text.startswith(('model', 'mode', 'stop')):
-            unreadable(lines, f'line {n + 1}: ')
-
-
-def test_huge_numbers_end_in_a_refusal():
-    lines = motions.ball()
-    refused(forged(lines, 'segment', {5: 1e300}), 'is too long to be followed')
-    refused(forged(lines, 'row 1', {4: 1e300}), 'segment 0')
-    refused(forged(lines, 'state', {1: -1e300}), 'segment 0')
-    refused(forged(lines, 'state', {2: 1e308}), 'segment 0')
-    refused(forged(lines, 'step', {2: 1e308}), 'h >= 1e+308 claimed')
-    refused(forged(lines, 'end', {3: 1e300}), 'DELTA = 1.0000000000000001e+300 is too long to be followed')
-    refused(forged(motions.touching(), 'end', {3: 1e300}), 'NOISE = 1.0000000000000001e+300, rounding explains')
-
-
-def certificate_of(*words):
-    """What `slapstick simulate` certifies, as bytes; or None where there is no program."""
-    if len(sys.argv) < 4:
-        return None
-    with tempfile.TemporaryDirectory() as folder:
-        name = os.path.join(folder, 'run.txt')
-        subprocess.run([sys.argv[3], 'simulate', *words, '--certify', name], stdout=subprocess.DEVNULL, check=True)
-        with open(name, 'rb') as file:
-            return file.read()
 
 
 ENGINE = (['vibro-impact', '--set', 'omega=2.2', '--periods', '5'], ['vibro-impact', '--set', 'omega=0.552', '--periods', '5'],
@@ -526,35 +309,6 @@ def test_certificates_of_the_engine_to_the_last_rounding():
         text = certificate_of(*words)
         if text is not None:
             proved(text)
-
-
-# Complete chatter: of friction and stop on one pair, without friction, beside a block on a belt and a second stop.
-HAMMER = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'hammer.toml')
-CHATTER = ((['vibro-impact', '--set', 'omega=0.552', '--periods', '8'], 5), (['bouncing-ball', '--periods', '20'], 1), ([HAMMER, '--periods', '4'], 1))
-
-
-def test_chatter_limits_of_the_engine():
-    for words, limits in CHATTER:
-        text = certificate_of(*words)
-        if text is None:
-            return
-        assert f'chatter limits   {limits} proved' in proved(text), proved(text)
-        lines = text.decode().splitlines()
-        refused(forged(lines, 'tail', {4: 0.5 * value(lines, 'tail', 4)}), 'all flights together last up to')
-        for k in (5, 6, 7, 8):
-            off = 0.25 * (-1) ** k * value(lines, 'tail', k)
-            refused(forged(lines, 'tail', {k: value(lines, 'tail', k) - off}), 'the acceleration on the way')
-        n = find(lines, 'tail')
-        moved = lines[:n + 1] + forged(lines[n + 1:], 'end chatter', {3: 2.0 ** -100})
-        refused(moved, 'further than ERROR')
-
-
-def test_usage():
-    done = subprocess.run([PROGRAM, '--help'], stdout=subprocess.PIPE, check=False)
-    assert done.returncode == 0 and b'slapstick-verify FILE' in done.stdout
-    for words in ([], ['a', 'b'], ['/nonexistent']):
-        done = subprocess.run([PROGRAM, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
-        assert done.returncode == 2 and done.stdout == b'' and done.stderr, words
 
 
 if __name__ == '__main__':

@@ -1,0 +1,61 @@
+#pragma once
+/// What follows a branch, point by point. Steps and what is looked for between points: branch.cpp; changes of events: follower_changes.cpp.
+#include "orbit/path.hpp"
+#include "orbit/record.hpp"
+#include "orbit/reshape.hpp"
+#include "slapstick/orbit/branch.hpp"
+
+namespace slapstick::orbit {
+
+/// Follows one direction from a point.
+class Follower {
+ public:
+  Follower(const Problem& problem, const ContinuationOptions& options, Branch& branch)
+      : problem_(problem), options_(options), range_(options.to - options.from), branch_(branch) {}
+
+  void run(PathPoint at);
+
+ private:
+  [[nodiscard]] double value(const PathPoint& point) const { return point.orbit.values[0]; }
+  /// The onset of a chatter is not come nearer to than its equations, of ever more impacts, are solvable.
+  [[nodiscard]] double shortest_step() const {
+    return branch_.points.back().chatter ? std::max(1e-6, options_.shortest_step) : options_.shortest_step;
+  }
+  [[nodiscard]] bool inside(double v) const { return v >= options_.from && v <= options_.to; }
+  [[nodiscard]] Solution solution_of(const PathPoint& point, Verification* seen) const;
+  bool accept(PathPoint& at, PathPoint next, double length);
+  bool change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why);
+  void end_at(SpecialPoint special, const std::string& left, bool shorter, bool retraces);
+  void go_on(PathPoint& at, SpecialPoint special, Reshaped next);
+  bool leave_chatter(PathPoint& at);
+  bool end_cascade(PathPoint& at);
+  bool turn_round(PathPoint& at);
+  void add_onset(SpecialPoint special, const std::string& outcome);
+  void restart(PathPoint& at, PathPoint from);
+  void look_for_pairs(const PathPoint& at, const PathPoint& next, double length);
+  void add(std::vector<SpecialPoint> smooth, std::size_t after);
+  bool end_at_boundary(PathPoint& at);
+  bool runs_over_itself();
+  void end(std::string why, bool failed);
+
+  const Problem& problem_;
+  const ContinuationOptions& options_;
+  double range_;
+  Branch& branch_;
+  struct Before {
+    PathPoint point;
+    double length;  ///< from there to the next one
+  };
+  std::optional<Before> before_;
+  /// The first point behind the onset of a chatter, in the other direction, and what the branch had then.
+  struct Onset {
+    PathPoint other_way;
+    std::size_t points, special;
+  };
+  std::optional<Onset> onset_;
+  double step_ = 0.0;
+  int old_points_ = 0;  ///< latest points that lie on the branch as it was followed before
+  bool ended_ = false;
+};
+
+}  // namespace slapstick::orbit

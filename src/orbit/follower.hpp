@@ -29,6 +29,7 @@ class Follower {
   void go_on(PathPoint& at, SpecialPoint special, Reshaped next);
   bool leave_chatter(PathPoint& at);
   bool end_cascade(PathPoint& at);
+  bool end_cascade_with(PathPoint& at, SpecialPoint last);
   bool turn_round(PathPoint& at);
   void add_onset(SpecialPoint special, const std::string& outcome);
   void restart(PathPoint& at, PathPoint from);

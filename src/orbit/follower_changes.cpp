@@ -42,6 +42,7 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
   }
   const bool shorter = std::ranges::any_of(found, [](const Reshaped& next) { return repeats(next.point.orbit, 1e-6); });
   const bool retraces = !found.empty() && lies_on_first(branch_.points.size(), branch_, found.front().point.orbit);
+  if (found.empty() && end_cascade_with(at, special)) return !ended_;
   if (found.empty() || shorter || retraces) {
     end_at(std::move(special), left, shorter, retraces);
     return false;
@@ -130,6 +131,15 @@ bool Follower::end_cascade(PathPoint& at) {
   else
     end("CH at " + shown(limit->value) + ": a cascade, which gathers there", false);
   return true;
+}
+
+/// The same where the cascade's next change is known, but not what lies behind it.
+bool Follower::end_cascade_with(PathPoint& at, SpecialPoint last) {
+  last.outcome = "one of infinitely many changes";
+  branch_.special.push_back(std::move(last));
+  if (end_cascade(at)) return true;
+  branch_.special.pop_back();
+  return false;
 }
 
 void Follower::add_onset(SpecialPoint special, const std::string& outcome) {

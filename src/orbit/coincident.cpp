@@ -12,6 +12,7 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double nothing = 1e-2;   ///< of a leg's length, or an impact's speed, at the point before: it vanishes
+constexpr double no_gap = 1e-9;    ///< of the largest margin of a gap at the point before
 constexpr double no_speed = 1e-4;  ///< of the largest speed at the point before: so much is left by rounding
 
 /// The cycle of one leg without its event, from phase 0.
@@ -126,10 +127,17 @@ std::vector<Orbit> with_impact(const ModeSet& set, const Orbit& orbit, const Tes
 }
 
 bool impact_speed(const TestValue& test) { return test.test == Test::speed && test.kind == mode::GuardKind::gap; }
+bool gap(const TestValue& test) { return test.test == Test::guard && test.kind == mode::GuardKind::gap; }
+
+double largest(const std::vector<TestValue>& tests, bool (*of)(const TestValue&)) {
+  double all = 0.0;
+  for (const TestValue& test : tests)
+    if (of(test) && std::isfinite(test.value)) all = std::max(all, std::abs(test.value));
+  return all;
+}
 
 /// How many impacts lose their speed from one orbit to the next?
-int lost_impacts(const ModeSet& set, const Orbit& before, const Orbit& orbit) {
-  const std::vector<TestValue> was = test_values(set, before), is = test_values(set, orbit);
+int lost_impacts(const std::vector<TestValue>& was, const std::vector<TestValue>& is) {
   int count = 0;
   for (std::size_t i = 0; i < std::min(was.size(), is.size()); ++i)
     if (impact_speed(is[i]) && is[i].value < nothing * was[i].value) ++count;
@@ -137,14 +145,12 @@ int lost_impacts(const ModeSet& set, const Orbit& before, const Orbit& orbit) {
 }
 
 /// Where several impacts lose their speed together, as in symmetric orbits: without the others too.
-Orbit without_all(const ModeSet& set, const Orbit& before, Orbit orbit) {
-  double largest = 0.0;
-  for (const TestValue& test : test_values(set, before))
-    if (impact_speed(test)) largest = std::max(largest, std::abs(test.value));
+Orbit without_all(const ModeSet& set, double largest_speed, Orbit orbit) {
   for (std::size_t most = orbit.legs(); most > 0; --most) {
     const std::vector<TestValue> tests = test_values(set, orbit);
-    const auto next = std::ranges::find_if(
-        tests, [&](const TestValue& test) { return impact_speed(test) && std::abs(test.value) < no_speed * largest; });
+    const auto next = std::ranges::find_if(tests, [&](const TestValue& test) {
+      return impact_speed(test) && std::abs(test.value) < no_speed * largest_speed;
+    });
     if (next == tests.end()) break;
     std::vector<Orbit> fewer = without_impact(set, orbit, orbit, *next);
     if (fewer.empty()) break;
@@ -153,17 +159,32 @@ Orbit without_all(const ModeSet& set, const Orbit& before, Orbit orbit) {
   return orbit;
 }
 
+/// Where several gaps touch zero together: with an impact in each of the others too.
+Orbit with_all(const ModeSet& set, double largest_gap, Orbit orbit) {
+  constexpr int most = 16;
+  for (int k = 0; k < most; ++k) {
+    const std::vector<TestValue> tests = test_values(set, orbit);
+    const auto next = std::ranges::find_if(
+        tests, [&](const TestValue& test) { return gap(test) && std::abs(test.value) < no_gap * largest_gap; });
+    if (next == tests.end()) break;
+    orbit = std::move(with_impact(set, orbit, *next).front());
+  }
+  return orbit;
+}
+
 }  // namespace
 
-std::vector<Orbit> coincident(const ModeSet& set, const Orbit& before, const Orbit& orbit, const TestValue& test) {
+std::vector<Orbit> coincident(const ModeSet& set, const Orbit& before, const std::vector<TestValue>& was,
+                              const Orbit& orbit, const TestValue& test) {
   std::vector<Orbit> shapes;
-  const bool several = lost_impacts(set, before, orbit) > 1;
-  for (const Orbit& fewer : without_impact(set, before, orbit, test)) {
-    const Orbit fewest = several ? without_all(set, before, fewer) : fewer;
-    if (!(fewest.shape.legs == fewer.shape.legs)) shapes.push_back(fewest);
-    shapes.push_back(fewer);
-  }
-  std::ranges::copy(with_impact(set, orbit, test), std::back_inserter(shapes));
+  const auto add = [&](const Orbit& all, const Orbit& one) {
+    if (!(all.shape.legs == one.shape.legs)) shapes.push_back(all);
+    shapes.push_back(one);
+  };
+  const bool several = lost_impacts(was, test_values(set, orbit)) > 1;
+  for (const Orbit& fewer : without_impact(set, before, orbit, test))
+    add(several ? without_all(set, largest(was, impact_speed), fewer) : fewer, fewer);
+  for (const Orbit& more : with_impact(set, orbit, test)) add(with_all(set, largest(was, gap), more), more);
   std::ranges::copy(merged(set, before, orbit), std::back_inserter(shapes));
   return shapes;
 }

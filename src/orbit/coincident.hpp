@@ -5,10 +5,11 @@
 
 namespace slapstick::orbit {
 
-/// @param before  the same orbit at some distance from the change
+/// @param set     of the change's parameters
+/// @param before  the same orbit at some distance from the change, and its margins
 /// @param test    the margin that is used up at the change
 /// @returns the orbit in its other shapes: those without what has vanished first
-[[nodiscard]] std::vector<Orbit> coincident(const ModeSet& set, const Orbit& before, const Orbit& orbit,
-                                            const TestValue& test);
+[[nodiscard]] std::vector<Orbit> coincident(const ModeSet& set, const Orbit& before, const std::vector<TestValue>& was,
+                                            const Orbit& orbit, const TestValue& test);
 
 }  // namespace slapstick::orbit

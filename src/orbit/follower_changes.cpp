@@ -11,6 +11,11 @@
 #include "slapstick/base/text.hpp"
 
 namespace slapstick::orbit {
+namespace {
+
+constexpr std::string_view family = "family";  ///< where a motion goes that is not isolated any more
+
+}  // namespace
 
 /// Between `at` and `beyond` the motion's events change. Notes the point and goes on with new ones. @returns false if the branch ends
 bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why) {
@@ -43,6 +48,7 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
   const bool shorter = std::ranges::any_of(found, [](const Reshaped& next) { return repeats(next.point.orbit, 1e-6); });
   const bool retraces = !found.empty() && lies_on_first(branch_.points.size(), branch_, found.front().point.orbit);
   if (found.empty() && end_cascade_with(at, special)) return !ended_;
+  if (found.empty() && left.empty() && begins_family(problem_, at.orbit, change->at, change->test)) left = family;
   if (found.empty() || shorter || retraces) {
     end_at(std::move(special), left, shorter, retraces);
     return false;
@@ -64,6 +70,8 @@ void Follower::end_at(SpecialPoint special, const std::string& left, bool shorte
   } else if (!options_.through_changes) {
     special.outcome = "not followed";
     failed = true;
+  } else if (left == family) {
+    special.outcome = why = "from there on it is one of a family";
   } else if (!left.empty()) {
     special.outcome = "jump to " + left;
     why = "a jump: the motion goes over to " + left;

@@ -230,7 +230,8 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
     if (next && std::ranges::none_of(all, known)) all.push_back(std::move(*next));
   };
   const double sense = std::copysign(1.0, critical - before.values[0]);
-  for (const Orbit& shape : coincident(set, before, change.orbit, test))
+  const std::vector<TestValue> was = test_values(ModeSet(problem.family(), before.values), before);
+  for (const Orbit& shape : coincident(set, before, was, change.orbit, test))
     add(leaving(problem, change, sense, shape, range));
   const double longest =
       chatters(change.orbit) ? 1e-2 : 1e-3;  // near its onset a chatter's equations are hardly solvable
@@ -250,6 +251,13 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
     }
   }
   return all;
+}
+
+bool begins_family(const Problem& problem, const Orbit& before, const PathPoint& change, const TestValue& test) {
+  const ModeSet set(problem.family(), change.orbit.values);
+  const std::vector<TestValue> was = test_values(ModeSet(problem.family(), before.values), before);
+  const std::vector<Orbit> shapes = coincident(set, before, was, change.orbit, test);
+  return std::ranges::any_of(shapes, [&](const Orbit& shape) { return !describe(problem, shape, nullptr).isolated(); });
 }
 
 std::optional<Reshaped> beyond_cascade(const Problem& problem, const PathPoint& last, double limit, double range,

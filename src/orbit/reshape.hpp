@@ -22,6 +22,10 @@ struct Reshaped {
                                             const TestValue& test, double range, const std::atomic<bool>* stop,
                                             double nearest = 1e-6);
 
+/// Is the orbit at a change, in another shape, one of a family? Those lie beside it at the same parameter: there is no branch to follow.
+[[nodiscard]] bool begins_family(const Problem& problem, const Orbit& before, const PathPoint& change,
+                                 const TestValue& test);
+
 /// The orbit with a complete chatter beyond a cascade, whose every change adds an impact.
 /// @param last  a point of the branch near the end of the cascade  @param limit  the value of the parameter where the changes gather
 [[nodiscard]] std::optional<Reshaped> beyond_cascade(const Problem& problem, const PathPoint& last, double limit,

@@ -18,6 +18,8 @@ void rotate(Orbit& orbit, std::size_t first) {
   const double cycle = orbit.t[k] - orbit.t[0];
   std::vector<double> t(orbit.t.begin() + static_cast<std::ptrdiff_t>(first), orbit.t.end() - 1);
   for (std::size_t i = 0; i <= first; ++i) t.push_back(orbit.t[i] + cycle);
+  const double zero = orbit.shape.n == 0 ? t.front() : 0.0;
+  for (double& instant : t) instant -= zero;
   orbit.t = std::move(t);
   std::vector<Leg>& legs = orbit.shape.legs;
   std::rotate(orbit.x.begin(), orbit.x.begin() + static_cast<std::ptrdiff_t>(first), orbit.x.end());

@@ -48,7 +48,7 @@ struct Orbit {
   [[nodiscard]] double duration(std::size_t leg) const { return t[leg + 1] - t[leg]; }
 };
 
-/// Makes leg `first` the first one. Times stay in order; those of the legs before it move on by a cycle.
+/// Makes leg `first` the first one. Times stay in order; those of the legs before it move on by a cycle. Without forcing they begin at 0 anew.
 void rotate(Orbit& orbit, std::size_t first);
 
 /// "impact wall, slip- pad, stick pad": for messages and tables.

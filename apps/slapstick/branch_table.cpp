@@ -9,16 +9,23 @@
 namespace slapstick::app {
 namespace {
 
+/// @param at_circle  a largest multiplier so near the unit circle says nothing
 std::string row(std::size_t branch, std::size_t point, std::string_view type, double value,
-                const orbit::Solution& solution, const std::string& what) {
+                const orbit::Solution& solution, const std::string& what, double at_circle = 1e-6) {
   const double largest = solution.multipliers.empty() ? 0.0 : std::abs(solution.multipliers.front());
   std::array<char, 160> text{};
   std::snprintf(text.data(), text.size(), "%3zu %5zu  %-2s  %18.12g  %-10s %12.6g %12.6g  %-8s  ", branch, point,
                 std::string(type).c_str(), value, solution.label.c_str(), solution.cycle, largest,
-                std::abs(largest - 1.0) < 1e-6 ? ""
-                : largest < 1.0                ? "stable"
-                                               : "unstable");
+                std::abs(largest - 1.0) < at_circle ? ""
+                : largest < 1.0                     ? "stable"
+                                                    : "unstable");
   return text.data() + what + "\n";
+}
+
+/// How well the critical multiplier of a point is known: at a fold, where states are, to the root of the parameter's error.
+double critical(orbit::SpecialType type) {
+  using enum orbit::SpecialType;
+  return type == LP || type == PD || type == NS || type == BP ? 2e-3 : 1e-6;
 }
 
 std::string short_number(double value) {
@@ -82,7 +89,7 @@ std::string branch_table(const std::vector<orbit::Branch>& branches, const std::
       for (; special != branch.special.end() && special->after == i; ++special) {
         const auto place = static_cast<std::size_t>(special - branch.special.begin());
         text += row(b + 1, i + 1, name(special->type), special->value, special->solution,
-                    words(branch, *special) + rates(sensitivities[b], place, parameter));
+                    words(branch, *special) + rates(sensitivities[b], place, parameter), critical(special->type));
       }
     }
     text += "    " + std::to_string(branch.points.size()) + " points; " + branch.ended + "\n";

@@ -74,8 +74,32 @@ std::vector<Orbit> without_impact(const ModeSet& set, const Orbit& before, const
   return shapes;
 }
 
-/// Legs that have shrunk to nothing. Between two of one mode: those are one leg. Between two stops of one velocity: the second is the first's.
-std::vector<Orbit> merged(const ModeSet& set, const Orbit& before, const Orbit& orbit) {
+/// One event in place of the two, the ends of the first leg and of the last of those behind it that are gone. @returns false if none is known
+bool unite(Orbit& turned, std::size_t gone, bool impacts_stay) {
+  Leg& first = turned.shape.legs[0];
+  Leg& last = turned.shape.legs[gone];
+  const auto count = static_cast<std::ptrdiff_t>(gone);
+  const bool first_strikes = impacts_stay && !first.strikes.empty(),
+             last_strikes = impacts_stay && !last.strikes.empty();
+  if (first_strikes && last_strikes) return false;
+  if (first_strikes) {  // an impact takes over the other event
+    leave_out(turned, 1, count);
+    return true;
+  }
+  const bool stops = first.kind == mode::GuardKind::slip && last.kind == first.kind && last.contact == first.contact;
+  if (!last_strikes && first.states == turned.shape.legs[gone + 1].states) {  // neither
+    leave_out(turned, 0, count + 1);
+    return true;
+  }
+  if (!last_strikes && !stops) return false;
+  last.states = first.states;
+  leave_out(turned, 0, count);
+  return true;
+}
+
+/// Legs that have shrunk to nothing. Between two of one mode: those are one leg. Between two stops of one velocity: the second is the first's. Between
+/// another event and an impact, of which a speed is left: the impact is all.
+std::vector<Orbit> merged(const ModeSet& set, const Orbit& before, const Orbit& orbit, bool impacts_stay) {
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
     Orbit turned = orbit;
     rotate(turned, i);
@@ -83,18 +107,7 @@ std::vector<Orbit> merged(const ModeSet& set, const Orbit& before, const Orbit& 
     while (gone + 1 < turned.legs() && vanishes(before, orbit, (i + gone + 1) % orbit.legs())) ++gone;
     if (gone == 0) continue;
     if (gone + 1 == turned.legs()) return orbit.shape.n > 0 ? std::vector{uncut(set, turned)} : std::vector<Orbit>{};
-    Leg& first = turned.shape.legs[0];
-    const Leg& last = turned.shape.legs[gone];
-    auto count = static_cast<std::ptrdiff_t>(gone);
-    if (first.states == turned.shape.legs[gone + 1].states) {
-      ++count;
-    } else if (first.kind == mode::GuardKind::slip && last.kind == first.kind && last.contact == first.contact) {
-      turned.shape.legs[gone].states = first.states;
-    } else {
-      continue;
-    }
-    leave_out(turned, 0, count);
-    return {turned};
+    if (unite(turned, gone, impacts_stay)) return {turned};
   }
   return {};
 }
@@ -185,7 +198,7 @@ std::vector<Orbit> coincident(const ModeSet& set, const Orbit& before, const std
   for (const Orbit& fewer : without_impact(set, before, orbit, test))
     add(several ? without_all(set, largest(was, impact_speed), fewer) : fewer, fewer);
   for (const Orbit& more : with_impact(set, orbit, test)) add(with_all(set, largest(was, gap), more), more);
-  std::ranges::copy(merged(set, before, orbit), std::back_inserter(shapes));
+  std::ranges::copy(merged(set, before, orbit, !impact_speed(test)), std::back_inserter(shapes));
   return shapes;
 }
 

@@ -235,12 +235,15 @@ std::optional<Change> find_change(const Problem& problem, const PathPoint& from,
     if (auto located = locate_margin(problem, from, to, length, range, i))
       candidates.emplace_back(i, std::move(*located));
   }
-  // Of margins that are used up together the speed of an impact says most, and of a slip that is no more its length.
+  // Of margins that are used up together the speed of an impact says most, and of a slip that is no more its length; a gap that closes with the leg
+  // after an impact says least.
   std::ranges::sort(candidates, {}, [&](const auto& candidate) {
     const TestValue& test = from.watched.tests[candidate.first];
     const bool slip = test.starts_at_end && mode::of_friction(test.kind);
     const bool says_most = test.test == (slip ? Test::duration : Test::speed);
-    return std::pair(std::floor(candidate.second.length / (1e-6 * length)), says_most ? 0 : 1);
+    const bool closes = test.test == Test::guard && test.kind == mode::GuardKind::gap;
+    const int rank = says_most ? 0 : closes ? 2 : 1;
+    return std::pair(std::floor(candidate.second.length / (1e-6 * length)), rank);
   });
   for (auto& [test, located] : candidates) {
     if (!changes_there(problem, from, length, located.length, range)) continue;

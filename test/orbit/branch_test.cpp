@@ -226,6 +226,38 @@ TEST(Branch, UnstablePointsAreOrbitsOfTheSimulator) {
   EXPECT_LT((attractor::contact_state(motion) - begin).norm(), 1e-11 * begin.norm());
 }
 
+/// A reversal of the carriage moves onto an impact, and from there on the impact reverses it: the impact stays. By brute force the orbit of the new events is
+/// on the branch, and motions leave it where it folds.
+TEST(Branch, KeepsAnImpactThatAReversalMeets) {
+  const std::string model = std::string(SLAPSTICK_ORBIT_MODELS) + "rail-hammer.toml";
+  const auto one_impact = [](const Posed& posed, bool stable) {
+    const auto wanted = [=](const orbit::Solution& s) { return s.impacts == 1 && s.stable() == stable; };
+    const auto all = orbit::search(*posed.problem, posed.system, posed.start(), {.starts = 200, .enough = wanted});
+    return std::ranges::find_if(all, wanted)->orbit;
+  };
+  const Posed posed(model, {}, {"frequency"}, {5.9905});
+  const orbit::Branch branch =
+      orbit::follow(*posed.problem, one_impact(posed, false), {.from = 5.985, .to = 6.0, .longest_step = 0.1});
+  const auto place = [&](orbit::SpecialType type) {
+    const auto found = std::ranges::find(branch.special, type, &orbit::SpecialPoint::type);
+    return found == branch.special.end() ? 0.0 : found->value;
+  };
+  const double fold = place(orbit::SpecialType::LP);
+  EXPECT_TRUE(std::ranges::any_of(branch.special, [](const auto& s) { return std::abs(s.value - 5.991930921) < 1e-8; }))
+      << branch.ended;
+  EXPECT_NEAR(fold, 5.992745338, 1e-8) << branch.ended;
+  const Posed beyond(model, {}, {"frequency"}, {5.9925});
+  EXPECT_TRUE(orbit::lies_on(*beyond.problem, branch, one_impact(beyond, false)));
+  EXPECT_TRUE(orbit::lies_on(*beyond.problem, branch, one_impact(beyond, true)));
+  const State start = orbit::at_phase_zero(*beyond.problem, one_impact(beyond, true));
+  const auto label = [&](double frequency) {
+    const Posed at(model, {{"frequency", frequency}}, {}, {});
+    return classify(at.system, start, {.transient_periods = 3000}).label;
+  };
+  EXPECT_EQ(label(fold - 2e-5), "1-1-I");
+  EXPECT_NE(label(fold + 2e-5), "1-1-I");
+}
+
 /// A search finds the unstable orbit from which a doubled one was born, beside that one.
 TEST(Search, FindsStableAndUnstableOrbits) {
   const Posed posed("vibro-impact", {{"omega", 2.88}}, {}, {});

@@ -7,6 +7,7 @@ import tempfile
 import time
 
 PROGRAM = os.path.abspath(sys.argv[1])
+PATIENCE = float(os.environ.get('SLAPSTICK_PATIENCE', '1'))  # what limits of time are multiplied by: the sanitizers' presets set it
 
 
 class Outcome:
@@ -17,7 +18,7 @@ class Outcome:
 def run(*words, **options):
     """slapstick WORDS; `out` is a file to take standard output instead."""
     done = subprocess.run([PROGRAM, *words], stdin=subprocess.DEVNULL, stdout=options.get('out', subprocess.PIPE),
-                          stderr=subprocess.PIPE, check=False, timeout=options.get('timeout', 120), env=options.get('env'))
+                          stderr=subprocess.PIPE, check=False, timeout=PATIENCE * options.get('timeout', 120), env=options.get('env'))
     return Outcome(done.returncode, (done.stdout or b'').decode(), done.stderr.decode())
 
 

@@ -39,18 +39,10 @@ Candidates compliant_candidates(double depth, bool can_detach) {
   return can_detach ? Candidates{{1, 2}, 2} : Candidates{{1}, 1};
 }
 
-/// Does a guard that stays zero speak against the mode? A contact that rests for good sticks, it does not slip; unless others hold its pair in
-/// a loop of contacts, where kinetic friction is one of the forces that it may have.
-bool slips_at_rest(const mode::Mode& mode, const mode::Frame& frame, const mode::Guard& guard) {
-  return guard.kind == mode::GuardKind::slip && !mode.steady(frame.frictions[guard.contact].own);
-}
-
-bool fits(const System& system, const mode::Mode& mode, const double* X, const double* magnitude,
-          std::span<int> orders) {
+bool fits(const mode::Mode& mode, const double* X, const double* magnitude, std::span<int> orders) {
   for (int g = 0; g < mode.guard_count(); ++g) {
     orders[g] = start_order(mode, g, X, magnitude);
     if (orders[g] == negative) return false;
-    if (orders[g] == never && slips_at_rest(mode, system.frame(), mode.guards()[g])) return false;
   }
   return true;
 }
@@ -224,7 +216,7 @@ ModeId select_mode(const System& system, const double* X, const double* magnitud
     const ModeId id = choice.id();
     const mode::Mode* known = system.known_mode(id);
     if (known == nullptr && !choice.only_one() && !may_fit(*system.outline(id), X, magnitude)) continue;
-    if (fits(system, known != nullptr ? *known : system.mode(id), X, magnitude, orders)) return id;
+    if (fits(known != nullptr ? *known : system.mode(id), X, magnitude, orders)) return id;
   } while (choice.next());
   return -1;
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -75,6 +76,38 @@ TEST(Stick, HoldsAForceThatOnlyTouchesItsLimit) {  // |f0| <= f_s, however often
   }
   EXPECT_EQ(touches, 40);  // at both ends of the force in every period
   EXPECT_EQ(motion.state()[0], 0.0);
+}
+
+/// Static and kinetic friction 1, a load that exceeds it by k roundings: whether it holds rounding cannot say, but some mode must be found.
+TEST(Stick, OrSlipUnderALoadThatExceedsFrictionByRoundings) {  // was: no contact mode fits the state
+  for (int k = -3; k <= 200; ++k) {
+    Model m;
+    m.coordinates = {{"x", 1.0}};
+    m.forces = {{0, 0, 1.0 + k * 0x1p-52, 0.0}};
+    m.frictions = {{"floor", 0, ground, 0.0, 1.0, 1.0}};
+    const System system(m);
+    Motion motion(system, {0.0, 0.0});
+    ASSERT_NO_THROW(testing::run(motion, 3.0)) << k;
+    const double exact = 0.5 * 9.0 * std::max(k, 0) * 0x1p-52;
+    EXPECT_NEAR(motion.state()[0], exact, 0.5 * 9.0 * 64 * 0x1p-52) << k;  // 64 roundings of a force are none
+  }
+}
+
+/// The same of a spring that is stretched so far: what moves turns half way, and stays.
+TEST(Stick, OrSlipUnderASpringThatExceedsFrictionByRoundings) {
+  for (int k = -3; k <= 400; ++k) {
+    Model m;
+    m.coordinates = {{"x", 1.0}};
+    m.springs = {{0, ground, 1.0}};
+    m.frictions = {{"floor", 0, ground, 0.0, 1.0, 1.0}};
+    const System system(m);
+    const double start = -1.0 - k * 0x1p-52;
+    Motion motion(system, {start, 0.0});
+    ASSERT_NO_THROW(testing::run(motion, 100.0)) << k;
+    EXPECT_GE(motion.state()[0], start) << k;
+    EXPECT_LE(motion.state()[0], std::max(start, -1.0 + k * 0x1p-52) + 64 * 0x1p-52) << k;
+    EXPECT_EQ(motion.state()[1], 0.0) << k;
+  }
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ std::string row(std::size_t branch, std::size_t point, std::string_view type, do
 }
 
 /// How well the critical multiplier of a point is known: at a fold, where states are, to the root of the parameter's error.
-double critical(orbit::SpecialType type) {
+double critical_tolerance(orbit::SpecialType type) {
   using enum orbit::SpecialType;
   return type == LP || type == PD || type == NS || type == BP ? 2e-3 : 1e-6;
 }
@@ -88,8 +88,9 @@ std::string branch_table(const std::vector<orbit::Branch>& branches, const std::
             row(b + 1, i + 1, "EP", point.orbit.values[0], point, point.is_motion ? "" : "not a motion: " + point.why);
       for (; special != branch.special.end() && special->after == i; ++special) {
         const auto place = static_cast<std::size_t>(special - branch.special.begin());
-        text += row(b + 1, i + 1, name(special->type), special->value, special->solution,
-                    words(branch, *special) + rates(sensitivities[b], place, parameter), critical(special->type));
+        text +=
+            row(b + 1, i + 1, name(special->type), special->value, special->solution,
+                words(branch, *special) + rates(sensitivities[b], place, parameter), critical_tolerance(special->type));
       }
     }
     text += "    " + std::to_string(branch.points.size()) + " points; " + branch.ended + "\n";

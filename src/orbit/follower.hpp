@@ -25,7 +25,9 @@ class Follower {
   [[nodiscard]] Solution solution_of(const PathPoint& point, Verification* seen) const;
   bool accept(PathPoint& at, PathPoint next, double length);
   bool change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why);
-  void end_at(SpecialPoint special, const std::string& left, bool shorter, bool retraces);
+  /// What there is behind a change of events where a branch ends.
+  enum class Beyond { shorter, retraced, family, jump, not_followed, unknown };
+  bool end_at(SpecialPoint special, Beyond beyond, const std::string& left = {});
   void go_on(PathPoint& at, SpecialPoint special, Reshaped next);
   bool leave_chatter(PathPoint& at);
   bool end_cascade(PathPoint& at);

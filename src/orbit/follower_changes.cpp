@@ -11,11 +11,6 @@
 #include "slapstick/base/text.hpp"
 
 namespace slapstick::orbit {
-namespace {
-
-constexpr std::string_view family = "family";  ///< where a motion goes that is not isolated any more
-
-}  // namespace
 
 /// Between `at` and `beyond` the motion's events change. Notes the point and goes on with new ones. @returns false if the branch ends
 bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why) {
@@ -37,51 +32,59 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
   special.after = branch_.points.size() - 1;
   // At a touch multipliers are infinite, or 0 / 0: those of the point before say more.
   special.solution.multipliers = branch_.points.back().multipliers;
-  std::vector<Reshaped> found;
-  if (options_.through_changes) found = reshape(problem_, at.orbit, change->at, change->test, range_, options_.stop);
+  if (!options_.through_changes) return end_at(std::move(special), Beyond::not_followed);
+  std::vector<Reshaped> found = reshape(problem_, at.orbit, change->at, change->test, range_, options_.stop);
+  if (found.empty() && end_cascade_with(at, special)) return !ended_;
   std::string left;  // where a stable motion goes when there is no branch
-  if (found.empty() && options_.through_changes && branch_.points.back().stable()) {
+  if (found.empty() && branch_.points.back().stable()) {
     Behind there = behind(problem_, at.orbit, change->at, range_, options_.stop);
     left = there.what;
     if (there.next) found.push_back(std::move(*there.next));
   }
-  const bool shorter = std::ranges::any_of(found, [](const Reshaped& next) { return repeats(next.point.orbit, 1e-6); });
-  const bool retraces = !found.empty() && lies_on_first(branch_.points.size(), branch_, found.front().point.orbit);
-  if (found.empty() && end_cascade_with(at, special)) return !ended_;
-  if (found.empty() && left.empty() && begins_family(problem_, at.orbit, change->at, change->test)) left = family;
-  if (found.empty() || shorter || retraces) {
-    end_at(std::move(special), left, shorter, retraces);
-    return false;
+  if (found.empty() && !left.empty()) return end_at(std::move(special), Beyond::jump, left);
+  if (found.empty()) {
+    const bool family = begins_family(problem_, at.orbit, change->at, change->test);
+    return end_at(std::move(special), family ? Beyond::family : Beyond::unknown);
   }
+  const auto repeated = [](const Reshaped& next) { return repeats(next.point.orbit, 1e-6).has_value(); };
+  if (std::ranges::any_of(found, repeated)) return end_at(std::move(special), Beyond::shorter);
+  if (lies_on_first(branch_.points.size(), branch_, found.front().point.orbit))
+    return end_at(std::move(special), Beyond::retraced);
   for (std::size_t i = 1; i < found.size(); ++i) special.born.push_back(found[i].point.orbit);
   go_on(at, std::move(special), std::move(found.front()));
   return true;
 }
 
-/// The branch ends where its events change. @param left  what the motion goes over to, if that is known
-void Follower::end_at(SpecialPoint special, const std::string& left, bool shorter, bool retraces) {
-  std::string why = "the events change";
-  bool failed = false;
-  if (shorter) {
-    special.outcome = why = "from there on it is a shorter orbit, run through more than once";
-  } else if (retraces) {
-    special.outcome = "the branch as it came";
-    why = "from there on the branch runs back over itself";
-  } else if (!options_.through_changes) {
-    special.outcome = "not followed";
-    failed = true;
-  } else if (left == family) {
-    special.outcome = why = "from there on it is one of a family";
-  } else if (!left.empty()) {
-    special.outcome = "jump to " + left;
-    why = "a jump: the motion goes over to " + left;
-  } else {
-    special.outcome = "none found";
-    why = "no orbit was found beyond, a jump or a failure of the search";
-    failed = true;
+/// The branch ends where its events change. @param left  what the motion goes over to in a jump. @returns false
+bool Follower::end_at(SpecialPoint special, Beyond beyond, const std::string& left) {
+  std::string why;
+  switch (beyond) {
+    case Beyond::shorter:
+      special.outcome = why = "from there on it is a shorter orbit, run through more than once";
+      break;
+    case Beyond::retraced:
+      special.outcome = "the branch as it came";
+      why = "from there on the branch runs back over itself";
+      break;
+    case Beyond::family:
+      special.outcome = why = "from there on it is one of a family";
+      break;
+    case Beyond::jump:
+      special.outcome = "jump to " + left;
+      why = "a jump: the motion goes over to " + left;
+      break;
+    case Beyond::not_followed:
+      special.outcome = "not followed";
+      why = "the events change";
+      break;
+    case Beyond::unknown:
+      special.outcome = "none found";
+      why = "no orbit was found beyond, a jump or a failure of the search";
   }
-  end(std::string(name(special.type)) + " at " + shown(special.value) + ": " + why, failed);
+  end(std::string(name(special.type)) + " at " + shown(special.value) + ": " + why,
+      beyond == Beyond::not_followed || beyond == Beyond::unknown);
   branch_.special.push_back(std::move(special));
+  return false;
 }
 
 /// Near its onset a chatter's equations, of ever more impacts, are hardly solvable. Looks for the orbits behind the onset; where none is found, the
@@ -162,7 +165,7 @@ void Follower::restart(PathPoint& at, PathPoint from) {
   step_ = options_.step;
 }
 
-/// .. or goes on with new ones.
+/// The branch goes on behind a change, with new events.
 void Follower::go_on(PathPoint& at, SpecialPoint special, Reshaped next) {
   special.outcome = next.folds ? "non-smooth fold" : "persistence";
   Solution first = solution_of(next.point, nullptr);

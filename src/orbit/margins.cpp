@@ -79,8 +79,8 @@ struct Least {
 /// A sum of a state's components along one step of a course.
 class AlongStep {
  public:
-  AlongStep(const Course& course, mode::RowVector row, std::size_t i)
-      : course_(course), row_(std::move(row)), start_(course.states[i]) {}
+  AlongStep(const Course& course, const mode::RowVector& row, std::size_t i)
+      : course_(course), row_(row), start_(course.states[i]) {}
 
   [[nodiscard]] double at(double s) const {
     Jet X(start_.size(), 0, 0);
@@ -105,7 +105,7 @@ class AlongStep {
 
  private:
   const Course& course_;
-  mode::RowVector row_;
+  const mode::RowVector& row_;
   const VectorXd& start_;
 };
 

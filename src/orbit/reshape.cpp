@@ -6,6 +6,7 @@
 
 #include "attractor/cycle.hpp"
 #include "orbit/coincident.hpp"
+#include "orbit/cyclic.hpp"
 #include "orbit/record.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/orbit/periodic_orbit.hpp"
@@ -34,13 +35,7 @@ bool chatters(const Orbit& orbit) {
 
 /// Do two cycles have the same legs, wherever they begin?
 bool same_cycle(const Orbit& a, const Orbit& b) {
-  if (a.legs() != b.legs()) return false;
-  std::vector<Leg> turned = a.shape.legs;
-  for (std::size_t k = 0; k < turned.size(); ++k) {
-    if (turned == b.shape.legs) return true;
-    std::rotate(turned.begin(), turned.begin() + 1, turned.end());
-  }
-  return false;
+  return from_some_event(a, b, [](std::size_t) { return true; });
 }
 
 /// The legs that a motion from inside the first leg shows, until it ends one of the orbit's own legs as the orbit does; the rest as in the orbit.

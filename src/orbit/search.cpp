@@ -3,6 +3,7 @@
 #include <random>
 
 #include "attractor/cycle.hpp"
+#include "orbit/cyclic.hpp"
 #include "orbit/path.hpp"
 #include "orbit/record.hpp"
 #include "orbit/same_motion.hpp"
@@ -20,21 +21,20 @@ constexpr double settled = 1e-3;      ///< relative distance of a motion from th
 constexpr int longest_cycle = 64;
 constexpr int from_one_guess = 4;  ///< orbits at most
 
-/// Do two cycles have the same legs, begun at another event or in another period?
-bool same_legs(const Orbit& a, const Orbit& b) {
-  if (a.legs() != b.legs()) return false;
-  for (std::size_t shift = 0; shift < a.legs(); ++shift) {
-    if ((a.x[0] - b.x[shift]).norm() > same_orbit * std::max(a.x[0].norm(), b.x[shift].norm())) continue;
-    const double turns = a.t[0] - b.t[shift];
-    if (a.shape.n == 0 || std::abs(turns - std::round(turns)) < same_orbit) return true;
-  }
-  return false;
+/// Are two cycles the same, begun at another event or in another period?
+bool same_from_some_event(const Orbit& a, const Orbit& b) {
+  return from_some_event(a, b, [&](std::size_t shift) {
+    return (a.x[0] - b.x[shift]).norm() <= same_orbit * std::max(a.x[0].norm(), b.x[shift].norm()) &&
+           (a.shape.n == 0 || std::abs(std::remainder(a.t[0] - b.t[shift], 1.0)) < same_orbit);
+  });
 }
 
 /// Is it one of these? Equal legs tell soonest. Others may be the same motion: how many impacts of a chatter are legs of their own is a matter of where
 /// it was recorded.
 bool known(const Problem& problem, const std::vector<Orbit>& found, const Orbit& orbit) {
-  const auto alike = [&](const Orbit& other) { return other.shape.n == orbit.shape.n && same_legs(orbit, other); };
+  const auto alike = [&](const Orbit& other) {
+    return other.shape.n == orbit.shape.n && same_from_some_event(orbit, other);
+  };
   const auto same = [&](const Orbit& other) { return apart(problem, orbit, other) < same_orbit; };
   return std::ranges::any_of(found, alike) || std::ranges::any_of(found, same);
 }
@@ -48,20 +48,15 @@ bool is_multiple(const Problem& problem, const Orbit& orbit) {
 }
 
 /// Of an orbit that is a shorter one several times over, that one.
-Orbit once(const Orbit& orbit) {
-  for (std::size_t part = 1; part < orbit.legs(); ++part) {
-    Orbit shorter = orbit;
-    shorter.shape.legs.resize(part);
-    shorter.x.resize(part);
-    shorter.t.resize(part + 1);
-    const auto times = static_cast<int>(orbit.legs() / part);
-    shorter.shape.n = orbit.shape.n / times;
-    if (orbit.legs() % part == 0 && orbit.shape.n % times == 0 &&
-        (orbit.x[part] - orbit.x[0]).norm() <= same_orbit * orbit.x[0].norm() &&
-        std::equal(orbit.shape.legs.begin() + static_cast<std::ptrdiff_t>(part), orbit.shape.legs.end(),
-                   orbit.shape.legs.begin()))
-      return shorter;
-  }
+Orbit once(Orbit orbit) {
+  const std::optional<std::size_t> part = repeats(orbit, same_orbit);
+  if (!part) return orbit;
+  const auto times = static_cast<int>(orbit.legs() / *part);
+  if (orbit.shape.n % times != 0) return orbit;
+  orbit.shape.legs.resize(*part);
+  orbit.x.resize(*part);
+  orbit.t.resize(*part + 1);
+  orbit.shape.n /= times;
   return orbit;
 }
 

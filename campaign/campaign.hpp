@@ -45,6 +45,7 @@ Report run_balls(const Options& options);
 Report run_noise(const Options& options);
 Report run_orbit(const Options& options);
 Report run_families(const Options& options);
+Report run_branches(const Options& options);
 Report run_peers(const Options& options);
 
 }  // namespace campaign

@@ -19,7 +19,8 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double shortest_for_pairs = 1e-4;  ///< arclength that may hold two special points of one type
-constexpr double straight = 0.95;            ///< least cosine between the tangents of neighbouring points
+constexpr double small_size = 0.2;  ///< of the first orbit's: what is smaller is followed in steps of this size's
+constexpr double straight = 0.95;   ///< least cosine between the tangents of neighbouring points
 
 }  // namespace
 
@@ -105,6 +106,16 @@ bool Follower::runs_over_itself() {
   return true;
 }
 
+/// An orbit that has grown beyond measure while the parameter hardly moves. @returns false if the branch goes on
+bool Follower::grows_without_bound(const PathPoint& at) {
+  constexpr double beyond = 1e6;  // a resonance of less damping than this is none
+  const Eigen::Index numbers = problem_.numbers();
+  const VectorXd grown = at.units.head(numbers).cwiseQuotient(problem_.least_sizes());
+  if (grown.maxCoeff() * small_size < beyond || std::abs(at.watched.turn) > 1.0 / beyond) return false;
+  end("the orbit grows without bound as " + problem_.family().names[0] + " nears " + shown(value(at)), false);
+  return true;
+}
+
 /// Takes a step, or makes it shorter. @returns false if the branch ends
 bool Follower::accept(PathPoint& at, PathPoint next, double length) {
   Verification seen;
@@ -126,7 +137,7 @@ bool Follower::accept(PathPoint& at, PathPoint next, double length) {
   if (ended_) return false;
   before_ = Before{at, length};
   branch_.points.push_back(std::move(solution));
-  if (runs_over_itself()) return false;
+  if (runs_over_itself() || grows_without_bound(next)) return false;
   if (!seen.same_chatter && !seen.seen.shape.legs.empty()) {
     Orbit renewed = seen.seen;
     renewed.values = next.orbit.values;
@@ -157,8 +168,11 @@ void Follower::run(PathPoint at) {
     const double bend = next ? at.tangent.dot(next->tangent) : -1.0;
     if (!next || !inside(value(*next)) || (bend < straight && step_ > 1e-4)) {
       step_ *= 0.5;
-      if (step_ < shortest_step() && (leave_chatter(at) || turn_round(at) || end_cascade(at))) continue;
+      if (step_ < shortest_step() && leave(at)) continue;
       if (step_ < shortest_step()) {
+        constexpr double at_the_wall = 1e-5;  // of the range; on it the model may have another structure
+        const double wall = at.watched.turn > 0.0 ? options_.to : options_.from;
+        if (std::abs(wall - value(at)) < at_the_wall * range_) return end("range", false);
         if (branch_.points.back().chatter)
           why += "; the onset of the chatter may be near, and no orbit was found beyond";
         return end("behind " + problem_.family().names[0] + " = " + shown(value(at)) + ": " + why, true);
@@ -179,7 +193,9 @@ void Follower::run(PathPoint at) {
   if (!ended_) end(std::to_string(options_.most_points) + " points each way, the most allowed", true);
 }
 
-Branch follow(const Problem& problem, const Orbit& start, const ContinuationOptions& options) {
+Branch follow(const Problem& posed, const Orbit& start, const ContinuationOptions& options) {
+  Problem problem = posed;
+  problem.set_least_sizes(small_size * sizes(problem, start).head(problem.numbers()));
   const double value = start.values.at(0);
   if (!(value >= options.from && value <= options.to))
     throw InputError(problem.family().names[0] + " = " + shown(value) + " is outside the range " + shown(options.from) +

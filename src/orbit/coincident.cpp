@@ -26,14 +26,16 @@ Orbit uncut(const ModeSet& set, const Orbit& orbit) {
   return plain;
 }
 
+template <class List>
+void cut(List& list, std::ptrdiff_t from, std::ptrdiff_t count) {
+  list.erase(list.begin() + from, list.begin() + from + count);
+}
+
 /// Leaves out so many legs from one on, and as many events and states from the first leg's end on.
 void leave_out(Orbit& orbit, std::ptrdiff_t leg, std::ptrdiff_t count) {
-  const auto cut = [count](auto& list, std::ptrdiff_t from) {
-    list.erase(list.begin() + from, list.begin() + from + count);
-  };
-  cut(orbit.shape.legs, leg);
-  cut(orbit.x, 1);
-  cut(orbit.t, 1);
+  cut(orbit.shape.legs, leg, count);
+  cut(orbit.x, 1, count);
+  cut(orbit.t, 1, count);
 }
 
 /// Does a leg shrink to nothing from one orbit to the next?
@@ -74,42 +76,67 @@ std::vector<Orbit> without_impact(const ModeSet& set, const Orbit& before, const
   return shapes;
 }
 
+/// An orbit, and which of its legs have shrunk to nothing.
+struct Shrunk {
+  Orbit orbit;
+  std::vector<bool> gone;
+
+  void begin_with(std::size_t leg) {
+    rotate(orbit, leg);
+    std::rotate(gone.begin(), gone.begin() + static_cast<std::ptrdiff_t>(leg), gone.end());
+  }
+  /// How many there are next to each other behind the first leg.
+  [[nodiscard]] std::size_t run() const {
+    return static_cast<std::size_t>(std::find(gone.begin() + 1, gone.end(), false) - gone.begin()) - 1;
+  }
+  void leave_out(std::ptrdiff_t leg, std::ptrdiff_t count) {
+    orbit::leave_out(orbit, leg, count);
+    cut(gone, 1, count);
+  }
+};
+
 /// One event in place of the two, the ends of the first leg and of the last of those behind it that are gone. @returns false if none is known
-bool unite(Orbit& turned, std::size_t gone, bool impacts_stay) {
-  Leg& first = turned.shape.legs[0];
-  Leg& last = turned.shape.legs[gone];
-  const auto count = static_cast<std::ptrdiff_t>(gone);
+bool unite(Shrunk& turned, bool impacts_stay) {
+  Leg& first = turned.orbit.shape.legs[0];
+  Leg& last = turned.orbit.shape.legs[turned.run()];
+  const auto count = static_cast<std::ptrdiff_t>(turned.run());
   const bool first_strikes = impacts_stay && !first.strikes.empty(),
              last_strikes = impacts_stay && !last.strikes.empty();
   if (first_strikes && last_strikes) return false;
   if (first_strikes) {  // an impact takes over the other event
-    leave_out(turned, 1, count);
+    turned.leave_out(1, count);
     return true;
   }
   const bool stops = first.kind == mode::GuardKind::slip && last.kind == first.kind && last.contact == first.contact;
-  if (!last_strikes && first.states == turned.shape.legs[gone + 1].states) {  // neither
-    leave_out(turned, 0, count + 1);
+  const std::size_t next = (turned.run() + 1) % turned.orbit.legs();
+  if (!last_strikes && first.states == turned.orbit.shape.legs[next].states) {  // neither
+    turned.leave_out(0, count + 1);
     return true;
   }
   if (!last_strikes && !stops) return false;
   last.states = first.states;
-  leave_out(turned, 0, count);
+  turned.leave_out(0, count);
   return true;
 }
 
 /// Legs that have shrunk to nothing. Between two of one mode: those are one leg. Between two stops of one velocity: the second is the first's. Between
 /// another event and an impact, of which a speed is left: the impact is all.
 std::vector<Orbit> merged(const ModeSet& set, const Orbit& before, const Orbit& orbit, bool impacts_stay) {
-  for (std::size_t i = 0; i < orbit.legs(); ++i) {
-    Orbit turned = orbit;
-    rotate(turned, i);
-    std::size_t gone = 0;
-    while (gone + 1 < turned.legs() && vanishes(before, orbit, (i + gone + 1) % orbit.legs())) ++gone;
-    if (gone == 0) continue;
-    if (gone + 1 == turned.legs()) return orbit.shape.n > 0 ? std::vector{uncut(set, turned)} : std::vector<Orbit>{};
-    if (unite(turned, gone, impacts_stay)) return {turned};
+  Shrunk all{orbit, {}};
+  for (std::size_t i = 0; i < orbit.legs(); ++i) all.gone.push_back(vanishes(before, orbit, i));
+  std::vector<Orbit> shapes;  // one place after another; in symmetric orbits legs vanish in several together
+  for (std::size_t i = 0; i < all.orbit.legs(); ++i) {
+    Shrunk turned = all;
+    turned.begin_with(i);
+    if (turned.run() == 0) continue;
+    if (turned.run() + 1 == turned.orbit.legs())
+      return orbit.shape.n > 0 ? std::vector{uncut(set, turned.orbit)} : std::vector<Orbit>{};
+    if (!unite(turned, impacts_stay)) continue;
+    shapes.insert(shapes.begin(), turned.orbit);
+    all = std::move(turned);
+    i = static_cast<std::size_t>(-1);
   }
-  return {};
+  return shapes;
 }
 
 /// A gap that touches zero within a leg: an impact of no speed is put there, and the cycle begins with it.

@@ -64,6 +64,14 @@ class Interpolant {
     return sum / weights;
   }
 
+  /// Is what the others lead to at the first and the last place much like what it is there?
+  [[nodiscard]] bool smooth(const Interpolant& others) const {
+    double size = 0.0;
+    for (const VectorXd& value : values_) size = std::max(size, std::abs(value[0]));
+    const auto off = [&](std::size_t k) { return std::abs(others.at(places_[k])[0] - values_[k][0]); };
+    return std::max(off(0), off(places_.size() - 1)) < 0.1 * size;
+  }
+
   /// The zero of the first component near a place, by the secant rule.
   [[nodiscard]] std::optional<double> zero(double near) const {
     double a = near - 0.1 * half_width_, b = near + 0.1 * half_width_, f_a = at(a)[0];
@@ -126,18 +134,22 @@ VectorXd direction(const Problem& problem, const Orbit& a, const Orbit& b, const
 
 std::optional<Located> locate_between(const Problem& problem, const PathPoint& from, double near, double half_width,
                                       double range, const std::function<double(const PathPoint&)>& f) {
+  constexpr int enough = 6;  // near a singular point Newton's method may fail here and there
   Interpolant all(half_width), fewer(half_width), orbits(half_width);
+  std::vector<std::pair<double, PathPoint>> points;
   for (int k = 0; k < nodes; ++k) {
     const double s = near + half_width * std::cos((2 * k + 1) * std::numbers::pi / (2 * nodes));
-    const std::optional<PathPoint> point = step_to(problem, from, s, range);
-    if (!point) return std::nullopt;
-    const VectorXd value = VectorXd::Constant(1, f(*point));
+    if (auto point = step_to(problem, from, s, range)) points.emplace_back(s, std::move(*point));
+    if (static_cast<int>(points.size()) + nodes - 1 - k < enough) return std::nullopt;
+  }
+  for (const auto& [s, point] : points) {
+    const VectorXd value = VectorXd::Constant(1, f(point));
     all.add(s, value);
-    if (k > 0 && k + 1 < nodes) fewer.add(s, value);
-    orbits.add(s, numbers_of(point->orbit));
+    if (s != points.front().first && s != points.back().first) fewer.add(s, value);
+    orbits.add(s, numbers_of(point.orbit));
   }
   const std::optional<double> place = all.zero(near), check = fewer.zero(near);
-  if (!place || !check) return std::nullopt;
+  if (!place || !check || !all.smooth(fewer)) return std::nullopt;
   const auto orbit_at = [&](double s) { return with_numbers(from.orbit, orbits.at(s)); };
   Located found{point_of(problem, orbit_at(*place), range, from.tangent), *place, 0.0};
   found.error = std::abs(orbit_at(*check).values[0] - found.point.orbit.values[0]);

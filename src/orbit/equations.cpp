@@ -53,7 +53,8 @@ Problem::Problem(Family family, const std::vector<double>& values)
     : family_(std::move(family)),
       values_(values),
       base_(std::make_shared<const System>(family_.model(values))),
-      translations_(*base_) {}
+      translations_(*base_),
+      least_sizes_(VectorXd::Zero(numbers())) {}
 
 Index Problem::numbers() const { return 2 * base_->frame().n - translations_.count(); }
 Index Problem::unknowns(std::size_t legs) const { return numbers() + static_cast<Index>(legs) + 1 + parameters(); }
@@ -131,6 +132,10 @@ VectorXd sizes(const Problem& problem, const Orbit& orbit) {
   state << VectorXd::Constant(n, displacement > 0.0 ? displacement : 1.0),
       VectorXd::Constant(n, velocity > 0.0 ? velocity : 1.0);
   VectorXd all = VectorXd::Ones(problem.unknowns(orbit.legs()));
+  if (!forced(orbit)) {
+    const auto instants = static_cast<Index>(orbit.t.size());
+    all.segment(problem.instant_column(0), instants).setConstant(orbit.t.back() - orbit.t.front());
+  }
   all.head(problem.numbers()) = problem.translations().numbers(state);
   for (Index j = 0; j < problem.parameters(); ++j) {
     const double value = std::abs(orbit.values[static_cast<std::size_t>(j)]);

@@ -27,6 +27,9 @@ class Problem {
   [[nodiscard]] const System& base() const { return *base_; }
   [[nodiscard]] const attractor::Translations& translations() const { return translations_; }
   [[nodiscard]] Eigen::Index parameters() const { return static_cast<Eigen::Index>(family_.names.size()); }
+  /// What arclength measures states by where an orbit is smaller than this: one that shrinks to nothing is left behind in steps of some length.
+  [[nodiscard]] const Eigen::VectorXd& least_sizes() const { return least_sizes_; }
+  void set_least_sizes(Eigen::VectorXd sizes) { least_sizes_ = std::move(sizes); }
   /// Unknowns of an orbit with so many legs: numbers of x_0, instants, parameters.
   [[nodiscard]] Eigen::Index numbers() const;
   [[nodiscard]] Eigen::Index unknowns(std::size_t legs) const;
@@ -38,6 +41,7 @@ class Problem {
   std::vector<double> values_;
   std::shared_ptr<const System> base_;
   attractor::Translations translations_;
+  Eigen::VectorXd least_sizes_;  ///< of the numbers; zero until they are set
 };
 
 struct Linearised {
@@ -55,7 +59,7 @@ struct Linearised {
 /// Moves an orbit by a change of its unknowns; its inner states by `at`'s elimination, and by this fraction of what they have to make good.
 void move(const Problem& problem, const Linearised& at, const Eigen::VectorXd& change, double fraction, Orbit& orbit);
 
-/// Typical sizes of the unknowns: the orbit's largest displacement and velocity, a period, the parameters' own.
+/// Typical sizes of the unknowns: the orbit's largest displacement and velocity, a forcing period or without forcing the cycle, the parameters' own.
 [[nodiscard]] Eigen::VectorXd sizes(const Problem& problem, const Orbit& orbit);
 
 /// Divides each row of a matrix by its largest entry. @returns those

@@ -26,19 +26,23 @@ class Follower {
   bool accept(PathPoint& at, PathPoint next, double length);
   bool change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why);
   /// What there is behind a change of events where a branch ends.
-  enum class Beyond { shorter, retraced, family, jump, not_followed, unknown };
+  enum class Beyond { shorter, retraced, family, jump, departure, not_followed, unknown };
   bool end_at(SpecialPoint special, Beyond beyond, const std::string& left = {});
   void go_on(PathPoint& at, SpecialPoint special, Reshaped next);
   bool leave_chatter(PathPoint& at);
   bool end_cascade(PathPoint& at);
   bool end_cascade_with(PathPoint& at, SpecialPoint last);
   bool turn_round(PathPoint& at);
+  bool die_out(PathPoint& at);
+  bool leave_edge(PathPoint& at);
+  bool leave(PathPoint& at);
   void add_onset(SpecialPoint special, const std::string& outcome);
   void restart(PathPoint& at, PathPoint from);
   void look_for_pairs(const PathPoint& at, const PathPoint& next, double length);
   void add(std::vector<SpecialPoint> smooth, std::size_t after);
   bool end_at_boundary(PathPoint& at);
   bool runs_over_itself();
+  bool grows_without_bound(const PathPoint& at);
   void end(std::string why, bool failed);
 
   const Problem& problem_;

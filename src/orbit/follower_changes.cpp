@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "orbit/beyond.hpp"
+#include "orbit/dying.hpp"
 #include "orbit/hidden.hpp"
 #include "orbit/lies_on.hpp"
 #include "orbit/onset.hpp"
@@ -11,21 +13,36 @@
 #include "slapstick/base/text.hpp"
 
 namespace slapstick::orbit {
+namespace {
+
+/// Has it a leg so short that what happens there is rounding?
+bool is_all_but_gone(const Orbit& orbit) {
+  constexpr double nothing = 1e-7;
+  for (std::size_t leg = 0; leg < orbit.legs(); ++leg)
+    if (orbit.duration(leg) < nothing * (orbit.t.back() - orbit.t.front())) return true;
+  return false;
+}
+
+}  // namespace
 
 /// Between `at` and `beyond` the motion's events change. Notes the point and goes on with new ones. @returns false if the branch ends
 bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why) {
   std::optional<Change> change = find_change(problem_, at, beyond, length, range_);
+  // A point that is all but singular leads nowhere: the one before it may.
+  if (!change && before_ && before_->point.orbit.shape.legs == at.orbit.shape.legs)
+    change = find_change(problem_, before_->point, beyond, before_->length + length, range_);
   if (!change || fades(at.orbit, change->test.leg)) {
     if (length > shortest_step()) {
       step_ = 0.25 * length;
       return true;
     }
-    if (leave_chatter(at) || turn_round(at) || end_cascade(at)) return !ended_;
+    if (leave(at)) return !ended_;
     end("the motion has other events than the orbit behind " + problem_.family().names[0] + " = " + shown(value(at)) +
             " (" + why + ")",
         true);
     return false;
   }
+  if (is_all_but_gone(at.orbit) && die_out(at)) return !ended_;
   add(beside_change(problem_, at, change->length, range_), branch_.points.size() - 1);
   if (ended_) return false;
   SpecialPoint special = std::move(change->special);
@@ -34,16 +51,21 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
   special.solution.multipliers = branch_.points.back().multipliers;
   if (!options_.through_changes) return end_at(std::move(special), Beyond::not_followed);
   std::vector<Reshaped> found = reshape(problem_, at.orbit, change->at, change->test, range_, options_.stop);
-  if (found.empty() && end_cascade_with(at, special)) return !ended_;
+  const auto of_family = [&](const Reshaped& next) { return one_of_family(problem_, next.point, range_); };
+  bool family = std::erase_if(found, of_family) > 0;
+  if (found.empty() && !family && end_cascade_with(at, special)) return !ended_;
   std::string left;  // where a stable motion goes when there is no branch
-  if (found.empty() && branch_.points.back().stable()) {
+  if (found.empty() && !family && branch_.points.back().stable()) {
     Behind there = behind(problem_, at.orbit, change->at, range_, options_.stop);
     left = there.what;
-    if (there.next) found.push_back(std::move(*there.next));
+    family = there.next && of_family(*there.next);
+    if (there.next && !family) found.push_back(std::move(*there.next));
   }
   if (found.empty() && !left.empty()) return end_at(std::move(special), Beyond::jump, left);
   if (found.empty()) {
-    const bool family = begins_family(problem_, at.orbit, change->at, change->test);
+    family = family || begins_family(problem_, at.orbit, change->at, change->test);
+    if (!family && departs(problem_, change->at, change->test, range_))
+      return end_at(std::move(special), Beyond::departure);
     return end_at(std::move(special), family ? Beyond::family : Beyond::unknown);
   }
   const auto repeated = [](const Reshaped& next) { return repeats(next.point.orbit, 1e-6).has_value(); };
@@ -72,6 +94,10 @@ bool Follower::end_at(SpecialPoint special, Beyond beyond, const std::string& le
     case Beyond::jump:
       special.outcome = "jump to " + left;
       why = "a jump: the motion goes over to " + left;
+      break;
+    case Beyond::departure:
+      special.outcome = "jump";
+      why = "a jump: motions just beyond leave the orbit within a cycle";
       break;
     case Beyond::not_followed:
       special.outcome = "not followed";
@@ -151,6 +177,55 @@ bool Follower::end_cascade_with(PathPoint& at, SpecialPoint last) {
   if (end_cascade(at)) return true;
   branch_.special.pop_back();
   return false;
+}
+
+/// Where legs shrink to nothing together and steps lead no further: the place, by extrapolation, and what the motion does beyond.
+/// @returns false if none shrinks
+bool Follower::die_out(PathPoint& at) {
+  if (!options_.through_changes) return false;
+  const std::optional<Death> death = dies_out(branch_);
+  if (!death) return false;
+  const Solution& last = branch_.points.back();
+  SpecialPoint special;
+  special.type = last.sticking ? SpecialType::SL : SpecialType::CO;
+  special.value = death->value;
+  special.error = death->error;
+  special.solution = last;
+  special.after = branch_.points.size() - 1;
+  special.what =
+      "the motion dies out: leg " + std::to_string(death->leg + 1) + " and others shrink to nothing together";
+  const auto& tests = at.watched.tests;
+  const auto length = [&](const TestValue& test) { return test.test == Test::duration && test.leg == death->leg; };
+  special.test = static_cast<std::size_t>(std::ranges::find_if(tests, length) - tests.begin());
+  PathPoint there = at;
+  there.orbit.values[0] = death->value;
+  Behind beyond;
+  if (last.stable()) beyond = behind(problem_, at.orbit, there, range_, options_.stop);
+  if (beyond.next && !one_of_family(problem_, beyond.next->point, range_)) {
+    special.outcome = "persistence";
+    branch_.special.push_back(std::move(special));
+    restart(at, std::move(beyond.next->point));
+  } else {
+    const bool jump = !beyond.family && !beyond.what.empty();
+    end_at(std::move(special), beyond.family ? Beyond::family : jump ? Beyond::jump : Beyond::unknown, beyond.what);
+  }
+  return true;
+}
+
+/// From a first point at which the model itself has another structure than beside it, as with a damper of exactly zero: the orbit beside it.
+bool Follower::leave_edge(PathPoint& at) {
+  if (branch_.points.size() > 1 || !branch_.points.front().stable()) return false;
+  Orbit before = at.orbit;
+  before.values[0] -= std::copysign(range_, at.watched.turn);
+  Behind beyond = behind(problem_, before, at, range_, options_.stop);
+  if (!beyond.next || one_of_family(problem_, beyond.next->point, range_)) return false;
+  restart(at, std::move(beyond.next->point));
+  return true;
+}
+
+/// Where no step leads on and no change is found: an end that is known, or a way on. @returns false if there is none
+bool Follower::leave(PathPoint& at) {
+  return leave_edge(at) || leave_chatter(at) || turn_round(at) || end_cascade(at) || die_out(at);
 }
 
 void Follower::add_onset(SpecialPoint special, const std::string& outcome) {

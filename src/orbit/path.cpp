@@ -72,6 +72,7 @@ std::optional<std::size_t> repeats(const Orbit& orbit, double tolerance) {
 
 VectorXd arclength_units(const Problem& problem, const Orbit& orbit, double range) {
   VectorXd units = sizes(problem, orbit);
+  units.head(problem.numbers()) = units.head(problem.numbers()).cwiseMax(problem.least_sizes());
   units[problem.parameter_column(orbit.legs(), 0)] = range;
   return units;
 }

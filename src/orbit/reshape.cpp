@@ -4,10 +4,11 @@
 #include <cmath>
 #include <numeric>
 
-#include "attractor/cycle.hpp"
+#include "orbit/beyond.hpp"
 #include "orbit/coincident.hpp"
 #include "orbit/cyclic.hpp"
 #include "orbit/record.hpp"
+#include "orbit/special.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/orbit/periodic_orbit.hpp"
 
@@ -16,18 +17,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr long transient = 500;       ///< forcing periods that a motion is given to settle
 constexpr std::size_t most_held = 4;  ///< legs whose length is held in turn
-
-/// A motion from inside a leg of an orbit that may itself be no motion any more.
-std::optional<Motion> motion_from(const System& system, const ModeSet& set, const Orbit& orbit, std::size_t leg,
-                                  double part) {
-  const double after = part * orbit.duration(leg);
-  const VectorXd X = state_within(set, orbit, leg, after);
-  for (const mode::Guard& guard : set.mode(orbit.shape.legs[leg].states).outline.guards)
-    if (guard.row.dot(X) <= 0.0) return std::nullopt;
-  return Motion(system, attractor::user_state(system, contact_state(set, X)), Instant{}.plus(orbit.t[leg] + after));
-}
 
 bool chatters(const Orbit& orbit) {
   return std::ranges::any_of(orbit.shape.legs, [](const Leg& leg) { return leg.ending == Ending::chatter; });
@@ -82,7 +72,11 @@ class NearbyShapes {
     for (std::size_t before = 0; before < std::min<std::size_t>(3, orbit_.legs()); ++before) {
       Orbit turned = orbit_;
       rotate(turned, (changed + orbit_.legs() - before) % orbit_.legs());
-      from(turned, 0, [&](const Motion& motion) { return spliced(turned, motion); });
+      from(turned, 0, [&](const Motion& motion) {
+        std::optional<Orbit> there = spliced(turned, motion);
+        if (there) add(mended(*there));
+        return there;
+      });
     }
     return std::move(shapes_);
   }
@@ -97,6 +91,26 @@ class NearbyShapes {
       } catch (const NumericalError&) {
       }
     }
+  }
+
+  /// A piece has been put in place of what is no motion in one leg. An orbit with a symmetry changes in several places at once: pieces there too.
+  std::optional<Orbit> mended(Orbit orbit) const {
+    constexpr int most_places = 8;
+    for (int count = 0; count < most_places; ++count) {
+      const std::vector<TestValue> tests = test_values(set_, orbit);
+      const auto wrong = std::ranges::find_if(
+          tests, [](const TestValue& test) { return test.test == Test::guard && test.value < 0.0; });
+      if (wrong == tests.end()) return count > 0 ? std::optional(orbit) : std::nullopt;
+      rotate(orbit, wrong->leg);
+      std::optional<Orbit> next;
+      for (double part : {0.5, 0.1, 0.9}) {
+        const std::optional<Motion> motion = motion_from(system_, set_, orbit, 0, part);
+        if (motion && (next = spliced(orbit, *motion))) break;
+      }
+      if (!next) return std::nullopt;
+      orbit = std::move(*next);
+    }
+    return std::nullopt;
   }
 
   void add(std::optional<Orbit> seen) {
@@ -173,24 +187,11 @@ std::optional<Located> beginning(const Problem& problem, const PathPoint& next, 
     if (!beyond) continue;
     for (std::size_t i = 0; i < back.watched.tests.size(); ++i) {
       if (!(back.watched.tests[i].value > 0.0) || !(beyond->watched.tests[i].value < 0.0)) continue;
-      const auto value = [i](const Watched& watched) { return watched.tests[i].value; };
-      auto located = locate(problem, back, length, range, value, beyond->watched.tests[i].value);
+      auto located = locate_margin(problem, back, *beyond, length, range, i);
       if (located && std::abs(located->point.orbit.values[0] - critical) < same * range) return located;
     }
   }
   return std::nullopt;
-}
-
-/// Is a long leg of one much the same in the other?
-bool resembles(const Orbit& a, const Orbit& b, double much_the_same) {
-  constexpr double long_enough = 0.1;  // of a cycle
-  for (std::size_t i = 0; i < a.legs(); ++i) {
-    if (a.duration(i) < long_enough * (a.t.back() - a.t.front())) continue;
-    for (std::size_t j = 0; j < b.legs(); ++j)
-      if (b.shape.legs[j].states == a.shape.legs[i].states && (a.x[i] - b.x[j]).norm() < much_the_same * a.x[i].norm())
-        return true;
-  }
-  return false;
 }
 
 /// The point of a new orbit, led away from the change; empty if it does not come from there. Between orbits with a complete chatter and without
@@ -248,6 +249,13 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
   return all;
 }
 
+bool one_of_family(const Problem& problem, const PathPoint& point, double range) {
+  constexpr double on = 1e-3;  // arclength: just behind a singular change a multiplier may be very near 1
+  if (isolated(point.watched.multipliers)) return false;
+  const std::optional<PathPoint> next = step_to(problem, point, on, range);
+  return !next || !isolated(next->watched.multipliers);
+}
+
 bool begins_family(const Problem& problem, const Orbit& before, const PathPoint& change, const TestValue& test) {
   const ModeSet set(problem.family(), change.orbit.values);
   const std::vector<TestValue> was = test_values(ModeSet(problem.family(), before.values), before);
@@ -279,64 +287,6 @@ std::optional<Reshaped> beyond_cascade(const Problem& problem, const PathPoint& 
     }
   }
   return std::nullopt;
-}
-
-namespace {
-
-/// A motion from the orbit at a change when the parameter is moved on by so much: the orbit that it settles on, and whether it has gone from where it was.
-struct Course {
-  std::optional<Solution> settled;
-  bool gone = false;
-};
-
-Course course_behind(const Problem& problem, const PathPoint& change, double move, const std::atomic<bool>* stop) {
-  constexpr double far = 0.01;  // of the state
-  Course course;
-  try {
-    std::vector<double> values = change.orbit.values;
-    values[0] += move;
-    const auto there = pose(problem.family(), values);
-    const System system(problem.family().model(values));
-    const ModeSet set(constant_family(system.model()), {});
-    for (std::size_t leg = 0; leg < change.orbit.legs(); ++leg) {
-      std::optional<Motion> motion = motion_from(system, set, change.orbit, leg, 0.5);
-      if (!motion) continue;
-      course.settled = settle(*there, *motion, transient, 0, stop);
-      const VectorXd start = attractor::contact_state(*motion);
-      const Instant end = motion->time().plus(static_cast<double>(transient * std::max(1, change.orbit.shape.n)));
-      const bool ran = run_to(*motion, end, stop, [] {});
-      course.gone = ran && (attractor::contact_state(*motion) - start).norm() > far * start.norm();
-      return course;
-    }
-  } catch (const InputError&) {
-  } catch (const NumericalError&) {
-  }
-  return course;
-}
-
-}  // namespace
-
-Behind behind(const Problem& problem, const Orbit& before, const PathPoint& change, double range,
-              const std::atomic<bool>* stop) {
-  constexpr double near = 1e-3;  // of a leg's state: just behind a change a motion that goes on has hardly moved
-  const double critical = change.orbit.values[0], sense = std::copysign(1.0, critical - before.values[0]);
-  Behind result;
-  for (const double distance : {1e-6, 1e-5, 1e-4}) {
-    Course course = course_behind(problem, change, sense * distance * range, stop);
-    if (course.settled) {
-      const Orbit& orbit = course.settled->orbit;
-      if (resembles(orbit, change.orbit, near) || resembles(change.orbit, orbit, near)) {
-        result.next = Reshaped{point_of(problem, orbit, range, {}), false, false, {}, 0.0};
-        if (result.next->point.watched.turn * sense < 0.0) result.next->point = reversed(std::move(result.next->point));
-        return result;
-      }
-    }
-    if (!course.gone) continue;
-    result.what =
-        course.settled ? course.settled->label : "no periodic orbit within " + std::to_string(transient) + " periods";
-    return result;
-  }
-  return result;
 }
 
 }  // namespace slapstick::orbit

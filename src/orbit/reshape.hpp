@@ -22,6 +22,9 @@ struct Reshaped {
                                             const TestValue& test, double range, const std::atomic<bool>* stop,
                                             double nearest = 1e-6);
 
+/// Has a branch come to orbits of a family, which lie beside each other at the same parameter, as those of a mass that sticks anywhere in an interval?
+[[nodiscard]] bool one_of_family(const Problem& problem, const PathPoint& point, double range);
+
 /// Is the orbit at a change, in another shape, one of a family? Those lie beside it at the same parameter: there is no branch to follow.
 [[nodiscard]] bool begins_family(const Problem& problem, const Orbit& before, const PathPoint& change,
                                  const TestValue& test);
@@ -30,14 +33,5 @@ struct Reshaped {
 /// @param last  a point of the branch near the end of the cascade  @param limit  the value of the parameter where the changes gather
 [[nodiscard]] std::optional<Reshaped> beyond_cascade(const Problem& problem, const PathPoint& last, double limit,
                                                      double range, const std::atomic<bool>* stop);
-
-/// What the motion does just behind a change of a stable orbit, by running it.
-struct Behind {
-  std::string
-      what;  ///< if it leaves: the label of the orbit that it settles on, or that it is none within some hundred periods
-  std::optional<Reshaped> next;  ///< that orbit, if it has hardly moved: no jump
-};
-[[nodiscard]] Behind behind(const Problem& problem, const Orbit& before, const PathPoint& change, double range,
-                            const std::atomic<bool>* stop);
 
 }  // namespace slapstick::orbit

@@ -192,9 +192,7 @@ std::string describe(const TestValue& test, const Itinerary& shape, const System
   }
 }
 
-namespace {
-
-/// The zero of a margin. Where a leg shrinks to nothing between two zeros of one guard, the equations are singular: there by interpolation.
+/// Where a leg shrinks to nothing between two zeros of one guard, the equations are singular: there by interpolation.
 std::optional<Located> locate_margin(const Problem& problem, const PathPoint& from, const PathPoint& to, double length,
                                      double range, std::size_t test) {
   constexpr double nothing = 1e-2, enough = 1e-12;
@@ -204,16 +202,20 @@ std::optional<Located> locate_margin(const Problem& problem, const PathPoint& fr
   const bool regular = located && std::abs(value(located->point.watched)) <= 1e-9 * value(from.watched);
   const bool empty = located && from.watched.tests[test].starts_at_end &&
                      located->point.orbit.duration(leg) < nothing * from.orbit.duration(leg);
-  if (!located || (regular && !empty)) return located;
+  if (regular && !empty) return located;
+  const double before = value(from.watched), behind = value(to.watched);
+  const double near = located ? located->length : length * before / (before - behind);
   std::optional<Located> best;
   for (const double part : {0.5, 0.1, 0.02}) {
-    auto sharper = locate_between(problem, from, located->length, part * std::min(length, 0.02), range,
+    auto sharper = locate_between(problem, from, near, part * std::min(length, 0.02), range,
                                   [&](const PathPoint& point) { return value(point.watched); });
     if (sharper && (!best || sharper->error < best->error)) best = std::move(sharper);
     if (best && best->error <= enough * range) break;
   }
   return best ? best : located;
 }
+
+namespace {
 
 /// Does the simulator agree that the orbit is a motion before a place of the branch, and none behind it?
 bool changes_there(const Problem& problem, const PathPoint& from, double length, double place, double range) {

@@ -19,6 +19,10 @@ struct Change {
 [[nodiscard]] std::optional<Change> find_change(const Problem& problem, const PathPoint& from, const PathPoint& to,
                                                 double length, double range);
 
+/// The zero of margin `test` between two points of a branch, at which its signs differ.
+[[nodiscard]] std::optional<Located> locate_margin(const Problem& problem, const PathPoint& from, const PathPoint& to,
+                                                   double length, double range, std::size_t test);
+
 /// The function whose zero a special point is.
 [[nodiscard]] double defining(const SpecialPoint& point, const Watched& watched);
 

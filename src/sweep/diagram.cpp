@@ -1,8 +1,6 @@
 #include "slapstick/sweep/diagram.hpp"
 
-#include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
@@ -71,14 +69,11 @@ class Run {
   }
 
   void run_each() {
-    const auto body = [this](const tbb::blocked_range<std::size_t>& range) {
-      fork_join::enter();
-      for (std::size_t i = range.begin(); i != range.end(); ++i)
+    for (std::size_t i = 0; i < diagram_.points.size(); ++i)
+      spawn([this, i] {
         if (settle_point(i, {})) record_point(i);
-      fork_join::leave();
-    };
-    fork_join::fork();
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, diagram_.points.size()), body, tbb::simple_partitioner());
+      });
+    tasks_.wait();
     fork_join::join();
   }
 

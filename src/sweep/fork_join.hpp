@@ -1,15 +1,17 @@
 #pragma once
 /// Tells ThreadSanitizer where a oneTBB loop forks and joins. Compiles to nothing in any other build.
 ///
-///     const auto body = [&](const auto& part) {
+///     auto task = group.defer([&] {
 ///       fork_join::enter();  // first, before any capture is read
 ///       ...
 ///       fork_join::leave();  // last
-///     };
-///     fork_join::fork();     // after the body was made: its captures are shared too
-///     tbb::parallel_for(range, body);
+///     });
+///     fork_join::fork();     // after the task was made: its captures are shared too
+///     group.run(std::move(task));
+///     group.wait();
 ///     fork_join::join();
 ///
+/// (Not for parallel_for, which copies its body from task to task later on.)
 /// Debian's libtbb.so is not instrumented, so that ThreadSanitizer sees neither that a body starts after the loop was called nor that
 /// the loop returns after its bodies. These four say just that. They order no two bodies with each other: races between them are found.
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/floating_point.hpp"
@@ -38,10 +39,13 @@ bool for_each_index(int count, int threads, const std::function<void(int)>& body
     }
     fork_join::leave();
   };
-  fork_join::fork();
   arena.execute([&] {
     tbb::task_group workers;
-    for (int k = std::min(count, arena.max_concurrency()); k > 0; --k) workers.run(worker);
+    for (int k = std::min(count, arena.max_concurrency()); k > 0; --k) {
+      auto task = workers.defer(worker);
+      fork_join::fork();
+      workers.run(std::move(task));
+    }
     workers.wait();
   });
   fork_join::join();

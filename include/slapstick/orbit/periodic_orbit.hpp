@@ -34,6 +34,11 @@ struct Margin {
   double value = 0.0;
 };
 
+/// No multiplier is 1.
+[[nodiscard]] inline bool isolated(const std::vector<std::complex<double>>& multipliers) {
+  return std::ranges::none_of(multipliers, [](auto mu) { return std::abs(mu - 1.0) < 1e-10; });
+}
+
 struct Solution {
   Orbit orbit;
   /// Of the return map at fixed time, largest modulus first; those of directions that stick or a closed stop annihilates are exactly zero. The
@@ -49,9 +54,7 @@ struct Solution {
   std::vector<double> drift;  ///< along rigid translations, by coordinate, per cycle; empty without such
 
   /// False for one of a family at the same parameters, as of a mass that sticks anywhere in an interval.
-  [[nodiscard]] bool isolated() const {
-    return std::ranges::none_of(multipliers, [](auto mu) { return std::abs(mu - 1.0) < 1e-10; });
-  }
+  [[nodiscard]] bool isolated() const { return orbit::isolated(multipliers); }
   [[nodiscard]] bool stable() const { return multipliers.empty() || std::abs(multipliers.front()) < 1.0; }
 };
 

@@ -1,0 +1,166 @@
+/// Campaign `branches`: every built-in model is followed in every parameter, from the orbit that it settles on and from both ends of the branch
+/// found. Steps fall elsewhere each time; special points must not.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "batches.hpp"
+#include "random.hpp"
+#include "slapstick/base/error.hpp"
+#include "slapstick/base/text.hpp"
+#include "slapstick/io/model_file.hpp"
+#include "slapstick/orbit/branch.hpp"
+
+namespace campaign {
+namespace {
+
+using namespace slapstick;
+using namespace slapstick::orbit;
+
+constexpr long transient = 500;
+constexpr int most_points = 1000;
+
+struct Case {
+  std::string model, parameter;
+};
+
+/// Parameters that a group moves are not followed by themselves.
+std::vector<Case> all_cases() {
+  std::vector<Case> cases;
+  for (const std::string& model : builtin_models()) {
+    const ModelDefinition definition = load_model(model);
+    std::set<std::string> grouped;
+    for (const Group& group : definition.groups()) {
+      cases.push_back({model, group.name});
+      grouped.insert(group.members.begin(), group.members.end());
+    }
+    for (const Parameter& parameter : definition.parameters())
+      if (!grouped.contains(parameter.name)) cases.push_back({model, parameter.name});
+  }
+  return cases;
+}
+
+/// The parameter that a name stands for: of a group its first member.
+const Parameter& parameter_of(const ModelDefinition& definition, std::string name) {
+  for (const Group& group : definition.groups())
+    if (group.name == name) name = group.members.front();
+  return *std::ranges::find(definition.parameters(), name, &Parameter::name);
+}
+
+/// A third to three times a value, of zero -1 to 1, as far as the parameter admits.
+std::pair<double, double> range_about(const Parameter& parameter, double value) {
+  double from = value == 0.0 ? -1.0 : std::min(value / 3.0, 3.0 * value);
+  double to = value == 0.0 ? 1.0 : std::max(value / 3.0, 3.0 * value);
+  const double edge = 1e-3 * (to - from);
+  from = std::max(from, parameter.min + (parameter.min_open ? edge : 0.0));
+  to = std::min(to, parameter.max - (parameter.max_open ? edge : 0.0));
+  return {from, to};
+}
+
+/// Values of all parameters: the model's own, or up to a factor 1.2 from them.
+Overrides values_of(const ModelDefinition& definition, const Options& options, long number, bool own) {
+  Overrides values;
+  if (own) return values;
+  Random random(options.seed, static_cast<std::uint64_t>(number));
+  for (const Parameter& parameter : definition.parameters()) {
+    const double value = parameter.value * std::exp2(random.uniform(-0.263, 0.263));
+    if (parameter.expression.empty() && parameter.admits(value)) values[parameter.name] = value;
+  }
+  return values;
+}
+
+struct Tally {
+  long cases = 0, followed = 0, points = 0, special = 0, differ = 0, failed = 0;
+  std::vector<std::string> notes;
+  void add(const Tally& o) {
+    cases += o.cases, followed += o.followed, points += o.points, special += o.special, differ += o.differ;
+    failed += o.failed;
+    notes.insert(notes.end(), o.notes.begin(), o.notes.end());
+  }
+};
+
+/// Special points of one branch that another, which reaches as far, does not have.
+long missing(const Branch& whole, const Branch& again, double range, const std::string& where, Tally& tally) {
+  const auto value = [](const Solution& s) { return s.orbit.values[0]; };
+  const auto [low, high] = std::ranges::minmax_element(again.points, {}, value);
+  long count = 0;
+  for (const SpecialPoint& point : whole.special) {
+    const auto same = [&](const SpecialPoint& other) {
+      return other.type == point.type &&
+             std::abs(other.value - point.value) <= 1e-8 * range + point.error + other.error;
+    };
+    if (point.value < value(*low) || point.value > value(*high) || std::ranges::any_of(again.special, same)) continue;
+    ++count;
+    tally.notes.push_back(where + ": " + std::string(name(point.type)) + " " + shown(point.value) + " is missing");
+  }
+  return count;
+}
+
+void follow_both_ways(const Problem& problem, const Solution& first, const ContinuationOptions& options,
+                      const std::string& where, Tally& tally) {
+  const double range = options.to - options.from;
+  const Branch whole = follow(problem, first.orbit, options);
+  ++tally.followed;
+  tally.points += static_cast<long>(whole.points.size());
+  tally.special += static_cast<long>(whole.special.size());
+  if (whole.failed) {
+    ++tally.failed;
+    tally.notes.push_back(where + ": " + whole.ended);
+  }
+  if (whole.points.size() < 3) return;
+  for (const Solution* end : {&whole.points.front(), &whole.points.back()}) {
+    if (!end->is_motion || stopped(options.stop)) continue;
+    const Branch again = follow(problem, end->orbit, options);
+    const std::string from = where + ", from " + shown(end->orbit.values[0]);
+    if (again.failed && !whole.failed) tally.notes.push_back(from + ": " + again.ended);
+    tally.failed += again.failed && !whole.failed ? 1 : 0;
+    tally.differ += missing(whole, again, range, from, tally) + missing(again, whole, range, where, tally);
+  }
+}
+
+Tally examine(const Case& which, long number, bool own, const Options& options) {
+  Tally tally;
+  tally.cases = 1;
+  const ModelDefinition definition = load_model(which.model);
+  const Overrides values = values_of(definition, options, number, own);
+  const double value = definition.values(values).at(parameter_of(definition, which.parameter).name);
+  const auto [from, to] = range_about(parameter_of(definition, which.parameter), value);
+  if (!(from < value && value < to)) return tally;
+  std::string where = which.model + " --param " + which.parameter + " --range " + shown(from) + ":" + shown(to);
+  for (const auto& [name, set] : values) where += " --set " + name + "=" + shown(set);
+  Overrides present = values;
+  present[which.parameter] = value;
+  try {
+    const auto problem = pose(definition.family({which.parameter}, values), {value});
+    const System system(definition.build(present));
+    const auto first = settle(*problem, system, definition.start(present), transient, 0, options.stop);
+    if (!first || !first->isolated()) return tally;
+    follow_both_ways(*problem, *first, {.from = from, .to = to, .most_points = most_points, .stop = options.stop},
+                     where, tally);
+  } catch (const std::runtime_error& error) {
+    tally.notes.push_back(where + ": " + error.what());
+  }
+  return tally;
+}
+
+}  // namespace
+
+Report run_branches(const Options& options) {
+  const std::vector<Case> cases = all_cases();
+  const long count = static_cast<long>(cases.size());
+  Batches<Tally> batches(options, 1, "cases");
+  const Tally all = batches.run([&](long k, long) {
+    return examine(cases[static_cast<std::size_t>(k % count)], k, k < count && options.seed == 1, options);
+  });
+  Report report;
+  report.done = batches.done();
+  report.figures.set("cases", all.cases).set("followed", all.followed).set("points", all.points);
+  report.figures.set("special_points", all.special).set("not_from_every_start", all.differ).set("failed", all.failed);
+  Json notes = Json::list();
+  for (const std::string& note : all.notes) notes.push(note);
+  report.figures.set("notes", notes);
+  report.passed = all.differ == 0 && all.failed == 0;
+  return report;
+}
+
+}  // namespace campaign

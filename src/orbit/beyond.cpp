@@ -1,0 +1,133 @@
+#include "orbit/beyond.hpp"
+
+#include <cmath>
+
+#include "attractor/cycle.hpp"
+#include "orbit/record.hpp"
+#include "slapstick/base/error.hpp"
+#include "slapstick/orbit/periodic_orbit.hpp"
+
+namespace slapstick::orbit {
+
+using Eigen::VectorXd;
+
+/// A motion from inside a leg of an orbit that may itself be no motion any more.
+std::optional<Motion> motion_from(const System& system, const ModeSet& set, const Orbit& orbit, std::size_t leg,
+                                  double part) {
+  const double after = part * orbit.duration(leg);
+  const VectorXd X = state_within(set, orbit, leg, after);
+  for (const mode::Guard& guard : set.mode(orbit.shape.legs[leg].states).outline.guards)
+    if (guard.row.dot(X) <= 0.0) return std::nullopt;
+  return Motion(system, attractor::user_state(system, contact_state(set, X)), Instant{}.plus(orbit.t[leg] + after));
+}
+
+/// Is a long leg of one much the same in the other?
+bool resembles(const Orbit& a, const Orbit& b, double much_the_same) {
+  constexpr double long_enough = 0.1;  // of a cycle
+  for (std::size_t i = 0; i < a.legs(); ++i) {
+    if (a.duration(i) < long_enough * (a.t.back() - a.t.front())) continue;
+    for (std::size_t j = 0; j < b.legs(); ++j)
+      if (b.shape.legs[j].states == a.shape.legs[i].states && (a.x[i] - b.x[j]).norm() < much_the_same * a.x[i].norm())
+        return true;
+  }
+  return false;
+}
+
+namespace {
+
+constexpr long transient = 500;  ///< forcing periods that a motion is given to settle
+
+/// A motion from the orbit at a change when the parameter is moved on by so much: the orbit that it settles on, and whether it has gone from where it was.
+struct Course {
+  std::optional<Solution> settled;
+  bool gone = false;
+};
+
+Course course_behind(const Problem& problem, const PathPoint& change, double move, const std::atomic<bool>* stop) {
+  constexpr double far = 0.01;  // of the state
+  Course course;
+  try {
+    std::vector<double> values = change.orbit.values;
+    values[0] += move;
+    const auto there = pose(problem.family(), values);
+    const System system(problem.family().model(values));
+    const ModeSet set(constant_family(system.model()), {});
+    for (std::size_t leg = 0; leg < change.orbit.legs(); ++leg) {
+      std::optional<Motion> motion = motion_from(system, set, change.orbit, leg, 0.5);
+      if (!motion) continue;
+      course.settled = settle(*there, *motion, transient, 0, stop);
+      const VectorXd start = attractor::contact_state(*motion);
+      const Instant end = motion->time().plus(static_cast<double>(transient * std::max(1, change.orbit.shape.n)));
+      const bool ran = run_to(*motion, end, stop, [] {});
+      course.gone = ran && (attractor::contact_state(*motion) - start).norm() > far * start.norm();
+      return course;
+    }
+  } catch (const InputError&) {
+  } catch (const NumericalError&) {
+  }
+  return course;
+}
+
+}  // namespace
+
+Behind behind(const Problem& problem, const Orbit& before, const PathPoint& change, double range,
+              const std::atomic<bool>* stop) {
+  constexpr double near = 1e-3;  // of a leg's state: just behind a change a motion that goes on has hardly moved
+  const double critical = change.orbit.values[0], sense = std::copysign(1.0, critical - before.values[0]);
+  Behind result;
+  for (const double distance : {1e-6, 1e-5, 1e-4}) {
+    Course course = course_behind(problem, change, sense * distance * range, stop);
+    result.family = course.settled && !course.settled->isolated();
+    if (course.settled) {
+      const Orbit& orbit = course.settled->orbit;
+      if (resembles(orbit, change.orbit, near) || resembles(change.orbit, orbit, near)) {
+        result.next = Reshaped{point_of(problem, orbit, range, {}), false, false, {}, 0.0};
+        if (result.next->point.watched.turn * sense < 0.0) result.next->point = reversed(std::move(result.next->point));
+        return result;
+      }
+    }
+    if (!course.gone) continue;
+    result.what =
+        course.settled ? course.settled->label : "no periodic orbit within " + std::to_string(transient) + " periods";
+    return result;
+  }
+  return result;
+}
+
+namespace {
+
+/// How far a motion that comes to the touch in a leg of the orbit so far beyond is from that orbit in the middle of a later leg, against its state there.
+double departure(const Problem& problem, const PathPoint& change, const TestValue& test, double length, double range) {
+  const std::optional<PathPoint> beyond = step_to(problem, change, length, range);
+  if (!beyond) return 0.0;
+  Orbit orbit = beyond->orbit;
+  const System system(problem.family().model(orbit.values));
+  const ModeSet set(constant_family(system.model()), {});
+  rotate(orbit, test.leg);
+  std::size_t longest = 1;
+  for (std::size_t i = 1; i < orbit.legs(); ++i)
+    if (orbit.duration(i) > orbit.duration(longest)) longest = i;
+  std::optional<Motion> motion = motion_from(system, set, orbit, 0, 0.5 * test.at / orbit.duration(0));
+  if (!motion) return 0.0;
+  const double after = 0.5 * orbit.duration(longest);
+  const VectorXd there = contact_state(set, state_within(set, orbit, longest, after));
+  while (motion->advance(Instant{}.plus(orbit.t[longest] + after)) == Outcome::event) {
+  }
+  return (attractor::contact_state(*motion) - there).norm() / there.norm();
+}
+
+}  // namespace
+
+bool departs(const Problem& problem, const PathPoint& change, const TestValue& test, double range) {
+  constexpr double near = 1e-7, far_off = 1e-3, shrinks = 0.3;
+  if (change.orbit.legs() < 2 || test.test != Test::guard) return false;
+  try {
+    const double first = departure(problem, change, test, near, range);
+    return first > far_off && departure(problem, change, test, 0.01 * near, range) > shrinks * first;
+  } catch (const InputError&) {
+  } catch (const NumericalError&) {
+  }
+  return false;
+}
+
+}  // namespace slapstick::orbit

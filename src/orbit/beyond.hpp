@@ -1,0 +1,29 @@
+#pragma once
+/// What motions that start on an orbit do, by running them.
+#include "orbit/reshape.hpp"
+
+namespace slapstick::orbit {
+
+/// A motion from inside a leg of an orbit that may itself be no motion any more; empty where that is not possible.
+/// @param part  of the leg's length
+[[nodiscard]] std::optional<Motion> motion_from(const System& system, const ModeSet& set, const Orbit& orbit,
+                                                std::size_t leg, double part);
+
+/// Is a long leg of one much the same in the other?
+[[nodiscard]] bool resembles(const Orbit& a, const Orbit& b, double much_the_same);
+
+/// What the motion does just behind a change of a stable orbit, by running it.
+struct Behind {
+  std::string
+      what;  ///< if it leaves: the label of the orbit that it settles on, or that it is none within some hundred periods
+  std::optional<Reshaped> next;  ///< that orbit, if it has hardly moved: no jump
+  bool family = false;           ///< that orbit is one of a family
+};
+[[nodiscard]] Behind behind(const Problem& problem, const Orbit& before, const PathPoint& change, double range,
+                            const std::atomic<bool>* stop);
+
+/// Is the motion discontinuous at a change, as where a velocity comes to zero and static friction holds it that exceeds the kinetic one? Motions just
+/// beyond leave the orbit within a cycle, however near they are; at any other change less and less.
+[[nodiscard]] bool departs(const Problem& problem, const PathPoint& change, const TestValue& test, double range);
+
+}  // namespace slapstick::orbit

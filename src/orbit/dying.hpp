@@ -1,0 +1,19 @@
+#pragma once
+/// Where a motion dies out: legs of it shrink to nothing together, and its equations become singular before they are gone.
+#include <optional>
+
+#include "slapstick/orbit/branch.hpp"
+
+namespace slapstick::orbit {
+
+struct Death {
+  double value =
+      0.0;  ///< of the parameter: extrapolated from the last points of the branch in the length of a leg, to nothing
+  double error = 0.0;   ///< what one point less, the first or the last, makes of it
+  std::size_t leg = 0;  ///< that leg
+};
+
+/// Empty if no leg shrinks, or what is extrapolated is not near the last point.
+[[nodiscard]] std::optional<Death> dies_out(const Branch& branch);
+
+}  // namespace slapstick::orbit

@@ -1,0 +1,104 @@
+/// Where orbits die out, grow without bound, change in several places together, or jump.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "families.hpp"
+
+namespace slapstick::test {
+namespace {
+
+using orbit::SpecialType;
+
+const orbit::SpecialPoint* find_near(const orbit::Branch& branch, SpecialType type, double near, double within) {
+  for (const orbit::SpecialPoint& point : branch.special)
+    if (point.type == type && std::abs(point.value - near) < within) return &point;
+  return nullptr;
+}
+
+/// A mass on dry ground that is pushed with an amplitude below friction stays where it is. From above, slips shrink to nothing like a square root, and
+/// the equations become singular before they are gone; steps fall elsewhere from each start.
+TEST(DyingMotion, EndsWhereTheForceIsFriction) {
+  struct Case {
+    double start, from, to;
+  };
+  for (const Case& c : {Case{1.0, 0.05, 1.0}, Case{0.25, 0.05, 1.0}, Case{0.22, 0.15, 0.25}}) {
+    const Posed posed("coulomb-oscillator", {}, {"amplitude"}, {c.start});
+    const auto first = posed.settled();
+    ASSERT_TRUE(first);
+    const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = c.from, .to = c.to});
+    EXPECT_FALSE(branch.failed) << branch.ended;
+    const orbit::SpecialPoint* death = find_near(branch, SpecialType::SL, 0.2, 1e-3);
+    ASSERT_NE(death, nullptr) << c.start;
+    EXPECT_NEAR(death->value, 0.2, 1e-10) << c.start;
+    EXPECT_EQ(death->outcome, "from there on it is one of a family");
+    EXPECT_GT(branch.points.front().orbit.values[0], 0.2);
+    EXPECT_TRUE(std::ranges::all_of(branch.points, [](const orbit::Solution& s) { return s.isolated(); }));
+  }
+}
+
+/// Without damping the response grows without bound as the frequency comes to the natural one. Steps that are parts of the orbit's size never end.
+TEST(GrowingMotion, EndsAtResonance) {
+  const Posed posed("coulomb-oscillator", {}, {"omega"}, {0.8});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  const orbit::Branch branch =
+      orbit::follow(*posed.problem, first->orbit, {.from = 0.6, .to = 1.5, .most_points = 2000});
+  EXPECT_FALSE(branch.failed) << branch.ended;
+  EXPECT_NE(branch.ended.find("grows without bound as omega nears"), std::string::npos) << branch.ended;
+  EXPECT_NEAR(branch.points.back().orbit.values[0], 1.0, 1e-5);
+}
+
+/// Both half periods of a symmetric orbit change at one value of the parameter, where besides a multiplier is 1. There a slip lasts one natural period:
+/// its free part comes back to itself, so that release and stop are mirror images if the forced part's velocity is the same at both. With the force
+/// cos(theta) that is theta = pi / 2 - pi omega at release, displacement cos(theta) / (1 - omega^2), and the holding force there is friction if
+/// omega^2 sin(pi omega) / (1 - omega^2) = friction.
+TEST(SymmetricChange, IsPassedFromBothSides) {
+  const auto excess = [](double omega) {
+    return omega * omega * std::sin(std::numbers::pi * omega) / (1.0 - omega * omega) - 0.2;
+  };
+  double below = 0.4, above = 0.43;
+  while (above - below > 1e-15) {
+    const double middle = 0.5 * (below + above);
+    (excess(middle) < 0.0 ? below : above) = middle;
+  }
+  for (const double start : {0.4, 0.45}) {
+    const Posed posed("coulomb-oscillator", {}, {"omega"}, {start});
+    const auto first = posed.settled();
+    ASSERT_TRUE(first);
+    const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.35, .to = 0.48});
+    EXPECT_FALSE(branch.failed) << branch.ended;
+    EXPECT_EQ(branch.special.size(), 2U);
+    EXPECT_NE(find_near(branch, SpecialType::SL, below, 2e-10), nullptr) << start;
+    EXPECT_NE(find_near(branch, SpecialType::SL, 0.428345977046, 1e-11), nullptr) << start;
+  }
+}
+
+/// Static friction above kinetic friction: a velocity that comes to zero is held. No orbit begins where an unstable one comes to that.
+TEST(Discontinuity, IsAJump) {
+  const Posed posed("two-blocks-on-belt", {}, {"belt_speed"}, {0.1});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.095, .to = 1.0});
+  EXPECT_FALSE(branch.failed) << branch.ended;
+  const orbit::SpecialPoint* jump = find_near(branch, SpecialType::SL, 0.12578768958, 1e-9);
+  ASSERT_NE(jump, nullptr) << branch.ended;
+  EXPECT_EQ(jump->outcome, "jump");
+  EXPECT_FALSE(branch.points.back().stable());
+  EXPECT_LT(branch.points.size(), 300U) << "without forcing instants are measured by the cycle";
+}
+
+/// A damper of exactly zero makes other guards than one beside it.
+TEST(EdgeOfAModel, IsNoEndOfABranch) {
+  const Posed posed("bilinear-oscillator", {}, {"contact_damping"}, {0.0});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.0, .to = 1.0});
+  EXPECT_FALSE(branch.failed) << branch.ended;
+  EXPECT_NE(find_near(branch, SpecialType::PD, 0.077614611, 1e-8), nullptr);
+}
+
+}  // namespace
+}  // namespace slapstick::test

@@ -79,17 +79,25 @@ struct Tally {
   }
 };
 
-/// Special points of one branch that another, which reaches as far, does not have.
-long missing(const Branch& whole, const Branch& again, double range, const std::string& where, Tally& tally) {
-  const auto value = [](const Solution& s) { return s.orbit.values[0]; };
-  const auto [low, high] = std::ranges::minmax_element(again.points, {}, value);
+/// Does the branch go past a special point of another? Where several branches meet, each may go on along another one.
+bool goes_past(const Problem& problem, const Branch& branch, const Branch& other, const SpecialPoint& point) {
+  const auto on_it = [&](std::size_t i) {
+    const Orbit& orbit = other.points[i].orbit;
+    return lies_on(problem, branch, orbit) || image_lies_on(problem, branch, orbit);
+  };
+  return point.after + 1 < other.points.size() && on_it(point.after) && on_it(point.after + 1);
+}
+
+/// Special points of one branch that another, which goes past them, does not have.
+long missing(const Problem& problem, const Branch& whole, const Branch& again, double range, const std::string& where,
+             Tally& tally) {
   long count = 0;
   for (const SpecialPoint& point : whole.special) {
     const auto same = [&](const SpecialPoint& other) {
       return other.type == point.type &&
              std::abs(other.value - point.value) <= 1e-8 * range + point.error + other.error;
     };
-    if (point.value < value(*low) || point.value > value(*high) || std::ranges::any_of(again.special, same)) continue;
+    if (std::ranges::any_of(again.special, same) || !goes_past(problem, again, whole, point)) continue;
     ++count;
     tally.notes.push_back(where + ": " + std::string(name(point.type)) + " " + shown(point.value) + " is missing");
   }
@@ -109,12 +117,13 @@ void follow_both_ways(const Problem& problem, const Solution& first, const Conti
   }
   if (whole.points.size() < 3) return;
   for (const Solution* end : {&whole.points.front(), &whole.points.back()}) {
-    if (!end->is_motion || stopped(options.stop)) continue;
+    if (!end->is_motion || !end->isolated() || stopped(options.stop)) continue;
     const Branch again = follow(problem, end->orbit, options);
     const std::string from = where + ", from " + shown(end->orbit.values[0]);
     if (again.failed && !whole.failed) tally.notes.push_back(from + ": " + again.ended);
     tally.failed += again.failed && !whole.failed ? 1 : 0;
-    tally.differ += missing(whole, again, range, from, tally) + missing(again, whole, range, where, tally);
+    tally.differ +=
+        missing(problem, whole, again, range, from, tally) + missing(problem, again, whole, range, where, tally);
   }
 }
 

@@ -199,13 +199,25 @@ Orbit without_all(const ModeSet& set, double largest_speed, Orbit orbit) {
   return orbit;
 }
 
+/// Is it the gap of a stop that is struck where it is least?
+bool is_struck_there(const Orbit& orbit, const TestValue& test) {
+  const double beside = 1e-4 * (orbit.t.back() - orbit.t.front());
+  const auto strikes = [&](const Leg& leg) {
+    return leg.ending == Ending::guard && leg.kind == test.kind && leg.contact == test.contact;
+  };
+  const Leg& before = orbit.shape.legs[(test.leg + orbit.legs() - 1) % orbit.legs()];
+  return (test.at < beside && strikes(before)) ||
+         (orbit.duration(test.leg) - test.at < beside && strikes(orbit.shape.legs[test.leg]));
+}
+
 /// Where several gaps touch zero together: with an impact in each of the others too.
 Orbit with_all(const ModeSet& set, double largest_gap, Orbit orbit) {
   constexpr int most = 16;
   for (int k = 0; k < most; ++k) {
     const std::vector<TestValue> tests = test_values(set, orbit);
-    const auto next = std::ranges::find_if(
-        tests, [&](const TestValue& test) { return gap(test) && std::abs(test.value) < no_gap * largest_gap; });
+    const auto next = std::ranges::find_if(tests, [&](const TestValue& test) {
+      return gap(test) && std::abs(test.value) < no_gap * largest_gap && !is_struck_there(orbit, test);
+    });
     if (next == tests.end()) break;
     orbit = std::move(with_impact(set, orbit, *next).front());
   }

@@ -135,7 +135,7 @@ VectorXd direction(const Problem& problem, const Orbit& a, const Orbit& b, const
 std::optional<Located> locate_between(const Problem& problem, const PathPoint& from, double near, double half_width,
                                       double range, const std::function<double(const PathPoint&)>& f) {
   constexpr int enough = 6;  // near a singular point Newton's method may fail here and there
-  Interpolant all(half_width), fewer(half_width), orbits(half_width);
+  Interpolant all(half_width), fewer(half_width), orbits(half_width), fewer_orbits(half_width);
   std::vector<std::pair<double, PathPoint>> points;
   for (int k = 0; k < nodes; ++k) {
     const double s = near + half_width * std::cos((2 * k + 1) * std::numbers::pi / (2 * nodes));
@@ -145,14 +145,17 @@ std::optional<Located> locate_between(const Problem& problem, const PathPoint& f
   for (const auto& [s, point] : points) {
     const VectorXd value = VectorXd::Constant(1, f(point));
     all.add(s, value);
-    if (s != points.front().first && s != points.back().first) fewer.add(s, value);
     orbits.add(s, numbers_of(point.orbit));
+    if (s == points.front().first || s == points.back().first) continue;
+    fewer.add(s, value);
+    fewer_orbits.add(s, numbers_of(point.orbit));
   }
   const std::optional<double> place = all.zero(near), check = fewer.zero(near);
   if (!place || !check || !all.smooth(fewer)) return std::nullopt;
   const auto orbit_at = [&](double s) { return with_numbers(from.orbit, orbits.at(s)); };
+  const Orbit checked = with_numbers(from.orbit, fewer_orbits.at(*check));
   Located found{point_of(problem, orbit_at(*place), range, from.tangent), *place, 0.0};
-  found.error = std::abs(orbit_at(*check).values[0] - found.point.orbit.values[0]);
+  found.error = std::abs(checked.values[0] - found.point.orbit.values[0]);
   if (!(found.error < well_known * range)) return std::nullopt;
   const double beside = 0.1 * half_width;
   found.point.tangent = direction(problem, orbit_at(*place - beside), orbit_at(*place + beside), found.point.units);

@@ -234,7 +234,9 @@ void Follower::add_onset(SpecialPoint special, const std::string& outcome) {
   branch_.special.push_back(std::move(special));
 }
 
+/// Goes on from another orbit, if that is not outside the range.
 void Follower::restart(PathPoint& at, PathPoint from) {
+  if (!inside(value(from))) return end("range", false);
   at = std::move(from);
   branch_.points.push_back(solution_of(at, nullptr));
   step_ = options_.step;
@@ -256,6 +258,7 @@ void Follower::go_on(PathPoint& at, SpecialPoint special, Reshaped next) {
       add(beside_change(problem_, reversed(next.point), next.length, range_), branch_.points.size() - 1);
     if (ended_) return;
   }
+  if (!inside(value(next.point))) return end("range", false);
   at = std::move(next.point);
   branch_.points.push_back(std::move(first));
   step_ = std::min(step_, options_.step);

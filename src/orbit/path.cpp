@@ -72,6 +72,8 @@ std::optional<std::size_t> repeats(const Orbit& orbit, double tolerance) {
 
 VectorXd arclength_units(const Problem& problem, const Orbit& orbit, double range) {
   VectorXd units = sizes(problem, orbit);
+  const auto instants = static_cast<Index>(orbit.t.size());
+  units.segment(problem.instant_column(0), instants) *= std::sqrt(static_cast<double>(instants));
   units.head(problem.numbers()) = units.head(problem.numbers()).cwiseMax(problem.least_sizes());
   units[problem.parameter_column(orbit.legs(), 0)] = range;
   return units;

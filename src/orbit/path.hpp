@@ -5,7 +5,8 @@
 
 namespace slapstick::orbit {
 
-/// The unknowns of arclength: sizes of the orbit, a period, the range of the parameter.
+/// The units of arclength: sizes of the orbit (or of Problem::least_sizes), the range of the parameter, and for all instants together a period: a
+/// cycle of many legs is measured as one of few.
 [[nodiscard]] Eigen::VectorXd arclength_units(const Problem& problem, const Orbit& orbit, double range);
 
 /// The equations, all parameters but the first fixed, and one row more; the unknowns in units of arclength.

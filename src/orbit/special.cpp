@@ -195,11 +195,12 @@ std::string describe(const TestValue& test, const Itinerary& shape, const System
 /// Where a leg shrinks to nothing between two zeros of one guard, the equations are singular: there by interpolation.
 std::optional<Located> locate_margin(const Problem& problem, const PathPoint& from, const PathPoint& to, double length,
                                      double range, std::size_t test) {
-  constexpr double nothing = 1e-2, enough = 1e-12;
+  constexpr double nothing = 1e-2, enough = 1e-12, well_known = 1e-10;
   const auto value = [test](const Watched& watched) { return watched.tests[test].value; };
   std::optional<Located> located = locate(problem, from, length, range, value, value(to.watched));
   const std::size_t leg = from.watched.tests[test].leg;
-  const bool regular = located && std::abs(value(located->point.watched)) <= 1e-9 * value(from.watched);
+  const bool regular = located && std::abs(value(located->point.watched)) <= 1e-9 * value(from.watched) &&
+                       located->error <= well_known * range;
   const bool empty = located && from.watched.tests[test].starts_at_end &&
                      located->point.orbit.duration(leg) < nothing * from.orbit.duration(leg);
   if (regular && !empty) return located;
@@ -212,7 +213,7 @@ std::optional<Located> locate_margin(const Problem& problem, const PathPoint& fr
     if (sharper && (!best || sharper->error < best->error)) best = std::move(sharper);
     if (best && best->error <= enough * range) break;
   }
-  return best ? best : located;
+  return best && !(located && located->error < best->error) ? best : located;
 }
 
 namespace {
@@ -228,25 +229,43 @@ bool changes_there(const Problem& problem, const PathPoint& from, double length,
 
 }  // namespace
 
+namespace {
+
+using Candidates = std::vector<std::pair<std::size_t, Located>>;
+
+/// As they come. Of margins that are used up together the speed of an impact says most, and of a slip that is no more its length; a gap that closes with
+/// the leg after an impact says least. What is not known well comes last.
+void in_order(Candidates& candidates, const std::vector<TestValue>& tests, double length, double range) {
+  constexpr double together = 1e-3;  // no nearer than the simulator can tell (changes_there)
+  constexpr double well_known = 1e-9;
+  std::ranges::stable_sort(candidates, {}, [](const auto& candidate) { return candidate.second.length; });
+  const auto says = [&](const auto& candidate) {
+    const TestValue& test = tests[candidate.first];
+    const bool slip = test.starts_at_end && mode::of_friction(test.kind);
+    const bool says_most = test.test == (slip ? Test::duration : Test::speed);
+    const bool closes = test.test == Test::guard && test.kind == mode::GuardKind::gap;
+    return std::pair(candidate.second.error > well_known * range, says_most ? 0 : closes ? 2 : 1);
+  };
+  for (auto first = candidates.begin(); first != candidates.end();) {
+    const double limit = first->second.length + together * length;
+    const auto last = std::find_if(first, candidates.end(), [&](const auto& c) { return c.second.length > limit; });
+    std::ranges::stable_sort(first, last, {}, says);
+    first = last;
+  }
+}
+
+}  // namespace
+
 std::optional<Change> find_change(const Problem& problem, const PathPoint& from, const PathPoint& to, double length,
                                   double range) {
-  std::vector<std::pair<std::size_t, Located>> candidates;
+  Candidates candidates;
   for (std::size_t i = 0; i < from.watched.tests.size(); ++i) {
     const double before = from.watched.tests[i].value, behind = to.watched.tests[i].value;
     if (!(before > 0.0) || !(behind < 0.0)) continue;
     if (auto located = locate_margin(problem, from, to, length, range, i))
       candidates.emplace_back(i, std::move(*located));
   }
-  // Of margins that are used up together the speed of an impact says most, and of a slip that is no more its length; a gap that closes with the leg
-  // after an impact says least.
-  std::ranges::sort(candidates, {}, [&](const auto& candidate) {
-    const TestValue& test = from.watched.tests[candidate.first];
-    const bool slip = test.starts_at_end && mode::of_friction(test.kind);
-    const bool says_most = test.test == (slip ? Test::duration : Test::speed);
-    const bool closes = test.test == Test::guard && test.kind == mode::GuardKind::gap;
-    const int rank = says_most ? 0 : closes ? 2 : 1;
-    return std::pair(std::floor(candidate.second.length / (1e-6 * length)), rank);
-  });
+  in_order(candidates, from.watched.tests, length, range);
   for (auto& [test, located] : candidates) {
     if (!changes_there(problem, from, length, located.length, range)) continue;
     Change change;

@@ -45,7 +45,7 @@ TEST(AutonomousNormalForm, ForetellsTheSizeOfADoubledCycleWithImpacts) {
 
 TEST(AutonomousNormalForm, OfAFoldIsTheRateAtWhichItsMultipliersPart) {
   const Posed posed(hammer, {{"belt_speed", 0.4}}, {"clearance"}, {0.8});
-  const orbit::Branch branch = branch_of(posed, 0.38, 0.81, 0.005);
+  const orbit::Branch branch = branch_of(posed, 0.38, 0.81, 0.002);
   expect_parting_as_foretold(posed, branch, only(branch, SpecialType::LP));
 }
 

@@ -124,12 +124,22 @@ inline void expect_parting_as_foretold(const Posed& posed, const orbit::Branch& 
                                        const orbit::SpecialPoint& point) {
   ASSERT_TRUE(point.normal_form.coefficient) << point.normal_form.what;
   const Beside beside(posed, point, 0);
-  orbit::Orbit lower = branch.points.at(point.after).orbit, upper = branch.points.at(point.after + 1).orbit;
-  upper.values[0] = lower.values[0];
-  const auto other = orbit::refine(*posed.problem, upper);
-  ASSERT_TRUE(other);
-  const double xi = std::abs(beside.apart(beside.state(lower), beside.state(*other)));
-  const double part = std::abs(beside.multiplier(lower) - beside.multiplier(*other));
+  // Of the orbits beside the fold, nearer ones: the distance of the two is that of the parameter's root.
+  constexpr double nearer = 0.25;
+  const orbit::Orbit& fold = point.solution.orbit;
+  const double value =
+      fold.values[0] + nearer * nearer * (branch.points.at(point.after).orbit.values[0] - fold.values[0]);
+  const auto towards = [&](std::size_t index) {
+    orbit::Orbit orbit = branch.points.at(index).orbit;
+    for (std::size_t i = 0; i < orbit.legs(); ++i) orbit.x[i] = fold.x[i] + nearer * (orbit.x[i] - fold.x[i]);
+    for (std::size_t i = 0; i < orbit.t.size(); ++i) orbit.t[i] = fold.t[i] + nearer * (orbit.t[i] - fold.t[i]);
+    orbit.values[0] = value;
+    return orbit::refine(*posed.problem, orbit);
+  };
+  const auto lower = towards(point.after), upper = towards(point.after + 1);
+  ASSERT_TRUE(lower && upper);
+  const double xi = std::abs(beside.apart(beside.state(*lower), beside.state(*upper)));
+  const double part = std::abs(beside.multiplier(*lower) - beside.multiplier(*upper));
   ASSERT_GT(xi, 1e-4);  // they are two
   EXPECT_NEAR(part / (2.0 * beside.form.value * xi), 1.0, 2e-3);
 }

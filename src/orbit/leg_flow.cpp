@@ -5,6 +5,8 @@
 #include <numbers>
 #include <tuple>
 
+#include "slapstick/base/error.hpp"
+
 namespace slapstick::orbit {
 namespace {
 
@@ -170,7 +172,9 @@ Jet extended(const ModeSet& set, const VectorXd& x, double t) {
 
 void flow(const ModeRates& mode, double s, Jet& X) {
   const Index d = static_cast<Index>(mode.outline.steady.size());
+  constexpr double most_steps = 1e4;  // Newton's method may try a mass of next to nothing
   const double steps = std::max(1.0, std::ceil(std::abs(s) / mode.longest_step));
+  if (!(steps <= most_steps)) throw NumericalError("orbit: a leg is too long for the rates of its mode");
   for (double i = 0.0; i < steps; ++i) step(mode, d, s / steps, X);
 }
 

@@ -176,7 +176,19 @@ std::optional<Solution> settle(const Problem& problem, Motion motion, long trans
   const System& system = motion.system();
   if (!run_to(motion, {motion.time().period + transient, 0.0}, stop, [] {})) return std::nullopt;
   if (n != 0 || !system.model().forced()) return orbit_from(problem, system, motion, n, settled, stop);
+  // Newton's method on many periods is dear: it is tried where the motion has come nearer to its start than ever.
+  constexpr double returned = 0.02, nearer = 0.5;
+  double nearest = INFINITY;
+  Motion ahead = motion;
+  const VectorXd start = attractor::contact_state(motion);
+  double size = start.norm();
   for (int cycle = 1; cycle <= longest_cycle; ++cycle) {
+    if (!run_to(ahead, {motion.time().period + cycle, motion.time().fraction}, stop, [] {})) return std::nullopt;
+    VectorXd away = attractor::contact_state(ahead) - start;
+    problem.translations().take_out(away);
+    size = std::max(size, attractor::contact_state(ahead).norm());
+    if (away.norm() > returned * size || away.norm() >= nearer * nearest) continue;
+    nearest = away.norm();
     auto found = orbit_from(problem, system, motion, cycle, settled, stop);
     if (found || stopped(stop)) return found;
   }

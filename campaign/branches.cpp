@@ -1,5 +1,5 @@
-/// Campaign `branches`: every built-in model is followed in every parameter, from the orbit that it settles on and from both ends of the branch
-/// found. Steps fall elsewhere each time; special points must not.
+/// Campaign `branches`: every built-in model is followed in every parameter, from the orbit that it settles on and from near both ends of the branch
+/// found; first with the models' own values, then with random ones. Steps fall elsewhere each time; special points must not.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -115,8 +115,9 @@ void follow_both_ways(const Problem& problem, const Solution& first, const Conti
     ++tally.failed;
     tally.notes.push_back(where + ": " + whole.ended);
   }
-  if (whole.points.size() < 3) return;
-  for (const Solution* end : {&whole.points.front(), &whole.points.back()}) {
+  constexpr std::size_t inside = 3;  // an end may be a place where the motion dies out, which is no good start
+  if (whole.points.size() <= 2 * inside) return;
+  for (const Solution* end : {&whole.points[inside], &whole.points[whole.points.size() - 1 - inside]}) {
     if (!end->is_motion || !end->isolated() || stopped(options.stop)) continue;
     const Branch again = follow(problem, end->orbit, options);
     const std::string from = where + ", from " + shown(end->orbit.values[0]);

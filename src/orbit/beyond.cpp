@@ -96,11 +96,10 @@ Behind behind(const Problem& problem, const Orbit& before, const PathPoint& chan
 
 namespace {
 
-/// How far a motion that comes to the touch in a leg of the orbit so far beyond is from that orbit in the middle of a later leg, against its state there.
-double departure(const Problem& problem, const PathPoint& change, const TestValue& test, double length, double range) {
-  const std::optional<PathPoint> beyond = step_to(problem, change, length, range);
-  if (!beyond) return 0.0;
-  Orbit orbit = beyond->orbit;
+/// The state in the middle of a later leg of a motion from before the change in its leg, the parameter moved by so much. Empty if it cannot start.
+std::optional<VectorXd> later(const Problem& problem, const PathPoint& change, const TestValue& test, double move) {
+  Orbit orbit = change.orbit;
+  orbit.values[0] += move;
   const System system(problem.family().model(orbit.values));
   const ModeSet set(constant_family(system.model()), {});
   rotate(orbit, test.leg);
@@ -108,22 +107,26 @@ double departure(const Problem& problem, const PathPoint& change, const TestValu
   for (std::size_t i = 1; i < orbit.legs(); ++i)
     if (orbit.duration(i) > orbit.duration(longest)) longest = i;
   std::optional<Motion> motion = motion_from(system, set, orbit, 0, 0.5 * test.at / orbit.duration(0));
-  if (!motion) return 0.0;
-  const double after = 0.5 * orbit.duration(longest);
-  const VectorXd there = contact_state(set, state_within(set, orbit, longest, after));
-  while (motion->advance(Instant{}.plus(orbit.t[longest] + after)) == Outcome::event) {
+  if (!motion) return std::nullopt;
+  while (motion->advance(Instant{}.plus(orbit.t[longest] + 0.5 * orbit.duration(longest))) == Outcome::event) {
   }
-  return (attractor::contact_state(*motion) - there).norm() / there.norm();
+  return attractor::contact_state(*motion);
+}
+
+/// How far motions a little to either side of the change are from one another, against their size.
+double departure(const Problem& problem, const PathPoint& change, const TestValue& test, double move) {
+  const auto here = later(problem, change, test, -move), there = later(problem, change, test, move);
+  return here && there ? (*here - *there).norm() / here->norm() : 0.0;
 }
 
 }  // namespace
 
 bool departs(const Problem& problem, const PathPoint& change, const TestValue& test, double range) {
   constexpr double near = 1e-7, far_off = 1e-3, shrinks = 0.3;
-  if (change.orbit.legs() < 2 || test.test != Test::guard) return false;
+  if (change.orbit.legs() < 2 || !(test.at > 0.0)) return false;
   try {
-    const double first = departure(problem, change, test, near, range);
-    return first > far_off && departure(problem, change, test, 0.01 * near, range) > shrinks * first;
+    const double first = departure(problem, change, test, near * range);
+    return first > far_off && departure(problem, change, test, 0.01 * near * range) > shrinks * first;
   } catch (const InputError&) {
   } catch (const NumericalError&) {
   }

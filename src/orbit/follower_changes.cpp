@@ -97,7 +97,7 @@ bool Follower::end_at(SpecialPoint special, Beyond beyond, const std::string& le
       break;
     case Beyond::departure:
       special.outcome = "jump";
-      why = "a jump: motions just beyond leave the orbit within a cycle";
+      why = "a jump: to either side of it motions differ within a cycle, however near";
       break;
     case Beyond::not_followed:
       special.outcome = "not followed";

@@ -185,11 +185,24 @@ std::optional<Located> beginning(const Problem& problem, const PathPoint& next, 
     if (!(length > 0.0) || length > 0.05) break;
     const std::optional<PathPoint> beyond = step_to(problem, back, length, range);
     if (!beyond) continue;
-    for (std::size_t i = 0; i < back.watched.tests.size(); ++i) {
-      if (!(back.watched.tests[i].value > 0.0) || !(beyond->watched.tests[i].value < 0.0)) continue;
-      auto located = locate_margin(problem, back, *beyond, length, range, i);
-      if (located && std::abs(located->point.orbit.values[0] - critical) < same * range) return located;
-    }
+    const auto first = [&](const auto& locate_test) -> std::optional<Located> {
+      for (std::size_t i = 0; i < back.watched.tests.size(); ++i) {
+        if (!(back.watched.tests[i].value > 0.0) || !(beyond->watched.tests[i].value < 0.0)) continue;
+        auto located = locate_test(i);
+        if (located && std::abs(located->point.orbit.values[0] - critical) < same * range) return located;
+      }
+      return std::nullopt;
+    };
+    const auto directly = [&](std::size_t i) {
+      const auto value = [i](const Watched& watched) { return watched.tests[i].value; };
+      return locate(problem, back, length, range, value, value(beyond->watched));
+    };
+    const auto by_interpolation = [&](std::size_t i) {
+      return locate_margin(problem, back, *beyond, length, range, i);
+    };
+    if (auto located = first(directly)) return located;
+    if (chatters(next.orbit)) continue;  // hundreds of margins
+    if (auto located = first(by_interpolation)) return located;
   }
   return std::nullopt;
 }

@@ -116,9 +116,11 @@ void follow_both_ways(const Problem& problem, const Solution& first, const Conti
     tally.notes.push_back(where + ": " + whole.ended);
   }
   constexpr std::size_t inside = 3;  // an end may be a place where the motion dies out, which is no good start
+  constexpr double vast = 1e3;       // against the first orbit: it grows without bound
   if (whole.points.size() <= 2 * inside) return;
   for (const Solution* end : {&whole.points[inside], &whole.points[whole.points.size() - 1 - inside]}) {
     if (!end->is_motion || !end->isolated() || stopped(options.stop)) continue;
+    if (end->orbit.x[0].norm() > vast * first.orbit.x[0].norm()) continue;
     const Branch again = follow(problem, end->orbit, options);
     const std::string from = where + ", from " + shown(end->orbit.values[0]);
     if (again.failed && !whole.failed) tally.notes.push_back(from + ": " + again.ended);

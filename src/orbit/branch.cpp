@@ -210,9 +210,18 @@ Branch follow(const Problem& posed, const Orbit& start, const ContinuationOption
   Branch down, up;
   up.points.push_back(solution);
   down.points.push_back(up.points.front());
-  Follower(problem, options, up).run(first);
+  const auto run = [&](Branch& branch, const PathPoint& from) {
+    try {
+      Follower(problem, options, branch).run(from);
+    } catch (const NumericalError& error) {  // what there is stays
+      branch.ended = "behind " + problem.family().names[0] + " = " + shown(branch.points.back().orbit.values[0]) +
+                     ": " + error.what();
+      branch.failed = true;
+    }
+  };
+  run(up, first);
   if (up.ended == "closed") return up;
-  Follower(problem, options, down).run(reversed(first));
+  run(down, reversed(first));
   return joined(std::move(down), std::move(up), &Branch::special);
 }
 

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "orbit/leg_flow.hpp"
+#include "slapstick/base/error.hpp"
 
 namespace slapstick::orbit {
 namespace {
@@ -184,10 +185,19 @@ int lost_impacts(const std::vector<TestValue>& was, const std::vector<TestValue>
   return count;
 }
 
+/// None for a shape whose modes do not have the guards that end its legs.
+std::vector<TestValue> values_if_any(const ModeSet& set, const Orbit& orbit) {
+  try {
+    return test_values(set, orbit);
+  } catch (const NumericalError&) {
+    return {};
+  }
+}
+
 /// Where several impacts lose their speed together, as in symmetric orbits: without the others too.
 Orbit without_all(const ModeSet& set, double largest_speed, Orbit orbit) {
   for (std::size_t most = orbit.legs(); most > 0; --most) {
-    const std::vector<TestValue> tests = test_values(set, orbit);
+    const std::vector<TestValue> tests = values_if_any(set, orbit);
     const auto next = std::ranges::find_if(tests, [&](const TestValue& test) {
       return impact_speed(test) && std::abs(test.value) < no_speed * largest_speed;
     });
@@ -214,7 +224,7 @@ bool is_struck_there(const Orbit& orbit, const TestValue& test) {
 Orbit with_all(const ModeSet& set, double largest_gap, Orbit orbit) {
   constexpr int most = 16;
   for (int k = 0; k < most; ++k) {
-    const std::vector<TestValue> tests = test_values(set, orbit);
+    const std::vector<TestValue> tests = values_if_any(set, orbit);
     const auto next = std::ranges::find_if(tests, [&](const TestValue& test) {
       return gap(test) && std::abs(test.value) < no_gap * largest_gap && !is_struck_there(orbit, test);
     });
@@ -226,8 +236,9 @@ Orbit with_all(const ModeSet& set, double largest_gap, Orbit orbit) {
 
 }  // namespace
 
-std::vector<Orbit> coincident(const ModeSet& set, const Orbit& before, const std::vector<TestValue>& was,
-                              const Orbit& orbit, const TestValue& test) {
+std::vector<Orbit> coincident(const Problem& problem, const Orbit& before, const Orbit& orbit, const TestValue& test) {
+  const ModeSet set(problem.family(), orbit.values);
+  const std::vector<TestValue> was = test_values(ModeSet(problem.family(), before.values), before);
   std::vector<Orbit> shapes;
   const auto add = [&](const Orbit& all, const Orbit& one) {
     if (!(all.shape.legs == one.shape.legs)) shapes.push_back(all);

@@ -1,15 +1,16 @@
 #pragma once
 /// Other sequences of events of which the orbit at a change is an orbit too: at a graze an impact of no speed is the same as none, and a leg that has
 /// shrunk to nothing may be left out.
+#include "orbit/equations.hpp"
 #include "orbit/margins.hpp"
 
 namespace slapstick::orbit {
 
-/// @param set     of the change's parameters
-/// @param before  the same orbit at some distance from the change, and its margins
+/// @param before  the same orbit at some distance from the change
+/// @param orbit   .. at the change
 /// @param test    the margin that is used up at the change
 /// @returns the orbit in its other shapes: those without what has vanished first
-[[nodiscard]] std::vector<Orbit> coincident(const ModeSet& set, const Orbit& before, const std::vector<TestValue>& was,
-                                            const Orbit& orbit, const TestValue& test);
+[[nodiscard]] std::vector<Orbit> coincident(const Problem& problem, const Orbit& before, const Orbit& orbit,
+                                            const TestValue& test);
 
 }  // namespace slapstick::orbit

@@ -120,7 +120,7 @@ bool Follower::leave_chatter(PathPoint& at) {
   if (!options_.through_changes || count < 2 || !branch_.points.back().chatter) return false;
   constexpr double clear = 1e-4;  // nearer to the onset impacts are too many and too short to be followed
   const Orbit& before = branch_.points[count - 2].orbit;
-  std::vector<Reshaped> found = reshape(problem_, before, at, TestValue{}, range_, options_.stop, clear);
+  std::vector<Reshaped> found = reshape(problem_, before, at, std::nullopt, range_, options_.stop, clear);
   std::erase_if(found, [](const Reshaped& next) { return !next.gathering || next.folds; });
   if (found.empty() && !chatter_lengthens(branch_)) return false;
   const double reach = shortest_step() * range_;

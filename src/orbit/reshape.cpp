@@ -228,9 +228,9 @@ std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, do
 }  // namespace
 
 std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const PathPoint& change,
-                              const TestValue& test, double range, const std::atomic<bool>* stop, double nearest) {
+                              const std::optional<TestValue>& test, double range, const std::atomic<bool>* stop,
+                              double nearest) {
   const double critical = change.orbit.values[0];
-  const ModeSet set(problem.family(), change.orbit.values);
   std::vector<Reshaped> all;
   const auto add = [&](std::optional<Reshaped> next) {
     const auto known = [&](const Reshaped& other) {
@@ -239,9 +239,9 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
     if (next && std::ranges::none_of(all, known)) all.push_back(std::move(*next));
   };
   const double sense = std::copysign(1.0, critical - before.values[0]);
-  const std::vector<TestValue> was = test_values(ModeSet(problem.family(), before.values), before);
-  for (const Orbit& shape : coincident(set, before, was, change.orbit, test))
-    add(leaving(problem, change, sense, shape, range));
+  if (test)
+    for (const Orbit& shape : coincident(problem, before, change.orbit, *test))
+      add(leaving(problem, change, sense, shape, range));
   const double longest =
       chatters(change.orbit) ? 1e-2 : 1e-3;  // near its onset a chatter's equations are hardly solvable
   for (double length : {1e-6, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2}) {
@@ -250,7 +250,7 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
     Orbit beyond = change.orbit;  // as it is, where its own equations lead no further
     beyond.values[0] += sense * length * range;
     if (const auto point = step_to(problem, change, length, range)) beyond = point->orbit;
-    const std::vector<Orbit> guesses = shapes_about(problem, beyond, test.leg);
+    const std::vector<Orbit> guesses = shapes_about(problem, beyond, test ? test->leg : 0);
     for (double side : {1.0, -1.0}) {  // where the old branch would have gone on, then where it came from
       for (Orbit guess : guesses) {
         if (stopped(stop)) return all;
@@ -270,9 +270,7 @@ bool one_of_family(const Problem& problem, const PathPoint& point, double range)
 }
 
 bool begins_family(const Problem& problem, const Orbit& before, const PathPoint& change, const TestValue& test) {
-  const ModeSet set(problem.family(), change.orbit.values);
-  const std::vector<TestValue> was = test_values(ModeSet(problem.family(), before.values), before);
-  const std::vector<Orbit> shapes = coincident(set, before, was, change.orbit, test);
+  const std::vector<Orbit> shapes = coincident(problem, before, change.orbit, test);
   return std::ranges::any_of(shapes, [&](const Orbit& shape) { return !describe(problem, shape, nullptr).isolated(); });
 }
 

@@ -15,12 +15,12 @@ struct Reshaped {
 
 /// @param before  a point of the old branch on the way to
 /// @param change  .. where the events change
-/// @param test    the margin that is used up there
+/// @param test    the margin that is used up there; empty: none, the orbit's equations lead no further
 /// @param nearest  how far from the change the motion is first looked at, of the range
 /// @returns the orbits with the events of the motion beyond whose branches, followed back, come to the change
 [[nodiscard]] std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const PathPoint& change,
-                                            const TestValue& test, double range, const std::atomic<bool>* stop,
-                                            double nearest = 1e-6);
+                                            const std::optional<TestValue>& test, double range,
+                                            const std::atomic<bool>* stop, double nearest = 1e-6);
 
 /// Has a branch come to orbits of a family, which lie beside each other at the same parameter, as those of a mass that sticks anywhere in an interval?
 [[nodiscard]] bool one_of_family(const Problem& problem, const PathPoint& point, double range);

@@ -50,6 +50,18 @@ TEST(BranchFromEitherEnd, HasTheSameSpecialPoints) {
   }
 }
 
+/// Near the onset of a chatter that friction shakes no step leads on, and orbits are sought whose impacts are not those of the chatter.
+TEST(BranchOfChatterWithFriction, GoesThroughItsOnset) {
+  const Posed posed("impact-friction-oscillator", {}, {"clearance"}, {0.0});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = -0.8, .to = 0.5});
+  EXPECT_FALSE(branch.failed) << branch.ended;
+  EXPECT_TRUE(branch.points.front().chatter) << branch.points.front().label;
+  EXPECT_EQ(branch.points.back().label, "1-0-I");
+  EXPECT_EQ(std::ranges::count(branch.special, SpecialType::CH, &orbit::SpecialPoint::type), 1);
+}
+
 /// Does a ball that a shaken table has released come to rest before the table releases it again?
 bool comes_to_rest(double restitution, double acceleration) {
   const Model model = load_model("shaken-table").build({{"restitution", restitution}, {"acceleration", acceleration}});

@@ -124,8 +124,9 @@ bool Follower::leave_chatter(PathPoint& at) {
   std::erase_if(found, [](const Reshaped& next) { return !next.gathering || next.folds; });
   if (found.empty() && !chatter_lengthens(branch_)) return false;
   const double reach = shortest_step() * range_;
-  add_onset(onset({value(at) - reach, value(at) + reach}, branch_.points.back()),
-            found.empty() ? "the branch ends" : "persistence");
+  SpecialPoint special = onset({value(at) - reach, value(at) + reach}, branch_.points.back());
+  if (!found.empty()) special.error = std::max(special.error, std::abs(value(found.front().point) - value(at)));
+  add_onset(std::move(special), found.empty() ? "the branch ends" : "persistence");
   if (!found.empty()) {
     restart(at, std::move(found.front().point));
     onset_ = Onset{reversed(at), branch_.points.size(), branch_.special.size()};

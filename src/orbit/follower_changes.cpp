@@ -72,6 +72,8 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
   if (std::ranges::any_of(found, repeated)) return end_at(std::move(special), Beyond::shorter);
   if (lies_on_first(branch_.points.size(), branch_, found.front().point.orbit))
     return end_at(std::move(special), Beyond::retraced);
+  if (found.front().gathering && found.front().folds && turn_round(at))
+    return true;  // back to the chatter that it has just left
   for (std::size_t i = 1; i < found.size(); ++i) special.born.push_back(found[i].point.orbit);
   go_on(at, std::move(special), std::move(found.front()));
   return true;
@@ -118,7 +120,7 @@ bool Follower::end_at(SpecialPoint special, Beyond beyond, const std::string& le
 bool Follower::leave_chatter(PathPoint& at) {
   const std::size_t count = branch_.points.size();
   if (!options_.through_changes || count < 2 || !branch_.points.back().chatter) return false;
-  constexpr double clear = 1e-4;  // nearer to the onset impacts are too many and too short to be followed
+  constexpr double clear = 1e-3;  // nearer to the onset impacts are too many and too short to be followed
   const Orbit& before = branch_.points[count - 2].orbit;
   std::vector<Reshaped> found = reshape(problem_, before, at, std::nullopt, range_, options_.stop, clear);
   std::erase_if(found, [](const Reshaped& next) { return !next.gathering || next.folds; });

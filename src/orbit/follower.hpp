@@ -3,6 +3,7 @@
 #include "orbit/path.hpp"
 #include "orbit/record.hpp"
 #include "orbit/reshape.hpp"
+#include "orbit/special.hpp"
 #include "slapstick/orbit/branch.hpp"
 
 namespace slapstick::orbit {
@@ -24,6 +25,7 @@ class Follower {
   [[nodiscard]] bool inside(double v) const { return v >= options_.from && v <= options_.to; }
   [[nodiscard]] Solution solution_of(const PathPoint& point, Verification* seen) const;
   bool accept(PathPoint& at, PathPoint next, double length);
+  [[nodiscard]] std::optional<Change> change_between(const PathPoint& at, const PathPoint& beyond, double length) const;
   bool change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why);
   /// What there is behind a change of events where a branch ends.
   enum class Beyond { shorter, retraced, family, jump, departure, not_followed, unknown };

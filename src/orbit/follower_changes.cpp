@@ -25,12 +25,18 @@ bool is_all_but_gone(const Orbit& orbit) {
 
 }  // namespace
 
+/// The first change. A point that is all but singular leads nowhere: the one before it may.
+std::optional<Change> Follower::change_between(const PathPoint& at, const PathPoint& beyond, double length) const {
+  std::optional<Change> change = find_change(problem_, at, beyond, length, range_);
+  if (change || !before_ || !(before_->point.orbit.shape.legs == at.orbit.shape.legs)) return change;
+  change = find_change(problem_, before_->point, beyond, before_->length + length, range_);
+  if (change) change->length -= before_->length;
+  return change;
+}
+
 /// Between `at` and `beyond` the motion's events change. Notes the point and goes on with new ones. @returns false if the branch ends
 bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why) {
-  std::optional<Change> change = find_change(problem_, at, beyond, length, range_);
-  // A point that is all but singular leads nowhere: the one before it may.
-  if (!change && before_ && before_->point.orbit.shape.legs == at.orbit.shape.legs)
-    change = find_change(problem_, before_->point, beyond, before_->length + length, range_);
+  std::optional<Change> change = change_between(at, beyond, length);
   if (!change || fades(at.orbit, change->test.leg)) {
     if (length > shortest_step()) {
       step_ = 0.25 * length;
@@ -43,7 +49,7 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
     return false;
   }
   if (is_all_but_gone(at.orbit) && die_out(at)) return !ended_;
-  add(beside_change(problem_, at, change->length, range_), branch_.points.size() - 1);
+  if (change->length > 0.0) add(beside_change(problem_, at, change->length, range_), branch_.points.size() - 1);
   if (ended_) return false;
   SpecialPoint special = std::move(change->special);
   special.after = branch_.points.size() - 1;

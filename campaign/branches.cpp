@@ -18,7 +18,7 @@ using namespace slapstick;
 using namespace slapstick::orbit;
 
 constexpr long transient = 500;
-constexpr int most_points = 1000;
+constexpr int most_points = 4000;
 
 struct Case {
   std::string model, parameter;
@@ -137,7 +137,7 @@ Tally examine(const Case& which, long number, bool own, const Options& options) 
   const Overrides values = values_of(definition, options, number, own);
   const double value = definition.values(values).at(parameter_of(definition, which.parameter).name);
   const auto [from, to] = range_about(parameter_of(definition, which.parameter), value);
-  if (!(from < value && value < to)) return tally;
+  if (!(from <= value && value <= to && from < to)) return tally;
   std::string where = which.model + " --param " + which.parameter + " --range " + shown(from) + ":" + shown(to);
   for (const auto& [name, set] : values) where += " --set " + name + "=" + shown(set);
   Overrides present = values;
@@ -149,7 +149,10 @@ Tally examine(const Case& which, long number, bool own, const Options& options) 
     if (!first || !first->isolated()) return tally;
     follow_both_ways(*problem, *first, {.from = from, .to = to, .most_points = most_points, .stop = options.stop},
                      where, tally);
-  } catch (const std::runtime_error& error) {
+  } catch (const InputError& error) {  // random values may contradict one another
+    tally.notes.push_back(where + ": " + error.what());
+  } catch (const NumericalError& error) {
+    ++tally.failed;
     tally.notes.push_back(where + ": " + error.what());
   }
   return tally;

@@ -11,17 +11,14 @@ namespace slapstick::orbit {
 
 using Eigen::VectorXd;
 
-/// A motion from inside a leg of an orbit that may itself be no motion any more.
 std::optional<Motion> motion_from(const System& system, const ModeSet& set, const Orbit& orbit, std::size_t leg,
                                   double part) {
-  const double after = part * orbit.duration(leg);
-  const VectorXd X = state_within(set, orbit, leg, after);
+  const VectorXd X = state_within(set, orbit, leg, part * orbit.duration(leg));
   for (const mode::Guard& guard : set.mode(orbit.shape.legs[leg].states).outline.guards)
     if (guard.row.dot(X) <= 0.0) return std::nullopt;
-  return Motion(system, attractor::user_state(system, contact_state(set, X)), Instant{}.plus(orbit.t[leg] + after));
+  return from_inside(system, set, orbit, leg, part);
 }
 
-/// Is a long leg of one much the same in the other?
 bool resembles(const Orbit& a, const Orbit& b, double much_the_same) {
   constexpr double long_enough = 0.1;  // of a cycle
   for (std::size_t i = 0; i < a.legs(); ++i) {

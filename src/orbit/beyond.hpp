@@ -4,7 +4,7 @@
 
 namespace slapstick::orbit {
 
-/// A motion from inside a leg of an orbit that may itself be no motion any more; empty where that is not possible.
+/// A motion from inside a leg of an orbit that may itself be no motion any more; empty where a guard is used up there.
 /// @param part  of the leg's length
 [[nodiscard]] std::optional<Motion> motion_from(const System& system, const ModeSet& set, const Orbit& orbit,
                                                 std::size_t leg, double part);

@@ -159,14 +159,16 @@ bool fades(const Orbit& orbit, std::size_t leg) {
   return in_burst(orbit, leg) && orbit.duration(leg) < short_flight * (orbit.t.back() - orbit.t.front());
 }
 
+Motion from_inside(const System& system, const ModeSet& set, const Orbit& orbit, std::size_t leg, double part) {
+  const double after = part * orbit.duration(leg);
+  return Motion(system, attractor::user_state(system, contact_state(set, state_within(set, orbit, leg, after))),
+                Instant{}.plus(orbit.t[leg] + after));
+}
+
 namespace {
 
-/// A motion from the middle of a leg.
 Motion from_middle(const System& system, const Orbit& orbit, std::size_t leg) {
-  const ModeSet set(constant_family(system.model()), {});
-  const VectorXd X = state_within(set, orbit, leg, 0.5 * orbit.duration(leg));
-  return Motion(system, attractor::user_state(system, contact_state(set, X)),
-                Instant{}.plus(orbit.t[leg] + 0.5 * orbit.duration(leg)));
+  return from_inside(system, ModeSet(constant_family(system.model()), {}), orbit, leg, 0.5);
 }
 
 std::string mismatch(const System& system, std::size_t i, const Leg* seen, const Leg* wanted) {

@@ -4,6 +4,7 @@
 
 #include "slapstick/flow/stage.hpp"
 #include "slapstick/orbit/itinerary.hpp"
+#include "slapstick/orbit/mode_set.hpp"
 
 namespace slapstick::orbit {
 
@@ -24,6 +25,10 @@ struct Seen {
 /// n periods later (n = 0: up to the event nearest in state, within 400 events). Its equations need not be met.
 /// @returns empty if there is no such event, or the motion grazes; an orbit with one leg if there are no events within n periods
 [[nodiscard]] std::optional<Orbit> record(const Motion& start, int n, const std::atomic<bool>* stop = nullptr);
+
+/// A motion that starts inside a leg, after this part of its length.
+[[nodiscard]] Motion from_inside(const System& system, const ModeSet& set, const Orbit& orbit, std::size_t leg,
+                                 double part);
 
 struct Verification {
   bool is_motion = false;

@@ -1,6 +1,7 @@
 #include "orbit/reshape.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -59,6 +60,8 @@ std::optional<Orbit> spliced(const Orbit& orbit, Motion motion) {
   return std::nullopt;
 }
 
+constexpr std::array parts = {0.5, 0.1, 0.9};  ///< of a leg's length, at which motions are begun
+
 /// Cycles of other shapes that motions from inside an orbit's legs show, each shape once: whole cycles, and, from about the leg at which the
 /// events change, pieces in place of the orbit's own.
 class NearbyShapes {
@@ -84,7 +87,7 @@ class NearbyShapes {
  private:
   template <class See>
   void from(const Orbit& orbit, std::size_t leg, const See& see) {
-    for (double part : {0.5, 0.1, 0.9}) {
+    for (const double part : parts) {
       try {
         if (const std::optional<Motion> motion = motion_from(system_, set_, orbit, leg, part)) add(see(*motion));
       } catch (const InputError&) {  // behind a stop
@@ -103,7 +106,7 @@ class NearbyShapes {
       if (wrong == tests.end()) return count > 0 ? std::optional(orbit) : std::nullopt;
       rotate(orbit, wrong->leg);
       std::optional<Orbit> next;
-      for (double part : {0.5, 0.1, 0.9}) {
+      for (const double part : parts) {
         const std::optional<Motion> motion = motion_from(system_, set_, orbit, 0, part);
         if (motion && (next = spliced(orbit, *motion))) break;
       }

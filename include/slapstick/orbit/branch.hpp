@@ -10,9 +10,10 @@
 ///   CH  a complete chatter begins or ends                       CO  two events meet
 ///
 /// The last four change the sequence. There the sequence is built anew from what the motion does beyond, and the branch goes on: in the same
-/// direction (*persistence*), or back (*non-smooth fold*), or ends: no orbit of the new sequence was found whose branch comes from there. From a
-/// stable orbit the motion then makes a *jump*, and what it goes over to is named; else *none found*. Every point is checked by the certified
-/// simulator; one that is no motion has `is_motion` false, and says why.
+/// direction (*persistence*), or back (*non-smooth fold*). It ends where the motion makes a *jump* (from a stable orbit what it goes over to is
+/// named), where the orbits beyond are *one of a family*, isolated no more, where it grows without bound, and where no orbit of the new sequence
+/// was found whose branch comes from there (*none found*). Every point is checked by the certified simulator; one that is no motion has
+/// `is_motion` false, and says why.
 ///
 /// Source: Doedel, Keller and Kernevez (1991), Govaerts (2000) for the test functions; di Bernardo et al. (2008) for GR and SL.
 #include <functional>
@@ -55,7 +56,7 @@ struct Branch {
   std::vector<SpecialPoint> special;
   std::string
       ended;  ///< why it ends: "range", "closed", "1000 points each way, the most allowed", or what went wrong, with the last good value
-  bool failed = false;  ///< it ends before the range does
+  bool failed = false;  ///< it ends where a step was not mastered, or is broken off (stopped, the most points)
 };
 
 struct ContinuationOptions {

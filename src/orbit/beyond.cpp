@@ -24,7 +24,7 @@ bool resembles(const Orbit& a, const Orbit& b, double much_the_same) {
   for (std::size_t i = 0; i < a.legs(); ++i) {
     if (a.duration(i) < long_enough * (a.t.back() - a.t.front())) continue;
     for (std::size_t j = 0; j < b.legs(); ++j)
-      if (b.shape.legs[j].states == a.shape.legs[i].states && (a.x[i] - b.x[j]).norm() < much_the_same * a.x[i].norm())
+      if (b.shape.legs[j].states == a.shape.legs[i].states && (a.x[i] - b.x[j]).norm() <= much_the_same * a.x[i].norm())
         return true;
   }
   return false;

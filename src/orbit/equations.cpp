@@ -176,6 +176,20 @@ VectorXd newton_step(const Linearised& at, const std::vector<Condition>& conditi
   return matrix.partialPivLu().solve(right);
 }
 
+/// How well rounding lets the instants of events be known: where a guard falls slowly, as at the last impacts of a chatter, by the rounding of the
+/// leg's start over its rate.
+double rounding(const Orbit& orbit, const Linearised& at) {
+  constexpr double roundoff = 2e-16, most = 1e-7;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < orbit.legs(); ++i) {
+    const LegValue& leg = at.legs[i];
+    if (orbit.shape.legs[i].ending != Ending::guard) continue;
+    const double noise = roundoff * leg.h.by_state().row(0).cwiseAbs().dot(orbit.x[i].cwiseAbs());
+    largest = std::max(largest, noise / std::abs(leg.h.by_end()[0]));
+  }
+  return std::min(largest, most);
+}
+
 double longest_leg(const Orbit& orbit) {
   double longest = 0.0;
   for (std::size_t i = 0; i < orbit.legs(); ++i) longest = std::max(longest, std::abs(orbit.duration(i)));
@@ -250,7 +264,8 @@ NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condi
       move(problem, at, change, fraction, orbit);
       if (longest_leg(orbit) > far_too_long * longest) return result;
       // Quadratic convergence: the next step would be its square. Rounding ends it in any case.
-      const bool stalled = result.last_step < 1e-10 && result.last_step > 0.1 * before;
+      const double alike = std::max(1e-10, rounding(orbit, at));
+      const bool stalled = result.last_step < alike && result.last_step > 0.1 * before;
       if (result.last_step < enough || stalled) {
         result.converged = true;
         return result;

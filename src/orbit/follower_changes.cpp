@@ -78,7 +78,7 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
   if (std::ranges::any_of(found, repeated)) return end_at(std::move(special), Beyond::shorter);
   if (lies_on_first(branch_.points.size(), branch_, found.front().point.orbit))
     return end_at(std::move(special), Beyond::retraced);
-  if (found.front().gathering && found.front().folds && turn_round(at))
+  if (found.front().onset && found.front().folds && turn_round(at))
     return true;  // back to the chatter that it has just left
   for (std::size_t i = 1; i < found.size(); ++i) special.born.push_back(found[i].point.orbit);
   go_on(at, std::move(special), std::move(found.front()));
@@ -129,11 +129,15 @@ bool Follower::leave_chatter(PathPoint& at) {
   constexpr double clear = 1e-3;  // nearer to the onset impacts are too many and too short to be followed
   const Orbit& before = branch_.points[count - 2].orbit;
   std::vector<Reshaped> found = reshape(problem_, before, at, std::nullopt, range_, options_.stop, clear);
-  std::erase_if(found, [](const Reshaped& next) { return !next.gathering || next.folds; });
+  std::erase_if(found, [](const Reshaped& next) { return !next.onset || next.folds; });
   if (found.empty() && !chatter_lengthens(branch_)) return false;
   const double reach = shortest_step() * range_;
-  SpecialPoint special = onset({value(at) - reach, value(at) + reach}, branch_.points.back());
-  if (!found.empty()) special.error = std::max(special.error, std::abs(value(found.front().point) - value(at)));
+  Between about{value(at) - reach, value(at) + reach};
+  const bool release = !found.empty() && found.front().onset->release;
+  if (release) about = *found.front().onset;
+  SpecialPoint special = onset(about, branch_.points.back());
+  if (!found.empty() && !release)
+    special.error = std::max(special.error, std::abs(value(found.front().point) - value(at)));
   add_onset(std::move(special), found.empty() ? "the branch ends" : "persistence");
   if (!found.empty()) {
     restart(at, std::move(found.front().point));
@@ -166,7 +170,7 @@ bool Follower::end_cascade(PathPoint& at) {
   if (!options_.through_changes || branch_.points.back().chatter) return false;
   const std::optional<CascadeLimit> limit = cascade_limit(branch_);
   if (!limit || std::abs(limit->value - value(at)) > near * range_) return false;
-  SpecialPoint special = onset({limit->value, limit->value}, branch_.points.back());
+  SpecialPoint special = onset({limit->value, limit->value, false}, branch_.points.back());
   special.error = limit->error;
   special.what += " (a cascade, ratio " + shown(std::round(1e4 * limit->ratio) / 1e4) + ")";
   std::optional<Reshaped> next = beyond_cascade(problem_, at, limit->value, range_, options_.stop);
@@ -255,8 +259,12 @@ void Follower::restart(PathPoint& at, PathPoint from) {
 void Follower::go_on(PathPoint& at, SpecialPoint special, Reshaped next) {
   special.outcome = next.folds ? "non-smooth fold" : "persistence";
   Solution first = solution_of(next.point, nullptr);
-  if (next.gathering) {
-    SpecialPoint here = onset(*next.gathering, special.solution);
+  if (next.onset && next.onset->release && first.chatter) {
+    special.type = SpecialType::CH;
+    special.what += ", and a complete chatter begins";
+    branch_.special.push_back(std::move(special));
+  } else if (next.onset) {
+    SpecialPoint here = onset(*next.onset, special.solution);
     const std::string outcome = std::exchange(special.outcome, "one of infinitely many changes");
     if (first.chatter) branch_.special.push_back(special);
     add_onset(std::move(here), outcome);

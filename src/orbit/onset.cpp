@@ -5,13 +5,14 @@
 
 namespace slapstick::orbit {
 
-SpecialPoint onset(std::pair<double, double> between, const Solution& nearest) {
+SpecialPoint onset(const Between& between, const Solution& nearest) {
   SpecialPoint special;
   special.type = SpecialType::CH;
-  special.value = 0.5 * (between.first + between.second);
-  special.error = std::abs(between.second - between.first);
+  special.value = 0.5 * (between.from + between.to);
+  special.error = std::abs(between.to - between.from);
   special.solution = nearest;
-  special.what = "infinitely many changes gather at the onset of a complete chatter";
+  special.what = between.release ? "a contact that has rested lets go, into a complete chatter"
+                                 : "infinitely many changes gather at the onset of a complete chatter";
   return special;
 }
 

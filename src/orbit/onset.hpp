@@ -1,12 +1,13 @@
 #pragma once
 /// Where a complete chatter begins or ends: infinitely many changes of events, each with an impact more, gather there.
+#include "orbit/reshape.hpp"
 #include "slapstick/orbit/branch.hpp"
 
 namespace slapstick::orbit {
 
 /// The special point.
-/// @param between  two values of the parameter that it lies between  @param nearest  the orbit
-[[nodiscard]] SpecialPoint onset(std::pair<double, double> between, const Solution& nearest);
+/// @param nearest  the orbit
+[[nodiscard]] SpecialPoint onset(const Between& between, const Solution& nearest);
 
 /// The end of a cascade: the places of its changes converge like a geometric series, whose ratio tends to the coefficient of restitution.
 struct CascadeLimit {

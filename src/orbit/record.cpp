@@ -235,8 +235,8 @@ bool Check::run(std::size_t first, std::size_t next) {
   for (std::size_t i = first; i < next; ++i) {
     const std::size_t leg = i % orbit_.legs();
     const double due = orbit_.t[leg + 1] + (i >= orbit_.legs() ? cycle : 0.0);
-    const std::optional<Seen> seen =
-        next_event(motion, 0, Instant{}.plus(due + 2.0 * same_instant * std::max(1.0, cycle)), touched, nullptr);
+    const double tolerance = fades(orbit_, leg) ? 0.5 * cycle : same_instant * std::max(1.0, cycle);
+    const std::optional<Seen> seen = next_event(motion, 0, Instant{}.plus(due + 2.0 * tolerance), touched, nullptr);
     if (touched) return refuse("the motion grazes in leg " + std::to_string(leg + 1));
     const Leg* wanted = &orbit_.shape.legs[leg];
     if (!seen || !(seen->leg == *wanted)) {
@@ -249,7 +249,7 @@ bool Check::run(std::size_t first, std::size_t next) {
       while (orbit_.shape.legs[i % orbit_.legs()].ending != Ending::chatter) ++i;
       continue;
     }
-    if (std::abs(seen->t - due) > same_instant * std::max(1.0, cycle))
+    if (std::abs(seen->t - due) > tolerance)
       return refuse(mismatch(system_, leg, &seen->leg, wanted) + ", at another instant");
   }
   const std::size_t half = next % orbit_.legs();

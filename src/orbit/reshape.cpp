@@ -161,8 +161,9 @@ std::optional<Reshaped> leaving(const Problem& problem, const PathPoint& change,
                                 const Orbit& shape, double range) {
   Orbit orbit = shape;
   std::vector<Condition> conditions = fixed_parameters(problem, orbit.legs());
-  if (!solve(problem, orbit, conditions, 12).converged)
-    orbit = shape;  // singular at the change itself: it is the solution
+  const NewtonResult result = solve(problem, orbit, conditions, 12);
+  if (!result.refusal.empty()) return std::nullopt;  // pieces that make no cycle
+  if (!result.converged) orbit = shape;              // singular at the change itself: it is the solution
   const double critical = change.orbit.values[0];
   if (std::abs(orbit.values[0] - critical) > 1e-9 * range) return std::nullopt;
   const PathPoint start = point_of(problem, orbit, range, {});
@@ -177,22 +178,30 @@ std::optional<Reshaped> leaving(const Problem& problem, const PathPoint& change,
   return std::nullopt;
 }
 
-/// Where the events of a new orbit's branch begin, followed back towards the change; empty if that is not there.
+/// Where the events of a new orbit's branch begin, and by which margin.
+struct Beginning {
+  Located located;
+  TestValue test;
+};
+
+/// Followed back towards the change; empty if that is not there.
 /// @param same  how far off it may be, of the range
-std::optional<Located> beginning(const Problem& problem, const PathPoint& next, double critical, double same,
-                                 double range) {
+std::optional<Beginning> beginning(const Problem& problem, const PathPoint& next, double critical, double same,
+                                   double range) {
   const PathPoint back = reversed(next);
+  const std::vector<TestValue>& tests = back.watched.tests;
   const double turn = std::abs(next.watched.turn);
   const double near = turn > 0.0 ? std::abs(next.orbit.values[0] - critical) / (turn * range) : 0.0;
   for (double length : {1.5 * near, 4.0 * near, 20.0 * near}) {
     if (!(length > 0.0) || length > 0.05) break;
     const std::optional<PathPoint> beyond = step_to(problem, back, length, range);
     if (!beyond) continue;
-    const auto first = [&](const auto& locate_test) -> std::optional<Located> {
-      for (std::size_t i = 0; i < back.watched.tests.size(); ++i) {
-        if (!(back.watched.tests[i].value > 0.0) || !(beyond->watched.tests[i].value < 0.0)) continue;
+    const auto first = [&](const auto& locate_test) -> std::optional<Beginning> {
+      for (std::size_t i = 0; i < tests.size(); ++i) {
+        if (!(tests[i].value > 0.0) || !(beyond->watched.tests[i].value < 0.0)) continue;
         auto located = locate_test(i);
-        if (located && std::abs(located->point.orbit.values[0] - critical) < same * range) return located;
+        if (located && std::abs(located->point.orbit.values[0] - critical) < same * range)
+          return Beginning{std::move(*located), tests[i]};
       }
       return std::nullopt;
     };
@@ -203,17 +212,30 @@ std::optional<Located> beginning(const Problem& problem, const PathPoint& next, 
     const auto by_interpolation = [&](std::size_t i) {
       return locate_margin(problem, back, *beyond, length, range, i);
     };
-    if (auto located = first(directly)) return located;
+    if (auto found = first(directly)) return found;
     if (chatters(next.orbit)) continue;  // hundreds of margins
-    if (auto located = first(by_interpolation)) return located;
+    if (auto found = first(by_interpolation)) return found;
   }
   return std::nullopt;
 }
 
+bool releases(const TestValue& test) { return test.test == Test::guard && test.kind == mode::GuardKind::press; }
+
+/// The onset of a chatter, of the orbit at a change or of the one beyond it. Followed to where the other one, without chatter, lets a contact go it is known.
+Between onset_between(const PathPoint& change, const std::optional<TestValue>& test, const Orbit& orbit,
+                      const std::optional<Beginning>& begins) {
+  const double critical = change.orbit.values[0];
+  if (chatters(orbit) && test && releases(*test)) return {critical, critical, true};
+  if (!begins) return {critical, orbit.values[0], false};
+  const double there = begins->located.point.orbit.values[0], error = begins->located.error;
+  if (chatters(change.orbit) && releases(begins->test)) return {there - error, there + error, true};
+  return {critical, there, false};
+}
+
 /// The point of a new orbit, led away from the change; empty if it does not come from there. Between orbits with a complete chatter and without
 /// lie infinitely many changes, which gather where the one with the chatter begins: there the nearest of them stands for all.
-std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, double sense_before, const Orbit& orbit,
-                             double length, double range) {
+std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, const std::optional<TestValue>& test,
+                             double sense_before, const Orbit& orbit, double length, double range) {
   constexpr double same = 1e-7, gathering = 30.0;
   const double critical = change.orbit.values[0], away = orbit.values[0] - critical;
   if (away == 0.0 || std::abs(away) > 10.0 * length * range) return std::nullopt;
@@ -223,8 +245,8 @@ std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, do
   const auto begins = beginning(problem, next.point, critical, gathers ? gathering * length : same, range);
   if (!begins && !(chatter && resembles(orbit, change.orbit, 0.01))) return std::nullopt;
   next.renewed = chatter && !gathers && !begins;
-  if (begins) next.length = begins->length;
-  if (gathers) next.gathering = std::minmax(critical, begins ? begins->point.orbit.values[0] : orbit.values[0]);
+  if (begins) next.length = begins->located.length;
+  if (gathers) next.onset = onset_between(change, test, orbit, begins);
   return next;
 }
 
@@ -258,7 +280,7 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
       for (Orbit guess : guesses) {
         if (stopped(stop)) return all;
         guess.values[0] = critical + side * (beyond.values[0] - critical);
-        if (const auto orbit = solved(problem, guess)) add(born(problem, change, sense, *orbit, length, range));
+        if (const auto orbit = solved(problem, guess)) add(born(problem, change, test, sense, *orbit, length, range));
       }
     }
   }
@@ -292,7 +314,7 @@ std::optional<Reshaped> beyond_cascade(const Problem& problem, const PathPoint& 
         if (!motion) continue;
         const auto settled = settle(*there, *motion, few, last.orbit.shape.n, stop);
         if (!settled || !settled->chatter || !resembles(settled->orbit, last.orbit, 0.1)) continue;
-        Reshaped next{point_of(problem, settled->orbit, range, {}), false, false, std::minmax(limit, values[0]), 0.0};
+        Reshaped next{point_of(problem, settled->orbit, range, {}), false, false, Between{limit, values[0], false}, 0.0};
         if (next.point.watched.turn * side < 0.0) next.point = reversed(std::move(next.point));
         return next;
       } catch (const InputError&) {

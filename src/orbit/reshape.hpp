@@ -4,12 +4,18 @@
 
 namespace slapstick::orbit {
 
+/// Two values of the parameter about the onset of a complete chatter. Infinitely many changes gather there, unless it is a release: a contact that has
+/// rested lets go, and the chatter is there at once.
+struct Between {
+  double from = 0.0, to = 0.0;
+  bool release = false;
+};
+
 struct Reshaped {
   PathPoint point;       ///< a motion; its tangent leads away from the change
   bool folds = false;    ///< it lies on the side of the parameter from which the old branch came
   bool renewed = false;  ///< the same motion, whose chatter is summed from another impact on: no change
-  /// A complete chatter begins or ends between these values of the parameter; infinitely many changes gather there.
-  std::optional<std::pair<double, double>> gathering;
+  std::optional<Between> onset;  ///< of a complete chatter, which begins or ends there
   double length = 0.0;  ///< from the change to there; 0 where that is not known
 };
 

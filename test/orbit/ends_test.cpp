@@ -62,8 +62,43 @@ TEST(BranchOfChatterWithFriction, GoesThroughItsOnset) {
   // Pressed by more than the force's amplitude less friction the mass stays on its stop.
   EXPECT_EQ(branch.points.front().label, "1-0-II");
   const auto released = std::ranges::find(branch.special, SpecialType::CH, &orbit::SpecialPoint::type);
-  EXPECT_NEAR(released->value, -0.9, released->error);
-  EXPECT_LE(released->error, 1.5e-3 + 1e-9);  // a thousandth of the range
+  EXPECT_NEAR(released->value, -0.9, 1e-12);
+  EXPECT_LT(released->error, 1e-12);
+}
+
+/// Where a rest ends the chatter is there at once: no cascade, no graze besides, and the place is that of the release.
+TEST(BranchOfRest, GoesOverToAChatterWhereTheContactLetsGo) {
+  const Posed table("shaken-table", {}, {"acceleration"}, {0.7});
+  const auto first = table.settled();
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*table.problem, first->orbit, {.from = 0.5, .to = 1.5});
+  EXPECT_EQ(branch.ended, "down: range; up: range");
+  ASSERT_EQ(branch.special.size(), 1U);
+  EXPECT_EQ(branch.special[0].type, SpecialType::CH);
+  EXPECT_NEAR(branch.special[0].value, 1.0, 1e-12);  // as large as gravity
+  EXPECT_EQ(branch.points.back().label, "1-inf-II");
+}
+
+/// At the second of two stops on one coordinate a chatter's gaps are known to a rounding of the distance of the stops: its last flights are rounding.
+TEST(BranchOfChatter, OfASpoolBetweenTwoStopsIsPassed) {
+  const Posed spool("spool", {}, {"stiffness"}, {1488.578099595049});
+  const auto first = spool.settled();
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*spool.problem, first->orbit, {.from = 900.0, .to = 3000.0});
+  EXPECT_EQ(branch.ended, "down: range; up: range");
+  std::vector<const orbit::SpecialPoint*> onsets;
+  for (const orbit::SpecialPoint& special : branch.special)
+    if (special.type == SpecialType::CH) onsets.push_back(&special);
+  ASSERT_EQ(onsets.size(), 2U);
+  const auto chatters = [](double stiffness) {
+    const Posed there("spool", {}, {"stiffness"}, {stiffness});
+    const auto orbit = there.settled();
+    return orbit && orbit->chatter;
+  };
+  for (const orbit::SpecialPoint* onset : onsets) {
+    const double beside = std::max(10.0 * onset->error, 0.1);
+    EXPECT_NE(chatters(onset->value - beside), chatters(onset->value + beside)) << onset->value;
+  }
 }
 
 /// Does a ball that a shaken table has released come to rest before the table releases it again?

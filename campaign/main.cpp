@@ -10,8 +10,7 @@ const std::vector<Campaign>& campaigns() {
       {"balls", "random motions proved by certificates in ball arithmetic", "segments", 100'000, run_balls},
       {"noise", "the rounding bound of guards against exact values", "evaluations", 1'000'000'000, run_noise},
       {"orbit", "drift of stable orbits", "periods", 10'000'000, run_orbit},
-      {"branches", "branches followed from three starts each have the same special points", "cases", 300,
-       run_branches},
+      {"branches", "branches followed from three starts each have the same special points", "cases", 300, run_branches},
       {"families", "error near resonance and near defective matrices", "starts", 1'000, run_families},
   };
   return all;

@@ -12,6 +12,7 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
 constexpr double negligible = 0x1p-60;  ///< a term, against the sum, that ends it
@@ -79,7 +80,8 @@ void strike(const ModeSet& set, const Leg& leg, Jet& X) {
   }
 }
 
-/// The contact states of the columns of an extended jet, with what the next mode holds still set to zero.
+/// The contact states of the columns of an extended jet, with what the next mode holds still set to zero: velocities, and gaps of closed stops. A gap
+/// that is none of the coordinates goes to zero the shortest way.
 Jet contact_jet(const ModeSet& set, const Leg& next, const Jet& X) {
   const mode::Frame& frame = set.frame();
   Jet x(2 * frame.n, X.states, X.parameters);
@@ -88,9 +90,15 @@ Jet contact_jet(const ModeSet& set, const Leg& next, const Jet& X) {
   const mode::Outline& outline = set.mode(next.states).outline;
   for (int i = 0; i < frame.n; ++i)
     if (outline.steady[i]) x.all.row(frame.n + i).setZero();
+  const auto closed = [&](std::size_t i) { return next.states.stops[i] == mode::StopState::closed; };
+  for (std::size_t i = 0; i < frame.stops.size(); ++i) {
+    const int own = frame.stops[i].own;
+    if (!closed(i) || own < frame.n) continue;
+    const RowVectorXd row = frame.dependence.row(own);
+    x.all.topRows(frame.n) -= row.transpose() * X.all.row(own) / row.squaredNorm();
+  }
   for (std::size_t i = 0; i < frame.stops.size(); ++i)
-    if (next.states.stops[i] == mode::StopState::closed && frame.stops[i].own < frame.n)
-      x.all.row(frame.stops[i].own).setZero();
+    if (closed(i) && frame.stops[i].own < frame.n) x.all.row(frame.stops[i].own).setZero();
   return x;
 }
 

@@ -141,7 +141,7 @@ std::optional<Located> locate(const Problem& problem, const PathPoint& from, dou
     if (!point) return best;
     const double f_s = f(point->watched), change = std::abs(point->orbit.values[0] - value);
     value = point->orbit.values[0];
-    best = Located{std::move(*point), s, f_s == 0.0 ? 0.0 : change};
+    best = Located{std::move(*point), s, change};
     if (f_s == 0.0 || change <= enough * range || b - a <= enough) break;
     const bool left = (f_s > 0.0) == (f_a > 0.0);
     (left ? a : b) = s;

@@ -144,6 +144,10 @@ std::optional<Orbit> record(const Motion& start, int n, const std::atomic<bool>*
   return orbit_of(events, best, n);
 }
 
+bool chatters(const Orbit& orbit) {
+  return std::ranges::any_of(orbit.shape.legs, [](const Leg& leg) { return leg.ending == Ending::chatter; });
+}
+
 bool in_burst(const Orbit& orbit, std::size_t leg) {
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
     const Leg& next = orbit.shape.legs[(leg + i) % orbit.legs()];

@@ -20,10 +20,6 @@ using Eigen::VectorXd;
 
 constexpr std::size_t most_held = 4;  ///< legs whose length is held in turn
 
-bool chatters(const Orbit& orbit) {
-  return std::ranges::any_of(orbit.shape.legs, [](const Leg& leg) { return leg.ending == Ending::chatter; });
-}
-
 /// Do two cycles have the same legs, wherever they begin?
 bool same_cycle(const Orbit& a, const Orbit& b) {
   return from_some_event(a, b, [](std::size_t) { return true; });
@@ -178,7 +174,7 @@ std::optional<Reshaped> leaving(const Problem& problem, const PathPoint& change,
   return std::nullopt;
 }
 
-/// Where the events of a new orbit's branch begin, and by which margin.
+/// Where the events of a new orbit's branch begin, and by which margin, as it is there.
 struct Beginning {
   Located located;
   TestValue test;
@@ -200,8 +196,9 @@ std::optional<Beginning> beginning(const Problem& problem, const PathPoint& next
       for (std::size_t i = 0; i < tests.size(); ++i) {
         if (!(tests[i].value > 0.0) || !(beyond->watched.tests[i].value < 0.0)) continue;
         auto located = locate_test(i);
-        if (located && std::abs(located->point.orbit.values[0] - critical) < same * range)
-          return Beginning{std::move(*located), tests[i]};
+        if (!located || std::abs(located->point.orbit.values[0] - critical) >= same * range) continue;
+        const TestValue there = located->point.watched.tests[i];
+        return Beginning{std::move(*located), there};
       }
       return std::nullopt;
     };
@@ -227,7 +224,8 @@ Between onset_between(const PathPoint& change, const std::optional<TestValue>& t
   const double critical = change.orbit.values[0];
   if (chatters(orbit) && test && releases(*test)) return {critical, critical, true};
   if (!begins) return {critical, orbit.values[0], false};
-  const double there = begins->located.point.orbit.values[0], error = begins->located.error;
+  const double there = begins->located.point.orbit.values[0];
+  const double error = begins->test.value == 0.0 ? 0.0 : begins->located.error;
   if (chatters(change.orbit) && releases(begins->test)) return {there - error, there + error, true};
   return {critical, there, false};
 }
@@ -314,7 +312,8 @@ std::optional<Reshaped> beyond_cascade(const Problem& problem, const PathPoint& 
         if (!motion) continue;
         const auto settled = settle(*there, *motion, few, last.orbit.shape.n, stop);
         if (!settled || !settled->chatter || !resembles(settled->orbit, last.orbit, 0.1)) continue;
-        Reshaped next{point_of(problem, settled->orbit, range, {}), false, false, Between{limit, values[0], false}, 0.0};
+        Reshaped next{point_of(problem, settled->orbit, range, {}), false, false, Between{limit, values[0], false},
+                      0.0};
         if (next.point.watched.turn * side < 0.0) next.point = reversed(std::move(next.point));
         return next;
       } catch (const InputError&) {

@@ -12,11 +12,11 @@ struct Between {
 };
 
 struct Reshaped {
-  PathPoint point;       ///< a motion; its tangent leads away from the change
-  bool folds = false;    ///< it lies on the side of the parameter from which the old branch came
-  bool renewed = false;  ///< the same motion, whose chatter is summed from another impact on: no change
+  PathPoint point;               ///< a motion; its tangent leads away from the change
+  bool folds = false;            ///< it lies on the side of the parameter from which the old branch came
+  bool renewed = false;          ///< the same motion, whose chatter is summed from another impact on: no change
   std::optional<Between> onset;  ///< of a complete chatter, which begins or ends there
-  double length = 0.0;  ///< from the change to there; 0 where that is not known
+  double length = 0.0;           ///< from the change to there; 0 where that is not known
 };
 
 /// @param before  a point of the old branch on the way to

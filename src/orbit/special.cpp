@@ -265,6 +265,10 @@ std::optional<Change> find_change(const Problem& problem, const PathPoint& from,
     if (auto located = locate_margin(problem, from, to, length, range, i))
       candidates.emplace_back(i, std::move(*located));
   }
+  // Near its onset a chatter's equations are hardly solvable: what looks like a margin's zero there may be none.
+  constexpr double known = 1e-6;
+  if (chatters(from.orbit))
+    std::erase_if(candidates, [&](const auto& candidate) { return candidate.second.error > known * range; });
   in_order(candidates, from.watched.tests, length, range);
   for (auto& [test, located] : candidates) {
     if (!changes_there(problem, from, length, located.length, range)) continue;

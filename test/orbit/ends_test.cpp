@@ -79,6 +79,28 @@ TEST(BranchOfRest, GoesOverToAChatterWhereTheContactLetsGo) {
   EXPECT_EQ(branch.points.back().label, "1-inf-II");
 }
 
+/// At either stop a spool rests until the pressure exceeds preload, spring and friction; a rest at the second stop is as isolated as one at the first.
+TEST(BranchOfRest, IsLeftAtEitherStopWhereThePressureSays) {
+  constexpr double mean = 124110.0, pulsation = 27580.0, preload = 8.54503372291542,
+                   spring = 1488.578099595049 * 1.016e-3;
+  const Posed spool("spool", {}, {"area"}, {8e-5});
+  const auto first = spool.settled();
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*spool.problem, first->orbit, {.from = 5e-5, .to = 1.1e-4});
+  EXPECT_EQ(branch.ended, "down: range; up: range");
+  const double lower = (preload + 1.0) / (mean + pulsation), upper = (preload + spring - 1.0) / (mean - pulsation);
+  std::vector<double> onsets;
+  for (const orbit::SpecialPoint& special : branch.special)
+    if (special.type == SpecialType::CH) onsets.push_back(special.value);
+  ASSERT_GE(onsets.size(), 2U);
+  EXPECT_NEAR(onsets.front(), lower, 1e-12 * lower);
+  EXPECT_NEAR(onsets.back(), upper, 1e-12 * upper);
+  for (const orbit::Solution* rest : {&branch.points.front(), &branch.points.back()}) {
+    EXPECT_EQ(rest->label, "1-0-II");
+    EXPECT_TRUE(rest->stable());
+  }
+}
+
 /// At the second of two stops on one coordinate a chatter's gaps are known to a rounding of the distance of the stops: its last flights are rounding.
 TEST(BranchOfChatter, OfASpoolBetweenTwoStopsIsPassed) {
   const Posed spool("spool", {}, {"stiffness"}, {1488.578099595049});

@@ -4,6 +4,7 @@
 
 #include "attractor/cycle.hpp"
 #include "orbit/record.hpp"
+#include "orbit/same_motion.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/orbit/periodic_orbit.hpp"
 
@@ -17,17 +18,6 @@ std::optional<Motion> motion_from(const System& system, const ModeSet& set, cons
   for (const mode::Guard& guard : set.mode(orbit.shape.legs[leg].states).outline.guards)
     if (guard.row.dot(X) <= 0.0) return std::nullopt;
   return from_inside(system, set, orbit, leg, part);
-}
-
-bool resembles(const Orbit& a, const Orbit& b, double much_the_same) {
-  constexpr double long_enough = 0.1;  // of a cycle
-  for (std::size_t i = 0; i < a.legs(); ++i) {
-    if (a.duration(i) < long_enough * (a.t.back() - a.t.front())) continue;
-    for (std::size_t j = 0; j < b.legs(); ++j)
-      if (b.shape.legs[j].states == a.shape.legs[i].states && (a.x[i] - b.x[j]).norm() <= much_the_same * a.x[i].norm())
-        return true;
-  }
-  return false;
 }
 
 namespace {
@@ -77,7 +67,7 @@ Behind behind(const Problem& problem, const Orbit& before, const PathPoint& chan
     result.family = course.settled && !course.settled->isolated();
     if (course.settled) {
       const Orbit& orbit = course.settled->orbit;
-      if (resembles(orbit, change.orbit, near) || resembles(change.orbit, orbit, near)) {
+      if (resembles(problem, orbit, change.orbit, near) || resembles(problem, change.orbit, orbit, near)) {
         result.next = Reshaped{point_of(problem, orbit, range, {}), false, false, {}, 0.0};
         if (result.next->point.watched.turn * sense < 0.0) result.next->point = reversed(std::move(result.next->point));
         return result;

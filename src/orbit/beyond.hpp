@@ -9,9 +9,6 @@ namespace slapstick::orbit {
 [[nodiscard]] std::optional<Motion> motion_from(const System& system, const ModeSet& set, const Orbit& orbit,
                                                 std::size_t leg, double part);
 
-/// Is a long leg of one much the same in the other?
-[[nodiscard]] bool resembles(const Orbit& a, const Orbit& b, double much_the_same);
-
 /// What the motion does just behind a change of a stable orbit, by running it.
 struct Behind {
   std::string

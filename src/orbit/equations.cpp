@@ -236,42 +236,45 @@ double deflation(const std::vector<VectorXd>& taken_out, const VectorXd& v, cons
   return 1.0 / (1.0 - slope);
 }
 
-}  // namespace
-
-NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condition>& conditions, int most_steps,
-                   const std::vector<Orbit>& besides) {
+void newton(const Problem& problem, Orbit& orbit, const std::vector<Condition>& conditions, int most_steps,
+            const std::vector<Orbit>& besides, NewtonResult& result) {
   const VectorXd scale = sizes(problem, orbit);
   const std::vector<VectorXd> taken_out = places(problem, besides, orbit);
   const double longest = orbit.t.back() - orbit.t.front();
   VectorXd moved = VectorXd::Zero(scale.size());
-  NewtonResult result;
   double before = INFINITY;
+  for (result.steps = 1; result.steps <= most_steps; ++result.steps) {
+    const ModeSet set(problem.family(), orbit.values);
+    const Linearised at = linearise(problem, set, orbit);
+    VectorXd step = newton_step(at, conditions, moved, scale);
+    if (!taken_out.empty()) step *= deflation(taken_out, unknowns_of(problem, orbit), scale, step);
+    if (!step.allFinite()) return;
+    result.last_step = step.cwiseAbs().maxCoeff();
+    for (const VectorXd& defect : at.defects)
+      result.last_step = std::max(
+          result.last_step,
+          problem.translations().numbers(defect).cwiseQuotient(scale.head(problem.numbers())).cwiseAbs().maxCoeff());
+    const double fraction = std::min(1.0, longest_step / step.cwiseAbs().maxCoeff());
+    const VectorXd change = fraction * step.cwiseProduct(scale);
+    moved += change;
+    move(problem, at, change, fraction, orbit);
+    if (longest_leg(orbit) > far_too_long * longest) return;
+    // Quadratic convergence: the next step would be its square. Rounding ends it in any case.
+    const double alike = std::max(1e-10, rounding(orbit, at));
+    const bool stalled = result.last_step < alike && result.last_step > 0.1 * before;
+    result.converged = result.last_step < enough || stalled;
+    if (result.converged) return;
+    before = result.last_step;
+  }
+}
+
+}  // namespace
+
+NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condition>& conditions, int most_steps,
+                   const std::vector<Orbit>& besides) {
+  NewtonResult result;
   try {
-    for (result.steps = 1; result.steps <= most_steps; ++result.steps) {
-      const ModeSet set(problem.family(), orbit.values);
-      const Linearised at = linearise(problem, set, orbit);
-      VectorXd step = newton_step(at, conditions, moved, scale);
-      if (!taken_out.empty()) step *= deflation(taken_out, unknowns_of(problem, orbit), scale, step);
-      if (!step.allFinite()) return result;
-      result.last_step = step.cwiseAbs().maxCoeff();
-      for (const VectorXd& defect : at.defects)
-        result.last_step = std::max(
-            result.last_step,
-            problem.translations().numbers(defect).cwiseQuotient(scale.head(problem.numbers())).cwiseAbs().maxCoeff());
-      const double fraction = std::min(1.0, longest_step / step.cwiseAbs().maxCoeff());
-      const VectorXd change = fraction * step.cwiseProduct(scale);
-      moved += change;
-      move(problem, at, change, fraction, orbit);
-      if (longest_leg(orbit) > far_too_long * longest) return result;
-      // Quadratic convergence: the next step would be its square. Rounding ends it in any case.
-      const double alike = std::max(1e-10, rounding(orbit, at));
-      const bool stalled = result.last_step < alike && result.last_step > 0.1 * before;
-      if (result.last_step < enough || stalled) {
-        result.converged = true;
-        return result;
-      }
-      before = result.last_step;
-    }
+    newton(problem, orbit, conditions, most_steps, besides, result);
   } catch (const InputError& error) {
     result.refusal = error.what();
   } catch (const NumericalError& error) {

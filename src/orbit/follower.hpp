@@ -60,6 +60,7 @@ class Follower {
   struct Onset {
     PathPoint other_way;
     std::size_t points, special;
+    int chatters;  ///< of its orbit
   };
   std::optional<Onset> onset_;
   double step_ = 0.0;

@@ -9,17 +9,18 @@
 #include "orbit/hidden.hpp"
 #include "orbit/lies_on.hpp"
 #include "orbit/onset.hpp"
+#include "orbit/record.hpp"
 #include "orbit/special.hpp"
 #include "slapstick/base/text.hpp"
 
 namespace slapstick::orbit {
 namespace {
 
-/// Has it a leg so short that what happens there is rounding?
+/// Has it a leg so short that what happens there is rounding? Those of a chatter's burst are always there.
 bool is_all_but_gone(const Orbit& orbit) {
   constexpr double nothing = 1e-7;
   for (std::size_t leg = 0; leg < orbit.legs(); ++leg)
-    if (orbit.duration(leg) < nothing * (orbit.t.back() - orbit.t.front())) return true;
+    if (!in_burst(orbit, leg) && orbit.duration(leg) < nothing * (orbit.t.back() - orbit.t.front())) return true;
   return false;
 }
 
@@ -141,7 +142,7 @@ bool Follower::leave_chatter(PathPoint& at) {
   add_onset(std::move(special), found.empty() ? "the branch ends" : "persistence");
   if (!found.empty()) {
     restart(at, std::move(found.front().point));
-    onset_ = Onset{reversed(at), branch_.points.size(), branch_.special.size()};
+    onset_ = Onset{reversed(at), branch_.points.size(), branch_.special.size(), chatters(at.orbit)};
   } else {
     end("CH at " + shown(value(at)) + ": the complete chatter begins there, from orbits with ever more impacts", false);
   }
@@ -151,7 +152,7 @@ bool Follower::leave_chatter(PathPoint& at) {
 /// Behind the onset of a chatter one direction leads on, the other back towards the onset, through ever more impacts. @returns false if it was not that
 bool Follower::turn_round(PathPoint& at) {
   constexpr double near = 1e-3;  // of the range
-  if (!onset_ || branch_.points.back().chatter ||
+  if (!onset_ || chatters(branch_.points.back().orbit) > onset_->chatters ||
       std::abs(value(at) - onset_->other_way.orbit.values[0]) > near * range_)
     return false;
   at = std::move(onset_->other_way);
@@ -259,16 +260,17 @@ void Follower::restart(PathPoint& at, PathPoint from) {
 void Follower::go_on(PathPoint& at, SpecialPoint special, Reshaped next) {
   special.outcome = next.folds ? "non-smooth fold" : "persistence";
   Solution first = solution_of(next.point, nullptr);
-  if (next.onset && next.onset->release && first.chatter) {
+  const bool begins = chatters(next.point.orbit) > chatters(special.solution.orbit);
+  if (next.onset && next.onset->release && begins) {
     special.type = SpecialType::CH;
     special.what += ", and a complete chatter begins";
     branch_.special.push_back(std::move(special));
   } else if (next.onset) {
     SpecialPoint here = onset(*next.onset, special.solution);
     const std::string outcome = std::exchange(special.outcome, "one of infinitely many changes");
-    if (first.chatter) branch_.special.push_back(special);
+    if (begins) branch_.special.push_back(special);
     add_onset(std::move(here), outcome);
-    if (!first.chatter) branch_.special.push_back(std::move(special));
+    if (!begins) branch_.special.push_back(std::move(special));
   } else if (!next.renewed) {
     branch_.special.push_back(std::move(special));
     if (next.length > 0.0)

@@ -144,8 +144,8 @@ std::optional<Orbit> record(const Motion& start, int n, const std::atomic<bool>*
   return orbit_of(events, best, n);
 }
 
-bool chatters(const Orbit& orbit) {
-  return std::ranges::any_of(orbit.shape.legs, [](const Leg& leg) { return leg.ending == Ending::chatter; });
+int chatters(const Orbit& orbit) {
+  return static_cast<int>(std::ranges::count(orbit.shape.legs, Ending::chatter, &Leg::ending));
 }
 
 bool in_burst(const Orbit& orbit, std::size_t leg) {

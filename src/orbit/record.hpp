@@ -45,8 +45,8 @@ struct Verification {
 /// The same at the orbit's own parameters; false where there is no model.
 [[nodiscard]] bool is_motion(const Problem& problem, const Orbit& orbit);
 
-/// Has it a complete chatter?
-[[nodiscard]] bool chatters(const Orbit& orbit);
+/// How many complete chatters has a cycle?
+[[nodiscard]] int chatters(const Orbit& orbit);
 /// Do impacts of one stop, and slips between them, lead from this leg to a chatter's sum? How many are flown one by one does not matter.
 [[nodiscard]] bool in_burst(const Orbit& orbit, std::size_t leg);
 /// Is it one of those that are too short for their length and margins to be more than rounding?

@@ -9,6 +9,7 @@
 #include "orbit/coincident.hpp"
 #include "orbit/cyclic.hpp"
 #include "orbit/record.hpp"
+#include "orbit/same_motion.hpp"
 #include "orbit/special.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/orbit/periodic_orbit.hpp"
@@ -210,7 +211,7 @@ std::optional<Beginning> beginning(const Problem& problem, const PathPoint& next
       return locate_margin(problem, back, *beyond, length, range, i);
     };
     if (auto found = first(directly)) return found;
-    if (chatters(next.orbit)) continue;  // hundreds of margins
+    if (chatters(next.orbit) > 0) continue;  // hundreds of margins
     if (auto found = first(by_interpolation)) return found;
   }
   return std::nullopt;
@@ -222,11 +223,11 @@ bool releases(const TestValue& test) { return test.test == Test::guard && test.k
 Between onset_between(const PathPoint& change, const std::optional<TestValue>& test, const Orbit& orbit,
                       const std::optional<Beginning>& begins) {
   const double critical = change.orbit.values[0];
-  if (chatters(orbit) && test && releases(*test)) return {critical, critical, true};
+  if (chatters(orbit) > chatters(change.orbit) && test && releases(*test)) return {critical, critical, true};
   if (!begins) return {critical, orbit.values[0], false};
   const double there = begins->located.point.orbit.values[0];
   const double error = begins->test.value == 0.0 ? 0.0 : begins->located.error;
-  if (chatters(change.orbit) && releases(begins->test)) return {there - error, there + error, true};
+  if (chatters(change.orbit) > chatters(orbit) && releases(begins->test)) return {there - error, there + error, true};
   return {critical, there, false};
 }
 
@@ -239,9 +240,10 @@ std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, co
   if (away == 0.0 || std::abs(away) > 10.0 * length * range) return std::nullopt;
   Reshaped next{point_of(problem, orbit, range, {}), away * sense_before < 0.0, false, {}, 0.0};
   if (next.point.watched.turn * away < 0.0) next.point = reversed(std::move(next.point));
-  const bool chatter = chatters(orbit) || chatters(change.orbit), gathers = chatters(orbit) != chatters(change.orbit);
+  const bool chatter = chatters(orbit) + chatters(change.orbit) > 0,
+             gathers = chatters(orbit) != chatters(change.orbit);
   const auto begins = beginning(problem, next.point, critical, gathers ? gathering * length : same, range);
-  if (!begins && !(chatter && resembles(orbit, change.orbit, 0.01))) return std::nullopt;
+  if (!begins && !(chatter && resembles(problem, orbit, change.orbit, 0.01))) return std::nullopt;
   next.renewed = chatter && !gathers && !begins;
   if (begins) next.length = begins->located.length;
   if (gathers) next.onset = onset_between(change, test, orbit, begins);
@@ -266,7 +268,7 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
     for (const Orbit& shape : coincident(problem, before, change.orbit, *test))
       add(leaving(problem, change, sense, shape, range));
   const double longest =
-      chatters(change.orbit) ? 1e-2 : 1e-3;  // near its onset a chatter's equations are hardly solvable
+      chatters(change.orbit) > 0 ? 1e-2 : 1e-3;  // near its onset a chatter's equations are hardly solvable
   for (double length : {1e-6, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2}) {
     if (length < nearest) continue;
     if (!all.empty() || length > longest) break;
@@ -311,7 +313,7 @@ std::optional<Reshaped> beyond_cascade(const Problem& problem, const PathPoint& 
             motion_from(there->base(), set, last.orbit, freest_leg(set, last.orbit), 0.5);
         if (!motion) continue;
         const auto settled = settle(*there, *motion, few, last.orbit.shape.n, stop);
-        if (!settled || !settled->chatter || !resembles(settled->orbit, last.orbit, 0.1)) continue;
+        if (!settled || !settled->chatter || !resembles(problem, settled->orbit, last.orbit, 0.1)) continue;
         Reshaped next{point_of(problem, settled->orbit, range, {}), false, false, Between{limit, values[0], false},
                       0.0};
         if (next.point.watched.turn * side < 0.0) next.point = reversed(std::move(next.point));

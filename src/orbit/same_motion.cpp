@@ -17,18 +17,27 @@ class States {
   States(const Problem& problem, const Orbit& orbit)
       : problem_(problem), orbit_(orbit), set_(constant_family(problem.family().model(orbit.values)), {}) {}
 
-  /// Numbers of the state modulo translations, displacements first.
-  [[nodiscard]] VectorXd at(double t) const {
-    const double cycle = orbit_.t.back() - orbit_.t.front(), after = t - orbit_.t.front();
-    const double within = orbit_.t.front() + after - cycle * std::floor(after / cycle);
+  [[nodiscard]] std::size_t leg_at(double t) const {
+    const double within = first_cycle(t);
     std::size_t leg = 0;
     while (leg + 1 < orbit_.legs() && orbit_.t[leg + 1] <= within) ++leg;
-    VectorXd x = contact_state(set_, state_within(set_, orbit_, leg, within - orbit_.t[leg]));
+    return leg;
+  }
+
+  /// Numbers of the state modulo translations, displacements first.
+  [[nodiscard]] VectorXd at(double t) const {
+    const std::size_t leg = leg_at(t);
+    VectorXd x = contact_state(set_, state_within(set_, orbit_, leg, first_cycle(t) - orbit_.t[leg]));
     problem_.translations().take_out(x);
     return problem_.translations().numbers(x);
   }
 
  private:
+  [[nodiscard]] double first_cycle(double t) const {
+    const double cycle = orbit_.t.back() - orbit_.t.front(), after = t - orbit_.t.front();
+    return orbit_.t.front() + after - cycle * std::floor(after / cycle);
+  }
+
   const Problem& problem_;
   const Orbit& orbit_;
   ModeSet set_;
@@ -89,6 +98,25 @@ double least_misfit(const Problem& problem, const Orbit& a, const Orbit& b, doub
 
 double apart(const Problem& problem, const Orbit& a, const Orbit& b) {
   return least_misfit(problem, a, b, -1.0, 0.0, a.shape.n - 1);
+}
+
+bool resembles(const Problem& problem, const Orbit& a, const Orbit& b, double much_the_same) {
+  constexpr double long_enough = 0.1;  // of a cycle
+  const States of_a(problem, a), of_b(problem, b);
+  const auto alike = [&](std::size_t i, double t_a, std::size_t j, double t_b) {
+    if (!(a.shape.legs[i].states == b.shape.legs[j].states)) return false;
+    const VectorXd x = of_a.at(t_a);
+    return (x - of_b.at(t_b)).norm() <= much_the_same * x.norm();
+  };
+  for (std::size_t i = 0; i < a.legs(); ++i) {
+    if (a.duration(i) < long_enough * (a.t.back() - a.t.front())) continue;
+    const double middle = a.t[i] + 0.5 * a.duration(i);
+    for (int period = 0; period < b.shape.n; ++period)
+      if (alike(i, middle, of_b.leg_at(middle + period), middle + period)) return true;
+    for (std::size_t j = 0; b.shape.n == 0 && j < b.legs(); ++j)
+      if (alike(i, a.t[i], j, b.t[j])) return true;
+  }
+  return false;
 }
 
 double apart_from_later(const Problem& problem, const Orbit& orbit, int periods) {

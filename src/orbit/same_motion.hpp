@@ -11,10 +11,14 @@ namespace slapstick::orbit {
 /// relative to their largest: rounding for one motion, chattering ones too. Infinite without forcing, where there is no phase, and for other n.
 [[nodiscard]] double apart(const Problem& problem, const Orbit& a, const Orbit& b);
 
-/// The same of an orbit and itself so many periods later.
+/// Is a long leg of one much the same in the other: the same mode in its middle, and the state to this part of its size? Without forcing, where phases mean
+/// nothing, where a leg of that mode begins.
+[[nodiscard]] bool resembles(const Problem& problem, const Orbit& a, const Orbit& b, double much_the_same);
+
+/// `apart` of an orbit and itself so many periods later.
 [[nodiscard]] double apart_from_later(const Problem& problem, const Orbit& orbit, int periods);
 
-/// The same of the first orbit and the image of the second, for the c that fits.
+/// `apart` of the first orbit and the image of the second, for the c that fits.
 [[nodiscard]] double apart_from_image(const Problem& problem, const Orbit& a, const Orbit& b);
 
 /// Does a branch of asymmetric orbits cross one of symmetric orbits? Behind the crossing it has the mirror images of its own.

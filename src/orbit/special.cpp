@@ -267,7 +267,7 @@ std::optional<Change> find_change(const Problem& problem, const PathPoint& from,
   }
   // Near its onset a chatter's equations are hardly solvable: what looks like a margin's zero there may be none.
   constexpr double known = 1e-6;
-  if (chatters(from.orbit))
+  if (chatters(from.orbit) > 0)
     std::erase_if(candidates, [&](const auto& candidate) { return candidate.second.error > known * range; });
   in_order(candidates, from.watched.tests, length, range);
   for (auto& [test, located] : candidates) {

@@ -139,7 +139,9 @@ std::optional<Located> locate_between(const Problem& problem, const PathPoint& f
   std::vector<std::pair<double, PathPoint>> points;
   for (int k = 0; k < nodes; ++k) {
     const double s = near + half_width * std::cos((2 * k + 1) * std::numbers::pi / (2 * nodes));
-    if (auto point = step_to(problem, from, s, range)) points.emplace_back(s, std::move(*point));
+    auto point = step_to(problem, from, s, range);
+    // Exactly zero is a leg without length, which solves its equation anywhere: none of the branch's points.
+    if (point && f(*point) != 0.0) points.emplace_back(s, std::move(*point));
     if (static_cast<int>(points.size()) + nodes - 1 - k < enough) return std::nullopt;
   }
   for (const auto& [s, point] : points) {

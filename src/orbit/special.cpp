@@ -213,7 +213,8 @@ std::optional<Located> locate_margin(const Problem& problem, const PathPoint& fr
     if (sharper && (!best || sharper->error < best->error)) best = std::move(sharper);
     if (best && best->error <= enough * range) break;
   }
-  return best && !(located && located->error < best->error) ? best : located;
+  // A leg without length solves its equation anywhere: that it was located says nothing.
+  return best && (empty || !(located && located->error < best->error)) ? best : located;
 }
 
 namespace {

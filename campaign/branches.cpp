@@ -93,8 +93,8 @@ long missing(const Problem& problem, const Branch& whole, const Branch& again, d
              Tally& tally) {
   long count = 0;
   for (const SpecialPoint& point : whole.special) {
-    const auto same = [&](const SpecialPoint& other) {
-      return other.type == point.type &&
+    const auto same = [&](const SpecialPoint& other) {  // infinitely many gather at the onset of a chatter
+      return (other.type == point.type || other.type == SpecialType::CH) &&
              std::abs(other.value - point.value) <= 1e-8 * range + point.error + other.error;
     };
     if (std::ranges::any_of(again.special, same) || !goes_past(problem, again, whole, point)) continue;

@@ -100,7 +100,7 @@ std::string branch_table(const std::vector<orbit::Branch>& branches, const std::
 
 namespace {
 
-/// Follows what is born at special points, each branch once, and one of each two that are mirror images.
+/// Follows what is born at special points, each branch once, and one of each two that are images of one another.
 class Descent {
  public:
   Descent(const orbit::Problem& problem, std::vector<orbit::Branch>& branches, const orbit::ContinuationOptions& how)
@@ -120,12 +120,12 @@ class Descent {
     };
     return std::ranges::min_element(branch.points, {}, largest)->orbit;
   }
-  /// Of a mirror image it is said.
+  /// Of an image it is said.
   bool known(const orbit::Orbit& orbit, std::string& what) const {
     for (std::size_t b = 0; b < branches_.size(); ++b) {
       if (orbit::lies_on(problem_, branches_[b], orbit)) return true;
       if (!orbit::image_lies_on(problem_, branches_[b], orbit)) continue;
-      what += ", the mirror image of branch " + std::to_string(b + 1) + " is born";
+      what += ", the image of branch " + std::to_string(b + 1) + " is born";
       return true;
     }
     return false;

@@ -48,7 +48,7 @@ void Follower::look_for_pairs(const PathPoint& at, const PathPoint& next, double
 }
 
 /// Notes special points that leave the events as they are. A branch ends where its orbit becomes a shorter one run through twice, or the symmetric
-/// one behind which it has the mirror images of its orbits.
+/// one behind which it has the images of its orbits.
 void Follower::add(std::vector<SpecialPoint> smooth, std::size_t after) {
   constexpr double merged = 1e-3;  // at a fold or crossing that is known to 1e-10 in the parameter, states are to 1e-5
   for (SpecialPoint& special : smooth) {
@@ -64,7 +64,7 @@ void Follower::add(std::vector<SpecialPoint> smooth, std::size_t after) {
     } else if (special.type != SpecialType::BP)
       special.normal_form = normal_form(problem_, special);
     if (special.type == SpecialType::BP && images_begin(problem_, branch_.points.back().orbit, special.solution.orbit))
-      end("behind the symmetric orbit at " + shown(special.value) + " are the mirror images of this branch's", false);
+      end("behind the symmetric orbit at " + shown(special.value) + " are the images of this branch's", false);
     branch_.special.push_back(std::move(special));
     if (ended_) return;
   }

@@ -166,12 +166,15 @@ std::optional<Located> locate_between(const Problem& problem, const PathPoint& f
 }
 
 std::optional<Located> locate_crossing(const Problem& problem, const PathPoint& from, double near, double range) {
-  constexpr double half_width = 0.01;
   const Determinant determinant(problem, from);
-  auto found = locate_between(problem, from, near, half_width, range,
-                              [&](const PathPoint& point) { return determinant(point.orbit); });
-  if (found) found->point.watched.cross = 0.0;
-  return found;
+  for (const double half_width : {0.01, 0.003, 0.03}) {
+    auto found = locate_between(problem, from, near, half_width, range,
+                                [&](const PathPoint& point) { return determinant(point.orbit); });
+    if (!found) continue;
+    found->point.watched.cross = 0.0;
+    return found;
+  }
+  return std::nullopt;
 }
 
 std::optional<Located> crossing_near(const Problem& problem, const Orbit& orbit, double range) {

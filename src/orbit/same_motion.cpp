@@ -124,7 +124,8 @@ double apart_from_later(const Problem& problem, const Orbit& orbit, int periods)
 }
 
 double apart_from_image(const Problem& problem, const Orbit& a, const Orbit& b) {
-  return least_misfit(problem, a, b, 1.0, 0.5, a.shape.n - 1);
+  const auto half_later = [&](double sense) { return least_misfit(problem, a, b, sense, 0.5, a.shape.n - 1); };
+  return std::min(half_later(1.0), half_later(-1.0));
 }
 
 bool images_begin(const Problem& problem, const Orbit& before, const Orbit& crossing) {

@@ -2,7 +2,8 @@
 /// Whether two orbits are one motion, whatever their legs and wherever they begin; or mirror images of one another.
 ///
 /// A model that does not change when all displacements are reversed about some point and the forcing is taken half a period later (as a mass between
-/// equal stops) has with an orbit x(t) also its image c - x(t + T/2). A symmetric orbit is its own; what a broken symmetry leaves comes in pairs.
+/// equal stops) has with an orbit x(t) also its image c - x(t + T/2); one that is forced at even harmonics only has x(t + T/2). A symmetric orbit is its
+/// own image; what a broken symmetry leaves comes in pairs.
 #include "orbit/equations.hpp"
 
 namespace slapstick::orbit {

@@ -40,13 +40,13 @@ std::string stick_of(const System& system, int friction) {
   return system.contact_name(static_cast<int>(system.model().stops.size()) + friction);
 }
 
-/// The branch that crosses at a BP. Of two sides that are mirror images, but for what is of second order in their distance, one is kept.
+/// The branch that crosses at a BP. Of two sides that are images of one another, but for what is of second order in their distance, one is kept.
 void add_crossing_branch(const Problem& problem, const PathPoint& at, SpecialPoint& crossing) {
   constexpr double second_order = 0.05;
   std::vector<Orbit>& sides = crossing.born = crossing_branch(problem, at);
   if (sides.size() < 2) return;
   if (apart_from_image(problem, sides[0], sides[1]) > second_order * apart(problem, sides[0], sides[1])) return;
-  crossing.what = "a symmetry breaks: the crossing branch's sides are mirror images";
+  crossing.what = "a symmetry breaks: the crossing branch's sides are images of one another";
   sides.pop_back();
 }
 
@@ -128,12 +128,14 @@ Neighbours about(const Itinerary& shape, std::size_t leg) {
   return {shape.legs[(leg + count - 1) % count], shape.legs[leg], shape.legs[(leg + 1) % count]};
 }
 
-/// The friction contact whose stick is gained or lost, or goes on without a slip, where a leg shrinks to nothing; -1 if there is none.
+/// The friction contact whose stick or reversal is gained or lost, or goes on without a slip, where a leg shrinks to nothing; -1 if there is none.
 int stick_at_stake(const TestValue& test, const Itinerary& shape) {
   const auto [before, leg, next] = about(shape, test.leg);
   if (test.starts_at_end && mode::of_friction(test.kind)) return test.contact;
   for (int i = 0; i < static_cast<int>(leg.states.frictions.size()); ++i)
-    if (sticks(leg, i) && !sticks(before, i) && !sticks(next, i)) return i;
+    if (leg.states.frictions[i] != before.states.frictions[i] && leg.states.frictions[i] != next.states.frictions[i] &&
+        !sticks(before, i) && !sticks(next, i))
+      return i;
   return -1;
 }
 

@@ -150,6 +150,22 @@ TEST(Symmetry, IsBrokenToABranchAndItsImage) {
   EXPECT_TRUE(orbit::lies_on(*posed.problem, trunk, first->orbit));
 }
 
+/// Forced at even harmonics only, an orbit has one half a period later. Where it is the same, a branch would run back along the other.
+TEST(Symmetry, OfEvenHarmonicsEndsABranchWhereItsOrbitsComeTwiceInAPeriod) {
+  const Posed posed("stick-slip-impact", {}, {"drive"}, {0.9});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.3, .to = 2.7});
+  const auto bp = std::ranges::find(branch.special, orbit::SpecialType::BP, &orbit::SpecialPoint::type);
+  ASSERT_NE(bp, branch.special.end());
+  EXPECT_TRUE(bp == branch.special.begin() || bp == branch.special.end() - 1);
+  EXPECT_NE(branch.ended.find("are the images of this branch's"), std::string::npos) << branch.ended;
+  const orbit::Orbit& symmetric = bp->solution.orbit;
+  ASSERT_EQ(symmetric.legs() % 2, 0U);
+  for (std::size_t i = 0; i < symmetric.legs() / 2; ++i)
+    EXPECT_NEAR(symmetric.t[i + symmetric.legs() / 2], symmetric.t[i] + 0.5, 1e-4);
+}
+
 /// The image by a second route: the motion from the reversed state, half a period later, settles on it.
 TEST(Symmetry, ImageIsTheMotionFromTheReversedState) {
   const Posed posed("two-sided-rattle", {}, {"omega"}, {1.4});

@@ -76,7 +76,7 @@ struct ContinuationOptions {
 
 /// Is an orbit one of the branch's, wherever it begins? By Newton's method from the points beside it to the branch's own orbit at its parameter.
 [[nodiscard]] bool lies_on(const Problem& problem, const Branch& branch, const Orbit& orbit);
-/// Is it the mirror image of one: all displacements reversed about a point, half a forcing period later? False without forcing.
+/// Is it the image of one: half a forcing period later, with all displacements reversed about a point or as they are? False without forcing.
 [[nodiscard]] bool image_lies_on(const Problem& problem, const Branch& branch, const Orbit& orbit);
 
 struct CurvePoint {

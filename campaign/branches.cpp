@@ -88,13 +88,16 @@ bool goes_past(const Problem& problem, const Branch& branch, const Branch& other
   return point.after + 1 < other.points.size() && on_it(point.after) && on_it(point.after + 1);
 }
 
+/// Where events change several margins may vanish together, and which is named depends on the side. Infinitely many changes gather at a CH.
+bool changes_events(SpecialType type) { return type >= SpecialType::GR; }
+
 /// Special points of one branch that another, which goes past them, does not have.
 long missing(const Problem& problem, const Branch& whole, const Branch& again, double range, const std::string& where,
              Tally& tally) {
   long count = 0;
   for (const SpecialPoint& point : whole.special) {
-    const auto same = [&](const SpecialPoint& other) {  // infinitely many gather at the onset of a chatter
-      return (other.type == point.type || other.type == SpecialType::CH) &&
+    const auto same = [&](const SpecialPoint& other) {
+      return (other.type == point.type || (changes_events(other.type) && changes_events(point.type))) &&
              std::abs(other.value - point.value) <= 1e-8 * range + point.error + other.error;
     };
     if (std::ranges::any_of(again.special, same) || !goes_past(problem, again, whole, point)) continue;

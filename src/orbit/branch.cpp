@@ -170,9 +170,7 @@ void Follower::run(PathPoint at) {
       step_ *= 0.5;
       if (step_ < shortest_step() && leave(at)) continue;
       if (step_ < shortest_step()) {
-        constexpr double at_the_wall = 1e-5;  // of the range; on it the model may have another structure
-        const double wall = at.watched.turn > 0.0 ? options_.to : options_.from;
-        if (std::abs(wall - value(at)) < at_the_wall * range_) return end("range", false);
+        if (at_end(value(at), structure * range_, at)) return end("range", false);
         if (branch_.points.back().chatter)
           why += "; the onset of the chatter may be near, and no orbit was found beyond";
         return end("behind " + problem_.family().names[0] + " = " + shown(value(at)) + ": " + why, true);

@@ -17,6 +17,7 @@ class Follower {
   void run(PathPoint at);
 
  private:
+  static constexpr double structure = 1e-5;  ///< of the range: at its end the model may have another structure
   [[nodiscard]] double value(const PathPoint& point) const { return point.orbit.values[0]; }
   /// The onset of a chatter is not come nearer to than its equations, of ever more impacts, are solvable.
   [[nodiscard]] double shortest_step() const {
@@ -26,6 +27,8 @@ class Follower {
   [[nodiscard]] Solution solution_of(const PathPoint& point, Verification* seen) const;
   bool accept(PathPoint& at, PathPoint next, double length);
   [[nodiscard]] std::optional<Change> change_between(const PathPoint& at, const PathPoint& beyond, double length) const;
+  [[nodiscard]] bool at_end(double place, double error, const PathPoint& at) const;
+  bool look_nearer(PathPoint& at, double length, const std::string& why);
   bool change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why);
   /// What there is behind a change of events where a branch ends.
   enum class Beyond { shorter, retraced, family, jump, departure, not_followed, unknown };

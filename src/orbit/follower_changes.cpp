@@ -35,18 +35,37 @@ std::optional<Change> Follower::change_between(const PathPoint& at, const PathPo
   return change;
 }
 
+/// No change is found where there must be one: by a shorter step, or another way on. @returns false if the branch ends
+bool Follower::look_nearer(PathPoint& at, double length, const std::string& why) {
+  if (length > shortest_step()) {
+    step_ = 0.25 * length;
+    return true;
+  }
+  if (leave(at)) return !ended_;
+  if (at_end(value(at), structure * range_, at)) {
+    end("range", false);
+    return false;
+  }
+  end("the motion has other events than the orbit behind " + problem_.family().names[0] + " = " + shown(value(at)) +
+          " (" + why + ")",
+      true);
+  return false;
+}
+
+/// Is a place at the end of the range that the branch goes to, as far as it is known? What is beyond is not asked for, and may not exist, as a
+/// negative damper.
+bool Follower::at_end(double place, double error, const PathPoint& at) const {
+  constexpr double exactly = 1e-10;  // of the range
+  const double left = at.watched.turn > 0.0 ? options_.to - place : place - options_.from;
+  return left <= exactly * range_ + error;
+}
+
 /// Between `at` and `beyond` the motion's events change. Notes the point and goes on with new ones. @returns false if the branch ends
 bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why) {
   std::optional<Change> change = change_between(at, beyond, length);
-  if (!change || fades(at.orbit, change->test.leg)) {
-    if (length > shortest_step()) {
-      step_ = 0.25 * length;
-      return true;
-    }
-    if (leave(at)) return !ended_;
-    end("the motion has other events than the orbit behind " + problem_.family().names[0] + " = " + shown(value(at)) +
-            " (" + why + ")",
-        true);
+  if (!change || fades(at.orbit, change->test.leg)) return look_nearer(at, length, why);
+  if (at_end(change->special.value, change->special.error, at)) {
+    end("range", false);
     return false;
   }
   if (is_all_but_gone(at.orbit) && die_out(at)) return !ended_;
@@ -199,6 +218,10 @@ bool Follower::die_out(PathPoint& at) {
   if (!options_.through_changes) return false;
   const std::optional<Death> death = dies_out(branch_);
   if (!death) return false;
+  if (at_end(death->value, death->error, at)) {
+    end("range", false);
+    return true;
+  }
   const Solution& last = branch_.points.back();
   SpecialPoint special;
   special.type = last.sticking ? SpecialType::SL : SpecialType::CO;

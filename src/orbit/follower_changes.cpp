@@ -141,13 +141,19 @@ bool Follower::end_at(SpecialPoint special, Beyond beyond, const std::string& le
   return false;
 }
 
+/// An orbit from which the branch comes, as far as its parameter goes: at a first point there is none.
+Orbit Follower::on_the_way_to(const PathPoint& at) const {
+  Orbit before = at.orbit;
+  before.values[0] -= std::copysign(range_, at.watched.turn);
+  return before;
+}
+
 /// Near its onset a chatter's equations, of ever more impacts, are hardly solvable. Looks for the orbits behind the onset; where none is found, the
 /// branch ends at the onset. @returns false if it is none
 bool Follower::leave_chatter(PathPoint& at) {
-  const std::size_t count = branch_.points.size();
-  if (!options_.through_changes || count < 2 || !branch_.points.back().chatter) return false;
+  if (!options_.through_changes || !branch_.points.back().chatter) return false;
   constexpr double clear = 1e-3;  // nearer to the onset impacts are too many and too short to be followed
-  const Orbit& before = branch_.points[count - 2].orbit;
+  const Orbit before = on_the_way_to(at);
   std::vector<Reshaped> found = reshape(problem_, before, at, std::nullopt, range_, options_.stop, clear);
   std::erase_if(found, [](const Reshaped& next) { return !next.onset || next.folds; });
   if (found.empty() && !chatter_lengthens(branch_)) return false;
@@ -252,8 +258,7 @@ bool Follower::die_out(PathPoint& at) {
 /// From a first point at which the model itself has another structure than beside it, as with a damper of exactly zero: the orbit beside it.
 bool Follower::leave_edge(PathPoint& at) {
   if (branch_.points.size() > 1 || !branch_.points.front().stable()) return false;
-  Orbit before = at.orbit;
-  before.values[0] -= std::copysign(range_, at.watched.turn);
+  const Orbit before = on_the_way_to(at);
   Behind beyond = behind(problem_, before, at, range_, options_.stop);
   if (!beyond.next || one_of_family(problem_, beyond.next->point, range_)) return false;
   restart(at, std::move(beyond.next->point));

@@ -274,7 +274,8 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
     if (!all.empty() || length > longest) break;
     Orbit beyond = change.orbit;  // as it is, where its own equations lead no further
     beyond.values[0] += sense * length * range;
-    if (const auto point = step_to(problem, change, length, range)) beyond = point->orbit;
+    const auto point = test ? step_to(problem, change, length, range) : std::nullopt;
+    if (point) beyond = point->orbit;
     const std::vector<Orbit> guesses = shapes_about(problem, beyond, test ? test->leg : 0);
     for (double side : {1.0, -1.0}) {  // where the old branch would have gone on, then where it came from
       for (Orbit guess : guesses) {

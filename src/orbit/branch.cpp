@@ -7,6 +7,7 @@
 #include "orbit/hidden.hpp"
 #include "orbit/lies_on.hpp"
 #include "orbit/normal_form.hpp"
+#include "orbit/onset.hpp"
 #include "orbit/same_motion.hpp"
 #include "orbit/special.hpp"
 #include "orbit/two_ways.hpp"
@@ -216,6 +217,7 @@ Branch follow(const Problem& posed, const Orbit& start, const ContinuationOption
                      ": " + error.what();
       branch.failed = true;
     }
+    sharpen_onsets(branch);
   };
   run(up, first);
   if (up.ended == "closed") return up;

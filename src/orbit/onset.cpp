@@ -1,7 +1,8 @@
 #include "orbit/onset.hpp"
 
-#include <array>
 #include <cmath>
+#include <ranges>
+#include <vector>
 
 namespace slapstick::orbit {
 
@@ -16,25 +17,45 @@ SpecialPoint onset(const Between& between, const Solution& nearest) {
   return special;
 }
 
-std::optional<CascadeLimit> cascade_limit(const Branch& branch) {
-  constexpr std::size_t used = 4;
+namespace {
+
+constexpr std::size_t used = 4;  ///< changes of a cascade from which its limit is taken
+
+/// From the nearest grazes, in which each adds an impact to the next one's. Empty if they are no cascade.
+std::optional<CascadeLimit> limit_of(const Branch& branch, const std::vector<const SpecialPoint*>& grazes) {
   constexpr double slowest = 0.95, alike = 0.1;  // of the ratios of neighbouring distances
-  std::array<double, used> places{};
-  std::array<long, used> impacts{};
-  std::size_t count = 0;
-  for (auto special = branch.special.rbegin(); special != branch.special.rend() && count < used; ++special) {
-    if (special->type != SpecialType::GR) continue;
-    places[count] = special->value;
-    impacts[count++] = branch.points[special->after].impacts;
-  }
-  if (count < used) return std::nullopt;
+  if (grazes.size() < used) return std::nullopt;
   for (std::size_t i = 0; i + 1 < used; ++i)
-    if (impacts[i] != impacts[i + 1] + 1) return std::nullopt;
-  const auto distance = [&](std::size_t i) { return places[i] - places[i + 1]; };
+    if (branch.points[grazes[i]->after].impacts != branch.points[grazes[i + 1]->after].impacts + 1) return std::nullopt;
+  const auto distance = [&](std::size_t i) { return grazes[i]->value - grazes[i + 1]->value; };
   const double ratio = distance(0) / distance(1), before = distance(1) / distance(2);
   if (!(ratio > 0.0 && ratio < slowest) || std::abs(ratio - before) > alike) return std::nullopt;
-  const auto limit = [&](std::size_t i, double q) { return places[i] + distance(i) * q / (1.0 - q); };
+  const auto limit = [&](std::size_t i, double q) { return grazes[i]->value + distance(i) * q / (1.0 - q); };
   return CascadeLimit{limit(0, ratio), std::abs(limit(0, ratio) - limit(1, before)), ratio};
+}
+
+/// The first grazes of a range of special points.
+std::vector<const SpecialPoint*> grazes_of(const auto& points) {
+  std::vector<const SpecialPoint*> grazes;
+  for (const SpecialPoint& point : points)
+    if (point.type == SpecialType::GR && grazes.size() < used) grazes.push_back(&point);
+  return grazes;
+}
+
+}  // namespace
+
+std::optional<CascadeLimit> cascade_limit(const Branch& branch) {
+  return limit_of(branch, grazes_of(std::views::reverse(branch.special)));
+}
+
+void sharpen_onsets(Branch& branch) {
+  for (auto onset = branch.special.begin(); onset != branch.special.end(); ++onset) {
+    if (onset->type != SpecialType::CH) continue;
+    const auto limit = limit_of(branch, grazes_of(std::ranges::subrange(onset, branch.special.end())));
+    if (!limit || limit->error >= onset->error || std::abs(limit->value - onset->value) > 10.0 * onset->error) continue;
+    onset->value = limit->value;
+    onset->error = limit->error;
+  }
 }
 
 bool chatter_lengthens(const Branch& branch) {

@@ -18,6 +18,9 @@ struct CascadeLimit {
 /// @returns empty if the last grazes of a branch, as it was followed, are no cascade
 [[nodiscard]] std::optional<CascadeLimit> cascade_limit(const Branch& branch);
 
+/// Where a branch has left a chatter for a cascade, the onset by the cascade's own grazes, if that is better known.
+void sharpen_onsets(Branch& branch);
+
 /// Has the last stretch of a branch a chatter with so many more impacts than where it began that its onset is near?
 [[nodiscard]] bool chatter_lengthens(const Branch& branch);
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "attractor/cycle.hpp"
+#include "orbit/extent.hpp"
 #include "orbit/record.hpp"
 #include "orbit/same_motion.hpp"
 #include "slapstick/base/error.hpp"
@@ -31,7 +32,7 @@ struct Course {
 };
 
 Course course_behind(const Problem& problem, const PathPoint& change, double move, const std::atomic<bool>* stop) {
-  constexpr double far = 0.01;  // of the state
+  constexpr double far = 0.01;  // of the orbit's extent
   Course course;
   try {
     std::vector<double> values = change.orbit.values;
@@ -46,7 +47,7 @@ Course course_behind(const Problem& problem, const PathPoint& change, double mov
       const VectorXd start = attractor::contact_state(*motion);
       const Instant end = motion->time().plus(static_cast<double>(transient * std::max(1, change.orbit.shape.n)));
       const bool ran = run_to(*motion, end, stop, [] {});
-      course.gone = ran && (attractor::contact_state(*motion) - start).norm() > far * start.norm();
+      course.gone = ran && Extent(problem, change.orbit).distance(attractor::contact_state(*motion), start) > far;
       return course;
     }
   } catch (const InputError&) {
@@ -57,10 +58,9 @@ Course course_behind(const Problem& problem, const PathPoint& change, double mov
 
 }  // namespace
 
-Behind behind(const Problem& problem, const Orbit& before, const PathPoint& change, double range,
-              const std::atomic<bool>* stop) {
+Behind behind(const Problem& problem, const PathPoint& change, double range, const std::atomic<bool>* stop) {
   constexpr double near = 1e-3;  // of a leg's state: just behind a change a motion that goes on has hardly moved
-  const double critical = change.orbit.values[0], sense = std::copysign(1.0, critical - before.values[0]);
+  const double sense = std::copysign(1.0, change.watched.turn);
   Behind result;
   for (const double distance : {1e-6, 1e-5, 1e-4}) {
     Course course = course_behind(problem, change, sense * distance * range, stop);
@@ -100,10 +100,10 @@ std::optional<VectorXd> later(const Problem& problem, const PathPoint& change, c
   return attractor::contact_state(*motion);
 }
 
-/// How far motions a little to either side of the change are from one another, against their size.
+/// How far motions a little to either side of the change are from one another, against the orbit's extent.
 double departure(const Problem& problem, const PathPoint& change, const TestValue& test, double move) {
   const auto here = later(problem, change, test, -move), there = later(problem, change, test, move);
-  return here && there ? (*here - *there).norm() / here->norm() : 0.0;
+  return here && there ? Extent(problem, change.orbit).distance(*here, *there) : 0.0;
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ struct Behind {
   std::optional<Reshaped> next;  ///< that orbit, if it has hardly moved: no jump
   bool family = false;           ///< that orbit is one of a family
 };
-[[nodiscard]] Behind behind(const Problem& problem, const Orbit& before, const PathPoint& change, double range,
+[[nodiscard]] Behind behind(const Problem& problem, const PathPoint& change, double range,
                             const std::atomic<bool>* stop);
 
 /// Is the motion discontinuous at a change, as where a velocity comes to zero and static friction holds it that exceeds the kinetic one? Motions from

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "orbit/extent.hpp"
 #include "orbit/follower.hpp"
 #include "orbit/hidden.hpp"
 #include "orbit/lies_on.hpp"
@@ -53,8 +54,8 @@ void Follower::look_for_pairs(const PathPoint& at, const PathPoint& next, double
 void Follower::add(std::vector<SpecialPoint> smooth, std::size_t after) {
   constexpr double merged = 1e-3;  // at a fold or crossing that is known to 1e-10 in the parameter, states are to 1e-5
   for (SpecialPoint& special : smooth) {
-    const bool doubling =
-        (special.type == SpecialType::LP || special.type == SpecialType::BP) && repeats(special.solution.orbit, merged);
+    const bool doubling = (special.type == SpecialType::LP || special.type == SpecialType::BP) &&
+                          becomes_shorter(problem_, branch_.points.back().orbit, special.solution.orbit, merged);
     special.after = after;
     if (doubling) {
       special.type = SpecialType::PD;
@@ -98,7 +99,8 @@ bool Follower::runs_over_itself() {
   constexpr std::size_t neighbours = 10;
   constexpr int certain = 5;  // one or two may be near: where branches cross, at folds
   const std::size_t count = branch_.points.size();
-  const bool old = count > neighbours && lies_on_first(count - neighbours, branch_, branch_.points.back().orbit);
+  const bool old =
+      count > neighbours && lies_on_first(problem_, count - neighbours, branch_, branch_.points.back().orbit);
   old_points_ = old ? old_points_ + 1 : 0;
   if (old_points_ < certain) return false;
   branch_.points.resize(count - certain);
@@ -155,6 +157,7 @@ bool Follower::accept(PathPoint& at, PathPoint next, double length) {
 void Follower::run(PathPoint at) {
   step_ = options_.step;
   const Orbit first = at.orbit;
+  const Extent extent(problem_, first);
   for (int count = 0; !ended_ && count < options_.most_points; ++count) {
     if (stopped(options_.stop)) return end("stopped", true);
     if (!inside(value(at) + step_ * at.watched.turn * range_)) {
@@ -186,7 +189,7 @@ void Follower::run(PathPoint at) {
                                                                           : step_);
     if (options_.progress) options_.progress(value(at), static_cast<long>(branch_.points.size()));
     const std::size_t last = branch_.points.size() - 1;
-    if (last > 3 && between(branch_.points[last - 1].orbit, branch_.points[last].orbit, first))
+    if (last > 3 && between(extent, branch_.points[last - 1].orbit, branch_.points[last].orbit, first))
       return end("closed", false);
   }
   if (!ended_) end(std::to_string(options_.most_points) + " points each way, the most allowed", true);
@@ -194,7 +197,7 @@ void Follower::run(PathPoint at) {
 
 Branch follow(const Problem& posed, const Orbit& start, const ContinuationOptions& options) {
   Problem problem = posed;
-  problem.set_least_sizes(small_size * sizes(problem, start).head(problem.numbers()));
+  problem.set_least(small_size * sizes(problem, start).head(problem.numbers()), options.to - options.from);
   const double value = start.values.at(0);
   if (!(value >= options.from && value <= options.to))
     throw InputError(problem.family().names[0] + " = " + shown(value) + " is outside the range " + shown(options.from) +

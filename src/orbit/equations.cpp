@@ -138,7 +138,8 @@ VectorXd sizes(const Problem& problem, const Orbit& orbit) {
   }
   all.head(problem.numbers()) = problem.translations().numbers(state);
   for (Index j = 0; j < problem.parameters(); ++j) {
-    const double value = std::abs(orbit.values[static_cast<std::size_t>(j)]);
+    const double least = j == 0 ? problem.least_value() : 0.0;
+    const double value = std::max(std::abs(orbit.values[static_cast<std::size_t>(j)]), least);
     all[problem.parameter_column(orbit.legs(), j)] = value > 0.0 ? value : 1.0;
   }
   return all;

@@ -29,7 +29,12 @@ class Problem {
   [[nodiscard]] Eigen::Index parameters() const { return static_cast<Eigen::Index>(family_.names.size()); }
   /// What arclength measures states by where an orbit is smaller than this: one that shrinks to nothing is left behind in steps of some length.
   [[nodiscard]] const Eigen::VectorXd& least_sizes() const { return least_sizes_; }
-  void set_least_sizes(Eigen::VectorXd sizes) { least_sizes_ = std::move(sizes); }
+  /// .. and the first parameter where its value is smaller: the range that it is followed over. It may pass zero.
+  [[nodiscard]] double least_value() const { return least_value_; }
+  void set_least(Eigen::VectorXd sizes, double value) {
+    least_sizes_ = std::move(sizes);
+    least_value_ = value;
+  }
   /// Unknowns of an orbit with so many legs: numbers of x_0, instants, parameters.
   [[nodiscard]] Eigen::Index numbers() const;
   [[nodiscard]] Eigen::Index unknowns(std::size_t legs) const;
@@ -42,6 +47,7 @@ class Problem {
   std::shared_ptr<const System> base_;
   attractor::Translations translations_;
   Eigen::VectorXd least_sizes_;  ///< of the numbers; zero until they are set
+  double least_value_ = 0.0;
 };
 
 struct Linearised {

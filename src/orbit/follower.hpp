@@ -34,7 +34,6 @@ class Follower {
   enum class Beyond { shorter, retraced, family, jump, departure, not_followed, unknown };
   bool end_at(SpecialPoint special, Beyond beyond, const std::string& left = {});
   void go_on(PathPoint& at, SpecialPoint special, Reshaped next);
-  [[nodiscard]] Orbit on_the_way_to(const PathPoint& at) const;
   bool leave_chatter(PathPoint& at);
   bool end_cascade(PathPoint& at);
   bool end_cascade_with(PathPoint& at, SpecialPoint last);

@@ -6,6 +6,7 @@
 
 #include "orbit/beyond.hpp"
 #include "orbit/dying.hpp"
+#include "orbit/extent.hpp"
 #include "orbit/hidden.hpp"
 #include "orbit/lies_on.hpp"
 #include "orbit/onset.hpp"
@@ -82,7 +83,7 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
   if (found.empty() && !family && end_cascade_with(at, special)) return !ended_;
   std::string left;  // where a stable motion goes when there is no branch
   if (found.empty() && !family && branch_.points.back().stable()) {
-    Behind there = behind(problem_, at.orbit, change->at, range_, options_.stop);
+    Behind there = behind(problem_, change->at, range_, options_.stop);
     left = there.what;
     family = there.next && of_family(*there.next);
     if (there.next && !family) found.push_back(std::move(*there.next));
@@ -94,9 +95,11 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
       return end_at(std::move(special), Beyond::departure);
     return end_at(std::move(special), family ? Beyond::family : Beyond::unknown);
   }
-  const auto repeated = [](const Reshaped& next) { return repeats(next.point.orbit, 1e-6).has_value(); };
+  const auto repeated = [&](const Reshaped& next) {
+    return becomes_shorter(problem_, at.orbit, next.point.orbit, 1e-6);
+  };
   if (std::ranges::any_of(found, repeated)) return end_at(std::move(special), Beyond::shorter);
-  if (lies_on_first(branch_.points.size(), branch_, found.front().point.orbit))
+  if (lies_on_first(problem_, branch_.points.size(), branch_, found.front().point.orbit))
     return end_at(std::move(special), Beyond::retraced);
   if (found.front().onset && found.front().folds && turn_round(at))
     return true;  // back to the chatter that it has just left
@@ -141,20 +144,12 @@ bool Follower::end_at(SpecialPoint special, Beyond beyond, const std::string& le
   return false;
 }
 
-/// An orbit from which the branch comes, as far as its parameter goes: at a first point there is none.
-Orbit Follower::on_the_way_to(const PathPoint& at) const {
-  Orbit before = at.orbit;
-  before.values[0] -= std::copysign(range_, at.watched.turn);
-  return before;
-}
-
 /// Near its onset a chatter's equations, of ever more impacts, are hardly solvable. Looks for the orbits behind the onset; where none is found, the
 /// branch ends at the onset. @returns false if it is none
 bool Follower::leave_chatter(PathPoint& at) {
   if (!options_.through_changes || !branch_.points.back().chatter) return false;
   constexpr double clear = 1e-3;  // nearer to the onset impacts are too many and too short to be followed
-  const Orbit before = on_the_way_to(at);
-  std::vector<Reshaped> found = reshape(problem_, before, at, std::nullopt, range_, options_.stop, clear);
+  std::vector<Reshaped> found = reshape(problem_, at.orbit, at, std::nullopt, range_, options_.stop, clear);
   std::erase_if(found, [](const Reshaped& next) { return !next.onset || next.folds; });
   if (found.empty() && !chatter_lengthens(branch_)) return false;
   const double reach = shortest_step() * range_;
@@ -243,7 +238,7 @@ bool Follower::die_out(PathPoint& at) {
   PathPoint there = at;
   there.orbit.values[0] = death->value;
   Behind beyond;
-  if (last.stable()) beyond = behind(problem_, at.orbit, there, range_, options_.stop);
+  if (last.stable()) beyond = behind(problem_, there, range_, options_.stop);
   if (beyond.next && !one_of_family(problem_, beyond.next->point, range_)) {
     special.outcome = "persistence";
     branch_.special.push_back(std::move(special));
@@ -258,8 +253,7 @@ bool Follower::die_out(PathPoint& at) {
 /// From a first point at which the model itself has another structure than beside it, as with a damper of exactly zero: the orbit beside it.
 bool Follower::leave_edge(PathPoint& at) {
   if (branch_.points.size() > 1 || !branch_.points.front().stable()) return false;
-  const Orbit before = on_the_way_to(at);
-  Behind beyond = behind(problem_, before, at, range_, options_.stop);
+  Behind beyond = behind(problem_, at, range_, options_.stop);
   if (!beyond.next || one_of_family(problem_, beyond.next->point, range_)) return false;
   restart(at, std::move(beyond.next->point));
   return true;

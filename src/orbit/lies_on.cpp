@@ -11,8 +11,8 @@ namespace slapstick::orbit {
 
 using Eigen::VectorXd;
 
-bool between(const Orbit& a, const Orbit& b, const Orbit& orbit) {
-  constexpr double same = 1e-3;  // of an orbit's size: between two points the branch is nearly straight
+bool between(const Extent& extent, const Orbit& a, const Orbit& b, const Orbit& orbit) {
+  constexpr double same = 1e-3;  // of an orbit's extent: between two points the branch is nearly straight
   const double part = (orbit.values[0] - a.values[0]) / (b.values[0] - a.values[0]);
   if (!(part >= 0.0 && part <= 1.0) || !(a.shape.legs == b.shape.legs)) return false;
   return from_some_event(orbit, a, [&](std::size_t shift) {
@@ -20,16 +20,17 @@ bool between(const Orbit& a, const Orbit& b, const Orbit& orbit) {
       const std::size_t k = (i + shift) % a.legs();
       const VectorXd x = (1.0 - part) * a.x[k] + part * b.x[k];
       const double t = (1.0 - part) * a.t[k] + part * b.t[k];
-      if ((x - orbit.x[i]).norm() >= same * std::max(x.norm(), orbit.x[i].norm())) return false;
+      if (extent.distance(x, orbit.x[i]) >= same) return false;
       if (orbit.shape.n != 0 && std::abs(std::remainder(t - orbit.t[i], 1.0)) >= same) return false;
     }
     return true;
   });
 }
 
-bool lies_on_first(std::size_t count, const Branch& branch, const Orbit& orbit) {
+bool lies_on_first(const Problem& problem, std::size_t count, const Branch& branch, const Orbit& orbit) {
+  const Extent extent(problem, orbit);
   for (std::size_t i = 0; i + 1 < count; ++i)
-    if (between(branch.points[i].orbit, branch.points[i + 1].orbit, orbit)) return true;
+    if (between(extent, branch.points[i].orbit, branch.points[i + 1].orbit, orbit)) return true;
   return false;
 }
 
@@ -64,10 +65,11 @@ using Distance = double (*)(const Problem& problem, const Orbit& a, const Orbit&
 
 bool meets(const Problem& problem, const Branch& branch, const Orbit& orbit, Distance distance) {
   constexpr double same = 1e-6;
+  const Extent extent(problem, orbit);
   for (std::size_t i = 0; i + 1 < branch.points.size(); ++i) {
     const Orbit &a = branch.points[i].orbit, &b = branch.points[i + 1].orbit;
     if (a.shape.n != orbit.shape.n) continue;
-    if (orbit.shape.n == 0 && between(a, b, orbit)) return true;
+    if (orbit.shape.n == 0 && between(extent, a, b, orbit)) return true;
     const std::vector<Orbit> own = orbits_at(problem, a, b, orbit.values[0]);
     if (std::ranges::any_of(own, [&](const Orbit& other) { return distance(problem, orbit, other) < same; }))
       return true;

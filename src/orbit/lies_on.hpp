@@ -1,13 +1,15 @@
 #pragma once
 /// Whether an orbit has been met before on a branch.
+#include "orbit/extent.hpp"
 #include "slapstick/orbit/branch.hpp"
 
 namespace slapstick::orbit {
 
 /// Does an orbit lie between two neighbouring points of a branch, perhaps begun at another event?
-[[nodiscard]] bool between(const Orbit& a, const Orbit& b, const Orbit& orbit);
+/// @param extent  of the orbit
+[[nodiscard]] bool between(const Extent& extent, const Orbit& a, const Orbit& b, const Orbit& orbit);
 
 /// Does it lie on the first points of a branch?
-[[nodiscard]] bool lies_on_first(std::size_t count, const Branch& branch, const Orbit& orbit);
+[[nodiscard]] bool lies_on_first(const Problem& problem, std::size_t count, const Branch& branch, const Orbit& orbit);
 
 }  // namespace slapstick::orbit

@@ -58,18 +58,6 @@ MatrixXd bordered(const Problem& problem, const Linearised& at, std::size_t legs
   return matrix;
 }
 
-std::optional<std::size_t> repeats(const Orbit& orbit, double tolerance) {
-  for (std::size_t part = 1; part < orbit.legs(); ++part) {
-    if (orbit.legs() % part != 0) continue;
-    bool same = true;
-    for (std::size_t i = 0; same && i + part < orbit.legs(); ++i)
-      same = orbit.shape.legs[i] == orbit.shape.legs[i + part] &&
-             (orbit.x[i] - orbit.x[i + part]).norm() <= tolerance * orbit.x[i].norm();
-    if (same) return part;
-  }
-  return std::nullopt;
-}
-
 VectorXd arclength_units(const Problem& problem, const Orbit& orbit, double range) {
   VectorXd units = sizes(problem, orbit);
   const auto instants = static_cast<Index>(orbit.t.size());

@@ -13,9 +13,6 @@ namespace slapstick::orbit {
 [[nodiscard]] Eigen::MatrixXd bordered(const Problem& problem, const Linearised& at, std::size_t legs,
                                        const Eigen::VectorXd& units, const Eigen::VectorXd& last_row);
 
-/// Of a cycle that is a shorter one several times over, within so much of its states: the shortest one's number of legs.
-[[nodiscard]] std::optional<std::size_t> repeats(const Orbit& orbit, double tolerance);
-
 /// What is watched along a branch.
 struct Watched {
   double turn = 0.0;   ///< the tangent's component in the parameter: zero at a fold

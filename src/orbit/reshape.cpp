@@ -263,7 +263,7 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
     };
     if (next && std::ranges::none_of(all, known)) all.push_back(std::move(*next));
   };
-  const double sense = std::copysign(1.0, critical - before.values[0]);
+  const double sense = std::copysign(1.0, change.watched.turn);  // a secant may span a fold
   if (test)
     for (const Orbit& shape : coincident(problem, before, change.orbit, *test))
       add(leaving(problem, change, sense, shape, range));

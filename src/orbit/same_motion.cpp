@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "orbit/extent.hpp"
+
 namespace slapstick::orbit {
 namespace {
 
@@ -24,10 +26,14 @@ class States {
     return leg;
   }
 
+  [[nodiscard]] VectorXd state_at(double t) const {
+    const std::size_t leg = leg_at(t);
+    return contact_state(set_, state_within(set_, orbit_, leg, first_cycle(t) - orbit_.t[leg]));
+  }
+
   /// Numbers of the state modulo translations, displacements first.
   [[nodiscard]] VectorXd at(double t) const {
-    const std::size_t leg = leg_at(t);
-    VectorXd x = contact_state(set_, state_within(set_, orbit_, leg, first_cycle(t) - orbit_.t[leg]));
+    VectorXd x = state_at(t);
     problem_.translations().take_out(x);
     return problem_.translations().numbers(x);
   }
@@ -103,10 +109,10 @@ double apart(const Problem& problem, const Orbit& a, const Orbit& b) {
 bool resembles(const Problem& problem, const Orbit& a, const Orbit& b, double much_the_same) {
   constexpr double long_enough = 0.1;  // of a cycle
   const States of_a(problem, a), of_b(problem, b);
+  const Extent extent(problem, a);
   const auto alike = [&](std::size_t i, double t_a, std::size_t j, double t_b) {
     if (!(a.shape.legs[i].states == b.shape.legs[j].states)) return false;
-    const VectorXd x = of_a.at(t_a);
-    return (x - of_b.at(t_b)).norm() <= much_the_same * x.norm();
+    return extent.distance(of_a.state_at(t_a), of_b.state_at(t_b)) <= much_the_same;
   };
   for (std::size_t i = 0; i < a.legs(); ++i) {
     if (a.duration(i) < long_enough * (a.t.back() - a.t.front())) continue;

@@ -12,7 +12,7 @@ namespace slapstick::orbit {
 /// relative to their largest: rounding for one motion, chattering ones too. Infinite without forcing, where there is no phase, and for other n.
 [[nodiscard]] double apart(const Problem& problem, const Orbit& a, const Orbit& b);
 
-/// Is a long leg of one much the same in the other: the same mode in its middle, and the state to this part of its size? Without forcing, where phases mean
+/// Is a long leg of one much the same in the other: the same mode in its middle, and the state to this part of the extent of a? Without forcing, where phases mean
 /// nothing, where a leg of that mode begins.
 [[nodiscard]] bool resembles(const Problem& problem, const Orbit& a, const Orbit& b, double much_the_same);
 

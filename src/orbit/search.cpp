@@ -4,6 +4,7 @@
 
 #include "attractor/cycle.hpp"
 #include "orbit/cyclic.hpp"
+#include "orbit/extent.hpp"
 #include "orbit/path.hpp"
 #include "orbit/record.hpp"
 #include "orbit/same_motion.hpp"
@@ -22,9 +23,9 @@ constexpr int longest_cycle = 64;
 constexpr int from_one_guess = 4;  ///< orbits at most
 
 /// Are two cycles the same, begun at another event or in another period?
-bool same_from_some_event(const Orbit& a, const Orbit& b) {
+bool same_from_some_event(const Extent& extent, const Orbit& a, const Orbit& b) {
   return from_some_event(a, b, [&](std::size_t shift) {
-    return (a.x[0] - b.x[shift]).norm() <= same_orbit * std::max(a.x[0].norm(), b.x[shift].norm()) &&
+    return extent.distance(a.x[0], b.x[shift]) <= same_orbit &&
            (a.shape.n == 0 || std::abs(std::remainder(a.t[0] - b.t[shift], 1.0)) < same_orbit);
   });
 }
@@ -32,8 +33,9 @@ bool same_from_some_event(const Orbit& a, const Orbit& b) {
 /// Is it one of these? Equal legs tell soonest. Others may be the same motion: how many impacts of a chatter are legs of their own is a matter of where
 /// it was recorded.
 bool known(const Problem& problem, const std::vector<Orbit>& found, const Orbit& orbit) {
+  const Extent extent(problem, orbit);
   const auto alike = [&](const Orbit& other) {
-    return other.shape.n == orbit.shape.n && same_from_some_event(orbit, other);
+    return other.shape.n == orbit.shape.n && same_from_some_event(extent, orbit, other);
   };
   const auto same = [&](const Orbit& other) { return apart(problem, orbit, other) < same_orbit; };
   return std::ranges::any_of(found, alike) || std::ranges::any_of(found, same);
@@ -41,15 +43,16 @@ bool known(const Problem& problem, const std::vector<Orbit>& found, const Orbit&
 
 /// Is it a shorter cycle several times over?
 bool is_multiple(const Problem& problem, const Orbit& orbit) {
-  if (repeats(orbit, same_orbit)) return true;
+  const std::optional<std::size_t> part = repeats(problem, orbit, same_orbit);
+  if (part && orbit.shape.n % static_cast<int>(orbit.legs() / *part) == 0) return true;
   for (int periods = 1; 2 * periods <= orbit.shape.n; ++periods)
     if (orbit.shape.n % periods == 0 && apart_from_later(problem, orbit, periods) < same_orbit) return true;
   return false;
 }
 
 /// Of an orbit that is a shorter one several times over, that one.
-Orbit once(Orbit orbit) {
-  const std::optional<std::size_t> part = repeats(orbit, same_orbit);
+Orbit once(const Problem& problem, Orbit orbit) {
+  const std::optional<std::size_t> part = repeats(problem, orbit, same_orbit);
   if (!part) return orbit;
   const auto times = static_cast<int>(orbit.legs() / *part);
   if (orbit.shape.n % times != 0) return orbit;
@@ -68,8 +71,8 @@ std::optional<Solution> orbit_from(const Problem& problem, const System& system,
   Orbit start = *guess;
   start.values = problem.values();
   std::optional<Orbit> orbit = refine(problem, start);
-  if (orbit && repeats(*orbit, same_orbit)) orbit = refine(problem, once(*orbit));
-  if (!orbit || (orbit->x[0] - start.x[0]).norm() > within * start.x[0].norm()) return std::nullopt;
+  if (orbit && repeats(problem, *orbit, same_orbit)) orbit = refine(problem, once(problem, *orbit));
+  if (!orbit || Extent(problem, *orbit).distance(orbit->x[0], start.x[0]) > within) return std::nullopt;
   Solution solution = describe(problem, *orbit, &system);
   if (!solution.is_motion) return std::nullopt;
   return solution;

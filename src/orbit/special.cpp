@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "orbit/crossing.hpp"
+#include "orbit/extent.hpp"
 #include "orbit/record.hpp"
 #include "orbit/same_motion.hpp"
 #include "orbit/switching.hpp"
@@ -14,6 +15,7 @@ namespace {
 
 using Value = std::function<double(const Watched&)>;
 
+constexpr double at_a_fold = 0.05;  ///< the same of a fold, whose multiplier is known to the root of its place's error
 constexpr double at_the_circle = 1e-4;  ///< how near the multiplier of a located point must be to what it is taken for
 
 bool changes_sign(double a, double b) { return (a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0); }
@@ -56,7 +58,7 @@ std::optional<Located> sharpened(const Problem& problem, const PathPoint& from, 
   constexpr double merged = 1e-3;
   auto sharper = locate_crossing(problem, from, rough ? rough->length : 0.5 * length, range);
   if (sharper) return sharper;
-  if (rough && repeats(rough->point.orbit, merged)) return rough;
+  if (rough && becomes_shorter(problem, from.orbit, rough->point.orbit, merged)) return rough;
   return std::nullopt;
 }
 
@@ -82,6 +84,7 @@ std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const Pa
     SpecialPoint special;
     special.type = kind.type;
     special.rotation = kind.type == SpecialType::NS ? rotation(there) : 0.0;
+    if (kind.type == SpecialType::LP && nearest(there, 1.0) > at_a_fold) continue;  // at a graze the branch turns too
     if (kind.type == SpecialType::PD && nearest(there, -1.0) > at_the_circle) continue;
     if (kind.type == SpecialType::BP && nearest(there, 1.0) > at_the_circle) continue;
     if (kind.type == SpecialType::NS && special.rotation == 0.0) continue;  // two real multipliers whose product is 1
@@ -268,10 +271,9 @@ std::optional<Change> find_change(const Problem& problem, const PathPoint& from,
     if (auto located = locate_margin(problem, from, to, length, range, i))
       candidates.emplace_back(i, std::move(*located));
   }
-  // Near its onset a chatter's equations are hardly solvable: what looks like a margin's zero there may be none.
+  // Where the equations are hardly solvable, as near the onset of a chatter, what looks like a margin's zero may be none.
   constexpr double known = 1e-6;
-  if (chatters(from.orbit) > 0)
-    std::erase_if(candidates, [&](const auto& candidate) { return candidate.second.error > known * range; });
+  std::erase_if(candidates, [&](const auto& candidate) { return candidate.second.error > known * range; });
   in_order(candidates, from.watched.tests, length, range);
   for (auto& [test, located] : candidates) {
     if (!changes_there(problem, from, length, located.length, range)) continue;

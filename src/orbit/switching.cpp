@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "orbit/extent.hpp"
 #include "orbit/path.hpp"
 
 namespace slapstick::orbit {
@@ -49,7 +50,7 @@ std::vector<Orbit> doubled(const Problem& problem, const Orbit& pd) {
   move(problem, at, amplitude * direction.cwiseProduct(units), 0.0, orbit);
   std::vector<Condition> conditions = fixed_parameters(problem, orbit.legs());
   conditions[0].row = direction.cwiseQuotient(units).transpose();
-  if (!solve(problem, orbit, conditions, 12).converged || repeats(orbit, 0.01 * amplitude)) return {};
+  if (!solve(problem, orbit, conditions, 12).converged || repeats(problem, orbit, 0.01 * amplitude)) return {};
   return {orbit};
 }
 

@@ -57,8 +57,9 @@ std::pair<double, double> range_about(const Parameter& parameter, double value) 
   return {from, to};
 }
 
-/// Values of all parameters: the model's own, or up to a factor 1.2 from them.
-Overrides values_of(const ModelDefinition& definition, const Options& options, long number, bool own) {
+/// Values of all parameters but the one that is followed: the model's own, or up to a factor 1.2 from them.
+Overrides values_of(const ModelDefinition& definition, const std::string& followed, const Options& options, long number,
+                    bool own) {
   Overrides values;
   if (own) return values;
   Random random(options.seed, static_cast<std::uint64_t>(number));
@@ -66,6 +67,9 @@ Overrides values_of(const ModelDefinition& definition, const Options& options, l
     const double value = parameter.value * std::exp2(random.uniform(-0.263, 0.263));
     if (parameter.expression.empty() && parameter.admits(value)) values[parameter.name] = value;
   }
+  for (const Group& group : definition.groups())
+    if (group.name == followed)
+      for (const std::string& member : group.members) values.erase(member);
   return values;
 }
 
@@ -137,7 +141,7 @@ Tally examine(const Case& which, long number, bool own, const Options& options) 
   Tally tally;
   tally.cases = 1;
   const ModelDefinition definition = load_model(which.model);
-  const Overrides values = values_of(definition, options, number, own);
+  const Overrides values = values_of(definition, which.parameter, options, number, own);
   const double value = definition.values(values).at(parameter_of(definition, which.parameter).name);
   const auto [from, to] = range_about(parameter_of(definition, which.parameter), value);
   if (!(from <= value && value <= to && from < to)) return tally;

@@ -1,7 +1,6 @@
 #include "orbit/onset.hpp"
 
 #include <cmath>
-#include <ranges>
 #include <vector>
 
 namespace slapstick::orbit {
@@ -35,23 +34,24 @@ std::optional<CascadeLimit> limit_of(const Branch& branch, const std::vector<con
 }
 
 /// The first grazes of a range of special points.
-std::vector<const SpecialPoint*> grazes_of(const auto& points) {
+template <class Iterator>
+std::vector<const SpecialPoint*> grazes_of(Iterator point, Iterator end) {
   std::vector<const SpecialPoint*> grazes;
-  for (const SpecialPoint& point : points)
-    if (point.type == SpecialType::GR && grazes.size() < used) grazes.push_back(&point);
+  for (; point != end && grazes.size() < used; ++point)
+    if (point->type == SpecialType::GR) grazes.push_back(&*point);
   return grazes;
 }
 
 }  // namespace
 
 std::optional<CascadeLimit> cascade_limit(const Branch& branch) {
-  return limit_of(branch, grazes_of(std::views::reverse(branch.special)));
+  return limit_of(branch, grazes_of(branch.special.rbegin(), branch.special.rend()));
 }
 
 void sharpen_onsets(Branch& branch) {
   for (auto onset = branch.special.begin(); onset != branch.special.end(); ++onset) {
     if (onset->type != SpecialType::CH) continue;
-    const auto limit = limit_of(branch, grazes_of(std::ranges::subrange(onset, branch.special.end())));
+    const auto limit = limit_of(branch, grazes_of(onset, branch.special.end()));
     if (!limit || limit->error >= onset->error || std::abs(limit->value - onset->value) > 10.0 * onset->error) continue;
     onset->value = limit->value;
     onset->error = limit->error;

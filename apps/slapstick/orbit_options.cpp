@@ -51,6 +51,25 @@ ParameterRange parse_range(const std::string& argument, const std::string& text)
 
 namespace {
 
+/// The one value that the members of a group have that move with it: those that are not set themselves.
+double value_of_group(const ChosenModel& chosen, const std::string& argument, const Group& group,
+                      const Overrides& values) {
+  std::vector<std::string> moving;
+  std::string all;
+  for (const std::string& member : group.members) {
+    if (chosen.overrides.contains(member)) continue;
+    moving.push_back(member);
+    all += (all.empty() ? "" : ", ") + member + " = " + shown(values.at(member));
+  }
+  if (moving.empty()) return values.at(group.members.front());
+  const double value = values.at(moving.front());
+  for (const std::string& member : moving)
+    if (values.at(member) != value)
+      throw InputError(argument + ": the members of " + group.name + " differ: " + all +
+                       "; give them one value by --set " + group.name + "=VALUE, or name one of them");
+  return value;
+}
+
 /// The parameters that a name stands for.
 std::vector<std::string> members(const ModelDefinition& definition, const std::string& name) {
   for (const Group& group : definition.groups())
@@ -63,7 +82,9 @@ std::vector<std::string> members(const ModelDefinition& definition, const std::s
 double present_value(const ChosenModel& chosen, const std::string& argument, const std::string& parameter) {
   if (parameter.empty()) throw InputError(argument + " is needed: the name of a parameter");
   const auto values = chosen.definition.values(chosen.overrides);
-  const auto found = values.find(members(chosen.definition, parameter).front());
+  for (const Group& group : chosen.definition.groups())
+    if (group.name == parameter) return value_of_group(chosen, argument, group, values);
+  const auto found = values.find(parameter);
   if (found != values.end()) return found->second;
   try {
     (void)chosen.definition.values({{parameter, 1.0}});

@@ -36,7 +36,7 @@ struct ParameterRange {
 [[nodiscard]] ParameterRange parse_range(const std::string& argument, const std::string& text);
 
 /// The value that a parameter or group has by --set or default. @throws InputError naming the argument if there is none (the nearest is
-/// suggested)
+/// suggested), or the members of the group have several
 [[nodiscard]] double present_value(const ChosenModel& chosen, const std::string& argument,
                                    const std::string& parameter);
 

@@ -168,8 +168,10 @@ int run(const Options& options, const Context& context) {
   write(out, branches, chosen, options);
   if (plot.wanted()) draw(plot, branches, chosen, *problem, options, context.stop);
   if (context.stop.load()) return interrupted;
-  if (!branches.front().failed) return done;
-  throw NumericalError("continue: " + branches.front().ended + "; the points so far are written");
+  const auto failed = std::ranges::find(branches, true, &orbit::Branch::failed);
+  if (failed == branches.end()) return done;
+  const std::string which = branches.size() > 1 ? "branch " + std::to_string(failed - branches.begin() + 1) + ": " : "";
+  throw NumericalError("continue: " + which + failed->ended + "; the points so far are written");
 }
 
 }  // namespace

@@ -164,7 +164,8 @@ bool Follower::leave_chatter(PathPoint& at) {
     restart(at, std::move(found.front().point));
     onset_ = Onset{reversed(at), branch_.points.size(), branch_.special.size(), chatters(at.orbit)};
   } else {
-    end("CH at " + shown(value(at)) + ": the complete chatter begins there, from orbits with ever more impacts", false);
+    end("CH at " + shown(value(at)) + ": the complete chatter ends there, and no orbit with impacts was found beyond",
+        true);
   }
   return true;
 }
@@ -200,7 +201,9 @@ bool Follower::end_cascade(PathPoint& at) {
   if (next)
     restart(at, std::move(next->point));
   else
-    end("CH at " + shown(limit->value) + ": a cascade, which gathers there", false);
+    end("CH at " + shown(limit->value) +
+            ": a cascade, which gathers there, and no orbit with the chatter was found beyond",
+        true);
   return true;
 }
 

@@ -81,6 +81,12 @@ def test_a_table_has_sensitivities_and_the_classes_around_a_change():
     says(good(*words, '--table'), '1-1-I -> 1-1-II; persistence; d omega / d friction = %.5g' % number(special[special.index('"sensitivity"'):], 'friction'))
 
 
+def test_a_group_whose_members_differ_has_no_value():
+    for words in (('continue', 'two-blocks-on-belt', '--param', 'friction', '--range', '0.5:1.5'),
+                  ('continue', 'two-blocks-on-belt', '--param', 'coupling', '--range', '1:1.5', '--sensitivity', 'friction')):
+        says(refused(2, *words), 'members of friction differ: static_friction = 1, kinetic_friction = 0.6', '--set friction=VALUE')
+
+
 def test_a_broken_symmetry_is_followed_once():
     text = good('continue', 'two-sided-rattle', '--set', 'omega=1.6', '--param', 'omega', '--range', '1.2:1.7', '--branches', '3', '--table')
     says(text, "a symmetry breaks: the crossing branch's sides are images of one another", 'behind the symmetric orbit at 1.47422312')

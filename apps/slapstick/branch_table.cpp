@@ -48,7 +48,16 @@ std::string words(const orbit::Branch& branch, const orbit::SpecialPoint& specia
   if (form.coefficient) what += ", " + coefficient_name(special.type) + " = " + short_number(*form.coefficient);
   if (const auto classes = classes_around(branch, special)) what += "; " + classes->first + " -> " + classes->second;
   if (!special.outcome.empty()) what += "; " + special.outcome;
+  constexpr double well_known = 1e-10;
+  if (special.error > well_known * std::abs(special.value)) what += "; known to " + short_number(special.error);
   return what;
+}
+
+/// Does a special point lie before the first point of its branch, which ends there?
+bool ends_at(const orbit::Branch& branch, const orbit::SpecialPoint& special) {
+  if (special.after != 0 || branch.points.size() < 2) return false;
+  const double first = branch.points[0].orbit.values[0], second = branch.points[1].orbit.values[0];
+  return (special.value - first) * (second - first) < 0.0;
 }
 
 /// "; d omega / d friction = -0.31"
@@ -81,17 +90,20 @@ std::string branch_table(const std::vector<orbit::Branch>& branches, const std::
   for (std::size_t b = 0; b < branches.size(); ++b) {
     const orbit::Branch& branch = branches[b];
     auto special = branch.special.begin();
+    const auto add_special = [&](std::size_t point) {
+      const auto place = static_cast<std::size_t>(special - branch.special.begin());
+      text +=
+          row(b + 1, point + 1, name(special->type), special->value, special->solution,
+              words(branch, *special) + rates(sensitivities[b], place, parameter), critical_tolerance(special->type));
+      ++special;
+    };
+    while (special != branch.special.end() && ends_at(branch, *special)) add_special(0);
     for (std::size_t i = 0; i < branch.points.size(); ++i) {
       const orbit::Solution& point = branch.points[i];
       if (i == 0 || i + 1 == branch.points.size())
         text +=
             row(b + 1, i + 1, "EP", point.orbit.values[0], point, point.is_motion ? "" : "not a motion: " + point.why);
-      for (; special != branch.special.end() && special->after == i; ++special) {
-        const auto place = static_cast<std::size_t>(special - branch.special.begin());
-        text +=
-            row(b + 1, i + 1, name(special->type), special->value, special->solution,
-                words(branch, *special) + rates(sensitivities[b], place, parameter), critical_tolerance(special->type));
-      }
+      while (special != branch.special.end() && special->after == i) add_special(i);
     }
     text += "    " + std::to_string(branch.points.size()) + " points; " + branch.ended + "\n";
   }

@@ -31,8 +31,17 @@ struct Course {
   bool gone = false;
 };
 
+/// Against the orbit's extent, or the least size by which its branch is measured: one that dies out leaves itself in next to no way.
+bool has_gone(const Problem& problem, const Orbit& orbit, VectorXd from, VectorXd to) {
+  constexpr double far = 0.01;
+  if (!(Extent(problem, orbit).distance(from, to) > far)) return false;
+  problem.translations().take_out(from);
+  problem.translations().take_out(to);
+  const VectorXd moved = problem.translations().numbers(to) - problem.translations().numbers(from);
+  return (moved.array().abs() > far * problem.least_sizes().array()).any();
+}
+
 Course course_behind(const Problem& problem, const PathPoint& change, double move, const std::atomic<bool>* stop) {
-  constexpr double far = 0.01;  // of the orbit's extent
   Course course;
   try {
     std::vector<double> values = change.orbit.values;
@@ -47,7 +56,7 @@ Course course_behind(const Problem& problem, const PathPoint& change, double mov
       const VectorXd start = attractor::contact_state(*motion);
       const Instant end = motion->time().plus(static_cast<double>(transient * std::max(1, change.orbit.shape.n)));
       const bool ran = run_to(*motion, end, stop, [] {});
-      course.gone = ran && Extent(problem, change.orbit).distance(attractor::contact_state(*motion), start) > far;
+      course.gone = ran && has_gone(problem, change.orbit, start, attractor::contact_state(*motion));
       return course;
     }
   } catch (const InputError&) {

@@ -31,11 +31,11 @@ double Extent::distance(VectorXd a, VectorXd b) const {
   translations_->take_out(a);
   translations_->take_out(b);
   const VectorXd left = translations_->numbers(a), right = translations_->numbers(b);
+  const double whole = left.cwiseAbs().cwiseMax(right.cwiseAbs()).maxCoeff();
   const auto part = [&](const VectorXd& of_left, const VectorXd& of_right, double range) {
     if (of_left.size() == 0) return 0.0;
     const double apart = (of_left - of_right).cwiseAbs().maxCoeff();
-    if (!(range > 0.0)) range = of_left.cwiseAbs().cwiseMax(of_right.cwiseAbs()).maxCoeff();
-    return apart > 0.0 ? apart / range : 0.0;
+    return apart > 0.0 ? apart / (range > 0.0 ? range : whole) : 0.0;
   };
   const Index displacements = left.size() - velocities_;
   return std::max(part(left.head(displacements), right.head(displacements), displacement_),

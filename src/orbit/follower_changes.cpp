@@ -85,10 +85,10 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
   if (found.empty() && !family && branch_.points.back().stable()) {
     Behind there = behind(problem_, change->at, range_, options_.stop);
     left = there.what;
-    family = there.next && of_family(*there.next);
+    family = there.family || (there.next && of_family(*there.next));
     if (there.next && !family) found.push_back(std::move(*there.next));
   }
-  if (found.empty() && !left.empty()) return end_at(std::move(special), Beyond::jump, left);
+  if (found.empty() && !left.empty() && !family) return end_at(std::move(special), Beyond::jump, left);
   if (found.empty()) {
     family = family || begins_family(problem_, at.orbit, change->at, change->test);
     if (!family && departs(problem_, change->at, change->test, range_))

@@ -108,8 +108,9 @@ void Account::leg(const Leg& leg, const VectorXd& x, double t_begin, double t_en
     energy_.impacts[static_cast<std::size_t>(leg.contact)] +=
         kinetic(x.tail(frame_.n)) - kinetic(begin.value().segment(frame_.d, frame_.n));
   const double s = (t_end - t_begin) * set_.period();
-  const double count = std::ceil(std::abs(s) / mode.longest_step), half = 0.5 * s / std::max(1.0, count);
-  for (double i = 0.0; i < std::max(1.0, count); ++i) {
+  const int count = std::max(1, static_cast<int>(std::ceil(std::abs(s) / mode.longest_step)));
+  const double half = 0.5 * s / count;
+  for (int i = 0; i < count; ++i) {
     for (std::size_t k = 0; k < 2 * nodes.size(); ++k) {
       const double node = k < nodes.size() ? nodes[k] : -nodes[k - nodes.size()];
       Jet X(begin.all.rows(), 0, 0);

@@ -183,7 +183,7 @@ void flow(const ModeRates& mode, double s, Jet& X) {
   constexpr double most_steps = 1e4;  // Newton's method may try a mass of next to nothing
   const double steps = std::max(1.0, std::ceil(std::abs(s) / mode.longest_step));
   if (!(steps <= most_steps)) throw NumericalError("orbit: a leg is too long for the rates of its mode");
-  for (double i = 0.0; i < steps; ++i) step(mode, d, s / steps, X);
+  for (int i = 0; i < static_cast<int>(steps); ++i) step(mode, d, s / steps, X);
 }
 
 Jet leg_start(const ModeSet& set, const Leg& leg, const VectorXd& x, double t_begin) {

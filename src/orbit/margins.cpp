@@ -178,11 +178,11 @@ std::vector<TestValue> test_values(const ModeSet& set, const Orbit& orbit) {
     const Leg& before = orbit.shape.legs[(i + orbit.legs() - 1) % orbit.legs()];
     const Course course(set, leg, orbit.x[i], orbit.t[i], orbit.duration(i));
     const auto& guards = course.mode.outline.guards;
-    for (std::size_t g = 0; g < guards.size(); ++g) {
-      const bool ending = leg.ending == Ending::guard && guards[g].kind == leg.kind && guards[g].contact == leg.contact;
-      const bool with_end = !ending && !is_speed_of(set.frame(), leg, guards[g]);
-      const Least least = least_value(course, guards[g], !zero_by_event(set.frame(), before, guards[g]), with_end);
-      all.push_back({Test::guard, i, guards[g].kind, guards[g].contact, least.value, least.at / set.period()});
+    for (const mode::Guard& guard : guards) {
+      const bool ending = leg.ending == Ending::guard && guard.kind == leg.kind && guard.contact == leg.contact;
+      const bool with_end = !ending && !is_speed_of(set.frame(), leg, guard);
+      const Least least = least_value(course, guard, !zero_by_event(set.frame(), before, guard), with_end);
+      all.push_back({Test::guard, i, guard.kind, guard.contact, least.value, least.at / set.period()});
     }
     bool starts_at_end = false;
     if (leg.ending == Ending::guard) {

@@ -111,6 +111,7 @@ std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const Pa
   });
   std::ranges::sort(found, {}, [](const auto& entry) { return entry.first; });
   std::vector<SpecialPoint> points;
+  points.reserve(found.size());
   for (auto& entry : found) points.push_back(std::move(entry.second));
   return points;
 }
@@ -232,10 +233,6 @@ bool changes_there(const Problem& problem, const PathPoint& from, double length,
                                  behind = step_to(problem, from, place + beside, range);
   return (!before || is_motion(problem, before->orbit)) && (!behind || !is_motion(problem, behind->orbit));
 }
-
-}  // namespace
-
-namespace {
 
 using Candidates = std::vector<std::pair<std::size_t, Located>>;
 

@@ -15,8 +15,8 @@ namespace {
 
 using Value = std::function<double(const Watched&)>;
 
-constexpr double at_a_fold = 0.05;  ///< the same of a fold, whose multiplier is known to the root of its place's error
 constexpr double at_the_circle = 1e-4;  ///< how near the multiplier of a located point must be to what it is taken for
+constexpr double at_a_fold = 0.05;  ///< the same of a fold, whose multiplier is known to the root of its place's error
 
 bool changes_sign(double a, double b) { return (a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0); }
 
@@ -219,7 +219,7 @@ std::optional<Located> locate_margin(const Problem& problem, const PathPoint& fr
     if (sharper && (!best || sharper->error < best->error)) best = std::move(sharper);
     if (best && best->error <= enough * range) break;
   }
-  // A leg without length solves its equation anywhere: that it was located says nothing.
+  // A leg without length solves its equation anywhere: an interpolation is better than such a place, whatever its error.
   return best && (empty || !(located && located->error < best->error)) ? best : located;
 }
 

@@ -81,6 +81,15 @@ def test_a_table_has_sensitivities_and_the_classes_around_a_change():
     says(good(*words, '--table'), '1-1-I -> 1-1-II; persistence; d omega / d friction = %.5g' % number(special[special.index('"sensitivity"'):], 'friction'))
 
 
+def test_a_table_is_in_the_order_of_the_branch_and_says_how_well_places_are_known():
+    lines = good('continue', 'coulomb-oscillator', '--param', 'amplitude', '--range', '0.05:1', '--table').splitlines()
+    assert [line.split()[2] for line in lines[1:-1]] == ['SL', 'EP', 'SL', 'EP'], lines  # the motion dies out below its first point
+    values = [float(line.split()[3]) for line in lines[1:-1]]
+    assert values == sorted(values), values
+    onset = [line for line in good('continue', 'shaken-table', '--set', 'restitution=0.4', '--param', 'acceleration', '--range', '1.02:2.8', '--table').splitlines() if ' CH ' in line]
+    assert len(onset) == 1 and '; known to ' in onset[0], onset
+
+
 def test_a_group_whose_members_differ_has_no_value():
     for words in (('continue', 'two-blocks-on-belt', '--param', 'friction', '--range', '0.5:1.5'),
                   ('continue', 'two-blocks-on-belt', '--param', 'coupling', '--range', '1:1.5', '--sensitivity', 'friction')):

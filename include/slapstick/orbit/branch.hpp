@@ -56,7 +56,7 @@ struct Branch {
   std::vector<SpecialPoint> special;
   std::string
       ended;  ///< why it ends: "range", "closed", "1000 points each way, the most allowed", or what went wrong, with the last good value
-  bool failed = false;  ///< it ends where a step was not mastered, or is broken off (stopped, the most points)
+  bool failed = false;  ///< what is beyond its end is not known: a step or change was not mastered, or it was stopped
 };
 
 struct ContinuationOptions {

@@ -159,7 +159,7 @@ TEST(Cascade, GathersWhereACompleteChatterBegins) {
       (comes_to_rest(restitution, middle) ? rests : bounces) = middle;
     }
     EXPECT_NEAR(onset->value, rests, onset->error) << onset->what;
-    EXPECT_LT(onset->error, 1e-5);
+    EXPECT_LT(onset->error, 1e-6);  // by the grazes of the cascade; where the chatter is left alone it is known to 6e-6
     EXPECT_EQ(branch.points.front().label, "1-inf-II") << branch.ended;
     EXPECT_FALSE(branch.failed) << branch.ended;
   }

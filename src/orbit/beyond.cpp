@@ -23,7 +23,7 @@ std::optional<Motion> motion_from(const System& system, const ModeSet& set, cons
 
 namespace {
 
-constexpr long transient = 500;  ///< forcing periods that a motion is given to settle
+constexpr long transient = 500;  ///< cycles that a motion is given to settle
 
 /// A motion from the orbit at a change when the parameter is moved on by so much: the orbit that it settles on, and whether it has gone from where it was.
 struct Course {
@@ -52,9 +52,11 @@ Course course_behind(const Problem& problem, const PathPoint& change, double mov
     for (std::size_t leg = 0; leg < change.orbit.legs(); ++leg) {
       std::optional<Motion> motion = motion_from(system, set, change.orbit, leg, 0.5);
       if (!motion) continue;
-      course.settled = settle(*there, *motion, transient, 0, stop);
+      const double cycle = change.orbit.t.back() - change.orbit.t.front();
+      const auto while_it_settles = static_cast<long>(std::ceil(static_cast<double>(transient) * cycle));
+      course.settled = settle(*there, *motion, while_it_settles, 0, stop);
       const VectorXd start = attractor::contact_state(*motion);
-      const Instant end = motion->time().plus(static_cast<double>(transient * std::max(1, change.orbit.shape.n)));
+      const Instant end = motion->time().plus(static_cast<double>(while_it_settles));
       const bool ran = run_to(*motion, end, stop, [] {});
       course.gone = ran && has_gone(problem, change.orbit, start, attractor::contact_state(*motion));
       return course;
@@ -77,14 +79,14 @@ Behind behind(const Problem& problem, const PathPoint& change, double range, con
     if (course.settled) {
       const Orbit& orbit = course.settled->orbit;
       if (resembles(problem, orbit, change.orbit, near) || resembles(problem, change.orbit, orbit, near)) {
-        result.next = Reshaped{point_of(problem, orbit, range, {}), false, false, {}, 0.0};
+        result.next = Reshaped{point_of(problem, orbit, range, {}), false, false, {}, 0.0, 0.0, 0.0};
         if (result.next->point.watched.turn * sense < 0.0) result.next->point = reversed(std::move(result.next->point));
         return result;
       }
     }
     if (!course.gone) continue;
-    result.what =
-        course.settled ? course.settled->label : "no periodic orbit within " + std::to_string(transient) + " periods";
+    const bool stays = course.settled && (course.settled->stable() || result.family);
+    result.what = stays ? course.settled->label : "no periodic orbit within " + std::to_string(transient) + " cycles";
     return result;
   }
   return result;

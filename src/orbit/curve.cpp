@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "orbit/change_kind.hpp"
 #include "orbit/crossing_curve.hpp"
 #include "orbit/path.hpp"
 #include "orbit/special.hpp"

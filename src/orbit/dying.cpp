@@ -15,43 +15,57 @@ double at_zero(const std::vector<double>& x, std::vector<double> y) {
   return y[0];
 }
 
+/// Points of a branch at which one leg is ever longer, the nearest first, and what they say.
+struct Shrinking {
+  std::vector<double> length, value;
+  double first = 0.0;  ///< the leg's greatest length on the way
+
+  [[nodiscard]] double shrunk() const { return length.front() / first; }
+  [[nodiscard]] double seen() const { return std::abs(value.front() - value.back()); }
+  [[nodiscard]] Death death(std::size_t leg) const {
+    const double all = at_zero(length, value),
+                 without_first = at_zero({length.begin() + 1, length.end()}, {value.begin() + 1, value.end()}),
+                 without_last = at_zero({length.begin(), length.end() - 1}, {value.begin(), value.end() - 1});
+    return {all, std::max(std::abs(without_first - all), std::abs(without_last - all)), leg};
+  }
+};
+
+Shrinking shrinking(const std::vector<Solution>& points, std::size_t leg) {
+  constexpr std::size_t most = 8;
+  Shrinking found;
+  for (auto point = points.rbegin(); point != points.rend(); ++point) {
+    const Orbit& orbit = point->orbit;
+    if (!(orbit.shape.legs == points.back().orbit.shape.legs)) break;
+    found.first = std::max(found.first, orbit.duration(leg));
+    if (found.length.size() == most || (!found.length.empty() && orbit.duration(leg) < 1.2 * found.length.back()))
+      continue;
+    found.length.push_back(orbit.duration(leg));
+    found.value.push_back(orbit.values[0]);
+  }
+  return found;
+}
+
 }  // namespace
 
 std::optional<Death> dies_out(const Branch& branch) {
-  constexpr std::size_t most = 8, fewest = 5;
-  constexpr double shrinks = 0.5, resolved = 1e-7, near = 2.0, well_known = 1e-3;
-  const std::vector<Solution>& points = branch.points;
-  const Orbit& last = points.back().orbit;
-  std::vector<const Orbit*> used;  // the nearest first, each at some distance from the one before it
-  Death death;
-  double most_shrunk = shrinks;
+  constexpr std::size_t fewest = 5;
+  constexpr double all_but_gone = 0.1, resolved = 1e-7, near = 2.0, well_known = 1e-3;
+  const Orbit& last = branch.points.back().orbit;
+  const double cycle = last.t.back() - last.t.front();
+  std::vector<Death> deaths;
   for (std::size_t leg = 0; leg < last.legs(); ++leg) {
-    const double cycle = last.t.back() - last.t.front();
     if (!(last.duration(leg) > resolved * cycle)) continue;
-    std::vector<const Orbit*> found = {&last};
-    for (auto point = points.rbegin(); point != points.rend() && found.size() < most; ++point) {
-      if (!(point->orbit.shape.legs == last.shape.legs)) break;
-      if (point->orbit.duration(leg) > 1.2 * found.back()->duration(leg)) found.push_back(&point->orbit);
-    }
-    const double shrunk = last.duration(leg) / found.back()->duration(leg);
-    if (found.size() < fewest || !(shrunk < most_shrunk)) continue;
-    most_shrunk = shrunk;
-    death.leg = leg;
-    used = std::move(found);
+    const Shrinking all = shrinking(branch.points, leg);
+    if (all.length.size() < fewest || !(all.shrunk() < all_but_gone)) continue;
+    const Death death = all.death(leg);
+    const bool is_near = std::abs(death.value - all.value.front()) < near * all.seen();
+    if (is_near && death.error < well_known * all.seen()) deaths.push_back(death);
   }
-  if (used.empty()) return std::nullopt;
-  std::vector<double> length, value;
-  for (const Orbit* orbit : used) {
-    length.push_back(orbit->duration(death.leg));
-    value.push_back(orbit->values[0]);
-  }
-  death.value = at_zero(length, value);
-  const double without_first = at_zero({length.begin() + 1, length.end()}, {value.begin() + 1, value.end()}),
-               without_last = at_zero({length.begin(), length.end() - 1}, {value.begin(), value.end() - 1});
-  death.error = std::max(std::abs(without_first - death.value), std::abs(without_last - death.value));
-  const double seen = std::abs(value.front() - value.back());
-  if (!(std::abs(death.value - value.front()) < near * seen) || !(death.error < well_known * seen)) return std::nullopt;
-  return death;
+  if (deaths.empty()) return std::nullopt;
+  Death best = *std::ranges::min_element(deaths, {}, &Death::error);
+  for (const Death& other : deaths)  // what another leg's own error does not explain
+    best.error = std::max(best.error, std::abs(other.value - best.value) - other.error);
+  return best;
 }
 
 }  // namespace slapstick::orbit

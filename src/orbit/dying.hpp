@@ -9,7 +9,7 @@ namespace slapstick::orbit {
 struct Death {
   double value =
       0.0;  ///< of the parameter: extrapolated from the last points of the branch in the length of a leg, to nothing
-  double error = 0.0;   ///< what one point less, the first or the last, makes of it
+  double error = 0.0;   ///< what one point less, the first or the last, or another leg, makes of it
   std::size_t leg = 0;  ///< that leg
 };
 

@@ -1,5 +1,6 @@
 #pragma once
-/// What follows a branch, point by point. Steps and what is looked for between points: branch.cpp; changes of events: follower_changes.cpp.
+/// What follows a branch, point by point. Steps and what is looked for between points: branch.cpp; changes of events: follower_changes.cpp;
+/// onsets of chatter: follower_onsets.cpp.
 #include "orbit/path.hpp"
 #include "orbit/record.hpp"
 #include "orbit/reshape.hpp"
@@ -17,6 +18,8 @@ class Follower {
   void run(PathPoint at);
 
  private:
+  static constexpr double exactly =
+      1e-10;  ///< of the range: how well a change is known at worst, where nothing is said
   static constexpr double structure = 1e-5;  ///< of the range: at its end the model may have another structure
   [[nodiscard]] double value(const PathPoint& point) const { return point.orbit.values[0]; }
   /// The onset of a chatter is not come nearer to than its equations, of ever more impacts, are solvable.
@@ -30,9 +33,23 @@ class Follower {
   [[nodiscard]] bool at_end(double place, double error, const PathPoint& at) const;
   bool look_nearer(PathPoint& at, double length, const std::string& why);
   bool change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why);
+  /// A special point on the way: the onset of a chatter, or a change of events.
+  struct Place {
+    double value = 0.0, error = 0.0;
+    bool onset = false;
+  };
   /// What there is behind a change of events where a branch ends.
   enum class Beyond { shorter, retraced, family, jump, departure, not_followed, unknown };
-  bool end_at(SpecialPoint special, Beyond beyond, const std::string& left = {});
+  struct Found {
+    std::vector<Reshaped> next;
+    bool family = false;
+    std::string left;  ///< where a stable motion goes when there is no branch
+    [[nodiscard]] bool none() const { return next.empty(); }
+  };
+  [[nodiscard]] Found look_beyond(const PathPoint& at, const Change& change) const;
+  void run_beyond(const Change& change, Found& found) const;
+  bool pass(PathPoint& at, Change change);
+  bool end_at(const PathPoint& at, SpecialPoint special, Beyond beyond, const std::string& left = {});
   void go_on(PathPoint& at, SpecialPoint special, Reshaped next);
   bool leave_chatter(PathPoint& at);
   bool end_cascade(PathPoint& at);
@@ -41,7 +58,12 @@ class Follower {
   bool die_out(PathPoint& at);
   bool leave_edge(PathPoint& at);
   bool leave(PathPoint& at);
-  void add_onset(SpecialPoint special, const std::string& outcome);
+  void add_here(SpecialPoint special);
+  [[nodiscard]] std::optional<Branch> way_back(const PathPoint& from, const Place& place) const;
+  void add_between(Branch way);
+  void arrive(SpecialPoint special);
+  void set_out(PathPoint& at, PathPoint from);
+  bool enter_cascade(PathPoint& at, SpecialPoint special, const PathPoint& from);
   void restart(PathPoint& at, PathPoint from);
   void look_for_pairs(const PathPoint& at, const PathPoint& next, double length);
   void add(std::vector<SpecialPoint> smooth, std::size_t after);
@@ -67,7 +89,8 @@ class Follower {
   };
   std::optional<Onset> onset_;
   double step_ = 0.0;
-  int old_points_ = 0;  ///< latest points that lie on the branch as it was followed before
+  int old_points_ = 0;            ///< latest points that lie on the branch as it was followed before
+  std::optional<Place> back_to_;  ///< followed as far as there only
   bool ended_ = false;
 };
 

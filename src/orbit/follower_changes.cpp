@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "orbit/beyond.hpp"
+#include "orbit/change_kind.hpp"
 #include "orbit/dying.hpp"
 #include "orbit/extent.hpp"
 #include "orbit/hidden.hpp"
@@ -12,6 +13,7 @@
 #include "orbit/onset.hpp"
 #include "orbit/record.hpp"
 #include "orbit/special.hpp"
+#include "slapstick/base/error.hpp"
 #include "slapstick/base/text.hpp"
 
 namespace slapstick::orbit {
@@ -23,6 +25,17 @@ bool is_all_but_gone(const Orbit& orbit) {
   for (std::size_t leg = 0; leg < orbit.legs(); ++leg)
     if (!in_burst(orbit, leg) && orbit.duration(leg) < nothing * (orbit.t.back() - orbit.t.front())) return true;
   return false;
+}
+
+/// Is there a model at a value of the parameter?
+bool is_model(const Problem& problem, std::vector<double> values, double value) {
+  values[0] = value;
+  try {
+    static_cast<void>(problem.family().model(values));
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 }  // namespace
@@ -56,7 +69,6 @@ bool Follower::look_nearer(PathPoint& at, double length, const std::string& why)
 /// Is a place at the end of the range that the branch goes to, as far as it is known? What is beyond is not asked for, and may not exist, as a
 /// negative damper.
 bool Follower::at_end(double place, double error, const PathPoint& at) const {
-  constexpr double exactly = 1e-10;  // of the range
   const double left = at.watched.turn > 0.0 ? options_.to - place : place - options_.from;
   return left <= exactly * range_ + error;
 }
@@ -65,51 +77,75 @@ bool Follower::at_end(double place, double error, const PathPoint& at) const {
 bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why) {
   std::optional<Change> change = change_between(at, beyond, length);
   if (!change || fades(at.orbit, change->test.leg)) return look_nearer(at, length, why);
-  if (at_end(change->special.value, change->special.error, at)) {
+  SpecialPoint& special = change->special;
+  if (at_end(special.value, special.error, at)) {
     end("range", false);
     return false;
   }
-  if (is_all_but_gone(at.orbit) && die_out(at)) return !ended_;
+  const bool arrived = back_to_ && !back_to_->onset && std::abs(special.value - back_to_->value) <= back_to_->error;
+  if (!arrived && is_all_but_gone(at.orbit) && die_out(at)) return !ended_;
   if (change->length > 0.0) add(beside_change(problem_, at, change->length, range_), branch_.points.size() - 1);
   if (ended_) return false;
-  SpecialPoint special = std::move(change->special);
   special.after = branch_.points.size() - 1;
+  if (arrived) {
+    arrive(std::move(special));
+    return false;
+  }
   // At a touch multipliers are infinite, or 0 / 0: those of the point before say more.
   special.solution.multipliers = branch_.points.back().multipliers;
-  if (!options_.through_changes) return end_at(std::move(special), Beyond::not_followed);
-  std::vector<Reshaped> found = reshape(problem_, at.orbit, change->at, change->test, range_, options_.stop);
+  if (!options_.through_changes) return end_at(at, std::move(special), Beyond::not_followed);
+  return pass(at, std::move(*change));
+}
+
+/// The orbits behind a change, and where a stable motion goes when there is none.
+Follower::Found Follower::look_beyond(const PathPoint& at, const Change& change) const {
+  Found found;
+  found.next = reshape(problem_, at.orbit, change.at, change.test, range_, options_.stop);
   const auto of_family = [&](const Reshaped& next) { return one_of_family(problem_, next.point, range_); };
-  bool family = std::erase_if(found, of_family) > 0;
-  if (found.empty() && !family && end_cascade_with(at, special)) return !ended_;
-  std::string left;  // where a stable motion goes when there is no branch
-  if (found.empty() && !family && branch_.points.back().stable()) {
-    Behind there = behind(problem_, change->at, range_, options_.stop);
-    left = there.what;
-    family = there.family || (there.next && of_family(*there.next));
-    if (there.next && !family) found.push_back(std::move(*there.next));
-  }
-  if (found.empty() && !left.empty() && !family) return end_at(std::move(special), Beyond::jump, left);
-  if (found.empty()) {
-    family = family || begins_family(problem_, at.orbit, change->at, change->test);
-    if (!family && departs(problem_, change->at, change->test, range_))
-      return end_at(std::move(special), Beyond::departure);
-    return end_at(std::move(special), family ? Beyond::family : Beyond::unknown);
+  found.family = std::erase_if(found.next, of_family) > 0;
+  return found;
+}
+
+void Follower::run_beyond(const Change& change, Found& found) const {
+  Behind there = behind(problem_, change.at, range_, options_.stop);
+  found.left = there.what;
+  found.family = there.family || (there.next && one_of_family(problem_, there.next->point, range_));
+  if (there.next && !found.family) found.next.push_back(std::move(*there.next));
+}
+
+/// Goes on behind a change. @returns false if the branch ends
+bool Follower::pass(PathPoint& at, Change change) {
+  SpecialPoint special = std::move(change.special);
+  Found found = look_beyond(at, change);
+  if (found.none() && !found.family && end_cascade_with(at, special)) return !ended_;
+  if (found.none() && !found.family && branch_.points.back().stable()) run_beyond(change, found);
+  if (found.none()) {
+    if (!found.left.empty() && !found.family) return end_at(at, std::move(special), Beyond::jump, found.left);
+    const bool family = found.family || begins_family(problem_, at.orbit, change.at, change.test);
+    const bool departure = !family && departs(problem_, change.at, change.test, range_);
+    return end_at(at, std::move(special), family ? Beyond::family : departure ? Beyond::departure : Beyond::unknown);
   }
   const auto repeated = [&](const Reshaped& next) {
     return becomes_shorter(problem_, at.orbit, next.point.orbit, 1e-6);
   };
-  if (std::ranges::any_of(found, repeated)) return end_at(std::move(special), Beyond::shorter);
-  if (lies_on_first(problem_, branch_.points.size(), branch_, found.front().point.orbit))
-    return end_at(std::move(special), Beyond::retraced);
-  if (found.front().onset && found.front().folds && turn_round(at))
-    return true;  // back to the chatter that it has just left
-  for (std::size_t i = 1; i < found.size(); ++i) special.born.push_back(found[i].point.orbit);
-  go_on(at, std::move(special), std::move(found.front()));
+  const bool shorter = std::erase_if(found.next, repeated) > 0;
+  for (std::size_t i = shorter ? 0 : 1; i < found.next.size(); ++i) special.born.push_back(found.next[i].point.orbit);
+  if (shorter) return end_at(at, std::move(special), Beyond::shorter);
+  Reshaped& next = found.next.front();
+  if (lies_on_first(problem_, branch_.points.size(), branch_, next.point.orbit))
+    return end_at(at, std::move(special), Beyond::retraced);
+  if (next.onset && next.folds && turn_round(at)) return true;  // back to the chatter that it has just left
+  if (!next.renewed && !next.onset && special.type != SpecialType::GR) {
+    const ChangeOfEvents seen = orbit::change_between(special.solution.orbit, next.point.orbit);
+    special.type = seen.type;
+    special.what = describe(change.test, at.orbit.shape, problem_.base()) + std::string(seen.sliding);
+  }
+  go_on(at, std::move(special), std::move(next));
   return true;
 }
 
 /// The branch ends where its events change. @param left  what the motion goes over to in a jump. @returns false
-bool Follower::end_at(SpecialPoint special, Beyond beyond, const std::string& left) {
+bool Follower::end_at(const PathPoint& at, SpecialPoint special, Beyond beyond, const std::string& left) {
   std::string why;
   switch (beyond) {
     case Beyond::shorter:
@@ -135,6 +171,10 @@ bool Follower::end_at(SpecialPoint special, Beyond beyond, const std::string& le
       why = "the events change";
       break;
     case Beyond::unknown:
+      if (at_end(special.value, structure * range_, at)) {
+        end("range", false);
+        return false;
+      }
       special.outcome = "none found";
       why = "no orbit was found beyond, a jump or a failure of the search";
   }
@@ -144,84 +184,14 @@ bool Follower::end_at(SpecialPoint special, Beyond beyond, const std::string& le
   return false;
 }
 
-/// Near its onset a chatter's equations, of ever more impacts, are hardly solvable. Looks for the orbits behind the onset; where none is found, the
-/// branch ends at the onset. @returns false if it is none
-bool Follower::leave_chatter(PathPoint& at) {
-  if (!options_.through_changes || !branch_.points.back().chatter) return false;
-  constexpr double clear = 1e-3;  // nearer to the onset impacts are too many and too short to be followed
-  std::vector<Reshaped> found = reshape(problem_, at.orbit, at, std::nullopt, range_, options_.stop, clear);
-  std::erase_if(found, [](const Reshaped& next) { return !next.onset || next.folds; });
-  if (found.empty() && !chatter_lengthens(branch_)) return false;
-  const double reach = shortest_step() * range_;
-  Between about{value(at) - reach, value(at) + reach};
-  const bool release = !found.empty() && found.front().onset->release;
-  if (release) about = *found.front().onset;
-  SpecialPoint special = onset(about, branch_.points.back());
-  if (!found.empty() && !release)
-    special.error = std::max(special.error, std::abs(value(found.front().point) - value(at)));
-  add_onset(std::move(special), found.empty() ? "the branch ends" : "persistence");
-  if (!found.empty()) {
-    restart(at, std::move(found.front().point));
-    onset_ = Onset{reversed(at), branch_.points.size(), branch_.special.size(), chatters(at.orbit)};
-  } else {
-    end("CH at " + shown(value(at)) + ": the complete chatter ends there, and no orbit with impacts was found beyond",
-        true);
-  }
-  return true;
-}
-
-/// Behind the onset of a chatter one direction leads on, the other back towards the onset, through ever more impacts. @returns false if it was not that
-bool Follower::turn_round(PathPoint& at) {
-  constexpr double near = 1e-3;  // of the range
-  if (!onset_ || chatters(branch_.points.back().orbit) > onset_->chatters ||
-      std::abs(value(at) - onset_->other_way.orbit.values[0]) > near * range_)
-    return false;
-  at = std::move(onset_->other_way);
-  branch_.points.resize(onset_->points);
-  branch_.special.resize(onset_->special);
-  onset_.reset();
-  before_.reset();
-  step_ = options_.step;
-  return true;
-}
-
-/// Where the impacts of a cascade have become too short to be followed: its limit, and the complete chatter beyond.
-/// @returns false if this is no cascade
-bool Follower::end_cascade(PathPoint& at) {
-  constexpr double near = 0.02;  // of the range, from the last point to the limit
-  if (!options_.through_changes || branch_.points.back().chatter) return false;
-  const std::optional<CascadeLimit> limit = cascade_limit(branch_);
-  if (!limit || std::abs(limit->value - value(at)) > near * range_) return false;
-  SpecialPoint special = onset({limit->value, limit->value, false}, branch_.points.back());
-  special.error = limit->error;
-  special.what += " (a cascade, ratio " + shown(std::round(1e4 * limit->ratio) / 1e4) + ")";
-  std::optional<Reshaped> next = beyond_cascade(problem_, at, limit->value, range_, options_.stop);
-  if (next && lies_on(problem_, branch_, next->point.orbit)) next.reset();
-  add_onset(std::move(special), next ? "persistence" : "the branch ends");
-  if (next)
-    restart(at, std::move(next->point));
-  else
-    end("CH at " + shown(limit->value) +
-            ": a cascade, which gathers there, and no orbit with the chatter was found beyond",
-        true);
-  return true;
-}
-
-/// The same where the cascade's next change is known, but not what lies behind it.
-bool Follower::end_cascade_with(PathPoint& at, SpecialPoint last) {
-  last.outcome = "one of infinitely many changes";
-  branch_.special.push_back(std::move(last));
-  if (end_cascade(at)) return true;
-  branch_.special.pop_back();
-  return false;
-}
-
 /// Where legs shrink to nothing together and steps lead no further: the place, by extrapolation, and what the motion does beyond.
 /// @returns false if none shrinks
 bool Follower::die_out(PathPoint& at) {
+  constexpr double near = 1e-3;
   if (!options_.through_changes) return false;
   const std::optional<Death> death = dies_out(branch_);
-  if (!death) return false;
+  if (!death || std::abs(death->value - value(at)) > near * range_) return false;
+  if (!is_model(problem_, at.orbit.values, death->value)) return false;
   if (at_end(death->value, death->error, at)) {
     end("range", false);
     return true;
@@ -248,7 +218,7 @@ bool Follower::die_out(PathPoint& at) {
     restart(at, std::move(beyond.next->point));
   } else {
     const bool jump = !beyond.family && !beyond.what.empty();
-    end_at(std::move(special), beyond.family ? Beyond::family : jump ? Beyond::jump : Beyond::unknown, beyond.what);
+    end_at(at, std::move(special), beyond.family ? Beyond::family : jump ? Beyond::jump : Beyond::unknown, beyond.what);
   }
   return true;
 }
@@ -267,10 +237,11 @@ bool Follower::leave(PathPoint& at) {
   return leave_edge(at) || leave_chatter(at) || turn_round(at) || end_cascade(at) || die_out(at);
 }
 
-void Follower::add_onset(SpecialPoint special, const std::string& outcome) {
-  special.outcome = outcome;
-  special.after = branch_.points.size() - 1;
-  branch_.special.push_back(std::move(special));
+/// Goes on from an orbit that the branch has.
+void Follower::set_out(PathPoint& at, PathPoint from) {
+  at = std::move(from);
+  before_.reset();
+  step_ = std::min(step_, options_.step);
 }
 
 /// Goes on from another orbit, if that is not outside the range.
@@ -292,12 +263,21 @@ void Follower::go_on(PathPoint& at, SpecialPoint special, Reshaped next) {
     branch_.special.push_back(std::move(special));
   } else if (next.onset) {
     SpecialPoint here = onset(*next.onset, special.solution);
-    const std::string outcome = std::exchange(special.outcome, "one of infinitely many changes");
+    here.outcome = std::exchange(special.outcome, "one of infinitely many changes");
     if (begins) branch_.special.push_back(special);
-    add_onset(std::move(here), outcome);
+    if (begins && back_to_ && back_to_->onset) return arrive(std::move(here));
+    if (!begins && !next.onset->release && enter_cascade(at, here, next.point)) return;
+    add_here(std::move(here));
     if (!begins) branch_.special.push_back(std::move(special));
   } else if (!next.renewed) {
+    const Place here{special.value, special.error + next.error + exactly * range_, false};
     branch_.special.push_back(std::move(special));
+    if (!back_to_ && next.apart > here.error) {
+      if (std::optional<Branch> way = way_back(reversed(next.point), here)) {
+        add_between(std::move(*way));
+        return set_out(at, std::move(next.point));
+      }
+    }
     if (next.length > 0.0)
       add(beside_change(problem_, reversed(next.point), next.length, range_), branch_.points.size() - 1);
     if (ended_) return;

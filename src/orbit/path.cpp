@@ -115,6 +115,25 @@ std::optional<PathPoint> step_to(const Problem& problem, const PathPoint& from, 
   return std::nullopt;
 }
 
+namespace {
+
+/// What rounding leaves of a located place: on a smooth branch the middle of three near points lies in the middle.
+double rounding_at(const Problem& problem, const PathPoint& from, const Located& located, double length, double range,
+                   const std::function<double(const Watched&)>& f) {
+  constexpr double beside = 1e-5;  // of the step: over so much the branch is straight to 1e-12
+  const double h = beside * length;
+  const auto left = step_to(problem, from, located.length - h, range),
+             right = step_to(problem, from, located.length + h, range);
+  if (!left || !right) return 0.0;
+  const auto off = [](double a, double middle, double b) { return 0.5 * std::abs(a + b - 2.0 * middle); };
+  const double f_left = f(left->watched), f_right = f(right->watched), f_here = f(located.point.watched);
+  const double v_left = left->orbit.values[0], v_right = right->orbit.values[0], v_here = located.point.orbit.values[0];
+  const double across = f_right != f_left ? std::abs((v_right - v_left) / (f_right - f_left)) : 0.0;
+  return off(v_left, v_here, v_right) + across * off(f_left, f_here, f_right);
+}
+
+}  // namespace
+
 std::optional<Located> locate(const Problem& problem, const PathPoint& from, double length, double range,
                               const std::function<double(const Watched&)>& f, double f_to) {
   constexpr double enough = 1e-13;
@@ -139,6 +158,7 @@ std::optional<Located> locate(const Problem& problem, const PathPoint& from, dou
     if (!left && side == -1) f_a *= 0.5;
     side = left ? 1 : -1;
   }
+  if (best) best->error = std::max(best->error, rounding_at(problem, from, *best, length, range, f));
   return best;
 }
 

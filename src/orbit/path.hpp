@@ -45,7 +45,7 @@ struct PathPoint {
 struct Located {
   PathPoint point;
   double length = 0.0;
-  double error = 0.0;  ///< last change of the parameter
+  double error = 0.0;  ///< of the parameter: its last change, or what rounding leaves
 };
 [[nodiscard]] std::optional<Located> locate(const Problem& problem, const PathPoint& from, double length, double range,
                                             const std::function<double(const Watched&)>& f, double f_to);

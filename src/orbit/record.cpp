@@ -13,7 +13,7 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double far_off = 0.3;        ///< a cycle's length may be this much off, relative to it
-constexpr double same_instant = 1e-8;  ///< periods
+constexpr double same_instant = 1e-8;  ///< of a cycle
 constexpr long most_events_autonomous = 400;
 
 /// What ended the last segment; empty for a touch that changes nothing, or none of a leg's endings.
@@ -221,9 +221,10 @@ class Check {
 /// Runs on to the limit of the burst that an event is part of.
 bool Check::to_chatter(Motion& motion, Seen seen) const {
   constexpr int most = 1000;
+  const double cycle = orbit_.t.back() - orbit_.t.front();
   bool touched = false;
   for (int k = 0; k < most && seen.leg.ending != Ending::chatter; ++k) {
-    auto next = next_event(motion, 0, motion.time().plus(1.0), touched, nullptr);
+    auto next = next_event(motion, 0, motion.time().plus(cycle), touched, nullptr);
     if (!next) return false;
     seen = std::move(*next);
   }
@@ -239,7 +240,7 @@ bool Check::run(std::size_t first, std::size_t next) {
   for (std::size_t i = first; i < next; ++i) {
     const std::size_t leg = i % orbit_.legs();
     const double due = orbit_.t[leg + 1] + (i >= orbit_.legs() ? cycle : 0.0);
-    const double tolerance = fades(orbit_, leg) ? 0.5 * cycle : same_instant * std::max(1.0, cycle);
+    const double tolerance = fades(orbit_, leg) ? 0.5 * cycle : same_instant * cycle;
     const std::optional<Seen> seen = next_event(motion, 0, Instant{}.plus(due + 2.0 * tolerance), touched, nullptr);
     if (touched) return refuse("the motion grazes in leg " + std::to_string(leg + 1));
     const Leg* wanted = &orbit_.shape.legs[leg];

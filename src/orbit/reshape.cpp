@@ -8,6 +8,7 @@
 #include "orbit/beyond.hpp"
 #include "orbit/coincident.hpp"
 #include "orbit/cyclic.hpp"
+#include "orbit/extent.hpp"
 #include "orbit/record.hpp"
 #include "orbit/same_motion.hpp"
 #include "orbit/special.hpp"
@@ -153,23 +154,38 @@ std::optional<Orbit> solved(const Problem& problem, const Orbit& guess) {
   return std::nullopt;
 }
 
-/// The branch of a shape of which the orbit at the change is one already, by arclength to either side of it.
+/// Has Newton's method led to no other orbit than where it began?
+bool stayed(const Problem& problem, const Orbit& from, const Orbit& to) {
+  constexpr double near =
+      1e-3;  // of the orbit's extent and cycle: places where legs vanish are known to the root of 1e-10
+  const Extent extent(problem, from);
+  for (std::size_t i = 0; i < from.legs(); ++i)
+    if (extent.distance(from.x[i], to.x[i]) > near ||
+        std::abs(to.t[i] - from.t[i]) > near * (from.t.back() - from.t.front()))
+      return false;
+  return true;
+}
+
+/// The branch of a shape of which the orbit at the change is one already, by arclength to either side of it: as near as the simulator can tell what
+/// it does.
 std::optional<Reshaped> leaving(const Problem& problem, const PathPoint& change, double sense_before,
                                 const Orbit& shape, double range) {
   Orbit orbit = shape;
-  std::vector<Condition> conditions = fixed_parameters(problem, orbit.legs());
-  const NewtonResult result = solve(problem, orbit, conditions, 12);
+  const NewtonResult result = solve(problem, orbit, fixed_parameters(problem, orbit.legs()), 12);
   if (!result.refusal.empty()) return std::nullopt;  // pieces that make no cycle
   if (!result.converged) orbit = shape;              // singular at the change itself: it is the solution
+  if (!stayed(problem, shape, orbit)) return std::nullopt;
   const double critical = change.orbit.values[0];
-  if (std::abs(orbit.values[0] - critical) > 1e-9 * range) return std::nullopt;
   const PathPoint start = point_of(problem, orbit, range, {});
   for (const double sense : {1.0, -1.0}) {
-    for (const double length : {1e-4, 1e-3, 5e-3}) {
+    for (const double length : {1e-6, 1e-5, 1e-4, 1e-3, 5e-3}) {
       std::optional<PathPoint> next = step_to(problem, sense > 0.0 ? start : reversed(start), length, range);
       if (!next || !is_motion(problem, next->orbit)) continue;
-      const bool folds = (next->orbit.values[0] - critical) * sense_before < 0.0;
-      return Reshaped{std::move(*next), folds, false, {}, length};
+      constexpr double clear = 1e-5;  // as find_change looks back
+      const auto farther = step_to(problem, sense > 0.0 ? start : reversed(start), std::max(clear, length), range);
+      const double away = (farther ? *farther : *next).orbit.values[0] - critical;
+      const bool folds = away * sense_before < 0.0;
+      return Reshaped{std::move(*next), folds, false, {}, length, 0.0, 0.0};
     }
   }
   return std::nullopt;
@@ -235,17 +251,22 @@ Between onset_between(const PathPoint& change, const std::optional<TestValue>& t
 /// lie infinitely many changes, which gather where the one with the chatter begins: there the nearest of them stands for all.
 std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, const std::optional<TestValue>& test,
                              double sense_before, const Orbit& orbit, double length, double range) {
-  constexpr double same = 1e-7, gathering = 30.0;
+  constexpr double same = 1e-7, gathering = 30.0, much_the_same = 0.01, alike = 0.1;
   const double critical = change.orbit.values[0], away = orbit.values[0] - critical;
   if (away == 0.0 || std::abs(away) > 10.0 * length * range) return std::nullopt;
-  Reshaped next{point_of(problem, orbit, range, {}), away * sense_before < 0.0, false, {}, 0.0};
+  Reshaped next{point_of(problem, orbit, range, {}), away * sense_before < 0.0, false, {}, 0.0, 0.0, 0.0};
   if (next.point.watched.turn * away < 0.0) next.point = reversed(std::move(next.point));
   const bool chatter = chatters(orbit) + chatters(change.orbit) > 0,
              gathers = chatters(orbit) != chatters(change.orbit);
   const auto begins = beginning(problem, next.point, critical, gathers ? gathering * length : same, range);
-  if (!begins && !(chatter && resembles(problem, orbit, change.orbit, 0.01))) return std::nullopt;
+  if (!begins && !(chatter && resembles(problem, orbit, change.orbit, much_the_same))) return std::nullopt;
+  if (begins && gathers && !resembles(problem, orbit, change.orbit, alike)) return std::nullopt;
   next.renewed = chatter && !gathers && !begins;
-  if (begins) next.length = begins->located.length;
+  if (begins) {
+    next.length = begins->located.length;
+    next.apart = std::abs(begins->located.point.orbit.values[0] - critical);
+    next.error = begins->located.error;
+  }
   if (gathers) next.onset = onset_between(change, test, orbit, begins);
   return next;
 }
@@ -267,6 +288,8 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
   if (test)
     for (const Orbit& shape : coincident(problem, before, change.orbit, *test))
       add(leaving(problem, change, sense, shape, range));
+  std::ranges::stable_sort(all, {},
+                           &Reshaped::length);  // what is a motion farther off only has changed once more on the way
   const double longest =
       chatters(change.orbit) > 0 ? 1e-2 : 1e-3;  // near its onset a chatter's equations are hardly solvable
   for (double length : {1e-6, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2}) {
@@ -288,16 +311,23 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
   return all;
 }
 
+/// Just behind a singular change a multiplier may be very near 1. A family's own equations are singular: they lead nowhere.
 bool one_of_family(const Problem& problem, const PathPoint& point, double range) {
-  constexpr double on = 1e-3;  // arclength: just behind a singular change a multiplier may be very near 1
   if (isolated(point.watched.multipliers)) return false;
-  const std::optional<PathPoint> next = step_to(problem, point, on, range);
-  return !next || !isolated(next->watched.multipliers);
+  const auto leads_out = [&](double length) {
+    const std::optional<PathPoint> next = step_to(problem, point, length, range);
+    return next && isolated(next->watched.multipliers);
+  };
+  return !leads_out(1e-3) && !leads_out(1e-4);
 }
 
 bool begins_family(const Problem& problem, const Orbit& before, const PathPoint& change, const TestValue& test) {
-  const std::vector<Orbit> shapes = coincident(problem, before, change.orbit, test);
-  return std::ranges::any_of(shapes, [&](const Orbit& shape) { return !describe(problem, shape, nullptr).isolated(); });
+  try {
+    const auto of_family = [&](const Orbit& shape) { return !describe(problem, shape, nullptr).isolated(); };
+    return std::ranges::any_of(coincident(problem, before, change.orbit, test), of_family);
+  } catch (const NumericalError&) {  // a shape whose modes have no such guards
+    return false;
+  }
 }
 
 std::optional<Reshaped> beyond_cascade(const Problem& problem, const PathPoint& last, double limit, double range,
@@ -315,7 +345,12 @@ std::optional<Reshaped> beyond_cascade(const Problem& problem, const PathPoint& 
         if (!motion) continue;
         const auto settled = settle(*there, *motion, few, last.orbit.shape.n, stop);
         if (!settled || !settled->chatter || !resembles(problem, settled->orbit, last.orbit, 0.1)) continue;
-        Reshaped next{point_of(problem, settled->orbit, range, {}), false, false, Between{limit, values[0], false},
+        Reshaped next{point_of(problem, settled->orbit, range, {}),
+                      false,
+                      false,
+                      Between{limit, values[0], false},
+                      0.0,
+                      0.0,
                       0.0};
         if (next.point.watched.turn * side < 0.0) next.point = reversed(std::move(next.point));
         return next;

@@ -17,6 +17,8 @@ struct Reshaped {
   bool renewed = false;          ///< the same motion, whose chatter is summed from another impact on: no change
   std::optional<Between> onset;  ///< of a complete chatter, which begins or ends there
   double length = 0.0;           ///< from the change to there; 0 where that is not known
+  double apart = 0.0;  ///< how far from the change its events begin, in the parameter: else changes lie between ..
+  double error = 0.0;  ///< .. and how well that is known
 };
 
 /// @param before  a point of the old branch on the way to

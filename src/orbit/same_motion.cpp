@@ -107,22 +107,30 @@ double apart(const Problem& problem, const Orbit& a, const Orbit& b) {
 }
 
 bool resembles(const Problem& problem, const Orbit& a, const Orbit& b, double much_the_same) {
-  constexpr double long_enough = 0.1;  // of a cycle
+  constexpr double long_enough = 0.1, most = 0.5;  // of a cycle; of what is looked at
+  constexpr std::array parts = {0.1, 0.3, 0.5, 0.7, 0.9};
   const States of_a(problem, a), of_b(problem, b);
   const Extent extent(problem, a);
   const auto alike = [&](std::size_t i, double t_a, std::size_t j, double t_b) {
     if (!(a.shape.legs[i].states == b.shape.legs[j].states)) return false;
     return extent.distance(of_a.state_at(t_a), of_b.state_at(t_b)) <= much_the_same;
   };
-  for (std::size_t i = 0; i < a.legs(); ++i) {
-    if (a.duration(i) < long_enough * (a.t.back() - a.t.front())) continue;
-    const double middle = a.t[i] + 0.5 * a.duration(i);
+  const auto is_in_b = [&](std::size_t i, double t) {
     for (int period = 0; period < b.shape.n; ++period)
-      if (alike(i, middle, of_b.leg_at(middle + period), middle + period)) return true;
+      if (alike(i, t, of_b.leg_at(t + period), t + period)) return true;
     for (std::size_t j = 0; b.shape.n == 0 && j < b.legs(); ++j)
       if (alike(i, a.t[i], j, b.t[j])) return true;
+    return false;
+  };
+  double all = 0.0, same = 0.0;
+  for (std::size_t i = 0; i < a.legs(); ++i) {
+    if (a.duration(i) < long_enough * (a.t.back() - a.t.front())) continue;
+    for (const double part : parts) {
+      all += a.duration(i);
+      if (is_in_b(i, a.t[i] + part * a.duration(i))) same += a.duration(i);
+    }
   }
-  return false;
+  return same > 0.0 && same >= most * all;
 }
 
 double apart_from_later(const Problem& problem, const Orbit& orbit, int periods) {

@@ -12,8 +12,8 @@ namespace slapstick::orbit {
 /// relative to their largest: rounding for one motion, chattering ones too. Infinite without forcing, where there is no phase, and for other n.
 [[nodiscard]] double apart(const Problem& problem, const Orbit& a, const Orbit& b);
 
-/// Is a long leg of one much the same in the other: the same mode in its middle, and the state to this part of the extent of a? Without forcing, where phases mean
-/// nothing, where a leg of that mode begins.
+/// Are the long legs of a, by most of their time, much the same in b: the same mode at the same instant, and the state to this part of the extent of a? Without
+/// forcing, where phases mean nothing, where a leg of that mode begins.
 [[nodiscard]] bool resembles(const Problem& problem, const Orbit& a, const Orbit& b, double much_the_same);
 
 /// `apart` of an orbit and itself so many periods later.

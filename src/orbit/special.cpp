@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "orbit/change_kind.hpp"
 #include "orbit/crossing.hpp"
 #include "orbit/extent.hpp"
 #include "orbit/record.hpp"
@@ -36,10 +37,6 @@ double rotation(const Watched& watched) {
     angle = std::arg(multiplier) / (2.0 * std::numbers::pi);
   }
   return angle;
-}
-
-std::string stick_of(const System& system, int friction) {
-  return system.contact_name(static_cast<int>(system.model().stops.size()) + friction);
 }
 
 /// The branch that crosses at a BP. Of two sides that are images of one another, but for what is of second order in their distance, one is kept.
@@ -116,88 +113,6 @@ std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const Pa
   return points;
 }
 
-namespace {
-
-bool sticks(const Leg& leg, int friction) { return leg.states.frictions[friction] == mode::FrictionState::stick; }
-
-/// The legs about one.
-struct Neighbours {
-  const Leg& before;
-  const Leg& leg;
-  const Leg& next;
-};
-
-Neighbours about(const Itinerary& shape, std::size_t leg) {
-  const std::size_t count = shape.legs.size();
-  return {shape.legs[(leg + count - 1) % count], shape.legs[leg], shape.legs[(leg + 1) % count]};
-}
-
-/// The friction contact whose stick or reversal is gained or lost, or goes on without a slip, where a leg shrinks to nothing; -1 if there is none.
-int stick_at_stake(const TestValue& test, const Itinerary& shape) {
-  const auto [before, leg, next] = about(shape, test.leg);
-  if (test.starts_at_end && mode::of_friction(test.kind)) return test.contact;
-  for (int i = 0; i < static_cast<int>(leg.states.frictions.size()); ++i)
-    if (leg.states.frictions[i] != before.states.frictions[i] && leg.states.frictions[i] != next.states.frictions[i] &&
-        !sticks(before, i) && !sticks(next, i))
-      return i;
-  return -1;
-}
-
-/// How sliding changes where a leg of this contact shrinks to nothing, by the legs about it (di Bernardo et al. 2008, section 8.2).
-std::string_view kind_of_sliding(const TestValue& test, const Itinerary& shape, int friction) {
-  const auto [before, leg, next] = about(shape, test.leg);
-  if (sticks(leg, friction)) {
-    const bool crosses = before.states.frictions[friction] != next.states.frictions[friction];
-    return crosses ? " (crossing-sliding)" : " (grazing-sliding)";
-  }
-  const int held = (sticks(before, friction) ? 1 : 0) + (sticks(next, friction) ? 1 : 0);
-  return held == 2 ? " (adding-sliding)" : held == 1 ? " (switching-sliding)" : " (grazing-sliding)";
-}
-
-}  // namespace
-
-SpecialType type_of(const TestValue& test, const Itinerary& shape) {
-  if (test.test == Test::duration) return stick_at_stake(test, shape) >= 0 ? SpecialType::SL : SpecialType::CO;
-  if (test.test == Test::no_stick || mode::of_friction(test.kind)) return SpecialType::SL;
-  return SpecialType::GR;
-}
-
-std::string describe(const TestValue& test, const Itinerary& shape, const System& system) {
-  const std::string leg = " in leg " + std::to_string(test.leg + 1);
-  const std::string after = " at " + std::string(name(shape.legs[test.leg].event)) + " " +
-                            system.contact_name(shape.legs[test.leg].event_contact);
-  switch (test.test) {
-    case Test::duration: {
-      const int friction = stick_at_stake(test, shape);
-      return "leg " + std::to_string(test.leg + 1) + " (" +
-             system.mode_name(system.mode_id(shape.legs[test.leg].states)) + ") shrinks to nothing" +
-             std::string(friction < 0 ? "" : kind_of_sliding(test, shape, friction));
-    }
-    case Test::no_stick:
-      return "the holding force of " + stick_of(system, test.contact) + " comes to static friction" + after +
-             " (crossing-sliding)";
-    case Test::speed:
-      return test.kind == mode::GuardKind::gap ? "the speed of the impact" + after + " goes to zero"
-                                               : "the rate of the guard" + after + " goes to zero";
-    case Test::guard:
-      break;
-  }
-  switch (test.kind) {
-    case mode::GuardKind::gap:
-      return "the gap of " + system.contact_name(test.contact) + " touches zero" + leg;
-    case mode::GuardKind::slip:
-      return "the velocity of " + stick_of(system, test.contact) + " touches zero" + leg + " (grazing-sliding)";
-    case mode::GuardKind::stick_above:
-    case mode::GuardKind::stick_below:
-      return "the holding force of " + stick_of(system, test.contact) + " touches static friction" + leg +
-             (test.at == 0.0 ? " (switching-sliding)" : " (adding-sliding)");
-    case mode::GuardKind::press:
-      return "the force of " + system.contact_name(test.contact) + " touches zero" + leg;
-    default:
-      return "a compliant stop touches" + leg;
-  }
-}
-
 /// Where a leg shrinks to nothing between two zeros of one guard, the equations are singular: there by interpolation.
 std::optional<Located> locate_margin(const Problem& problem, const PathPoint& from, const PathPoint& to, double length,
                                      double range, std::size_t test) {
@@ -219,8 +134,8 @@ std::optional<Located> locate_margin(const Problem& problem, const PathPoint& fr
     if (sharper && (!best || sharper->error < best->error)) best = std::move(sharper);
     if (best && best->error <= enough * range) break;
   }
-  // A leg without length solves its equation anywhere: an interpolation is better than such a place, whatever its error.
-  return best && (empty || !(located && located->error < best->error)) ? best : located;
+  if (empty) return best;  // a leg without length solves its equation anywhere
+  return best && !(located && located->error < best->error) ? best : located;
 }
 
 namespace {
@@ -232,6 +147,16 @@ bool changes_there(const Problem& problem, const PathPoint& from, double length,
   const std::optional<PathPoint> before = step_to(problem, from, std::max(0.5 * place, place - beside), range),
                                  behind = step_to(problem, from, place + beside, range);
   return (!before || is_motion(problem, before->orbit)) && (!behind || !is_motion(problem, behind->orbit));
+}
+
+/// The sense in which the parameter goes as the branch comes to a place, given to its tangent: where a graze has no memory, as before a complete chatter,
+/// the parameter is a square of the impact's speed, and at the graze itself the tangent says nothing.
+void look_back(const Problem& problem, const PathPoint& from, double range, Located& located) {
+  constexpr double beside = 1e-5;  // arclength
+  const auto before = step_to(problem, from, std::max(0.5 * located.length, located.length - beside), range);
+  if (!before) return;
+  const double sense = located.point.orbit.values[0] - before->orbit.values[0];
+  located.point.watched.turn = std::copysign(located.point.watched.turn, sense);
 }
 
 using Candidates = std::vector<std::pair<std::size_t, Located>>;
@@ -274,6 +199,7 @@ std::optional<Change> find_change(const Problem& problem, const PathPoint& from,
   in_order(candidates, from.watched.tests, length, range);
   for (auto& [test, located] : candidates) {
     if (!changes_there(problem, from, length, located.length, range)) continue;
+    look_back(problem, from, range, located);
     Change change;
     change.test = located.point.watched.tests[test];
     change.special.test = test;
@@ -281,6 +207,7 @@ std::optional<Change> find_change(const Problem& problem, const PathPoint& from,
     change.special.value = located.point.orbit.values[0];
     change.special.error = located.error;
     change.special.what = describe(change.test, from.orbit.shape, problem.base());
+    change.special.what += kind_of_sliding(change.test, from.orbit.shape);
     change.special.solution = describe(problem, located.point.orbit, nullptr);
     change.at = std::move(located.point);
     change.length = located.length;

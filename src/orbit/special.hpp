@@ -26,8 +26,4 @@ struct Change {
 /// The function whose zero a special point is.
 [[nodiscard]] double defining(const SpecialPoint& point, const Watched& watched);
 
-/// What a test's zero means: its type, and in words.
-[[nodiscard]] SpecialType type_of(const TestValue& test, const Itinerary& shape);
-[[nodiscard]] std::string describe(const TestValue& test, const Itinerary& shape, const System& system);
-
 }  // namespace slapstick::orbit

@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "orbit/follower.hpp"
+#include "orbit/lies_on.hpp"
+#include "orbit/onset.hpp"
+#include "orbit/two_ways.hpp"
+#include "slapstick/base/text.hpp"
+
+namespace slapstick::orbit {
+
+void Follower::add_here(SpecialPoint special) {
+  special.after = branch_.points.size() - 1;
+  branch_.special.push_back(std::move(special));
+}
+
+/// Where it was sent to.
+void Follower::arrive(SpecialPoint special) {
+  add_here(std::move(special));
+  back_to_.reset();
+  end("there", false);
+}
+
+/// From an orbit behind a place back to it; the place is the last special point. Empty if the branch does not lead there.
+std::optional<Branch> Follower::way_back(const PathPoint& from, const Place& place) const {
+  constexpr double widest = 30.0;  // of the distance between the place and the orbit
+  constexpr int most_points = 300;
+  const double reach = widest * std::abs(value(from) - place.value);
+  ContinuationOptions near = options_;
+  near.from = std::max(options_.from, place.value - reach);
+  near.to = std::min(options_.to, place.value + reach);
+  near.most_points = most_points;
+  Branch way;
+  way.points.push_back(solution_of(from, nullptr));
+  Follower back(problem_, near, way);
+  back.range_ = range_;
+  back.back_to_ = place;
+  back.run(from);
+  if (back.back_to_) return std::nullopt;  // not reached
+  return way;
+}
+
+/// Adds the orbits between a place, which the branch has come to, and an orbit beyond it, from which they were followed back.
+void Follower::add_between(Branch way) {
+  way.special.pop_back();  // the place itself
+  Branch single;
+  single.points.push_back(way.points.front());
+  Branch all = joined(std::move(way), std::move(single), &Branch::special);
+  for (SpecialPoint& point : all.special) {
+    point.after += branch_.points.size();
+    branch_.special.push_back(std::move(point));
+  }
+  std::ranges::move(all.points, std::back_inserter(branch_.points));
+}
+
+/// Goes on behind the onset of a chatter with the cascade that gathers there, from its end on. @returns false if that is not to be followed
+bool Follower::enter_cascade(PathPoint& at, SpecialPoint special, const PathPoint& from) {
+  if (back_to_) return false;
+  for (const PathPoint& start : {reversed(from), from}) {
+    std::optional<Branch> way = way_back(start, {special.value, 0.0, true});
+    if (!way) continue;
+    const SpecialPoint& limit = way->special.back();
+    if (limit.error < special.error) {
+      special.value = limit.value;
+      special.error = limit.error;
+      special.what = limit.what;
+    }
+    add_here(std::move(special));
+    add_between(std::move(*way));
+    set_out(at, reversed(start));
+    return true;
+  }
+  return false;
+}
+
+/// Near its onset a chatter's equations, of ever more impacts, are hardly solvable. Looks for the orbits behind the onset; where none is found, the
+/// branch ends at the onset. @returns false if it is none
+bool Follower::leave_chatter(PathPoint& at) {
+  if (!options_.through_changes || !branch_.points.back().chatter) return false;
+  constexpr double clear = 1e-3;  // nearer to the onset impacts are too many and too short to be followed
+  std::vector<Reshaped> found = reshape(problem_, at.orbit, at, std::nullopt, range_, options_.stop, clear);
+  std::erase_if(found, [](const Reshaped& next) { return !next.onset || next.folds; });
+  if (found.empty() && !chatter_lengthens(branch_)) return false;
+  const double reach = shortest_step() * range_;
+  Between about{value(at) - reach, value(at) + reach};
+  const bool release = !found.empty() && found.front().onset->release;
+  if (release) about = *found.front().onset;
+  SpecialPoint special = onset(about, branch_.points.back());
+  if (!found.empty() && !release)
+    special.error = std::max(special.error, std::abs(value(found.front().point) - value(at)));
+  special.outcome = found.empty() ? "the branch ends" : "persistence";
+  if (!found.empty() && !release && enter_cascade(at, special, found.front().point)) return true;
+  add_here(std::move(special));
+  if (!found.empty()) {
+    restart(at, std::move(found.front().point));
+    onset_ = Onset{reversed(at), branch_.points.size(), branch_.special.size(), chatters(at.orbit)};
+  } else {
+    end("CH at " + shown(value(at)) + ": the complete chatter ends there, and no orbit with impacts was found beyond",
+        true);
+  }
+  return true;
+}
+
+/// Behind the onset of a chatter one direction leads on, the other back towards the onset, through ever more impacts. @returns false if it was not that
+bool Follower::turn_round(PathPoint& at) {
+  constexpr double near = 1e-3;  // of the range
+  if (!onset_ || chatters(branch_.points.back().orbit) > onset_->chatters ||
+      std::abs(value(at) - onset_->other_way.orbit.values[0]) > near * range_)
+    return false;
+  at = std::move(onset_->other_way);
+  branch_.points.resize(onset_->points);
+  branch_.special.resize(onset_->special);
+  onset_.reset();
+  before_.reset();
+  step_ = options_.step;
+  return true;
+}
+
+/// Where the impacts of a cascade have become too short to be followed: its limit, and the complete chatter beyond.
+/// @returns false if this is no cascade
+bool Follower::end_cascade(PathPoint& at) {
+  constexpr double near = 0.02;  // of the range, from the last point to the limit
+  if (!options_.through_changes || branch_.points.back().chatter) return false;
+  const std::optional<CascadeLimit> limit = cascade_limit(branch_);
+  if (!limit || std::abs(limit->value - value(at)) > near * range_) return false;
+  SpecialPoint special = onset({limit->value, limit->value, false}, branch_.points.back());
+  special.error = limit->error;
+  special.what += " (a cascade, ratio " + shown(std::round(1e4 * limit->ratio) / 1e4) + ")";
+  if (back_to_) {
+    if (back_to_->onset) arrive(std::move(special));
+    return ended_;
+  }
+  std::optional<Reshaped> next = beyond_cascade(problem_, at, limit->value, range_, options_.stop);
+  if (next && lies_on(problem_, branch_, next->point.orbit)) next.reset();
+  special.outcome = next ? "persistence" : "the branch ends";
+  add_here(std::move(special));
+  if (next)
+    restart(at, std::move(next->point));
+  else
+    end("CH at " + shown(limit->value) +
+            ": a cascade, which gathers there, and no orbit with the chatter was found beyond",
+        true);
+  return true;
+}
+
+/// The same where the cascade's next change is known, but not what lies behind it.
+bool Follower::end_cascade_with(PathPoint& at, SpecialPoint last) {
+  last.outcome = "one of infinitely many changes";
+  branch_.special.push_back(std::move(last));
+  if (end_cascade(at)) return true;
+  branch_.special.pop_back();
+  return false;
+}
+
+}  // namespace slapstick::orbit

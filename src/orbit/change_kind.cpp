@@ -97,8 +97,8 @@ Slides without(const Slides& slides, std::size_t run) {
 }
 
 /// By the shortest of the runs without which the longer sequence is the shorter one; where none is that, as in symmetric orbits, which change in several
-/// places at once, by the shortest.
-std::string_view kind_between(const Slides& a, const Slides& b) {
+/// places at once, by the shortest. In a burst of impacts there are shorter ones.
+std::string_view kind_between(const Slides& a, const Slides& b, bool chatters) {
   const Slides& longer = a.size() > b.size() ? a : b;
   const Slides& shorter = a.size() > b.size() ? b : a;
   if (longer.size() == shorter.size()) return {};
@@ -110,6 +110,7 @@ std::string_view kind_between(const Slides& a, const Slides& b) {
     if (briefer(shortest)) shortest = k;
     if (briefer(added) && same_cycle(without(longer, k), shorter)) added = k;
   }
+  if (!added && chatters) return {};
   const std::size_t run = added ? *added : *shortest, count = longer.size();
   return kind_of_run(longer[(run + count - 1) % count].state, longer[run].state, longer[(run + 1) % count].state);
 }
@@ -196,12 +197,13 @@ std::string_view kind_of_sliding(const TestValue& test, const Itinerary& shape) 
 
 ChangeOfEvents change_between(const Orbit& here, const Orbit& beyond) {
   ChangeOfEvents change;
+  const bool chatter = chatters(here) + chatters(beyond) > 0;
   for (std::size_t i = 0; i < here.shape.legs[0].states.frictions.size(); ++i) {
     const auto of = [i](const mode::ContactStates& states) { return states.frictions[i]; };
     const Slides a = runs<FrictionState>(here, of), b = runs<FrictionState>(beyond, of);
     if (same_cycle(a, b)) continue;
     change.type = SpecialType::SL;
-    if (change.sliding.empty()) change.sliding = kind_between(a, b);
+    if (change.sliding.empty()) change.sliding = kind_between(a, b, chatter);
   }
   if (stops_differ(here, beyond)) return {SpecialType::GR, {}};
   return change;

@@ -43,14 +43,16 @@ class Follower {
   struct Found {
     std::vector<Reshaped> next;
     bool family = false;
-    std::string left;  ///< where a stable motion goes when there is no branch
+    std::string left;           ///< where a stable motion goes when there is no branch
+    std::optional<Branch> way;  ///< from the first orbit behind the change back to it, if other changes lie between
     [[nodiscard]] bool none() const { return next.empty(); }
   };
   [[nodiscard]] Found look_beyond(const PathPoint& at, const Change& change) const;
   void run_beyond(const Change& change, Found& found) const;
   bool pass(PathPoint& at, Change change);
   bool end_at(const PathPoint& at, SpecialPoint special, Beyond beyond, const std::string& left = {});
-  void go_on(PathPoint& at, SpecialPoint special, Reshaped next);
+  void find_ways(const Change& change, Found& found) const;
+  void go_on(PathPoint& at, SpecialPoint special, Reshaped next, std::optional<Branch> between);
   bool leave_chatter(PathPoint& at);
   bool end_cascade(PathPoint& at);
   bool end_cascade_with(PathPoint& at, SpecialPoint last);

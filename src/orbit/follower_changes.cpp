@@ -103,7 +103,27 @@ Follower::Found Follower::look_beyond(const PathPoint& at, const Change& change)
   found.next = reshape(problem_, at.orbit, change.at, change.test, range_, options_.stop);
   const auto of_family = [&](const Reshaped& next) { return one_of_family(problem_, next.point, range_); };
   found.family = std::erase_if(found.next, of_family) > 0;
+  find_ways(change, found);
   return found;
+}
+
+/// Where the events of an orbit behind a change begin elsewhere, others lie between: it is followed back to the change. What does not come there, and does not
+/// begin near it, is not born there.
+void Follower::find_ways(const Change& change, Found& found) const {
+  const auto place = [&](const Reshaped& next) {
+    return Place{change.special.value, change.special.error + next.error + exactly * range_, false};
+  };
+  const auto apart = [&](const Reshaped& next) {
+    return !next.onset && !next.renewed && next.apart > place(next).error;
+  };
+  std::ranges::stable_partition(found.next, [&](const Reshaped& next) { return !apart(next); });
+  if (!found.next.empty() && !back_to_ && apart(found.next.front()))
+    for (std::size_t i = 0; i < found.next.size() && !found.way; ++i) {
+      found.way = way_back(reversed(found.next[i].point), place(found.next[i]));
+      if (found.way) std::swap(found.next[0], found.next[i]);
+    }
+  const auto far = [&](const Reshaped& next) { return apart(next) && next.apart > same_change * range_; };
+  found.next.erase(std::remove_if(found.next.begin() + (found.way ? 1 : 0), found.next.end(), far), found.next.end());
 }
 
 void Follower::run_beyond(const Change& change, Found& found) const {
@@ -138,9 +158,10 @@ bool Follower::pass(PathPoint& at, Change change) {
   if (!next.renewed && !next.onset && special.type != SpecialType::GR) {
     const ChangeOfEvents seen = orbit::change_between(special.solution.orbit, next.point.orbit);
     special.type = seen.type;
-    special.what = describe(change.test, at.orbit.shape, problem_.base()) + std::string(seen.sliding);
+    special.what = describe(change.test, at.orbit.shape, problem_.base());
+    special.what += seen.sliding.empty() ? kind_of_sliding(change.test, at.orbit.shape) : seen.sliding;
   }
-  go_on(at, std::move(special), std::move(next));
+  go_on(at, std::move(special), std::move(next), std::move(found.way));
   return true;
 }
 
@@ -253,7 +274,8 @@ void Follower::restart(PathPoint& at, PathPoint from) {
 }
 
 /// The branch goes on behind a change, with new events.
-void Follower::go_on(PathPoint& at, SpecialPoint special, Reshaped next) {
+/// @param between  followed back from there to the change, if other changes lie between
+void Follower::go_on(PathPoint& at, SpecialPoint special, Reshaped next, std::optional<Branch> between) {
   special.outcome = next.folds ? "non-smooth fold" : "persistence";
   Solution first = solution_of(next.point, nullptr);
   const bool begins = chatters(next.point.orbit) > chatters(special.solution.orbit);
@@ -270,13 +292,10 @@ void Follower::go_on(PathPoint& at, SpecialPoint special, Reshaped next) {
     add_here(std::move(here));
     if (!begins) branch_.special.push_back(std::move(special));
   } else if (!next.renewed) {
-    const Place here{special.value, special.error + next.error + exactly * range_, false};
     branch_.special.push_back(std::move(special));
-    if (!back_to_ && next.apart > here.error) {
-      if (std::optional<Branch> way = way_back(reversed(next.point), here)) {
-        add_between(std::move(*way));
-        return set_out(at, std::move(next.point));
-      }
+    if (between) {
+      add_between(std::move(*between));
+      return set_out(at, std::move(next.point));
     }
     if (next.length > 0.0)
       add(beside_change(problem_, reversed(next.point), next.length, range_), branch_.points.size() - 1);

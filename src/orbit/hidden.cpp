@@ -55,8 +55,8 @@ Pair pair_within(const Problem& problem, const Triple& triple, double range) {
 }
 
 std::vector<SpecialPoint> beside_change(const Problem& problem, const PathPoint& from, double length, double range) {
-  constexpr double nothing = 1e-3;
-  for (const double part : {1.0 - 1e-6, 1.0 - 1e-2}) {
+  constexpr double nothing = 1e-5;
+  for (const double part : {1.0 - 1e-6, 1.0 - 1e-4, 1.0 - 1e-2}) {
     const std::optional<PathPoint> last = step_to(problem, from, part * length, range);
     if (last && !shrinks(from.orbit, last->orbit, nothing))
       return smooth_special_points(problem, from, *last, part * length, range);

@@ -12,9 +12,13 @@ namespace slapstick::orbit {
 using Eigen::VectorXd;
 
 bool between(const Extent& extent, const Orbit& a, const Orbit& b, const Orbit& orbit) {
-  constexpr double same = 1e-3;  // of an orbit's extent: between two points the branch is nearly straight
+  // Between two points the branch is nearly straight: in parts of an orbit's extent, and of what lies between. In a cascade all orbits are much alike.
+  constexpr double most = 1e-3, least = 1e-6, bend = 0.1;
   const double part = (orbit.values[0] - a.values[0]) / (b.values[0] - a.values[0]);
   if (!(part >= 0.0 && part <= 1.0) || !(a.shape.legs == b.shape.legs)) return false;
+  double way = 0.0;
+  for (std::size_t i = 0; i < a.legs(); ++i) way = std::max(way, extent.distance(a.x[i], b.x[i]));
+  const double same = std::clamp(bend * way, least, most);
   return from_some_event(orbit, a, [&](std::size_t shift) {
     for (std::size_t i = 0; i < a.legs(); ++i) {
       const std::size_t k = (i + shift) % a.legs();

@@ -58,6 +58,7 @@ std::optional<Orbit> spliced(const Orbit& orbit, Motion motion) {
   return std::nullopt;
 }
 
+constexpr std::size_t most_shapes = 24;        ///< of a long, unstable cycle each motion near it is another
 constexpr std::array parts = {0.5, 0.1, 0.9};  ///< of a leg's length, at which motions are begun
 
 /// Cycles of other shapes that motions from inside an orbit's legs show, each shape once: whole cycles, and, from about the leg at which the
@@ -68,8 +69,6 @@ class NearbyShapes {
       : orbit_(orbit), system_(problem.family().model(orbit.values)), set_(constant_family(system_.model()), {}) {}
 
   [[nodiscard]] std::vector<Orbit> about(std::size_t changed) {
-    for (std::size_t leg = 0; leg < orbit_.legs(); ++leg)
-      from(orbit_, leg, [&](const Motion& motion) { return record(motion, orbit_.shape.n); });
     for (std::size_t before = 0; before < std::min<std::size_t>(3, orbit_.legs()); ++before) {
       Orbit turned = orbit_;
       rotate(turned, (changed + orbit_.legs() - before) % orbit_.legs());
@@ -79,6 +78,8 @@ class NearbyShapes {
         return there;
       });
     }
+    for (std::size_t i = 0; i < orbit_.legs() && shapes_.size() < most_shapes; ++i)
+      from(orbit_, (changed + i) % orbit_.legs(), [&](const Motion& motion) { return record(motion, orbit_.shape.n); });
     return std::move(shapes_);
   }
 
@@ -166,25 +167,30 @@ bool stayed(const Problem& problem, const Orbit& from, const Orbit& to) {
   return true;
 }
 
+/// Does a branch go from its start at a change in the sense of the parameter from which the old one came? Seen from some way off where the parameter is a
+/// square of the arclength (special.cpp, look_back).
+bool goes_back(const Problem& problem, const PathPoint& start, const PathPoint& next, double sense_before,
+               double range) {
+  constexpr double flat = 1e-3, beside = 1e-4;
+  const std::optional<PathPoint> farther =
+      std::abs(start.watched.turn) < flat ? step_to(problem, start, beside, range) : std::nullopt;
+  return ((farther ? *farther : next).orbit.values[0] - start.orbit.values[0]) * sense_before < 0.0;
+}
+
 /// The branch of a shape of which the orbit at the change is one already, by arclength to either side of it: as near as the simulator can tell what
 /// it does.
-std::optional<Reshaped> leaving(const Problem& problem, const PathPoint& change, double sense_before,
-                                const Orbit& shape, double range) {
+std::optional<Reshaped> leaving(const Problem& problem, double sense_before, const Orbit& shape, double range) {
   Orbit orbit = shape;
   const NewtonResult result = solve(problem, orbit, fixed_parameters(problem, orbit.legs()), 12);
   if (!result.refusal.empty()) return std::nullopt;  // pieces that make no cycle
   if (!result.converged) orbit = shape;              // singular at the change itself: it is the solution
   if (!stayed(problem, shape, orbit)) return std::nullopt;
-  const double critical = change.orbit.values[0];
-  const PathPoint start = point_of(problem, orbit, range, {});
-  for (const double sense : {1.0, -1.0}) {
+  const PathPoint up = point_of(problem, orbit, range, {});
+  for (const PathPoint& start : {up, reversed(up)}) {
     for (const double length : {1e-6, 1e-5, 1e-4, 1e-3, 5e-3}) {
-      std::optional<PathPoint> next = step_to(problem, sense > 0.0 ? start : reversed(start), length, range);
+      std::optional<PathPoint> next = step_to(problem, start, length, range);
       if (!next || !is_motion(problem, next->orbit)) continue;
-      constexpr double clear = 1e-5;  // as find_change looks back
-      const auto farther = step_to(problem, sense > 0.0 ? start : reversed(start), std::max(clear, length), range);
-      const double away = (farther ? *farther : *next).orbit.values[0] - critical;
-      const bool folds = away * sense_before < 0.0;
+      const bool folds = goes_back(problem, start, *next, sense_before, range);
       return Reshaped{std::move(*next), folds, false, {}, length, 0.0, 0.0};
     }
   }
@@ -251,14 +257,16 @@ Between onset_between(const PathPoint& change, const std::optional<TestValue>& t
 /// lie infinitely many changes, which gather where the one with the chatter begins: there the nearest of them stands for all.
 std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, const std::optional<TestValue>& test,
                              double sense_before, const Orbit& orbit, double length, double range) {
-  constexpr double same = 1e-7, gathering = 30.0, much_the_same = 0.01, alike = 0.1;
+  constexpr double nearer = 0.5;  // than the orbit itself
+  constexpr double gathering = 30.0, much_the_same = 0.01, alike = 0.1;
   const double critical = change.orbit.values[0], away = orbit.values[0] - critical;
   if (away == 0.0 || std::abs(away) > 10.0 * length * range) return std::nullopt;
   Reshaped next{point_of(problem, orbit, range, {}), away * sense_before < 0.0, false, {}, 0.0, 0.0, 0.0};
   if (next.point.watched.turn * away < 0.0) next.point = reversed(std::move(next.point));
   const bool chatter = chatters(orbit) + chatters(change.orbit) > 0,
              gathers = chatters(orbit) != chatters(change.orbit);
-  const auto begins = beginning(problem, next.point, critical, gathers ? gathering * length : same, range);
+  const double within = gathers ? gathering * length : std::max(same_change, nearer * std::abs(away) / range);
+  const auto begins = beginning(problem, next.point, critical, within, range);
   if (!begins && !(chatter && resembles(problem, orbit, change.orbit, much_the_same))) return std::nullopt;
   if (begins && gathers && !resembles(problem, orbit, change.orbit, alike)) return std::nullopt;
   next.renewed = chatter && !gathers && !begins;
@@ -287,14 +295,17 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
   const double sense = std::copysign(1.0, change.watched.turn);  // a secant may span a fold
   if (test)
     for (const Orbit& shape : coincident(problem, before, change.orbit, *test))
-      add(leaving(problem, change, sense, shape, range));
+      add(leaving(problem, sense, shape, range));
   std::ranges::stable_sort(all, {},
                            &Reshaped::length);  // what is a motion farther off only has changed once more on the way
   const double longest =
       chatters(change.orbit) > 0 ? 1e-2 : 1e-3;  // near its onset a chatter's equations are hardly solvable
   for (double length : {1e-6, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2}) {
     if (length < nearest) continue;
-    if (!all.empty() || length > longest) break;
+    const auto here = [&](const Reshaped& next) {
+      return next.onset || next.renewed || next.apart <= same_change * range;
+    };
+    if (std::ranges::any_of(all, here) || length > longest) break;
     Orbit beyond = change.orbit;  // as it is, where its own equations lead no further
     beyond.values[0] += sense * length * range;
     const auto point = test ? step_to(problem, change, length, range) : std::nullopt;

@@ -11,6 +11,9 @@ struct Between {
   bool release = false;
 };
 
+/// Of the range: events that begin as near to a change as this begin there.
+constexpr double same_change = 1e-7;
+
 struct Reshaped {
   PathPoint point;               ///< a motion; its tangent leads away from the change
   bool folds = false;            ///< it lies on the side of the parameter from which the old branch came
@@ -25,7 +28,7 @@ struct Reshaped {
 /// @param change  .. where the events change
 /// @param test    the margin that is used up there; empty: none, the orbit's equations lead no further
 /// @param nearest  how far from the change the motion is first looked at, of the range
-/// @returns the orbits with the events of the motion beyond whose branches, followed back, come to the change
+/// @returns the orbits with the events of the motion beyond whose branches, followed back, come to the change, or near it
 [[nodiscard]] std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const PathPoint& change,
                                             const std::optional<TestValue>& test, double range,
                                             const std::atomic<bool>* stop, double nearest = 1e-6);

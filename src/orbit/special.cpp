@@ -59,6 +59,25 @@ std::optional<Located> sharpened(const Problem& problem, const PathPoint& from, 
   return std::nullopt;
 }
 
+/// Special points, each with the arclength to it.
+using Along = std::vector<std::pair<double, SpecialPoint>>;
+
+/// The branch that leaves a symmetric one turns back in the parameter where it leaves: no fold of its own.
+void drop_folds_of_crossings(Along& found, double range) {
+  constexpr double one_place = 1e-3, well_known = 1e-10, one_value = 1e-8;  // arclength; of the range
+  std::vector<std::pair<double, double>> crossings;
+  for (const auto& [length, special] : found)
+    if (special.type == SpecialType::BP) crossings.emplace_back(length, special.value);
+  std::erase_if(found, [&](const auto& entry) {
+    const auto& [length, special] = entry;
+    const auto is_its_fold = [&, length = length, value = special.value, error = special.error](const auto& crossing) {
+      return std::abs(crossing.first - length) < one_place &&
+             (error > well_known * range || std::abs(crossing.second - value) < one_value * range);
+    };
+    return special.type == SpecialType::LP && std::ranges::any_of(crossings, is_its_fold);
+  });
+}
+
 }  // namespace
 
 std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const PathPoint& from, const PathPoint& to,
@@ -71,7 +90,7 @@ std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const Pa
                                       {SpecialType::BP, [](const Watched& w) { return w.cross; }},
                                       {SpecialType::PD, [](const Watched& w) { return w.flip; }},
                                       {SpecialType::NS, [](const Watched& w) { return w.torus; }}}};
-  std::vector<std::pair<double, SpecialPoint>> found;
+  Along found;
   for (const Kind& kind : kinds) {
     if (!changes_sign(kind.value(from.watched), kind.value(to.watched))) continue;
     std::optional<Located> located = locate(problem, from, length, range, kind.value, kind.value(to.watched));
@@ -97,15 +116,7 @@ std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const Pa
     if (kind.type == SpecialType::BP) add_crossing_branch(problem, located->point, special);
     found.emplace_back(located->length, std::move(special));
   }
-  // The branch that leaves a symmetric one turns back in the parameter where it leaves: no fold of its own.
-  constexpr double one_place = 1e-3;  // arclength
-  std::vector<double> crossings;
-  for (const auto& [length_to, special] : found)
-    if (special.type == SpecialType::BP) crossings.push_back(length_to);
-  std::erase_if(found, [&](const auto& entry) {
-    const auto here = [&](double place) { return std::abs(place - entry.first) < one_place; };
-    return entry.second.type == SpecialType::LP && std::ranges::any_of(crossings, here);
-  });
+  drop_folds_of_crossings(found, range);
   std::ranges::sort(found, {}, [](const auto& entry) { return entry.first; });
   std::vector<SpecialPoint> points;
   points.reserve(found.size());
@@ -149,14 +160,14 @@ bool changes_there(const Problem& problem, const PathPoint& from, double length,
   return (!before || is_motion(problem, before->orbit)) && (!behind || !is_motion(problem, behind->orbit));
 }
 
-/// The sense in which the parameter goes as the branch comes to a place, given to its tangent: where a graze has no memory, as before a complete chatter,
-/// the parameter is a square of the impact's speed, and at the graze itself the tangent says nothing.
+/// Where a graze has no memory, as before a complete chatter, the parameter is a square of the impact's speed: at the graze itself the tangent does not say
+/// in which sense the parameter came. It is given the sense that it had before.
 void look_back(const Problem& problem, const PathPoint& from, double range, Located& located) {
-  constexpr double beside = 1e-5;  // arclength
+  constexpr double flat = 1e-3, beside = 1e-4;  // a component of the tangent; arclength
+  double& turn = located.point.watched.turn;
+  if (std::abs(turn) > flat) return;
   const auto before = step_to(problem, from, std::max(0.5 * located.length, located.length - beside), range);
-  if (!before) return;
-  const double sense = located.point.orbit.values[0] - before->orbit.values[0];
-  located.point.watched.turn = std::copysign(located.point.watched.turn, sense);
+  if (before) turn = std::copysign(turn, located.point.orbit.values[0] - before->orbit.values[0]);
 }
 
 using Candidates = std::vector<std::pair<std::size_t, Located>>;

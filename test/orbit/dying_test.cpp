@@ -40,6 +40,29 @@ TEST(DyingMotion, EndsWhereTheForceIsFriction) {
   }
 }
 
+/// Where the model ends before the motion dies nothing is known of a death.
+TEST(DyingMotion, IsNotSaidToEndWhereThereIsNoModel) {
+  const Posed posed(SLAPSTICK_ORBIT_MODELS "edge-before-death.toml", {}, {"amplitude"}, {0.22});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.15, .to = 0.25});
+  EXPECT_TRUE(branch.failed);
+  EXPECT_EQ(find_near(branch, SpecialType::SL, 0.2, 1e-3), nullptr);
+  EXPECT_NE(branch.ended.find("amplitude"), std::string::npos) << branch.ended;
+  EXPECT_GT(branch.points.front().orbit.values[0], 0.2002);
+}
+
+/// As kinetic friction comes to static friction a stick-slip cycle on two belts shrinks to nothing, and its margins to rounding: no change there, at
+/// the end of what the model admits, is one.
+TEST(DyingMotion, AtTheEndOfTheRangeIsTheEndOfTheRange) {
+  const Posed posed("two-blocks-on-belt", {}, {"kinetic_friction"}, {0.8});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.7, .to = 1.0});
+  EXPECT_EQ(branch.ended.substr(branch.ended.find("up")), "up: range");
+  EXPECT_EQ(find_near(branch, SpecialType::SL, 1.0, 1e-5), nullptr);
+}
+
 /// Without damping the response grows without bound as the frequency comes to the natural one. Steps that are parts of the orbit's size never end.
 TEST(GrowingMotion, EndsAtResonance) {
   const Posed posed("coulomb-oscillator", {}, {"omega"}, {0.8});

@@ -1,0 +1,146 @@
+/// What a change of events is called, and that it is called the same from wherever a branch comes.
+#include "orbit/change_kind.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "families.hpp"
+#include "orbit/record.hpp"
+
+namespace slapstick::test {
+namespace {
+
+using mode::FrictionState;
+using orbit::SpecialType;
+
+/// A cycle of one friction contact and one stop by the contact's states, a letter each (- s +), and how long they last; '!' after one: an impact ends it.
+orbit::Orbit cycle(std::string_view states, const std::vector<double>& durations) {
+  orbit::Orbit orbit;
+  orbit.t = {0.0};
+  for (const char letter : states) {
+    if (letter == '!') {
+      orbit.shape.legs.back().strikes = {{1U, false}};
+      continue;
+    }
+    orbit::Leg leg;
+    leg.states.stops = {mode::StopState::open};
+    leg.states.frictions = {letter == 's'   ? FrictionState::stick
+                            : letter == '-' ? FrictionState::slip_minus
+                                            : FrictionState::slip_plus};
+    orbit.t.push_back(orbit.t.back() + durations.at(orbit.shape.legs.size()));
+    orbit.shape.legs.push_back(leg);
+  }
+  return orbit;
+}
+
+/// Each kind by its definition, from either side, wherever the cycles begin.
+TEST(KindOfSliding, IsReadFromTheSequences) {
+  struct Case {
+    orbit::Orbit with, without;
+    std::string_view sliding;
+  };
+  const std::vector<Case> cases = {
+      {cycle("+s-", {1, 1e-3, 1}), cycle("-+", {1, 1}), " (crossing-sliding)"},
+      {cycle("+s+-", {1, 1e-3, 1, 1}), cycle("+-", {2, 1}), " (grazing-sliding)"},
+      {cycle("+-+", {1, 1e-3, 1}), cycle("+", {2}), " (grazing-sliding)"},
+      {cycle("+-s", {1, 1e-3, 1}), cycle("s+", {1, 1}), " (switching-sliding)"},
+      {cycle("s+s-", {1, 1e-3, 1, 1}), cycle("s-", {2, 1}), " (adding-sliding)"},
+      {cycle("s+s+", {1, 1e-3, 1, 1}), cycle("+s", {1, 2}), " (adding-sliding)"},
+      {cycle("s+s+", {1e-3, 1, 1, 1}), cycle("+s", {2, 1}), " (grazing-sliding)"},
+      {cycle("+s-s", {1, 1e-3, 1, 1e-3}), cycle("+-", {1, 1}), " (crossing-sliding)"},  // of a symmetric orbit, twice
+  };
+  for (const Case& c : cases)
+    for (const bool back : {false, true}) {
+      const auto change = back ? change_between(c.without, c.with) : change_between(c.with, c.without);
+      EXPECT_EQ(change.type, SpecialType::SL) << c.sliding;
+      EXPECT_EQ(change.sliding, c.sliding) << (back ? "from without" : "from with");
+    }
+}
+
+/// Where events are exchanged no state comes or goes; an impact says more than what friction does at it.
+TEST(TypeOfChange, IsThatOfWhatComesOrGoes) {
+  EXPECT_EQ(change_between(cycle("+s-", {1, 1, 1}), cycle("s-+", {2, 1, 1})).type, SpecialType::CO);
+  EXPECT_EQ(change_between(cycle("+!-", {1, 1}), cycle("+", {2})).type, SpecialType::GR);
+  EXPECT_EQ(change_between(cycle("+!+", {1, 1}), cycle("+", {2})).type, SpecialType::GR);
+}
+
+struct Case {
+  std::string model, parameter;
+  double from, to;
+  std::vector<double> starts;
+};
+
+orbit::Branch followed(const Case& c, double start) {
+  const Posed posed(c.model, {}, {c.parameter}, {start});
+  const auto first = posed.settled();
+  if (!first) throw std::runtime_error("the motion does not settle");
+  return orbit::follow(*posed.problem, first->orbit, {.from = c.from, .to = c.to});
+}
+
+std::string_view kind(const orbit::SpecialPoint& point) {
+  const std::string_view what = point.what;
+  return what.ends_with("sliding)") ? what.substr(what.rfind(" (")) : std::string_view();
+}
+
+/// Two changes 1e-7 apart, the cascade at the onset of a chatter come to from within the chatter, a graze at which the parameter is the square of the
+/// impact's speed: what a branch has, and what it is called, must not depend on the side it is come to from.
+TEST(Change, HasOneNameFromEitherSide) {
+  const std::vector<Case> cases = {
+      {"impact-friction-oscillator", "clearance", -0.85, 0.2, {-0.8, 0.0}},
+      {"spool", "frequency", 150.0, 300.0, {155.0, 290.0}},
+  };
+  for (const Case& c : cases) {
+    const orbit::Branch one = followed(c, c.starts[0]), other = followed(c, c.starts[1]);
+    EXPECT_FALSE(one.failed) << one.ended;
+    EXPECT_FALSE(other.failed) << other.ended;
+    long compared = 0;
+    for (const orbit::SpecialPoint& a : one.special) {
+      if (a.type == SpecialType::CH || a.outcome.starts_with("one of")) continue;
+      const double range = c.to - c.from, beside = 1e-9 * range + a.error;
+      const auto here = [&](const orbit::SpecialPoint& b) { return std::abs(b.value - a.value) < beside + b.error; };
+      const auto b = std::ranges::find_if(other.special, here);
+      const bool near_onset = std::ranges::any_of(one.special, [&](const orbit::SpecialPoint& onset) {
+        return onset.type == SpecialType::CH && std::abs(onset.value - a.value) < 1e-5 * range;
+      });
+      if (near_onset) continue;  // how far a cascade is followed is a matter of rounding
+      ASSERT_NE(b, other.special.end()) << c.model << " " << name(a.type) << " " << a.value << ": " << a.what;
+      EXPECT_EQ(name(a.type), name(b->type)) << c.model << " " << a.value << ": " << a.what << "; " << b->what;
+      EXPECT_EQ(a.outcome, b->outcome) << c.model << " " << a.value << ": " << a.what << "; " << b->what;
+      EXPECT_EQ(kind(a), kind(*b)) << c.model << " " << a.value << ": " << a.what << "; " << b->what;
+      ++compared;
+    }
+    EXPECT_GT(compared, 10) << c.model;
+  }
+}
+
+/// A fold 1e-7 beside two events that meet lies between the change and the first orbit looked at behind it.
+TEST(Fold, BesideAChangeIsSeenFromEitherSide) {
+  const orbit::Branch one = followed({"two-blocks-on-belt", "coupling", 0.33, 3.6, {}}, 1.2),
+                      other = followed({"two-blocks-on-belt", "coupling", 0.33, 3.6, {}}, 1.3);
+  const auto folds = [](const orbit::Branch& branch) {
+    return std::ranges::count_if(branch.special, [](const orbit::SpecialPoint& point) {
+      return point.type == SpecialType::LP && std::abs(point.value - 1.17811599995) < 1e-9;
+    });
+  };
+  EXPECT_EQ(folds(one), 1) << one.ended;
+  EXPECT_EQ(folds(other), 1) << other.ended;
+}
+
+/// Instants are compared against the cycle, not against a unit of time that it may be a ten-thousandth of.
+TEST(Verification, OfAFastCycleTakesNoOtherInstants) {
+  const Posed posed(SLAPSTICK_ORBIT_MODELS "fast-belt.toml", {}, {}, {});
+  const auto first = posed.settled(0, 1);
+  ASSERT_TRUE(first);
+  ASSERT_GT(first->orbit.legs(), 1U);
+  EXPECT_LT(first->cycle, 1e-3);
+  EXPECT_TRUE(orbit::verify(posed.system, first->orbit).is_motion);
+  orbit::Orbit late = first->orbit;
+  late.t[1] += 1e-6 * first->cycle;
+  EXPECT_FALSE(orbit::verify(posed.system, late).is_motion);
+}
+
+}  // namespace
+}  // namespace slapstick::test

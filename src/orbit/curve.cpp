@@ -163,6 +163,7 @@ void CurveFollower::note_own(const Watched& at) {
         largest = std::max(largest, std::abs(other.value));
     own_[i] = std::abs(at.tests[i].value) <= zero * largest;
   }
+  tests_ = curve_tests(problem_, point_, at, own_);
 }
 
 /// On a curve of GR, SL, CH or CO the simulator cannot decide; whether the orbit is a motion but for that is seen from its other margins.

@@ -137,7 +137,7 @@ def test_a_picture_says_which_branch_and_which_special_point_is_which():
 
 def test_what_a_curve_meets_is_named_in_its_picture():
     words = ('curve', 'vibro-impact', '--set', 'omega=4.78', '--orbit', '4-2', '--from', 'NS', '--params', 'omega,friction')
-    text = good(*words, '--range', 'omega=4.5:4.8', '--range', 'friction=0.1:0.4', '--plot', 'c.png')
+    text = good(*words, '--range', 'omega=4.4:4.9', '--range', 'friction=0.1:0.5', '--plot', 'c.png')
     says(text, '"type": "R2"', 'resonance 1:2: both multipliers are -1', 'no torus beyond')
     says(read('c.gp'), "set label '1:2'")
 

@@ -140,12 +140,26 @@ void add_names(figure::Panel& panel, const std::vector<NamedPlace>& places) {
   Drawn others;
   for (const figure::Line& line : panel.lines) others.line(line, frame);
   for (const NamedPlace& place : places) others.add(frame.cm(place.x, place.y));
+  constexpr double one_place_cm = 0.15;
+  std::vector<NamedPlace> named;
   for (const NamedPlace& place : places) {
+    const auto is_here = [&](const NamedPlace& other) {
+      return other.name == place.name &&
+             distance(frame.cm(other.x, other.y), frame.cm(place.x, place.y)) < one_place_cm;
+    };
+    if (std::ranges::any_of(named, is_here)) continue;
+    named.push_back(place);
     const std::vector<Candidate> about = beside({place.x, place.y, frame.cm(place.x, place.y)}, frame);
-    const auto best = std::ranges::max_element(about, {}, [&](const Candidate& c) { return room(c, others); });
+    const double half_cm = 0.08 * static_cast<double>(place.name.size());
+    const auto room_for_text = [&](const Candidate& c) {  // a name is wider than high
+      const double left = others.distance_to({c.at.x - half_cm, c.at.y});
+      const double right = others.distance_to({c.at.x + half_cm, c.at.y});
+      return std::min({room(c, others), left, right});
+    };
+    const auto best = std::ranges::max_element(about, {}, room_for_text);
     panel.lines.push_back({.x = {place.x, best->x}, .y = {place.y, best->y}, .width_pt = 0.3});
     panel.marks.push_back({.x = best->x, .y = best->y, .label = place.name, .colour = figure::colours::black});
-    others.add(best->at);
+    for (const double off : {-half_cm, 0.0, half_cm}) others.add({best->at.x + off, best->at.y});
   }
 }
 

@@ -16,7 +16,7 @@ struct NamedPlace {
   double x = 0.0, y = 0.0;
   std::string name;
 };
-/// The name of each place beside it, with a thin line to it.
+/// The name of each place beside it, with a thin line to it; once for places of one name that lie on each other in print.
 void add_names(figure::Panel& panel, const std::vector<NamedPlace>& places);
 
 }  // namespace slapstick::app

@@ -1,13 +1,14 @@
 #include "branch_figure.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <optional>
 
+#include "branch_colours.hpp"
 #include "branch_table.hpp"
+#include "free_labels.hpp"
+#include "special_markers.hpp"
 
 namespace slapstick::app {
 namespace {
@@ -104,32 +105,6 @@ void add_lines(figure::Panel& panel, const orbit::Branch& branch, figure::Colour
   lines.flush();
 }
 
-/// Vertical lines, with names above the frame: one for all points that the eye cannot tell apart. Of several of one type that nearly coincide one is named;
-/// the more there are, the farther that reaches.
-void add_marks(figure::Panel& panel, std::vector<std::pair<double, std::string>> specials) {
-  constexpr std::size_t most = 16;
-  constexpr double line = 0.004;  // of the width
-  std::ranges::sort(specials);
-  const double width = specials.empty() ? 0.0 : specials.back().first - specials.front().first;
-  for (double beside = 0.02; beside < 1.0; beside *= 1.5) {
-    std::map<std::string, double> last;  // of each type the last that was named
-    std::vector<figure::Mark> marks;
-    std::size_t named = 0;
-    for (const auto& [x, type] : specials) {
-      if (marks.empty() || x - *marks.back().x > line * width) marks.push_back({.x = x});
-      const auto seen = last.find(type);
-      if (seen != last.end() && x - seen->second < beside * width) continue;
-      std::string& label = marks.back().label;
-      label += (label.empty() ? "" : " ") + type;
-      last[type] = x;
-      ++named;
-    }
-    if (named > most) continue;
-    panel.marks = std::move(marks);
-    return;
-  }
-}
-
 /// The values of the parameter that are shown: they fill the frame.
 std::optional<figure::Range> range_of(const std::vector<orbit::Branch>& branches, const figure::Points& cloud) {
   std::vector<double> values = cloud.x;
@@ -139,33 +114,65 @@ std::optional<figure::Range> range_of(const std::vector<orbit::Branch>& branches
   return least < largest ? std::optional(figure::Range{least, largest}) : std::nullopt;
 }
 
+/// The n-p that most of a branch's orbits have; ".." if there are others.
+std::string class_of(const orbit::Branch& branch) {
+  std::vector<std::pair<long, std::string>> counts;
+  for (const Solution& point : branch.points) {
+    const std::string label = point.label.substr(0, point.label.find("-I"));
+    const auto seen = std::ranges::find(counts, label, &std::pair<long, std::string>::second);
+    if (seen == counts.end())
+      counts.emplace_back(-1, label);
+    else
+      --seen->first;
+  }
+  if (counts.empty()) return "";
+  return std::ranges::min_element(counts, {}, &std::pair<long, std::string>::first)->second +
+         (counts.size() > 1 ? " .." : "");
+}
+
+/// Styles, special points, then branches.
+std::vector<figure::Key> keys(const std::vector<orbit::Branch>& branches, const figure::Panel& panel, bool settled) {
+  std::vector<figure::Key> all;
+  for (const auto& [dash, words] : {std::pair{figure::Dash::solid, "stable"}, {figure::Dash::dashed, "unstable"}})
+    if (std::ranges::find(panel.lines, dash, &figure::Line::dash) != panel.lines.end())
+      all.push_back({.label = words, .dash = dash});
+  if (settled)
+    all.push_back({.label = "settles", .colour = settled_colour, .marker = figure::Marker::disc, .size = 0.6});
+  for (const figure::Key& key : special_keys(panel)) all.push_back(key);
+  for (std::size_t b = 0; b < std::min(branches.size(), most_named_branches) && branches.size() > 1; ++b)
+    all.push_back({.label = std::to_string(b + 1) + ": " + class_of(branches[b]),
+                   .colour = branch_colour(b),
+                   .size = 1.4,
+                   .group = 2});
+  return all;
+}
+
 }  // namespace
 
 figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const std::string& x_label,
                              const orbit::Problem& problem, const SettledMotions& beneath) {
   const bool speeds = beneath.speeds || have_impacts(branches);
   const auto heights_of = [&](const Solution& solution) { return heights(problem, solution, speeds); };
-  figure::Panel panel{.x_label = x_label, .y_label = speeds ? "impact speed w" : "first coordinate at the events"};
-  const std::array<figure::Colour, 4> palette = {figure::colours::black, figure::colours::dark_blue,
-                                                 figure::colours::vermillion, figure::colours::green};
-  figure::Points dots{.colour = figure::colours::vermillion, .drawing = figure::Drawing::discs, .diameter_mm = 0.9};
-  std::vector<std::pair<double, std::string>> specials;
-  for (std::size_t b = 0; b < branches.size(); ++b) {
-    add_lines(panel, branches[b], palette[b % palette.size()], heights_of);
-    for (const orbit::SpecialPoint& point : branches[b].special) {
-      dots.x.push_back(point.value);
-      dots.y.push_back(heights_of(point.solution).front());
-      specials.emplace_back(point.value, name(point.type));
-    }
-  }
-  add_marks(panel, std::move(specials));
+  figure::Panel panel{.x_label = x_label,
+                      .y_label = speeds ? "impact speed {/:Italic w}" : "first coordinate at the events"};
+  panel.legend = figure::Legend::below;
   panel.x_range = range_of(branches, beneath.cloud);
   if (!beneath.cloud.x.empty()) panel.points.push_back(beneath.cloud);
-  if (!dots.x.empty()) panel.points.push_back(std::move(dots));
+  std::vector<std::size_t> first_line;  // of each branch
+  std::vector<SpecialPlace> specials;
+  for (std::size_t b = 0; b < branches.size(); ++b) {
+    first_line.push_back(panel.lines.size());
+    add_lines(panel, branches[b], branches.size() > 1 ? branch_colour(b) : figure::colours::black, heights_of);
+    for (const orbit::SpecialPoint& point : branches[b].special)
+      specials.push_back({point.type, point.value, heights_of(point.solution).front()});
+  }
+  add_special_points(panel, specials);
+  panel.keys = keys(branches, panel, !beneath.cloud.x.empty());
+  if (branches.size() > 1) add_branch_numbers(panel, first_line);
   figure::Figure figure;
   figure.panels.push_back(std::move(panel));
-  figure.caption = beneath.cloud.x.empty() ? "stable: solid; unstable: dashed"
-                                           : "stable: solid; unstable: dashed; grey: motions that settle";
+  figure.caption =
+      "stable: solid; unstable: dashed; special points at the fastest impact; numbers: the branch (BR) of the table";
   return figure;
 }
 

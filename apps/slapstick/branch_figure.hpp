@@ -1,6 +1,7 @@
 #pragma once
-/// Branches as a picture: impact speeds over the parameter, stable solid, unstable dashed, special points marked and named, over the
-/// motions that settle, if there are some. Where a branch has no impacts it is drawn at speed 0; if nothing has impacts, the first coordinate at the events is drawn.
+/// Branches as a picture: impact speeds over the parameter, stable solid, unstable dashed, a colour and a number for each branch, a marker for each special
+/// point, over the motions that settle, if there are some. The legend stands below. Where a branch has no impacts it is drawn at speed 0; if nothing has
+/// impacts, the first coordinate at the events is drawn.
 #include <string>
 #include <vector>
 

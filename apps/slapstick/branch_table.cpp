@@ -75,6 +75,15 @@ std::string head(const std::string& parameter) {
   return text.data();
 }
 
+/// "  2 is born at omega = 2.84595629561 (PD of 1)", in the column BR
+std::string birth_line(std::size_t branch, const Birth& birth, const std::string& parameter) {
+  std::array<char, 40> number{}, value{};
+  std::snprintf(number.data(), number.size(), "%3zu", branch + 1);
+  std::snprintf(value.data(), value.size(), "%.12g", birth.value);
+  return std::string(number.data()) + " is born at " + parameter + " = " + value.data() + " (" +
+         std::string(name(birth.type)) + " of " + std::to_string(birth.branch + 1) + ")\n";
+}
+
 }  // namespace
 
 std::optional<std::pair<std::string, std::string>> classes_around(const orbit::Branch& branch,
@@ -85,10 +94,12 @@ std::optional<std::pair<std::string, std::string>> classes_around(const orbit::B
 }
 
 std::string branch_table(const std::vector<orbit::Branch>& branches, const std::string& parameter,
-                         const std::vector<Sensitivities>& sensitivities) {
+                         const std::vector<Sensitivities>& sensitivities,
+                         const std::vector<std::optional<Birth>>& births) {
   std::string text = head(parameter);
   for (std::size_t b = 0; b < branches.size(); ++b) {
     const orbit::Branch& branch = branches[b];
+    if (births[b]) text += birth_line(b, *births[b], parameter);
     auto special = branch.special.begin();
     const auto add_special = [&](std::size_t point) {
       const auto place = static_cast<std::size_t>(special - branch.special.begin());
@@ -118,10 +129,13 @@ class Descent {
   Descent(const orbit::Problem& problem, std::vector<orbit::Branch>& branches, const orbit::ContinuationOptions& how)
       : problem_(problem), branches_(branches), how_(how) {}
 
-  void follow(const orbit::Orbit& start, std::string& what) {
-    if (start.values[0] < how_.from || start.values[0] > how_.to || known(start, what)) return;
+  /// @returns true if there is a branch more
+  bool follow(const orbit::Orbit& start, std::string& what) {
+    if (start.values[0] < how_.from || start.values[0] > how_.to || known(start, what)) return false;
     orbit::Branch branch = orbit::follow(problem_, start, how_);
-    if (!known(typical(branch), what)) branches_.push_back(std::move(branch));
+    if (known(typical(branch), what)) return false;
+    branches_.push_back(std::move(branch));
+    return true;
   }
 
  private:
@@ -150,18 +164,21 @@ class Descent {
 
 }  // namespace
 
-void follow_born(const orbit::Problem& problem, std::vector<orbit::Branch>& branches, std::size_t most,
-                 const orbit::ContinuationOptions& how) {
+std::vector<std::optional<Birth>> follow_born(const orbit::Problem& problem, std::vector<orbit::Branch>& branches,
+                                              std::size_t most, const orbit::ContinuationOptions& how) {
+  std::vector<std::optional<Birth>> births(branches.size());
   Descent descent(problem, branches, how);
   for (std::size_t b = 0; b < branches.size(); ++b) {
     for (std::size_t k = 0; k < branches[b].special.size(); ++k) {
+      const Birth here{b, branches[b].special[k].type, branches[b].special[k].value};
       const std::vector<orbit::Orbit> born = branches[b].special[k].born;
       std::string what;
       for (const orbit::Orbit& start : born)
-        if (branches.size() < most) descent.follow(start, what);
+        if (branches.size() < most && descent.follow(start, what)) births.emplace_back(here);
       branches[b].special[k].what += what;
     }
   }
+  return births;
 }
 
 }  // namespace slapstick::app

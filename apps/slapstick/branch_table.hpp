@@ -15,16 +15,25 @@ struct Sensitivities {
   std::vector<std::vector<double>> rates;
 };
 
-/// @param sensitivities  of each branch
+/// The special point at which a branch was born.
+struct Birth {
+  std::size_t branch = 0;  ///< index of the branch that the point is on
+  orbit::SpecialType type = orbit::SpecialType::PD;
+  double value = 0.0;  ///< of the parameter
+};
+
+/// @param sensitivities, births  of each branch; the first has no birth
 [[nodiscard]] std::string branch_table(const std::vector<orbit::Branch>& branches, const std::string& parameter,
-                                       const std::vector<Sensitivities>& sensitivities);
+                                       const std::vector<Sensitivities>& sensitivities,
+                                       const std::vector<std::optional<Birth>>& births);
 
 /// The classes before and behind a change of events through which the branch goes on, in the order of its points.
 [[nodiscard]] std::optional<std::pair<std::string, std::string>> classes_around(const orbit::Branch& branch,
                                                                                 const orbit::SpecialPoint& special);
 
 /// Follows what is born at the special points of the branches so far, and of those, until there are `most` branches.
-void follow_born(const orbit::Problem& problem, std::vector<orbit::Branch>& branches, std::size_t most,
-                 const orbit::ContinuationOptions& how);
+/// @returns where each of them was born; empty for those that were there
+std::vector<std::optional<Birth>> follow_born(const orbit::Problem& problem, std::vector<orbit::Branch>& branches,
+                                              std::size_t most, const orbit::ContinuationOptions& how);
 
 }  // namespace slapstick::app

@@ -32,14 +32,32 @@ ChosenModel ModelOptions::with_sets(ModelDefinition definition) const {
   return {std::move(definition), std::move(overrides), std::move(model)};
 }
 
-State ModelOptions::start(const ChosenModel& chosen, const Overrides& more) const {
-  Overrides overrides = more;
-  overrides.insert(chosen.overrides.begin(), chosen.overrides.end());
-  if (state.empty())
+namespace {
+
+/// What helps somebody whose model begins behind one of its stops.
+std::string start_advice(const Model& model, const std::string& error) {
+  if (error.find(" is violated: ") == std::string::npos) return {};
+  return "; begin elsewhere, by --state " + state_names(model).front() + "=.. or under [start] in the model file";
+}
+
+/// The model's own start, with parameter values `more` on top of --set.
+State own_start(const ChosenModel& chosen, const Overrides& more) {
+  try {
     return blaming(chosen.overrides, [&](Overrides values) {
       values.insert(more.begin(), more.end());
       return chosen.definition.start(values);
     });
+  } catch (const InputError& error) {
+    throw InputError(error.what() + start_advice(chosen.model, error.what()));
+  }
+}
+
+}  // namespace
+
+State ModelOptions::start(const ChosenModel& chosen, const Overrides& more) const {
+  Overrides overrides = more;
+  overrides.insert(chosen.overrides.begin(), chosen.overrides.end());
+  if (state.empty()) return own_start(chosen, more);
   State start(2 * static_cast<std::size_t>(chosen.model.size()), 0.0);
   try {
     start = chosen.definition.start(overrides);

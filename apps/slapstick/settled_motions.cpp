@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "branch_colours.hpp"
 #include "progress.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/flow/stage.hpp"
@@ -108,7 +109,7 @@ SettledMotions settled_motions(const ChosenModel& chosen, const ModelOptions& op
                                const SettledRange& at, const std::function<State(double value)>& instead,
                                const std::atomic<bool>& stop) {
   SettledMotions all;
-  all.cloud.colour = {150, 150, 150};
+  all.cloud.colour = settled_colour;
   all.cloud.diameter_mm = 0.3;
   const Values values{chosen, options, parameter, instead};
   if (stop_contacts(chosen.model).empty())

@@ -109,16 +109,28 @@ void check(const Options& options, const ChosenModel& chosen) {
   }
 }
 
-void write(Output& out, const std::vector<orbit::Branch>& branches, const ChosenModel& chosen, const Options& options) {
+Json birth_json(const Birth& birth) {
+  return Json::object()
+      .set("branch", static_cast<long long>(birth.branch) + 1)
+      .set("type", std::string(name(birth.type)))
+      .set("param", birth.value);
+}
+
+void write(Output& out, const std::vector<orbit::Branch>& branches, const std::vector<std::optional<Birth>>& births,
+           const ChosenModel& chosen, const Options& options) {
   std::vector<Sensitivities> rates;
   for (const orbit::Branch& branch : branches) rates.push_back(sensitivities(branch, chosen, options));
   if (options.table) {
-    out.write(branch_table(branches, options.parameter, rates));
+    out.write(branch_table(branches, options.parameter, rates, births));
   } else {
     Json json = branch_json(branches.front(), rates.front());
     json.set("model", chosen.model.name).set("parameter", options.parameter);
     Json others = Json::list();
-    for (std::size_t i = 1; i < branches.size(); ++i) others.push(branch_json(branches[i], rates[i]));
+    for (std::size_t i = 1; i < branches.size(); ++i) {
+      Json branch = branch_json(branches[i], rates[i]);
+      if (births[i]) branch.set("born_at", birth_json(*births[i]));
+      others.push(std::move(branch));
+    }
     if (branches.size() > 1) json.set("born", std::move(others));
     out.write(json.dump() + "\n");
   }
@@ -164,8 +176,8 @@ int run(const Options& options, const Context& context) {
   orbit::ContinuationOptions how = continuation(options, range, context.stop);
   how.progress = [&](double, long points) { progress.update(static_cast<double>(points)); };
   std::vector<orbit::Branch> branches = {orbit::follow(*problem, first.orbit, how)};
-  follow_born(*problem, branches, static_cast<std::size_t>(options.branches), how);
-  write(out, branches, chosen, options);
+  const auto births = follow_born(*problem, branches, static_cast<std::size_t>(options.branches), how);
+  write(out, branches, births, chosen, options);
   if (plot.wanted()) draw(plot, branches, chosen, *problem, options, context.stop);
   if (context.stop.load()) return interrupted;
   const auto failed = std::ranges::find(branches, true, &orbit::Branch::failed);

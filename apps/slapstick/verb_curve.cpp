@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "axis_text.hpp"
+#include "free_labels.hpp"
 #include "orbit_options.hpp"
 #include "output.hpp"
 #include "parameter_ranges.hpp"
@@ -65,9 +66,24 @@ Json curve_json(const orbit::Curve& curve, const std::vector<std::string>& names
   for (const orbit::CurveEvent& event : curve.met) {
     Json item = Json::object();
     for (std::size_t i = 0; i < 2; ++i) item.set(names[i], event.values[i]);
-    met.push(item.set("what", event.what).set("after", event.after));
+    met.push(item.set("type", event.type).set("what", event.what).set("after", event.after));
   }
   return json.set("points", std::move(points)).set("met", std::move(met)).set("ended", curve.ended);
+}
+
+/// What is met on the way, marked and named: resonances as 1:2, the others by their type.
+void add_met(figure::Panel& panel, const orbit::Curve& curve) {
+  figure::Points dots{
+      .colour = figure::colours::black, .drawing = figure::Drawing::discs, .diameter_mm = 1.1, .over_lines = true};
+  std::vector<NamedPlace> names;
+  for (const orbit::CurveEvent& event : curve.met) {
+    const bool resonance = event.type.size() == 2 && event.type.front() == 'R';
+    dots.x.push_back(event.values[0]);
+    dots.y.push_back(event.values[1]);
+    names.push_back({event.values[0], event.values[1], resonance ? "1:" + event.type.substr(1) : event.type});
+  }
+  if (!names.empty()) panel.points.push_back(std::move(dots));
+  add_names(panel, names);
 }
 
 figure::Figure curve_figure(const orbit::Curve& curve, const ModelDefinition& definition,
@@ -79,6 +95,7 @@ figure::Figure curve_figure(const orbit::Curve& curve, const ModelDefinition& de
     line.y.push_back(point.values[1]);
   }
   panel.lines.push_back(std::move(line));
+  add_met(panel, curve);
   figure::Figure figure;
   figure.panels.push_back(std::move(panel));
   return figure;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "slapstick/base/error.hpp"
 #include "slapstick/figure/raster.hpp"
@@ -68,9 +69,17 @@ double left_margin_em(const Panel& panel, const Axis& y) {
   return spacing::edge + (panel.y_label.empty() ? 0 : spacing::axis_label) + y.label_em + spacing::tick;
 }
 
-double below_em(const Panel& panel, bool x_numbers) {
-  if (!x_numbers) return spacing::edge;
-  return spacing::numbers + (panel.x_label.empty() ? 0 : spacing::axis_label) + spacing::edge;
+double below_em(const Panel& panel, const PanelLayout& layout) {
+  const double legend = layout.legend_rows * spacing::row;
+  if (!layout.x_numbers) return legend + spacing::edge;
+  return legend + spacing::numbers + (panel.x_label.empty() ? 0 : spacing::axis_label) + spacing::edge;
+}
+
+void size_legend_below(const Figure& figure, const Grid& grid, std::size_t index, Layout& layout) {
+  PanelLayout& at = layout.panels[index];
+  if (figure.panels[index].legend != Legend::below) return;
+  at.keys = place_keys(figure.panels[index], layout.width_cm / grid.columns, layout.em_cm);
+  at.legend_rows = at.keys.empty() ? 0 : at.keys.back().row + 1;
 }
 
 /// Greedy rows: each label goes to the lowest row where it touches no earlier one.
@@ -130,7 +139,7 @@ void place_rows(const Figure& figure, const Grid& grid, Layout& layout) {
     const int r = grid.row(i);
     const int rows = rows_above(figure.panels[i], layout.panels[i]);
     above[r] = std::max(above[r], (spacing::edge + 0.15 + spacing::row * rows) * em);
-    below[r] = std::max(below[r], below_em(figure.panels[i], layout.panels[i].x_numbers) * em);
+    below[r] = std::max(below[r], below_em(figure.panels[i], layout.panels[i]) * em);
     share[r] = std::max(share[r], figure.panels[i].height_share);
   }
   double free = layout.height_cm, shares = 0;
@@ -155,7 +164,9 @@ void choose_y_axes(const Figure& figure, const Grid& grid, Layout& layout) {
   for (const Panel& panel : figure.panels) mean_share += panel.height_share / static_cast<double>(figure.panels.size());
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     const Panel& panel = figure.panels[i];
-    const double height_cm = 0.75 * layout.height_cm / grid.rows * panel.height_share / mean_share;  // near enough
+    const double legend_cm = layout.panels[i].legend_rows * spacing::row * layout.em_cm;
+    const double height_cm =
+        0.75 * (layout.height_cm / grid.rows - legend_cm) * panel.height_share / mean_share;  // near enough
     layout.panels[i].y = with_ticks(y_range(panel), panel.log_y, most_labels(height_cm, 1.7 * layout.em_cm));
   }
 }
@@ -171,8 +182,13 @@ void choose_x_axes(const Figure& figure, const Grid& grid, Layout& layout) {
   }
 }
 
-double default_height(const Figure& figure, const Grid& grid) {
-  return figure.share_x ? row_height_cm + (grid.rows - 1) * shared_row_height_cm : grid.rows * row_height_cm;
+double default_height(const Figure& figure, const Grid& grid, const Layout& layout) {
+  std::vector<int> legend_rows(grid.rows, 0);
+  for (std::size_t i = 0; i < figure.panels.size(); ++i)
+    legend_rows[grid.row(i)] = std::max(legend_rows[grid.row(i)], layout.panels[i].legend_rows);
+  const double legends = std::accumulate(legend_rows.begin(), legend_rows.end(), 0) * spacing::row * layout.em_cm;
+  return legends +
+         (figure.share_x ? row_height_cm + (grid.rows - 1) * shared_row_height_cm : grid.rows * row_height_cm);
 }
 
 }  // namespace
@@ -194,8 +210,9 @@ int rows_above(const Panel& panel, const PanelLayout& layout) {
 
 Layout lay_out(const Figure& figure) {
   const Grid grid(figure);
-  Layout layout{figure.width_cm, figure.height_cm.value_or(default_height(figure, grid)), figure.font_pt * 2.54 / 72,
-                std::vector<PanelLayout>(figure.panels.size())};
+  Layout layout{figure.width_cm, 0, figure.font_pt * 2.54 / 72, std::vector<PanelLayout>(figure.panels.size())};
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) size_legend_below(figure, grid, i, layout);
+  layout.height_cm = figure.height_cm.value_or(default_height(figure, grid, layout));
   choose_y_axes(figure, grid, layout);
   for (int pass = 0; pass < 2; ++pass) {  // the margin depends on the numbers, the numbers on what the margins leave
     choose_x_axes(figure, grid, layout);

@@ -22,6 +22,14 @@ struct MarkLabel {
   int row = 0;
 };
 
+/// An entry of a legend below the frame.
+struct KeyPlace {
+  Key key{};
+  double x_cm = 0,
+         text_cm = 0;  ///< of its sample's left end, from the left end of the panel's cell; of its text from there
+  int row = 0;         ///< 0 is the highest
+};
+
 struct PanelLayout {
   Axis x{}, y{};
   Box frame{};
@@ -30,6 +38,8 @@ struct PanelLayout {
   bool raster = false;                      ///< points are drawn as one image
   int raster_width = 0, raster_height = 0;  ///< pixels
   Legend legend = Legend::none;             ///< never `automatic`
+  std::vector<KeyPlace> keys{};             ///< of a legend below the frame ..
+  int legend_rows = 0;                      ///< .. and their rows
   std::vector<MarkLabel> mark_labels{};
   int mark_rows = 0;
 };
@@ -45,12 +55,14 @@ Layout lay_out(const Figure& figure);
 
 /// Vertical distances in em, shared by the layout (which reserves them) and the script (which uses them).
 namespace spacing {
-inline constexpr double row = 1.25;         ///< of text above the frame
-inline constexpr double numbers = 1.65;     ///< tick and number under the frame
-inline constexpr double axis_label = 1.35;  ///< below or left of the numbers
-inline constexpr double edge = 0.45;        ///< free paper
-inline constexpr double tick = 0.75;        ///< tick and gap left of the frame
-inline constexpr double legend_font = 0.9;  ///< relative to the figure's
+inline constexpr double row = 1.25;                              ///< of text above the frame
+inline constexpr double numbers = 1.65;                          ///< tick and number under the frame
+inline constexpr double axis_label = 1.35;                       ///< below or left of the numbers
+inline constexpr double edge = 0.45;                             ///< free paper
+inline constexpr double tick = 0.75;                             ///< tick and gap left of the frame
+inline constexpr double legend_font = 0.9;                       ///< relative to the figure's
+inline constexpr double line_sample = 2.2, marker_sample = 1.0;  ///< of a legend below
+inline constexpr double after_sample = 0.5, between_keys = 1.2;
 }  // namespace spacing
 
 /// Rows of text above the frame: the title (or a lone tag), the legend if it stands there, mark labels.
@@ -66,6 +78,9 @@ std::optional<Colour> colour_of_both(const Panel& panel);
 
 /// Number of entries that the legend would have.
 int legend_entries(const Panel& panel);
+
+/// A legend below the frame: the panel's keys, then those of its named series, in columns as wide as the widest of their group.
+std::vector<KeyPlace> place_keys(const Panel& panel, double cell_cm, double em_cm);
 
 /// The corner of the frame without data, or `above`; what the caller asked for if it did.
 Legend place_legend(const Panel& panel, const PanelLayout& layout, double em_cm);

@@ -27,6 +27,7 @@ Share legend_share(const Panel& panel, const PanelLayout& layout, double em_cm) 
   double widest = 0;
   for (const auto& points : panel.points) widest = std::max(widest, width_em(points.label));
   for (const auto& line : panel.lines) widest = std::max(widest, width_em(line.label));
+  for (const auto& key : panel.keys) widest = std::max(widest, width_em(key.label));
   const double em = em_cm * spacing::legend_font;
   return {(widest + 4.2) * em / layout.frame.width(), (legend_entries(panel) * 1.3 + 0.8) * em / layout.frame.height()};
 }
@@ -91,7 +92,7 @@ std::optional<Colour> colour_of_both(const Panel& panel) {
 
 int legend_entries(const Panel& panel) {
   const auto named = [](const auto& series) { return !series.label.empty(); };
-  return (colour_of_both(panel) ? 1 : 0) +
+  return (colour_of_both(panel) ? 1 : 0) + static_cast<int>(panel.keys.size()) +
          static_cast<int>(std::count_if(panel.points.begin(), panel.points.end(), named) +
                           std::count_if(panel.lines.begin(), panel.lines.end(), named));
 }

@@ -3,32 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "style.hpp"
 #include "text.hpp"
 
 namespace slapstick::figure {
 namespace {
-
-constexpr double pointsize_mm = 2.15;  // diameter of gnuplot's disc (pt 7) at pointsize 1, measured
 
 std::string comment(const std::string& text) {
   std::string out = "# ";
   for (const char c : text)
     out += c == '\n' ? std::string("\n# ") : std::string(1, static_cast<unsigned char>(c) < 0x20 ? ' ' : c);
   return out + "\n";
-}
-
-std::string dash_type(Dash dash) {
-  switch (dash) {
-    case Dash::dashed:
-      return "(8,4)";
-    case Dash::dotted:
-      return "(1.5,2)";
-    case Dash::dash_dotted:
-      return "(7,2.5,1.5,2.5)";
-    case Dash::solid:
-      break;
-  }
-  return "solid";
 }
 
 /// The commands of one panel.
@@ -151,8 +136,10 @@ class PanelScript {
 
   void legend() {
     if (at_.legend == Legend::none) return;
-    const bool has_lines =
-        std::any_of(panel_.lines.begin(), panel_.lines.end(), [](const Line& l) { return !l.label.empty(); });
+    if (at_.legend == Legend::below) return legend_below();
+    const auto named = [](const Line& l) { return !l.label.empty(); };
+    const bool has_lines = std::ranges::any_of(panel_.lines, named) ||
+                           std::ranges::any_of(panel_.keys, [](const Key& key) { return !key.marker; });
     const std::string common = std::string(" Left reverse samplen ") + (has_lines ? "1.6" : "0.4") +
                                " spacing 1.05 height 0.2 width 0 font '," + small_font_ + "'";
     if (at_.legend == Legend::above) {
@@ -166,23 +153,52 @@ class PanelScript {
     line(std::string("set key inside vertical ") + (top ? "top " : "bottom ") + (right ? "right" : "left") + common);
   }
 
+  void legend_below() {
+    const double axis_em = at_.x_numbers ? spacing::numbers + (panel_.x_label.empty() ? 0 : spacing::axis_label) : 0;
+    const double font_cm = spacing::legend_font * whole_.em_cm;
+    for (const KeyPlace& place : at_.keys) {
+      const double y = at_.frame.bottom - (axis_em + spacing::row * (place.row + 0.5)) * whole_.em_cm;
+      const double from = at_.cell_left + place.x_cm, text = from + place.text_cm;
+      const double to = text - spacing::after_sample * font_cm;
+      const Key& key = place.key;
+      if (key.marker)
+        line("set label '' at " + screen(0.5 * (from + to), y) + " point " +
+             point_style(*key.marker, key.size, key.colour));
+      else
+        line("set arrow from " + screen(from, y) + " to " + screen(to, y) + " nohead " +
+             line_style(key.size, key.dash, key.colour));
+      label(key.label, text, y, "left font '," + small_font_ + "'");
+    }
+  }
+
   void plot() {
-    std::vector<std::string> parts;
+    std::vector<std::string> parts, on_top;
     if (at_.raster) raster_parts(parts);
+    if (at_.legend != Legend::none && at_.legend != Legend::below) key_parts(parts);
     std::size_t column = series_.first_column;
     for (const std::size_t i : series_.points) {
       const Points& points = panel_.points[i];
-      parts.push_back(columns(column) + " with points pt 7 ps " + number(points.diameter_mm / pointsize_mm) +
-                      " lc rgb " + quote_colour(points.colour) + title(points.label));
+      (points.over_lines ? on_top : parts)
+          .push_back(columns(column) + " with points " + point_style(points.marker, points.diameter_mm, points.colour) +
+                     title(points.label));
     }
     for (const std::size_t i : series_.lines) {
       const Line& drawn = panel_.lines[i];
-      parts.push_back(columns(column) + " with lines lw " + number(drawn.width_pt) + " dt " + dash_type(drawn.dash) +
-                      " lc rgb " + quote_colour(drawn.colour) + title(drawn.label));
+      parts.push_back(columns(column) + " with lines " + line_style(drawn.width_pt, drawn.dash, drawn.colour) +
+                      title(drawn.label));
     }
+    parts.insert(parts.end(), on_top.begin(), on_top.end());
     if (parts.empty()) parts.push_back("NaN notitle");  // draws the axes
     for (std::size_t i = 0; i < parts.size(); ++i)
       line((i == 0 ? "plot " : "     ") + parts[i] + (i + 1 < parts.size() ? ", \\" : ""));
+  }
+
+  void key_parts(std::vector<std::string>& parts) const {
+    for (const Key& key : panel_.keys) {
+      const std::string style = key.marker ? "points " + point_style(*key.marker, key.size, key.colour)
+                                           : "lines " + line_style(key.size, key.dash, key.colour);
+      parts.push_back("keyentry with " + style + title(key.label));
+    }
   }
 
   /// On linear axes the image lies in data coordinates; gnuplot cannot do that on logarithmic ones, where it fills the frame.
@@ -209,7 +225,8 @@ class PanelScript {
   }
 
   std::string title(const std::string& label) const {
-    return label.empty() || at_.legend == Legend::none ? " notitle" : " title " + quote(label);
+    const bool elsewhere = at_.legend == Legend::none || at_.legend == Legend::below;
+    return label.empty() || elsewhere ? " notitle" : " title " + quote(label);
   }
 
   const Panel& panel_;

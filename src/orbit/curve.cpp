@@ -3,6 +3,7 @@
 
 #include "orbit/change_kind.hpp"
 #include "orbit/crossing_curve.hpp"
+#include "orbit/curve_events.hpp"
 #include "orbit/path.hpp"
 #include "orbit/special.hpp"
 #include "orbit/two_ways.hpp"
@@ -17,6 +18,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double shortest_step = 1e-7;
 constexpr double rim = 1e-4;  ///< so near to the end of a range, as a part of it, a curve has come to it
 
 /// Follows f = 0 on the surface of orbits over two parameters. Near a point the surface has two tangent directions; the curve's is the one along
@@ -43,11 +45,26 @@ class CurveFollower {
   [[nodiscard]] std::optional<Orbit> moved(const Place& from, double along, double across) const;
   [[nodiscard]] std::optional<double> f(const Place& from, double along, double across) const;
   [[nodiscard]] std::optional<Orbit> corrected(const Place& from, double step) const;
-  void note(const Place& before, const Place& now, Curve& curve) const;
+  [[nodiscard]] CurvePlace watched_at(const Place& here) const;
+  [[nodiscard]] std::optional<Place> located(const Place& before, const Place& now, double step,
+                                             const std::function<double(const Place&)>& value) const;
+  void note(const Place& before, const Place& now, double step, Curve& curve) const;
   [[nodiscard]] bool inside(const std::vector<double>& values) const;
-  /// The parameters at a distance along the tangent.
-  [[nodiscard]] std::vector<double> ahead(const Place& here, double step) const;
+  /// The end of a range that the tangent meets first.
+  struct Wall {
+    Index parameter = 0;
+    double value = 0.0;
+    double step = 0.0;  ///< along the tangent
+  };
+  [[nodiscard]] Wall wall(const Place& here) const;
+  [[nodiscard]] std::optional<Orbit> at_wall(const Place& from, const Wall& wall, double across, double* f) const;
+  [[nodiscard]] std::optional<Place> place_at_wall(const Place& from, const Wall& wall) const;
+  [[nodiscard]] std::optional<Place> end_of_torus(const Place& before, const Place& now, double step) const;
   [[nodiscard]] bool at_the_rim(const Place& here) const;
+  bool end(const Place& here, const Place& next, double step, bool at_range, Curve& curve);
+  [[nodiscard]] std::array<double, 2> ranges() const {
+    return {options_.to - options_.from, options_.second_to - options_.second_from};
+  }
   [[nodiscard]] CurvePoint point_of_curve(const Place& here) const;
   void note_own(const Watched& at);
   [[nodiscard]] std::optional<Place> next_place(const Place& here, double step) const;
@@ -57,6 +74,7 @@ class CurveFollower {
   const SpecialPoint& point_;
   const CurveOptions& options_;
   std::vector<bool> own_;
+  std::vector<CurveTest> tests_;
 };
 
 bool CurveFollower::inside(const std::vector<double>& values) const {
@@ -146,6 +164,7 @@ void CurveFollower::note_own(const Watched& at) {
         largest = std::max(largest, std::abs(other.value));
     own_[i] = std::abs(at.tests[i].value) <= zero * largest;
   }
+  tests_ = curve_tests(problem_, point_, at, own_);
 }
 
 /// On a curve of GR, SL, CH or CO the simulator cannot decide; whether the orbit is a motion but for that is seen from its other margins.
@@ -160,45 +179,117 @@ CurvePoint CurveFollower::point_of_curve(const Place& here) const {
   return point;
 }
 
-/// Signs that have changed beside the one that is zero all along.
-void CurveFollower::note(const Place& before, const Place& now, Curve& curve) const {
-  const auto add = [&](const std::string& what) {
-    curve.met.push_back({what, now.orbit.values, curve.points.size() - 1});
-  };
-  const auto changes = [](double a, double b) { return (a < 0.0) != (b < 0.0); };
-  if (point_.type != SpecialType::PD && changes(before.watched.flip, now.watched.flip)) add("a multiplier passes -1");
-  if (point_.type != SpecialType::LP && changes(before.watched.turn, now.watched.turn))
-    add("a fold of the branch: a multiplier passes +1");
-  if (point_.type != SpecialType::NS && point_.type != SpecialType::PD &&
-      changes(before.watched.torus, now.watched.torus))
-    add("two multipliers whose product is 1");
-  for (int j = 0; j < 2; ++j) {
-    const Index column = problem_.parameter_column(before.orbit.legs(), j);
-    if (changes(before.along[column], now.along[column]))
-      add("the curve turns back in " + problem_.family().names[static_cast<std::size_t>(j)]);
+CurvePlace CurveFollower::watched_at(const Place& here) const {
+  const std::size_t legs = here.orbit.legs();
+  return {here.watched,
+          {here.along[problem_.parameter_column(legs, 0)], here.along[problem_.parameter_column(legs, 1)]}};
+}
+
+/// The zero of a function between two places, at which its signs differ.
+std::optional<CurveFollower::Place> CurveFollower::located(const Place& before, const Place& now, double step,
+                                                           const std::function<double(const Place&)>& value) const {
+  constexpr double enough = 1e-7;  // of the step: the tangents, by differences, are known no better
+  double a = 0.0, b = step, f_a = value(before), f_b = value(now);
+  std::optional<Place> best;
+  for (int k = 0; k < 30 && b - a > enough * step; ++k) {
+    double s = (a * f_b - b * f_a) / (f_b - f_a);
+    if (!(s > a && s < b) || k % 3 == 2) s = 0.5 * (a + b);
+    std::optional<Place> there = next_place(before, s);
+    if (!there) break;
+    const double f_s = value(*there), moved = std::min(s - a, b - s);
+    const bool left = (f_s < 0.0) == (f_a < 0.0);
+    (left ? a : b) = s;
+    (left ? f_a : f_b) = f_s;
+    best = std::move(there);
+    if (f_s == 0.0 || moved <= enough * step) break;
   }
-  for (std::size_t i = 0; i < before.watched.tests.size(); ++i) {
-    if (!own_[i] && before.watched.tests[i].value > 0.0 && now.watched.tests[i].value < 0.0)
-      add("the events change: " + describe(now.watched.tests[i], now.orbit.shape, problem_.base()));
+  return best;
+}
+
+/// Points of codimension two between two places.
+void CurveFollower::note(const Place& before, const Place& now, double step, Curve& curve) const {
+  for (const CurveTest& test : tests_) {
+    const auto value = [&](const Place& here) { return test.value(watched_at(here)); };
+    const double from = value(before), to = value(now);
+    if ((from < 0.0) == (to < 0.0) || (test.falls && !(from > 0.0 && to < 0.0))) continue;
+    const std::optional<Place> there = located(before, now, step, value);
+    const Place& at = there ? *there : now;
+    add_event(curve, {test.type, test.what(at.watched), at.orbit.values, curve.points.size() - 1}, ranges());
   }
 }
 
-std::vector<double> CurveFollower::ahead(const Place& here, double step) const {
-  std::vector<double> values = here.orbit.values;
+CurveFollower::Wall CurveFollower::wall(const Place& here) const {
+  const std::array<double, 2> least = {options_.from, options_.second_from}, most = {options_.to, options_.second_to};
+  Wall first{.step = INFINITY};
   for (Index j = 0; j < 2; ++j) {
+    const auto i = static_cast<std::size_t>(j);
     const Index column = problem_.parameter_column(here.orbit.legs(), j);
-    values[static_cast<std::size_t>(j)] += step * here.along[column] * here.units[column];
+    const double value = here.along[column] > 0.0 ? most[i] : least[i];
+    const double step = (value - here.orbit.values[i]) / (here.along[column] * here.units[column]);
+    if (step < first.step) first = {j, value, std::max(step, 0.0)};
   }
-  return values;
+  return first;
+}
+
+/// The orbit of the surface that has the wall's value, at a distance across the curve.
+std::optional<Orbit> CurveFollower::at_wall(const Place& from, const Wall& wall, double across, double* f) const {
+  Orbit orbit = from.orbit;
+  const ModeSet set(problem_.family(), orbit.values);
+  move(problem_, linearise(problem_, set, orbit),
+       (wall.step * from.along + across * from.across).cwiseProduct(from.units), 0.0, orbit);
+  orbit.values[static_cast<std::size_t>(wall.parameter)] = wall.value;
+  const std::vector<Condition> conditions = {
+      {fixed_parameters(problem_, orbit.legs())[static_cast<std::size_t>(wall.parameter)]},
+      {from.across.cwiseQuotient(from.units).transpose()}};
+  if (!solve(problem_, orbit, conditions, 10).converged) return std::nullopt;
+  *f = defining(point_, point_of(problem_, orbit, options_.to - options_.from, from.tangent).watched);
+  return orbit;
+}
+
+/// Where the curve meets the end of a range. The model may not exist beyond, so that the tangent there is extrapolated.
+std::optional<CurveFollower::Place> CurveFollower::place_at_wall(const Place& from, const Wall& wall) const {
+  try {
+    double a = 0.0, b = 1e-3 * wall.step, f_a = 0.0, f_b = 0.0;
+    std::optional<Orbit> orbit = at_wall(from, wall, a, &f_a), next = at_wall(from, wall, b, &f_b);
+    for (int k = 0; k < 25 && orbit && next; ++k) {
+      if (f_a == f_b || std::abs(b - a) < 1e-13) break;
+      const double s = b - f_b * (b - a) / (f_b - f_a);
+      if (!(std::abs(s) <= wall.step)) return std::nullopt;
+      a = b;
+      f_a = f_b;
+      b = s;
+      orbit = std::move(next);
+      next = at_wall(from, wall, b, &f_b);
+    }
+    if (!next || !inside(next->values)) return std::nullopt;
+    Place last = from;
+    last.watched = point_of(problem_, *next, options_.to - options_.from, from.tangent).watched;
+    for (Index j = 0; j < 2; ++j) {  // of the parabola that has the first tangent and both points
+      const Index column = problem_.parameter_column(next->legs(), j);
+      const auto i = static_cast<std::size_t>(j);
+      const double chord = (next->values[i] - from.orbit.values[i]) / (wall.step * from.units[column]);
+      last.along[column] = 2.0 * chord - from.along[column];
+    }
+    last.orbit = std::move(*next);
+    return last;
+  } catch (const InputError&) {  // no model there
+  } catch (const NumericalError&) {
+  }
+  return std::nullopt;
+}
+
+/// An NS curve ends where its two multipliers become real, at 1 or -1: the resonances 1:1 and 1:2.
+std::optional<CurveFollower::Place> CurveFollower::end_of_torus(const Place& before, const Place& now,
+                                                                double step) const {
+  const auto complex = [](const Place& here) { return 2.0 - std::abs(sum_of_pair(here.watched)); };
+  if (point_.type != SpecialType::NS || complex(now) >= 0.0) return std::nullopt;
+  std::optional<Place> end = located(before, now, step, complex);
+  return end ? end : now;
 }
 
 bool CurveFollower::at_the_rim(const Place& here) const {
-  std::vector<double> values = here.orbit.values;
-  for (Index j = 0; j < 2; ++j) {
-    const Index column = problem_.parameter_column(here.orbit.legs(), j);
-    values[static_cast<std::size_t>(j)] += std::copysign(rim * here.units[column], here.along[column]);
-  }
-  return !inside(values);
+  return wall(here).step * std::abs(here.along[problem_.parameter_column(here.orbit.legs(), wall(here).parameter)]) <
+         rim;
 }
 
 std::optional<CurveFollower::Place> CurveFollower::next_place(const Place& here, double step) const {
@@ -210,28 +301,52 @@ std::optional<CurveFollower::Place> CurveFollower::next_place(const Place& here,
   return std::nullopt;
 }
 
+/// @returns true if the curve has come to its end: the range's, or a torus's
+bool CurveFollower::end(const Place& here, const Place& next, double step, bool at_range, Curve& curve) {
+  const std::optional<Place> torus = end_of_torus(here, next, step);
+  const Place& last = torus ? *torus : next;
+  if (!torus) note(here, next, step, curve);
+  curve.points.push_back(point_of_curve(last));
+  if (torus) {
+    const std::string resonance = sum_of_pair(torus->watched) < 0.0 ? "1:2" : "1:1";
+    const std::string value = resonance == "1:2" ? "-1" : "1";
+    add_event(curve,
+              {"R" + resonance.substr(2), "resonance " + resonance + ": both multipliers are " + value,
+               torus->orbit.values, curve.points.size() - 1},
+              ranges());
+    curve.ended = "resonance " + resonance + " at " + shown(torus->orbit.values[0]) + ", " +
+                  shown(torus->orbit.values[1]) + ": no torus beyond, both multipliers are real";
+  }
+  return torus || at_range;
+}
+
 Curve CurveFollower::run(Orbit orbit, double sign) {
   Curve curve;
   curve.ended = "points";
   Place here = place(std::move(orbit), nullptr);
   if (here.along[problem_.parameter_column(here.orbit.legs(), 1)] * sign < 0.0) here.along = -here.along;
   note_own(here.watched);
+  Watched before = here.watched;
   double step = 0.25 * options_.longest_step;
   curve.points.push_back(point_of_curve(here));
   while (static_cast<int>(curve.points.size()) < options_.most_points && !stopped(options_.stop)) {
-    std::optional<Place> next;
-    if (inside(ahead(here, step))) next = next_place(here, step);
-    if (!next || here.along.dot(next->along) < 0.9 || !inside(next->orbit.values)) {
-      step *= 0.5;
-      if (step > 1e-7) continue;
+    const Wall ahead = wall(here);
+    const bool last = ahead.step <= step;
+    std::optional<Place> next = last ? place_at_wall(here, ahead) : next_place(here, step);
+    if (next && (here.along.dot(next->along) < 0.9 || !inside(next->orbit.values))) next.reset();
+    if (!next) {
+      step = 0.5 * std::min(step, ahead.step);
+      if (step > shortest_step && !(last && at_the_rim(here))) continue;
       curve.failed = !at_the_rim(here);
       curve.ended = curve.failed
-                        ? "no convergence behind " + shown(here.orbit.values[0]) + ", " + shown(here.orbit.values[1])
+                        ? "no convergence behind " + shown(here.orbit.values[0]) + ", " + shown(here.orbit.values[1]) +
+                              likely_cause(problem_, point_, here.orbit, before, here.watched, own_)
                         : "range";
       return curve;
     }
-    note(here, *next, curve);
-    curve.points.push_back(point_of_curve(*next));
+    if (last) curve.ended = "range";
+    if (end(here, *next, last ? ahead.step : step, last, curve)) return curve;
+    before = std::move(here.watched);
     here = std::move(*next);
     step = std::min(options_.longest_step, 1.4 * step);
     if (options_.progress) options_.progress(static_cast<long>(curve.points.size()));

@@ -51,6 +51,16 @@ def test_a_file_without_coordinates_is_not_asked_for_their_names():
         says(refused(2, 'check', write('n.toml', text)), 'n.toml:1: model: it has no coordinates')
 
 
+def test_a_start_behind_a_stop_is_told_how_to_begin_elsewhere():
+    stop = '[[stop]]\nname = "wall"\nbetween = ["x", "ground"]\nclearance = "gap"\nrestitution = 0.5\n[parameters]\ngap = 1\n'
+    model = write('w.toml', HEAD + 'omega = 2\n' + COORDINATE % 1 + FORCE + stop)
+    for verb in ('simulate', 'classify', 'poincare', 'orbit'):
+        says(refused(2, verb, model, '--set', 'gap=-0.5'), '--set gap=-0.5', "stop 'wall' is violated", '--state x=..', '[start]')
+    says(refused(2, 'diagram', model, '--sweep', 'gap=-1:1:3'), '--sweep gap=-1', "stop 'wall' is violated", '--state x=..', '[start]')
+    good('classify', model, '--set', 'gap=-0.5', '--state', 'x=-1', '--transient', '10')
+    says(refused(2, 'simulate', model, '--state', 'V=1'), "did you mean 'v'?")
+
+
 def test_a_comma_or_a_unit_in_a_number_is_recognised():
     comma, unit = 'decimals have a point: 0.5, not 0,5', 'no unit'
     for words in (('simulate', 'vibro-impact', '--set', 'omega=%s'), ('simulate', 'vibro-impact', '--time', '%s'),

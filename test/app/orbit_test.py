@@ -114,6 +114,34 @@ def test_the_onset_of_chatter_reads_the_same_from_both_sides():
         assert all('->' not in line for line in nearest), nearest
 
 
+def test_a_branch_that_is_born_says_where():
+    words = ('continue', *PAPER, '--orbit', '1-1', '--param', 'omega', '--range', '2.6:2.87', '--branches', '2')
+    says(good(*words, '--table'), '\n  2 is born at omega = 2.84595629561 (PD of 1)\n')
+    text = good(*words)
+    born = text[text.index('"born_at"'):]
+    says(born, '"branch": 1', '"type": "PD"')
+    assert abs(number(born, 'param') - 2.8459562956064) < 1e-10
+
+
+def test_a_picture_says_which_branch_and_which_special_point_is_which():
+    good('continue', *PAPER, '--orbit', '1-1', '--param', 'omega', '--range', '2.6:2.95', '--branches', '3', '--table', '--out', 't.txt', '--plot', 'b.png')
+    script = read('b.gp')
+    for text in ('stable', 'unstable', 'PD', '1: 1-1', '2: 2-2', '3: 4-4'):
+        assert "set label '%s' at screen" % text in script, text
+    colours = {line.split("lc rgb '")[1][:7] for line in script.splitlines() if 'with lines' in line and ' lw 0.3 ' not in line}
+    assert len(colours) == 3, colours
+    numbers = [line.split("'")[1] for line in script.splitlines() if line.strip().startswith('set label') and 'boxed' in line]
+    assert sorted(numbers) == ['1', '2', '3'], numbers
+    assert 'set arrow from 2.' not in script  # no lines through the whole frame
+
+
+def test_what_a_curve_meets_is_named_in_its_picture():
+    words = ('curve', 'vibro-impact', '--set', 'omega=4.78', '--orbit', '4-2', '--from', 'NS', '--params', 'omega,friction')
+    text = good(*words, '--range', 'omega=4.4:4.9', '--range', 'friction=0.1:0.5', '--plot', 'c.png')
+    says(text, '"type": "R2"', 'resonance 1:2: both multipliers are -1', 'no torus beyond')
+    says(read('c.gp'), "set label '1:2'")
+
+
 def points_drawn(*words):
     """The first column of the picture's data that is no line's: x of the cloud, then y."""
     good('continue', *words, '--table', '--out', 't.txt', '--plot', 'b.png')

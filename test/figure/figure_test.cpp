@@ -253,6 +253,42 @@ TEST_F(FigureTest, nothing_is_cut_off) {
     }
 }
 
+/// A legend of many entries takes paper of its own, in rows that stay on it.
+TEST_F(FigureTest, a_legend_below_makes_the_figure_higher_and_not_the_frame_lower) {
+  Panel panel{.x_label = "x", .y_label = "y", .lines = {sine(1, 9)}};
+  const auto frame = [&](const Panel& of) {
+    Figure figure{.panels = {of}};
+    figure.png_dpi = 100;
+    const Files files = write(figure, folder / "a", {.pdf = false});
+    EXPECT_FALSE(touches_the_edge(files.png));
+    int rows = 0;
+    for (const auto& pixel : workshop::pixels(files.png)) rows = std::max(rows, pixel.row + 1);
+    const std::string script = workshop::read(files.script);
+    double b = 0, t = 0;
+    std::sscanf(script.c_str() + script.find("set bmargin"), "set bmargin at screen %lf; set tmargin at screen %lf", &b,
+                &t);
+    return (t - b) * rows;
+  };
+  const double bare = frame(panel);
+  panel.legend = Legend::below;
+  for (int i = 0; i < 30; ++i) panel.keys.push_back({.label = std::to_string(i) + ": a branch", .group = i % 3});
+  panel.lines[0].label = "a line with a name";
+  EXPECT_NEAR(frame(panel), bare, 2.0);
+  const std::string script = workshop::read(folder / "a.gp");
+  for (const char* text : {"'0: a branch'", "'29: a branch'", "'a line with a name'"})
+    EXPECT_NE(script.find(std::string("set label ") + text + " at screen"), std::string::npos) << text;
+}
+
+/// Of the marker on a line neither is hidden by the order of drawing.
+TEST_F(FigureTest, markers_over_lines_are_drawn_last_and_have_their_shape) {
+  Points marked{.x = {1}, .y = {0}, .drawing = Drawing::discs, .marker = Marker::delta, .over_lines = true};
+  const std::string script = workshop::read(
+      write({.panels = {{.points = {marked}, .lines = {sine(1, 9)}}}}, folder / "a", {.pdf = false}).script);
+  const auto points = script.find("with points pt 8"), lines = script.find("with lines");
+  ASSERT_NE(points, std::string::npos);
+  EXPECT_GT(points, lines);
+}
+
 TEST_F(FigureTest, the_raster_lies_where_the_axes_say) {
   // A lone disc of points in the middle of the lower left quarter, on linear and on logarithmic axes.
   for (const bool log : {false, true}) {

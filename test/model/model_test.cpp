@@ -209,6 +209,8 @@ TEST(Nearest, slips_of_the_finger_find_the_name) {
   EXPECT_EQ(nearest("temperature", names), "");
   EXPECT_EQ(nearest("", names), "");
   EXPECT_EQ(nearest(std::string(100000, 'x'), names), "");
+  EXPECT_EQ(nearest("vp", {"p", "v_p"}), "v_p") << "an underscore left out is nearer than a letter";
+  EXPECT_EQ(nearest("Omega", names), "omega");
   EXPECT_EQ(suggestion("omgea", names), "; did you mean 'omega'?");
   EXPECT_EQ(suggestion("temperature", {"a_b", "c_d"}), "; known: a_b, c_d");
 }

@@ -28,14 +28,25 @@ namespace slapstick {
   return row.back();
 }
 
+/// A name without what is most easily left out or mistaken: underscores and the case of letters.
+[[nodiscard]] inline std::string plain_name(std::string_view name) {
+  std::string plain;
+  for (const char c : name)
+    if (c != '_') plain += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return plain;
+}
+
 /// The candidate that `word` most likely stands for: the one at the least edit distance (the first of equals), or else the only one
-/// that begins with it; empty if none is closer than a third of the word (at least 2 edits).
+/// that begins with it; before all others one that differs in underscores and case only. Empty if none is closer than a third of the word (at least 2 edits).
 [[nodiscard]] inline std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
   const std::size_t tolerated = std::max<std::size_t>(2, word.size() / 3);
   std::size_t least = tolerated + 1;
   std::string best, longer;
   std::size_t continued = 0;
   if (word.size() > 100) return {};
+  const std::string plain = plain_name(word);
+  for (const auto& candidate : candidates)
+    if (candidate != word && !plain.empty() && plain_name(candidate) == plain) return candidate;
   for (const auto& candidate : candidates) {
     const auto [shorter, longest] = std::minmax({word.size(), candidate.size()});
     const std::size_t distance = longest - shorter < least ? edit_distance(word, candidate) : least;

@@ -36,6 +36,9 @@ inline constexpr Colour grey{110, 110, 110}, light_grey{190, 190, 190};
 enum class Drawing { automatic, discs, raster };
 inline constexpr std::size_t raster_threshold = 20000;
 
+/// The shape of a point that is drawn by itself; an image ignores it. Those after `star` are open.
+enum class Marker { disc, square, triangle, diamond, star, circle, box, delta, nabla, cross };
+
 /// A cloud of points (x[i], y[i]).
 struct Points {
   std::vector<double> x{}, y{};
@@ -43,6 +46,8 @@ struct Points {
   Colour colour = colours::dark_blue;
   Drawing drawing = Drawing::automatic;
   double diameter_mm = 0.4;  ///< of a disc; a raster ignores it
+  Marker marker = Marker::disc;
+  bool over_lines = false;  ///< drawn after the lines, which cover the other points; only with `discs`
 };
 
 enum class Dash { solid, dashed, dotted, dash_dotted };
@@ -70,9 +75,20 @@ struct Range {
   double min = 0, max = 1;  ///< min < max; both > 0 on a logarithmic axis
 };
 
+/// An entry of the legend for what several series share, a style or a marker; it comes before those of the series.
+struct Key {
+  std::string label{};
+  Colour colour = colours::black;
+  std::optional<Marker> marker{};  ///< a point of this shape; without one a piece of a line
+  double size = 0.8;               ///< of the point in mm, of the line in pt
+  Dash dash = Dash::solid;
+  int group = 0;  ///< of a legend below: each of the groups begins a row and has columns of its own
+};
+
 /// `automatic`: the corner inside the frame that holds no data, or a row above the frame if there is none.
+/// `below`: under the name of the x axis, in as many rows as the entries need; they make the figure higher, not the frame lower.
 /// `none` also hides single series. Series without a label never appear.
-enum class Legend { automatic, none, top_left, top_right, bottom_left, bottom_right, above };
+enum class Legend { automatic, none, top_left, top_right, bottom_left, bottom_right, above, below };
 
 /// One pair of axes. Without a range: y is the range of the data and 4 % on either side; x likewise, but without the 4 % if
 /// every series runs through x in one direction (time, a swept parameter), which then fills the frame.
@@ -85,6 +101,7 @@ struct Panel {
   std::vector<Points> points{};
   std::vector<Line> lines{};  ///< drawn over the points
   std::vector<Mark> marks{};
+  std::vector<Key> keys{};
   Legend legend = Legend::automatic;
   double height_share = 1;  ///< frame height relative to the other rows; a row takes its largest
 };
@@ -95,7 +112,7 @@ struct Figure {
   int columns = 1;
   double width_cm = 8.5;
   std::optional<double>
-      height_cm{};        ///< default: 5.6 cm per row with an x axis of its own, 3.8 cm for a row that shares it
+      height_cm{};  ///< default: 5.6 cm per row with an x axis of its own, 3.8 cm for a row that shares it, and what legends below take
   bool share_x = false;   ///< panels of a column have one x range, numbered and named under the lowest only
   std::string caption{};  ///< a comment in the script; a journal sets captions in its own type
   std::string font = "DejaVu Sans";

@@ -86,7 +86,10 @@ struct CurvePoint {
 
 /// What else happens on a curve: a point of codimension two.
 struct CurveEvent {
-  std::string what;  ///< "a multiplier passes -1", "the events change: ..", "the curve turns back in NAME"
+  std::string
+      type;  ///< as of a special point, that of the other condition; "R1" to "R4" for the resonances 1:1 to 1:4; "turn" of the curve
+  std::string
+      what;  ///< "a multiplier passes -1", "the events change: ..", "the curve turns back in NAME"; several that are one point
   std::vector<double> values;
   std::size_t after = 0;
 };

@@ -1,0 +1,84 @@
+/// Loci of special points in two parameters: where they end, and what they meet.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "beside.hpp"
+
+namespace slapstick::test {
+namespace {
+
+using orbit::SpecialType;
+
+struct Ranges {
+  double from, to, second_from, second_to;
+};
+
+orbit::Curve curve_of(const std::string& model, const std::vector<std::string>& names, std::vector<double> values,
+                      int n, SpecialType type, const Ranges& in) {
+  const Posed single(model, {{names[1], values[1]}}, {names[0]}, {values[0]});
+  const auto first = single.settled(n, 3000);
+  if (!first) throw std::runtime_error("no orbit");
+  const orbit::Branch branch = orbit::follow(*single.problem, first->orbit, {.from = in.from, .to = in.to});
+  orbit::SpecialPoint point = only(branch, type);
+  values[0] = point.value;
+  const Posed both(model, {}, names, values);
+  point.solution.orbit.values = values;
+  return orbit::locus(*both.problem, point,
+                      {.from = in.from, .to = in.to, .second_from = in.second_from, .second_to = in.second_to});
+}
+
+/// Beyond the resonance 1:2 the product of two real multipliers is 1: a zero of the same function, and no torus.
+TEST(Curve, OfATorusEndsWhereItsMultipliersBecomeReal) {
+  const orbit::Curve curve =
+      curve_of("vibro-impact", {"omega", "friction"}, {4.78, 0.15}, 4, SpecialType::NS, {4.7, 4.9, 0.0, 0.5});
+  EXPECT_TRUE(curve.met.empty());
+  const orbit::Curve wide =
+      curve_of("vibro-impact", {"omega", "friction"}, {4.78, 0.15}, 4, SpecialType::NS, {4.4, 4.9, 0.1, 0.5});
+  EXPECT_FALSE(wide.failed) << wide.ended;
+  EXPECT_NE(wide.ended.find("resonance 1:2"), std::string::npos) << wide.ended;
+  for (const orbit::CurvePoint& point : wide.points)
+    EXPECT_NEAR(std::abs(point.solution.multipliers.front()), 1.0, 1e-3) << point.values[0] << " " << point.values[1];
+  EXPECT_EQ(std::ranges::count(wide.met, "R2", &orbit::CurveEvent::type), 1);
+  const auto& last = wide.points.back().solution.multipliers;
+  EXPECT_NEAR(std::abs(last[0] + 1.0), 0.0, 1e-2);
+  EXPECT_NEAR(std::abs(last[1] + 1.0), 0.0, 1e-2);
+}
+
+/// A curve used to come to the end of a range by ever smaller steps, and never there.
+TEST(Curve, EndsOnTheEndOfItsRangeInOneStep) {
+  const Ranges in{2.0, 4.0, 0.0, 0.5};  // there is no model of less friction
+  const orbit::Curve curve = curve_of("vibro-impact", {"omega", "friction"}, {2.7, 0.15}, 1, SpecialType::PD, in);
+  EXPECT_FALSE(curve.failed) << curve.ended;
+  EXPECT_EQ(curve.points.front().values[1], 0.0);
+  EXPECT_EQ(curve.points.back().values[1], 0.5);
+  int tiny = 0;
+  for (std::size_t i = 1; i < curve.points.size(); ++i)
+    tiny += std::abs(curve.points[i].values[1] - curve.points[i - 1].values[1]) < 1e-5 ? 1 : 0;
+  EXPECT_EQ(tiny, 0);
+  for (const orbit::CurvePoint* end : {&curve.points.front(), &curve.points.back()}) {
+    const auto off = [](const std::complex<double>& mu) { return std::abs(mu + 1.0); };
+    EXPECT_LT(off(*std::ranges::min_element(end->solution.multipliers, {}, off)), 1e-7);
+  }
+}
+
+/// Two points of codimension two are apart, and each stands where it is, not where the next step ended.
+TEST(Curve, ListsEachPointThatItMeetsOnceAndWhereItIs) {
+  const Ranges in{1.0, 2.0, 0.05, 0.3};
+  const orbit::Curve fine = curve_of("vibro-impact", {"omega", "friction"}, {1.53, 0.15}, 1, SpecialType::SL, in);
+  for (std::size_t i = 0; i < fine.met.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      EXPECT_GT(
+          std::hypot(fine.met[i].values[0] - fine.met[k].values[0], fine.met[i].values[1] - fine.met[k].values[1]),
+          1e-6);
+  const auto turn = std::ranges::find(fine.met, "turn", &orbit::CurveEvent::type);
+  ASSERT_NE(turn, fine.met.end());
+  double farthest = 0.0;
+  for (const orbit::CurvePoint& point : fine.points) farthest = std::max(farthest, point.values[0]);
+  EXPECT_GE(turn->values[0], farthest);
+  EXPECT_LT(turn->values[0] - farthest, 1e-4);
+}
+
+}  // namespace
+}  // namespace slapstick::test

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "orbit/change_kind.hpp"
 #include "orbit/special.hpp"
 
 namespace slapstick::orbit {

@@ -244,11 +244,14 @@ std::vector<Orbit> coincident(const Problem& problem, const Orbit& before, const
     if (!(all.shape.legs == one.shape.legs)) shapes.push_back(all);
     shapes.push_back(one);
   };
-  const bool several = lost_impacts(was, test_values(set, orbit)) > 1;
+  const int lost = lost_impacts(was, test_values(set, orbit));
+  const bool several = lost > 1;
   for (const Orbit& fewer : without_impact(set, before, orbit, test))
     add(several ? without_all(set, largest(was, impact_speed), fewer) : fewer, fewer);
   for (const Orbit& more : with_impact(set, orbit, test)) add(with_all(set, largest(was, gap), more), more);
   std::ranges::copy(merged(set, before, orbit, !impact_speed(test)), std::back_inserter(shapes));
+  if (lost > 0 && !impact_speed(test))  // another margin is used up with their speed
+    std::ranges::copy(merged(set, before, orbit, false), std::back_inserter(shapes));
   return shapes;
 }
 

@@ -18,7 +18,8 @@ double at_zero(const std::vector<double>& x, std::vector<double> y) {
 /// Points of a branch at which one leg is ever longer, the nearest first, and what they say.
 struct Shrinking {
   std::vector<double> length, value;
-  double first = 0.0;  ///< the leg's greatest length on the way
+  double first = 0.0;      ///< the leg's greatest length on the way ..
+  std::size_t before = 0;  ///< .. and the point that has it
 
   [[nodiscard]] double shrunk() const { return length.front() / first; }
   [[nodiscard]] double seen() const { return std::abs(value.front() - value.back()); }
@@ -26,7 +27,7 @@ struct Shrinking {
     const double all = at_zero(length, value),
                  without_first = at_zero({length.begin() + 1, length.end()}, {value.begin() + 1, value.end()}),
                  without_last = at_zero({length.begin(), length.end() - 1}, {value.begin(), value.end() - 1});
-    return {all, std::max(std::abs(without_first - all), std::abs(without_last - all)), leg};
+    return {all, std::max(std::abs(without_first - all), std::abs(without_last - all)), leg, before};
   }
 };
 
@@ -36,7 +37,10 @@ Shrinking shrinking(const std::vector<Solution>& points, std::size_t leg) {
   for (auto point = points.rbegin(); point != points.rend(); ++point) {
     const Orbit& orbit = point->orbit;
     if (!(orbit.shape.legs == points.back().orbit.shape.legs)) break;
-    found.first = std::max(found.first, orbit.duration(leg));
+    if (orbit.duration(leg) > found.first) {
+      found.first = orbit.duration(leg);
+      found.before = static_cast<std::size_t>(points.rend() - point) - 1;
+    }
     if (found.length.size() == most || (!found.length.empty() && orbit.duration(leg) < 1.2 * found.length.back()))
       continue;
     found.length.push_back(orbit.duration(leg));

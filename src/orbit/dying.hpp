@@ -9,8 +9,9 @@ namespace slapstick::orbit {
 struct Death {
   double value =
       0.0;  ///< of the parameter: extrapolated from the last points of the branch in the length of a leg, to nothing
-  double error = 0.0;   ///< what one point less, the first or the last, or another leg, makes of it
-  std::size_t leg = 0;  ///< that leg
+  double error = 0.0;      ///< what one point less, the first or the last, or another leg, makes of it
+  std::size_t leg = 0;     ///< that leg
+  std::size_t before = 0;  ///< a point of the branch at which it is longest
 };
 
 /// Empty if no leg shrinks, or what is extrapolated is not near the last point.

@@ -217,12 +217,11 @@ bool Follower::die_out(PathPoint& at) {
     end("range", false);
     return true;
   }
-  const Solution& last = branch_.points.back();
   SpecialPoint special;
-  special.type = last.sticking ? SpecialType::SL : SpecialType::CO;
+  special.solution = branch_.points.back();
+  special.type = special.solution.sticking ? SpecialType::SL : SpecialType::CO;
   special.value = death->value;
   special.error = death->error;
-  special.solution = last;
   special.after = branch_.points.size() - 1;
   special.what =
       "the motion dies out: leg " + std::to_string(death->leg + 1) + " and others shrink to nothing together";
@@ -231,8 +230,17 @@ bool Follower::die_out(PathPoint& at) {
   special.test = static_cast<std::size_t>(std::ranges::find_if(tests, length) - tests.begin());
   PathPoint there = at;
   there.orbit.values[0] = death->value;
+  std::vector<Reshaped> left =
+      leavings(problem_, branch_.points[death->before].orbit, there, tests[special.test], range_);
+  std::erase_if(left, [&](const Reshaped& next) { return one_of_family(problem_, next.point, range_); });
+  if (!left.empty()) {
+    const ChangeOfEvents seen = orbit::change_between(special.solution.orbit, left.front().point.orbit);
+    special.type = seen.type;
+    go_on(at, std::move(special), std::move(left.front()), std::nullopt);
+    return true;
+  }
   Behind beyond;
-  if (last.stable()) beyond = behind(problem_, there, range_, options_.stop);
+  if (special.solution.stable()) beyond = behind(problem_, there, range_, options_.stop);
   if (beyond.next && !one_of_family(problem_, beyond.next->point, range_)) {
     special.outcome = "persistence";
     branch_.special.push_back(std::move(special));

@@ -20,12 +20,14 @@ namespace {
 
 constexpr std::size_t used = 4;  ///< changes of a cascade from which its limit is taken
 
-/// From the nearest grazes, in which each adds an impact to the next one's. Empty if they are no cascade.
+/// From the nearest grazes, in which each adds an impact to the next one's; between equal stops one at each. Empty if they are no cascade.
 std::optional<CascadeLimit> limit_of(const Branch& branch, const std::vector<const SpecialPoint*>& grazes) {
   constexpr double slowest = 0.95, alike = 0.1;  // of the ratios of neighbouring distances
   if (grazes.size() < used) return std::nullopt;
+  const auto impacts = [&](std::size_t i) { return branch.points[grazes[i]->after].impacts; };
+  const long added = impacts(0) - impacts(1);
   for (std::size_t i = 0; i + 1 < used; ++i)
-    if (branch.points[grazes[i]->after].impacts != branch.points[grazes[i + 1]->after].impacts + 1) return std::nullopt;
+    if (added < 1 || impacts(i) - impacts(i + 1) != added) return std::nullopt;
   const auto distance = [&](std::size_t i) { return grazes[i]->value - grazes[i + 1]->value; };
   const double ratio = distance(0) / distance(1), before = distance(1) / distance(2);
   if (!(ratio > 0.0 && ratio < slowest) || std::abs(ratio - before) > alike) return std::nullopt;

@@ -157,8 +157,7 @@ std::optional<Orbit> solved(const Problem& problem, const Orbit& guess) {
 
 /// Has Newton's method led to no other orbit than where it began?
 bool stayed(const Problem& problem, const Orbit& from, const Orbit& to) {
-  constexpr double near =
-      1e-3;  // of the orbit's extent and cycle: places where legs vanish are known to the root of 1e-10
+  constexpr double near = 1e-2;  // of extent and cycle: where legs die out the last orbit is a little before the place
   const Extent extent(problem, from);
   for (std::size_t i = 0; i < from.legs(); ++i)
     if (extent.distance(from.x[i], to.x[i]) > near ||
@@ -281,23 +280,35 @@ std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, co
 
 }  // namespace
 
+namespace {
+
+void add(std::vector<Reshaped>& all, std::optional<Reshaped> next) {
+  const auto known = [&](const Reshaped& other) {
+    return other.folds == next->folds && same_cycle(other.point.orbit, next->point.orbit);
+  };
+  if (next && std::ranges::none_of(all, known)) all.push_back(std::move(*next));
+}
+
+}  // namespace
+
+std::vector<Reshaped> leavings(const Problem& problem, const Orbit& before, const PathPoint& change,
+                               const TestValue& test, double range) {
+  std::vector<Reshaped> all;
+  const double sense = std::copysign(1.0, change.watched.turn);
+  for (const Orbit& shape : coincident(problem, before, change.orbit, test))
+    add(all, leaving(problem, sense, shape, range));
+  std::ranges::stable_sort(all, {},
+                           &Reshaped::length);  // what is a motion farther off only has changed once more on the way
+  return all;
+}
+
 std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const PathPoint& change,
                               const std::optional<TestValue>& test, double range, const std::atomic<bool>* stop,
                               double nearest) {
   const double critical = change.orbit.values[0];
-  std::vector<Reshaped> all;
-  const auto add = [&](std::optional<Reshaped> next) {
-    const auto known = [&](const Reshaped& other) {
-      return other.folds == next->folds && same_cycle(other.point.orbit, next->point.orbit);
-    };
-    if (next && std::ranges::none_of(all, known)) all.push_back(std::move(*next));
-  };
   const double sense = std::copysign(1.0, change.watched.turn);  // a secant may span a fold
-  if (test)
-    for (const Orbit& shape : coincident(problem, before, change.orbit, *test))
-      add(leaving(problem, sense, shape, range));
-  std::ranges::stable_sort(all, {},
-                           &Reshaped::length);  // what is a motion farther off only has changed once more on the way
+  std::vector<Reshaped> all;
+  if (test) all = leavings(problem, before, change, *test, range);
   const double longest =
       chatters(change.orbit) > 0 ? 1e-2 : 1e-3;  // near its onset a chatter's equations are hardly solvable
   for (double length : {1e-6, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2}) {
@@ -315,7 +326,8 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
       for (Orbit guess : guesses) {
         if (stopped(stop)) return all;
         guess.values[0] = critical + side * (beyond.values[0] - critical);
-        if (const auto orbit = solved(problem, guess)) add(born(problem, change, test, sense, *orbit, length, range));
+        if (const auto orbit = solved(problem, guess))
+          add(all, born(problem, change, test, sense, *orbit, length, range));
       }
     }
   }

@@ -33,6 +33,10 @@ struct Reshaped {
                                             const std::optional<TestValue>& test, double range,
                                             const std::atomic<bool>* stop, double nearest = 1e-6);
 
+/// Of these, those of which the orbit at the change is one already: what is left where impacts lose their speed and legs their length.
+[[nodiscard]] std::vector<Reshaped> leavings(const Problem& problem, const Orbit& before, const PathPoint& change,
+                                             const TestValue& test, double range);
+
 /// Has a branch come to orbits of a family, which lie beside each other at the same parameter, as those of a mass that sticks anywhere in an interval?
 [[nodiscard]] bool one_of_family(const Problem& problem, const PathPoint& point, double range);
 

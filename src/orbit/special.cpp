@@ -124,10 +124,31 @@ std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const Pa
   return points;
 }
 
+namespace {
+
+/// By interpolation over the best of some widths, until two agree.
+std::optional<Located> in_some_width(const Problem& problem, const PathPoint& from, double near, double widest,
+                                     double range, const std::function<double(const PathPoint&)>& f) {
+  constexpr double enough = 1e-12;
+  std::optional<Located> best;
+  double alike = INFINITY;
+  for (const double part : {0.5, 0.25, 0.1, 0.02}) {
+    auto other = locate_between(problem, from, near, part * widest, range, f);
+    if (!other) continue;
+    if (best) alike = std::min(alike, std::abs(other->point.orbit.values[0] - best->point.orbit.values[0]));
+    if (!best || other->error < best->error) best = std::move(other);
+    if (best->error <= enough * range && alike <= enough * range) break;
+  }
+  if (best && std::isfinite(alike)) best->error = std::max(best->error, alike);
+  return best;
+}
+
+}  // namespace
+
 /// Where a leg shrinks to nothing between two zeros of one guard, the equations are singular: there by interpolation.
 std::optional<Located> locate_margin(const Problem& problem, const PathPoint& from, const PathPoint& to, double length,
                                      double range, std::size_t test) {
-  constexpr double nothing = 1e-2, enough = 1e-12, well_known = 1e-10;
+  constexpr double nothing = 1e-2, well_known = 1e-10;
   const auto value = [test](const Watched& watched) { return watched.tests[test].value; };
   std::optional<Located> located = locate(problem, from, length, range, value, value(to.watched));
   const std::size_t leg = from.watched.tests[test].leg;
@@ -138,13 +159,8 @@ std::optional<Located> locate_margin(const Problem& problem, const PathPoint& fr
   if (regular && !empty) return located;
   const double before = value(from.watched), behind = value(to.watched);
   const double near = located ? located->length : length * before / (before - behind);
-  std::optional<Located> best;
-  for (const double part : {0.5, 0.1, 0.02}) {
-    auto sharper = locate_between(problem, from, near, part * std::min(length, 0.02), range,
-                                  [&](const PathPoint& point) { return value(point.watched); });
-    if (sharper && (!best || sharper->error < best->error)) best = std::move(sharper);
-    if (best && best->error <= enough * range) break;
-  }
+  const std::optional<Located> best = in_some_width(problem, from, near, std::min(length, 0.02), range,
+                                                    [&](const PathPoint& point) { return value(point.watched); });
   if (empty) return best;  // a leg without length solves its equation anywhere
   return best && !(located && located->error < best->error) ? best : located;
 }

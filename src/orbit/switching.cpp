@@ -1,10 +1,12 @@
 #include "orbit/switching.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "orbit/extent.hpp"
 #include "orbit/path.hpp"
+#include "orbit/record.hpp"
 
 namespace slapstick::orbit {
 namespace {
@@ -12,7 +14,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double amplitude = 1e-3;  ///< of the first orbit behind a PD, in units of arclength
+/// Of the first orbit behind a PD, in units of arclength: where its events change soon, so near that it is a motion.
+constexpr std::array amplitudes = {1e-3, 1e-4, 1e-5};
 
 /// An orbit run through twice.
 Orbit twice(const Orbit& orbit) {
@@ -42,16 +45,21 @@ VectorXd new_direction(const Problem& problem, const Orbit& orbit, const VectorX
 }  // namespace
 
 std::vector<Orbit> doubled(const Problem& problem, const Orbit& pd) {
-  Orbit orbit = twice(pd);
-  const VectorXd units = arclength_units(problem, orbit, std::max(1e-3, std::abs(pd.values[0])));
-  const VectorXd direction = new_direction(problem, orbit, units);
-  const ModeSet set(problem.family(), orbit.values);
-  const Linearised at = linearise(problem, set, orbit);
-  move(problem, at, amplitude * direction.cwiseProduct(units), 0.0, orbit);
-  std::vector<Condition> conditions = fixed_parameters(problem, orbit.legs());
+  const Orbit two = twice(pd);
+  const VectorXd units = arclength_units(problem, two, std::max(1e-3, std::abs(pd.values[0])));
+  const VectorXd direction = new_direction(problem, two, units);
+  const Linearised at = linearise(problem, ModeSet(problem.family(), two.values), two);
+  std::vector<Condition> conditions = fixed_parameters(problem, two.legs());
   conditions[0].row = direction.cwiseQuotient(units).transpose();
-  if (!solve(problem, orbit, conditions, 12).converged || repeats(problem, orbit, 0.01 * amplitude)) return {};
-  return {orbit};
+  std::vector<Orbit> found;
+  for (const double amplitude : amplitudes) {
+    Orbit orbit = two;
+    move(problem, at, amplitude * direction.cwiseProduct(units), 0.0, orbit);
+    if (!solve(problem, orbit, conditions, 12).converged || repeats(problem, orbit, 0.01 * amplitude)) break;
+    if (is_motion(problem, orbit)) return {orbit};
+    if (found.empty()) found.push_back(std::move(orbit));
+  }
+  return found;
 }
 
 }  // namespace slapstick::orbit

@@ -128,6 +128,25 @@ TEST(Branch, IsNotDoubledAtItsBirth) {
   EXPECT_TRUE(second.special.front().born.empty());
 }
 
+/// Behind the doubling of vibro-impact's 2-3 orbit the doubled one's events change within a step: it is begun so near that it is a motion.
+TEST(DoubledOrbit, IsBegunWhereItIsAMotion) {
+  const Posed posed("vibro-impact", {}, {"omega"}, {2.2});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  const orbit::ContinuationOptions options{.from = 1.1, .to = 1.2};
+  orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 1.1, .to = 2.3});
+  for (const double doubling : {1.11329814659, 1.11360700997}) {
+    const auto pd = std::ranges::find_if(branch.special, [&](const orbit::SpecialPoint& point) {
+      return point.type == orbit::SpecialType::PD && std::abs(point.value - doubling) < 1e-8 && !point.birth;
+    });
+    ASSERT_NE(pd, branch.special.end()) << doubling;
+    ASSERT_EQ(pd->born.size(), 1U);
+    branch = orbit::follow(*posed.problem, pd->born.front(), options);
+    EXPECT_FALSE(branch.failed) << branch.ended;
+    EXPECT_TRUE(std::ranges::all_of(branch.points, &orbit::Solution::is_motion)) << doubling;
+  }
+}
+
 /// A mass between equal stops: where its symmetric orbit loses the symmetry, a branch and its mirror image are born. One is followed, from the
 /// symmetric orbit to where it comes back to it.
 TEST(Symmetry, IsBrokenToABranchAndItsImage) {

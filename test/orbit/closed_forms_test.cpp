@@ -1,6 +1,7 @@
 /// Orbits that are known in closed form: impact speeds, multipliers, folds and doublings.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -184,6 +185,42 @@ TEST(CoulombOscillator, BeginsToStickWhereDenHartogsMotionStops) {
     (largest_velocity_down(middle, 0.2) > 0.0 ? a : b) = middle;
   }
   EXPECT_NEAR(last->value, 0.5 * (a + b), 1e-9);
+}
+
+/// While friction holds the frame of stick-slip-impact, its mass grazes the stop at V^2 = 2 clearance / (1 + 1 / sqrt((1 - 4 omega^2)^2 + (2 c omega)^2)). There the
+/// unstable orbit with impacts, whose slips after them shrink to nothing with their speed, meets the one without, whichever parameter is followed.
+TEST(StickSlipImpact, GrazesWhereTheHeldFrameSays) {
+  constexpr double drive = 0.9, damping = 0.04, omega = 0.92, clearance = 0.5;
+  const auto response = [](double w) {
+    return 1.0 + 1.0 / std::sqrt(std::pow(1.0 - 4.0 * w * w, 2) + std::pow(2.0 * damping * w, 2));
+  };
+  double below = 1.0, above = 1.3;  // of omega, where the response falls
+  while (above - below > 1e-15) {
+    const double middle = 0.5 * (below + above);
+    (drive * drive * response(middle) > 2.0 * clearance ? below : above) = middle;
+  }
+  struct Case {
+    std::string parameter;
+    double start, from, to, graze;
+  };
+  const std::vector<Case> cases = {{"drive", drive, 0.6, 1.0, std::sqrt(2.0 * clearance / response(omega))},
+                                   {"clearance", clearance, 0.4, 0.7, 0.5 * drive * drive * response(omega)},
+                                   {"omega", omega, 0.8, 1.3, below}};
+  for (const Case& c : cases) {
+    const Posed posed("stick-slip-impact", {}, {c.parameter}, {c.start});
+    const auto first = posed.settled();
+    ASSERT_TRUE(first);
+    const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = c.from, .to = c.to});
+    EXPECT_FALSE(branch.failed) << c.parameter << ": " << branch.ended;
+    const auto graze = std::ranges::find_if(branch.special, [&](const orbit::SpecialPoint& point) {
+      return point.type == orbit::SpecialType::GR && std::abs(point.value - c.graze) < 1e-10;
+    });
+    ASSERT_NE(graze, branch.special.end()) << c.parameter << ": " << c.graze;
+    EXPECT_NEAR(graze->value, c.graze, graze->error + 1e-13) << c.parameter;
+    EXPECT_TRUE(std::ranges::any_of(branch.points, [](const orbit::Solution& point) {
+      return point.label == "1-0-II";
+    })) << c.parameter;
+  }
 }
 
 }  // namespace

@@ -165,5 +165,21 @@ TEST(Cascade, GathersWhereACompleteChatterBegins) {
   }
 }
 
+/// Between equal stops a cascade adds an impact at each of them; its orbits are all much alike, and the branch does not run over itself.
+TEST(Cascade, OfSymmetricOrbitsGoesOverToTheChatter) {
+  const Posed rattle("two-sided-rattle", {}, {"clearance"}, {0.5});
+  const auto first = rattle.settled();
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*rattle.problem, first->orbit, {.from = 0.02, .to = 1.0});
+  EXPECT_EQ(branch.ended, "down: range; up: range");
+  const auto onset = std::ranges::find(branch.special, SpecialType::CH, &orbit::SpecialPoint::type);
+  ASSERT_NE(onset, branch.special.end());
+  EXPECT_LT(onset->error, 1e-8);
+  EXPECT_TRUE(branch.points.front().chatter);
+  EXPECT_FALSE(branch.points.back().chatter);
+  for (const orbit::Solution& point : branch.points)
+    EXPECT_EQ(point.chatter, point.orbit.values[0] < onset->value) << point.orbit.values[0];
+}
+
 }  // namespace
 }  // namespace slapstick::test

@@ -61,7 +61,11 @@ class Follower {
   bool leave_edge(PathPoint& at);
   bool leave(PathPoint& at);
   void add_here(SpecialPoint special);
-  [[nodiscard]] std::optional<Branch> way_back(const PathPoint& from, const Place& place) const;
+  struct Way {
+    Branch branch;
+    std::optional<SpecialPoint> place;  ///< as it was come to
+  };
+  [[nodiscard]] std::optional<Way> way_back(const PathPoint& from, const Place& place) const;
   void add_between(Branch way);
   void arrive(SpecialPoint special);
   void set_out(PathPoint& at, PathPoint from);

@@ -119,8 +119,10 @@ void Follower::find_ways(const Change& change, Found& found) const {
   std::ranges::stable_partition(found.next, [&](const Reshaped& next) { return !apart(next); });
   if (!found.next.empty() && !back_to_ && apart(found.next.front()))
     for (std::size_t i = 0; i < found.next.size() && !found.way; ++i) {
-      found.way = way_back(reversed(found.next[i].point), place(found.next[i]));
-      if (found.way) std::swap(found.next[0], found.next[i]);
+      std::optional<Way> way = way_back(reversed(found.next[i].point), place(found.next[i]));
+      if (!way) continue;
+      found.way = std::move(way->branch);
+      std::swap(found.next[0], found.next[i]);
     }
   const auto far = [&](const Reshaped& next) { return apart(next) && next.apart > same_change * range_; };
   found.next.erase(std::remove_if(found.next.begin() + (found.way ? 1 : 0), found.next.end(), far), found.next.end());

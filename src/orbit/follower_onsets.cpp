@@ -22,28 +22,33 @@ void Follower::arrive(SpecialPoint special) {
   end("there", false);
 }
 
-/// From an orbit behind a place back to it; the place is the last special point. Empty if the branch does not lead there.
-std::optional<Branch> Follower::way_back(const PathPoint& from, const Place& place) const {
-  constexpr double widest = 30.0;  // of the distance between the place and the orbit
+/// From an orbit behind a place back to it. Empty if the branch does not lead there. Towards an onset of chatter it need not come quite there: from few changes
+/// of a cascade its end is not known.
+std::optional<Follower::Way> Follower::way_back(const PathPoint& from, const Place& place) const {
+  constexpr double widest = 30.0, near = 0.2;  // of the distance between the place and the orbit
   constexpr int most_points = 300;
-  const double reach = widest * std::abs(value(from) - place.value);
-  ContinuationOptions near = options_;
-  near.from = std::max(options_.from, place.value - reach);
-  near.to = std::min(options_.to, place.value + reach);
-  near.most_points = most_points;
-  Branch way;
-  way.points.push_back(solution_of(from, nullptr));
-  Follower back(problem_, near, way);
+  const double distance = std::abs(value(from) - place.value);
+  ContinuationOptions between = options_;
+  between.from = std::max(options_.from, place.value - widest * distance);
+  between.to = std::min(options_.to, place.value + widest * distance);
+  between.most_points = most_points;
+  Way way;
+  way.branch.points.push_back(solution_of(from, nullptr));
+  Follower back(problem_, between, way.branch);
   back.range_ = range_;
   back.back_to_ = place;
   back.run(from);
-  if (back.back_to_) return std::nullopt;  // not reached
-  return way;
+  if (!back.back_to_) {
+    way.place = std::move(way.branch.special.back());
+    way.branch.special.pop_back();
+    return way;
+  }
+  const double left = std::abs(way.branch.points.back().orbit.values[0] - place.value);
+  return place.onset && left < near * distance ? std::optional(std::move(way)) : std::nullopt;
 }
 
 /// Adds the orbits between a place, which the branch has come to, and an orbit beyond it, from which they were followed back.
 void Follower::add_between(Branch way) {
-  way.special.pop_back();  // the place itself
   Branch single;
   single.points.push_back(way.points.front());
   Branch all = joined(std::move(way), std::move(single), &Branch::special);
@@ -58,16 +63,15 @@ void Follower::add_between(Branch way) {
 bool Follower::enter_cascade(PathPoint& at, SpecialPoint special, const PathPoint& from) {
   if (back_to_) return false;
   for (const PathPoint& start : {reversed(from), from}) {
-    std::optional<Branch> way = way_back(start, {special.value, 0.0, true});
+    std::optional<Way> way = way_back(start, {special.value, 0.0, true});
     if (!way) continue;
-    const SpecialPoint& limit = way->special.back();
-    if (limit.error < special.error) {
-      special.value = limit.value;
-      special.error = limit.error;
-      special.what = limit.what;
+    if (way->place && way->place->error < special.error) {
+      special.value = way->place->value;
+      special.error = way->place->error;
+      special.what = way->place->what;
     }
     add_here(std::move(special));
-    add_between(std::move(*way));
+    add_between(std::move(way->branch));
     set_out(at, reversed(start));
     return true;
   }

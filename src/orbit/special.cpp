@@ -179,11 +179,17 @@ bool changes_there(const Problem& problem, const PathPoint& from, double length,
 /// Where a graze has no memory, as before a complete chatter, the parameter is a square of the impact's speed: at the graze itself the tangent does not say
 /// in which sense the parameter came. It is given the sense that it had before.
 void look_back(const Problem& problem, const PathPoint& from, double range, Located& located) {
-  constexpr double flat = 1e-3, beside = 1e-4;  // a component of the tangent; arclength
+  constexpr double flat = 1e-3;  // a component of the tangent
   double& turn = located.point.watched.turn;
   if (std::abs(turn) > flat) return;
-  const auto before = step_to(problem, from, std::max(0.5 * located.length, located.length - beside), range);
-  if (before) turn = std::copysign(turn, located.point.orbit.values[0] - before->orbit.values[0]);
+  double before = from.orbit.values[0];
+  for (const double beside : {1e-4, 1e-3}) {  // arclength
+    const auto point = step_to(problem, from, std::max(0.5 * located.length, located.length - beside), range);
+    if (!point) continue;
+    before = point->orbit.values[0];
+    break;
+  }
+  turn = std::copysign(turn, located.point.orbit.values[0] - before);
 }
 
 using Candidates = std::vector<std::pair<std::size_t, Located>>;

@@ -44,7 +44,8 @@ Solution Follower::solution_of(const PathPoint& point, Verification* seen) const
 }
 
 void Follower::look_for_pairs(const PathPoint& at, const PathPoint& next, double length) {
-  if (!before_ || !(before_->point.orbit.shape.legs == next.orbit.shape.legs)) return;
+  if (!before_ || !(before_->point.orbit.shape.legs == next.orbit.shape.legs))
+    return add(within_halves(problem_, at, next, length, range_), branch_.points.size() - 1);
   Pair pair = pair_within(problem_, {before_->point, at, next, before_->length, length}, range_);
   add(std::move(pair.points), branch_.points.size() - (pair.earlier ? 2 : 1));
 }

@@ -161,7 +161,8 @@ bool Follower::pass(PathPoint& at, Change change) {
     const ChangeOfEvents seen = orbit::change_between(special.solution.orbit, next.point.orbit);
     special.type = seen.type;
     special.what = describe(change.test, at.orbit.shape, problem_.base());
-    special.what += seen.sliding.empty() ? kind_of_sliding(change.test, at.orbit.shape) : seen.sliding;
+    if (seen.type == SpecialType::SL)
+      special.what += seen.sliding.empty() ? kind_of_sliding(change.test, at.orbit.shape) : seen.sliding;
   }
   go_on(at, std::move(special), std::move(next), std::move(found.way));
   return true;

@@ -31,15 +31,18 @@ bool explained(const Watched& from, const Watched& to, const std::vector<Special
 }
 
 Pair pair_within(const Problem& problem, const Triple& triple, double range) {
+  constexpr double near_zero = 0.5;  // what the parabola comes to, of the least of the three
   constexpr std::array<double Watched::*, 3> functions = {&Watched::flip, &Watched::torus, &Watched::turn};
   const auto& [first, second, third, back, ahead] = triple;
   Pair pair;
   for (const auto f : functions) {
     const double a = first.watched.*f, b = second.watched.*f, c = third.watched.*f;
-    if (!(a * b > 0.0 && b * c > 0.0 && std::abs(b) <= std::abs(a) && std::abs(b) <= std::abs(c))) continue;
+    if (!(a * b > 0.0 && b * c > 0.0)) continue;
     const double left = (b - a) / back, right = (c - b) / ahead, bend = 2.0 * (right - left) / (back + ahead);
     const double slope = (left * ahead + right * back) / (back + ahead), vertex = -slope / bend;
-    if (!(std::abs(vertex) > 0.0)) continue;
+    if (!(vertex > -back && vertex < ahead) || vertex == 0.0) continue;
+    const double least = std::min({std::abs(a), std::abs(b), std::abs(c)});
+    if (!(std::copysign(1.0, b) * (b + 0.5 * slope * vertex) < near_zero * least)) continue;
     pair.earlier = vertex < 0.0;
     const PathPoint& from = pair.earlier ? first : second;
     const PathPoint& to = pair.earlier ? second : third;
@@ -54,14 +57,40 @@ Pair pair_within(const Problem& problem, const Triple& triple, double range) {
   return pair;
 }
 
+std::vector<SpecialPoint> within_halves(const Problem& problem, const PathPoint& from, const PathPoint& to,
+                                        double length, double range) {
+  const double half = 0.5 * length;
+  const std::optional<PathPoint> middle = step_to(problem, from, half, range);
+  if (!middle) return {};
+  std::vector<SpecialPoint> points = smooth_special_points(problem, from, *middle, half, range);
+  std::ranges::move(smooth_special_points(problem, *middle, to, half, range), std::back_inserter(points));
+  return points.empty() ? pair_within(problem, {from, *middle, to, half, half}, range).points : points;
+}
+
 std::vector<SpecialPoint> beside_change(const Problem& problem, const PathPoint& from, double length, double range) {
   constexpr double nothing = 1e-5;
+  std::optional<PathPoint> last;
+  double end = 0.0;
   for (const double part : {1.0 - 1e-6, 1.0 - 1e-4, 1.0 - 1e-2}) {
-    const std::optional<PathPoint> last = step_to(problem, from, part * length, range);
-    if (last && !shrinks(from.orbit, last->orbit, nothing))
-      return smooth_special_points(problem, from, *last, part * length, range);
+    last = step_to(problem, from, part * length, range);
+    end = part * length;
+    if (last && !shrinks(from.orbit, last->orbit, nothing)) break;
+    last.reset();
   }
-  return {};
+  std::vector<SpecialPoint> points;
+  if (!last) return points;
+  PathPoint at = from;
+  double begin = 0.0;
+  const auto look_as_far_as = [&](const PathPoint& next, double place) {
+    std::ranges::move(smooth_special_points(problem, at, next, place - begin, range), std::back_inserter(points));
+    at = next;
+    begin = place;
+  };
+  for (const double part : {0.5, 0.9, 0.97, 0.99})  // two of one type may lie close before the change
+    if (const auto next = step_to(problem, from, part * length, range); next && part * length < end)
+      look_as_far_as(*next, part * length);
+  look_as_far_as(*last, end);
+  return points;
 }
 
 }  // namespace slapstick::orbit

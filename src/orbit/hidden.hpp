@@ -24,6 +24,10 @@ struct Pair {
 /// Looks at the vertex of the parabola through three neighbouring values.
 [[nodiscard]] Pair pair_within(const Problem& problem, const Triple& triple, double range);
 
+/// A step with no other of its events beside it: by its middle.
+[[nodiscard]] std::vector<SpecialPoint> within_halves(const Problem& problem, const PathPoint& from,
+                                                      const PathPoint& to, double length, double range);
+
 /// Those between a point and a change of events at `length` from there. An impact that loses its speed lets a multiplier grow without bound: one that
 /// doubles lies close by. Where a leg shrinks to nothing the equations are singular: not so close.
 [[nodiscard]] std::vector<SpecialPoint> beside_change(const Problem& problem, const PathPoint& from, double length,

@@ -55,6 +55,9 @@ std::optional<Seen> next_event(Motion& motion, std::int64_t zero, Instant end, b
       touched = true;
       return std::nullopt;
     }
+    // A force that has come to zero but for rounding may come to zero again: what changes no mode is no event.
+    const bool changes = leg->ending == Ending::chatter || motion.segment().mode != motion.mode_id();
+    if (!changes && leg->strikes.empty()) continue;
     return Seen{*leg, motion.event().time.since({zero, 0.0}), attractor::contact_state(motion)};
   }
   return std::nullopt;

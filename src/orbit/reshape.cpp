@@ -311,7 +311,11 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
   if (test) all = leavings(problem, before, change, *test, range);
   const double longest =
       chatters(change.orbit) > 0 ? 1e-2 : 1e-3;  // near its onset a chatter's equations are hardly solvable
-  for (double length : {1e-6, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2}) {
+  // Just behind a release the hops of a chatter are rounding.
+  const bool release = test && releases(*test) && chatters(change.orbit) == 0;
+  const std::vector<double> lengths =
+      release ? std::vector{1e-4, 1e-3, 1e-5, 1e-6} : std::vector{1e-6, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2};
+  for (const double length : lengths) {
     if (length < nearest) continue;
     const auto here = [&](const Reshaped& next) {
       return next.onset || next.renewed || next.apart <= same_change * range;

@@ -78,43 +78,85 @@ void drop_folds_of_crossings(Along& found, double range) {
   });
 }
 
+struct Kind {
+  SpecialType type;
+  Value value;
+};
+
+/// A piece of the branch between two points.
+struct Stretch {
+  const PathPoint& from;
+  const PathPoint& to;
+  double begin, length;  ///< arclengths: from the first point of all, and on
+};
+
+bool is_one(SpecialType type, const Watched& there) {
+  switch (type) {
+    case SpecialType::LP:
+      return nearest(there, 1.0) <= at_a_fold;  // at a graze the branch turns too
+    case SpecialType::PD:
+      return nearest(there, -1.0) <= at_the_circle;
+    case SpecialType::BP:
+      return nearest(there, 1.0) <= at_the_circle;
+    default:
+      return rotation(there) != 0.0;  // not two real multipliers whose product is 1
+  }
+}
+
+std::string_view words(SpecialType type) {
+  return type == SpecialType::LP   ? "fold"
+         : type == SpecialType::BP ? "branches cross"
+         : type == SpecialType::PD ? "period doubling"
+                                   : "torus";
+}
+
+/// The special point of one kind within a stretch, if its function changes sign there.
+void look_within(const Problem& problem, const Kind& kind, const Stretch& stretch, double range, Along& found) {
+  const auto& [from, to, begin, length] = stretch;
+  if (!changes_sign(kind.value(from.watched), kind.value(to.watched))) return;
+  std::optional<Located> located = locate(problem, from, length, range, kind.value, kind.value(to.watched));
+  if (kind.type == SpecialType::BP) located = sharpened(problem, from, std::move(located), length, range);
+  if (!located || !is_one(kind.type, located->point.watched)) return;
+  SpecialPoint special;
+  special.type = kind.type;
+  special.rotation = kind.type == SpecialType::NS ? rotation(located->point.watched) : 0.0;
+  special.value = located->point.orbit.values[0];
+  special.error = located->error;
+  const System system(problem.family().model(located->point.orbit.values));
+  special.solution = describe(problem, located->point.orbit, &system);
+  special.what = words(kind.type);
+  if (kind.type == SpecialType::PD) special.born = doubled(problem, located->point.orbit);
+  if (kind.type == SpecialType::BP) add_crossing_branch(problem, located->point, special);
+  found.emplace_back(begin + located->length, std::move(special));
+}
+
 }  // namespace
 
 std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const PathPoint& from, const PathPoint& to,
                                                 double length, double range) {
-  struct Kind {
-    SpecialType type;
-    Value value;
-  };
-  const std::array<Kind, 4> kinds = {{{SpecialType::LP, [](const Watched& w) { return w.turn; }},
-                                      {SpecialType::BP, [](const Watched& w) { return w.cross; }},
-                                      {SpecialType::PD, [](const Watched& w) { return w.flip; }},
-                                      {SpecialType::NS, [](const Watched& w) { return w.torus; }}}};
+  const Kind crossing = {SpecialType::BP, [](const Watched& w) { return w.cross; }};
+  const std::array<Kind, 3> others = {{{SpecialType::LP, [](const Watched& w) { return w.turn; }},
+                                       {SpecialType::PD, [](const Watched& w) { return w.flip; }},
+                                       {SpecialType::NS, [](const Watched& w) { return w.torus; }}}};
+  const Stretch whole{from, to, 0.0, length};
   Along found;
-  for (const Kind& kind : kinds) {
-    if (!changes_sign(kind.value(from.watched), kind.value(to.watched))) continue;
-    std::optional<Located> located = locate(problem, from, length, range, kind.value, kind.value(to.watched));
-    if (kind.type == SpecialType::BP) located = sharpened(problem, from, std::move(located), length, range);
-    if (!located) continue;
-    const Watched& there = located->point.watched;
-    SpecialPoint special;
-    special.type = kind.type;
-    special.rotation = kind.type == SpecialType::NS ? rotation(there) : 0.0;
-    if (kind.type == SpecialType::LP && nearest(there, 1.0) > at_a_fold) continue;  // at a graze the branch turns too
-    if (kind.type == SpecialType::PD && nearest(there, -1.0) > at_the_circle) continue;
-    if (kind.type == SpecialType::BP && nearest(there, 1.0) > at_the_circle) continue;
-    if (kind.type == SpecialType::NS && special.rotation == 0.0) continue;  // two real multipliers whose product is 1
-    special.value = located->point.orbit.values[0];
-    special.error = located->error;
-    const System system(problem.family().model(located->point.orbit.values));
-    special.solution = describe(problem, located->point.orbit, &system);
-    special.what = kind.type == SpecialType::LP   ? "fold"
-                   : kind.type == SpecialType::BP ? "branches cross"
-                   : kind.type == SpecialType::PD ? "period doubling"
-                                                  : "torus";
-    if (kind.type == SpecialType::PD) special.born = doubled(problem, located->point.orbit);
-    if (kind.type == SpecialType::BP) add_crossing_branch(problem, located->point, special);
-    found.emplace_back(located->length, std::move(special));
+  look_within(problem, crossing, whole, range, found);
+  // A branch that leaves a symmetric or a shorter orbit has the same on both sides of it: signs that change twice.
+  std::optional<PathPoint> before, behind;
+  double place = 0.0, aside = 0.0;
+  if (!found.empty()) {
+    place = found.front().first;
+    aside = 0.1 * std::min(place, length - place);
+    before = step_to(problem, from, place - aside, range);
+    behind = step_to(problem, from, place + aside, range);
+  }
+  for (const Kind& kind : others) {
+    if (before && behind) {
+      look_within(problem, kind, {from, *before, 0.0, place - aside}, range, found);
+      look_within(problem, kind, {*behind, to, place + aside, length - place - aside}, range, found);
+    } else {
+      look_within(problem, kind, whole, range, found);
+    }
   }
   drop_folds_of_crossings(found, range);
   std::ranges::sort(found, {}, [](const auto& entry) { return entry.first; });

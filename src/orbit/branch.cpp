@@ -44,10 +44,19 @@ Solution Follower::solution_of(const PathPoint& point, Verification* seen) const
 }
 
 void Follower::look_for_pairs(const PathPoint& at, const PathPoint& next, double length) {
-  if (!before_ || !(before_->point.orbit.shape.legs == next.orbit.shape.legs))
-    return add(within_halves(problem_, at, next, length, range_), branch_.points.size() - 1);
-  Pair pair = pair_within(problem_, {before_->point, at, next, before_->length, length}, range_);
-  add(std::move(pair.points), branch_.points.size() - (pair.earlier ? 2 : 1));
+  Pair pair;
+  if (before_ && before_->point.orbit.shape.legs == next.orbit.shape.legs)
+    pair = pair_within(problem_, {before_->point, at, next, before_->length, length}, range_);
+  else
+    pair.points = within_halves(problem_, at, next, length, range_);
+  const std::size_t after = branch_.points.size() - (pair.earlier ? 2 : 1);
+  std::erase_if(pair.points, [&](const SpecialPoint& point) {  // a step is looked at from both of its ends
+    return std::ranges::any_of(branch_.special, [&](const SpecialPoint& known) {
+      const double alike = 1e-9 * range_ + point.error + known.error;
+      return known.type == point.type && known.after == after && std::abs(known.value - point.value) < alike;
+    });
+  });
+  add(std::move(pair.points), after);
 }
 
 /// Notes special points that leave the events as they are. A branch ends where its orbit becomes a shorter one run through twice, or the symmetric

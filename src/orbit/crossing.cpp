@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "orbit/record.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/orbit/periodic_orbit.hpp"
 
@@ -93,6 +94,15 @@ class Interpolant {
   std::vector<VectorXd> values_;
 };
 
+/// A leg without length solves its equation anywhere: such orbits are none of a branch.
+bool has_an_empty_leg(const Orbit& orbit) {
+  constexpr double rounding = 1e-13;  // of a cycle
+  for (std::size_t leg = 0; leg < orbit.legs(); ++leg)
+    if (!in_burst(orbit, leg) && std::abs(orbit.duration(leg)) < rounding * (orbit.t.back() - orbit.t.front()))
+      return true;
+  return false;
+}
+
 /// The determinant that is zero at a crossing, smooth along a branch: units, row and scales are those of one point.
 class Determinant {
  public:
@@ -140,8 +150,7 @@ std::optional<Located> locate_between(const Problem& problem, const PathPoint& f
   for (int k = 0; k < nodes; ++k) {
     const double s = near + half_width * std::cos((2 * k + 1) * std::numbers::pi / (2 * nodes));
     auto point = step_to(problem, from, s, range);
-    // Exactly zero is a leg without length, which solves its equation anywhere: none of the branch's points.
-    if (point && f(*point) != 0.0) points.emplace_back(s, std::move(*point));
+    if (point && !has_an_empty_leg(point->orbit)) points.emplace_back(s, std::move(*point));
     if (static_cast<int>(points.size()) + nodes - 1 - k < enough) return std::nullopt;
   }
   for (const auto& [s, point] : points) {

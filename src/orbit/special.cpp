@@ -168,6 +168,15 @@ std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const Pa
 
 namespace {
 
+/// Has a leg between two zeros of one guard shrunk to nothing? Without length it solves its equation anywhere.
+bool loses_a_leg(const PathPoint& from, const Orbit& orbit) {
+  constexpr double nothing = 1e-2;
+  return std::ranges::any_of(from.watched.tests, [&](const TestValue& test) {
+    return test.test == Test::duration && test.starts_at_end && !in_burst(orbit, test.leg) &&
+           orbit.duration(test.leg) < nothing * from.orbit.duration(test.leg);
+  });
+}
+
 /// By interpolation over the best of some widths, until two agree.
 std::optional<Located> in_some_width(const Problem& problem, const PathPoint& from, double near, double widest,
                                      double range, const std::function<double(const PathPoint&)>& f) {
@@ -190,20 +199,18 @@ std::optional<Located> in_some_width(const Problem& problem, const PathPoint& fr
 /// Where a leg shrinks to nothing between two zeros of one guard, the equations are singular: there by interpolation.
 std::optional<Located> locate_margin(const Problem& problem, const PathPoint& from, const PathPoint& to, double length,
                                      double range, std::size_t test) {
-  constexpr double nothing = 1e-2, well_known = 1e-10;
+  constexpr double well_known = 1e-10;
   const auto value = [test](const Watched& watched) { return watched.tests[test].value; };
   std::optional<Located> located = locate(problem, from, length, range, value, value(to.watched));
-  const std::size_t leg = from.watched.tests[test].leg;
   const bool regular = located && std::abs(value(located->point.watched)) <= 1e-9 * value(from.watched) &&
                        located->error <= well_known * range;
-  const bool empty = located && from.watched.tests[test].starts_at_end &&
-                     located->point.orbit.duration(leg) < nothing * from.orbit.duration(leg);
+  const bool empty = located && loses_a_leg(from, located->point.orbit);
   if (regular && !empty) return located;
   const double before = value(from.watched), behind = value(to.watched);
   const double near = located ? located->length : length * before / (before - behind);
   const std::optional<Located> best = in_some_width(problem, from, near, std::min(length, 0.02), range,
                                                     [&](const PathPoint& point) { return value(point.watched); });
-  if (empty) return best;  // a leg without length solves its equation anywhere
+  if (empty) return best;
   return best && !(located && located->error < best->error) ? best : located;
 }
 

@@ -53,7 +53,7 @@ Shrinking shrinking(const std::vector<Solution>& points, std::size_t leg) {
 
 std::optional<Death> dies_out(const Branch& branch) {
   constexpr std::size_t fewest = 5;
-  constexpr double all_but_gone = 0.1, resolved = 1e-7, near = 2.0, well_known = 1e-3;
+  constexpr double all_but_gone = 0.1, resolved = 1e-7, near = 0.5, well_known = 1e-3;
   const Orbit& last = branch.points.back().orbit;
   const double cycle = last.t.back() - last.t.front();
   std::vector<Death> deaths;

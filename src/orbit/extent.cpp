@@ -64,6 +64,7 @@ std::optional<std::size_t> repeats(const Problem& problem, const Orbit& orbit, d
 
 bool becomes_shorter(const Problem& problem, const Orbit& before, const Orbit& orbit, double tolerance) {
   constexpr double rounding = 1e-7;
+  if (before.shape.legs[0].ending == Ending::cut) return false;  // one without events has no legs that could be equal
   return repeats(problem, orbit, tolerance) && !repeats(problem, before, rounding);
 }
 

@@ -122,6 +122,8 @@ void Follower::find_ways(const Change& change, Found& found) const {
       std::optional<Way> way = way_back(reversed(found.next[i].point), place(found.next[i]));
       if (!way) continue;
       found.way = std::move(way->branch);
+      const double away = found.way->points.back().orbit.values[0] - change.special.value;
+      found.next[i].folds = away * change.at.watched.turn < 0.0;
       std::swap(found.next[0], found.next[i]);
     }
   const auto far = [&](const Reshaped& next) { return apart(next) && next.apart > same_change * range_; };
@@ -158,7 +160,8 @@ bool Follower::pass(PathPoint& at, Change change) {
     return end_at(at, std::move(special), Beyond::retraced);
   if (next.onset && next.folds && turn_round(at)) return true;  // back to the chatter that it has just left
   if (!next.renewed && !next.onset && special.type != SpecialType::GR) {
-    const ChangeOfEvents seen = orbit::change_between(special.solution.orbit, next.point.orbit);
+    const Orbit& behind = found.way ? found.way->points.back().orbit : next.point.orbit;
+    const ChangeOfEvents seen = orbit::change_between(special.solution.orbit, behind);
     special.type = seen.type;
     special.what = describe(change.test, at.orbit.shape, problem_.base());
     if (seen.type == SpecialType::SL)
@@ -211,11 +214,9 @@ bool Follower::end_at(const PathPoint& at, SpecialPoint special, Beyond beyond, 
 /// Where legs shrink to nothing together and steps lead no further: the place, by extrapolation, and what the motion does beyond.
 /// @returns false if none shrinks
 bool Follower::die_out(PathPoint& at) {
-  constexpr double near = 1e-3;
   if (!options_.through_changes) return false;
   const std::optional<Death> death = dies_out(branch_);
-  if (!death || std::abs(death->value - value(at)) > near * range_) return false;
-  if (!is_model(problem_, at.orbit.values, death->value)) return false;
+  if (!death || !is_model(problem_, at.orbit.values, death->value)) return false;
   if (at_end(death->value, death->error, at)) {
     end("range", false);
     return true;

@@ -5,7 +5,6 @@
 #include "orbit/follower.hpp"
 #include "orbit/lies_on.hpp"
 #include "orbit/onset.hpp"
-#include "orbit/two_ways.hpp"
 #include "slapstick/base/text.hpp"
 
 namespace slapstick::orbit {
@@ -37,26 +36,31 @@ std::optional<Follower::Way> Follower::way_back(const PathPoint& from, const Pla
   Follower back(problem_, between, way.branch);
   back.range_ = range_;
   back.back_to_ = place;
-  back.run(from);
+  try {
+    back.run(from);
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
   if (!back.back_to_) {
     way.place = std::move(way.branch.special.back());
     way.branch.special.pop_back();
     return way;
   }
   const double left = std::abs(way.branch.points.back().orbit.values[0] - place.value);
-  return place.onset && left < near * distance ? std::optional(std::move(way)) : std::nullopt;
+  if (!place.onset || !(left < near * distance)) return std::nullopt;
+  const std::size_t last = way.branch.points.size() - 1;  // what it ended with there says nothing
+  std::erase_if(way.branch.special, [&](const SpecialPoint& point) { return point.after >= last; });
+  return way;
 }
 
 /// Adds the orbits between a place, which the branch has come to, and an orbit beyond it, from which they were followed back.
 void Follower::add_between(Branch way) {
-  Branch single;
-  single.points.push_back(way.points.front());
-  Branch all = joined(std::move(way), std::move(single), &Branch::special);
-  for (SpecialPoint& point : all.special) {
-    point.after += branch_.points.size();
-    branch_.special.push_back(std::move(point));
+  const std::size_t last = branch_.points.size() + way.points.size() - 1;  // the way's first point, when all are there
+  for (auto point = way.special.rbegin(); point != way.special.rend(); ++point) {
+    point->after = last - point->after - 1;
+    branch_.special.push_back(std::move(*point));
   }
-  std::ranges::move(all.points, std::back_inserter(branch_.points));
+  std::move(way.points.rbegin(), way.points.rend(), std::back_inserter(branch_.points));
 }
 
 /// Goes on behind the onset of a chatter with the cascade that gathers there, from its end on. @returns false if that is not to be followed
@@ -124,10 +128,13 @@ bool Follower::turn_round(PathPoint& at) {
 /// Where the impacts of a cascade have become too short to be followed: its limit, and the complete chatter beyond.
 /// @returns false if this is no cascade
 bool Follower::end_cascade(PathPoint& at) {
-  constexpr double near = 0.02;  // of the range, from the last point to the limit
   if (!options_.through_changes || branch_.points.back().chatter) return false;
   const std::optional<CascadeLimit> limit = cascade_limit(branch_);
-  if (!limit || std::abs(limit->value - value(at)) > near * range_) return false;
+  if (!limit || std::abs(limit->value - value(at)) > limit->left) return false;
+  if (!inside(limit->value) && !back_to_) {
+    end("range", false);
+    return true;
+  }
   SpecialPoint special = onset({limit->value, limit->value, false}, branch_.points.back());
   special.error = limit->error;
   special.what += " (a cascade, ratio " + shown(std::round(1e4 * limit->ratio) / 1e4) + ")";

@@ -23,6 +23,7 @@ constexpr std::size_t used = 4;  ///< changes of a cascade from which its limit 
 /// From the nearest grazes, in which each adds an impact to the next one's; between equal stops one at each. Empty if they are no cascade.
 std::optional<CascadeLimit> limit_of(const Branch& branch, const std::vector<const SpecialPoint*>& grazes) {
   constexpr double slowest = 0.95, alike = 0.1;  // of the ratios of neighbouring distances
+  constexpr double known = 0.5;                  // of the last of them
   if (grazes.size() < used) return std::nullopt;
   const auto impacts = [&](std::size_t i) { return branch.points[grazes[i]->after].impacts; };
   const long added = impacts(0) - impacts(1);
@@ -32,7 +33,9 @@ std::optional<CascadeLimit> limit_of(const Branch& branch, const std::vector<con
   const double ratio = distance(0) / distance(1), before = distance(1) / distance(2);
   if (!(ratio > 0.0 && ratio < slowest) || std::abs(ratio - before) > alike) return std::nullopt;
   const auto limit = [&](std::size_t i, double q) { return grazes[i]->value + distance(i) * q / (1.0 - q); };
-  return CascadeLimit{limit(0, ratio), std::abs(limit(0, ratio) - limit(1, before)), ratio};
+  const CascadeLimit found{limit(0, ratio), std::abs(limit(0, ratio) - limit(1, before)), ratio,
+                           std::abs(limit(0, ratio) - grazes[1]->value)};
+  return found.error < known * std::abs(distance(0)) ? std::optional(found) : std::nullopt;
 }
 
 /// The first grazes of a range of special points.

@@ -14,6 +14,7 @@ struct CascadeLimit {
   double value = 0.0;  ///< by Aitken's rule
   double error = 0.0;  ///< of it: what the last place has changed
   double ratio = 0.0;
+  double left = 0.0;  ///< how far from it the cascade's last change but one is: the branch is nearer
 };
 /// @returns empty if the last grazes of a branch, as it was followed, are no cascade
 [[nodiscard]] std::optional<CascadeLimit> cascade_limit(const Branch& branch);

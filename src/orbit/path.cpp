@@ -137,7 +137,8 @@ double rounding_at(const Problem& problem, const PathPoint& from, const Located&
 std::optional<Located> locate(const Problem& problem, const PathPoint& from, double length, double range,
                               const std::function<double(const Watched&)>& f, double f_to) {
   constexpr double enough = 1e-13;
-  double a = 0.0, b = length, f_a = f(from.watched), f_b = f_to;
+  const double f_from = f(from.watched);
+  double a = 0.0, b = length, f_a = f_from, f_b = f_to;
   std::optional<Located> best;
   double value = from.orbit.values[0];
   int side = 0;
@@ -149,7 +150,9 @@ std::optional<Located> locate(const Problem& problem, const PathPoint& from, dou
     const double f_s = f(point->watched), change = std::abs(point->orbit.values[0] - value);
     value = point->orbit.values[0];
     best = Located{std::move(*point), s, change};
-    if (f_s == 0.0 || change <= enough * range || b - a <= enough) break;
+    // A first step is next to none where f is hardly more than zero at its beginning.
+    const bool arrived = change <= enough * range && std::abs(f_s) < 0.1 * std::abs(f_from);
+    if (f_s == 0.0 || arrived || b - a <= enough) break;
     const bool left = (f_s > 0.0) == (f_a > 0.0);
     (left ? a : b) = s;
     (left ? f_a : f_b) = f_s;

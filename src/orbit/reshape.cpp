@@ -295,8 +295,12 @@ std::vector<Reshaped> leavings(const Problem& problem, const Orbit& before, cons
                                const TestValue& test, double range) {
   std::vector<Reshaped> all;
   const double sense = std::copysign(1.0, change.watched.turn);
-  for (const Orbit& shape : coincident(problem, before, change.orbit, test))
-    add(all, leaving(problem, sense, shape, range));
+  try {
+    for (const Orbit& shape : coincident(problem, before, change.orbit, test))
+      add(all, leaving(problem, sense, shape, range));
+  } catch (const NumericalError&) {  // a shape whose modes have no such guards
+  } catch (const InputError&) {
+  }
   std::ranges::stable_sort(all, {},
                            &Reshaped::length);  // what is a motion farther off only has changed once more on the way
   return all;

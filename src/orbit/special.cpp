@@ -247,14 +247,15 @@ using Candidates = std::vector<std::pair<std::size_t, Located>>;
 /// the leg after an impact says least. What is not known well comes last.
 void in_order(Candidates& candidates, const std::vector<TestValue>& tests, double length, double range) {
   constexpr double together = 1e-3;  // no nearer than the simulator can tell (changes_there)
-  constexpr double well_known = 1e-9;
+  constexpr double well_known = 1e-9, rounding = 1e-9;
   std::ranges::stable_sort(candidates, {}, [](const auto& candidate) { return candidate.second.length; });
   const auto says = [&](const auto& candidate) {
     const TestValue& test = tests[candidate.first];
     const bool slip = test.starts_at_end && mode::of_friction(test.kind);
     const bool says_most = test.test == (slip ? Test::duration : Test::speed);
     const bool closes = test.test == Test::guard && test.kind == mode::GuardKind::gap;
-    return std::pair(candidate.second.error > well_known * range, says_most ? 0 : closes ? 2 : 1);
+    const bool at_the_point = candidate.second.length < rounding;  // which is a motion
+    return std::pair(at_the_point || candidate.second.error > well_known * range, says_most ? 0 : closes ? 2 : 1);
   };
   for (auto first = candidates.begin(); first != candidates.end();) {
     const double limit = first->second.length + together * length;
@@ -262,6 +263,25 @@ void in_order(Candidates& candidates, const std::vector<TestValue>& tests, doubl
     std::ranges::stable_sort(first, last, {}, says);
     first = last;
   }
+}
+
+}  // namespace
+
+namespace {
+
+/// Margins that are used up together where legs shrink to nothing are singular: how far they agree on the place is how well it is known.
+double disagreement(const Candidates& candidates, const std::pair<std::size_t, Located>& chosen, const PathPoint& from,
+                    double length) {
+  constexpr double shrinks = 0.1, together = 1e-2;
+  const Orbit& there = chosen.second.point.orbit;
+  std::ptrdiff_t gone = 0;
+  for (std::size_t leg = 0; leg < there.legs(); ++leg)
+    if (!in_burst(there, leg) && there.duration(leg) < shrinks * from.orbit.duration(leg)) ++gone;
+  double most = 0.0;
+  for (const auto& [test, located] : candidates)
+    if (gone > 1 && std::abs(located.length - chosen.second.length) < together * length)
+      most = std::max(most, std::abs(located.point.orbit.values[0] - there.values[0]));
+  return most;
 }
 
 }  // namespace
@@ -276,11 +296,13 @@ std::optional<Change> find_change(const Problem& problem, const PathPoint& from,
       candidates.emplace_back(i, std::move(*located));
   }
   // Where the equations are hardly solvable, as near the onset of a chatter, what looks like a margin's zero may be none.
-  constexpr double known = 1e-6;
+  constexpr double known = 1e-7;
   std::erase_if(candidates, [&](const auto& candidate) { return candidate.second.error > known * range; });
   in_order(candidates, from.watched.tests, length, range);
-  for (auto& [test, located] : candidates) {
+  for (auto& candidate : candidates) {
+    auto& [test, located] = candidate;
     if (!changes_there(problem, from, length, located.length, range)) continue;
+    located.error = std::max(located.error, disagreement(candidates, candidate, from, length));
     look_back(problem, from, range, located);
     Change change;
     change.test = located.point.watched.tests[test];

@@ -64,7 +64,8 @@ bool ends_at(const orbit::Branch& branch, const orbit::SpecialPoint& special) {
 std::string rates(const Sensitivities& of, std::size_t special, const std::string& parameter) {
   std::string text;
   for (std::size_t j = 0; j < of.names.size(); ++j)
-    text += "; d " + parameter + " / d " + of.names[j] + " = " + short_number(of.rates[special][j]);
+    text += "; d " + parameter + " / d " + of.names[j] +
+            (std::isfinite(of.rates[special][j]) ? " = " + short_number(of.rates[special][j]) : " is not known");
   return text;
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "axis_text.hpp"
 #include "branch_figure.hpp"
@@ -55,7 +56,8 @@ Json special_json(const orbit::Branch& branch, std::size_t which, const Sensitiv
   if (!sensitivities.names.empty()) {
     Json sensitivity = Json::object();
     for (std::size_t j = 0; j < sensitivities.names.size(); ++j)
-      sensitivity.set(sensitivities.names[j], sensitivities.rates[which][j]);
+      sensitivity.set(sensitivities.names[j],
+                      std::isfinite(sensitivities.rates[which][j]) ? Json(sensitivities.rates[which][j]) : Json());
     json.set("sensitivity", std::move(sensitivity));
   }
   return json;
@@ -82,7 +84,12 @@ Sensitivities sensitivities(const orbit::Branch& branch, const ChosenModel& chos
   for (const orbit::SpecialPoint& point : branch.special) {
     std::vector<double> values = {point.value};
     for (const std::string& other : all.names) values.push_back(present_value(chosen, "--sensitivity", other));
-    all.rates.push_back(orbit::sensitivity(chosen.definition.family(names, chosen.overrides), values, point));
+    std::vector<double> rates(all.names.size(), std::numeric_limits<double>::quiet_NaN());
+    try {
+      rates = orbit::sensitivity(chosen.definition.family(names, chosen.overrides), values, point);
+    } catch (const NumericalError&) {  // a place by extrapolation, beside which the equations are singular
+    }
+    all.rates.push_back(std::move(rates));
   }
   return all;
 }

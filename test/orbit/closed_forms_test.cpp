@@ -203,9 +203,11 @@ TEST(StickSlipImpact, GrazesWhereTheHeldFrameSays) {
     std::string parameter;
     double start, from, to, graze;
   };
-  const std::vector<Case> cases = {{"drive", drive, 0.6, 1.0, std::sqrt(2.0 * clearance / response(omega))},
-                                   {"clearance", clearance, 0.4, 0.7, 0.5 * drive * drive * response(omega)},
-                                   {"omega", omega, 0.8, 1.3, below}};
+  const std::vector<Case> cases = {
+      {"drive", drive, 0.6, 1.0, std::sqrt(2.0 * clearance / response(omega))},
+      {"drive", 0.7, 0.6, 1.0, std::sqrt(2.0 * clearance / response(omega))},  // without impacts
+      {"clearance", clearance, 0.4, 0.7, 0.5 * drive * drive * response(omega)},
+      {"omega", omega, 0.8, 1.3, below}};
   for (const Case& c : cases) {
     const Posed posed("stick-slip-impact", {}, {c.parameter}, {c.start});
     const auto first = posed.settled();

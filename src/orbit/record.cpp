@@ -265,6 +265,10 @@ bool Check::run(std::size_t first, std::size_t next) {
   const std::optional<Seen> early = next_event(motion, 0, Instant{}.plus(stop), touched, nullptr);
   if (touched) return refuse("the motion grazes in leg " + std::to_string(half + 1));
   if (early) return refuse(mismatch(system_, half, &early->leg, nullptr));
+  // The next check begins there by the orbit's own mode: what the last event led to shows in this one's.
+  if (motion.mode_id() != system_.mode_id(orbit_.shape.legs[half].states))
+    return refuse("the motion is in mode " + system_.mode_name(motion.mode_id()) + " in leg " +
+                  std::to_string(half + 1));
   return true;
 }
 

@@ -150,5 +150,16 @@ TEST(Verification, OfAFastCycleTakesNoOtherInstants) {
   EXPECT_FALSE(orbit::verify(posed.system, late).is_motion);
 }
 
+/// A velocity that passes zero where static friction holds it is no motion, also where a check of the cycle ends just behind it.
+TEST(Verification, RefusesAReversalThatStaticFrictionForbids) {
+  const Posed posed(SLAPSTICK_ORBIT_MODELS "hammer-drill.toml", {{"gap", 0.005}}, {"frequency"}, {21.159});
+  const auto found = orbit::search(*posed.problem, posed.system, posed.start(), {.most_n = 1, .starts = 100});
+  ASSERT_FALSE(found.empty());
+  const orbit::ModeSet set(posed.family, posed.values);
+  for (const orbit::Solution& solution : found)
+    for (const orbit::TestValue& test : orbit::test_values(set, solution.orbit))
+      EXPECT_TRUE(test.test != orbit::Test::no_stick || test.value > 0.0) << solution.label << ": " << test.value;
+}
+
 }  // namespace
 }  // namespace slapstick::test

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "orbit/record.hpp"
+
 namespace slapstick::orbit {
 namespace {
 
@@ -14,6 +16,8 @@ double at_zero(const std::vector<double>& x, std::vector<double> y) {
       y[i] = (x[i + order] * y[i] - x[i] * y[i + 1]) / (x[i + order] - x[i]);
   return y[0];
 }
+
+using Orbits = std::vector<const Orbit*>;  // along a branch
 
 /// Points of a branch at which one leg is ever longer, the nearest first, and what they say.
 struct Shrinking {
@@ -31,15 +35,15 @@ struct Shrinking {
   }
 };
 
-Shrinking shrinking(const std::vector<Solution>& points, std::size_t leg) {
+Shrinking shrinking(const Orbits& orbits, std::size_t leg) {
   constexpr std::size_t most = 8;
   Shrinking found;
-  for (auto point = points.rbegin(); point != points.rend(); ++point) {
-    const Orbit& orbit = point->orbit;
-    if (!(orbit.shape.legs == points.back().orbit.shape.legs)) break;
+  for (std::size_t i = orbits.size(); i-- > 0;) {
+    const Orbit& orbit = *orbits[i];
+    if (!(orbit.shape.legs == orbits.back()->shape.legs)) break;
     if (orbit.duration(leg) > found.first) {
       found.first = orbit.duration(leg);
-      found.before = static_cast<std::size_t>(points.rend() - point) - 1;
+      found.before = i;
     }
     if (found.length.size() == most || (!found.length.empty() && orbit.duration(leg) < 1.2 * found.length.back()))
       continue;
@@ -49,17 +53,21 @@ Shrinking shrinking(const std::vector<Solution>& points, std::size_t leg) {
   return found;
 }
 
-}  // namespace
+Orbits orbits_of(const Branch& branch) {
+  Orbits orbits;
+  for (const Solution& point : branch.points) orbits.push_back(&point.orbit);
+  return orbits;
+}
 
-std::optional<Death> dies_out(const Branch& branch) {
+std::optional<Death> dies_out(const Orbits& orbits) {
   constexpr std::size_t fewest = 5;
   constexpr double all_but_gone = 0.1, resolved = 1e-7, near = 0.5, well_known = 1e-3;
-  const Orbit& last = branch.points.back().orbit;
+  const Orbit& last = *orbits.back();
   const double cycle = last.t.back() - last.t.front();
   std::vector<Death> deaths;
   for (std::size_t leg = 0; leg < last.legs(); ++leg) {
     if (!(last.duration(leg) > resolved * cycle)) continue;
-    const Shrinking all = shrinking(branch.points, leg);
+    const Shrinking all = shrinking(orbits, leg);
     if (all.length.size() < fewest || !(all.shrunk() < all_but_gone)) continue;
     const Death death = all.death(leg);
     const bool is_near = std::abs(death.value - all.value.front()) < near * all.seen();
@@ -70,6 +78,37 @@ std::optional<Death> dies_out(const Branch& branch) {
   for (const Death& other : deaths)  // what another leg's own error does not explain
     best.error = std::max(best.error, std::abs(other.value - best.value) - other.error);
   return best;
+}
+
+/// How many legs are gone from one orbit to another?
+std::ptrdiff_t legs_gone(const Orbit& from, const Orbit& to) {
+  constexpr double gone = 0.1;  // of a leg's length: less than what is left
+  std::ptrdiff_t count = 0;
+  for (std::size_t leg = 0; leg < to.legs(); ++leg)
+    if (!in_burst(to, leg) && to.duration(leg) < gone * from.duration(leg)) ++count;
+  return count;
+}
+
+}  // namespace
+
+std::optional<Death> dies_out(const Branch& branch) { return dies_out(orbits_of(branch)); }
+
+void sharpen_death(const Problem& problem, const Branch& branch, const PathPoint& from, double length, double range,
+                   Change& change) {
+  if (legs_gone(from.orbit, change.at.orbit) < 2) return;
+  constexpr int nearer = 12;
+  constexpr double closer = 1.3;  // in each step
+  std::vector<PathPoint> beside;
+  double left = length / closer;
+  for (int k = 0; k < nearer; ++k, left /= closer)
+    if (auto next = step_to(problem, from, length - left, range)) beside.push_back(std::move(*next));
+  Orbits orbits = orbits_of(branch);
+  while (orbits.size() > 1 && orbits.back()->values != from.orbit.values) orbits.pop_back();
+  for (const PathPoint& next : beside) orbits.push_back(&next.orbit);
+  const std::optional<Death> death = dies_out(orbits);
+  if (!death || !(death->error < change.special.error)) return;
+  change.special.value = death->value;
+  change.special.error = death->error;
 }
 
 }  // namespace slapstick::orbit

@@ -2,6 +2,7 @@
 /// Where a motion dies out: legs of it shrink to nothing together, and its equations become singular before they are gone.
 #include <optional>
 
+#include "orbit/special.hpp"
 #include "slapstick/orbit/branch.hpp"
 
 namespace slapstick::orbit {
@@ -16,5 +17,11 @@ struct Death {
 
 /// Empty if no leg shrinks, or what is extrapolated is not near the last point.
 [[nodiscard]] std::optional<Death> dies_out(const Branch& branch);
+
+/// Where several legs are gone at a change, its place is told by their lengths at points ever nearer to it as well: the better known is taken.
+/// @param from  one of the branch's last points
+/// @param length  from there to the change
+void sharpen_death(const Problem& problem, const Branch& branch, const PathPoint& from, double length, double range,
+                   Change& change);
 
 }  // namespace slapstick::orbit

@@ -77,6 +77,9 @@ bool Follower::at_end(double place, double error, const PathPoint& at) const {
 bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why) {
   std::optional<Change> change = change_between(at, beyond, length);
   if (!change || fades(at.orbit, change->test.leg)) return look_nearer(at, length, why);
+  const bool same = before_ && before_->point.orbit.shape.legs == at.orbit.shape.legs;
+  sharpen_death(problem_, branch_, same ? before_->point : at, change->length + (same ? before_->length : 0.0), range_,
+                *change);
   SpecialPoint& special = change->special;
   if (at_end(special.value, special.error, at)) {
     end("range", false);

@@ -94,26 +94,34 @@ Behind behind(const Problem& problem, const PathPoint& change, double range, con
 
 namespace {
 
-/// The state in the middle of a later leg of a motion from before the change in its leg, the parameter moved by so much. Empty if it cannot start.
-std::optional<VectorXd> later(const Problem& problem, const PathPoint& change, const TestValue& test, double move) {
-  Orbit orbit = change.orbit;
-  orbit.values[0] += move;
+/// The state in the middle of a later leg of a motion that begins before the change in its leg. Empty if it cannot start.
+std::optional<VectorXd> later(const Problem& problem, Orbit orbit, const TestValue& test) {
   const System system(problem.family().model(orbit.values));
   const ModeSet set(constant_family(system.model()), {});
   rotate(orbit, test.leg);
   std::size_t longest = 1;
   for (std::size_t i = 1; i < orbit.legs(); ++i)
     if (orbit.duration(i) > orbit.duration(longest)) longest = i;
-  std::optional<Motion> motion = motion_from(system, set, orbit, 0, 0.5 * test.at / orbit.duration(0));
+  const double until = test.test == Test::no_stick ? 1.0 : test.at / orbit.duration(0);
+  std::optional<Motion> motion = motion_from(system, set, orbit, 0, 0.5 * until);
   if (!motion) return std::nullopt;
   while (motion->advance(Instant{}.plus(orbit.t[longest] + 0.5 * orbit.duration(longest))) == Outcome::event) {
   }
   return attractor::contact_state(*motion);
 }
 
+/// An orbit of the events before the change, so far from it along the branch; where that is singular, the change's own with another value of the parameter.
+Orbit beside(const Problem& problem, const PathPoint& change, double length, double range) {
+  if (auto point = step_to(problem, change, length, range)) return std::move(point->orbit);
+  Orbit orbit = change.orbit;
+  orbit.values[0] += length * range;
+  return orbit;
+}
+
 /// How far motions a little to either side of the change are from one another, against the orbit's extent.
-double departure(const Problem& problem, const PathPoint& change, const TestValue& test, double move) {
-  const auto here = later(problem, change, test, -move), there = later(problem, change, test, move);
+double departure(const Problem& problem, const PathPoint& change, const TestValue& test, double length, double range) {
+  const auto here = later(problem, beside(problem, change, -length, range), test),
+             there = later(problem, beside(problem, change, length, range), test);
   return here && there ? Extent(problem, change.orbit).distance(*here, *there) : 0.0;
 }
 
@@ -121,10 +129,10 @@ double departure(const Problem& problem, const PathPoint& change, const TestValu
 
 bool departs(const Problem& problem, const PathPoint& change, const TestValue& test, double range) {
   constexpr double near = 1e-7, far_off = 1e-3, shrinks = 0.3;
-  if (change.orbit.legs() < 2 || !(test.at > 0.0)) return false;
+  if (change.orbit.legs() < 2 || !(test.at > 0.0 || test.test == Test::no_stick)) return false;
   try {
-    const double first = departure(problem, change, test, near * range);
-    return first > far_off && departure(problem, change, test, 0.01 * near * range) > shrinks * first;
+    const double first = departure(problem, change, test, near, range);
+    return first > far_off && departure(problem, change, test, 0.01 * near, range) > shrinks * first;
   } catch (const InputError&) {
   } catch (const NumericalError&) {
   }

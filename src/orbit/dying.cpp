@@ -9,14 +9,6 @@
 namespace slapstick::orbit {
 namespace {
 
-/// The polynomial through values y at places x, at 0 (Neville).
-double at_zero(const std::vector<double>& x, std::vector<double> y) {
-  for (std::size_t order = 1; order < x.size(); ++order)
-    for (std::size_t i = 0; i + order < x.size(); ++i)
-      y[i] = (x[i + order] * y[i] - x[i] * y[i + 1]) / (x[i + order] - x[i]);
-  return y[0];
-}
-
 using Orbits = std::vector<const Orbit*>;  // along a branch
 
 /// Points of a branch at which one leg is ever longer, the nearest first, and what they say.
@@ -91,6 +83,13 @@ std::ptrdiff_t legs_gone(const Orbit& from, const Orbit& to) {
 
 }  // namespace
 
+double at_zero(const std::vector<double>& x, std::vector<double> y) {
+  for (std::size_t order = 1; order < x.size(); ++order)
+    for (std::size_t i = 0; i + order < x.size(); ++i)
+      y[i] = (x[i + order] * y[i] - x[i] * y[i + 1]) / (x[i + order] - x[i]);
+  return y[0];
+}
+
 std::optional<Death> dies_out(const Branch& branch) { return dies_out(orbits_of(branch)); }
 
 void sharpen_death(const Problem& problem, const Branch& branch, const PathPoint& from, double length, double range,
@@ -109,6 +108,10 @@ void sharpen_death(const Problem& problem, const Branch& branch, const PathPoint
   if (!death || !(death->error < change.special.error)) return;
   change.special.value = death->value;
   change.special.error = death->error;
+  if (beside.empty()) return;
+  change.special.solution =
+      describe(problem, beside[beside.size() / 2].orbit, nullptr);  // regular: others can be found from it
+  change.special.beside = true;
 }
 
 }  // namespace slapstick::orbit

@@ -1,11 +1,15 @@
 #pragma once
 /// Where a motion dies out: legs of it shrink to nothing together, and its equations become singular before they are gone.
 #include <optional>
+#include <vector>
 
 #include "orbit/special.hpp"
 #include "slapstick/orbit/branch.hpp"
 
 namespace slapstick::orbit {
+
+/// The polynomial through values y at places x, at 0 (Neville).
+[[nodiscard]] double at_zero(const std::vector<double>& x, std::vector<double> y);
 
 struct Death {
   double value =

@@ -62,6 +62,18 @@ std::optional<std::size_t> repeats(const Problem& problem, const Orbit& orbit, d
   return std::nullopt;
 }
 
+Orbit once(const Problem& problem, Orbit orbit, double tolerance) {
+  const std::optional<std::size_t> part = repeats(problem, orbit, tolerance);
+  if (!part) return orbit;
+  const auto times = static_cast<int>(orbit.legs() / *part);
+  if (orbit.shape.n % times != 0) return orbit;
+  orbit.shape.legs.resize(*part);
+  orbit.x.resize(*part);
+  orbit.t.resize(*part + 1);
+  orbit.shape.n /= times;
+  return orbit;
+}
+
 bool becomes_shorter(const Problem& problem, const Orbit& before, const Orbit& orbit, double tolerance) {
   constexpr double rounding = 1e-7;
   if (before.shape.legs[0].ending == Ending::cut) return false;  // one without events has no legs that could be equal

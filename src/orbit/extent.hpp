@@ -25,6 +25,9 @@ class Extent {
 /// @param tolerance  of distances between states, and of instants against the cycle
 [[nodiscard]] std::optional<std::size_t> repeats(const Problem& problem, const Orbit& orbit, double tolerance);
 
+/// Of an orbit that is a shorter one several times over, that one.
+[[nodiscard]] Orbit once(const Problem& problem, Orbit orbit, double tolerance);
+
 /// Has an orbit become one of equal cycles that another of its branch is not? Forced at even harmonics only, every orbit may be two equal halves.
 [[nodiscard]] bool becomes_shorter(const Problem& problem, const Orbit& before, const Orbit& orbit, double tolerance);
 

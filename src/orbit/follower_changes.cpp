@@ -226,6 +226,7 @@ bool Follower::die_out(PathPoint& at) {
   }
   SpecialPoint special;
   special.solution = branch_.points.back();
+  special.beside = true;
   special.type = special.solution.sticking ? SpecialType::SL : SpecialType::CO;
   special.value = death->value;
   special.error = death->error;

@@ -50,19 +50,6 @@ bool is_multiple(const Problem& problem, const Orbit& orbit) {
   return false;
 }
 
-/// Of an orbit that is a shorter one several times over, that one.
-Orbit once(const Problem& problem, Orbit orbit) {
-  const std::optional<std::size_t> part = repeats(problem, orbit, same_orbit);
-  if (!part) return orbit;
-  const auto times = static_cast<int>(orbit.legs() / *part);
-  if (orbit.shape.n % times != 0) return orbit;
-  orbit.shape.legs.resize(*part);
-  orbit.x.resize(*part);
-  orbit.t.resize(*part + 1);
-  orbit.shape.n /= times;
-  return orbit;
-}
-
 /// An orbit from where a motion stands, if there is one whose state is within so much of the motion's.
 std::optional<Solution> orbit_from(const Problem& problem, const System& system, const Motion& motion, int n,
                                    double within, const std::atomic<bool>* stop) {
@@ -71,7 +58,7 @@ std::optional<Solution> orbit_from(const Problem& problem, const System& system,
   Orbit start = *guess;
   start.values = problem.values();
   std::optional<Orbit> orbit = refine(problem, start);
-  if (orbit && repeats(problem, *orbit, same_orbit)) orbit = refine(problem, once(problem, *orbit));
+  if (orbit && repeats(problem, *orbit, same_orbit)) orbit = refine(problem, once(problem, *orbit, same_orbit));
   if (!orbit || Extent(problem, *orbit).distance(orbit->x[0], start.x[0]) > within) return std::nullopt;
   Solution solution = describe(problem, *orbit, &system);
   if (!solution.is_motion) return std::nullopt;

@@ -1,8 +1,12 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 
 #include "orbit/crossing.hpp"
+#include "orbit/dying.hpp"
+#include "orbit/extent.hpp"
+#include "orbit/record.hpp"
 #include "orbit/special.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/orbit/branch.hpp"
@@ -57,6 +61,72 @@ std::vector<double> crossing_sensitivity(const Problem& problem, const Orbit& or
   return result;
 }
 
+/// The orbit that doubles, from the doubled one.
+Orbit doubling(const Problem& problem, const Orbit& doubled) {
+  constexpr double merged = 1e-3;  // near enough for Newton's method
+  std::optional<Orbit> orbit = refine(problem, once(problem, doubled, merged));
+  if (!orbit) throw NumericalError("sensitivity: the orbit that doubles was not found from the doubled one");
+  return *orbit;
+}
+
+}  // namespace
+
+namespace {
+
+/// The directions on the solutions v(s, q) of the equations, s arclength: in which each parameter but the first moves by its unit and s stays.
+std::vector<VectorXd> directions(const Problem& problem, const Linearised& linear, const PathPoint& at) {
+  MatrixXd matrix(linear.by.cols(), linear.by.cols());
+  const Index rows = linear.by.rows();
+  matrix.topRows(rows) = linear.by * at.units.asDiagonal();
+  matrix.row(rows) = at.tangent.transpose();
+  for (Index j = 1; j < problem.parameters(); ++j)
+    matrix.row(rows + j) = Eigen::RowVectorXd::Unit(matrix.cols(), problem.parameter_column(at.orbit.legs(), j));
+  const Eigen::PartialPivLU<MatrixXd> solver(matrix);
+  std::vector<VectorXd> all;
+  for (Index j = 1; j < problem.parameters(); ++j)
+    all.emplace_back(solver.solve(VectorXd::Unit(matrix.rows(), rows + j)));
+  return all;
+}
+
+/// Where legs shrink to nothing the equations are singular: the sensitivity of the parameter at which one of them has some length, ever shorter,
+/// extrapolated to none.
+std::vector<double> death_sensitivity(const Problem& problem, const Orbit& orbit, double range) {
+  constexpr int points = 7;
+  constexpr double longer = 1.4;  // from point to point
+  std::size_t leg = 0;
+  for (std::size_t i = 1; i < orbit.legs(); ++i)
+    if (!in_burst(orbit, i) && orbit.duration(i) < orbit.duration(leg)) leg = i;
+  const Index begin = problem.instant_column(leg), place = problem.parameter_column(orbit.legs(), 0);
+  std::vector<double> lengths;
+  std::vector<std::vector<double>> rates(static_cast<std::size_t>(problem.parameters()) - 1);
+  PathPoint at = point_of(problem, orbit, range, {});
+  for (int k = 0; k < points; ++k) {
+    const auto growth = [&](const VectorXd& v) {
+      return v[begin + 1] * at.units[begin + 1] - v[begin] * at.units[begin];
+    };
+    const ModeSet set(problem.family(), at.orbit.values);
+    const std::vector<VectorXd> all = directions(problem, linearise(problem, set, at.orbit), at);
+    lengths.push_back(at.orbit.duration(leg));
+    for (std::size_t j = 0; j < all.size(); ++j) {
+      const double moved = all[j][place] - at.tangent[place] * growth(all[j]) / growth(at.tangent);
+      rates[j].push_back(moved * at.units[place] /
+                         at.units[problem.parameter_column(orbit.legs(), static_cast<Index>(j) + 1)]);
+    }
+    auto next = step_to(problem, at, (longer - 1.0) * lengths.back() / growth(at.tangent), range);
+    if (!next) break;
+    at = std::move(*next);
+  }
+  std::vector<double> result;
+  for (const std::vector<double>& rate : rates) {
+    if (rate.size() < 4) throw NumericalError("sensitivity: too few orbits beside the special point");
+    const double all = at_zero(lengths, rate),
+                 fewer = at_zero({lengths.begin(), lengths.end() - 1}, {rate.begin(), rate.end() - 1});
+    const double size = std::abs(*std::ranges::max_element(rate, {}, [](double r) { return std::abs(r); }));
+    result.push_back(std::abs(all - fewer) < agreement * size ? all : std::nan(""));
+  }
+  return result;
+}
+
 }  // namespace
 
 /// On the solutions v(s, q) of the equations, s arclength and q another parameter, f(v) = 0 keeps the point what it is:
@@ -65,24 +135,19 @@ std::vector<double> crossing_sensitivity(const Problem& problem, const Orbit& or
 std::vector<double> sensitivity(const Family& full, const std::vector<double>& values, const SpecialPoint& point) {
   const Problem problem(full, values);
   Orbit orbit = point.solution.orbit;
-  orbit.values = values;
   const double range = std::max(1e-3, std::abs(values[0]));
+  const double own = orbit.values[0];
+  orbit.values = values;
+  if (point.beside) {
+    orbit.values[0] = own;
+    return death_sensitivity(problem, orbit, range);
+  }
   if (point.type == SpecialType::BP) return crossing_sensitivity(problem, orbit, range);
+  if (point.birth) orbit = doubling(problem, orbit);
   const PathPoint at = point_of(problem, orbit, range, {});
   const std::size_t legs = orbit.legs();
   const ModeSet set(problem.family(), orbit.values);
   const Linearised linear = linearise(problem, set, orbit);
-  const auto along = [&](Index parameter) {  // at the same place of the branch, another parameter moves by its unit
-    MatrixXd matrix(linear.by.cols(), linear.by.cols());
-    const Index rows = linear.by.rows();
-    matrix.topRows(rows) = linear.by * at.units.asDiagonal();
-    matrix.row(rows) = at.tangent.transpose();
-    for (Index j = 1; j < problem.parameters(); ++j)
-      matrix.row(rows + j) = Eigen::RowVectorXd::Unit(matrix.cols(), problem.parameter_column(legs, j));
-    VectorXd right = VectorXd::Zero(matrix.rows());
-    right[rows + parameter] = 1.0;
-    return VectorXd(matrix.partialPivLu().solve(right));
-  };
   const auto value_at = [&](const VectorXd& direction, double length) {
     Orbit moved = orbit;
     move(problem, linear, length * direction.cwiseProduct(at.units), 0.0, moved);
@@ -97,8 +162,9 @@ std::vector<double> sensitivity(const Family& full, const std::vector<double>& v
   };
   std::vector<double> result;
   const Index place = problem.parameter_column(legs, 0);
-  for (Index j = 1; j < problem.parameters(); ++j) {
-    const VectorXd direction = along(j);
+  Index j = 0;
+  for (const VectorXd& direction : directions(problem, linear, at)) {
+    ++j;
     const double ds = best_ratio([&](double h) { return -rate(direction, h) / rate(at.tangent, h); });
     const double moved = (direction[place] + at.tangent[place] * ds) * at.units[place];
     result.push_back(moved / at.units[problem.parameter_column(legs, j)]);

@@ -120,7 +120,14 @@ TEST(ShakenTable, SensitivityIsTheFormulasDerivative) {
   const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 1.0, .to = 1.6});
   const double h = 1e-4;
   const auto fold = [](double r) { return pi * (1.0 - r) / (1.0 + r); };
-  for (const orbit::SpecialPoint& point : branch.special) {
+  std::vector<orbit::SpecialPoint> special = branch.special;
+  const auto pd = std::ranges::find(branch.special, orbit::SpecialType::PD, &orbit::SpecialPoint::type);
+  ASSERT_NE(pd, branch.special.end());
+  const orbit::Branch doubled = orbit::follow(*posed.problem, pd->born.at(0), {.from = 1.0, .to = 1.6});
+  const auto birth = std::ranges::find_if(doubled.special, &orbit::SpecialPoint::birth);
+  ASSERT_NE(birth, doubled.special.end());
+  special.push_back(*birth);  // the same point, as the doubled orbit sees it
+  for (const orbit::SpecialPoint& point : special) {
     const auto formula = point.type == orbit::SpecialType::PD ? std::function<double(double)>(doubling_of_ball)
                                                               : std::function<double(double)>(fold);
     const double exact =

@@ -21,6 +21,7 @@ const orbit::SpecialPoint* find_near(const orbit::Branch& branch, SpecialType ty
 /// A mass on dry ground that is pushed with an amplitude below friction stays where it is. From above, slips shrink to nothing like a square root, and
 /// the equations become singular before they are gone; steps fall elsewhere from each start.
 TEST(DyingMotion, EndsWhereTheForceIsFriction) {
+  const Posed both("coulomb-oscillator", {}, {"amplitude", "static_friction", "omega"}, {1.0, 0.2, 0.8});
   struct Case {
     double start, from, to;
   };
@@ -35,6 +36,10 @@ TEST(DyingMotion, EndsWhereTheForceIsFriction) {
     ASSERT_NE(death, nullptr) << c.start;
     EXPECT_NEAR(death->value, 0.2, death->error + 1e-13) << c.start;
     EXPECT_LT(death->error, 1e-11) << c.start;
+    const std::vector<double> rates =
+        orbit::sensitivity(both.family, {death->value, 0.2, 0.8}, *death);  // the amplitude is static friction's
+    EXPECT_NEAR(rates[0], 1.0, 1e-9) << c.start;
+    EXPECT_NEAR(rates[1], 0.0, 1e-9) << c.start;
     EXPECT_EQ(death->outcome, "from there on it is one of a family");
     EXPECT_GT(branch.points.front().orbit.values[0], 0.2);
     EXPECT_TRUE(std::ranges::all_of(branch.points, [](const orbit::Solution& s) { return s.isolated(); }));

@@ -37,9 +37,10 @@ struct NormalForm {
 
 struct SpecialPoint {
   SpecialType type = SpecialType::LP;
-  double value = 0.0;  ///< of the parameter
-  double error = 0.0;  ///< of it: the last change of the refinement, or what rounding leaves
-  Solution solution;
+  double value = 0.0;   ///< of the parameter
+  double error = 0.0;   ///< of it: the last change of the refinement, or what rounding leaves
+  Solution solution;    ///< the orbit there ..
+  bool beside = false;  ///< .. or one beside it, where a motion dies out and its equations are singular
   std::string what;     ///< "the gap of stop touches zero in leg 2", "stick of block is lost"
   std::string outcome;  ///< of a change of events: "persistence", "non-smooth fold", "jump to 1-2-I", "none found", ..
   double rotation = 0.0;    ///< NS: rho in (0, 1/2)

@@ -118,6 +118,18 @@ bool named_alike(const SpecialPoint& a, const SpecialPoint& b) {
   return a.type == b.type && (!passes(a) || !passes(b) || (a.outcome == b.outcome && sliding(a) == sliding(b)));
 }
 
+/// Does a point lie in the rest of a cascade that a branch does not follow, between the last of its changes and the onset of the chatter?
+bool in_rest_of_cascade(const Branch& branch, const SpecialPoint& point) {
+  const std::vector<SpecialPoint>& all = branch.special;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].type != SpecialType::CH) continue;
+    const auto apart = [&](std::size_t j) { return std::abs(all[j].value - all[i].value); };
+    const double left = std::min(i > 0 ? apart(i - 1) : INFINITY, i + 1 < all.size() ? apart(i + 1) : INFINITY);
+    if (std::isfinite(left) && std::abs(point.value - all[i].value) < left) return true;
+  }
+  return false;
+}
+
 /// Special points of one branch that another, which goes past them, does not have, or by another name.
 long missing(const Problem& problem, const Branch& whole, const Branch& again, double range, const std::string& where,
              Tally& tally) {
@@ -137,7 +149,7 @@ long missing(const Problem& problem, const Branch& whole, const Branch& again, d
                             found->what + ", " + found->outcome + ")");
       continue;
     }
-    if (!goes_past(problem, again, whole, point)) continue;
+    if (in_rest_of_cascade(again, point) || !goes_past(problem, again, whole, point)) continue;
     ++count;
     tally.notes.push_back(where + ": " + std::string(name(point.type)) + " " + shown(point.value) + " is missing");
   }

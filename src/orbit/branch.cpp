@@ -140,7 +140,7 @@ bool Follower::accept(PathPoint& at, PathPoint next, double length) {
     return false;
   }
   if (!solution.is_motion) return change_events(at, next, length, solution.why);
-  std::vector<SpecialPoint> smooth = smooth_special_points(problem_, at, next, length, range_);
+  std::vector<SpecialPoint> smooth = smooth_special_points(problem_, at, next, range_);
   if (length > shortest_for_pairs && !explained(at.watched, next.watched, smooth)) {
     step_ = 0.5 * length;
     return true;

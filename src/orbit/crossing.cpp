@@ -126,20 +126,6 @@ class Determinant {
   VectorXd scales_;
 };
 
-/// The direction of a branch in the unknowns, from two orbits of it.
-VectorXd direction(const Problem& problem, const Orbit& a, const Orbit& b, const VectorXd& units) {
-  VectorXd along(units.size());
-  const auto legs = static_cast<Index>(a.legs());
-  along.head(problem.numbers()) = problem.translations().numbers(b.x[0] - a.x[0]);
-  for (Index i = 0; i <= legs; ++i)
-    along[problem.instant_column(static_cast<std::size_t>(i))] =
-        b.t[static_cast<std::size_t>(i)] - a.t[static_cast<std::size_t>(i)];
-  for (Index j = 0; j < problem.parameters(); ++j)
-    along[problem.parameter_column(a.legs(), j)] =
-        b.values[static_cast<std::size_t>(j)] - a.values[static_cast<std::size_t>(j)];
-  return along.cwiseQuotient(units).normalized();
-}
-
 }  // namespace
 
 std::optional<Located> locate_between(const Problem& problem, const PathPoint& from, double near, double half_width,
@@ -169,7 +155,9 @@ std::optional<Located> locate_between(const Problem& problem, const PathPoint& f
   found.error = std::abs(checked.values[0] - found.point.orbit.values[0]);
   if (!(found.error < well_known * range)) return std::nullopt;
   const double beside = 0.1 * half_width;
-  found.point.tangent = direction(problem, orbit_at(*place - beside), orbit_at(*place + beside), found.point.units);
+  found.point.tangent = unknowns_between(problem, orbit_at(*place - beside), orbit_at(*place + beside))
+                            .cwiseQuotient(found.point.units)
+                            .normalized();
   found.point.watched.turn = found.point.tangent[problem.parameter_column(from.orbit.legs(), 0)];
   return found;
 }

@@ -92,12 +92,12 @@ double at_zero(const std::vector<double>& x, std::vector<double> y) {
 
 std::optional<Death> dies_out(const Branch& branch) { return dies_out(orbits_of(branch)); }
 
-void sharpen_death(const Problem& problem, const Branch& branch, const PathPoint& from, double length, double range,
-                   Change& change) {
+void sharpen_death(const Problem& problem, const Branch& branch, const PathPoint& from, double range, Change& change) {
   if (legs_gone(from.orbit, change.at.orbit) < 2) return;
   constexpr int nearer = 12;
   constexpr double closer = 1.3;  // in each step
   std::vector<PathPoint> beside;
+  const double length = arclength(problem, from, change.at.orbit);
   double left = length / closer;
   for (int k = 0; k < nearer; ++k, left /= closer)
     if (auto next = step_to(problem, from, length - left, range)) beside.push_back(std::move(*next));

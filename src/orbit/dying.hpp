@@ -24,8 +24,6 @@ struct Death {
 
 /// Where several legs are gone at a change, its place is told by their lengths at points ever nearer to it as well: the better known is taken.
 /// @param from  one of the branch's last points
-/// @param length  from there to the change
-void sharpen_death(const Problem& problem, const Branch& branch, const PathPoint& from, double length, double range,
-                   Change& change);
+void sharpen_death(const Problem& problem, const Branch& branch, const PathPoint& from, double range, Change& change);
 
 }  // namespace slapstick::orbit

@@ -44,8 +44,9 @@ bool is_model(const Problem& problem, std::vector<double> values, double value) 
 std::optional<Change> Follower::change_between(const PathPoint& at, const PathPoint& beyond, double length) const {
   std::optional<Change> change = find_change(problem_, at, beyond, length, range_);
   if (change || !before_ || !(before_->point.orbit.shape.legs == at.orbit.shape.legs)) return change;
-  change = find_change(problem_, before_->point, beyond, before_->length + length, range_);
-  if (change) change->length -= before_->length;
+  const double both = arclength(problem_, before_->point, beyond.orbit);
+  change = find_change(problem_, before_->point, beyond, both, range_);
+  if (change) change->length = arclength(problem_, at, change->at.orbit);
   return change;
 }
 
@@ -78,8 +79,7 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
   std::optional<Change> change = change_between(at, beyond, length);
   if (!change || fades(at.orbit, change->test.leg)) return look_nearer(at, length, why);
   const bool same = before_ && before_->point.orbit.shape.legs == at.orbit.shape.legs;
-  sharpen_death(problem_, branch_, same ? before_->point : at, change->length + (same ? before_->length : 0.0), range_,
-                *change);
+  sharpen_death(problem_, branch_, same ? before_->point : at, range_, *change);
   SpecialPoint& special = change->special;
   if (at_end(special.value, special.error, at)) {
     end("range", false);

@@ -46,12 +46,11 @@ Pair pair_within(const Problem& problem, const Triple& triple, double range) {
     pair.earlier = vertex < 0.0;
     const PathPoint& from = pair.earlier ? first : second;
     const PathPoint& to = pair.earlier ? second : third;
-    const double whole = pair.earlier ? back : ahead, part = pair.earlier ? back + vertex : vertex;
+    const double part = pair.earlier ? back + vertex : vertex;
     const std::optional<PathPoint> middle = step_to(problem, from, part, range);
     if (!middle || !(middle->watched.*f * b < 0.0)) continue;
-    pair.points = smooth_special_points(problem, from, *middle, part, range);
-    std::ranges::move(smooth_special_points(problem, *middle, to, whole - part, range),
-                      std::back_inserter(pair.points));
+    pair.points = smooth_special_points(problem, from, *middle, range);
+    std::ranges::move(smooth_special_points(problem, *middle, to, range), std::back_inserter(pair.points));
     return pair;
   }
   return pair;
@@ -62,8 +61,8 @@ std::vector<SpecialPoint> within_halves(const Problem& problem, const PathPoint&
   const double half = 0.5 * length;
   const std::optional<PathPoint> middle = step_to(problem, from, half, range);
   if (!middle) return {};
-  std::vector<SpecialPoint> points = smooth_special_points(problem, from, *middle, half, range);
-  std::ranges::move(smooth_special_points(problem, *middle, to, half, range), std::back_inserter(points));
+  std::vector<SpecialPoint> points = smooth_special_points(problem, from, *middle, range);
+  std::ranges::move(smooth_special_points(problem, *middle, to, range), std::back_inserter(points));
   return points.empty() ? pair_within(problem, {from, *middle, to, half, half}, range).points : points;
 }
 
@@ -80,16 +79,14 @@ std::vector<SpecialPoint> beside_change(const Problem& problem, const PathPoint&
   std::vector<SpecialPoint> points;
   if (!last) return points;
   PathPoint at = from;
-  double begin = 0.0;
-  const auto look_as_far_as = [&](const PathPoint& next, double place) {
-    std::ranges::move(smooth_special_points(problem, at, next, place - begin, range), std::back_inserter(points));
+  const auto look_as_far_as = [&](const PathPoint& next) {
+    std::ranges::move(smooth_special_points(problem, at, next, range), std::back_inserter(points));
     at = next;
-    begin = place;
   };
   for (const double part : {0.5, 0.9, 0.97, 0.99})  // two of one type may lie close before the change
     if (const auto next = step_to(problem, from, part * length, range); next && part * length < end)
-      look_as_far_as(*next, part * length);
-  look_as_far_as(*last, end);
+      look_as_far_as(*next);
+  look_as_far_as(*last);
   return points;
 }
 

@@ -92,6 +92,20 @@ PathPoint reversed(PathPoint point) {
   return point;
 }
 
+VectorXd unknowns_between(const Problem& problem, const Orbit& a, const Orbit& b) {
+  VectorXd between(problem.unknowns(a.legs()));
+  between.head(problem.numbers()) = problem.translations().numbers(b.x[0] - a.x[0]);
+  for (std::size_t i = 0; i <= a.legs(); ++i) between[problem.instant_column(i)] = b.t[i] - a.t[i];
+  for (Index j = 0; j < problem.parameters(); ++j)
+    between[problem.parameter_column(a.legs(), j)] =
+        b.values[static_cast<std::size_t>(j)] - a.values[static_cast<std::size_t>(j)];
+  return between;
+}
+
+double arclength(const Problem& problem, const PathPoint& from, const Orbit& to) {
+  return from.tangent.dot(unknowns_between(problem, from.orbit, to).cwiseQuotient(from.units));
+}
+
 std::optional<PathPoint> step_to(const Problem& problem, const PathPoint& from, double length, double range, int* steps,
                                  std::string* why) {
   try {

@@ -37,6 +37,12 @@ struct PathPoint {
 /// The same point, followed the other way.
 [[nodiscard]] PathPoint reversed(PathPoint point);
 
+/// From one orbit of a branch to another of the same events: numbers of x_0, instants, parameters.
+[[nodiscard]] Eigen::VectorXd unknowns_between(const Problem& problem, const Orbit& a, const Orbit& b);
+
+/// The length with which step_to leads from a point to an orbit of the branch.
+[[nodiscard]] double arclength(const Problem& problem, const PathPoint& from, const Orbit& to);
+
 /// The point at an arclength from another; empty if Newton's method does not get there. `steps`: Newton's; `why`: set where the model is refused.
 [[nodiscard]] std::optional<PathPoint> step_to(const Problem& problem, const PathPoint& from, double length,
                                                double range, int* steps = nullptr, std::string* why = nullptr);

@@ -87,7 +87,7 @@ struct Kind {
 struct Stretch {
   const PathPoint& from;
   const PathPoint& to;
-  double begin, length;  ///< arclengths: from the first point of all, and on
+  double begin;  ///< arclength from the first point of all
 };
 
 bool is_one(SpecialType type, const Watched& there) {
@@ -112,7 +112,8 @@ std::string_view words(SpecialType type) {
 
 /// The special point of one kind within a stretch, if its function changes sign there.
 void look_within(const Problem& problem, const Kind& kind, const Stretch& stretch, double range, Along& found) {
-  const auto& [from, to, begin, length] = stretch;
+  const auto& [from, to, begin] = stretch;
+  const double length = arclength(problem, from, to.orbit);
   if (!changes_sign(kind.value(from.watched), kind.value(to.watched))) return;
   std::optional<Located> located = locate(problem, from, length, range, kind.value, kind.value(to.watched));
   if (kind.type == SpecialType::BP) located = sharpened(problem, from, std::move(located), length, range);
@@ -133,12 +134,12 @@ void look_within(const Problem& problem, const Kind& kind, const Stretch& stretc
 }  // namespace
 
 std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const PathPoint& from, const PathPoint& to,
-                                                double length, double range) {
+                                                double range) {
   const Kind crossing = {SpecialType::BP, [](const Watched& w) { return w.cross; }};
   const std::array<Kind, 3> others = {{{SpecialType::LP, [](const Watched& w) { return w.turn; }},
                                        {SpecialType::PD, [](const Watched& w) { return w.flip; }},
                                        {SpecialType::NS, [](const Watched& w) { return w.torus; }}}};
-  const Stretch whole{from, to, 0.0, length};
+  const Stretch whole{from, to, 0.0};
   Along found;
   look_within(problem, crossing, whole, range, found);
   // A branch that leaves a symmetric or a shorter orbit has the same on both sides of it: signs that change twice.
@@ -146,14 +147,14 @@ std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const Pa
   double place = 0.0, aside = 0.0;
   if (!found.empty()) {
     place = found.front().first;
-    aside = 0.1 * std::min(place, length - place);
+    aside = 0.1 * std::min(place, arclength(problem, from, to.orbit) - place);
     before = step_to(problem, from, place - aside, range);
     behind = step_to(problem, from, place + aside, range);
   }
   for (const Kind& kind : others) {
     if (before && behind) {
-      look_within(problem, kind, {from, *before, 0.0, place - aside}, range, found);
-      look_within(problem, kind, {*behind, to, place + aside, length - place - aside}, range, found);
+      look_within(problem, kind, {from, *before, 0.0}, range, found);
+      look_within(problem, kind, {*behind, to, place + aside}, range, found);
     } else {
       look_within(problem, kind, whole, range, found);
     }

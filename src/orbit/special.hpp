@@ -7,7 +7,7 @@ namespace slapstick::orbit {
 
 /// Those that leave the sequence of events as it is: LP, PD, NS, BP, in the order in which the branch meets them.
 [[nodiscard]] std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const PathPoint& from,
-                                                              const PathPoint& to, double length, double range);
+                                                              const PathPoint& to, double range);
 
 /// The first point at which the orbit ceases to be a motion.
 struct Change {

@@ -113,6 +113,25 @@ TEST(Branch, MeetsAGrazeFromBothSidesAtTheSameValue) {
   EXPECT_EQ(back.points.back().impacts, 0) << back.ended;
 }
 
+/// A doubling 4e-7 before an impact's speed goes to zero lies in one of the last step's parts, all but at its end: from one start of these it was not seen.
+TEST(Branch, SeesADoublingJustBeforeAGrazeFromEveryStart) {
+  const Overrides values = {
+      {"cosine", 0.961332572276375}, {"damping_ratio", 0.0941735420012799}, {"restitution", 0.9512984707492715}};
+  for (const double start : {0.94, 0.97, 1.0}) {
+    const Posed posed("impact-oscillator", values, {"omega"}, {start});
+    const auto first = posed.settled(1);
+    ASSERT_TRUE(first);
+    const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.9, .to = 1.05});
+    const auto pd = std::ranges::find(branch.special, orbit::SpecialType::PD, &orbit::SpecialPoint::type);
+    ASSERT_NE(pd, branch.special.end()) << start;
+    const Posed there("impact-oscillator", values, {"omega"}, {pd->value});
+    const auto orbit = orbit::refine(*there.problem, pd->solution.orbit);
+    ASSERT_TRUE(orbit);
+    const auto mu = orbit::describe(*there.problem, *orbit, nullptr).multipliers;
+    EXPECT_LT(std::min(std::abs(mu[0] + 1.0), std::abs(mu[1] + 1.0)), 1e-4) << start;
+  }
+}
+
 /// A branch that was born at a doubling is not doubled there again.
 TEST(Branch, IsNotDoubledAtItsBirth) {
   const Posed posed("shaken-table", {{"restitution", 0.5}}, {"acceleration"}, {1.4});

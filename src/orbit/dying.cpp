@@ -14,8 +14,8 @@ using Orbits = std::vector<const Orbit*>;  // along a branch
 /// Points of a branch at which one leg is ever longer, the nearest first, and what they say.
 struct Shrinking {
   std::vector<double> length, value;
-  double first = 0.0;      ///< the leg's greatest length on the way ..
-  std::size_t before = 0;  ///< .. and the point that has it
+  double first = 0.0;              ///< the leg's greatest length on the way ..
+  const Orbit* longest = nullptr;  ///< .. and the orbit that has it
 
   [[nodiscard]] double shrunk() const { return length.front() / first; }
   [[nodiscard]] double seen() const { return std::abs(value.front() - value.back()); }
@@ -23,7 +23,7 @@ struct Shrinking {
     const double all = at_zero(length, value),
                  without_first = at_zero({length.begin() + 1, length.end()}, {value.begin() + 1, value.end()}),
                  without_last = at_zero({length.begin(), length.end() - 1}, {value.begin(), value.end() - 1});
-    return {all, std::max(std::abs(without_first - all), std::abs(without_last - all)), leg, before};
+    return {all, std::max(std::abs(without_first - all), std::abs(without_last - all)), leg, *longest};
   }
 };
 
@@ -35,7 +35,7 @@ Shrinking shrinking(const Orbits& orbits, std::size_t leg) {
     if (!(orbit.shape.legs == orbits.back()->shape.legs)) break;
     if (orbit.duration(leg) > found.first) {
       found.first = orbit.duration(leg);
-      found.before = i;
+      found.longest = &orbit;
     }
     if (found.length.size() == most || (!found.length.empty() && orbit.duration(leg) < 1.2 * found.length.back()))
       continue;
@@ -90,7 +90,49 @@ double at_zero(const std::vector<double>& x, std::vector<double> y) {
   return y[0];
 }
 
+double growth(const Problem& problem, const PathPoint& at, const Eigen::VectorXd& direction, std::size_t leg) {
+  const Eigen::Index begin = problem.instant_column(leg), end = problem.instant_column(leg + 1);
+  return direction[end] * at.units[end] - direction[begin] * at.units[begin];
+}
+
+std::size_t dying_leg(const Problem& problem, const PathPoint& at) {
+  constexpr double alike =
+      10.0;  // a leg that goes like the fourth power of another seems to be gone after a quarter of the way
+  std::vector<double> left;  // to where a leg would be gone, if it went on as there
+  for (std::size_t i = 0; i < at.orbit.legs(); ++i)
+    left.push_back(in_burst(at.orbit, i) ? INFINITY
+                                         : at.orbit.duration(i) / std::abs(growth(problem, at, at.tangent, i)));
+  const double least = *std::ranges::min_element(left);
+  std::size_t leg = 0;
+  for (std::size_t i = 0; i < left.size(); ++i)
+    if (left[i] < alike * least && (left[leg] >= alike * least || left[i] > left[leg])) leg = i;
+  return leg;
+}
+
+std::vector<PathPoint> away_from_death(const Problem& problem, const PathPoint& near, double range, std::size_t most) {
+  constexpr double longer = 1.4;  // from point to point
+  const std::size_t leg = dying_leg(problem, near);
+  std::vector<PathPoint> points = {near};
+  while (points.size() < most) {
+    const PathPoint& last = points.back();
+    auto next = step_to(problem, last,
+                        (longer - 1.0) * last.orbit.duration(leg) / growth(problem, last, last.tangent, leg), range);
+    if (!next || !(next->orbit.duration(leg) > last.orbit.duration(leg))) break;
+    points.push_back(std::move(*next));
+  }
+  return points;
+}
+
 std::optional<Death> dies_out(const Branch& branch) { return dies_out(orbits_of(branch)); }
+
+std::optional<Death> dies_out(const Problem& problem, const Branch& branch, const PathPoint& at, double range) {
+  if (auto death = dies_out(branch)) return death;
+  constexpr std::size_t enough = 14;  // for the leg to have been ten times as long
+  const std::vector<PathPoint> away = away_from_death(problem, at, range, enough);
+  Orbits orbits;
+  for (auto point = away.rbegin(); point != away.rend(); ++point) orbits.push_back(&point->orbit);
+  return dies_out(orbits);
+}
 
 void sharpen_death(const Problem& problem, const Branch& branch, const PathPoint& from, double range, Change& change) {
   if (legs_gone(from.orbit, change.at.orbit) < 2) return;

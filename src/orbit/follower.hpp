@@ -1,6 +1,7 @@
 #pragma once
 /// What follows a branch, point by point. Steps and what is looked for between points: branch.cpp; changes of events: follower_changes.cpp;
 /// onsets of chatter: follower_onsets.cpp.
+#include "orbit/dying.hpp"
 #include "orbit/path.hpp"
 #include "orbit/record.hpp"
 #include "orbit/reshape.hpp"
@@ -57,7 +58,7 @@ class Follower {
   bool end_cascade(PathPoint& at);
   bool end_cascade_with(PathPoint& at, SpecialPoint last);
   bool turn_round(PathPoint& at);
-  bool die_out(PathPoint& at);
+  bool die_out(PathPoint& at, const std::optional<Death>& death);
   bool leave_edge(PathPoint& at);
   bool leave(PathPoint& at);
   void add_here(SpecialPoint special);

@@ -6,7 +6,6 @@
 
 #include "orbit/beyond.hpp"
 #include "orbit/change_kind.hpp"
-#include "orbit/dying.hpp"
 #include "orbit/extent.hpp"
 #include "orbit/hidden.hpp"
 #include "orbit/lies_on.hpp"
@@ -86,7 +85,7 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
     return false;
   }
   const bool arrived = back_to_ && !back_to_->onset && std::abs(special.value - back_to_->value) <= back_to_->error;
-  if (!arrived && is_all_but_gone(at.orbit) && die_out(at)) return !ended_;
+  if (!arrived && is_all_but_gone(at.orbit) && die_out(at, dies_out(branch_))) return !ended_;
   if (change->length > 0.0) add(beside_change(problem_, at, change->length, range_), branch_.points.size() - 1);
   if (ended_) return false;
   special.after = branch_.points.size() - 1;
@@ -216,9 +215,8 @@ bool Follower::end_at(const PathPoint& at, SpecialPoint special, Beyond beyond, 
 
 /// Where legs shrink to nothing together and steps lead no further: the place, by extrapolation, and what the motion does beyond.
 /// @returns false if none shrinks
-bool Follower::die_out(PathPoint& at) {
+bool Follower::die_out(PathPoint& at, const std::optional<Death>& death) {
   if (!options_.through_changes) return false;
-  const std::optional<Death> death = dies_out(branch_);
   if (!death || !is_model(problem_, at.orbit.values, death->value)) return false;
   if (at_end(death->value, death->error, at)) {
     end("range", false);
@@ -238,8 +236,7 @@ bool Follower::die_out(PathPoint& at) {
   special.test = static_cast<std::size_t>(std::ranges::find_if(tests, length) - tests.begin());
   PathPoint there = at;
   there.orbit.values[0] = death->value;
-  std::vector<Reshaped> left =
-      leavings(problem_, branch_.points[death->before].orbit, there, tests[special.test], range_);
+  std::vector<Reshaped> left = leavings(problem_, death->longest, there, tests[special.test], range_);
   std::erase_if(left, [&](const Reshaped& next) { return one_of_family(problem_, next.point, range_); });
   if (!left.empty()) {
     const ChangeOfEvents seen = orbit::change_between(special.solution.orbit, left.front().point.orbit);
@@ -271,7 +268,8 @@ bool Follower::leave_edge(PathPoint& at) {
 
 /// Where no step leads on and no change is found: an end that is known, or a way on. @returns false if there is none
 bool Follower::leave(PathPoint& at) {
-  return leave_edge(at) || leave_chatter(at) || turn_round(at) || end_cascade(at) || die_out(at);
+  return leave_edge(at) || leave_chatter(at) || turn_round(at) || end_cascade(at) ||
+         die_out(at, dies_out(problem_, branch_, at, range_));
 }
 
 /// Goes on from an orbit that the branch has.

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -91,37 +90,30 @@ std::vector<VectorXd> directions(const Problem& problem, const Linearised& linea
 /// Where legs shrink to nothing the equations are singular: the sensitivity of the parameter at which one of them has some length, ever shorter,
 /// extrapolated to none.
 std::vector<double> death_sensitivity(const Problem& problem, const Orbit& orbit, double range) {
-  constexpr int points = 7;
-  constexpr double longer = 1.4;  // from point to point
-  std::size_t leg = 0;
-  for (std::size_t i = 1; i < orbit.legs(); ++i)
-    if (!in_burst(orbit, i) && orbit.duration(i) < orbit.duration(leg)) leg = i;
-  const Index begin = problem.instant_column(leg), place = problem.parameter_column(orbit.legs(), 0);
+  const std::vector<PathPoint> points = away_from_death(problem, point_of(problem, orbit, range, {}), range, 7);
+  const Index place = problem.parameter_column(orbit.legs(), 0);
+  const std::size_t leg = dying_leg(problem, points.front());
   std::vector<double> lengths;
   std::vector<std::vector<double>> rates(static_cast<std::size_t>(problem.parameters()) - 1);
-  PathPoint at = point_of(problem, orbit, range, {});
-  for (int k = 0; k < points; ++k) {
-    const auto growth = [&](const VectorXd& v) {
-      return v[begin + 1] * at.units[begin + 1] - v[begin] * at.units[begin];
-    };
+  for (const PathPoint& at : points) {
     const ModeSet set(problem.family(), at.orbit.values);
     const std::vector<VectorXd> all = directions(problem, linearise(problem, set, at.orbit), at);
     lengths.push_back(at.orbit.duration(leg));
     for (std::size_t j = 0; j < all.size(); ++j) {
-      const double moved = all[j][place] - at.tangent[place] * growth(all[j]) / growth(at.tangent);
-      rates[j].push_back(moved * at.units[place] /
-                         at.units[problem.parameter_column(orbit.legs(), static_cast<Index>(j) + 1)]);
+      const double along = growth(problem, at, all[j], leg) / growth(problem, at, at.tangent, leg);
+      const Index column = problem.parameter_column(orbit.legs(), static_cast<Index>(j) + 1);
+      rates[j].push_back((all[j][place] - at.tangent[place] * along) * at.units[place] / at.units[column]);
     }
-    auto next = step_to(problem, at, (longer - 1.0) * lengths.back() / growth(at.tangent), range);
-    if (!next) break;
-    at = std::move(*next);
   }
+  if (lengths.size() < 4) throw NumericalError("sensitivity: too few orbits beside the special point");
   std::vector<double> result;
-  for (const std::vector<double>& rate : rates) {
-    if (rate.size() < 4) throw NumericalError("sensitivity: too few orbits beside the special point");
+  for (std::size_t j = 0; j < rates.size(); ++j) {
+    const std::vector<double>& rate = rates[j];
     const double all = at_zero(lengths, rate),
                  fewer = at_zero({lengths.begin(), lengths.end() - 1}, {rate.begin(), rate.end() - 1});
-    const double size = std::abs(*std::ranges::max_element(rate, {}, [](double r) { return std::abs(r); }));
+    double size =
+        1e-3 * range / points.front().units[problem.parameter_column(orbit.legs(), static_cast<Index>(j) + 1)];
+    for (const double r : rate) size = std::max(size, std::abs(r));
     result.push_back(std::abs(all - fewer) < agreement * size ? all : std::nan(""));
   }
   return result;

@@ -4,6 +4,7 @@ import os
 from program import good, main, read, refused, run, says, table
 
 PAPER = ('vibro-impact', '--set', 'omega=2.7')
+HAMMER = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'orbit', 'models', 'hammer-drill.toml')
 
 
 def number(text, key, which=0):
@@ -140,6 +141,20 @@ def test_what_a_curve_meets_is_named_in_its_picture():
     text = good(*words, '--range', 'omega=4.4:4.9', '--range', 'friction=0.1:0.5', '--plot', 'c.png')
     says(text, '"type": "R2"', 'resonance 1:2: both multipliers are -1', 'no torus beyond')
     says(read('c.gp'), "set label '1:2'")
+
+
+def test_a_picture_of_a_curve_is_of_its_motions_only():
+    ranges = ('--range', 'frequency=8:20', '--range', 'gap=0.001:0.006')
+    text = good('curve', HAMMER, '--from', 'SL', '--params', 'frequency,gap', *ranges, '--plot', 'c.png')
+    says(text, '"is_motion": true', '"is_motion": false')
+    pieces = text[text.index('"points"'):text.index('"met"')].split('"frequency"')[1:]
+    motions = [float(piece[1:piece.index(',')]) for piece in pieces if '"is_motion": true' in piece]
+    _, rows = table(read('c-plot.csv'))
+    met, line = ([(row[k], row[k + 1]) for row in rows if row[k] and row[k] != 'NaN'] for k in (0, 2))
+    assert met and set(met) <= set(line), (met, line)  # each at the line
+    drawn = {float(x) for x, _ in line} - {float(x) for x, _ in met}
+    assert len(drawn) > 10 and drawn <= set(motions)
+    assert text.count('"after"') > len(met)  # others lie where there is no motion
 
 
 def points_drawn(*words):

@@ -164,6 +164,10 @@ Json state_json(const State& state, const Model& model) {
   return json;
 }
 
+Json point_json(const orbit::Problem& problem, const orbit::Solution& solution, const Model& model) {
+  return solution_json(solution).set("state", state_json(orbit::at_phase_zero(problem, solution.orbit), model));
+}
+
 Json impacts_json(const orbit::Problem& problem, const orbit::Solution& solution, const System& system) {
   Json list = Json::list();
   for (const orbit::EventOfOrbit& event : orbit::events(problem, solution.orbit)) {

@@ -51,15 +51,14 @@ orbit::SpecialPoint special_point(const Options& options, const ChosenModel& cho
                        branch.ended + ")");
 }
 
-Json curve_json(const orbit::Curve& curve, const std::vector<std::string>& names) {
+Json curve_json(const orbit::Curve& curve, const std::vector<std::string>& names, const orbit::Problem& problem,
+                const Model& model) {
   Json points = Json::list(), met = Json::list(), json = Json::object();
   for (const orbit::CurvePoint& point : curve.points) {
     Json item = Json::object();
     for (std::size_t i = 0; i < 2; ++i) item.set(names[i], point.values[i]);
-    const Json rest = solution_json(point.solution);
-    for (const auto& [key, value] : std::get<Json::Object>(rest.value()))
-      if (key == "class" || key == "period" || key == "multipliers" || key == "is_motion" || key == "why")
-        item.set(key, value);
+    const Json rest = point_json(problem, point.solution, model);
+    for (const auto& [key, value] : std::get<Json::Object>(rest.value())) item.set(key, value);
     points.push(std::move(item));
   }
   for (const orbit::CurveEvent& event : curve.met) {
@@ -96,7 +95,7 @@ int run(const Options& options, const Context& context) {
   const orbit::Curve curve = orbit::locus(*problem, special, how);
   Json json = Json::object();
   json.set("model", chosen.model.name).set("type", options.from);
-  const Json rest = curve_json(curve, names);
+  const Json rest = curve_json(curve, names, *problem, chosen.model);
   for (const auto& [key, value] : std::get<Json::Object>(rest.value())) json.set(key, value);
   out.write(json.dump() + "\n");
   out.commit();

@@ -54,6 +54,23 @@ def test_a_simulation_from_the_state_of_an_orbit_is_the_orbit():
     comes_back(('coulomb-oscillator',), ('x', 'v'), 1)
 
 
+def test_a_point_of_a_branch_or_curve_is_a_state_to_start_from():
+    keys = ('class', 'n', 'p', 'sticking', 'stable', 'period', 'multipliers', 'is_motion', 'state')
+    branch = good('continue', *PAPER, '--orbit', '1-1', '--param', 'omega', '--range', '2.65:2.9')
+    curve = good('curve', *PAPER, '--orbit', '1-1', '--from', 'PD', '--params', 'omega,friction', '--range', 'omega=2.6:3', '--range', 'friction=0.14:0.16')
+    for text, end in ((branch, '"special"'), (curve, '"met"')):
+        points = text[text.index('"points"'):text.index(end)]
+        count = points.count('"class"')
+        assert count > 3
+        for key in keys:
+            assert points.count('"%s":' % key) == count, key
+    first = branch[branch.index('"points"'):]  # at the low end
+    state = ','.join('%s=%.17g' % (name, number(first, name)) for name in ('x1', 'v1', 'x2', 'v2'))
+    end = good('simulate', 'vibro-impact', '--set', 'omega=%.17g' % number(first, 'param'), '--state', state, '--periods', '1')
+    end = end[end.index('"end"'):]
+    assert all(abs(number(end, name) - number(first, name)) < 1e-11 for name in ('x1', 'v1', 'x2', 'v2')), (state, end)
+
+
 def test_a_branch_names_its_doubling_to_ten_digits():
     text = good('continue', *PAPER, '--orbit', '1-1', '--param', 'omega', '--range', '2.6:2.9')
     says(text, '"points"', '"special"', '"type": "PD"')

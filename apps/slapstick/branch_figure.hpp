@@ -12,6 +12,7 @@
 namespace slapstick::app {
 
 [[nodiscard]] figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const std::string& x_label,
-                                           const orbit::Problem& problem, const SettledMotions& beneath);
+                                           const ParameterRange& range, const orbit::Problem& problem,
+                                           const SettledMotions& beneath);
 
 }  // namespace slapstick::app

@@ -139,7 +139,7 @@ void write(Output& out, const std::vector<orbit::Branch>& branches, const std::v
   std::vector<Sensitivities> rates;
   for (const orbit::Branch& branch : branches) rates.push_back(sensitivities(branch, chosen, options));
   if (options.table) {
-    out.write(branch_table(branches, options.parameter, rates, births));
+    out.write(branch_table(branches, {options.parameter, parse_range("--range", options.range)}, rates, births));
   } else {
     Json json = branch_json(with, branches.front(), rates.front());
     json.set("model", chosen.model.name).set("parameter", options.parameter);
@@ -163,16 +163,17 @@ void draw(const Plot& plot, const std::vector<orbit::Branch>& branches, const Ch
     const auto off = [&](const orbit::Solution& point) { return std::abs(point.orbit.values[0] - value); };
     return orbit::at_phase_zero(problem, std::ranges::min_element(points, {}, off)->orbit);
   };
+  const ParameterRange range = parse_range("--range", options.range);
   SettledMotions settled;
   if (options.diagram > 0)
-    settled = settled_motions(chosen, options.model, options.parameter,
-                              {parse_range("--range", options.range), static_cast<int>(options.diagram),
-                               static_cast<int>(options.orbit.transient), options.progress},
-                              nearest, stop);
+    settled = settled_motions(
+        chosen, options.model, options.parameter,
+        {range, static_cast<int>(options.diagram), static_cast<int>(options.orbit.transient), options.progress},
+        nearest, stop);
   if (settled.failed > 0)
     std::fprintf(stderr, "slapstick: %ld values of --diagram failed and are left out, first: %s\n", settled.failed,
                  settled.failure.c_str());
-  plot.write(branch_figure(branches, parameter_axis(chosen.definition, options.parameter), problem, settled));
+  plot.write(branch_figure(branches, parameter_axis(chosen.definition, options.parameter), range, problem, settled));
 }
 
 int run(const Options& options, const Context& context) {

@@ -153,6 +153,19 @@ def test_a_picture_says_which_branch_and_which_special_point_is_which():
     assert 'set arrow from 2.' not in script  # no lines through the whole frame
 
 
+def test_a_picture_shows_the_range_asked_for_and_where_a_branch_ends():
+    good('continue', HAMMER, '--param', 'force', '--range', '20:200', '--table', '--out', 't.txt', '--plot', 'b.png')
+    lines = read('t.txt').splitlines()
+    end = next(line.split() for line in lines if 'jump' in line and line.split()[2] == 'SL')
+    last = next(line.split() for line in lines if line.split()[2] == 'EP')
+    assert 20.0 < float(end[3]) < float(last[3]), (end, last)  # it ends behind its last point
+    says(read('b.gp'), 'set xrange [20:200]')
+    columns, rows = table(read('b-plot.csv'))
+    assert 'points' in columns[0] and 'line' in columns[2], columns
+    assert float('%.12g' % float(rows[0][0])) == float(end[3]), rows[0]  # its marker
+    assert rows[0][0] in (rows[0][2], [row[2] for row in rows if row[2]][-1])  # to which the line goes
+
+
 def test_what_a_curve_meets_is_named_in_its_picture():
     words = ('curve', 'vibro-impact', '--set', 'omega=4.78', '--orbit', '4-2', '--from', 'NS', '--params', 'omega,friction')
     text = good(*words, '--range', 'omega=4.4:4.9', '--range', 'friction=0.1:0.5', '--plot', 'c.png')

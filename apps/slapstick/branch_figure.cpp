@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 
+#include "axis_units.hpp"
 #include "branch_colours.hpp"
 #include "branch_table.hpp"
 #include "free_labels.hpp"
@@ -149,15 +150,15 @@ std::vector<figure::Key> keys(const std::vector<orbit::Branch>& branches, const 
 
 }  // namespace
 
-figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const std::string& x_label,
-                             const ParameterRange& range, const orbit::Problem& problem,
-                             const SettledMotions& beneath) {
+figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const BranchAxes& axes,
+                             const orbit::Problem& problem, const SettledMotions& beneath) {
   const bool speeds = beneath.speeds || have_impacts(branches);
   const auto heights_of = [&](const Solution& solution) { return heights(problem, solution, speeds); };
-  figure::Panel panel{.x_label = x_label,
-                      .y_label = speeds ? "impact speed {/:Italic w}" : "first coordinate at the events"};
+  figure::Panel panel{.x_label = axes.x_label,
+                      .y_label = speeds ? with_unit("impact speed {/:Italic w}", axes.speed)
+                                        : with_unit("first coordinate at the events", axes.place)};
   panel.legend = figure::Legend::below;
-  panel.x_range = figure::Range{range.from, range.to};
+  panel.x_range = figure::Range{axes.range.from, axes.range.to};
   if (!beneath.cloud.x.empty()) panel.points.push_back(beneath.cloud);
   std::vector<std::size_t> first_line;  // of each branch
   std::vector<SpecialPlace> specials;

@@ -210,7 +210,7 @@ Json margins_json(const std::vector<orbit::Margin>& margins, const System& syste
     const bool stop = margin.kind == mode::GuardKind::gap || margin.kind == mode::GuardKind::press;
     const int contact = margin.contact + (stop ? 0 : friction ? stops : stops + frictions);
     Json item = Json::object();
-    item.set("guard", std::string(mode::name(margin.kind)))
+    item.set("guard", margin.reversal ? "reversal" : std::string(mode::name(margin.kind)))
         .set("contact", system.contact_name(contact))
         .set("value", margin.value);
     list.push(std::move(item));

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "axis_text.hpp"
+#include "axis_units.hpp"
 #include "branch_figure.hpp"
 #include "branch_table.hpp"
 #include "orbit_options.hpp"
@@ -14,6 +15,7 @@
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/text.hpp"
 #include "slapstick/orbit/branch.hpp"
+#include "slapstick/section/stop_choice.hpp"
 #include "verb.hpp"
 #include "work.hpp"
 
@@ -173,7 +175,10 @@ void draw(const Plot& plot, const std::vector<orbit::Branch>& branches, const Ch
   if (settled.failed > 0)
     std::fprintf(stderr, "slapstick: %ld values of --diagram failed and are left out, first: %s\n", settled.failed,
                  settled.failure.c_str());
-  plot.write(branch_figure(branches, parameter_axis(chosen.definition, options.parameter), range, problem, settled));
+  const AxisUnits units(chosen.definition, chosen.model);
+  const BranchAxes axes{parameter_axis(chosen.definition, options.parameter), range,
+                        units.speed(stop_contacts(chosen.model)), units.displacement(0, ground)};
+  plot.write(branch_figure(branches, axes, problem, settled));
 }
 
 int run(const Options& options, const Context& context) {

@@ -16,6 +16,7 @@ def number(text, key, which=0):
 def test_orbit_has_the_stable_keys_of_the_command_line():
     text = good('orbit', *PAPER, '--orbit', '1-1')
     says(text, '"converged": true', '"class": "1-1-I"', '"period"', '"multipliers"', '"impacts"', '"time"', '"phase"', '"w"', '"state"')
+    says(good('orbit', HAMMER), '"margins"', '"guard": "reversal"')
 
 
 def test_unstable_orbits_are_found_where_simulation_leaves_them():
@@ -151,6 +152,17 @@ def test_a_picture_says_which_branch_and_which_special_point_is_which():
     numbers = [line.split("'")[1] for line in script.splitlines() if line.strip().startswith('set label') and 'boxed' in line]
     assert sorted(numbers) == ['1', '2', '3'], numbers
     assert 'set arrow from 2.' not in script  # no lines through the whole frame
+
+
+def test_axes_have_the_units_that_the_model_states():
+    good('continue', HAMMER, '--param', 'frequency', '--range', '13:15', '--out', 'c.json', '--plot', 'b.png')
+    says(read('b.gp'), 'impact speed {/:Italic w} [m/s]', 'frequency [Hz]')
+    good('simulate', HAMMER, '--periods', '5', '--out', 's.json', '--plot', 's.png')
+    says(read('s.gp'), '[m]', '[m/s]', "'t / T'")
+    good('diagram', HAMMER, '--sweep', 'frequency=13:15:2', '--impacts', '3', '--out', 'd.csv', '--plot', 'd.png')
+    says(read('d.gp'), 'w at impact [m/s]')
+    good('continue', *PAPER, '--param', 'omega', '--range', '2.6:2.75', '--out', 'c.json', '--plot', 'b.png')
+    assert '[' not in [line.split("'")[1] for line in read('b.gp').splitlines() if 'impact speed' in line][0]  # it states none
 
 
 def test_a_picture_shows_the_range_asked_for_and_where_a_branch_ends():

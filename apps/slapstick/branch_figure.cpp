@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 
+#include "axis_units.hpp"
 #include "branch_colours.hpp"
 #include "branch_table.hpp"
 #include "free_labels.hpp"
@@ -89,29 +90,29 @@ bool have_impacts(const std::vector<orbit::Branch>& branches) {
   });
 }
 
-/// The lines of a branch. A change of events ends those of the old sequence and begins those of the new one.
+/// The lines of a branch. A change of events ends those of the old sequence and begins those of the new one; a special point at which the branch ends
+/// is their end, though no point of the branch is so near.
 void add_lines(figure::Panel& panel, const orbit::Branch& branch, figure::Colour colour,
                const std::function<std::vector<double>(const Solution&)>& heights_of) {
   Lines lines(panel, colour);
+  const auto add = [&](const orbit::SpecialPoint& special, const Solution& beside) {
+    lines.add(special.value, heights_of(special.solution), beside);
+  };
   auto special = branch.special.begin();
   for (std::size_t i = 0; i < branch.points.size(); ++i) {
-    lines.add(branch.points[i].orbit.values[0], heights_of(branch.points[i]), branch.points[i]);
+    const Solution& here = branch.points[i];
+    for (; special != branch.special.end() && begins_at(branch, *special); ++special)
+      if (special->solution.orbit.legs() == here.orbit.legs()) add(*special, here);
+    lines.add(here.orbit.values[0], heights_of(here), here);
     for (; special != branch.special.end() && special->after == i; ++special) {
-      if (!classes_around(branch, *special)) continue;
-      const bool before = special->solution.orbit.legs() == branch.points[i].orbit.legs();
-      lines.add(special->value, heights_of(special->solution), branch.points[before ? i : i + 1]);
+      const bool before = special->solution.orbit.legs() == here.orbit.legs();
+      if (classes_around(branch, *special))
+        add(*special, before ? here : branch.points[i + 1]);
+      else if (before && i + 1 == branch.points.size())
+        add(*special, here);
     }
   }
   lines.flush();
-}
-
-/// The values of the parameter that are shown: they fill the frame.
-std::optional<figure::Range> range_of(const std::vector<orbit::Branch>& branches, const figure::Points& cloud) {
-  std::vector<double> values = cloud.x;
-  for (const orbit::Branch& branch : branches)
-    for (const Solution& point : branch.points) values.push_back(point.orbit.values[0]);
-  const auto [least, largest] = std::ranges::minmax(values);
-  return least < largest ? std::optional(figure::Range{least, largest}) : std::nullopt;
 }
 
 /// The n-p that most of a branch's orbits have; ".." if there are others.
@@ -149,14 +150,15 @@ std::vector<figure::Key> keys(const std::vector<orbit::Branch>& branches, const 
 
 }  // namespace
 
-figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const std::string& x_label,
+figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const BranchAxes& axes,
                              const orbit::Problem& problem, const SettledMotions& beneath) {
   const bool speeds = beneath.speeds || have_impacts(branches);
   const auto heights_of = [&](const Solution& solution) { return heights(problem, solution, speeds); };
-  figure::Panel panel{.x_label = x_label,
-                      .y_label = speeds ? "impact speed {/:Italic w}" : "first coordinate at the events"};
+  figure::Panel panel{.x_label = axes.x_label,
+                      .y_label = speeds ? with_unit("impact speed {/:Italic w}", axes.speed)
+                                        : with_unit("first coordinate at the events", axes.place)};
   panel.legend = figure::Legend::below;
-  panel.x_range = range_of(branches, beneath.cloud);
+  panel.x_range = figure::Range{axes.range.from, axes.range.to};
   if (!beneath.cloud.x.empty()) panel.points.push_back(beneath.cloud);
   std::vector<std::size_t> first_line;  // of each branch
   std::vector<SpecialPlace> specials;

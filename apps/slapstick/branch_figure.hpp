@@ -2,6 +2,7 @@
 /// Branches as a picture: impact speeds over the parameter, stable solid, unstable dashed, a colour and a number for each branch, a marker for each special
 /// point, over the motions that settle, if there are some. The legend stands below. Where a branch has no impacts it is drawn at speed 0; if nothing has
 /// impacts, the first coordinate at the events is drawn.
+/// Axes have units where the model's file states them.
 #include <string>
 #include <vector>
 
@@ -11,7 +12,13 @@
 
 namespace slapstick::app {
 
-[[nodiscard]] figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const std::string& x_label,
+struct BranchAxes {
+  std::string x_label;
+  ParameterRange range;      ///< asked for
+  std::string speed, place;  ///< units of the impact speeds, and of the first coordinate; empty: not stated
+};
+
+[[nodiscard]] figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const BranchAxes& axes,
                                            const orbit::Problem& problem, const SettledMotions& beneath);
 
 }  // namespace slapstick::app

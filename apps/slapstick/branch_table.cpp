@@ -1,5 +1,6 @@
 #include "branch_table.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -40,7 +41,7 @@ std::string coefficient_name(orbit::SpecialType type) {
 }
 
 /// What a special point is, in words.
-std::string words(const orbit::Branch& branch, const orbit::SpecialPoint& special) {
+std::string words(const orbit::Branch& branch, const orbit::SpecialPoint& special, const ParameterRange& range) {
   std::string what = special.what;
   if (special.type == orbit::SpecialType::NS) what += ", rotation " + short_number(special.rotation);
   const orbit::NormalForm& form = special.normal_form;
@@ -48,16 +49,10 @@ std::string words(const orbit::Branch& branch, const orbit::SpecialPoint& specia
   if (form.coefficient) what += ", " + coefficient_name(special.type) + " = " + short_number(*form.coefficient);
   if (const auto classes = classes_around(branch, special)) what += "; " + classes->first + " -> " + classes->second;
   if (!special.outcome.empty()) what += "; " + special.outcome;
-  constexpr double well_known = 1e-10;
-  if (special.error > well_known * std::abs(special.value)) what += "; known to " + short_number(special.error);
+  constexpr double digits = 1e-10, share = 1e-6;  // of its value, and of the range
+  if (!(special.error <= std::min(digits * std::abs(special.value), share * (range.to - range.from))))
+    what += "; known to " + short_number(special.error);
   return what;
-}
-
-/// Does a special point lie before the first point of its branch, which ends there?
-bool ends_at(const orbit::Branch& branch, const orbit::SpecialPoint& special) {
-  if (special.after != 0 || branch.points.size() < 2) return false;
-  const double first = branch.points[0].orbit.values[0], second = branch.points[1].orbit.values[0];
-  return (special.value - first) * (second - first) < 0.0;
 }
 
 /// "; d omega / d friction = -0.31"
@@ -94,22 +89,31 @@ std::optional<std::pair<std::string, std::string>> classes_around(const orbit::B
   return std::pair(branch.points[special.after].label, branch.points[special.after + 1].label);
 }
 
-std::string branch_table(const std::vector<orbit::Branch>& branches, const std::string& parameter,
+bool begins_at(const orbit::Branch& branch, const orbit::SpecialPoint& special) {
+  if (special.after != 0 || branch.points.size() < 2) return false;
+  const double first = branch.points[0].orbit.values[0];
+  double next = branch.points[1].orbit.values[0];
+  for (const orbit::SpecialPoint& change : branch.special)  // where it may turn back
+    if (change.after == 0 && classes_around(branch, change)) next = change.value;
+  return (special.value - first) * (next - first) < 0.0;
+}
+
+std::string branch_table(const std::vector<orbit::Branch>& branches, const Followed& in,
                          const std::vector<Sensitivities>& sensitivities,
                          const std::vector<std::optional<Birth>>& births) {
-  std::string text = head(parameter);
+  std::string text = head(in.parameter);
   for (std::size_t b = 0; b < branches.size(); ++b) {
     const orbit::Branch& branch = branches[b];
-    if (births[b]) text += birth_line(b, *births[b], parameter);
+    if (births[b]) text += birth_line(b, *births[b], in.parameter);
     auto special = branch.special.begin();
     const auto add_special = [&](std::size_t point) {
       const auto place = static_cast<std::size_t>(special - branch.special.begin());
-      text +=
-          row(b + 1, point + 1, name(special->type), special->value, special->solution,
-              words(branch, *special) + rates(sensitivities[b], place, parameter), critical_tolerance(special->type));
+      text += row(b + 1, point + 1, name(special->type), special->value, special->solution,
+                  words(branch, *special, in.range) + rates(sensitivities[b], place, in.parameter),
+                  critical_tolerance(special->type));
       ++special;
     };
-    while (special != branch.special.end() && ends_at(branch, *special)) add_special(0);
+    while (special != branch.special.end() && begins_at(branch, *special)) add_special(0);
     for (std::size_t i = 0; i < branch.points.size(); ++i) {
       const orbit::Solution& point = branch.points[i];
       if (i == 0 || i + 1 == branch.points.size())

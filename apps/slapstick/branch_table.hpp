@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "orbit_options.hpp"
 #include "slapstick/orbit/branch.hpp"
 
 namespace slapstick::app {
@@ -22,14 +23,23 @@ struct Birth {
   double value = 0.0;  ///< of the parameter
 };
 
+/// What a branch is followed in.
+struct Followed {
+  std::string parameter;
+  ParameterRange range;
+};
+
 /// @param sensitivities, births  of each branch; the first has no birth
-[[nodiscard]] std::string branch_table(const std::vector<orbit::Branch>& branches, const std::string& parameter,
+[[nodiscard]] std::string branch_table(const std::vector<orbit::Branch>& branches, const Followed& in,
                                        const std::vector<Sensitivities>& sensitivities,
                                        const std::vector<std::optional<Birth>>& births);
 
 /// The classes before and behind a change of events through which the branch goes on, in the order of its points.
 [[nodiscard]] std::optional<std::pair<std::string, std::string>> classes_around(const orbit::Branch& branch,
                                                                                 const orbit::SpecialPoint& special);
+
+/// Does a special point lie before the first point of its branch, which ends there?
+[[nodiscard]] bool begins_at(const orbit::Branch& branch, const orbit::SpecialPoint& special);
 
 /// Follows what is born at the special points of the branches so far, and of those, until there are `most` branches.
 /// @returns where each of them was born; empty for those that were there

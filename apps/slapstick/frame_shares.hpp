@@ -23,6 +23,7 @@ class FrameShares {
   explicit FrameShares(const figure::Panel& panel) {
     for (const figure::Points& points : panel.points) add(points.x, points.y);
     for (const figure::Line& line : panel.lines) add(line.x, line.y);
+    if (panel.x_range) x_ = {panel.x_range->min, panel.x_range->max};
   }
   [[nodiscard]] PlaceOnPaper cm(double x, double y) const { return {width_cm * x_.share(x), height_cm * y_.share(y)}; }
 

@@ -3,7 +3,6 @@
 namespace slapstick::app {
 
 figure::Figure MotionPlot::figure() const {
-  const std::string time = forced_ ? "t / T" : "t";
   const auto curve = [](const std::string& x_label, const std::string& y_label, const std::vector<double>& x,
                         const std::vector<double>& y) {
     figure::Panel panel{.x_label = x_label, .y_label = y_label};
@@ -11,9 +10,9 @@ figure::Figure MotionPlot::figure() const {
     return panel;
   };
   figure::Figure figure{.width_cm = 12};
-  figure.panels.push_back(curve(relative_.displacement, relative_.velocity, y_, w_));
-  figure.panels.push_back(curve(time, relative_.displacement, t_, y_));
-  figure.panels.push_back(curve(time, relative_.velocity, t_, w_));
+  figure.panels.push_back(curve(displacement_, velocity_, y_, w_));
+  figure.panels.push_back(curve(time_, displacement_, t_, y_));
+  figure.panels.push_back(curve(time_, velocity_, t_, w_));
   figure.panels.front().height_share = 2;
   for (const double limit : relative_.limits) {
     figure.panels[0].marks.push_back({.x = limit});

@@ -1,5 +1,6 @@
 #pragma once
 /// The picture of `simulate`: phase portrait of the relative motion, and its time series, with the stops of the pair.
+#include "axis_units.hpp"
 #include "relative_motion.hpp"
 #include "slapstick/figure/figure.hpp"
 #include "slapstick/flow/motion.hpp"
@@ -8,7 +9,11 @@ namespace slapstick::app {
 
 class MotionPlot {
  public:
-  MotionPlot(RelativeMotion relative, bool forced) : relative_(std::move(relative)), forced_(forced) {}
+  MotionPlot(RelativeMotion relative, const AxisUnits& units, bool forced)
+      : relative_(std::move(relative)),
+        displacement_(with_unit(relative_.displacement, units.displacement(relative_.a, relative_.b))),
+        velocity_(with_unit(relative_.velocity, units.velocity(relative_.a, relative_.b))),
+        time_(forced ? "t / T" : with_unit("t", units.time())) {}
 
   /// The next sample. Soon after an event all are taken, so that short bounces are curves; later one in some.
   void add_sample(Instant time, const State& state) {
@@ -34,7 +39,7 @@ class MotionPlot {
   }
 
   RelativeMotion relative_;
-  bool forced_;
+  std::string displacement_, velocity_, time_;  // the axes
   long since_event_ = 0;
   std::vector<double> t_, y_, w_;  // t in periods
 };

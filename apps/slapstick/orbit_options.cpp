@@ -164,6 +164,10 @@ Json state_json(const State& state, const Model& model) {
   return json;
 }
 
+Json point_json(const orbit::Problem& problem, const orbit::Solution& solution, const Model& model) {
+  return solution_json(solution).set("state", state_json(orbit::at_phase_zero(problem, solution.orbit), model));
+}
+
 Json impacts_json(const orbit::Problem& problem, const orbit::Solution& solution, const System& system) {
   Json list = Json::list();
   for (const orbit::EventOfOrbit& event : orbit::events(problem, solution.orbit)) {
@@ -206,7 +210,7 @@ Json margins_json(const std::vector<orbit::Margin>& margins, const System& syste
     const bool stop = margin.kind == mode::GuardKind::gap || margin.kind == mode::GuardKind::press;
     const int contact = margin.contact + (stop ? 0 : friction ? stops : stops + frictions);
     Json item = Json::object();
-    item.set("guard", std::string(mode::name(margin.kind)))
+    item.set("guard", margin.reversal ? "reversal" : std::string(mode::name(margin.kind)))
         .set("contact", system.contact_name(contact))
         .set("value", margin.value);
     list.push(std::move(item));

@@ -51,6 +51,8 @@ struct ParameterRange {
 
 /// "class", "n", "p", "sticking", "stable", "multipliers", "period", ..
 [[nodiscard]] Json solution_json(const orbit::Solution& solution);
+/// The same and "state": an orbit of a branch or curve.
+[[nodiscard]] Json point_json(const orbit::Problem& problem, const orbit::Solution& solution, const Model& model);
 /// A state by name, as --state takes it.
 [[nodiscard]] Json state_json(const State& state, const Model& model);
 /// The impacts of a cycle and its events. @param system of the orbit's parameters

@@ -6,21 +6,18 @@
 #include "axis_text.hpp"
 
 namespace slapstick::app {
-namespace {
-
-/// The two sides of a contact: stops first, then friction contacts, then compliant stops.
-std::pair<int, int> sides(const Model& model, std::size_t contact) {
+std::pair<int, int> sides_of(const Model& model,
+                             int contact) {  // stops first, then friction contacts, then compliant stops
   const auto of = [](const auto& part) { return std::pair(part.a, part.b); };
-  if (contact < model.stops.size()) return of(model.stops[contact]);
-  contact -= model.stops.size();
-  if (contact < model.frictions.size()) return of(model.frictions[contact]);
-  return of(model.compliant_stops.at(contact - model.frictions.size()));
+  auto index = static_cast<std::size_t>(contact);
+  if (index < model.stops.size()) return of(model.stops[index]);
+  index -= model.stops.size();
+  if (index < model.frictions.size()) return of(model.frictions[index]);
+  return of(model.compliant_stops.at(index - model.frictions.size()));
 }
 
-}  // namespace
-
 RelativeMotion::RelativeMotion(const Model& model, int contact) {
-  if (contact >= 0) std::tie(a, b) = sides(model, static_cast<std::size_t>(contact));
+  if (contact >= 0) std::tie(a, b) = sides_of(model, contact);
   if (a == ground) std::swap(a, b);
   const auto names = state_names(model);
   const auto name = [&](int coordinate, int offset) {

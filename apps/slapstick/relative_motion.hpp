@@ -1,11 +1,15 @@
 #pragma once
 /// The pair whose motion a picture shows: displacement x_a - x_b, velocity v_a - v_b, and where its stops are.
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "slapstick/model/model.hpp"
 
 namespace slapstick::app {
+
+/// The two sides of a contact, as System::contact_name counts.
+[[nodiscard]] std::pair<int, int> sides_of(const Model& model, int contact);
 
 /// A contact with the ground shows the coordinate itself.
 struct RelativeMotion {

@@ -31,10 +31,12 @@ void say_creep(const CreepWatch& watch, const Model& model) {
 /// Ends at the last point, or where there is no next one: at the section's last period, or after `patience` periods without a point.
 class ImpactPoints {
  public:
-  ImpactPoints(const PoincareOptions& options, const System& system, const StopChoice& stops, TableOutput& table)
+  ImpactPoints(const PoincareOptions& options, const System& system, const StopChoice& stops, TableOutput& table,
+               const AxisUnits& units)
       : options_(options),
         system_(system),
         table_(table),
+        units_(units),
         stops_(stops),
         clouds_(system.model(), stops, ContactClouds::Overlap::rare),
         watch_(options.points, 2 * static_cast<std::size_t>(system.model().size())) {}
@@ -61,8 +63,9 @@ class ImpactPoints {
     say_creep(watch_, system_.model());
     const Model& model = system_.model();
     const std::string w = "w just before the " + contact_words(model, stops_);
-    found_.panel.x_label = model.forced() ? "phase of the forcing / 2π" : w;
-    found_.panel.y_label = model.forced() ? w : w + " after it";
+    const std::string unit = units_.speed(chosen_stops(model, stops_));
+    found_.panel.x_label = model.forced() ? "phase of the forcing / 2π" : with_unit(w, unit);
+    found_.panel.y_label = with_unit(model.forced() ? w : w + " after it", unit);
     found_.panel.points = clouds_.points();
     return std::move(found_);
   }
@@ -96,6 +99,7 @@ class ImpactPoints {
   const PoincareOptions& options_;
   const System& system_;
   TableOutput& table_;
+  const AxisUnits& units_;
   StopChoice stops_;
   ContactClouds clouds_;
   CreepWatch watch_;
@@ -106,15 +110,16 @@ class ImpactPoints {
 }  // namespace
 
 Found impact_points(const PoincareOptions& options, const StopChoice& stops, Motion motion, TableOutput& table,
-                    const Context& context) {
-  return ImpactPoints(options, motion.system(), stops, table)(std::move(motion), context);
+                    const AxisUnits& units, const Context& context) {
+  return ImpactPoints(options, motion.system(), stops, table, units)(std::move(motion), context);
 }
 
 Found strobe_points(const PoincareOptions& options, const StopChoice& stops, Motion motion, TableOutput& table,
-                    const Context& context) {
+                    const AxisUnits& units, const Context& context) {
   const System& system = motion.system();
   const RelativeMotion relative(system.model(), shown_contact(system.model(), stops));
-  Found found{.panel = {.x_label = relative.displacement, .y_label = relative.velocity}};
+  Found found{.panel = {.x_label = with_unit(relative.displacement, units.displacement(relative.a, relative.b)),
+                        .y_label = with_unit(relative.velocity, units.velocity(relative.a, relative.b))}};
   for (const double limit : relative.limits) found.panel.marks.push_back({.x = limit});
   figure::Points cloud;
   Progress progress("points", static_cast<double>(options.points), options.progress);
@@ -148,7 +153,7 @@ double mapped(Mapped quantity, const RelativeMotion& relative, const EventPoint&
 
 /// The picture is the return map: each point against the next.
 Found event_points(const PoincareOptions& options, const EventChoice& events, Motion motion, TableOutput& table,
-                   const Context& context) {
+                   const AxisUnits& units, const Context& context) {
   const System& system = motion.system();
   const Model& model = system.model();
   const RelativeMotion relative(model, mapped_contact(events, model));
@@ -157,8 +162,11 @@ Found event_points(const PoincareOptions& options, const EventChoice& events, Mo
   const std::string label = quantity == Mapped::displacement ? relative.displacement
                             : quantity == Mapped::w          ? "w"
                                                              : "return time";
-  Found found{.panel = {.x_label = label + " at " + axis_text(kind) + " k",
-                        .y_label = label + " at " + axis_text(kind) + " k + 1"}};
+  const std::string unit = quantity == Mapped::displacement ? units.displacement(relative.a, relative.b)
+                           : quantity == Mapped::w          ? units.velocity(relative.a, relative.b)
+                                                            : units.time();
+  Found found{.panel = {.x_label = with_unit(label + " at " + axis_text(kind) + " k", unit),
+                        .y_label = with_unit(label + " at " + axis_text(kind) + " k + 1", unit)}};
   figure::Points cloud;
   Progress progress("points", static_cast<double>(options.points), options.progress);
   found.whole = run_to(motion, {options.transient, 0.0}, &context.stop, [] {});

@@ -1,5 +1,6 @@
 #pragma once
 /// The points of a section of a motion: into a table and a picture.
+#include "axis_units.hpp"
 #include "model_options.hpp"
 #include "output.hpp"
 #include "slapstick/section/event_section.hpp"
@@ -28,10 +29,10 @@ struct Found {
 /// Each runs the transient, then writes points until there are enough, or none comes for `patience` periods.
 /// @throws NumericalError if there is no point
 [[nodiscard]] Found impact_points(const PoincareOptions& options, const StopChoice& stops, Motion motion,
-                                  TableOutput& table, const Context& context);
+                                  TableOutput& table, const AxisUnits& units, const Context& context);
 [[nodiscard]] Found strobe_points(const PoincareOptions& options, const StopChoice& stops, Motion motion,
-                                  TableOutput& table, const Context& context);
+                                  TableOutput& table, const AxisUnits& units, const Context& context);
 [[nodiscard]] Found event_points(const PoincareOptions& options, const EventChoice& events, Motion motion,
-                                 TableOutput& table, const Context& context);
+                                 TableOutput& table, const AxisUnits& units, const Context& context);
 
 }  // namespace slapstick::app

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "axis_text.hpp"
+#include "axis_units.hpp"
 #include "branch_figure.hpp"
 #include "branch_table.hpp"
 #include "orbit_options.hpp"
@@ -14,6 +15,7 @@
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/text.hpp"
 #include "slapstick/orbit/branch.hpp"
+#include "slapstick/section/stop_choice.hpp"
 #include "verb.hpp"
 #include "work.hpp"
 
@@ -30,21 +32,31 @@ struct Options {
   bool table = false, stay = false, progress = false;
 };
 
-Json point_json(const orbit::Solution& solution) {
+/// What the JSON of a branch is made from.
+struct Described {
+  const orbit::Problem& problem;
+  const Model& model;
+};
+
+/// Adds the keys of one object to another, those of a check by the simulator only where it was made.
+void add_keys(Json& json, const Json& of, bool checked) {
+  for (const auto& [key, value] : std::get<Json::Object>(of.value()))
+    if (checked || (key != "is_motion" && key != "why")) json.set(key, value);
+}
+
+Json on_branch_json(const Described& with, const orbit::Solution& solution) {
   Json json = Json::object();
   json.set("param", solution.orbit.values[0]);
-  const Json rest = solution_json(solution);
-  for (const auto& [key, value] : std::get<Json::Object>(rest.value())) json.set(key, value);
+  add_keys(json, point_json(with.problem, solution, with.model), true);
   return json;
 }
 
-Json special_json(const orbit::Branch& branch, std::size_t which, const Sensitivities& sensitivities) {
+Json special_json(const Described& with, const orbit::Branch& branch, std::size_t which,
+                  const Sensitivities& sensitivities) {
   const orbit::SpecialPoint& special = branch.special[which];
   Json json = Json::object();
   json.set("type", std::string(name(special.type))).set("param", special.value).set("error", special.error);
-  const Json rest = solution_json(special.solution);
-  for (const auto& [key, value] : std::get<Json::Object>(rest.value()))
-    if (key != "is_motion" && key != "why") json.set(key, value);
+  add_keys(json, point_json(with.problem, special.solution, with.model), false);
   json.set("what", special.what);
   if (!special.outcome.empty()) json.set("outcome", special.outcome);
   if (const auto classes = classes_around(branch, special))
@@ -94,10 +106,10 @@ Sensitivities sensitivities(const orbit::Branch& branch, const ChosenModel& chos
   return all;
 }
 
-Json branch_json(const orbit::Branch& branch, const Sensitivities& rates) {
+Json branch_json(const Described& with, const orbit::Branch& branch, const Sensitivities& rates) {
   Json json = Json::object(), points = Json::list(), special = Json::list();
-  for (const orbit::Solution& point : branch.points) points.push(point_json(point));
-  for (std::size_t i = 0; i < branch.special.size(); ++i) special.push(special_json(branch, i, rates));
+  for (const orbit::Solution& point : branch.points) points.push(on_branch_json(with, point));
+  for (std::size_t i = 0; i < branch.special.size(); ++i) special.push(special_json(with, branch, i, rates));
   json.set("points", std::move(points)).set("special", std::move(special)).set("ended", branch.ended);
   return json;
 }
@@ -124,17 +136,18 @@ Json birth_json(const Birth& birth) {
 }
 
 void write(Output& out, const std::vector<orbit::Branch>& branches, const std::vector<std::optional<Birth>>& births,
-           const ChosenModel& chosen, const Options& options) {
+           const ChosenModel& chosen, const orbit::Problem& problem, const Options& options) {
+  const Described with{problem, chosen.model};
   std::vector<Sensitivities> rates;
   for (const orbit::Branch& branch : branches) rates.push_back(sensitivities(branch, chosen, options));
   if (options.table) {
-    out.write(branch_table(branches, options.parameter, rates, births));
+    out.write(branch_table(branches, {options.parameter, parse_range("--range", options.range)}, rates, births));
   } else {
-    Json json = branch_json(branches.front(), rates.front());
+    Json json = branch_json(with, branches.front(), rates.front());
     json.set("model", chosen.model.name).set("parameter", options.parameter);
     Json others = Json::list();
     for (std::size_t i = 1; i < branches.size(); ++i) {
-      Json branch = branch_json(branches[i], rates[i]);
+      Json branch = branch_json(with, branches[i], rates[i]);
       if (births[i]) branch.set("born_at", birth_json(*births[i]));
       others.push(std::move(branch));
     }
@@ -152,16 +165,20 @@ void draw(const Plot& plot, const std::vector<orbit::Branch>& branches, const Ch
     const auto off = [&](const orbit::Solution& point) { return std::abs(point.orbit.values[0] - value); };
     return orbit::at_phase_zero(problem, std::ranges::min_element(points, {}, off)->orbit);
   };
+  const ParameterRange range = parse_range("--range", options.range);
   SettledMotions settled;
   if (options.diagram > 0)
-    settled = settled_motions(chosen, options.model, options.parameter,
-                              {parse_range("--range", options.range), static_cast<int>(options.diagram),
-                               static_cast<int>(options.orbit.transient), options.progress},
-                              nearest, stop);
+    settled = settled_motions(
+        chosen, options.model, options.parameter,
+        {range, static_cast<int>(options.diagram), static_cast<int>(options.orbit.transient), options.progress},
+        nearest, stop);
   if (settled.failed > 0)
     std::fprintf(stderr, "slapstick: %ld values of --diagram failed and are left out, first: %s\n", settled.failed,
                  settled.failure.c_str());
-  plot.write(branch_figure(branches, parameter_axis(chosen.definition, options.parameter), problem, settled));
+  const AxisUnits units(chosen.definition, chosen.model);
+  const BranchAxes axes{parameter_axis(chosen.definition, options.parameter), range,
+                        units.speed(stop_contacts(chosen.model)), units.displacement(0, ground)};
+  plot.write(branch_figure(branches, axes, problem, settled));
 }
 
 int run(const Options& options, const Context& context) {
@@ -184,7 +201,7 @@ int run(const Options& options, const Context& context) {
   how.progress = [&](double, long points) { progress.update(static_cast<double>(points)); };
   std::vector<orbit::Branch> branches = {orbit::follow(*problem, first.orbit, how)};
   const auto births = follow_born(*problem, branches, static_cast<std::size_t>(options.branches), how);
-  write(out, branches, births, chosen, options);
+  write(out, branches, births, chosen, *problem, options);
   if (plot.wanted()) draw(plot, branches, chosen, *problem, options, context.stop);
   if (context.stop.load()) return interrupted;
   const auto failed = std::ranges::find(branches, true, &orbit::Branch::failed);

@@ -1,8 +1,7 @@
 /// slapstick curve MODEL --from TYPE --params A,B
-#include <cmath>
+#include <algorithm>
 
-#include "axis_text.hpp"
-#include "free_labels.hpp"
+#include "curve_figure.hpp"
 #include "orbit_options.hpp"
 #include "output.hpp"
 #include "parameter_ranges.hpp"
@@ -52,15 +51,14 @@ orbit::SpecialPoint special_point(const Options& options, const ChosenModel& cho
                        branch.ended + ")");
 }
 
-Json curve_json(const orbit::Curve& curve, const std::vector<std::string>& names) {
+Json curve_json(const orbit::Curve& curve, const std::vector<std::string>& names, const orbit::Problem& problem,
+                const Model& model) {
   Json points = Json::list(), met = Json::list(), json = Json::object();
   for (const orbit::CurvePoint& point : curve.points) {
     Json item = Json::object();
     for (std::size_t i = 0; i < 2; ++i) item.set(names[i], point.values[i]);
-    const Json rest = solution_json(point.solution);
-    for (const auto& [key, value] : std::get<Json::Object>(rest.value()))
-      if (key == "class" || key == "period" || key == "multipliers" || key == "is_motion" || key == "why")
-        item.set(key, value);
+    const Json rest = point_json(problem, point.solution, model);
+    for (const auto& [key, value] : std::get<Json::Object>(rest.value())) item.set(key, value);
     points.push(std::move(item));
   }
   for (const orbit::CurveEvent& event : curve.met) {
@@ -69,36 +67,6 @@ Json curve_json(const orbit::Curve& curve, const std::vector<std::string>& names
     met.push(item.set("type", event.type).set("what", event.what).set("after", event.after));
   }
   return json.set("points", std::move(points)).set("met", std::move(met)).set("ended", curve.ended);
-}
-
-/// What is met on the way, marked and named: resonances as 1:2, the others by their type.
-void add_met(figure::Panel& panel, const orbit::Curve& curve) {
-  figure::Points dots{
-      .colour = figure::colours::black, .drawing = figure::Drawing::discs, .diameter_mm = 1.1, .over_lines = true};
-  std::vector<NamedPlace> names;
-  for (const orbit::CurveEvent& event : curve.met) {
-    const bool resonance = event.type.size() == 2 && event.type.front() == 'R';
-    dots.x.push_back(event.values[0]);
-    dots.y.push_back(event.values[1]);
-    names.push_back({event.values[0], event.values[1], resonance ? "1:" + event.type.substr(1) : event.type});
-  }
-  if (!names.empty()) panel.points.push_back(std::move(dots));
-  add_names(panel, names);
-}
-
-figure::Figure curve_figure(const orbit::Curve& curve, const ModelDefinition& definition,
-                            const std::vector<std::string>& names, const std::string& type) {
-  figure::Panel panel{.x_label = parameter_axis(definition, names[0]), .y_label = parameter_axis(definition, names[1])};
-  figure::Line line{.label = type};
-  for (const orbit::CurvePoint& point : curve.points) {
-    line.x.push_back(point.solution.is_motion ? point.values[0] : std::nan(""));  // a gap where the orbit is no motion
-    line.y.push_back(point.values[1]);
-  }
-  panel.lines.push_back(std::move(line));
-  add_met(panel, curve);
-  figure::Figure figure;
-  figure.panels.push_back(std::move(panel));
-  return figure;
 }
 
 int run(const Options& options, const Context& context) {
@@ -127,13 +95,14 @@ int run(const Options& options, const Context& context) {
   const orbit::Curve curve = orbit::locus(*problem, special, how);
   Json json = Json::object();
   json.set("model", chosen.model.name).set("type", options.from);
-  const Json rest = curve_json(curve, names);
+  const Json rest = curve_json(curve, names, *problem, chosen.model);
   for (const auto& [key, value] : std::get<Json::Object>(rest.value())) json.set(key, value);
   out.write(json.dump() + "\n");
   out.commit();
-  if (plot.wanted()) plot.write(curve_figure(curve, chosen.definition, names, options.from));
+  const bool drawn = std::ranges::any_of(curve.points, [](const auto& point) { return point.solution.is_motion; });
+  const int status = plot.write_or_say(curve_figure(curve, chosen.definition, names, options.from), !drawn, done);
   if (context.stop.load()) return interrupted;
-  if (!curve.failed) return done;
+  if (!curve.failed) return status;
   throw NumericalError("curve: " + curve.ended + "; the points so far are written");
 }
 

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "axis_text.hpp"
+#include "axis_units.hpp"
 #include "contact_clouds.hpp"
 #include "model_options.hpp"
 #include "output.hpp"
@@ -136,11 +137,13 @@ std::vector<figure::Points> clouds(const sweep::Diagram& diagram, const Model& m
 figure::Figure picture(const sweep::Diagram& diagram, const Sweep& sweep, const ChosenModel& chosen,
                        const sweep::DiagramProblem& problem) {
   const Model& model = chosen.model;
+  const AxisUnits units(chosen.definition, model);
+  const std::string w = "w at " + contact_words(model, problem.stops);
   figure::Figure figure{.width_cm = 17.5, .share_x = true};
   for (const bool flight : {false, true}) {
     figure::Panel panel{.x_label = parameter_axis(chosen.definition, sweep.name),
-                        .y_label = flight ? (model.forced() ? "flight / period" : "flight")
-                                          : "w at " + contact_words(model, problem.stops),
+                        .y_label = flight ? (model.forced() ? "flight / period" : with_unit("flight", units.time()))
+                                          : with_unit(w, units.speed(chosen_stops(model, problem.stops))),
                         .x_range = figure::Range{sweep.from, sweep.to}};
     panel.points = clouds(diagram, model, problem, flight);
     figure.panels.push_back(std::move(panel));

@@ -20,8 +20,7 @@ struct Options {
 };
 
 Json whole_json(const orbit::Problem& problem, const orbit::Solution& solution, const System& system) {
-  Json json = solution_json(solution);
-  json.set("state", state_json(orbit::at_phase_zero(problem, solution.orbit), system.model()));
+  Json json = point_json(problem, solution, system.model());
   json.set("events", events_json(problem, solution, system)).set("impacts", impacts_json(problem, solution, system));
   json.set("energy", energy_json(orbit::energy(problem, solution.orbit), system.model()));
   json.set("margins", margins_json(orbit::margins(problem, solution.orbit), system));

@@ -78,10 +78,11 @@ int poincare(const PoincareOptions& options, const Context& context) {
   const Plot plot(options.plot);
   const EventChoice events = options.section == "event" ? event_choice(options.event, system) : EventChoice{};
   TableOutput table(options.out, columns(options.section, chosen.model));
+  const AxisUnits units(chosen.definition, chosen.model);
   Motion motion(system, start);
-  Found found = strobe                       ? strobe_points(options, stops, std::move(motion), table, context)
-                : options.section == "event" ? event_points(options, events, std::move(motion), table, context)
-                                             : impact_points(options, stops, std::move(motion), table, context);
+  Found found = strobe                       ? strobe_points(options, stops, std::move(motion), table, units, context)
+                : options.section == "event" ? event_points(options, events, std::move(motion), table, units, context)
+                                             : impact_points(options, stops, std::move(motion), table, units, context);
   if (found.points > 0) table.commit();
   return plot.write_or_say(picture(std::move(found.panel)), found.points == 0, found.whole ? done : interrupted);
 }

@@ -46,7 +46,7 @@ class Run {
         end_(end),
         result_(options.out),
         plot_(options.plot),
-        picture_(std::move(pair), system_.model().forced()),
+        picture_(std::move(pair), {chosen.definition, chosen.model}, system_.model().forced()),
         observer_(chosen.definition.observer(chosen.overrides)),
         units_(chosen, options.physical) {
     if (!options.certify.empty()) certified_.emplace(options.certify);

@@ -250,13 +250,15 @@ std::string terminals(const Figure& figure, const Layout& layout, Formats format
     return std::to_string(std::lround(layout.width_cm / 2.54 * dpi)) + "," +
            std::to_string(std::lround(layout.height_cm / 2.54 * dpi));
   };
+  constexpr double pdf_dashes =
+      1.3;  // of lines of 0.7 pt as long as in the PNG, measured; pdfcairo has one length for all thinner than 1 pt
   std::string out;
   if (formats.png)
     out += "  if (format eq 'png') { set terminal pngcairo size " + pixels(figure.png_dpi) + font +
            scaled(figure.png_dpi / 96.0, figure.png_dpi / 72.0, 2, figure.png_dpi / 72.0) + " }\n";
   if (formats.pdf)
     out += "  if (format eq 'pdf') { set terminal pdfcairo size " + fixed(layout.width_cm, 3) + "cm," +
-           fixed(layout.height_cm, 3) + "cm" + font + scaled(0.75, 2, 1, 1) + " }\n";
+           fixed(layout.height_cm, 3) + "cm" + font + scaled(0.75, 2, pdf_dashes, 1) + " }\n";
   if (formats.svg)
     out += "  if (format eq 'svg') { set terminal svg size " + pixels(96) + font +
            " fontscale 1.3333 linewidth 1.3333 }\n";

@@ -140,6 +140,33 @@ bool stops_differ(const Orbit& a, const Orbit& b) {
          states_differ(a, b, &mode::ContactStates::compliant);
 }
 
+/// An event whose guard falls through zero ever more slowly: beyond, it only touches zero.
+std::string tangential(const Leg& leg, mode::GuardKind kind, const System& system) {
+  using enum mode::GuardKind;
+  const std::string contact = system.contact_name(leg.event_contact);
+  switch (kind) {
+    case gap:
+      return "the speed of the impact at " + contact + " goes to zero";
+    case engage:
+      return "the speed of the engagement at " + contact + " goes to zero";
+    case slip:
+      return "the " + std::string(leg.event == EventKind::stick ? "stick" : "reversal") + " of " + contact +
+             " becomes tangential: its velocity only touches zero";
+    case stick_above:
+    case stick_below:
+      return "the release of " + contact + " becomes tangential: its holding force only touches static friction";
+    case press:
+      return "the release of " + contact + " becomes tangential: its force only touches zero";
+    case let_go:
+      return "the end of the push at " + contact + " becomes tangential: its force only touches zero";
+    case push:
+      return "the return of the push at " + contact + " becomes tangential: its force only touches zero";
+    case leave:
+      break;
+  }
+  return "the return of " + contact + " to its gap becomes tangential";
+}
+
 }  // namespace
 
 SpecialType type_of(const TestValue& test, const Itinerary& shape) {
@@ -150,17 +177,15 @@ SpecialType type_of(const TestValue& test, const Itinerary& shape) {
 
 std::string describe(const TestValue& test, const Itinerary& shape, const System& system) {
   const std::string leg = " in leg " + std::to_string(test.leg + 1);
-  const std::string after = " at " + std::string(name(shape.legs[test.leg].event)) + " " +
-                            system.contact_name(shape.legs[test.leg].event_contact);
   switch (test.test) {
     case Test::duration:
       return "leg " + std::to_string(test.leg + 1) + " (" +
              system.mode_name(system.mode_id(shape.legs[test.leg].states)) + ") shrinks to nothing";
     case Test::no_stick:
-      return "the holding force of " + stick_of(system, test.contact) + " comes to static friction" + after;
+      return "the holding force of " + stick_of(system, test.contact) + " comes to static friction at its reversal (" +
+             std::string(name(shape.legs[test.leg].event)) + ")";
     case Test::speed:
-      return test.kind == mode::GuardKind::gap ? "the speed of the impact" + after + " goes to zero"
-                                               : "the rate of the guard" + after + " goes to zero";
+      return tangential(shape.legs[test.leg], test.kind, system);
     case Test::guard:
       break;
   }

@@ -1,8 +1,10 @@
 #include "orbit/crossing_curve.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "orbit/crossing.hpp"
+#include "slapstick/base/error.hpp"
 #include "slapstick/base/text.hpp"
 
 namespace slapstick::orbit {
@@ -39,6 +41,13 @@ class CrossingCurve {
     return values[0] >= options_.from && values[0] <= options_.to && values[1] >= options_.second_from &&
            values[1] <= options_.second_to;
   }
+  struct Step {
+    Orbit guess;
+    double length = 0.0;
+    bool hold_second = false;  ///< the parameter of the guess that is kept
+    bool last = false;         ///< it ends on the end of a range
+  };
+  [[nodiscard]] Step step_from(const Orbit& here, const Vector2d& along, double length) const;
   [[nodiscard]] std::optional<Orbit> located(Orbit guess, bool hold_second) const;
   void add(const Orbit& orbit, Curve& curve) const;
 
@@ -51,11 +60,17 @@ class CrossingCurve {
 /// The crossing near a guess, at its second parameter or at its first.
 std::optional<Orbit> CrossingCurve::located(Orbit guess, bool hold_second) const {
   if (!hold_second) std::swap(guess.values[0], guess.values[1]);
-  const auto found = crossing_near(hold_second ? problem_ : swapped_, guess, ranges_[hold_second ? 0 : 1]);
-  if (!found) return std::nullopt;
-  Orbit orbit = found->point.orbit;
-  if (!hold_second) std::swap(orbit.values[0], orbit.values[1]);
-  return orbit;
+  try {
+    const auto found = crossing_near(hold_second ? problem_ : swapped_, guess, ranges_[hold_second ? 0 : 1]);
+    if (!found) return std::nullopt;
+    Orbit orbit = found->point.orbit;
+    orbit.values[1] = guess.values[1];  // held, but for the rounding of an interpolation
+    if (!hold_second) std::swap(orbit.values[0], orbit.values[1]);
+    return orbit;
+  } catch (const InputError&) {  // no model there
+  } catch (const NumericalError&) {
+  }
+  return std::nullopt;
 }
 
 void CrossingCurve::add(const Orbit& orbit, Curve& curve) const {
@@ -64,25 +79,47 @@ void CrossingCurve::add(const Orbit& orbit, Curve& curve) const {
   if (options_.progress) options_.progress(static_cast<long>(curve.points.size()));
 }
 
+/// How a step along a direction goes: to the end of a range that it would pass, which is then held.
+CrossingCurve::Step CrossingCurve::step_from(const Orbit& here, const Vector2d& along, double length) const {
+  const std::array<double, 2> least = {options_.from, options_.second_from}, most = {options_.to, options_.second_to};
+  Step step{here, length, std::abs(along[1]) >= std::abs(along[0]), false};
+  std::optional<std::size_t> wall;
+  for (std::size_t j = 0; j < 2; ++j) {
+    const double rate = along[static_cast<Eigen::Index>(j)] * ranges_[static_cast<Eigen::Index>(j)];
+    const double to_end = rate != 0.0 ? ((rate > 0.0 ? most[j] : least[j]) - here.values[j]) / rate : INFINITY;
+    if (to_end > step.length) continue;
+    step.length = std::max(to_end, 0.0);
+    wall = j;
+  }
+  for (std::size_t j = 0; j < 2; ++j)
+    step.guess.values[j] += step.length * along[static_cast<Eigen::Index>(j)] * ranges_[static_cast<Eigen::Index>(j)];
+  if (!wall) return step;
+  step.guess.values[*wall] = along[static_cast<Eigen::Index>(*wall)] > 0.0 ? most[*wall] : least[*wall];
+  step.hold_second = *wall == 1;
+  step.last = true;
+  return step;
+}
+
 Curve CrossingCurve::run(Orbit here, double sign) {
   Curve curve;
   curve.ended = "points";
   Vector2d along(0.0, sign);
-  double step = options_.longest_step;
+  double length = options_.longest_step;
   add(here, curve);
   while (static_cast<int>(curve.points.size()) < options_.most_points && !stopped(options_.stop)) {
-    Orbit guess = here;
-    for (int j = 0; j < 2; ++j) guess.values[static_cast<std::size_t>(j)] += step * along[j] * ranges_[j];
-    std::optional<Orbit> next;
-    const bool leaves = !inside(guess.values);
-    if (!leaves) next = located(guess, std::abs(along[1]) >= std::abs(along[0]));
+    const Step step = step_from(here, along, length);
+    if (step.last && step.length < shortest_step) {  // it is there
+      curve.ended = "range";
+      return curve;
+    }
+    std::optional<Orbit> next = located(step.guess, step.hold_second);
     const Vector2d moved = next ? Vector2d((next->values[0] - here.values[0]) / ranges_[0],
                                            (next->values[1] - here.values[1]) / ranges_[1])
                                 : Vector2d(0.0, 0.0);
     if (!next || !inside(next->values) || (curve.points.size() > 1 && moved.normalized().dot(along) < straight)) {
-      step *= 0.5;
-      if (step > shortest_step) continue;
-      curve.failed = !leaves && !next;
+      length = 0.5 * std::min(length, step.length);
+      if (length > shortest_step) continue;
+      curve.failed = !next || inside(next->values);
       curve.ended =
           curve.failed ? "no crossing behind " + shown(here.values[0]) + ", " + shown(here.values[1]) : "range";
       return curve;
@@ -90,7 +127,11 @@ Curve CrossingCurve::run(Orbit here, double sign) {
     along = moved.normalized();
     here = std::move(*next);
     add(here, curve);
-    step = std::min(options_.longest_step, 1.4 * step);
+    if (step.last) {
+      curve.ended = "range";
+      return curve;
+    }
+    length = std::min(options_.longest_step, 1.4 * length);
   }
   return curve;
 }

@@ -44,7 +44,7 @@ class CurveFollower {
   [[nodiscard]] Place place(Orbit orbit, const Place* before) const;
   [[nodiscard]] std::optional<Orbit> moved(const Place& from, double along, double across) const;
   [[nodiscard]] std::optional<double> f(const Place& from, double along, double across) const;
-  [[nodiscard]] std::optional<Orbit> corrected(const Place& from, double step) const;
+  [[nodiscard]] std::optional<Orbit> corrected(const Place& from, double step, double reach) const;
   [[nodiscard]] CurvePlace watched_at(const Place& here) const;
   [[nodiscard]] std::optional<Place> located(const Place& before, const Place& now, double step,
                                              const std::function<double(const Place&)>& value) const;
@@ -66,7 +66,7 @@ class CurveFollower {
     return {options_.to - options_.from, options_.second_to - options_.second_from};
   }
   [[nodiscard]] CurvePoint point_of_curve(const Place& here) const;
-  void note_own(const Watched& at);
+  [[nodiscard]] Place start(Orbit orbit);
   [[nodiscard]] std::optional<Place> next_place(const Place& here, double step) const;
   [[nodiscard]] MatrixXd surface(const Linearised& at, const VectorXd& units) const;
 
@@ -135,15 +135,15 @@ CurveFollower::Place CurveFollower::place(Orbit orbit, const Place* before) cons
   return here;
 }
 
-/// A step along the tangent, then the secant rule across it.
-std::optional<Orbit> CurveFollower::corrected(const Place& from, double step) const {
-  double a = 0.0, b = 1e-3 * step;
+/// A step along the tangent, then the secant rule across it, no farther than `reach`.
+std::optional<Orbit> CurveFollower::corrected(const Place& from, double step, double reach) const {
+  double a = 0.0, b = 1e-3 * reach;
   std::optional<double> f_a = f(from, step, a), f_b = f(from, step, b);
   const double start = f_a ? std::abs(*f_a) : 0.0;
   for (int k = 0; k < 25 && f_a && f_b; ++k) {
     if (*f_a == *f_b || std::abs(b - a) < 1e-13) return moved(from, step, b);
     const double next = b - *f_b * (b - a) / (*f_b - *f_a);
-    if (!std::isfinite(next) || std::abs(next) > step) return std::nullopt;
+    if (!std::isfinite(next) || std::abs(next) > reach) return std::nullopt;
     a = b;
     f_a = f_b;
     b = next;
@@ -153,18 +153,13 @@ std::optional<Orbit> CurveFollower::corrected(const Place& from, double step) co
   return moved(from, step, b);
 }
 
-/// The margins that are zero all along: the point's own, and those that say the same in other words.
-void CurveFollower::note_own(const Watched& at) {
-  constexpr double zero = 1e-6;
-  own_.assign(at.tests.size(), false);
-  for (std::size_t i = 0; i < at.tests.size(); ++i) {
-    double largest = 0.0;
-    for (const TestValue& other : at.tests)
-      if (other.test == at.tests[i].test && std::isfinite(other.value))
-        largest = std::max(largest, std::abs(other.value));
-    own_[i] = std::abs(at.tests[i].value) <= zero * largest;
-  }
-  tests_ = curve_tests(problem_, point_, at, own_);
+/// The first place. The special point is known to its error only, and where several margins vanish together some of them as its root.
+CurveFollower::Place CurveFollower::start(Orbit orbit) {
+  Place here = place(std::move(orbit), nullptr);
+  if (const auto found = corrected(here, 0.0, 0.25 * options_.longest_step)) here = place(*found, &here);
+  own_ = own_margins(point_, here.watched.tests);
+  tests_ = curve_tests(problem_, point_, here.watched, own_);
+  return here;
 }
 
 /// On a curve of GR, SL, CH or CO the simulator cannot decide; whether the orbit is a motion but for that is seen from its other margins.
@@ -211,9 +206,11 @@ void CurveFollower::note(const Place& before, const Place& now, double step, Cur
   for (const CurveTest& test : tests_) {
     const auto value = [&](const Place& here) { return test.value(watched_at(here)); };
     const double from = value(before), to = value(now);
+    if (std::isnan(from) || std::isnan(to)) continue;
     if ((from < 0.0) == (to < 0.0) || (test.falls && !(from > 0.0 && to < 0.0))) continue;
     const std::optional<Place> there = located(before, now, step, value);
     const Place& at = there ? *there : now;
+    if (test.holds && !test.holds(at.watched)) continue;
     add_event(curve, {test.type, test.what(at.watched), at.orbit.values, curve.points.size() - 1}, ranges());
   }
 }
@@ -294,7 +291,7 @@ bool CurveFollower::at_the_rim(const Place& here) const {
 
 std::optional<CurveFollower::Place> CurveFollower::next_place(const Place& here, double step) const {
   try {
-    if (const auto found = corrected(here, step)) return place(*found, &here);
+    if (const auto found = corrected(here, step, step)) return place(*found, &here);
   } catch (const InputError&) {  // no model there
   } catch (const NumericalError&) {
   }
@@ -323,9 +320,8 @@ bool CurveFollower::end(const Place& here, const Place& next, double step, bool 
 Curve CurveFollower::run(Orbit orbit, double sign) {
   Curve curve;
   curve.ended = "points";
-  Place here = place(std::move(orbit), nullptr);
+  Place here = start(std::move(orbit));
   if (here.along[problem_.parameter_column(here.orbit.legs(), 1)] * sign < 0.0) here.along = -here.along;
-  note_own(here.watched);
   Watched before = here.watched;
   double step = 0.25 * options_.longest_step;
   curve.points.push_back(point_of_curve(here));

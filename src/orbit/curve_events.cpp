@@ -11,6 +11,8 @@ namespace {
 
 using Multipliers = std::vector<std::complex<double>>;
 
+constexpr double without_bound = 1e6;  ///< a multiplier
+
 /// prod (mu - target) without the factor nearest to zero, which is zero all along: its sign changes where a second multiplier comes there.
 double product_of_others(const Multipliers& multipliers, double target) {
   const auto off = [target](const std::complex<double>& mu) { return std::abs(mu - target); };
@@ -33,22 +35,78 @@ void add_resonances(std::vector<CurveTest>& tests) {
                    always("resonance 1:4: the angle is a quarter of a turn")});
 }
 
+/// A function of the multipliers. Where one is infinite, as at an impact without speed, the others are rounding and it has no value.
+std::function<double(const CurvePlace&)> of_multipliers(double (*value)(const Watched&)) {
+  return [value](const CurvePlace& at) {
+    const Multipliers& all = at.watched.multipliers;
+    return !all.empty() && std::abs(all.front()) > without_bound ? std::nan("") : value(at.watched);
+  };
+}
+
+constexpr double at_zero =
+    0.1;  ///< a function that changes its sign through infinity, as beside an impact without speed, is no such zero
+
+/// Are there so many multipliers at a value?
+std::function<bool(const Watched&)> multipliers_at(double target, int count) {
+  return [target, count](const Watched& at) {
+    const auto near = [target](const std::complex<double>& mu) { return std::abs(mu - target) < at_zero; };
+    return std::ranges::count_if(at.multipliers, near) >= count;
+  };
+}
+
+/// Two multipliers whose product is 1 are a torus's if they are no real numbers mu, 1 / mu, as at a neutral saddle.
+bool on_the_circle(const Watched& at) {
+  return std::ranges::any_of(at.multipliers,
+                             [](const std::complex<double>& mu) { return std::abs(std::abs(mu) - 1.0) < at_zero; }) &&
+         std::abs(sum_of_pair(at)) < 2.0;
+}
+
 void add_multipliers(std::vector<CurveTest>& tests, SpecialType type) {
+  const auto add = [&](const char* name, double (*value)(const Watched&), const char* what,
+                       std::function<bool(const Watched&)> holds) {
+    tests.push_back({name, of_multipliers(value), always(what), false, std::move(holds)});
+  };
   if (type == SpecialType::PD)
-    tests.push_back({"R2", [](const CurvePlace& at) { return product_of_others(at.watched.multipliers, -1.0); },
-                     always("resonance 1:2: a second multiplier passes -1")});
+    add(
+        "R2", [](const Watched& at) { return product_of_others(at.multipliers, -1.0); },
+        "resonance 1:2: a second multiplier passes -1", multipliers_at(-1.0, 2));
   else
-    tests.push_back({"PD", [](const CurvePlace& at) { return at.watched.flip; }, always("a multiplier passes -1")});
+    add(
+        "PD", [](const Watched& at) { return at.flip; }, "a multiplier passes -1", multipliers_at(-1.0, 1));
   if (type == SpecialType::LP)
-    tests.push_back({"R1", [](const CurvePlace& at) { return product_of_others(at.watched.multipliers, 1.0); },
-                     always("resonance 1:1: a second multiplier passes +1")});
+    add(
+        "R1", [](const Watched& at) { return product_of_others(at.multipliers, 1.0); },
+        "resonance 1:1: a second multiplier passes +1", multipliers_at(1.0, 2));
   else
     tests.push_back({"LP", [](const CurvePlace& at) { return at.watched.turn; },
                      always("a fold of the branch: a multiplier passes +1")});
   if (type == SpecialType::NS) return add_resonances(tests);
   if (type != SpecialType::PD && type != SpecialType::LP)
-    tests.push_back(
-        {"NS", [](const CurvePlace& at) { return at.watched.torus; }, always("two multipliers whose product is 1")});
+    add(
+        "NS", [](const Watched& at) { return at.torus; }, "two multipliers on the unit circle", on_the_circle);
+}
+
+bool of_events(SpecialType type) {
+  return type == SpecialType::GR || type == SpecialType::SL || type == SpecialType::CH || type == SpecialType::CO;
+}
+
+/// What is compared with what: margins of one test and one quantity.
+int quantity(const TestValue& test) {
+  const auto kind = test.kind == mode::GuardKind::stick_above ? mode::GuardKind::stick_below : test.kind;
+  return test.test == Test::duration ? -1 : static_cast<int>(kind);
+}
+
+/// Is a margin as good as zero beside those of its kind? One without its like is compared with all, whatever their units.
+bool vanishes(const std::vector<TestValue>& tests, std::size_t which) {
+  const TestValue& test = tests[which];
+  constexpr double zero = 1e-6, zero_of_any = 1e-10;
+  double alike = 0.0, any = 0.0;
+  for (const TestValue& other : tests) {
+    if (!std::isfinite(other.value)) continue;
+    any = std::max(any, std::abs(other.value));
+    if (other.test == test.test && quantity(other) == quantity(test)) alike = std::max(alike, std::abs(other.value));
+  }
+  return std::abs(test.value) <= std::max(zero * alike, zero_of_any * any);
 }
 
 }  // namespace
@@ -63,6 +121,13 @@ double sum_of_pair(const Watched& watched) {
       sum = (watched.multipliers[i] + watched.multipliers[j]).real();
     }
   return sum;
+}
+
+std::vector<bool> own_margins(const SpecialPoint& point, const std::vector<TestValue>& tests) {
+  std::vector<bool> own(tests.size(), false);
+  for (std::size_t i = 0; i < own.size(); ++i) own[i] = vanishes(tests, i);
+  if (of_events(point.type)) own.at(point.test) = true;
+  return own;
 }
 
 std::vector<CurveTest> curve_tests(const Problem& problem, const SpecialPoint& point, const Watched& start,
@@ -114,7 +179,6 @@ std::string likely_cause(const Problem& problem, const SpecialPoint& point, cons
     first = std::abs(value) / fall;
     cause = ", near where " + describe(here.tests[i], orbit.shape, problem.base());
   }
-  constexpr double without_bound = 1e6;
   if (cause.empty() && !here.multipliers.empty() && std::abs(here.multipliers.front()) > without_bound)
     cause = ", where a multiplier grows without bound";
   return cause;

@@ -19,10 +19,15 @@ struct CurveTest {
   std::function<double(const CurvePlace&)> value;
   std::function<std::string(const Watched&)> what;  ///< there
   bool falls = false;                               ///< only from positive to negative
+  std::function<bool(const Watched&)> holds = {};   ///< is a zero such a point? Empty: each is
 };
 
+/// The margins that are zero all along (indices of Watched::tests): the point's own, and those that say the same in other words, as the length of a
+/// slip that dies with the speed of an impact.
+[[nodiscard]] std::vector<bool> own_margins(const SpecialPoint& point, const std::vector<TestValue>& tests);
+
 /// @param start  at the curve's first point
-/// @param own    the margins that are zero all along (indices of Watched::tests)
+/// @param own    of own_margins
 [[nodiscard]] std::vector<CurveTest> curve_tests(const Problem& problem, const SpecialPoint& point,
                                                  const Watched& start, const std::vector<bool>& own);
 

@@ -205,11 +205,13 @@ std::vector<Margin> margins(const Problem& problem, const Orbit& orbit) {
   const ModeSet set(problem.family(), orbit.values);
   std::vector<Margin> least;
   for (const TestValue& test : test_values(set, orbit)) {
-    if (test.test != Test::guard || !std::isfinite(test.value)) continue;
-    const auto same =
-        std::ranges::find_if(least, [&](const Margin& m) { return m.kind == test.kind && m.contact == test.contact; });
+    const bool reversal = test.test == Test::no_stick;
+    if ((test.test != Test::guard && !reversal) || !std::isfinite(test.value)) continue;
+    const auto same = std::ranges::find_if(least, [&](const Margin& m) {
+      return m.kind == test.kind && m.contact == test.contact && m.reversal == reversal;
+    });
     if (same == least.end())
-      least.push_back({test.kind, test.contact, test.value});
+      least.push_back({test.kind, test.contact, test.value, reversal});
     else
       same->value = std::min(same->value, test.value);
   }

@@ -4,6 +4,7 @@ import os
 from program import good, main, read, refused, run, says, table
 
 PAPER = ('vibro-impact', '--set', 'omega=2.7')
+HAMMER = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'orbit', 'models', 'hammer-drill.toml')
 
 
 def number(text, key, which=0):
@@ -15,6 +16,7 @@ def number(text, key, which=0):
 def test_orbit_has_the_stable_keys_of_the_command_line():
     text = good('orbit', *PAPER, '--orbit', '1-1')
     says(text, '"converged": true', '"class": "1-1-I"', '"period"', '"multipliers"', '"impacts"', '"time"', '"phase"', '"w"', '"state"')
+    says(good('orbit', HAMMER), '"margins"', '"guard": "reversal"')
 
 
 def test_unstable_orbits_are_found_where_simulation_leaves_them():
@@ -51,6 +53,23 @@ def test_a_simulation_from_the_state_of_an_orbit_is_the_orbit():
     comes_back(('vibro-impact', '--set', 'omega=1.5'), names, 1)  # sticks on its way
     comes_back(('vibro-impact', '--set', 'omega=0.55'), names, 1)  # complete chatter
     comes_back(('coulomb-oscillator',), ('x', 'v'), 1)
+
+
+def test_a_point_of_a_branch_or_curve_is_a_state_to_start_from():
+    keys = ('class', 'n', 'p', 'sticking', 'stable', 'period', 'multipliers', 'is_motion', 'state')
+    branch = good('continue', *PAPER, '--orbit', '1-1', '--param', 'omega', '--range', '2.65:2.9')
+    curve = good('curve', *PAPER, '--orbit', '1-1', '--from', 'PD', '--params', 'omega,friction', '--range', 'omega=2.6:3', '--range', 'friction=0.14:0.16')
+    for text, end in ((branch, '"special"'), (curve, '"met"')):
+        points = text[text.index('"points"'):text.index(end)]
+        count = points.count('"class"')
+        assert count > 3
+        for key in keys:
+            assert points.count('"%s":' % key) == count, key
+    first = branch[branch.index('"points"'):]  # at the low end
+    state = ','.join('%s=%.17g' % (name, number(first, name)) for name in ('x1', 'v1', 'x2', 'v2'))
+    end = good('simulate', 'vibro-impact', '--set', 'omega=%.17g' % number(first, 'param'), '--state', state, '--periods', '1')
+    end = end[end.index('"end"'):]
+    assert all(abs(number(end, name) - number(first, name)) < 1e-11 for name in ('x1', 'v1', 'x2', 'v2')), (state, end)
 
 
 def test_a_branch_names_its_doubling_to_ten_digits():
@@ -135,11 +154,49 @@ def test_a_picture_says_which_branch_and_which_special_point_is_which():
     assert 'set arrow from 2.' not in script  # no lines through the whole frame
 
 
+def test_axes_have_the_units_that_the_model_states():
+    good('continue', HAMMER, '--param', 'frequency', '--range', '13:15', '--out', 'c.json', '--plot', 'b.png')
+    says(read('b.gp'), 'impact speed {/:Italic w} [m/s]', 'frequency [Hz]')
+    good('simulate', HAMMER, '--periods', '5', '--out', 's.json', '--plot', 's.png')
+    says(read('s.gp'), '[m]', '[m/s]', "'t / T'")
+    good('diagram', HAMMER, '--sweep', 'frequency=13:15:2', '--impacts', '3', '--out', 'd.csv', '--plot', 'd.png')
+    says(read('d.gp'), 'w at impact [m/s]')
+    good('continue', *PAPER, '--param', 'omega', '--range', '2.6:2.75', '--out', 'c.json', '--plot', 'b.png')
+    assert '[' not in [line.split("'")[1] for line in read('b.gp').splitlines() if 'impact speed' in line][0]  # it states none
+
+
+def test_a_picture_shows_the_range_asked_for_and_where_a_branch_ends():
+    good('continue', HAMMER, '--param', 'force', '--range', '20:200', '--table', '--out', 't.txt', '--plot', 'b.png')
+    lines = read('t.txt').splitlines()
+    end = next(line.split() for line in lines if 'jump' in line and line.split()[2] == 'SL')
+    last = next(line.split() for line in lines if line.split()[2] == 'EP')
+    assert 20.0 < float(end[3]) < float(last[3]), (end, last)  # it ends behind its last point
+    says(read('b.gp'), 'set xrange [20:200]')
+    columns, rows = table(read('b-plot.csv'))
+    assert 'points' in columns[0] and 'line' in columns[2], columns
+    assert float('%.12g' % float(rows[0][0])) == float(end[3]), rows[0]  # its marker
+    assert rows[0][0] in (rows[0][2], [row[2] for row in rows if row[2]][-1])  # to which the line goes
+
+
 def test_what_a_curve_meets_is_named_in_its_picture():
     words = ('curve', 'vibro-impact', '--set', 'omega=4.78', '--orbit', '4-2', '--from', 'NS', '--params', 'omega,friction')
     text = good(*words, '--range', 'omega=4.4:4.9', '--range', 'friction=0.1:0.5', '--plot', 'c.png')
     says(text, '"type": "R2"', 'resonance 1:2: both multipliers are -1', 'no torus beyond')
     says(read('c.gp'), "set label '1:2'")
+
+
+def test_a_picture_of_a_curve_is_of_its_motions_only():
+    ranges = ('--range', 'frequency=8:20', '--range', 'gap=0.001:0.006')
+    text = good('curve', HAMMER, '--from', 'SL', '--params', 'frequency,gap', *ranges, '--plot', 'c.png')
+    says(text, '"is_motion": true', '"is_motion": false')
+    pieces = text[text.index('"points"'):text.index('"met"')].split('"frequency"')[1:]
+    motions = [float(piece[1:piece.index(',')]) for piece in pieces if '"is_motion": true' in piece]
+    _, rows = table(read('c-plot.csv'))
+    met, line = ([(row[k], row[k + 1]) for row in rows if row[k] and row[k] != 'NaN'] for k in (0, 2))
+    assert met and set(met) <= set(line), (met, line)  # each at the line
+    drawn = {float(x) for x, _ in line} - {float(x) for x, _ in met}
+    assert len(drawn) > 10 and drawn <= set(motions)
+    assert text.count('"after"') > len(met)  # others lie where there is no motion
 
 
 def points_drawn(*words):

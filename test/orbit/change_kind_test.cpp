@@ -161,5 +161,42 @@ TEST(Verification, RefusesAReversalThatStaticFrictionForbids) {
       EXPECT_TRUE(test.test != orbit::Test::no_stick || test.value > 0.0) << solution.label << ": " << test.value;
 }
 
+/// A stop that is called anvil was hit "at impact anvil", and a release whose force only touches its limit had a "rate of the guard".
+TEST(KindOfChange, SaysInTheFieldsWordsWhatGoesToZero) {
+  const Posed posed(SLAPSTICK_ORBIT_MODELS "hammer-drill.toml", {}, {"frequency"}, {14.0});
+  orbit::Itinerary shape = cycle("+s", {0.5, 0.5}).shape;
+  const auto says = [&](EventKind event, int contact, orbit::Test test, mode::GuardKind kind) {
+    shape.legs[0].event = event;
+    shape.legs[0].event_contact = contact;
+    return orbit::describe({test, 0, kind, 0}, shape, posed.system);
+  };
+  using enum mode::GuardKind;
+  EXPECT_EQ(says(EventKind::impact, 0, orbit::Test::speed, gap), "the speed of the impact at anvil goes to zero");
+  EXPECT_EQ(says(EventKind::release, 1, orbit::Test::speed, stick_above),
+            "the release of guide becomes tangential: its holding force only touches static friction");
+  EXPECT_EQ(says(EventKind::stick, 1, orbit::Test::speed, slip),
+            "the stick of guide becomes tangential: its velocity only touches zero");
+  EXPECT_EQ(says(EventKind::slip_minus, 1, orbit::Test::no_stick, slip),
+            "the holding force of guide comes to static friction at its reversal (slip-)");
+}
+
+/// An orbit that reverses without stick had no margin for it: nothing said how near it was to sticking. The tool rests for an instant, so that what would
+/// hold it is its spring's force.
+TEST(Margins, HaveTheForceThatKeepsAReversalFromSticking) {
+  const Posed posed(SLAPSTICK_ORBIT_MODELS "hammer-drill.toml", {}, {"frequency"}, {14.0});
+  const auto found = posed.settled();
+  ASSERT_TRUE(found);
+  double least = INFINITY;
+  for (const orbit::EventOfOrbit& event : orbit::events(*posed.problem, found->orbit))
+    if (event.kind == EventKind::slip_plus || event.kind == EventKind::slip_minus)
+      least = std::min(least, 40000.0 * std::abs(event.before[2]) - 1.25 * 30.0);
+  const auto margins = orbit::margins(*posed.problem, found->orbit);
+  const auto reversal = std::ranges::find(margins, true, &orbit::Margin::reversal);
+  ASSERT_NE(reversal, margins.end());
+  ASSERT_GT(least, 0.0);
+  EXPECT_NEAR(reversal->value, least, 1e-9 * least);
+  EXPECT_EQ(std::ranges::count(margins, true, &orbit::Margin::reversal), 1);
+}
+
 }  // namespace
 }  // namespace slapstick::test

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "beside.hpp"
+#include "orbit/curve_events.hpp"
 
 namespace slapstick::test {
 namespace {
@@ -78,6 +79,54 @@ TEST(Curve, ListsEachPointThatItMeetsOnceAndWhereItIs) {
   for (const orbit::CurvePoint& point : fine.points) farthest = std::max(farthest, point.values[0]);
   EXPECT_GE(turn->values[0], farthest);
   EXPECT_LT(turn->values[0] - farthest, 1e-4);
+}
+
+/// An impact without speed beside sticks without length: all of it is zero all along, and its rounding changes sign a hundred times. Its multiplier is
+/// infinite, those beside it are rounding.
+TEST(Curve, PassesThroughNothingThatIsZeroAllAlong) {
+  const Ranges in{0.6, 1.0, 0.4, 0.7};
+  const orbit::Curve curve = curve_of("stick-slip-impact", {"drive", "clearance"}, {0.6, 0.5}, 1, SpecialType::GR, in);
+  EXPECT_FALSE(curve.failed) << curve.ended;
+  EXPECT_GT(curve.points.size(), 50U);
+  EXPECT_TRUE(curve.met.empty()) << curve.met.size() << ", first " << curve.met.front().what;
+  for (const orbit::CurvePoint& point : curve.points) EXPECT_TRUE(point.solution.is_motion) << point.solution.why;
+}
+
+/// prod (mu_i mu_j - 1) is zero at a neutral saddle too, prod (mu + 1) changes its sign through infinity.
+TEST(Curve, IsNoTorusAtANeutralSaddleAndNoDoublingAtAPole) {
+  const Posed posed("vibro-impact", {}, {"omega", "friction"}, {2.5, 0.15});
+  const auto first = posed.settled(1, 3000);
+  ASSERT_TRUE(first);
+  orbit::SpecialPoint point;
+  point.type = SpecialType::CO;
+  point.solution = *first;
+  const auto with = [](std::vector<Complex> multipliers) {
+    orbit::Watched watched;
+    watched.multipliers = std::move(multipliers);
+    return watched;
+  };
+  const std::vector<orbit::CurveTest> tests = orbit::curve_tests(*posed.problem, point, {}, {});
+  const auto of = [&](const std::string& type) { return *std::ranges::find(tests, type, &orbit::CurveTest::type); };
+  EXPECT_FALSE(of("NS").holds(with({2.0, 0.5, 0.1})));
+  EXPECT_FALSE(of("NS").holds(with({-2.0, -0.5})));
+  EXPECT_TRUE(of("NS").holds(with({std::polar(1.0, 1.3), std::polar(1.0, -1.3), 0.1})));
+  EXPECT_FALSE(of("PD").holds(with({1e5, 0.5})));
+  EXPECT_TRUE(of("PD").holds(with({1e5, -1.0})));
+  const orbit::Watched pole = with({1e28, -1e12});
+  EXPECT_TRUE(std::isnan(of("PD").value({pole, {}})));
+}
+
+/// The locus of a BP came to the ends of its ranges by ever smaller steps, and never there.
+TEST(Curve, OfABranchPointEndsOnItsRange) {
+  const Ranges in{0.9, 1.7, 0.6, 0.8};
+  const orbit::Curve curve = curve_of("two-sided-rattle", {"omega", "restitution"}, {1.0, 0.7}, 1, SpecialType::BP, in);
+  EXPECT_FALSE(curve.failed) << curve.ended;
+  for (const orbit::CurvePoint* end : {&curve.points.front(), &curve.points.back()})
+    EXPECT_TRUE(end->values[1] == 0.6 || end->values[1] == 0.8 || end->values[0] == 0.9 || end->values[0] == 1.7)
+        << end->values[0] << " " << end->values[1];
+  EXPECT_GT(std::hypot(curve.points.front().values[0] - curve.points.back().values[0],
+                       curve.points.front().values[1] - curve.points.back().values[1]),
+            0.1);
 }
 
 }  // namespace

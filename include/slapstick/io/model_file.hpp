@@ -72,6 +72,12 @@ struct PhysicalUnits {
   std::vector<Column> state, observables;
 };
 
+/// What the numbers of a model without [scale] are in, as far as its file says so. Empty texts: it does not, and so with [scale], where they are no quantities.
+struct StatedUnits {
+  std::vector<std::string> coordinates;
+  std::string time;  ///< of a velocity: that of its coordinate over this
+};
+
 /// Values given by name, as by `--set`. A parameter's own value wins over its group's.
 using Overrides = std::map<std::string, double>;
 
@@ -115,6 +121,10 @@ class ModelDefinition {
 
   /// The physical units of tables, by the file's [scale]; nothing if it has none. @throws InputError as `values`
   [[nodiscard]] std::optional<PhysicalUnits> physical(const Overrides& overrides = {}) const;
+
+  /// Coordinates state theirs. The unit of time is that of the parameters' units, if these are one system with the coordinates' and the model's
+  /// numbers are in it: measured in another unit of time, they must change as masses, stiffnesses, forces and frequencies do.
+  [[nodiscard]] StatedUnits stated_units() const;
 
   /// A complete file, with the overrides as the new defaults; reading it gives the same Model, and printing that the same text.
   /// Comments are not kept; descriptions and notes are. @throws InputError as `start`

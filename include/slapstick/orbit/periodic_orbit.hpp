@@ -27,11 +27,13 @@ struct Energy {
 };
 
 /// How near a cycle comes to changing its events: the least value that a guard of one kind and contact takes along it, where it is not a zero
-/// that belongs to an event; and the least speed at which its own events happen.
+/// that belongs to an event; and at its reversals the force that keeps it from sticking.
 struct Margin {
   mode::GuardKind kind = mode::GuardKind::gap;
   int contact = 0;
   double value = 0.0;
+  bool reversal =
+      false;  ///< by how much the holding force exceeds static friction where the contact's slip changes its sense without stick
 };
 
 /// No multiplier is 1.

@@ -1,0 +1,32 @@
+#pragma once
+/// Units on the axes of pictures, where the model's file states what its numbers are in.
+#include <string>
+#include <vector>
+
+#include "slapstick/io/model_file.hpp"
+
+namespace slapstick::app {
+
+/// "text [unit]"; the text alone if there is none.
+[[nodiscard]] std::string with_unit(const std::string& text, const std::string& unit);
+
+class AxisUnits {
+ public:
+  AxisUnits(const ModelDefinition& definition, const Model& model)
+      : stated_(definition.stated_units()), model_(model) {}
+
+  /// Of the displacement between two coordinates, of which one may be the ground; empty where it is not stated.
+  [[nodiscard]] std::string displacement(int a, int b) const;
+  [[nodiscard]] std::string velocity(int a, int b) const { return over_time(displacement(a, b)); }
+  /// Of w at these contacts (System::contact_name), if it is the same at all.
+  [[nodiscard]] std::string speed(const std::vector<int>& contacts) const;
+  [[nodiscard]] const std::string& time() const { return stated_.time; }
+
+ private:
+  [[nodiscard]] std::string over_time(const std::string& displacement) const;
+
+  StatedUnits stated_;
+  const Model& model_;
+};
+
+}  // namespace slapstick::app

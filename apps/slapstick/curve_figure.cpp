@@ -1,0 +1,97 @@
+#include "curve_figure.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "axis_text.hpp"
+#include "free_labels.hpp"
+
+namespace slapstick::app {
+namespace {
+
+/// What is met behind a point of the curve, in the curve's order.
+std::vector<const orbit::CurveEvent*> met_behind(const orbit::Curve& curve, std::size_t point) {
+  std::vector<const orbit::CurveEvent*> all;
+  for (const orbit::CurveEvent& event : curve.met)
+    if (event.after == point) all.push_back(&event);
+  const std::vector<double>& here = curve.points[point].values;
+  const std::vector<double>& next = curve.points[std::min(point + 1, curve.points.size() - 1)].values;
+  const double a = next[0] - here[0], b = next[1] - here[1];  // a part of a step is all but straight
+  const auto along = [&](const orbit::CurveEvent* event) {
+    const double x = a != 0.0 ? (event->values[0] - here[0]) / a : 0.0,
+                 y = b != 0.0 ? (event->values[1] - here[1]) / b : 0.0;
+    return x + y;
+  };
+  std::ranges::stable_sort(all, {}, along);
+  return all;
+}
+
+/// The line through motions only, and what is met on it. Where a motion ends by what is met, the line goes on to there.
+class Motions {
+ public:
+  explicit Motions(const orbit::Curve& curve) {
+    for (std::size_t i = 0; i < curve.points.size(); ++i) {
+      const bool here = curve.points[i].solution.is_motion;
+      const bool next = i + 1 < curve.points.size() && curve.points[i + 1].solution.is_motion;
+      if (here) add(curve.points[i].values);
+      if (here || next) meet(met_behind(curve, i), here, next);
+      if (!next && !line.x.empty() && std::isfinite(line.x.back())) add({std::nan(""), std::nan("")});
+    }
+  }
+
+  figure::Line line{};
+  std::vector<const orbit::CurveEvent*> met{};
+
+ private:
+  void add(const std::vector<double>& values) {
+    line.x.push_back(values[0]);
+    line.y.push_back(values[1]);
+  }
+  /// Of several between a motion and none, those up to the change of events are on the line.
+  void meet(std::vector<const orbit::CurveEvent*> events, bool here, bool next) {
+    const auto changes = [](const orbit::CurveEvent* event) {
+      return event->what.find("the events change") != std::string::npos;
+    };
+    if (here != next && !events.empty()) {
+      const auto change = here ? std::ranges::find_if(events, changes) : events.end();
+      if (here && change != events.end()) events.erase(change + 1, events.end());
+      const auto last = std::find_if(events.rbegin(), events.rend(), changes);
+      if (!here && last != events.rend()) events.erase(events.begin(), last.base() - 1);
+    }
+    for (const orbit::CurveEvent* event : events) {
+      add(event->values);
+      met.push_back(event);
+    }
+  }
+};
+
+/// What is met, marked and named: resonances as 1:2, the others by their type.
+void add_met(figure::Panel& panel, const std::vector<const orbit::CurveEvent*>& met) {
+  figure::Points dots{
+      .colour = figure::colours::black, .drawing = figure::Drawing::discs, .diameter_mm = 1.1, .over_lines = true};
+  std::vector<NamedPlace> names;
+  for (const orbit::CurveEvent* event : met) {
+    const bool resonance = event->type.size() == 2 && event->type.front() == 'R';
+    dots.x.push_back(event->values[0]);
+    dots.y.push_back(event->values[1]);
+    names.push_back({event->values[0], event->values[1], resonance ? "1:" + event->type.substr(1) : event->type});
+  }
+  if (!names.empty()) panel.points.push_back(std::move(dots));
+  add_names(panel, names);
+}
+
+}  // namespace
+
+figure::Figure curve_figure(const orbit::Curve& curve, const ModelDefinition& definition,
+                            const std::vector<std::string>& names, const std::string& type) {
+  figure::Panel panel{.x_label = parameter_axis(definition, names[0]), .y_label = parameter_axis(definition, names[1])};
+  Motions motions(curve);
+  motions.line.label = type;
+  panel.lines.push_back(std::move(motions.line));
+  add_met(panel, motions.met);
+  figure::Figure figure;
+  figure.panels.push_back(std::move(panel));
+  return figure;
+}
+
+}  // namespace slapstick::app

@@ -155,9 +155,9 @@ bool Follower::accept(PathPoint& at, PathPoint next, double length) {
     Orbit renewed = seen.seen;
     renewed.values = next.orbit.values;
     if (auto orbit = refine(problem_, renewed)) {
-      const bool grows = next.watched.turn > 0.0;
-      next = point_of(problem_, *orbit, range_, {});
-      if ((next.watched.turn > 0.0) != grows) next = point_of(problem_, *orbit, range_, VectorXd(-next.tangent));
+      const VectorXd parameter =
+          VectorXd::Unit(problem_.unknowns(orbit->legs()), problem_.parameter_column(orbit->legs(), 0));
+      next = point_of(problem_, *orbit, range_, next.watched.turn > 0.0 ? parameter : VectorXd(-parameter));
     }
   }
   at = std::move(next);

@@ -44,17 +44,43 @@ bool vanishes(const Orbit& before, const Orbit& orbit, std::size_t leg) {
   return orbit.duration(leg) < nothing * before.duration(leg);
 }
 
+/// The largest relative velocity of a friction contact within a leg.
+double fastest(const ModeSet& set, const Orbit& orbit, std::size_t leg, std::size_t contact) {
+  constexpr int samples = 8;
+  const Eigen::Index velocity = set.frame().d + set.frame().frictions[contact].own;
+  double most = 0.0;
+  for (int k = 1; k < samples; ++k)
+    most = std::max(most, std::abs(state_within(set, orbit, leg, orbit.duration(leg) * k / samples)[velocity]));
+  return most;
+}
+
+/// Do contacts that stick in another leg slip in this one from one orbit to the next no more, however long it is? An impact has set them off, and what is
+/// left of their motion dies away.
+bool comes_to_rest(const ModeSet& set, const Orbit& before, const Orbit& orbit, std::size_t leg, std::size_t other) {
+  bool slips = false;
+  for (std::size_t i = 0; i < set.frame().frictions.size(); ++i) {
+    if (orbit.shape.legs[other].states.frictions[i] != mode::FrictionState::stick ||
+        orbit.shape.legs[leg].states.frictions[i] == mode::FrictionState::stick)
+      continue;
+    if (!(fastest(set, orbit, leg, i) < nothing * fastest(set, before, leg, i))) return false;
+    slips = true;
+  }
+  return slips;
+}
+
 /// An impact whose speed goes to zero is no more: its leg and the next are one, or a velocity of the same pair passes zero there instead.
 std::vector<Orbit> without_impact(const ModeSet& set, const Orbit& before, const Orbit& orbit, const TestValue& test) {
   std::vector<Orbit> shapes;
   if (test.test != Test::speed || test.kind != mode::GuardKind::gap) return shapes;
   if (orbit.legs() == 1) return {uncut(set, orbit)};
   Orbit turned = orbit;
-  rotate(turned, test.leg);  // the impact ends the first leg
-  for (std::size_t i = test.leg + 1; turned.legs() > 2 && vanishes(before, orbit, i % orbit.legs()); ++i) {
-    // what follows an impact of no speed at once is no more either
-    leave_out(turned, 1, 1);
-  }
+  rotate(turned, test.leg);                 // the impact ends the first leg
+  const auto gone = [&](std::size_t leg) {  // what follows an impact of no speed is no more either
+    return vanishes(before, orbit, leg) || comes_to_rest(set, before, orbit, leg, test.leg);
+  };
+  std::size_t next = test.leg + 1;
+  for (; turned.legs() > 2 && gone(next % orbit.legs()); ++next) leave_out(turned, 1, 1);
+  if (turned.legs() == 2 && gone(next % orbit.legs())) return {uncut(set, turned)};
   const mode::Frame& frame = set.frame();
   for (std::size_t i = 0; i < frame.frictions.size(); ++i) {
     if (frame.parallel(frame.frictions[i].own, frame.stops[test.contact].own) == 0) continue;
@@ -63,10 +89,10 @@ std::vector<Orbit> without_impact(const ModeSet& set, const Orbit& before, const
     leg.kind = mode::GuardKind::slip;
     leg.contact = static_cast<int>(i);
     leg.strikes.clear();
-    const auto next = reversed.shape.legs[1].states.frictions[i];
-    leg.event = next == mode::FrictionState::slip_plus ? EventKind::slip_plus
-                : next == mode::FrictionState::stick   ? EventKind::stick
-                                                       : EventKind::slip_minus;
+    const auto behind = reversed.shape.legs[1].states.frictions[i];
+    leg.event = behind == mode::FrictionState::slip_plus ? EventKind::slip_plus
+                : behind == mode::FrictionState::stick   ? EventKind::stick
+                                                         : EventKind::slip_minus;
     leg.event_contact = static_cast<int>(frame.stops.size() + i);
     shapes.push_back(std::move(reversed));
   }

@@ -191,7 +191,7 @@ def test_pictures_without_a_period_have_no_phase_and_no_period_on_their_axes():
     assert len(pairs) == 9 and all(abs(after - 0.8 * w) < 1e-12 for w, after in pairs), pairs
     good('diagram', 'bouncing-ball', '--sweep', 'restitution=0.5:0.9:5', '--start', 'reset', '--transient', '0', '--impacts', '5', '--most-periods', '50', '--out', 'd.csv', '--plot', 'd.png')
     script = read('d.gp')
-    says(script, "label 'flight' at")
+    says(script, "label 'flight [s]' at")
     assert 'period' not in script.split('multiplot')[1]
 
 

@@ -58,6 +58,23 @@ TEST(DyingMotion, IsNotSaidToEndWhereThereIsNoModel) {
   EXPECT_GT(branch.points.front().orbit.values[0], 0.2002);
 }
 
+/// A hammer that only just reaches its tool, which dry friction holds anywhere in an interval: behind the graze it is one of a family. Blows ever weaker
+/// leave the tool where its spring's force is friction, so that the hammer's amplitude is the gap and that displacement.
+TEST(DyingMotion, OfAnImpactLeavesAHeldToolAnywhere) {
+  const Posed posed(SLAPSTICK_ORBIT_MODELS "hammer-drill.toml", {{"gap", 0.004}, {"ratio", 1.0}}, {"frequency"},
+                    {21.5});
+  const auto first = posed.settled(1);
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 21.4, .to = 23.2});
+  EXPECT_FALSE(branch.failed) << branch.ended;
+  const auto graze = std::ranges::find(branch.special, SpecialType::GR, &orbit::SpecialPoint::type);
+  ASSERT_NE(graze, branch.special.end()) << branch.ended;
+  EXPECT_EQ(graze->outcome, "from there on it is one of a family");
+  const double omega = 2.0 * std::numbers::pi * graze->value;
+  const double amplitude = 120.0 / std::hypot(6000.0 - 1.5 * omega * omega, 12.0 * omega);
+  EXPECT_NEAR(amplitude, 0.004 + 30.0 / 40000.0, 1e-12);
+}
+
 /// As kinetic friction comes to static friction a stick-slip cycle on two belts shrinks to nothing, and its margins to rounding: no change there, at
 /// the end of what the model admits, is one.
 TEST(DyingMotion, AtTheEndOfTheRangeIsTheEndOfTheRange) {

@@ -94,42 +94,49 @@ Behind behind(const Problem& problem, const PathPoint& change, double range, con
 
 namespace {
 
-/// The state in the middle of a later leg of a motion that begins before the change in its leg. Empty if it cannot start.
-std::optional<VectorXd> later(const Problem& problem, Orbit orbit, const TestValue& test) {
+/// The states in the middles of the later legs of a motion that begins before the change. Empty if it cannot start.
+std::vector<VectorXd> later(const Problem& problem, Orbit orbit, const TestValue& test) {
   const System system(problem.family().model(orbit.values));
   const ModeSet set(constant_family(system.model()), {});
-  rotate(orbit, test.leg);
-  std::size_t longest = 1;
-  for (std::size_t i = 1; i < orbit.legs(); ++i)
-    if (orbit.duration(i) > orbit.duration(longest)) longest = i;
-  const double until = test.test == Test::no_stick ? 1.0 : test.at / orbit.duration(0);
-  std::optional<Motion> motion = motion_from(system, set, orbit, 0, 0.5 * until);
-  if (!motion) return std::nullopt;
-  while (motion->advance(Instant{}.plus(orbit.t[longest] + 0.5 * orbit.duration(longest))) == Outcome::event) {
+  const bool at_start = test.test == Test::guard && !(test.at > 0.0);
+  rotate(orbit, at_start ? (test.leg + orbit.legs() - 1) % orbit.legs() : test.leg);
+  const bool within = test.test == Test::guard && !at_start;
+  std::optional<Motion> motion = motion_from(system, set, orbit, 0, within ? 0.5 * test.at / orbit.duration(0) : 0.5);
+  std::vector<VectorXd> states;
+  for (std::size_t i = 1; motion && i < orbit.legs(); ++i) {
+    while (motion->advance(Instant{}.plus(orbit.t[i] + 0.5 * orbit.duration(i))) == Outcome::event) {
+    }
+    states.push_back(attractor::contact_state(*motion));
   }
-  return attractor::contact_state(*motion);
+  return states;
 }
 
-/// An orbit of the events before the change, so far from it along the branch; where that is singular, the change's own with another value of the parameter.
-Orbit beside(const Problem& problem, const PathPoint& change, double length, double range) {
-  if (auto point = step_to(problem, change, length, range)) return std::move(point->orbit);
+/// An orbit of the events before the change, so far from it along the branch. Where that is singular, or turns back as two zeros of a guard become one,
+/// the change's own with another value of the parameter.
+Orbit beside(const Problem& problem, const PathPoint& change, const TestValue& test, double length, double range) {
+  if (test.test != Test::speed)
+    if (auto point = step_to(problem, change, length, range)) return std::move(point->orbit);
   Orbit orbit = change.orbit;
   orbit.values[0] += length * range;
   return orbit;
 }
 
-/// How far motions a little to either side of the change are from one another, against the orbit's extent.
+/// How far motions a little to either side of the change come from one another, against the orbit's extent.
 double departure(const Problem& problem, const PathPoint& change, const TestValue& test, double length, double range) {
-  const auto here = later(problem, beside(problem, change, -length, range), test),
-             there = later(problem, beside(problem, change, length, range), test);
-  return here && there ? Extent(problem, change.orbit).distance(*here, *there) : 0.0;
+  const std::vector<VectorXd> here = later(problem, beside(problem, change, test, -length, range), test),
+                              there = later(problem, beside(problem, change, test, length, range), test);
+  const Extent extent(problem, change.orbit);
+  double most = 0.0;
+  for (std::size_t i = 0; i < std::min(here.size(), there.size()); ++i)
+    most = std::max(most, extent.distance(here[i], there[i]));
+  return most;
 }
 
 }  // namespace
 
 bool departs(const Problem& problem, const PathPoint& change, const TestValue& test, double range) {
   constexpr double near = 1e-7, far_off = 1e-3, shrinks = 0.3;
-  if (change.orbit.legs() < 2 || !(test.at > 0.0 || test.test == Test::no_stick)) return false;
+  if (change.orbit.legs() < 2 || test.test == Test::duration) return false;
   try {
     const double first = departure(problem, change, test, near, range);
     return first > far_off && departure(problem, change, test, 0.01 * near, range) > shrinks * first;

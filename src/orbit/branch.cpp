@@ -21,6 +21,8 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double shortest_for_pairs = 1e-4;  ///< arclength that may hold two special points of one type
+constexpr std::size_t most_events =
+    1000;  ///< of a cycle: the cost of a step grows like their cube, and a chatter's number has no bound
 constexpr double small_size = 0.2;  ///< of the first orbit's: what is smaller is followed in steps of this size's
 constexpr double straight = 0.95;   ///< least cosine between the tangents of neighbouring points
 
@@ -170,6 +172,10 @@ void Follower::run(PathPoint at) {
   const Extent extent(problem_, first);
   for (int count = 0; !ended_ && count < options_.most_points; ++count) {
     if (stopped(options_.stop)) return end("stopped", true);
+    if (at.orbit.legs() > most_events)
+      return end("an orbit of more than " + std::to_string(most_events) + " events is not followed, behind " +
+                     problem_.family().names[0] + " = " + shown(value(at)),
+                 true);
     if (!inside(value(at) + step_ * at.watched.turn * range_)) {
       if (end_at_boundary(at)) return;
       step_ *= 0.5;

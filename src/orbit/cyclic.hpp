@@ -19,4 +19,9 @@ bool from_some_event(const Orbit& a, const Orbit& b, const Alike& alike) {
   return false;
 }
 
+/// Do two cycles have the same legs, wherever they begin?
+[[nodiscard]] inline bool same_cycle(const Orbit& a, const Orbit& b) {
+  return from_some_event(a, b, [](std::size_t) { return true; });
+}
+
 }  // namespace slapstick::orbit

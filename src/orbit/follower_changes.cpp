@@ -6,6 +6,7 @@
 
 #include "orbit/beyond.hpp"
 #include "orbit/change_kind.hpp"
+#include "orbit/cyclic.hpp"
 #include "orbit/extent.hpp"
 #include "orbit/hidden.hpp"
 #include "orbit/lies_on.hpp"
@@ -158,6 +159,10 @@ bool Follower::pass(PathPoint& at, Change change) {
   for (std::size_t i = shorter ? 0 : 1; i < found.next.size(); ++i) special.born.push_back(found.next[i].point.orbit);
   if (shorter) return end_at(at, std::move(special), Beyond::shorter);
   Reshaped& next = found.next.front();
+  if (same_cycle(at.orbit, next.point.orbit) && !next.folds) {  // the motion beyond says that nothing changes
+    restart(at, std::move(next.point));
+    return !ended_;
+  }
   if (lies_on_first(problem_, branch_.points.size(), branch_, next.point.orbit))
     return end_at(at, std::move(special), Beyond::retraced);
   if (next.onset && next.folds && turn_round(at)) return true;  // back to the chatter that it has just left

@@ -22,11 +22,6 @@ using Eigen::VectorXd;
 
 constexpr std::size_t most_held = 4;  ///< legs whose length is held in turn
 
-/// Do two cycles have the same legs, wherever they begin?
-bool same_cycle(const Orbit& a, const Orbit& b) {
-  return from_some_event(a, b, [](std::size_t) { return true; });
-}
-
 /// The legs that a motion from inside the first leg shows, until it ends one of the orbit's own legs as the orbit does; the rest as in the orbit.
 /// Unlike a whole cycle of the motion it needs no stability.
 std::optional<Orbit> spliced(const Orbit& orbit, Motion motion) {

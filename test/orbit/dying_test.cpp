@@ -147,5 +147,32 @@ TEST(EdgeOfAModel, IsNoEndOfABranch) {
   EXPECT_NE(find_near(branch, SpecialType::PD, 0.077614611, 1e-8), nullptr);
 }
 
+/// Where static friction exceeds kinetic friction, an unstable orbit ends where a reversal would stick, where a stick would let go, and where a stick is
+/// missed: it is said to be a jump, not a failure of the search.
+TEST(Jump, OfAnUnstableOrbitIsTold) {
+  struct Case {
+    const char* model;
+    Overrides values;
+    const char* parameter;
+    double start, from, to;
+    std::size_t jumps;
+  };
+  const Overrides belts = {{"belt_speed", 0.08853344821736771},
+                           {"coupling", 1.1330223939008},
+                           {"kinetic_friction", 0.6273306109798724},
+                           {"static_friction", 1.169402214178631}};
+  for (const Case& c :
+       {Case{SLAPSTICK_ORBIT_MODELS "hammer-drill.toml", {{"gap", 0.004}}, "frequency", 22.3, 22.25, 22.6, 1},
+        Case{"two-blocks-on-belt", belts, "friction_ratio", 1.4074746946586065, 0.469, 4.222, 2}}) {
+    const Posed posed(c.model, c.values, {c.parameter}, {c.start});
+    const auto first = posed.settled();
+    ASSERT_TRUE(first);
+    const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = c.from, .to = c.to});
+    EXPECT_FALSE(branch.failed) << branch.ended;
+    const auto jumps = std::ranges::count(branch.special, std::string("jump"), &orbit::SpecialPoint::outcome);
+    EXPECT_EQ(static_cast<std::size_t>(jumps), c.jumps) << branch.ended;
+  }
+}
+
 }  // namespace
 }  // namespace slapstick::test

@@ -58,6 +58,7 @@ class Follower {
   bool end_cascade(PathPoint& at);
   bool end_cascade_with(PathPoint& at, SpecialPoint last);
   bool turn_round(PathPoint& at);
+  bool clear_onset(PathPoint& at);
   bool die_out(PathPoint& at, const std::optional<Death>& death);
   bool leave_edge(PathPoint& at);
   bool leave(PathPoint& at);

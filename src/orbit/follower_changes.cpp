@@ -273,7 +273,7 @@ bool Follower::leave_edge(PathPoint& at) {
 
 /// Where no step leads on and no change is found: an end that is known, or a way on. @returns false if there is none
 bool Follower::leave(PathPoint& at) {
-  return leave_edge(at) || leave_chatter(at) || turn_round(at) || end_cascade(at) ||
+  return leave_edge(at) || leave_chatter(at) || turn_round(at) || clear_onset(at) || end_cascade(at) ||
          die_out(at, dies_out(problem_, branch_, at, range_));
 }
 

@@ -125,6 +125,19 @@ bool Follower::turn_round(PathPoint& at) {
   return true;
 }
 
+/// Just behind the onset from which a chatter is followed its impacts come as close to rounding as the cascade's did: on with the chatter a little farther on.
+/// @returns false if it is not that
+bool Follower::clear_onset(PathPoint& at) {
+  constexpr double near = 1e-6;  // of the range
+  if (branch_.special.empty() || !branch_.points.back().chatter) return false;
+  const double place = branch_.special.back().value, passed = value(at) - place;
+  if (branch_.special.back().type != SpecialType::CH || !(std::abs(passed) < near * range_)) return false;
+  std::optional<Reshaped> next = beyond_cascade(problem_, at, place, range_, options_.stop);
+  if (!next || !((value(next->point) - value(at)) * passed > 0.0)) return false;
+  restart(at, std::move(next->point));
+  return true;
+}
+
 /// Where the impacts of a cascade have become too short to be followed: its limit, and the complete chatter beyond.
 /// @returns false if this is no cascade
 bool Follower::end_cascade(PathPoint& at) {

@@ -69,8 +69,28 @@ Course course_behind(const Problem& problem, const PathPoint& change, double mov
 
 }  // namespace
 
+namespace {
+
+constexpr double hardly_moved = 1e-3;  ///< of a leg's state: just behind a change a motion that goes on
+constexpr double shrinks = 0.3;        ///< a hundred times nearer, what grows like a root of the distance is a tenth
+
+/// Does a motion settle elsewhere, however near to the change?
+bool settles_elsewhere(const Problem& problem, const PathPoint& change, const Course& course, double nearer,
+                       const std::atomic<bool>* stop) {
+  const auto off = [&](const Course& found) {
+    if (!found.settled) return 0.0;
+    const Orbit& there = found.settled->orbit;
+    const bool on =
+        resembles(problem, there, change.orbit, hardly_moved) || resembles(problem, change.orbit, there, hardly_moved);
+    return on ? 0.0 : std::min(1.0, apart(problem, change.orbit, there));
+  };
+  const double first = off(course);
+  return first > hardly_moved && off(course_behind(problem, change, nearer, stop)) > shrinks * first;
+}
+
+}  // namespace
+
 Behind behind(const Problem& problem, const PathPoint& change, double range, const std::atomic<bool>* stop) {
-  constexpr double near = 1e-3;  // of a leg's state: just behind a change a motion that goes on has hardly moved
   const double sense = std::copysign(1.0, change.watched.turn);
   Behind result;
   for (const double distance : {1e-6, 1e-5, 1e-4}) {
@@ -78,13 +98,20 @@ Behind behind(const Problem& problem, const PathPoint& change, double range, con
     result.family = course.settled && !course.settled->isolated();
     if (course.settled) {
       const Orbit& orbit = course.settled->orbit;
-      if (resembles(problem, orbit, change.orbit, near) || resembles(problem, change.orbit, orbit, near)) {
+      const bool like = resembles(problem, orbit, change.orbit, hardly_moved) ||
+                        resembles(problem, change.orbit, orbit, hardly_moved);
+      if (like && orbit.shape.n != change.orbit.shape.n) {  // beside it, but not its successor
+        result.what = course.settled->label;
+        return result;
+      }
+      if (like) {
         result.next = Reshaped{point_of(problem, orbit, range, {}), false, false, {}, 0.0, 0.0, 0.0};
         if (result.next->point.watched.turn * sense < 0.0) result.next->point = reversed(std::move(result.next->point));
         return result;
       }
     }
-    if (!course.gone) continue;
+    const double nearer = sense * 0.01 * distance * range;
+    if (!course.gone && !settles_elsewhere(problem, change, course, nearer, stop)) continue;
     const bool stays = course.settled && (course.settled->stable() || result.family);
     result.what = stays ? course.settled->label : "no periodic orbit within " + std::to_string(transient) + " cycles";
     return result;
@@ -135,7 +162,7 @@ double departure(const Problem& problem, const PathPoint& change, const TestValu
 }  // namespace
 
 bool departs(const Problem& problem, const PathPoint& change, const TestValue& test, double range) {
-  constexpr double near = 1e-7, far_off = 1e-3, shrinks = 0.3;
+  constexpr double near = 1e-7, far_off = 1e-5;
   if (change.orbit.legs() < 2 || test.test == Test::duration) return false;
   try {
     const double first = departure(problem, change, test, near, range);

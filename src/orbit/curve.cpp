@@ -157,7 +157,11 @@ std::optional<Orbit> CurveFollower::corrected(const Place& from, double step, do
 CurveFollower::Place CurveFollower::start(Orbit orbit) {
   Place here = place(std::move(orbit), nullptr);
   if (const auto found = corrected(here, 0.0, 0.25 * options_.longest_step)) here = place(*found, &here);
-  own_ = own_margins(point_, here.watched.tests);
+  std::vector<std::vector<TestValue>> off;
+  for (const double aside : {0.1 * options_.longest_step, -0.1 * options_.longest_step})
+    if (const auto there = moved(here, 0.0, aside))
+      off.push_back(test_values(ModeSet(problem_.family(), there->values), *there));
+  own_ = own_margins(point_, here.watched.tests, off);
   tests_ = curve_tests(problem_, point_, here.watched, own_);
   return here;
 }
@@ -354,6 +358,9 @@ Curve CurveFollower::run(Orbit orbit, double sign) {
 
 Curve locus(const Problem& problem, const SpecialPoint& point, const CurveOptions& options) {
   if (problem.parameters() != 2) throw InputError("curve: a family of two parameters is needed");
+  if (point.beside)
+    throw InputError("curve: at " + problem.family().names[0] + " = " + shown(point.value) +
+                     " the motion dies out, where its equations are singular: there is no curve to follow");
   if (point.type == SpecialType::BP)
     return joined(crossing_curve(problem, point, options, -1.0), crossing_curve(problem, point, options, 1.0),
                   &Curve::met);

@@ -90,25 +90,6 @@ bool of_events(SpecialType type) {
   return type == SpecialType::GR || type == SpecialType::SL || type == SpecialType::CH || type == SpecialType::CO;
 }
 
-/// What is compared with what: margins of one test and one quantity.
-int quantity(const TestValue& test) {
-  const auto kind = test.kind == mode::GuardKind::stick_above ? mode::GuardKind::stick_below : test.kind;
-  return test.test == Test::duration ? -1 : static_cast<int>(kind);
-}
-
-/// Is a margin as good as zero beside those of its kind? One without its like is compared with all, whatever their units.
-bool vanishes(const std::vector<TestValue>& tests, std::size_t which) {
-  const TestValue& test = tests[which];
-  constexpr double zero = 1e-6, zero_of_any = 1e-10;
-  double alike = 0.0, any = 0.0;
-  for (const TestValue& other : tests) {
-    if (!std::isfinite(other.value)) continue;
-    any = std::max(any, std::abs(other.value));
-    if (other.test == test.test && quantity(other) == quantity(test)) alike = std::max(alike, std::abs(other.value));
-  }
-  return std::abs(test.value) <= std::max(zero * alike, zero_of_any * any);
-}
-
 }  // namespace
 
 double sum_of_pair(const Watched& watched) {
@@ -123,9 +104,15 @@ double sum_of_pair(const Watched& watched) {
   return sum;
 }
 
-std::vector<bool> own_margins(const SpecialPoint& point, const std::vector<TestValue>& tests) {
+std::vector<bool> own_margins(const SpecialPoint& point, const std::vector<TestValue>& tests,
+                              const std::vector<std::vector<TestValue>>& off) {
+  constexpr double zero = 1e-3;  // of what a margin comes to off the curve
   std::vector<bool> own(tests.size(), false);
-  for (std::size_t i = 0; i < own.size(); ++i) own[i] = vanishes(tests, i);
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    double most = 0.0;
+    for (const std::vector<TestValue>& aside : off) most = std::max(most, std::abs(aside[i].value));
+    own[i] = std::isfinite(most) && std::abs(tests[i].value) < zero * most;
+  }
   if (of_events(point.type)) own.at(point.test) = true;
   return own;
 }

@@ -24,7 +24,10 @@ struct CurveTest {
 
 /// The margins that are zero all along (indices of Watched::tests): the point's own, and those that say the same in other words, as the length of a
 /// slip that dies with the speed of an impact.
-[[nodiscard]] std::vector<bool> own_margins(const SpecialPoint& point, const std::vector<TestValue>& tests);
+/// @param tests  on the curve
+/// @param off    of orbits of the same events beside it
+[[nodiscard]] std::vector<bool> own_margins(const SpecialPoint& point, const std::vector<TestValue>& tests,
+                                            const std::vector<std::vector<TestValue>>& off);
 
 /// @param start  at the curve's first point
 /// @param own    of own_margins

@@ -147,13 +147,12 @@ void sharpen_death(const Problem& problem, const Branch& branch, const PathPoint
   while (orbits.size() > 1 && orbits.back()->values != from.orbit.values) orbits.pop_back();
   for (const PathPoint& next : beside) orbits.push_back(&next.orbit);
   const std::optional<Death> death = dies_out(orbits);
-  if (!death || !(death->error < change.special.error)) return;
-  change.special.value = death->value;
-  change.special.error = death->error;
-  if (beside.empty()) return;
-  change.special.solution =
-      describe(problem, beside[beside.size() / 2].orbit, nullptr);  // regular: others can be found from it
-  change.special.beside = true;
+  if (!death || beside.empty()) return;
+  if (death->error < change.special.error) {
+    change.special.value = death->value;
+    change.special.error = death->error;
+  }
+  change.nearby = describe(problem, beside[beside.size() / 2].orbit, nullptr);
 }
 
 }  // namespace slapstick::orbit

@@ -149,6 +149,11 @@ bool Follower::pass(PathPoint& at, Change change) {
   if (found.none()) {
     if (!found.left.empty() && !found.family) return end_at(at, std::move(special), Beyond::jump, found.left);
     const bool family = found.family || begins_family(problem_, at.orbit, change.at, change.test);
+    if (family && change.nearby) {
+      change.nearby->multipliers = special.solution.multipliers;
+      special.solution = std::move(*change.nearby);
+      special.beside = true;
+    }
     const bool departure = !family && departs(problem_, change.at, change.test, range_);
     return end_at(at, std::move(special), family ? Beyond::family : departure ? Beyond::departure : Beyond::unknown);
   }

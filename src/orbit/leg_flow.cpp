@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <tuple>
+#include <utility>
 
 #include "slapstick/base/error.hpp"
 
@@ -206,13 +206,21 @@ std::ptrdiff_t held(const ModeSet& set, const Leg& leg) {
 }
 
 std::size_t freest_leg(const ModeSet& set, const Orbit& orbit) {
-  const auto rank = [&](std::size_t i) {
-    const Leg& leg = orbit.shape.legs[i];
-    return std::tuple(leg.ending == Ending::chatter, held(set, leg), -orbit.duration(i));
+  const double alike =
+      1e-6 * (orbit.t.back() - orbit.t.front());  // as half swings between dry surfaces: not told apart by rounding
+  const auto held_in = [&](std::size_t i) {
+    return std::pair(orbit.shape.legs[i].ending == Ending::chatter, held(set, orbit.shape.legs[i]));
+  };
+  const auto phase = [&](std::size_t i) { return orbit.t[i] - std::floor(orbit.t[i]); };
+  const auto freer = [&](std::size_t i, std::size_t than) {
+    if (held_in(i) != held_in(than)) return held_in(i) < held_in(than);
+    const double longer = orbit.duration(i) - orbit.duration(than);
+    if (std::abs(longer) > alike) return longer > 0.0;
+    return orbit.shape.n > 0 && phase(i) < phase(than);
   };
   std::size_t best = 0;
   for (std::size_t i = 1; i < orbit.legs(); ++i)
-    if (rank(i) < rank(best)) best = i;
+    if (freer(i, best)) best = i;
   return best;
 }
 

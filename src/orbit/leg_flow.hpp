@@ -60,7 +60,8 @@ struct LegValue {
 
 /// How many velocities the mode of a leg holds still: the fewer, the freer.
 [[nodiscard]] std::ptrdiff_t held(const ModeSet& set, const Leg& leg);
-/// The leg in which least is held, of several the longest; a chatter's tail only if there is nothing else.
+/// The leg in which least is held, of several the longest, of equally long ones that which begins at the earliest phase; a chatter's tail only if there is
+/// nothing else.
 [[nodiscard]] std::size_t freest_leg(const ModeSet& set, const Orbit& orbit);
 
 /// The contact state of an extended one.

@@ -87,67 +87,22 @@ std::vector<VectorXd> directions(const Problem& problem, const Linearised& linea
   return all;
 }
 
-/// Where legs shrink to nothing the equations are singular: the sensitivity of the parameter at which one of them has some length, ever shorter,
-/// extrapolated to none.
-std::vector<double> death_sensitivity(const Problem& problem, const Orbit& orbit, double range) {
-  const std::vector<PathPoint> points = away_from_death(problem, point_of(problem, orbit, range, {}), range, 7);
-  const Index place = problem.parameter_column(orbit.legs(), 0);
-  const std::size_t leg = dying_leg(problem, points.front());
-  std::vector<double> lengths;
-  std::vector<std::vector<double>> rates(static_cast<std::size_t>(problem.parameters()) - 1);
-  for (const PathPoint& at : points) {
-    const ModeSet set(problem.family(), at.orbit.values);
-    const std::vector<VectorXd> all = directions(problem, linearise(problem, set, at.orbit), at);
-    lengths.push_back(at.orbit.duration(leg));
-    for (std::size_t j = 0; j < all.size(); ++j) {
-      const double along = growth(problem, at, all[j], leg) / growth(problem, at, at.tangent, leg);
-      const Index column = problem.parameter_column(orbit.legs(), static_cast<Index>(j) + 1);
-      rates[j].push_back((all[j][place] - at.tangent[place] * along) * at.units[place] / at.units[column]);
-    }
-  }
-  if (lengths.size() < 4) throw NumericalError("sensitivity: too few orbits beside the special point");
-  std::vector<double> result;
-  for (std::size_t j = 0; j < rates.size(); ++j) {
-    const std::vector<double>& rate = rates[j];
-    const double all = at_zero(lengths, rate),
-                 fewer = at_zero({lengths.begin(), lengths.end() - 1}, {rate.begin(), rate.end() - 1});
-    double size =
-        1e-3 * range / points.front().units[problem.parameter_column(orbit.legs(), static_cast<Index>(j) + 1)];
-    for (const double r : rate) size = std::max(size, std::abs(r));
-    result.push_back(std::abs(all - fewer) < agreement * size ? all : std::nan(""));
-  }
-  return result;
-}
-
-}  // namespace
-
-/// On the solutions v(s, q) of the equations, s arclength and q another parameter, f(v) = 0 keeps the point what it is:
-/// ds/dq = -(df/dq) / (df/ds), and d value / dq = dp/dq + dp/ds ds/dq. The directions are exact, the derivatives of f central differences
-/// of points that solve the equations.
-std::vector<double> sensitivity(const Family& full, const std::vector<double>& values, const SpecialPoint& point) {
-  const Problem problem(full, values);
-  Orbit orbit = point.solution.orbit;
-  const double range = std::max(1e-3, std::abs(values[0]));
-  const double own = orbit.values[0];
-  orbit.values = values;
-  if (point.beside) {
-    orbit.values[0] = own;
-    return death_sensitivity(problem, orbit, range);
-  }
-  if (point.type == SpecialType::BP) return crossing_sensitivity(problem, orbit, range);
-  if (point.birth) orbit = doubling(problem, orbit);
-  const PathPoint at = point_of(problem, orbit, range, {});
-  const std::size_t legs = orbit.legs();
-  const ModeSet set(problem.family(), orbit.values);
-  const Linearised linear = linearise(problem, set, orbit);
+/// How the parameter moves with each other one at a point of a branch when f(v) keeps its value on the solutions v(s, q) of the equations, s arclength and q
+/// another parameter: ds/dq = -(df/dq) / (df/ds), and d value / dq = dp/dq + dp/ds ds/dq. The directions are exact, the derivatives of f central
+/// differences of points that solve the equations.
+std::vector<double> moved_with(const Problem& problem, const PathPoint& at, double range,
+                               const std::function<double(const Watched&)>& f) {
+  const std::size_t legs = at.orbit.legs();
+  const ModeSet set(problem.family(), at.orbit.values);
+  const Linearised linear = linearise(problem, set, at.orbit);
   const auto value_at = [&](const VectorXd& direction, double length) {
-    Orbit moved = orbit;
+    Orbit moved = at.orbit;
     move(problem, linear, length * direction.cwiseProduct(at.units), 0.0, moved);
     std::vector<Condition> conditions = fixed_parameters(problem, legs);
     conditions[0].row = at.tangent.cwiseQuotient(at.units).transpose();
     if (!solve(problem, moved, conditions).converged)
       throw NumericalError("sensitivity: no orbit beside the special point");
-    return defining(point, point_of(problem, moved, range, at.tangent).watched);
+    return f(point_of(problem, moved, range, at.tangent).watched);
   };
   const auto rate = [&](const VectorXd& direction, double h) {
     return (value_at(direction, h) - value_at(direction, -h)) / (2.0 * h);
@@ -162,6 +117,98 @@ std::vector<double> sensitivity(const Family& full, const std::vector<double>& v
     result.push_back(moved / at.units[problem.parameter_column(legs, j)]);
   }
   return result;
+}
+
+/// The rates of all parameters at points of a branch, and the lengths there of a leg that dies.
+struct Rates {
+  std::vector<double> lengths;
+  std::vector<std::vector<double>> of;  ///< a list for each parameter
+  std::vector<double> least;            ///< of each: what is next to nothing
+
+  /// Extrapolated to no length; not a number if one point less says otherwise.
+  [[nodiscard]] double limit(std::size_t j) const {
+    const double all = at_zero(lengths, of[j]),
+                 fewer = at_zero({lengths.begin(), lengths.end() - 1}, {of[j].begin(), of[j].end() - 1});
+    return std::abs(all - fewer) < agreement * size(j) ? all : std::nan("");
+  }
+  [[nodiscard]] double size(std::size_t j) const {
+    double most = least[j];
+    for (const double rate : of[j]) most = std::max(most, std::abs(rate));
+    return most;
+  }
+};
+
+/// With a leg's length kept.
+std::vector<double> moved_with_leg(const Problem& problem, const PathPoint& at, std::size_t leg) {
+  const ModeSet set(problem.family(), at.orbit.values);
+  const std::vector<VectorXd> all = directions(problem, linearise(problem, set, at.orbit), at);
+  const Index place = problem.parameter_column(at.orbit.legs(), 0);
+  std::vector<double> rates;
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    const double along = growth(problem, at, all[j], leg) / growth(problem, at, at.tangent, leg);
+    rates.push_back((all[j][place] - at.tangent[place] * along) * at.units[place] /
+                    at.units[place + static_cast<Index>(j) + 1]);
+  }
+  return rates;
+}
+
+/// Where legs shrink to nothing the equations are singular: the sensitivity of the parameter at which one of them has some length, ever shorter,
+/// extrapolated to none. Another parameter may part what vanishes there together: it is believed if the margins that do say the same.
+std::vector<double> death_sensitivity(const Problem& problem, const Orbit& orbit, double range) {
+  constexpr std::size_t most = 7, fewest = 4;
+  constexpr double falls = 0.5;  // from the farthest point to the nearest, what vanishes there
+  const std::vector<PathPoint> points = away_from_death(problem, point_of(problem, orbit, range, {}), range, most);
+  if (points.size() < fewest) throw NumericalError("sensitivity: too few orbits beside the special point");
+  const std::size_t leg = dying_leg(problem, points.front()), others = orbit.values.size() - 1;
+  const auto rates_by = [&](const std::function<std::vector<double>(const PathPoint&)>& moved) {
+    Rates rates{{}, std::vector<std::vector<double>>(others), {}};
+    const VectorXd& units = points.front().units;
+    for (std::size_t j = 0; j < others; ++j)
+      rates.least.push_back(1e-3 * range / units[problem.parameter_column(orbit.legs(), static_cast<Index>(j) + 1)]);
+    for (const PathPoint& at : points) {
+      const std::vector<double> here = moved(at);
+      rates.lengths.push_back(at.orbit.duration(leg));
+      for (std::size_t j = 0; j < others; ++j) rates.of[j].push_back(here[j]);
+    }
+    return rates;
+  };
+  const Rates rates = rates_by([&](const PathPoint& at) { return moved_with_leg(problem, at, leg); });
+  std::vector<double> result;
+  for (std::size_t j = 0; j < others; ++j) result.push_back(rates.limit(j));
+  std::vector<bool> confirmed(others, false);
+  const std::vector<TestValue>& near = points.front().watched.tests;
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    if (near[i].test == Test::duration || !(near[i].value < falls * points.back().watched.tests[i].value)) continue;
+    const Rates kept = rates_by([&](const PathPoint& at) {
+      return moved_with(problem, at, range, [i](const Watched& watched) { return watched.tests[i].value; });
+    });
+    for (std::size_t j = 0; j < others; ++j) {
+      const double off = std::abs(kept.limit(j) - result[j]), close = agreement * std::max(kept.size(j), rates.size(j));
+      if (off > close) result[j] = std::nan("");
+      if (off <= close) confirmed[j] = true;
+    }
+  }
+  for (std::size_t j = 0; j < others; ++j)
+    if (!confirmed[j]) result[j] = std::nan("");
+  return result;
+}
+
+}  // namespace
+
+std::vector<double> sensitivity(const Family& full, const std::vector<double>& values, const SpecialPoint& point) {
+  const Problem problem(full, values);
+  Orbit orbit = point.solution.orbit;
+  const double range = std::max(1e-3, std::abs(values[0]));
+  const double own = orbit.values[0];
+  orbit.values = values;
+  if (point.beside) {
+    orbit.values[0] = own;
+    return death_sensitivity(problem, orbit, range);
+  }
+  if (point.type == SpecialType::BP) return crossing_sensitivity(problem, orbit, range);
+  if (point.birth) orbit = doubling(problem, orbit);
+  const PathPoint at = point_of(problem, orbit, range, {});
+  return moved_with(problem, at, range, [&](const Watched& watched) { return defining(point, watched); });
 }
 
 }  // namespace slapstick::orbit

@@ -15,6 +15,8 @@ struct Change {
   PathPoint at;
   double length = 0.0;  ///< from `from` to there
   TestValue test;
+  std::optional<Solution>
+      nearby;  ///< where several legs are gone at the change, and it may be singular: a regular orbit beside it
 };
 [[nodiscard]] std::optional<Change> find_change(const Problem& problem, const PathPoint& from, const PathPoint& to,
                                                 double length, double range);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "beside.hpp"
@@ -114,6 +115,33 @@ TEST(Curve, IsNoTorusAtANeutralSaddleAndNoDoublingAtAPole) {
   EXPECT_TRUE(of("PD").holds(with({1e5, -1.0})));
   const orbit::Watched pole = with({1e28, -1e12});
   EXPECT_TRUE(std::isnan(of("PD").value({pole, {}})));
+}
+
+/// What is zero all along a curve is not told by its size: heavier by a million, with all forces, the same machine has the same curve.
+TEST(Curve, DoesNotDependOnTheUnitOfMass) {
+  const Ranges in{8.0, 20.0, 0.001, 0.006};
+  std::array<std::pair<long, std::size_t>, 2> seen;
+  for (const double factor : {1.0, 1e6}) {
+    Overrides values = {{"force", 120.0}, {"m1", 1.5},  {"m2", 4.0},  {"k1", 6000.0},
+                        {"k2", 4e4},      {"c1", 12.0}, {"c2", 40.0}, {"kinetic", 30.0}};
+    for (auto& [name, value] : values) value *= factor;
+    const Posed single(SLAPSTICK_ORBIT_MODELS "hammer-drill.toml", values, {"frequency"}, {14.0});
+    const auto first = single.settled();
+    ASSERT_TRUE(first);
+    const orbit::Branch branch = orbit::follow(*single.problem, first->orbit, {.from = in.from, .to = in.to});
+    const auto sl = std::ranges::find(branch.special, SpecialType::SL, &orbit::SpecialPoint::type);
+    ASSERT_NE(sl, branch.special.end());
+    orbit::SpecialPoint point = *sl;
+    const Posed both(SLAPSTICK_ORBIT_MODELS "hammer-drill.toml", values, {"frequency", "gap"}, {point.value, 0.004});
+    point.solution.orbit.values = {point.value, 0.004};
+    const orbit::Curve curve = orbit::locus(
+        *both.problem, point, {.from = in.from, .to = in.to, .second_from = in.second_from, .second_to = in.second_to});
+    seen[factor > 1.0 ? 1 : 0] = {
+        std::ranges::count_if(curve.points, [](const orbit::CurvePoint& p) { return p.solution.is_motion; }),
+        curve.met.size()};
+  }
+  EXPECT_GT(seen[0].first, 10);
+  EXPECT_EQ(seen[0], seen[1]);
 }
 
 /// The locus of a BP came to the ends of its ranges by ever smaller steps, and never there.

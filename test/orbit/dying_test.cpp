@@ -58,6 +58,28 @@ TEST(DyingMotion, IsNotSaidToEndWhereThereIsNoModel) {
   EXPECT_GT(branch.points.front().orbit.values[0], 0.2002);
 }
 
+/// Where static and kinetic friction move apart the slips do not die together any more: their lengths alone say 1/3 and 2/3, where the place is static
+/// friction. Another start came to a root so well known that no orbit beside it was kept.
+TEST(DyingMotion, HasNoSensitivityToWhatPartsIt) {
+  const Posed posed("coulomb-oscillator", {{"kinetic_friction", 0.2}}, {"amplitude"}, {0.3});
+  const Posed apart("coulomb-oscillator", {}, {"amplitude", "static_friction", "kinetic_friction"}, {0.3, 0.2, 0.2});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.1999, .to = 0.31});
+  const orbit::SpecialPoint* death = find_near(branch, SpecialType::SL, 0.2, 1e-3);
+  ASSERT_NE(death, nullptr);
+  for (const double rate : orbit::sensitivity(apart.family, {death->value, 0.2, 0.2}, *death))
+    EXPECT_TRUE(std::isnan(rate)) << rate;
+  const Posed other("coulomb-oscillator", {{"omega", 1.04115}, {"static_friction", 0.741426}}, {"amplitude"}, {0.811});
+  const Posed both("coulomb-oscillator", {{"omega", 1.04115}}, {"amplitude", "static_friction"}, {0.811, 0.741426});
+  const auto second = other.settled();
+  ASSERT_TRUE(second);
+  const orbit::Branch again = orbit::follow(*other.problem, second->orbit, {.from = 0.53, .to = 0.84344});
+  const orbit::SpecialPoint* same = find_near(again, SpecialType::SL, 0.741426, 1e-6);
+  ASSERT_NE(same, nullptr);
+  EXPECT_NEAR(orbit::sensitivity(both.family, {same->value, 0.741426}, *same).front(), 1.0, 1e-9);
+}
+
 /// A hammer that only just reaches its tool, which dry friction holds anywhere in an interval: behind the graze it is one of a family. Blows ever weaker
 /// leave the tool where its spring's force is friction, so that the hammer's amplitude is the gap and that displacement.
 TEST(DyingMotion, OfAnImpactLeavesAHeldToolAnywhere) {
@@ -171,6 +193,30 @@ TEST(Jump, OfAnUnstableOrbitIsTold) {
     EXPECT_FALSE(branch.failed) << branch.ended;
     const auto jumps = std::ranges::count(branch.special, std::string("jump"), &orbit::SpecialPoint::outcome);
     EXPECT_EQ(static_cast<std::size_t>(jumps), c.jumps) << branch.ended;
+  }
+}
+
+/// A stable orbit that ends leaves the motion near by, in another sequence or with other periods: the table says on what it settles, as `classify` does
+/// from its state just behind.
+TEST(Jump, OfAStableOrbitSaysWhereTo) {
+  struct Case {
+    double preload, start;
+    std::vector<std::pair<double, const char*>> jumps;
+  };
+  for (const Case& c : {Case{150.0, 9.0, {{7.3382725387, "2-4-II"}, {9.2354849281, "1-1-II"}}},
+                        Case{150.0, 6.7, {{6.3867752888, "2-2-II"}, {6.7735538127, "3-3-II"}}},
+                        Case{100.0, 8.0, {{6.8995088154, "8-16-II"}, {9.7191269489, "1-1-II"}}}}) {
+    const Posed posed(SLAPSTICK_ORBIT_MODELS "vibrating-screen.toml", {{"preload", c.preload}}, {"frequency"},
+                      {c.start});
+    const auto first = posed.settled();
+    ASSERT_TRUE(first);
+    const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 4.0, .to = 25.0});
+    EXPECT_FALSE(branch.failed) << branch.ended;
+    for (const auto& [value, label] : c.jumps) {
+      const orbit::SpecialPoint* jump = find_near(branch, SpecialType::SL, value, 1e-9);
+      ASSERT_NE(jump, nullptr) << value << ' ' << branch.ended;
+      EXPECT_EQ(jump->outcome, std::string("jump to ") + label) << value;
+    }
   }
 }
 

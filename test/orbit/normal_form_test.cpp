@@ -127,5 +127,22 @@ TEST(NormalForm, SaysHowGoodItIsBesideAGraze) {
   expect_doubled_as_foretold(posed, point, 1e-7);
 }
 
+/// Two free half swings of an orbit are equally long, but for rounding: in which of them q is measured must not depend on where the branch began.
+TEST(NormalForm, IsTheSameFromEveryStart) {
+  std::vector<double> coefficients;
+  for (const double start : {7.0, 6.96, 6.9}) {
+    const Posed posed(SLAPSTICK_ORBIT_MODELS "vibrating-screen.toml", {}, {"frequency"}, {start});
+    const auto first = posed.settled();
+    ASSERT_TRUE(first);
+    const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 6.8, .to = 7.1});
+    const auto fold = std::ranges::find(branch.special, orbit::SpecialType::LP, &orbit::SpecialPoint::type);
+    ASSERT_NE(fold, branch.special.end()) << branch.ended;
+    coefficients.push_back(fold->normal_form.coefficient.value_or(std::nan("")));
+  }
+  EXPECT_GT(coefficients[0], 0.0);
+  EXPECT_NEAR(coefficients[1], coefficients[0], 1e-6 * coefficients[0]);
+  EXPECT_NEAR(coefficients[2], coefficients[0], 1e-6 * coefficients[0]);
+}
+
 }  // namespace
 }  // namespace slapstick::test

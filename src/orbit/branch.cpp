@@ -66,6 +66,7 @@ void Follower::look_for_pairs(const PathPoint& at, const PathPoint& next, double
 void Follower::add(std::vector<SpecialPoint> smooth, std::size_t after) {
   constexpr double merged = 1e-3;  // at a fold or crossing that is known to 1e-10 in the parameter, states are to 1e-5
   for (SpecialPoint& special : smooth) {
+    if (std::min(special.value - options_.from, options_.to - special.value) <= exactly * range_) continue;
     const bool doubling = (special.type == SpecialType::LP || special.type == SpecialType::BP) &&
                           becomes_shorter(problem_, branch_.points.back().orbit, special.solution.orbit, merged);
     special.after = after;

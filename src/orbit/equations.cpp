@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "slapstick/base/error.hpp"
 
@@ -114,13 +113,11 @@ void move(const Problem& problem, const Linearised& at, const VectorXd& change, 
 }
 
 VectorXd sizes(const Problem& problem, const Orbit& orbit) {
-  constexpr double nothing =
-      1e-5;  // of how far forces would move it that cancel: they leave it so much of their rounding
   constexpr int samples =
       4;  // of each leg: at its events an orbit may be next to nothing, as a lone mass that grazes its stop
   const ModeSet set(constant_family(problem.family().model(orbit.values)), {});
   const Index n = set.frame().n, d = set.frame().d;
-  double displacement = 0.0, velocity = 0.0, acceleration = 0.0, time = 0.0;
+  double displacement = 0.0, velocity = 0.0;
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
     const Jet start = leg_start(set, orbit.shape.legs[i], orbit.x[i], orbit.t[i]);
     Jet X(start.all.rows(), 0, 0);
@@ -128,16 +125,9 @@ VectorXd sizes(const Problem& problem, const Orbit& orbit) {
     for (int k = 0; k <= samples; ++k) {
       displacement = std::max(displacement, X.value().head(n).cwiseAbs().maxCoeff());
       velocity = std::max(velocity, X.value().segment(d, n).cwiseAbs().maxCoeff());
-      const MatrixXd forces = set.mode(orbit.shape.legs[i].states).outline.system.middleRows(d, n).cwiseAbs();
-      acceleration = std::max(acceleration, (forces * X.value().cwiseAbs()).maxCoeff());
-      time = std::max(time, set.mode(orbit.shape.legs[i].states).longest_step);
       flow(set.mode(orbit.shape.legs[i].states), orbit.duration(i) * set.period() / samples, X);
     }
   }
-  // As far as forces move it within its own times: in slow forcing they cancel all along.
-  time = std::min(time, (orbit.t.back() - orbit.t.front()) * set.period() / (2.0 * std::numbers::pi));
-  velocity = std::max(velocity, nothing * acceleration * time);
-  displacement = std::max(displacement, nothing * acceleration * time * time);
   VectorXd state(2 * n);
   state << VectorXd::Constant(n, displacement > 0.0 ? displacement : 1.0),
       VectorXd::Constant(n, velocity > 0.0 ? velocity : 1.0);

@@ -125,12 +125,13 @@ std::vector<PathPoint> away_from_death(const Problem& problem, const PathPoint& 
 
 std::optional<Death> dies_out(const Branch& branch) { return dies_out(orbits_of(branch)); }
 
-std::optional<Death> dies_out(const Problem& problem, const Branch& branch, const PathPoint& at, double range) {
+std::optional<Death> dies_out(const Problem& problem, const Branch& branch, const PathPoint& last, double range) {
   if (auto death = dies_out(branch)) return death;
   constexpr std::size_t enough = 14;  // for the leg to have been ten times as long
-  const std::vector<PathPoint> away = away_from_death(problem, at, range, enough);
+  const std::vector<PathPoint> away = away_from_death(problem, last, range, enough);
   Orbits orbits;
-  for (auto point = away.rbegin(); point != away.rend(); ++point) orbits.push_back(&point->orbit);
+  for (const PathPoint& point : away) orbits.push_back(&point.orbit);
+  std::ranges::reverse(orbits);
   return dies_out(orbits);
 }
 
@@ -140,9 +141,9 @@ void sharpen_death(const Problem& problem, const Branch& branch, const PathPoint
   constexpr double closer = 1.3;  // in each step
   std::vector<PathPoint> beside;
   const double length = arclength(problem, from, change.at.orbit);
-  double left = length / closer;
-  for (int k = 0; k < nearer; ++k, left /= closer)
-    if (auto next = step_to(problem, from, length - left, range)) beside.push_back(std::move(*next));
+  for (int k = 1; k <= nearer; ++k)
+    if (auto next = step_to(problem, from, (1.0 - std::pow(closer, -k)) * length, range))
+      beside.push_back(std::move(*next));
   Orbits orbits = orbits_of(branch);
   while (orbits.size() > 1 && orbits.back()->values != from.orbit.values) orbits.pop_back();
   for (const PathPoint& next : beside) orbits.push_back(&next.orbit);

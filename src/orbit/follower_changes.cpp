@@ -119,7 +119,7 @@ void Follower::find_ways(const Change& change, Found& found) const {
   const auto apart = [&](const Reshaped& next) {
     return !next.onset && !next.renewed && next.apart > place(next).error;
   };
-  std::ranges::stable_partition(found.next, [&](const Reshaped& next) { return !apart(next); });
+  std::stable_partition(found.next.begin(), found.next.end(), [&](const Reshaped& next) { return !apart(next); });
   if (!found.next.empty() && !back_to_ && apart(found.next.front()))
     for (std::size_t i = 0; i < found.next.size() && !found.way; ++i) {
       std::optional<Way> way = way_back(reversed(found.next[i].point), place(found.next[i]));

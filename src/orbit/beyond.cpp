@@ -67,25 +67,24 @@ Course course_behind(const Problem& problem, const PathPoint& change, double mov
   return course;
 }
 
-}  // namespace
+constexpr double shrinks = 0.3;  ///< a hundred times nearer, what grows like a root of the distance is a tenth
 
-namespace {
-
-constexpr double hardly_moved = 1e-3;  ///< of a leg's state: just behind a change a motion that goes on
-constexpr double shrinks = 0.3;        ///< a hundred times nearer, what grows like a root of the distance is a tenth
+/// Has an orbit hardly moved from a change just behind it: the same long legs, in either?
+bool goes_on(const Problem& problem, const PathPoint& change, const Orbit& orbit) {
+  constexpr double hardly_moved = 1e-3;  // of a leg's state
+  return resembles(problem, orbit, change.orbit, hardly_moved) || resembles(problem, change.orbit, orbit, hardly_moved);
+}
 
 /// Does a motion settle elsewhere, however near to the change?
 bool settles_elsewhere(const Problem& problem, const PathPoint& change, const Course& course, double nearer,
                        const std::atomic<bool>* stop) {
+  constexpr double noticed = 1e-3;
   const auto off = [&](const Course& found) {
-    if (!found.settled) return 0.0;
-    const Orbit& there = found.settled->orbit;
-    const bool on =
-        resembles(problem, there, change.orbit, hardly_moved) || resembles(problem, change.orbit, there, hardly_moved);
-    return on ? 0.0 : std::min(1.0, apart(problem, change.orbit, there));
+    if (!found.settled || goes_on(problem, change, found.settled->orbit)) return 0.0;
+    return std::min(1.0, apart(problem, change.orbit, found.settled->orbit));
   };
   const double first = off(course);
-  return first > hardly_moved && off(course_behind(problem, change, nearer, stop)) > shrinks * first;
+  return first > noticed && off(course_behind(problem, change, nearer, stop)) > shrinks * first;
 }
 
 }  // namespace
@@ -98,8 +97,7 @@ Behind behind(const Problem& problem, const PathPoint& change, double range, con
     result.family = course.settled && !course.settled->isolated();
     if (course.settled) {
       const Orbit& orbit = course.settled->orbit;
-      const bool like = resembles(problem, orbit, change.orbit, hardly_moved) ||
-                        resembles(problem, change.orbit, orbit, hardly_moved);
+      const bool like = goes_on(problem, change, orbit);
       if (like && orbit.shape.n != change.orbit.shape.n) {  // beside it, but not its successor
         result.what = course.settled->label;
         return result;

@@ -47,7 +47,7 @@ Solution Follower::solution_of(const PathPoint& point, Verification* seen) const
 
 void Follower::look_for_pairs(const PathPoint& at, const PathPoint& next, double length) {
   Pair pair;
-  if (before_ && before_->point.orbit.shape.legs == next.orbit.shape.legs)
+  if (has_before(next))
     pair = pair_within(problem_, {before_->point, at, next, before_->length, length}, range_);
   else
     pair.points = within_halves(problem_, at, next, length, range_);

@@ -72,15 +72,6 @@ std::optional<Death> dies_out(const Orbits& orbits) {
   return best;
 }
 
-/// How many legs are gone from one orbit to another?
-std::ptrdiff_t legs_gone(const Orbit& from, const Orbit& to) {
-  constexpr double gone = 0.1;  // of a leg's length: less than what is left
-  std::ptrdiff_t count = 0;
-  for (std::size_t leg = 0; leg < to.legs(); ++leg)
-    if (!in_burst(to, leg) && to.duration(leg) < gone * from.duration(leg)) ++count;
-  return count;
-}
-
 }  // namespace
 
 double at_zero(const std::vector<double>& x, std::vector<double> y) {

@@ -29,6 +29,10 @@ class Follower {
   }
   [[nodiscard]] bool inside(double v) const { return v >= options_.from && v <= options_.to; }
   [[nodiscard]] Solution solution_of(const PathPoint& point, Verification* seen) const;
+  /// Is there a point before the last, with the events of this one?
+  [[nodiscard]] bool has_before(const PathPoint& at) const {
+    return before_ && before_->point.orbit.shape.legs == at.orbit.shape.legs;
+  }
   bool accept(PathPoint& at, PathPoint next, double length);
   [[nodiscard]] std::optional<Change> change_between(const PathPoint& at, const PathPoint& beyond, double length) const;
   [[nodiscard]] bool at_end(double place, double error, const PathPoint& at) const;

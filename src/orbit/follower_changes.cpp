@@ -43,7 +43,7 @@ bool is_model(const Problem& problem, std::vector<double> values, double value) 
 /// The first change. A point that is all but singular leads nowhere: the one before it may.
 std::optional<Change> Follower::change_between(const PathPoint& at, const PathPoint& beyond, double length) const {
   std::optional<Change> change = find_change(problem_, at, beyond, length, range_);
-  if (change || !before_ || !(before_->point.orbit.shape.legs == at.orbit.shape.legs)) return change;
+  if (change || !has_before(at)) return change;
   const double both = arclength(problem_, before_->point, beyond.orbit);
   change = find_change(problem_, before_->point, beyond, both, range_);
   if (change) change->length = arclength(problem_, at, change->at.orbit);
@@ -78,8 +78,7 @@ bool Follower::at_end(double place, double error, const PathPoint& at) const {
 bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why) {
   std::optional<Change> change = change_between(at, beyond, length);
   if (!change || fades(at.orbit, change->test.leg)) return look_nearer(at, length, why);
-  const bool same = before_ && before_->point.orbit.shape.legs == at.orbit.shape.legs;
-  sharpen_death(problem_, branch_, same ? before_->point : at, range_, *change);
+  sharpen_death(problem_, branch_, has_before(at) ? before_->point : at, range_, *change);
   SpecialPoint& special = change->special;
   if (at_end(special.value, special.error, at)) {
     end("range", false);

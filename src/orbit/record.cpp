@@ -325,4 +325,12 @@ Verification verify(const System& system, const Orbit& orbit) {
   return result;
 }
 
+int legs_gone(const Orbit& from, const Orbit& to) {
+  constexpr double left = 0.1;
+  int gone = 0;
+  for (std::size_t leg = 0; leg < to.legs(); ++leg)
+    if (!in_burst(to, leg) && to.duration(leg) < left * from.duration(leg)) ++gone;
+  return gone;
+}
+
 }  // namespace slapstick::orbit

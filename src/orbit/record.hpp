@@ -51,5 +51,7 @@ struct Verification {
 [[nodiscard]] bool in_burst(const Orbit& orbit, std::size_t leg);
 /// Is it one of those that are too short for their length and margins to be more than rounding?
 [[nodiscard]] bool fades(const Orbit& orbit, std::size_t leg);
+/// How many legs, but for those of bursts, are gone from one orbit of a shape to another: next to nothing is left of their lengths.
+[[nodiscard]] int legs_gone(const Orbit& from, const Orbit& to);
 
 }  // namespace slapstick::orbit

@@ -5,7 +5,6 @@
 #include "orbit/crossing.hpp"
 #include "orbit/dying.hpp"
 #include "orbit/extent.hpp"
-#include "orbit/record.hpp"
 #include "orbit/special.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/orbit/branch.hpp"
@@ -40,10 +39,6 @@ double best_ratio(const std::function<double(double)>& ratio) {
   return best;
 }
 
-}  // namespace
-
-namespace {
-
 /// At a crossing the equations are singular: it is located at either side in each parameter.
 std::vector<double> crossing_sensitivity(const Problem& problem, const Orbit& orbit, double range) {
   constexpr double part = 1e-4;
@@ -67,10 +62,6 @@ Orbit doubling(const Problem& problem, const Orbit& doubled) {
   if (!orbit) throw NumericalError("sensitivity: the orbit that doubles was not found from the doubled one");
   return *orbit;
 }
-
-}  // namespace
-
-namespace {
 
 /// The directions on the solutions v(s, q) of the equations, s arclength: in which each parameter but the first moves by its unit and s stays.
 std::vector<VectorXd> directions(const Problem& problem, const Linearised& linear, const PathPoint& at) {
@@ -147,7 +138,7 @@ std::vector<double> moved_with_leg(const Problem& problem, const PathPoint& at, 
   for (std::size_t j = 0; j < all.size(); ++j) {
     const double along = growth(problem, at, all[j], leg) / growth(problem, at, at.tangent, leg);
     rates.push_back((all[j][place] - at.tangent[place] * along) * at.units[place] /
-                    at.units[place + static_cast<Index>(j) + 1]);
+                    at.units[problem.parameter_column(at.orbit.legs(), static_cast<Index>(j) + 1)]);
   }
   return rates;
 }

@@ -273,14 +273,12 @@ namespace {
 /// Margins that are used up together where legs shrink to nothing are singular: how far they agree on the place is how well it is known.
 double disagreement(const Candidates& candidates, const std::pair<std::size_t, Located>& chosen, const PathPoint& from,
                     double length) {
-  constexpr double shrinks = 0.1, together = 1e-2;
+  constexpr double together = 1e-2;
   const Orbit& there = chosen.second.point.orbit;
-  std::ptrdiff_t gone = 0;
-  for (std::size_t leg = 0; leg < there.legs(); ++leg)
-    if (!in_burst(there, leg) && there.duration(leg) < shrinks * from.orbit.duration(leg)) ++gone;
+  if (legs_gone(from.orbit, there) < 2) return 0.0;
   double most = 0.0;
   for (const auto& [test, located] : candidates)
-    if (gone > 1 && std::abs(located.length - chosen.second.length) < together * length)
+    if (std::abs(located.length - chosen.second.length) < together * length)
       most = std::max(most, std::abs(located.point.orbit.values[0] - there.values[0]));
   return most;
 }

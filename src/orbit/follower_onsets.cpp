@@ -128,10 +128,12 @@ bool Follower::turn_round(PathPoint& at) {
 /// Just behind the onset from which a chatter is followed its impacts come as close to rounding as the cascade's did: on with the chatter a little farther on.
 /// @returns false if it is not that
 bool Follower::clear_onset(PathPoint& at) {
-  constexpr double near = 1e-6;  // of the range
-  if (branch_.special.empty() || !branch_.points.back().chatter) return false;
-  const double place = branch_.special.back().value, passed = value(at) - place;
-  if (branch_.special.back().type != SpecialType::CH || !(std::abs(passed) < near * range_)) return false;
+  constexpr double near = 10.0, widest = 1e-4;  // of the distance of the cascade's last change; of the range
+  if (branch_.special.size() < 2 || !branch_.points.back().chatter) return false;
+  const SpecialPoint &onset = branch_.special.back(), &last_change = branch_.special.end()[-2];
+  const double place = onset.value, passed = value(at) - place;
+  const double reach = std::min(near * std::abs(last_change.value - place), widest * range_);
+  if (onset.type != SpecialType::CH || !(std::abs(passed) < reach)) return false;
   std::optional<Reshaped> next = beyond_cascade(problem_, at, place, range_, options_.stop);
   if (!next || !((value(next->point) - value(at)) * passed > 0.0)) return false;
   restart(at, std::move(next->point));

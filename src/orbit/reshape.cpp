@@ -363,7 +363,9 @@ std::optional<Reshaped> beyond_cascade(const Problem& problem, const PathPoint& 
     for (const double side : {1.0, -1.0}) {
       try {
         std::vector<double> values = last.orbit.values;
-        values[0] = limit + side * length * range;
+        const double ahead = side * length * range, left = values[0] - limit;
+        if (ahead * left > 0.0 && std::abs(ahead) < std::abs(left)) continue;  // before the last orbit
+        values[0] = limit + ahead;
         const auto there = pose(problem.family(), values);
         const ModeSet set(constant_family(there->base().model()), {});
         const std::optional<Motion> motion =

@@ -210,6 +210,27 @@ TEST(Change, WithNothingBehindItIsAJump) {
   EXPECT_EQ(attractor("belt", {}, "damping_ratio", branch.special.back().value + 1e-5), "none");
 }
 
+/// Where a motion dies out margins are used up within rounding, that of a stop by 5e-8 of the range as well; behind it the same events go on.
+TEST(Change, BehindWhichTheSameEventsGoOnIsNone) {
+  const Overrides overrides = {{"damping_ratio", 0.09170313198423563},
+                               {"dashpot_ratio", 5.605143802961681},
+                               {"mass_ratio", 8.882177764245107},
+                               {"omega", 2.4783340590222633},
+                               {"phase", 0.0},
+                               {"restitution", 0.7378166350693303},
+                               {"static_friction", 0.14673072780766264},
+                               {"stiffness_ratio", 4.987529339884452}};
+  const Posed posed("vibro-impact", overrides, {"force_share_2"}, {0.0});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.0, .to = 1.0});
+  EXPECT_FALSE(branch.failed) << branch.ended;
+  const std::vector<double> sticks = values(branch, SpecialType::SL);
+  ASSERT_EQ(sticks.size(), 3U) << branch.ended;
+  EXPECT_NEAR(sticks.back(), 0.743334030184, 1e-11);
+  EXPECT_TRUE(values(branch, SpecialType::GR).empty());
+}
+
 /// A bubble of doubled orbits that opens and closes between two points of the branch: no sign changes there. The bubble was found with short steps.
 TEST(Branch, SeesADoublingThatIsTakenBackBetweenTwoPoints) {
   const Overrides damped = {{"damping_ratio", 0.0688}};

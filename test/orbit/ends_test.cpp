@@ -205,5 +205,53 @@ TEST(Graze, RightAheadOfAPointIsWhereTheSimulatorSays) {
   EXPECT_EQ(impacts(graze - 1e-11), impacts(graze + 1e-11) + 1);
 }
 
+/// Just behind the onset from which a chatter is followed its first steps are among impacts too short to be told from rounding; how near that is has
+/// nothing to do with the range.
+TEST(BranchOfChatter, IsFollowedFromItsOnsetInAnyRange) {
+  const Overrides values = {{"damping_ratio", 0.09386343155181627},
+                            {"dashpot_ratio", 4.985171604055366},
+                            {"force_share_2", 0.0},
+                            {"mass_ratio", 10.119324338277726},
+                            {"omega", 2.3617816406498755},
+                            {"restitution", 0.8155175435188234},
+                            {"static_friction", 0.15411938429145117},
+                            {"stiffness_ratio", 5.230796080110011}};
+  const Posed posed("vibro-impact", values, {"clearance"}, {-0.499});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = -0.53, .to = -0.496});
+  EXPECT_EQ(branch.ended, "down: range; up: range");
+  const auto onset = std::ranges::find(branch.special, SpecialType::CH, &orbit::SpecialPoint::type);
+  ASSERT_NE(onset, branch.special.end());
+  EXPECT_NEAR(onset->value, -0.5173143141, 2e-8);  // the limit of the grazes' geometric sequence
+  EXPECT_LT(onset->value, onset[1].value);
+  EXPECT_TRUE(branch.points.front().chatter);
+}
+
+/// As the coefficient of restitution comes to 1 a chatter has impacts without bound, and each step costs the cube of their number.
+TEST(BranchOfChatter, OfImpactsWithoutBoundEndsAndSaysWhy) {
+  const Overrides values = {
+      {"acceleration", 1.012888671993797}, {"gravity", 0.948853760922176}, {"omega", 0.8876782561858597}};
+  const Posed posed("shaken-table", values, {"restitution"}, {0.42189720735878417});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  const orbit::Branch branch =
+      orbit::follow(*posed.problem, first->orbit, {.from = 0.4, .to = 1.0, .longest_step = 0.1});
+  EXPECT_TRUE(branch.failed);
+  EXPECT_NE(branch.ended.find("more than 1000 events is not followed, behind restitution = 0.98"), std::string::npos)
+      << branch.ended;
+}
+
+/// Without loss at impacts all multipliers are on the unit circle. What is at the very end of a range may have another structure.
+TEST(Branch, HasNoSpecialPointAtTheVeryEndOfItsRange) {
+  const Posed posed("impact-pair", {}, {"restitution"}, {0.6});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.5, .to = 1.0});
+  EXPECT_EQ(branch.ended, "down: range; up: range");
+  EXPECT_TRUE(branch.special.empty());
+  EXPECT_NEAR(std::abs(branch.points.back().multipliers.front()), 1.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace slapstick::test

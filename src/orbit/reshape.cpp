@@ -1,7 +1,6 @@
 #include "orbit/reshape.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -9,6 +8,7 @@
 #include "orbit/coincident.hpp"
 #include "orbit/cyclic.hpp"
 #include "orbit/extent.hpp"
+#include "orbit/nearby_shapes.hpp"
 #include "orbit/record.hpp"
 #include "orbit/same_motion.hpp"
 #include "orbit/special.hpp"
@@ -21,116 +21,6 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr std::size_t most_held = 4;  ///< legs whose length is held in turn
-
-/// The legs that a motion from inside the first leg shows, until it ends one of the orbit's own legs as the orbit does; the rest as in the orbit.
-/// Unlike a whole cycle of the motion it needs no stability.
-std::optional<Orbit> spliced(const Orbit& orbit, Motion motion) {
-  constexpr int most_events = 12;
-  constexpr double at_its_time = 0.02;  // of a cycle
-  const double cycle = orbit.t.back() - orbit.t.front();
-  const Instant end = Instant{}.plus(orbit.t.back());
-  bool touched = false;
-  Orbit other = orbit;
-  other.shape.legs.clear();
-  other.x = {orbit.x[0]};
-  other.t = {orbit.t[0]};
-  for (int k = 0; k < most_events; ++k) {
-    const std::optional<Seen> seen = next_event(motion, 0, end, touched, nullptr);
-    if (!seen || touched) return std::nullopt;
-    other.shape.legs.push_back(seen->leg);
-    other.t.push_back(seen->t);
-    for (std::size_t i = 0; i + 1 < orbit.legs(); ++i) {
-      if (!(orbit.shape.legs[i] == seen->leg) || std::abs(orbit.t[i + 1] - seen->t) > at_its_time * cycle) continue;
-      const auto from = static_cast<std::ptrdiff_t>(i) + 1;
-      Orbit whole = other;
-      whole.shape.legs.insert(whole.shape.legs.end(), orbit.shape.legs.begin() + from, orbit.shape.legs.end());
-      whole.x.insert(whole.x.end(), orbit.x.begin() + from, orbit.x.end());
-      whole.t.insert(whole.t.end(), orbit.t.begin() + from + 1, orbit.t.end());
-      if (!(whole.shape.legs == orbit.shape.legs)) return whole;
-    }
-    other.x.push_back(seen->x);
-  }
-  return std::nullopt;
-}
-
-constexpr std::size_t most_shapes = 24;        ///< of a long, unstable cycle each motion near it is another
-constexpr std::array parts = {0.5, 0.1, 0.9};  ///< of a leg's length, at which motions are begun
-
-/// Cycles of other shapes that motions from inside an orbit's legs show, each shape once: whole cycles, and, from about the leg at which the
-/// events change, pieces in place of the orbit's own.
-class NearbyShapes {
- public:
-  NearbyShapes(const Problem& problem, const Orbit& orbit)
-      : orbit_(orbit), system_(problem.family().model(orbit.values)), set_(constant_family(system_.model()), {}) {}
-
-  [[nodiscard]] std::vector<Orbit> about(std::size_t changed) {
-    for (std::size_t before = 0; before < std::min<std::size_t>(3, orbit_.legs()); ++before) {
-      Orbit turned = orbit_;
-      rotate(turned, (changed + orbit_.legs() - before) % orbit_.legs());
-      from(turned, 0, [&](const Motion& motion) {
-        std::optional<Orbit> there = spliced(turned, motion);
-        if (there) add(mended(*there));
-        return there;
-      });
-    }
-    for (std::size_t i = 0; i < orbit_.legs() && shapes_.size() < most_shapes; ++i)
-      from(orbit_, (changed + i) % orbit_.legs(), [&](const Motion& motion) { return record(motion, orbit_.shape.n); });
-    return std::move(shapes_);
-  }
-
- private:
-  template <class See>
-  void from(const Orbit& orbit, std::size_t leg, const See& see) {
-    for (const double part : parts) {
-      try {
-        if (const std::optional<Motion> motion = motion_from(system_, set_, orbit, leg, part)) add(see(*motion));
-      } catch (const InputError&) {  // behind a stop
-      } catch (const NumericalError&) {
-      }
-    }
-  }
-
-  /// A piece has been put in place of what is no motion in one leg. An orbit with a symmetry changes in several places at once: pieces there too.
-  std::optional<Orbit> mended(Orbit orbit) const {
-    constexpr int most_places = 8;
-    for (int count = 0; count < most_places; ++count) {
-      const std::vector<TestValue> tests = test_values(set_, orbit);
-      const auto wrong = std::ranges::find_if(
-          tests, [](const TestValue& test) { return test.test == Test::guard && test.value < 0.0; });
-      if (wrong == tests.end()) return count > 0 ? std::optional(orbit) : std::nullopt;
-      rotate(orbit, wrong->leg);
-      std::optional<Orbit> next;
-      for (const double part : parts) {
-        const std::optional<Motion> motion = motion_from(system_, set_, orbit, 0, part);
-        if (motion && (next = spliced(orbit, *motion))) break;
-      }
-      if (!next) return std::nullopt;
-      orbit = std::move(*next);
-    }
-    return std::nullopt;
-  }
-
-  void add(std::optional<Orbit> seen) {
-    const auto known = [&](const Orbit& other) { return same_cycle(other, *seen); };
-    if (!seen || same_cycle(orbit_, *seen) || std::ranges::any_of(shapes_, known)) return;
-    seen->values = orbit_.values;
-    shapes_.push_back(std::move(*seen));
-  }
-
-  const Orbit& orbit_;
-  System system_;
-  ModeSet set_;
-  std::vector<Orbit> shapes_;
-};
-
-/// None where there is no model.
-std::vector<Orbit> shapes_about(const Problem& problem, const Orbit& orbit, std::size_t changed) {
-  try {
-    return NearbyShapes(problem, orbit).about(changed);
-  } catch (const InputError&) {
-    return {};
-  }
-}
 
 /// Newton's method from a guess: at its own parameter, and with the parameter free and the length of one of the shortest legs held.
 std::optional<Orbit> solved(const Problem& problem, const Orbit& guess) {
@@ -171,6 +61,15 @@ bool goes_back(const Problem& problem, const PathPoint& start, const PathPoint& 
   return ((farther ? *farther : next).orbit.values[0] - start.orbit.values[0]) * sense_before < 0.0;
 }
 
+/// Does a leg end at a guard's second zero, at which it rises? Just behind a graze both are one instant to the simulator.
+bool rises_at_an_end(const PathPoint& start, const PathPoint& next) {
+  for (std::size_t i = 0; i < next.watched.tests.size(); ++i) {
+    const double rounding = 2.0 * std::abs(start.watched.tests[i].value);
+    if (next.watched.tests[i].test == Test::speed && next.watched.tests[i].value < -rounding) return true;
+  }
+  return false;
+}
+
 /// The branch of a shape of which the orbit at the change is one already, by arclength to either side of it: as near as the simulator can tell what
 /// it does.
 std::optional<Reshaped> leaving(const Problem& problem, double sense_before, const Orbit& shape, double range) {
@@ -183,7 +82,7 @@ std::optional<Reshaped> leaving(const Problem& problem, double sense_before, con
   for (const PathPoint& start : {up, reversed(up)}) {
     for (const double length : {1e-6, 1e-5, 1e-4, 1e-3, 5e-3}) {
       std::optional<PathPoint> next = step_to(problem, start, length, range);
-      if (!next || !is_motion(problem, next->orbit)) continue;
+      if (!next || rises_at_an_end(start, *next) || !is_motion(problem, next->orbit)) continue;
       const bool folds = goes_back(problem, start, *next, sense_before, range);
       return Reshaped{std::move(*next), folds, false, {}, length, 0.0, 0.0};
     }

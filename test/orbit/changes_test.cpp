@@ -210,6 +210,24 @@ TEST(Change, WithNothingBehindItIsAJump) {
   EXPECT_EQ(attractor("belt", {}, "damping_ratio", branch.special.back().value + 1e-5), "none");
 }
 
+/// At a graze an orbit with the impact leaves to one side; to the other it would end its leg at the gap's second zero. Where multipliers are 1e7 the two are
+/// one instant to the simulator as far as it is looked at.
+TEST(Graze, LeadsToTheSideOnWhichItsImpactIsTheFirstZero) {
+  const Overrides overrides = {{"absorber_damping", 0.14786346566974834}, {"absorber_frequency", 0.9336976411009086},
+                               {"clearance", 0.892880301769342},          {"damping_ratio", 0.023794430476950974},
+                               {"mass_ratio", 0.04892740423358287},       {"omega", 1.3558017703470817},
+                               {"restitution", 0.8103137320738286}};
+  const orbit::Branch branch =
+      branch_of("impact-absorber", overrides, "clearance_lower", 0.892880301769342, {.from = 0.8877, .to = 0.893});
+  const std::vector<double> grazes = values(branch, SpecialType::GR);
+  ASSERT_EQ(grazes.size(), 1U) << branch.ended;
+  EXPECT_EQ(branch.ended, "down: range; up: range");
+  EXPECT_EQ(branch.special.front().outcome, "persistence");
+  EXPECT_LT(branch.points.front().orbit.values[0], 0.88771);
+  for (const orbit::Solution& point : branch.points)
+    EXPECT_EQ(point.impacts, point.orbit.values[0] < grazes[0] ? 55 : 54) << point.orbit.values[0];
+}
+
 /// Where a motion dies out margins are used up within rounding, that of a stop by 5e-8 of the range as well; behind it the same events go on.
 TEST(Change, BehindWhichTheSameEventsGoOnIsNone) {
   const Overrides overrides = {{"damping_ratio", 0.09170313198423563},

@@ -7,14 +7,12 @@
 
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <sstream>
+#include <system_error>
 
 #include "slapstick/base/error.hpp"
 #include "slapstick/figure/figure.hpp"
-
-extern char** environ;
 
 namespace slapstick::figure {
 namespace {
@@ -69,7 +67,8 @@ std::string complaint(const std::filesystem::path& log) {
 int wait_for(pid_t child) {
   int status = 0;
   while (waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) throw StorageError(std::string("gnuplot: cannot wait for it: ") + std::strerror(errno));
+    if (errno != EINTR)
+      throw StorageError(std::string("gnuplot: cannot wait for it: ") + std::generic_category().message(errno));
   return status;
 }
 
@@ -78,7 +77,7 @@ constexpr const char* not_found = "gnuplot not found: install gnuplot-nox";
 }  // namespace
 
 void demand_gnuplot() {
-  const char* path = std::getenv("PATH");
+  const char* path = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): nothing changes the environment
   std::stringstream folders(path != nullptr ? path : "/bin:/usr/bin");
   for (std::string folder; std::getline(folders, folder, ':');) {
     const std::filesystem::path program = std::filesystem::path(folder.empty() ? "." : folder) / "gnuplot";
@@ -96,7 +95,7 @@ void run_gnuplot(const std::filesystem::path& folder, const std::string& script_
   pid_t child = 0;
   const int error = posix_spawnp(&child, program.c_str(), actions.get(), attributes.get(), arguments, environ);
   if (error == ENOENT) throw StorageError(not_found);
-  if (error != 0) throw StorageError(std::string("gnuplot does not start: ") + std::strerror(error));
+  if (error != 0) throw StorageError(std::string("gnuplot does not start: ") + std::generic_category().message(error));
   const int status = wait_for(child);
   if (WIFSIGNALED(status))
     throw StorageError("gnuplot was ended by signal " + std::to_string(WTERMSIG(status)) + " while drawing " +

@@ -23,7 +23,7 @@ std::shared_ptr<const mode::Outline> ModeTable::outline(ModeId id, const std::fu
     const std::scoped_lock lock(mutex_);
     if (const auto found = outlines_.find(id); found != outlines_.end()) return found->second;
   }
-  const auto made = std::make_shared<const mode::Outline>(build(id));
+  auto made = std::make_shared<const mode::Outline>(build(id));
   const std::scoped_lock lock(mutex_);
   if (outlines_.size() < most_outlines) outlines_.emplace(id, made);
   return made;

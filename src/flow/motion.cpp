@@ -28,11 +28,11 @@ std::string_view name(EventKind kind) {
   return names[static_cast<int>(kind)];
 }
 
-Motion::Motion(const System& system, const State& initial, Instant start_at, MotionOptions options)
+Motion::Motion(const System& system, const State& state, Instant start, MotionOptions options)
     : system_(&system),
       options_(options),
-      now_(start_at),
-      segment_start_(start_at),
+      now_(start),
+      segment_start_(start),
       origin_(system.frame().size()),
       X_(system.frame().size()),
       X_window_(X_),
@@ -42,7 +42,7 @@ Motion::Motion(const System& system, const State& initial, Instant start_at, Mot
       X_next_(X_),
       phase_floor_(X_) {
   const IeeeArithmetic ieee;
-  validate(system.model(), initial);
+  validate(system.model(), state);
   const mode::Frame& frame = system.frame();
   const int guards = 1 + stops() + 2 * frictions() + 2 * compliants();
   touching_.reserve(stops());
@@ -58,10 +58,10 @@ Motion::Motion(const System& system, const State& initial, Instant start_at, Mot
   std::fill_n(phase_floor_.data() + 2 * frame.d, 2 * frame.harmonics.size(), 1.0);
   budget_period_ = now_.period;
 
-  frame.enter(initial.data(), X_.data());
+  frame.enter(state.data(), X_.data());
   frame.set_phase(now_.fraction, X_.data());
   X_segment_ = X_before_ = X_;
-  start();
+  this->start();
   shown_ = -1;
 }
 

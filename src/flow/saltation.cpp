@@ -136,6 +136,7 @@ void Passage::take_states(std::size_t k) {
 }
 
 /// Each of the stops leaves with -r of the velocity it came with.
+// NOLINTNEXTLINE(performance-unnecessary-value-param): a view, through which is written
 void Passage::apply(const Blow& blow, Eigen::Ref<Eigen::MatrixXd> velocities) const {
   std::vector<int> rows;
   Eigen::VectorXd factor(blow.stops.size());

@@ -81,8 +81,8 @@ System::System(Model model, SystemOptions options)
                      "model down");
   for (ModeId id = 0; id < mode_count_ && mode_count_ <= built_at_once; ++id) (void)mode(id);
   for (const mode::ContactRow& stop : frame_.stops) {
-    impulses_.push_back(stop.sign * frame_.mass_inverse.col(stop.own) / frame_.mass_inverse(stop.own, stop.own));
-    presses_.push_back(stop.sign * frame_.free.row(stop.own));
+    impulses_.emplace_back(stop.sign * frame_.mass_inverse.col(stop.own) / frame_.mass_inverse(stop.own, stop.own));
+    presses_.emplace_back(stop.sign * frame_.free.row(stop.own));
     for (std::size_t i = 0; i < frame_.frictions.size(); ++i) {
       const mode::ContactRow& friction = frame_.frictions[i];
       const bool same = frame_.parallel(stop.own, friction.own) != 0;

@@ -139,10 +139,19 @@ void Follower::run_beyond(const Change& change, Found& found) const {
   if (there.next && !found.family) found.next.push_back(std::move(*there.next));
 }
 
+/// Does a change that is hardly known lead to where the branch has been? Near its end a cascade seems to turn back into itself.
+bool Follower::leads_back(const SpecialPoint& special, const Found& found) const {
+  constexpr double known = 1e-9;
+  if (!(special.error > known * range_) || found.none()) return false;
+  const Reshaped& next = found.next.front();
+  return next.folds && lies_on(problem_, branch_, next.point.orbit);
+}
+
 /// Goes on behind a change. @returns false if the branch ends
 bool Follower::pass(PathPoint& at, Change change) {
   SpecialPoint special = std::move(change.special);
   Found found = look_beyond(at, change);
+  if (leads_back(special, found) && end_cascade(at)) return !ended_;
   if (found.none() && !found.family && end_cascade_with(at, special)) return !ended_;
   if (found.none() && !found.family && branch_.points.back().stable()) run_beyond(change, found);
   if (found.none()) {

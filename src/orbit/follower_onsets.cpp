@@ -56,9 +56,10 @@ std::optional<Follower::Way> Follower::way_back(const PathPoint& from, const Pla
 /// Adds the orbits between a place, which the branch has come to, and an orbit beyond it, from which they were followed back.
 void Follower::add_between(Branch way) {
   const std::size_t last = branch_.points.size() + way.points.size() - 1;  // the way's first point, when all are there
-  for (auto point = way.special.rbegin(); point != way.special.rend(); ++point) {
-    point->after = last - point->after - 1;
-    branch_.special.push_back(std::move(*point));
+  std::ranges::reverse(way.special);
+  for (SpecialPoint& point : way.special) {
+    point.after = last - point.after - 1;
+    branch_.special.push_back(std::move(point));
   }
   std::move(way.points.rbegin(), way.points.rend(), std::back_inserter(branch_.points));
 }
@@ -125,17 +126,22 @@ bool Follower::turn_round(PathPoint& at) {
   return true;
 }
 
-/// Just behind the onset from which a chatter is followed its impacts come as close to rounding as the cascade's did: on with the chatter a little farther on.
-/// @returns false if it is not that
+/// Just behind the onset of a chatter, from which it is followed or beside which the branch begins, its impacts come as close to rounding as a cascade's:
+/// on with the chatter a little farther on. @returns false if it is not that
 bool Follower::clear_onset(PathPoint& at) {
-  constexpr double near = 10.0, widest = 1e-4;  // of the distance of the cascade's last change; of the range
-  if (branch_.special.size() < 2 || !branch_.points.back().chatter) return false;
-  const SpecialPoint &onset = branch_.special.back(), &last_change = branch_.special.end()[-2];
-  const double place = onset.value, passed = value(at) - place;
-  const double reach = std::min(near * std::abs(last_change.value - place), widest * range_);
-  if (onset.type != SpecialType::CH || !(std::abs(passed) < reach)) return false;
+  constexpr double near = 10.0;                    // distances of the cascade's last change
+  constexpr double nearest = 1e-6, widest = 1e-4;  // of the range
+  if (!branch_.points.back().chatter) return false;
+  const std::vector<SpecialPoint>& special = branch_.special;
+  const bool begins = special.empty();
+  if (!begins && special.back().type != SpecialType::CH) return false;
+  const double place = begins ? branch_.points.front().orbit.values[0] : special.back().value;
+  const double last_change = special.size() > 1 ? near * std::abs(special.end()[-2].value - place) : 0.0;
+  if (!(std::abs(value(at) - place) < std::clamp(last_change, nearest * range_, widest * range_))) return false;
   std::optional<Reshaped> next = beyond_cascade(problem_, at, place, range_, options_.stop);
-  if (!next || !((value(next->point) - value(at)) * passed > 0.0)) return false;
+  if (!next) return false;
+  const double on = value(next->point) - value(at);
+  if (!(on * at.watched.turn > 0.0) || (begins && std::abs(on) > 0.1 * widest * range_)) return false;
   restart(at, std::move(next->point));
   return true;
 }

@@ -179,7 +179,7 @@ Jet extended(const ModeSet& set, const VectorXd& x, double t) {
 }
 
 void flow(const ModeRates& mode, double s, Jet& X) {
-  const Index d = static_cast<Index>(mode.outline.steady.size());
+  const auto d = static_cast<Index>(mode.outline.steady.size());
   constexpr double most_steps = 1e4;  // Newton's method may try a mass of next to nothing
   const double steps = std::max(1.0, std::ceil(std::abs(s) / mode.longest_step));
   if (!(steps <= most_steps)) throw NumericalError("orbit: a leg is too long for the rates of its mode");

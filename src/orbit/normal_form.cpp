@@ -31,7 +31,7 @@ Orbit begun(Orbit orbit, std::size_t leg) {
 }
 
 ModeSet set_of(const Problem& problem, const Orbit& orbit) {
-  return ModeSet(constant_family(problem.family().model(orbit.values)), {});
+  return {constant_family(problem.family().model(orbit.values)), {}};
 }
 
 /// A leg whose end is found by Newton's method from a guess.
@@ -158,14 +158,16 @@ Critical critical(const MatrixXd& A, Complex mu) {
 Estimate coefficient(SpecialType type, const FixedPhaseMap& map, const Critical& direction) {
   const MatrixXd A = map.jacobian(VectorXd::Zero(map.sizes().size()));
   Estimate best{std::nan(""), INFINITY};
+  const auto value_at = [&](double step) {
+    try {
+      return at_step(type, map, A, direction, step);
+    } catch (const NumericalError&) {  // too far
+      return std::nan("");
+    }
+  };
   double value = std::nan(""), last = value, before_last = value;  // extrapolated: the last two
   for (int k = 0; k < halvings && !(best.error <= enough * std::abs(best.value)); ++k) {
-    const double coarse = value;
-    value = std::nan("");
-    try {
-      value = at_step(type, map, A, direction, std::ldexp(0.125, -k));
-    } catch (const NumericalError&) {  // too far
-    }
+    const double coarse = std::exchange(value, value_at(std::ldexp(0.125, -k)));
     const double extrapolated = (4.0 * value - coarse) / 3.0;
     const double change = std::max(std::abs(last - before_last), std::abs(extrapolated - last));
     if (std::isfinite(extrapolated) && change < best.error) best = {last, change};

@@ -79,7 +79,7 @@ Orbit orbit_of(const std::vector<Seen>& events, std::size_t k, int n) {
 }
 
 /// The linear response: one leg from phase 0 to phase 0.
-Orbit without_events(Motion motion, int n) {
+Orbit without_events(const Motion& motion, int n) {
   Orbit orbit;
   Leg leg;
   leg.states = motion.system().mode(motion.mode_id()).states();

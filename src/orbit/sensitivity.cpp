@@ -22,13 +22,16 @@ constexpr double agreement = 1e-3;
 
 /// The ratio of two differences that changes least from step to step; not a number if it never settles.
 double best_ratio(const std::function<double(double)>& ratio) {
+  const auto ratio_at = [&](double h) {
+    try {
+      return ratio(h);
+    } catch (const NumericalError&) {  // too far
+      return std::nan("");
+    }
+  };
   double best = std::nan(""), least = agreement, before = std::nan("");
   for (const double h : steps) {
-    double now = std::nan("");
-    try {
-      now = ratio(h);
-    } catch (const NumericalError&) {  // too far
-    }
+    const double now = ratio_at(h);
     const double change = std::abs(now - before) / std::max(std::abs(now), 1e-6);
     if (change < least) {
       least = change;

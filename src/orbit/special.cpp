@@ -209,8 +209,8 @@ std::optional<Located> locate_margin(const Problem& problem, const PathPoint& fr
   if (regular && !empty) return located;
   const double before = value(from.watched), behind = value(to.watched);
   const double near = located ? located->length : length * before / (before - behind);
-  const std::optional<Located> best = in_some_width(problem, from, near, std::min(length, 0.02), range,
-                                                    [&](const PathPoint& point) { return value(point.watched); });
+  std::optional<Located> best = in_some_width(problem, from, near, std::min(length, 0.02), range,
+                                              [&](const PathPoint& point) { return value(point.watched); });
   if (empty) return best;
   return best && !(located && located->error < best->error) ? best : located;
 }

@@ -228,6 +228,26 @@ TEST(Graze, LeadsToTheSideOnWhichItsImpactIsTheFirstZero) {
     EXPECT_EQ(point.impacts, point.orbit.values[0] < grazes[0] ? 55 : 54) << point.orbit.values[0];
 }
 
+/// In a cascade folds follow grazes ever more closely: at 1e-7 of the range the orbit found behind a graze lies beyond the next fold, where the branch has
+/// turned once more, and seems to be a persistence.
+TEST(Graze, IsAFoldWhateverFoldFollows) {
+  const Overrides overrides = {{"clearance", 0.4230402420127488},
+                               {"damping", 0.03423195895104019},
+                               {"drive", 0.9112589278007787},
+                               {"friction", 3.395538214067513},
+                               {"restitution", 0.7760093846640501}};
+  const orbit::Branch branch = branch_of("stick-slip-impact", overrides, "omega", 0.31714,
+                                         {.from = 0.317127, .to = 2.3, .most_points = 16, .longest_step = 0.1});
+  const auto graze = std::ranges::find_if(branch.special, [](const orbit::SpecialPoint& point) {
+    return point.type == SpecialType::GR && std::abs(point.value - 0.317127845087) < 1e-11;
+  });
+  ASSERT_NE(graze, branch.special.end()) << branch.ended;
+  EXPECT_EQ(graze->outcome, "non-smooth fold");
+  ASSERT_NE(graze, branch.special.begin()) << "the fold is between the graze and the low end of the branch";
+  EXPECT_EQ(graze[-1].type, SpecialType::LP);
+  EXPECT_GT(graze[-1].value, graze->value);
+}
+
 /// Where a motion dies out margins are used up within rounding, that of a stop by 5e-8 of the range as well; behind it the same events go on.
 TEST(Change, BehindWhichTheSameEventsGoOnIsNone) {
   const Overrides overrides = {{"damping_ratio", 0.09170313198423563},

@@ -73,7 +73,7 @@ struct ContinuationOptions {
 
 /// Follows the branch through `start`, an orbit that solves its equations, in the family's first parameter.
 /// @throws InputError if `start` is outside the range
-[[nodiscard]] Branch follow(const Problem& problem, const Orbit& start, const ContinuationOptions& options);
+[[nodiscard]] Branch follow(const Problem& posed, const Orbit& start, const ContinuationOptions& options);
 
 /// Is an orbit one of the branch's, wherever it begins? By Newton's method from the points beside it to the branch's own orbit at its parameter.
 [[nodiscard]] bool lies_on(const Problem& problem, const Branch& branch, const Orbit& orbit);

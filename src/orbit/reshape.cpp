@@ -51,13 +51,16 @@ bool stayed(const Problem& problem, const Orbit& from, const Orbit& to) {
   return true;
 }
 
-/// Does a branch go from its start at a change in the sense of the parameter from which the old one came? Seen from some way off where the parameter is a
-/// square of the arclength (special.cpp, look_back).
-bool goes_back(const Problem& problem, const PathPoint& start, double sense_before, double range) {
-  constexpr double flat = 1e-3, beside = 1e-4;
+/// Does a branch go from its start at a change, by a later point, in the sense of the parameter from which the old one came? Where the parameter is a square
+/// of the arclength from the change, which is known to so much only, it is seen from some way off (special.cpp, look_back).
+bool goes_back(const Problem& problem, const PathPoint& start, const PathPoint& next, double sense_before,
+               double range) {
+  constexpr double flat = 1e-3, known = 1e-7, beside = 1e-4;
   const double turn = start.watched.turn;
-  const auto farther = std::abs(turn) < flat ? step_to(problem, start, beside, range) : std::nullopt;
-  return (farther ? farther->orbit.values[0] - start.orbit.values[0] : turn) * sense_before < 0.0;
+  const std::optional<PathPoint> nearby = step_to(problem, start, known, range);
+  if (std::abs(turn) > flat && !(nearby && nearby->watched.turn * turn < 0.0)) return turn * sense_before < 0.0;
+  const std::optional<PathPoint> farther = step_to(problem, start, beside, range);
+  return ((farther ? *farther : next).orbit.values[0] - start.orbit.values[0]) * sense_before < 0.0;
 }
 
 /// Does a leg end at a guard's second zero, at which it rises? Just behind a graze both are one instant to the simulator.
@@ -82,7 +85,7 @@ std::optional<Reshaped> leaving(const Problem& problem, double sense_before, con
     for (const double length : {1e-6, 1e-5, 1e-4, 1e-3, 5e-3}) {
       std::optional<PathPoint> next = step_to(problem, start, length, range);
       if (!next || rises_at_an_end(start, *next) || !is_motion(problem, next->orbit)) continue;
-      const bool folds = goes_back(problem, start, sense_before, range);
+      const bool folds = goes_back(problem, start, *next, sense_before, range);
       return Reshaped{std::move(*next), folds, false, {}, length, 0.0, 0.0};
     }
   }
@@ -168,7 +171,7 @@ std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, co
   if (begins && gathers && !resembles(problem, orbit, change.orbit, alike)) return std::nullopt;
   next.renewed = chatter && !gathers && !begins;
   if (begins) {
-    if (!gathers) next.folds = goes_back(problem, reversed(begins->located.point), sense_before, range);
+    if (!gathers) next.folds = goes_back(problem, reversed(begins->located.point), next.point, sense_before, range);
     next.length = begins->located.length;
     next.apart = std::abs(begins->located.point.orbit.values[0] - critical);
     next.error = begins->located.error;

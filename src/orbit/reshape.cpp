@@ -51,15 +51,18 @@ bool stayed(const Problem& problem, const Orbit& from, const Orbit& to) {
   return true;
 }
 
-/// Does a branch go from its start at a change, by a later point, in the sense of the parameter from which the old one came? Where the parameter is a square
-/// of the arclength from the change, which is known to so much only, it is seen from some way off (special.cpp, look_back).
+/// Does a branch go from its start at a change, by a later point, in the sense of the parameter from which the old one came? The later point may lie beyond a
+/// fold, the tangent at the change be rounding: it is believed if that at a point beside it says the same. Where the parameter is a square of the
+/// arclength it is seen from some way off (special.cpp, look_back).
 bool goes_back(const Problem& problem, const PathPoint& start, const PathPoint& next, double sense_before,
                double range) {
-  constexpr double flat = 1e-3, known = 1e-7, beside = 1e-4;
+  constexpr double flat = 1e-3, close = 1e-7, same = 0.1, beside = 1e-4;
   const double turn = start.watched.turn;
-  const std::optional<PathPoint> nearby = step_to(problem, start, known, range);
-  if (std::abs(turn) > flat && !(nearby && nearby->watched.turn * turn < 0.0)) return turn * sense_before < 0.0;
-  const std::optional<PathPoint> farther = step_to(problem, start, beside, range);
+  const std::optional<PathPoint> nearby = step_to(problem, start, close, range);
+  const bool certain = nearby && std::abs(nearby->watched.turn - turn) < same * std::abs(turn);
+  if (certain && std::abs(turn) > flat) return turn * sense_before < 0.0;
+  const std::optional<PathPoint> farther =
+      std::abs(turn) < flat ? step_to(problem, start, beside, range) : std::nullopt;
   return ((farther ? *farther : next).orbit.values[0] - start.orbit.values[0]) * sense_before < 0.0;
 }
 

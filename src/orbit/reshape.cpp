@@ -52,18 +52,20 @@ bool stayed(const Problem& problem, const Orbit& from, const Orbit& to) {
 }
 
 /// Does a branch go from its start at a change, by a later point, in the sense of the parameter from which the old one came? The later point may lie beyond a
-/// fold, the tangent at the change be rounding: it is believed if that at a point beside it says the same. Where the parameter is a square of the
-/// arclength it is seen from some way off (special.cpp, look_back).
-bool goes_back(const Problem& problem, const PathPoint& start, const PathPoint& next, double sense_before,
+/// fold, the tangent at the change be rounding: it is believed if that at a point beside it says the same.
+bool goes_back(const Problem& problem, const PathPoint& start, const PathPoint& later, double sense_before,
                double range) {
-  constexpr double flat = 1e-3, close = 1e-7, same = 0.1, beside = 1e-4;
+  constexpr double flat = 1e-3, close = 1e-7, same = 0.1;
   const double turn = start.watched.turn;
-  const std::optional<PathPoint> nearby = step_to(problem, start, close, range);
-  const bool certain = nearby && std::abs(nearby->watched.turn - turn) < same * std::abs(turn);
-  if (certain && std::abs(turn) > flat) return turn * sense_before < 0.0;
-  const std::optional<PathPoint> farther =
-      std::abs(turn) < flat ? step_to(problem, start, beside, range) : std::nullopt;
-  return ((farther ? *farther : next).orbit.values[0] - start.orbit.values[0]) * sense_before < 0.0;
+  const auto beside = std::abs(turn) > flat ? step_to(problem, start, close, range) : std::nullopt;
+  if (beside && std::abs(beside->watched.turn - turn) < same * std::abs(turn)) return turn * sense_before < 0.0;
+  return (later.orbit.values[0] - start.orbit.values[0]) * sense_before < 0.0;
+}
+
+/// Where the parameter is a square of the arclength, a point from which its sense is seen (special.cpp, look_back).
+std::optional<PathPoint> some_way_off(const Problem& problem, const PathPoint& start, double range) {
+  constexpr double flat = 1e-3, way = 1e-4;
+  return std::abs(start.watched.turn) < flat ? step_to(problem, start, way, range) : std::nullopt;
 }
 
 /// Does a leg end at a guard's second zero, at which it rises? Just behind a graze both are one instant to the simulator.
@@ -88,7 +90,8 @@ std::optional<Reshaped> leaving(const Problem& problem, double sense_before, con
     for (const double length : {1e-6, 1e-5, 1e-4, 1e-3, 5e-3}) {
       std::optional<PathPoint> next = step_to(problem, start, length, range);
       if (!next || rises_at_an_end(start, *next) || !is_motion(problem, next->orbit)) continue;
-      const bool folds = goes_back(problem, start, *next, sense_before, range);
+      const std::optional<PathPoint> farther = some_way_off(problem, start, range);
+      const bool folds = goes_back(problem, start, farther ? *farther : *next, sense_before, range);
       return Reshaped{std::move(*next), folds, false, {}, length, 0.0, 0.0};
     }
   }

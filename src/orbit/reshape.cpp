@@ -51,11 +51,13 @@ bool stayed(const Problem& problem, const Orbit& from, const Orbit& to) {
   return true;
 }
 
+constexpr double flat = 1e-3;  ///< a tangent's component in the parameter that says nothing of its sense
+
 /// Does a branch go from its start at a change, by a later point, in the sense of the parameter from which the old one came? The later point may lie beyond a
 /// fold, the tangent at the change be rounding: it is believed if that at a point beside it says the same.
 bool goes_back(const Problem& problem, const PathPoint& start, const PathPoint& later, double sense_before,
                double range) {
-  constexpr double flat = 1e-3, close = 1e-7, same = 0.1;
+  constexpr double close = 1e-7, same = 0.1;
   const double turn = start.watched.turn;
   const auto beside = std::abs(turn) > flat ? step_to(problem, start, close, range) : std::nullopt;
   if (beside && std::abs(beside->watched.turn - turn) < same * std::abs(turn)) return turn * sense_before < 0.0;
@@ -64,7 +66,7 @@ bool goes_back(const Problem& problem, const PathPoint& start, const PathPoint& 
 
 /// Where the parameter is a square of the arclength, a point from which its sense is seen (special.cpp, look_back).
 std::optional<PathPoint> some_way_off(const Problem& problem, const PathPoint& start, double range) {
-  constexpr double flat = 1e-3, way = 1e-4;
+  constexpr double way = 1e-4;
   return std::abs(start.watched.turn) < flat ? step_to(problem, start, way, range) : std::nullopt;
 }
 

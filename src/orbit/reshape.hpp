@@ -45,7 +45,7 @@ struct Reshaped {
                                  const TestValue& test);
 
 /// The orbit with a complete chatter beyond a cascade, whose every change adds an impact.
-/// @param last  a point of the branch near the end of the cascade  @param limit  the value of the parameter where the changes gather
+/// @param last  a point of the branch near the end of the cascade, or already beyond it: the orbit found is none between the two  @param limit  the value of the parameter where the changes gather
 [[nodiscard]] std::optional<Reshaped> beyond_cascade(const Problem& problem, const PathPoint& last, double limit,
                                                      double range, const std::atomic<bool>* stop);
 

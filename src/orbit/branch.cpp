@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "orbit/change_kind.hpp"
 #include "orbit/extent.hpp"
 #include "orbit/follower.hpp"
 #include "orbit/hidden.hpp"
@@ -107,18 +108,33 @@ bool Follower::end_at_boundary(PathPoint& at) {
   return true;
 }
 
-/// After a crossing a branch may come upon itself. It ends there, without the points that it has twice.
+/// After a crossing a branch may come upon itself. It ends there, without the points that it has twice. If it runs the other way it has been led back
+/// by its last change of events, which is not what it seems.
 bool Follower::runs_over_itself() {
   constexpr std::size_t neighbours = 10;
   constexpr int certain = 5;  // one or two may be near: where branches cross, at folds
-  const std::size_t count = branch_.points.size();
-  const bool old =
-      count > neighbours && lies_on_first(problem_, count - neighbours, branch_, branch_.points.back().orbit);
+  std::vector<Solution>& points = branch_.points;
+  std::vector<SpecialPoint>& special = branch_.special;
+  const std::size_t count = points.size();
+  const auto old =
+      count > neighbours ? lies_on_first(problem_, count - neighbours, branch_, points.back().orbit) : std::nullopt;
   old_points_ = old ? old_points_ + 1 : 0;
   if (old_points_ < certain) return false;
-  branch_.points.resize(count - certain);
-  std::erase_if(branch_.special, [&](const SpecialPoint& special) { return special.after >= branch_.points.size(); });
-  end("runs over itself from " + shown(branch_.points.back().orbit.values[0]) + " on", false);
+  const auto on = [&](std::size_t i) { return points[i + 1].orbit.values[0] - points[i].orbit.values[0]; };
+  const bool back = on(*old) * on(count - 2) < 0.0;
+  const auto last = std::ranges::find_if(special.rbegin(), special.rend(), changes_events, &SpecialPoint::type);
+  if (back && last != special.rend()) {
+    const double place = last->value;
+    points.resize(last->after + 1);
+    special.erase(std::prev(last.base()), special.end());
+    end("the events change at " + problem_.family().names[0] + " = " + shown(place) +
+            ", and what was found beyond leads back over the branch itself",
+        true);
+    return true;
+  }
+  points.resize(count - certain);
+  std::erase_if(special, [&](const SpecialPoint& point) { return point.after >= points.size(); });
+  end("runs over itself from " + shown(points.back().orbit.values[0]) + " on", false);
   return true;
 }
 

@@ -169,6 +169,10 @@ std::string tangential(const Leg& leg, mode::GuardKind kind, const System& syste
 
 }  // namespace
 
+bool changes_events(SpecialType type) {
+  return type == SpecialType::GR || type == SpecialType::SL || type == SpecialType::CH || type == SpecialType::CO;
+}
+
 SpecialType type_of(const TestValue& test, const Itinerary& shape) {
   if (test.test == Test::duration) return stick_at_stake(test, shape) >= 0 ? SpecialType::SL : SpecialType::CO;
   if (test.test == Test::no_stick || mode::of_friction(test.kind)) return SpecialType::SL;

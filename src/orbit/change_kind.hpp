@@ -11,6 +11,9 @@
 
 namespace slapstick::orbit {
 
+/// Is it a change of events, other than LP, PD, NS and BP?
+[[nodiscard]] bool changes_events(SpecialType type);
+
 /// From one side: the type, the margin in words, and how sliding changes (" (crossing-sliding)"; empty where that is not to be told).
 [[nodiscard]] SpecialType type_of(const TestValue& test, const Itinerary& shape);
 [[nodiscard]] std::string describe(const TestValue& test, const Itinerary& shape, const System& system);

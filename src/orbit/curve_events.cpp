@@ -86,10 +86,6 @@ void add_multipliers(std::vector<CurveTest>& tests, SpecialType type) {
         "NS", [](const Watched& at) { return at.torus; }, "two multipliers on the unit circle", on_the_circle);
 }
 
-bool of_events(SpecialType type) {
-  return type == SpecialType::GR || type == SpecialType::SL || type == SpecialType::CH || type == SpecialType::CO;
-}
-
 }  // namespace
 
 double sum_of_pair(const Watched& watched) {
@@ -113,7 +109,7 @@ std::vector<bool> own_margins(const SpecialPoint& point, const std::vector<TestV
     for (const std::vector<TestValue>& aside : off) most = std::max(most, std::abs(aside[i].value));
     own[i] = std::isfinite(most) && std::abs(tests[i].value) < zero * most;
   }
-  if (of_events(point.type)) own.at(point.test) = true;
+  if (changes_events(point.type)) own.at(point.test) = true;
   return own;
 }
 

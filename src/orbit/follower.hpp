@@ -54,7 +54,7 @@ class Follower {
   };
   [[nodiscard]] Found look_beyond(const PathPoint& at, const Change& change) const;
   void run_beyond(const Change& change, Found& found) const;
-  [[nodiscard]] bool leads_back(const SpecialPoint& special, const Found& found) const;
+  [[nodiscard]] bool leads_back(const Found& found) const;
   bool pass(PathPoint& at, Change change);
   bool end_at(const PathPoint& at, SpecialPoint special, Beyond beyond, const std::string& left = {});
   void find_ways(const Change& change, Found& found) const;

@@ -12,6 +12,7 @@
 #include "orbit/lies_on.hpp"
 #include "orbit/onset.hpp"
 #include "orbit/record.hpp"
+#include "orbit/same_motion.hpp"
 #include "orbit/special.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/base/text.hpp"
@@ -27,6 +28,11 @@ bool is_all_but_gone(const Orbit& orbit) {
   return false;
 }
 
+/// Does the parameter turn back there?
+bool turns(const SpecialPoint& special) {
+  return special.type == SpecialType::LP || special.outcome == "non-smooth fold";
+}
+
 /// Is there a model at a value of the parameter?
 bool is_model(const Problem& problem, std::vector<double> values, double value) {
   values[0] = value;
@@ -36,6 +42,16 @@ bool is_model(const Problem& problem, std::vector<double> values, double value) 
   } catch (const InputError&) {
     return false;
   }
+}
+
+/// A chatter with other last impacts, those that are all but rounding, is the one from which the branch comes.
+bool is_chatter_as_it_came(const Problem& problem, const Orbit& before, const Reshaped& next) {
+  constexpr double same = 1e-6;  // of a leg's state
+  if (!next.folds || chatters(before) == 0 || chatters(next.point.orbit) == 0) return false;
+  Orbit own = before;
+  own.values = next.point.orbit.values;
+  const std::optional<Orbit> there = refine(problem, own);
+  return there && resembles(problem, *there, next.point.orbit, same);
 }
 
 }  // namespace
@@ -105,6 +121,7 @@ Follower::Found Follower::look_beyond(const PathPoint& at, const Change& change)
   found.next = reshape(problem_, at.orbit, change.at, change.test, range_, options_.stop);
   const auto of_family = [&](const Reshaped& next) { return one_of_family(problem_, next.point, range_); };
   found.family = std::erase_if(found.next, of_family) > 0;
+  std::erase_if(found.next, [&](const Reshaped& next) { return is_chatter_as_it_came(problem_, at.orbit, next); });
   find_ways(change, found);
   return found;
 }
@@ -124,8 +141,9 @@ void Follower::find_ways(const Change& change, Found& found) const {
       std::optional<Way> way = way_back(reversed(found.next[i].point), place(found.next[i]));
       if (!way) continue;
       found.way = std::move(way->branch);
-      const double away = found.way->points.back().orbit.values[0] - change.special.value;
-      found.next[i].folds = away * change.at.watched.turn < 0.0;
+      const bool turned = std::ranges::count_if(found.way->special, turns) % 2 != 0;
+      const double away = found.next[i].point.watched.turn;
+      found.next[i].folds = (turned ? -away : away) * change.at.watched.turn < 0.0;
       std::swap(found.next[0], found.next[i]);
     }
   const auto far = [&](const Reshaped& next) { return apart(next) && next.apart > same_change * range_; };
@@ -139,19 +157,17 @@ void Follower::run_beyond(const Change& change, Found& found) const {
   if (there.next && !found.family) found.next.push_back(std::move(*there.next));
 }
 
-/// Does a change that is hardly known lead to where the branch has been? Near its end a cascade seems to turn back into itself.
-bool Follower::leads_back(const SpecialPoint& special, const Found& found) const {
-  constexpr double known = 1e-9;
-  if (!(special.error > known * range_) || found.none()) return false;
-  const Reshaped& next = found.next.front();
-  return next.folds && lies_on(problem_, branch_, next.point.orbit);
+/// Does a change lead to where the branch has been? Near its end a cascade, whose folds and grazes are all but one, seems to: it turns back into itself or
+/// goes on with an earlier orbit.
+bool Follower::leads_back(const Found& found) const {
+  return !found.none() && cascade_limit(branch_) && lies_on(problem_, branch_, found.next.front().point.orbit);
 }
 
 /// Goes on behind a change. @returns false if the branch ends
 bool Follower::pass(PathPoint& at, Change change) {
   SpecialPoint special = std::move(change.special);
   Found found = look_beyond(at, change);
-  if (leads_back(special, found) && end_cascade(at)) return !ended_;
+  if (leads_back(found) && end_cascade(at)) return !ended_;
   if (found.none() && !found.family && end_cascade_with(at, special)) return !ended_;
   if (found.none() && !found.family && branch_.points.back().stable()) run_beyond(change, found);
   if (found.none()) {

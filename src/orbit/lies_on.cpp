@@ -31,11 +31,12 @@ bool between(const Extent& extent, const Orbit& a, const Orbit& b, const Orbit& 
   });
 }
 
-bool lies_on_first(const Problem& problem, std::size_t count, const Branch& branch, const Orbit& orbit) {
+std::optional<std::size_t> lies_on_first(const Problem& problem, std::size_t count, const Branch& branch,
+                                         const Orbit& orbit) {
   const Extent extent(problem, orbit);
   for (std::size_t i = 0; i + 1 < count; ++i)
-    if (between(extent, branch.points[i].orbit, branch.points[i + 1].orbit, orbit)) return true;
-  return false;
+    if (between(extent, branch.points[i].orbit, branch.points[i + 1].orbit, orbit)) return i;
+  return std::nullopt;
 }
 
 namespace {

@@ -9,7 +9,8 @@ namespace slapstick::orbit {
 /// @param extent  of the orbit
 [[nodiscard]] bool between(const Extent& extent, const Orbit& a, const Orbit& b, const Orbit& orbit);
 
-/// Does it lie on the first points of a branch?
-[[nodiscard]] bool lies_on_first(const Problem& problem, std::size_t count, const Branch& branch, const Orbit& orbit);
+/// Does it lie on the first points of a branch? @returns the one before it
+[[nodiscard]] std::optional<std::size_t> lies_on_first(const Problem& problem, std::size_t count, const Branch& branch,
+                                                       const Orbit& orbit);
 
 }  // namespace slapstick::orbit

@@ -160,7 +160,8 @@ Between onset_between(const PathPoint& change, const std::optional<TestValue>& t
 /// lie infinitely many changes, which gather where the one with the chatter begins: there the nearest of them stands for all.
 std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, const std::optional<TestValue>& test,
                              double sense_before, const Orbit& orbit, double length, double range) {
-  constexpr double nearer = 0.5;  // than the orbit itself
+  constexpr double nearer = 0.5;     // than the orbit itself
+  constexpr double exactly = 1e-10;  // of the range
   constexpr double gathering = 30.0, much_the_same = 0.01, alike = 0.1;
   const double critical = change.orbit.values[0], away = orbit.values[0] - critical;
   if (away == 0.0 || std::abs(away) > 10.0 * length * range) return std::nullopt;
@@ -169,11 +170,15 @@ std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, co
   const bool chatter = chatters(orbit) + chatters(change.orbit) > 0,
              gathers = chatters(orbit) != chatters(change.orbit);
   const double within = gathers ? gathering * length : std::max(same_change, nearer * std::abs(away) / range);
+  const auto off = [&](const Beginning& place) { return std::abs(place.located.point.orbit.values[0] - critical); };
   auto begins = beginning(problem, next.point, critical, within, range);
-  if (!begins && !gathers) {  // beyond a fold near the change
+  if ((!begins || off(*begins) > exactly * range) && !gathers) {  // beyond a fold near the change
     PathPoint other = reversed(next.point);
-    if ((begins = beginning(problem, other, critical, nearer * std::abs(away) / range, range)))
+    auto behind = beginning(problem, other, critical, nearer * std::abs(away) / range, range);
+    if (behind && (!begins || off(*behind) < off(*begins))) {
+      begins = std::move(behind);
       next.point = std::move(other);
+    }
   }
   if (!begins && !(chatter && resembles(problem, orbit, change.orbit, much_the_same))) return std::nullopt;
   if (begins && gathers && !resembles(problem, orbit, change.orbit, alike)) return std::nullopt;
@@ -181,7 +186,7 @@ std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, co
   if (begins) {
     if (!gathers) next.folds = goes_back(problem, reversed(begins->located.point), next.point, sense_before, range);
     next.length = begins->located.length;
-    next.apart = std::abs(begins->located.point.orbit.values[0] - critical);
+    next.apart = off(*begins);
     next.error = begins->located.error;
   }
   if (gathers) next.onset = onset_between(change, test, orbit, begins);
@@ -192,11 +197,22 @@ std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, co
 
 namespace {
 
-void add(std::vector<Reshaped>& all, std::optional<Reshaped> next) {
-  const auto known = [&](const Reshaped& other) {
+/// Does its branch begin at the change, as far as that can be told from it?
+bool begins_there(const Reshaped& next, double range) {
+  return next.onset || next.renewed || next.apart <= same_change * range;
+}
+
+/// Each cycle once: the first that begins at the change, or else the one that begins nearest to it.
+void add(std::vector<Reshaped>& all, std::optional<Reshaped> next, double range) {
+  if (!next) return;
+  const auto same = [&](const Reshaped& other) {
     return other.folds == next->folds && same_cycle(other.point.orbit, next->point.orbit);
   };
-  if (next && std::ranges::none_of(all, known)) all.push_back(std::move(*next));
+  const auto known = std::ranges::find_if(all, same);
+  if (known == all.end())
+    all.push_back(std::move(*next));
+  else if (!begins_there(*known, range) && next->apart < known->apart)
+    *known = std::move(*next);
 }
 
 }  // namespace
@@ -207,7 +223,7 @@ std::vector<Reshaped> leavings(const Problem& problem, const Orbit& before, cons
   const double sense = std::copysign(1.0, change.watched.turn);
   try {
     for (const Orbit& shape : coincident(problem, before, change.orbit, test))
-      add(all, leaving(problem, sense, shape, range));
+      add(all, leaving(problem, sense, shape, range), range);
   } catch (const NumericalError&) {  // a shape whose modes have no such guards
   } catch (const InputError&) {
   }
@@ -231,9 +247,7 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
       release ? std::vector{1e-4, 1e-3, 1e-5, 1e-6} : std::vector{1e-6, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2};
   for (const double length : lengths) {
     if (length < nearest) continue;
-    const auto here = [&](const Reshaped& next) {
-      return next.onset || next.renewed || next.apart <= same_change * range;
-    };
+    const auto here = [&](const Reshaped& next) { return begins_there(next, range); };
     if (std::ranges::any_of(all, here) || length > longest) break;
     Orbit beyond = change.orbit;  // as it is, where its own equations lead no further
     beyond.values[0] += sense * length * range;
@@ -245,7 +259,7 @@ std::vector<Reshaped> reshape(const Problem& problem, const Orbit& before, const
         if (stopped(stop)) return all;
         guess.values[0] = critical + side * (beyond.values[0] - critical);
         if (const auto orbit = solved(problem, guess))
-          add(all, born(problem, change, test, sense, *orbit, length, range));
+          add(all, born(problem, change, test, sense, *orbit, length, range), range);
       }
     }
   }

@@ -228,26 +228,6 @@ TEST(Graze, LeadsToTheSideOnWhichItsImpactIsTheFirstZero) {
     EXPECT_EQ(point.impacts, point.orbit.values[0] < grazes[0] ? 55 : 54) << point.orbit.values[0];
 }
 
-/// In a cascade folds follow grazes ever more closely: at 1e-7 of the range the orbit found behind a graze lies beyond the next fold, where the branch has
-/// turned once more, and seems to be a persistence.
-TEST(Graze, IsAFoldWhateverFoldFollows) {
-  const Overrides overrides = {{"clearance", 0.4230402420127488},
-                               {"damping", 0.03423195895104019},
-                               {"drive", 0.9112589278007787},
-                               {"friction", 3.395538214067513},
-                               {"restitution", 0.7760093846640501}};
-  const orbit::Branch branch = branch_of("stick-slip-impact", overrides, "omega", 0.31714,
-                                         {.from = 0.317127, .to = 2.3, .most_points = 16, .longest_step = 0.1});
-  const auto graze = std::ranges::find_if(branch.special, [](const orbit::SpecialPoint& point) {
-    return point.type == SpecialType::GR && std::abs(point.value - 0.317127845087) < 1e-11;
-  });
-  ASSERT_NE(graze, branch.special.end()) << branch.ended;
-  EXPECT_EQ(graze->outcome, "non-smooth fold");
-  ASSERT_NE(graze, branch.special.begin()) << "the fold is between the graze and the low end of the branch";
-  EXPECT_EQ(graze[-1].type, SpecialType::LP);
-  EXPECT_GT(graze[-1].value, graze->value);
-}
-
 /// Where a motion dies out margins are used up within rounding, that of a stop by 5e-8 of the range as well; behind it the same events go on.
 TEST(Change, BehindWhichTheSameEventsGoOnIsNone) {
   const Overrides overrides = {{"damping_ratio", 0.09170313198423563},
@@ -267,6 +247,30 @@ TEST(Change, BehindWhichTheSameEventsGoOnIsNone) {
   ASSERT_EQ(sticks.size(), 3U) << branch.ended;
   EXPECT_NEAR(sticks.back(), 0.743334030184, 1e-11);
   EXPECT_TRUE(values(branch, SpecialType::GR).empty());
+}
+
+/// With another number of impacts that are all but rounding a chatter is the same orbit: where it changes its events that one goes back, and is not what lies
+/// beyond.
+TEST(Change, OfAChatterIsNotAFoldOntoItself) {
+  const Overrides overrides = {{"area", 7.899199000902047e-05},         {"frequency", 265.85461448723464},
+                               {"mass", 0.0002857669730364452},         {"mean", 137905.8726074355},
+                               {"pulsation", 30565.46527534561},        {"restitution", 0.2689696249584422},
+                               {"static_friction", 1.0176945711871863}, {"stiffness", 1556.6594764062866},
+                               {"stroke", 0.0011237928851010452}};
+  const orbit::Branch branch =
+      branch_of("spool", overrides, "preload", 11.0, {.from = 2.6, .to = 23.4, .most_points = 60, .longest_step = 0.1});
+  const auto slide = std::ranges::find_if(branch.special, [](const orbit::SpecialPoint& point) {
+    return point.type == SpecialType::SL && std::abs(point.value - 11.1392525082) < 1e-9;
+  });
+  ASSERT_NE(slide, branch.special.end()) << branch.ended;
+  EXPECT_EQ(slide->outcome, "persistence");
+  EXPECT_GT(branch.points.back().orbit.values[0], 11.2);
+  const Posed beyond("spool", overrides, {"preload"}, {11.2});
+  const auto settled = beyond.settled();
+  ASSERT_TRUE(settled);
+  const auto after =
+      std::ranges::find_if(branch.points, [](const orbit::Solution& point) { return point.orbit.values[0] > 11.2; });
+  EXPECT_EQ(after->label, settled->label);
 }
 
 /// A bubble of doubled orbits that opens and closes between two points of the branch: no sign changes there. The bubble was found with short steps.

@@ -1,4 +1,4 @@
-/// A cascade followed to where its grazes and folds are all but one: a mass on a friction contact that hits a stop some 30 times a period.
+/// A cascade followed to where its grazes and folds are all but one: a frame that friction holds, hit from inside some 30 times a period.
 #include <gtest/gtest.h>
 
 #include <algorithm>

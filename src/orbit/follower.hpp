@@ -19,8 +19,6 @@ class Follower {
   void run(PathPoint at);
 
  private:
-  static constexpr double exactly =
-      1e-10;  ///< of the range: how well a change is known at worst, where nothing is said
   static constexpr double structure = 1e-5;  ///< of the range: at its end the model may have another structure
   [[nodiscard]] double value(const PathPoint& point) const { return point.orbit.values[0]; }
   /// The onset of a chatter is not come nearer to than its equations, of ever more impacts, are solvable.

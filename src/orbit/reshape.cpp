@@ -160,8 +160,7 @@ Between onset_between(const PathPoint& change, const std::optional<TestValue>& t
 /// lie infinitely many changes, which gather where the one with the chatter begins: there the nearest of them stands for all.
 std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, const std::optional<TestValue>& test,
                              double sense_before, const Orbit& orbit, double length, double range) {
-  constexpr double nearer = 0.5;     // than the orbit itself
-  constexpr double exactly = 1e-10;  // of the range
+  constexpr double nearer = 0.5;  // than the orbit itself
   constexpr double gathering = 30.0, much_the_same = 0.01, alike = 0.1;
   const double critical = change.orbit.values[0], away = orbit.values[0] - critical;
   if (away == 0.0 || std::abs(away) > 10.0 * length * range) return std::nullopt;
@@ -192,10 +191,6 @@ std::optional<Reshaped> born(const Problem& problem, const PathPoint& change, co
   if (gathers) next.onset = onset_between(change, test, orbit, begins);
   return next;
 }
-
-}  // namespace
-
-namespace {
 
 /// Does its branch begin at the change, as far as that can be told from it?
 bool begins_there(const Reshaped& next, double range) {

@@ -11,6 +11,8 @@ struct Between {
   bool release = false;
 };
 
+/// Of the range: how well a change is known at worst, where nothing is said.
+constexpr double exactly = 1e-10;
 /// Of the range: events that begin as near to a change as this begin there.
 constexpr double same_change = 1e-7;
 

@@ -264,7 +264,7 @@ TEST(Change, OfAChatterIsNotAFoldOntoItself) {
   });
   ASSERT_NE(slide, branch.special.end()) << branch.ended;
   EXPECT_EQ(slide->outcome, "persistence");
-  EXPECT_GT(branch.points.back().orbit.values[0], 11.2);
+  ASSERT_GT(branch.points.back().orbit.values[0], 11.2);
   const Posed beyond("spool", overrides, {"preload"}, {11.2});
   const auto settled = beyond.settled();
   ASSERT_TRUE(settled);

@@ -1,5 +1,5 @@
 #pragma once
-/// The benchmark peers: the paper's oscillator (shared/system.md, section 1) run by two general-purpose integrators.
+/// The benchmark peers: the paper's oscillator (NOTATION.md) run by two general-purpose integrators.
 ///
 /// Both start at x1 = -0.5, x2 = 0, at rest, at time 0, and run for a number of forcing periods 2 pi / omega.
 /// Everything is dimensionless as in the paper's eq. (4).
@@ -23,7 +23,7 @@ struct PeerRun {
 
 /// Boost.odeint, controlled runge_kutta_fehlberg78 with absolute and relative tolerance `tolerance`.
 /// An event is located by re-taking the step with other lengths, so it is as accurate as a step: Newton's method from the
-/// step's Hermite cubic (two re-taken steps as a rule), TOMS 748 where Newton fails. TOMS 748 alone, as in shared/peers.md,
+/// step's Hermite cubic (two re-taken steps as a rule), TOMS 748 where Newton fails. TOMS 748 alone
 /// needs six to nine: 1.2 times the evaluations at omega 2.2, 1.5 times at 1.5, 2.3 times in chatter.
 PeerRun run_odeint(double omega, int periods, double tolerance);
 

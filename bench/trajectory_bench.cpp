@@ -1,5 +1,5 @@
 /// CPU time per forcing period of one trajectory of the paper's system, slapstick and the peers in one run.
-/// Start x1 = -0.5, else 0. The counter `us_per_period` is CPU microseconds; compare with shared/peers.md, section 1.
+/// Start x1 = -0.5, else 0. The counter `us_per_period` is CPU microseconds.
 
 #include <benchmark/benchmark.h>
 

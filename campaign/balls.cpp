@@ -1,4 +1,5 @@
-/// Campaign `balls`: every segment of random motions proved by a certificate, which slapstick-verify's rules check in balls of 256 bits.
+/// Campaign `balls`: every segment of random motions proved by a certificate, which slapstick-verify's rules check in
+/// balls of 256 bits.
 #include <cctype>
 #include <map>
 #include <sstream>
@@ -6,7 +7,7 @@
 #include "batches.hpp"
 #include "check.hpp"
 #include "near_graze.hpp"
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 #include "slapstick/certify/certificate.hpp"
 
 namespace campaign {

@@ -1,6 +1,6 @@
 #pragma once
-/// Work in batches, on any number of threads: batch k depends on the seed and k only, and tallies are added in the order of k, so that a report
-/// does not depend on the threads.
+/// Work in batches, on any number of threads: batch k depends on the seed and k only, and tallies are added in the
+/// order of k, so that a report does not depend on the threads.
 #include <unistd.h>
 
 #include <algorithm>

@@ -1,15 +1,17 @@
-/// Campaign `branches`: every built-in model is followed in every parameter, from the orbit that it settles on and from near both ends of the branch
-/// found; first with the models' own values, then with random ones. Steps fall elsewhere each time; special points must not.
+/// Campaign `branches`: every built-in model is followed in every parameter, from the orbit that it settles on and from
+/// near both ends of the branch found; first with the models' own values, then with random ones. Steps fall elsewhere
+/// each time; special points must not.
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "base/text.hpp"
 #include "batches.hpp"
 #include "random.hpp"
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/text.hpp"
+#include "slapstick/continuation/sentences.hpp"
 #include "slapstick/io/model_file.hpp"
-#include "slapstick/orbit/branch.hpp"
+#include "slapstick/orbit/search.hpp"
 
 namespace campaign {
 namespace {
@@ -93,32 +95,25 @@ bool goes_past(const Problem& problem, const Branch& branch, const Branch& other
   return point.after + 1 < other.points.size() && on_it(point.after) && on_it(point.after + 1);
 }
 
-/// Where events change several margins may vanish together, and which is named depends on the side. Infinitely many changes gather at a CH.
-bool changes_events(SpecialType type) { return type >= SpecialType::GR; }
-
-/// Places that are known by extrapolation: onsets of chatter and what gathers there, motions that die out.
+/// Places that are known by extrapolation: onsets of chatter and what gathers there.
 bool is_limit(const SpecialPoint& point) {
-  return point.type == SpecialType::CH || point.outcome.starts_with("one of infinitely") ||
-         point.what.starts_with("the motion dies out");
+  return point.type == SpecialType::CH || point.passage == Passage::cascade;
 }
 
-/// How sliding changes there, as the text says.
-std::string_view sliding(const SpecialPoint& point) {
-  const std::string_view what = point.what;
-  const std::size_t from = what.rfind(" (");
-  return from == what.npos || !what.ends_with("sliding)") ? std::string_view() : what.substr(from);
+std::string words(const SpecialPoint& point) {
+  return std::string(name(point.occurrence)) + ", " + std::string(name(point.sliding)) + ", " +
+         std::string(name(point.passage));
 }
 
 /// A change of events has one name from wherever it is come to: type, kind of sliding, what the branch does there.
 bool named_alike(const SpecialPoint& a, const SpecialPoint& b) {
   if (is_limit(a) || is_limit(b) || !changes_events(a.type)) return true;
-  const auto passes = [](const SpecialPoint& point) {
-    return point.outcome == "persistence" || point.outcome == "non-smooth fold";
-  };
-  return a.type == b.type && (!passes(a) || !passes(b) || (a.outcome == b.outcome && sliding(a) == sliding(b)));
+  return a.type == b.type &&
+         (!goes_on(a.passage) || !goes_on(b.passage) || (a.passage == b.passage && a.sliding == b.sliding));
 }
 
-/// Does a point lie in the rest of a cascade that a branch does not follow, between the last of its changes and the onset of the chatter?
+/// Does a point lie in the rest of a cascade that a branch does not follow, between the last of its changes and the
+/// onset of the chatter?
 bool in_rest_of_cascade(const Branch& branch, const SpecialPoint& point) {
   const std::vector<SpecialPoint>& all = branch.special;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -145,8 +140,7 @@ long missing(const Problem& problem, const Branch& whole, const Branch& again, d
       if (std::ranges::any_of(again.special, alike)) continue;
       ++tally.named;
       tally.notes.push_back(where + ": " + std::string(name(point.type)) + " " + shown(point.value) + " (" +
-                            point.what + ", " + point.outcome + ") is " + std::string(name(found->type)) + " (" +
-                            found->what + ", " + found->outcome + ")");
+                            words(point) + ") is " + std::string(name(found->type)) + " (" + words(*found) + ")");
       continue;
     }
     if (in_rest_of_cascade(again, point) || !goes_past(problem, again, whole, point)) continue;
@@ -166,9 +160,9 @@ void follow_both_ways(const Problem& problem, const Solution& first, const Conti
   constexpr double well_known = 1e-9;  // of the range
   tally.vague += std::ranges::count_if(
       whole.special, [&](const SpecialPoint& point) { return !is_limit(point) && point.error > well_known * range; });
-  if (whole.failed) {
+  if (whole.failed()) {
     ++tally.failed;
-    tally.notes.push_back(where + ": " + whole.ended);
+    tally.notes.push_back(where + ": " + sentence(whole));
   }
   constexpr std::size_t inside = 3;  // an end may be a place where the motion dies out, which is no good start
   constexpr double vast = 1e3;       // against the first orbit: it grows without bound
@@ -178,8 +172,9 @@ void follow_both_ways(const Problem& problem, const Solution& first, const Conti
     if (end->orbit.x[0].norm() > vast * first.orbit.x[0].norm()) continue;
     const Branch again = follow(problem, end->orbit, options);
     const std::string from = where + ", from " + shown(end->orbit.values[0]);
-    if (again.failed && !whole.failed) tally.notes.push_back(from + ": " + again.ended);
-    tally.failed += again.failed && !whole.failed ? 1 : 0;
+    const bool fails_alone = again.failed() && !whole.failed();
+    if (fails_alone) tally.notes.push_back(from + ": " + sentence(again));
+    tally.failed += fails_alone ? 1 : 0;
     tally.differ +=
         missing(problem, whole, again, range, from, tally) + missing(problem, again, whole, range, where, tally);
   }
@@ -200,7 +195,8 @@ Tally examine(const Case& which, long number, bool own, const Options& options) 
   try {
     const auto problem = pose(definition.family({which.parameter}, values), {value});
     const System system(definition.build(present));
-    const auto first = settle(*problem, system, definition.start(present), transient, 0, options.stop);
+    const auto first =
+        settle(*problem, system, definition.start(present), {.transient = transient, .stop = options.stop}).orbit;
     tally.unsettled += first ? 0 : 1;
     tally.families += first && !first->isolated() ? 1 : 0;
     if (!first || !first->isolated()) return tally;

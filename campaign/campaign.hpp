@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "slapstick/io/json.hpp"
+#include "io/json.hpp"
 
 namespace campaign {
 
@@ -35,8 +35,8 @@ struct Campaign {
 /// Those of this program.
 const std::vector<Campaign>& campaigns();
 
-/// Reads the command line, runs one campaign and writes its report. Exit status: 0 passed, 1 not, 2 bad input, 3 the numerics did not succeed, 4 the
-/// report could not be written, 130 ended by Ctrl-C (the report says how far it came).
+/// Reads the command line, runs one campaign and writes its report. Exit status: 0 passed, 1 not, 2 bad input, 3 the
+/// numerics did not succeed, 4 the report could not be written, 130 ended by Ctrl-C (the report says how far it came).
 int campaign_main(int count, char** arguments);
 
 Report run_segments(const Options& options);

@@ -7,8 +7,8 @@
 
 #include "campaign.hpp"
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/nearest.hpp"
-#include "slapstick/io/atomic_file.hpp"
+#include "base/nearest.hpp"
+#include "io/atomic_file.hpp"
 
 namespace campaign {
 namespace {

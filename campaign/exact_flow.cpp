@@ -1,4 +1,6 @@
+/// Computes exp(A s) of a mode in quadruple precision on a grid, with bounds on the guards between.
 #include "exact_flow.hpp"
+#include "mode/mode.hpp"
 
 #include <algorithm>
 #include <cmath>

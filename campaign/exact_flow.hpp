@@ -1,12 +1,14 @@
 #pragma once
-/// exp(A s) of one mode on a grid s_j = j d, in quadruple precision, and bounds on its guards between the points: the reference of the
-/// campaigns. Of the engine it takes only what defines the problem, A and the guards' rows, as stored doubles.
+/// exp(A s) of one mode on a grid s_j = j d, in quadruple precision, and bounds on its guards between the points: the
+/// reference of the campaigns. Of the engine it takes only what defines the problem, A and the guards' rows, as stored
+/// doubles.
 ///
-/// About a point s_j a guard is h(s_j + x d) = sum_n D_n X_j x^n, D_n = c A^n d^n / n!, X_j = exp(A s_j) X. With d a sixteenth of an engine's
-/// window twenty terms leave less than 2^-106 (fifteen, for 64 bits, 2^-66); the constructor adds up what is left out and refuses more.
+/// About a point s_j a guard is h(s_j + x d) = sum_n D_n X_j x^n, D_n = c A^n d^n / n!, X_j = exp(A s_j) X. With d a
+/// sixteenth of an engine's window twenty terms leave less than 2^-106 (fifteen, for 64 bits, 2^-66); the constructor
+/// adds up what is left out and refuses more.
 #include <vector>
 
-#include "slapstick/mode/mode.hpp"
+#include "mode/mode.hpp"
 
 namespace campaign {
 

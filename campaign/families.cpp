@@ -1,11 +1,13 @@
-/// Campaign `families`: what is near resonance, near critical damping, nearly equal, nearly rigid, by 2^-k, k = 1 .. 52. The error does not grow
-/// towards the border.
+/// Campaign `families`: what is near resonance, near critical damping, nearly equal, nearly rigid, by 2^-k,
+/// k = 1 .. 52. The error does not grow towards the border.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 
 #include "batches.hpp"
+#include "flow/compiled_system.hpp"
+#include "flow/engine.hpp"
 #include "exact_flow.hpp"
 #include "random.hpp"
 #include "slapstick/flow/motion.hpp"
@@ -65,30 +67,30 @@ struct Tally {
   }
 };
 
-/// Runs from random states: largest error of any number, in units of what a relative error 1 of the start would come to. Samples lie at 2^-n of a period apart, which the
-/// clock holds exactly.
+/// Runs from random states: largest error of any number, in units of what a relative error 1 of the start would come
+/// to. Samples lie at 2^-n of a period apart, which the clock holds exactly.
 double worst_error(const Family& family, int k, Random random, long starts) {
   const System system(family.at(std::ldexp(1.0, -k)));
   const double step =
       std::ldexp(1.0, static_cast<int>(std::floor(std::log2(family.duration / system.period() / samples))));
   Motion first(system, State(2 * system.model().size(), 0.0));
-  const ExactFlow flow(system.mode(first.mode_id()), step * system.period(), samples);
+  const ExactFlow flow(system.compiled().mode(first.mode_id()), step * system.period(), samples);
   double worst = 0.0;
   for (long i = 0; i < starts; ++i) {
     State state(2 * system.model().size());
     for (double& x : state) x = random.uniform(-1.0, 1.0);
     Motion motion(system, state);
-    const std::vector<double> X(motion.extended().begin(), motion.extended().end());
+    const std::vector<double> X(motion.engine().extended().begin(), motion.engine().extended().end());
     double error = 0.0;
     for (int j = 1; j <= samples; ++j) {
       std::array<Quad, 32> exact;
       motion.advance(Instant{}.plus(j * step));
       flow.state<Quad>(j, X.data(), exact.data());
-      for (int n = 0; n < 2 * system.frame().d; ++n) {
-        error = std::max(error, std::abs(static_cast<double>(Quad(motion.extended()[n]) - exact[n])));
+      for (int n = 0; n < 2 * system.compiled().frame().d; ++n) {
+        error = std::max(error, std::abs(static_cast<double>(Quad(motion.engine().extended()[n]) - exact[n])));
       }
     }
-    worst = std::max(worst, error / flow.reach(2 * system.frame().d, X.data()));
+    worst = std::max(worst, error / flow.reach(2 * system.compiled().frame().d, X.data()));
   }
   return worst;
 }

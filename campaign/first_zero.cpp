@@ -1,3 +1,4 @@
+/// Finds the first zero of a guard on a segment with certainty.
 #include "first_zero.hpp"
 
 #include <algorithm>

@@ -23,9 +23,10 @@ struct Truth {
 
 /// The first zero of a guard on (0, intervals * spacing], for the state X and the stored numbers of the mode.
 ///
-/// An interval between two points of the grid is free of zeros where h > M d^2 / 8 at both of them, M >= |h''|: a function lies at most that
-/// far below its chord. Where that does not hold the Taylor polynomial there is searched.
-/// @param order  of the zero of h at the start, which is divided out; the first derivative that is not zero must be positive
+/// An interval between two points of the grid is free of zeros where h > M d^2 / 8 at both of them, M >= |h''|: a
+/// function lies at most that far below its chord. Where that does not hold the Taylor polynomial there is searched.
+/// @param order  of the zero of h at the start, which is divided out; the first derivative that is not zero must be
+/// positive
 Truth first_zero(const ExactFlow& flow, int guard, const double* X, int order, int intervals, Method method);
 
 }  // namespace campaign

@@ -1,9 +1,9 @@
 #pragma once
 /// The first zero of a polynomial on [0, 1], with certainty or not at all, by the signs of its first two derivatives.
 ///
-/// An interval is split until one of these holds on it: f > 0 by its Taylor polynomial about the middle; f falls or rises; f is concave (its
-/// least value lies at an end); f is convex (Newton's iteration finds its minimum u, and f >= f(u) - f'(u)^2 / (2 min f'')). The engine's way, steps
-/// that cannot pass a zero, is not used.
+/// An interval is split until one of these holds on it: f > 0 by its Taylor polynomial about the middle; f falls or
+/// rises; f is concave (its least value lies at an end); f is convex (Newton's iteration finds its minimum u, and
+/// f >= f(u) - f'(u)^2 / (2 min f'')). The engine's way, steps that cannot pass a zero, is not used.
 #include <array>
 #include <utility>
 

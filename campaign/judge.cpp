@@ -1,3 +1,4 @@
+/// Holds what the engine says of a motion against the truth, segment by segment.
 #include "judge.hpp"
 
 #include <algorithm>
@@ -5,7 +6,10 @@
 #include <cstdio>
 #include <optional>
 #include <span>
+#include <vector>
 
+#include "flow/compiled_system.hpp"
+#include "flow/engine.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace campaign {
@@ -15,15 +19,16 @@ using slapstick::EventKind;
 using slapstick::Motion;
 using slapstick::Outcome;
 
-/// What a value of a guard can be wrong by, in units of its scale, and how deep a graze may be: docs/certainty.md, section 3, for
-/// Taylor terms that add up to e^2 times the guard.
+/// What a value of a guard can be wrong by, in units of its scale, and how deep a graze may be: docs/certainty.md,
+/// section 3, for Taylor terms that add up to e^2 times the guard.
 constexpr double noise = 0x1p-46, graze_depth = 0x1p-42;
 
 /// How a segment ended.
 struct End {
   int guard = -1;  ///< -1: no event
   bool graze = false;
-  /// Of a relative velocity: its own graze is reported as a reversal or stick, and a graze is that of the gap whose rate it is.
+  /// Of a relative velocity: its own graze is reported as a reversal or stick, and a graze is that of the gap whose
+  /// rate it is.
   bool speed = false;
   double time = 0.0;
 };
@@ -57,6 +62,7 @@ class SegmentJudge {
   SegmentJudge(Scene& scene, const Motion& motion, const End& end, Method method, Verdicts& verdicts)
       : scene_(scene),
         segment_(motion.segment()),
+        X_(motion.engine().extended_at_start().begin(), motion.engine().extended_at_start().end()),
         flow_(scene.flow(segment_.mode)),
         end_(end),
         method_(method),
@@ -65,14 +71,14 @@ class SegmentJudge {
   void judge(int near_graze) {
     std::array<int, 64> orders{};
     for (int g = 0; g < flow_.guards(); ++g) {
-      const std::optional<int> order = start_order(flow_, g, segment_.X.data());
+      const std::optional<int> order = start_order(flow_, g, X_.data());
       if (!order) return void(++verdicts_.unjudged);
       orders[g] = *order;
     }
     ++verdicts_.segments;
     for (int g = 0; g < flow_.guards(); ++g) {
       const int last = std::min(static_cast<int>(end_.time / flow_.spacing()) + 2, flow_.count());
-      const Truth truth = first_zero(flow_, g, segment_.X.data(), orders[g], last, method_);
+      const Truth truth = first_zero(flow_, g, X_.data(), orders[g], last, method_);
       if (g == near_graze && truth.low) note_depth(truth);
       if (g == end_.guard)
         judge_event(truth, orders[g]);
@@ -83,7 +89,8 @@ class SegmentJudge {
   }
 
  private:
-  /// Is the zero certainly before the segment's end? One that belongs to a graze lies up to slope / curvature before its minimum.
+  /// Is the zero certainly before the segment's end? One that belongs to a graze lies up to slope / curvature before
+  /// its minimum.
   [[nodiscard]] bool passed(const Truth& truth) const {
     const double dip = end_.graze && depth(truth) <= graze_depth ? 1.5 * truth.slope / truth.bend : 0.0;
     return truth.time + dip < end_.time - blur(truth, scene_.duration());
@@ -137,11 +144,11 @@ class SegmentJudge {
                   "window %.17g, omega %a, X",
                   what, scene_.system().model().name.c_str(), scene_.system().mode_name(segment_.mode).c_str(), guard,
                   end_.guard, end_.graze ? " graze" : "", end_.time, static_cast<int>(truth.kind), truth.time,
-                  truth.least, truth.scale, scene_.system().mode(segment_.mode).window(),
+                  truth.least, truth.scale, scene_.system().compiled().mode(segment_.mode).window(),
                   scene_.system().model().omega);
     std::string line = text;
     for (int i = 0; i < flow_.size(); ++i) {
-      std::snprintf(text, sizeof text, " %a", segment_.X[i]);
+      std::snprintf(text, sizeof text, " %a", X_[static_cast<std::size_t>(i)]);
       line += text;
     }
     verdicts_.faults.push_back(line);
@@ -149,6 +156,7 @@ class SegmentJudge {
 
   Scene& scene_;
   const Motion::Segment segment_;
+  const std::vector<double> X_;  ///< the extended state at its start
   const ExactFlow& flow_;
   End end_;
   Method method_;
@@ -180,11 +188,11 @@ void follow(Scene& scene, const Start& start, Method method, int most_segments, 
     const Outcome outcome = motion.advance(motion.time().plus(duration / scene.system().period()));
     if (motion.counters().segments == before) continue;  // an event of the same instant
     const bool event = outcome == Outcome::event;
-    if (event && motion.hits().empty()) return void(++verdicts.unjudged);
+    if (event && motion.engine().hits().empty()) return void(++verdicts.unjudged);
     End end{-1, false, false, duration};
     if (event)
-      end = {motion.hits().front(), motion.event().kind == EventKind::graze,
-             motion.hit_guard()->kind == slapstick::mode::GuardKind::slip, motion.segment().duration};
+      end = {motion.engine().hits().front(), motion.event().kind == EventKind::graze,
+             motion.engine().hit_guard()->kind == slapstick::mode::GuardKind::slip, motion.segment().duration};
     SegmentJudge(scene, motion, end, method, verdicts).judge(near_graze);
     if (!event) return;
     near_graze = -1;

@@ -1,3 +1,4 @@
+/// Lists the campaigns and runs the one that is asked for.
 #include "campaign.hpp"
 
 namespace campaign {

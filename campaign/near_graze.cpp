@@ -1,10 +1,13 @@
+/// Makes starts whose first event is nearly a graze.
 #include "near_graze.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "slapstick/flow/mode_graph.hpp"
+#include "flow/compiled_system.hpp"
+#include "mode/frame.hpp"
+#include "flow/mode_graph.hpp"
 
 namespace campaign {
 namespace {
@@ -22,11 +25,11 @@ class Tuning {
 
   bool run() {
     scene_.enter(start_.state, start_.phase, X_.data());
-    flow_ = &scene_.flow(slapstick::flow::approaching_mode(scene_.system(), X_.data()));
+    flow_ = &scene_.flow(slapstick::flow::approaching_mode(scene_.system().compiled(), X_.data()));
     if (flow_->guards() == 0) return false;
     if (start_.guard < 0 || start_.guard >= flow_->guards()) start_.guard = random_.below(flow_->guards());
     if (in_contact_) start_.guard = 0;
-    turn_knob(scene_.system().frame());
+    turn_knob(scene_.system().compiled().frame());
     const int j = minimum();
     return j > 0 && tune(j) && lawful();
   }
@@ -44,7 +47,8 @@ class Tuning {
     }
   }
 
-  /// A point of the grid near a local minimum that can be brought to zero while h stays positive before; 0 if there is none.
+  /// A point of the grid near a local minimum that can be brought to zero while h stays positive before; 0 if there is
+  /// none.
   [[nodiscard]] int minimum() const {
     int chosen = 0;
     for (int j = 2; j + 1 < scene_.intervals(); ++j) {

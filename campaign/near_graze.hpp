@@ -15,8 +15,9 @@ struct Start {
 /// A random start, of which nothing is known.
 Start random_start(const Scene& scene, Random& random);
 
-/// Makes near-grazes of one scene. One number of a random start is moved until a minimum of a guard is where it shall be, up to the rounding of that
-/// number; one of four starts in contact, leaving. Most random starts have no minimum that can be had: those that had one are varied.
+/// Makes near-grazes of one scene. One number of a random start is moved until a minimum of a guard is where it shall
+/// be, up to the rounding of that number; one of four starts in contact, leaving. Most random starts have no minimum
+/// that can be had: those that had one are varied.
 class NearGrazes {
  public:
   NearGrazes(Scene& scene, Random& random) : scene_(scene), random_(random) {}

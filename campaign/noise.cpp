@@ -1,10 +1,14 @@
-/// Campaign `noise`: computed values and slopes of guards against exact ones. The bound is never exceeded, and is not empty.
+/// Campaign `noise`: computed values and slopes of guards against exact ones. The bound is never exceeded, and is not
+/// empty.
 #include <array>
 #include <cmath>
 
 #include "batches.hpp"
+#include "flow/compiled_system.hpp"
+#include "event/first_root.hpp"
+#include "mode/mode.hpp"
 #include "scene.hpp"
-#include "slapstick/flow/mode_graph.hpp"
+#include "flow/mode_graph.hpp"
 
 namespace campaign {
 namespace {
@@ -107,8 +111,8 @@ Tally examine(Random random, long count) {
   while (tally.value.count < count) {
     std::array<double, 32> X{};
     scene.enter(scene.state(random), random.uniform(0.0, 1.0), X.data());
-    const slapstick::ModeId id = slapstick::flow::approaching_mode(scene.system(), X.data());
-    const Mode& mode = scene.system().mode(id);
+    const slapstick::ModeId id = slapstick::flow::approaching_mode(scene.system().compiled(), X.data());
+    const Mode& mode = scene.system().compiled().mode(id);
     if (mode.guard_count() == 0) return tally;
     const ExactFlow& flow = flows.try_emplace(id, mode, mode.window() / Window::pieces, Window::pieces).first->second;
     const int g = random.below(mode.guard_count());

@@ -1,11 +1,12 @@
-/// Campaign `orbit`: stable orbits of the paper's system, period after period; the impact comes at the same phase with the same state.
+/// Campaign `orbit`: stable orbits of the paper's system, period after period; the impact comes at the same phase with
+/// the same state.
 #include <algorithm>
 #include <cmath>
 
 #include "campaign.hpp"
 #include "progress.hpp"
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 #include "slapstick/flow/motion.hpp"
 #include "slapstick/io/model_file.hpp"
 

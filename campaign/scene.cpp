@@ -1,7 +1,11 @@
+/// Makes what a batch of random segments shares: a compiled model and the exact flow of its modes.
 #include "scene.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "flow/compiled_system.hpp"
+#include "mode/frame.hpp"
 
 namespace campaign {
 
@@ -32,13 +36,13 @@ Scene::Scene(Random& random, Phase phase) : system_(std::make_unique<System>(ran
 
 const ExactFlow& Scene::flow(ModeId mode) {
   auto& flow = flows_[mode];
-  if (!flow) flow = std::make_unique<ExactFlow>(system_->mode(mode), spacing_, intervals_ + 1);
+  if (!flow) flow = std::make_unique<ExactFlow>(system_->compiled().mode(mode), spacing_, intervals_ + 1);
   return *flow;
 }
 
 void Scene::enter(const State& state, double phase, double* X) const {
-  system_->frame().enter(state.data(), X);
-  system_->frame().set_phase(phase, X);
+  system_->compiled().frame().enter(state.data(), X);
+  system_->compiled().frame().set_phase(phase, X);
 }
 
 bool Scene::lawful(const State& state) const {

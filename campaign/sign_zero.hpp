@@ -1,5 +1,6 @@
 #pragma once
-/// The same question as interval_zero.hpp by another method: Descartes' rule of signs on Bernstein coefficients, and halving.
+/// The same question as interval_zero.hpp by another method: Descartes' rule of signs on Bernstein coefficients, and
+/// halving.
 #include "interval_zero.hpp"
 
 namespace campaign {

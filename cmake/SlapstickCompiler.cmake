@@ -2,6 +2,8 @@
 # -ffp-contract=off: a*b+c is rounded twice everywhere, so that vector width and optimisation level do not change a bit.
 add_library(slapstick_options INTERFACE)
 target_compile_features(slapstick_options INTERFACE cxx_std_20)
+# The private headers, for the library, its programs and its tests.
+target_include_directories(slapstick_options INTERFACE ${PROJECT_SOURCE_DIR}/src)
 target_compile_options(slapstick_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off -fno-math-errno)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # GCC 12 warns inside its own AVX-512 intrinsics (its bug 105593) and std::string concatenation (105651).
@@ -22,6 +24,31 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
 endif()
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+
+# slapstick_group(TARGET COUNT): with SLAPSTICK_GROUPED, up to COUNT neighbouring sources of one folder are compiled together, since most of the
+# time goes into the headers and templates that they share. A source keeps to itself with the property SKIP_UNITY_BUILD_INCLUSION. Names in
+# anonymous namespaces are then those of a group: the build says where two are one.
+function(slapstick_group target count)
+  if(NOT SLAPSTICK_GROUPED)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # What one source calls its own is no fault of its neighbours: builds without groups ask for these.
+  target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  get_target_property(sources ${target} SOURCES)
+  set(before "-")
+  foreach(source IN LISTS sources)
+    get_filename_component(folder ${source} DIRECTORY)
+    if(NOT folder STREQUAL before)
+      set(before "${folder}")
+      set(index 0)
+    endif()
+    get_filename_component(name "${folder}" NAME)
+    math(EXPR group "${index} / ${count}")
+    math(EXPR index "${index} + 1")
+    set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP "group_${name}_${group}")
+  endforeach()
+endfunction()
 
 # Objects come from ccache where there is one. It does not know what -march=native means: each kind of processor has its own part.
 find_program(SLAPSTICK_CCACHE ccache)

@@ -3,6 +3,7 @@
 
 #include "event_options.hpp"
 #include "lines.hpp"
+#include "orbit_choice.hpp"
 #include "parameter_ranges.hpp"
 #include "small_model.hpp"
 #include "stop_options.hpp"
@@ -52,8 +53,10 @@ void check_two_ranges(const Lines& lines) {
 }
 
 void check_orbit(const std::string& text) {
-  const app::OrbitClass wanted = app::parse_orbit(text);
-  demand(wanted.n >= 0 && wanted.p.value_or(0) >= 0, "a cycle has no negative numbers");
+  app::OrbitOptions options;
+  options.orbit = text;
+  const orbit::OrbitChoice wanted = app::choice_of(options, {});
+  demand(wanted.n.value_or(0) >= 0 && wanted.p.value_or(0) >= 0, "a cycle has no negative numbers");
 }
 
 void check_event(const std::string& text) {

@@ -1,6 +1,7 @@
 #pragma once
-/// Real numbers as balls with a midpoint of 256 bits (Arb). Every operation gives a ball that contains the exact result; a comparison is
-/// true only if it holds for all numbers of both balls, so that what is not certain counts as false.
+/// Real numbers as balls with a midpoint of 256 bits (Arb). Every operation gives a ball that contains the exact
+/// result; a comparison is true only if it holds for all numbers of both balls, so that what is not certain counts as
+/// false.
 #include <arb.h>
 
 #include <vector>

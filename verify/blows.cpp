@@ -10,7 +10,8 @@ namespace {
 constexpr double rounding = 0x1p-40;
 constexpr double singular = 0x1p-40;  ///< pivots this small, in units of the diagonal, are rounding
 
-/// A solution of D x = b, D symmetric and positive semidefinite. Where D is singular, some x are 0: M^-1 G^T x does not depend on the choice.
+/// A solution of D x = b, D symmetric and positive semidefinite. Where D is singular, some x are 0: M^-1 G^T x does not
+/// depend on the choice.
 Balls solve(std::vector<Balls> D, Balls b) {
   const std::size_t n = b.size();
   std::vector<double> diagonal(n);
@@ -55,7 +56,8 @@ void Checker::blows(Departure& departure) {
   }
 }
 
-/// A stop that is approached when it is struck has an event that says so. What brings stops to rest stands for impacts that nobody counts.
+/// A stop that is approached when it is struck has an event that says so. What brings stops to rest stands for impacts
+/// that nobody counts.
 void Checker::report_of(const Departure& departure, const Blow& blow, std::vector<bool>& found) {
   if (blow.rest) return;
   for (const int k : blow.stops) {

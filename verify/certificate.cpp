@@ -1,3 +1,4 @@
+/// Reads a certificate segment by segment.
 #include "certificate.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 #pragma once
-/// A certificate (docs/certificate.md) as it is read, segment by segment. Only the text is judged here: words, numbers, indices, order of records.
+/// A certificate (docs/certificate.md) as it is read, segment by segment. Only the text is judged here: words, numbers,
+/// indices, order of records.
 #include <istream>
 #include <map>
 #include <stdexcept>
@@ -65,7 +66,8 @@ struct End {
   double size = 0.0;  ///< DELTA, NOISE or ERROR
 };
 
-/// How the limit of a chatter is proved: modes, a bound of the time, of the accelerations towards the stop on the way away from it and back.
+/// How the limit of a chatter is proved: modes, a bound of the time, of the accelerations towards the stop on the way
+/// away from it and back.
 struct Tail {
   long line = 0;  ///< 0: there is none
   long rise = 0, back = 0, hold = 0;

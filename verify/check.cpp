@@ -1,3 +1,4 @@
+/// Checks the rules that lead from segment to segment.
 #include "check.hpp"
 
 #include <algorithm>
@@ -127,7 +128,8 @@ void Checker::clock(const Segment& segment) {
     refuse_(segment.line, "begins " + digits((shown - flown).near()) + " periods from where the one before has ended");
 }
 
-/// The instant of the end is known to a rounding of the clock, and a number of the state to its rate times that: so much its size is more.
+/// The instant of the end is known to a rounding of the clock, and a number of the state to its rate times that: so
+/// much its size is more.
 void Checker::blur(Departure& end, const Flow& flow) const {
   const double instant = clock_rounding * head_.period + flight_rounding * end.segment.duration;
   for (std::size_t i = 0; i < 2 * static_cast<std::size_t>(head_.d); ++i)
@@ -154,8 +156,8 @@ double Checker::size_of_others(std::size_t i) const {
   return sum;
 }
 
-/// The most that the velocity towards a stop can be, or infinity: it is constant, or a slip guard v u_i > 0 keeps it below a constant, because
-/// u_own -+ u_i does not change.
+/// The most that the velocity towards a stop can be, or infinity: it is constant, or a slip guard v u_i > 0 keeps it
+/// below a constant, because u_own -+ u_i does not change.
 double Checker::fastest_approach(const Stop& stop, const Segment& segment, const Mode& mode) const {
   const double own = stop.sign * segment.state[u(stop)];
   double least = mode.rows[u(stop)].empty() ? own : INFINITY;

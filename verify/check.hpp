@@ -1,5 +1,6 @@
 #pragma once
-/// The rules of docs/certificate.md that lead from segment to segment: clock, phases, continuity, impulses, stops that are not watched.
+/// The rules of docs/certificate.md that lead from segment to segment: clock, phases, continuity, impulses, stops that
+/// are not watched.
 #include <map>
 #include <memory>
 

@@ -1,3 +1,4 @@
+/// Flies one segment in balls, and checks what is claimed of its guards.
 #include "flight.hpp"
 
 #include <algorithm>

@@ -1,8 +1,9 @@
 #pragma once
 /// One segment flown in balls, from its start to its end, and all that is claimed of its guards on the way.
 ///
-/// The segment is cut at every start of a step and at every limit. About each cut p the guards are Taylor series; a step that starts at p is held
-/// against h(p) and h'(p), and each step that covers the piece from p to the next cut against h'' there.
+/// The segment is cut at every start of a step and at every limit. About each cut p the guards are Taylor series; a
+/// step that starts at p is held against h(p) and h'(p), and each step that covers the piece from p to the next cut
+/// against h'' there.
 #include <functional>
 #include <string>
 

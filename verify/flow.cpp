@@ -1,3 +1,4 @@
+/// Computes exp(A t) X in balls.
 #include "flow.hpp"
 
 #include <algorithm>

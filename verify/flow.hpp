@@ -1,8 +1,8 @@
 #pragma once
 /// X' = A X in balls: Taylor series of exp(A t) X with a proven remainder.
 ///
-/// With positive weights w, |x|_w = max |x_i| / w_i and nu = |A|_w, the terms V_n = A^n X / n! obey |V_{N+j}|_w <= |V_N|_w nu^j N! / (N+j)!.
-/// N is chosen so large that nu t <= (N - 8) / 4; then for r <= 3
+/// With positive weights w, |x|_w = max |x_i| / w_i and nu = |A|_w, the terms V_n = A^n X / n! obey
+/// |V_{N+j}|_w <= |V_N|_w nu^j N! / (N+j)!. N is chosen so large that nu t <= (N - 8) / 4; then for r <= 3
 ///     sum over n >= N of n^r |V_n|_w t^n  <=  2 N^r |V_N|_w t^N,
 /// because each term is below (1/4) (1 + 1/N)^3 of the one before, less than a half.
 #include "ball.hpp"

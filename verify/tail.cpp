@@ -1,3 +1,4 @@
+/// Checks the limit of a complete chatter.
 #include "tail.hpp"
 
 #include <algorithm>

@@ -1,9 +1,11 @@
 #pragma once
-/// The limit of a complete chatter: that infinitely many impacts follow, when they end, and in which state (docs/certainty.md, section 8).
+/// The limit of a complete chatter: that infinitely many impacts follow, when they end, and in which state
+/// (docs/certainty.md, section 8).
 ///
-/// S is the state at rest on the stop, v the speed at which the pair leaves it, w the pair's velocity towards the stop. An impact changes
-/// velocities by b dw, b the column of the inertia that belongs to the stop, divided by its own entry. What is left of a mode's A without
-/// b times the row of w is N: Z - b w changes at the rate N Z, and jumps at no impact.
+/// S is the state at rest on the stop, v the speed at which the pair leaves it, w the pair's velocity towards the stop.
+/// An impact changes velocities by b dw, b the column of the inertia that belongs to the stop, divided by its own
+/// entry. What is left of a mode's A without b times the row of w is N: Z - b w changes at the rate N Z, and jumps at
+/// no impact.
 #include "flight.hpp"
 
 namespace verify {
@@ -15,7 +17,8 @@ class Limit {
         const Refuse& refuse);
   /// Everything but the guards of the modes. @param sizes  that the state's allowance is made of
   void check(const std::vector<double>& sizes);
-  /// The guards of the mode of the flight away from the stop or back: positive, but for the gap and the velocity of the pair itself.
+  /// The guards of the mode of the flight away from the stop or back: positive, but for the gap and the velocity of the
+  /// pair itself.
   /// @returns whether one of them is for this direction only
   bool guards(const Mode& mode, const Flow& flow, bool rising) const;
   /// In this mode friction would hold the pair off the stop: a force limit of it is exceeded.

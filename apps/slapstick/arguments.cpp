@@ -1,3 +1,4 @@
+/// Parses the arguments of one verb; the only source that includes CLI11.
 #include "arguments.hpp"
 
 #include <CLI/CLI.hpp>
@@ -7,7 +8,7 @@
 #include <functional>
 
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/nearest.hpp"
+#include "base/nearest.hpp"
 
 namespace slapstick::app {
 

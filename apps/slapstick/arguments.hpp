@@ -1,8 +1,8 @@
 #pragma once
 /// The arguments of one verb. CLI11 lives behind this header, in arguments.cpp, and nowhere else.
 ///
-/// A verb declares what it takes; each declaration binds a variable, whose present value is the default. Every mistake of the
-/// user becomes an InputError that names the argument.
+/// A verb declares what it takes; each declaration binds a variable, whose present value is the default. Every mistake
+/// of the user becomes an InputError that names the argument.
 #include <memory>
 #include <string>
 #include <vector>
@@ -47,7 +47,8 @@ class Arguments {
   std::unique_ptr<Parser> parser_;
 };
 
-/// What may help somebody whose `text` begins like a number and is none: " (decimals have a point: 0.5, not 0,5)"; or nothing.
+/// What may help somebody whose `text` begins like a number and is none: " (decimals have a point: 0.5, not 0,5)"; or
+/// nothing.
 [[nodiscard]] std::string number_advice(const std::string& text);
 /// The number that `text` is, whole and finite. @throws InputError "ARGUMENT: 'text' is not a number"
 [[nodiscard]] double parse_number(const std::string& argument, const std::string& text);

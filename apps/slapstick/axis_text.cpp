@@ -1,3 +1,4 @@
+/// Turns names of a model into the text of a picture, in gnuplot's enhanced notation.
 #include "axis_text.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Puts units on the axes of pictures, where the model's file states them.
 #include "axis_units.hpp"
 
 #include "axis_text.hpp"

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include "slapstick/figure/figure.hpp"
+#include "figure/figure.hpp"
 
 namespace slapstick::app {
 

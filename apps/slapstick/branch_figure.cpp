@@ -1,3 +1,4 @@
+/// Draws branches: impact speeds over the parameter, with special points.
 #include "branch_figure.hpp"
 
 #include <algorithm>
@@ -16,8 +17,8 @@ namespace {
 
 using orbit::Solution;
 
-/// What stands for an orbit: the speeds of its impacts, or 0; or the first coordinate at its events. In falling order: which event a cycle begins with may
-/// change along a branch.
+/// What stands for an orbit: the speeds of its impacts, or 0; or the first coordinate at its events. In falling order:
+/// which event a cycle begins with may change along a branch.
 std::vector<double> heights(const orbit::Problem& problem, const Solution& solution, bool of_speeds) {
   std::vector<double> speeds, places;
   for (const orbit::EventOfOrbit& event : orbit::events(problem, solution.orbit)) {
@@ -90,8 +91,8 @@ bool have_impacts(const std::vector<orbit::Branch>& branches) {
   });
 }
 
-/// The lines of a branch. A change of events ends those of the old sequence and begins those of the new one; a special point at which the branch ends
-/// is their end, though no point of the branch is so near.
+/// The lines of a branch. A change of events ends those of the old sequence and begins those of the new one; a special
+/// point at which the branch ends is their end, though no point of the branch is so near.
 void add_lines(figure::Panel& panel, const orbit::Branch& branch, figure::Colour colour,
                const std::function<std::vector<double>(const Solution&)>& heights_of) {
   Lines lines(panel, colour);
@@ -119,7 +120,8 @@ void add_lines(figure::Panel& panel, const orbit::Branch& branch, figure::Colour
 std::string class_of(const orbit::Branch& branch) {
   std::vector<std::pair<long, std::string>> counts;
   for (const Solution& point : branch.points) {
-    const std::string label = point.label.substr(0, point.label.find("-I"));
+    const std::string n = point.orbit.shape.n > 0 ? std::to_string(point.orbit.shape.n) : "free";
+    const std::string label = n + "-" + (point.chatter ? "inf" : std::to_string(point.impacts));
     const auto seen = std::ranges::find(counts, label, &std::pair<long, std::string>::second);
     if (seen == counts.end())
       counts.emplace_back(-1, label);

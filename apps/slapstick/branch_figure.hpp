@@ -1,14 +1,14 @@
 #pragma once
-/// Branches as a picture: impact speeds over the parameter, stable solid, unstable dashed, a colour and a number for each branch, a marker for each special
-/// point, over the motions that settle, if there are some. The legend stands below. Where a branch has no impacts it is drawn at speed 0; if nothing has
-/// impacts, the first coordinate at the events is drawn.
-/// Axes have units where the model's file states them.
+/// Branches as a picture: impact speeds over the parameter, stable solid, unstable dashed, a colour and a number for
+/// each branch, a marker for each special point, over the motions that settle, if there are some. The legend stands
+/// below. Where a branch has no impacts it is drawn at speed 0; if nothing has impacts, the first coordinate at the
+/// events is drawn. Axes have units where the model's file states them.
 #include <string>
 #include <vector>
 
 #include "settled_motions.hpp"
-#include "slapstick/figure/figure.hpp"
-#include "slapstick/orbit/branch.hpp"
+#include "figure/figure.hpp"
+#include "slapstick/continuation/branch.hpp"
 
 namespace slapstick::app {
 

@@ -1,3 +1,4 @@
+/// Prints branches as a table, with the branches that are born on them.
 #include "branch_table.hpp"
 
 #include <algorithm>
@@ -5,7 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
+#include "slapstick/continuation/sentences.hpp"
 
 namespace slapstick::app {
 namespace {
@@ -23,7 +25,8 @@ std::string row(std::size_t branch, std::size_t point, std::string_view type, do
   return text.data() + what + "\n";
 }
 
-/// How well the critical multiplier of a point is known: at a fold, where states are, to the root of the parameter's error.
+/// How well the critical multiplier of a point is known: at a fold, where states are, to the root of the parameter's
+/// error.
 double critical_tolerance(orbit::SpecialType type) {
   using enum orbit::SpecialType;
   return type == LP || type == PD || type == NS || type == BP ? 2e-3 : 1e-6;
@@ -41,16 +44,17 @@ std::string coefficient_name(orbit::SpecialType type) {
 }
 
 /// What a special point is, in words.
-std::string words(const orbit::Branch& branch, const orbit::SpecialPoint& special, const ParameterRange& range) {
-  std::string what = special.what;
+std::string words(const orbit::Branch& branch, const orbit::SpecialPoint& special, const Followed& in,
+                  const std::vector<std::size_t>& images) {
+  std::string what = orbit::what_happens(special, *in.system) + image_words(images);
   if (special.type == orbit::SpecialType::NS) what += ", rotation " + short_number(special.rotation);
   const orbit::NormalForm& form = special.normal_form;
-  if (!form.what.empty()) what += ", " + form.what;
+  if (const std::string verdict = orbit::sentence(form); !verdict.empty()) what += ", " + verdict;
   if (form.coefficient) what += ", " + coefficient_name(special.type) + " = " + short_number(*form.coefficient);
   if (const auto classes = classes_around(branch, special)) what += "; " + classes->first + " -> " + classes->second;
-  if (!special.outcome.empty()) what += "; " + special.outcome;
+  if (const std::string outcome = orbit::what_becomes(special); !outcome.empty()) what += "; " + outcome;
   constexpr double digits = 1e-10, share = 1e-6;  // of its value, and of the range
-  if (!(special.error <= std::min(digits * std::abs(special.value), share * (range.to - range.from))))
+  if (!(special.error <= std::min(digits * std::abs(special.value), share * (in.range.to - in.range.from))))
     what += "; known to " + short_number(special.error);
   return what;
 }
@@ -58,9 +62,12 @@ std::string words(const orbit::Branch& branch, const orbit::SpecialPoint& specia
 /// "; d omega / d friction = -0.31"
 std::string rates(const Sensitivities& of, std::size_t special, const std::string& parameter) {
   std::string text;
-  for (std::size_t j = 0; j < of.names.size(); ++j)
+  for (std::size_t j = 0; j < of.names.size(); ++j) {
+    const orbit::Sensitivity& rate = of.rates[special][j];
     text += "; d " + parameter + " / d " + of.names[j] +
-            (std::isfinite(of.rates[special][j]) ? " = " + short_number(of.rates[special][j]) : " is not known");
+            (std::isfinite(rate.value) ? " = " + short_number(rate.value) : " is not known");
+    if (rate.known == orbit::Known::from_one_side) text += " (from one side)";
+  }
   return text;
 }
 
@@ -84,8 +91,7 @@ std::string birth_line(std::size_t branch, const Birth& birth, const std::string
 
 std::optional<std::pair<std::string, std::string>> classes_around(const orbit::Branch& branch,
                                                                   const orbit::SpecialPoint& special) {
-  const bool goes_on = special.outcome == "persistence" || special.outcome == "non-smooth fold";
-  if (!goes_on || special.after + 1 >= branch.points.size()) return std::nullopt;
+  if (!orbit::goes_on(special.passage) || special.after + 1 >= branch.points.size()) return std::nullopt;
   return std::pair(branch.points[special.after].label, branch.points[special.after + 1].label);
 }
 
@@ -98,19 +104,51 @@ bool begins_at(const orbit::Branch& branch, const orbit::SpecialPoint& special) 
   return (special.value - first) * (next - first) < 0.0;
 }
 
+std::string image_words(const std::vector<std::size_t>& branches) {
+  std::string text;
+  for (const std::size_t branch : branches) text += ", the image of branch " + std::to_string(branch + 1) + " is born";
+  return text;
+}
+
+namespace {
+
+/// Special points that a row of their cascade stands for, and what that row says.
+struct Summary {
+  std::vector<bool> hidden;
+  std::vector<std::string> words;
+};
+
+Summary summary(const orbit::Branch& branch, bool all_changes) {
+  Summary rows{std::vector<bool>(branch.special.size(), false), std::vector<std::string>(branch.special.size())};
+  if (all_changes) return rows;
+  for (const orbit::Cascade& cascade : orbit::cascades(branch)) {
+    std::fill(rows.hidden.begin() + static_cast<std::ptrdiff_t>(cascade.first),
+              rows.hidden.begin() + static_cast<std::ptrdiff_t>(cascade.last) + 1, true);
+    const std::size_t far = cascade.first > cascade.onset ? cascade.last : cascade.first;
+    rows.words[cascade.onset] += "; a cascade of " + std::to_string(cascade.changes) + " changes " +
+                                 (far > cascade.onset ? "to " : "from ") + short_number(branch.special[far].value) +
+                                 " (--all-changes)";
+  }
+  return rows;
+}
+
+}  // namespace
+
 std::string branch_table(const std::vector<orbit::Branch>& branches, const Followed& in,
-                         const std::vector<Sensitivities>& sensitivities,
-                         const std::vector<std::optional<Birth>>& births) {
+                         const std::vector<Sensitivities>& sensitivities, const Lineage& lineage) {
   std::string text = head(in.parameter);
   for (std::size_t b = 0; b < branches.size(); ++b) {
     const orbit::Branch& branch = branches[b];
-    if (births[b]) text += birth_line(b, *births[b], in.parameter);
+    if (lineage.births[b]) text += birth_line(b, *lineage.births[b], in.parameter);
+    const Summary cascades = summary(branch, in.all_changes);
     auto special = branch.special.begin();
     const auto add_special = [&](std::size_t point) {
       const auto place = static_cast<std::size_t>(special - branch.special.begin());
-      text += row(b + 1, point + 1, name(special->type), special->value, special->solution,
-                  words(branch, *special, in.range) + rates(sensitivities[b], place, in.parameter),
-                  critical_tolerance(special->type));
+      if (!cascades.hidden[place])
+        text += row(b + 1, point + 1, name(special->type), special->value, special->solution,
+                    words(branch, *special, in, lineage.images[b][place]) + cascades.words[place] +
+                        rates(sensitivities[b], place, in.parameter),
+                    critical_tolerance(special->type));
       ++special;
     };
     while (special != branch.special.end() && begins_at(branch, *special)) add_special(0);
@@ -121,7 +159,7 @@ std::string branch_table(const std::vector<orbit::Branch>& branches, const Follo
             row(b + 1, i + 1, "EP", point.orbit.values[0], point, point.is_motion ? "" : "not a motion: " + point.why);
       while (special != branch.special.end() && special->after == i) add_special(i);
     }
-    text += "    " + std::to_string(branch.points.size()) + " points; " + branch.ended + "\n";
+    text += "    " + std::to_string(branch.points.size()) + " points; " + orbit::sentence(branch) + "\n";
   }
   return text;
 }
@@ -135,10 +173,11 @@ class Descent {
       : problem_(problem), branches_(branches), how_(how) {}
 
   /// @returns true if there is a branch more
-  bool follow(const orbit::Orbit& start, std::string& what) {
-    if (start.values[0] < how_.from || start.values[0] > how_.to || known(start, what)) return false;
+  /// @param images  the branch whose image it is, if it is one, is added
+  bool follow(const orbit::Orbit& start, std::vector<std::size_t>& images) {
+    if (start.values[0] < how_.from || start.values[0] > how_.to || known(start, images)) return false;
     orbit::Branch branch = orbit::follow(problem_, start, how_);
-    if (known(typical(branch), what)) return false;
+    if (known(typical(branch), images)) return false;
     branches_.push_back(std::move(branch));
     return true;
   }
@@ -151,12 +190,11 @@ class Descent {
     };
     return std::ranges::min_element(branch.points, {}, largest)->orbit;
   }
-  /// Of an image it is said.
-  bool known(const orbit::Orbit& orbit, std::string& what) const {
+  bool known(const orbit::Orbit& orbit, std::vector<std::size_t>& images) const {
     for (std::size_t b = 0; b < branches_.size(); ++b) {
       if (orbit::lies_on(problem_, branches_[b], orbit)) return true;
       if (!orbit::image_lies_on(problem_, branches_[b], orbit)) continue;
-      what += ", the image of branch " + std::to_string(b + 1) + " is born";
+      images.push_back(b);
       return true;
     }
     return false;
@@ -169,21 +207,20 @@ class Descent {
 
 }  // namespace
 
-std::vector<std::optional<Birth>> follow_born(const orbit::Problem& problem, std::vector<orbit::Branch>& branches,
-                                              std::size_t most, const orbit::ContinuationOptions& how) {
-  std::vector<std::optional<Birth>> births(branches.size());
+Lineage follow_born(const orbit::Problem& problem, std::vector<orbit::Branch>& branches, std::size_t most,
+                    const orbit::ContinuationOptions& how) {
+  Lineage lineage{std::vector<std::optional<Birth>>(branches.size()), {}};
   Descent descent(problem, branches, how);
   for (std::size_t b = 0; b < branches.size(); ++b) {
+    lineage.images.emplace_back(branches[b].special.size());
     for (std::size_t k = 0; k < branches[b].special.size(); ++k) {
       const Birth here{b, branches[b].special[k].type, branches[b].special[k].value};
       const std::vector<orbit::Orbit> born = branches[b].special[k].born;
-      std::string what;
       for (const orbit::Orbit& start : born)
-        if (branches.size() < most && descent.follow(start, what)) births.emplace_back(here);
-      branches[b].special[k].what += what;
+        if (branches.size() < most && descent.follow(start, lineage.images[b][k])) lineage.births.emplace_back(here);
     }
   }
-  return births;
+  return lineage;
 }
 
 }  // namespace slapstick::app

@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "orbit_options.hpp"
-#include "slapstick/orbit/branch.hpp"
+#include "slapstick/continuation/branch.hpp"
 
 namespace slapstick::app {
 
 /// d param / d each name, of the special points of one branch in their order.
 struct Sensitivities {
   std::vector<std::string> names;  ///< none: not asked for
-  std::vector<std::vector<double>> rates;
+  std::vector<std::vector<orbit::Sensitivity>> rates;
 };
 
 /// The special point at which a branch was born.
@@ -27,12 +27,23 @@ struct Birth {
 struct Followed {
   std::string parameter;
   ParameterRange range;
+  const System* system = nullptr;  ///< whose contacts are named
+  bool all_changes = false;        ///< false: the changes of a cascade towards a chatter are told with its onset
 };
 
-/// @param sensitivities, births  of each branch; the first has no birth
+/// Where branches come from.
+struct Lineage {
+  std::vector<std::optional<Birth>> births;  ///< of each branch; the first has none
+  /// Of each special point of each branch: the branches whose images begin there.
+  std::vector<std::vector<std::vector<std::size_t>>> images;
+};
+
+/// @param sensitivities  of each branch
 [[nodiscard]] std::string branch_table(const std::vector<orbit::Branch>& branches, const Followed& in,
-                                       const std::vector<Sensitivities>& sensitivities,
-                                       const std::vector<std::optional<Birth>>& births);
+                                       const std::vector<Sensitivities>& sensitivities, const Lineage& lineage);
+
+/// ", the image of branch 2 is born"
+[[nodiscard]] std::string image_words(const std::vector<std::size_t>& branches);
 
 /// The classes before and behind a change of events through which the branch goes on, in the order of its points.
 [[nodiscard]] std::optional<std::pair<std::string, std::string>> classes_around(const orbit::Branch& branch,
@@ -42,8 +53,7 @@ struct Followed {
 [[nodiscard]] bool begins_at(const orbit::Branch& branch, const orbit::SpecialPoint& special);
 
 /// Follows what is born at the special points of the branches so far, and of those, until there are `most` branches.
-/// @returns where each of them was born; empty for those that were there
-std::vector<std::optional<Birth>> follow_born(const orbit::Problem& problem, std::vector<orbit::Branch>& branches,
-                                              std::size_t most, const orbit::ContinuationOptions& how);
+[[nodiscard]] Lineage follow_born(const orbit::Problem& problem, std::vector<orbit::Branch>& branches, std::size_t most,
+                                  const orbit::ContinuationOptions& how);
 
 }  // namespace slapstick::app

@@ -1,3 +1,4 @@
+/// Runs a motion again and writes its certificate.
 #include "certified_run.hpp"
 
 #include "progress.hpp"

@@ -4,7 +4,7 @@
 
 #include "output.hpp"
 #include "slapstick/certify/certificate.hpp"
-#include "slapstick/io/json.hpp"
+#include "io/json.hpp"
 #include "verb.hpp"
 
 namespace slapstick::app {
@@ -14,7 +14,8 @@ class CertifiedRun {
   /// @throws StorageError if the file cannot be written
   explicit CertifiedRun(const std::string& path) : output_(path) {}
 
-  /// Runs from `start` to `end`. @returns false if it was stopped: the certificate is then that of the run so far, and says so itself
+  /// Runs from `start` to `end`. @returns false if it was stopped: the certificate is then that of the run so far, and
+  /// says so itself
   bool operator()(const System& system, const State& start, Instant end, bool progress, const Context& context);
   /// Puts the file in place. @throws StorageError
   void commit() { output_.commit(); }

@@ -1,3 +1,4 @@
+/// Colours the points of a picture by the stop that they belong to.
 #include "contact_clouds.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 /// Points of a picture, coloured by the stop that they belong to.
 #include <vector>
 
-#include "slapstick/figure/figure.hpp"
+#include "figure/figure.hpp"
 #include "slapstick/section/stop_choice.hpp"
 
 namespace slapstick::app {

@@ -1,3 +1,4 @@
+/// Draws a locus in two parameters, and what is met on it.
 #include "curve_figure.hpp"
 
 #include <algorithm>
@@ -50,7 +51,8 @@ class Motions {
   /// Of several between a motion and none, those up to the change of events are on the line.
   void meet(std::vector<const orbit::CurveEvent*> events, bool here, bool next) {
     const auto changes = [](const orbit::CurveEvent* event) {
-      return event->what.find("the events change") != std::string::npos;
+      return std::ranges::any_of(event->met,
+                                 [](const orbit::Meeting& one) { return one.kind == orbit::Meeting::Kind::margin; });
     };
     if (here != next && !events.empty()) {
       const auto change = here ? std::ranges::find_if(events, changes) : events.end();
@@ -71,10 +73,12 @@ void add_met(figure::Panel& panel, const std::vector<const orbit::CurveEvent*>& 
       .colour = figure::colours::black, .drawing = figure::Drawing::discs, .diameter_mm = 1.1, .over_lines = true};
   std::vector<NamedPlace> names;
   for (const orbit::CurveEvent* event : met) {
-    const bool resonance = event->type.size() == 2 && event->type.front() == 'R';
+    const orbit::Meeting& met_first = event->met.front();
+    const bool resonance =
+        met_first.kind == orbit::Meeting::Kind::resonance || met_first.kind == orbit::Meeting::Kind::end_of_torus;
     dots.x.push_back(event->values[0]);
     dots.y.push_back(event->values[1]);
-    names.push_back({event->values[0], event->values[1], resonance ? "1:" + event->type.substr(1) : event->type});
+    names.push_back({event->values[0], event->values[1], resonance ? "1:" + std::to_string(met_first.order) : name(met_first)});
   }
   if (!names.empty()) panel.points.push_back(std::move(dots));
   add_names(panel, names);

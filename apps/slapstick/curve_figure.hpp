@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "slapstick/figure/figure.hpp"
+#include "figure/figure.hpp"
 #include "slapstick/io/model_file.hpp"
-#include "slapstick/orbit/branch.hpp"
+#include "slapstick/continuation/branch.hpp"
 
 namespace slapstick::app {
 

@@ -1,10 +1,11 @@
+/// Reads --event, and says what the return map of these events shows.
 #include "event_options.hpp"
 
 #include <algorithm>
 #include <vector>
 
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 #include "stop_options.hpp"
 
 namespace slapstick::app {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "slapstick/figure/figure.hpp"
+#include "figure/figure.hpp"
 
 namespace slapstick::app {
 

@@ -1,3 +1,4 @@
+/// Finds places for labels where nothing else is drawn.
 #include "free_labels.hpp"
 
 #include <algorithm>

@@ -10,9 +10,9 @@
 
 #include "output.hpp"
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/floating_point.hpp"
-#include "slapstick/base/nearest.hpp"
-#include "slapstick/io/atomic_file.hpp"
+#include "base/floating_point.hpp"
+#include "base/nearest.hpp"
+#include "io/atomic_file.hpp"
 #include "verb.hpp"
 
 namespace slapstick::app {
@@ -41,7 +41,8 @@ void catch_signals() {
   }
 }
 
-/// A closed standard stream would give its number to the next file that is opened. Reading from or writing to what stands in for it fails.
+/// A closed standard stream would give its number to the next file that is opened. Reading from or writing to what
+/// stands in for it fails.
 void occupy_standard_streams() {
   for (int descriptor = 0; descriptor <= 2; ++descriptor) {
     if (::fcntl(descriptor, F_GETFD) != -1) continue;

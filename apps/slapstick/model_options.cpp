@@ -1,3 +1,4 @@
+/// Reads MODEL, --set and --state.
 #include "model_options.hpp"
 
 #include <algorithm>
@@ -5,8 +6,8 @@
 #include <utility>
 
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/nearest.hpp"
-#include "slapstick/base/text.hpp"
+#include "base/nearest.hpp"
+#include "base/text.hpp"
 
 namespace slapstick::app {
 
@@ -35,8 +36,15 @@ ChosenModel ModelOptions::with_sets(ModelDefinition definition) const {
 namespace {
 
 /// What helps somebody whose model begins behind one of its stops.
-std::string start_advice(const Model& model, const std::string& error) {
-  if (error.find(" is violated: ") == std::string::npos) return {};
+std::string start_advice(const ChosenModel& chosen, const Overrides& values) {
+  const Model& model = chosen.model;
+  try {
+    static_cast<void>(chosen.definition.start(values));
+    return {};
+  } catch (const BehindStop&) {
+  } catch (const InputError&) {
+    return {};
+  }
   return "; begin elsewhere, by --state " + state_names(model).front() + "=.. or under [start] in the model file";
 }
 
@@ -48,7 +56,9 @@ State own_start(const ChosenModel& chosen, const Overrides& more) {
       return chosen.definition.start(values);
     });
   } catch (const InputError& error) {
-    throw InputError(error.what() + start_advice(chosen.model, error.what()));
+    Overrides values = chosen.overrides;
+    values.insert(more.begin(), more.end());
+    throw InputError(error.what() + start_advice(chosen, values));
   }
 }
 
@@ -83,16 +93,8 @@ State ModelOptions::start(const ChosenModel& chosen, const Overrides& more) cons
   return start;
 }
 
-std::string without_place(const std::string& message) {
-  const auto end = message.find(": ");
-  if (end == std::string::npos) return message;
-  const auto digits = message.find_last_not_of("0123456789", end - 1);
-  const bool place = digits != std::string::npos && digits + 1 < end && message[digits] == ':';
-  return place ? message.substr(end + 2) : message;
-}
-
-InputError blame(const Overrides& sets, const std::function<bool(const Overrides&)>& works, const std::string& error) {
-  if (sets.empty() || !works({})) return InputError(error);  // the values are not the cause
+InputError blame(const Overrides& sets, const std::function<bool(const Overrides&)>& works, const InputError& error) {
+  if (sets.empty() || !works({})) return error;  // the values are not the cause
   std::string decisive, all;
   for (const auto& [name, value] : sets) {
     const std::string argument = "--set " + name + "=" + shown(value);
@@ -101,7 +103,7 @@ InputError blame(const Overrides& sets, const std::function<bool(const Overrides
     if (works(others)) decisive += (decisive.empty() ? "" : ", ") + argument;
     all += (all.empty() ? "" : ", ") + argument;
   }
-  return InputError((decisive.empty() ? all : decisive) + ": " + without_place(error));
+  return InputError((decisive.empty() ? all : decisive) + ": " + error.message());
 }
 
 std::pair<std::string, std::string> name_and_text(const std::string& argument, const std::string& text,

@@ -28,14 +28,16 @@ struct ModelOptions {
   [[nodiscard]] ChosenModel load() const;
   /// The same, of a definition that was read before; MODEL is not looked at.
   [[nodiscard]] ChosenModel with_sets(ModelDefinition definition) const;
-  /// The start: the model's own, with the numbers of --state in place of it. `more` are parameter values on top of --set.
+  /// The start: the model's own, with the numbers of --state in place of it. `more` are parameter values on top of
+  /// --set.
   [[nodiscard]] State start(const ChosenModel& chosen, const Overrides& more = {}) const;
 };
 
-/// Why `error` happened, as a person at the command line sees it: the values of --set without any one of which `works` is true (all of
-/// them if no single one decides) before the message, without the line of the model file, where nothing is wrong.
+/// Why `error` happened, as a person at the command line sees it: the values of --set without any one of which `works`
+/// is true (all of them if no single one decides) before the message, without the line of the model file, where nothing
+/// is wrong.
 [[nodiscard]] InputError blame(const Overrides& sets, const std::function<bool(const Overrides&)>& works,
-                               const std::string& error);
+                               const InputError& error);
 
 /// make(sets), with the values of --set named if it throws an InputError because of them.
 template <class Make>
@@ -51,12 +53,9 @@ template <class Make>
         return false;
       }
     };
-    throw blame(sets, works, error.what());
+    throw blame(sets, works, error);
   }
 }
-
-/// The message without "FILE:LINE: " before it.
-[[nodiscard]] std::string without_place(const std::string& message);
 
 /// Splits "NAME=TEXT". @throws InputError naming the argument
 [[nodiscard]] std::pair<std::string, std::string> name_and_text(const std::string& argument, const std::string& text,

@@ -1,3 +1,4 @@
+/// Draws the picture of `simulate`: phase portrait and time series.
 #include "motion_plot.hpp"
 
 namespace slapstick::app {

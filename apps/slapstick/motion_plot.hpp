@@ -2,7 +2,7 @@
 /// The picture of `simulate`: phase portrait of the relative motion, and its time series, with the stops of the pair.
 #include "axis_units.hpp"
 #include "relative_motion.hpp"
-#include "slapstick/figure/figure.hpp"
+#include "figure/figure.hpp"
 #include "slapstick/flow/motion.hpp"
 
 namespace slapstick::app {

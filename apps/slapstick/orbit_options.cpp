@@ -1,43 +1,13 @@
+/// Parameters and ranges of `continue` and `curve`, and orbits as JSON.
 #include "orbit_options.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.hpp"
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/text.hpp"
 
 namespace slapstick::app {
-
-void OrbitOptions::declare(Arguments& arguments) {
-  arguments.text(
-      "--orbit", orbit, "N-P",
-      "forcing periods and impacts per cycle, e.g. 1-1 or 2-inf; N alone for any impacts (what the motion settles on)");
-  arguments.count("--transient", transient, 0, 1'000'000'000,
-                  "forcing periods to leave out before the first try (500)");
-  arguments.count("--starts", starts, 1, 1'000'000, "motions that a search looks through (64)");
-  arguments.count("--seed", seed, 0, 4'000'000'000, "of the starts of a search (1)");
-}
-
-bool OrbitClass::admits(const orbit::Solution& solution) const {
-  if (n != 0 && solution.orbit.shape.n != n) return false;
-  if (chatter) return solution.chatter;
-  return !p || (!solution.chatter && solution.impacts == *p);
-}
-
-OrbitClass parse_orbit(const std::string& text) {
-  if (text.empty()) return {};
-  const std::vector<std::string> parts = split(text, '-');
-  const std::string form = "--orbit: " + in_quotes(text) + " is not of the form N-P, as 1-1 or 2-inf";
-  if (parts.size() > 3 || (parts.size() == 3 && parts[2] != "I" && parts[2] != "II")) throw InputError(form);
-  OrbitClass wanted;
-  wanted.n = static_cast<int>(parse_integer("--orbit N-P", parts[0], 1, 1000));
-  if (parts.size() == 1) return wanted;
-  if (parts[1] == "inf")
-    wanted.chatter = true;
-  else
-    wanted.p = parse_integer("--orbit N-P", parts[1], 0, 100'000);
-  return wanted;
-}
 
 ParameterRange parse_range(const std::string& argument, const std::string& text) {
   if (text.empty()) throw InputError(argument + " is needed: A:B");
@@ -51,19 +21,18 @@ ParameterRange parse_range(const std::string& argument, const std::string& text)
 
 namespace {
 
-/// The one value that the members of a group have that move with it: those that are not set themselves.
+/// The one value that the members of a group have. A member that is set by itself would not move with it.
 double value_of_group(const ChosenModel& chosen, const std::string& argument, const Group& group,
                       const Overrides& values) {
-  std::vector<std::string> moving;
   std::string all;
   for (const std::string& member : group.members) {
-    if (chosen.overrides.contains(member)) continue;
-    moving.push_back(member);
+    if (chosen.overrides.contains(member))
+      throw InputError(argument + ": " + member + " is set by itself and does not move with " + group.name + "; set " +
+                       group.name + " instead, or name one of its members");
     all += (all.empty() ? "" : ", ") + member + " = " + shown(values.at(member));
   }
-  if (moving.empty()) return values.at(group.members.front());
-  const double value = values.at(moving.front());
-  for (const std::string& member : moving)
+  const double value = values.at(group.members.front());
+  for (const std::string& member : group.members)
     if (values.at(member) != value)
       throw InputError(argument + ": the members of " + group.name + " differ: " + all +
                        "; give them one value by --set " + group.name + "=VALUE, or name one of them");
@@ -89,7 +58,7 @@ double present_value(const ChosenModel& chosen, const std::string& argument, con
   try {
     (void)chosen.definition.values({{parameter, 1.0}});
   } catch (const InputError& error) {
-    throw InputError(argument + ": " + without_place(error.what()));
+    throw InputError(argument + ": " + error.message());
   }
   throw InputError(argument + ": model " + in_quotes(chosen.model.name) + " has no parameter " + in_quotes(parameter));
 }
@@ -112,37 +81,6 @@ double value_inside(const ChosenModel& chosen, const std::string& argument, cons
   return value;
 }
 
-orbit::Solution find_orbit(const orbit::Problem& problem, const System& system, const State& start,
-                           const OrbitOptions& options, const std::atomic<bool>& stop) {
-  const OrbitClass wanted = parse_orbit(options.orbit);
-  if (wanted.n != 0 && !system.model().forced())
-    throw InputError("--orbit: model " + in_quotes(system.model().name) +
-                     " has no forcing, so its cycles have no number of forcing periods; leave --orbit out");
-  std::string seen;
-  const auto note = [&](const orbit::Solution& found) { seen += (seen.empty() ? "" : ", ") + found.label; };
-  if (auto found = orbit::settle(problem, system, start, options.transient, 0, &stop)) {
-    if (wanted.admits(*found)) return *found;
-    note(*found);
-  }
-  if (wanted.n == 0)
-    throw NumericalError("no periodic orbit: the motion does not settle on one within " +
-                         std::to_string(options.transient) + " periods (--transient)" +
-                         (system.model().forced() ? "; --orbit N-P searches for unstable ones" : ""));
-  orbit::SearchOptions search;
-  search.only_n = wanted.n;
-  search.starts = static_cast<int>(options.starts);
-  search.seed = static_cast<std::uint32_t>(options.seed);
-  search.stop = &stop;
-  search.enough = [&](const orbit::Solution& found) { return wanted.admits(found); };
-  for (const orbit::Solution& found : orbit::search(problem, system, start, search)) {
-    if (wanted.admits(found)) return found;
-    note(found);
-  }
-  throw NumericalError("no " + options.orbit + " orbit found from " + std::to_string(options.starts) + " motions" +
-                       (seen.empty() ? "" : " (found: " + seen + ")") +
-                       "; more --starts, another --state or parameter may help");
-}
-
 Json solution_json(const orbit::Solution& solution) {
   Json json = Json::object(), multipliers = Json::list();
   for (const auto& multiplier : solution.multipliers)
@@ -150,6 +88,7 @@ Json solution_json(const orbit::Solution& solution) {
   json.set("class", solution.label);
   if (solution.orbit.shape.n > 0) json.set("n", solution.orbit.shape.n);
   json.set("p", solution.chatter ? Json("inf") : Json(solution.impacts)).set("sticking", solution.sticking);
+  if (!solution.isolated()) json.set("family", solution.family);
   json.set("stable", solution.stable()).set("period", solution.cycle).set("multipliers", std::move(multipliers));
   json.set("is_motion", solution.is_motion);
   if (!solution.is_motion) json.set("why", solution.why);
@@ -187,9 +126,22 @@ Json events_json(const orbit::Problem& problem, const orbit::Solution& solution,
     item.set("time", event.t * system.period()).set("kind", std::string(name(event.kind)));
     item.set("contact", system.contact_name(event.contact))
         .set("mode_after", system.mode_name(system.mode_id(event.after)));
+    item.set("w", event.w).set("state", state_json(event.before, system.model()));
     list.push(std::move(item));
   }
   return list;
+}
+
+Json extremes_json(const orbit::Problem& problem, const orbit::Solution& solution, const Model& model) {
+  const std::vector<orbit::Range> ranges = orbit::ranges(problem, solution.orbit);
+  const std::vector<std::string> names = state_names(model);  // x_1, v_1, x_2, ..
+  const std::size_t n = model.coordinates.size();
+  Json json = Json::object();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const orbit::Range& range = ranges[i / 2 + (i % 2 == 0 ? 0 : n)];
+    json.set(names[i], Json::object().set("min", range.least).set("max", range.most));
+  }
+  return json;
 }
 
 Json energy_json(const orbit::Energy& energy, const Model& model) {

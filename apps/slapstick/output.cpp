@@ -1,3 +1,4 @@
+/// Opens the outputs of a verb before it computes, and writes them whole.
 #include "output.hpp"
 
 #include <cerrno>
@@ -6,8 +7,8 @@
 #include <utility>
 
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/text.hpp"
-#include "slapstick/io/table.hpp"
+#include "base/text.hpp"
+#include "io/table.hpp"
 #include "verb.hpp"
 
 namespace slapstick::app {

@@ -1,14 +1,14 @@
 #pragma once
-/// Where results go: files that appear whole or not at all, standard output, and pictures. All are opened before the computation
-/// starts, so that an output that cannot be written is known at once.
+/// Where results go: files that appear whole or not at all, standard output, and pictures. All are opened before the
+/// computation starts, so that an output that cannot be written is known at once.
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "slapstick/figure/figure.hpp"
-#include "slapstick/io/atomic_file.hpp"
+#include "figure/figure.hpp"
+#include "io/atomic_file.hpp"
 
 namespace slapstick::app {
 
@@ -29,8 +29,8 @@ class Output {
   std::optional<AtomicFile> file_;
 };
 
-/// A CSV table of numbers and names on an Output. Names are model names or fixed words: they need no quotes. The header goes out with the
-/// first row or with `commit`: a table that is given up leaves nothing on standard output.
+/// A CSV table of numbers and names on an Output. Names are model names or fixed words: they need no quotes. The header
+/// goes out with the first row or with `commit`: a table that is given up leaves nothing on standard output.
 class TableOutput {
  public:
   TableOutput(const std::string& path, const std::vector<std::string>& columns);
@@ -50,13 +50,15 @@ class TableOutput {
 /// --plot F.png: the picture, with its script and data beside it.
 class Plot {
  public:
-  /// @param path empty: no plot. @throws InputError unless it ends in .png, .pdf or .svg; StorageError if it cannot be written
+  /// @param path empty: no plot. @throws InputError unless it ends in .png, .pdf or .svg; StorageError if it cannot be
+  /// written
   explicit Plot(const std::string& path);
   [[nodiscard]] bool wanted() const { return !stem_.empty(); }
   /// @throws StorageError
   void write(const figure::Figure& figure) const;
   /// The same, or a line on standard error if the figure is empty. `status`: the exit status so far.
-  /// @returns the exit status: `nothing_to_draw` for a picture that was wanted and is not made, if nothing worse happened
+  /// @returns the exit status: `nothing_to_draw` for a picture that was wanted and is not made, if nothing worse
+  /// happened
   [[nodiscard]] int write_or_say(const figure::Figure& figure, bool empty, int status) const;
 
  private:

@@ -1,10 +1,11 @@
+/// Reads ranges of parameters: NAME=A:B and NAME=A:B:COUNT.
 #include "parameter_ranges.hpp"
 
 #include <algorithm>
 #include <optional>
 
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 
 namespace slapstick::app {
 

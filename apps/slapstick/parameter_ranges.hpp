@@ -1,5 +1,6 @@
 #pragma once
-/// How users write ranges of parameters: `diagram --sweep NAME=A:B:COUNT`, and `curve --params A,B` with `--range NAME=A:B` for each.
+/// How users write ranges of parameters: `diagram --sweep NAME=A:B:COUNT`, and `curve --params A,B` with
+/// `--range NAME=A:B` for each.
 #include <array>
 #include <string>
 #include <vector>

@@ -1,6 +1,7 @@
+/// Scales tables to physical units, by the model's [scale].
 #include "physical.hpp"
 
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 
 namespace slapstick::app {
 namespace {

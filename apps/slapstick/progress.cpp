@@ -1,3 +1,4 @@
+/// Shows progress on standard error.
 #include "progress.hpp"
 
 #include <unistd.h>
@@ -22,16 +23,16 @@ Progress::~Progress() {
   if (shown_ && terminal_) std::fputs("\r\033[K", stderr);
 }
 
-void Progress::update(double done) {
+void Progress::update(double amount) {
   if (!shown_) return;
   const auto now = Clock::now();
   if (now < next_) return;
   next_ = now + (terminal_ ? 200ms : 1000ms);
   const double seconds = std::chrono::duration<double>(now - begin_).count();
-  const double rate = done / seconds;
-  const double left = rate > 0.0 ? std::min((total_ - done) / rate, 1e8) : 1e8;
-  std::fprintf(stderr, "%s%.0f/%.0f %s (%.0f %%), %.3g/s, %.0f:%02d left%s", terminal_ ? "\r\033[K" : "", done, total_,
-               what_.c_str(), 100.0 * done / total_, rate, static_cast<double>(static_cast<long>(left) / 60),
+  const double rate = amount / seconds;
+  const double left = rate > 0.0 ? std::min((total_ - amount) / rate, 1e8) : 1e8;
+  std::fprintf(stderr, "%s%.0f/%.0f %s (%.0f %%), %.3g/s, %.0f:%02d left%s", terminal_ ? "\r\033[K" : "", amount, total_,
+               what_.c_str(), 100.0 * amount / total_, rate, static_cast<double>(static_cast<long>(left) / 60),
                static_cast<int>(static_cast<long>(left) % 60), terminal_ ? "" : "\n");
   std::fflush(stderr);
 }

@@ -1,3 +1,4 @@
+/// Says which pair a picture shows, and where its stops are.
 #include "relative_motion.hpp"
 
 #include <tuple>

@@ -1,3 +1,4 @@
+/// Flies the last part of a run that was ended early once more.
 #include "retrace.hpp"
 
 #include <utility>

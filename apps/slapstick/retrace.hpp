@@ -6,8 +6,8 @@
 
 namespace slapstick::app {
 
-/// Keeps the motion as it was at two earlier instants. The older one is `periods` before the latest mark, or half a second of work
-/// where that is less, so that to fly from it takes no longer; or it is the run's start.
+/// Keeps the motion as it was at two earlier instants. The older one is `periods` before the latest mark, or half a
+/// second of work where that is less, so that to fly from it takes no longer; or it is the run's start.
 class Retrace {
  public:
   Retrace(const Motion& start, double periods)

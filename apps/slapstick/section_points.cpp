@@ -1,3 +1,4 @@
+/// Writes the points of a section into a table and a picture.
 #include "section_points.hpp"
 
 #include <algorithm>
@@ -11,8 +12,8 @@
 #include "progress.hpp"
 #include "relative_motion.hpp"
 #include "slapstick/base/error.hpp"
-#include "slapstick/section/creep_watch.hpp"
-#include "slapstick/section/run_impacts.hpp"
+#include "section/creep_watch.hpp"
+#include "section/run_impacts.hpp"
 #include "slapstick/section/stroboscopic_section.hpp"
 
 namespace slapstick::app {
@@ -28,7 +29,8 @@ void say_creep(const CreepWatch& watch, const Model& model) {
                state_names(model)[creep->number].c_str(), creep->ratio);
 }
 
-/// Ends at the last point, or where there is no next one: at the section's last period, or after `patience` periods without a point.
+/// Ends at the last point, or where there is no next one: at the section's last period, or after `patience` periods
+/// without a point.
 class ImpactPoints {
  public:
   ImpactPoints(const PoincareOptions& options, const System& system, const StopChoice& stops, TableOutput& table,

@@ -1,3 +1,4 @@
+/// Runs the motions that settle over a range of a parameter, for the background of a branch.
 #include "settled_motions.hpp"
 
 #include <vector>
@@ -7,7 +8,7 @@
 #include "slapstick/base/error.hpp"
 #include "slapstick/flow/stage.hpp"
 #include "slapstick/sweep/diagram.hpp"
-#include "slapstick/sweep/parallel.hpp"
+#include "sweep/parallel.hpp"
 
 namespace slapstick::app {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "orbit_options.hpp"
-#include "slapstick/figure/figure.hpp"
+#include "figure/figure.hpp"
 
 namespace slapstick::app {
 
@@ -23,8 +23,9 @@ struct SettledRange {
   bool show_progress = false;
 };
 
-/// With stops as `diagram` finds them, the state carried on both ways from the start at the first and the last value; without, from
-/// the start at each value. `instead` gives a start where the model's own is none, as behind a stop that has moved.
+/// With stops as `diagram` finds them, the state carried on both ways from the start at the first and the last value;
+/// without, from the start at each value. `instead` gives a start where the model's own is none, as behind a stop that
+/// has moved.
 [[nodiscard]] SettledMotions settled_motions(const ChosenModel& chosen, const ModelOptions& options,
                                              const std::string& parameter, const SettledRange& at,
                                              const std::function<State(double value)>& instead,

@@ -1,3 +1,4 @@
+/// Draws special points: a marker of a shape for each type.
 #include "special_markers.hpp"
 
 #include <algorithm>

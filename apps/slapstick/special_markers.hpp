@@ -1,9 +1,10 @@
 #pragma once
-/// Special points in a picture: a marker of a shape for each type, at the point. Filled: LP, PD, NS; open: where the events change; a star: BP.
+/// Special points in a picture: a marker of a shape for each type, at the point. Filled: LP, PD, NS; open: where the
+/// events change; a star: BP.
 #include <vector>
 
-#include "slapstick/figure/figure.hpp"
-#include "slapstick/orbit/branch.hpp"
+#include "figure/figure.hpp"
+#include "slapstick/continuation/branch.hpp"
 
 namespace slapstick::app {
 
@@ -12,7 +13,8 @@ struct SpecialPlace {
   double x = 0.0, y = 0.0;
 };
 
-/// Adds them to a panel over its lines, a series for each type. Of several of one type that lie on each other in print one is drawn.
+/// Adds them to a panel over its lines, a series for each type. Of several of one type that lie on each other in print
+/// one is drawn.
 void add_special_points(figure::Panel& panel, const std::vector<SpecialPlace>& places);
 
 /// The entries of the legend for the types that a panel has.

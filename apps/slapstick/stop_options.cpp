@@ -1,3 +1,4 @@
+/// Reads --stop.
 #include "stop_options.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 #pragma once
-/// The verbs of the program. To add one: write `verb_NAME.cpp` with an `add_NAME`, declare it here, and give it a line in verbs.cpp.
+/// The verbs of the program. To add one: write `verb_NAME.cpp` with an `add_NAME`, declare it here, and give it a line
+/// in verbs.cpp.
 #include <atomic>
 #include <functional>
 #include <vector>

@@ -2,7 +2,7 @@
 #include "model_options.hpp"
 #include "output.hpp"
 #include "slapstick/flow/motion.hpp"
-#include "slapstick/io/json.hpp"
+#include "io/json.hpp"
 #include "verb.hpp"
 #include "work.hpp"
 

@@ -3,7 +3,7 @@
 #include "output.hpp"
 #include "progress.hpp"
 #include "slapstick/attractor/classify.hpp"
-#include "slapstick/io/json.hpp"
+#include "io/json.hpp"
 #include "stop_options.hpp"
 #include "verb.hpp"
 #include "work.hpp"

@@ -6,15 +6,17 @@
 
 #include "axis_text.hpp"
 #include "axis_units.hpp"
+#include "base/text.hpp"
 #include "branch_figure.hpp"
+#include "branch_json.hpp"
 #include "branch_table.hpp"
+#include "orbit_choice.hpp"
 #include "orbit_options.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "settled_motions.hpp"
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/text.hpp"
-#include "slapstick/orbit/branch.hpp"
+#include "slapstick/continuation/sentences.hpp"
 #include "slapstick/section/stop_choice.hpp"
 #include "verb.hpp"
 #include "work.hpp"
@@ -29,13 +31,20 @@ struct Options {
   std::vector<std::string> sensitivity;
   long long points = 2000, branches = 1, diagram = 0;
   double step = 0.01;
-  bool table = false, stay = false, progress = false;
+  bool table = false, stay = false, all_changes = false, progress = false;
 };
 
 /// What the JSON of a branch is made from.
 struct Described {
   const orbit::Problem& problem;
-  const Model& model;
+  const System& system;
+};
+
+/// A branch and what is known of its special points besides.
+struct Whole {
+  const orbit::Branch& branch;
+  const Sensitivities& rates;
+  const std::vector<std::vector<std::size_t>>& images;
 };
 
 /// Adds the keys of one object to another, those of a check by the simulator only where it was made.
@@ -47,30 +56,34 @@ void add_keys(Json& json, const Json& of, bool checked) {
 Json on_branch_json(const Described& with, const orbit::Solution& solution) {
   Json json = Json::object();
   json.set("param", solution.orbit.values[0]);
-  add_keys(json, point_json(with.problem, solution, with.model), true);
+  add_keys(json, point_json(with.problem, solution, with.system.model()), true);
   return json;
 }
 
-Json special_json(const Described& with, const orbit::Branch& branch, std::size_t which,
-                  const Sensitivities& sensitivities) {
+Json special_json(const Described& with, const Whole& whole, std::size_t which) {
+  const auto& [branch, sensitivities, images] = whole;
   const orbit::SpecialPoint& special = branch.special[which];
   Json json = Json::object();
   json.set("type", std::string(name(special.type))).set("param", special.value).set("error", special.error);
-  add_keys(json, point_json(with.problem, special.solution, with.model), false);
-  json.set("what", special.what);
-  if (!special.outcome.empty()) json.set("outcome", special.outcome);
+  add_keys(json, point_json(with.problem, special.solution, with.system.model()), false);
+  json.set("what", orbit::what_happens(special, with.system) + image_words(images[which]));
+  if (const std::string outcome = orbit::what_becomes(special); !outcome.empty()) json.set("outcome", outcome);
+  add_keys(json, typed_json(special, with.system), true);
   if (const auto classes = classes_around(branch, special))
     json.set("class_before", classes->first).set("class_behind", classes->second);
   if (special.type == orbit::SpecialType::NS) json.set("rotation", special.rotation);
   if (special.normal_form.coefficient)
     json.set("coefficient", *special.normal_form.coefficient).set("coefficient_error", special.normal_form.error);
-  if (!special.normal_form.what.empty()) json.set("normal_form", special.normal_form.what);
+  if (const std::string verdict = orbit::sentence(special.normal_form); !verdict.empty())
+    json.set("normal_form", verdict).set("verdict", std::string(name(special.normal_form.verdict)));
   if (!sensitivities.names.empty()) {
-    Json sensitivity = Json::object();
-    for (std::size_t j = 0; j < sensitivities.names.size(); ++j)
-      sensitivity.set(sensitivities.names[j],
-                      std::isfinite(sensitivities.rates[which][j]) ? Json(sensitivities.rates[which][j]) : Json());
-    json.set("sensitivity", std::move(sensitivity));
+    Json sensitivity = Json::object(), known = Json::object();
+    for (std::size_t j = 0; j < sensitivities.names.size(); ++j) {
+      const orbit::Sensitivity& rate = sensitivities.rates[which][j];
+      sensitivity.set(sensitivities.names[j], std::isfinite(rate.value) ? Json(rate.value) : Json());
+      known.set(sensitivities.names[j], std::string(name(rate.known)));
+    }
+    json.set("sensitivity", std::move(sensitivity)).set("sensitivity_known", std::move(known));
   }
   return json;
 }
@@ -88,29 +101,36 @@ orbit::ContinuationOptions continuation(const Options& options, const ParameterR
   return how;
 }
 
-Sensitivities sensitivities(const orbit::Branch& branch, const ChosenModel& chosen, const Options& options) {
+/// Of each special point by each parameter alone: a group and one of its members may both be asked for.
+Sensitivities sensitivities(const orbit::Branch& branch, const ChosenModel& chosen, const Options& options,
+                            double range) {
   Sensitivities all{options.sensitivity, {}};
   if (all.names.empty()) return all;
-  std::vector<std::string> names = {options.parameter};
-  names.insert(names.end(), all.names.begin(), all.names.end());
   for (const orbit::SpecialPoint& point : branch.special) {
-    std::vector<double> values = {point.value};
-    for (const std::string& other : all.names) values.push_back(present_value(chosen, "--sensitivity", other));
-    std::vector<double> rates(all.names.size(), std::numeric_limits<double>::quiet_NaN());
-    try {
-      rates = orbit::sensitivity(chosen.definition.family(names, chosen.overrides), values, point);
-    } catch (const NumericalError&) {  // a place by extrapolation, beside which the equations are singular
+    std::vector<orbit::Sensitivity> rates;
+    for (const std::string& other : all.names) {
+      const std::vector<double> values = {point.value, present_value(chosen, "--sensitivity", other)};
+      orbit::Sensitivity rate{std::numeric_limits<double>::quiet_NaN(), orbit::Known::not_solved};
+      try {
+        const Family family = chosen.definition.family({options.parameter, other}, chosen.overrides);
+        rate = orbit::sensitivities(family, values, point, range).front();
+      } catch (const NumericalError&) {  // a place by extrapolation, beside which the equations are singular
+      }
+      rates.push_back(rate);
     }
     all.rates.push_back(std::move(rates));
   }
   return all;
 }
 
-Json branch_json(const Described& with, const orbit::Branch& branch, const Sensitivities& rates) {
+Json branch_json(const Described& with, const Whole& whole) {
+  const orbit::Branch& branch = whole.branch;
   Json json = Json::object(), points = Json::list(), special = Json::list();
   for (const orbit::Solution& point : branch.points) points.push(on_branch_json(with, point));
-  for (std::size_t i = 0; i < branch.special.size(); ++i) special.push(special_json(with, branch, i, rates));
-  json.set("points", std::move(points)).set("special", std::move(special)).set("ended", branch.ended);
+  for (std::size_t i = 0; i < branch.special.size(); ++i) special.push(special_json(with, whole, i));
+  json.set("points", std::move(points)).set("special", std::move(special)).set("cascades", cascades_json(branch));
+  json.set("ended", orbit::sentence(branch));
+  json.set("ends", Json::object().set("down", end_json(branch, branch.down)).set("up", end_json(branch, branch.up)));
   return json;
 }
 
@@ -135,20 +155,22 @@ Json birth_json(const Birth& birth) {
       .set("param", birth.value);
 }
 
-void write(Output& out, const std::vector<orbit::Branch>& branches, const std::vector<std::optional<Birth>>& births,
-           const ChosenModel& chosen, const orbit::Problem& problem, const Options& options) {
-  const Described with{problem, chosen.model};
+void write(Output& out, const std::vector<orbit::Branch>& branches, const Lineage& lineage, const ChosenModel& chosen,
+           const Described& with, const Options& options) {
   std::vector<Sensitivities> rates;
-  for (const orbit::Branch& branch : branches) rates.push_back(sensitivities(branch, chosen, options));
+  const ParameterRange range = parse_range("--range", options.range);
+  for (const orbit::Branch& branch : branches)
+    rates.push_back(sensitivities(branch, chosen, options, range.to - range.from));
   if (options.table) {
-    out.write(branch_table(branches, {options.parameter, parse_range("--range", options.range)}, rates, births));
+    const Followed in{options.parameter, range, &with.system, options.all_changes};
+    out.write(branch_table(branches, in, rates, lineage));
   } else {
-    Json json = branch_json(with, branches.front(), rates.front());
+    Json json = branch_json(with, {branches.front(), rates.front(), lineage.images.front()});
     json.set("model", chosen.model.name).set("parameter", options.parameter);
     Json others = Json::list();
     for (std::size_t i = 1; i < branches.size(); ++i) {
-      Json branch = branch_json(with, branches[i], rates[i]);
-      if (births[i]) branch.set("born_at", birth_json(*births[i]));
+      Json branch = branch_json(with, {branches[i], rates[i], lineage.images[i]});
+      if (lineage.births[i]) branch.set("born_at", birth_json(*lineage.births[i]));
       others.push(std::move(branch));
     }
     if (branches.size() > 1) json.set("born", std::move(others));
@@ -195,19 +217,19 @@ int run(const Options& options, const Context& context) {
   const State start = options.model.start(chosen);
   const System system = affordable_system(chosen, {static_cast<double>(options.orbit.transient) + 1.0, "--transient"});
   const auto problem = orbit::pose(chosen.definition.family({options.parameter}, chosen.overrides), {value});
-  const orbit::Solution first = find_orbit(*problem, system, start, options.orbit, context.stop);
+  const orbit::Solution first = *find_orbit(*problem, system, start, options.orbit, context.stop).orbit;
   Progress progress("points at most", 2.0 * static_cast<double>(options.points), options.progress);
   orbit::ContinuationOptions how = continuation(options, range, context.stop);
   how.progress = [&](double, long points) { progress.update(static_cast<double>(points)); };
   std::vector<orbit::Branch> branches = {orbit::follow(*problem, first.orbit, how)};
-  const auto births = follow_born(*problem, branches, static_cast<std::size_t>(options.branches), how);
-  write(out, branches, births, chosen, *problem, options);
+  const Lineage lineage = follow_born(*problem, branches, static_cast<std::size_t>(options.branches), how);
+  write(out, branches, lineage, chosen, {*problem, system}, options);
   if (plot.wanted()) draw(plot, branches, chosen, *problem, options, context.stop);
   if (context.stop.load()) return interrupted;
-  const auto failed = std::ranges::find(branches, true, &orbit::Branch::failed);
+  const auto failed = std::ranges::find_if(branches, &orbit::Branch::failed);
   if (failed == branches.end()) return done;
   const std::string which = branches.size() > 1 ? "branch " + std::to_string(failed - branches.begin() + 1) + ": " : "";
-  throw NumericalError("continue: " + which + failed->ended + "; the points so far are written");
+  throw NumericalError("continue: " + which + orbit::sentence(*failed) + "; the points so far are written");
 }
 
 }  // namespace
@@ -228,6 +250,8 @@ Action add_continue(Arguments& arguments) {
   arguments.repeated("--sensitivity", options->sensitivity, "NAME",
                      "give d param / d NAME of each special point; may be repeated");
   arguments.flag("--table", options->table, "write a table instead of JSON");
+  arguments.flag("--all-changes", options->all_changes,
+                 "with --table: a row for every change of a cascade towards a chatter, instead of one for all");
   arguments.text("--plot", options->plot, "F.png", "draw impact speeds along the branches (.png, .pdf or .svg)");
   arguments.count("--diagram", options->diagram, 0, 100'000,
                   "with --plot: draw the motions that settle at so many values beneath, as `diagram` finds them (0)");

@@ -1,14 +1,16 @@
 /// slapstick curve MODEL --from TYPE --params A,B
 #include <algorithm>
 
+#include "branch_json.hpp"
 #include "curve_figure.hpp"
+#include "orbit_choice.hpp"
 #include "orbit_options.hpp"
 #include "output.hpp"
 #include "parameter_ranges.hpp"
 #include "progress.hpp"
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/text.hpp"
-#include "slapstick/orbit/branch.hpp"
+#include "base/text.hpp"
+#include "slapstick/continuation/sentences.hpp"
 #include "verb.hpp"
 #include "work.hpp"
 
@@ -33,7 +35,7 @@ orbit::SpecialPoint special_point(const Options& options, const ChosenModel& cho
   const double value = value_inside(chosen, "--params", names[0], range);
   const System system = affordable_system(chosen, {static_cast<double>(options.orbit.transient) + 1.0, "--transient"});
   const auto problem = orbit::pose(chosen.definition.family({names[0]}, chosen.overrides), {value});
-  const orbit::Solution first = find_orbit(*problem, system, start, options.orbit, stop);
+  const orbit::Solution first = *find_orbit(*problem, system, start, options.orbit, stop).orbit;
   orbit::ContinuationOptions how;
   how.from = range.from;
   how.to = range.to;
@@ -48,11 +50,12 @@ orbit::SpecialPoint special_point(const Options& options, const ChosenModel& cho
   throw NumericalError("curve: no " + options.from +
                        (options.which > 1 ? " number " + std::to_string(options.which) : "") + " on the branch of " +
                        first.label + " in " + names[0] + " (found: " + (seen.empty() ? "none" : seen) + "; " +
-                       branch.ended + ")");
+                       orbit::sentence(branch) + ")");
 }
 
 Json curve_json(const orbit::Curve& curve, const std::vector<std::string>& names, const orbit::Problem& problem,
-                const Model& model) {
+                const System& system) {
+  const Model& model = system.model();
   Json points = Json::list(), met = Json::list(), json = Json::object();
   for (const orbit::CurvePoint& point : curve.points) {
     Json item = Json::object();
@@ -64,9 +67,13 @@ Json curve_json(const orbit::Curve& curve, const std::vector<std::string>& names
   for (const orbit::CurveEvent& event : curve.met) {
     Json item = Json::object();
     for (std::size_t i = 0; i < 2; ++i) item.set(names[i], event.values[i]);
-    met.push(item.set("type", event.type).set("what", event.what).set("after", event.after));
+    Json meetings = Json::list();
+    for (const orbit::Meeting& one : event.met) meetings.push(meeting_json(curve, one, system));
+    item.set("type", name(event.met.front())).set("what", orbit::sentence(curve, event, system));
+    met.push(item.set("met", std::move(meetings)).set("after", event.after));
   }
-  return json.set("points", std::move(points)).set("met", std::move(met)).set("ended", curve.ended);
+  json.set("points", std::move(points)).set("met", std::move(met)).set("ended", orbit::sentence(curve, system));
+  return json.set("ends", Json::object().set("down", end_json(curve.down)).set("up", end_json(curve.up)));
 }
 
 int run(const Options& options, const Context& context) {
@@ -95,15 +102,16 @@ int run(const Options& options, const Context& context) {
   const orbit::Curve curve = orbit::locus(*problem, special, how);
   Json json = Json::object();
   json.set("model", chosen.model.name).set("type", options.from);
-  const Json rest = curve_json(curve, names, *problem, chosen.model);
+  const System system(chosen.model);
+  const Json rest = curve_json(curve, names, *problem, system);
   for (const auto& [key, value] : std::get<Json::Object>(rest.value())) json.set(key, value);
   out.write(json.dump() + "\n");
   out.commit();
   const bool drawn = std::ranges::any_of(curve.points, [](const auto& point) { return point.solution.is_motion; });
   const int status = plot.write_or_say(curve_figure(curve, chosen.definition, names, options.from), !drawn, done);
   if (context.stop.load()) return interrupted;
-  if (!curve.failed) return status;
-  throw NumericalError("curve: " + curve.ended + "; the points so far are written");
+  if (!curve.failed()) return status;
+  throw NumericalError("curve: " + orbit::sentence(curve, system) + "; the points so far are written");
 }
 
 }  // namespace

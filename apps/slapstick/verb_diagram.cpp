@@ -10,7 +10,7 @@
 #include "parameter_ranges.hpp"
 #include "progress.hpp"
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 #include "slapstick/sweep/diagram.hpp"
 #include "stop_options.hpp"
 #include "verb.hpp"
@@ -64,7 +64,7 @@ void check_ends(const Options& options, const ChosenModel& chosen, const Sweep& 
       const System system = affordable_system(chosen, work, {{sweep.name, value}});
       validate(system.model(), options.model.start(chosen, {{sweep.name, value}}));
     } catch (const InputError& error) {
-      throw InputError("--sweep " + sweep.name + "=" + shown(value) + ": " + without_place(error.what()));
+      throw InputError("--sweep " + sweep.name + "=" + shown(value) + ": " + error.message());
     }
   }
 }

@@ -1,6 +1,6 @@
 /// slapstick models
 #include "output.hpp"
-#include "slapstick/io/json.hpp"
+#include "io/json.hpp"
 #include "slapstick/io/model_file.hpp"
 #include "verb.hpp"
 

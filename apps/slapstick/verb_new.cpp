@@ -3,8 +3,8 @@
 
 #include "output.hpp"
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/text.hpp"
-#include "slapstick/io/json.hpp"
+#include "base/text.hpp"
+#include "io/json.hpp"
 #include "slapstick/io/model_file.hpp"
 #include "verb.hpp"
 

@@ -1,6 +1,7 @@
 /// slapstick orbit MODEL
 #include <algorithm>
 
+#include "orbit_choice.hpp"
 #include "orbit_options.hpp"
 #include "output.hpp"
 #include "progress.hpp"
@@ -21,7 +22,10 @@ struct Options {
 
 Json whole_json(const orbit::Problem& problem, const orbit::Solution& solution, const System& system) {
   Json json = point_json(problem, solution, system.model());
+  json.set("sticks", solution.sticks).set("reversals", solution.reversals).set("chatters", solution.chatters);
+  if (system.model().forced()) json.set("symmetric", orbit::symmetric(problem, solution.orbit));
   json.set("events", events_json(problem, solution, system)).set("impacts", impacts_json(problem, solution, system));
+  json.set("extremes", extremes_json(problem, solution, system.model()));
   json.set("energy", energy_json(orbit::energy(problem, solution.orbit), system.model()));
   json.set("margins", margins_json(orbit::margins(problem, solution.orbit), system));
   return json;
@@ -33,20 +37,59 @@ Json head_json(const ChosenModel& chosen) {
   return json.set("model", chosen.model.name).set("parameters", std::move(parameters));
 }
 
-/// --all: everything that a search finds.
-Json search_json(const Options& options, const orbit::Problem& problem, const System& system, const State& start,
-                 const std::atomic<bool>& stop) {
-  Progress progress("motions", static_cast<double>(options.orbit.starts), options.progress);
-  orbit::SearchOptions search;
+/// --all: every orbit that a search finds, as far as it is admitted.
+void search_all(const Options& options, const orbit::Problem& problem, const System& system, const State& start,
+                const std::atomic<bool>& stop, Json& json) {
+  orbit::SearchOptions search = options.orbit.search(stop);
   search.most_n = static_cast<int>(std::max(1LL, options.most_n));
-  search.starts = static_cast<int>(options.orbit.starts);
-  search.seed = static_cast<std::uint32_t>(options.orbit.seed);
-  search.stop = &stop;
+  Progress progress("motions", static_cast<double>(search.starts), options.progress);
   search.progress = [&](int motions) { progress.update(motions); };
+  const orbit::OrbitChoice choice = choice_of(options.orbit, start);
+  const orbit::SearchResult result = orbit::search(problem, system, start, search);
   Json list = Json::list();
-  for (const orbit::Solution& found : orbit::search(problem, system, start, search))
-    if (options.most_p < 0 || found.impacts <= options.most_p) list.push(whole_json(problem, found, system));
-  return list;
+  for (const orbit::Solution& found : result.orbits)
+    if (choice.admits(problem, found) && (options.most_p < 0 || found.impacts <= options.most_p))
+      list.push(whole_json(problem, found, system));
+  json.set("orbits", std::move(list)).set("search", report_json(result.report));
+  json.set("note", "found from " + tried(result.report, options.orbit) + "; a search is no proof of completeness");
+}
+
+void check(const Options& options, const ChosenModel& chosen) {
+  if (options.all && !options.orbit.orbit.empty())
+    throw InputError("--all lists every orbit; --orbit has no meaning with it");
+  if (options.all && options.orbit.nearest)
+    throw InputError("--all lists every orbit; --nearest has no meaning with it");
+  if (!options.all && (options.most_n > 0 || options.most_p >= 0)) throw InputError("--max-n and --max-p need --all");
+  if (options.all && !chosen.model.forced())
+    throw InputError("--all: model '" + chosen.model.name +
+                     "' has no forcing, so there are no n-period orbits to search for");
+}
+
+int run(const Options& options, const Context& context) {
+  FileRoles roles;
+  roles.add("MODEL", options.model.source);
+  roles.add("--out", options.out);
+  Output out(options.out);
+  const ChosenModel chosen = options.model.load();
+  const State start = options.model.start(chosen);
+  check(options, chosen);
+  const System system = affordable_system(chosen, {static_cast<double>(options.orbit.transient) + 1.0, "--transient"});
+  const auto problem = orbit::pose(chosen.definition.family({}, chosen.overrides), {});
+  Json json = head_json(chosen);
+  if (options.all) {
+    search_all(options, *problem, system, start, context.stop, json);
+  } else {
+    const orbit::Chosen found = find_orbit(*problem, system, start, options.orbit, context.stop);
+    json.set("converged", true);
+    const Json whole = whole_json(*problem, *found.orbit, system);
+    for (const auto& [key, value] : std::get<Json::Object>(whole.value())) json.set(key, value);
+    json.set("settles", found.settles);
+    if (found.search) json.set("search", report_json(*found.search));
+  }
+  if (context.stop.load()) return interrupted;
+  out.write(json.dump() + "\n");
+  out.commit();
+  return done;
 }
 
 }  // namespace
@@ -66,39 +109,7 @@ Action add_orbit(Arguments& arguments) {
       "Without --orbit: the one that the motion settles on. A search that finds nothing is no proof that there is "
       "nothing.\n"
       "  slapstick orbit vibro-impact --set omega=2.9 --orbit 1-1");
-  return [options](const Context& context) {
-    FileRoles roles;
-    roles.add("MODEL", options->model.source);
-    roles.add("--out", options->out);
-    Output out(options->out);
-    const ChosenModel chosen = options->model.load();
-    const State start = options->model.start(chosen);
-    if (options->all && !options->orbit.orbit.empty())
-      throw InputError("--all lists every orbit; --orbit has no meaning with it");
-    if (!options->all && (options->most_n > 0 || options->most_p >= 0))
-      throw InputError("--max-n and --max-p need --all");
-    if (options->all && !chosen.model.forced())
-      throw InputError("--all: model '" + chosen.model.name +
-                       "' has no forcing, so there are no n-period orbits to search for");
-    const System system =
-        affordable_system(chosen, {static_cast<double>(options->orbit.transient) + 1.0, "--transient"});
-    const auto problem = orbit::pose(chosen.definition.family({}, chosen.overrides), {});
-    Json json = head_json(chosen);
-    if (options->all) {
-      json.set("orbits", search_json(*options, *problem, system, start, context.stop));
-      json.set("note", "found from " + std::to_string(options->orbit.starts) +
-                           " motions; a search is no proof of completeness");
-    } else {
-      const orbit::Solution found = find_orbit(*problem, system, start, options->orbit, context.stop);
-      json.set("converged", true);
-      const Json whole = whole_json(*problem, found, system);
-      for (const auto& [key, value] : std::get<Json::Object>(whole.value())) json.set(key, value);
-    }
-    if (context.stop.load()) return interrupted;
-    out.write(json.dump() + "\n");
-    out.commit();
-    return done;
-  };
+  return [options](const Context& context) { return run(*options, context); };
 }
 
 }  // namespace slapstick::app

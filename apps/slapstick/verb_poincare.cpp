@@ -7,7 +7,7 @@
 #include "output.hpp"
 #include "section_points.hpp"
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 #include "verb.hpp"
 #include "work.hpp"
 

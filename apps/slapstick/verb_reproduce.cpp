@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "slapstick/paper/reproduce.hpp"
+#include "reproduce/reproduce.hpp"
 #include "verb.hpp"
 
 namespace slapstick::app {

@@ -1,3 +1,4 @@
+/// Lists the verbs of the program.
 #include "verb.hpp"
 
 namespace slapstick::app {

@@ -1,3 +1,4 @@
+/// Estimates what a run will cost, and refuses one that cannot end within hours.
 #include "work.hpp"
 
 #include <cstdio>

@@ -17,8 +17,10 @@ struct Work {
 inline constexpr double most_windows = 1e11;
 
 /// Compiles the model and estimates the work: windows per period (System::windows_per_period) times periods.
-/// @param more  parameter values on top of the user's --set, as in a sweep; they are left out of the message's "--set NAME=VALUE"
-/// @throws InputError that names the values which cause it, if it is more than `most_windows`, or if the System cannot be made
+/// @param more  parameter values on top of the user's --set, as in a sweep; they are left out of the message's "--set
+/// NAME=VALUE"
+/// @throws InputError that names the values which cause it, if it is more than `most_windows`, or if the System cannot
+/// be made
 [[nodiscard]] System affordable_system(const ChosenModel& chosen, const Work& work, const Overrides& more = {});
 
 }  // namespace slapstick::app

@@ -1,11 +1,13 @@
 #pragma once
-/// One contact query as a general-purpose solver gets it: from a start, does the gap of a forced linear oscillator close until T, and when?
+/// One contact query as a general-purpose solver gets it: from a start, does the gap of a forced linear oscillator
+/// close until T, and when?
 #include <array>
 #include <vector>
 
 namespace campaign {
 
-/// y = (p, u), p' = u, u' = acceleration . (y, cos theta, sin theta, 1), theta = theta0 + omega t; the gap is sign * y[own].
+/// y = (p, u), p' = u, u' = acceleration . (y, cos theta, sin theta, 1), theta = theta0 + omega t; the gap is
+/// sign * y[own].
 struct ContactProblem {
   static constexpr int most = 2;  ///< displacements
   static constexpr int most_columns = 2 * most + 3;
@@ -37,12 +39,13 @@ struct ContactQuery {
 /// What a solver says of a query: the time of contact, `none`, or `failed` with an error of its own.
 inline constexpr double no_contact = -1.0, solver_failed = -2.0;
 
-/// SUNDIALS CVODE, Adams with fixed-point iteration, its own rootfinding on the gap (falling). @param longest_step  0: CVODE's choice
+/// SUNDIALS CVODE, Adams with fixed-point iteration, its own rootfinding on the gap (falling). @param longest_step  0:
+/// CVODE's choice
 std::vector<double> cvode_contacts(const ContactProblem& problem, const std::vector<ContactQuery>& queries,
                                    double tolerance, double longest_step);
 
-/// Boost.odeint, controlled runge_kutta_fehlberg78; the sign of the gap at `samples` places of every step (1: its end), each by taking the
-/// step anew as far as there; a change of sign is located by TOMS 748.
+/// Boost.odeint, controlled runge_kutta_fehlberg78; the sign of the gap at `samples` places of every step (1: its end),
+/// each by taking the step anew as far as there; a change of sign is located by TOMS 748.
 std::vector<double> odeint_contacts(const ContactProblem& problem, const std::vector<ContactQuery>& queries,
                                     double tolerance, int samples);
 

@@ -1,3 +1,4 @@
+/// Searches contacts with CVODE.
 #include <algorithm>
 #include <cmath>
 

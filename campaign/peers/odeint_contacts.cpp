@@ -1,3 +1,4 @@
+/// Searches contacts with Boost.odeint.
 #include <boost/math/tools/toms748_solve.hpp>
 #include <boost/numeric/odeint.hpp>
 #include <cmath>

@@ -7,6 +7,9 @@
 #include <numbers>
 
 #include "batches.hpp"
+#include "flow/compiled_system.hpp"
+#include "mode/frame.hpp"
+#include "mode/mode.hpp"
 #include "contact_query.hpp"
 #include "first_zero.hpp"
 #include "near_graze.hpp"
@@ -113,19 +116,19 @@ void judge(const Question& question, double answer, double duration, Score& scor
   score.errors.push_back(static_cast<float>(std::abs(answer - truth.time)));
 }
 
-/// A frictionless oscillator of one or two masses with one stop. Of free bodies the error estimate of runge_kutta_fehlberg78 sees nothing (it is zero for
-/// x'' = f(t)): they are left out.
+/// A frictionless oscillator of one or two masses with one stop. Of free bodies the error estimate of
+/// runge_kutta_fehlberg78 sees nothing (it is zero for x'' = f(t)): they are left out.
 bool suits(const Scene& scene) {
   const slapstick::Model& model = scene.system().model();
   const bool single = std::ranges::all_of(model.forces, [](const slapstick::Force& f) { return f.harmonic <= 1; });
   const bool held = !model.springs.empty() &&
                     std::ranges::all_of(model.springs, [](const slapstick::Spring& k) { return k.stiffness != 0.0; });
   return held && model.frictions.empty() && model.stops.size() == 1 &&
-         scene.system().frame().d <= ContactProblem::most && single;
+         scene.system().compiled().frame().d <= ContactProblem::most && single;
 }
 
 ContactProblem problem_of(const Scene& scene, const slapstick::mode::Mode& mode) {
-  const slapstick::mode::Frame& frame = scene.system().frame();
+  const slapstick::mode::Frame& frame = scene.system().compiled().frame();
   ContactProblem problem;
   problem.d = frame.d;
   problem.own = mode.guards()[0].single;
@@ -142,7 +145,7 @@ ContactProblem problem_of(const Scene& scene, const slapstick::mode::Mode& mode)
 std::vector<Question> questions_of(Scene& scene, Random& random, const ExactFlow& flow, long count) {
   NearGrazes near_grazes(scene, random);
   std::vector<Question> questions;
-  const int d = scene.system().frame().d;
+  const int d = scene.system().compiled().frame().d;
   for (long attempt = 0; std::ssize(questions) < count && attempt < 100 * count; ++attempt) {
     Question question{random_start(scene, random), {}, {}, 0};
     const bool near = questions.size() % 2 == 1;
@@ -174,7 +177,7 @@ Tally examine(Random random, long count) {
   while (questions.empty()) {
     Scene scene(random);
     if (!suits(scene)) continue;
-    const slapstick::mode::Mode& mode = scene.system().mode(0);
+    const slapstick::mode::Mode& mode = scene.system().compiled().mode(0);
     const ExactFlow& flow = scene.flow(0);
     questions = questions_of(scene, random, flow, count);
     std::ranges::sort(questions, {}, &Question::bin);

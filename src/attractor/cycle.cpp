@@ -1,39 +1,12 @@
+/// Runs a motion period by period, counts its events, and records one cycle.
 #include "attractor/cycle.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "flow/compiled_system.hpp"
+
 namespace slapstick::attractor {
-
-PeriodEvents run_one_period(Motion& motion, Stop stop) {
-  PeriodEvents count;
-  const Instant end{motion.time().period + 1, 0.0};
-  run_to(motion, end, stop, [&] {
-    const EventKind kind = motion.event().kind;
-    count.impacts += StopChoice().is_point(motion.event());
-    count.sticks += kind == EventKind::stick;
-    count.chatters += kind == EventKind::chatter;
-  });
-  return count;
-}
-
-Eigen::VectorXd contact_state(const Motion& motion) {
-  const mode::Frame& frame = motion.system().frame();
-  Eigen::VectorXd state(2 * frame.n);
-  std::copy_n(motion.extended().data(), frame.n, state.data());
-  std::copy_n(motion.extended().data() + frame.d, frame.n, state.data() + frame.n);
-  return state;
-}
-
-State user_state(const System& system, const Eigen::VectorXd& contact) {
-  State state(static_cast<std::size_t>(contact.size()));
-  system.frame().leave(contact.data(), contact.data() + system.frame().n, state.data());
-  return state;
-}
-
-double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::VectorXd& scale) {
-  return ((a - b).array().abs() / scale.array()).maxCoeff();
-}
 
 bool has_burst(const std::vector<double>& times, const std::vector<double>& speeds) {
   int shrinking = 1;
@@ -54,7 +27,7 @@ std::string cycle_label(const Classification& c) {
 }
 
 bool holds_still(const Motion& motion, ModeId mode) {
-  const mode::ContactStates& states = motion.system().mode(mode).states();
+  const mode::ContactStates& states = motion.system().compiled().mode(mode).states();
   for (mode::FrictionState s : states.frictions) {
     if (s == mode::FrictionState::stick) return true;
   }

@@ -1,9 +1,11 @@
+/// Computes the largest Lyapunov exponent and weighted Birkhoff averages of one run.
 #include "attractor/exponent.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "flow/compiled_system.hpp"
 #include "slapstick/flow/tangent.hpp"
 
 namespace slapstick::attractor {
@@ -48,9 +50,9 @@ double birkhoff_digits(const std::vector<double>& sequence) {
   return std::min(16.0, -std::log10(std::abs(difference) / (high - low) + 1e-17));
 }
 
-RunFigures run_figures(const Translations& translations, const State& state, int periods, const StopChoice& stops,
+RunFigures run_figures(const flow::Translations& translations, const State& state, int periods, const StopChoice& stops,
                        Stop stop) {
-  const Eigen::Index size = 2 * translations.system().frame().n;
+  const Eigen::Index size = 2 * translations.system().compiled().frame().n;
   // A fixed direction with no symmetry: every run of the same motion gives the same bits.
   Eigen::MatrixXd tangent(size, 1);
   for (Eigen::Index i = 0; i < size; ++i) tangent(i, 0) = std::cos(1.0 + 2.0 * static_cast<double>(i));

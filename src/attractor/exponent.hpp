@@ -1,7 +1,7 @@
 #pragma once
 /// Largest Lyapunov exponent and weighted Birkhoff averages of one run.
 #include "attractor/cycle.hpp"
-#include "attractor/translations.hpp"
+#include "flow/translations.hpp"
 
 namespace slapstick::attractor {
 
@@ -15,13 +15,14 @@ struct RunFigures {
   double sticking_fraction = 0.0;
 };
 
-/// Follows the motion and one tangent, both modulo the translations, for `periods`; the exponent's error is the standard error of 20 batch means.
-RunFigures run_figures(const Translations& translations, const State& state, int periods, const StopChoice& stops,
+/// Follows the motion and one tangent, both modulo the translations, for `periods`; the exponent's error is the
+/// standard error of 20 batch means.
+RunFigures run_figures(const flow::Translations& translations, const State& state, int periods, const StopChoice& stops,
                        Stop stop);
 
-/// Digits to which the weighted Birkhoff averages (weight exp(-1/(t(1-t)))) of the two halves of a sequence agree, relative to its spread.
-/// On a smooth invariant curve the averages converge faster than any power of the length (Das, Sander and Yorke), on a
-/// chaotic set like its square root.
+/// Digits to which the weighted Birkhoff averages (weight exp(-1/(t(1-t)))) of the two halves of a sequence agree,
+/// relative to its spread. On a smooth invariant curve the averages converge faster than any power of the length (Das,
+/// Sander and Yorke), on a chaotic set like its square root.
 double birkhoff_digits(const std::vector<double>& sequence);
 
 }  // namespace slapstick::attractor

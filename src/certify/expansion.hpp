@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "slapstick/certify/segment_proof.hpp"
+#include "certify/segment_proof.hpp"
 
 namespace slapstick::certify {
 

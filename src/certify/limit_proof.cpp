@@ -1,4 +1,5 @@
-#include "slapstick/certify/limit_proof.hpp"
+/// Finds the numbers that prove the limit of a complete chatter.
+#include "certify/limit_proof.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,7 @@ constexpr double rounding = 0x1p-42;
 
 /// The mode of the same contacts, but for the friction of the stop's own pair, whose states `change` gives.
 template <class Change>
-ModeId with_pair(const System& system, int stop, ModeId id, Change change) {
+ModeId with_pair(const flow::CompiledSystem& system, int stop, ModeId id, Change change) {
   mode::ContactStates states = system.states(id);
   for (int i = 0; i < static_cast<int>(states.frictions.size()); ++i)
     if (system.coupling(stop, i).same_pair) states.frictions[i] = change(states.frictions[i]);
@@ -28,7 +29,7 @@ Vector box(const Matrix& N, const Vector& b, const Vector& size, double D, doubl
 }
 
 /// The greatest |A - b (row of w)| of the modes, entry by entry.
-Matrix quiet_part(const System& system, const Vector& b, int u, std::initializer_list<ModeId> modes) {
+Matrix quiet_part(const flow::CompiledSystem& system, const Vector& b, int u, std::initializer_list<ModeId> modes) {
   Matrix N = Matrix::Zero(b.size(), b.size());
   for (const ModeId id : modes) {
     const Matrix& A = system.mode(id).system();
@@ -51,7 +52,7 @@ double series(double v, double rise, double fall, double ratio) {
 
 }  // namespace
 
-LimitProof prove_limit(const System& system, int stop, ModeId rise, ModeId closed, const double* X, double v,
+LimitProof prove_limit(const flow::CompiledSystem& system, int stop, ModeId rise, ModeId closed, const double* X, double v,
                        double duration) {
   using mode::FrictionState;
   const mode::Frame& frame = system.frame();

@@ -1,4 +1,5 @@
-#include "slapstick/certify/segment_proof.hpp"
+/// Finds steps that prove a guard positive along a segment, in long and in 256-bit arithmetic.
+#include "certify/segment_proof.hpp"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 

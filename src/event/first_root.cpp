@@ -1,4 +1,5 @@
-#include "slapstick/event/first_root.hpp"
+/// Finds the first zero of a guard on a window, by bounds alone.
+#include "event/first_root.hpp"
 
 #include <algorithm>
 #include <cmath>

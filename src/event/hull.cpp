@@ -1,4 +1,5 @@
-#include "slapstick/event/hull.hpp"
+/// Encloses power series: the table of economised powers, and sums of its rows.
+#include "event/hull.hpp"
 
 #include <algorithm>
 #include <array>

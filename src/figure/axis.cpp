@@ -1,3 +1,4 @@
+/// Chooses the range and the ticks of an axis.
 #include "axis.hpp"
 
 #include <algorithm>

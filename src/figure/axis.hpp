@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "slapstick/figure/figure.hpp"
+#include "figure/figure.hpp"
 
 namespace slapstick::figure {
 

@@ -1,3 +1,4 @@
+/// Runs gnuplot.
 #include "gnuplot.hpp"
 
 #include <fcntl.h>
@@ -12,7 +13,7 @@
 #include <system_error>
 
 #include "slapstick/base/error.hpp"
-#include "slapstick/figure/figure.hpp"
+#include "figure/figure.hpp"
 
 namespace slapstick::figure {
 namespace {

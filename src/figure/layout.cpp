@@ -1,3 +1,4 @@
+/// Places panels, axes and legends on the paper.
 #include "layout.hpp"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 #include <numeric>
 
 #include "slapstick/base/error.hpp"
-#include "slapstick/figure/raster.hpp"
+#include "figure/raster.hpp"
 #include "text.hpp"
 
 namespace slapstick::figure {
@@ -28,8 +29,8 @@ bool is_lowest(const Figure& figure, const Grid& grid, std::size_t panel) {
   return panel + static_cast<std::size_t>(grid.columns) >= figure.panels.size();
 }
 
-/// The PNG's resolution (no resampling), or twice that where the points can fill it: one per pixel on average. With fewer, a
-/// finer image shows the noise of the counts instead of the density, and takes longer.
+/// The PNG's resolution (no resampling), or twice that where the points can fill it: one per pixel on average. With
+/// fewer, a finer image shows the noise of the counts instead of the density, and takes longer.
 int suitable_dpi(const Panel& panel, const Box& frame, int png_dpi) {
   double points = 0;
   for (const auto& series : panel.points) points += static_cast<double>(series.x.size());

@@ -1,11 +1,11 @@
 #pragma once
-/// Where everything stands on the paper, in cm from the lower left corner. Decided here and not by gnuplot, so that frames of
-/// stacked panels align, the raster knows its pixels, and nothing is cut off.
+/// Where everything stands on the paper, in cm from the lower left corner. Decided here and not by gnuplot, so that
+/// frames of stacked panels align, the raster knows its pixels, and nothing is cut off.
 #include <optional>
 #include <vector>
 
 #include "axis.hpp"
-#include "slapstick/figure/figure.hpp"
+#include "figure/figure.hpp"
 
 namespace slapstick::figure {
 
@@ -79,7 +79,8 @@ std::optional<Colour> colour_of_both(const Panel& panel);
 /// Number of entries that the legend would have.
 int legend_entries(const Panel& panel);
 
-/// A legend below the frame: the panel's keys, then those of its named series, in columns as wide as the widest of their group.
+/// A legend below the frame: the panel's keys, then those of its named series, in columns as wide as the widest of
+/// their group.
 std::vector<KeyPlace> place_keys(const Panel& panel, double cell_cm, double em_cm);
 
 /// The corner of the frame without data, or `above`; what the caller asked for if it did.

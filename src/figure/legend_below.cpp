@@ -1,4 +1,5 @@
-/// A legend below the frame: as many rows as it needs, each place decided here. (gnuplot's own would choose its columns by the terminal.)
+/// A legend below the frame: as many rows as it needs, each place decided here. (gnuplot's own would choose its columns
+/// by the terminal.)
 #include <algorithm>
 
 #include "layout.hpp"

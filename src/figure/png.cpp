@@ -1,9 +1,10 @@
-/// A PNG encoder for indexed images that are mostly empty: one deflate block with fixed Huffman codes (RFC 1951, 3.2.6) whose
-/// only matches are "as the pixel before" and "as the row above". Within a factor two of zlib here, without the library.
+/// A PNG encoder for indexed images that are mostly empty: one deflate block with fixed Huffman codes (RFC 1951, 3.2.6)
+/// whose only matches are "as the pixel before" and "as the row above". Within a factor two of zlib here, without the
+/// library.
 #include <algorithm>
 #include <array>
 
-#include "slapstick/figure/raster.hpp"
+#include "figure/raster.hpp"
 
 namespace slapstick::figure {
 namespace {
@@ -40,8 +41,8 @@ void put_symbol(BitWriter& bits, std::uint32_t symbol) {
   put_code(bits, 0xC0 + symbol - 280, 8);
 }
 
-/// Match lengths 3..258 (base 3, four symbols per number of extra bits) and distances 1..32768 (base 1, two) share one scheme:
-/// the value above the base is split into a symbol and extra bits.
+/// Match lengths 3..258 (base 3, four symbols per number of extra bits) and distances 1..32768 (base 1, two) share one
+/// scheme: the value above the base is split into a symbol and extra bits.
 struct Split {
   std::uint32_t symbol, extra;
   int extra_bits;

@@ -1,4 +1,5 @@
-#include "slapstick/figure/raster.hpp"
+/// Counts points into the pixels of a density raster.
+#include "figure/raster.hpp"
 
 #include <algorithm>
 #include <array>

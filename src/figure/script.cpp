@@ -1,3 +1,4 @@
+/// Writes the gnuplot script of a figure.
 #include "script.hpp"
 
 #include <algorithm>
@@ -201,7 +202,8 @@ class PanelScript {
     }
   }
 
-  /// On linear axes the image lies in data coordinates; gnuplot cannot do that on logarithmic ones, where it fills the frame.
+  /// On linear axes the image lies in data coordinates; gnuplot cannot do that on logarithmic ones, where it fills the
+  /// frame.
   void raster_parts(std::vector<std::string>& parts) {
     const bool fill = at_.x.log || at_.y.log;
     const Range x = fill ? Range{0, 1} : at_.x.range, y = fill ? Range{0, 1} : at_.y.range;
@@ -239,7 +241,8 @@ class PanelScript {
   std::string small_font_, out_;
 };
 
-/// One line per format. Line widths come out in pt and text in font_pt in all of them (gnuplot's units differ by format).
+/// One line per format. Line widths come out in pt and text in font_pt in all of them (gnuplot's units differ by
+/// format).
 std::string terminals(const Figure& figure, const Layout& layout, Formats formats) {
   const std::string font = " enhanced font " + quote(figure.font + "," + number(figure.font_pt));
   const auto scaled = [](double text, double lines, double dashes, double points) {

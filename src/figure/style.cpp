@@ -1,3 +1,4 @@
+/// Says markers and lines in gnuplot's words.
 #include "style.hpp"
 
 #include "text.hpp"

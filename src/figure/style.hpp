@@ -2,7 +2,7 @@
 /// Markers and lines in gnuplot's words.
 #include <string>
 
-#include "slapstick/figure/figure.hpp"
+#include "figure/figure.hpp"
 
 namespace slapstick::figure {
 

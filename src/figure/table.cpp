@@ -1,3 +1,4 @@
+/// Gathers the columns that a script plots, and writes them as CSV.
 #include "table.hpp"
 
 #include <algorithm>

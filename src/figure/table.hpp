@@ -16,7 +16,8 @@ struct Series {
   bool log_x = false, log_y = false;
 };
 
-/// Which points and lines of a panel are drawn as vectors and have something to draw, in the order in which they are drawn.
+/// Which points and lines of a panel are drawn as vectors and have something to draw, in the order in which they are
+/// drawn.
 struct PanelSeries {
   std::vector<std::size_t> points{}, lines{};
   std::size_t first_column = 1;  ///< of the CSV, counted from 1; two per series

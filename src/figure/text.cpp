@@ -1,3 +1,4 @@
+/// Quotes text for gnuplot, and estimates how wide a label will be.
 #include "text.hpp"
 
 #include <array>

@@ -3,16 +3,17 @@
 #include <string>
 #include <string_view>
 
-#include "slapstick/figure/figure.hpp"
+#include "figure/figure.hpp"
 
 namespace slapstick::figure {
 
-/// A single-quoted gnuplot string, in which gnuplot substitutes nothing. Control characters become spaces; an apostrophe becomes
-/// the typographic one, because gnuplot 5.4 takes the escaped one at the start of a string for its end.
+/// A single-quoted gnuplot string, in which gnuplot substitutes nothing. Control characters become spaces; an
+/// apostrophe becomes the typographic one, because gnuplot 5.4 takes the escaped one at the start of a string for its
+/// end.
 std::string quote(std::string_view text);
 
-/// A file of the script's own folder as a gnuplot string. The leading ./ keeps gnuplot from taking "<x" or "|x" for a command
-/// (and the name from starting with an apostrophe). Control characters are the caller's to refuse.
+/// A file of the script's own folder as a gnuplot string. The leading ./ keeps gnuplot from taking "<x" or "|x" for a
+/// command (and the name from starting with an apostrophe). Control characters are the caller's to refuse.
 std::string quote_file(const std::string& name);
 
 /// Shortest decimal that reads back as the same double.

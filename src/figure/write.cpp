@@ -10,8 +10,8 @@
 #include "layout.hpp"
 #include "script.hpp"
 #include "slapstick/base/error.hpp"
-#include "slapstick/figure/figure.hpp"
-#include "slapstick/figure/raster.hpp"
+#include "figure/figure.hpp"
+#include "figure/raster.hpp"
 #include "table.hpp"
 
 namespace slapstick::figure {

@@ -1,15 +1,16 @@
-#include "slapstick/flow/chatter.hpp"
+/// Proves chatter complete and encloses its limit.
+#include "flow/chatter.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "slapstick/flow/mode_graph.hpp"
+#include "flow/mode_graph.hpp"
 
 namespace slapstick::flow {
 namespace {
 
 /// True if a contact that slips cannot come to rest: its velocity changes by less than it is. delta bounds |X - X_0|.
-bool slips_on(const System& system, int i, const double* X, const double* delta) {
+bool slips_on(const CompiledSystem& system, int i, const double* X, const double* delta) {
   return delta[system.frame().u(system.frame().frictions[i].own)] < std::abs(sliding_velocity(system, i, X));
 }
 
@@ -22,7 +23,7 @@ struct Friction {
 };
 
 /// @param delta bound on the changes of X over the chatter, or null if none is known yet
-Friction friction_on(const System& system, int stop, const double* X, const double* delta) {
+Friction friction_on(const CompiledSystem& system, int stop, const double* X, const double* delta) {
   Friction friction;
   for (int i = 0; i < static_cast<int>(system.model().frictions.size()); ++i) {
     const FrictionContact& contact = system.model().frictions[i];
@@ -47,7 +48,7 @@ double row_product(const mode::RowVector& row, const double* X) {
 }
 
 /// |u'| that friction can cause on coordinate i, at most.
-double friction_rate(const System& system, int i) {
+double friction_rate(const CompiledSystem& system, int i) {
   const mode::Frame& frame = system.frame();
   double rate = 0.0;
   for (std::size_t k = 0; k < frame.frictions.size(); ++k) {
@@ -58,7 +59,7 @@ double friction_rate(const System& system, int i) {
 }
 
 /// out = |A| v, of the greater of |A| without contact forces, and with those of the mode that the flight is in.
-void magnitude_product(const System& system, const mode::Mode& here, const double* v, double* out) {
+void magnitude_product(const CompiledSystem& system, const mode::Mode& here, const double* v, double* out) {
   const mode::Frame& frame = system.frame();
   const int m = frame.size();
   for (int i = 0; i < frame.d; ++i) {
@@ -83,7 +84,7 @@ double series(double v, double a_rise, double a_return, double rho) {
 }
 
 /// Can any other stop, rigid or compliant, begin or cease to act while X stays within delta?
-bool others_change(const System& system, int stop, const double* X, const double* delta) {
+bool others_change(const CompiledSystem& system, int stop, const double* X, const double* delta) {
   const mode::Frame& frame = system.frame();
   for (int i = 0; i < static_cast<int>(frame.stops.size()); ++i) {
     const double open = gap(system, i, X);
@@ -96,7 +97,7 @@ bool others_change(const System& system, int stop, const double* X, const double
 }
 
 /// Bound on |R(X(t)) - R_0| over a window of length D, or infinity if the bound on the states cannot be verified.
-double drift_of_R(const System& system, const mode::Mode& here, int stop, const double* X, double D, double impulse_sum,
+double drift_of_R(const CompiledSystem& system, const mode::Mode& here, int stop, const double* X, double D, double impulse_sum,
                   std::span<double> scratch) {
   const mode::Frame& frame = system.frame();
   const int m = frame.size();
@@ -111,7 +112,8 @@ double drift_of_R(const System& system, const mode::Mode& here, int stop, const 
     return i >= frame.d && i < 2 * frame.d ? std::abs(system.impulse(stop)[i - frame.d]) * impulse_sum : 0.0;
   };
   for (int i = 0; i < m; ++i) delta[i] = 2.0 * (D * rate[i] + jump(i));
-  // Positions move by the velocities' own bound, which the first guess has not seen yet: one more round before the check.
+  // Positions move by the velocities' own bound, which the first guess has not seen yet: one more round before the
+  // check.
   magnitude_product(system, here, delta, product);
   for (int i = 0; i < m; ++i) delta[i] += 2.0 * D * product[i];
   magnitude_product(system, here, delta, product);
@@ -125,7 +127,7 @@ double drift_of_R(const System& system, const mode::Mode& here, int stop, const 
 }
 
 /// The proof of the header, for friction as given; leaves the bounds on the changes of X in scratch[2 m ..].
-ChatterLimit prove(const System& system, const mode::Mode& here, int stop, const double* X, double tolerance,
+ChatterLimit prove(const CompiledSystem& system, const mode::Mode& here, int stop, const double* X, double tolerance,
                    const Friction& friction, std::span<double> scratch) {
   const double r = system.model().stops[stop].restitution;
   const double v = -approach_velocity(system, stop, X);
@@ -152,7 +154,7 @@ ChatterLimit prove(const System& system, const mode::Mode& here, int stop, const
 }
 
 /// Does any contact that was counted as steady come to rest?
-bool all_slip_on(const System& system, int stop, const double* X, const double* delta) {
+bool all_slip_on(const CompiledSystem& system, int stop, const double* X, const double* delta) {
   for (int i = 0; i < static_cast<int>(system.model().frictions.size()); ++i) {
     const auto [effect, same_pair] = system.coupling(stop, i);
     if (same_pair || effect == 0.0 || sliding_velocity(system, i, X) == 0.0) continue;
@@ -162,7 +164,7 @@ bool all_slip_on(const System& system, int stop, const double* X, const double* 
 }
 
 /// A closed stop, or a compliant one, that pushes on the chattering pair is more than the proof looks at.
-bool coupled_to_others(const System& system, int stop, const double* X) {
+bool coupled_to_others(const CompiledSystem& system, int stop, const double* X) {
   const mode::Frame& frame = system.frame();
   const int own = frame.stops[stop].own;
   for (std::size_t i = 0; i < frame.stops.size(); ++i) {
@@ -178,7 +180,7 @@ bool coupled_to_others(const System& system, int stop, const double* X) {
 
 }  // namespace
 
-ChatterLimit prove_chatter(const System& system, const mode::Mode& here, int stop, const double* X, double tolerance,
+ChatterLimit prove_chatter(const CompiledSystem& system, const mode::Mode& here, int stop, const double* X, double tolerance,
                            std::span<double> scratch) {
   const double v = -approach_velocity(system, stop, X);
   const Friction friction = friction_on(system, stop, X, nullptr);

@@ -1,4 +1,5 @@
-#include "slapstick/flow/flight_origin.hpp"
+/// Carries the state at a flight's origin to the present window.
+#include "flow/flight_origin.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,12 @@
-#include "slapstick/flow/impact_law.hpp"
+/// Solves impacts: Newton's law for one stop, Lemke's method for several.
+#include "flow/impact_law.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "slapstick/flow/mode_graph.hpp"
+#include "base/dense.hpp"
+#include "flow/mode_graph.hpp"
 
 namespace slapstick::flow {
 namespace {
@@ -20,7 +22,8 @@ void set_velocity(const mode::Frame& frame, const mode::ContactRow& stop, double
   frame.match_velocities(stop.own, X);
 }
 
-/// Lemke's method for w = D z - q, w >= 0, z >= 0, w . z = 0. The tableau is I w - D z - 1 z0 = -q; columns w, z, z0, right-hand side.
+/// Lemke's method for w = D z - q, w >= 0, z >= 0, w . z = 0. The tableau is I w - D z - 1 z0 = -q; columns w, z, z0,
+/// right-hand side.
 class Lemke {
  public:
   Lemke(const Square& D, const Column& q) : n_(D.rows()), T_(n_, 2 * n_ + 2), scale_(D.cwiseAbs().maxCoeff()) {
@@ -89,7 +92,7 @@ class Lemke {
 
 }  // namespace
 
-void strike(const System& system, int stop, double restitution, double* X) {
+void strike(const CompiledSystem& system, int stop, double restitution, double* X) {
   const mode::Frame& frame = system.frame();
   const double v = approach_velocity(system, stop, X);
   for (int i = 0; i < frame.d; ++i) X[frame.u(i)] -= (1.0 + restitution) * v * system.impulse(stop)[i];
@@ -99,7 +102,7 @@ void strike(const System& system, int stop, double restitution, double* X) {
 namespace {
 
 /// D_ij = g_i M^{-1} g_j^T, and the velocities towards the stops.
-void assemble(const System& system, std::span<const int> stops, const double* X, Square& D, Column& v) {
+void assemble(const CompiledSystem& system, std::span<const int> stops, const double* X, Square& D, Column& v) {
   const mode::Frame& frame = system.frame();
   const auto n = static_cast<Eigen::Index>(stops.size());
   D.resize(n, n);
@@ -114,7 +117,7 @@ void assemble(const System& system, std::span<const int> stops, const double* X,
   }
 }
 
-void push(const System& system, std::span<const int> stops, const Column& P, double* X) {
+void push(const CompiledSystem& system, std::span<const int> stops, const Column& P, double* X) {
   const mode::Frame& frame = system.frame();
   for (std::size_t i = 0; i < stops.size(); ++i) {
     const mode::ContactRow& a = frame.stops[stops[i]];
@@ -125,7 +128,7 @@ void push(const System& system, std::span<const int> stops, const Column& P, dou
 
 }  // namespace
 
-bool strike_together(const System& system, std::span<const int> stops, double* X, std::span<bool> hit) {
+bool strike_together(const CompiledSystem& system, std::span<const int> stops, double* X, std::span<bool> hit) {
   Square D;
   Column v, P;
   assemble(system, stops, X, D, v);
@@ -146,12 +149,12 @@ bool strike_together(const System& system, std::span<const int> stops, double* X
   return true;
 }
 
-void bring_to_rest(const System& system, std::span<const int> stops, double* X) {
+void bring_to_rest(const CompiledSystem& system, std::span<const int> stops, double* X) {
   Square D;
   Column v;
   assemble(system, stops, X, D, v);
   const Eigen::MatrixXd full = D;
-  push(system, stops, Column(full.completeOrthogonalDecomposition().solve(Eigen::VectorXd(v))), X);
+  push(system, stops, Column(dense::LeastNorm(full).solve(Eigen::VectorXd(v))), X);
   for (int stop : stops) set_velocity(system.frame(), system.frame().stops[stop], 0.0, X);
 }
 

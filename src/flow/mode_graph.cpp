@@ -1,4 +1,5 @@
-#include "slapstick/flow/mode_graph.hpp"
+/// Chooses the mode that may start at a state, by the order of each guard's zero there.
+#include "flow/mode_graph.hpp"
 
 #include <array>
 #include <cmath>
@@ -15,8 +16,8 @@ constexpr double no_underflow = 0x1p-900;
 
 constexpr int most_contacts = System::most_contacts;
 
-/// What one contact offers, as digits of a mode id (stop: open 0, closed 1; friction: slip- 0, stick 1, slip+ 2; compliant: off 0, on 1,
-/// detached 2).
+/// What one contact offers, as digits of a mode id (stop: open 0, closed 1; friction: slip- 0, stick 1, slip+ 2;
+/// compliant: off 0, on 1, detached 2).
 struct Candidates {
   std::array<std::int8_t, 3> digit;
   std::int8_t count;
@@ -47,9 +48,9 @@ bool fits(const mode::Mode& mode, const double* X, const double* magnitude, std:
   return true;
 }
 
-/// False if a guard of the mode certainly starts downwards: by its value, or by a derivative where all before are exactly zero. For modes
-/// without operators; a rounding bound that is more than theirs. So it refuses nothing that `fits` would take, and which mode is chosen
-/// does not depend on which ones were built before.
+/// False if a guard of the mode certainly starts downwards: by its value, or by a derivative where all before are
+/// exactly zero. For modes without operators; a rounding bound that is more than theirs. So it refuses nothing that
+/// `fits` would take, and which mode is chosen does not depend on which ones were built before.
 bool may_fit(const mode::Outline& outline, const double* X, const double* magnitude) {
   constexpr double roundings = 64.0 * event::unit_roundoff;
   bool zero_found = false;
@@ -99,22 +100,22 @@ int start_order(const mode::Mode& mode, int guard, const double* X, const double
   return never;
 }
 
-double sliding_velocity(const System& system, int contact, const double* X) {
+double sliding_velocity(const CompiledSystem& system, int contact, const double* X) {
   const mode::ContactRow& row = system.frame().frictions[contact];
   return row.sign * X[system.frame().u(row.own)];
 }
 
-double gap(const System& system, int stop, const double* X) {
+double gap(const CompiledSystem& system, int stop, const double* X) {
   const mode::ContactRow& row = system.frame().stops[stop];
   return -row.sign * X[row.own];
 }
 
-double approach_velocity(const System& system, int stop, const double* X) {
+double approach_velocity(const CompiledSystem& system, int stop, const double* X) {
   const mode::ContactRow& row = system.frame().stops[stop];
   return row.sign * X[system.frame().u(row.own)];
 }
 
-double depth(const System& system, int compliant, const double* X) {
+double depth(const CompiledSystem& system, int compliant, const double* X) {
   const mode::ContactRow& row = system.frame().compliant[compliant];
   return row.sign * X[row.own];
 }
@@ -124,7 +125,7 @@ namespace {
 /// What every contact offers at X, in the order of the digits of a mode id.
 class Choice {
  public:
-  Choice(const System& system, const double* X) {
+  Choice(const CompiledSystem& system, const double* X) {
     const Model& model = system.model();
     for (int i = 0; i < static_cast<int>(model.stops.size()); ++i)
       add(stop_candidates(gap(system, i, X), approach_velocity(system, i, X)), 2);
@@ -197,7 +198,7 @@ class Choice {
 
 }  // namespace
 
-ModeId approaching_mode(const System& system, const double* X) {
+ModeId approaching_mode(const CompiledSystem& system, const double* X) {
   mode::ContactStates states = system.states(0);
   for (std::size_t i = 0; i < states.frictions.size(); ++i) {
     const double w = sliding_velocity(system, static_cast<int>(i), X);
@@ -210,7 +211,7 @@ ModeId approaching_mode(const System& system, const double* X) {
   return system.mode_id(states);
 }
 
-ModeId select_mode(const System& system, const double* X, const double* magnitude, std::span<int> orders) {
+ModeId select_mode(const CompiledSystem& system, const double* X, const double* magnitude, std::span<int> orders) {
   Choice choice(system, X);
   do {
     const ModeId id = choice.id();

@@ -1,6 +1,7 @@
-#include "slapstick/flow/mode_table.hpp"
+/// Keeps modes by their ids, under a lock where that is needed.
+#include "flow/mode_table.hpp"
 
-namespace slapstick {
+namespace slapstick::flow {
 
 const mode::Mode* ModeTable::find_locked(ModeId id) {
   const std::scoped_lock lock(mutex_);
@@ -29,4 +30,4 @@ std::shared_ptr<const mode::Outline> ModeTable::outline(ModeId id, const std::fu
   return made;
 }
 
-}  // namespace slapstick
+}  // namespace slapstick::flow

@@ -1,7 +1,11 @@
-#include "slapstick/flow/saltation.hpp"
+/// Takes tangent vectors through the events of one instant.
+#include "flow/saltation.hpp"
 
 #include <algorithm>
 #include <utility>
+
+#include "base/dense.hpp"
+#include "flow/engine.hpp"
 
 namespace slapstick::flow {
 namespace {
@@ -34,7 +38,7 @@ class Passage {
   [[nodiscard]] Eigen::VectorXd flow(ModeId id, const Eigen::VectorXd& X) const;
 
   const Motion& motion_;
-  const System& system_;
+  const CompiledSystem& system_;
   const mode::Frame& frame_;
   const mode::Mode& before_;
   std::vector<int> hits_;
@@ -45,12 +49,12 @@ class Passage {
 
 Passage::Passage(const Motion& motion)
     : motion_(motion),
-      system_(motion.system()),
+      system_(motion.system().compiled()),
       frame_(system_.frame()),
       before_(system_.mode(motion.segment().mode)),
-      hits_(motion.hits().begin(), motion.hits().end()),
+      hits_(motion.engine().hits().begin(), motion.engine().hits().end()),
       states_(before_.states()),
-      X_(Eigen::Map<const Eigen::VectorXd>(motion.extended_before().data(), before_.size())) {
+      X_(Eigen::Map<const Eigen::VectorXd>(motion.engine().extended_before().data(), before_.size())) {
   for (const Motion::Strike& strike : motion.strikes()) {
     for (Blow& blow : separated(strike)) blows_.push_back(std::move(blow));
   }
@@ -156,7 +160,7 @@ Eigen::VectorXd Passage::flow(ModeId id, const Eigen::VectorXd& X) const {
 
 void Passage::carry(Eigen::MatrixXd& tangents) {
   const int d = frame_.d;
-  const Eigen::Map<const Eigen::VectorXd> after(motion_.extended().data(), before_.size());
+  const Eigen::Map<const Eigen::VectorXd> after(motion_.engine().extended().data(), before_.size());
   for (std::size_t k = 0; k < hits_.size(); ++k) {
     const mode::RowVector& h = before_.guards()[hits_[k]].row;
     const Eigen::VectorXd f_minus = flow(system_.mode_id(states_), X_);
@@ -175,7 +179,8 @@ void Passage::carry(Eigen::MatrixXd& tangents) {
   }
 }
 
-/// Impacts without a time of their own, after a chatter limit, and the end of a pile-up: gaps and their rates are lost, the momentum is kept.
+/// Impacts without a time of their own, after a chatter limit, and the end of a pile-up: gaps and their rates are lost,
+/// the momentum is kept.
 void Passage::carry_at_once(Eigen::MatrixXd& tangents) const {
   for (const Blow& blow : blows_) {
     apply(blow, tangents.bottomRows(frame_.d));
@@ -193,13 +198,13 @@ void push_along(const mode::Frame& frame, const std::vector<int>& rows, const Ei
   if (rows.size() == 1)
     block -= push * (rates / D(0, 0));
   else
-    block -= push * D.completeOrthogonalDecomposition().solve(rates);
+    block -= push * dense::LeastNorm(D).solve(rates);
 }
 
 void pass_event(const Motion& motion, Eigen::MatrixXd& tangents) {
-  if (motion.hits().empty() && motion.strikes().empty()) return;
+  if (motion.engine().hits().empty() && motion.strikes().empty()) return;
   const bool piled_up = std::ranges::any_of(motion.strikes(), &Motion::Strike::to_rest);
-  if (motion.hits().empty() || piled_up)
+  if (motion.engine().hits().empty() || piled_up)
     Passage(motion).carry_at_once(tangents);
   else
     Passage(motion).carry(tangents);

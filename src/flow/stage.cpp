@@ -1,3 +1,4 @@
+/// Cuts long runs into stages at fixed instants.
 #include "slapstick/flow/stage.hpp"
 
 #include <algorithm>

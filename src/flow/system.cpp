@@ -1,157 +1,22 @@
+/// The handle of a compiled model.
 #include "slapstick/flow/system.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <utility>
 
-#include "slapstick/base/error.hpp"
-#include "slapstick/base/floating_point.hpp"
-#include "slapstick/base/text.hpp"
+#include "flow/compiled_system.hpp"
 
 namespace slapstick {
 
-using mode::CompliantState;
-using mode::ContactStates;
-using mode::FrictionState;
-using mode::StopState;
-
-namespace {
-
-Model checked(Model model) {
-  validate(model);
-  const std::size_t contacts = model.stops.size() + model.frictions.size() + model.compliant_stops.size();
-  if (contacts > System::most_contacts)
-    throw InputError("model '" + model.name + "' has " + std::to_string(contacts) + " contacts; at most " +
-                     std::to_string(System::most_contacts) + " can be run");
-  return model;
-}
-
-/// The fastest rate of a mode: the largest modulus of an eigenvalue of its free motion, or its highest forcing frequency. Velocities are
-/// measured in a unit that makes the entries of the matrix comparable, otherwise a stiff spring would cost the solver its digits.
-double fastest_rate(const mode::Mode& mode, int n) {  // n: displacements
-  mode::Matrix A = mode.system().topLeftCorner(2 * n, 2 * n);
-  const double unit = std::sqrt(A.bottomLeftCorner(n, n).cwiseAbs().maxCoeff());
-  if (unit > 0.0) {
-    A.topRightCorner(n, n) *= unit;
-    A.bottomLeftCorner(n, n) /= unit;
-  }
-  const auto oscillators = mode.size() - 2 * n;
-  const double forcing = mode.system().bottomRightCorner(oscillators, oscillators).cwiseAbs().maxCoeff();
-  return std::max(A.eigenvalues().cwiseAbs().maxCoeff(), forcing);
-}
-
-/// A window is never much longer than the shortest time scale of its mode: the tail of its series would not be negligible. One that is
-/// tells that numbers overflowed when it was computed.
-/// @returns the window length @throws InputError
-double checked_window(const Model& model, const mode::Mode& mode, int displacements) {
-  constexpr double longest = 16.0;  // times the fastest rate; without overflow it stays below 5
-  const double rate = fastest_rate(mode, displacements), window = mode.window();
-  if (!(std::isfinite(rate) && window > 0.0 && window * rate <= longest))
-    throw InputError("model '" + model.name +
-                     "' has time scales too far apart for double precision (its fastest rate is " + shown(rate) +
-                     "); bring masses, stiffnesses, damping and omega closer together");
-  return window;
-}
-
-/// The clock's fraction of a period has 53 bits; a window must be many of its units.
-constexpr double most_windows_per_period = 0x1p48;
-
-/// A model with so few modes has them built at once.
-constexpr ModeId built_at_once = 8;
-
-/// In periods: a flight counts its windows as a number of the clock, whose steps this is far above.
-constexpr double shortest_cap = 0x1p-20;
-
-}  // namespace
-
 System::System(Model model, SystemOptions options)
-    : model_(checked(std::move(model))), frame_(model_), options_(options), period_(model_.forcing_period()) {
-  if (!(options_.longest_window >= shortest_cap))
-    throw InputError("longest_window = " + shown(options_.longest_window) + " is not at least " + shown(shortest_cap));
-  for (std::size_t i = 0; i < model_.stops.size(); ++i) mode_count_ *= 2;
-  for (std::size_t i = 0; i < model_.frictions.size() + model_.compliant_stops.size(); ++i) mode_count_ *= 3;
-  modes_ = std::make_unique<ModeTable>(mode_count_);
-  ContactStates free = states(0);
-  windows_per_period_ = period_ / mode(mode_id(free)).window();
-  std::ranges::fill(free.compliant, CompliantState::on);
-  windows_per_period_ = std::max(windows_per_period_, period_ / mode(mode_id(free)).window());
-  if (windows_per_period_ > most_windows_per_period)
-    throw InputError("model '" + model_.name + "' has " + shown(windows_per_period_) +
-                     " windows of its fastest motion in a forcing period, more than the clock can tell apart; raise "
-                     "omega or slow the "
-                     "model down");
-  for (ModeId id = 0; id < mode_count_ && mode_count_ <= built_at_once; ++id) (void)mode(id);
-  for (const mode::ContactRow& stop : frame_.stops) {
-    impulses_.emplace_back(stop.sign * frame_.mass_inverse.col(stop.own) / frame_.mass_inverse(stop.own, stop.own));
-    presses_.emplace_back(stop.sign * frame_.free.row(stop.own));
-    for (std::size_t i = 0; i < frame_.frictions.size(); ++i) {
-      const mode::ContactRow& friction = frame_.frictions[i];
-      const bool same = frame_.parallel(stop.own, friction.own) != 0;
-      couplings_.push_back({stop.sign * friction.sign * frame_.mass_inverse(stop.own, friction.own),
-                            same && model_.frictions[i].belt_speed == 0.0});
-    }
-  }
-}
+    : compiled_(std::make_shared<const flow::CompiledSystem>(std::move(model), options)) {}
 
-mode::Mode System::build(ModeId id) const {
-  const IeeeArithmetic ieee;
-  mode::Mode built(model_, frame_, states(id), options_.longest_window);
-  (void)checked_window(model_, built, frame_.d);
-  return built;
-}
-
-std::shared_ptr<const mode::Outline> System::outline(ModeId id) const {
-  return modes_->outline(id, [this](ModeId wanted) { return mode::Outline(model_, frame_, states(wanted)); });
-}
-
-ModeId System::mode_id(const ContactStates& states) const {
-  ModeId id = 0, stride = 1;
-  const auto digit = [&](int value, int base) {
-    id += stride * value;
-    stride *= base;
-  };
-  for (StopState state : states.stops) digit(static_cast<int>(state), 2);
-  for (FrictionState state : states.frictions) digit(static_cast<int>(state) + 1, 3);
-  for (CompliantState state : states.compliant) digit(static_cast<int>(state), 3);
-  return id;
-}
-
-ContactStates System::states(ModeId id) const {
-  ContactStates states;
-  const auto digit = [&](int base) {
-    const auto value = static_cast<int>(id % base);
-    id /= base;
-    return value;
-  };
-  for (std::size_t i = 0; i < model_.stops.size(); ++i) states.stops.push_back(static_cast<StopState>(digit(2)));
-  for (std::size_t i = 0; i < model_.frictions.size(); ++i)
-    states.frictions.push_back(static_cast<FrictionState>(digit(3) - 1));
-  for (std::size_t i = 0; i < model_.compliant_stops.size(); ++i)
-    states.compliant.push_back(static_cast<CompliantState>(digit(3)));
-  return states;
-}
-
-std::string System::mode_name(ModeId id) const {
-  const ContactStates all = states(id);
-  std::string name;
-  for (FrictionState state : all.frictions)
-    name += std::string(name.empty() ? "" : "/") + (state == FrictionState::stick       ? "stick"
-                                                    : state == FrictionState::slip_plus ? "slip+"
-                                                                                        : "slip-");
-  if (name.empty()) name = "free";
-  const bool several = model_.stops.size() + model_.compliant_stops.size() > 1;
-  const auto named = [&](const std::string& what) { return several ? ":" + what : std::string(); };
-  for (std::size_t i = 0; i < all.stops.size(); ++i)
-    if (all.stops[i] == StopState::closed) name += "|closed" + named(model_.stops[i].name);
-  for (std::size_t i = 0; i < all.compliant.size(); ++i)
-    if (all.compliant[i] == CompliantState::on) name += "|on" + named(model_.compliant_stops[i].name);
-  return name;
-}
-
-std::string System::contact_name(int contact) const {
-  const auto stops = static_cast<int>(model_.stops.size()), frictions = static_cast<int>(model_.frictions.size());
-  if (contact < stops) return model_.stops[contact].name;
-  contact -= stops;
-  return contact < frictions ? model_.frictions[contact].name : model_.compliant_stops[contact - frictions].name;
-}
+const Model& System::model() const { return compiled_->model(); }
+double System::period() const { return compiled_->period(); }
+double System::windows_per_period() const { return compiled_->windows_per_period(); }
+ModeId System::mode_count() const { return compiled_->mode_count(); }
+ModeId System::mode_id(const mode::ContactStates& states) const { return compiled_->mode_id(states); }
+mode::ContactStates System::states(ModeId id) const { return compiled_->states(id); }
+std::string System::mode_name(ModeId id) const { return compiled_->mode_name(id); }
+std::string System::contact_name(int contact) const { return compiled_->contact_name(contact); }
 
 }  // namespace slapstick

@@ -1,4 +1,5 @@
-#include "slapstick/io/atomic_file.hpp"
+/// Writes output files that appear whole or not at all.
+#include "io/atomic_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -10,7 +11,7 @@
 
 #include "io/temporary_files.hpp"
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 
 namespace slapstick {
 namespace {

@@ -18,8 +18,8 @@ struct Scalar {
   int line = 0;
 };
 
-/// What a key of a [[part]] holds: a Scalar, a Scalar whose expression may name states as well, true or false, one line of text, or a
-/// list of tables with fields of their own.
+/// What a key of a [[part]] holds: a Scalar, a Scalar whose expression may name states as well, true or false, one line
+/// of text, or a list of tables with fields of their own.
 enum class Holds { number, observed, flag, text, harmonics };
 
 struct FieldRule {
@@ -28,7 +28,8 @@ struct FieldRule {
   Holds holds = Holds::number;
 };
 
-/// How a [[part]] says what it acts on: not at all, `on = "x"`, or `between = ["x", "ground"]`; `moving` admits a [[base]] too.
+/// How a [[part]] says what it acts on: not at all, `on = "x"`, or `between = ["x", "ground"]`; `moving` admits a
+/// [[base]] too.
 enum class Ends { none, on, between, moving };
 
 /// The grammar of one kind of [[part]]; reader, evaluation and printer all follow this table.

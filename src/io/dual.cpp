@@ -1,3 +1,4 @@
+/// Differentiates arithmetic: numbers with their derivatives.
 #include "io/dual.hpp"
 
 #include <array>

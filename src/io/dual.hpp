@@ -1,5 +1,6 @@
 #pragma once
-/// A number and its derivative with respect to a parameter, in the arithmetic of expressions: forward differentiation, exact but for rounding.
+/// A number and its derivative with respect to a parameter, in the arithmetic of expressions: forward differentiation,
+/// exact but for rounding.
 #include <map>
 #include <string>
 #include <string_view>
@@ -7,7 +8,8 @@
 
 namespace slapstick {
 
-/// `rate` is nan where there is no derivative: a kink, a jump, an end of the domain. A number that does not vary may stand on one.
+/// `rate` is nan where there is no derivative: a kink, a jump, an end of the domain. A number that does not vary may
+/// stand on one.
 struct Dual {
   double value = 0.0;
   double rate = 0.0;
@@ -23,7 +25,8 @@ Dual operator*(const Dual& a, const Dual& b);
 Dual operator/(const Dual& a, const Dual& b);
 Dual power(const Dual& base, const Dual& exponent);
 
-/// "<", "<=", ">", ">=", "==" or "!=": 1 or 0, which does not vary, but jumps where the sides are equal and one of them varies.
+/// "<", "<=", ">", ">=", "==" or "!=": 1 or 0, which does not vary, but jumps where the sides are equal and one of them
+/// varies.
 Dual compare(std::string_view relation, const Dual& a, const Dual& b);
 Dual both(const Dual& a, const Dual& b);
 Dual either(const Dual& a, const Dual& b);

@@ -1,3 +1,4 @@
+/// Parses an expression and evaluates it with its derivative.
 #include "io/dual_expression.hpp"
 
 #include <algorithm>

@@ -5,7 +5,8 @@
 
 namespace slapstick {
 
-/// Value and derivative of an expression. The grammar is that of docs/model_file.md; an Expression's text has been found sound.
+/// Value and derivative of an expression. The grammar is that of docs/model_file.md; an Expression's text has been
+/// found sound.
 /// @param names must hold all of the expression's names
 [[nodiscard]] Dual differentiated(const Expression& expression, const Duals& names);
 

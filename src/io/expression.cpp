@@ -1,3 +1,4 @@
+/// Evaluates expressions; the only source that includes muParser.
 #include "io/expression.hpp"
 
 #include <muParser.h>
@@ -10,7 +11,7 @@
 #include <optional>
 
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 
 namespace slapstick {
 
@@ -42,7 +43,8 @@ std::optional<std::string> foreign(const std::string& text) {
   return std::nullopt;
 }
 
-/// muParser's optimizer joins constants by && and || as integers: 0.5 && 2 would be 0. Formulas without these keep it, and their rounding.
+/// muParser's optimizer joins constants by && and || as integers: 0.5 && 2 would be 0. Formulas without these keep it,
+/// and their rounding.
 bool has_logic(const std::string& text) {
   return text.find("&&") != std::string::npos || text.find("||") != std::string::npos;
 }

@@ -1,18 +1,19 @@
-#include "slapstick/io/json.hpp"
+/// Prints JSON; the only source that includes nlohmann/json.
+#include "io/json.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "slapstick/io/table.hpp"
+#include "io/table.hpp"
 
 namespace slapstick {
 namespace {
 
 /// Writes a tree with `indent` blanks a level, or with -1 on one line.
-class Printer {
+class JsonPrinter {
  public:
-  explicit Printer(int indent) : indent_(indent) {}
+  explicit JsonPrinter(int indent) : indent_(indent) {}
 
   [[nodiscard]] std::string text(const Json& json) {
     std::visit(*this, json.value());
@@ -94,6 +95,6 @@ Json& Json::push(Json value) {
   return *this;
 }
 
-std::string Json::dump(int indent) const { return Printer(indent).text(*this); }
+std::string Json::dump(int indent) const { return JsonPrinter(indent).text(*this); }
 
 }  // namespace slapstick

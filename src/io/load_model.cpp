@@ -1,3 +1,4 @@
+/// Finds a model by its name or reads it from a file.
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -7,7 +8,7 @@
 #include "io/builtin.hpp"
 #include "io/toml_tree.hpp"
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/nearest.hpp"
+#include "base/nearest.hpp"
 #include "slapstick/io/model_file.hpp"
 
 namespace slapstick {

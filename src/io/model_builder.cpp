@@ -1,3 +1,4 @@
+/// Builds a Model from the parts of a model file and the values of its parameters.
 #include "io/model_builder.hpp"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 #include "io/dual_expression.hpp"
 #include "io/model_numbers.hpp"
 #include "model/fault.hpp"
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 
 namespace slapstick {
 
@@ -29,7 +30,7 @@ double ModelBuilder::number(const Scalar& scalar, const std::string& where) cons
     if (numbers_ != nullptr) numbers_->demand(*scalar.expression);
     return value;
   } catch (const InputError& error) {
-    throw InputError(definition_.place(scalar.line) + where + ": " + error.what());
+    throw InputError(definition_.place(scalar.line), where + ": " + error.what());
   }
 }
 
@@ -42,7 +43,7 @@ Dual ModelBuilder::dual(const Scalar& scalar, const std::string& where) const {
     with += (with.empty() ? " with " : ", ") + name + " = " + shown(values_.at(name));
     if (!std::isfinite(rates_->at(name).rate)) broken = ", as " + in_quotes(name) + " has none";
   }
-  throw InputError(definition_.place(scalar.line) + where + ": expression " + in_quotes(scalar.expression->text()) +
+  throw InputError(definition_.place(scalar.line), where + ": expression " + in_quotes(scalar.expression->text()) +
                    ": it has no derivative" + with + broken);
 }
 
@@ -65,7 +66,7 @@ int ModelBuilder::harmonic(const Part& part, const std::string& place) const {
   const double value = number.value;
   const bool whole = value >= 0.0 && value <= 1e6 && value == std::floor(value);
   if (whole && !number.varies) return static_cast<int>(value);
-  throw InputError(definition_.place(part.fields.find("harmonic")->second.line) + place + " = " + shown(value) +
+  throw InputError(definition_.place(part.fields.find("harmonic")->second.line), place + " = " + shown(value) +
                    (whole ? " is a whole number, which has no derivative" : " is not a whole number in [0, 1000000]"));
 }
 
@@ -185,7 +186,7 @@ void ModelBuilder::demand_no_forcing(const Model& model) const {
   if (found == model.forces.end()) return;
   const Origin& from = origins_.at("force")[static_cast<std::size_t>(found - model.forces.begin())];
   const auto& part = definition_.of(from.kind)[from.index];
-  throw InputError(definition_.place(part.line) + part_label(from.kind, from.index, part) +
+  throw InputError(definition_.place(part.line), part_label(from.kind, from.index, part) +
                    (from.kind == "force" ? ": harmonic " : ": its base moves with harmonic ") +
                    std::to_string(found->harmonic) + " of the forcing frequency, and the file has no 'omega'" +
                    (values_.contains("omega") ? ": write omega = \"omega\" above [parameters]" : ""));
@@ -216,7 +217,7 @@ InputError ModelBuilder::refusal(const Fault& fault, const Model& model) const {
     line = found == part.fields.end() ? part.line : found->second.line;
     if (kind != fault.part) place += ": with its base's motion, as a force";
   }
-  return InputError{definition_.place(line) + place + ": " + fault.what};
+  return InputError(definition_.place(line), place + ": " + fault.what);
 }
 
 State ModelBuilder::start(const Model& model) const {
@@ -228,7 +229,10 @@ State ModelBuilder::start(const Model& model) const {
     state[static_cast<std::size_t>(at)] = number(scalar, "start: " + name);
     line = scalar.line;
   }
-  if (const auto fault = first_fault(model, state)) throw InputError(definition_.place(line) + "start: " + fault->what);
+  if (const auto fault = first_fault(model, state)) {
+    if (fault->behind_stop) throw BehindStop(definition_.place(line), "start: " + fault->what);
+    throw InputError(definition_.place(line), "start: " + fault->what);
+  }
   return state;
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 /// From a Definition and the values of its parameters to a validated Model.
 ///
-/// Two things of a file are not in a Model but stand for others: a two-sided stop is two Stops, and a [[base]] is the forces that its
-/// springs and dampers pass on. So each part of the Model remembers the part of the file that it came from, for messages.
+/// Two things of a file are not in a Model but stand for others: a two-sided stop is two Stops, and a [[base]] is the
+/// forces that its springs and dampers pass on. So each part of the Model remembers the part of the file that it came
+/// from, for messages.
 ///
-/// The derivative of a Model goes the same way: every number is calculated as a Dual, of which its value or its rate is written down.
+/// The derivative of a Model goes the same way: every number is calculated as a Dual, of which its value or its rate is
+/// written down.
 #include <map>
 #include <string>
 #include <string_view>
@@ -32,7 +34,8 @@ class ModelBuilder {
 
   /// @throws InputError with the file's line
   [[nodiscard]] Model model();
-  /// The derivative of `model`, a Model of the same shape. @throws InputError with the file's line for a number that has none
+  /// The derivative of `model`, a Model of the same shape. @throws InputError with the file's line for a number that
+  /// has none
   [[nodiscard]] Model rate() { return assembled(); }
   /// @throws InputError with the file's line
   [[nodiscard]] State start(const Model& model) const;

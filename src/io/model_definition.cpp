@@ -1,3 +1,4 @@
+/// Answers what a model file says: parameters, values, model, start, observables.
 #include <algorithm>
 #include <cmath>
 
@@ -5,7 +6,7 @@
 #include "io/model_numbers.hpp"
 #include "io/scale.hpp"
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/nearest.hpp"
+#include "base/nearest.hpp"
 
 namespace slapstick {
 namespace {

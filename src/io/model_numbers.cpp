@@ -1,3 +1,4 @@
+/// Checks that the expressions of a model with [scale] have no unit.
 #include "io/model_numbers.hpp"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 
 #include "io/scale.hpp"
 #include "io/unit.hpp"
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 
 namespace slapstick {
 namespace {
@@ -44,7 +45,8 @@ ModelNumbers::ModelNumbers(const Definition& definition, const Values& values, c
   }
 }
 
-/// The parameter's number in the view's units. One without a unit is a number of the model, or what its expression makes of others.
+/// The parameter's number in the view's units. One without a unit is a number of the model, or what its expression
+/// makes of others.
 double ModelNumbers::measured(const std::string& name, View& view) const {
   if (const auto known = view.values.find(name); known != view.values.end()) return known->second;
   const ParameterEntry& entry = *entry_of(definition_, name);
@@ -58,7 +60,8 @@ double ModelNumbers::measured(const std::string& name, View& view) const {
   return view.values[name] = value;
 }
 
-/// The unit of an expression's value; nothing if it has none because numbers of both kinds are added in it. `others`: names that are no parameters.
+/// The unit of an expression's value; nothing if it has none because numbers of both kinds are added in it. `others`:
+/// names that are no parameters.
 std::optional<ModelNumbers::Powers> ModelNumbers::powers(const Expression& expression, const Values& others) const {
   const auto with = [&](const Values& parameters) {
     Values all = parameters;
@@ -115,7 +118,7 @@ void ModelNumbers::demand_unit(const Scalar& scalar, const Powers& wanted, const
   if (!scalar.expression) return;
   const auto found = powers(*scalar.expression, {});
   if (found == wanted || found == Powers{}) return;
-  throw InputError(definition_.place(scalar.line) + where + ": expression " + in_quotes(scalar.expression->text()) +
+  throw InputError(definition_.place(scalar.line), where + ": expression " + in_quotes(scalar.expression->text()) +
                    ": its value is not in " + unit + " (" + with_units(*scalar.expression) + ")");
 }
 
@@ -141,7 +144,7 @@ void ModelNumbers::check_observable(const Part& part) const {
     try {
       demand(*value.expression, others);
     } catch (const InputError& error) {
-      throw InputError(definition_.place(value.line) + part_label("observable", 0, part) + ": value: " + error.what());
+      throw InputError(definition_.place(value.line), part_label("observable", 0, part) + ": value: " + error.what());
     }
   }
 }

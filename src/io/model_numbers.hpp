@@ -1,9 +1,11 @@
 #pragma once
-/// What a model with [scale] calculates with: its own numbers, which have no unit. A parameter that names a unit holds a number of that
-/// unit instead, and an expression has to divide it by what 1 is. One that forgets would be wrong without a word.
+/// What a model with [scale] calculates with: its own numbers, which have no unit. A parameter that names a unit holds
+/// a number of that unit instead, and an expression has to divide it by what 1 is. One that forgets would be wrong
+/// without a word.
 ///
-/// Found by measuring the parameters in another unit of length, time or mass: a number of the model does not change. The other
-/// units are 2^12 times smaller, so that sums, products and the usual roots scale exactly, however much cancels in them.
+/// Found by measuring the parameters in another unit of length, time or mass: a number of the model does not change.
+/// The other units are 2^12 times smaller, so that sums, products and the usual roots scale exactly, however much
+/// cancels in them.
 #include <array>
 #include <optional>
 #include <vector>
@@ -20,7 +22,8 @@ class ModelNumbers {
 
   /// That an expression of parameters is a number of the model. @throws InputError with the reason only
   void demand(const Expression& expression) const;
-  /// That a parameter's expression, a scale and an observable are in the unit that they name. @throws InputError with the file's line
+  /// That a parameter's expression, a scale and an observable are in the unit that they name. @throws InputError with
+  /// the file's line
   void check() const;
 
  private:

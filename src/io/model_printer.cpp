@@ -1,3 +1,4 @@
+/// Prints a model file.
 #include <charconv>
 #include <cmath>
 
@@ -6,7 +7,8 @@
 namespace slapstick {
 namespace {
 
-/// Shortest text that reads back as the same double; never one that TOML would take for an integer out of range or lose the sign of -0.
+/// Shortest text that reads back as the same double; never one that TOML would take for an integer out of range or lose
+/// the sign of -0.
 std::string toml_number(double value) {
   char text[40];
   std::string out(text, std::to_chars(text, text + sizeof text, value).ptr);

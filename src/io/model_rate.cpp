@@ -1,3 +1,4 @@
+/// Differentiates a model file with respect to a parameter.
 #include <algorithm>
 
 #include "io/dual_expression.hpp"

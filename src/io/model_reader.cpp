@@ -1,10 +1,11 @@
+/// Reads a model file into its parts.
 #include <algorithm>
 #include <array>
 
 #include "io/part_reader.hpp"
 #include "io/scale.hpp"
 #include "model/fault.hpp"
-#include "slapstick/base/nearest.hpp"
+#include "base/nearest.hpp"
 
 namespace slapstick {
 namespace {

@@ -1,11 +1,13 @@
+/// Writes the commented file of `slapstick new`.
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 #include "slapstick/io/model_file.hpp"
 
 namespace slapstick {
 namespace {
 
-/// What is switched off has no blank after '#': take the '#' away to switch it on. test/io/new_model_test.cpp switches all of it on.
+/// What is switched off has no blank after '#': take the '#' away to switch it on. test/io/new_model_test.cpp switches
+/// all of it on.
 constexpr std::string_view page =
     R"toml(# A model for slapstick. docs/model_file.md explains every key; `slapstick check @NAME@.toml` checks this file.
 # Lines like "#notes = ..." are switched off: remove the '#' to use them.

@@ -1,3 +1,4 @@
+/// Evaluates the observables of a model file along a motion.
 #include "slapstick/io/observer.hpp"
 
 #include "io/model_builder.hpp"

@@ -1,9 +1,10 @@
+/// Reads the parts of a model file by the table of part rules.
 #include "io/part_reader.hpp"
 
 #include <algorithm>
 
 #include "model/fault.hpp"
-#include "slapstick/base/nearest.hpp"
+#include "base/nearest.hpp"
 
 namespace slapstick {
 namespace {

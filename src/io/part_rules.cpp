@@ -1,5 +1,6 @@
+/// Lists the keys of a model file: the one table that reader, printer and reference follow.
 #include "io/definition.hpp"
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 
 namespace slapstick {
 

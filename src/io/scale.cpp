@@ -1,3 +1,4 @@
+/// Reads [scale] and the units of a model file, and computes the factors of tables.
 #include "io/scale.hpp"
 
 #include <array>
@@ -6,7 +7,7 @@
 
 #include "io/unit.hpp"
 #include "model/fault.hpp"
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 
 namespace slapstick {
 namespace {
@@ -30,7 +31,7 @@ class UnitCheck {
 
  private:
   [[noreturn]] void fail(int line, const std::string& where, const std::string& what) const {
-    throw InputError(definition_.place(line) + where + ": " + what);
+    throw InputError(definition_.place(line), where + ": " + what);
   }
 
   Unit parsed(const std::string& text, int line, const std::string& where) const {
@@ -84,7 +85,8 @@ class UnitCheck {
       fail(line, where, "unit " + in_quotes(text) + " has a mass in it, and [scale] has none");
   }
 
-  /// Expressions calculate with bare numbers: a parameter in mm beside a scale in m would be wrong by 1000 without a word.
+  /// Expressions calculate with bare numbers: a parameter in mm beside a scale in m would be wrong by 1000 without a
+  /// word.
   void check_parameter(const ParameterEntry& entry, const std::array<Unit, 3>& scales) const {
     const auto& text = entry.shown.unit;
     if (text.empty()) return;
@@ -100,7 +102,8 @@ class UnitCheck {
                                            : "the number in " + unit_of_scale(definition_, unit.powers)));
   }
 
-  /// Without [scale] units are what the numbers are in: all coordinates have one, or none has, and equal dimensions have equal units.
+  /// Without [scale] units are what the numbers are in: all coordinates have one, or none has, and equal dimensions
+  /// have equal units.
   void check_unscaled() const {
     const auto& coordinates = definition_.of("coordinate");
     std::vector<std::pair<Unit, std::string>> seen;
@@ -150,7 +153,8 @@ std::string unit_of_scale(const Definition& definition, const std::array<int, 3>
 
 void check_units(const Definition& definition) { UnitCheck(definition).check(); }
 
-/// The unit of the coordinates that contacts act on, if they agree: the column w holds relative velocities of all contacts.
+/// The unit of the coordinates that contacts act on, if they agree: the column w holds relative velocities of all
+/// contacts.
 std::string common_length(const Definition& definition) {
   const auto& fallback = definition.scale.find("length")->second.unit;
   const auto& coordinates = definition.of("coordinate");
@@ -177,7 +181,7 @@ std::optional<PhysicalUnits> physical_units(const Definition& definition, const 
     if (found == definition.scale.end()) continue;
     const double value = builder.number(found->second.value, "scale: " + key);
     if (!(value >= smallest && value <= largest))
-      throw InputError(definition.place(found->second.value.line) + "scale: " + key + ": value = " + shown(value) +
+      throw InputError(definition.place(found->second.value.line), "scale: " + key + ": value = " + shown(value) +
                        " is outside [1e-50, 1e50]");
     scale[i] = value * parse_unit(found->second.unit).factor;
   }
@@ -186,7 +190,7 @@ std::optional<PhysicalUnits> physical_units(const Definition& definition, const 
     double factor = 1.0 / unit.factor;
     for (std::size_t i = 0; i < 3; ++i) factor *= std::pow(scale[i], unit.powers[i]);
     if (!(factor >= 1e-200 && factor <= 1e200))
-      throw InputError(definition.place(line) + "scale: 1 is " + shown(factor) + " " + text +
+      throw InputError(definition.place(line), "scale: 1 is " + shown(factor) + " " + text +
                        ", which is out of range");
     return PhysicalUnits::Column{text, factor};
   };

@@ -1,5 +1,6 @@
 #pragma once
-/// [scale] and the units of a model file. Numbers of a model with [scale] are dimensionless: physical = dimensionless * scale.
+/// [scale] and the units of a model file. Numbers of a model with [scale] are dimensionless:
+/// physical = dimensionless * scale.
 #include <array>
 
 #include "io/model_builder.hpp"

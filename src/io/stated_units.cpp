@@ -36,7 +36,8 @@ std::vector<std::pair<double, int>> numbers_of(const Model& model) {
   return all;
 }
 
-/// By Euler's theorem on homogeneous functions: sum over the parameters p with b powers of time, b p dN/dp = power N for every number N of the model.
+/// By Euler's theorem on homogeneous functions: sum over the parameters p with b powers of time, b p dN/dp = power N
+/// for every number N of the model.
 bool changes_with_time(const ModelDefinition& definition) {
   constexpr double rounding = 1e-9;
   const std::map<std::string, double> values = definition.values();
@@ -57,7 +58,8 @@ bool changes_with_time(const ModelDefinition& definition) {
   return any;
 }
 
-/// The only unit of time with which all these are products of one unit of length, one of time and one of mass; empty if there is none, or several.
+/// The only unit of time with which all these are products of one unit of length, one of time and one of mass; empty if
+/// there is none, or several.
 std::string common_time(const std::vector<Unit>& units) {
   std::set<std::string> found;
   for (const char* length : lengths)

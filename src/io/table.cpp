@@ -1,4 +1,5 @@
-#include "slapstick/io/table.hpp"
+/// Writes CSV.
+#include "io/table.hpp"
 
 #include <charconv>
 #include <cmath>

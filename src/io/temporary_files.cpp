@@ -1,3 +1,4 @@
+/// Keeps a list of temporary files that a signal handler may read.
 #include "io/temporary_files.hpp"
 
 #include <unistd.h>
@@ -6,12 +7,12 @@
 #include <atomic>
 #include <cstring>
 
-#include "slapstick/io/atomic_file.hpp"
+#include "io/atomic_file.hpp"
 
 namespace slapstick {
 namespace {
 
-enum State : int { free_slot, filling, noted, being_removed };
+enum SlotState : int { free_slot, filling, noted, being_removed };
 
 struct Slot {
   std::atomic<int> state{free_slot};

@@ -4,7 +4,8 @@
 
 namespace slapstick {
 
-/// Notes a temporary file, best before it is made. @returns what to forget it by; -1 if there are already 64, or the name is too long
+/// Notes a temporary file, best before it is made. @returns what to forget it by; -1 if there are already 64, or the
+/// name is too long
 [[nodiscard]] int note_temporary(const std::filesystem::path& path) noexcept;
 
 /// It has been renamed or removed. -1 is ignored.

@@ -1,10 +1,11 @@
+/// Says what the author of a line that is no TOML most likely meant.
 #include "io/toml_remedy.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <optional>
 
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 
 namespace slapstick {
 namespace {

@@ -26,7 +26,8 @@ struct TomlEntry {
   TomlNode node;
 };
 
-/// Largest text that is read, and longest line. A model is a page; these bound time, memory and nesting for hostile files.
+/// Largest text that is read, and longest line. A model is a page; these bound time, memory and nesting for hostile
+/// files.
 inline constexpr std::size_t toml_size_limit = std::size_t{1} << 20;
 inline constexpr std::size_t toml_line_limit = 4096;
 

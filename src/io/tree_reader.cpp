@@ -1,10 +1,11 @@
+/// Checks the nodes of a file's tree, and says where one is wrong.
 #include "io/tree_reader.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/nearest.hpp"
+#include "base/nearest.hpp"
 
 namespace slapstick {
 namespace {

@@ -47,8 +47,8 @@ class TreeReader {
   [[nodiscard]] double plain_number(const TomlNode& node, const std::string& where) const;
   /// A number or an expression of parameters that exist.
   [[nodiscard]] Scalar scalar(const TomlNode& node, const std::string& where) const;
-  /// A number or an expression of `known` names; `what` is what the message calls them: "unknown parameter 'm'". A name that is known
-  /// twice may not be used.
+  /// A number or an expression of `known` names; `what` is what the message calls them: "unknown parameter 'm'". A name
+  /// that is known twice may not be used.
   [[nodiscard]] Scalar scalar(const TomlNode& node, const std::string& where, const char* what,
                               const std::vector<std::string>& known) const;
 

@@ -1,3 +1,4 @@
+/// Parses units of measurement and multiplies them.
 #include "io/unit.hpp"
 
 #include <cmath>
@@ -6,7 +7,7 @@
 #include <vector>
 
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/nearest.hpp"
+#include "base/nearest.hpp"
 
 namespace slapstick {
 namespace {

@@ -13,7 +13,8 @@ struct Unit {
   [[nodiscard]] bool same_dimension(const Unit& other) const { return powers == other.powers; }
 };
 
-/// factor (* | / | space factor)..., a factor being a known name with an optional whole power: "m^2". '/' is for the next factor only; µ is u.
+/// factor (* | / | space factor)..., a factor being a known name with an optional whole power: "m^2". '/' is for the
+/// next factor only; µ is u.
 /// @throws InputError with the reason only: "unknown unit 'furlong'; ..."
 [[nodiscard]] Unit parse_unit(const std::string& text);
 

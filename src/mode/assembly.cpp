@@ -1,4 +1,7 @@
+/// Assembles the matrices of a model in its own coordinates.
 #include "mode/assembly.hpp"
+
+#include "base/dense.hpp"
 
 namespace slapstick::mode {
 namespace {
@@ -44,7 +47,7 @@ Matrix stiffness_matrix(const Model& model) {
 Matrix inverse_mass(const Model& model) {
   const Matrix M = mass_matrix(model);
   if (M.isDiagonal(0.0)) return M.diagonal().cwiseInverse().asDiagonal();
-  return M.llt().solve(Matrix::Identity(M.rows(), M.cols()));
+  return dense::inverse_definite(M);
 }
 
 }  // namespace slapstick::mode

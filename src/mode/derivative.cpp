@@ -1,4 +1,5 @@
-#include "slapstick/mode/derivative.hpp"
+/// Differentiates frames and outlines by the product rule.
+#include "mode/derivative.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +7,7 @@
 #include "mode/assembly.hpp"
 #include "mode/held.hpp"
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 
 namespace slapstick::mode {
 namespace {

@@ -1,9 +1,11 @@
-#include "slapstick/mode/frame.hpp"
+/// Chooses contact coordinates, and moves states into and out of them.
+#include "mode/frame.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "base/dense.hpp"
 #include "mode/assembly.hpp"
 
 namespace slapstick::mode {
@@ -49,7 +51,7 @@ std::vector<int> independent_first(Displacements& all, int n) {
   const auto extends = [&](const RowVector& row) {
     Matrix trial(basis.rows() + 1, n);
     trial << basis, row;
-    if (Eigen::FullPivLU<Matrix>(trial).rank() < trial.rows()) return false;
+    if (dense::rank(trial) < trial.rows()) return false;
     basis = trial;
     return true;
   };
@@ -102,7 +104,7 @@ void Frame::choose_displacements(const Model& model) {
   for (ContactRow& contact : stops) contact.own = place[contact.own];
   for (ContactRow& contact : compliant) contact.own = place[contact.own];
   for (ContactRow& contact : frictions) contact.own = place[contact.own];
-  W_inverse = W.topRows(n).inverse();
+  W_inverse = dense::inverse(W.topRows(n));
   dependence = W * W_inverse;
   dependence.topRows(n).setIdentity();
   const auto slack = [&](const Vector& offset) {

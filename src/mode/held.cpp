@@ -1,4 +1,7 @@
+/// Gathers the pairs that contacts hold still, and what the forces there can bear.
 #include "mode/held.hpp"
+
+#include "base/dense.hpp"
 
 namespace slapstick::mode {
 namespace {
@@ -39,9 +42,9 @@ Matrix selection(const std::vector<HeldPair>& pairs, int d) {
 
 Matrix least_norm_inverse(const Matrix& D) {
   const Vector scale = D.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::FullPivLU<Matrix> lu(Matrix(scale.asDiagonal() * D * scale.asDiagonal()));
-  if (lu.isInvertible()) return scale.asDiagonal() * lu.inverse() * scale.asDiagonal();
-  return D.completeOrthogonalDecomposition().pseudoInverse();
+  const auto scaled = dense::inverse_if_regular(scale.asDiagonal() * D * scale.asDiagonal());
+  if (scaled) return scale.asDiagonal() * *scaled * scale.asDiagonal();
+  return dense::LeastNorm(D).pseudo_inverse();
 }
 
 std::vector<ForceLimit> force_limits(const Frame& frame, const std::vector<HeldPair>& pairs) {

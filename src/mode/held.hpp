@@ -2,7 +2,7 @@
 /// Pairs that closed stops and sticking friction contacts hold still, each by one force f0 along its displacement, and what they can bear.
 #include <vector>
 
-#include "slapstick/mode/outline.hpp"
+#include "mode/outline.hpp"
 
 namespace slapstick::mode {
 

@@ -1,4 +1,5 @@
-#include "slapstick/mode/mode.hpp"
+/// Builds the operators of a mode and applies them.
+#include "mode/mode.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,10 @@
-#include "slapstick/mode/outline.hpp"
+/// Selects the linear system and the guards of a combination of contact states.
+#include "mode/outline.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense.hpp"
 #include "mode/held.hpp"
 
 namespace slapstick::mode {
@@ -80,7 +82,7 @@ void Builder::hold(Matrix& acceleration, Matrix& size) {
 /// A displacement whose rate follows from the held ones has no acceleration.
 void Builder::note_steady(const Matrix& G) {
   const Matrix held = (G * frame_.W).transpose();
-  const Eigen::CompleteOrthogonalDecomposition<Matrix> span(held);
+  const dense::LeastNorm span(held);
   for (int i = 0; i < d_; ++i) {
     const Vector row = frame_.W.row(i).transpose();
     out_.steady[i] = (held * span.solve(row) - row).norm() < 1e-10 * row.norm();

@@ -1,8 +1,11 @@
+/// Computes the exponential series of a mode in extended precision.
 #include "mode/series.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "base/dense.hpp"
 
 namespace slapstick::mode {
 namespace {
@@ -10,7 +13,7 @@ namespace {
 /// 1 / spectral radius, or 1 if A is nilpotent (rigid bodies: the series ends by itself). Only eight bits are kept: the rounding of
 /// an eigenvalue solver, which differs for a mirrored model, shall not reach the results.
 double reference_length(const Matrix& A) {
-  const double radius = A.eigenvalues().cwiseAbs().maxCoeff();
+  const double radius = dense::eigenvalues(A).cwiseAbs().maxCoeff();
   if (!(radius > 1e-8 * A.cwiseAbs().maxCoeff() && radius > 0.0)) return 1.0;
   int exponent = 0;
   const double mantissa = std::frexp(1.0 / radius, &exponent);

@@ -2,8 +2,8 @@
 /// The exponential series of a mode in extended precision: Taylor rows, window length, flow matrix.
 #include <vector>
 
-#include "slapstick/event/window.hpp"
-#include "slapstick/mode/frame.hpp"
+#include "event/window.hpp"
+#include "mode/frame.hpp"
 
 namespace slapstick::mode {
 

@@ -1,4 +1,5 @@
-#include "slapstick/mode/term_sum.hpp"
+/// Sums exp(A s) X term by term for a large mode.
+#include "mode/term_sum.hpp"
 
 #include <algorithm>
 #include <utility>

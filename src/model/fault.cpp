@@ -1,3 +1,4 @@
+/// Finds what is wrong with a model's parts.
 #include "model/fault.hpp"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 #include <set>
 #include <string_view>
 
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 
 namespace slapstick {
 namespace {
@@ -274,7 +275,8 @@ std::optional<Fault> first_fault(const Model& model, const State& state) {
     };
     return Fault{"state", -1, names[static_cast<std::size_t>(2 * (stop.a == ground ? stop.b : stop.a))],
                  "stop " + in_quotes(stop.name) + " is violated: " + end(stop.a) + " - " + end(stop.b) + " = " +
-                     shown(gap) + " > clearance = " + shown(stop.clearance)};
+                     shown(gap) + " > clearance = " + shown(stop.clearance),
+                 true};
   }
   return std::nullopt;
 }

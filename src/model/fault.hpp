@@ -14,6 +14,7 @@ struct Fault {
   int index = -1;     ///< which of them, from 0; -1 for the model itself and its matrices
   std::string field;  ///< the key as in a model file: "mass", "between", "static", ...; "" if it is not one field
   std::string what;   ///< "mass = -1 is not positive"
+  bool behind_stop = false;  ///< of a start: it lies behind a stop
 
   /// "friction 'contact'": the part by its name, or by its number counted from 1.
   [[nodiscard]] std::string place(const Model& model) const;
@@ -25,14 +26,17 @@ struct Fault {
 /// The first thing wrong with a start (model sound); part is "state", field the name of the number.
 [[nodiscard]] std::optional<Fault> first_fault(const Model& model, const State& state);
 
-/// The same for mass, damping and stiffness alone: size, symmetry, numbers, and a total mass matrix that is positive definite.
+/// The same for mass, damping and stiffness alone: size, symmetry, numbers, and a total mass matrix that is positive
+/// definite.
 [[nodiscard]] std::optional<Fault> first_matrix_fault(const Model& model);
 
-/// The same for the stops together (each of them sound): two that face each other, or a loop of them, with no position that obeys all.
+/// The same for the stops together (each of them sound): two that face each other, or a loop of them, with no position
+/// that obeys all.
 [[nodiscard]] std::optional<Fault> first_room_fault(const Model& model);
 
-/// Numbers beyond `largest`, and masses and frequencies below `smallest`, are refused: the engine multiplies a few of them (a square of
-/// a force over a mass is the largest), and every such product has to stay far inside the range of a double, which ends at 1e308.
+/// Numbers beyond `largest`, and masses and frequencies below `smallest`, are refused: the engine multiplies a few of
+/// them (a square of a force over a mass is the largest), and every such product has to stay far inside the range of a
+/// double, which ends at 1e308.
 inline constexpr double largest = 1e50;
 inline constexpr double smallest = 1e-50;
 

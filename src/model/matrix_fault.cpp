@@ -1,9 +1,10 @@
+/// Finds what is wrong with a model's matrices.
 #include <algorithm>
 #include <cmath>
 #include <string_view>
 
 #include "model/fault.hpp"
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 
 namespace slapstick {
 namespace {
@@ -47,7 +48,8 @@ class NamedMatrix {
   std::size_t n_;
 };
 
-/// Cholesky's factorisation of the coordinates' masses plus the mass matrix; a pivot that is not clearly positive is the fault.
+/// Cholesky's factorisation of the coordinates' masses plus the mass matrix; a pivot that is not clearly positive is
+/// the fault.
 Found mass_fault(const Model& model) {
   const std::size_t n = model.coordinates.size();
   std::vector<double> total = model.mass;

@@ -1,3 +1,4 @@
+/// Validates models and states, and names the numbers of a state.
 #include "slapstick/model/model.hpp"
 
 #include <algorithm>

@@ -1,11 +1,12 @@
-/// Whether the stops leave any room at all. Each is a difference constraint, x_a - x_b <= clearance; around a loop the left sides add up to
-/// zero, so that the clearances must not add up to less. If they do so around no loop, some position obeys all stops (Bellman and Ford).
+/// Whether the stops leave any room at all. Each is a difference constraint, x_a - x_b <= clearance; around a loop the
+/// left sides add up to zero, so that the clearances must not add up to less. If they do so around no loop, some
+/// position obeys all stops (Bellman and Ford).
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "model/fault.hpp"
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 
 namespace slapstick {
 namespace {
@@ -35,8 +36,8 @@ class Bounds {
   explicit Bounds(const Model& model)
       : model_(model), highest_(model.coordinates.size() + 1, 0.0), by_(highest_.size(), 0) {}
 
-  /// The stops of a loop without room, or none. A node that is still lowered after as many rounds as there are nodes has no chain of stops that
-  /// ends: going back along it leads into a loop.
+  /// The stops of a loop without room, or none. A node that is still lowered after as many rounds as there are nodes
+  /// has no chain of stops that ends: going back along it leads into a loop.
   std::vector<std::size_t> loop() {
     std::size_t node = 0;
     for (std::size_t round = 0; round < highest_.size(); ++round)

@@ -1,8 +1,10 @@
+/// Integrates the powers of a cycle: where its energy comes from and goes.
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 
+#include "base/dense.hpp"
 #include "orbit/equations.hpp"
 #include "slapstick/orbit/periodic_orbit.hpp"
 
@@ -13,9 +15,9 @@ using Eigen::VectorXd;
 using mode::GuardKind;
 
 /// Nodes and weights of Gauss and Legendre on [-1, 1], eight points; exact to degree 15.
-constexpr std::array<double, 4> nodes = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
+constexpr std::array<double, 4> gauss_nodes = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
                                          0.9602898564975363};
-constexpr std::array<double, 4> weights = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
+constexpr std::array<double, 4> gauss_weights = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                            0.1012285362903763};
 
 class Account {
@@ -45,7 +47,7 @@ class Account {
 double Account::kinetic(const VectorXd& u) const {
   // M = W^T (W M^{-1} W^T)^{-1} W of the independent displacements
   const VectorXd w = u + frame_.drift.head(frame_.n);
-  return 0.5 * w.dot(frame_.mass_inverse.topLeftCorner(frame_.n, frame_.n).llt().solve(w));
+  return 0.5 * w.dot(dense::solve_definite(frame_.mass_inverse.topLeftCorner(frame_.n, frame_.n), w));
 }
 
 /// Power of everything at one instant, by weight.
@@ -111,12 +113,12 @@ void Account::leg(const Leg& leg, const VectorXd& x, double t_begin, double t_en
   const int count = std::max(1, static_cast<int>(std::ceil(std::abs(s) / mode.longest_step)));
   const double half = 0.5 * s / count;
   for (int i = 0; i < count; ++i) {
-    for (std::size_t k = 0; k < 2 * nodes.size(); ++k) {
-      const double node = k < nodes.size() ? nodes[k] : -nodes[k - nodes.size()];
+    for (std::size_t k = 0; k < 2 * gauss_nodes.size(); ++k) {
+      const double node = k < gauss_nodes.size() ? gauss_nodes[k] : -gauss_nodes[k - gauss_nodes.size()];
       Jet X(begin.all.rows(), 0, 0);
       X.value() = begin.value();
       flow(mode, (2.0 * i + 1.0 + node) * half, X);
-      powers(mode, X.value(), weights[k % nodes.size()] * half);
+      powers(mode, X.value(), gauss_weights[k % gauss_nodes.size()] * half);
     }
   }
 }

@@ -1,8 +1,10 @@
+/// Linearises the equations of an orbit and solves them by Newton's method.
 #include "orbit/equations.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::orbit {
@@ -56,7 +58,7 @@ Problem::Problem(Family family, const std::vector<double>& values)
       translations_(*base_),
       least_sizes_(VectorXd::Zero(numbers())) {}
 
-Index Problem::numbers() const { return 2 * base_->frame().n - translations_.count(); }
+Index Problem::numbers() const { return 2 * base_->compiled().frame().n - translations_.count(); }
 Index Problem::unknowns(std::size_t legs) const { return numbers() + static_cast<Index>(legs) + 1 + parameters(); }
 Index Problem::instant_column(std::size_t event) const { return numbers() + static_cast<Index>(event); }
 Index Problem::parameter_column(std::size_t legs, Index j) const {
@@ -66,7 +68,7 @@ Index Problem::parameter_column(std::size_t legs, Index j) const {
 Linearised linearise(const Problem& problem, const ModeSet& set, const Orbit& orbit) {
   const std::size_t k = orbit.legs();
   const auto rows = static_cast<Index>(k);
-  const Index N = problem.unknowns(k), size = 2 * problem.base().frame().n;
+  const Index N = problem.unknowns(k), size = 2 * problem.base().compiled().frame().n;
   Linearised at;
   at.residual = VectorXd::Zero(rows + problem.numbers() + 1);
   at.by = MatrixXd::Zero(at.residual.size(), N);
@@ -174,7 +176,7 @@ VectorXd newton_step(const Linearised& at, const std::vector<Condition>& conditi
   }
   matrix = matrix * scale.asDiagonal();
   right = right.cwiseQuotient(level_rows(matrix));
-  return matrix.partialPivLu().solve(right);
+  return dense::solve(matrix, right);
 }
 
 /// How well rounding lets the instants of events be known: where a guard falls slowly, as at the last impacts of a chatter, by the rounding of the
@@ -287,7 +289,7 @@ NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condi
 ReturnRates return_rates(const Problem& problem, const ModeSet& set, const Orbit& orbit,
                          const std::vector<LegValue>& legs) {
   const std::size_t k = orbit.legs();
-  const Index size = 2 * problem.base().frame().n, n = size / 2, columns = size + problem.parameters();
+  const Index size = 2 * problem.base().compiled().frame().n, n = size / 2, columns = size + problem.parameters();
   MatrixXd dx = MatrixXd::Zero(size, columns);
   dx.leftCols(size).setIdentity();
   RowVectorXd dt = RowVectorXd::Zero(columns);
@@ -308,7 +310,7 @@ ReturnRates return_rates(const Problem& problem, const ModeSet& set, const Orbit
   const ModeRates& mode = set.mode(orbit.shape.legs[0].states);
   const VectorXd rate = set.period() * (mode.outline.system * start.value());
   VectorXd flow(size);
-  flow << rate.head(n), rate.segment(problem.base().frame().d, n);
+  flow << rate.head(n), rate.segment(problem.base().compiled().frame().d, n);
   dx -= flow * dt;
   return {problem.translations().quotient(dx.leftCols(size)), classes(problem, dx.rightCols(problem.parameters()))};
 }

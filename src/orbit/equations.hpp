@@ -6,12 +6,13 @@
 /// The states x_1 .. x_{k-1} are unknowns too (multiple shooting) and eliminated by the recursion
 ///     dx_{i+1} = r_i + (d after_i) (dx_i, dt_i, dt_{i+1}, dp),
 /// so that a step costs a matrix of 2n + k + 1 rows. No guard's slope is divided by: at a graze, where one is zero, the equations are regular.
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <complex>
 #include <memory>
 #include <optional>
 
-#include "attractor/translations.hpp"
+#include "flow/compiled_system.hpp"
+#include "flow/translations.hpp"
 #include "orbit/leg_flow.hpp"
 
 namespace slapstick::orbit {
@@ -25,7 +26,7 @@ class Problem {
   [[nodiscard]] const Family& family() const { return family_; }
   [[nodiscard]] const std::vector<double>& values() const { return values_; }  ///< of the parameters, at `base`
   [[nodiscard]] const System& base() const { return *base_; }
-  [[nodiscard]] const attractor::Translations& translations() const { return translations_; }
+  [[nodiscard]] const flow::Translations& translations() const { return translations_; }
   [[nodiscard]] Eigen::Index parameters() const { return static_cast<Eigen::Index>(family_.names.size()); }
   /// What arclength measures states by where an orbit is smaller than this: one that shrinks to nothing is left behind in steps of some length.
   [[nodiscard]] const Eigen::VectorXd& least_sizes() const { return least_sizes_; }
@@ -45,7 +46,7 @@ class Problem {
   Family family_;
   std::vector<double> values_;
   std::shared_ptr<const System> base_;
-  attractor::Translations translations_;
+  flow::Translations translations_;
   Eigen::VectorXd least_sizes_;  ///< of the numbers; zero until they are set
   double least_value_ = 0.0;
 };

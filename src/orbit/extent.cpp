@@ -1,3 +1,4 @@
+/// Measures how far the states of an orbit vary, and distances by that.
 #include "orbit/extent.hpp"
 
 #include <algorithm>
@@ -9,7 +10,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 Extent::Extent(const Problem& problem, const Orbit& orbit)
-    : translations_(&problem.translations()), velocities_(problem.base().frame().n) {
+    : translations_(&problem.translations()), velocities_(problem.base().compiled().frame().n) {
   constexpr int samples = 4;  // of each leg: at its events an orbit may be next to nothing
   const ModeSet set(constant_family(problem.family().model(orbit.values)), {});
   VectorXd low = VectorXd::Constant(problem.numbers(), INFINITY), high = -low;

@@ -16,7 +16,7 @@ class Extent {
   [[nodiscard]] double distance(Eigen::VectorXd a, Eigen::VectorXd b) const;
 
  private:
-  const attractor::Translations* translations_;
+  const flow::Translations* translations_;
   Eigen::Index velocities_;
   double displacement_ = 0.0, velocity_ = 0.0;
 };

@@ -1,3 +1,4 @@
+/// Compares, rotates and describes sequences of events.
 #include "slapstick/orbit/itinerary.hpp"
 
 #include <algorithm>

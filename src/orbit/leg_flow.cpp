@@ -1,3 +1,4 @@
+/// One leg in closed form: the series of exp(A s) with all first derivatives, impacts, and what an event makes zero.
 #include "orbit/leg_flow.hpp"
 
 #include <algorithm>
@@ -5,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/dense.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::orbit {
@@ -49,9 +51,9 @@ void push(const ModeSet& set, const std::vector<int>& rows, const VectorXd& fact
   const mode::Frame& frame = set.frame();
   const Index d = frame.d;
   const MatrixXd S = frame.mass_inverse(Eigen::all, rows), D = S(rows, Eigen::all);
-  const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(D);
+  const dense::LeastNorm solver(D);
   const MatrixXd before = X.all.middleRows(d, d)(rows, Eigen::all);
-  const MatrixXd impulses = solver.solve(factor.asDiagonal() * before);
+  const MatrixXd impulses = solver.solve(MatrixXd(factor.asDiagonal() * before));
   X.all.middleRows(d, d) -= S * impulses;
   for (Index p = 0; p < X.parameters; ++p) {
     const MatrixXd S_rate = set.frame_rate(static_cast<std::size_t>(p)).mass_inverse(Eigen::all, rows);
@@ -212,11 +214,21 @@ std::size_t freest_leg(const ModeSet& set, const Orbit& orbit) {
     return std::pair(orbit.shape.legs[i].ending == Ending::chatter, held(set, orbit.shape.legs[i]));
   };
   const auto phase = [&](std::size_t i) { return orbit.t[i] - std::floor(orbit.t[i]); };
+  const auto faster = [&](std::size_t i, std::size_t than) {  // no instant is special: by the states at their starts
+    const Index n = orbit.x[i].size() / 2;
+    for (const Index first : {n, Index{0}}) {  // velocities, displacements
+      const VectorXd a = orbit.x[i].segment(first, n), b = orbit.x[than].segment(first, n);
+      const double same = 1e-6 * a.cwiseAbs().cwiseMax(b.cwiseAbs()).maxCoeff();
+      for (Index k = 0; k < n; ++k)
+        if (std::abs(a[k] - b[k]) > same) return a[k] > b[k];
+    }
+    return false;
+  };
   const auto freer = [&](std::size_t i, std::size_t than) {
     if (held_in(i) != held_in(than)) return held_in(i) < held_in(than);
     const double longer = orbit.duration(i) - orbit.duration(than);
     if (std::abs(longer) > alike) return longer > 0.0;
-    return orbit.shape.n > 0 && phase(i) < phase(than);
+    return orbit.shape.n > 0 ? phase(i) < phase(than) : faster(i, than);
   };
   std::size_t best = 0;
   for (std::size_t i = 1; i < orbit.legs(); ++i)

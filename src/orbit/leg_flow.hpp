@@ -6,10 +6,10 @@
 /// S: the plastic impact that sums a chatter's tail, else the identity. R: the impacts at the end. H: what the next mode holds still is zero.
 /// The derivative with respect to a parameter follows the motion as Y' = A Y + A_p X; the terms of both series are summed together.
 /// Relative error: some roundings times the number of steps.
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "slapstick/orbit/itinerary.hpp"
-#include "slapstick/orbit/mode_set.hpp"
+#include "orbit/mode_set.hpp"
 
 namespace slapstick::orbit {
 
@@ -60,8 +60,8 @@ struct LegValue {
 
 /// How many velocities the mode of a leg holds still: the fewer, the freer.
 [[nodiscard]] std::ptrdiff_t held(const ModeSet& set, const Leg& leg);
-/// The leg in which least is held, of several the longest, of equally long ones that which begins at the earliest phase; a chatter's tail only if there is
-/// nothing else.
+/// The leg in which least is held, of several the longest; of equally long ones that which begins at the earliest phase, without forcing that which begins
+/// with the largest velocity of the first coordinate in which they differ. A chatter's tail only if there is nothing else.
 [[nodiscard]] std::size_t freest_leg(const ModeSet& set, const Orbit& orbit);
 
 /// The contact state of an extended one.

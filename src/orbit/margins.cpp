@@ -1,3 +1,4 @@
+/// The margins of an orbit: least values of guards, speeds of events, lengths of legs.
 #include "orbit/margins.hpp"
 
 #include <algorithm>

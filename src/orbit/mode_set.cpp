@@ -1,4 +1,5 @@
-#include "slapstick/orbit/mode_set.hpp"
+/// Compiles the modes of a model at one point of its parameters, with derivatives.
+#include "orbit/mode_set.hpp"
 
 #include <algorithm>
 #include <cmath>

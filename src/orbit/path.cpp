@@ -1,8 +1,10 @@
+/// Tangents, steps along a branch, and the functions that are watched on it.
 #include "orbit/path.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/orbit/periodic_orbit.hpp"
 
@@ -21,31 +23,33 @@ VectorXd tangent_at(const Problem& problem, const Linearised& at, std::size_t le
   if (last.size() == 0) {  // of a matrix with one row too few the last singular vector
     MatrixXd matrix = bordered(problem, at, legs, units, VectorXd::Unit(at.by.cols(), 0));
     level_rows(matrix);
-    const Eigen::JacobiSVD<MatrixXd> svd(matrix.topRows(matrix.rows() - 1), Eigen::ComputeFullV);
-    last = svd.matrixV().rightCols(1);
+    last = dense::right_singular_vectors(matrix.topRows(matrix.rows() - 1)).rightCols(1);
     if (last[problem.parameter_column(legs, 0)] < 0.0) last = -last;
   }
   MatrixXd matrix = bordered(problem, at, legs, units, last);
   level_rows(matrix);
-  VectorXd tangent = matrix.partialPivLu().solve(VectorXd::Unit(matrix.rows(), matrix.rows() - 1));
+  VectorXd tangent = dense::solve(matrix, VectorXd::Unit(matrix.rows(), matrix.rows() - 1));
   tangent.normalize();
   return tangent.dot(last) < 0.0 ? VectorXd(-tangent) : tangent;
 }
 
-double pair_product(const std::vector<std::complex<double>>& multipliers) {
+}  // namespace
+
+double flip_function(const std::vector<std::complex<double>>& multipliers) {
+  std::complex<double> product = 1.0;
+  for (const auto& mu : multipliers) product *= (mu + 1.0) / (1.0 + std::abs(mu));
+  return product.real();
+}
+
+double torus_function(const std::vector<std::complex<double>>& multipliers) {
   std::complex<double> product = 1.0;
   for (std::size_t i = 0; i < multipliers.size(); ++i)
-    for (std::size_t j = i + 1; j < multipliers.size(); ++j) product *= multipliers[i] * multipliers[j] - 1.0;
+    for (std::size_t j = i + 1; j < multipliers.size(); ++j) {
+      const std::complex<double> p = multipliers[i] * multipliers[j];
+      product *= (p - 1.0) / (1.0 + std::abs(p));
+    }
   return product.real();
 }
-
-double flip_product(const std::vector<std::complex<double>>& multipliers) {
-  std::complex<double> product = 1.0;
-  for (const auto& multiplier : multipliers) product *= multiplier + 1.0;
-  return product.real();
-}
-
-}  // namespace
 
 MatrixXd bordered(const Problem& problem, const Linearised& at, std::size_t legs, const VectorXd& units,
                   const VectorXd& last_row) {
@@ -76,10 +80,10 @@ PathPoint point_of(const Problem& problem, Orbit orbit, double range, const Vect
   point.watched.turn = point.tangent[problem.parameter_column(orbit.legs(), 0)];
   MatrixXd crossing = bordered(problem, at, orbit.legs(), point.units, point.tangent);
   level_rows(crossing);
-  point.watched.cross = crossing.partialPivLu().determinant();
+  point.watched.cross = dense::determinant(crossing);
   point.watched.multipliers = multipliers(problem, set, orbit, at.legs);
-  point.watched.flip = flip_product(point.watched.multipliers);
-  point.watched.torus = pair_product(point.watched.multipliers);
+  point.watched.flip = flip_function(point.watched.multipliers);
+  point.watched.torus = torus_function(point.watched.multipliers);
   point.watched.tests = test_values(set, orbit);
   point.orbit = std::move(orbit);
   return point;

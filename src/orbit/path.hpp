@@ -13,12 +13,17 @@ namespace slapstick::orbit {
 [[nodiscard]] Eigen::MatrixXd bordered(const Problem& problem, const Linearised& at, std::size_t legs,
                                        const Eigen::VectorXd& units, const Eigen::VectorXd& last_row);
 
+/// prod (mu + 1) / (1 + |mu|): zero at a period doubling. No factor is greater than 1, however large or many the multipliers are.
+[[nodiscard]] double flip_function(const std::vector<std::complex<double>>& multipliers);
+/// prod (mu_i mu_j - 1) / (1 + |mu_i mu_j|) of all pairs: zero at a torus, and at two real multipliers whose product is 1.
+[[nodiscard]] double torus_function(const std::vector<std::complex<double>>& multipliers);
+
 /// What is watched along a branch.
 struct Watched {
   double turn = 0.0;   ///< the tangent's component in the parameter: zero at a fold
   double cross = 0.0;  ///< determinant bordered by the tangent: zero where branches cross
-  double flip = 0.0;   ///< prod (mu + 1)
-  double torus = 0.0;  ///< prod (mu_i mu_j - 1) of all pairs
+  double flip = 0.0;   ///< flip_function
+  double torus = 0.0;  ///< torus_function
   std::vector<std::complex<double>> multipliers;
   std::vector<TestValue> tests;
 };

@@ -1,3 +1,4 @@
+/// Finds the state of an orbit at phase 0.
 #include <cmath>
 
 #include "orbit/equations.hpp"
@@ -5,10 +6,10 @@
 
 namespace slapstick::orbit {
 
-State at_phase_zero(const Problem& problem, const Orbit& orbit) {
+State at_phase_zero(const Problem& problem, const Orbit& orbit, int period) {
   const ModeSet set(constant_family(problem.family().model(orbit.values)), {});
   const mode::Frame& frame = set.frame();
-  const double at = orbit.shape.n > 0 ? std::ceil(orbit.t[0]) : orbit.t[0];
+  const double at = orbit.shape.n > 0 ? std::ceil(orbit.t[0]) + period : orbit.t[0];
   std::size_t i = 0;
   while (i + 1 < orbit.legs() && orbit.t[i + 1] <= at) ++i;
   const ModeRates& mode = set.mode(orbit.shape.legs[i].states);

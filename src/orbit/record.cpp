@@ -1,9 +1,11 @@
+/// Reads the shape of a cycle from a motion, and verifies orbits by running them.
 #include "orbit/record.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "attractor/cycle.hpp"
+#include "flow/engine.hpp"
+#include "flow/contact_state.hpp"
 #include "orbit/equations.hpp"
 #include "slapstick/base/error.hpp"
 
@@ -21,7 +23,7 @@ std::optional<Leg> ended_leg(const Motion& motion) {
   const System& system = motion.system();
   const Event& event = motion.event();
   Leg leg;
-  leg.states = system.mode(motion.segment().mode).states();
+  leg.states = system.compiled().mode(motion.segment().mode).states();
   leg.event = event.kind;
   leg.event_contact = event.contact;
   leg.strikes.assign(motion.strikes().begin(), motion.strikes().end());
@@ -30,7 +32,7 @@ std::optional<Leg> ended_leg(const Motion& motion) {
     leg.contact = event.contact;
     return leg;
   }
-  const mode::Guard* hit = motion.hit_guard();
+  const mode::Guard* hit = motion.engine().hit_guard();
   if (hit == nullptr || event.kind == EventKind::graze) return std::nullopt;
   leg.kind = hit->kind;
   leg.contact = hit->contact;
@@ -58,7 +60,7 @@ std::optional<Seen> next_event(Motion& motion, std::int64_t zero, Instant end, b
     // A force that has come to zero but for rounding may come to zero again: what changes no mode is no event.
     const bool changes = leg->ending == Ending::chatter || motion.segment().mode != motion.mode_id();
     if (!changes && leg->strikes.empty()) continue;
-    return Seen{*leg, motion.event().time.since({zero, 0.0}), attractor::contact_state(motion)};
+    return Seen{*leg, motion.event().time.since({zero, 0.0}), flow::contact_state(motion)};
   }
   return std::nullopt;
 }
@@ -82,10 +84,10 @@ Orbit orbit_of(const std::vector<Seen>& events, std::size_t k, int n) {
 Orbit without_events(const Motion& motion, int n) {
   Orbit orbit;
   Leg leg;
-  leg.states = motion.system().mode(motion.mode_id()).states();
+  leg.states = motion.system().compiled().mode(motion.mode_id()).states();
   leg.ending = Ending::cut;
   orbit.shape = {{leg}, n};
-  orbit.x = {attractor::contact_state(motion)};
+  orbit.x = {flow::contact_state(motion)};
   orbit.t = {0.0, static_cast<double>(n)};
   return orbit;
 }
@@ -168,7 +170,7 @@ bool fades(const Orbit& orbit, std::size_t leg) {
 
 Motion from_inside(const System& system, const ModeSet& set, const Orbit& orbit, std::size_t leg, double part) {
   const double after = part * orbit.duration(leg);
-  return Motion(system, attractor::user_state(system, contact_state(set, state_within(set, orbit, leg, after))),
+  return Motion(system, flow::user_state(system, contact_state(set, state_within(set, orbit, leg, after))),
                 Instant{}.plus(orbit.t[leg] + after));
 }
 

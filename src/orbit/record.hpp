@@ -4,7 +4,7 @@
 
 #include "slapstick/flow/stage.hpp"
 #include "slapstick/orbit/itinerary.hpp"
-#include "slapstick/orbit/mode_set.hpp"
+#include "orbit/mode_set.hpp"
 
 namespace slapstick::orbit {
 

@@ -1,3 +1,4 @@
+/// Compares orbits at phases, whatever their legs.
 #include "orbit/same_motion.hpp"
 
 #include <algorithm>
@@ -95,7 +96,7 @@ double least_misfit(const Problem& problem, const Orbit& a, const Orbit& b, doub
   for (int period = 0; period <= more; ++period) {
     right.clear();
     for (const double t : when) right.push_back(of_b.at(t + later + period));
-    least = std::min(least, misfit(left, right, sense, problem.base().frame().n));
+    least = std::min(least, misfit(left, right, sense, problem.base().compiled().frame().n));
   }
   return least;
 }

@@ -1,9 +1,12 @@
+/// Says what an orbit is: multipliers, class, drift, events.
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
-#include "attractor/return_map.hpp"
+#include "flow/contact_state.hpp"
+#include "orbit/continuum.hpp"
 #include "orbit/equations.hpp"
+#include "orbit/extremes.hpp"
 #include "orbit/record.hpp"
 #include "slapstick/orbit/periodic_orbit.hpp"
 #include "slapstick/section/stop_choice.hpp"
@@ -38,8 +41,8 @@ std::size_t most_held_leg(const ModeSet& set, const Orbit& orbit) {
   return best;
 }
 
-/// Without the multiplier of the motion along itself, which is 1.
-void drop_own_direction(std::vector<std::complex<double>>& multipliers) {
+/// Without the multiplier of a direction that the map keeps, as that of the motion along itself, which is 1.
+void drop_kept_direction(std::vector<std::complex<double>>& multipliers) {
   const auto nearest = std::ranges::min_element(multipliers, {}, [](auto m) { return std::abs(m - 1.0); });
   if (nearest != multipliers.end()) multipliers.erase(nearest);
 }
@@ -51,6 +54,19 @@ long points(const Leg& leg) {
   long count = 0;
   for (const Motion::Strike& strike : leg.strikes) count += std::popcount(strike.stops);
   return count;
+}
+
+/// What the friction contacts do at the end of each leg.
+void count_changes(Solution& found, const Orbit& orbit) {
+  using mode::FrictionState;
+  for (std::size_t i = 0; i < orbit.legs(); ++i) {
+    const auto &before = orbit.shape.legs[i].states.frictions,
+               &after = orbit.shape.legs[(i + 1) % orbit.legs()].states.frictions;
+    for (std::size_t c = 0; c < before.size(); ++c) {
+      if (before[c] == after[c] || before[c] == FrictionState::stick) continue;
+      ++(after[c] == FrictionState::stick ? found.sticks : found.reversals);
+    }
+  }
 }
 
 }  // namespace
@@ -72,10 +88,16 @@ std::vector<std::complex<double>> multipliers(const Problem& problem, const Mode
   for (Index i = 0; i < map.rows(); ++i)
     if ((map.row(i).array() != 0.0).any()) free.push_back(i);
   std::vector<std::complex<double>> all;
-  if (!free.empty()) all = attractor::multipliers_of(map(free, free));
-  if (orbit.shape.n == 0) drop_own_direction(all);
+  if (!free.empty()) all = flow::multipliers_of(map(free, free));
+  if (orbit.shape.n == 0) drop_kept_direction(all);
   all.resize(all.size() + static_cast<std::size_t>(map.rows()) - free.size(), 0.0);
   return all;
+}
+
+bool Solution::stable() const {
+  std::vector<std::complex<double>> others = multipliers;
+  for (int along = 0; along < family; ++along) drop_kept_direction(others);
+  return std::ranges::all_of(others, [](auto mu) { return std::abs(mu) < 1.0; });
 }
 
 std::shared_ptr<const Problem> pose(const Family& family, const std::vector<double>& values) {
@@ -88,9 +110,12 @@ Solution describe(const Problem& problem, Orbit orbit, const System* system) {
   found.multipliers = multipliers(problem, set, orbit, linearise(problem, set, orbit).legs);
   for (const Leg& leg : orbit.shape.legs) {
     found.impacts += points(leg);
-    found.chatter = found.chatter || leg.ending == Ending::chatter;
     found.sticking = found.sticking || !held_numbers(set.frame(), set.mode(leg.states).outline).empty();
   }
+  found.chatters = chatters(orbit);
+  found.chatter = found.chatters > 0;
+  count_changes(found, orbit);
+  found.family = continuum(problem, orbit, found.multipliers);
   const std::string p = found.chatter ? "inf" : std::to_string(found.impacts);
   const std::string n = orbit.shape.n > 0 ? std::to_string(orbit.shape.n) : "free";
   found.label = n + "-" + p + (found.sticking ? "-II" : "-I");
@@ -138,6 +163,14 @@ std::vector<EventOfOrbit> events(const Problem& problem, const Orbit& orbit) {
     event.w = row.sign * X[frame.u(row.own)];
     all.push_back(std::move(event));
   }
+  return all;
+}
+
+std::vector<Range> ranges(const Problem& problem, const Orbit& orbit) {
+  const ModeSet set(constant_family(problem.family().model(orbit.values)), {});
+  std::vector<Range> all;
+  for (const Extremes& one : extremes(set, orbit, coordinate_functionals(set.frame())))
+    all.push_back({one.least.value, one.most.value});
   return all;
 }
 

@@ -1,4 +1,5 @@
-#include "slapstick/section/creep_watch.hpp"
+/// Watches the points of a section for a slow transient.
+#include "section/creep_watch.hpp"
 
 #include <algorithm>
 #include <cmath>

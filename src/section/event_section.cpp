@@ -1,7 +1,8 @@
+/// Walks a motion from event to event of one kind.
 #include "slapstick/section/event_section.hpp"
 
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 
 namespace slapstick {
 

@@ -1,12 +1,15 @@
+/// Walks a motion from impact to impact, and sums the times between.
 #include "slapstick/section/impact_section.hpp"
 
 #include <algorithm>
+
+#include "flow/compiled_system.hpp"
 
 namespace slapstick {
 namespace {
 
 bool slips(const Motion& motion, ModeId mode) {
-  const auto& frictions = motion.system().mode(mode).states().frictions;
+  const auto& frictions = motion.system().compiled().mode(mode).states().frictions;
   return std::any_of(frictions.begin(), frictions.end(),
                      [](mode::FrictionState state) { return state != mode::FrictionState::stick; });
 }

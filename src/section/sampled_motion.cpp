@@ -1,3 +1,4 @@
+/// Reads equidistant samples from the segments of a motion.
 #include "slapstick/section/sampled_motion.hpp"
 
 #include <algorithm>

@@ -1,10 +1,11 @@
+/// Chooses stops by name.
 #include "slapstick/section/stop_choice.hpp"
 
 #include <algorithm>
 #include <numeric>
 
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 
 namespace slapstick {
 

@@ -1,7 +1,8 @@
+/// Walks a motion from period to period at one phase.
 #include "slapstick/section/stroboscopic_section.hpp"
 
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 
 namespace slapstick {
 

@@ -1,3 +1,4 @@
+/// Runs a diagram: chains of transients, and recordings on the thread pool.
 #include "slapstick/sweep/diagram.hpp"
 
 #include <tbb/global_control.h>
@@ -9,7 +10,7 @@
 #include <optional>
 
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 #include "sweep/diagram_point.hpp"
 #include "sweep/fork_join.hpp"
 
@@ -97,8 +98,8 @@ class Run {
     tasks_.run(std::move(task));
   }
 
-  /// Transients one after the other, recordings for whoever is free. When too many wait, because the others are busy or there are
-  /// none, the chain records itself: a waiting recording holds a System.
+  /// Transients one after the other, recordings for whoever is free. When too many wait, because the others are busy or
+  /// there are none, the chain records itself: a waiting recording holds a System.
   void run_chain(std::size_t begin, std::size_t end) {
     Carried carried;
     for (std::size_t i = begin; i < end && !cancelled(problem_); ++i) {

@@ -1,3 +1,4 @@
+/// Runs one value of a diagram: transient, then recording.
 #include "sweep/diagram_point.hpp"
 
 #include <algorithm>
@@ -6,8 +7,8 @@
 #include <stdexcept>
 
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/floating_point.hpp"
-#include "slapstick/section/run_impacts.hpp"
+#include "base/floating_point.hpp"
+#include "section/run_impacts.hpp"
 
 namespace slapstick::sweep {
 namespace {

@@ -20,8 +20,8 @@ struct Settled {
   ImpactSection section;
 };
 
-/// Builds the model at `point.parameter`, starts at `carried` if that is given and fits, else at the problem's start (then with a
-/// note if a state was carried), and runs the transient.
+/// Builds the model at `point.parameter`, starts at `carried` if that is given and fits, else at the problem's start
+/// (then with a note if a state was carried), and runs the transient.
 /// @returns nothing after a failure, which is written into `point`, or when cancelled
 std::optional<Settled> settle(const DiagramProblem& problem, const Carried& carried, DiagramPoint& point);
 
@@ -31,8 +31,8 @@ Carried carry_on(const Settled& settled);
 /// Records impacts until there are enough or `most_periods` have passed, and marks the point done (unless cancelled).
 void record(const DiagramProblem& problem, Settled settled, DiagramPoint& point);
 
-/// Moves x_a of each stop by rounding errors (at most 4 units in the last place of its terms) so that x_a - x_b <= clearance.
-/// A state in contact that went through the user's coordinates may lie outside by that much.
+/// Moves x_a of each stop by rounding errors (at most 4 units in the last place of its terms) so that
+/// x_a - x_b <= clearance. A state in contact that went through the user's coordinates may lie outside by that much.
 void undo_rounding(const Model& model, State& state);
 
 [[nodiscard]] inline bool cancelled(const DiagramProblem& problem) {

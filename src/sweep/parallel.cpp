@@ -1,4 +1,5 @@
-#include "slapstick/sweep/parallel.hpp"
+/// Runs a loop over an index on all cores.
+#include "sweep/parallel.hpp"
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -9,7 +10,7 @@
 #include <utility>
 
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/floating_point.hpp"
+#include "base/floating_point.hpp"
 #include "sweep/fork_join.hpp"
 
 namespace slapstick::sweep {

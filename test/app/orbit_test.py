@@ -1,7 +1,8 @@
 """orbit, continue and curve from the command line: the stable part of their results, and what they refuse."""
 import os
+import time
 
-from program import good, main, read, refused, run, says, table
+from program import PATIENCE, good, main, read, refused, run, says, table
 
 PAPER = ('vibro-impact', '--set', 'omega=2.7')
 HAMMER = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'orbit', 'models', 'hammer-drill.toml')
@@ -238,6 +239,51 @@ def test_a_curve_starts_at_its_point_and_ends_at_its_range():
     says(text, '"type": "PD"', '"points"', '"ended": "down: range; up: range"')
 
 
+def test_a_class_with_stick_is_not_one_without():
+    says(good('orbit', *PAPER, '--orbit', '1-1-I'), '"class": "1-1-I"')
+    says(refused(3, 'orbit', *PAPER, '--orbit', '1-1-II', '--starts', '4'), 'no 1-1-II orbit', 'settles on 1-1-I')
+
+
+def test_a_bounce_is_found_beside_a_motion_that_rests_at_phase_zero():
+    text = good('orbit', 'shaken-table', '--set', 'acceleration=1.304', '--state', 'x=0,v=0', '--orbit', '1-1')
+    says(text, '"class": "1-1-I"', '"stable": true', '"settles": false', '"ended": "found"')
+
+
+def test_conditions_choose_among_orbits_of_one_class():
+    rattle = ('two-sided-rattle', '--set', 'omega=1.4')
+    says(good('orbit', *rattle), '"stable": true', '"symmetric": false', '"settles": true')
+    says(good('orbit', *rattle, '--orbit', '1-2', '--symmetric'), '"stable": false', '"symmetric": true', '"settles": false')
+    state, _ = state_of(good('orbit', *rattle, '--orbit', '1-2', '--unstable'), ('x', 'v'))
+    says(good('orbit', *rattle, '--orbit', '1-2', '--nearest', '--state', state, '--starts', '8'), '"stable": false', '"settles": false')
+    branch = good('continue', *rattle, '--orbit', '1-2', '--unstable', '--param', 'omega', '--range', '1.39:1.41')
+    says(branch[branch.index('"points"'):branch.index('"special"')], '"stable": false')
+
+
+def test_a_member_of_a_family_stays_and_is_said_to_be_one():
+    resting = ('coulomb-oscillator', '--set', 'amplitude=0.1')
+    text = good('orbit', *resting, '--state', 'x=0.05,v=0')
+    says(text, '"family": 1', '"stable": true', '"x": 0.050000000000000003')
+    every = good('orbit', *resting, '--all', '--starts', '20')
+    assert every.count('"family"') == 1, every.count('"family"')
+    says(refused(3, 'continue', *resting, '--param', 'omega', '--range', '0.7:0.9'), 'family')
+
+
+def test_an_orbit_has_its_state_at_every_event():
+    text = good('orbit', 'coulomb-oscillator', '--set', 'amplitude=0.3', '--set', 'omega=0.2')
+    events = text[text.index('"events"'):text.index('"impacts"')]
+    assert events.count('"state"') == events.count('"kind"') > 2, events
+    says(text, '"sticks": ', '"reversals": ', '"chatters": 0')
+
+
+def test_a_search_that_finds_nothing_ends_in_time_and_says_what_it_tried():
+    begin = time.monotonic()
+    line = refused(3, 'orbit', 'bilinear-oscillator', '--set', 'omega=0.930642', '--orbit', '2-1')
+    assert time.monotonic() - begin < 15.0 * PATIENCE
+    says(line, 'no 2-1 orbit', 'the motion settles on', ' motions, ', ' near returns, ', "runs of Newton's method (", '--seconds')
+    line = refused(3, 'orbit', 'bilinear-oscillator', '--set', 'omega=0.930642', '--orbit', '2-1', '--seconds', '0.2')
+    says(line, 'ended after 0.2 s (--seconds), not by itself')
+
+
 def test_what_cannot_be_is_refused_by_name():
     says(refused(2, 'orbit', *PAPER, '--orbit', '1:1'), '--orbit', '1:1')
     says(refused(2, 'orbit', *PAPER, '--orbit', '0-1'), '--orbit')
@@ -250,6 +296,10 @@ def test_what_cannot_be_is_refused_by_name():
     says(refused(2, 'curve', *PAPER, '--params', 'omega', '--range', 'omega=2:3'), '--params')
     says(refused(2, 'curve', *PAPER, '--params', 'omega,friction', '--range', 'omega=2:3'), 'friction')
     says(refused(3, 'orbit', *PAPER, '--orbit', '1-7', '--starts', '2'), '1-7')
+    says(refused(2, 'orbit', *PAPER, '--orbit', '1-1-III'), '--orbit', '1-1-III')
+    says(refused(2, 'orbit', *PAPER, '--stable', '--unstable'), '--stable', '--unstable')
+    says(refused(2, 'orbit', 'belt', '--unstable'), 'no forcing')
+    says(refused(2, 'orbit', *PAPER, '--seconds', '-1'), '--seconds')
 
 
 if __name__ == '__main__':

@@ -1,10 +1,13 @@
 #include "slapstick/attractor/classify.hpp"
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <ostream>
 
+#include "flow/compiled_system.hpp"
+#include "flow/engine.hpp"
 #include "attractor/paper_system.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/flow/tangent.hpp"
@@ -52,15 +55,15 @@ TEST(classify, the_cycle_found_by_newton_is_not_a_multiple_of_a_shorter_one) {
 
 /// The fixed point of the one-period map near `start`, stable or not, by Newton's method.
 State fixed_point(const System& system, State start) {
-  const int n = system.frame().n;
+  const int n = system.compiled().frame().n;
   for (int k = 0; k < 12; ++k) {
     TangentMotion run(system, start, Eigen::MatrixXd::Identity(2 * n, 2 * n));
-    Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(run.motion().extended().data(), 2 * n);
+    Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(run.motion().engine().extended().data(), 2 * n);
     while (run.advance({1, 0.0}) == Outcome::event) {
     }
-    const Eigen::Map<const Eigen::VectorXd> image(run.motion().extended().data(), 2 * n);
+    const Eigen::Map<const Eigen::VectorXd> image(run.motion().engine().extended().data(), 2 * n);
     x += (Eigen::MatrixXd::Identity(2 * n, 2 * n) - run.tangents()).fullPivLu().solve(image - x);
-    system.frame().leave(x.data(), start.data());
+    system.compiled().frame().leave(x.data(), start.data());
   }
   return start;
 }

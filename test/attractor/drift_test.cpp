@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "attractor/paper_system.hpp"
-#include "attractor/translations.hpp"
+#include "flow/translations.hpp"
 #include "slapstick/attractor/classify.hpp"
 
 namespace slapstick {
@@ -53,7 +53,7 @@ State after(const System& system, const State& start, std::int64_t periods) {
   return motion.state();
 }
 
-int translations(const Model& model) { return attractor::Translations(System(model)).count(); }
+int translations(const Model& model) { return flow::Translations(System(model)).count(); }
 
 TEST(drift, a_mass_pushed_against_its_drag_is_a_cycle_that_moves_by_the_closed_form) {
   const Model model = dragged_mass(0.3, 0.15);
@@ -207,7 +207,7 @@ TEST(translations, a_lever_of_the_stiffness_matrix_moves_its_coordinates_in_prop
   model.stops.clear();
   model.stiffness = {4.0, -2.0, -2.0, 1.0};
   const System system(model);
-  const attractor::Translations lever(system);
+  const flow::Translations lever(system);
   ASSERT_EQ(lever.count(), 1);
   const std::vector<double> move = lever.by_coordinate(Eigen::VectorXd::Constant(1, 1.0));
   EXPECT_NEAR(move[1], 2.0 * move[0], 1e-15);

@@ -2,9 +2,11 @@
 /// Jacobians of the flow by two routes: central differences of motions, and tangents carried along one.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
+#include <Eigen/LU>
 #include <string>
 
+#include "flow/compiled_system.hpp"
 #include "slapstick/flow/tangent.hpp"
 
 namespace slapstick::test {
@@ -37,11 +39,11 @@ inline Eigen::MatrixXd differences(const System& system, const State& start, Ins
 
 /// The tangent flow's Jacobian in the user's coordinates x1, v1, x2, v2, ..
 inline Eigen::MatrixXd tangent_jacobian(const System& system, const State& start, Instant end) {
-  const int n = system.frame().n;
+  const int n = system.compiled().frame().n;
   Eigen::MatrixXd to_contact(2 * n, 2 * n);  // rows p1 p2 .. u1 u2 .., columns x1 v1 x2 v2 ..
   to_contact.setZero();
   for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) to_contact(i, 2 * j) = to_contact(n + i, 2 * j + 1) = system.frame().W(i, j);
+    for (int j = 0; j < n; ++j) to_contact(i, 2 * j) = to_contact(n + i, 2 * j + 1) = system.compiled().frame().W(i, j);
   }
   TangentMotion motion(system, start, to_contact);
   while (motion.advance(end) == Outcome::event) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The paper's system as plain data, from eq. (2) and system page, section 1.
+/// The paper's system as plain data, from eq. (2); symbols as in NOTATION.md.
 #include "slapstick/flow/system.hpp"
 
 namespace slapstick::test {

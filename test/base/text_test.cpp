@@ -1,5 +1,5 @@
 /// Hostile names in messages: nothing that a terminal would obey, nothing that is no text.
-#include "slapstick/base/text.hpp"
+#include "base/text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "catalogue/run.hpp"
+#include "flow/compiled_system.hpp"
 #include "flow/runs.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/section/stroboscopic_section.hpp"
@@ -144,7 +145,7 @@ void check_guards(const Member& member) {
   for (ModeId id = 0; id < setup.system.mode_count(); ++id) {
     if (setup.system.mode_name(id) != wanted.at("mode").get<std::string>()) continue;
     found.clear();
-    for (const mode::Guard& guard : setup.system.mode(id).guards())
+    for (const mode::Guard& guard : setup.system.compiled().mode(id).guards())
       found += (found.empty() ? "" : " ") + std::string(names[static_cast<int>(guard.kind)]);
   }
   EXPECT_EQ(found, wanted.at("are").get<std::string>());

@@ -6,8 +6,8 @@
 
 #include "catalogue/run.hpp"
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/floating_point.hpp"
-#include "slapstick/sweep/parallel.hpp"
+#include "base/floating_point.hpp"
+#include "sweep/parallel.hpp"
 #if defined(__SSE2__)
 #include <immintrin.h>
 #endif

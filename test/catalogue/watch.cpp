@@ -4,8 +4,11 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "flow/compiled_system.hpp"
+#include "flow/engine.hpp"
+#include "mode/mode.hpp"
 #include "mode/exact_flow.hpp"
-#include "slapstick/flow/mode_graph.hpp"
+#include "flow/mode_graph.hpp"
 
 namespace slapstick::catalogue {
 namespace {
@@ -36,9 +39,9 @@ class Momentum : public Watch {
     const Event& event = motion.event();
     if (event.kind != EventKind::impact) return;
     const Stop& stop = model_.stops[event.contact];
-    const double* X = motion.extended().data();
-    raise(law, std::abs(flow::gap(system_, event.contact, X)));
-    raise(law, std::abs(flow::approach_velocity(system_, event.contact, X) + stop.restitution * event.w));
+    const double* X = motion.engine().extended().data();
+    raise(law, std::abs(flow::gap(system_.compiled(), event.contact, X)));
+    raise(law, std::abs(flow::approach_velocity(system_.compiled(), event.contact, X) + stop.restitution * event.w));
     const auto before = motion.before();
     const State after = motion.state();
     double change = 0.0, size = 0.0, size_after = 0.0, inverse = 0.0;
@@ -104,7 +107,7 @@ class Work : public Watch {
       sum += force * difference(state_, f.coordinate, ground, 1);
     }
     for (const Damper& d : model_.dampers) sum -= d.coefficient * std::pow(difference(state_, d.a, d.b, 1), 2);
-    const auto& sliding = system_.mode(segment.mode).states().frictions;
+    const auto& sliding = system_.compiled().mode(segment.mode).states().frictions;
     for (std::size_t i = 0; i < sliding.size(); ++i) {
       const FrictionContact& f = model_.frictions[i];
       sum -= static_cast<int>(sliding[i]) * f.kinetic_friction * difference(state_, f.a, f.b, 1);
@@ -125,10 +128,10 @@ class Reverse : public Watch {
     using mode::testing::Real;
     double& defect = values["reverse_defect"];
     const Motion::Segment segment = motion.segment();
-    const mode::Mode& mode = system_.mode(segment.mode);
+    const mode::Mode& mode = system_.compiled().mode(segment.mode);
     if (segment.duration == 0.0 || motion.event().kind == EventKind::chatter) return;
     const auto m = static_cast<std::size_t>(mode.size());
-    const auto end = motion.extended_before();
+    const auto begun = motion.engine().extended_at_start(), end = motion.engine().extended_before();
     mode::testing::Exact X(m);
     for (std::size_t i = 0; i < m; ++i) X[i] = end[i];
     mode::Matrix back = mode::Matrix::Identity(mode.size(), mode.size());
@@ -139,7 +142,7 @@ class Reverse : public Watch {
     for (std::size_t i = 0; i < m; ++i) {
       double size = 0.0;
       for (std::size_t j = 0; j < m; ++j) size += std::abs(back(i, j)) * std::max(std::abs(end[j]), 1.0);
-      raise(defect, abs(X[i] - Real(segment.X[i])).convert_to<double>() / (size * steps) / 0x1p-53);
+      raise(defect, abs(X[i] - Real(begun[i])).convert_to<double>() / (size * steps) / 0x1p-53);
     }
   }
 

@@ -10,7 +10,7 @@
 
 #include "event/guard_polynomials.hpp"
 #include "oracle/real.hpp"
-#include "slapstick/event/first_root.hpp"
+#include "event/first_root.hpp"
 
 namespace slapstick::event {
 namespace {

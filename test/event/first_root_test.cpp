@@ -1,5 +1,5 @@
 /// The root kernel on guards whose zeros are known: one test per danger.
-#include "slapstick/event/first_root.hpp"
+#include "event/first_root.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "slapstick/event/first_root.hpp"
+#include "event/first_root.hpp"
 
 namespace slapstick::event::testing {
 

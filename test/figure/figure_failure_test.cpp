@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "slapstick/base/error.hpp"
-#include "slapstick/figure/figure.hpp"
+#include "figure/figure.hpp"
 #include "workshop.hpp"
 
 namespace slapstick::figure {

@@ -1,4 +1,4 @@
-#include "slapstick/figure/figure.hpp"
+#include "figure/figure.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "slapstick/figure/raster.hpp"
+#include "figure/raster.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,10 @@
 #include <random>
 
 #include "flow/runs.hpp"
+#include "flow/compiled_system.hpp"
+#include "flow/engine.hpp"
 #include "oracle/models.hpp"
-#include "slapstick/flow/chatter.hpp"
+#include "flow/chatter.hpp"
 
 namespace slapstick {
 namespace {
@@ -166,8 +168,8 @@ TEST(Chatter, IsNotProvenWhereStaticFrictionMightHoldThePairOff) {
     m.frictions = {{"friction", 0, ground, 0.0, static_friction, 0.0}};
     const System system(m);
     const Motion motion(system, {0.0, -0.1});
-    std::vector<double> scratch(4 * static_cast<std::size_t>(system.frame().size()));
-    return flow::prove_chatter(system, system.mode(motion.mode_id()), 0, motion.extended().data(), 1.0, scratch).proven;
+    std::vector<double> scratch(4 * static_cast<std::size_t>(system.compiled().frame().size()));
+    return flow::prove_chatter(system.compiled(), system.compiled().mode(motion.mode_id()), 0, motion.engine().extended().data(), 1.0, scratch).proven;
   };
   EXPECT_TRUE(proven(0.1));
   EXPECT_FALSE(proven(0.999));

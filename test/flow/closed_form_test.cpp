@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "flow/runs.hpp"
+#include "flow/compiled_system.hpp"
 #include "oracle/models.hpp"
 
 namespace slapstick {
@@ -59,7 +60,7 @@ TEST(
   model.name = "glider";
   model.coordinates = {{"x", 1.0}};
   model.stops = {{"wall", 0, ground, 0.0, 0.5}};
-  const double H = System(model).mode(0).window();
+  const double H = System(model).compiled().mode(0).window();
   for (int windows = 1; windows <= 3; ++windows) {
     for (int ulps = -6; ulps <= 6; ++ulps) {
       const double distance = windows * H * (1.0 + ulps * 0x1p-52);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "flow/runs.hpp"
+#include "event/first_root.hpp"
 #include "oracle/models.hpp"
 
 extern long allocations;  // count_allocations.cpp

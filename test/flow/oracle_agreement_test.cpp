@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "flow/runs.hpp"
+#include "flow/engine.hpp"
 #include "oracle/models.hpp"
 
 namespace slapstick {
@@ -28,9 +29,10 @@ void move_on(const Model& model, oracle::SegmentStart& start, const Real& s) {
 
 /// The exact event of a segment. Just after a release the pair's acceleration is zero within rounding: its sign means nothing to
 /// digits that the engine's state does not have, so the oracle starts a thousandth later.
-std::optional<oracle::OracleEvent> exact_event(const Model& model, const System& system, const Motion::Segment& segment,
+std::optional<oracle::OracleEvent> exact_event(const Model& model, const System& system, const Motion& motion,
                                                bool after_release) {
-  oracle::SegmentStart start = testing::oracle_start(system, segment.X.data(), segment.mode, segment.start.fraction);
+  const Motion::Segment segment = motion.segment();
+  oracle::SegmentStart start = testing::oracle_start(system, motion.engine().extended_at_start().data(), segment.mode, segment.start.fraction);
   Real moved = 0;
   if (after_release) {
     moved = std::min<Real>(Real(segment.duration) / 1000, oracle::Mechanics(model).longest_step());
@@ -53,7 +55,7 @@ double worst_segment(const Model& model, const State& start, long events) {
     const std::string kind(name(motion.event().kind));
     const bool skipped = kind == "chatter" || segment.duration == 0.0 || motion.event().time == segment.start;
     if (!skipped) {
-      const auto exact = exact_event(model, system, segment, after_release);
+      const auto exact = exact_event(model, system, motion, after_release);
       if (!exact) {
         ADD_FAILURE() << "event " << n << ", " << kind << ": the oracle sees none in "
                       << system.mode_name(segment.mode);

@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "flow/compiled_system.hpp"
+#include "flow/engine.hpp"
+#include "mode/frame.hpp"
 #include "oracle/oracle.hpp"
 #include "slapstick/flow/motion.hpp"
 
@@ -36,7 +39,7 @@ inline double seconds(const Event& event, const Motion& motion) { return event.t
 
 /// The engine's mode in the oracle's words.
 inline oracle::Mode oracle_mode(const System& system, ModeId id) {
-  const mode::ContactStates& states = system.mode(id).states();
+  const mode::ContactStates& states = system.compiled().mode(id).states();
   oracle::Mode mode;
   if (!states.frictions.empty()) mode.friction = static_cast<int>(states.frictions[0]);
   mode.closed = !states.stops.empty() && states.stops[0] == mode::StopState::closed;
@@ -45,7 +48,7 @@ inline oracle::Mode oracle_mode(const System& system, ModeId id) {
 
 /// A state of the engine, to its last bit, as the oracle's start of a segment.
 inline oracle::SegmentStart oracle_start(const System& system, const double* X, ModeId mode_id, double fraction) {
-  const mode::Frame& frame = system.frame();
+  const mode::Frame& frame = system.compiled().frame();
   oracle::SegmentStart start;
   for (int i = 0; i < frame.n; ++i) {
     oracle::Real x = 0, v = 0;
@@ -85,8 +88,8 @@ inline std::vector<Seen> engine_events(Motion& motion, double time, std::size_t 
   Instant last{-1, 0.0};
   for (std::size_t all = 0; all < most + 100 && seen.size() < most && motion.advance(end) == Outcome::event; ++all) {
     const Event& event = motion.event();
-    const bool force = motion.hit_guard() != nullptr && motion.hit_guard()->kind != mode::GuardKind::gap &&
-                       motion.hit_guard()->kind != mode::GuardKind::slip;
+    const bool force = motion.engine().hit_guard() != nullptr && motion.engine().hit_guard()->kind != mode::GuardKind::gap &&
+                       motion.engine().hit_guard()->kind != mode::GuardKind::slip;
     if ((event.time == last && event.kind != EventKind::chatter) || (event.kind == EventKind::graze && force)) continue;
     last = event.time;
     seen.push_back({std::string(name(event.kind)), event.contact < stops,

@@ -6,8 +6,9 @@
 #include <cmath>
 #include <random>
 
-#include "slapstick/flow/impact_law.hpp"
-#include "slapstick/flow/mode_graph.hpp"
+#include "flow/impact_law.hpp"
+#include "flow/compiled_system.hpp"
+#include "flow/mode_graph.hpp"
 #include "slapstick/flow/motion.hpp"
 
 namespace slapstick {
@@ -70,7 +71,7 @@ TEST(SeveralContacts, ModeDoesNotDependOnWhichModesWereBuiltBefore) {
     m.forces = {{0, 0, 1.0 + std::pow(10.0, exponent), 0.0},
                 {0, 1, -1.0, 0.0}};  // above the limit for an instant, falling
     const System cold(m), warm(m);
-    for (ModeId id = 0; id < warm.mode_count(); ++id) (void)warm.mode(id);
+    for (ModeId id = 0; id < warm.mode_count(); ++id) (void)warm.compiled().mode(id);
     EXPECT_EQ(Motion(cold, State(6, 0.0)).mode_id(), Motion(warm, State(6, 0.0)).mode_id()) << exponent;
   }
 }
@@ -212,7 +213,7 @@ TEST(SeveralContacts, LoopOfStopsWhoseClearancesAddUpComesToRestWhenPressed) {
     bool closed = false;
     ASSERT_NO_THROW({
       while (motion.advance({20, 0.0}) == Outcome::event) {
-        const auto& stops = system.mode(motion.mode_id()).states().stops;
+        const auto& stops = system.compiled().mode(motion.mode_id()).states().stops;
         closed = closed || std::ranges::count(stops, mode::StopState::closed) >= 2;
         const State x = motion.state();
         for (const Stop& stop : system.model().stops)
@@ -231,17 +232,17 @@ TEST(Jam, OfStopsInALoopIsSolvedAtEqualRatios) {
   m.coordinates = {{"a", 1.0}, {"b", 0.5}};
   m.stops = {{"left", ground, 1, 0.0, 0.5}, {"middle", 1, 0, 0.0, 0.5}, {"right", 0, ground, 0.0, 0.5}};
   const System system(m);
-  std::vector<double> X(static_cast<std::size_t>(system.frame().size()));
-  system.frame().enter(State{0.0, 2.0, 0.0, 1.0}.data(), X.data());
+  std::vector<double> X(static_cast<std::size_t>(system.compiled().frame().size()));
+  system.compiled().frame().enter(State{0.0, 2.0, 0.0, 1.0}.data(), X.data());
   const auto velocities = [&] {
     Eigen::Vector3d v;
-    for (int i = 0; i < 3; ++i) v[i] = flow::approach_velocity(system, i, X.data());
+    for (int i = 0; i < 3; ++i) v[i] = flow::approach_velocity(system.compiled(), i, X.data());
     return v;
   };
   const Eigen::Vector3d before = velocities();
   const std::array stops{0, 1, 2};
   std::array<bool, 3> hit{};
-  ASSERT_TRUE(flow::strike_together(system, stops, X.data(), hit));
+  ASSERT_TRUE(flow::strike_together(system.compiled(), stops, X.data(), hit));
   const Eigen::Vector3d excess = velocities() + 0.5 * before;
   EXPECT_LE(excess.maxCoeff(), 1e-15) << excess.transpose();  // they sum to zero, so each is
   EXPECT_GE(excess.minCoeff(), -1e-15) << excess.transpose();

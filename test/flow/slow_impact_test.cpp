@@ -5,6 +5,7 @@
 #include <random>
 
 #include "flow/runs.hpp"
+#include "event/first_root.hpp"
 #include "oracle/models.hpp"
 
 namespace slapstick {

@@ -1,6 +1,6 @@
 #pragma once
 /// A second way to move a machine with many contacts: Moreau's time-stepping with a small step.
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <vector>
 
 #include "slapstick/model/model.hpp"

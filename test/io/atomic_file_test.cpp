@@ -1,5 +1,5 @@
 /// Output files appear whole or not at all, whichever system call fails.
-#include "slapstick/io/atomic_file.hpp"
+#include "io/atomic_file.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -1,5 +1,5 @@
 /// Tables and JSON give back the same doubles.
-#include "slapstick/io/table.hpp"
+#include "io/table.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -13,7 +13,7 @@
 #include <stdexcept>
 
 #include "slapstick/base/error.hpp"
-#include "slapstick/io/json.hpp"
+#include "io/json.hpp"
 
 namespace slapstick {
 namespace {

@@ -1,6 +1,7 @@
-#include <Eigen/Dense>
+#include <Eigen/LU>
+#include <Eigen/QR>
 
-#include "attractor/return_map.hpp"
+#include "section/return_map.hpp"
 #include "library/published_cases.hpp"
 
 namespace slapstick::library {
@@ -16,7 +17,7 @@ Residual residual(const Entry& entry, const Eigen::VectorXd& x, double p) {
   const Entry& critical = entry.at("critical");
   const Setup setup(entry, {{critical.at("parameter").get<std::string>(), p}});
   const auto map =
-      attractor::return_map(attractor::Translations(setup.system), x, critical.at("n").get<int>(), nullptr);
+      section::return_map(flow::Translations(setup.system), x, critical.at("n").get<int>(), nullptr);
   const Eigen::Index size = x.size();
   Values values = setup.values;
   values["trace"] = map.jacobian.trace();
@@ -33,7 +34,7 @@ Eigen::VectorXd settled(const Entry& entry, double p) {
   const Instant end{motion.time().period + 1 + periods, 0.0};
   while (motion.advance(end) == Outcome::event) {
   }
-  return attractor::contact_state(motion);
+  return flow::contact_state(motion);
 }
 
 }  // namespace

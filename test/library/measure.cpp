@@ -1,6 +1,9 @@
+#include <Eigen/LU>
+#include <Eigen/QR>
 #include <cmath>
 
-#include "attractor/return_map.hpp"
+#include "section/return_map.hpp"
+#include "flow/compiled_system.hpp"
 #include "io/expression.hpp"
 #include "library/notes.hpp"
 #include "library/published_cases.hpp"
@@ -30,24 +33,24 @@ Motion on_orbit(const Setup& setup, Motion motion, int n, Values& values) {
   const Instant end{motion.time().period + 1, 0.0};
   while (motion.advance(end) == Outcome::event) {
   }
-  const attractor::Translations translations(setup.system);
-  Eigen::VectorXd guess = attractor::contact_state(motion);
+  const flow::Translations translations(setup.system);
+  Eigen::VectorXd guess = flow::contact_state(motion);
   translations.take_out(guess);
   const auto found =
-      attractor::fixed_point(translations, guess, n, Eigen::VectorXd::Constant(guess.size(), 1.0), nullptr);
+      section::fixed_point(translations, guess, n, Eigen::VectorXd::Constant(guess.size(), 1.0), nullptr);
   if (!found) throw std::runtime_error("Newton's method finds no cycle");
-  const auto map = attractor::return_map(translations, found->x, n, nullptr);
+  const auto map = section::return_map(translations, found->x, n, nullptr);
   values["multiplier"] = std::abs(found->multipliers.at(0));
   values["multiplier2"] = std::abs(found->multipliers.at(1));
   values["trace"] = map.jacobian.trace();
   values["det"] = map.jacobian.determinant();
   values["exponent"] = std::log(values["multiplier"]) / (n * setup.system.period());
-  return Motion(setup.system, attractor::user_state(setup.system, found->x));
+  return Motion(setup.system, flow::user_state(setup.system, found->x));
 }
 
 /// The sum of all exponents, from the volume of as many tangents as there are dimensions.
 void run_tangents(const Setup& setup, const Motion& from, double time, Values& values) {
-  const Eigen::Index size = 2 * setup.system.frame().n;
+  const Eigen::Index size = 2 * setup.system.compiled().frame().n;
   TangentMotion motion(setup.system, from.state(), Eigen::MatrixXd::Identity(size, size), from.time());
   const Instant end = after(from, time);
   double volume = 0.0;

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "library/published_cases.hpp"
-#include "slapstick/io/table.hpp"
+#include "io/table.hpp"
 
 namespace slapstick::library {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "oracle/real.hpp"
-#include "slapstick/mode/mode.hpp"
+#include "mode/mode.hpp"
 
 namespace slapstick::mode::testing {
 

@@ -1,11 +1,12 @@
 /// The window operators of a mode against 50-digit exponentials of the same matrix, on the families where closed forms with
-/// eigenvectors lose their digits. Case numbers K are those of shared/reliability.md.
+/// eigenvectors lose their digits. Case numbers K are those of test/catalogue/catalogue.json.
 #include <gtest/gtest.h>
 
 #include <array>
 #include <random>
 
 #include "mode/exact_flow.hpp"
+#include "event/first_root.hpp"
 #include "oracle/models.hpp"
 
 namespace slapstick::mode {

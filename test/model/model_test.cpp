@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "slapstick/base/error.hpp"
-#include "slapstick/base/nearest.hpp"
+#include "base/nearest.hpp"
 
 namespace slapstick {
 namespace {

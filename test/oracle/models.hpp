@@ -1,5 +1,5 @@
 #pragma once
-/// The test systems of shared/reliability.md, section 2, as models.
+/// The test systems of the failure catalogue (test/catalogue), as models.
 #include "slapstick/model/model.hpp"
 
 namespace slapstick::oracle {
@@ -46,7 +46,7 @@ inline Model friction_oscillator(double static_friction, double kinetic_friction
   return m;
 }
 
-/// S: the paper's oscillator (shared/system.md, section 1) with its settled parameters.
+/// S: the paper's oscillator (NOTATION.md) with its settled parameters.
 inline Model vibro_impact(double omega) {
   const double mass_ratio = 10, stiffness_ratio = 5, dashpot_ratio = 5, damping_ratio = 0.1, friction = 0.15;
   Model m;

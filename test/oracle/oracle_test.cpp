@@ -1,4 +1,4 @@
-/// The reference solution against closed forms. Case numbers K are those of shared/reliability.md, section 2.
+/// The reference solution against closed forms. Case numbers K are those of test/catalogue/catalogue.json.
 #include "oracle/oracle.hpp"
 
 #include <gtest/gtest.h>

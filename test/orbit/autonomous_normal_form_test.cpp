@@ -1,7 +1,7 @@
 /// Normal forms of cycles without forcing: the map is from just after an event to just after it a cycle later, and the period is free.
 #include <gtest/gtest.h>
 
-#include "attractor/cycle.hpp"
+#include "flow/contact_state.hpp"
 #include "beside.hpp"
 #include "orbit/record.hpp"
 
@@ -30,7 +30,7 @@ TEST(AutonomousNormalForm, ForetellsTheSizeOfADoubledCycle) {
   const Posed posed("two-blocks-on-belt", {}, {"friction_ratio"}, {1.5});
   const orbit::Branch branch = branch_of(posed, 1.46, 1.51);
   const orbit::SpecialPoint& point = only(branch, SpecialType::PD);
-  EXPECT_EQ(point.normal_form.what, "subcritical");
+  EXPECT_EQ(sentence(point.normal_form), "subcritical");
   expect_doubled_as_foretold(posed, point, 4e-5, 1000.0);
 }
 
@@ -39,7 +39,7 @@ TEST(AutonomousNormalForm, ForetellsTheSizeOfADoubledCycleWithImpacts) {
   const Posed posed(hammer, {{"clearance", 0.8}}, {"belt_speed"}, {0.4});
   const orbit::Branch branch = branch_of(posed, 0.24, 0.45, 0.01);
   const orbit::SpecialPoint& point = only(branch, SpecialType::PD);
-  EXPECT_EQ(point.normal_form.what, "supercritical");
+  EXPECT_EQ(sentence(point.normal_form), "supercritical");
   expect_doubled_as_foretold(posed, point, -1e-5, 1000.0);
 }
 
@@ -60,7 +60,7 @@ struct Returning {
     const VectorXd away = 2.0 * radius * foretold * beside.direction.q.real();
     VectorXd start = orbit.x[0] + away.cwiseProduct(beside.map.sizes());
     start[0] = 0.0;  // on the stop
-    Motion motion(system, attractor::user_state(system, start));
+    Motion motion(system, flow::user_state(system, start));
     double first = 0.0, last = 0.0;
     bool touched = false;
     for (long k = 1; k <= after + over; ++k) {
@@ -86,8 +86,8 @@ TEST(AutonomousNormalForm, ForetellsWhereMotionsLeaveASubcriticalTorus) {
   const Posed posed(hammer, {}, {"coupling"}, {0.3});
   const orbit::Branch branch = branch_of(posed, 0.15, 0.31, 0.01);
   const orbit::SpecialPoint& point = only(branch, SpecialType::NS);
-  ASSERT_TRUE(point.normal_form.coefficient) << point.normal_form.what;
-  ASSERT_EQ(point.normal_form.what, "subcritical");
+  ASSERT_TRUE(point.normal_form.coefficient) << sentence(point.normal_form);
+  ASSERT_EQ(sentence(point.normal_form), "subcritical");
   std::size_t leg = 0;  // the one that begins with the impact
   const auto& legs = point.solution.orbit.shape.legs;
   while (legs[(leg + legs.size() - 1) % legs.size()].strikes.empty()) ++leg;

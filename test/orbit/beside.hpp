@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "families.hpp"
-#include "orbit/normal_form.hpp"
+#include "continuation/normal_form.hpp"
 
 namespace slapstick::test {
 
@@ -23,8 +23,8 @@ inline orbit::Branch branch_of(const Posed& posed, double from, double to, doubl
 
 inline const orbit::SpecialPoint& only(const orbit::Branch& branch, SpecialType type) {
   const auto found = std::ranges::find_if(
-      branch.special, [&](const orbit::SpecialPoint& point) { return point.type == type && !point.birth; });
-  if (found == branch.special.end()) throw std::runtime_error("the branch has no such point: " + branch.ended);
+      branch.special, [&](const orbit::SpecialPoint& point) { return point.type == type && point.occurrence != orbit::Occurrence::end_of_doubled; });
+  if (found == branch.special.end()) throw std::runtime_error("the branch has no such point: " + ended(branch));
   return *found;
 }
 
@@ -82,7 +82,7 @@ inline orbit::Orbit orbit_at(const orbit::Problem& problem, const orbit::Branch&
     for (std::size_t k = 0; k <= a.legs(); ++k) guess.t[k] += part * (b.t[k] - a.t[k]);
     if (const auto found = orbit::refine(problem, guess)) return *found;
   }
-  throw std::runtime_error("the branch does not come there: " + branch.ended);
+  throw std::runtime_error("the branch does not come there: " + ended(branch));
 }
 
 /// s^2 of the doubled orbit so far behind a PD, divided by what the coefficient says.
@@ -108,8 +108,8 @@ inline double doubled_ratio(const Beside& beside, std::size_t leg, double value,
 /// eigenvectors have other lengths, the coefficient foretells the same orbit.
 inline void expect_doubled_as_foretold(const Posed& posed, const orbit::SpecialPoint& point, double away,
                                        double wider = 0.0) {
-  ASSERT_TRUE(point.normal_form.coefficient) << point.normal_form.what;
-  EXPECT_EQ(point.normal_form.what, *point.normal_form.coefficient > 0.0 ? "supercritical" : "subcritical");
+  ASSERT_TRUE(point.normal_form.coefficient) << sentence(point.normal_form);
+  EXPECT_EQ(sentence(point.normal_form), *point.normal_form.coefficient > 0.0 ? "supercritical" : "subcritical");
   for (std::size_t leg = 0; leg < point.solution.orbit.legs(); ++leg) {
     const Beside beside(posed, point, leg);
     const double far = doubled_ratio(beside, leg, point.value + away, wider),
@@ -122,7 +122,7 @@ inline void expect_doubled_as_foretold(const Posed& posed, const orbit::SpecialP
 /// At a fold two orbits meet; their multipliers leave 1 by 2 a times how far they leave one another.
 inline void expect_parting_as_foretold(const Posed& posed, const orbit::Branch& branch,
                                        const orbit::SpecialPoint& point) {
-  ASSERT_TRUE(point.normal_form.coefficient) << point.normal_form.what;
+  ASSERT_TRUE(point.normal_form.coefficient) << sentence(point.normal_form);
   const Beside beside(posed, point, 0);
   // Of the orbits beside the fold, nearer ones: the distance of the two is that of the parameter's root.
   constexpr double nearer = 0.25;

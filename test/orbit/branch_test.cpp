@@ -4,13 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "attractor/cycle.hpp"
 #include "families.hpp"
+#include "flow/contact_state.hpp"
 #include "slapstick/attractor/classify.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::test {
 namespace {
+
+using orbit::Passage;
 
 TEST(Branch, RefusesAStartOutsideItsRange) {
   const Posed posed("vibro-impact", {}, {"omega"}, {2.2});
@@ -25,7 +27,7 @@ std::string label_at(double omega, const orbit::Orbit& orbit) {
   const double whole = std::floor(orbit.t[0]);
   Eigen::VectorXd x = orbit.x[0];
   x[0] = std::min(x[0], 0.0);  // the gap is -x[0], but for the rounding of Newton's method
-  Motion motion(posed.system, attractor::user_state(posed.system, x),
+  Motion motion(posed.system, flow::user_state(posed.system, x),
                 {static_cast<std::int64_t>(whole), orbit.t[0] - whole});
   while (motion.advance({static_cast<std::int64_t>(whole) + 1, 0.0}) == Outcome::event) {
   }
@@ -38,7 +40,7 @@ TEST(Branch, OfThePaperChangesWhereItsAttractorDoes) {
   const auto first = posed.settled();
   ASSERT_TRUE(first);
   const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 1.1135, .to = 2.9});
-  EXPECT_FALSE(branch.failed) << branch.ended;
+  EXPECT_FALSE(branch.failed()) << ended(branch);
   const std::vector<std::pair<std::string, std::pair<std::string, std::string>>> expected = {
       {"GR", {"", "1-1-I"}}, {"SL", {"1-1-I", "1-1-II"}}, {"SL", {"1-1-II", "1-1-I"}}, {"PD", {"1-1-I", "2-2-I"}}};
   std::size_t k = 0;
@@ -82,7 +84,7 @@ TEST(Branch, GoesOnWithoutAnImpactThatIsLost) {
   const auto first = posed.settled();
   ASSERT_TRUE(first);
   const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.0, .to = 0.4});
-  EXPECT_FALSE(branch.failed) << branch.ended;
+  EXPECT_FALSE(branch.failed()) << ended(branch);
   ASSERT_FALSE(branch.points.empty());
   EXPECT_EQ(branch.points.back().impacts, 0);
   EXPECT_TRUE(branch.points.back().is_motion);
@@ -102,7 +104,7 @@ TEST(Branch, MeetsAGrazeFromBothSidesAtTheSameValue) {
   const auto graze = std::ranges::find(branch.special, orbit::SpecialType::GR, &orbit::SpecialPoint::type);
   ASSERT_NE(graze, branch.special.end());
   EXPECT_NEAR(graze->value, exact, 1e-11);
-  EXPECT_EQ(graze->outcome, "persistence");
+  EXPECT_EQ(graze->passage, Passage::persistence);
   const Posed inside("impact-oscillator", {}, {"clearance"}, {0.2});
   const auto hitting = inside.settled(1);
   ASSERT_TRUE(hitting);
@@ -110,7 +112,7 @@ TEST(Branch, MeetsAGrazeFromBothSidesAtTheSameValue) {
   const auto same = std::ranges::find(back.special, orbit::SpecialType::GR, &orbit::SpecialPoint::type);
   ASSERT_NE(same, back.special.end());
   EXPECT_NEAR(same->value, exact, 1e-9);
-  EXPECT_EQ(back.points.back().impacts, 0) << back.ended;
+  EXPECT_EQ(back.points.back().impacts, 0) << ended(back);
 }
 
 /// A doubling 4e-7 before an impact's speed goes to zero lies in one of the last step's parts, all but at its end: from one start of these it was not seen.
@@ -143,7 +145,7 @@ TEST(Branch, IsNotDoubledAtItsBirth) {
   ASSERT_EQ(branch.special.front().born.size(), 1U);
   const orbit::Branch second = orbit::follow(*posed.problem, branch.special.front().born.front(), options);
   ASSERT_FALSE(second.special.empty());
-  EXPECT_TRUE(second.special.front().birth);
+  EXPECT_EQ(second.special.front().occurrence, orbit::Occurrence::end_of_doubled);
   EXPECT_TRUE(second.special.front().born.empty());
 }
 
@@ -156,12 +158,13 @@ TEST(DoubledOrbit, IsBegunWhereItIsAMotion) {
   orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 1.1, .to = 2.3});
   for (const double doubling : {1.11329814659, 1.11360700997}) {
     const auto pd = std::ranges::find_if(branch.special, [&](const orbit::SpecialPoint& point) {
-      return point.type == orbit::SpecialType::PD && std::abs(point.value - doubling) < 1e-8 && !point.birth;
+      return point.type == orbit::SpecialType::PD && std::abs(point.value - doubling) < 1e-8 &&
+             point.occurrence != orbit::Occurrence::end_of_doubled;
     });
     ASSERT_NE(pd, branch.special.end()) << doubling;
     ASSERT_EQ(pd->born.size(), 1U);
     branch = orbit::follow(*posed.problem, pd->born.front(), options);
-    EXPECT_FALSE(branch.failed) << branch.ended;
+    EXPECT_FALSE(branch.failed()) << ended(branch);
     EXPECT_TRUE(std::ranges::all_of(branch.points, &orbit::Solution::is_motion)) << doubling;
   }
 }
@@ -177,10 +180,10 @@ TEST(Symmetry, IsBrokenToABranchAndItsImage) {
   ASSERT_EQ(trunk.special.size(), 2U);
   for (const orbit::SpecialPoint& point : trunk.special) {
     ASSERT_EQ(name(point.type), "BP");
-    EXPECT_EQ(point.born.size(), 1U) << point.what;
+    EXPECT_EQ(point.born.size(), 1U) << name(point.occurrence);
   }
   const orbit::Branch broken = orbit::follow(*posed.problem, trunk.special.back().born.front(), options);
-  EXPECT_FALSE(broken.failed) << broken.ended;
+  EXPECT_FALSE(broken.failed()) << ended(broken);
   EXPECT_NEAR(broken.special.front().value, trunk.special.front().value, 1e-8);
   EXPECT_NEAR(broken.special.back().value, trunk.special.back().value, 1e-8);
   EXPECT_EQ(std::ranges::count(broken.special, orbit::SpecialType::BP, &orbit::SpecialPoint::type), 2);
@@ -195,7 +198,7 @@ TEST(Branch, FindsADoublingWhereItsParameterIsZero) {
   const auto first = posed.settled();
   ASSERT_TRUE(first);
   const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = -0.2, .to = 0.2});
-  EXPECT_FALSE(branch.failed) << branch.ended;
+  EXPECT_FALSE(branch.failed()) << ended(branch);
   const auto pd = std::ranges::find(branch.special, orbit::SpecialType::PD, &orbit::SpecialPoint::type);
   ASSERT_NE(pd, branch.special.end());
   EXPECT_NEAR(pd->value, 0.0, 1e-12);
@@ -208,7 +211,7 @@ TEST(Symmetry, OfEvenHarmonicsAndADriftAreNotTakenForADoubling) {
     const Posed posed("stick-slip-impact", {}, {"drive"}, {0.9});
     State start = posed.start();
     for (std::size_t i = 0; i < start.size() / 2; ++i) start[i] += away;
-    const auto first = orbit::settle(*posed.problem, posed.system, start, 500, 0);
+    const auto first = orbit::settle(*posed.problem, posed.system, start).orbit;
     ASSERT_TRUE(first);
     const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.3, .to = 2.7});
     const auto fold = std::ranges::find(branch.special, orbit::SpecialType::LP, &orbit::SpecialPoint::type);
@@ -216,7 +219,7 @@ TEST(Symmetry, OfEvenHarmonicsAndADriftAreNotTakenForADoubling) {
     EXPECT_NEAR(fold->value, 0.813224728387, 1e-9);
     const orbit::SpecialPoint& end = branch.special.back();
     ASSERT_EQ(end.type, orbit::SpecialType::PD);
-    EXPECT_TRUE(end.birth);
+    EXPECT_EQ(end.occurrence, orbit::Occurrence::end_of_doubled);
     const orbit::Orbit& halves = end.solution.orbit;
     for (std::size_t i = 0, half = halves.legs() / 2; i < half; ++i)
       EXPECT_NEAR(halves.t[i + half], halves.t[i] + 0.5, 1e-3);
@@ -231,7 +234,7 @@ TEST(Symmetry, ImageIsTheMotionFromTheReversedState) {
   const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 1.39, .to = 1.41});
   State reversed = orbit::at_phase_zero(*posed.problem, first->orbit);
   for (double& number : reversed) number = -number;
-  const auto image = orbit::settle(*posed.problem, Motion(posed.system, reversed, {0, 0.5}), 200, 1);
+  const auto image = orbit::orbit_near(*posed.problem, Motion(posed.system, reversed, {0, 0.5}), 200, 1);
   ASSERT_TRUE(image);
   EXPECT_TRUE(orbit::lies_on(*posed.problem, branch, first->orbit));
   EXPECT_FALSE(orbit::lies_on(*posed.problem, branch, image->orbit));
@@ -251,7 +254,7 @@ TEST(Symmetry, LeadsABranchOverNoPlaceTwice) {
   ASSERT_GT(places.size(), 10U);
   std::ranges::sort(places);
   const auto twice = std::ranges::adjacent_find(places, [](double a, double b) { return b - a < 1e-7; });
-  EXPECT_EQ(twice, places.end()) << branch.ended;
+  EXPECT_EQ(twice, places.end()) << ended(branch);
 }
 
 /// A load, or walls that are not about the middle of the spring, leave no image; a middle elsewhere does.
@@ -291,12 +294,12 @@ TEST(Branch, UnstablePointsAreOrbitsOfTheSimulator) {
   EXPECT_FALSE(last.stable());
   const System system(posed.definition.build({{"omega", last.orbit.values[0]}}));
   const double whole = std::floor(last.orbit.t[0]);
-  Motion motion(system, attractor::user_state(system, last.orbit.x[0]),
+  Motion motion(system, flow::user_state(system, last.orbit.x[0]),
                 {static_cast<std::int64_t>(whole), last.orbit.t[0] - whole});
-  const Eigen::VectorXd begin = attractor::contact_state(motion);
+  const Eigen::VectorXd begin = flow::contact_state(motion);
   for (std::size_t i = 0; i < last.orbit.legs(); ++i)
     ASSERT_EQ(motion.advance(motion.time().plus(2.0)), Outcome::event);
-  EXPECT_LT((attractor::contact_state(motion) - begin).norm(), 1e-11 * begin.norm());
+  EXPECT_LT((flow::contact_state(motion) - begin).norm(), 1e-11 * begin.norm());
 }
 
 /// A reversal of the carriage moves onto an impact, and from there on the impact reverses it: the impact stays. By brute force the orbit of the new events is
@@ -305,7 +308,8 @@ TEST(Branch, KeepsAnImpactThatAReversalMeets) {
   const std::string model = std::string(SLAPSTICK_ORBIT_MODELS) + "rail-hammer.toml";
   const auto one_impact = [](const Posed& posed, bool stable) {
     const auto wanted = [=](const orbit::Solution& s) { return s.impacts == 1 && s.stable() == stable; };
-    const auto all = orbit::search(*posed.problem, posed.system, posed.start(), {.starts = 200, .enough = wanted});
+    const auto all =
+        orbit::search(*posed.problem, posed.system, posed.start(), {.starts = 200, .enough = wanted}).orbits;
     return std::ranges::find_if(all, wanted)->orbit;
   };
   const Posed posed(model, {}, {"frequency"}, {5.9905});
@@ -317,8 +321,8 @@ TEST(Branch, KeepsAnImpactThatAReversalMeets) {
   };
   const double fold = place(orbit::SpecialType::LP);
   EXPECT_TRUE(std::ranges::any_of(branch.special, [](const auto& s) { return std::abs(s.value - 5.991930921) < 1e-8; }))
-      << branch.ended;
-  EXPECT_NEAR(fold, 5.992745338, 1e-8) << branch.ended;
+      << ended(branch);
+  EXPECT_NEAR(fold, 5.992745338, 1e-8) << ended(branch);
   const Posed beyond(model, {}, {"frequency"}, {5.9925});
   EXPECT_TRUE(orbit::lies_on(*beyond.problem, branch, one_impact(beyond, false)));
   EXPECT_TRUE(orbit::lies_on(*beyond.problem, branch, one_impact(beyond, true)));
@@ -335,7 +339,7 @@ TEST(Branch, KeepsAnImpactThatAReversalMeets) {
 TEST(Search, FindsStableAndUnstableOrbits) {
   const Posed posed("vibro-impact", {{"omega", 2.88}}, {}, {});
   const auto found =
-      orbit::search(*posed.problem, posed.system, posed.start(), {.most_n = 2, .starts = 8, .periods = 100});
+      orbit::search(*posed.problem, posed.system, posed.start(), {.most_n = 2, .starts = 8, .periods = 100}).orbits;
   std::string all;
   for (const orbit::Solution& solution : found)
     all += solution.label + (solution.stable() ? " stable, " : " unstable, ");
@@ -347,7 +351,7 @@ TEST(Search, FindsStableAndUnstableOrbits) {
 TEST(Search, ListsAChatteringOrbitOnce) {
   const Posed posed("vibro-impact", {{"omega", 0.5}}, {}, {});
   const auto found =
-      orbit::search(*posed.problem, posed.system, posed.start(), {.most_n = 2, .starts = 3, .periods = 60});
+      orbit::search(*posed.problem, posed.system, posed.start(), {.most_n = 2, .starts = 3, .periods = 60}).orbits;
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found.front().label, "1-inf-II");
 }

@@ -10,7 +10,7 @@
 namespace slapstick::test {
 namespace {
 
-using orbit::SpecialType;
+using orbit::CurveEnd, orbit::Jump, orbit::Occurrence, orbit::Passage, orbit::Sliding, orbit::SpecialType;
 
 const Overrides of_a_cascade = {{"clearance", 0.4230402420127488},
                                 {"damping", 0.03423195895104019},
@@ -39,8 +39,8 @@ TEST(Graze, IsAFoldWhateverFoldFollows) {
     const auto graze = std::ranges::find_if(branch.special, [](const orbit::SpecialPoint& point) {
       return point.type == SpecialType::GR && std::abs(point.value - 0.317127845087) < 1e-11;
     });
-    ASSERT_NE(graze, branch.special.end()) << branch.ended;
-    EXPECT_EQ(graze->outcome, "non-smooth fold");
+    ASSERT_NE(graze, branch.special.end()) << ended(branch);
+    EXPECT_EQ(graze->passage, Passage::fold);
     ASSERT_NE(graze, branch.special.begin()) << "the fold is between the graze and the low end of the branch";
     EXPECT_EQ(graze[-1].type, SpecialType::LP);
     EXPECT_GT(graze[-1].value, graze->value);
@@ -51,22 +51,22 @@ TEST(Graze, IsAFoldWhateverFoldFollows) {
 /// the branch from 0.3172 in 0.3171:0.31725, which has more grazes and knows it to 2e-10.
 TEST(Cascade, EndsAtItsLimitAndDoesNotLeadBackIntoItself) {
   const orbit::Branch branch = follow_omega(of_a_cascade, 0.31755, {.from = 0.317, .to = 0.3176, .longest_step = 0.1});
-  ASSERT_FALSE(branch.special.empty()) << branch.ended;
-  EXPECT_EQ(branch.special.front().type, SpecialType::CH) << branch.ended;
+  ASSERT_FALSE(branch.special.empty()) << ended(branch);
+  EXPECT_EQ(branch.special.front().type, SpecialType::CH) << ended(branch);
   EXPECT_NEAR(branch.special.front().value, 0.317117658, branch.special.front().error);
   EXPECT_LT(branch.special.front().error, 1e-7);
   for (const orbit::SpecialPoint& point : branch.special)
-    EXPECT_EQ(point.outcome == "non-smooth fold", point.type == SpecialType::GR) << point.value;
+    EXPECT_EQ((point.passage == Passage::fold), point.type == SpecialType::GR) << point.value;
 }
 
 /// With fewer grazes than a limit can be taken from it is not known to be a cascade, but a branch that is led back over itself is no motion's: that is said.
 TEST(Branch, ThatIsLedBackOverItselfSaysSo) {
   const orbit::Branch branch =
       follow_omega(of_a_cascade, 0.317124, {.from = 0.3171, .to = 0.31713, .longest_step = 0.1});
-  EXPECT_TRUE(branch.failed);
-  EXPECT_NE(branch.ended.find("leads back over the branch itself"), std::string::npos) << branch.ended;
+  EXPECT_TRUE(branch.failed());
+  EXPECT_NE(ended(branch).find("leads back over the branch itself"), std::string::npos) << ended(branch);
   for (const orbit::SpecialPoint& point : branch.special)  // the change that misled it is not there
-    EXPECT_EQ(point.outcome == "non-smooth fold", point.type == SpecialType::GR) << point.value;
+    EXPECT_EQ((point.passage == Passage::fold), point.type == SpecialType::GR) << point.value;
 }
 
 /// Behind a graze 2e-8 of the range before a fold the orbit that is found lies beyond the fold. Followed the wrong way the branch came back up the whole
@@ -82,8 +82,8 @@ TEST(Cascade, IsFollowedDownwardsThroughEachFoldOnce) {
   const auto graze = std::ranges::find_if(branch.special, [](const orbit::SpecialPoint& point) {
     return point.type == SpecialType::GR && std::abs(point.value - 0.307784900924) < 1e-11;
   });
-  ASSERT_NE(graze, branch.special.end()) << branch.ended;
-  EXPECT_EQ(graze->outcome, "non-smooth fold");
+  ASSERT_NE(graze, branch.special.end()) << ended(branch);
+  EXPECT_EQ(graze->passage, Passage::fold);
   ASSERT_NE(graze, branch.special.begin());
   EXPECT_EQ(graze[-1].type, SpecialType::LP);
   EXPECT_NEAR(graze[-1].value, 0.307784947026, 1e-11);

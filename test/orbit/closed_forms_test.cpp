@@ -124,7 +124,7 @@ TEST(ShakenTable, SensitivityIsTheFormulasDerivative) {
   const auto pd = std::ranges::find(branch.special, orbit::SpecialType::PD, &orbit::SpecialPoint::type);
   ASSERT_NE(pd, branch.special.end());
   const orbit::Branch doubled = orbit::follow(*posed.problem, pd->born.at(0), {.from = 1.0, .to = 1.6});
-  const auto birth = std::ranges::find_if(doubled.special, &orbit::SpecialPoint::birth);
+  const auto birth = std::ranges::find(doubled.special, orbit::Occurrence::end_of_doubled, &orbit::SpecialPoint::occurrence);
   ASSERT_NE(birth, doubled.special.end());
   special.push_back(*birth);  // the same point, as the doubled orbit sees it
   for (const orbit::SpecialPoint& point : special) {
@@ -147,7 +147,7 @@ TEST(ShakenTable, CurvesAreTheFormulas) {
     point.solution.orbit.values = both.values;
     const orbit::Curve curve =
         orbit::locus(*both.problem, point, {.from = 0.5, .to = 3.0, .second_from = 0.3, .second_to = 0.7});
-    EXPECT_FALSE(curve.failed) << curve.ended;
+    EXPECT_FALSE(curve.failed()) << ended(curve);
     EXPECT_GT(curve.points.size(), 20U);
     for (const orbit::CurvePoint& on : curve.points) {
       const double r = on.values[1], fold = pi * (1.0 - r) / (1.0 + r);
@@ -220,7 +220,7 @@ TEST(StickSlipImpact, GrazesWhereTheHeldFrameSays) {
     const auto first = posed.settled();
     ASSERT_TRUE(first);
     const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = c.from, .to = c.to});
-    EXPECT_FALSE(branch.failed) << c.parameter << ": " << branch.ended;
+    EXPECT_FALSE(branch.failed()) << c.parameter << ": " << ended(branch);
     const auto graze = std::ranges::find_if(branch.special, [&](const orbit::SpecialPoint& point) {
       return point.type == orbit::SpecialType::GR && std::abs(point.value - c.graze) < 1e-10;
     });

@@ -1,7 +1,8 @@
 /// The derivatives that Newton's method and the multipliers are made of, by second routes.
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "attractor/return_map.hpp"
+#include "section/return_map.hpp"
 #include "families.hpp"
 #include "orbit/path.hpp"
 #include "slapstick/attractor/classify.hpp"

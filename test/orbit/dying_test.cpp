@@ -10,7 +10,7 @@
 namespace slapstick::test {
 namespace {
 
-using orbit::SpecialType;
+using orbit::CurveEnd, orbit::Jump, orbit::Occurrence, orbit::Passage, orbit::Sliding, orbit::SpecialType;
 
 const orbit::SpecialPoint* find_near(const orbit::Branch& branch, SpecialType type, double near, double within) {
   for (const orbit::SpecialPoint& point : branch.special)
@@ -31,7 +31,7 @@ TEST(DyingMotion, EndsWhereTheForceIsFriction) {
     const auto first = posed.settled();
     ASSERT_TRUE(first);
     const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = c.from, .to = c.to});
-    EXPECT_FALSE(branch.failed) << branch.ended;
+    EXPECT_FALSE(branch.failed()) << ended(branch);
     const orbit::SpecialPoint* death = find_near(branch, SpecialType::SL, 0.2, 1e-3);
     ASSERT_NE(death, nullptr) << c.start;
     EXPECT_NEAR(death->value, 0.2, death->error + 1e-13) << c.start;
@@ -40,7 +40,7 @@ TEST(DyingMotion, EndsWhereTheForceIsFriction) {
         orbit::sensitivity(both.family, {death->value, 0.2, 0.8}, *death);  // the amplitude is static friction's
     EXPECT_NEAR(rates[0], 1.0, 1e-9) << c.start;
     EXPECT_NEAR(rates[1], 0.0, 1e-9) << c.start;
-    EXPECT_EQ(death->outcome, "from there on it is one of a family");
+    EXPECT_EQ(death->passage, Passage::family);
     EXPECT_GT(branch.points.front().orbit.values[0], 0.2);
     EXPECT_TRUE(std::ranges::all_of(branch.points, [](const orbit::Solution& s) { return s.isolated(); }));
   }
@@ -52,9 +52,9 @@ TEST(DyingMotion, IsNotSaidToEndWhereThereIsNoModel) {
   const auto first = posed.settled();
   ASSERT_TRUE(first);
   const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.15, .to = 0.25});
-  EXPECT_TRUE(branch.failed);
+  EXPECT_TRUE(branch.failed());
   EXPECT_EQ(find_near(branch, SpecialType::SL, 0.2, 1e-3), nullptr);
-  EXPECT_NE(branch.ended.find("behind amplitude = 0.2"), std::string::npos) << branch.ended;
+  EXPECT_NE(ended(branch).find("behind amplitude = 0.2"), std::string::npos) << ended(branch);
   EXPECT_GT(branch.points.front().orbit.values[0], 0.2002);
 }
 
@@ -88,10 +88,10 @@ TEST(DyingMotion, OfAnImpactLeavesAHeldToolAnywhere) {
   const auto first = posed.settled(1);
   ASSERT_TRUE(first);
   const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 21.4, .to = 23.2});
-  EXPECT_FALSE(branch.failed) << branch.ended;
+  EXPECT_FALSE(branch.failed()) << ended(branch);
   const auto graze = std::ranges::find(branch.special, SpecialType::GR, &orbit::SpecialPoint::type);
-  ASSERT_NE(graze, branch.special.end()) << branch.ended;
-  EXPECT_EQ(graze->outcome, "from there on it is one of a family");
+  ASSERT_NE(graze, branch.special.end()) << ended(branch);
+  EXPECT_EQ(graze->passage, Passage::family);
   const double omega = 2.0 * std::numbers::pi * graze->value;
   const double amplitude = 120.0 / std::hypot(6000.0 - 1.5 * omega * omega, 12.0 * omega);
   EXPECT_NEAR(amplitude, 0.004 + 30.0 / 40000.0, 1e-12);
@@ -104,7 +104,7 @@ TEST(DyingMotion, AtTheEndOfTheRangeIsTheEndOfTheRange) {
   const auto first = posed.settled();
   ASSERT_TRUE(first);
   const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.7, .to = 1.0});
-  EXPECT_EQ(branch.ended.substr(branch.ended.find("up")), "up: range");
+  EXPECT_EQ(ended(branch).substr(ended(branch).find("up")), "up: range");
   EXPECT_EQ(find_near(branch, SpecialType::SL, 1.0, 1e-5), nullptr);
 }
 
@@ -115,8 +115,8 @@ TEST(GrowingMotion, EndsAtResonance) {
   ASSERT_TRUE(first);
   const orbit::Branch branch =
       orbit::follow(*posed.problem, first->orbit, {.from = 0.6, .to = 1.5, .most_points = 2000});
-  EXPECT_FALSE(branch.failed) << branch.ended;
-  EXPECT_NE(branch.ended.find("grows without bound as omega nears"), std::string::npos) << branch.ended;
+  EXPECT_FALSE(branch.failed()) << ended(branch);
+  EXPECT_NE(ended(branch).find("grows without bound as omega nears"), std::string::npos) << ended(branch);
   EXPECT_NEAR(branch.points.back().orbit.values[0], 1.0, 1e-5);
 }
 
@@ -138,7 +138,7 @@ TEST(SymmetricChange, IsPassedFromBothSides) {
     const auto first = posed.settled();
     ASSERT_TRUE(first);
     const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.35, .to = 0.48});
-    EXPECT_FALSE(branch.failed) << branch.ended;
+    EXPECT_FALSE(branch.failed()) << ended(branch);
     EXPECT_EQ(branch.special.size(), 2U);
     EXPECT_NE(find_near(branch, SpecialType::SL, below, 2e-10), nullptr) << start;
     EXPECT_NE(find_near(branch, SpecialType::SL, 0.428345977046, 1e-11), nullptr) << start;
@@ -151,10 +151,11 @@ TEST(Discontinuity, IsAJump) {
   const auto first = posed.settled();
   ASSERT_TRUE(first);
   const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.095, .to = 1.0});
-  EXPECT_FALSE(branch.failed) << branch.ended;
+  EXPECT_FALSE(branch.failed()) << ended(branch);
   const orbit::SpecialPoint* jump = find_near(branch, SpecialType::SL, 0.12578768958, 1e-9);
-  ASSERT_NE(jump, nullptr) << branch.ended;
-  EXPECT_EQ(jump->outcome, "jump");
+  ASSERT_NE(jump, nullptr) << ended(branch);
+  ASSERT_TRUE(jump->jump);
+  EXPECT_EQ(jump->jump->kind, Jump::Kind::departs);
   EXPECT_FALSE(branch.points.back().stable());
   EXPECT_LT(branch.points.size(), 300U) << "without forcing instants are measured by the cycle";
 }
@@ -165,7 +166,7 @@ TEST(EdgeOfAModel, IsNoEndOfABranch) {
   const auto first = posed.settled();
   ASSERT_TRUE(first);
   const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.0, .to = 1.0});
-  EXPECT_FALSE(branch.failed) << branch.ended;
+  EXPECT_FALSE(branch.failed()) << ended(branch);
   EXPECT_NE(find_near(branch, SpecialType::PD, 0.077614611, 1e-8), nullptr);
 }
 
@@ -190,9 +191,9 @@ TEST(Jump, OfAnUnstableOrbitIsTold) {
     const auto first = posed.settled();
     ASSERT_TRUE(first);
     const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = c.from, .to = c.to});
-    EXPECT_FALSE(branch.failed) << branch.ended;
-    const auto jumps = std::ranges::count(branch.special, std::string("jump"), &orbit::SpecialPoint::outcome);
-    EXPECT_EQ(static_cast<std::size_t>(jumps), c.jumps) << branch.ended;
+    EXPECT_FALSE(branch.failed()) << ended(branch);
+    const auto jumps = std::ranges::count(branch.special, Passage::jump, &orbit::SpecialPoint::passage);
+    EXPECT_EQ(static_cast<std::size_t>(jumps), c.jumps) << ended(branch);
   }
 }
 
@@ -211,11 +212,12 @@ TEST(Jump, OfAStableOrbitSaysWhereTo) {
     const auto first = posed.settled();
     ASSERT_TRUE(first);
     const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 4.0, .to = 25.0});
-    EXPECT_FALSE(branch.failed) << branch.ended;
+    EXPECT_FALSE(branch.failed()) << ended(branch);
     for (const auto& [value, label] : c.jumps) {
       const orbit::SpecialPoint* jump = find_near(branch, SpecialType::SL, value, 1e-9);
-      ASSERT_NE(jump, nullptr) << value << ' ' << branch.ended;
-      EXPECT_EQ(jump->outcome, std::string("jump to ") + label) << value;
+      ASSERT_NE(jump, nullptr) << value << ' ' << ended(branch);
+      ASSERT_TRUE(jump->jump);
+      EXPECT_EQ(jump->jump->label, label) << value;
     }
   }
 }

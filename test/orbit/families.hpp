@@ -1,8 +1,18 @@
 #pragma once
 /// Model files as families, for tests.
 #include "slapstick/io/model_file.hpp"
-#include "slapstick/orbit/branch.hpp"
-#include "slapstick/orbit/periodic_orbit.hpp"
+#include "slapstick/continuation/sentences.hpp"
+#include "slapstick/orbit/search.hpp"
+
+namespace slapstick::orbit {
+
+/// Why a branch or curve ends, for messages of tests.
+inline std::string ended(const Branch& branch) { return sentence(branch); }
+inline std::string ended(const Curve& curve) {
+  return std::string(name(curve.down.kind)) + ", " + std::string(name(curve.up.kind));
+}
+
+}  // namespace slapstick::orbit
 
 namespace slapstick::test {
 
@@ -25,9 +35,10 @@ struct Posed {
     return all;
   }
   [[nodiscard]] State start() const { return definition.start(at(values)); }
-  /// The orbit that the motion from the model's start settles on.
+  /// The orbit that the motion from the model's start settles on; or the one of n periods that it is near after the transient.
   [[nodiscard]] std::optional<orbit::Solution> settled(int n = 0, long transient = 500) const {
-    return orbit::settle(*problem, system, start(), transient, n);
+    if (n == 0) return orbit::settle(*problem, system, start(), {.transient = transient}).orbit;
+    return orbit::orbit_near(*problem, Motion(system, start()), transient, n);
   }
 
   ModelDefinition definition;

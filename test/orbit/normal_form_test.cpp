@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "attractor/cycle.hpp"
+#include "flow/contact_state.hpp"
 #include "beside.hpp"
 
 namespace slapstick::test {
@@ -14,7 +14,7 @@ TEST(NormalForm, ForetellsTheSizeOfADoubledOrbit) {
   const Posed posed("vibro-impact", {}, {"omega"}, {2.7});
   const orbit::Branch branch = branch_of(posed, 2.6, 2.9);
   const orbit::SpecialPoint& point = only(branch, SpecialType::PD);
-  EXPECT_EQ(point.normal_form.what, "supercritical");  // the paper's 2-2-I is an attractor
+  EXPECT_EQ(sentence(point.normal_form), "supercritical");  // the paper's 2-2-I is an attractor
   expect_doubled_as_foretold(posed, point, 4e-4);
 }
 
@@ -69,13 +69,13 @@ struct Circling {
     const VectorXd away = 2.0 * radius * foretold * beside.direction.q.real();
     const VectorXd start = centre + beside.problem.translations().representative(away.cwiseProduct(beside.map.sizes()));
     const double whole = std::floor(beside.map.phase()), fraction = beside.map.phase() - whole;
-    Motion motion(system, attractor::user_state(system, start), {static_cast<std::int64_t>(whole), fraction});
+    Motion motion(system, flow::user_state(system, start), {static_cast<std::int64_t>(whole), fraction});
     double sum = 0.0;
     for (long k = 1; k <= after + over; ++k) {
       const Instant end{static_cast<std::int64_t>(whole) + k * orbit.shape.n, fraction};
       while (motion.advance(end) == Outcome::event) {
       }
-      const Complex z = beside.apart(attractor::contact_state(motion), centre);
+      const Complex z = beside.apart(flow::contact_state(motion), centre);
       if (k > after) sum += std::norm(z);
     }
     return sum / static_cast<double>(over) / (foretold * foretold);
@@ -93,7 +93,7 @@ TEST(NormalForm, ForetellsTheRadiusOfAStableTorus) {
   const Posed posed("vibro-impact", {}, {"omega"}, {4.8});
   const orbit::Branch branch = branch_of(posed, 4.79, 4.81);
   const orbit::SpecialPoint& point = only(branch, SpecialType::NS);
-  ASSERT_EQ(point.normal_form.what, "supercritical");
+  ASSERT_EQ(sentence(point.normal_form), "supercritical");
   EXPECT_NEAR(point.rotation, 0.41521, 1e-5);
   const Beside beside(
       posed, point, orbit::freest_leg(orbit::ModeSet(posed.family, point.solution.orbit.values), point.solution.orbit));
@@ -109,7 +109,7 @@ TEST(NormalForm, ForetellsWhereMotionsLeaveASubcriticalTorus) {
   const Posed posed("vibro-impact", {}, {"omega"}, {9.0});
   const orbit::Branch branch = branch_of(posed, 8.9, 9.6);
   const orbit::SpecialPoint& point = only(branch, SpecialType::NS);
-  ASSERT_EQ(point.normal_form.what, "subcritical");
+  ASSERT_EQ(sentence(point.normal_form), "subcritical");
   const Beside beside(
       posed, point, orbit::freest_leg(orbit::ModeSet(posed.family, point.solution.orbit.values), point.solution.orbit));
   const Circling circling(beside, point.value - 1e-4);
@@ -122,7 +122,7 @@ TEST(NormalForm, SaysHowGoodItIsBesideAGraze) {
   const Posed posed("impact-oscillator", {}, {"clearance"}, {0.3});
   const orbit::Branch branch = branch_of(posed, 0.3, 1.0);
   const orbit::SpecialPoint& point = only(branch, SpecialType::PD);
-  ASSERT_TRUE(point.normal_form.coefficient) << point.normal_form.what;
+  ASSERT_TRUE(point.normal_form.coefficient) << sentence(point.normal_form);
   EXPECT_LT(point.normal_form.error, 1e-3 * std::abs(*point.normal_form.coefficient));
   expect_doubled_as_foretold(posed, point, 1e-7);
 }
@@ -136,7 +136,7 @@ TEST(NormalForm, IsTheSameFromEveryStart) {
     ASSERT_TRUE(first);
     const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 6.5, .to = 8.0});
     const auto fold = std::ranges::find(branch.special, orbit::SpecialType::LP, &orbit::SpecialPoint::type);
-    ASSERT_NE(fold, branch.special.end()) << branch.ended;
+    ASSERT_NE(fold, branch.special.end()) << ended(branch);
     coefficients.push_back(fold->normal_form.coefficient.value_or(std::nan("")));
   }
   EXPECT_GT(coefficients[0], 0.0);

@@ -3,12 +3,15 @@
 /// Rounding is counted in units of 2^-53 of the greatest energy (momentum) that the segment's greatest coordinate and velocity could have: a
 /// stored number is a sum of m terms that is rounded m + 16 times in every window (docs/certainty.md, section 3), and the terms of a
 /// window's sum are together at most e^|A H| < 8 times what they start from.
+#include <Eigen/QR>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "property/newton.hpp"
+#include "flow/compiled_system.hpp"
+#include "mode/mode.hpp"
 #include "property/property.hpp"
 #include "slapstick/flow/motion.hpp"
 
@@ -61,13 +64,13 @@ class Ledger {
     wrong_ = text;
   }
 
-  [[nodiscard]] double roundings(double windows) const { return 0x1p-50 * (system_.frame().size() + 16) * windows; }
+  [[nodiscard]] double roundings(double windows) const { return 0x1p-50 * (system_.compiled().frame().size() + 16) * windows; }
 
   /// Between two events: what the forcing gave, and what dampers, friction and compliant stops took, is the change of energy.
   void settle_segment() {
     const Motion::Segment segment = motion_.segment();
     seen_ = motion_.counters().segments;
-    const mode::Mode& mode = system_.mode(segment.mode);
+    const mode::Mode& mode = system_.compiled().mode(segment.mode);
     const double windows = 1.0 + segment.duration / mode.window();
     sizes_ = {};
     motion_.sample(0.0, x_);

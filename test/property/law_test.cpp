@@ -8,6 +8,9 @@
 #include <numbers>
 
 #include "property/newton.hpp"
+#include "flow/compiled_system.hpp"
+#include "flow/engine.hpp"
+#include "mode/mode.hpp"
 #include "property/property.hpp"
 #include "slapstick/flow/motion.hpp"
 
@@ -58,7 +61,7 @@ class Watchman {
   }
 
   void look(const Motion::Segment& segment) {
-    const mode::Mode& mode = system_.mode(segment.mode);
+    const mode::Mode& mode = system_.compiled().mode(segment.mode);
     const double H = std::min(mode.window(), segment.duration);
     Sizes sizes;
     for (int i = 0; i <= samples; ++i) motion_.sample(segment.duration * i / samples, x_), sizes.note(x_);
@@ -68,8 +71,8 @@ class Watchman {
     // What depends on others (contacts in loops) keeps the rounding of what it was before.
     greatest_ = {std::max(greatest_.x, sizes.x + newton_.least().x),
                  std::max(greatest_.v, sizes.v + newton_.least().v)};
-    guards(segment, mode);
-    const double unit = 0x1p-50 * (system_.frame().size() + 16) * (1.0 + segment.duration / mode.window());
+    guards(mode);
+    const double unit = 0x1p-50 * (system_.compiled().frame().size() + 16) * (1.0 + segment.duration / mode.window());
     for (int i = 0; i <= samples && wrong_.empty(); ++i) {
       const double s = segment.duration * i / samples;
       const double theta = 2 * std::numbers::pi * segment.start.fraction + system_.model().omega * s;
@@ -80,8 +83,8 @@ class Watchman {
   }
 
   /// The engine's own guards where the segment starts: also of contacts whose forces Newton does not determine.
-  void guards(const Motion::Segment& segment, const mode::Mode& mode) {
-    const Eigen::Map<const Eigen::RowVectorXd> X(segment.X.data(), mode.size());
+  void guards(const mode::Mode& mode) {
+    const Eigen::Map<const Eigen::RowVectorXd> X(motion_.engine().extended_at_start().data(), mode.size());
     for (const mode::Guard& guard : mode.guards()) {
       const double size = guard.row.cwiseAbs().dot(X.cwiseAbs().cwiseMax(1.0));
       expect("guard", guard.row.dot(X), 0x1p-50 * (mode.size() + 16) * size);

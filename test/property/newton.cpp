@@ -1,5 +1,7 @@
 #include "property/newton.hpp"
 
+#include <Eigen/LU>
+#include <Eigen/QR>
 #include <cmath>
 
 namespace slapstick::test {

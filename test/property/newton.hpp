@@ -1,10 +1,10 @@
 #pragma once
 /// Newton's equations of a Model in its own coordinates, M v' = F - C v - K q + contact forces, as a text book writes them: what the
 /// balances of the engine's motions are checked against. Shares nothing with src/mode.
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <span>
 
-#include "slapstick/mode/outline.hpp"
+#include "mode/outline.hpp"
 #include "slapstick/model/model.hpp"
 
 namespace slapstick::test {

@@ -1,4 +1,4 @@
-#include "slapstick/section/creep_watch.hpp"
+#include "section/creep_watch.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "slapstick/base/error.hpp"
-#include "slapstick/section/run_impacts.hpp"
+#include "section/run_impacts.hpp"
 #include "slapstick/section/stroboscopic_section.hpp"
 
 extern long allocations;  // count_allocations.cpp

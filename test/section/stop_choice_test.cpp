@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "slapstick/base/error.hpp"
-#include "slapstick/section/run_impacts.hpp"
+#include "section/run_impacts.hpp"
 
 namespace slapstick {
 namespace {

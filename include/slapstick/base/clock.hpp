@@ -7,8 +7,8 @@ namespace slapstick {
 
 /// An instant t = (period + fraction) * T, with T the forcing period (1 for a model without forcing).
 ///
-/// Invariant: 0 <= fraction < 1. Carrying a whole period from the fraction to the integer is exact in binary floating point,
-/// so the phase after 1e7 periods is as accurate as after one; only `seconds` (for people) mixes the two parts.
+/// Invariant: 0 <= fraction < 1. Carrying a whole period from the fraction to the integer is exact in binary floating
+/// point, so the phase after 1e7 periods is as accurate as after one; only `seconds` (for people) mixes the two parts.
 struct Instant {
   std::int64_t period = 0;
   double fraction = 0.0;

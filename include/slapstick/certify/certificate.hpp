@@ -1,12 +1,16 @@
 #pragma once
-/// A run written down as a certificate (docs/certificate.md): every segment with its state, the proofs of its guards, and what happened at
+/// A run written down as a certificate: every segment with its state, the proofs of its guards, and what happened at
 /// its end.
+///
+/// docs/certificate.md has the format. The program `slapstick-verify` checks it, and shares no code with the library.
+/// The proofs are found anew from the modes and the states; the event kernel that drives the motion is not used, so
+/// that they are a second opinion on it.
+///
+/// Threads: one Certificate belongs to one thread at a time. Source: docs/certainty.md.
 #include <functional>
-#include <set>
+#include <memory>
 #include <string>
 
-#include "slapstick/certify/limit_proof.hpp"
-#include "slapstick/certify/segment_proof.hpp"
 #include "slapstick/flow/motion.hpp"
 
 namespace slapstick::certify {
@@ -18,45 +22,27 @@ struct Tally {
   long unproved = 0;  ///< guards whose steps do not reach their limit: the verifier will say so
 };
 
-/// Follows a motion of its own from `start` to `end`. Long flights are cut every `windows_per_piece` windows, which changes nothing.
+/// Follows a motion of its own from `start` at phase 0. What was moved from may only be destroyed.
 class Certificate {
  public:
   /// @param write  takes the text, some lines at a time
+  /// @throws InputError as Motion; what `write` throws goes through here and below
   Certificate(const System& system, const State& start, std::function<void(const std::string&)> write);
+  Certificate(Certificate&& other) noexcept;
+  ~Certificate();
 
-  /// Runs to `end`, or until `go_on(now)`, asked some times per period, returns false. @throws NumericalError as Motion::advance
+  /// Runs to `end`, or until `go_on(now)`, asked some times per period, returns false. Long flights are cut into
+  /// pieces, which changes no event. @throws NumericalError as Motion::advance
   void run(Instant end, const std::function<bool(Instant)>& go_on);
   /// The last line; nothing comes after it.
   void finish();
 
-  [[nodiscard]] const Tally& tally() const { return tally_; }
-  [[nodiscard]] Instant time() const { return motion_.time(); }
+  [[nodiscard]] const Tally& tally() const;
+  [[nodiscard]] Instant time() const;
 
  private:
-  static constexpr double windows_per_piece = 8.0;
-
-  void head();
-  void mode(ModeId id);
-  void segment(bool ended_by_event);
-  void guards(SegmentProof& proof, bool ended_by_event);
-  GuardProof guard(SegmentProof& proof, int g, double limit);
-  void print(int g, const GuardProof& proof);
-  void hit(SegmentProof& proof);
-  void blows();
-  LimitProof limit() const;
-  void end_chatter(const LimitProof& proof);
-  void line(const char* word, const std::string& rest);
-
-  const System& system_;
-  Motion motion_;
-  std::function<void(const std::string&)> write_;
-  std::string text_;
-  std::set<ModeId> shown_;
-  std::vector<double> magnitude_;
-  std::vector<double> begun_;  ///< the motion's extended state before it went on ..
-  ModeId begun_in_ = 0;        ///< .. and the mode of its flight
-  long seen_ = 0;              ///< segments of the motion
-  Tally tally_;
+  class Writer;
+  std::unique_ptr<Writer> writer_;
 };
 
 }  // namespace slapstick::certify

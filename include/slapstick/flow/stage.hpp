@@ -1,16 +1,16 @@
 #pragma once
 /// Long runs in stages, so that a wish to stop is heard within a second also where one forcing period takes minutes.
 ///
-/// Stages end at instants that depend on the System alone, never on when somebody looked: a run has the same bits whether it could be
-/// stopped or not.
+/// Stages end at instants that depend on the System alone, never on when somebody looked: a run has the same bits
+/// whether it could be stopped or not.
 #include <atomic>
 
 #include "slapstick/flow/motion.hpp"
 
 namespace slapstick {
 
-/// The end of the stage that `now` lies in, strictly later than `now` and at most `end`: 4096 periods, or as many of them, or such a part
-/// of one, as a million windows fill (a twentieth of a second for the paper's system).
+/// The end of the stage that `now` lies in, strictly later than `now` and at most `end`: 4096 periods, or as many of
+/// them, or such a part of one, as a million windows fill (a twentieth of a second for the paper's system).
 [[nodiscard]] Instant next_stage(const System& system, Instant now, Instant end);
 
 [[nodiscard]] inline bool stopped(const std::atomic<bool>* stop) {

@@ -1,83 +1,72 @@
 #pragma once
-/// A model made ready to run: contact coordinates, its modes with their operators, the impact law. Const and shareable.
-#include <cmath>
+/// A model made ready to run. Const and shareable: any number of motions on any threads use one System.
+///
+/// A *mode* is a combination of contact states (mode/contact_states.hpp); in it the model is a linear system, for which
+/// a System keeps the operators of one *window*, a short time in which every guard is a polynomial. Modes are compiled
+/// when they are first met, and kept: of the 2^s 3^f combinations of s stops and f friction contacts a motion meets a
+/// handful. Those of a model with up to eight are compiled at once, so that its motions allocate nothing.
+///
+/// Contacts have one numbering: stops first, then friction contacts, then compliant stops.
+///
+/// Threads: all functions are const and safe to call at once, also while modes are compiled.
+/// Source: docs/architecture.md, sections 2 and 3; docs/certainty.md for the operators' error bounds.
+#include <limits>
 #include <memory>
-#include <vector>
+#include <string>
 
-#include "slapstick/flow/mode_table.hpp"
+#include "slapstick/mode/contact_states.hpp"
+#include "slapstick/model/model.hpp"
 
 namespace slapstick {
 
+namespace flow {
+class CompiledSystem;
+}
+
 struct SystemOptions {
-  /// Windows are no longer than this, in forcing periods (> 0). Events do not depend on it beyond rounding; the work does.
-  double longest_window = INFINITY;
+  /// Windows are no longer than this, in forcing periods (at least 2^-20). Events do not depend on it beyond rounding;
+  /// the work does.
+  double longest_window = std::numeric_limits<double>::infinity();
 };
 
-/// Compiles a model once (about 0.3 ms for the paper's system); any number of `Motion`s on any threads then share it.
-///
-/// Modes are built when they are first asked for, and kept: of the 2^s 3^f combinations a motion meets a handful. Those of a model with
-/// up to eight are built at once, so that its motions allocate nothing.
+/// A handle of a compiled model: a copy is cheap and stands for the same compiled model, which lives as long as any
+/// copy or Motion of it.
 class System {
  public:
   static constexpr int most_contacts = 32;
 
-  /// @throws InputError if the model or the option is invalid, or the model has more than `most_contacts`, or time scales so far apart that its
-  /// windows cannot be computed in double precision.
+  /// Compiles the model. Cost: about 0.3 ms for the paper's system.
+  /// @throws InputError if the model or the option is invalid, or the model has more than `most_contacts`, or time
+  /// scales so far apart that its windows cannot be computed in double precision
   explicit System(Model model, SystemOptions options = {});
+  System(const System&) = default;  // also where it could be moved: every System stands for a model
+  System& operator=(const System&) = default;
+  ~System() = default;
 
-  [[nodiscard]] const Model& model() const { return model_; }
-  [[nodiscard]] const mode::Frame& frame() const { return frame_; }
-  [[nodiscard]] double period() const { return period_; }  ///< forcing period, or 1
-  /// Windows that a period holds in the mode with the shortest ones (of those where nothing is held): about this many steps are flown in a
-  /// period without events, and each takes about 0.04 microseconds for the paper's system. Below 1 for a forcing so fast that a window
-  /// holds several periods.
-  [[nodiscard]] double windows_per_period() const { return windows_per_period_; }
+  [[nodiscard]] const Model& model() const;
+  /// The forcing period in the model's unit of time, or 1 without forcing: the unit of every `Instant`.
+  [[nodiscard]] double period() const;
+  /// Windows that a period holds in the mode with the shortest ones (of those where nothing is held): about this many
+  /// steps are flown in a period without events, and each takes about 0.04 microseconds for the paper's system. Below 1
+  /// for a forcing so fast that a window holds several periods.
+  [[nodiscard]] double windows_per_period() const;
 
-  [[nodiscard]] ModeId mode_count() const { return mode_count_; }
-  /// Safe to call from several threads. @throws InputError as the constructor, about time scales
-  [[nodiscard]] const mode::Mode& mode(ModeId id) const {
-    const mode::Mode* known = modes_->find(id);
-    return known != nullptr ? *known : modes_->get(id, [this](ModeId wanted) { return build(wanted); });
-  }
-  /// The mode if it has been built, else null; and its system and guards alone, which are cheaper.
-  [[nodiscard]] const mode::Mode* known_mode(ModeId id) const { return modes_->find(id); }
-  [[nodiscard]] std::shared_ptr<const mode::Outline> outline(ModeId id) const;
+  /// Modes have the ids 0 .. mode_count() - 1.
+  [[nodiscard]] ModeId mode_count() const;
   [[nodiscard]] ModeId mode_id(const mode::ContactStates& states) const;
   [[nodiscard]] mode::ContactStates states(ModeId id) const;
-  /// A short name for tables and pictures: "slip+", "slip-", "stick", "free", each followed by "|closed" on a closed stop.
+  /// A short name for tables and pictures: "slip+", "slip-", "stick", "free", each followed by "|closed" on a closed
+  /// stop and "|on" on a compliant stop that acts.
   [[nodiscard]] std::string mode_name(ModeId id) const;
 
-  /// Change of u per unit change of the normal velocity of a stop: M^{-1} g^T / (g M^{-1} g^T), g the stop's row.
-  [[nodiscard]] const mode::Vector& impulse(int stop) const { return impulses_[stop]; }
-
-  /// Acceleration of a stop's pair towards the stop without any contact force, g . free: a row over X.
-  [[nodiscard]] const mode::RowVector& press(int stop) const { return presses_[stop]; }
-
-  /// What a unit friction force of a contact adds to that acceleration, g M^{-1} f^T, and whether both act on one pair at rest to each
-  /// other (rows equal or opposite, no belt).
-  struct Coupling {
-    double effect = 0.0;
-    bool same_pair = false;
-  };
-  [[nodiscard]] const Coupling& coupling(int stop, int friction) const {
-    return couplings_[static_cast<std::size_t>(stop) * frame_.frictions.size() + static_cast<std::size_t>(friction)];
-  }
-
-  /// Contacts in one numbering: stops first, then friction contacts, then compliant stops.
+  /// The name of the contact with this number.
   [[nodiscard]] std::string contact_name(int contact) const;
 
- private:
-  [[nodiscard]] mode::Mode build(ModeId id) const;
+  /// For the library's own sources: the type is private.
+  [[nodiscard]] const flow::CompiledSystem& compiled() const { return *compiled_; }
 
-  Model model_;
-  mode::Frame frame_;
-  SystemOptions options_;
-  double period_, windows_per_period_ = 0.0;
-  ModeId mode_count_ = 1;
-  std::unique_ptr<ModeTable> modes_;
-  std::vector<mode::Vector> impulses_;
-  std::vector<mode::RowVector> presses_;
-  std::vector<Coupling> couplings_;
+ private:
+  std::shared_ptr<const flow::CompiledSystem> compiled_;
 };
 
 }  // namespace slapstick

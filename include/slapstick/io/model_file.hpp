@@ -1,5 +1,6 @@
 #pragma once
-/// Model files: a Model with named parameters, ranges and expressions, as a page of TOML. `docs/model_file.md` is the reference.
+/// Model files: a Model with named parameters, ranges and expressions, as a page of TOML. `docs/model_file.md` is the
+/// reference.
 ///
 ///     name = "impact"
 ///     omega = "omega"
@@ -20,6 +21,7 @@
 ///     x = -0.5
 ///
 /// Every error is an InputError of one line: "FILE:LINE: PART: WHAT", and for an unknown name the nearest known one.
+/// Cost: `build` evaluates all expressions of the file anew. Threads: all is const and safe to call at once.
 #include <limits>
 #include <map>
 #include <memory>
@@ -36,8 +38,8 @@ namespace slapstick {
 struct Parameter {
   std::string name;
   double value = 0.0;  ///< the default; if `expression` is set, its value with all other defaults
-  std::string
-      expression;  ///< e.g. "static_friction": follows the other parameters until it is set itself; "" for a plain number
+  /// e.g. "static_friction": follows the other parameters until it is set itself; "" for a plain number
+  std::string expression;
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   bool min_open = false;  ///< true: `min` itself is outside (`above` in the file)
@@ -72,7 +74,8 @@ struct PhysicalUnits {
   std::vector<Column> state, observables;
 };
 
-/// What the numbers of a model without [scale] are in, as far as its file says so. Empty texts: it does not, and so with [scale], where they are no quantities.
+/// What the numbers of a model without [scale] are in, as far as its file says so. Empty texts: it does not, and so
+/// with [scale], where they are no quantities.
 struct StatedUnits {
   std::vector<std::string> coordinates;
   std::string time;  ///< of a velocity: that of its coordinate over this
@@ -81,10 +84,11 @@ struct StatedUnits {
 /// Values given by name, as by `--set`. A parameter's own value wins over its group's.
 using Overrides = std::map<std::string, double>;
 
-struct Definition;  // the file's content; src/io/definition.hpp
+struct Definition;  // the file's content
 class Observer;     // slapstick/io/observer.hpp
 
-/// A model file that has been read and checked with its default values. Immutable, cheap to copy, safe to share between threads.
+/// A model file that has been read and checked with its default values. Immutable, cheap to copy, safe to share between
+/// threads.
 class ModelDefinition {
  public:
   /// @param source  what messages call the text, usually the path
@@ -98,16 +102,19 @@ class ModelDefinition {
   [[nodiscard]] const std::vector<Group>& groups() const;
   [[nodiscard]] const std::vector<Observable>& observables() const;  ///< in the file's order
 
-  /// Every parameter's value. @throws InputError if an override is unknown, not finite or out of range, or an expression is not finite
+  /// Every parameter's value. @throws InputError if an override is unknown, not finite or out of range, or an
+  /// expression is not finite
   [[nodiscard]] std::map<std::string, double> values(const Overrides& overrides = {}) const;
 
   /// The validated model. @throws InputError as `values`, and with the file's line for what `validate` refuses
   [[nodiscard]] Model build(const Overrides& overrides = {}) const;
 
-  /// The derivative of `build` with respect to a parameter or group, at its present value: a Model of the same shape in which every number is
-  /// the derivative of that number (names, indices, harmonics, impact law as in the model). Of a group the members move together that have no
-  /// override of their own; parameters that follow others by an expression follow here too. Exact but for rounding, also at the ends of ranges.
-  /// @throws InputError as `build`, for an unknown name, or naming a number that has no derivative (a kink of min, max, abs, ?:)
+  /// The derivative of `build` with respect to a parameter or group, at its present value: a Model of the same shape in
+  /// which every number is the derivative of that number (names, indices, harmonics, impact law as in the model). Of a
+  /// group the members move together that have no override of their own; parameters that follow others by an expression
+  /// follow here too. Exact but for rounding, also at the ends of ranges.
+  /// @throws InputError as `build`, for an unknown name, or naming a number that has no derivative (a kink of min, max,
+  /// abs, ?:)
   [[nodiscard]] Model rate(const std::string& parameter, const Overrides& overrides = {}) const;
 
   /// The model as a function of some of its parameters or groups, the others as in `overrides`.
@@ -122,12 +129,13 @@ class ModelDefinition {
   /// The physical units of tables, by the file's [scale]; nothing if it has none. @throws InputError as `values`
   [[nodiscard]] std::optional<PhysicalUnits> physical(const Overrides& overrides = {}) const;
 
-  /// Coordinates state theirs. The unit of time is that of the parameters' units, if these are one system with the coordinates' and the model's
-  /// numbers are in it: measured in another unit of time, they must change as masses, stiffnesses, forces and frequencies do.
+  /// Coordinates state theirs. The unit of time is that of the parameters' units, if these are one system with the
+  /// coordinates' and the model's numbers are in it: measured in another unit of time, they must change as masses,
+  /// stiffnesses, forces and frequencies do.
   [[nodiscard]] StatedUnits stated_units() const;
 
-  /// A complete file, with the overrides as the new defaults; reading it gives the same Model, and printing that the same text.
-  /// Comments are not kept; descriptions and notes are. @throws InputError as `start`
+  /// A complete file, with the overrides as the new defaults; reading it gives the same Model, and printing that the
+  /// same text. Comments are not kept; descriptions and notes are. @throws InputError as `start`
   [[nodiscard]] std::string to_toml(const Overrides& overrides = {}) const;
 
  private:
@@ -140,7 +148,8 @@ class ModelDefinition {
 /// StorageError for a file that is not there or cannot be read
 [[nodiscard]] ModelDefinition load_model(const std::string& name_or_path);
 
-/// A commented file to start a model of one's own from: sound as it is, and with an example of every key, some switched off.
+/// A commented file to start a model of one's own from: sound as it is, and with an example of every key, some switched
+/// off.
 /// @param name  letters, digits, '_' and '-'. @throws InputError
 [[nodiscard]] std::string new_model(const std::string& name);
 

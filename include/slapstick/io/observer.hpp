@@ -14,8 +14,8 @@ class Observer {
   Observer(Observer&&) noexcept;
   Observer& operator=(Observer&&) noexcept;
 
-  /// Every observable's value, in the order of ModelDefinition::observables. Where an expression has no finite value (1 / x1 at x1 = 0)
-  /// it is inf or nan: that is a property of the state, not a mistake in the file.
+  /// Every observable's value, in the order of ModelDefinition::observables. Where an expression has no finite value
+  /// (1 / x1 at x1 = 0) it is inf or nan: that is a property of the state, not a mistake in the file.
   /// @param time  in the model's unit of time, from the start of the run
   /// @return valid until the next call
   [[nodiscard]] const std::vector<double>& read(double time, const State& state);

@@ -1,5 +1,9 @@
 #pragma once
 /// A model that depends on parameters: what orbits are continued in.
+///
+/// `ModelDefinition::family` (io/model_file.hpp) makes one of a model file; one may also be made by hand.
+/// Threads: the library calls both functions from one thread at a time, diagrams apart. Cost: a call for every step of
+/// Newton's method.
 #include <functional>
 #include <string>
 #include <vector>
@@ -12,7 +16,9 @@ namespace slapstick {
 struct Family {
   std::vector<std::string> names;  ///< of the parameters
   std::function<Model(const std::vector<double>& values)> model;
-  /// The derivative of the model with respect to one parameter: every number of it is that number's derivative.
+  /// The derivative of the model with respect to one parameter: a Model of the same shape, in which every number is
+  /// that number's derivative (names, indices, harmonics and the impact law as in the model). Of a group: when its
+  /// members move together.
   std::function<Model(const std::vector<double>& values, std::size_t which)> rate;
 };
 

@@ -5,6 +5,7 @@
 ///
 /// M, C, K: the coordinates' masses, the dampers and the springs, plus the model's own matrices.
 /// Nothing here assumes a number of coordinates or contacts. Units are the user's; the paper's system is dimensionless.
+/// Plain data: no function but `validate` throws. Source: NOTATION.md; Glocker (2001) for contacts and impacts.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -14,8 +15,8 @@ namespace slapstick {
 /// The index that stands for the fixed surroundings: ground, wall, or (with a belt speed) a belt.
 inline constexpr int ground = -1;
 
-/// A displacement x with its mass (>= 0; the sum with the mass matrix must be positive definite). The velocity is called "v" + the rest of the name if the name starts with 'x'
-/// (x1 -> v1), else "v_" + name.
+/// A displacement x with its mass (>= 0; the sum with the mass matrix must be positive definite). The velocity is
+/// called "v" + the rest of the name if the name starts with 'x' (x1 -> v1), else "v_" + name.
 struct Coordinate {
   std::string name;
   double mass = 1.0;
@@ -60,8 +61,8 @@ struct Stop {
   double restitution = 1.0;
 };
 
-/// A spring and damper that act only beyond a gap, delta = x_a - x_b - clearance > 0: force stiffness delta + damping delta' on b,
-/// the opposite on a. One that does not pull lets go where that force would become negative.
+/// A spring and damper that act only beyond a gap, delta = x_a - x_b - clearance > 0: force stiffness delta + damping
+/// delta' on b, the opposite on a. One that does not pull lets go where that force would become negative.
 struct CompliantStop {
   std::string name;
   int a = 0, b = ground;
@@ -106,10 +107,11 @@ using State = std::vector<double>;
 /// Column names of a State: "x1", "v1", "x2", "v2".
 [[nodiscard]] std::vector<std::string> state_names(const Model& model);
 
-/// Checks everything that makes a model meaningless: non-finite numbers, masses <= 0 (a mass matrix that is not positive definite),
-/// matrices that are not symmetric or not n x n, omega, f_k > f_s, restitution outside [0, 1], bad indices, a contact between a
-/// coordinate and itself, opposite stops without room between them, names used twice. Numbers beyond 1e50, and a mass or omega below 1e-50,
-/// are refused too: their products would leave the range of a double.
+/// Checks everything that makes a model meaningless: non-finite numbers, masses <= 0 (a mass matrix that is not
+/// positive definite), matrices that are not symmetric or not n x n, omega, f_k > f_s, restitution outside [0, 1], bad
+/// indices, a contact between a coordinate and itself, opposite stops without room between them, names used twice.
+/// Numbers beyond 1e50, and a mass or omega below 1e-50, are refused too: their products would leave the range of a
+/// double.
 /// @throws InputError naming the field, e.g. "stop 'gap': restitution = 1.2 is outside [0, 1]".
 void validate(const Model& model);
 

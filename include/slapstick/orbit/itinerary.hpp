@@ -1,10 +1,12 @@
 #pragma once
 /// The shape of a periodic orbit: which modes it passes, what ends each, and what happens there; and the orbit itself.
 ///
-/// A cycle is cut at its events into *legs*. Leg i starts just after event i, in one mode, and its end is event i + 1; the last leg ends at
-/// event 0, one cycle later. With the shape fixed, an orbit is a smooth function of the model's parameters, also where it is no motion any
-/// more: past a graze, where it reaches behind a stop, its equations go on. So the points where shapes change are regular points.
-#include <Eigen/Dense>
+/// A cycle is cut at its events into *legs*. Leg i starts just after event i, in one mode, and its end is event i + 1;
+/// the last leg ends at event 0, one cycle later. With the shape fixed, an orbit is a smooth function of the model's
+/// parameters, also where it is no motion any more: past a graze, where it reaches behind a stop, its equations go on.
+/// So the points where shapes change are regular points. Plain data. Source: Dankowicz and Schilder (2013) for orbits
+/// as sequences of segments.
+#include <Eigen/Core>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -36,11 +38,13 @@ struct Itinerary {
   int n = 0;  ///< forcing periods per cycle; 0 for a model without forcing, whose period is unknown
 };
 
-/// A periodic orbit, or an approximation to one. A *contact state* is the first n of p and of u (mode/frame.hpp).
+/// A periodic orbit, or an approximation to one. A *contact state* is the first n of p and of u (flow/tangent.hpp).
 struct Orbit {
   Itinerary shape;
   std::vector<double> values;      ///< of the family's parameters
-  std::vector<Eigen::VectorXd> x;  ///< contact state at the start of each leg
+  /// Contact state at the start of each leg; `at_phase_zero` and `events` (orbit/periodic_orbit.hpp) give states in the
+  /// user's coordinates.
+  std::vector<Eigen::VectorXd> x;
   std::vector<double> t;    ///< instants of events 0 .. k, in forcing periods (in time, without forcing): k + 1 numbers
   Eigen::VectorXd advance;  ///< along each of the model's rigid translations, per cycle
 
@@ -48,7 +52,8 @@ struct Orbit {
   [[nodiscard]] double duration(std::size_t leg) const { return t[leg + 1] - t[leg]; }
 };
 
-/// Makes leg `first` the first one. Times stay in order; those of the legs before it move on by a cycle. Without forcing they begin at 0 anew.
+/// Makes leg `first` the first one. Times stay in order; those of the legs before it move on by a cycle. Without
+/// forcing they begin at 0 anew.
 void rotate(Orbit& orbit, std::size_t first);
 
 /// "impact wall, slip- pad, stick pad": for messages and tables.

@@ -1,5 +1,11 @@
 #pragma once
-/// Periodic orbits, stable or not: Newton's method from a guess, what an orbit is, and a search for many.
+/// Periodic orbits, stable or not: Newton's method from a guess, and what an orbit is. slapstick/orbit/search.hpp looks
+/// for them.
+///
+/// A `Problem` is the equations of a family's orbits; it is const, and threads may share it. Orbits are data. States
+/// that a user wants come from `at_phase_zero` and `events`. Newton's method costs the linearised flow of every leg a
+/// step, a verification a new System and one cycle of a Motion.
+/// Source: docs/architecture.md, section 9; Leine and Nijmeijer (2004) for multipliers through events.
 #include <algorithm>
 #include <complex>
 #include <functional>
@@ -26,14 +32,14 @@ struct Energy {
   [[nodiscard]] double balance() const;
 };
 
-/// How near a cycle comes to changing its events: the least value that a guard of one kind and contact takes along it, where it is not a zero
-/// that belongs to an event; and at its reversals the force that keeps it from sticking.
+/// How near a cycle comes to changing its events: the least value that a guard of one kind and contact takes along it,
+/// where it is not a zero that belongs to an event; and at its reversals the force that keeps it from sticking.
 struct Margin {
   mode::GuardKind kind = mode::GuardKind::gap;
   int contact = 0;
   double value = 0.0;
-  bool reversal =
-      false;  ///< by how much the holding force exceeds static friction where the contact's slip changes its sense without stick
+  /// by how much the holding force exceeds static friction where the contact's slip changes its sense without stick
+  bool reversal = false;
 };
 
 /// No multiplier is 1.
@@ -43,24 +49,35 @@ struct Margin {
 
 struct Solution {
   Orbit orbit;
-  /// Of the return map at fixed time, largest modulus first; those of directions that stick or a closed stop annihilates are exactly zero. The
-  /// multiplier 1 of each rigid translation, and without forcing the one of the motion along itself, are left out.
+  /// Of the return map at fixed time, largest modulus first; those of directions that stick or a closed stop
+  /// annihilates are exactly zero. The multiplier 1 of each rigid translation, and without forcing the one of the
+  /// motion along itself, are left out.
   std::vector<std::complex<double>> multipliers;
   std::string label;     ///< "1-1-II"; without forcing "free-1-II"
   long impacts = 0;      ///< per cycle; meaningless with complete chatter
   bool chatter = false;  ///< complete
   bool sticking = false;
+  int sticks = 0;             ///< how often a friction contact comes to stick in a cycle
+  int reversals = 0;          ///< .. or goes on slipping in the other sense
+  int chatters = 0;           ///< complete ones
   double cycle = 0.0;         ///< period of the orbit, time units
   bool is_motion = false;     ///< the certified simulator does the same
   std::string why;            ///< .. or does not
   std::vector<double> drift;  ///< along rigid translations, by coordinate, per cycle; empty without such
 
-  /// False for one of a family at the same parameters, as of a mass that sticks anywhere in an interval.
-  [[nodiscard]] bool isolated() const { return orbit::isolated(multipliers); }
-  [[nodiscard]] bool stable() const { return multipliers.empty() || std::abs(multipliers.front()) < 1.0; }
+  /// Of how many dimensions is the continuum of orbits at the same parameters that this is a member of? 0: it is
+  /// isolated. A mass that sticks anywhere in an interval is one of a family of one dimension, with a multiplier 1 that
+  /// leads along it (src/orbit/continuum.hpp).
+  int family = 0;
+
+  [[nodiscard]] bool isolated() const { return family == 0; }
+  /// All multipliers are inside the unit circle, but for those that lead along the family: a motion beside it settles
+  /// on a member.
+  [[nodiscard]] bool stable() const;
 };
 
-/// What an orbit that solves its equations is. With a System of its own parameters it is verified; null: is_motion is left false.
+/// What an orbit that solves its equations is. With a System of its own parameters it is verified; null: is_motion is
+/// left false.
 [[nodiscard]] Solution describe(const Problem& problem, Orbit orbit, const System* system);
 
 /// Newton's method at fixed parameters from an approximate orbit; the sequence of events is the guess's.
@@ -78,39 +95,23 @@ struct EventOfOrbit {
   mode::ContactStates after;
 };
 
-/// The orbit's state at the first instant of phase 0 (without forcing: just after event 0), user's coordinates: what a simulation starts from. Of an
-/// unstable orbit its rounding grows by the multipliers.
-[[nodiscard]] State at_phase_zero(const Problem& problem, const Orbit& orbit);
+/// The orbit's state at the first instant of phase 0 (without forcing: just after event 0), user's coordinates: what a
+/// simulation starts from. Of an unstable orbit its rounding grows by the multipliers.
+/// @param period  0 .. n - 1: at that phase 0 after the first
+[[nodiscard]] State at_phase_zero(const Problem& problem, const Orbit& orbit, int period = 0);
 
 /// In order, from the end of the first leg on; none for an orbit without events.
 [[nodiscard]] std::vector<EventOfOrbit> events(const Problem& problem, const Orbit& orbit);
 
+/// The least and the largest value over a cycle, exact to rounding.
+struct Range {
+  double least = 0.0, most = 0.0;
+};
+/// Of the displacements x_1 .. x_n and then of the velocities v_1 .. v_n of the model's coordinates, both sides of
+/// every impact included. A displacement that drifts counts from where the cycle begins.
+[[nodiscard]] std::vector<Range> ranges(const Problem& problem, const Orbit& orbit);
+
 [[nodiscard]] Energy energy(const Problem& problem, const Orbit& orbit);
 [[nodiscard]] std::vector<Margin> margins(const Problem& problem, const Orbit& orbit);
-
-struct SearchOptions {
-  int most_n = 1;                  ///< forcing periods per cycle, all up to this; ignored without forcing
-  std::optional<int> only_n = {};  ///< .. or this only
-  int starts = 64;                 ///< motions that are looked through for near returns
-  int periods = 200;               ///< length of each
-  std::uint32_t seed = 1;
-  double spread = 1.0;  ///< starts are this many times the size of the first motion around it
-  const std::atomic<bool>* stop = nullptr;
-  std::function<void(int starts)> progress = {};
-  std::function<bool(const Solution&)> enough = {};  ///< ends the search with the first orbit for which it is true
-};
-
-/// Looks for orbits: from motions that start at `state` and around it, every near return is refined. No proof of completeness.
-/// @returns distinct orbits that are motions, by n and impacts
-[[nodiscard]] std::vector<Solution> search(const Problem& problem, const System& system, const State& state,
-                                           const SearchOptions& options);
-
-/// The orbit that the motion from `state` settles on after so many periods, if Newton's method from there finds one.
-/// @param n  forcing periods per cycle; 0: the least up to 64 for which the motion nearly returns
-[[nodiscard]] std::optional<Solution> settle(const Problem& problem, const System& system, const State& state,
-                                             long transient, int n, const std::atomic<bool>* stop = nullptr);
-/// The same from where a motion of the problem's own parameters stands.
-[[nodiscard]] std::optional<Solution> settle(const Problem& problem, Motion motion, long transient, int n,
-                                             const std::atomic<bool>* stop = nullptr);
 
 }  // namespace slapstick::orbit

@@ -1,16 +1,19 @@
 #pragma once
-/// The impact section: the sequence of impacts of a motion, each seen just before it happens. It may be that of some stops only, and a
-/// compliant stop takes part by its engagements (section/stop_choice.hpp): "impact" stands for both here.
+/// The impact section: the sequence of impacts of a motion, each seen just before it happens. It may be that of some
+/// stops only, and a compliant stop takes part by its engagements (section/stop_choice.hpp): "impact" stands for both
+/// here.
 ///
-/// This is the paper's Poincare section (eq. 8): y = b, w > 0. Between two of its points lie a *flight* and, in it, the time in
-/// which the friction contact slips (the paper's t_f is called "sliding time" in its text and is plotted as the flight).
+/// This is the paper's Poincare section (eq. 8): y = b, w > 0. Between two of its points lie a *flight* and, in it, the
+/// time in which the friction contact slips (the paper's t_f is called "sliding time" in its text and is plotted as the
+/// flight).
 ///
 ///     |<------------- flight ------------->|
-///     impact   slip-   stick   slip+   impact          time is measured in forcing periods (units of 1 without forcing)
+///     impact   slip-   stick   slip+   impact          time in forcing periods (units of 1 without forcing)
 ///              |-----|         |------|    sliding = sum of the two
 ///
-/// The limit of a complete chatter counts as the end of its last flight: the impact after a chatter has a flight that begins there.
-/// Events of stops that were not chosen end no flight.
+/// The limit of a complete chatter counts as the end of its last flight: the impact after a chatter has a flight that
+/// begins there. Events of stops that were not chosen end no flight.
+/// Shapes, threads and cost are those of the Motion that a section carries.
 #include <functional>
 #include <limits>
 
@@ -21,9 +24,11 @@ namespace slapstick {
 struct SectionPoint {
   Instant time;
   double w = 0.0;  ///< v_a - v_b of the stop's pair just before the impact, > 0, in the model's unit of velocity
-  /// Time since the impact (or chatter limit) before, in forcing periods; NaN if the motion has had none since its start.
+  /// Time since the impact (or chatter limit) before, in forcing periods; NaN if the motion has had none since its
+  /// start.
   double flight = std::numeric_limits<double>::quiet_NaN();
-  /// The part of `flight` in which a friction contact slips, in forcing periods; 0 without friction contacts, NaN where flight is.
+  /// The part of `flight` in which a friction contact slips, in forcing periods; 0 without friction contacts, NaN where
+  /// flight is.
   double sliding = std::numeric_limits<double>::quiet_NaN();
   double phase = 0.0;  ///< of the forcing, as a fraction of a period in [0, 1)
   int contact = 0;     ///< the stop that is hit: System::contact_name
@@ -35,7 +40,8 @@ struct Between {
   long sticks = 0, reversals = 0, releases = 0, grazes = 0, chatters = 0;
 };
 
-/// Walks a Motion from impact to impact. A copy is an independent motion that goes on from the same instant with the same bits.
+/// Walks a Motion from impact to impact. A copy is an independent motion that goes on from the same instant with the
+/// same bits.
 class ImpactSection {
  public:
   /// Takes the motion over; its System must outlive the section.

@@ -1,7 +1,9 @@
 #pragma once
 /// A trajectory as people plot it: samples at equidistant times, and the events between them.
 ///
-/// Samples are read from the segments between events, so they disturb nothing: the events are the same bits with any number of samples.
+/// Samples are read from the segments between events, so they disturb nothing: the events are the same bits with any
+/// number of samples.
+/// Shapes and threads are those of the Motion; a sample costs one evaluation of the state.
 #include "slapstick/flow/motion.hpp"
 
 namespace slapstick {
@@ -16,15 +18,18 @@ class SampledMotion {
     State state;      ///< user's coordinates; just before an event that falls on this very instant
   };
 
-  /// Takes the motion over; its System must outlive this object. The first sample is at the first multiple of a period /
-  /// `samples_per_period` that is neither before the motion's instant nor before `from`. 0 samples: events only.
+  /// Takes the motion over; its System must outlive this object. The first sample is at the first multiple of a
+  /// period / `samples_per_period` that is neither before the motion's instant nor before `from`. 0 samples: events
+  /// only.
   SampledMotion(Motion motion, int samples_per_period, Instant from = {});
 
-  /// What comes next up to `end`, in order of time; a sample comes before an event of the same instant. No allocation after the first.
+  /// What comes next up to `end`, in order of time; a sample comes before an event of the same instant. No allocation
+  /// after the first.
   /// @throws NumericalError as Motion::advance; the samples since the last event are then lost
   Item next(Instant end);
 
-  /// The motion: after Item::event it stands at the event, after Item::end at `end`; after Item::sample it may be ahead.
+  /// The motion: after Item::event it stands at the event, after Item::end at `end`; after Item::sample it may be
+  /// ahead.
   [[nodiscard]] const Motion& motion() const { return motion_; }
   [[nodiscard]] const Sample& sample() const { return sample_; }  ///< after Item::sample
 

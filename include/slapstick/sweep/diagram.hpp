@@ -1,15 +1,17 @@
 #pragma once
-/// Bifurcation diagrams: the impacts of the attractor at every value of a parameter, on all cores, with the same bits on any number.
+/// Bifurcation diagrams: the impacts of the attractor at every value of a parameter, on all cores, with the same bits
+/// on any number.
 ///
 /// At each value the motion runs through a transient and then its next impacts are recorded.
 ///
 ///   reset  every value begins at the problem's own start: all values are independent tasks;
-///   carry  a value begins where the transient of the value before ended, going up or down through the values, so that the sweep
-///          stays on one attractor as long as it exists. A direction is one chain: only its transients are sequential,
-///          the recording after each transient is a task of its own.
+///   carry  a value begins where the transient of the value before ended, going up or down through the values, so that
+///          the sweep stays on one attractor as long as it exists. A direction is one chain: only its transients are
+///          sequential, the recording after each transient is a task of its own.
 ///
 /// Up and down together show coexisting attractors: where they differ, there are two. A row depends on its own start
-/// only and is stored by index; nothing depends on the order in which threads finish.
+/// only and is stored by index; nothing depends on the order in which threads finish. Source: the seed paper's section
+/// (eq. 8).
 #include <atomic>
 #include <functional>
 #include <span>
@@ -88,7 +90,8 @@ struct Diagram {
 /// Value i of a sweep: from + i (to - from) / (count - 1), with the last one exactly `to`.
 [[nodiscard]] double sweep_value(double from, double to, int count, int i);
 
-/// Runs the sweep. A failure at one value is noted there and never ends the sweep; a chain goes on from the last state it has.
+/// Runs the sweep. A failure at one value is noted there and never ends the sweep; a chain goes on from the last state
+/// it has.
 /// @throws InputError for a meaningless problem (count, from, to, ...), naming the field; what `progress` throws
 /// Cost: the periods of transient and recording, at about a microsecond each, over the threads. With `carry` the
 /// transients of a direction take their own time in sequence whatever the number of threads.

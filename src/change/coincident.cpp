@@ -1,0 +1,285 @@
+/// Other event sequences of which an orbit at a change is an orbit too: what has vanished is left out, or an impact put in.
+#include "change/coincident.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "orbit/leg_flow.hpp"
+#include "slapstick/base/error.hpp"
+
+namespace slapstick::orbit {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double vanishing = 1e-2;   ///< of a leg's length, or an impact's speed, at the point before: it vanishes
+constexpr double no_gap = 1e-9;    ///< of the largest margin of a gap at the point before
+constexpr double no_speed = 1e-4;  ///< of the largest speed at the point before: so much is left by rounding
+
+/// The cycle of one leg without its event, from phase 0.
+Orbit uncut(const ModeSet& set, const Orbit& orbit) {
+  Orbit plain = orbit;
+  plain.x = {contact_state(set, state_within(set, orbit, 0, std::ceil(orbit.t[0]) - orbit.t[0]))};
+  plain.shape.legs.resize(1);
+  plain.shape.legs[0].ending = Ending::cut;
+  plain.shape.legs[0].strikes.clear();
+  plain.t = {0.0, static_cast<double>(orbit.shape.n)};
+  return plain;
+}
+
+template <class List>
+void cut(List& list, std::ptrdiff_t from, std::ptrdiff_t count) {
+  list.erase(list.begin() + from, list.begin() + from + count);
+}
+
+/// Leaves out so many legs from one on, and as many events and states from the first leg's end on.
+void leave_out(Orbit& orbit, std::ptrdiff_t leg, std::ptrdiff_t count) {
+  cut(orbit.shape.legs, leg, count);
+  cut(orbit.x, 1, count);
+  cut(orbit.t, 1, count);
+}
+
+/// Does a leg shrink to nothing from one orbit to the next?
+bool vanishes(const Orbit& before, const Orbit& orbit, std::size_t leg) {
+  return orbit.duration(leg) < vanishing * before.duration(leg);
+}
+
+/// The largest relative velocity of a friction contact within a leg.
+double fastest(const ModeSet& set, const Orbit& orbit, std::size_t leg, std::size_t contact) {
+  constexpr int samples = 8;
+  const Eigen::Index velocity = set.frame().d + set.frame().frictions[contact].own;
+  double most = 0.0;
+  for (int k = 1; k < samples; ++k)
+    most = std::max(most, std::abs(state_within(set, orbit, leg, orbit.duration(leg) * k / samples)[velocity]));
+  return most;
+}
+
+/// Do contacts that stick in another leg slip in this one from one orbit to the next no more, however long it is? An impact has set them off, and what is
+/// left of their motion dies away.
+bool comes_to_rest(const ModeSet& set, const Orbit& before, const Orbit& orbit, std::size_t leg, std::size_t other) {
+  bool slips = false;
+  for (std::size_t i = 0; i < set.frame().frictions.size(); ++i) {
+    if (orbit.shape.legs[other].states.frictions[i] != mode::FrictionState::stick ||
+        orbit.shape.legs[leg].states.frictions[i] == mode::FrictionState::stick)
+      continue;
+    if (!(fastest(set, orbit, leg, i) < vanishing * fastest(set, before, leg, i))) return false;
+    slips = true;
+  }
+  return slips;
+}
+
+/// An impact whose speed goes to zero is no more: its leg and the next are one, or a velocity of the same pair passes zero there instead.
+std::vector<Orbit> without_impact(const ModeSet& set, const Orbit& before, const Orbit& orbit, const TestValue& test) {
+  std::vector<Orbit> shapes;
+  if (test.test != Test::speed || test.kind != mode::GuardKind::gap) return shapes;
+  if (orbit.legs() == 1) return {uncut(set, orbit)};
+  Orbit turned = orbit;
+  rotate(turned, test.leg);                 // the impact ends the first leg
+  const auto gone = [&](std::size_t leg) {  // what follows an impact of no speed is no more either
+    return vanishes(before, orbit, leg) || comes_to_rest(set, before, orbit, leg, test.leg);
+  };
+  std::size_t next = test.leg + 1;
+  for (; turned.legs() > 2 && gone(next % orbit.legs()); ++next) leave_out(turned, 1, 1);
+  if (turned.legs() == 2 && gone(next % orbit.legs())) return {uncut(set, turned)};
+  const mode::Frame& frame = set.frame();
+  for (std::size_t i = 0; i < frame.frictions.size(); ++i) {
+    if (frame.parallel(frame.frictions[i].own, frame.stops[test.contact].own) == 0) continue;
+    Orbit reversed = turned;
+    Leg& leg = reversed.shape.legs[0];
+    leg.kind = mode::GuardKind::slip;
+    leg.contact = static_cast<int>(i);
+    leg.strikes.clear();
+    const auto behind = reversed.shape.legs[1].states.frictions[i];
+    leg.event = behind == mode::FrictionState::slip_plus ? EventKind::slip_plus
+                : behind == mode::FrictionState::stick   ? EventKind::stick
+                                                         : EventKind::slip_minus;
+    leg.event_contact = static_cast<int>(frame.stops.size() + i);
+    shapes.push_back(std::move(reversed));
+  }
+  if (turned.shape.legs[0].states == turned.shape.legs[1].states) {
+    leave_out(turned, 0, 1);
+    shapes.push_back(std::move(turned));
+  }
+  return shapes;
+}
+
+/// An orbit, and which of its legs have shrunk to nothing.
+struct Shrunk {
+  Orbit orbit;
+  std::vector<bool> gone;
+
+  void begin_with(std::size_t leg) {
+    rotate(orbit, leg);
+    std::rotate(gone.begin(), gone.begin() + static_cast<std::ptrdiff_t>(leg), gone.end());
+  }
+  /// How many there are next to each other behind the first leg.
+  [[nodiscard]] std::size_t run() const {
+    return static_cast<std::size_t>(std::find(gone.begin() + 1, gone.end(), false) - gone.begin()) - 1;
+  }
+  void leave_out(std::ptrdiff_t leg, std::ptrdiff_t count) {
+    orbit::leave_out(orbit, leg, count);
+    cut(gone, 1, count);
+  }
+};
+
+/// One event in place of the two, the ends of the first leg and of the last of those behind it that are gone. @returns false if none is known
+bool unite(Shrunk& turned, bool impacts_stay) {
+  Leg& first = turned.orbit.shape.legs[0];
+  Leg& last = turned.orbit.shape.legs[turned.run()];
+  const auto count = static_cast<std::ptrdiff_t>(turned.run());
+  const bool first_strikes = impacts_stay && !first.strikes.empty(),
+             last_strikes = impacts_stay && !last.strikes.empty();
+  if (first_strikes && last_strikes) return false;
+  if (first_strikes) {  // an impact takes over the other event
+    turned.leave_out(1, count);
+    return true;
+  }
+  const bool stops = first.kind == mode::GuardKind::slip && last.kind == first.kind && last.contact == first.contact;
+  const std::size_t next = (turned.run() + 1) % turned.orbit.legs();
+  if (!last_strikes && first.states == turned.orbit.shape.legs[next].states) {  // neither
+    turned.leave_out(0, count + 1);
+    return true;
+  }
+  if (!last_strikes && !stops) return false;
+  last.states = first.states;
+  turned.leave_out(0, count);
+  return true;
+}
+
+/// Legs that have shrunk to nothing. Between two of one mode: those are one leg. Between two stops of one velocity: the second is the first's. Between
+/// another event and an impact, of which a speed is left: the impact is all.
+std::vector<Orbit> merged(const ModeSet& set, const Orbit& before, const Orbit& orbit, bool impacts_stay) {
+  Shrunk all{orbit, {}};
+  for (std::size_t i = 0; i < orbit.legs(); ++i) all.gone.push_back(vanishes(before, orbit, i));
+  std::vector<Orbit> shapes;  // one place after another; in symmetric orbits legs vanish in several together
+  for (std::size_t i = 0; i < all.orbit.legs(); ++i) {
+    Shrunk turned = all;
+    turned.begin_with(i);
+    if (turned.run() == 0) continue;
+    if (turned.run() + 1 == turned.orbit.legs())
+      return orbit.shape.n > 0 ? std::vector{uncut(set, turned.orbit)} : std::vector<Orbit>{};
+    if (!unite(turned, impacts_stay)) continue;
+    shapes.insert(shapes.begin(), turned.orbit);
+    all = std::move(turned);
+    i = static_cast<std::size_t>(-1);
+  }
+  return shapes;
+}
+
+/// A gap that touches zero within a leg: an impact of no speed is put there, and the cycle begins with it.
+std::vector<Orbit> with_impact(const ModeSet& set, const Orbit& orbit, const TestValue& test) {
+  if (test.test != Test::guard || test.kind != mode::GuardKind::gap) return {};
+  Orbit split = orbit;
+  const Leg& old = orbit.shape.legs[test.leg];
+  const double at = orbit.t[test.leg] + test.at;
+  VectorXd x = contact_state(set, state_within(set, orbit, test.leg, test.at));
+  if (const int own = set.frame().stops[test.contact].own; own < set.frame().n) x[own] = 0.0;
+  Leg impact = old;
+  impact.ending = Ending::guard;
+  impact.kind = mode::GuardKind::gap;
+  impact.contact = impact.event_contact = test.contact;
+  impact.event = EventKind::impact;
+  impact.strikes = {{1U << test.contact, false}};
+  if (old.ending == Ending::cut) {  // one leg, from the impact to the impact
+    split.shape.legs = {impact};
+    split.x = {x};
+    split.t = {at, at + orbit.shape.n};
+    return {split};
+  }
+  const auto place = static_cast<std::ptrdiff_t>(test.leg);
+  split.shape.legs.insert(split.shape.legs.begin() + place, impact);
+  split.x.insert(split.x.begin() + place + 1, x);
+  split.t.insert(split.t.begin() + place + 1, at);
+  return {split};
+}
+
+bool impact_speed(const TestValue& test) { return test.test == Test::speed && test.kind == mode::GuardKind::gap; }
+bool gap(const TestValue& test) { return test.test == Test::guard && test.kind == mode::GuardKind::gap; }
+
+double largest(const std::vector<TestValue>& tests, bool (*of)(const TestValue&)) {
+  double all = 0.0;
+  for (const TestValue& test : tests)
+    if (of(test) && std::isfinite(test.value)) all = std::max(all, std::abs(test.value));
+  return all;
+}
+
+/// How many impacts lose their speed from one orbit to the next?
+int lost_impacts(const std::vector<TestValue>& was, const std::vector<TestValue>& is) {
+  int count = 0;
+  for (std::size_t i = 0; i < std::min(was.size(), is.size()); ++i)
+    if (impact_speed(is[i]) && is[i].value < vanishing * was[i].value) ++count;
+  return count;
+}
+
+/// None for a shape whose modes do not have the guards that end its legs.
+std::vector<TestValue> values_if_any(const ModeSet& set, const Orbit& orbit) {
+  try {
+    return test_values(set, orbit);
+  } catch (const NumericalError&) {
+    return {};
+  }
+}
+
+/// Where several impacts lose their speed together, as in symmetric orbits: without the others too.
+Orbit without_all(const ModeSet& set, double largest_speed, Orbit orbit) {
+  for (std::size_t most = orbit.legs(); most > 0; --most) {
+    const std::vector<TestValue> tests = values_if_any(set, orbit);
+    const auto next = std::ranges::find_if(tests, [&](const TestValue& test) {
+      return impact_speed(test) && std::abs(test.value) < no_speed * largest_speed;
+    });
+    if (next == tests.end()) break;
+    std::vector<Orbit> fewer = without_impact(set, orbit, orbit, *next);
+    if (fewer.empty()) break;
+    orbit = std::move(fewer.front());
+  }
+  return orbit;
+}
+
+/// Is it the gap of a stop that is struck where it is least?
+bool is_struck_there(const Orbit& orbit, const TestValue& test) {
+  const double beside = 1e-4 * (orbit.t.back() - orbit.t.front());
+  const auto strikes = [&](const Leg& leg) {
+    return leg.ending == Ending::guard && leg.kind == test.kind && leg.contact == test.contact;
+  };
+  const Leg& before = orbit.shape.legs[(test.leg + orbit.legs() - 1) % orbit.legs()];
+  return (test.at < beside && strikes(before)) ||
+         (orbit.duration(test.leg) - test.at < beside && strikes(orbit.shape.legs[test.leg]));
+}
+
+/// Where several gaps touch zero together: with an impact in each of the others too.
+Orbit with_all(const ModeSet& set, double largest_gap, Orbit orbit) {
+  constexpr int most = 16;
+  for (int k = 0; k < most; ++k) {
+    const std::vector<TestValue> tests = values_if_any(set, orbit);
+    const auto next = std::ranges::find_if(tests, [&](const TestValue& test) {
+      return gap(test) && std::abs(test.value) < no_gap * largest_gap && !is_struck_there(orbit, test);
+    });
+    if (next == tests.end()) break;
+    orbit = std::move(with_impact(set, orbit, *next).front());
+  }
+  return orbit;
+}
+
+}  // namespace
+
+std::vector<Orbit> coincident(const Problem& problem, const Orbit& before, const Orbit& orbit, const TestValue& test) {
+  const ModeSet set(problem.family(), orbit.values);
+  const std::vector<TestValue> was = test_values(ModeSet(problem.family(), before.values), before);
+  std::vector<Orbit> shapes;
+  const auto add = [&](const Orbit& all, const Orbit& one) {
+    if (!(all.shape.legs == one.shape.legs)) shapes.push_back(all);
+    shapes.push_back(one);
+  };
+  const int lost = lost_impacts(was, test_values(set, orbit));
+  const bool several = lost > 1;
+  for (const Orbit& fewer : without_impact(set, before, orbit, test))
+    add(several ? without_all(set, largest(was, impact_speed), fewer) : fewer, fewer);
+  for (const Orbit& more : with_impact(set, orbit, test)) add(with_all(set, largest(was, gap), more), more);
+  std::ranges::copy(merged(set, before, orbit, !impact_speed(test)), std::back_inserter(shapes));
+  if (lost > 0 && !impact_speed(test))  // another margin is used up with their speed
+    std::ranges::copy(merged(set, before, orbit, false), std::back_inserter(shapes));
+  return shapes;
+}
+
+}  // namespace slapstick::orbit

@@ -1,0 +1,99 @@
+/// The end of a cascade from its last grazes, by the law of the stop that chatters.
+#include "change/onset.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "change/cascade_law.hpp"
+
+namespace slapstick::orbit {
+
+SpecialPoint onset(const OnsetInterval& between, const Solution& nearest) {
+  SpecialPoint special;
+  special.type = SpecialType::CH;
+  special.value = 0.5 * (between.from + between.to);
+  special.error = std::abs(between.to - between.from);
+  special.solution = nearest;
+  special.occurrence = between.release ? Occurrence::release : Occurrence::onset;
+  return special;
+}
+
+namespace {
+
+constexpr std::size_t most_used =
+    8;  ///< grazes of a cascade: with more rates taken out their own errors grow beyond what is gained
+
+bool has_friction(const Model& model, const mode::Frame& frame, int stop) {
+  for (std::size_t i = 0; i < frame.frictions.size(); ++i)
+    if (model.frictions[i].static_friction > 0.0 && frame.parallel(frame.frictions[i].own, frame.stops[stop].own) != 0)
+      return true;
+  return false;
+}
+
+/// The law of the stop's cascade (change/cascade_law.hpp).
+std::optional<PlaceLimit> limit_at_stop(const Problem& problem, const SpecialPoint& nearest, int stop,
+                                        const std::vector<double>& places, const std::vector<double>& errors) {
+  const Model model = problem.family().model(nearest.solution.orbit.values);
+  const double r = model.stops[stop].restitution;
+  if (!(r > 0.0 && r < 1.0)) return std::nullopt;
+  if (has_friction(model, mode::Frame(model), stop)) return limit_with_friction(places);
+  return limit_by_rates(places, errors, cascade_rates(r, most_used));
+}
+
+/// From the nearest grazes of one stop, in which each adds an impact to the next one's; between equal stops one at each. Empty if they are no cascade: if the
+/// limit is not beyond the last graze, or known no better than that graze's distance from it.
+std::optional<CascadeLimit> limit_of(const Problem& problem, const std::vector<Solution>& points,
+                                     const std::vector<const SpecialPoint*>& grazes) {
+  constexpr std::size_t fewest = 4;  // three and one more, from which the error is known
+  if (grazes.size() < fewest) return std::nullopt;
+  const auto impacts = [&](std::size_t i) { return points[grazes[i]->after].impacts; };
+  const long added = impacts(0) - impacts(1);
+  std::vector<double> places, errors;
+  for (std::size_t i = 0; i < grazes.size() && (i == 0 || impacts(i - 1) - impacts(i) == added); ++i) {
+    places.push_back(grazes[i]->value);
+    errors.push_back(grazes[i]->error);
+  }
+  const UsedMargin& margin = grazes[0]->margin;
+  if (added < 1 || places.size() < fewest || margin.guard != mode::GuardKind::gap) return std::nullopt;
+  const auto limit = limit_at_stop(problem, *grazes[0], margin.contact, places, errors);
+  if (!limit) return std::nullopt;
+  const double last = places[0] - places[1], left = limit->value - places[0];
+  if (!(last * left > 0.0 && limit->error < std::abs(left))) return std::nullopt;
+  return CascadeLimit{limit->value, limit->error, last / (places[1] - places[2]), std::abs(limit->value - places[1])};
+}
+
+/// The first grazes of a range of special points.
+template <class Iterator>
+std::vector<const SpecialPoint*> grazes_of(Iterator point, Iterator end) {
+  std::vector<const SpecialPoint*> grazes;
+  for (; point != end && grazes.size() < most_used; ++point)
+    if (point->type == SpecialType::GR) grazes.push_back(&*point);
+  return grazes;
+}
+
+}  // namespace
+
+std::optional<CascadeLimit> cascade_limit(const Problem& problem, const std::vector<Solution>& points,
+                                          const std::vector<SpecialPoint>& special) {
+  return limit_of(problem, points, grazes_of(special.rbegin(), special.rend()));
+}
+
+void sharpen_onsets(const Problem& problem, const std::vector<Solution>& points, std::vector<SpecialPoint>& special) {
+  for (auto onset = special.begin(); onset != special.end(); ++onset) {
+    if (onset->type != SpecialType::CH) continue;
+    const auto limit = limit_of(problem, points, grazes_of(onset, special.end()));
+    if (!limit || limit->error >= onset->error || std::abs(limit->value - onset->value) > 10.0 * onset->error) continue;
+    onset->value = limit->value;
+    onset->error = limit->error;
+  }
+}
+
+bool chatter_lengthens(const std::vector<Solution>& points) {
+  constexpr double much = 1.2;
+  std::size_t first = points.size();
+  while (first > 0 && points[first - 1].chatter) --first;
+  if (first == points.size()) return false;
+  return static_cast<double>(points.back().orbit.legs()) >= much * static_cast<double>(points[first].orbit.legs());
+}
+
+}  // namespace slapstick::orbit

@@ -1,0 +1,98 @@
+/// What lies behind a change of events, from the orbits that are found there and the motions that are run there.
+#include "change/unfold.hpp"
+
+#include <algorithm>
+
+#include "change/jump.hpp"
+#include "orbit/cyclic.hpp"
+#include "orbit/extent.hpp"
+#include "orbit/record.hpp"
+#include "orbit/same_motion.hpp"
+
+namespace slapstick::orbit {
+namespace {
+
+/// Two orbits whose chatters differ only in impacts of the size of rounding are the same orbit: the one from which the branch comes.
+bool is_chatter_as_it_came(const Problem& problem, const Orbit& before, const HalfBranch& next) {
+  constexpr double same = 1e-6;  // of a leg's state
+  if (!next.folds || chatters(before) == 0 || chatters(next.point.orbit) == 0) return false;
+  Orbit own = before;
+  own.values = next.point.orbit.values;
+  const std::optional<Orbit> there = refine(problem, own);
+  return there && resembles(problem, *there, next.point.orbit, same);
+}
+
+/// Of orbits whose events begin away from the change one that is led back to the change comes first. The others are not born there.
+void keep_born(const Change& change, const UnfoldOptions& options, std::vector<HalfBranch>& found) {
+  const auto error = [&](const HalfBranch& next) {
+    return change.special.error + next.error + exactly * options.range;
+  };
+  const auto apart = [&](const HalfBranch& next) {
+    return !next.onset && !next.renewed && next.apart > error(next);
+  };
+  std::stable_partition(found.begin(), found.end(), [&](const HalfBranch& next) { return !apart(next); });
+  std::size_t led = 0;
+  if (!found.empty() && options.lead_back && apart(found.front()))
+    for (std::size_t i = 0; i < found.size() && led == 0; ++i) {
+      const std::optional<bool> folds = options.lead_back(found[i], error(found[i]));
+      if (!folds) continue;
+      found[i].folds = *folds;
+      std::swap(found[0], found[i]);
+      led = 1;
+    }
+  const auto far = [&](const HalfBranch& next) {
+    return apart(next) && next.apart > same_change * options.range;
+  };
+  found.erase(std::remove_if(found.begin() + static_cast<std::ptrdiff_t>(led), found.end(), far), found.end());
+}
+
+/// No orbit begins there.
+void explain(const Problem& problem, const Orbit& before, const Change& change, double range, bool family,
+             Unfolding& found) {
+  if (found.jump && !family) {
+    found.passage = Passage::jump;
+  } else if (family || begins_family(problem, before, change.at, change.test)) {
+    found.passage = Passage::family;
+    found.jump.reset();
+  } else if (departs(problem, change.at, change.test, range)) {
+    found.passage = Passage::jump;
+    found.jump = Jump{Jump::Kind::departs, {}, 0};
+  }
+}
+
+}  // namespace
+
+Unfolding unfold(const Problem& problem, const Orbit& before, const Change& change, const UnfoldOptions& options) {
+  Unfolding found;
+  std::vector<HalfBranch>& branches = found.branches;
+  branches = reshape(problem, before, change.at, change.test, options.range, options.stop);
+  const auto of_family = [&](const HalfBranch& next) { return one_of_family(problem, next.point, options.range); };
+  bool family = std::erase_if(branches, of_family) > 0;
+  std::erase_if(branches, [&](const HalfBranch& next) { return is_chatter_as_it_came(problem, before, next); });
+  keep_born(change, options, branches);
+  if (branches.empty() && !family && options.simulate) {
+    MotionBeyond motion = run_beyond(problem, change.at, options.range, options.stop);
+    found.jump = std::move(motion.jump);
+    family = motion.family || (motion.next && of_family(*motion.next));
+    if (motion.next && !family) branches.push_back(std::move(*motion.next));
+  }
+  if (branches.empty()) {
+    explain(problem, before, change, options.range, family, found);
+    return found;
+  }
+  constexpr double rounding = 1e-6;
+  const auto repeated = [&](const HalfBranch& next) {
+    return becomes_shorter(problem, before, next.point.orbit, rounding);
+  };
+  if (std::erase_if(branches, repeated) > 0) {
+    found.passage = Passage::merges;
+    return found;
+  }
+  const HalfBranch& next = branches.front();
+  found.passage = next.folds                                  ? Passage::fold
+                  : same_cycle(before, next.point.orbit)      ? Passage::same_events
+                                                              : Passage::persistence;
+  return found;
+}
+
+}  // namespace slapstick::orbit

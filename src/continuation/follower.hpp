@@ -1,0 +1,105 @@
+#pragma once
+/// What follows a branch, point by point. Steps and what is looked for between points: branch.cpp; changes of events: follower_changes.cpp;
+/// onsets of chatter: follower_onsets.cpp.
+#include "change/dying.hpp"
+#include "change/onset.hpp"
+#include "orbit/path.hpp"
+#include "orbit/record.hpp"
+#include "change/unfold.hpp"
+#include "continuation/special.hpp"
+#include "slapstick/continuation/branch.hpp"
+
+namespace slapstick::orbit {
+
+/// Follows one direction from a point.
+class Follower {
+ public:
+  Follower(const Problem& problem, const ContinuationOptions& options, Branch& branch)
+      : problem_(problem), options_(options), range_(options.to - options.from), branch_(branch) {}
+
+  void run(PathPoint at);
+
+ private:
+  static constexpr double structure = 1e-5;  ///< of the range: at its end the model may have another structure
+  [[nodiscard]] double value(const PathPoint& point) const { return point.orbit.values[0]; }
+  /// The onset of a chatter is not come nearer to than its equations, of ever more impacts, are solvable.
+  [[nodiscard]] double shortest_step() const {
+    return branch_.points.back().chatter ? std::max(1e-6, options_.shortest_step) : options_.shortest_step;
+  }
+  [[nodiscard]] bool inside(double v) const { return v >= options_.from && v <= options_.to; }
+  [[nodiscard]] Solution solution_of(const PathPoint& point, Verification* seen) const;
+  /// Is there a point before the last, with the events of this one?
+  [[nodiscard]] bool has_before(const PathPoint& at) const {
+    return before_ && before_->point.orbit.shape.legs == at.orbit.shape.legs;
+  }
+  bool accept(PathPoint& at, PathPoint next, double length);
+  [[nodiscard]] std::optional<Change> first_change(const PathPoint& at, const PathPoint& beyond, double length) const;
+  [[nodiscard]] bool at_end(double place, double error, const PathPoint& at) const;
+  bool look_nearer(PathPoint& at, double length, const std::string& why);
+  bool change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why);
+  /// A special point on the way: the onset of a chatter, or a change of events.
+  struct Place {
+    double value = 0.0, error = 0.0;
+    bool onset = false;
+  };
+  /// @param way  set to the way from the first orbit behind the change back to it, if other changes lie between
+  [[nodiscard]] Unfolding look_beyond(const PathPoint& at, const Change& change, std::optional<Branch>& way) const;
+  [[nodiscard]] std::optional<bool> lead_back(const Change& change, const HalfBranch& found, double error,
+                                              std::optional<Branch>& way) const;
+  [[nodiscard]] bool leads_back(const Unfolding& beyond) const;
+  bool pass(PathPoint& at, Change change);
+  bool end_at(const PathPoint& at, SpecialPoint special);
+  void name_by_both_sides(const PathPoint& at, const Change& change, const Orbit& behind, SpecialPoint& special) const;
+  void go_on(PathPoint& at, SpecialPoint special, HalfBranch next, std::optional<Branch> between);
+  bool leave_chatter(PathPoint& at);
+  bool leave_clear_of_onset(PathPoint& at);
+  [[nodiscard]] std::optional<CascadeLimit> cascade_ends(const PathPoint& at) const;
+  bool end_cascade(PathPoint& at);
+  bool end_cascade_with(PathPoint& at, SpecialPoint last);
+  bool turn_round(PathPoint& at);
+  bool clear_onset(PathPoint& at);
+  bool die_out(PathPoint& at, const std::optional<Death>& death);
+  bool leave_edge(PathPoint& at);
+  bool leave(PathPoint& at);
+  void add_here(SpecialPoint special);
+  struct Way {
+    Branch branch;
+    std::optional<SpecialPoint> place;  ///< as it was come to
+  };
+  [[nodiscard]] std::optional<Way> way_back(const PathPoint& from, const Place& place) const;
+  void add_between(Branch way);
+  void arrive(SpecialPoint special);
+  void set_out(PathPoint& at, PathPoint from);
+  bool enter_cascade(PathPoint& at, SpecialPoint special, const PathPoint& from);
+  void restart(PathPoint& at, PathPoint from);
+  void look_for_pairs(const PathPoint& at, const PathPoint& next, double length);
+  void add(std::vector<SpecialPoint> smooth, std::size_t after);
+  bool end_at_boundary(PathPoint& at);
+  bool runs_over_itself();
+  bool grows_without_bound(const PathPoint& at);
+  void end(BranchEnd::Kind why);
+  void fail(BranchEnd end);
+
+  const Problem& problem_;
+  const ContinuationOptions& options_;
+  double range_;
+  Branch& branch_;
+  struct Before {
+    PathPoint point;
+    double length;  ///< from there to the next one
+  };
+  std::optional<Before> before_;
+  /// The first point behind the onset of a chatter, in the other direction, and what the branch had then.
+  struct Onset {
+    PathPoint other_way;
+    std::size_t points, special;
+    int chatters;  ///< of its orbit
+  };
+  std::optional<Onset> onset_;
+  double step_ = 0.0;
+  int old_points_ = 0;            ///< latest points that lie on the branch as it was followed before
+  std::optional<Place> back_to_;  ///< followed as far as there only
+  bool ended_ = false;
+};
+
+}  // namespace slapstick::orbit

@@ -1,0 +1,314 @@
+/// Changes of events on a branch: where they are, what is behind them, and how the branch goes on or ends there.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "change/jump.hpp"
+#include "change/change_kind.hpp"
+#include "orbit/cyclic.hpp"
+#include "orbit/extent.hpp"
+#include "continuation/follower.hpp"
+#include "continuation/hidden.hpp"
+#include "continuation/lies_on.hpp"
+#include "change/onset.hpp"
+#include "orbit/record.hpp"
+#include "orbit/same_motion.hpp"
+#include "continuation/special.hpp"
+#include "slapstick/base/error.hpp"
+
+namespace slapstick::orbit {
+namespace {
+
+/// Has it a leg so short that what happens there is rounding? Those of a chatter's burst are always there.
+bool is_all_but_gone(const Orbit& orbit) {
+  constexpr double nothing = 1e-7;
+  for (std::size_t leg = 0; leg < orbit.legs(); ++leg)
+    if (!in_burst(orbit, leg) && orbit.duration(leg) < nothing * (orbit.t.back() - orbit.t.front())) return true;
+  return false;
+}
+
+/// Does the parameter turn back there?
+bool turns(const SpecialPoint& special) {
+  return special.type == SpecialType::LP || special.passage == Passage::fold;
+}
+
+/// Is there a model at a value of the parameter?
+bool is_model(const Problem& problem, std::vector<double> values, double value) {
+  values[0] = value;
+  try {
+    static_cast<void>(problem.family().model(values));
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+/// The first change. A point that is all but singular leads nowhere: the one before it may.
+std::optional<Change> Follower::first_change(const PathPoint& at, const PathPoint& beyond, double length) const {
+  std::optional<Change> change = find_change(problem_, at, beyond, length, range_);
+  if (change || !has_before(at)) return change;
+  const double both = arclength(problem_, before_->point, beyond.orbit);
+  change = find_change(problem_, before_->point, beyond, both, range_);
+  if (change) change->length = arclength(problem_, at, change->at.orbit);
+  return change;
+}
+
+/// No change is found where there must be one: by a shorter step, or another way on. @returns false if the branch ends
+bool Follower::look_nearer(PathPoint& at, double length, const std::string& why) {
+  if (length > shortest_step()) {
+    step_ = 0.25 * length;
+    return true;
+  }
+  if (leave(at)) return !ended_;
+  if (at_end(value(at), structure * range_, at)) {
+    end(BranchEnd::Kind::range);
+    return false;
+  }
+  fail({.kind = BranchEnd::Kind::no_change, .value = value(at), .detail = why});
+  return false;
+}
+
+/// Is a place at the end of the range that the branch goes to, as far as it is known? What is beyond is not asked for, and may not exist, as a
+/// negative damper.
+bool Follower::at_end(double place, double error, const PathPoint& at) const {
+  const double left = at.watched.turn > 0.0 ? options_.to - place : place - options_.from;
+  return left <= exactly * range_ + error;
+}
+
+/// Between `at` and `beyond` the motion's events change. Notes the point and goes on with new ones. @returns false if the branch ends
+bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why) {
+  std::optional<Change> change = first_change(at, beyond, length);
+  if (!change || fades(at.orbit, change->test.leg)) return look_nearer(at, length, why);
+  sharpen_death(problem_, branch_.points, has_before(at) ? before_->point : at, range_, *change);
+  SpecialPoint& special = change->special;
+  if (at_end(special.value, special.error, at)) {
+    end(BranchEnd::Kind::range);
+    return false;
+  }
+  const bool arrived = back_to_ && !back_to_->onset && std::abs(special.value - back_to_->value) <= back_to_->error;
+  if (!arrived && is_all_but_gone(at.orbit) && die_out(at, dies_out(branch_.points))) return !ended_;
+  std::optional<PathPoint> behind_others;  // where a fold, say, lies before the change
+  if (change->length > 0.0) {
+    std::vector<SpecialPoint> smooth = beside_change(problem_, at, change->length, range_);
+    if (!smooth.empty()) {
+      const double last = arclength(problem_, at, smooth.back().solution.orbit);
+      behind_others = step_to(problem_, at, 0.5 * (last + change->length), range_);
+    }
+    add(std::move(smooth), branch_.points.size() - 1);
+  }
+  if (ended_) return false;
+  special.after = branch_.points.size() - 1;
+  if (arrived) {
+    arrive(std::move(special));
+    return false;
+  }
+  // At a touch multipliers are infinite, or 0 / 0: those of the point before say more.
+  special.solution.multipliers =
+      behind_others ? behind_others->watched.multipliers : branch_.points.back().multipliers;
+  if (!options_.through_changes) {
+    special.passage = Passage::not_followed;
+    return end_at(at, std::move(special));
+  }
+  return pass(at, std::move(*change));
+}
+
+/// What lies behind a change.
+Unfolding Follower::look_beyond(const PathPoint& at, const Change& change, std::optional<Branch>& way) const {
+  UnfoldOptions how{.range = range_, .stop = options_.stop};
+  how.simulate = branch_.points.back().stable() && !cascade_ends(at);
+  if (!back_to_)
+    how.lead_back = [&](const HalfBranch& found, double error) { return lead_back(change, found, error, way); };
+  return unfold(problem_, at.orbit, change, how);
+}
+
+/// Where the events of an orbit behind a change begin elsewhere, others lie between: it is followed back to the change.
+/// @returns whether its branch begins in the sense of the parameter from which the old one came; empty if it does not come to the change
+std::optional<bool> Follower::lead_back(const Change& change, const HalfBranch& found, double error,
+                                        std::optional<Branch>& way) const {
+  std::optional<Way> back = way_back(reversed(found.point), {change.special.value, error, false});
+  if (!back) return std::nullopt;
+  way = std::move(back->branch);
+  const bool turned = std::ranges::count_if(way->special, turns) % 2 != 0;
+  const double away = found.point.watched.turn;
+  return (turned ? -away : away) * change.at.watched.turn < 0.0;
+}
+
+/// Does a change lead to where the branch has been? Near its end a cascade, whose folds and grazes are all but one, seems to: it turns back into itself or
+/// goes on with an earlier orbit.
+bool Follower::leads_back(const Unfolding& beyond) const {
+  return !beyond.branches.empty() && cascade_limit(problem_, branch_.points, branch_.special) &&
+         lies_on(problem_, branch_, beyond.branches.front().point.orbit);
+}
+
+/// The type and the kind of sliding by the events on both sides of a change.
+void Follower::name_by_both_sides(const PathPoint& at, const Change& change, const Orbit& behind,
+                                  SpecialPoint& special) const {
+  const ChangeOfEvents seen = compare_events(special.solution.orbit, behind);
+  special.type = seen.type;
+  special.sliding = seen.type != SpecialType::SL                ? Sliding::unchanged
+                    : seen.sliding != Sliding::unchanged ? seen.sliding
+                                                                : kind_of_sliding(change.test, at.orbit.shape);
+}
+
+/// Goes on behind a change. @returns false if the branch ends
+bool Follower::pass(PathPoint& at, Change change) {
+  SpecialPoint& special = change.special;
+  std::optional<Branch> way;
+  Unfolding beyond = look_beyond(at, change, way);
+  special.passage = beyond.passage;
+  special.jump = std::move(beyond.jump);
+  if (leads_back(beyond) && end_cascade(at)) return !ended_;
+  if (beyond.branches.empty()) {
+    const bool family = beyond.passage == Passage::family;
+    if (!family && end_cascade_with(at, special)) return !ended_;
+    if (family && change.nearby) {
+      change.nearby->multipliers = special.solution.multipliers;
+      special.solution = std::move(*change.nearby);
+      special.beside = true;
+    }
+    return end_at(at, std::move(special));
+  }
+  const bool merges = beyond.passage == Passage::merges;
+  for (std::size_t i = merges ? 0 : 1; i < beyond.branches.size(); ++i)
+    special.born.push_back(beyond.branches[i].point.orbit);
+  if (merges) return end_at(at, std::move(special));
+  HalfBranch& next = beyond.branches.front();
+  if (beyond.passage == Passage::same_events) {  // the motion beyond says that nothing changes
+    restart(at, std::move(next.point));
+    return !ended_;
+  }
+  if (lies_on_first(problem_, branch_.points.size(), branch_, next.point.orbit)) {
+    special.passage = Passage::retraced;
+    return end_at(at, std::move(special));
+  }
+  if (next.onset && next.folds && turn_round(at)) return true;  // back to the chatter that it has just left
+  if (!next.renewed && !next.onset && special.type != SpecialType::GR)
+    name_by_both_sides(at, change, way ? way->points.back().orbit : next.point.orbit, special);
+  go_on(at, std::move(special), std::move(next), std::move(way));
+  return true;
+}
+
+/// The branch ends where its events change: its passage says why. @returns false
+bool Follower::end_at(const PathPoint& at, SpecialPoint special) {
+  if (special.passage == Passage::unknown && at_end(special.value, structure * range_, at)) {
+    end(BranchEnd::Kind::range);
+    return false;
+  }
+  branch_.up.failed = special.passage == Passage::unknown;
+  branch_.special.push_back(std::move(special));
+  end(BranchEnd::Kind::special);
+  return false;
+}
+
+/// Where legs shrink to nothing together and steps lead no further: the place, by extrapolation, and what the motion does beyond.
+/// @returns false if none shrinks
+bool Follower::die_out(PathPoint& at, const std::optional<Death>& death) {
+  if (!options_.through_changes) return false;
+  if (!death || !is_model(problem_, at.orbit.values, death->value)) return false;
+  if (at_end(death->value, death->error, at)) {
+    end(BranchEnd::Kind::range);
+    return true;
+  }
+  SpecialPoint special;
+  special.solution = branch_.points.back();
+  special.type = special.solution.sticking ? SpecialType::SL : SpecialType::CO;
+  special.value = death->value;
+  special.error = death->error;
+  special.after = branch_.points.size() - 1;
+  special.beside = true;
+  special.occurrence = Occurrence::death;
+  special.margin = {.kind = UsedMargin::Kind::duration, .leg = death->leg};
+  const auto& tests = at.watched.tests;
+  const auto length = [&](const TestValue& test) { return test.test == Test::duration && test.leg == death->leg; };
+  special.test = static_cast<std::size_t>(std::ranges::find_if(tests, length) - tests.begin());
+  PathPoint there = at;
+  there.orbit.values[0] = death->value;
+  std::vector<HalfBranch> left = leavings(problem_, death->longest, there, tests[special.test], range_);
+  std::erase_if(left, [&](const HalfBranch& next) { return one_of_family(problem_, next.point, range_); });
+  if (!left.empty()) {
+    const ChangeOfEvents seen = compare_events(special.solution.orbit, left.front().point.orbit);
+    special.type = seen.type;
+    go_on(at, std::move(special), std::move(left.front()), std::nullopt);
+    return true;
+  }
+  MotionBeyond beyond;
+  if (special.solution.stable()) beyond = run_beyond(problem_, there, range_, options_.stop);
+  if (beyond.next && !one_of_family(problem_, beyond.next->point, range_)) {
+    special.passage = Passage::persistence;
+    branch_.special.push_back(std::move(special));
+    restart(at, std::move(beyond.next->point));
+  } else {
+    special.passage = beyond.family ? Passage::family : beyond.jump ? Passage::jump : Passage::unknown;
+    if (special.passage == Passage::jump) special.jump = std::move(beyond.jump);
+    end_at(at, std::move(special));
+  }
+  return true;
+}
+
+/// From a first point at which the model itself has another structure than beside it, as with a damper of exactly zero: the orbit beside it.
+bool Follower::leave_edge(PathPoint& at) {
+  if (branch_.points.size() > 1 || !branch_.points.front().stable()) return false;
+  MotionBeyond beyond = run_beyond(problem_, at, range_, options_.stop);
+  if (!beyond.next || one_of_family(problem_, beyond.next->point, range_)) return false;
+  restart(at, std::move(beyond.next->point));
+  return true;
+}
+
+/// Where no step leads on and no change is found: an end that is known, or a way on. @returns false if there is none
+bool Follower::leave(PathPoint& at) {
+  return leave_edge(at) || leave_chatter(at) || turn_round(at) || clear_onset(at) || end_cascade(at) ||
+         die_out(at, dies_out(problem_, branch_.points, at, range_));
+}
+
+/// Goes on from an orbit that the branch has.
+void Follower::set_out(PathPoint& at, PathPoint from) {
+  at = std::move(from);
+  before_.reset();
+  step_ = std::min(step_, options_.step);
+}
+
+/// Goes on from another orbit, if that is not outside the range.
+void Follower::restart(PathPoint& at, PathPoint from) {
+  if (!inside(value(from))) return end(BranchEnd::Kind::range);
+  at = std::move(from);
+  branch_.points.push_back(solution_of(at, nullptr));
+  step_ = options_.step;
+}
+
+/// The branch goes on behind a change, with new events.
+/// @param between  followed back from there to the change, if other changes lie between
+void Follower::go_on(PathPoint& at, SpecialPoint special, HalfBranch next, std::optional<Branch> between) {
+  special.passage = next.folds ? Passage::fold : Passage::persistence;
+  Solution first = solution_of(next.point, nullptr);
+  const bool begins = chatters(next.point.orbit) > chatters(special.solution.orbit);
+  if (next.onset && next.onset->release && begins) {
+    special.type = SpecialType::CH;
+    special.chatter_begins = true;
+    branch_.special.push_back(std::move(special));
+  } else if (next.onset) {
+    SpecialPoint here = onset(*next.onset, special.solution);
+    here.passage = std::exchange(special.passage, Passage::cascade);
+    if (begins) branch_.special.push_back(special);
+    if (begins && back_to_ && back_to_->onset) return arrive(std::move(here));
+    if (!begins && !next.onset->release && (enter_cascade(at, here, next.point) || leave_clear_of_onset(at))) return;
+    add_here(std::move(here));
+    if (!begins) branch_.special.push_back(std::move(special));
+  } else if (!next.renewed) {
+    branch_.special.push_back(std::move(special));
+    if (between) {
+      add_between(std::move(*between));
+      return set_out(at, std::move(next.point));
+    }
+    if (next.length > 0.0)
+      add(beside_change(problem_, reversed(next.point), next.length, range_), branch_.points.size() - 1);
+    if (ended_) return;
+  }
+  if (!inside(value(next.point))) return end(BranchEnd::Kind::range);
+  at = std::move(next.point);
+  branch_.points.push_back(std::move(first));
+  step_ = std::min(step_, options_.step);
+}
+
+}  // namespace slapstick::orbit

@@ -1,0 +1,68 @@
+#pragma once
+/// What a System shares: contact coordinates, the modes with their operators, the impact law's vectors. Const but for
+/// the table of modes.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "flow/mode_table.hpp"
+#include "slapstick/flow/system.hpp"
+
+namespace slapstick::flow {
+
+/// See System for what it means, costs and throws.
+class CompiledSystem {
+ public:
+  CompiledSystem(Model model, SystemOptions options);
+
+  [[nodiscard]] const Model& model() const { return model_; }
+  [[nodiscard]] const mode::Frame& frame() const { return frame_; }
+  [[nodiscard]] double period() const { return period_; }
+  [[nodiscard]] double windows_per_period() const { return windows_per_period_; }
+
+  [[nodiscard]] ModeId mode_count() const { return mode_count_; }
+  /// Safe to call from several threads. @throws InputError about time scales
+  [[nodiscard]] const mode::Mode& mode(ModeId id) const {
+    const mode::Mode* known = modes_->find(id);
+    return known != nullptr ? *known : modes_->get(id, [this](ModeId wanted) { return build(wanted); });
+  }
+  /// The mode if it has been built, else null; and its system and guards alone, which are cheaper.
+  [[nodiscard]] const mode::Mode* known_mode(ModeId id) const { return modes_->find(id); }
+  [[nodiscard]] std::shared_ptr<const mode::Outline> outline(ModeId id) const;
+  [[nodiscard]] ModeId mode_id(const mode::ContactStates& states) const;
+  [[nodiscard]] mode::ContactStates states(ModeId id) const;
+  [[nodiscard]] std::string mode_name(ModeId id) const;
+
+  /// Change of u per unit change of the normal velocity of a stop: M^{-1} g^T / (g M^{-1} g^T), g the stop's row.
+  [[nodiscard]] const mode::Vector& impulse(int stop) const { return impulses_[stop]; }
+
+  /// Acceleration of a stop's pair towards the stop without any contact force, g . free: a row over X.
+  [[nodiscard]] const mode::RowVector& press(int stop) const { return presses_[stop]; }
+
+  /// What a unit friction force of a contact adds to that acceleration, g M^{-1} f^T, and whether both act on one pair
+  /// at rest to each other (rows equal or opposite, no belt).
+  struct Coupling {
+    double effect = 0.0;
+    bool same_pair = false;
+  };
+  [[nodiscard]] const Coupling& coupling(int stop, int friction) const {
+    return couplings_[static_cast<std::size_t>(stop) * frame_.frictions.size() + static_cast<std::size_t>(friction)];
+  }
+
+  [[nodiscard]] std::string contact_name(int contact) const;
+
+ private:
+  [[nodiscard]] mode::Mode build(ModeId id) const;
+
+  Model model_;
+  mode::Frame frame_;
+  SystemOptions options_;
+  double period_, windows_per_period_ = 0.0;
+  ModeId mode_count_ = 1;
+  std::unique_ptr<ModeTable> modes_;
+  std::vector<mode::Vector> impulses_;
+  std::vector<mode::RowVector> presses_;
+  std::vector<Coupling> couplings_;
+};
+
+}  // namespace slapstick::flow

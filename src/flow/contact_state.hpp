@@ -1,0 +1,19 @@
+#pragma once
+/// States of motions in contact coordinates (mode/frame.hpp), as vectors, and the eigenvalues of maps of them.
+#include <Eigen/Core>
+#include <complex>
+#include <vector>
+
+#include "slapstick/flow/motion.hpp"
+
+namespace slapstick::flow {
+
+/// The first n of p and the first n of u of a motion's extended state.
+[[nodiscard]] Eigen::VectorXd contact_state(const Motion& motion);
+/// The user's state of a contact state.
+[[nodiscard]] State user_state(const System& system, const Eigen::VectorXd& contact);
+
+/// Eigenvalues of a Jacobian of contact states, largest modulus first.
+[[nodiscard]] std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& jacobian);
+
+}  // namespace slapstick::flow

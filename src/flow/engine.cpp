@@ -1,0 +1,105 @@
+/// A Motion's start, its advance from event to event, and how it gives up.
+#include "flow/engine.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "base/floating_point.hpp"
+#include "flow/mode_graph.hpp"
+#include "slapstick/base/error.hpp"
+
+namespace slapstick::flow {
+
+Engine::Engine(const CompiledSystem& system, const State& state, Instant start, MotionOptions options)
+    : Flight(system, start), options_(options), X_before_(X_) {
+  const IeeeArithmetic ieee;
+  validate(system.model(), state);
+  const mode::Frame& frame = system.frame();
+  const int guards = 1 + stops() + 2 * frictions() + 2 * compliants();
+  touching_.reserve(stops());
+  pending_.reserve(64 + 4 * guards);
+  hits_.reserve(guards);
+  strikes_.reserve(64);
+  scratch_.assign(4 * X_.span().size(), 0.0);
+  tail_orders_.assign(guards, 0);
+  before_.assign(2 * static_cast<std::size_t>(frame.n), 0.0);
+  budget_period_ = now_.period;
+
+  frame.enter(state.data(), X_.data());
+  frame.set_phase(now_.fraction, X_.data());
+  X_before_ = X_;
+  keep_segment_start();
+  this->start();
+  shown_ = -1;
+}
+
+/// A start in contact and approaching is an impact, the first event of the motion.
+void Engine::start() {
+  const int stop = approaching();
+  if (stop < 0) return choose_mode();
+  mode_ = approaching_mode(*system_, X_.data());
+  here_ = &system_->mode(mode_);
+  begin_segment();
+  const auto& guards = here_->guards();
+  for (std::size_t g = 0; g < guards.size(); ++g) {
+    if (guards[g].kind != mode::GuardKind::gap || gap(*system_, guards[g].contact, X_.data()) != 0.0) continue;
+    if (approach_velocity(*system_, guards[g].contact, X_.data()) <= 0.0) continue;
+    hits_.push_back(static_cast<int>(g));
+  }
+  X_before_ = X_;
+  strike_all();
+  settle(Cause::impact);
+}
+
+void Engine::begin_segment() {
+  Flight::begin_segment();
+  hits_.clear();
+  strikes_.clear();
+}
+
+std::span<const double> Engine::before() const {
+  const IeeeArithmetic ieee;
+  system_->frame().leave(X_before_.data(), before_.data());
+  return before_;
+}
+
+void Engine::fail(const std::string& what) const {
+  std::string message = what + " at t = " + std::to_string(now_.seconds(system_->period())) + " (period " +
+                        std::to_string(now_.period) + "), mode " + system_->mode_name(mode_) + ", state";
+  State here(before_.size());
+  state(here);
+  const auto names = state_names(system_->model());
+  char text[64];
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    std::snprintf(text, sizeof text, " %s=%.17g", names[i].c_str(), here[i]);
+    message += text;
+  }
+  std::snprintf(text, sizeof text, " phase=%.17g", now_.fraction);
+  throw NumericalError(message + text);
+}
+
+/// A chatter's limit lies within the first window of the flight after its impact: where the flight's start has moved,
+/// none is due.
+Outcome Engine::advance(Instant end) {
+  if (shown_ + 1 < static_cast<int>(pending_.size())) {
+    ++shown_;
+    return Outcome::event;
+  }
+  if (end <= now_) return Outcome::reached_end;
+  const IeeeArithmetic ieee;
+  const double limit = end.since(place_.start) * system_->period();
+  if (!pending_.empty()) last_ = pending_[shown_];
+  pending_.clear();
+  shown_ = 0;
+  if (chatter_stop_ >= 0 && !place_.moved && end_chatter(limit)) return Outcome::event;
+  begin_segment();
+  if (const auto found = fly(end)) {
+    handle(found->guard, found->kind == event::RootKind::graze);
+    return Outcome::event;
+  }
+  now_ = end;
+  system_->frame().set_phase(now_.fraction, X_.data());
+  return Outcome::reached_end;
+}
+
+}  // namespace slapstick::flow

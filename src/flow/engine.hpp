@@ -1,0 +1,83 @@
+#pragma once
+/// What a Motion does: flights, and what happens at their ends (ties, impacts, rest, chatter, the next mode). See
+/// slapstick/flow/motion.hpp.
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "flow/flight.hpp"
+
+namespace slapstick::flow {
+
+class Engine : public Flight {
+ public:
+  Engine(const CompiledSystem& system, const State& state, Instant start, MotionOptions options);
+
+  Outcome advance(Instant end);
+
+  [[nodiscard]] const Event& event() const { return pending_.empty() ? last_ : pending_[shown_]; }
+  [[nodiscard]] std::span<const double> before() const;
+  /// The extended state just before the last event.
+  [[nodiscard]] std::span<const double> extended_before() const { return X_before_.span(); }
+
+  /// The guard whose zero ended the last segment; null if the segment ended without one (cut, chatter limit).
+  [[nodiscard]] const mode::Guard* hit_guard() const {
+    return hits_.empty() ? nullptr : &system_->mode(segment_mode_).guards()[hits_.front()];
+  }
+  /// The same and those that were zero at that instant too, as indices of that mode's guards.
+  [[nodiscard]] std::span<const int> hits() const { return hits_; }
+  [[nodiscard]] std::span<const Motion::Strike> strikes() const { return strikes_; }
+
+ private:
+  enum class Cause { impact, graze, reversal, force, compliant };
+
+  void start();
+  void begin_segment();
+  void handle(int guard, bool graze);
+  void rest(const mode::ContactRow& contact);
+  void land(const mode::ContactRow& contact);
+  void let_off(int compliant);
+  void gather_ties(int guard);
+  [[nodiscard]] bool of_one_pair(const mode::Guard& a, const mode::Guard& b) const;
+  [[nodiscard]] bool tail_is_quiet(int stop, double duration);
+  [[nodiscard]] std::span<const int> touching();
+  [[nodiscard]] int approaching() const;
+  void newton(int stop);
+  void moreau(std::span<const int> stops);
+  void strike_all();
+  void end_pile_up();
+  void reconcile_contacts();
+  void compliant_limit(int compliant, mode::GuardKind kind);
+  void report_others(const mode::ContactStates& old);
+  [[nodiscard]] int stop_touched_at_rest(int friction) const;
+  void force_limit(int guard, int contact, bool graze);
+  void touch(int stop, bool graze);
+  bool end_chatter(double limit);
+  void choose_mode();
+  void settle(Cause cause);
+  void report_settled(Cause cause, const mode::ContactStates& old);
+  void report(EventKind kind, int contact, double w);
+  [[noreturn]] void fail(const std::string& what) const;
+  [[noreturn]] void fail_pile_up() const;
+  [[nodiscard]] int stops() const { return static_cast<int>(system_->model().stops.size()); }
+  [[nodiscard]] int frictions() const { return static_cast<int>(system_->model().frictions.size()); }
+  [[nodiscard]] int compliants() const { return static_cast<int>(system_->model().compliant_stops.size()); }
+
+  MotionOptions options_;
+  int chatter_stop_ = -1;  ///< the stop just hit, whose chatter may be complete
+  Extended X_before_;
+  std::vector<double> scratch_;   ///< of the proof of a chatter
+  std::vector<int> tail_orders_;  ///< of the guards' zeros at the start of a chatter's tail
+  mutable State before_;
+  std::vector<Event> pending_;  ///< the events of one instant, in order ..
+  int shown_ = 0;               ///< .. and which one `event()` is
+  Event last_;
+  std::vector<int> touching_;
+  std::vector<int> hits_;
+  std::vector<Motion::Strike> strikes_;
+  std::int64_t budget_period_ = 0;
+  long budget_events_ = 0;
+};
+
+}  // namespace slapstick::flow

@@ -1,0 +1,318 @@
+/// What happens at an event: ties, rest, next mode, complete chatter; impacts are in motion_impacts.cpp. See
+/// flow/motion.hpp for the order of things.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "flow/chatter.hpp"
+#include "flow/impact_law.hpp"
+#include "flow/mode_graph.hpp"
+#include "flow/engine.hpp"
+
+namespace slapstick::flow {
+
+using mode::FrictionState;
+using mode::GuardKind;
+using mode::StopState;
+
+namespace {
+
+constexpr long most_events_at_one_instant = 20'000;
+
+}  // namespace
+
+void Engine::handle(int guard, bool graze) {
+  const mode::Guard& hit = here_->guards()[guard];
+  hits_.push_back(guard);
+  const mode::Frame& frame = system_->frame();
+  if (hit.kind == GuardKind::gap) land(frame.stops[hit.contact]);  // so that x- can be started from
+  X_before_ = X_;
+  gather_ties(guard);
+  switch (hit.kind) {
+    case GuardKind::gap:
+      return touch(hit.contact, graze);
+    case GuardKind::slip:
+      if (const int stop = stop_touched_at_rest(hit.contact); stop >= 0) return touch(stop, true);
+      rest(frame.frictions[hit.contact]);
+      return settle(Cause::reversal);
+    case GuardKind::stick_above:
+    case GuardKind::stick_below:
+      return force_limit(guard, stops() + hit.contact, graze);
+    case GuardKind::press:
+      return force_limit(guard, hit.contact, graze);
+    case GuardKind::engage:
+    case GuardKind::leave:
+    case GuardKind::let_go:
+    case GuardKind::push:
+      return compliant_limit(hit.contact, hit.kind);
+  }
+}
+
+bool Engine::of_one_pair(const mode::Guard& a, const mode::Guard& b) const {
+  const auto coupled = [&](const mode::Guard& gap, const mode::Guard& slip) {
+    return gap.kind == GuardKind::gap && slip.kind == GuardKind::slip &&
+           system_->coupling(gap.contact, slip.contact).same_pair;
+  };
+  return coupled(a, b) || coupled(b, a);
+}
+
+/// Other gaps and relative velocities that are zero at this instant, as far as rounding can tell, are made exactly
+/// zero: symmetric machines have their events in pairs.
+void Engine::gather_ties(int guard) {
+  const auto& guards = here_->guards();
+  const mode::Frame& frame = system_->frame();
+  for (int g = 0; g < static_cast<int>(guards.size()); ++g) {
+    const int contact = guards[g].contact;
+    if (g == guard || of_one_pair(guards[g], guards[guard])) continue;  // of one pair: see stop_touched_at_rest
+    if (!within_noise(g, arrived_x_)) continue;
+    if (guards[g].kind == GuardKind::gap)
+      land(frame.stops[contact]);
+    else if (guards[g].kind == GuardKind::slip)
+      rest(frame.frictions[contact]);
+    else
+      land(frame.compliant[contact]);
+    hits_.push_back(g);
+  }
+}
+
+/// A holding force has reached its limit: release. A force that only touches its limit holds on (|f0| <= f_s is stick):
+/// the guard has a double zero here, and the mode goes on unless its next derivative says otherwise.
+void Engine::force_limit(int guard, int contact, bool graze) {
+  report(graze ? EventKind::graze : EventKind::release, contact, 0.0);
+  note_magnitude(X_);
+  const mode::Mode& mode = *here_;
+  const int touched = graze ? start_order(mode, guard, X_.data(), magnitude_.data(), 2) : negative;
+  if (touched == negative) return settle(Cause::force);
+  for (int g = 0; g < mode.guard_count(); ++g) orders_[g] = start_order(mode, g, X_.data(), magnitude_.data());
+  orders_[guard] = touched;
+  chatter_stop_ = -1;
+  begin_flight();
+}
+
+/// The stop of a pair that comes to rest just where its gap vanishes, within the gap's rounding bound, or -1. The gap's
+/// minimum and the zero of its rate are one instant, whichever of the two searches ends an ulp earlier.
+int Engine::stop_touched_at_rest(int friction) const {
+  const mode::Mode& mode = *here_;
+  for (int g = 0; g < mode.guard_count(); ++g) {
+    const mode::Guard& guard = mode.guards()[g];
+    if (guard.kind != GuardKind::gap || !system_->coupling(guard.contact, friction).same_pair) continue;
+    if (gap(*system_, guard.contact, X_.data()) <= 0.0 || within_noise(g, arrived_x_)) return guard.contact;
+  }
+  return -1;
+}
+
+/// Sets the velocity of a contact, or the gap of a stop, to exactly zero in the stored state.
+void Engine::rest(const mode::ContactRow& contact) {
+  X_.data()[system_->frame().u(contact.own)] = 0.0;
+  system_->frame().match_velocities(contact.own, X_.data());
+}
+
+void Engine::land(const mode::ContactRow& contact) {
+  X_.data()[contact.own] = 0.0;
+  system_->frame().match_displacements(contact.own, X_.data());
+}
+
+/// The force of a compliant stop has reached zero: made exactly so by the speed of its pair, so that it is not let go
+/// twice. A damper so weak that this would be more than rounding is left as it is.
+void Engine::let_off(int compliant) {
+  constexpr double rounding = 0x1p-40;
+  const CompliantStop& stop = system_->model().compliant_stops[compliant];
+  const mode::ContactRow& row = system_->frame().compliant[compliant];
+  double& u = X_.data()[system_->frame().u(row.own)];
+  const double exact = -stop.stiffness / stop.damping * X_.data()[row.own];
+  if (!(std::abs(exact - u) <= rounding * std::abs(u))) return;
+  u = exact;
+  system_->frame().match_velocities(row.own, X_.data());
+}
+
+/// The gap has reached zero: an impact, or a graze without impulse.
+void Engine::touch(int stop, bool graze) {
+  const mode::ContactRow& contact = system_->frame().stops[stop];
+  land(contact);  // not yet, if a reversal has found it
+  if (graze || approach_velocity(*system_, stop, X_.data()) <= 0.0) {
+    rest(contact);
+    report(EventKind::graze, stop, 0.0);
+    return settle(Cause::graze);
+  }
+  strike_all();
+  settle(Cause::impact);
+}
+
+/// A compliant stop begins or ends to act: at its gap, or beyond it where its force has come to zero.
+void Engine::compliant_limit(int compliant, GuardKind kind) {
+  const bool at_gap = kind == GuardKind::engage || kind == GuardKind::leave;
+  const bool was_on = here_->states().compliant[compliant] == mode::CompliantState::on;
+  at_gap ? land(system_->frame().compliant[compliant]) : let_off(compliant);
+  const bool begins = kind == GuardKind::engage || kind == GuardKind::push;
+  const mode::ContactRow& row = system_->frame().compliant[compliant];
+  report(begins   ? EventKind::engage
+         : was_on ? EventKind::disengage
+                  : EventKind::separate,
+         stops() + frictions() + compliant, row.sign * X_.data()[system_->frame().u(row.own)]);
+  settle(Cause::compliant);
+}
+
+/// The mode that may start now, from which a new flight begins.
+void Engine::choose_mode() {
+  note_magnitude(X_);
+  const ModeId next = select_mode(*system_, X_.data(), magnitude_.data(), orders_);
+  if (next < 0) fail("no contact mode fits the state (a contact force is inconsistent)");
+  mode_ = next;
+  here_ = &system_->mode(mode_);
+  begin_flight();
+}
+
+/// The numbers of contacts that depend on each other are made to agree again. What that does to a gap by rounding is a
+/// contact, and perhaps an impact.
+void Engine::reconcile_contacts() {
+  if (system_->frame().d == system_->frame().n) return;
+  for (int round = 0; round < 8; ++round) {
+    system_->frame().refresh(X_.data());
+    for (int s = 0; s < stops(); ++s)
+      if (gap(*system_, s, X_.data()) < 0.0) land(system_->frame().stops[s]);
+    if (approaching() < 0) return;
+    strike_all();
+  }
+}
+
+/// Decides the next mode after an event and reports what follows from it at once.
+void Engine::settle(Cause cause) {
+  const mode::ContactStates& old = here_->states();
+  if (approaching() >= 0) strike_all();  // a tie
+  reconcile_contacts();
+  choose_mode();
+  if (cause != Cause::impact) chatter_stop_ = -1;
+  report_settled(cause, old);
+}
+
+/// What the new mode says about the event: reversal or stick of a friction contact, a stop that has closed at rest.
+void Engine::report_settled(Cause cause, const mode::ContactStates& old) {
+  const mode::ContactStates& now = here_->states();
+  const mode::Guard* hit = hit_guard();
+  bool stuck = false;
+  for (std::size_t i = 0; i < now.frictions.size(); ++i) {
+    const int contact = stops() + static_cast<int>(i);
+    const bool sticks = now.frictions[i] == FrictionState::stick;
+    const bool itself = hit != nullptr && hit->kind == GuardKind::slip && hit->contact == static_cast<int>(i);
+    if (sticks && old.frictions[i] != FrictionState::stick) {
+      report(EventKind::stick, contact, 0.0);
+      stuck = true;
+    } else if (!sticks && cause == Cause::reversal &&
+               (itself || (old.frictions[i] != now.frictions[i] && old.frictions[i] != FrictionState::stick))) {
+      report(now.frictions[i] == FrictionState::slip_plus ? EventKind::slip_plus : EventKind::slip_minus, contact, 0.0);
+    }
+  }
+  for (std::size_t i = 0; i < now.stops.size() && !stuck; ++i) {
+    if (now.stops[i] == StopState::closed && old.stops[i] == StopState::open)
+      report(EventKind::stick, static_cast<int>(i), 0.0);
+  }
+  report_others(old);
+}
+
+/// Releases of contacts other than the one whose event this is, on other pairs than its own: its change of force, or
+/// its impulse, has let them go.
+void Engine::report_others(const mode::ContactStates& old) {
+  const mode::Guard* hit = hit_guard();
+  if (hit == nullptr || old.stops.size() + old.frictions.size() < 3) return;
+  const mode::Frame& frame = system_->frame();
+  const mode::ContactStates& now = here_->states();
+  const auto of_event = [&](const mode::ContactRow& contact) {
+    const bool on_friction = of_friction(hit->kind);
+    const bool on_stop = hit->kind == GuardKind::gap || hit->kind == GuardKind::press;
+    if (!on_friction && !on_stop) return false;
+    const auto& own = on_friction ? frame.frictions[hit->contact] : frame.stops[hit->contact];
+    return frame.parallel(own.own, contact.own) != 0;
+  };
+  for (std::size_t i = 0; i < now.frictions.size(); ++i) {
+    const bool released = old.frictions[i] == FrictionState::stick && now.frictions[i] != FrictionState::stick;
+    if (released && !of_event(frame.frictions[i])) report(EventKind::release, stops() + static_cast<int>(i), 0.0);
+  }
+  for (std::size_t i = 0; i < now.stops.size(); ++i) {
+    const bool released = old.stops[i] == StopState::closed && now.stops[i] == StopState::open;
+    const bool struck = (at_instant_.struck >> i & 1U) != 0;  // its impact says it all
+    if (released && !struck && !of_event(frame.stops[i])) report(EventKind::release, static_cast<int>(i), 0.0);
+  }
+}
+
+/// Replaces a proven complete chatter, from the impact at which the flight began, by its limit if that is known sharply
+/// enough and comes within `limit` of the impact. A cut before the limit leaves the question to the next call.
+bool Engine::end_chatter(double limit) {
+  const int stop = chatter_stop_;
+  const ChatterLimit chatter = prove_chatter(*system_, *here_, stop, X_window_.data(),
+                                                         options_.chatter_tolerance * system_->period(), scratch_);
+  if (!chatter.proven || place_.windows > 0 || chatter.duration > 0.5 * here_->window()) {
+    chatter_stop_ = -1;
+    return false;
+  }
+  if (chatter.duration > limit) return false;
+  if (!tail_is_quiet(stop, chatter.duration)) {
+    chatter_stop_ = -1;
+    return false;
+  }
+
+  // The pair's momentum does not see the impacts: flow the closed stop from the velocity after a fully plastic impact.
+  const double begun = elapsed_;
+  const Instant impact = place_.start;
+  const mode::Frame& frame = system_->frame();
+  X_ = X_window_;
+  strike(*system_, stop, 0.0, X_.data());
+  choose_mode();
+  place_.start = impact;
+  const double H = here_->window();
+  look(begun / H);
+  frame.set_phase(now_.fraction, X_.data());
+  begin_segment();
+  arrive(chatter.duration / H);
+  X_before_ = X_;
+  report(EventKind::chatter, stop, 0.0);
+  pending_.back().error = chatter.error;
+  settle(Cause::force);
+  return true;
+}
+
+/// True if no other contact has its event between the last impact and the limit of a chatter, which is flown with the
+/// stop closed. Friction that the impacts shake is not asked: the proof of the chatter allows it any force.
+bool Engine::tail_is_quiet(int stop, double duration) {
+  X_next_ = X_window_;
+  strike(*system_, stop, 0.0, X_next_.data());
+  note_magnitude(X_next_);
+  std::vector<int>& orders = tail_orders_;
+  const ModeId id = select_mode(*system_, X_next_.data(), magnitude_.data(), orders);
+  bool quiet = id >= 0;
+  const mode::Mode& closed = quiet ? system_->mode(id) : *here_;
+  for (int g = 0; quiet && g < closed.guard_count(); ++g) {
+    const mode::Guard& guard = closed.guards()[g];
+    const bool shaken = of_friction(guard.kind) && system_->coupling(stop, guard.contact).effect != 0.0;
+    if (orders[g] == never || shaken) continue;
+    event::GuardWindow window;
+    closed.enclose(g, orders[g], X_next_.data(), magnitude_.data(), window.hull);
+    closed.taylor(g, orders[g], X_next_.data(), window.taylor);
+    const double x_end = duration / closed.window();
+    quiet = x_end < 1.0 && event::first_root(window, x_end, counters_.evaluations).kind == event::RootKind::none;
+  }
+  note_magnitude(X_window_);
+  return quiet;
+}
+
+void Engine::fail_pile_up() const {
+  for (const double x : X_.span()) {
+    if (!std::isfinite(x)) fail("the numbers overflow: a coordinate or velocity is not finite; scale the model");
+  }
+  fail("more than " + std::to_string(most_events_at_one_instant) + " events at one instant");
+}
+
+void Engine::report(EventKind kind, int contact, double w) {
+  pending_.push_back(Event{kind, contact, now_, w, 0.0});
+  ++counters_.events;
+  counters_.grazes += kind == EventKind::graze;
+  if (++at_instant_.events > most_events_at_one_instant) fail_pile_up();
+  if (now_.period != budget_period_) {
+    budget_period_ = now_.period;
+    budget_events_ = 0;
+  }
+  if (++budget_events_ > options_.most_events_per_period)
+    fail("event budget: more than " + std::to_string(options_.most_events_per_period) +
+         " events in one period; raise the budget or change the restitution");
+}
+
+}  // namespace slapstick::flow

@@ -1,0 +1,50 @@
+#pragma once
+/// Where a flight began, and its state there: what a doubtful touch, windows later, is judged from.
+///
+/// Every window's step rounds the state, by units of the largest numbers of the flight, also where they have become
+/// small. A guard that comes within that rounding of zero is looked at again with a state that was carried from the
+/// flight's origin with a 64-bit mantissa, so that touch, hit and miss do not depend on how many windows lie between.
+#include <vector>
+
+#include "mode/mode.hpp"
+
+namespace slapstick::flow {
+
+class FlightOrigin {
+ public:
+  explicit FlightOrigin(int size) : m_(size), X_((size + 7) / 8), largest_(X_) {}
+
+  /// A flight begins. Most end in their first window: only `pass` writes anything down.
+  void begin() {
+    windows_ = 0;
+    staleness_ = 0.0;
+  }
+  /// A window, or part of one, of this duration has been flown, between these states. When the count is high, it begins
+  /// anew.
+  void pass(double duration, const event::Lanes& from, const event::Lanes& to);
+  /// Carries the origin to now and writes its state into X, rounded once. Cost: some microseconds per period of the
+  /// fastest motion.
+  void carry(const mode::Mode& mode, double* X);
+
+  /// Does the state carry more than its own rounding ..
+  [[nodiscard]] bool stale() const { return staleness_ > 0.0; }
+  /// .. and can `carry` make it better?
+  [[nodiscard]] bool can_carry() const { return windows_ > 0; }
+  /// How much, in units of what one window's operators lose of `largest()`, the greatest |X| of the flight.
+  [[nodiscard]] double staleness() const { return staleness_; }
+  [[nodiscard]] const double* largest() const { return reinterpret_cast<const double*>(largest_.data()); }
+  /// The sum of those.
+  [[nodiscard]] double size() const { return size_; }
+
+ private:
+  static constexpr int most_windows = 4096;
+  static constexpr double carried = 0x1p-12;  ///< what 64 bits lose, in that unit
+
+  int m_;
+  event::Lanes X_, largest_;
+  double size_ = 0.0, staleness_ = 0.0;
+  long double elapsed_ = 0.0L;
+  int windows_ = 0;
+};
+
+}  // namespace slapstick::flow

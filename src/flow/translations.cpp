@@ -1,0 +1,110 @@
+/// Finds the rigid translations of a model, and takes them out of states and Jacobians.
+#include "flow/translations.hpp"
+
+#include <algorithm>
+
+#include "base/dense.hpp"
+#include "flow/compiled_system.hpp"
+#include "flow/contact_state.hpp"
+
+namespace slapstick::flow {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double dependent = 1e-12;
+
+/// Rows over the coordinates that a translation must not change: displacements of springs and stops, forces of the
+/// stiffness matrix.
+MatrixXd seen_displacements(const Model& model) {
+  const int n = model.size();
+  std::vector<Eigen::RowVectorXd> rows(1, Eigen::RowVectorXd::Zero(n));
+  const auto add = [&](int a, int b) {
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(n);
+    if (a != ground) row[a] += 1.0;
+    if (b != ground) row[b] -= 1.0;
+    rows.push_back(row);
+  };
+  for (const Spring& spring : model.springs) {
+    if (spring.stiffness != 0.0) add(spring.a, spring.b);
+  }
+  for (const slapstick::Stop& stop : model.stops) add(stop.a, stop.b);
+  for (const CompliantStop& stop : model.compliant_stops) add(stop.a, stop.b);
+  for (std::size_t i = 0; i < model.stiffness.size(); i += static_cast<std::size_t>(n)) {
+    const Eigen::Map<const Eigen::RowVectorXd> row(&model.stiffness[i], n);
+    if (const double largest = row.cwiseAbs().maxCoeff(); largest > 0.0) rows.push_back(row / largest);
+  }
+  MatrixXd all(static_cast<Index>(rows.size()), n);
+  for (Index i = 0; i < all.rows(); ++i) all.row(i) = rows[static_cast<std::size_t>(i)];
+  return all;
+}
+
+}  // namespace
+
+Translations::Translations(const System& system) : system_(system) {
+  const mode::Frame& frame = system.compiled().frame();
+  const dense::Kernel unseen = dense::kernel(seen_displacements(system.model()) * frame.W_inverse, dependent);
+  free_ = unseen.free;
+  directions_ = (unseen.basis.array().abs() > dependent).select(unseen.basis, 0.0);
+  for (Index i = 0; i < 2 * frame.n; ++i) {
+    if (std::ranges::find(free_, i) == free_.end()) kept_.push_back(i);
+  }
+}
+
+VectorXd Translations::take_out(VectorXd& x) const {
+  if (count() == 0) return {};
+  VectorXd amounts = x(free_);
+  x.head(directions_.rows()) -= directions_ * amounts;
+  return amounts;
+}
+
+VectorXd Translations::take_out(Motion& motion) const {
+  if (count() == 0) return {};
+  VectorXd x = contact_state(motion);
+  const VectorXd amounts = take_out(x);
+  motion = Motion(system_, user_state(system_, x), motion.time());
+  return amounts;
+}
+
+VectorXd Translations::take_out(TangentMotion& motion) const {
+  if (count() == 0) return {};
+  VectorXd x = contact_state(motion.motion());
+  const VectorXd amounts = take_out(x);
+  MatrixXd tangents = motion.tangents();
+  for (Index i = 0; i < tangents.cols(); ++i) {
+    VectorXd tangent = tangents.col(i);
+    take_out(tangent);
+    tangents.col(i) = tangent;
+  }
+  motion = TangentMotion(system_, user_state(system_, x), tangents, motion.motion().time());
+  return amounts;
+}
+
+State Translations::moved(State state, const VectorXd& amounts) const {
+  const std::vector<double> move = by_coordinate(amounts);
+  for (std::size_t i = 0; i < move.size(); ++i) state[2 * i] += move[i];
+  return state;
+}
+
+std::vector<double> Translations::by_coordinate(const VectorXd& amounts) const {
+  if (count() == 0) return {};
+  const VectorXd move = system_.compiled().frame().W_inverse * (directions_ * amounts);
+  return {move.begin(), move.end()};
+}
+
+MatrixXd Translations::quotient(const MatrixXd& jacobian) const {
+  if (count() == 0) return jacobian;
+  MatrixXd images = jacobian(Eigen::all, kept_);
+  images.topRows(directions_.rows()) -= directions_ * images(free_, Eigen::all);
+  return images(kept_, Eigen::all);
+}
+
+VectorXd Translations::representative(const VectorXd& numbers) const {
+  VectorXd x = VectorXd::Zero(2 * directions_.rows());
+  x(kept_) = numbers;
+  return x;
+}
+
+}  // namespace slapstick::flow

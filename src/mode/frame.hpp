@@ -1,0 +1,91 @@
+#pragma once
+/// Contact coordinates: the coordinates in which the flow works.
+///
+///     p = W q - shift,   u = p' - drift
+///
+/// The rows of W are the relative displacements x_a - x_b of the stops, compliant stops and friction contacts, completed by original
+/// coordinates, the last ones first. `shift` is the clearance on a stop's own row (so that the gap is -p) and `drift` the belt speed
+/// on a friction contact's own row, else 0. A gap and a relative velocity are then each one stored number, with a relative error
+/// of its own: exactly zero at contact, constant in stick. Contacts whose numbers are equal or opposite share one.
+///
+/// W has d >= n rows: a contact whose row depends on earlier ones (the second side of a two-sided stop, a loop of contacts) has a number of
+/// its own all the same. The first n rows are independent; the others follow from them, but for rounding (see `refresh`).
+///
+/// Extended state X in R^m, m = 2 d + 2 h + 1, h = number of distinct harmonics of the forcing:
+///     X = (p_1..p_d, u_1..u_d, cos j_1 theta, sin j_1 theta, .., 1),   theta = omega t.
+/// In every mode X' = A X.
+#include <Eigen/Core>
+#include <vector>
+
+#include "slapstick/model/model.hpp"
+
+namespace slapstick::mode {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+using RowVector = Eigen::RowVectorXd;
+
+/// A stop or friction contact seen in contact coordinates: its displacement is sign * p_own (a stop's: less the clearance), its velocity
+/// sign * u_own (a friction contact's: less the belt speed).
+struct ContactRow {
+  int own = 0;
+  double sign = 1.0;
+};
+
+struct Frame {
+  explicit Frame(const Model& model);
+
+  int n = 0;                   ///< coordinates of the model
+  int d = 0;                   ///< displacements stored, the first n independent
+  std::vector<int> harmonics;  ///< distinct harmonics j > 0, ascending
+  Matrix W;                    ///< d x n
+  Matrix W_inverse;            ///< of its first n rows
+  Matrix dependence;           ///< d x n: W = dependence * (first n rows of W)
+  Vector shift, drift;
+  /// dependence * shift - shift, the constant between a dependent displacement and those it follows from, and the same of the drifts. Zero
+  /// where that is rounding: clearances that add up, as 0.1 + 0.2 and 0.3, let all gaps of a loop close at once.
+  Vector shift_slack, drift_slack;
+  std::vector<ContactRow> stops, frictions, compliant;
+  Matrix mass_inverse;  ///< d x d: W M^{-1} W^T
+  Matrix free;          ///< d x m: u' = free . X with no contact force
+  Matrix free_size;     ///< the sums of the sizes of the terms that each of its entries was made of
+
+  /// Sets entries to exactly zero that are nothing but rounding of terms of the given sizes: a force that the structure of the model makes
+  /// zero shall not be taken for one that is certainly negative.
+  static void drop_rounding(Matrix& matrix, const Matrix& size);
+
+  [[nodiscard]] int size() const { return 2 * d + 2 * static_cast<int>(harmonics.size()) + 1; }
+  [[nodiscard]] int u(int i) const { return d + i; }
+  [[nodiscard]] int one() const { return size() - 1; }
+
+  /// +1 or -1 if the displacements i and j are those of one pair, else 0.
+  [[nodiscard]] int parallel(int i, int j) const;
+  /// Row over X of a contact's velocity, and of a stop's gap.
+  [[nodiscard]] RowVector velocity_row(const ContactRow& contact) const;
+  [[nodiscard]] RowVector gap_row(const ContactRow& contact) const;
+  /// Row over X of the force of a compliant stop, stiffness delta + damping delta'.
+  [[nodiscard]] RowVector push_row(const Model& model, int i) const;
+  /// The rows p' = u + drift and the forcing oscillators of A; the rows u' are left zero.
+  [[nodiscard]] Matrix kinematics(double omega) const;
+
+  /// Writes p and u of a user's state (x_1, v_1, x_2, v_2, ..) into X. A gap of at most four roundings of its coordinates is zero.
+  void enter(const double* state, double* X) const;
+  /// Sets the velocities (displacements) of all numbers of the pair of displacement i by that of i.
+  void match_velocities(int i, double* X) const;
+  void match_displacements(int i, double* X) const;
+  /// Makes the dependent numbers and the first n agree again, where rounding would let them drift apart in the long run. A dependent number
+  /// that is exactly zero (contact, rest) stays, and the largest of those it follows from gives way; one that is summed without
+  /// cancellation is set; one near zero keeps its own value, which is the more accurate.
+  void refresh(double* X) const;
+  /// Writes cos, sin of the harmonics at phase `fraction` (periods) and the constant 1 into X. One libm call per harmonic.
+  void set_phase(double fraction, double* X) const;
+  /// Writes the user's state (x_1, v_1, ..) of X; from the first n displacements and velocities.
+  void leave(const double* X, double* state) const { leave(X, X + d, state); }
+  void leave(const double* p, const double* velocity, double* state) const;
+
+ private:
+  void choose_displacements(const Model& model);
+  void set_dynamics(const Model& model);
+};
+
+}  // namespace slapstick::mode

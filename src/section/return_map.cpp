@@ -1,0 +1,51 @@
+/// Computes the n-period map with its Jacobian, and its fixed points.
+#include "section/return_map.hpp"
+
+#include <algorithm>
+
+#include "base/dense.hpp"
+#include "slapstick/base/error.hpp"
+#include "slapstick/flow/stage.hpp"
+#include "slapstick/flow/tangent.hpp"
+
+namespace slapstick::section {
+
+using flow::contact_state, flow::multipliers_of, flow::Translations, flow::user_state;
+
+double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::VectorXd& scale) {
+  return ((a - b).array().abs() / scale.array()).maxCoeff();
+}
+
+MapValue return_map(const Translations& translations, const Eigen::VectorXd& x, int n, Stop stop) {
+  const Eigen::Index size = x.size();
+  TangentMotion motion(translations.system(), user_state(translations.system(), x),
+                       Eigen::MatrixXd::Identity(size, size));
+  run_to(motion, {n, 0.0}, stop, [] {});
+  MapValue value{contact_state(motion.motion()), translations.quotient(motion.tangents()), {}};
+  value.advance = translations.take_out(value.image);
+  return value;
+}
+
+std::optional<FixedPoint> fixed_point(const Translations& translations, Eigen::VectorXd x, int n,
+                                      const Eigen::VectorXd& scale, Stop stop) {
+  const Eigen::Index numbers = x.size() - translations.count();
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(numbers, numbers);
+  try {
+    for (int step = 0; step < 12; ++step) {
+      const MapValue value = return_map(translations, x, n, stop);
+      if (stopped(stop)) return {};
+      const bool arrived = distance(value.image, x, scale) < 1e-11;
+      if (arrived) return FixedPoint{x, multipliers_of(value.jacobian)};
+      const Eigen::VectorXd residual = x - value.image;
+      const Eigen::VectorXd correction =
+          translations.representative(dense::solve(value.jacobian - identity, translations.numbers(residual)));
+      if (!correction.allFinite() || (correction.array().abs() / scale.array()).maxCoeff() > 0.5) return {};
+      x += correction;
+    }
+  } catch (const InputError&) {      // the correction led behind a stop
+  } catch (const NumericalError&) {  // or where the motion cannot be continued
+  }
+  return {};
+}
+
+}  // namespace slapstick::section

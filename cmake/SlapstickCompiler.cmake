@@ -1,5 +1,6 @@
 # Compiler settings shared by every target of this project.
-# -ffp-contract=off: a*b+c is rounded twice everywhere, so that vector width and optimisation level do not change a bit.
+# -ffp-contract=off: a*b+c is rounded twice everywhere, so that vector width and optimisation level do not change a bit. What is worth wider vectors than
+# the baseline's is compiled for each instruction set and chosen at run time (src/event/CMakeLists.txt).
 add_library(slapstick_options INTERFACE)
 target_compile_features(slapstick_options INTERFACE cxx_std_20)
 # The private headers, for the library, its programs and its tests.
@@ -11,9 +12,6 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
 endif()
 # Vectors of eight doubles: no part of them crosses the library's interface by value, and std::array of them is meant.
 target_compile_options(slapstick_options INTERFACE -Wno-psabi -Wno-ignored-attributes)
-if(SLAPSTICK_MARCH)
-  target_compile_options(slapstick_options INTERFACE -march=${SLAPSTICK_MARCH})
-endif()
 if(SLAPSTICK_SANITIZE)
   list(JOIN SLAPSTICK_SANITIZE "," sanitizers)
   target_compile_options(slapstick_options INTERFACE -fsanitize=${sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer)
@@ -23,6 +21,7 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
 endif()
 set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)  # the library goes into Python modules too
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
 
 # slapstick_group(TARGET COUNT): with SLAPSTICK_GROUPED, up to COUNT neighbouring sources of one folder are compiled together, since most of the
@@ -37,6 +36,7 @@ function(slapstick_group target count)
   target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   get_target_property(sources ${target} SOURCES)
   set(before "-")
+  list(FILTER sources EXCLUDE REGEX TARGET_OBJECTS)
   foreach(source IN LISTS sources)
     get_filename_component(folder ${source} DIRECTORY)
     if(NOT folder STREQUAL before)
@@ -50,13 +50,8 @@ function(slapstick_group target count)
   endforeach()
 endfunction()
 
-# Objects come from ccache where there is one. It does not know what -march=native means: each kind of processor has its own part.
+# Objects come from ccache where there is one.
 find_program(SLAPSTICK_CCACHE ccache)
 if(SLAPSTICK_CCACHE AND PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${SLAPSTICK_CCACHE})
-  if(SLAPSTICK_MARCH STREQUAL "native" AND EXISTS /proc/cpuinfo)
-    file(STRINGS /proc/cpuinfo processor REGEX "^(flags|Features|model name)" LIMIT_COUNT 2)
-    string(MD5 processor "${processor}")
-    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_NAMESPACE=${processor} ${SLAPSTICK_CCACHE})
-  endif()
 endif()

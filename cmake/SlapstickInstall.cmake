@@ -4,9 +4,10 @@ include(CMakePackageConfigHelpers)
 
 # Public headers may use Eigen types, whose alignment Eigen derives from -march. A library built for one machine and a program built
 # for the baseline would disagree and corrupt the heap, so it is fixed, at what Debian's own Eigen users have. The choice between malloc and
-# Eigen's own aligned allocator depends on -march too: always the latter, on both sides.
+# Eigen's own aligned allocator depends on -march too: always the latter, on both sides. And of a function of Eigen's that both have, the linker
+# keeps one: a program's vectorised one would give the library other bits. So neither vectorises Eigen, nor asks for the size of caches.
 target_compile_definitions(slapstick PUBLIC EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MAX_STATIC_ALIGN_BYTES=16
-                                            EIGEN_MALLOC_ALREADY_ALIGNED=0)
+                                            EIGEN_MALLOC_ALREADY_ALIGNED=0 EIGEN_DONT_VECTORIZE EIGEN_NO_CPUID)
 
 # Which package an imported target comes from. A static library needs its private dependencies when it is linked, so the
 # config file looks for them too; for a shared one only the public ones.
@@ -14,7 +15,6 @@ set(package_of_Eigen3::Eigen Eigen3)
 set(package_of_TBB::tbb TBB)
 set(package_of_fmt::fmt fmt)
 set(package_of_fmt::fmt-header-only fmt)
-set(package_of_muparser::muparser muparser)
 set(package_of_tomlplusplus::tomlplusplus tomlplusplus)
 set(package_of_nlohmann_json::nlohmann_json nlohmann_json)
 set(package_of_Threads::Threads Threads)

@@ -5,7 +5,20 @@
 #include <immintrin.h>
 #endif
 
+#include <cfloat>
+#include <limits>
+
+#include "slapstick/base/error.hpp"
+
+#if defined(__FAST_MATH__)
+#error "slapstick needs IEEE arithmetic: compile it without -ffast-math"
+#endif
+
 namespace slapstick {
+
+static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<double>::digits == 53 && sizeof(double) == 8,
+              "slapstick needs double to be IEEE 754 binary64");
+static_assert(FLT_EVAL_METHOD == 0, "slapstick needs double to be computed as double: on 32-bit x86 compile with -msse2 -mfpmath=sse");
 
 /// While it lives, this thread computes with subnormal numbers (MXCSR bits FTZ and DAZ off); the destructor restores
 /// what it found. Does nothing on processors without SSE2. Cost: a nanosecond where nothing is to be restored.
@@ -34,5 +47,17 @@ class IeeeArithmetic {
   unsigned found_;
 #endif
 };
+
+/// @throws NumericalError if this thread, with IeeeArithmetic, flushes subnormal numbers to zero or does not round to nearest
+inline void require_ieee_arithmetic() {
+  const IeeeArithmetic ieee;
+  const volatile double tiny = 0x1p-1074, one = 1.0, half_ulp = 0x1p-53, more = 0x1.8p-53;
+  const bool subnormal = tiny * one == tiny && tiny > 0.0 && tiny + tiny == 2.0 * tiny;
+  const bool nearest = one + half_ulp == one && one + more > one && -one - more < -one;
+  if (!(subnormal && nearest))
+    throw NumericalError("this processor does not compute as IEEE 754 says (" +
+                         std::string(subnormal ? "it does not round to the nearest" : "subnormal numbers are zero") +
+                         "); results would not be those of other machines");
+}
 
 }  // namespace slapstick

@@ -1,8 +1,9 @@
-/// Finds steps that prove a guard positive along a segment, in long and in 256-bit arithmetic.
+/// Finds steps that prove a guard positive along a segment, in double-doubles and in 256-bit arithmetic.
 #include "certify/segment_proof.hpp"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
+#include "base/double_double.hpp"
 #include "certify/expansion.hpp"
 
 namespace slapstick::certify {
@@ -13,7 +14,7 @@ using Real256 =
                                   boost::multiprecision::et_off>;
 
 /// More than the sums of a hundred rounded terms lose.
-constexpr double narrow_rounding = 0x1p-56, wide_rounding = 0x1p-240;
+constexpr double narrow_rounding = 0x1p-90, wide_rounding = 0x1p-240;
 /// A window is about two radians long: its 48th term is below 2^-120 of the first, its 110th below 2^-400.
 constexpr int narrow_terms = 48, wide_terms = 110;
 constexpr std::size_t most_steps = 100'000;
@@ -78,7 +79,7 @@ void GuardProof::end_at_last_step() {
 }
 
 struct SegmentProof::Narrow {
-  Expansion<long double> expansion;
+  Expansion<DoubleDouble> expansion;
 };
 
 struct SegmentProof::Wide {

@@ -1,8 +1,10 @@
-/// Finds the first zero of a guard on a window, by bounds alone.
-#include "event/first_root.hpp"
+/// Finds the first zero of a guard on a window, by bounds alone. Compiled for each instruction set (event/kernels.hpp).
+#include "event/kernels.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "base/elementary.hpp"
 
 namespace slapstick::event {
 namespace {
@@ -220,7 +222,7 @@ void Search::walk_through_noise(Root& root) {
       return;
     }
     const double bend = std::max(g2_, 0.0) + bound(Bound::curvature_noise);
-    const double d = std::min(std::sqrt(4.0 * noise_ / bend), std::cbrt(4.0 * noise_ / third()));
+    const double d = 0x1.fffffffffep-1 * std::min(std::sqrt(4.0 * noise_ / bend), fixed::cube_root(4.0 * noise_ / third()));
     if (!(x_ < 1.0)) return restart_or_linger(root);
     evaluate(std::min(x_ + d, 1.0));
     if (!(std::abs(g_) > noise_)) continue;
@@ -289,7 +291,7 @@ void Search::run(Root& root) {
 
 }  // namespace
 
-Root first_root(const GuardWindow& guard, double x_end, long& evaluations) {
+Root SLAPSTICK_KERNEL::first_root(const GuardWindow& guard, double x_end, long& evaluations) {
   const Lane8 d = differences(guard.hull.bernstein);
   const bool falls =
       7.0 * greatest(d) < -guard.hull.bounds[slope_error] && guard.hull.bernstein[7] < -guard.hull.bounds[hull_error];

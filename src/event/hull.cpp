@@ -3,25 +3,26 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+
+#include "base/double_double.hpp"
 
 namespace slapstick::event {
 namespace {
 
-using Monomials = std::array<long double, 8>;
+using Monomials = std::array<DoubleDouble, 8>;
 
 /// x^8 modulo T, T(x) = cos(16 arccos(sqrt(x))).
-constexpr Monomials x8_remainder = {-1.0L / 32768,     128.0L / 32768,    -2688.0L / 32768,   21504.0L / 32768,
-                                    -84480.0L / 32768, 180224.0L / 32768, -212992.0L / 32768, 131072.0L / 32768};
+constexpr std::array<double, 8> x8_remainder = {-1.0 / 32768,     128.0 / 32768,    -2688.0 / 32768,   21504.0 / 32768,
+                                                -84480.0 / 32768, 180224.0 / 32768, -212992.0 / 32768, 131072.0 / 32768};
 
 /// b_j = sum_{n<=j} C(j, n) / C(7, n) p_n.
-std::array<long double, 8> to_bernstein(const Monomials& p) {
-  std::array<long double, 8> b{};
+Monomials to_bernstein(const Monomials& p) {
+  Monomials b{};
   for (int j = 0; j < 8; ++j) {
-    long double weight = 1.0L;
+    DoubleDouble weight = 1.0;
     for (int n = 0; n <= j; ++n) {
       b[j] += weight * p[n];
-      weight *= static_cast<long double>(j - n) / static_cast<long double>(7 - n);
+      weight = weight * (j - n) / (7.0 - n);
     }
   }
   return b;
@@ -32,35 +33,35 @@ struct Table {
   std::array<Lane8, most_terms> bernstein{}, truncation{}, rounding{};
 
   Table() {
-    Monomials p{1.0L};
-    long double q = 0.0L, q1 = 0.0L, q2 = 0.0L;  // q_n(1) and its derivatives; zero below n = 8
+    Monomials p{1.0};
+    DoubleDouble q, q1, q2;  // q_n(1) and its derivatives; zero below n = 8
     for (int n = 0; n < most_terms; ++n) {
       add(n, p, {q, q1, q2});
-      const long double leading = p[7];
-      q2 += 2.0L * q1;
+      const DoubleDouble leading = p[7];
+      q2 += 2.0 * q1;
       q1 += q;
       q += leading;
       std::rotate(p.begin(), p.end() - 1, p.end());
-      p[0] = 0.0L;
+      p[0] = 0.0;
       for (int j = 0; j < 8; ++j) p[j] += leading * x8_remainder[j];
     }
   }
 
  private:
-  void add(int n, const Monomials& p, const std::array<long double, 3>& q) {
+  void add(int n, const Monomials& p, const std::array<DoubleDouble, 3>& q) {
     const auto b = to_bernstein(p);
-    long double widest = 0.0L;
+    DoubleDouble widest;
     for (int j = 0; j < 8; ++j) {
       bernstein[n][j] = static_cast<double>(b[j]);
-      widest = std::max(widest, std::abs(b[j]));
+      widest = std::max(widest, abs(b[j]));
     }
     constexpr double up = (1.0 + 0x1p-40) / 32768;  // more than all roundings of the sums of positive terms
     truncation[n][hull_error] = up * static_cast<double>(q[0]);
-    truncation[n][slope_error] = up * static_cast<double>(q[1] + 128.0L * q[0]);
-    truncation[n][curvature_error] = up * static_cast<double>(q[2] + 256.0L * q[1] + 5376.0L * q[0]);
+    truncation[n][slope_error] = up * static_cast<double>(q[1] + 128.0 * q[0]);
+    truncation[n][curvature_error] = up * static_cast<double>(q[2] + 256.0 * q[1] + 5376.0 * q[0]);
     // A coefficient b_j carries the rounding of its product (noise_factor) and of the sum that made its row (64 u <= 4 noise_factor);
     // g' = 7 (b_{j+1} - b_j) .. has 14 times that, g'' = 42 (b_{j+2} - 2 b_{j+1} + b_j) .. 168 times.
-    const auto w = static_cast<double>(5.0L * widest);
+    const auto w = static_cast<double>(5.0 * widest);
     rounding[n] = Lane8{w + 8.0, 14.0 * w, 168.0 * w};
     rounding[n][std::min(noise_0 + n, static_cast<int>(noise_2))] = 1.0;
     if (n >= 2) rounding[n][slope_noise] = n;

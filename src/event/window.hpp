@@ -4,7 +4,10 @@
 /// The coefficients are kept in three groups of eight so that a value is
 ///     h(x) = sum_{j<8} x^j (a_j + x^8 (a_{8+j} + x^8 a_{16+j})),
 /// a dozen operations deep instead of the 46 of Horner's rule, with the same operations in the same order for every
-/// instruction set (the compiler maps Lane8 to whatever vectors the machine has; contraction to FMA is off).
+/// instruction set (the compiler maps Lane8 to whatever vectors the target has; contraction to FMA is off).
+///
+/// Sources compiled for different instruction sets include this (event/kernels.hpp). So each has functions of its own: they are static, and members
+/// always inlined. A function that the linker may take from any object could be one with instructions that this processor lacks.
 #if defined(__AVX512F__)
 #include <immintrin.h>
 #endif
@@ -26,10 +29,10 @@ typedef double Lane8 __attribute__((vector_size(64), aligned(64)));
 struct Coefficients {
   Lane8 group[3];
 
-  Lane8& operator[](int g) { return group[g]; }
-  const Lane8& operator[](int g) const { return group[g]; }
-  Lane8* data() { return group; }
-  [[nodiscard]] const Lane8* data() const { return group; }
+  [[gnu::always_inline]] Lane8& operator[](int g) { return group[g]; }
+  [[gnu::always_inline]] const Lane8& operator[](int g) const { return group[g]; }
+  [[gnu::always_inline]] Lane8* data() { return group; }
+  [[nodiscard, gnu::always_inline]] const Lane8* data() const { return group; }
 };
 
 /// Storage of groups at the alignment that Lane8 promises: a template argument forgets it.
@@ -46,41 +49,41 @@ struct LaneAllocator {
 };
 using Lanes = std::vector<Lane8, LaneAllocator<Lane8>>;
 
-inline Lane8 magnitude(const Lane8& v) { return v < 0.0 ? -v : v; }
-inline Lane8 smaller(const Lane8& a, const Lane8& b) { return a < b ? a : b; }
-inline Lane8 larger(const Lane8& a, const Lane8& b) { return a > b ? a : b; }
+static inline Lane8 magnitude(const Lane8& v) { return v < 0.0 ? -v : v; }
+static inline Lane8 smaller(const Lane8& a, const Lane8& b) { return a < b ? a : b; }
+static inline Lane8 larger(const Lane8& a, const Lane8& b) { return a > b ? a : b; }
 
 /// Halves and quarters of the same.
 typedef double Lane4 __attribute__((vector_size(32)));
 typedef double Lane2 __attribute__((vector_size(16)));
-inline Lane4 lower(const Lane8& v) { return __builtin_shufflevector(v, v, 0, 1, 2, 3); }
-inline Lane4 upper(const Lane8& v) { return __builtin_shufflevector(v, v, 4, 5, 6, 7); }
-inline Lane2 lower(const Lane4& v) { return __builtin_shufflevector(v, v, 0, 1); }
-inline Lane2 upper(const Lane4& v) { return __builtin_shufflevector(v, v, 2, 3); }
+static inline Lane4 lower(const Lane8& v) { return __builtin_shufflevector(v, v, 0, 1, 2, 3); }
+static inline Lane4 upper(const Lane8& v) { return __builtin_shufflevector(v, v, 4, 5, 6, 7); }
+static inline Lane2 lower(const Lane4& v) { return __builtin_shufflevector(v, v, 0, 1); }
+static inline Lane2 upper(const Lane4& v) { return __builtin_shufflevector(v, v, 2, 3); }
 
 /// Least and greatest lane, and the sum of all lanes, each in a fixed order: halves, quarters, neighbours.
-inline double least(const Lane8& v) {
+static inline double least(const Lane8& v) {
   const Lane4 low = lower(v), high = upper(v), half = low < high ? low : high;
   const Lane2 left = lower(half), right = upper(half), quarter = left < right ? left : right;
   return quarter[0] < quarter[1] ? quarter[0] : quarter[1];
 }
-inline double greatest(const Lane8& v) { return -least(-v); }
+static inline double greatest(const Lane8& v) { return -least(-v); }
 /// True if every lane is above `bound`; false for NaN.
-inline bool all_above(const Lane8& v, double bound) {
+static inline bool all_above(const Lane8& v, double bound) {
 #if defined(__AVX512F__)
   return _mm512_cmp_pd_mask(v, _mm512_set1_pd(bound), _CMP_GT_OQ) == 0xff;
 #endif
   constexpr Lane8 yes = {1, 1, 1, 1, 1, 1, 1, 1};
   return least(v > bound ? yes : Lane8{}) > 0.0;
 }
-inline double sum(const Lane8& v) {
+static inline double sum(const Lane8& v) {
   const Lane4 half = lower(v) + upper(v);
   const Lane2 quarter = lower(half) + upper(half);
   return quarter[0] + quarter[1];
 }
 
 /// Lane j of group g is coefficient 8 g + j + 1; zero past the end.
-inline Lane8 shifted(const Coefficients& a, int g) {
+static inline Lane8 shifted(const Coefficients& a, int g) {
   return __builtin_shufflevector(a[g], g < 2 ? a[g + 1] : Lane8{}, 1, 2, 3, 4, 5, 6, 7, 8);
 }
 
@@ -88,7 +91,7 @@ inline Lane8 shifted(const Coefficients& a, int g) {
 struct Powers {
   Lane8 low;
   double x8;
-  explicit Powers(double x) {
+  [[gnu::always_inline]] explicit Powers(double x) {
     constexpr Lane8 one = {1, 1, 1, 1, 1, 1, 1, 1};
     constexpr Lane8 odd = {0, 1, 0, 1, 0, 1, 0, 1}, pairs = {0, 0, 1, 1, 0, 0, 1, 1}, upper = {0, 0, 0, 0, 1, 1, 1, 1};
     const double x2 = x * x, x4 = x2 * x2;
@@ -98,16 +101,16 @@ struct Powers {
 };
 
 /// sum_n a_n x^n; rounding error at most 8 u sum_n |a_n| x^n (see docs/certainty.md).
-inline double value(const Coefficients& a, const Powers& p) {
+static inline double value(const Coefficients& a, const Powers& p) {
   const Lane8 nested = a[0] + p.x8 * (a[1] + p.x8 * a[2]);
   return sum(nested * p.low);
 }
 
 /// Coefficients of (h - a_0) / x: a_{n+1}.
-inline Coefficients divided_by_x(const Coefficients& a) { return {shifted(a, 0), shifted(a, 1), shifted(a, 2)}; }
+static inline Coefficients divided_by_x(const Coefficients& a) { return {shifted(a, 0), shifted(a, 1), shifted(a, 2)}; }
 
 /// Coefficients of the derivative: d_n = (n + 1) a_{n+1}, d_23 = 0.
-inline Coefficients derivative(const Coefficients& a) {
+static inline Coefficients derivative(const Coefficients& a) {
   Coefficients d;
   for (int g = 0; g < 3; ++g) {
     const double n = 8.0 * g;

@@ -208,9 +208,11 @@ bool Flight::within_noise(int guard, double x) const {
   const event::Hull hull = enclosed(guard);
   const double noise =
       hull.bounds[event::noise_0] + x * (hull.bounds[event::noise_1] + x * hull.bounds[event::noise_2]);
+  double lift = 1.0;  // x^order
+  for (int p = 0; p < order; ++p) lift *= x;
   // Neither the event's place in the flight nor the clock is sharper than some roundings.
   const double instant = 0x1p-50 * (elapsed_ + system_->period());
-  return std::abs(value) <= std::pow(x, order) * noise + instant * std::abs(rate(h));
+  return std::abs(value) <= lift * noise + instant * std::abs(rate(h));
 }
 
 /// The rate of a gap or a relative velocity in the state now.

@@ -3,9 +3,10 @@
 ///
 /// Every window's step rounds the state, by units of the largest numbers of the flight, also where they have become
 /// small. A guard that comes within that rounding of zero is looked at again with a state that was carried from the
-/// flight's origin with a 64-bit mantissa, so that touch, hit and miss do not depend on how many windows lie between.
+/// flight's origin in double-doubles, so that touch, hit and miss do not depend on how many windows lie between.
 #include <vector>
 
+#include "base/double_double.hpp"
 #include "mode/mode.hpp"
 
 namespace slapstick::flow {
@@ -38,12 +39,12 @@ class FlightOrigin {
 
  private:
   static constexpr int most_windows = 4096;
-  static constexpr double carried = 0x1p-12;  ///< what 64 bits lose, in that unit
+  static constexpr double carried = 0x1p-12;  ///< far more than double-doubles lose, in that unit
 
   int m_;
   event::Lanes X_, largest_;
   double size_ = 0.0, staleness_ = 0.0;
-  long double elapsed_ = 0.0L;
+  DoubleDouble elapsed_;
   int windows_ = 0;
 };
 

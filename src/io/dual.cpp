@@ -1,10 +1,14 @@
 /// Differentiates arithmetic: numbers with their derivatives.
 #include "io/dual.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
+
+#include "base/elementary.hpp"
 
 namespace slapstick {
 namespace {
@@ -25,10 +29,10 @@ bool surely(bool truth, const Dual& condition) { return !unsure(condition) && (c
 
 /// The larger for sign = 1, the smaller for -1. Where they are equal it has a derivative if theirs agree.
 Dual extreme(const Dual& a, const Dual& b, double sign) {
-  const double value = sign > 0.0 ? std::fmax(a.value, b.value) : std::fmin(a.value, b.value);
-  if (a.value != b.value) return a.value == value ? a : b;
   const bool varies = a.varies || b.varies;
-  return {value, a.rate == b.rate ? a.rate : none, varies};
+  if (std::isnan(a.value) || std::isnan(b.value)) return {none, varies ? none : 0.0, varies};
+  if (a.value != b.value) return (a.value > b.value) == (sign > 0.0) ? a : b;
+  return {a.value, a.rate == b.rate ? a.rate : none, varies};
 }
 
 Dual atan2(const Dual& y, const Dual& x) {
@@ -36,35 +40,36 @@ Dual atan2(const Dual& y, const Dual& x) {
   const bool jumps = y.varies && y.value == 0.0 && x.value <= 0.0;
   const double rate = jumps ? none : (x.value * y.rate - y.value * x.rate) / square;
   const bool varies = x.varies || y.varies;
-  return {std::atan2(y.value, x.value), varies ? rate : 0.0, varies};
+  return {fixed::atan2(y.value, x.value), varies ? rate : 0.0, varies};
 }
 
-struct Function {
+/// A function of one number and its derivative.
+struct Smooth {
   std::string_view name;
   double (*value)(double);
   double (*slope)(double);
 };
 
-constexpr auto functions = std::to_array<Function>({
+constexpr auto smooth = std::to_array<Smooth>({
     {"sqrt", [](double x) { return std::sqrt(x); }, [](double x) { return 0.5 / std::sqrt(x); }},
     {"abs", [](double x) { return std::abs(x); }, [](double x) { return x == 0.0 ? none : std::copysign(1.0, x); }},
-    {"exp", [](double x) { return std::exp(x); }, [](double x) { return std::exp(x); }},
-    {"ln", [](double x) { return std::log(x); }, [](double x) { return 1.0 / x; }},
-    {"log", [](double x) { return std::log(x); }, [](double x) { return 1.0 / x; }},
-    {"log2", [](double x) { return std::log2(x); }, [](double x) { return std::numbers::log2e / x; }},
-    {"log10", [](double x) { return std::log10(x); }, [](double x) { return std::numbers::log10e / x; }},
-    {"sin", [](double x) { return std::sin(x); }, [](double x) { return std::cos(x); }},
-    {"cos", [](double x) { return std::cos(x); }, [](double x) { return -std::sin(x); }},
-    {"tan", [](double x) { return std::tan(x); }, [](double x) { return 1.0 / (std::cos(x) * std::cos(x)); }},
-    {"asin", [](double x) { return std::asin(x); }, [](double x) { return 1.0 / std::sqrt((1.0 - x) * (1.0 + x)); }},
-    {"acos", [](double x) { return std::acos(x); }, [](double x) { return -1.0 / std::sqrt((1.0 - x) * (1.0 + x)); }},
-    {"atan", [](double x) { return std::atan(x); }, [](double x) { return 1.0 / (1.0 + x * x); }},
-    {"sinh", [](double x) { return std::sinh(x); }, [](double x) { return std::cosh(x); }},
-    {"cosh", [](double x) { return std::cosh(x); }, [](double x) { return std::sinh(x); }},
-    {"tanh", [](double x) { return std::tanh(x); }, [](double x) { return 1.0 / (std::cosh(x) * std::cosh(x)); }},
-    {"asinh", [](double x) { return std::asinh(x); }, [](double x) { return 1.0 / std::hypot(1.0, x); }},
-    {"acosh", [](double x) { return std::acosh(x); }, [](double x) { return 1.0 / std::sqrt((x - 1.0) * (x + 1.0)); }},
-    {"atanh", [](double x) { return std::atanh(x); }, [](double x) { return 1.0 / ((1.0 - x) * (1.0 + x)); }},
+    {"exp", fixed::exp, fixed::exp},
+    {"ln", fixed::ln, [](double x) { return 1.0 / x; }},
+    {"log", fixed::ln, [](double x) { return 1.0 / x; }},
+    {"log2", fixed::log2, [](double x) { return std::numbers::log2e / x; }},
+    {"log10", fixed::log10, [](double x) { return std::numbers::log10e / x; }},
+    {"sin", fixed::sin, fixed::cos},
+    {"cos", fixed::cos, [](double x) { return -fixed::sin(x); }},
+    {"tan", fixed::tan, [](double x) { return 1.0 / (fixed::cos(x) * fixed::cos(x)); }},
+    {"asin", fixed::asin, [](double x) { return 1.0 / std::sqrt((1.0 - x) * (1.0 + x)); }},
+    {"acos", fixed::acos, [](double x) { return -1.0 / std::sqrt((1.0 - x) * (1.0 + x)); }},
+    {"atan", fixed::atan, [](double x) { return 1.0 / (1.0 + x * x); }},
+    {"sinh", fixed::sinh, fixed::cosh},
+    {"cosh", fixed::cosh, fixed::sinh},
+    {"tanh", fixed::tanh, [](double x) { return 1.0 / (fixed::cosh(x) * fixed::cosh(x)); }},
+    {"asinh", fixed::asinh, [](double x) { return 1.0 / std::sqrt(1.0 + x * x); }},
+    {"acosh", fixed::acosh, [](double x) { return 1.0 / std::sqrt((x - 1.0) * (x + 1.0)); }},
+    {"atanh", fixed::atanh, [](double x) { return 1.0 / ((1.0 - x) * (1.0 + x)); }},
 });
 
 }  // namespace
@@ -85,11 +90,12 @@ Dual operator/(const Dual& a, const Dual& b) {
 
 /// x^y. Where the exponent varies only a positive base has a derivative: x^y (y' ln x + y x' / x).
 Dual power(const Dual& x, const Dual& y) {
-  const double value = std::pow(x.value, y.value);
-  if (!y.varies) return chain(x, value, y.value == 0.0 ? 0.0 : y.value * std::pow(x.value, y.value - 1.0));
+  const double value = fixed::power(x.value, y.value);
+  if (!y.varies)
+    return chain(x, value, y.value == 0.0 || !x.varies ? 0.0 : y.value * fixed::power(x.value, y.value - 1.0));
   if (x.value == 0.0 && !x.varies && y.value > 0.0) return {value, 0.0, true};
   if (!(x.value > 0.0)) return {value, none, true};
-  return {value, value * y.rate * std::log(x.value) + y.value * std::pow(x.value, y.value - 1.0) * x.rate, true};
+  return {value, value * y.rate * fixed::ln(x.value) + y.value * fixed::power(x.value, y.value - 1.0) * x.rate, true};
 }
 
 Dual compare(std::string_view relation, const Dual& a, const Dual& b) {
@@ -120,21 +126,37 @@ Dual choose(const Dual& condition, const Dual& a, const Dual& b) {
   return {chosen.value, a.value == b.value && a.rate == b.rate ? a.rate : none, true};
 }
 
-Dual call(std::string_view function, const std::vector<Dual>& arguments) {
+const Function* function_named(std::string_view name) {
+  static constexpr std::size_t any = 400;
+  static constexpr auto others = std::to_array<Function>({{"sign", 1, 1},
+                                                          {"rint", 1, 1},
+                                                          {"atan2", 2, 2},
+                                                          {"min", 1, any},
+                                                          {"max", 1, any},
+                                                          {"sum", 1, any},
+                                                          {"avg", 1, any}});
+  static const std::vector<Function> all = [] {
+    std::vector<Function> list(others.begin(), others.end());
+    for (const Smooth& function : smooth) list.push_back({function.name, 1, 1});
+    return list;
+  }();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Function& each) { return each.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+Dual call(std::string_view function, std::span<const Dual> arguments) {
   Dual result = arguments.front();
   const double x = result.value;
-  for (const Function& known : functions)
-    if (known.name == function) return chain(result, known.value(x), known.slope(x));
+  for (const Smooth& known : smooth)
+    if (known.name == function) return chain(result, known.value(x), result.varies ? known.slope(x) : 0.0);
   if (function == "sign") return step(x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0, result.varies && x == 0.0);
-  if (function == "rint") return step(std::rint(x), result.varies && std::abs(x - std::trunc(x)) == 0.5);
-  if (function == "atan2" && arguments.size() == 2) return atan2(arguments[0], arguments[1]);
-  for (std::size_t i = 1; i < arguments.size(); ++i) {
-    if (function == "max" || function == "min") result = extreme(result, arguments[i], function == "max" ? 1.0 : -1.0);
-    if (function == "sum" || function == "avg") result = result + arguments[i];
+  if (function == "rint") return step(std::floor(x + 0.5), result.varies && std::abs(x - std::trunc(x)) == 0.5);
+  if (function == "atan2") return atan2(arguments[0], arguments[1]);
+  for (const Dual& next : arguments.subspan(1)) {
+    if (function == "max" || function == "min") result = extreme(result, next, function == "max" ? 1.0 : -1.0);
+    if (function == "sum" || function == "avg") result = result + next;
   }
-  if (function == "max" || function == "min" || function == "sum") return result;
-  if (function == "avg") return result / Dual{static_cast<double>(arguments.size())};
-  return {none, none, true};
+  return function == "avg" ? result / Dual{static_cast<double>(arguments.size())} : result;
 }
 
 }  // namespace slapstick

@@ -2,9 +2,9 @@
 /// A number and its derivative with respect to a parameter, in the arithmetic of expressions: forward differentiation,
 /// exact but for rounding.
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace slapstick {
 
@@ -33,7 +33,14 @@ Dual either(const Dual& a, const Dual& b);
 /// condition ? a : b. At a jump of the condition it has a derivative if a and b agree in value and derivative.
 Dual choose(const Dual& condition, const Dual& a, const Dual& b);
 
-/// A function of expressions by its name: "sqrt", "atan2", "min", .. . One that there is not has no derivative.
-Dual call(std::string_view function, const std::vector<Dual>& arguments);
+/// A function of expressions, and of how many numbers it may be.
+struct Function {
+  std::string_view name;
+  std::size_t least, most;
+};
+/// "sqrt", "atan2", "min", ..; null if there is none.
+const Function* function_named(std::string_view name);
+/// Its value and derivative at as many numbers.
+Dual call(std::string_view function, std::span<const Dual> arguments);
 
 }  // namespace slapstick

@@ -1,10 +1,12 @@
 #pragma once
-/// Arithmetic on named numbers: "2 * damping_ratio * dashpot_ratio". muParser lives behind this file and nowhere else.
+/// Arithmetic on named numbers: "2 * damping_ratio * dashpot_ratio". Its functions are those of base/elementary.hpp, the same bits everywhere.
 #include <map>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "io/dual.hpp"
 
 namespace slapstick {
 
@@ -24,12 +26,15 @@ class Expression {
   /// The same, but whatever the result: inf, or nan where there is none.
   [[nodiscard]] double value(const std::map<std::string, double>& values) const;
 
+  /// Value and derivative.
+  [[nodiscard]] Dual differentiated(const Duals& values) const;
+
   /// Whether a parameter may not have this name, because it is a function or constant here.
   static bool reserves(std::string_view name);
 
  private:
   struct Compiled;
-  std::shared_ptr<Compiled> compiled_;
+  std::shared_ptr<const Compiled> compiled_;
 };
 
 }  // namespace slapstick

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "io/dual_expression.hpp"
+#include "base/elementary.hpp"
 #include "io/model_numbers.hpp"
 #include "model/fault.hpp"
 #include "base/text.hpp"
@@ -36,7 +36,7 @@ double ModelBuilder::number(const Scalar& scalar, const std::string& where) cons
 
 Dual ModelBuilder::dual(const Scalar& scalar, const std::string& where) const {
   if (rates_ == nullptr || !scalar.expression) return {number(scalar, where)};
-  const Dual result = differentiated(*scalar.expression, *rates_);
+  const Dual result = scalar.expression->differentiated(*rates_);
   if (std::isfinite(result.rate) && std::isfinite(result.value)) return result;
   std::string with, broken;
   for (const auto& name : scalar.expression->names()) {
@@ -104,7 +104,7 @@ double ModelBuilder::base(std::size_t k, double omega, double time) const {
   double sum = 0.0;
   for (const Term& term : bases_[k])
     sum +=
-        term.amplitude.value * (term.harmonic == 0 ? 1.0 : std::sin(term.harmonic * omega * time + term.phase.value));
+        term.amplitude.value * (term.harmonic == 0 ? 1.0 : fixed::sin(term.harmonic * omega * time + term.phase.value));
   return sum;
 }
 

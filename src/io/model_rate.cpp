@@ -1,7 +1,6 @@
 /// Differentiates a model file with respect to a parameter.
 #include <algorithm>
 
-#include "io/dual_expression.hpp"
 #include "io/model_builder.hpp"
 
 namespace slapstick {
@@ -42,7 +41,7 @@ class ParameterRates {
     Dual number{values_.at(name)};
     if (const auto& expression = entries_.at(name)->value.expression; expression && !fixed_.contains(name)) {
       for (const auto& other : expression->names()) follow(other);
-      const Dual found = differentiated(*expression, rates_);
+      const Dual found = expression->differentiated(rates_);
       number.rate = found.rate;
       number.varies = found.varies;
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "base/elementary.hpp"
 #include "io/unit.hpp"
 #include "model/fault.hpp"
 #include "base/text.hpp"
@@ -94,7 +95,7 @@ class UnitCheck {
     const Unit unit = parsed(text, entry.value.line, where);
     demand_mass(unit, text, entry.value.line, where);
     double coherent = 1.0;
-    for (std::size_t i = 0; i < 3; ++i) coherent *= std::pow(scales[i].factor, unit.powers[i]);
+    for (std::size_t i = 0; i < 3; ++i) coherent *= fixed::power(scales[i].factor, unit.powers[i]);
     if (std::abs(unit.factor / coherent - 1.0) < 1e-12) return;
     fail(entry.value.line, where,
          "unit " + in_quotes(text) + " is mixed with those of [scale]: expressions do not convert, so give " +
@@ -188,7 +189,7 @@ std::optional<PhysicalUnits> physical_units(const Definition& definition, const 
   const auto column = [&](const std::string& text, int line) {
     const Unit unit = parse_unit(text);
     double factor = 1.0 / unit.factor;
-    for (std::size_t i = 0; i < 3; ++i) factor *= std::pow(scale[i], unit.powers[i]);
+    for (std::size_t i = 0; i < 3; ++i) factor *= fixed::power(scale[i], unit.powers[i]);
     if (!(factor >= 1e-200 && factor <= 1e200))
       throw InputError(definition.place(line), "scale: 1 is " + shown(factor) + " " + text +
                        ", which is out of range");

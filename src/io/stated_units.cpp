@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "base/elementary.hpp"
 #include "io/definition.hpp"
 #include "io/unit.hpp"
 #include "slapstick/base/error.hpp"
@@ -69,7 +70,7 @@ std::string common_time(const std::vector<Unit>& units) {
         bool all = true;
         for (const Unit& unit : units) {
           double product = 1.0;
-          for (std::size_t i = 0; i < 3; ++i) product *= std::pow(one[i], unit.powers[i]);
+          for (std::size_t i = 0; i < 3; ++i) product *= fixed::power(one[i], unit.powers[i]);
           all = all && std::abs(unit.factor / product - 1.0) < 1e-12;
         }
         if (all) found.insert(time);

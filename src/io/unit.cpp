@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "slapstick/base/error.hpp"
+#include "base/elementary.hpp"
 #include "base/nearest.hpp"
 
 namespace slapstick {
@@ -95,7 +96,7 @@ void multiply(Unit& product, const std::string& factor, int sign) {
     power = static_cast<int>(number);
   }
   power *= sign;
-  product.factor *= std::pow(unit.factor, power);
+  product.factor *= fixed::power(unit.factor, power);
   for (std::size_t i = 0; i < product.powers.size(); ++i) product.powers[i] += power * unit.powers[i];
 }
 

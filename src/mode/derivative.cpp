@@ -7,6 +7,7 @@
 #include "mode/assembly.hpp"
 #include "mode/held.hpp"
 #include "slapstick/base/error.hpp"
+#include "base/elementary.hpp"
 #include "base/text.hpp"
 
 namespace slapstick::mode {
@@ -48,7 +49,7 @@ Matrix load_rate(const Model& model, const Model& rate, const Frame& frame) {
       continue;
     }
     const auto k = std::ranges::find(frame.harmonics, force.harmonic) - frame.harmonics.begin();
-    const double sine = std::sin(force.phase), cosine = std::cos(force.phase), turn = force.amplitude * change.phase;
+    const double sine = fixed::sin(force.phase), cosine = fixed::cos(force.phase), turn = force.amplitude * change.phase;
     load(force.coordinate, 2 * frame.d + 2 * k) += change.amplitude * sine + turn * cosine;
     load(force.coordinate, 2 * frame.d + 2 * k + 1) += change.amplitude * cosine - turn * sine;
   }

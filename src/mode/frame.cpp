@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/dense.hpp"
+#include "base/elementary.hpp"
+#include "base/phase.hpp"
 #include "mode/assembly.hpp"
 
 namespace slapstick::mode {
@@ -126,8 +127,8 @@ void Frame::set_dynamics(const Model& model) {
     }
     const auto k = std::ranges::find(harmonics, force.harmonic) - harmonics.begin();
     // sin(j theta + phase) = sin(phase) cos(j theta) + cos(phase) sin(j theta)
-    load(force.coordinate, 2 * d + 2 * k) += force.amplitude * std::sin(force.phase);
-    load(force.coordinate, 2 * d + 2 * k + 1) += force.amplitude * std::cos(force.phase);
+    load(force.coordinate, 2 * d + 2 * k) += force.amplitude * fixed::sin(force.phase);
+    load(force.coordinate, 2 * d + 2 * k + 1) += force.amplitude * fixed::cos(force.phase);
   }
 
   // q'' = M^{-1} (load X - C q' - K q),  q = W^{-1} (p + shift),  q' = W^{-1} (u + drift),  u' = W q''
@@ -200,15 +201,7 @@ void Frame::enter(const double* state, double* X) const {
 
 void Frame::set_phase(double fraction, double* X) const {
   for (std::size_t k = 0; k < harmonics.size(); ++k) {
-    double turns = harmonics[k] * fraction;
-    turns -= std::floor(turns);
-    // Octant reduction in turns is exact: sin and cos are called with an angle of at most pi / 4.
-    const double octant = std::nearbyint(4.0 * turns);
-    const double angle = 2.0 * std::numbers::pi * (turns - 0.25 * octant);
-    const double c = std::cos(angle), s = std::sin(angle);
-    const int quadrant = static_cast<int>(octant) & 3;
-    const double cosine = quadrant == 0 ? c : quadrant == 1 ? -s : quadrant == 2 ? -c : s;
-    const double sine = quadrant == 0 ? s : quadrant == 1 ? c : quadrant == 2 ? -s : -c;
+    const auto [cosine, sine] = of_turns(harmonics[k] * fraction);
     X[2 * d + 2 * k] = cosine;
     X[2 * d + 2 * k + 1] = sine;
   }

@@ -77,7 +77,7 @@ struct Frame {
   /// that is exactly zero (contact, rest) stays, and the largest of those it follows from gives way; one that is summed without
   /// cancellation is set; one near zero keeps its own value, which is the more accurate.
   void refresh(double* X) const;
-  /// Writes cos, sin of the harmonics at phase `fraction` (periods) and the constant 1 into X. One libm call per harmonic.
+  /// Writes cos, sin of the harmonics at phase `fraction` (periods) and the constant 1 into X. Fixed operations (base/phase.hpp).
   void set_phase(double fraction, double* X) const;
   /// Writes the user's state (x_1, v_1, ..) of X; from the first n displacements and velocities.
   void leave(const double* X, double* state) const { leave(X, X + d, state); }

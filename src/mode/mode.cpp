@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/elementary.hpp"
 #include "mode/series.hpp"
 
 namespace slapstick::mode {
@@ -28,7 +29,8 @@ Matrix Mode::flow_over_window(const Series& series, std::size_t first_coordinate
   for (std::size_t k = 0; k < frame.harmonics.size(); ++k) {
     const auto c = static_cast<Eigen::Index>(2 * d_ + 2 * k);
     const double angle = frame.harmonics[k] * omega * window_;
-    flow.block<2, 2>(c, c) << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+    const double cosine = fixed::cos(angle), sine = fixed::sin(angle);
+    flow.block<2, 2>(c, c) << cosine, -sine, sine, cosine;
   }
   return flow;
 }
@@ -134,69 +136,31 @@ event::Hull Mode::hull_column(int g, int order, int i) const {
   return hull;
 }
 
-namespace {
-
-/// out[b] = sum_i data[b * m + i] * x[i], for m known to the compiler.
-template <int m>
-void multiply_fixed(const event::Lane8* data, int blocks, const double* x, event::Lane8* out) {
-  for (int b = 0; b < blocks; ++b, data += m) {
-    event::Lane8 sum = data[0] * x[0];
-    for (int i = 1; i < m; ++i) sum += data[i] * x[i];
-    out[b] = sum;
-  }
-}
-
-/// The same for any m. The sizes of one to three coordinates with one harmonic are unrolled.
-inline void multiply(const event::Lane8* data, int blocks, int m, const double* x, event::Lane8* out) {
-  switch (m) {
-    case 3:
-      return multiply_fixed<3>(data, blocks, x, out);
-    case 5:
-      return multiply_fixed<5>(data, blocks, x, out);
-    case 7:
-      return multiply_fixed<7>(data, blocks, x, out);
-    case 9:
-      return multiply_fixed<9>(data, blocks, x, out);
-    default:
-      break;
-  }
-  for (int b = 0; b < blocks; ++b, data += m) {
-    event::Lane8 sums[4] = {};  // four chains: an addition waits for the one before it
-    int i = 0;
-    for (; i + 4 <= m; i += 4)
-      for (int k = 0; k < 4; ++k) sums[k] += data[i + k] * x[i + k];
-    for (; i < m; ++i) sums[0] += data[i] * x[i];
-    out[b] = (sums[0] + sums[1]) + (sums[2] + sums[3]);
-  }
-}
-
-}  // namespace
-
-void Mode::step(const double* X, event::Lane8* out) const { multiply(step_.data(), state_blocks_, m_, X, out); }
+void Mode::step(const double* X, event::Lane8* out) const { kernels_->multiply(step_.data(), state_blocks_, m_, X, out); }
 
 bool Mode::excludes(int g, int order, const double* X, double size, double more) const {
   if (order >= stored_orders) return false;
   const int k = g * stored_orders + order;
+  const double bound = quick_errors_[k] * size + more;
+  if (!coordinates_.empty())
+    return kernels_->all_above(hulls_.data() + static_cast<std::ptrdiff_t>(k) * m_, m_, X, bound);
   event::Lane8 bernstein;
-  if (coordinates_.empty())
-    bernstein = near_hulls_.times(k, X);
-  else
-    multiply(hulls_.data() + static_cast<std::ptrdiff_t>(k) * m_, 1, m_, X, &bernstein);
-  return event::all_above(bernstein, quick_errors_[k] * size + more);
+  near_hulls_.multiply(*kernels_, k, X, bernstein);
+  return event::all_above(bernstein, bound);
 }
 
 void Mode::enclose(int g, int order, const double* X, const double* magnitude, event::Hull& out) const {
   if (order >= stored_orders) return enclose_rare(g, order, X, magnitude, out);
   const auto at = static_cast<std::ptrdiff_t>(g * stored_orders + order) * m_;
-  multiply(hulls_.data() + at, 1, m_, X, &out.bernstein);
-  multiply(hull_bounds_.data() + at, 1, m_, magnitude, &out.bounds);
+  kernels_->multiply(hulls_.data() + at, 1, m_, X, &out.bernstein);
+  kernels_->multiply(hull_bounds_.data() + at, 1, m_, magnitude, &out.bounds);
 }
 
 /// The hull from the guard's Taylor coefficients and the sums of the sizes of their parts.
 void Mode::enclose_rare(int g, int order, const double* X, const double* magnitude, event::Hull& out) const {
   const auto row = static_cast<std::ptrdiff_t>(3 * g) * m_;
   event::Coefficients a, size{};
-  multiply(taylor_.data() + row, 3, m_, X, a.data());
+  kernels_->multiply(taylor_.data() + row, 3, m_, X, a.data());
   double remainder = 0.0;
   for (int i = 0; i < m_; ++i) {
     remainder += remainders_[g * m_ + i] * magnitude[i];
@@ -212,32 +176,27 @@ void Mode::enclose_rare(int g, int order, const double* X, const double* magnitu
 }
 
 void Mode::taylor(int g, int order, const double* X, event::Coefficients& out) const {
-  multiply(taylor_.data() + static_cast<std::ptrdiff_t>(3 * g) * m_, 3, m_, X, out.data());
+  kernels_->multiply(taylor_.data() + static_cast<std::ptrdiff_t>(3 * g) * m_, 3, m_, X, out.data());
   for (int p = 0; p < order; ++p) out = event::divided_by_x(out);
 }
 
 void Mode::leading(int g, const double* X, const double* magnitude, event::Lane8& coefficients,
                    event::Lane8& noise) const {
   if (coordinates_.empty()) {
-    coefficients = starts_.times(g, X);
-    noise = start_noise_.times(g, magnitude);
+    starts_.multiply(*kernels_, g, X, coefficients);
+    start_noise_.multiply(*kernels_, g, magnitude, noise);
     return;
   }
-  multiply(taylor_.data() + static_cast<std::ptrdiff_t>(3 * g) * m_, 1, m_, X, &coefficients);
-  multiply(leading_noise_.data() + static_cast<std::ptrdiff_t>(g) * m_, 1, m_, magnitude, &noise);
+  kernels_->multiply(taylor_.data() + static_cast<std::ptrdiff_t>(3 * g) * m_, 1, m_, X, &coefficients);
+  kernels_->multiply(leading_noise_.data() + static_cast<std::ptrdiff_t>(g) * m_, 1, m_, magnitude, &noise);
 }
 
 void Mode::state_at(double x, const double* X, double* out) const {
   if (coordinates_.empty()) return terms_.state(x * window_, X, out);
-  const event::Powers powers(x);
   const double per_time = 1.0 / window_;
-  for (int k = 0; k < d_; ++k) {
-    event::Coefficients a;
-    multiply(coordinates_.data() + 3 * k * m_, 3, m_, X, a.data());
-    out[k] = event::value(a, powers);
-    out[d_ + k] =
-        outline_.steady[k] ? X[d_ + k] : event::value(event::derivative(a), powers) * per_time - drift_[k] * X[m_ - 1];
-  }
+  kernels_->evaluate(coordinates_.data(), d_, m_, X, x, out, out + d_);
+  for (int k = 0; k < d_; ++k)
+    out[d_ + k] = outline_.steady[k] ? X[d_ + k] : out[d_ + k] * per_time - drift_[k] * X[m_ - 1];
 }
 
 }  // namespace slapstick::mode

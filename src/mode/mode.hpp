@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "event/first_root.hpp"
+#include "event/kernels.hpp"
 #include "mode/outline.hpp"
 #include "mode/packed_rows.hpp"
 #include "mode/term_sum.hpp"
@@ -14,7 +14,7 @@ class Series;
 
 /// Dense operators on X = (p, u, cos, sin, .., 1), all for the window length `window`, x = s / window in [0, 1].
 ///
-/// Written once at set-up in extended precision from A; see docs/certainty.md for the remainder and rounding bounds.
+/// Written once at set-up in double-doubles from A; see docs/certainty.md for the remainder and rounding bounds.
 /// Storage is in blocks of eight rows: element (row 8 b + lane, column i) of an operator is data[b * m + i][lane].
 class Mode {
  public:
@@ -66,6 +66,7 @@ class Mode {
   /// Larger modes do not store the rows of their displacements (400 kB for 32 coordinates) but sum the terms of exp(A s) X.
   static constexpr int most_stored_rows = 24;
 
+  const event::Kernels* kernels_ = &event::kernels();
   Outline outline_;
   std::vector<double> drift_, remainders_, coarse_noise_;
   int d_ = 0, m_ = 0, state_blocks_ = 0;

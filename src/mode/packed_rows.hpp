@@ -3,7 +3,7 @@
 /// model sees the contacts and coordinates near it.
 #include <vector>
 
-#include "event/window.hpp"
+#include "event/kernels.hpp"
 
 namespace slapstick::mode {
 
@@ -18,16 +18,9 @@ class PackedRows {
   void close() { ends_.push_back(static_cast<int>(columns_.size())); }
   [[nodiscard]] bool empty() const { return ends_.size() == 1; }
 
-  /// The sum of x_i times column i of operator k.
-  [[nodiscard]] event::Lane8 times(int k, const double* x) const {
-    event::Lane8 even{}, odd{};  // two chains: an addition waits for the one before it
-    int i = ends_[k];
-    const int end = ends_[k + 1];
-    for (; i + 2 <= end; i += 2) {
-      even += values_[i] * x[columns_[i]];
-      odd += values_[i + 1] * x[columns_[i + 1]];
-    }
-    return i < end ? even + values_[i] * x[columns_[i]] + odd : even + odd;
+  /// out = the sum of x_i times column i of operator k.
+  void multiply(const event::Kernels& kernels, int k, const double* x, event::Lane8& out) const {
+    kernels.gather(columns_.data() + ends_[k], values_.data() + ends_[k], ends_[k + 1] - ends_[k], x, &out);
   }
 
  private:

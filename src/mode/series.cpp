@@ -1,4 +1,4 @@
-/// Computes the exponential series of a mode in extended precision.
+/// Computes the exponential series of a mode in double-doubles.
 #include "mode/series.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 /// 1 / spectral radius, or 1 if A is nilpotent (rigid bodies: the series ends by itself). Only eight bits are kept: the rounding of
 /// an eigenvalue solver, which differs for a mirrored model, shall not reach the results.
 double reference_length(const Matrix& A) {
-  const double radius = dense::eigenvalues(A).cwiseAbs().maxCoeff();
+  const double radius = std::sqrt(dense::eigenvalues(A).cwiseAbs2().maxCoeff());
   if (!(radius > 1e-8 * A.cwiseAbs().maxCoeff() && radius > 0.0)) return 1.0;
   int exponent = 0;
   const double mantissa = std::frexp(1.0 / radius, &exponent);
@@ -36,7 +36,7 @@ Series::Series(const Matrix& A, const Matrix& size, const std::vector<RowVector>
     for (Eigen::Index i = 0; i < m_; ++i)
       if (A(k, i) != 0.0)
         A_[k].push_back(
-            {i, static_cast<long double>(A(k, i)) * static_cast<long double>(reference_), size(k, i) * reference_});
+            {static_cast<std::size_t>(i), A(k, i), std::abs(A(k, i)) * reference_, size(k, i) * reference_});
   }
   for (const RowVector& row : rows) expand(row);
   // Bisection on the window length in units of the reference length; the tail grows with it.
@@ -55,20 +55,20 @@ void Series::expand(const RowVector& row) {
   auto& terms = scaled_.emplace_back();
   Matrix& size = sizes_.emplace_back(Matrix::Zero(all_terms, m_));
   Matrix& error = errors_.emplace_back(Matrix::Zero(all_terms, m_));
-  terms.push_back(row.cast<long double>());
+  terms.emplace_back(row.begin(), row.end());
   size.row(0) = row.cwiseAbs();
   for (int n = 1; n < all_terms; ++n) {
-    LongRow next = LongRow::Zero(m_);
+    LongRow next(static_cast<std::size_t>(m_));
     for (Eigen::Index k = 0; k < m_; ++k) {
-      const long double factor = terms.back()[k] / n;
+      const DoubleDouble factor = terms.back()[k] * reference_ / n;
       const double before = error(n - 1, k) / n, fresh = event::unit_roundoff * size(n - 1, k) / n;
-      if (factor == 0.0L && before == 0.0) continue;
+      if (factor.hi == 0.0 && before == 0.0) continue;
       for (const Entry& entry : A_[k]) {
         next[entry.column] += factor * entry.value;
-        error(n, entry.column) += before * static_cast<double>(std::abs(entry.value)) + fresh * entry.size;
+        error(n, static_cast<Eigen::Index>(entry.column)) += before * entry.magnitude + fresh * entry.size;
       }
     }
-    size.row(n) = next.cwiseAbs().cast<double>();
+    for (Eigen::Index i = 0; i < m_; ++i) size(n, i) = std::abs(next[i].hi);
     terms.push_back(std::move(next));
   }
 }
@@ -114,7 +114,7 @@ std::vector<RowVector> Series::scales(double ratio) const {
 double Series::norm(const RowVector& scale) const {
   RowVector sum = RowVector::Zero(m_);
   for (Eigen::Index k = 0; k < m_; ++k)
-    for (const Entry& entry : A_[k]) sum[entry.column] += scale[k] * static_cast<double>(std::abs(entry.value));
+    for (const Entry& entry : A_[k]) sum[static_cast<Eigen::Index>(entry.column)] += scale[k] * entry.magnitude;
   double norm = 0.0;
   for (Eigen::Index i = 0; i < m_; ++i)
     if (sum[i] > 0.0) norm = std::max(norm, scale[i] > 0.0 ? sum[i] / scale[i] : INFINITY);
@@ -124,7 +124,8 @@ double Series::norm(const RowVector& scale) const {
 /// By columns, the sum of the dropped terms: n < 40 as they are, the others by their norm, |T_{39+k}| <= |T_39| nu^k 39! / (39 + k)!.
 RowVector Series::tail(std::size_t r, const RowVector& scale, double ratio) const {
   RowVector sum = RowVector::Zero(m_);
-  double power = std::pow(ratio, event::terms);
+  double power = 1.0;
+  for (int n = 0; n < event::terms; ++n) power *= ratio;
   for (int n = event::terms; n < all_terms; ++n, power *= ratio) sum += power * sizes_[r].row(n);
   double last = 0.0;
   for (Eigen::Index i = 0; i < m_; ++i)
@@ -146,32 +147,40 @@ bool Series::tail_is_negligible(double ratio) const {
 void Series::set_window(double low, double period, double longest_window) {
   window_in_periods_ = few_bits(std::min(low * reference_ / period, longest_window));
   window_ = window_in_periods_ * period;
-  const long double ratio = static_cast<long double>(window_in_periods_) * period / reference_;
-  const std::vector<RowVector> all = scales(static_cast<double>(ratio));
+  const DoubleDouble ratio = two_product(window_in_periods_, period) / reference_;
+  const std::vector<RowVector> all = scales(ratio.hi);
   for (std::size_t r = 0; r < all.size(); ++r) {
-    remainders_.push_back(tail(r, all[r], static_cast<double>(ratio)));
-    long double power = 1.0L;
+    remainders_.push_back(tail(r, all[r], ratio.hi));
+    DoubleDouble power = 1.0;
     for (int n = 0; n < all_terms; ++n, power *= ratio) {
-      scaled_[r][n] *= power;
-      errors_[r].row(n) *= static_cast<double>(power);
+      for (DoubleDouble& term : scaled_[r][n]) term *= power;
+      errors_[r].row(n) *= power.hi;
     }
   }
 }
 
 double Series::error(std::size_t r, int n, int i) const { return errors_[r](n, i); }
 
-double Series::taylor(std::size_t r, int n, int i) const { return static_cast<double>(scaled_[r][n][i]); }
+double Series::taylor(std::size_t r, int n, int i) const { return scaled_[r][n][i].hi; }
 
 RowVector Series::end_value(std::size_t r) const {
-  LongRow sum = scaled_[r].back();
-  for (int n = all_terms - 2; n >= 0; --n) sum += scaled_[r][n];
-  return sum.cast<double>();
+  RowVector out(m_);
+  for (Eigen::Index i = 0; i < m_; ++i) {
+    DoubleDouble sum;
+    for (int n = all_terms - 1; n >= 0; --n) sum += scaled_[r][n][i];
+    out[i] = sum.hi;
+  }
+  return out;
 }
 
 RowVector Series::end_slope(std::size_t r) const {
-  LongRow sum = LongRow::Zero(m_);
-  for (int n = all_terms - 1; n > 0; --n) sum += static_cast<long double>(n) * scaled_[r][n];
-  return (sum / static_cast<long double>(window_)).cast<double>();
+  RowVector out(m_);
+  for (Eigen::Index i = 0; i < m_; ++i) {
+    DoubleDouble sum;
+    for (int n = all_terms - 1; n > 0; --n) sum += scaled_[r][n][i] * n;
+    out[i] = (sum / window_).hi;
+  }
+  return out;
 }
 
 }  // namespace slapstick::mode

@@ -1,7 +1,8 @@
 #pragma once
-/// The exponential series of a mode in extended precision: Taylor rows, window length, flow matrix.
+/// The exponential series of a mode in double-doubles: Taylor rows, window length, flow matrix.
 #include <vector>
 
+#include "base/double_double.hpp"
 #include "event/window.hpp"
 #include "mode/frame.hpp"
 
@@ -38,14 +39,14 @@ class Series {
   [[nodiscard]] RowVector end_slope(std::size_t r) const;
 
  private:
-  using LongRow = Eigen::Matrix<long double, 1, Eigen::Dynamic>;
+  using LongRow = std::vector<DoubleDouble>;
   static constexpr int all_terms = 40;
 
-  /// A non-zero entry of a row of A times the reference length.
+  /// A non-zero entry of a row of A, and its two sizes times the reference length.
   struct Entry {
-    Eigen::Index column;
-    long double value;
-    double size;
+    std::size_t column;
+    double value;
+    double magnitude, size;
   };
 
   void expand(const RowVector& row);

@@ -7,9 +7,6 @@
 namespace slapstick::mode {
 namespace {
 
-/// Eight numbers at any place.
-typedef double Loose8 __attribute__((vector_size(64), aligned(8), may_alias));
-
 /// The displacements breadth first from one with few neighbours, so that neighbours come near each other.
 std::vector<int> cuthill_mckee(const Eigen::MatrixXd& system, int d) {
   const auto linked = [&](int i, int j) {
@@ -50,7 +47,7 @@ TermSum::TermSum(const Eigen::MatrixXd& system, int d)
 
 void TermSum::store_block(const Eigen::MatrixXd& system, int block) {
   const int first = 8 * block, rows = std::min(8, d_ - first);
-  const auto keep = [](Parts& parts, int place, const event::Lane8& values) {
+  const auto keep = [](event::PlacedRows& parts, int place, const event::Lane8& values) {
     if (event::greatest(event::magnitude(values)) > 0.0) parts.push_back({place, values});
   };
   for (const auto& [part, place] : {std::pair(0, p()), std::pair(d_, u())}) {
@@ -73,20 +70,14 @@ void TermSum::store_block(const Eigen::MatrixXd& system, int block) {
 }
 
 void TermSum::accelerate(double factor, const double* term, event::Lane8* out) const {
-  const Part* diagonal = diagonals_.data();
-  const Part* column = columns_.data();
+  const event::Placed* diagonal = diagonals_.data();
+  const event::Placed* column = columns_.data();
   for (int b = 0; b < blocks_; ++b) {
-    event::Lane8 even{}, odd{};  // two chains: an addition waits for the one before it
-    const Part* end = columns_.data() + columns_end_[b];
-    for (; column != end; ++column) odd += column->values * term[column->place];
-    end = diagonals_.data() + diagonals_end_[b];
-    for (; diagonal + 2 <= end; diagonal += 2) {
-      even += diagonal[0].values * *reinterpret_cast<const Loose8*>(term + diagonal[0].place);
-      odd += diagonal[1].values * *reinterpret_cast<const Loose8*>(term + diagonal[1].place);
-    }
-    if (diagonal != end) even += diagonal->values * *reinterpret_cast<const Loose8*>(term + diagonal->place);
-    diagonal = end;
-    out[b] = factor * (even + odd);
+    const event::Placed* const diagonal_end = diagonals_.data() + diagonals_end_[b];
+    const event::Placed* const column_end = columns_.data() + columns_end_[b];
+    kernels_->spread(diagonal, diagonal_end, column, column_end, factor, term, &out[b]);
+    diagonal = diagonal_end;
+    column = column_end;
   }
 }
 

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "event/window.hpp"
+#include "event/kernels.hpp"
 
 namespace slapstick::mode {
 
@@ -21,12 +21,6 @@ class TermSum {
   void state(double s, const double* X, double* out) const;
 
  private:
-  struct Part {
-    int place;            ///< in a term
-    event::Lane8 values;  ///< of eight rows
-  };
-  using Parts = std::vector<Part, event::LaneAllocator<Part>>;
-
   void store_block(const Eigen::MatrixXd& system, int block);
   void accelerate(double factor, const double* term, event::Lane8* out) const;
   void turn(double factor, const double* phase, double* out) const;
@@ -35,12 +29,13 @@ class TermSum {
   [[nodiscard]] int u() const { return 8 * blocks_ + 16; }
   [[nodiscard]] int phase() const { return 16 * blocks_ + 24; }
 
+  const event::Kernels* kernels_ = &event::kernels();
   int d_ = 0, blocks_ = 0, phases_ = 0;
   std::vector<int> order_;  ///< the displacement at each place
   std::vector<double> drift_, frequencies_;
   std::vector<int> diagonals_end_, columns_end_;  ///< of each block of rows; the next one's diagonals follow
-  Parts diagonals_;                               ///< times the eight numbers of a term from `place` on
-  Parts columns_;                                 ///< times the number of the forcing at `place`
+  event::PlacedRows diagonals_;                   ///< times the eight numbers of a term from `place` on
+  event::PlacedRows columns_;                     ///< times the number of the forcing at `place`
 };
 
 }  // namespace slapstick::mode

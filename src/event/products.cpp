@@ -1,0 +1,96 @@
+/// Sums of products in lanes, and the table of this target's kernels. Compiled for each instruction set (event/kernels.hpp).
+#include "event/kernels.hpp"
+
+#define SLAPSTICK_TEXT_OF(name) #name
+#define SLAPSTICK_TEXT(name) SLAPSTICK_TEXT_OF(name)
+
+namespace slapstick::event {
+namespace {
+
+/// Eight numbers at any place.
+typedef double Loose8 __attribute__((vector_size(64), aligned(8), may_alias));
+
+/// out[b] = sum_i data[b * m + i] * x[i], for m known to the compiler.
+template <int m>
+inline void multiply_fixed(const Lane8* data, int blocks, const double* x, Lane8* out) {
+  for (int b = 0; b < blocks; ++b, data += m) {
+    Lane8 sum = data[0] * x[0];
+    for (int i = 1; i < m; ++i) sum += data[i] * x[i];
+    out[b] = sum;
+  }
+}
+
+/// The same for any m. The sizes of one to three coordinates with one harmonic are unrolled.
+inline void product(const Lane8* data, int blocks, int m, const double* x, Lane8* out) {
+  switch (m) {
+    case 3:
+      return multiply_fixed<3>(data, blocks, x, out);
+    case 5:
+      return multiply_fixed<5>(data, blocks, x, out);
+    case 7:
+      return multiply_fixed<7>(data, blocks, x, out);
+    case 9:
+      return multiply_fixed<9>(data, blocks, x, out);
+    default:
+      break;
+  }
+  for (int b = 0; b < blocks; ++b, data += m) {
+    Lane8 sums[4] = {};  // four chains: an addition waits for the one before it
+    int i = 0;
+    for (; i + 4 <= m; i += 4)
+      for (int k = 0; k < 4; ++k) sums[k] += data[i + k] * x[i + k];
+    for (; i < m; ++i) sums[0] += data[i] * x[i];
+    out[b] = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+  }
+}
+
+void multiply(const Lane8* data, int blocks, int m, const double* x, Lane8* out) { product(data, blocks, m, x, out); }
+
+bool product_above(const Lane8* data, int m, const double* x, double bound) {
+  Lane8 sum;
+  product(data, 1, m, x, &sum);
+  return all_above(sum, bound);
+}
+
+void evaluate(const Lane8* rows, int d, int m, const double* X, double x, double* values, double* slopes) {
+  const Powers powers(x);
+  for (int k = 0; k < d; ++k, rows += 3 * m) {
+    Coefficients a;
+    product(rows, 3, m, X, a.data());
+    values[k] = value(a, powers);
+    slopes[k] = value(derivative(a), powers);
+  }
+}
+
+void gather(const int* places, const Lane8* values, int count, const double* x, Lane8* out) {
+  Lane8 even{}, odd{};  // two chains: an addition waits for the one before it
+  int i = 0;
+  for (; i + 2 <= count; i += 2) {
+    even += values[i] * x[places[i]];
+    odd += values[i + 1] * x[places[i + 1]];
+  }
+  *out = i < count ? even + values[i] * x[places[i]] + odd : even + odd;
+}
+
+void spread(const Placed* rows, const Placed* rows_end, const Placed* columns, const Placed* columns_end, double factor, const double* x,
+            Lane8* out) {
+  const auto numbers = [&](const Placed* row) -> const Loose8& { return *reinterpret_cast<const Loose8*>(x + row->place); };
+  Lane8 even{}, odd{};
+  for (; columns != columns_end; ++columns) odd += columns->values * x[columns->place];
+  for (; rows + 2 <= rows_end; rows += 2) {
+    even += rows[0].values * numbers(rows);
+    odd += rows[1].values * numbers(rows + 1);
+  }
+  if (rows != rows_end) even += rows->values * numbers(rows);
+  *out = factor * (even + odd);
+}
+
+}  // namespace
+
+namespace SLAPSTICK_KERNEL {
+extern const Kernels table;
+constinit const Kernels table = {
+    SLAPSTICK_TEXT(SLAPSTICK_KERNEL), first_root, multiply, product_above, evaluate, gather, spread};
+}  // namespace SLAPSTICK_KERNEL
+
+}  // namespace slapstick::event

@@ -1,9 +1,10 @@
 #pragma once
 /// Numbers of about 106 bits: unevaluated sums hi + lo of two doubles, |lo| <= ulp(hi) / 2, by + - x / alone.
 ///
-/// `long double` has 53, 64 or 113 bits, as the platform likes; this has the same bits everywhere. The error-free transformations are those of
-/// Knuth (two_sum) and Dekker and Veltkamp (quick_two_sum, two_product); the operations and their bounds, relative to the result, u = 2^-53, are from
-/// Joldes, Muller and Popescu, "Tight and rigorous error bounds for basic building blocks of double-word arithmetic", ACM TOMS 44 (2017):
+/// `long double` has 53, 64 or 113 bits, as the platform likes; this has the same bits everywhere. The error-free
+/// transformations are those of Knuth (two_sum) and Dekker and Veltkamp (quick_two_sum, two_product); the operations
+/// and their bounds, relative to the result, u = 2^-53, are from Joldes, Muller and Popescu, "Tight and rigorous error
+/// bounds for basic building blocks of double-word arithmetic", ACM TOMS 44 (2017):
 ///     x + y                 3 u^2 + 13 u^3        x + double       2 u^2
 ///     x y                   7 u^2                 x double         3/2 u^2 + 4 u^3
 ///     x / y                 15 u^2 + 56 u^3       x / double       3 u^2

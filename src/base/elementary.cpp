@@ -149,7 +149,7 @@ double asinh(double x) {
   if (!(size < infinite)) return x;
   if (size > 0x1p100) return std::copysign((logarithm(size) + ln_2).hi, x);
   if (size > 0.25) return std::copysign(logarithm(with_root(size, 1.0)).hi, x);
-  return x == 0.0 ? x : (2.0 * series_of_artanh(DoubleDouble(x) / (sqrt(two_product(x, x) + 1.0) + 1.0))).hi;
+  return size < 0x1p-40 ? x : (2.0 * series_of_artanh(DoubleDouble(x) / (sqrt(two_product(x, x) + 1.0) + 1.0))).hi;
 }
 
 double acosh(double x) {

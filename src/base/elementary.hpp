@@ -1,12 +1,16 @@
 #pragma once
-/// The elementary functions, the same bits on every machine: of + - x /, square root and exact operations (floor, scaling by powers of two) alone.
+/// The elementary functions, the same bits on every machine: of + - x /, square root and exact operations (floor,
+/// scaling by powers of two) alone.
 ///
-/// Each is computed as a double-double and rounded once. Its relative error before that is below 2^-80, so that the result is the nearest double but
-/// where the true value is within 2^-27 of an ulp of the middle between two: error below (1/2 + 2^-27) ulp. Where the result is subnormal it is
-/// rounded twice: below 1 ulp. Special values are those of C (Annex F). A call costs about a microsecond: they are for models and formulas, not for windows.
+/// Each is computed as a double-double and rounded once. Its relative error before that is below 2^-75, so that the
+/// result is within (1/2 + 2^-21) ulp of the true value. Where the result is subnormal it is rounded twice: below 1
+/// ulp. Special values are those of C (Annex F). A call costs about a microsecond: these are for models and formulas,
+/// not for windows.
 ///
-/// Sources of the error (elementary.cpp): double_double.hpp bounds each operation by 15 u^2 < 2^-102, a Horner's rule of 30 steps by 2^-96, the series are
-/// cut below 2^-108. Largest is that of x^y: an error of 2^-96 in ln x times |y ln x| <= 746, 2^-86.
+/// Where the error comes from: an operation of double_double.hpp has at most 15 u^2 < 2^-102, Horner's rule with 30
+/// falling terms less than 2^-98, and the series are cut below 2^-108. These grow by 746 = most |y ln x| in x^y, to
+/// 2^-88, and by 2^26 at most in acosh x, the logarithm of a number near 1. test/base/fixed_test.cpp compares with
+/// MPFR.
 namespace slapstick::fixed {
 
 double exp(double x);

@@ -30,8 +30,9 @@ struct Reduced {
 /// Eight digits of base 2^32, the most significant first: P / 2^254 modulo 4.
 using Digits = std::array<std::uint64_t, 8>;
 
-/// |x| 2 / pi modulo 4 (Payne and Hanek 1983), |x| = M 2^e: digits of 2 / pi that count multiples of 4 are left out, and 254 behind the point kept. What
-/// is cut off is below 2^-201, and no double is within 2^-62 of a multiple of pi / 2 (Kahan; Muller 2016, section 11.3).
+/// |x| 2 / pi modulo 4 (Payne and Hanek 1983), |x| = M 2^e: digits of 2 / pi that count multiples of 4 are left out,
+/// and 254 behind the point kept. What is cut off is below 2^-201, and no double from 0.785 on is within 2^-62 of a
+/// multiple of pi / 2 (Kahan; Muller, Elementary Functions, 2016, section 11.3).
 Digits quarters(double x) {
   int e = 0;
   const double mantissa = std::frexp(std::abs(x), &e);
@@ -83,7 +84,8 @@ DoubleDouble sine(const Reduced& x) {
   return (x.quadrant & 2) == 0 ? value : -value;
 }
 
-/// arctan t, 0 <= t <= 1: three times the half angle, t / (1 + sqrt(1 + t^2)) <= tan(pi / 32), whose power 35 is below 2^-117.
+/// arctan t, 0 <= t <= 1: three times the half angle, t / (1 + sqrt(1 + t^2)) <= tan(pi / 32), whose power 35 is below
+/// 2^-117.
 DoubleDouble arctangent(DoubleDouble t) {
   for (int k = 0; k < 3; ++k) t = t / (sqrt(t * t + 1.0) + 1.0);
   const DoubleDouble square = t * t;
@@ -120,7 +122,7 @@ double tan(double x) {
 
 double asin(double x) {
   if (!(std::abs(x) <= 1.0)) return no_angle;
-  return x == 0.0 ? x : std::copysign(angle_of(std::abs(x), other_leg(x)).hi, x);
+  return std::abs(x) < 0x1p-40 ? x : std::copysign(angle_of(std::abs(x), other_leg(x)).hi, x);
 }
 
 double acos(double x) { return std::abs(x) <= 1.0 ? angle_of(other_leg(x), x).hi : no_angle; }
@@ -137,7 +139,7 @@ double atan2(double y, double x) {
   int above = 0, beside = 0;
   std::frexp(y, &above);
   std::frexp(x, &beside);
-  if (x != 0.0 && beside - above > 1000 && x > 0.0) return y / x;  // the quotient is its own angle
+  if (x != 0.0 && beside - above > 60 && x > 0.0) return y / x;  // the quotient is its own angle
   const int most = x == 0.0 || above > beside ? above : beside;
   return std::copysign(angle_of(std::ldexp(std::abs(y), -most), std::ldexp(x, -most)).hi, y);
 }

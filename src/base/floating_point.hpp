@@ -48,7 +48,8 @@ class IeeeArithmetic {
 #endif
 };
 
-/// @throws NumericalError if this thread, with IeeeArithmetic, flushes subnormal numbers to zero or does not round to nearest
+/// @throws NumericalError if this thread, with IeeeArithmetic, flushes subnormal numbers to zero or does not round to
+/// nearest
 inline void require_ieee_arithmetic() {
   const IeeeArithmetic ieee;
   const volatile double tiny = 0x1p-1074, one = 1.0, half_ulp = 0x1p-53, more = 0x1.8p-53;

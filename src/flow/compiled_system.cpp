@@ -39,7 +39,7 @@ double fastest_rate(const mode::Mode& mode, int n) {  // n: displacements
   }
   const auto oscillators = mode.size() - 2 * n;
   const double forcing = mode.system().bottomRightCorner(oscillators, oscillators).cwiseAbs().maxCoeff();
-  return std::max(dense::eigenvalues(A).cwiseAbs().maxCoeff(), forcing);
+  return std::max(std::sqrt(dense::eigenvalues(A).cwiseAbs2().maxCoeff()), forcing);
 }
 
 /// A window is never much longer than the shortest time scale of its mode: the tail of its series would not be

@@ -1,4 +1,5 @@
-/// Reads and evaluates expressions: recursive descent into a program for a stack, which works on numbers with derivatives.
+/// Reads and evaluates expressions: recursive descent into a program for a stack, which works on numbers with
+/// derivatives.
 #include "io/expression.hpp"
 
 #include <algorithm>
@@ -17,7 +18,8 @@ namespace {
 
 constexpr std::size_t longest = 400;
 
-/// One step of a program: it pushes a number or a parameter, or replaces the last `operands` of the stack by what `symbol` makes of them.
+/// One step of a program: it pushes a number or a parameter, or replaces the last `operands` of the stack by what
+/// `symbol` makes of them.
 struct Step {
   std::string_view symbol;
   std::size_t operands = 0;

@@ -1,5 +1,6 @@
 #pragma once
-/// Arithmetic on named numbers: "2 * damping_ratio * dashpot_ratio". Its functions are those of base/elementary.hpp, the same bits everywhere.
+/// Arithmetic on named numbers: "2 * damping_ratio * dashpot_ratio". Its functions are those of base/elementary.hpp,
+/// the same bits everywhere.
 #include <map>
 #include <memory>
 #include <string>

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/elementary.hpp"
 #include "io/scale.hpp"
 #include "io/unit.hpp"
 #include "base/text.hpp"
@@ -74,7 +75,7 @@ std::optional<ModelNumbers::Powers> ModelNumbers::powers(const Expression& expre
   for (const View& view : views_) {
     const double changed = with(view.values);
     if (std::abs(changed - value) <= 1e-9 * std::abs(value)) continue;
-    const double power = std::log2(changed / value) / finer;
+    const double power = fixed::log2(changed / value) / finer;
     const bool whole = std::abs(power - std::round(power)) < 1e-9;
     if (!whole && view.scaled) return std::nullopt;
     if (whole) found[view.dimension] = static_cast<int>(std::round(power));

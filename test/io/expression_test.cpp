@@ -62,7 +62,7 @@ TEST(Expression, arithmetic) {
   EXPECT_EQ(Expression("b + a").names(), (std::vector<std::string>{"a", "b"}));
 }
 
-TEST(Expression, fractions_are_true_among_constants_too) {  // muParser makes integers of constants: 0.5 && 2 was 0
+TEST(Expression, fractions_are_true_among_constants_too) {  // a parser that joins constants as integers makes 0.5 && 2 zero
   const std::vector<std::string> numbers = {"0", "0.5", "-0.25", "1e-300", "1e300", "2"};
   for (const auto& p : numbers)
     for (const auto& q : numbers) {
@@ -91,6 +91,37 @@ TEST(Expression, refusals_are_one_line_and_name_the_trouble) {
     EXPECT_EQ(message.rfind("expression '", 0), 0U) << bad << ": " << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }
+}
+
+TEST(Expression, refusals_name_the_token_and_its_place) {
+  const std::string product = " (a product is written with *, and a number has no unit)";
+  for (const auto& [text, what] : std::vector<std::pair<std::string, std::string>>{
+           {"1 +", "unexpected end of expression at position 4"},
+           {"(1", "missing parenthesis"},
+           {"1)", "unexpected parenthesis \")\" at position 1"},
+           {"2 a", "unexpected variable \"a\" found at position 2" + product},
+           {"2e", "unexpected variable \"e\" found at position 1" + product},
+           {"foo(1)", "unexpected parenthesis \"(\" at position 3"},
+           {"1..2", "unexpected value \".2\" found at position 2"},
+           {"2 pi", "unexpected value \"pi\" found at position 2"},
+           {"a sin(b)", "unexpected function \"sin\" at position 2"},
+           {"1 + * 2", "unexpected operator \"*\" found at position 4"},
+           {"2 + - - 3", "unexpected operator \"-\" found at position 6"},
+           {"a % b", "unexpected token \"%\" found at position 2"},
+           {"sin()", "too few parameters for function \"sin\" at expression position 4"},
+           {"atan2(1)", "too few parameters for function \"atan2\" at expression position 7"},
+           {"sin(1, 2)", "too many parameters for function \"sin\" at expression position 8"},
+           {"sum(1,, 2)", "unexpected argument separator at position 6"},
+           {"a ? b", "if-then-else operator is missing an else clause"},
+           {"a : b", "misplaced colon at position 2"},
+           {"? a", "the \"?\" operator must be preceded by a closing bracket"},
+           {"1e999", "number 1e999 is out of range"}})
+    EXPECT_EQ(refusal(text), "expression '" + text + "': " + what);
+}
+
+TEST(Expression, what_has_no_value_is_not_hidden_by_a_choice_of_the_larger) {
+  for (const char* text : {"max(0, sqrt(a))", "max(sqrt(a), 0)", "min(0, ln(a))", "min(asin(3), 1)"})
+    EXPECT_TRUE(std::isnan(Expression(text).value({{"a", -1}}))) << text;
 }
 
 TEST(Expression, random_text_never_crashes) {

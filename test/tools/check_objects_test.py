@@ -1,4 +1,4 @@
-"""tools/check_objects notices an inline function left over, a strange name, and instructions of another target."""
+"""tools/check_objects notices an inline function left over, a strange name, instructions of another target, and a cosine of the C library."""
 import os
 import subprocess
 import sys
@@ -24,6 +24,12 @@ def expect(part, text, target, *flags):
 
 
 assert verdict(SOUND, 'sse4')[0] == 0, verdict(SOUND, 'sse4')
+with tempfile.TemporaryDirectory() as tree:
+    os.mkdir(os.path.join(tree, 'flow'))
+    for text, status in (('double f(double x) { return __builtin_sqrt(x) * 2; }', 0), ('double f(double x) { return __builtin_cos(x); }', 1)):
+        made = os.path.join(tree, 'flow', 'a.o')
+        subprocess.run([COMPILER, '-O2', '-x', 'c++', '-', '-c', '-o', made], input=text, text=True, check=True)
+        assert subprocess.run([sys.executable, '-B', CHECK, 'arithmetic', made], capture_output=True, check=False).returncode == status, text
 expect('may take', SOUND + 'inline double shared(double x) { return x + 1; }\nnamespace sse4 { double (*f())(double) { return shared; } }\n', 'sse4')
 expect('not sse4 in its name', SOUND + 'double stray(double x) { return x; }\n', 'sse4')
 expect('has AVX', SOUND, 'sse4', '-mavx', '-mprefer-vector-width=128')

@@ -10,18 +10,48 @@ namespace {
 /// Eight numbers at any place.
 typedef double Loose8 __attribute__((vector_size(64), aligned(8), may_alias));
 
+/// As many of the eight lanes as a register of the target has: gcc 12 keeps a sum in wider vectors in memory.
+#if defined(__AVX512F__)
+typedef double Part __attribute__((vector_size(64), may_alias));
+#elif defined(__AVX__)
+typedef double Part __attribute__((vector_size(32), may_alias));
+#else
+typedef double Part __attribute__((vector_size(16), may_alias));
+#endif
+constexpr int parts = sizeof(Lane8) / sizeof(Part);
+
 /// out[b] = sum_i data[b * m + i] * x[i], for m known to the compiler.
 template <int m>
-inline void multiply_fixed(const Lane8* data, int blocks, const double* x, Lane8* out) {
-  for (int b = 0; b < blocks; ++b, data += m) {
-    Lane8 sum = data[0] * x[0];
-    for (int i = 1; i < m; ++i) sum += data[i] * x[i];
-    out[b] = sum;
-  }
+inline void multiply_fixed(const Part* data, int blocks, const double* x, Part* out) {
+  for (int b = 0; b < blocks; ++b, data += parts * m, out += parts)
+    for (int part = 0; part < parts; ++part) {
+      Part sum = data[part] * x[0];
+      for (int i = 1; i < m; ++i) sum += data[parts * i + part] * x[i];
+      out[part] = sum;
+    }
 }
 
-/// The same for any m. The sizes of one to three coordinates with one harmonic are unrolled.
-inline void product(const Lane8* data, int blocks, int m, const double* x, Lane8* out) {
+/// For any m, in four chains: an addition waits for the one before it.
+inline void multiply_any(const Part* data, int blocks, int m, const double* x, Part* out) {
+  for (int b = 0; b < blocks; ++b, data += parts * m, out += parts)
+    for (int part = 0; part < parts; ++part) {
+      Part s0{}, s1{}, s2{}, s3{};
+      int i = 0;
+      for (const Part* at = data + part; i + 4 <= m; i += 4, at += 4 * parts) {
+        s0 += at[0] * x[i];
+        s1 += at[parts] * x[i + 1];
+        s2 += at[2 * parts] * x[i + 2];
+        s3 += at[3 * parts] * x[i + 3];
+      }
+      for (; i < m; ++i) s0 += data[parts * i + part] * x[i];
+      out[part] = (s0 + s1) + (s2 + s3);
+    }
+}
+
+/// The sizes of one to three coordinates with one harmonic are unrolled.
+inline void product(const Lane8* rows, int blocks, int m, const double* x, Lane8* sums) {
+  const auto* const data = reinterpret_cast<const Part*>(rows);
+  auto* const out = reinterpret_cast<Part*>(sums);
   switch (m) {
     case 3:
       return multiply_fixed<3>(data, blocks, x, out);
@@ -32,15 +62,7 @@ inline void product(const Lane8* data, int blocks, int m, const double* x, Lane8
     case 9:
       return multiply_fixed<9>(data, blocks, x, out);
     default:
-      break;
-  }
-  for (int b = 0; b < blocks; ++b, data += m) {
-    Lane8 sums[4] = {};  // four chains: an addition waits for the one before it
-    int i = 0;
-    for (; i + 4 <= m; i += 4)
-      for (int k = 0; k < 4; ++k) sums[k] += data[i + k] * x[i + k];
-    for (; i < m; ++i) sums[0] += data[i] * x[i];
-    out[b] = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+      return multiply_any(data, blocks, m, x, out);
   }
 }
 

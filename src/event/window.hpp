@@ -56,8 +56,11 @@ static inline Lane8 larger(const Lane8& a, const Lane8& b) { return a > b ? a : 
 /// Halves and quarters of the same.
 typedef double Lane4 __attribute__((vector_size(32)));
 typedef double Lane2 __attribute__((vector_size(16)));
-static inline Lane4 lower(const Lane8& v) { return __builtin_shufflevector(v, v, 0, 1, 2, 3); }
-static inline Lane4 upper(const Lane8& v) { return __builtin_shufflevector(v, v, 4, 5, 6, 7); }
+struct Halves {
+  Lane4 low, high;
+};
+static inline Lane4 lower(const Lane8& v) { return __builtin_bit_cast(Halves, v).low; }
+static inline Lane4 upper(const Lane8& v) { return __builtin_bit_cast(Halves, v).high; }
 static inline Lane2 lower(const Lane4& v) { return __builtin_shufflevector(v, v, 0, 1); }
 static inline Lane2 upper(const Lane4& v) { return __builtin_shufflevector(v, v, 2, 3); }
 
@@ -82,10 +85,28 @@ static inline double sum(const Lane8& v) {
   return quarter[0] + quarter[1];
 }
 
-/// Lane j of group g is coefficient 8 g + j + 1; zero past the end.
-static inline Lane8 shifted(const Coefficients& a, int g) {
-  return __builtin_shufflevector(a[g], g < 2 ? a[g + 1] : Lane8{}, 1, 2, 3, 4, 5, 6, 7, 8);
+/// Lane j is v[j + 1], and lane 7 is next[0]: in parts as wide as the target's registers, since gcc 12 takes a wider
+/// vector apart in memory, number by number.
+static inline Lane8 moved_down(const Lane8& v, const Lane8& next) {
+#if defined(__AVX512F__)
+  return __builtin_shufflevector(v, next, 1, 2, 3, 4, 5, 6, 7, 8);
+#elif defined(__AVX__)
+  const auto a = __builtin_bit_cast(Halves, v), b = __builtin_bit_cast(Halves, next);
+  const Halves moved = {__builtin_shufflevector(a.low, a.high, 1, 2, 3, 4), __builtin_shufflevector(a.high, b.low, 1, 2, 3, 4)};
+  return __builtin_bit_cast(Lane8, moved);
+#else
+  struct Parts {
+    Lane2 p, q, r, s;
+  };
+  const auto a = __builtin_bit_cast(Parts, v), b = __builtin_bit_cast(Parts, next);
+  const Parts moved = {__builtin_shufflevector(a.p, a.q, 1, 2), __builtin_shufflevector(a.q, a.r, 1, 2),
+                       __builtin_shufflevector(a.r, a.s, 1, 2), __builtin_shufflevector(a.s, b.p, 1, 2)};
+  return __builtin_bit_cast(Lane8, moved);
+#endif
 }
+
+/// Lane j of group g is coefficient 8 g + j + 1; zero past the end.
+static inline Lane8 shifted(const Coefficients& a, int g) { return moved_down(a[g], g < 2 ? a[g + 1] : Lane8{}); }
 
 /// x^0 .. x^7 and x^8, shared by every polynomial evaluated at x.
 struct Powers {

@@ -56,11 +56,8 @@ static inline Lane8 larger(const Lane8& a, const Lane8& b) { return a > b ? a : 
 /// Halves and quarters of the same.
 typedef double Lane4 __attribute__((vector_size(32)));
 typedef double Lane2 __attribute__((vector_size(16)));
-struct Halves {
-  Lane4 low, high;
-};
-static inline Lane4 lower(const Lane8& v) { return __builtin_bit_cast(Halves, v).low; }
-static inline Lane4 upper(const Lane8& v) { return __builtin_bit_cast(Halves, v).high; }
+static inline Lane4 lower(const Lane8& v) { return __builtin_shufflevector(v, v, 0, 1, 2, 3); }
+static inline Lane4 upper(const Lane8& v) { return __builtin_shufflevector(v, v, 4, 5, 6, 7); }
 static inline Lane2 lower(const Lane4& v) { return __builtin_shufflevector(v, v, 0, 1); }
 static inline Lane2 upper(const Lane4& v) { return __builtin_shufflevector(v, v, 2, 3); }
 
@@ -91,17 +88,25 @@ static inline Lane8 moved_down(const Lane8& v, const Lane8& next) {
 #if defined(__AVX512F__)
   return __builtin_shufflevector(v, next, 1, 2, 3, 4, 5, 6, 7, 8);
 #elif defined(__AVX__)
-  const auto a = __builtin_bit_cast(Halves, v), b = __builtin_bit_cast(Halves, next);
-  const Halves moved = {__builtin_shufflevector(a.low, a.high, 1, 2, 3, 4), __builtin_shufflevector(a.high, b.low, 1, 2, 3, 4)};
-  return __builtin_bit_cast(Lane8, moved);
-#else
-  struct Parts {
-    Lane2 p, q, r, s;
+  union Parts {
+    Lane8 whole;
+    Lane4 half[2];
   };
-  const auto a = __builtin_bit_cast(Parts, v), b = __builtin_bit_cast(Parts, next);
-  const Parts moved = {__builtin_shufflevector(a.p, a.q, 1, 2), __builtin_shufflevector(a.q, a.r, 1, 2),
-                       __builtin_shufflevector(a.r, a.s, 1, 2), __builtin_shufflevector(a.s, b.p, 1, 2)};
-  return __builtin_bit_cast(Lane8, moved);
+  const Parts a = {v}, b = {next};
+  Parts moved;
+  moved.half[0] = __builtin_shufflevector(a.half[0], a.half[1], 1, 2, 3, 4);
+  moved.half[1] = __builtin_shufflevector(a.half[1], b.half[0], 1, 2, 3, 4);
+  return moved.whole;
+#else
+  union Parts {
+    Lane8 whole;
+    Lane2 pair[4];
+  };
+  const Parts a = {v}, b = {next};
+  Parts moved;
+  for (int k = 0; k < 4; ++k)
+    moved.pair[k] = __builtin_shufflevector(a.pair[k], k < 3 ? a.pair[k + 1] : b.pair[0], 1, 2);
+  return moved.whole;
 #endif
 }
 

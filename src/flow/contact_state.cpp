@@ -26,7 +26,7 @@ std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& jacobian
   const Eigen::VectorXcd values = dense::eigenvalues(jacobian);
   std::vector<std::complex<double>> sorted(values.begin(), values.end());
   std::ranges::sort(sorted, [](auto a, auto b) {
-    return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : a.imag() > b.imag();
+    return std::norm(a) != std::norm(b) ? std::norm(a) > std::norm(b) : a.imag() > b.imag();
   });
   return sorted;
 }

@@ -58,7 +58,7 @@ State own_start(const ChosenModel& chosen, const Overrides& more) {
   } catch (const InputError& error) {
     Overrides values = chosen.overrides;
     values.insert(more.begin(), more.end());
-    throw InputError(error.what() + start_advice(chosen, values));
+    throw InputError(error.place(), error.message() + start_advice(chosen, values));
   }
 }
 

@@ -17,6 +17,7 @@ struct Shrinking {
   std::vector<double> length, value;
   double first = 0.0;              ///< the leg's greatest length on the way ..
   const Orbit* longest = nullptr;  ///< .. and the orbit that has it
+  const Orbit* near = nullptr;     ///< the nearest in which the leg has a part of that length
 
   [[nodiscard]] double shrunk() const { return length.front() / first; }
   [[nodiscard]] double seen() const { return std::abs(value.front() - value.back()); }
@@ -24,12 +25,13 @@ struct Shrinking {
     const double all = at_zero(length, value),
                  without_first = at_zero({length.begin() + 1, length.end()}, {value.begin() + 1, value.end()}),
                  without_last = at_zero({length.begin(), length.end() - 1}, {value.begin(), value.end() - 1});
-    return {all, std::max(std::abs(without_first - all), std::abs(without_last - all)), leg, *longest};
+    return {all, std::max(std::abs(without_first - all), std::abs(without_last - all)), leg, *longest, *near};
   }
 };
 
 Shrinking shrinking(const Orbits& orbits, std::size_t leg) {
   constexpr std::size_t most = 8;
+  constexpr double part = 0.01;  // seven lengths from there on, to 7.5 times as long, leave 0.075^7 of what is extrapolated
   Shrinking found;
   for (std::size_t i = orbits.size(); i-- > 0;) {
     const Orbit& orbit = *orbits[i];
@@ -42,6 +44,10 @@ Shrinking shrinking(const Orbits& orbits, std::size_t leg) {
       continue;
     found.length.push_back(orbit.duration(leg));
     found.value.push_back(orbit.values[0]);
+  }
+  for (std::size_t i = orbits.size(); i-- > 0;) {
+    found.near = orbits[i];
+    if (found.near == found.longest || found.near->duration(leg) >= part * found.first) break;
   }
   return found;
 }
@@ -145,7 +151,7 @@ void sharpen_death(const Problem& problem, const std::vector<Solution>& points, 
     change.special.value = death->value;
     change.special.error = death->error;
   }
-  change.nearby = describe(problem, beside[beside.size() / 2].orbit, nullptr);
+  change.nearby = describe(problem, death->near, nullptr);
 }
 
 }  // namespace slapstick::orbit

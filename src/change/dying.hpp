@@ -16,6 +16,7 @@ struct Death {
   double error = 0.0;   ///< what one point less, the first or the last, or another leg, makes of it
   std::size_t leg = 0;  ///< that leg
   Orbit longest;        ///< the orbit on the way there in which it is longest
+  Orbit near;           ///< one near the death whose equations are not singular yet
 };
 
 /// Behind the last point of a branch, by its points.

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "base/dense.hpp"
 #include "change/cascade_law.hpp"
+#include "mode/frame.hpp"
 
 namespace slapstick::orbit {
 
@@ -30,13 +32,31 @@ bool has_friction(const Model& model, const mode::Frame& frame, int stop) {
   return false;
 }
 
+/// The restitution between impacts of a stop when the friction contacts that stick before an impact stick again long before the next one: their slips last
+/// as long as the impact's speed by their friction, which goes to zero faster than a flight. With g the row of the stop, F those of the contacts,
+///     r' = r - (1 + r) kappa,   kappa = (g M^-1 F^T) (F M^-1 F^T)^-1 (F M^-1 g^T) / (g M^-1 g^T).
+double effective_restitution(const Model& model, const mode::Frame& frame, int stop, const mode::ContactStates& states) {
+  std::vector<int> stuck;
+  for (std::size_t i = 0; i < frame.frictions.size(); ++i)
+    if (states.frictions[i] == mode::FrictionState::stick) stuck.push_back(frame.frictions[i].own);
+  const double r = model.stops[stop].restitution;
+  if (stuck.empty()) return r;
+  const int own = frame.stops[stop].own;
+  const Eigen::VectorXd push = frame.mass_inverse(stuck, own);
+  const dense::LeastNorm held(Eigen::MatrixXd(frame.mass_inverse(stuck, stuck)));
+  return r - (1.0 + r) * push.dot(held.solve(push)) / frame.mass_inverse(own, own);
+}
+
 /// The law of the stop's cascade (change/cascade_law.hpp).
-std::optional<PlaceLimit> limit_at_stop(const Problem& problem, const SpecialPoint& nearest, int stop,
+std::optional<PlaceLimit> limit_at_stop(const Problem& problem, const SpecialPoint& nearest,
                                         const std::vector<double>& places, const std::vector<double>& errors) {
   const Model model = problem.family().model(nearest.solution.orbit.values);
-  const double r = model.stops[stop].restitution;
+  const mode::Frame frame(model);
+  const int stop = nearest.margin.contact;
+  if (has_friction(model, frame, stop)) return limit_with_friction(places);
+  const Leg& leg = nearest.solution.orbit.shape.legs[nearest.margin.leg];
+  const double r = effective_restitution(model, frame, stop, leg.states);
   if (!(r > 0.0 && r < 1.0)) return std::nullopt;
-  if (has_friction(model, mode::Frame(model), stop)) return limit_with_friction(places);
   return limit_by_rates(places, errors, cascade_rates(r, most_used));
 }
 
@@ -55,7 +75,7 @@ std::optional<CascadeLimit> limit_of(const Problem& problem, const std::vector<S
   }
   const UsedMargin& margin = grazes[0]->margin;
   if (added < 1 || places.size() < fewest || margin.guard != mode::GuardKind::gap) return std::nullopt;
-  const auto limit = limit_at_stop(problem, *grazes[0], margin.contact, places, errors);
+  const auto limit = limit_at_stop(problem, *grazes[0], places, errors);
   if (!limit) return std::nullopt;
   const double last = places[0] - places[1], left = limit->value - places[0];
   if (!(last * left > 0.0 && limit->error < std::abs(left))) return std::nullopt;

@@ -163,6 +163,11 @@ bool Follower::accept(PathPoint& at, PathPoint next, double length) {
     return false;
   }
   if (!solution.is_motion) return change_events(at, next, length, solution.why);
+  constexpr double half = 0.5;  // of legs that shrink together: where they do to nothing, what is left says how
+  if (length > shortest_for_pairs && legs_shrunk(at.orbit, next.orbit, half) > 1) {
+    step_ = half * length;
+    return true;
+  }
   std::vector<SpecialPoint> smooth = smooth_special_points(problem_, at, next, range_);
   if (length > shortest_for_pairs && !explained(at.watched, next.watched, smooth)) {
     step_ = 0.5 * length;

@@ -212,7 +212,8 @@ bool Follower::die_out(PathPoint& at, const std::optional<Death>& death) {
     return true;
   }
   SpecialPoint special;
-  special.solution = branch_.points.back();
+  special.solution = describe(problem_, death->near, nullptr);
+  special.solution.is_motion = branch_.points.back().is_motion;
   special.type = special.solution.sticking ? SpecialType::SL : SpecialType::CO;
   special.value = death->value;
   special.error = death->error;

@@ -215,28 +215,31 @@ std::vector<double> death_sensitivity(const Problem& problem, const Orbit& orbit
   const std::vector<PathPoint> points = away_from_death(problem, point_of(problem, orbit, range, {}), range, most);
   if (points.size() < fewest) throw NumericalError("sensitivity: too few orbits beside the special point");
   const std::size_t leg = dying_leg(problem, points.front()), others = orbit.values.size() - 1;
-  const auto rates_by = [&](const std::function<std::vector<double>(const PathPoint&)>& moved) {
+  const auto rates_by = [&](const std::function<std::vector<double>(const PathPoint&)>& moved, std::size_t count) {
     Rates rates{{}, std::vector<std::vector<double>>(others), {}};
     const VectorXd& units = points.front().units;
     for (std::size_t j = 0; j < others; ++j)
       rates.least.push_back(1e-3 * range / units[problem.parameter_column(orbit.legs(), static_cast<Index>(j) + 1)]);
-    for (const PathPoint& at : points) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const PathPoint& at = points[i];
       const std::vector<double> here = moved(at);
       rates.lengths.push_back(at.orbit.duration(leg));
       for (std::size_t j = 0; j < others; ++j) rates.of[j].push_back(here[j]);
     }
     return rates;
   };
-  const Rates rates = rates_by([&](const PathPoint& at) { return moved_with_leg(problem, at, leg); });
+  const Rates rates = rates_by([&](const PathPoint& at) { return moved_with_leg(problem, at, leg); },
+                               points.size());
   std::vector<double> result;
   for (std::size_t j = 0; j < others; ++j) result.push_back(rates.limit(j));
   std::vector<bool> confirmed(others, false);
   const std::vector<TestValue>& near = points.front().watched.tests;
   for (std::size_t i = 0; i < near.size(); ++i) {
     if (near[i].test == Test::duration || !(near[i].value < falls * points.back().watched.tests[i].value)) continue;
-    const Rates kept = rates_by([&](const PathPoint& at) {
+    const auto by_margin = [&](const PathPoint& at) {
       return values_of(moved_with(problem, at, range, [i](const Watched& watched) { return watched.tests[i].value; }));
-    });
+    };
+    const Rates kept = rates_by(by_margin, fewest);  // differences: more points would make more of their rounding
     for (std::size_t j = 0; j < others; ++j) {
       const double off = std::abs(kept.limit(j) - result[j]), close = agreement * std::max(kept.size(j), rates.size(j));
       if (off > close) result[j] = std::nan("");

@@ -40,7 +40,7 @@ class Equations {
     residual.head(at_->residual.size()) = at_->residual;
     for (Index c = 0; c < more; ++c) matrix.row(at_->by.rows() + c) = fixed_[static_cast<std::size_t>(c)].row;
     matrix = matrix * scale_.asDiagonal();
-    if (level_.size() == 0) level_ = matrix.cwiseAbs().rowwise().maxCoeff().cwiseMax(1e-300);
+    if (level_.size() == 0) level_ = row_sizes();
     matrix = level_.cwiseInverse().asDiagonal() * matrix;
     residual = residual.cwiseQuotient(level_);
   }
@@ -61,6 +61,15 @@ class Equations {
   VectorXd residual;
 
  private:
+  /// The greatest entries. A row that closes the cycle, of the map minus the identity, may be nothing but rounding: no less than the identity's entry.
+  [[nodiscard]] VectorXd row_sizes() const {
+    VectorXd largest = matrix.cwiseAbs().rowwise().maxCoeff().cwiseMax(1e-300);
+    const Index first = at_->by.rows() - 1 - problem_.numbers();
+    auto closing = largest.segment(first, problem_.numbers());
+    closing = closing.cwiseMax(scale_.head(problem_.numbers()));
+    return largest;
+  }
+
   const Problem& problem_;
   std::vector<Condition> fixed_;
   VectorXd scale_, level_;
@@ -111,6 +120,22 @@ Null null_vectors_at(const Problem& problem, const Orbit& orbit) {
   return equations.matrix.allFinite() ? null_vectors(equations.matrix) : Null{};
 }
 
+/// Has it the same legs still? One without length solves its equations anywhere.
+bool has_all_legs(const Orbit& orbit, const Orbit& beside) {
+  constexpr double gone = 0.5;  // far more than the way along a null direction makes of a leg
+  for (std::size_t leg = 0; leg < orbit.legs(); ++leg)
+    if (!(beside.duration(leg) > gone * orbit.duration(leg))) return false;
+  return true;
+}
+
+/// Has it a multiplier 1 too? Those beside a point of inflection, where the parameter is a cube, have not: 1 - mu is a square.
+bool has_multiplier_one(const Problem& problem, const Orbit& beside) {
+  constexpr double half_the_digits = 1e-6;  // a double one is known to no more
+  const ModeSet set(problem.family(), beside.values);
+  const auto all = multipliers(problem, set, beside, linearise(problem, set, beside).legs);
+  return std::ranges::any_of(all, [](auto mu) { return std::abs(mu - 1.0) < half_the_digits; });
+}
+
 /// Is the j-th null direction one along which orbits lie, in both senses?
 bool leads_along(const Problem& problem, const Orbit& orbit, const Null& null, Index j) {
   constexpr double far = 1e-2;  // in units of the orbit's size: its cube is far above rounding
@@ -118,6 +143,7 @@ bool leads_along(const Problem& problem, const Orbit& orbit, const Null& null, I
     Orbit beside = orbit;
     const VectorXd s = sense * far * VectorXd::Unit(null.right.cols(), j);
     if (!(solve_bordered(problem, beside, null, s) < is_rounding)) return false;
+    if (!has_all_legs(orbit, beside) || !has_multiplier_one(problem, beside)) return false;
   }
   return true;
 }

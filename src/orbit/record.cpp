@@ -327,8 +327,7 @@ Verification verify(const System& system, const Orbit& orbit) {
   return result;
 }
 
-int legs_gone(const Orbit& from, const Orbit& to) {
-  constexpr double left = 0.1;
+int legs_shrunk(const Orbit& from, const Orbit& to, double left) {
   int gone = 0;
   for (std::size_t leg = 0; leg < to.legs(); ++leg)
     if (!in_burst(to, leg) && to.duration(leg) < left * from.duration(leg)) ++gone;

@@ -51,7 +51,9 @@ struct Verification {
 [[nodiscard]] bool in_burst(const Orbit& orbit, std::size_t leg);
 /// Is it one of those that are too short for their length and margins to be more than rounding?
 [[nodiscard]] bool fades(const Orbit& orbit, std::size_t leg);
-/// How many legs, but for those of bursts, are gone from one orbit of a shape to another: next to nothing is left of their lengths.
-[[nodiscard]] int legs_gone(const Orbit& from, const Orbit& to);
+/// How many legs, but for those of bursts, shrink from one orbit of a shape to another to less than a part of their lengths.
+[[nodiscard]] int legs_shrunk(const Orbit& from, const Orbit& to, double left);
+/// .. to next to nothing.
+[[nodiscard]] inline int legs_gone(const Orbit& from, const Orbit& to) { return legs_shrunk(from, to, 0.1); }
 
 }  // namespace slapstick::orbit

@@ -42,7 +42,7 @@ TEST(DyingMotion, EndsWhereTheForceIsFriction) {
     EXPECT_NEAR(rates[1], 0.0, 1e-9) << c.start;
     EXPECT_EQ(death->passage, Passage::family);
     EXPECT_GT(branch.points.front().orbit.values[0], 0.2);
-    EXPECT_TRUE(std::ranges::all_of(branch.points, [](const orbit::Solution& s) { return s.isolated(); }));
+    for (const orbit::Solution& point : branch.points) EXPECT_TRUE(point.isolated()) << point.orbit.values[0];
   }
 }
 

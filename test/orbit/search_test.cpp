@@ -100,7 +100,7 @@ int settles_as_classify_says(const std::string& model, const std::string& parame
   int slow = 0;
   for (const orbit::SpecialPoint& special : branch.special) {
     if (special.type == SpecialType::BP || special.value <= from || special.value >= to) continue;
-    for (const double side : {-1.0, 1.0}) {
+    for (const double side : {-1.0, 1.0, -1.0, 1.0, -1.0, 1.0}) {
       const double distance = std::pow(10.0, std::uniform_real_distribution<double>(-5.0, -3.0)(random));
       const double value = special.value + side * distance * (to - from);
       const Posed beside(model, {{parameter, value}}, {}, {});

@@ -28,23 +28,33 @@ orbit::Branch branch_at(const std::string& model, const Overrides& fixed, double
   return orbit::follow(*posed.problem, first->orbit, {.from = from, .to = to});
 }
 
-/// Static friction cannot be less than kinetic friction: where they are equal there is a model to one side only.
+/// Static friction cannot be less than kinetic friction: where they are equal there is a model to one side only. Together they move to both sides.
 TEST(Sensitivity, ByAParameterAtItsBoundIsFromTheSideThatThereIs) {
+  const double friction = load_model("vibro-impact").values({}).at("static_friction");
   const orbit::Branch branch = branch_at("vibro-impact", {}, 2.5, 2.2, 4.0);
-  const orbit::SpecialPoint& point = branch.special.front();
   ASSERT_FALSE(branch.special.empty());
-  const Posed posed("vibro-impact", {}, {"omega", "static_friction"},
-                    {2.5, load_model("vibro-impact").values({}).at("static_friction")});
-  const auto rates = orbit::sensitivities(posed.family, {point.value, posed.values[1]}, point, 1.8);
-  ASSERT_EQ(rates.size(), 1U);
-  EXPECT_EQ(rates[0].known, orbit::Known::from_one_side);
+  const orbit::SpecialPoint& point = branch.special.front();
   const double h = 1e-4;
-  const auto moved = [&](double by) {
-    const orbit::Branch other = branch_at("vibro-impact", {{"static_friction", posed.values[1] + by}}, 2.5, 2.2, 4.0);
-    return nearest(other, point.type, point.value).value;
+  const auto moved = [&](const Overrides& to) {
+    return nearest(branch_at("vibro-impact", to, 2.5, 2.2, 4.0), point.type, point.value).value;
   };
-  const double beside = (4.0 * moved(h) - moved(2.0 * h) - 3.0 * point.value) / (2.0 * h);
-  EXPECT_NEAR(rates[0].value, beside, 1e-4 * std::max(1.0, std::abs(beside)));
+  const auto rate = [&](const Overrides& fixed, const std::string& by) {
+    const Posed posed("vibro-impact", fixed, {"omega", by}, {2.5, friction});
+    return orbit::sensitivities(posed.family, {point.value, friction}, point, 1.8).at(0);
+  };
+  const Overrides kinetic = {{"kinetic_friction", friction}};
+  const auto apart = [&](double by) {
+    return moved({{"static_friction", friction + by}, {"kinetic_friction", friction}});
+  };
+  const orbit::Sensitivity alone = rate(kinetic, "static_friction");
+  EXPECT_EQ(alone.known, orbit::Known::from_one_side);
+  const double beside = (4.0 * apart(h) - apart(2.0 * h) - 3.0 * point.value) / (2.0 * h);
+  EXPECT_NEAR(alone.value, beside, 1e-4 * std::max(1.0, std::abs(beside)));
+  const orbit::Sensitivity both = rate({}, "static_friction");  // kinetic friction follows it
+  EXPECT_EQ(both.known, orbit::Known::from_both_sides);
+  const double across =
+      (moved({{"static_friction", friction + h}}) - moved({{"static_friction", friction - h}})) / (2.0 * h);
+  EXPECT_NEAR(both.value, across, 1e-4 * std::max(1.0, std::abs(across)));
 }
 
 /// A fold beside a crossing leaves no orbits at the same parameter on one side of it: the crossing is followed by arclength.

@@ -14,13 +14,14 @@ class InputError : public std::runtime_error {
   explicit InputError(const std::string& message) : InputError({}, message) {}
   /// @param place  "model.toml:12: "
   InputError(const std::string& place, const std::string& message)
-      : std::runtime_error(place + message), message_(message) {}
+      : std::runtime_error(place + message), place_(place), message_(message) {}
 
+  [[nodiscard]] const std::string& place() const { return place_; }  ///< empty where there is none
   /// Without the place.
   [[nodiscard]] const std::string& message() const { return message_; }
 
  private:
-  std::string message_;
+  std::string place_, message_;
 };
 
 /// A start that lies behind one of the model's stops.

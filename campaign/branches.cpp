@@ -95,9 +95,9 @@ bool goes_past(const Problem& problem, const Branch& branch, const Branch& other
   return point.after + 1 < other.points.size() && on_it(point.after) && on_it(point.after + 1);
 }
 
-/// Places that are known by extrapolation: onsets of chatter and what gathers there.
+/// Places that are known by extrapolation: onsets of chatter and what gathers there, motions that die out.
 bool is_limit(const SpecialPoint& point) {
-  return point.type == SpecialType::CH || point.passage == Passage::cascade;
+  return point.type == SpecialType::CH || point.passage == Passage::cascade || point.occurrence == Occurrence::death;
 }
 
 std::string words(const SpecialPoint& point) {

@@ -5,7 +5,8 @@
 
 namespace slapstick {
 
-/// Regula falsi; an end that stays a second time is halved in weight (Illinois). Superlinear, and never outside the bracket.
+/// Regula falsi; an end that stays a second time is halved in weight (Illinois). Superlinear, and never outside the
+/// bracket.
 /// @param enough  width of the bracket, or length of a step, after which there is nothing to gain
 /// @returns a place at which the function is zero, or which the last step moved by less than `enough`
 template <class Function>

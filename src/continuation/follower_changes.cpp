@@ -88,7 +88,10 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
     return false;
   }
   const bool arrived = back_to_ && !back_to_->onset && std::abs(special.value - back_to_->value) <= back_to_->error;
-  if (!arrived && is_all_but_gone(at.orbit) && die_out(at, dies_out(branch_.points))) return !ended_;
+  if (!arrived && is_all_but_gone(at.orbit)) {
+    const std::optional<Death> death = dies_out(branch_.points);
+    if (death && death->error < special.error && die_out(at, death)) return !ended_;
+  }
   std::optional<PathPoint> behind_others;  // where a fold, say, lies before the change
   if (change->length > 0.0) {
     std::vector<SpecialPoint> smooth = beside_change(problem_, at, change->length, range_);
@@ -231,6 +234,7 @@ bool Follower::die_out(PathPoint& at, const std::optional<Death>& death) {
   if (!left.empty()) {
     const ChangeOfEvents seen = compare_events(special.solution.orbit, left.front().point.orbit);
     special.type = seen.type;
+    special.sliding = seen.sliding;
     go_on(at, std::move(special), std::move(left.front()), std::nullopt);
     return true;
   }

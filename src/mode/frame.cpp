@@ -222,33 +222,32 @@ void Frame::match_displacements(int i, double* X) const {
 
 namespace {
 
-/// One dependent number and the basis numbers it follows from: stored = sum_j coefficient_j basis_j + slack. The offsets themselves do not
+/// Dependent numbers and the basis numbers they follow from: stored = sum_j coefficient_j basis_j + slack. The offsets themselves do not
 /// enter: their rounding is more than the gaps of stops that are about to close together, and would never let them come to rest.
-void reconcile(double& stored, double slack, const RowVector& coefficient, double* basis) {
+/// Zeros come first, because a basis number may give way to a zero: what follows from the same basis number must see its last value.
+void reconcile(const Matrix& dependence, const Vector& slack, double* numbers) {
   constexpr double no_cancellation = 0.25;
-  double sum = slack, size = std::abs(slack);
-  Eigen::Index movable = -1;
-  for (Eigen::Index j = 0; j < coefficient.size(); ++j) {
-    const double term = coefficient[j] * basis[j];
-    sum += term;
-    size += std::abs(term);
-    const bool larger = movable < 0 || std::abs(basis[j]) > std::abs(basis[movable]);
-    if (coefficient[j] != 0.0 && basis[j] != 0.0 && larger) movable = j;
-  }
-  if (stored == 0.0) {
-    if (movable >= 0) basis[movable] -= sum / coefficient[movable];
-  } else if (std::abs(sum) >= no_cancellation * size) {
-    stored = sum;
-  }
+  for (const bool zeros : {true, false})
+    for (Eigen::Index i = dependence.cols(); i < dependence.rows(); ++i) {
+      if ((numbers[i] == 0.0) != zeros) continue;
+      double sum = slack[i], size = std::abs(slack[i]);
+      Eigen::Index largest = -1;  // of the basis numbers
+      for (Eigen::Index j = 0; j < dependence.cols(); ++j) {
+        const double term = dependence(i, j) * numbers[j];
+        sum += term;
+        size += std::abs(term);
+        if (term != 0.0 && (largest < 0 || std::abs(numbers[j]) > std::abs(numbers[largest]))) largest = j;
+      }
+      if (zeros && largest >= 0) numbers[largest] -= sum / dependence(i, largest);
+      if (!zeros && std::abs(sum) >= no_cancellation * size) numbers[i] = sum;
+    }
 }
 
 }  // namespace
 
 void Frame::refresh(double* X) const {
-  for (int i = n; i < d; ++i) {
-    reconcile(X[i], shift_slack[i], dependence.row(i), X);
-    reconcile(X[u(i)], drift_slack[i], dependence.row(i), X + d);
-  }
+  reconcile(dependence, shift_slack, X);
+  reconcile(dependence, drift_slack, X + d);
 }
 
 void Frame::leave(const double* p, const double* velocity, double* state) const {

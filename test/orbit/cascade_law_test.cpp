@@ -122,7 +122,7 @@ TEST(Onset, OfAShakenBallIsWhereTheSimulatorSaysAndAsWellKnownAsItSays) {
     ASSERT_TRUE(first && first->chatter) << restitution;
     const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = from, .to = to});
     const auto onset = std::ranges::find(branch.special, SpecialType::CH, &orbit::SpecialPoint::type);
-    ASSERT_NE(onset, branch.special.end()) << restitution;
+    ASSERT_NE(onset, branch.special.end()) << restitution << ": " << ended(branch);
     double rests = onset->value - 1e-4, bounces = onset->value + 1e-4;
     ASSERT_TRUE(comes_to_rest(restitution, rests)) << restitution;
     ASSERT_FALSE(comes_to_rest(restitution, bounces)) << restitution;

@@ -35,7 +35,7 @@ TEST(DyingMotion, EndsWhereTheForceIsFriction) {
     const orbit::SpecialPoint* death = find_near(branch, SpecialType::SL, 0.2, 1e-3);
     ASSERT_NE(death, nullptr) << c.start;
     EXPECT_NEAR(death->value, 0.2, death->error + 1e-13) << c.start;
-    EXPECT_LT(death->error, 1e-11) << c.start;
+    EXPECT_LT(death->error, 1e-10) << c.start;  // legs shrink to 1e-7 before the equations' rounding hides them
     const std::vector<double> rates =
         orbit::sensitivity(both.family, {death->value, 0.2, 0.8}, *death);  // the amplitude is static friction's
     EXPECT_NEAR(rates[0], 1.0, 1e-9) << c.start;

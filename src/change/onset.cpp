@@ -1,11 +1,13 @@
-/// The end of a cascade from its last grazes, by the law of the stop that chatters.
+/// The end of a cascade: by the onset's own equations, or from its last grazes by the law of the stop that chatters.
 #include "change/onset.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "base/dense.hpp"
 #include "change/cascade_law.hpp"
+#include "change/onset_orbit.hpp"
 #include "mode/frame.hpp"
 
 namespace slapstick::orbit {
@@ -24,13 +26,6 @@ namespace {
 
 constexpr std::size_t most_used =
     8;  ///< grazes of a cascade: with more rates taken out their own errors grow beyond what is gained
-
-bool has_friction(const Model& model, const mode::Frame& frame, int stop) {
-  for (std::size_t i = 0; i < frame.frictions.size(); ++i)
-    if (model.frictions[i].static_friction > 0.0 && frame.parallel(frame.frictions[i].own, frame.stops[stop].own) != 0)
-      return true;
-  return false;
-}
 
 /// The restitution between impacts of a stop when the friction contacts that stick before an impact stick again long before the next one: their slips last
 /// as long as the impact's speed by their friction, which goes to zero faster than a flight. With g the row of the stop, F those of the contacts,
@@ -60,33 +55,54 @@ std::optional<PlaceLimit> limit_at_stop(const Problem& problem, const SpecialPoi
   return limit_by_rates(places, errors, cascade_rates(r, most_used));
 }
 
-/// From the nearest grazes of one stop, in which each adds an impact to the next one's; between equal stops one at each. Empty if they are no cascade: if the
-/// limit is not beyond the last graze, or known no better than that graze's distance from it.
-std::optional<CascadeLimit> limit_of(const Problem& problem, const std::vector<Solution>& points,
-                                     const std::vector<const SpecialPoint*>& grazes) {
-  constexpr std::size_t fewest = 4;  // three and one more, from which the error is known
-  if (grazes.size() < fewest) return std::nullopt;
-  const auto impacts = [&](std::size_t i) { return points[grazes[i]->after].impacts; };
-  const long added = impacts(0) - impacts(1);
-  std::vector<double> places, errors;
-  for (std::size_t i = 0; i < grazes.size() && (i == 0 || impacts(i - 1) - impacts(i) == added); ++i) {
-    places.push_back(grazes[i]->value);
-    errors.push_back(grazes[i]->error);
-  }
-  const UsedMargin& margin = grazes[0]->margin;
-  if (added < 1 || places.size() < fewest || margin.guard != mode::GuardKind::gap) return std::nullopt;
-  const auto limit = limit_at_stop(problem, *grazes[0], places, errors);
-  if (!limit) return std::nullopt;
-  const double last = places[0] - places[1], left = limit->value - places[0];
-  if (!(last * left > 0.0 && limit->error < std::abs(left))) return std::nullopt;
-  return CascadeLimit{limit->value, limit->error, last / (places[1] - places[2]), std::abs(limit->value - places[1])};
+std::optional<PlaceLimit> as_place(const std::optional<OnsetOrbit>& found) {
+  if (!found) return std::nullopt;
+  return PlaceLimit{found->orbit.values[0], found->error};
 }
 
-/// The first grazes of a range of special points.
+/// The nearest grazes of one stop, in which each adds an impact to the next one's; between equal stops one at each.
+struct Gathering {
+  std::vector<double> places, errors;
+  bool is_cascade = false;
+};
+Gathering gathering(const std::vector<Solution>& points, const std::vector<const SpecialPoint*>& grazes) {
+  constexpr std::size_t fewest = 4;  // three and one more, from which the error is known
+  Gathering found;
+  if (grazes.size() < fewest) return found;
+  const auto impacts = [&](std::size_t i) { return points[grazes[i]->after].impacts; };
+  const long added = impacts(0) - impacts(1);
+  for (std::size_t i = 0; i < grazes.size() && (i == 0 || impacts(i - 1) - impacts(i) == added); ++i) {
+    found.places.push_back(grazes[i]->value);
+    found.errors.push_back(grazes[i]->error);
+  }
+  found.is_cascade =
+      added >= 1 && found.places.size() >= fewest && grazes[0]->margin.guard == mode::GuardKind::gap;
+  return found;
+}
+
+/// Empty if the grazes are no cascade: if the limit is not beyond the last graze, or known no better than that graze's distance from it.
+std::optional<CascadeLimit> limit_of(const Problem& problem, const std::vector<Solution>& points,
+                                     const std::vector<const SpecialPoint*>& grazes,
+                                     std::optional<PlaceLimit>& exact) {
+  Gathering all = gathering(points, grazes);
+  if (!all.is_cascade) return std::nullopt;
+  const double began = all.places.back();
+  if (!exact) exact = as_place(onset_orbit(problem, grazes[0]->solution.orbit, grazes[0]->margin.contact));
+  all.places.resize(std::min(all.places.size(), most_used));
+  all.errors.resize(all.places.size());
+  const auto limit = exact ? exact : limit_at_stop(problem, *grazes[0], all.places, all.errors);
+  if (!limit) return std::nullopt;
+  const double last = all.places[0] - all.places[1], left = limit->value - all.places[0];
+  if (!(last * left > 0.0 && limit->error < std::abs(left))) return std::nullopt;
+  return CascadeLimit{limit->value, limit->error, last / (all.places[1] - all.places[2]),
+                      std::abs(limit->value - all.places[1]), std::abs(limit->value - began)};
+}
+
+/// The grazes of a range of special points.
 template <class Iterator>
 std::vector<const SpecialPoint*> grazes_of(Iterator point, Iterator end) {
   std::vector<const SpecialPoint*> grazes;
-  for (; point != end && grazes.size() < most_used; ++point)
+  for (; point != end; ++point)
     if (point->type == SpecialType::GR) grazes.push_back(&*point);
   return grazes;
 }
@@ -94,14 +110,23 @@ std::vector<const SpecialPoint*> grazes_of(Iterator point, Iterator end) {
 }  // namespace
 
 std::optional<CascadeLimit> cascade_limit(const Problem& problem, const std::vector<Solution>& points,
-                                          const std::vector<SpecialPoint>& special) {
-  return limit_of(problem, points, grazes_of(special.rbegin(), special.rend()));
+                                          const std::vector<SpecialPoint>& special,
+                                          std::optional<PlaceLimit>& exact) {
+  return limit_of(problem, points, grazes_of(special.rbegin(), special.rend()), exact);
+}
+
+std::optional<PlaceLimit> chatter_limit(const Problem& problem, const Orbit& orbit) {
+  const std::optional<int> stop = chattering_stop(orbit);
+  return stop ? as_place(onset_orbit(problem, orbit, *stop)) : std::nullopt;
 }
 
 void sharpen_onsets(const Problem& problem, const std::vector<Solution>& points, std::vector<SpecialPoint>& special) {
   for (auto onset = special.begin(); onset != special.end(); ++onset) {
-    if (onset->type != SpecialType::CH) continue;
-    const auto limit = limit_of(problem, points, grazes_of(onset, special.end()));
+    if (onset->type != SpecialType::CH || onset->occurrence != Occurrence::onset) continue;
+    std::optional<PlaceLimit> limit = chatter_limit(problem, onset->solution.orbit);
+    if (!limit)
+      if (const auto cascade = limit_of(problem, points, grazes_of(onset, special.end()), limit))
+        limit = PlaceLimit{cascade->value, cascade->error};
     if (!limit || limit->error >= onset->error || std::abs(limit->value - onset->value) > 10.0 * onset->error) continue;
     onset->value = limit->value;
     onset->error = limit->error;

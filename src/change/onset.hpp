@@ -1,5 +1,6 @@
 #pragma once
 /// Where a complete chatter begins or ends: infinitely many changes of events, each with an impact more, gather there.
+#include "change/cascade_law.hpp"
 #include "change/reshape.hpp"
 
 namespace slapstick::orbit {
@@ -8,19 +9,25 @@ namespace slapstick::orbit {
 /// @param nearest  the orbit
 [[nodiscard]] SpecialPoint onset(const OnsetInterval& between, const Solution& nearest);
 
-/// The end of a cascade, to which the places of its changes converge by the law of the stop that chatters (change/cascade_law.hpp).
+/// The end of a cascade, where a complete chatter begins.
 struct CascadeLimit {
   double value = 0.0;
-  double error =
-      0.0;  ///< of it: what is left of its last change, what its last rate makes of it, and the changes' own errors
+  double error = 0.0;
   double ratio = 0.0;  ///< of the last two distances between changes
   double left = 0.0;   ///< how far from it the cascade's last change but one is: the branch is nearer
+  double began = 0.0;  ///< how far from it the cascade's first change is
 };
+/// @param exact  the onset by its own equations (change/onset_orbit.hpp), if it is known; else it is set to them. Where they cannot be made, the limit is
+///               taken from the places of the changes (change/cascade_law.hpp)
 /// @returns empty if the last grazes of a branch, as it was followed, are no cascade
 [[nodiscard]] std::optional<CascadeLimit> cascade_limit(const Problem& problem, const std::vector<Solution>& points,
-                                                        const std::vector<SpecialPoint>& special);
+                                                        const std::vector<SpecialPoint>& special,
+                                                        std::optional<PlaceLimit>& exact);
 
-/// Where a branch has left a chatter for a cascade, the onset by the cascade's own grazes, if that is better known.
+/// The onset ahead of an orbit with a complete chatter, by its own equations.
+[[nodiscard]] std::optional<PlaceLimit> chatter_limit(const Problem& problem, const Orbit& orbit);
+
+/// Where a branch has left a chatter for a cascade, the onset by its own equations or by the cascade's grazes, if that is better known.
 void sharpen_onsets(const Problem& problem, const std::vector<Solution>& points, std::vector<SpecialPoint>& special);
 
 /// Has the last stretch of a branch a chatter with so many more impacts than where it began that its onset is near?

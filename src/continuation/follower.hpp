@@ -53,6 +53,9 @@ class Follower {
   void go_on(PathPoint& at, SpecialPoint special, HalfBranch next, std::optional<Branch> between);
   bool leave_chatter(PathPoint& at);
   bool leave_clear_of_onset(PathPoint& at);
+  bool meet_onset(PathPoint& at);
+  [[nodiscard]] std::optional<PlaceLimit> onset_ahead(const PathPoint& at);
+  [[nodiscard]] std::optional<CascadeLimit> cascade() const;
   [[nodiscard]] std::optional<CascadeLimit> cascade_ends(const PathPoint& at) const;
   bool end_cascade(PathPoint& at);
   bool end_cascade_with(PathPoint& at, SpecialPoint last);
@@ -99,6 +102,9 @@ class Follower {
   double step_ = 0.0;
   int old_points_ = 0;            ///< latest points that lie on the branch as it was followed before
   std::optional<Place> back_to_;  ///< followed as far as there only
+  /// The onset of a complete chatter ahead, once it is known, and the legs of the orbit from which it was last looked for.
+  mutable std::optional<PlaceLimit> ahead_;
+  std::size_t looked_from_ = 0;
   bool ended_ = false;
 };
 

@@ -79,6 +79,7 @@ bool Follower::at_end(double place, double error, const PathPoint& at) const {
 
 /// Between `at` and `beyond` the motion's events change. Notes the point and goes on with new ones. @returns false if the branch ends
 bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why) {
+  if (meet_onset(at)) return !ended_;
   std::optional<Change> change = first_change(at, beyond, length);
   if (!change || fades(at.orbit, change->test.leg)) return look_nearer(at, length, why);
   sharpen_death(problem_, branch_.points, has_before(at) ? before_->point : at, range_, *change);
@@ -141,7 +142,7 @@ std::optional<bool> Follower::lead_back(const Change& change, const HalfBranch& 
 /// Does a change lead to where the branch has been? Near its end a cascade, whose folds and grazes are all but one, seems to: it turns back into itself or
 /// goes on with an earlier orbit.
 bool Follower::leads_back(const Unfolding& beyond) const {
-  return !beyond.branches.empty() && cascade_limit(problem_, branch_.points, branch_.special) &&
+  return !beyond.branches.empty() && cascade() &&
          lies_on(problem_, branch_, beyond.branches.front().point.orbit);
 }
 
@@ -269,6 +270,7 @@ bool Follower::leave(PathPoint& at) {
 
 /// Goes on from an orbit that the branch has.
 void Follower::set_out(PathPoint& at, PathPoint from) {
+  ahead_.reset();
   at = std::move(from);
   before_.reset();
   step_ = std::min(step_, options_.step);
@@ -277,6 +279,7 @@ void Follower::set_out(PathPoint& at, PathPoint from) {
 /// Goes on from another orbit, if that is not outside the range.
 void Follower::restart(PathPoint& at, PathPoint from) {
   if (!inside(value(from))) return end(BranchEnd::Kind::range);
+  ahead_.reset();
   at = std::move(from);
   branch_.points.push_back(solution_of(at, nullptr));
   step_ = options_.step;

@@ -11,7 +11,8 @@
 namespace slapstick::orbit {
 
 namespace {
-constexpr double clear = 1e-3;  ///< nearer to an onset impacts are too many and too short to be followed
+constexpr double clear = 1e-3;  ///< of the range: nearer to an onset impacts are too many and too short to be followed
+constexpr double gathered = 1e-2;  ///< of a cascade's length: the changes that are left are as those before, ever nearer to its limit
 }  // namespace
 
 void Follower::add_here(SpecialPoint special) {
@@ -109,6 +110,11 @@ bool Follower::leave_chatter(PathPoint& at) {
   std::vector<HalfBranch> found = reshape(problem_, at.orbit, at, std::nullopt, range_, options_.stop, clear);
   std::erase_if(found, [](const HalfBranch& next) { return !next.onset || next.folds; });
   if (found.empty() && !chatter_lengthens(branch_.points)) return false;
+  const std::optional<PlaceLimit> ahead = onset_ahead(at);
+  if (ahead && !inside(ahead->value) && !back_to_) {
+    end(BranchEnd::Kind::range);
+    return true;
+  }
   const double reach = shortest_step() * range_;
   OnsetInterval about{value(at) - reach, value(at) + reach};
   const bool release = !found.empty() && found.front().onset->release;
@@ -116,6 +122,10 @@ bool Follower::leave_chatter(PathPoint& at) {
   SpecialPoint special = onset(about, branch_.points.back());
   if (!found.empty() && !release)
     special.error = std::max(special.error, std::abs(value(found.front().point) - value(at)));
+  if (ahead && !release) {
+    special.value = ahead->value;
+    special.error = ahead->error;
+  }
   special.passage = found.empty() ? Passage::unknown : Passage::persistence;
   if (!found.empty() && !release && enter_cascade(at, special, found.front().point)) return true;
   add_here(std::move(special));
@@ -164,10 +174,39 @@ bool Follower::clear_onset(PathPoint& at) {
   return true;
 }
 
+/// The onset that a branch with a complete chatter runs towards, by the onset's own equations. Looked for again where the chatter has more impacts by far.
+std::optional<PlaceLimit> Follower::onset_ahead(const PathPoint& at) {
+  constexpr double much = 1.2;
+  if (!branch_.points.back().chatter) return std::nullopt;
+  if (!ahead_ && static_cast<double>(at.orbit.legs()) >= much * static_cast<double>(looked_from_)) {
+    looked_from_ = at.orbit.legs();
+    ahead_ = chatter_limit(problem_, at.orbit);
+  }
+  if (ahead_ && (ahead_->value - value(at)) * at.watched.turn < 0.0) return std::nullopt;
+  return ahead_;
+}
+
+/// Passes the onset of a complete chatter where a branch, with the chatter or with the cascade of its changes, is so near that nothing but ever more impacts
+/// lies before it. @returns false if there is none
+bool Follower::meet_onset(PathPoint& at) {
+  if (!options_.through_changes) return false;
+  if (!branch_.points.back().chatter) {
+    const std::optional<CascadeLimit> limit = cascade_ends(at);
+    return limit && limit->left < gathered * limit->began && end_cascade(at);
+  }
+  if (!chatter_lengthens(branch_.points)) return false;
+  const std::optional<PlaceLimit> ahead = onset_ahead(at);
+  return ahead && std::abs(ahead->value - value(at)) < clear * range_ && leave_chatter(at);
+}
+
+std::optional<CascadeLimit> Follower::cascade() const {
+  return cascade_limit(problem_, branch_.points, branch_.special, ahead_);
+}
+
 /// Have the impacts of a cascade become too short to be followed? Its limit, if the branch is to end or to go on there.
 std::optional<CascadeLimit> Follower::cascade_ends(const PathPoint& at) const {
   if (!options_.through_changes || branch_.points.back().chatter || (back_to_ && !back_to_->onset)) return std::nullopt;
-  std::optional<CascadeLimit> limit = cascade_limit(problem_, branch_.points, branch_.special);
+  std::optional<CascadeLimit> limit = cascade();
   if (limit && std::abs(limit->value - value(at)) > limit->left) limit.reset();
   return limit;
 }

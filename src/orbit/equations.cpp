@@ -38,15 +38,6 @@ MatrixXd classes(const Problem& problem, const MatrixXd& columns) {
   return all;
 }
 
-/// The derivative of a jet of leg i by the unknowns, when the leg's start is x + states v + defect.
-MatrixXd chain(const Problem& problem, const Jet& jet, const MatrixXd& states, std::size_t leg, std::size_t legs) {
-  MatrixXd by = jet.by_state() * states;
-  by.col(problem.instant_column(leg)) += jet.by_begin();
-  by.col(problem.instant_column(leg + 1)) += jet.by_end();
-  for (Index p = 0; p < jet.parameters; ++p) by.col(problem.parameter_column(legs, p)) += jet.by_parameter().col(p);
-  return by;
-}
-
 bool forced(const Orbit& orbit) { return orbit.shape.n > 0; }
 
 }  // namespace
@@ -63,6 +54,14 @@ Index Problem::unknowns(std::size_t legs) const { return numbers() + static_cast
 Index Problem::instant_column(std::size_t event) const { return numbers() + static_cast<Index>(event); }
 Index Problem::parameter_column(std::size_t legs, Index j) const {
   return numbers() + static_cast<Index>(legs) + 1 + j;
+}
+
+MatrixXd by_unknowns(const Problem& problem, const Jet& jet, const MatrixXd& states, std::size_t leg, std::size_t legs) {
+  MatrixXd by = jet.by_state() * states;
+  by.col(problem.instant_column(leg)) += jet.by_begin();
+  by.col(problem.instant_column(leg + 1)) += jet.by_end();
+  for (Index p = 0; p < jet.parameters; ++p) by.col(problem.parameter_column(legs, p)) += jet.by_parameter().col(p);
+  return by;
 }
 
 Linearised linearise(const Problem& problem, const ModeSet& set, const Orbit& orbit) {
@@ -88,11 +87,11 @@ Linearised linearise(const Problem& problem, const ModeSet& set, const Orbit& or
       at.by(row, problem.instant_column(0)) = 1.0;
     } else {
       at.residual[row] = value.h.value()[0] + value.h.by_state().row(0).dot(defect);
-      at.by.row(row) = chain(problem, value.h, states, i, k);
+      at.by.row(row) = by_unknowns(problem, value.h, states, i, k);
     }
     const VectorXd expected = i + 1 < k ? orbit.x[i + 1] : orbit.x[0];
     const VectorXd missed = value.after.value() - expected + value.after.by_state() * defect;
-    states = chain(problem, value.after, states, i, k);
+    states = by_unknowns(problem, value.after, states, i, k);
     defect = missed;
   }
   states.leftCols(problem.numbers()) -= representatives(problem, size);
@@ -163,16 +162,16 @@ std::vector<Condition> fixed_parameters(const Problem& problem, std::size_t legs
 namespace {
 
 /// One step from the linearisation: the change of the unknowns; not finite where the matrix is singular.
-VectorXd newton_step(const Linearised& at, const std::vector<Condition>& conditions, const VectorXd& moved,
-                     const VectorXd& scale) {
-  const auto more = static_cast<Index>(conditions.size());
-  MatrixXd matrix(at.by.rows() + more, at.by.cols());
+/// @param more  of the conditions
+VectorXd newton_step(const Linearised& at, const std::vector<Residual>& more, const VectorXd& scale) {
+  const auto count = static_cast<Index>(more.size());
+  MatrixXd matrix(at.by.rows() + count, at.by.cols());
   VectorXd right(matrix.rows());
   matrix.topRows(at.by.rows()) = at.by;
   right.head(at.residual.size()) = -at.residual;
-  for (Index c = 0; c < more; ++c) {
-    matrix.row(at.by.rows() + c) = conditions[static_cast<std::size_t>(c)].row;
-    right[at.by.rows() + c] = -conditions[static_cast<std::size_t>(c)].row.dot(moved);
+  for (Index c = 0; c < count; ++c) {
+    matrix.row(at.by.rows() + c) = more[static_cast<std::size_t>(c)].by;
+    right[at.by.rows() + c] = -more[static_cast<std::size_t>(c)].value;
   }
   matrix = matrix * scale.asDiagonal();
   right = right.cwiseQuotient(level_rows(matrix));
@@ -249,7 +248,11 @@ void newton(const Problem& problem, Orbit& orbit, const std::vector<Condition>& 
   for (result.steps = 1; result.steps <= most_steps; ++result.steps) {
     const ModeSet set(problem.family(), orbit.values);
     const Linearised at = linearise(problem, set, orbit);
-    VectorXd step = newton_step(at, conditions, moved, scale);
+    std::vector<Residual> more;
+    for (const Condition& condition : conditions)
+      more.push_back(condition.function ? condition.function(set, at, orbit)
+                                        : Residual{condition.row.dot(moved), condition.row});
+    VectorXd step = newton_step(at, more, scale);
     if (!taken_out.empty()) step *= deflation(taken_out, unknowns_of(problem, orbit), scale, step);
     if (!step.allFinite()) return;
     result.last_step = step.cwiseAbs().maxCoeff();

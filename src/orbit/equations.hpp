@@ -8,6 +8,7 @@
 /// so that a step costs a matrix of 2n + k + 1 rows. No guard's slope is divided by: at a graze, where one is zero, the equations are regular.
 #include <Eigen/Core>
 #include <complex>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -60,6 +61,10 @@ struct Linearised {
   Eigen::VectorXd advance;
 };
 
+/// The derivative of a jet of a leg by the unknowns, when that of the leg's start is `states`.
+[[nodiscard]] Eigen::MatrixXd by_unknowns(const Problem& problem, const Jet& jet, const Eigen::MatrixXd& states,
+                                          std::size_t leg, std::size_t legs);
+
 /// @throws NumericalError, InputError as the family
 [[nodiscard]] Linearised linearise(const Problem& problem, const ModeSet& set, const Orbit& orbit);
 
@@ -72,9 +77,16 @@ void move(const Problem& problem, const Linearised& at, const Eigen::VectorXd& c
 /// Divides each row of a matrix by its largest entry. @returns those
 Eigen::VectorXd level_rows(Eigen::MatrixXd& matrix);
 
-/// One more condition on the unknowns, so that the matrix is square: row . (v - v_0) = 0 at the first step's v_0.
+/// A function of the unknowns, where they are, and its derivative.
+struct Residual {
+  double value;
+  Eigen::RowVectorXd by;
+};
+
+/// One more condition on the unknowns, so that the matrix is square: row . (v - v_0) = 0 at the first step's v_0, or if there is one a function's zero.
 struct Condition {
   Eigen::RowVectorXd row;
+  std::function<Residual(const ModeSet& set, const Linearised& at, const Orbit& orbit)> function = {};
 };
 
 struct NewtonResult {

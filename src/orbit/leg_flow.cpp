@@ -82,13 +82,16 @@ void strike(const ModeSet& set, const Leg& leg, Jet& X) {
   }
 }
 
+/// Does it begin with a plastic impact that stands for all impacts of a chatter that follow?
+bool sums_impacts(const Leg& leg) { return leg.ending == Ending::chatter || leg.ending == Ending::onset; }
+
 /// The contact states of the columns of an extended jet, with what the next mode holds still set to zero: velocities, and gaps of closed stops. A gap
 /// that is none of the coordinates goes to zero the shortest way.
 Jet contact_jet(const ModeSet& set, const Leg& next, const Jet& X) {
   const mode::Frame& frame = set.frame();
   Jet x(2 * frame.n, X.states, X.parameters);
   x.all << X.all.topRows(frame.n), X.all.middleRows(frame.d, frame.n);
-  if (next.ending == Ending::chatter) return x;
+  if (sums_impacts(next)) return x;
   const mode::Outline& outline = set.mode(next.states).outline;
   for (int i = 0; i < frame.n; ++i)
     if (outline.steady[i]) x.all.row(frame.n + i).setZero();
@@ -190,7 +193,7 @@ void flow(const ModeRates& mode, double s, Jet& X) {
 
 Jet leg_start(const ModeSet& set, const Leg& leg, const VectorXd& x, double t_begin) {
   Jet X = extended(set, x, t_begin);
-  if (leg.ending == Ending::chatter)
+  if (sums_impacts(leg))
     push(set, {set.frame().stops[leg.contact].own}, VectorXd::Ones(1), MatrixXd::Zero(1, X.parameters), X);
   return X;
 }
@@ -255,7 +258,7 @@ LegValue leg_value(const ModeSet& set, const Leg& leg, const Leg& next, const Ve
   for (Index p = 0; p < X.parameters; ++p)
     X.by_parameter().col(p) += (t_end - t_begin) * set.period_rate(static_cast<std::size_t>(p)) * rate;
   Jet h(1, X.states, X.parameters);
-  if (leg.ending == Ending::guard) h = guard_jet(mode, leg, X);
+  if (leg.ending == Ending::guard || leg.ending == Ending::onset) h = guard_jet(mode, leg, X);
   if (leg.ending == Ending::chatter) h = chatter_jet(set, leg.contact, extended(set, x, t_begin), t_begin, t_end);
   Jet struck = X;
   strike(set, leg, struck);

@@ -97,44 +97,5 @@ TEST(CascadeLaw, WithFrictionOnThePairGathersFasterThanAnySeries) {
   EXPECT_FALSE(orbit::limit_with_friction({1.0, 1.1, 1.2, 1.3}));  // no cascade
 }
 
-/// Does a ball that a shaken table has released come to rest before the table releases it again?
-bool comes_to_rest(double restitution, double acceleration) {
-  const Model model = load_model("shaken-table").build({{"restitution", restitution}, {"acceleration", acceleration}});
-  const System system(model);
-  const double release = std::asin(1.0 / acceleration) / (2.0 * std::numbers::pi);
-  Motion motion(system, {0.0, 0.0}, Instant{}.plus(release - 0.05));
-  const Instant again = Instant{}.plus(release + 1.0);
-  while (motion.advance(again) == Outcome::event)
-    if (motion.event().kind == EventKind::chatter) return true;
-  return false;
-}
-
-/// The onset of a shaken ball's chatter from the grazes of its cascade, against bisection by the simulator. Aitken's rule, which knows one rate, was off by
-/// 1.7e-7, 7.8e-8 and 3.1e-8, and said less.
-TEST(Onset, OfAShakenBallIsWhereTheSimulatorSaysAndAsWellKnownAsItSays) {
-  struct Case {
-    double restitution, at, from, to;
-  };
-  for (const auto& [restitution, at, from, to] : {Case{0.3, 1.946, 1.94, 1.96}, Case{0.4, 1.756, 1.75, 1.77},
-                                                  Case{0.6, 1.4589, 1.458, 1.462}, Case{0.7, 1.3359, 1.3355, 1.3375}}) {
-    const Posed posed("shaken-table", {{"restitution", restitution}}, {"acceleration"}, {at});
-    const auto first = orbit::settle(*posed.problem, posed.system, {0.0, 0.0}).orbit;  // a ball that lies on the table
-    ASSERT_TRUE(first && first->chatter) << restitution;
-    const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = from, .to = to});
-    const auto onset = std::ranges::find(branch.special, SpecialType::CH, &orbit::SpecialPoint::type);
-    ASSERT_NE(onset, branch.special.end()) << restitution << ": " << ended(branch);
-    double rests = onset->value - 1e-4, bounces = onset->value + 1e-4;
-    ASSERT_TRUE(comes_to_rest(restitution, rests)) << restitution;
-    ASSERT_FALSE(comes_to_rest(restitution, bounces)) << restitution;
-    while (bounces - rests > 1e-12) {
-      const double middle = 0.5 * (rests + bounces);
-      (comes_to_rest(restitution, middle) ? rests : bounces) = middle;
-    }
-    EXPECT_NEAR(onset->value, rests, 1e-9) << restitution;
-    EXPECT_NEAR(onset->value, rests, onset->error + 2e-12) << restitution;
-    EXPECT_LT(onset->error, 1e-8) << restitution;
-  }
-}
-
 }  // namespace
 }  // namespace slapstick::test

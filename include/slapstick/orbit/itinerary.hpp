@@ -19,6 +19,7 @@ namespace slapstick::orbit {
 enum class Ending : std::uint8_t {
   guard,    ///< the zero of a guard of the leg's mode
   chatter,  ///< the limit of a complete chatter whose impacts after the leg's start are summed
+  onset,    ///< the release with which such a chatter ends at its onset: the zero of a guard of the leg's mode
   cut       ///< nothing: an orbit without events, cut at phase 0
 };
 

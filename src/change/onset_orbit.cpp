@@ -1,0 +1,248 @@
+/// Solves for the onset of a complete chatter: the orbit on the stable manifold of the bounce map's second fixed point.
+#include "change/onset_orbit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "change/cascade_law.hpp"
+
+namespace slapstick::orbit {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::RowVectorXd;
+using Eigen::VectorXd;
+
+/// The bounce map's fixed point for a stop's restitution.
+struct FixedPoint {
+  explicit FixedPoint(double restitution) : rates(bounce_rates(restitution)) {
+    w = restitution * (0.5 * rates.sigma - rates.sigma * rates.sigma / 3.0) / (rates.mu * rates.mu);
+  }
+  BounceRates rates;
+  double w;  ///< w*
+};
+
+/// The stop that chatters, its flight and its rest, in one model.
+class Bounce {
+ public:
+  Bounce(const ModeSet& set, int stop, const mode::ContactStates& flight)
+      : set_(set), row_(set.frame().stops[static_cast<std::size_t>(stop)]), flight_(flight), closed_(flight) {
+    closed_.stops[static_cast<std::size_t>(stop)] = mode::StopState::closed;
+  }
+
+  [[nodiscard]] const mode::ContactStates& closed() const { return closed_; }
+  [[nodiscard]] Index velocity() const { return set_.frame().u(row_.own); }
+
+  /// The speed of separation, the pressing acceleration and the rate at which it falls, where a leg begins at an impact.
+  struct Numbers {
+    Jet v, a, j;
+    [[nodiscard]] double w() const { return v.value()[0] * j.value()[0] / (a.value()[0] * a.value()[0]); }
+  };
+  [[nodiscard]] Numbers numbers(const VectorXd& x, double t) const {
+    const Jet before = extended(set_, x, t);
+    Leg rest;
+    rest.ending = Ending::onset;
+    rest.contact = static_cast<int>(&row_ - set_.frame().stops.data());
+    const Jet X = leg_start(set_, rest, x, t);
+    const ModeRates &flight = set_.mode(flight_), &closed = set_.mode(closed_);
+    const RowVectorXd pressing = row_.sign * flight.outline.system.row(velocity());
+    const RowVectorXd falling = -pressing * closed.outline.system;
+    Numbers numbers{row_jet(-row_.sign * RowVectorXd::Unit(before.all.rows(), velocity()), before), row_jet(pressing, X),
+                    row_jet(falling, X)};
+    for (Index p = 0; p < X.parameters; ++p) {
+      const auto at = static_cast<std::size_t>(p);
+      const RowVectorXd rate = row_.sign * flight.rates[at].system.row(velocity());
+      numbers.a.by_parameter()(0, p) += rate.dot(X.value());
+      numbers.j.by_parameter()(0, p) -= (rate * closed.outline.system + pressing * closed.rates[at].system).dot(X.value());
+    }
+    return numbers;
+  }
+
+  /// The contact state so long after an impact as if the contact had stayed closed since, but for a speed of separation.
+  [[nodiscard]] VectorXd state_after(const Leg& rest, const VectorXd& x, double t, double seconds, double speed) const {
+    const Jet start = leg_start(set_, rest, x, t);
+    Jet X(start.all.rows(), 0, 0);
+    X.value() = start.value();
+    flow(set_.mode(closed_), seconds, X);
+    X.value()[velocity()] = -row_.sign * speed;
+    return contact_state(set_, X.value());
+  }
+
+ private:
+  static Jet row_jet(const RowVectorXd& row, const Jet& X) {
+    Jet h(1, X.states, X.parameters);
+    h.all = row * X.all;
+    return h;
+  }
+
+  const ModeSet& set_;
+  const mode::ContactRow& row_;
+  mode::ContactStates flight_, closed_;
+};
+
+bool is_flight(const Leg& leg, int stop, const mode::ContactStates& states) {
+  return leg.ending == Ending::guard && leg.kind == mode::GuardKind::gap && leg.contact == stop && leg.states == states;
+}
+
+/// Of a stop's impacts the one where w is nearest to w*, in a burst whose contact then lets go.
+struct Approach {
+  std::size_t from;    ///< the leg that begins there
+  std::size_t beyond;  ///< the first leg after the burst
+  double off = INFINITY;
+};
+
+/// The first leg after a burst: behind the chatter's rest, or the flight from which the contact does not come back at once.
+std::optional<std::size_t> leg_beyond(const ModeSet& set, const Orbit& orbit, int stop, std::size_t from) {
+  for (std::size_t step = 0; step < orbit.legs(); ++step) {
+    const std::size_t i = (from + step) % orbit.legs();
+    const Leg& leg = orbit.shape.legs[i];
+    if (leg.ending == Ending::chatter) {
+      const std::size_t rest = (i + 1) % orbit.legs();
+      if (orbit.shape.legs[rest].kind != mode::GuardKind::press) return std::nullopt;
+      return (rest + 1) % orbit.legs();
+    }
+    const auto numbers = Bounce(set, stop, leg.states).numbers(orbit.x[i], orbit.t[i]);
+    const double a = numbers.a.value()[0], j = numbers.j.value()[0];
+    const bool returns = a > 0.0 && j > 0.0 && orbit.duration(i) * set.period() * j < 2.0 * a;  // a graze's flight: 1.5 a / j
+    if (!returns) return step == 0 ? std::nullopt : std::optional(i);
+    if (!is_flight(leg, stop, orbit.shape.legs[from].states)) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::optional<Approach> nearest_approach(const ModeSet& set, const Orbit& orbit, int stop, double w) {
+  constexpr double near = 0.1;  // in w, which ends a burst where it passes 3/8
+  std::optional<Approach> best;
+  for (std::size_t i = 0; i < orbit.legs(); ++i) {
+    const Leg& before = orbit.shape.legs[(i + orbit.legs() - 1) % orbit.legs()];
+    if (!is_flight(before, stop, before.states) || before.strikes.empty()) continue;
+    const auto numbers = Bounce(set, stop, before.states).numbers(orbit.x[i], orbit.t[i]);
+    if (!(numbers.a.value()[0] > 0.0 && numbers.j.value()[0] > 0.0)) continue;
+    const double off = std::abs(numbers.w() - w);
+    if (!(off < (best ? best->off : near))) continue;
+    const std::optional<std::size_t> beyond = leg_beyond(set, orbit, stop, i);
+    if (beyond) best = Approach{i, *beyond, off};
+  }
+  return best;
+}
+
+/// The orbit with the burst's legs behind the approach replaced by one closed leg until the contact lets go.
+Orbit cut_off(const ModeSet& set, Orbit orbit, int stop, const Approach& approach) {
+  const std::size_t legs = orbit.legs(), keep = (approach.from + legs - approach.beyond) % legs;
+  rotate(orbit, approach.beyond);
+  const Leg flight = orbit.shape.legs[keep - 1];
+  const Bounce bounce(set, stop, flight.states);
+  Leg rest = flight;
+  rest.states = bounce.closed();
+  rest.ending = Ending::onset;
+  rest.kind = mode::GuardKind::press;
+  rest.strikes.clear();
+  rest.event = EventKind::release;
+  const auto numbers = bounce.numbers(orbit.x[keep], orbit.t[keep]);
+  const double left = numbers.a.value()[0] / numbers.j.value()[0];
+  const double cycle = orbit.shape.n > 0 ? orbit.shape.n : orbit.t.back() - orbit.t.front();
+  orbit.shape.legs.resize(keep);
+  orbit.shape.legs.push_back(rest);
+  orbit.x.resize(keep + 1);
+  orbit.t.resize(keep + 2);
+  orbit.t.back() = orbit.t[keep] + left / set.period();
+  orbit.x[0] = bounce.state_after(rest, orbit.x[keep], orbit.t[keep], left, 0.0);
+  orbit.t[0] = orbit.shape.n > 0 ? orbit.t.back() - cycle : 0.0;
+  return orbit;
+}
+
+/// More impacts before the closed leg, where the fixed point has them.
+Orbit with_more_impacts(const ModeSet& set, Orbit orbit, int count, const FixedPoint& point) {
+  const Leg rest = orbit.shape.legs.back(), flight = orbit.shape.legs.end()[-2];
+  const Bounce bounce(set, rest.contact, flight.states);
+  const VectorXd x = orbit.x.back();
+  const double t = orbit.t.end()[-2], end = orbit.t.back();
+  const auto numbers = bounce.numbers(x, t);
+  double a = numbers.a.value()[0], passed = 0.0;
+  const double j = numbers.j.value()[0];
+  orbit.shape.legs.pop_back();
+  orbit.t.pop_back();
+  for (int i = 0; i < count; ++i) {
+    passed += point.rates.sigma * a / j;
+    a *= point.rates.mu;
+    orbit.shape.legs.push_back(flight);
+    orbit.t.push_back(t + passed / set.period());
+    orbit.x.push_back(bounce.state_after(rest, x, t, passed, point.w * a * a / j));
+  }
+  orbit.shape.legs.push_back(rest);
+  orbit.t.push_back(end);
+  return orbit;
+}
+
+/// Solves the equations, with the first parameter as an unknown. @returns whether its legs come one after the other
+bool solve_onset(const Problem& problem, Orbit& orbit, const FixedPoint& point) {
+  constexpr int most_steps = 20;
+  const std::size_t legs = orbit.legs(), last = legs - 1;
+  std::vector<Condition> conditions = fixed_parameters(problem, legs);
+  conditions[0].function = [&](const ModeSet& set, const Linearised& at, const Orbit& now) {
+    const Bounce bounce(set, now.shape.legs[last].contact, now.shape.legs[last - 1].states);
+    const Bounce::Numbers numbers = bounce.numbers(now.x[last], now.t[last]);
+    const double v = numbers.v.value()[0], a = numbers.a.value()[0], j = numbers.j.value()[0];
+    Jet w = numbers.v;  // v j / a^2
+    w.all = (j / (a * a)) * numbers.v.all + (v / (a * a)) * numbers.j.all - (2.0 * v * j / (a * a * a)) * numbers.a.all;
+    const RowVectorXd by = by_unknowns(problem, w, at.states[last], last, legs);
+    return Residual{numbers.w() - point.w + w.by_state().row(0).dot(at.defects[last]), by};
+  };
+  if (!solve(problem, orbit, conditions, most_steps).converged) return false;
+  return std::ranges::is_sorted(orbit.t, std::less_equal());
+}
+
+}  // namespace
+
+bool has_friction(const Model& model, const mode::Frame& frame, int stop) {
+  const int own = frame.stops[static_cast<std::size_t>(stop)].own;
+  for (std::size_t i = 0; i < frame.frictions.size(); ++i)
+    if (model.frictions[i].static_friction > 0.0 && frame.parallel(frame.frictions[i].own, own) != 0) return true;
+  return false;
+}
+
+std::optional<int> chattering_stop(const Orbit& orbit) {
+  std::optional<int> stop;
+  for (const Leg& leg : orbit.shape.legs) {
+    if (leg.ending != Ending::chatter) continue;
+    if (stop) return std::nullopt;
+    stop = leg.contact;
+  }
+  return stop;
+}
+
+std::optional<OnsetOrbit> onset_orbit(const Problem& problem, const Orbit& near, int stop) {
+  constexpr int at_once = 16;
+  constexpr std::size_t most_legs = 600;
+  const ModeSet set(problem.family(), near.values);
+  const double restitution = set.model().stops[static_cast<std::size_t>(stop)].restitution;
+  const bool in_basis = set.frame().stops[static_cast<std::size_t>(stop)].own < set.frame().n;
+  if (!(restitution > 0.0 && restitution < 1.0) || !in_basis || has_friction(set.model(), set.frame(), stop)) return std::nullopt;
+  const FixedPoint point(restitution);
+  const std::optional<Approach> approach = nearest_approach(set, near, stop, point.w);
+  if (!approach) return std::nullopt;
+  Orbit orbit = cut_off(set, near, stop, *approach);
+  if (!solve_onset(problem, orbit, point)) return std::nullopt;
+  std::optional<OnsetOrbit> best;
+  for (int more = at_once; more > 0 && orbit.legs() < most_legs;) {
+    const ModeSet here(problem.family(), orbit.values);
+    Orbit next = with_more_impacts(here, orbit, more, point);
+    if (!solve_onset(problem, next, point)) {
+      more /= 2;
+      continue;
+    }
+    const double left = std::pow(point.rates.mu / point.rates.lambda, more);
+    const double error = std::abs(next.values[0] - orbit.values[0]) * left / (1.0 - left);
+    const bool rounding = best && error >= 0.5 * best->error;
+    if (!rounding) best = OnsetOrbit{next, error};
+    orbit = std::move(next);
+    if (rounding) break;
+  }
+  if (best) best->error += 4.0 * std::numeric_limits<double>::epsilon() * std::abs(best->orbit.values[0]);
+  return best;
+}
+
+}  // namespace slapstick::orbit

@@ -1,4 +1,4 @@
-/// What happens at an event: ties, rest, next mode, complete chatter; impacts are in motion_impacts.cpp. See
+/// What happens at an event: ties, rest, next mode, complete chatter; impacts are in engine_impacts.cpp. See
 /// flow/motion.hpp for the order of things.
 #include <algorithm>
 #include <array>

@@ -16,7 +16,8 @@ BounceRates bounce_rates(double restitution) {
   const double left = 1.0 - s;
   const double by_sigma =  // d w' / d sigma
       r * ((0.5 - 2.0 * s / 3.0) / (left * left) + 2.0 * (s / 2.0 - s * s / 3.0) / (left * left * left));
-  return {s, left, by_sigma / (0.5 - s / 3.0)};
+  const double sigma_rate = (3.0 - 2.0 * s) / (2.0 * r - left * left - 2.0 * (3.0 - s) * left);
+  return {s, left, by_sigma / (0.5 - s / 3.0), 0.5 * s - s * s / 6.0, (0.5 - s / 3.0) * sigma_rate};
 }
 
 std::vector<double> cascade_rates(double restitution, std::size_t count) {

@@ -27,6 +27,8 @@ struct BounceRates {
   double sigma;   ///< sigma*: the flight in units of the time in which the pressing acceleration falls to zero
   double mu;      ///< 1 - sigma*
   double lambda;  ///< dw'/dw
+  double w;       ///< w* = sigma*/2 - sigma*^2/6 ..
+  double w_rate;  ///< .. and its derivative by r
 };
 /// @param restitution  in (0, 1)
 [[nodiscard]] BounceRates bounce_rates(double restitution);

@@ -16,15 +16,6 @@ using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
-/// The bounce map's fixed point for a stop's restitution.
-struct FixedPoint {
-  explicit FixedPoint(double restitution) : rates(bounce_rates(restitution)) {
-    w = restitution * (0.5 * rates.sigma - rates.sigma * rates.sigma / 3.0) / (rates.mu * rates.mu);
-  }
-  BounceRates rates;
-  double w;  ///< w*
-};
-
 /// The stop that chatters, its flight and its rest, in one model.
 class Bounce {
  public:
@@ -113,16 +104,22 @@ std::optional<std::size_t> leg_beyond(const ModeSet& set, const Orbit& orbit, in
   return std::nullopt;
 }
 
-std::optional<Approach> nearest_approach(const ModeSet& set, const Orbit& orbit, int stop, double w) {
-  constexpr double near = 0.1;  // in w, which ends a burst where it passes 3/8
+/// Far from the onset a is as good as constant during a burst, and w falls by r from impact to impact; near the fixed point w stays.
+std::optional<Approach> nearest_approach(const ModeSet& set, const Orbit& orbit, int stop, double restitution) {
+  const double wanted = bounce_rates(restitution).w;
+  const auto w_at = [&](std::size_t leg) -> std::optional<double> {
+    const Leg& before = orbit.shape.legs[(leg + orbit.legs() - 1) % orbit.legs()];
+    if (!is_flight(before, stop, before.states) || before.strikes.empty()) return std::nullopt;
+    const auto numbers = Bounce(set, stop, before.states).numbers(orbit.x[leg], orbit.t[leg]);
+    if (!(numbers.a.value()[0] > 0.0 && numbers.j.value()[0] > 0.0)) return std::nullopt;
+    return numbers.w();
+  };
   std::optional<Approach> best;
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
-    const Leg& before = orbit.shape.legs[(i + orbit.legs() - 1) % orbit.legs()];
-    if (!is_flight(before, stop, before.states) || before.strikes.empty()) continue;
-    const auto numbers = Bounce(set, stop, before.states).numbers(orbit.x[i], orbit.t[i]);
-    if (!(numbers.a.value()[0] > 0.0 && numbers.j.value()[0] > 0.0)) continue;
-    const double off = std::abs(numbers.w() - w);
-    if (!(off < (best ? best->off : near))) continue;
+    const std::optional<double> w = w_at(i), next = w_at((i + 1) % orbit.legs());
+    if (!w || !next || !(*next > 0.5 * (1.0 + restitution) * *w)) continue;
+    const double off = std::abs(*w - wanted);
+    if (!(off < (best ? best->off : 0.5 * wanted))) continue;
     const std::optional<std::size_t> beyond = leg_beyond(set, orbit, stop, i);
     if (beyond) best = Approach{i, *beyond, off};
   }
@@ -155,7 +152,7 @@ Orbit cut_off(const ModeSet& set, Orbit orbit, int stop, const Approach& approac
 }
 
 /// More impacts before the closed leg, where the fixed point has them.
-Orbit with_more_impacts(const ModeSet& set, Orbit orbit, int count, const FixedPoint& point) {
+Orbit with_more_impacts(const ModeSet& set, Orbit orbit, int count, const BounceRates& rates) {
   const Leg rest = orbit.shape.legs.back(), flight = orbit.shape.legs.end()[-2];
   const Bounce bounce(set, rest.contact, flight.states);
   const VectorXd x = orbit.x.back();
@@ -166,11 +163,11 @@ Orbit with_more_impacts(const ModeSet& set, Orbit orbit, int count, const FixedP
   orbit.shape.legs.pop_back();
   orbit.t.pop_back();
   for (int i = 0; i < count; ++i) {
-    passed += point.rates.sigma * a / j;
-    a *= point.rates.mu;
+    passed += rates.sigma * a / j;
+    a *= rates.mu;
     orbit.shape.legs.push_back(flight);
     orbit.t.push_back(t + passed / set.period());
-    orbit.x.push_back(bounce.state_after(rest, x, t, passed, point.w * a * a / j));
+    orbit.x.push_back(bounce.state_after(rest, x, t, passed, rates.w * a * a / j));
   }
   orbit.shape.legs.push_back(rest);
   orbit.t.push_back(end);
@@ -178,18 +175,21 @@ Orbit with_more_impacts(const ModeSet& set, Orbit orbit, int count, const FixedP
 }
 
 /// Solves the equations, with the first parameter as an unknown. @returns whether its legs come one after the other
-bool solve_onset(const Problem& problem, Orbit& orbit, const FixedPoint& point) {
+bool solve_onset(const Problem& problem, Orbit& orbit) {
   constexpr int most_steps = 20;
   const std::size_t legs = orbit.legs(), last = legs - 1;
   std::vector<Condition> conditions = fixed_parameters(problem, legs);
   conditions[0].function = [&](const ModeSet& set, const Linearised& at, const Orbit& now) {
-    const Bounce bounce(set, now.shape.legs[last].contact, now.shape.legs[last - 1].states);
-    const Bounce::Numbers numbers = bounce.numbers(now.x[last], now.t[last]);
+    const int stop = now.shape.legs[last].contact;
+    const Bounce::Numbers numbers = Bounce(set, stop, now.shape.legs[last - 1].states).numbers(now.x[last], now.t[last]);
+    const BounceRates rates = bounce_rates(set.model().stops[static_cast<std::size_t>(stop)].restitution);
     const double v = numbers.v.value()[0], a = numbers.a.value()[0], j = numbers.j.value()[0];
-    Jet w = numbers.v;  // v j / a^2
+    Jet w = numbers.v;  // v j / a^2 - w*
     w.all = (j / (a * a)) * numbers.v.all + (v / (a * a)) * numbers.j.all - (2.0 * v * j / (a * a * a)) * numbers.a.all;
+    for (Index p = 0; p < w.parameters; ++p)
+      w.by_parameter()(0, p) -= rates.w_rate * set.rate(static_cast<std::size_t>(p)).stops[static_cast<std::size_t>(stop)].restitution;
     const RowVectorXd by = by_unknowns(problem, w, at.states[last], last, legs);
-    return Residual{numbers.w() - point.w + w.by_state().row(0).dot(at.defects[last]), by};
+    return Residual{numbers.w() - rates.w + w.by_state().row(0).dot(at.defects[last]), by};
   };
   if (!solve(problem, orbit, conditions, most_steps).converged) return false;
   return std::ranges::is_sorted(orbit.t, std::less_equal());
@@ -221,20 +221,20 @@ std::optional<OnsetOrbit> onset_orbit(const Problem& problem, const Orbit& near,
   const double restitution = set.model().stops[static_cast<std::size_t>(stop)].restitution;
   const bool in_basis = set.frame().stops[static_cast<std::size_t>(stop)].own < set.frame().n;
   if (!(restitution > 0.0 && restitution < 1.0) || !in_basis || has_friction(set.model(), set.frame(), stop)) return std::nullopt;
-  const FixedPoint point(restitution);
-  const std::optional<Approach> approach = nearest_approach(set, near, stop, point.w);
+  const BounceRates rates = bounce_rates(restitution);
+  const std::optional<Approach> approach = nearest_approach(set, near, stop, restitution);
   if (!approach) return std::nullopt;
   Orbit orbit = cut_off(set, near, stop, *approach);
-  if (!solve_onset(problem, orbit, point)) return std::nullopt;
+  if (orbit.legs() > most_legs || !solve_onset(problem, orbit)) return std::nullopt;
   std::optional<OnsetOrbit> best;
   for (int more = at_once; more > 0 && orbit.legs() < most_legs;) {
     const ModeSet here(problem.family(), orbit.values);
-    Orbit next = with_more_impacts(here, orbit, more, point);
-    if (!solve_onset(problem, next, point)) {
+    Orbit next = with_more_impacts(here, orbit, more, rates);
+    if (!solve_onset(problem, next)) {
       more /= 2;
       continue;
     }
-    const double left = std::pow(point.rates.mu / point.rates.lambda, more);
+    const double left = std::pow(rates.mu / rates.lambda, more);
     const double error = std::abs(next.values[0] - orbit.values[0]) * left / (1.0 - left);
     const bool rounding = best && error >= 0.5 * best->error;
     if (!rounding) best = OnsetOrbit{next, error};

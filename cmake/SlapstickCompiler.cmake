@@ -5,7 +5,7 @@ add_library(slapstick_options INTERFACE)
 target_compile_features(slapstick_options INTERFACE cxx_std_20)
 # The private headers, for the library, its programs and its tests.
 target_include_directories(slapstick_options INTERFACE ${PROJECT_SOURCE_DIR}/src)
-target_compile_options(slapstick_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off -fno-math-errno)
+target_compile_options(slapstick_options INTERFACE -Wall -Wextra -Wpedantic $<$<NOT:$<BOOL:${SLAPSTICK_GROUPED}>>:-Wshadow> -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off -fno-math-errno)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # GCC 12 warns inside its own AVX-512 intrinsics (its bug 105593) and std::string concatenation (105651).
   target_compile_options(slapstick_options INTERFACE -Wno-maybe-uninitialized -Wno-restrict)
@@ -21,7 +21,9 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
 endif()
 set(CMAKE_CXX_EXTENSIONS OFF)
-set(CMAKE_POSITION_INDEPENDENT_CODE ON)  # the library goes into Python modules too
+if(NOT EMSCRIPTEN)
+  set(CMAKE_POSITION_INDEPENDENT_CODE ON)  # the library goes into Python modules too
+endif()
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
 
 # slapstick_group(TARGET COUNT): with SLAPSTICK_GROUPED, up to COUNT neighbouring sources of one folder are compiled together, since most of the
@@ -32,8 +34,8 @@ function(slapstick_group target count)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  # What one source calls its own is no fault of its neighbours: builds without groups ask for these.
-  target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  # What one source calls its own is no fault of its neighbours: builds without groups ask for this, and for shadows.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   get_target_property(sources ${target} SOURCES)
   set(before "-")
   list(FILTER sources EXCLUDE REGEX TARGET_OBJECTS)

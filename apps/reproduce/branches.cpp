@@ -1,10 +1,10 @@
 /// Follows the branches of n-1 orbits and compares them with the windows of the diagrams.
 #include "reproduce/branches.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 
+#include "base/ranges.hpp"
 #include "reproduce/claims.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/orbit/search.hpp"
@@ -50,7 +50,7 @@ std::vector<double> impact_speeds(const orbit::Problem& problem, const orbit::So
   std::vector<double> speeds;
   for (const orbit::EventOfOrbit& event : orbit::events(problem, point.orbit))
     if (event.kind == EventKind::impact) speeds.push_back(event.w);
-  std::ranges::sort(speeds, std::greater<>());  // which event a cycle begins with may change along a branch
+  ranges::sort(speeds, std::greater<>());  // which event a cycle begins with may change along a branch
   return speeds;
 }
 
@@ -105,7 +105,7 @@ std::vector<NBranch> make_doubled(const Study& study, const NBranch& of) {
     options.step = 1e-3;
     options.stop = study.options().cancel;
     NBranch next{2 * pd.solution.orbit.shape.n, orbit::follow(*problem, pd.born.front(), options), {}};
-    const auto again = std::ranges::find_if(next.branch.special, [&](const orbit::SpecialPoint& point) {
+    const auto again = ranges::find_if(next.branch.special, [&](const orbit::SpecialPoint& point) {
       return point.type == orbit::SpecialType::PD && point.occurrence != orbit::Occurrence::end_of_doubled;
     });
     result.push_back(next);

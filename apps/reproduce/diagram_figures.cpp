@@ -1,8 +1,7 @@
 /// Figures 2, 6, 8 and the comparison with the print: bifurcation diagrams along omega.
-#include <charconv>
-
 #include "reproduce/diagrams.hpp"
 #include "reproduce/figures.hpp"
+#include "base/decimal.hpp"
 #include "base/text.hpp"
 #include "io/table.hpp"
 
@@ -39,8 +38,9 @@ using figure::Points;
 
 /// Nine digits: enough to redraw a figure, and half the bytes; `slapstick diagram` gives all seventeen.
 std::string short_number(double value) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, 9).ptr};
+  std::string text;
+  append_digits(text, value, 9);
+  return text;
 }
 
 /// Every impact: omega, direction, w, flight, sliding.

@@ -1,4 +1,5 @@
 /// Writes the page that shows figures and claims beside the paper's words.
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 

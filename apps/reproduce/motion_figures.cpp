@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/ranges.hpp"
 #include "reproduce/figures.hpp"
 #include "io/table.hpp"
 
@@ -36,8 +37,8 @@ struct Record {
 
 bool at_rest(const System& system, ModeId mode) {
   const mode::ContactStates states = system.states(mode);
-  return std::ranges::find(states.frictions, mode::FrictionState::stick) != states.frictions.end() ||
-         std::ranges::find(states.stops, mode::StopState::closed) != states.stops.end();
+  return ranges::find(states.frictions, mode::FrictionState::stick) != states.frictions.end() ||
+         ranges::find(states.stops, mode::StopState::closed) != states.stops.end();
 }
 
 class Recorder {

@@ -3,11 +3,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <functional>
+#include <string_view>
+#include <system_error>
 
 #include "slapstick/base/error.hpp"
+#include "base/decimal.hpp"
 #include "base/nearest.hpp"
 
 namespace slapstick::app {
@@ -131,13 +133,12 @@ std::string number_advice(const std::string& text) {
 }
 
 double parse_number(const std::string& argument, const std::string& text) {
-  const char* begin = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
-  const char* end = text.data() + text.size();
+  const std::size_t begin = text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0;
   double value = 0.0;
-  const auto [rest, error] = std::from_chars(begin, end, value);
+  const std::errc error = read_decimal(std::string_view(text).substr(begin), value);
   if (error == std::errc::result_out_of_range)
     throw InputError(argument + ": " + in_quotes(text) + " is too large or too small for a number");
-  if (error != std::errc() || rest != end)
+  if (error != std::errc())
     throw InputError(argument + ": " + in_quotes(text) + " is not a number" + number_advice(text));
   if (!std::isfinite(value)) throw InputError(argument + ": " + in_quotes(text) + " is not finite");
   return value;
@@ -145,9 +146,9 @@ double parse_number(const std::string& argument, const std::string& text) {
 
 long long parse_integer(const std::string& argument, const std::string& text, long long least, long long most) {
   long long value = 0;
-  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool number = error != std::errc::invalid_argument && rest == text.data() + text.size();
-  if (!number) throw InputError(argument + ": " + in_quotes(text) + " is not a whole number");
+  const std::errc error = read_decimal(text, value);
+  if (error == std::errc::invalid_argument)
+    throw InputError(argument + ": " + in_quotes(text) + " is not a whole number");
   if (error != std::errc() || value < least || value > most)
     throw InputError(argument + ": " + in_quotes(text) + " is outside [" + std::to_string(least) + ", " +
                      std::to_string(most) + "]");

@@ -1,9 +1,10 @@
 /// Turns names of a model into the text of a picture, in gnuplot's enhanced notation.
 #include "axis_text.hpp"
 
-#include <algorithm>
 #include <set>
 #include <vector>
+
+#include "base/ranges.hpp"
 
 namespace slapstick::app {
 
@@ -19,7 +20,7 @@ std::string parameter_axis(const ModelDefinition& definition, const std::string&
     if (group.name == name) members = group.members;
   std::set<std::string> units;
   for (const Parameter& parameter : definition.parameters())
-    if (std::ranges::find(members, parameter.name) != members.end()) units.insert(parameter.unit);
+    if (ranges::find(members, parameter.name) != members.end()) units.insert(parameter.unit);
   const bool one = units.size() == 1 && !units.begin()->empty() && *units.begin() != "1";
   return axis_text(name) + (one ? " [" + axis_text(*units.begin()) + "]" : "");
 }

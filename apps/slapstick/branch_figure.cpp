@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "axis_units.hpp"
+#include "base/ranges.hpp"
 #include "branch_colours.hpp"
 #include "branch_table.hpp"
 #include "free_labels.hpp"
@@ -28,7 +29,7 @@ std::vector<double> heights(const orbit::Problem& problem, const Solution& solut
   if (places.empty()) places.push_back(orbit::at_phase_zero(problem, solution.orbit).front());
   if (speeds.empty()) speeds.push_back(0.0);
   std::vector<double>& all = of_speeds ? speeds : places;
-  std::ranges::sort(all, std::greater<>());
+  ranges::sort(all, std::greater<>());
   return all;
 }
 
@@ -69,7 +70,7 @@ class Lines {
   [[nodiscard]] std::optional<double> nearest(double y) const {
     constexpr double near = 0.02;
     const auto off = [y](double other) { return std::abs(other - y); };
-    const double best = *std::ranges::min_element(last_, {}, off);
+    const double best = *ranges::min_element(last_, {}, off);
     return off(best) < near * std::abs(y) ? std::optional(best) : std::nullopt;
   }
   void push(std::size_t i, double x, double y) {
@@ -86,8 +87,8 @@ class Lines {
 };
 
 bool have_impacts(const std::vector<orbit::Branch>& branches) {
-  return std::ranges::any_of(branches, [](const orbit::Branch& branch) {
-    return std::ranges::any_of(branch.points, [](const Solution& point) { return point.impacts > 0; });
+  return ranges::any_of(branches, [](const orbit::Branch& branch) {
+    return ranges::any_of(branch.points, [](const Solution& point) { return point.impacts > 0; });
   });
 }
 
@@ -122,14 +123,14 @@ std::string class_of(const orbit::Branch& branch) {
   for (const Solution& point : branch.points) {
     const std::string n = point.orbit.shape.n > 0 ? std::to_string(point.orbit.shape.n) : "free";
     const std::string label = n + "-" + (point.chatter ? "inf" : std::to_string(point.impacts));
-    const auto seen = std::ranges::find(counts, label, &std::pair<long, std::string>::second);
+    const auto seen = ranges::find(counts, label, &std::pair<long, std::string>::second);
     if (seen == counts.end())
       counts.emplace_back(-1, label);
     else
       --seen->first;
   }
   if (counts.empty()) return "";
-  return std::ranges::min_element(counts, {}, &std::pair<long, std::string>::first)->second +
+  return ranges::min_element(counts, {}, &std::pair<long, std::string>::first)->second +
          (counts.size() > 1 ? " .." : "");
 }
 
@@ -137,7 +138,7 @@ std::string class_of(const orbit::Branch& branch) {
 std::vector<figure::Key> keys(const std::vector<orbit::Branch>& branches, const figure::Panel& panel, bool settled) {
   std::vector<figure::Key> all;
   for (const auto& [dash, words] : {std::pair{figure::Dash::solid, "stable"}, {figure::Dash::dashed, "unstable"}})
-    if (std::ranges::find(panel.lines, dash, &figure::Line::dash) != panel.lines.end())
+    if (ranges::find(panel.lines, dash, &figure::Line::dash) != panel.lines.end())
       all.push_back({.label = words, .dash = dash});
   if (settled)
     all.push_back({.label = "settles", .colour = settled_colour, .marker = figure::Marker::disc, .size = 0.6});

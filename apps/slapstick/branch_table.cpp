@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/ranges.hpp"
 #include "base/text.hpp"
 #include "slapstick/continuation/sentences.hpp"
 
@@ -188,7 +189,7 @@ class Descent {
     const auto largest = [](const orbit::Solution& point) {
       return point.multipliers.empty() ? 0.0 : std::abs(point.multipliers.front());
     };
-    return std::ranges::min_element(branch.points, {}, largest)->orbit;
+    return ranges::min_element(branch.points, {}, largest)->orbit;
   }
   bool known(const orbit::Orbit& orbit, std::vector<std::size_t>& images) const {
     for (std::size_t b = 0; b < branches_.size(); ++b) {

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "axis_text.hpp"
+#include "base/ranges.hpp"
 #include "stop_options.hpp"
 
 namespace slapstick::app {
@@ -29,14 +30,14 @@ ContactClouds::ContactClouds(const Model& model, const StopChoice& choice, Overl
 }
 
 void ContactClouds::add(int contact, double x, double y) {
-  const auto index = std::ranges::find(stops_, contact) - stops_.begin();
+  const auto index = ranges::find(stops_, contact) - stops_.begin();
   clouds_[static_cast<std::size_t>(index)].x.push_back(x);
   clouds_[static_cast<std::size_t>(index)].y.push_back(y);
 }
 
 std::vector<figure::Points> ContactClouds::points() const {
   std::vector<figure::Points> filled;
-  std::ranges::copy_if(clouds_, std::back_inserter(filled), [](const auto& cloud) { return !cloud.x.empty(); });
+  ranges::copy_if(clouds_, std::back_inserter(filled), [](const auto& cloud) { return !cloud.x.empty(); });
   return filled;
 }
 

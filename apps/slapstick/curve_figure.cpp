@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "axis_text.hpp"
+#include "base/ranges.hpp"
 #include "free_labels.hpp"
 
 namespace slapstick::app {
@@ -23,7 +24,7 @@ std::vector<const orbit::CurveEvent*> met_behind(const orbit::Curve& curve, std:
                  y = b != 0.0 ? (event->values[1] - here[1]) / b : 0.0;
     return x + y;
   };
-  std::ranges::stable_sort(all, {}, along);
+  ranges::stable_sort(all, {}, along);
   return all;
 }
 
@@ -51,11 +52,11 @@ class Motions {
   /// Of several between a motion and none, those up to the change of events are on the line.
   void meet(std::vector<const orbit::CurveEvent*> events, bool here, bool next) {
     const auto changes = [](const orbit::CurveEvent* event) {
-      return std::ranges::any_of(event->met,
-                                 [](const orbit::Meeting& one) { return one.kind == orbit::Meeting::Kind::margin; });
+      return ranges::any_of(event->met,
+                            [](const orbit::Meeting& one) { return one.kind == orbit::Meeting::Kind::margin; });
     };
     if (here != next && !events.empty()) {
-      const auto change = here ? std::ranges::find_if(events, changes) : events.end();
+      const auto change = here ? ranges::find_if(events, changes) : events.end();
       if (here && change != events.end()) events.erase(change + 1, events.end());
       const auto last = std::find_if(events.rbegin(), events.rend(), changes);
       if (!here && last != events.rend()) events.erase(events.begin(), last.base() - 1);

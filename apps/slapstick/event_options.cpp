@@ -1,9 +1,9 @@
 /// Reads --event, and says what the return map of these events shows.
 #include "event_options.hpp"
 
-#include <algorithm>
 #include <vector>
 
+#include "base/ranges.hpp"
 #include "slapstick/base/error.hpp"
 #include "base/text.hpp"
 #include "stop_options.hpp"
@@ -18,7 +18,7 @@ const Kinds of_stop = {impact, stick, release, graze, chatter};
 const Kinds of_friction = {slip_plus, slip_minus, stick, release, graze};
 const Kinds of_compliant_stop = {engage, disengage, separate};
 
-bool holds(const Kinds& kinds, EventKind kind) { return std::ranges::find(kinds, kind) != kinds.end(); }
+bool holds(const Kinds& kinds, EventKind kind) { return ranges::find(kinds, kind) != kinds.end(); }
 
 bool is_friction(const Model& model, int contact) {
   const int first = static_cast<int>(model.stops.size());

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "base/ranges.hpp"
 #include "frame_shares.hpp"
 
 namespace slapstick::app {
@@ -126,7 +127,7 @@ void add_branch_numbers(figure::Panel& panel, const std::vector<std::size_t>& fi
       for (std::size_t i = first; i < last; ++i) others.line(panel.lines[i], frame);
       places = beside(middle, frame);
     }
-    const auto best = std::ranges::max_element(places, {}, [&](const Candidate& c) { return room(c, others); });
+    const auto best = ranges::max_element(places, {}, [&](const Candidate& c) { return room(c, others); });
     const figure::Colour colour = panel.lines[first].colour;
     if (small)
       leaders.push_back({.x = {middle.x, best->x}, .y = {middle.y, best->y}, .colour = colour, .width_pt = 0.3});
@@ -148,7 +149,7 @@ void add_names(figure::Panel& panel, const std::vector<NamedPlace>& places) {
       return other.name == place.name &&
              distance(frame.cm(other.x, other.y), frame.cm(place.x, place.y)) < one_place_cm;
     };
-    if (std::ranges::any_of(named, is_here)) continue;
+    if (ranges::any_of(named, is_here)) continue;
     named.push_back(place);
     const std::vector<Candidate> about = beside({place.x, place.y, frame.cm(place.x, place.y)}, frame);
     const double half_cm = 0.08 * static_cast<double>(place.name.size());
@@ -157,7 +158,7 @@ void add_names(figure::Panel& panel, const std::vector<NamedPlace>& places) {
       const double right = others.distance_to({c.at.x + half_cm, c.at.y});
       return std::min({room(c, others), left, right});
     };
-    const auto best = std::ranges::max_element(about, {}, room_for_text);
+    const auto best = ranges::max_element(about, {}, room_for_text);
     panel.lines.push_back({.x = {place.x, best->x}, .y = {place.y, best->y}, .width_pt = 0.3});
     panel.marks.push_back({.x = best->x, .y = best->y, .label = place.name, .colour = figure::colours::black});
     for (const double off : {-half_cm, 0.0, half_cm}) others.add({best->at.x + off, best->at.y});

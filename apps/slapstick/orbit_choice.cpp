@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "base/ranges.hpp"
 #include "base/text.hpp"
 #include "slapstick/base/error.hpp"
 
@@ -107,7 +108,7 @@ std::string labels(const std::vector<orbit::Solution>& orbits) {
   std::vector<std::string> all;
   for (const orbit::Solution& orbit : orbits) {
     const std::string text = orbit.label + (orbit.stable() ? "" : " unstable");
-    if (std::ranges::find(all, text) == all.end()) all.push_back(text);
+    if (ranges::find(all, text) == all.end()) all.push_back(text);
   }
   std::string list;
   for (const std::string& text : all) list += (list.empty() ? "" : ", ") + text;

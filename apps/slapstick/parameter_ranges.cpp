@@ -1,9 +1,9 @@
 /// Reads ranges of parameters: NAME=A:B and NAME=A:B:COUNT.
 #include "parameter_ranges.hpp"
 
-#include <algorithm>
 #include <optional>
 
+#include "base/ranges.hpp"
 #include "slapstick/base/error.hpp"
 #include "base/text.hpp"
 
@@ -32,7 +32,7 @@ std::array<ParameterRange, 2> two_ranges(const std::vector<std::string>& texts, 
   std::array<std::optional<ParameterRange>, 2> found;
   for (const std::string& text : texts) {
     const auto [name, range] = name_and_text("--range", text, "NAME=A:B");
-    const auto place = std::ranges::find(names, name) - names.begin();
+    const auto place = ranges::find(names, name) - names.begin();
     if (place == 2)
       throw InputError("--range: " + in_quotes(name) + " is none of --params " + in_quotes(names[0] + "," + names[1]));
     auto& of_name = found[static_cast<std::size_t>(place)];

@@ -1,10 +1,10 @@
 /// Draws special points: a marker of a shape for each type.
 #include "special_markers.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "base/ranges.hpp"
 #include "frame_shares.hpp"
 
 namespace slapstick::app {
@@ -43,7 +43,7 @@ void add_special_points(figure::Panel& panel, const std::vector<SpecialPlace>& p
     for (const SpecialPlace& place : places) {
       const PlaceOnPaper here = frame.cm(place.x, place.y);
       const auto lies_here = [&](const PlaceOnPaper& other) { return distance(here, other) < one_place_cm; };
-      if (place.type != sign.type || std::ranges::any_of(drawn, lies_here)) continue;
+      if (place.type != sign.type || ranges::any_of(drawn, lies_here)) continue;
       drawn.push_back(here);
       points.x.push_back(place.x);
       points.y.push_back(place.y);

@@ -1,9 +1,8 @@
 /// Reads --stop.
 #include "stop_options.hpp"
 
-#include <algorithm>
-
 #include "axis_text.hpp"
+#include "base/ranges.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::app {
@@ -37,8 +36,8 @@ bool several_stops(const Model& model) { return stop_contacts(model).size() > 1;
 std::string contact_noun(const Model& model, const StopChoice& choice) {
   const auto chosen = chosen_stops(model, choice);
   const auto rigid = [&](int contact) { return contact < static_cast<int>(model.stops.size()); };
-  if (std::ranges::all_of(chosen, rigid)) return "impact";
-  return std::ranges::none_of(chosen, rigid) ? "engagement" : "contact";
+  if (ranges::all_of(chosen, rigid)) return "impact";
+  return ranges::none_of(chosen, rigid) ? "engagement" : "contact";
 }
 
 std::string contact_words(const Model& model, const StopChoice& choice) {

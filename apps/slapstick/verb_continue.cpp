@@ -1,11 +1,11 @@
 /// slapstick continue MODEL --param NAME --range A:B
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
 #include "axis_text.hpp"
 #include "axis_units.hpp"
+#include "base/ranges.hpp"
 #include "base/text.hpp"
 #include "branch_figure.hpp"
 #include "branch_json.hpp"
@@ -185,7 +185,7 @@ void draw(const Plot& plot, const std::vector<orbit::Branch>& branches, const Ch
   const auto nearest = [&](double value) {  // the state of the orbit of the branch that is nearest to a value
     const auto& points = branches.front().points;
     const auto off = [&](const orbit::Solution& point) { return std::abs(point.orbit.values[0] - value); };
-    return orbit::at_phase_zero(problem, std::ranges::min_element(points, {}, off)->orbit);
+    return orbit::at_phase_zero(problem, ranges::min_element(points, {}, off)->orbit);
   };
   const ParameterRange range = parse_range("--range", options.range);
   SettledMotions settled;
@@ -226,7 +226,7 @@ int run(const Options& options, const Context& context) {
   write(out, branches, lineage, chosen, {*problem, system}, options);
   if (plot.wanted()) draw(plot, branches, chosen, *problem, options, context.stop);
   if (context.stop.load()) return interrupted;
-  const auto failed = std::ranges::find_if(branches, &orbit::Branch::failed);
+  const auto failed = ranges::find_if(branches, &orbit::Branch::failed);
   if (failed == branches.end()) return done;
   const std::string which = branches.size() > 1 ? "branch " + std::to_string(failed - branches.begin() + 1) + ": " : "";
   throw NumericalError("continue: " + which + orbit::sentence(*failed) + "; the points so far are written");

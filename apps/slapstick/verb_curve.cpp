@@ -1,6 +1,6 @@
 /// slapstick curve MODEL --from TYPE --params A,B
-#include <algorithm>
 
+#include "base/ranges.hpp"
 #include "branch_json.hpp"
 #include "curve_figure.hpp"
 #include "orbit_choice.hpp"
@@ -107,7 +107,7 @@ int run(const Options& options, const Context& context) {
   for (const auto& [key, value] : std::get<Json::Object>(rest.value())) json.set(key, value);
   out.write(json.dump() + "\n");
   out.commit();
-  const bool drawn = std::ranges::any_of(curve.points, [](const auto& point) { return point.solution.is_motion; });
+  const bool drawn = ranges::any_of(curve.points, [](const auto& point) { return point.solution.is_motion; });
   const int status = plot.write_or_say(curve_figure(curve, chosen.definition, names, options.from), !drawn, done);
   if (context.stop.load()) return interrupted;
   if (!curve.failed()) return status;

@@ -1,9 +1,9 @@
 /// slapstick diagram MODEL --sweep NAME=A:B:COUNT
-#include <algorithm>
 #include <cstdio>
 
 #include "axis_text.hpp"
 #include "axis_units.hpp"
+#include "base/ranges.hpp"
 #include "contact_clouds.hpp"
 #include "model_options.hpp"
 #include "output.hpp"
@@ -103,7 +103,7 @@ void write_table(TableOutput& table, const sweep::Diagram& diagram, const Model&
       table.end_row();
     }
   }
-  if (std::ranges::any_of(diagram.points, [](const auto& point) { return point.failure.empty(); })) table.commit();
+  if (ranges::any_of(diagram.points, [](const auto& point) { return point.failure.empty(); })) table.commit();
 }
 
 /// Both directions: a colour each. One: a colour for each stop.

@@ -44,10 +44,10 @@ void batch_statistics(const std::vector<double>& growth, double& mean, double& e
 double birkhoff_digits(const std::vector<double>& sequence) {
   const std::size_t half = sequence.size() / 2;
   if (half < 50) return 0.0;
-  const auto [low, high] = std::ranges::minmax(sequence);
-  if (high == low) return 16.0;
+  const auto [low, high] = std::minmax_element(sequence.begin(), sequence.end());
+  if (*high == *low) return 16.0;
   const double difference = weighted_average(sequence.data(), half) - weighted_average(sequence.data() + half, half);
-  return std::min(16.0, -std::log10(std::abs(difference) / (high - low) + 1e-17));
+  return std::min(16.0, -std::log10(std::abs(difference) / (*high - *low) + 1e-17));
 }
 
 RunFigures run_figures(const flow::Translations& translations, const State& state, int periods, const StopChoice& stops,

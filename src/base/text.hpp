@@ -1,10 +1,11 @@
 #pragma once
 /// Small pieces of text for messages, which are always one line.
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <string_view>
+#include <system_error>
+
+#include "base/decimal.hpp"
 
 namespace slapstick {
 
@@ -46,10 +47,12 @@ namespace slapstick {
 
 /// The shortest usual notation that reads back as the same double: "0.1", "1e+300", "nan".
 [[nodiscard]] inline std::string shown(double value) {
-  char text[40];
+  std::string text;
+  double read = 0.0;
   for (int digits = 15; digits <= 17; ++digits) {
-    std::snprintf(text, sizeof text, "%.*g", digits, value);
-    if (std::strtod(text, nullptr) == value) break;
+    text.clear();
+    append_digits(text, value, digits);
+    if (read_decimal(text, read) == std::errc{} && read == value) break;
   }
   return text;
 }

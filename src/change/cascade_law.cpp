@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/bracketed_root.hpp"
+#include "base/ranges.hpp"
 
 namespace slapstick::orbit {
 
@@ -27,7 +28,7 @@ std::vector<double> cascade_rates(double restitution, std::size_t count) {
   for (int i = 0; i <= powers; ++i)
     for (int k = i == 0 ? 2 : 0; k <= powers; ++k)
       rates.push_back(std::pow(bounce.lambda, -i) * std::pow(bounce.mu, k));
-  std::ranges::sort(rates, std::greater<>());
+  ranges::sort(rates, std::greater<>());
   rates.resize(count);
   return rates;
 }

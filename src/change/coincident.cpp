@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "base/ranges.hpp"
 #include "orbit/leg_flow.hpp"
 #include "slapstick/base/error.hpp"
 
@@ -225,7 +226,7 @@ std::vector<TestValue> values_if_any(const ModeSet& set, const Orbit& orbit) {
 Orbit without_all(const ModeSet& set, double largest_speed, Orbit orbit) {
   for (std::size_t most = orbit.legs(); most > 0; --most) {
     const std::vector<TestValue> tests = values_if_any(set, orbit);
-    const auto next = std::ranges::find_if(tests, [&](const TestValue& test) {
+    const auto next = ranges::find_if(tests, [&](const TestValue& test) {
       return impact_speed(test) && std::abs(test.value) < no_speed * largest_speed;
     });
     if (next == tests.end()) break;
@@ -252,7 +253,7 @@ Orbit with_all(const ModeSet& set, double largest_gap, Orbit orbit) {
   constexpr int most = 16;
   for (int k = 0; k < most; ++k) {
     const std::vector<TestValue> tests = values_if_any(set, orbit);
-    const auto next = std::ranges::find_if(tests, [&](const TestValue& test) {
+    const auto next = ranges::find_if(tests, [&](const TestValue& test) {
       return gap(test) && std::abs(test.value) < no_gap * largest_gap && !is_struck_there(orbit, test);
     });
     if (next == tests.end()) break;
@@ -276,9 +277,9 @@ std::vector<Orbit> coincident(const Problem& problem, const Orbit& before, const
   for (const Orbit& fewer : without_impact(set, before, orbit, test))
     add(several ? without_all(set, largest(was, impact_speed), fewer) : fewer, fewer);
   for (const Orbit& more : with_impact(set, orbit, test)) add(with_all(set, largest(was, gap), more), more);
-  std::ranges::copy(merged(set, before, orbit, !impact_speed(test)), std::back_inserter(shapes));
+  ranges::copy(merged(set, before, orbit, !impact_speed(test)), std::back_inserter(shapes));
   if (lost > 0 && !impact_speed(test))  // another margin is used up with their speed
-    std::ranges::copy(merged(set, before, orbit, false), std::back_inserter(shapes));
+    ranges::copy(merged(set, before, orbit, false), std::back_inserter(shapes));
   return shapes;
 }
 

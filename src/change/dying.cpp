@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/ranges.hpp"
 #include "orbit/record.hpp"
 
 namespace slapstick::orbit {
@@ -73,7 +74,7 @@ std::optional<Death> dies_out(const Orbits& orbits) {
     if (is_near && death.error < well_known * all.seen()) deaths.push_back(death);
   }
   if (deaths.empty()) return std::nullopt;
-  Death best = *std::ranges::min_element(deaths, {}, &Death::error);
+  Death best = *ranges::min_element(deaths, {}, &Death::error);
   for (const Death& other : deaths)  // what another leg's own error does not explain
     best.error = std::max(best.error, std::abs(other.value - best.value) - other.error);
   return best;
@@ -100,7 +101,7 @@ std::size_t dying_leg(const Problem& problem, const PathPoint& at) {
   for (std::size_t i = 0; i < at.orbit.legs(); ++i)
     left.push_back(in_burst(at.orbit, i) ? INFINITY
                                          : at.orbit.duration(i) / std::abs(growth(problem, at, at.tangent, i)));
-  const double least = *std::ranges::min_element(left);
+  const double least = *ranges::min_element(left);
   std::size_t leg = 0;
   for (std::size_t i = 0; i < left.size(); ++i)
     if (left[i] < alike * least && (left[leg] >= alike * least || left[i] > left[leg])) leg = i;
@@ -129,7 +130,7 @@ std::optional<Death> dies_out(const Problem& problem, const std::vector<Solution
   const std::vector<PathPoint> away = away_from_death(problem, last, range, enough);
   Orbits orbits;
   for (const PathPoint& point : away) orbits.push_back(&point.orbit);
-  std::ranges::reverse(orbits);
+  ranges::reverse(orbits);
   return dies_out(orbits);
 }
 

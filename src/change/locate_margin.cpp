@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/ranges.hpp"
 #include "orbit/interpolate.hpp"
 #include "orbit/record.hpp"
 
@@ -13,7 +14,7 @@ namespace {
 /// Has a leg between two zeros of one guard shrunk to nothing? Without length it solves its equation anywhere.
 bool loses_a_leg(const PathPoint& from, const Orbit& orbit) {
   constexpr double nothing = 1e-2;
-  return std::ranges::any_of(from.watched.tests, [&](const TestValue& test) {
+  return ranges::any_of(from.watched.tests, [&](const TestValue& test) {
     return test.test == Test::duration && test.starts_at_end && !in_burst(orbit, test.leg) &&
            orbit.duration(test.leg) < nothing * from.orbit.duration(test.leg);
   });

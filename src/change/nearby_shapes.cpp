@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/ranges.hpp"
 #include "change/jump.hpp"
 #include "orbit/cyclic.hpp"
 #include "orbit/record.hpp"
@@ -86,8 +87,8 @@ class NearbyShapes {
     constexpr int most_places = 8;
     for (int count = 0; count < most_places; ++count) {
       const std::vector<TestValue> tests = test_values(set_, orbit);
-      const auto wrong = std::ranges::find_if(
-          tests, [](const TestValue& test) { return test.test == Test::guard && test.value < 0.0; });
+      const auto wrong =
+          ranges::find_if(tests, [](const TestValue& test) { return test.test == Test::guard && test.value < 0.0; });
       if (wrong == tests.end()) return count > 0 ? std::optional(orbit) : std::nullopt;
       rotate(orbit, wrong->leg);
       std::optional<Orbit> next;
@@ -103,7 +104,7 @@ class NearbyShapes {
 
   void add(std::optional<Orbit> seen) {
     const auto known = [&](const Orbit& other) { return same_cycle(other, *seen); };
-    if (!seen || same_cycle(orbit_, *seen) || std::ranges::any_of(shapes_, known)) return;
+    if (!seen || same_cycle(orbit_, *seen) || ranges::any_of(shapes_, known)) return;
     seen->values = orbit_.values;
     shapes_.push_back(std::move(*seen));
   }

@@ -192,7 +192,7 @@ bool solve_onset(const Problem& problem, Orbit& orbit) {
     return Residual{numbers.w() - rates.w + w.by_state().row(0).dot(at.defects[last]), by};
   };
   if (!solve(problem, orbit, conditions, most_steps).converged) return false;
-  return std::ranges::is_sorted(orbit.t, std::less_equal());
+  return std::is_sorted(orbit.t.begin(), orbit.t.end(), std::less_equal());
 }
 
 }  // namespace
@@ -220,7 +220,8 @@ std::optional<OnsetOrbit> onset_orbit(const Problem& problem, const Orbit& near,
   const ModeSet set(problem.family(), near.values);
   const double restitution = set.model().stops[static_cast<std::size_t>(stop)].restitution;
   const bool in_basis = set.frame().stops[static_cast<std::size_t>(stop)].own < set.frame().n;
-  if (!(restitution > 0.0 && restitution < 1.0) || !in_basis || has_friction(set.model(), set.frame(), stop)) return std::nullopt;
+  if (!(restitution > 0.0 && restitution < 1.0) || !in_basis || has_friction(set.model(), set.frame(), stop))
+    return std::nullopt;
   const BounceRates rates = bounce_rates(restitution);
   const std::optional<Approach> approach = nearest_approach(set, near, stop, restitution);
   if (!approach) return std::nullopt;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/ranges.hpp"
 #include "change/jump.hpp"
 #include "change/coincident.hpp"
 #include "orbit/cyclic.hpp"
@@ -28,7 +29,7 @@ std::optional<Orbit> solved(const Problem& problem, const Orbit& guess) {
   if (auto orbit = refine(problem, guess); orbit && is_motion(problem, *orbit)) return orbit;
   std::vector<std::size_t> events(guess.legs());
   std::iota(events.begin(), events.end(), std::size_t{1});
-  std::ranges::sort(events, {}, [&](std::size_t event) { return guess.duration(event - 1); });
+  ranges::sort(events, {}, [&](std::size_t event) { return guess.duration(event - 1); });
   if (events.size() > most_held) events.resize(most_held);
   for (const std::size_t event : events) {
     Orbit orbit = guess;
@@ -204,7 +205,7 @@ void add(std::vector<HalfBranch>& all, std::optional<HalfBranch> next, double ra
   const auto same = [&](const HalfBranch& other) {
     return other.folds == next->folds && same_cycle(other.point.orbit, next->point.orbit);
   };
-  const auto known = std::ranges::find_if(all, same);
+  const auto known = ranges::find_if(all, same);
   if (known == all.end())
     all.push_back(std::move(*next));
   else if (!begins_there(*known, range) && next->apart < known->apart)
@@ -223,8 +224,8 @@ std::vector<HalfBranch> leavings(const Problem& problem, const Orbit& before, co
   } catch (const NumericalError&) {  // a shape whose modes have no such guards
   } catch (const InputError&) {
   }
-  std::ranges::stable_sort(all, {},
-                           &HalfBranch::length);  // what is a motion farther off only has changed once more on the way
+  ranges::stable_sort(all, {},
+                      &HalfBranch::length);  // what is a motion farther off only has changed once more on the way
   return all;
 }
 
@@ -244,7 +245,7 @@ std::vector<HalfBranch> reshape(const Problem& problem, const Orbit& before, con
   for (const double length : lengths) {
     if (length < nearest) continue;
     const auto here = [&](const HalfBranch& next) { return begins_there(next, range); };
-    if (std::ranges::any_of(all, here) || length > longest) break;
+    if (ranges::any_of(all, here) || length > longest) break;
     Orbit beyond = change.orbit;  // as it is, where its own equations lead no further
     beyond.values[0] += sense * length * range;
     const auto point = test ? step_to(problem, change, length, range) : std::nullopt;
@@ -275,7 +276,7 @@ bool one_of_family(const Problem& problem, const PathPoint& point, double range)
 bool begins_family(const Problem& problem, const Orbit& before, const PathPoint& change, const TestValue& test) {
   try {
     const auto of_family = [&](const Orbit& shape) { return !describe(problem, shape, nullptr).isolated(); };
-    return std::ranges::any_of(coincident(problem, before, change.orbit, test), of_family);
+    return ranges::any_of(coincident(problem, before, change.orbit, test), of_family);
   } catch (const NumericalError&) {  // a shape whose modes have no such guards
     return false;
   }

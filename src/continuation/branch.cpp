@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/ranges.hpp"
 #include "orbit/extent.hpp"
 #include "continuation/follower.hpp"
 #include "continuation/hidden.hpp"
@@ -59,7 +60,7 @@ void Follower::look_for_pairs(const PathPoint& at, const PathPoint& next, double
     pair.points = within_halves(problem_, at, next, length, range_);
   const std::size_t after = branch_.points.size() - (pair.earlier ? 2 : 1);
   std::erase_if(pair.points, [&](const SpecialPoint& point) {  // a step is looked at from both of its ends
-    return std::ranges::any_of(branch_.special, [&](const SpecialPoint& known) {
+    return ranges::any_of(branch_.special, [&](const SpecialPoint& known) {
       const double alike = 1e-9 * range_ + point.error + known.error;
       return known.type == point.type && known.after == after && std::abs(known.value - point.value) < alike;
     });
@@ -126,7 +127,8 @@ bool Follower::runs_over_itself() {
   if (old_points_ < certain) return false;
   const auto on = [&](std::size_t i) { return points[i + 1].orbit.values[0] - points[i].orbit.values[0]; };
   const bool back = on(*old) * on(count - 2) < 0.0;
-  const auto last = std::ranges::find_if(special.rbegin(), special.rend(), changes_events, &SpecialPoint::type);
+  const auto last = std::find_if(special.rbegin(), special.rend(),
+                                 [&](const SpecialPoint& point) { return changes_events(point.type); });
   if (back && last != special.rend()) {
     const double place = last->value;
     points.resize(last->after + 1);

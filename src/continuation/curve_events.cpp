@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "base/ranges.hpp"
 #include "change/change_kind.hpp"
 #include "continuation/special.hpp"
 
@@ -18,7 +19,7 @@ constexpr double without_bound = 1e6;  ///< a multiplier
 /// prod (mu - target) / (1 + |mu|) without the factor nearest to zero, which is zero all along: the sign changes where a second multiplier comes there.
 double product_of_others(const Multipliers& multipliers, double target) {
   const auto off = [target](const std::complex<double>& mu) { return std::abs(mu - target); };
-  const auto own = std::ranges::min_element(multipliers, {}, off);
+  const auto own = ranges::min_element(multipliers, {}, off);
   std::complex<double> product = 1.0;
   for (auto mu = multipliers.begin(); mu != multipliers.end(); ++mu)
     if (mu != own) product *= (*mu - target) / (1.0 + std::abs(*mu));
@@ -52,14 +53,14 @@ constexpr double at_zero =
 std::function<bool(const Watched&)> multipliers_at(double target, int count) {
   return [target, count](const Watched& at) {
     const auto near = [target](const std::complex<double>& mu) { return std::abs(mu - target) < at_zero; };
-    return std::ranges::count_if(at.multipliers, near) >= count;
+    return ranges::count_if(at.multipliers, near) >= count;
   };
 }
 
 /// Two multipliers whose product is 1 are a torus's if they are no real numbers mu, 1 / mu, as at a neutral saddle.
 bool on_the_circle(const Watched& at) {
-  return std::ranges::any_of(at.multipliers,
-                             [](const std::complex<double>& mu) { return std::abs(std::abs(mu) - 1.0) < at_zero; }) &&
+  return ranges::any_of(at.multipliers,
+                        [](const std::complex<double>& mu) { return std::abs(std::abs(mu) - 1.0) < at_zero; }) &&
          std::abs(sum_of_pair(at)) < 2.0;
 }
 
@@ -145,7 +146,7 @@ void add_event(Curve& curve, CurveEvent event, const std::array<double, 2>& rang
                                 std::abs(known.values[1] - event.values[1]) / ranges[1]);
     if (off > one_place) continue;
     for (const Meeting& met : event.met)
-      if (std::ranges::find(known.met, met) == known.met.end()) known.met.push_back(met);
+      if (ranges::find(known.met, met) == known.met.end()) known.met.push_back(met);
     return;
   }
   curve.met.push_back(std::move(event));

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/ranges.hpp"
 #include "change/jump.hpp"
 #include "change/change_kind.hpp"
 #include "orbit/cyclic.hpp"
@@ -134,7 +135,7 @@ std::optional<bool> Follower::lead_back(const Change& change, const HalfBranch& 
   std::optional<Way> back = way_back(reversed(found.point), {change.special.value, error, false});
   if (!back) return std::nullopt;
   way = std::move(back->branch);
-  const bool turned = std::ranges::count_if(way->special, turns) % 2 != 0;
+  const bool turned = ranges::count_if(way->special, turns) % 2 != 0;
   const double away = found.point.watched.turn;
   return (turned ? -away : away) * change.at.watched.turn < 0.0;
 }
@@ -227,7 +228,7 @@ bool Follower::die_out(PathPoint& at, const std::optional<Death>& death) {
   special.margin = {.kind = UsedMargin::Kind::duration, .leg = death->leg};
   const auto& tests = at.watched.tests;
   const auto length = [&](const TestValue& test) { return test.test == Test::duration && test.leg == death->leg; };
-  special.test = static_cast<std::size_t>(std::ranges::find_if(tests, length) - tests.begin());
+  special.test = static_cast<std::size_t>(ranges::find_if(tests, length) - tests.begin());
   PathPoint there = at;
   there.orbit.values[0] = death->value;
   std::vector<HalfBranch> left = leavings(problem_, death->longest, there, tests[special.test], range_);

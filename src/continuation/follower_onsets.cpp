@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/ranges.hpp"
 #include "continuation/follower.hpp"
 #include "continuation/lies_on.hpp"
 #include "change/onset.hpp"
@@ -62,7 +63,7 @@ std::optional<Follower::Way> Follower::way_back(const PathPoint& from, const Pla
 /// Adds the orbits between a place, which the branch has come to, and an orbit beyond it, from which they were followed back.
 void Follower::add_between(Branch way) {
   const std::size_t last = branch_.points.size() + way.points.size() - 1;  // the way's first point, when all are there
-  std::ranges::reverse(way.special);
+  ranges::reverse(way.special);
   for (SpecialPoint& point : way.special) {
     point.after = last - point.after - 1;
     branch_.special.push_back(std::move(point));

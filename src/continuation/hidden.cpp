@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/ranges.hpp"
 #include "continuation/special.hpp"
 
 namespace slapstick::orbit {
@@ -13,7 +14,7 @@ namespace {
 int outside(const Watched& watched) {
   constexpr double off_circle = 1e-7;  // of the circle: what lies on it all along is nothing that passes
   return static_cast<int>(
-      std::ranges::count_if(watched.multipliers, [](const auto& mu) { return std::abs(mu) > 1.0 + off_circle; }));
+      ranges::count_if(watched.multipliers, [](const auto& mu) { return std::abs(mu) > 1.0 + off_circle; }));
 }
 
 /// Is a leg's length less than this part of what it was?
@@ -51,7 +52,7 @@ Pair pair_within(const Problem& problem, const Triple& triple, double range) {
     const std::optional<PathPoint> middle = step_to(problem, from, part, range);
     if (!middle || !(middle->watched.*f * b < 0.0)) continue;
     pair.points = smooth_special_points(problem, from, *middle, range);
-    std::ranges::move(smooth_special_points(problem, *middle, to, range), std::back_inserter(pair.points));
+    ranges::move(smooth_special_points(problem, *middle, to, range), std::back_inserter(pair.points));
     return pair;
   }
   return pair;
@@ -63,7 +64,7 @@ std::vector<SpecialPoint> within_halves(const Problem& problem, const PathPoint&
   const std::optional<PathPoint> middle = step_to(problem, from, half, range);
   if (!middle) return {};
   std::vector<SpecialPoint> points = smooth_special_points(problem, from, *middle, range);
-  std::ranges::move(smooth_special_points(problem, *middle, to, range), std::back_inserter(points));
+  ranges::move(smooth_special_points(problem, *middle, to, range), std::back_inserter(points));
   return points.empty() ? pair_within(problem, {from, *middle, to, half, half}, range).points : points;
 }
 
@@ -81,7 +82,7 @@ std::vector<SpecialPoint> beside_change(const Problem& problem, const PathPoint&
   if (!last) return points;
   PathPoint at = from;
   const auto look_as_far_as = [&](const PathPoint& next) {
-    std::ranges::move(smooth_special_points(problem, at, next, range), std::back_inserter(points));
+    ranges::move(smooth_special_points(problem, at, next, range), std::back_inserter(points));
     at = next;
   };
   for (const double part : {0.5, 0.9, 0.97, 0.99})  // two of one type may lie close before the change

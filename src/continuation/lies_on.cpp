@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/ranges.hpp"
 #include "orbit/cyclic.hpp"
 #include "orbit/record.hpp"
 #include "orbit/same_motion.hpp"
@@ -77,8 +78,7 @@ bool meets(const Problem& problem, const Branch& branch, const Orbit& orbit, Dis
     if (a.shape.n != orbit.shape.n) continue;
     if (orbit.shape.n == 0 && lies_between(extent, a, b, orbit)) return true;
     const std::vector<Orbit> own = orbits_at(problem, a, b, orbit.values[0]);
-    if (std::ranges::any_of(own, [&](const Orbit& other) { return distance(problem, orbit, other) < same; }))
-      return true;
+    if (ranges::any_of(own, [&](const Orbit& other) { return distance(problem, orbit, other) < same; })) return true;
   }
   return false;
 }

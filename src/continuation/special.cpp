@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/ranges.hpp"
 #include "change/change_kind.hpp"
 #include "change/locate_margin.hpp"
 #include "continuation/crossing.hpp"
@@ -76,7 +77,7 @@ void drop_folds_of_crossings(Along& found, double range) {
       return std::abs(crossing.first - length) < one_place &&
              (error > well_known * range || std::abs(crossing.second - value) < one_value * range);
     };
-    return special.type == SpecialType::LP && std::ranges::any_of(crossings, is_its_fold);
+    return special.type == SpecialType::LP && ranges::any_of(crossings, is_its_fold);
   });
 }
 
@@ -162,7 +163,7 @@ std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const Pa
     }
   }
   drop_folds_of_crossings(found, range);
-  std::ranges::sort(found, {}, [](const auto& entry) { return entry.first; });
+  ranges::sort(found, {}, [](const auto& entry) { return entry.first; });
   std::vector<SpecialPoint> points;
   points.reserve(found.size());
   for (auto& entry : found) points.push_back(std::move(entry.second));
@@ -203,7 +204,7 @@ using Candidates = std::vector<std::pair<std::size_t, Located>>;
 void in_order(Candidates& candidates, const std::vector<TestValue>& tests, double length, double range) {
   constexpr double together = 1e-3;  // no nearer than the simulator can tell (changes_there)
   constexpr double well_known = 1e-9, rounding = 1e-9;
-  std::ranges::stable_sort(candidates, {}, [](const auto& candidate) { return candidate.second.length; });
+  ranges::stable_sort(candidates, {}, [](const auto& candidate) { return candidate.second.length; });
   const auto says = [&](const auto& candidate) {
     const TestValue& test = tests[candidate.first];
     const bool slip = test.starts_at_end && mode::of_friction(test.kind);
@@ -215,7 +216,7 @@ void in_order(Candidates& candidates, const std::vector<TestValue>& tests, doubl
   for (auto first = candidates.begin(); first != candidates.end();) {
     const double limit = first->second.length + together * length;
     const auto last = std::find_if(first, candidates.end(), [&](const auto& c) { return c.second.length > limit; });
-    std::ranges::stable_sort(first, last, {}, says);
+    std::stable_sort(first, last, [&](const auto& a, const auto& b) { return says(a) < says(b); });
     first = last;
   }
 }

@@ -7,7 +7,8 @@
 namespace slapstick::event {
 namespace {
 
-/// Eight numbers at any place.
+/// Eight numbers at any place. To be read through a pointer of this type: a reference that a function returns has lost
+/// the alignment in clang.
 typedef double Loose8 __attribute__((vector_size(64), aligned(8), may_alias));
 
 /// As many of the eight lanes as a register of the target has: gcc 12 keeps a sum in wider vectors in memory.
@@ -96,14 +97,13 @@ void gather(const int* places, const Lane8* values, int count, const double* x, 
 
 void spread(const Placed* rows, const Placed* rows_end, const Placed* columns, const Placed* columns_end, double factor, const double* x,
             Lane8* out) {
-  const auto numbers = [&](const Placed* row) -> const Loose8& { return *reinterpret_cast<const Loose8*>(x + row->place); };
   Lane8 even{}, odd{};
   for (; columns != columns_end; ++columns) odd += columns->values * x[columns->place];
   for (; rows + 2 <= rows_end; rows += 2) {
-    even += rows[0].values * numbers(rows);
-    odd += rows[1].values * numbers(rows + 1);
+    even += rows[0].values * *reinterpret_cast<const Loose8*>(x + rows[0].place);
+    odd += rows[1].values * *reinterpret_cast<const Loose8*>(x + rows[1].place);
   }
-  if (rows != rows_end) even += rows->values * numbers(rows);
+  if (rows != rows_end) even += rows->values * *reinterpret_cast<const Loose8*>(x + rows->place);
   *out = factor * (even + odd);
 }
 

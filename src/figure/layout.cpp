@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/ranges.hpp"
 #include "slapstick/base/error.hpp"
 #include "figure/raster.hpp"
 #include "text.hpp"
@@ -201,7 +202,7 @@ bool wants_raster(const Panel& panel) {
     if (points.drawing == Drawing::automatic) free += points.x.size();
   }
   return free > raster_threshold &&
-         std::ranges::count_if(panel.points, in_raster) <= static_cast<std::ptrdiff_t>(largest_series_count);
+         ranges::count_if(panel.points, in_raster) <= static_cast<std::ptrdiff_t>(largest_series_count);
 }
 
 int rows_above(const Panel& panel, const PanelLayout& layout) {

@@ -2,6 +2,7 @@
 /// by the terminal.)
 #include <algorithm>
 
+#include "base/ranges.hpp"
 #include "layout.hpp"
 #include "text.hpp"
 
@@ -23,7 +24,7 @@ std::vector<Key> all_keys(const Panel& panel) {
     if (!line.label.empty())
       keys.push_back(
           {.label = line.label, .colour = line.colour, .size = line.width_pt, .dash = line.dash, .group = next});
-  std::ranges::stable_sort(keys, {}, &Key::group);
+  ranges::stable_sort(keys, {}, &Key::group);
   return keys;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/ranges.hpp"
 #include "style.hpp"
 #include "text.hpp"
 
@@ -139,8 +140,8 @@ class PanelScript {
     if (at_.legend == Legend::none) return;
     if (at_.legend == Legend::below) return legend_below();
     const auto named = [](const Line& l) { return !l.label.empty(); };
-    const bool has_lines = std::ranges::any_of(panel_.lines, named) ||
-                           std::ranges::any_of(panel_.keys, [](const Key& key) { return !key.marker; });
+    const bool has_lines =
+        ranges::any_of(panel_.lines, named) || ranges::any_of(panel_.keys, [](const Key& key) { return !key.marker; });
     const std::string common = std::string(" Left reverse samplen ") + (has_lines ? "1.6" : "0.4") +
                                " spacing 1.05 height 0.2 width 0 font '," + small_font_ + "'";
     if (at_.legend == Legend::above) {

@@ -2,8 +2,9 @@
 #include "text.hpp"
 
 #include <array>
-#include <charconv>
 #include <cstdio>
+
+#include "base/decimal.hpp"
 
 namespace slapstick::figure {
 namespace {
@@ -41,18 +42,9 @@ std::string quote_file(const std::string& name) {
   return out + "'";
 }
 
-std::string number(double value) {
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
-}
+std::string number(double value) { return shortest_decimal(value); }
 
-std::string fixed(double value, int decimals) {
-  std::array<char, 400> buffer{};
-  const auto end =
-      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, decimals).ptr;
-  return {buffer.data(), end};
-}
+std::string fixed(double value, int decimals) { return fixed_decimal(value, decimals); }
 
 std::string quote_colour(Colour colour) {
   std::array<char, 12> buffer{};

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "base/ranges.hpp"
 #include "gnuplot.hpp"
 #include "layout.hpp"
 #include "script.hpp"
@@ -70,7 +71,7 @@ void check_panel(const Panel& panel, const std::string& where) {
   };
   for (std::size_t i = 0; i < panel.points.size(); ++i) lengths(panel.points[i], "points", i);
   for (std::size_t i = 0; i < panel.lines.size(); ++i) lengths(panel.lines[i], "line", i);
-  check(std::ranges::count_if(panel.points, in_raster) <= static_cast<std::ptrdiff_t>(largest_series_count) ||
+  check(ranges::count_if(panel.points, in_raster) <= static_cast<std::ptrdiff_t>(largest_series_count) ||
             !std::any_of(panel.points.begin(), panel.points.end(),
                          [](const Points& p) { return p.drawing == Drawing::raster; }),
         where + ": an image holds at most 8 series of points");

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/dense.hpp"
+#include "base/ranges.hpp"
 #include "slapstick/base/error.hpp"
 #include "base/floating_point.hpp"
 #include "base/text.hpp"
@@ -75,7 +76,7 @@ CompiledSystem::CompiledSystem(Model model, SystemOptions options)
   modes_ = std::make_unique<ModeTable>(mode_count_);
   ContactStates free = states(0);
   windows_per_period_ = period_ / mode(mode_id(free)).window();
-  std::ranges::fill(free.compliant, CompliantState::on);
+  ranges::fill(free.compliant, CompliantState::on);
   windows_per_period_ = std::max(windows_per_period_, period_ / mode(mode_id(free)).window());
   if (windows_per_period_ > most_windows_per_period)
     throw InputError("model '" + model_.name + "' has " + shown(windows_per_period_) +

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/dense.hpp"
+#include "base/ranges.hpp"
 #include "flow/engine.hpp"
 
 namespace slapstick::flow {
@@ -25,7 +26,7 @@ State user_state(const System& system, const Eigen::VectorXd& contact) {
 std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& jacobian) {
   const Eigen::VectorXcd values = dense::eigenvalues(jacobian);
   std::vector<std::complex<double>> sorted(values.begin(), values.end());
-  std::ranges::sort(sorted, [](auto a, auto b) {
+  ranges::sort(sorted, [](auto a, auto b) {
     return std::norm(a) != std::norm(b) ? std::norm(a) > std::norm(b) : a.imag() > b.imag();
   });
   return sorted;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/ranges.hpp"
 #include "flow/impact_law.hpp"
 #include "flow/mode_graph.hpp"
 #include "flow/engine.hpp"
@@ -64,12 +65,12 @@ void Engine::end_pile_up() {
   for (std::size_t k = 0; k < touching_.size(); ++k) {
     for (int s = 0; s < stops(); ++s) {
       const bool acts = frame.mass_inverse(frame.stops[touching_[k]].own, frame.stops[s].own) != 0.0;
-      if (acts && candidate(s) && std::ranges::find(touching_, s) == touching_.end()) touching_.push_back(s);
+      if (acts && candidate(s) && ranges::find(touching_, s) == touching_.end()) touching_.push_back(s);
     }
   }
-  if (std::ranges::all_of(touching_, [&](int s) { return system_->model().stops[s].restitution == 1.0; }))
+  if (ranges::all_of(touching_, [&](int s) { return system_->model().stops[s].restitution == 1.0; }))
     fail("impacts without loss follow each other without end at one instant");
-  std::ranges::sort(touching_);
+  ranges::sort(touching_);
   for (int s : touching_) land(frame.stops[s]);
   bring_to_rest(*system_, touching_, X_.data());
   strikes_.push_back({0, true});

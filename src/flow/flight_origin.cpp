@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/ranges.hpp"
+
 namespace slapstick::flow {
 namespace {
 
@@ -33,7 +35,7 @@ void FlightOrigin::pass(double duration, const event::Lanes& from, const event::
   if (windows_ == 0) {
     X_ = from;
     elapsed_ = {};
-    if (staleness_ == 0.0) std::ranges::transform(from, largest_.begin(), event::magnitude);
+    if (staleness_ == 0.0) ranges::transform(from, largest_.begin(), event::magnitude);
   }
   event::Lane8 total{};
   for (std::size_t b = 0; b < largest_.size(); ++b)
@@ -50,7 +52,7 @@ void FlightOrigin::carry(const mode::Mode& mode, double* X) {
   const double rate = mode.system().cwiseAbs().rowwise().sum().maxCoeff();
   const double count = std::max(1.0, std::ceil(elapsed_.hi * std::min(0.25 * rate, 1.0 / mode.window())));
   for (double k = 0; k < count; ++k) state = step(mode.system(), elapsed_ / count, state);
-  std::ranges::transform(state, X, [](DoubleDouble x) { return x.hi; });
+  ranges::transform(state, X, [](DoubleDouble x) { return x.hi; });
   windows_ = 0;  // X is the origin now
   staleness_ = carried;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/dense.hpp"
+#include "base/ranges.hpp"
 #include "flow/engine.hpp"
 
 namespace slapstick::flow {
@@ -79,7 +80,7 @@ std::vector<Blow> Passage::separated(const Motion::Strike& strike) const {
     std::vector<Blow> others;
     for (Blow& part : parts) {
       const bool touched =
-          std::ranges::any_of(part.stops, [&](int s) { return coupled(frame_.stops[s], frame_.stops[stop]); });
+          ranges::any_of(part.stops, [&](int s) { return coupled(frame_.stops[s], frame_.stops[stop]); });
       if (touched)
         joined.stops.insert(joined.stops.end(), part.stops.begin(), part.stops.end());
       else
@@ -102,7 +103,7 @@ std::size_t Passage::owner(const ContactRow& contact) const {
 std::size_t Passage::owner(const Blow& blow) const {
   for (std::size_t k = 0; k < hits_.size(); ++k) {
     const mode::Guard& guard = before_.guards()[hits_[k]];
-    if (guard.kind == GuardKind::gap && std::ranges::find(blow.stops, guard.contact) != blow.stops.end()) return k;
+    if (guard.kind == GuardKind::gap && ranges::find(blow.stops, guard.contact) != blow.stops.end()) return k;
   }
   std::size_t first = hits_.size() - 1;
   for (int stop : blow.stops) first = std::min(first, owner(frame_.stops[stop]));
@@ -113,8 +114,8 @@ std::size_t Passage::owner(const Blow& blow) const {
 void Passage::drop_hits_of_others() {
   for (std::size_t k = 1; k < hits_.size();) {
     const mode::Guard& guard = before_.guards()[hits_[k]];
-    const bool taken = guard.kind == GuardKind::gap && std::ranges::any_of(blows_, [&](const Blow& blow) {
-                         return std::ranges::find(blow.stops, guard.contact) != blow.stops.end() && owner(blow) < k;
+    const bool taken = guard.kind == GuardKind::gap && ranges::any_of(blows_, [&](const Blow& blow) {
+                         return ranges::find(blow.stops, guard.contact) != blow.stops.end() && owner(blow) < k;
                        });
     if (taken)
       hits_.erase(hits_.begin() + static_cast<std::ptrdiff_t>(k));
@@ -203,7 +204,7 @@ void push_along(const mode::Frame& frame, const std::vector<int>& rows, const Ei
 
 void pass_event(const Motion& motion, Eigen::MatrixXd& tangents) {
   if (motion.engine().hits().empty() && motion.strikes().empty()) return;
-  const bool piled_up = std::ranges::any_of(motion.strikes(), &Motion::Strike::to_rest);
+  const bool piled_up = ranges::any_of(motion.strikes(), &Motion::Strike::to_rest);
   if (motion.engine().hits().empty() || piled_up)
     Passage(motion).carry_at_once(tangents);
   else

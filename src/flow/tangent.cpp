@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/ranges.hpp"
 #include "flow/engine.hpp"
 #include "flow/saltation.hpp"
 
@@ -63,7 +64,7 @@ void TangentMotion::Parts::flow(const Motion::Segment& segment) {
   const mode::Mode& mode = system().mode(segment.mode);
   const int d = system().frame().d, m = mode.size();
   for (Eigen::Index column = 0; column < columns.cols(); ++column) {
-    std::ranges::fill(delta, 0.0);
+    ranges::fill(delta, 0.0);
     std::copy_n(columns.col(column).data(), 2 * d, delta.data());
     double s = segment.duration;
     for (; s > mode.window(); s -= mode.window()) {

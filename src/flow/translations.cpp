@@ -1,9 +1,8 @@
 /// Finds the rigid translations of a model, and takes them out of states and Jacobians.
 #include "flow/translations.hpp"
 
-#include <algorithm>
-
 #include "base/dense.hpp"
+#include "base/ranges.hpp"
 #include "flow/compiled_system.hpp"
 #include "flow/contact_state.hpp"
 
@@ -49,7 +48,7 @@ Translations::Translations(const System& system) : system_(system) {
   free_ = unseen.free;
   directions_ = (unseen.basis.array().abs() > dependent).select(unseen.basis, 0.0);
   for (Index i = 0; i < 2 * frame.n; ++i) {
-    if (std::ranges::find(free_, i) == free_.end()) kept_.push_back(i);
+    if (ranges::find(free_, i) == free_.end()) kept_.push_back(i);
   }
 }
 

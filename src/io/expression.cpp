@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
 #include "slapstick/base/error.hpp"
+#include "base/decimal.hpp"
 #include "base/text.hpp"
 
 namespace slapstick {
@@ -166,8 +166,7 @@ class Reader {
 
   void number(const std::string& token) {
     double value = 0.0;
-    if (std::from_chars(token.data(), token.data() + token.size(), value).ec != std::errc{})
-      refuse(text_, "number " + token + " is out of range");
+    if (read_decimal(token, value) != std::errc{}) refuse(text_, "number " + token + " is out of range");
     program_.push_back({a_number, 0, value});
   }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/elementary.hpp"
+#include "base/ranges.hpp"
 #include "io/model_numbers.hpp"
 #include "model/fault.hpp"
 #include "base/text.hpp"
@@ -182,7 +183,7 @@ Model ModelBuilder::model() {
 
 /// Without `omega` there can be no harmonic > 0; the first one is named.
 void ModelBuilder::demand_no_forcing(const Model& model) const {
-  const auto found = std::ranges::find_if(model.forces, [](const Force& force) { return force.harmonic > 0; });
+  const auto found = ranges::find_if(model.forces, [](const Force& force) { return force.harmonic > 0; });
   if (found == model.forces.end()) return;
   const Origin& from = origins_.at("force")[static_cast<std::size_t>(found - model.forces.begin())];
   const auto& part = definition_.of(from.kind)[from.index];

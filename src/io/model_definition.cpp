@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/ranges.hpp"
 #include "io/definition.hpp"
 #include "io/model_numbers.hpp"
 #include "io/scale.hpp"
@@ -53,7 +54,7 @@ class Evaluation {
   }
 
   [[nodiscard]] bool is_one(const ParameterEntry& entry) const {
-    return std::ranges::any_of(definition_.ones, [&](const auto& one) { return &one == &entry; });
+    return ranges::any_of(definition_.ones, [&](const auto& one) { return &one == &entry; });
   }
 
   double evaluated(const Expression& expression, const std::string& where) const {

@@ -1,10 +1,10 @@
 /// Checks that the expressions of a model with [scale] have no unit.
 #include "io/model_numbers.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/elementary.hpp"
+#include "base/ranges.hpp"
 #include "io/scale.hpp"
 #include "io/unit.hpp"
 #include "base/text.hpp"
@@ -85,7 +85,7 @@ std::optional<ModelNumbers::Powers> ModelNumbers::powers(const Expression& expre
 
 /// In none of the dimensions where that makes a difference.
 bool ModelNumbers::without_unit(const Powers& powers) const {
-  return std::ranges::none_of(views_, [&](const View& view) { return view.scaled && powers[view.dimension] != 0; });
+  return ranges::none_of(views_, [&](const View& view) { return view.scaled && powers[view.dimension] != 0; });
 }
 
 /// "v in mm/s, m in kg"

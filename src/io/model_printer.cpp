@@ -1,7 +1,7 @@
 /// Prints a model file.
-#include <charconv>
 #include <cmath>
 
+#include "base/decimal.hpp"
 #include "io/definition.hpp"
 
 namespace slapstick {
@@ -10,8 +10,7 @@ namespace {
 /// Shortest text that reads back as the same double; never one that TOML would take for an integer out of range or lose
 /// the sign of -0.
 std::string toml_number(double value) {
-  char text[40];
-  std::string out(text, std::to_chars(text, text + sizeof text, value).ptr);
+  std::string out = shortest_decimal(value);
   const bool whole = out.find_first_of(".e") == std::string::npos;
   return whole && (out.size() > 15 || out == "-0") ? out + ".0" : out;
 }

@@ -1,6 +1,6 @@
 /// Differentiates a model file with respect to a parameter.
-#include <algorithm>
 
+#include "base/ranges.hpp"
 #include "io/model_builder.hpp"
 
 namespace slapstick {
@@ -13,8 +13,8 @@ std::vector<std::string> moved_by(const Definition& definition, const std::strin
   std::vector<std::string> members;
   for (const auto& entry : definition.groups) {
     if (entry.shown.name != name) continue;
-    std::ranges::copy_if(entry.shown.members, std::back_inserter(members),
-                         [&](const auto& member) { return !overrides.contains(member); });
+    ranges::copy_if(entry.shown.members, std::back_inserter(members),
+                    [&](const auto& member) { return !overrides.contains(member); });
     return members;
   }
   refuse_parameter(definition, name);

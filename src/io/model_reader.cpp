@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/ranges.hpp"
 #include "io/part_reader.hpp"
 #include "io/scale.hpp"
 #include "model/fault.hpp"
@@ -138,7 +139,7 @@ class Reader {
       for (const auto& item : node.items) {
         tree_.expect(item, Kind::text, where);
         const auto has = [&](const auto& entry) { return entry.shown.name == item.text; };
-        if (std::ranges::none_of(definition_.parameters, has))
+        if (ranges::none_of(definition_.parameters, has))
           tree_.fail(item.line, where,
                      "unknown parameter " + in_quotes(item.text) + suggestion(item.text, tree_.parameters()));
         group.shown.members.push_back(item.text);

@@ -1,19 +1,19 @@
 /// Writes CSV.
 #include "io/table.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
+
+#include "base/decimal.hpp"
 
 namespace slapstick {
 
 void append_number(std::string& out, double value) {
-  if (std::isnan(value)) {  // to_chars may print "-nan"
+  if (std::isnan(value)) {  // it might be "-nan"
     out += "nan";
     return;
   }
-  char text[40];
-  out.append(text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, 17).ptr);
+  append_digits(out, value, 17);
 }
 
 std::string number_text(double value) {

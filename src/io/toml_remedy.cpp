@@ -1,10 +1,10 @@
 /// Says what the author of a line that is no TOML most likely meant.
 #include "io/toml_remedy.hpp"
 
-#include <algorithm>
 #include <cctype>
 #include <optional>
 
+#include "base/ranges.hpp"
 #include "base/text.hpp"
 
 namespace slapstick {
@@ -35,7 +35,7 @@ std::string_view value_of(std::string_view text) {
     if (c == '#' || c == '}') return trimmed(text.substr(0, i));
     if (c != ',' || depth > 0) continue;
     const auto rest = trimmed(text.substr(i + 1));
-    const auto end = std::ranges::find_if_not(rest, word) - rest.begin();
+    const auto end = ranges::find_if_not(rest, word) - rest.begin();
     if (end > 0 && trimmed(rest.substr(static_cast<std::size_t>(end))).starts_with('='))
       return trimmed(text.substr(0, i));
   }

@@ -1,9 +1,9 @@
 /// Differentiates frames and outlines by the product rule.
 #include "mode/derivative.hpp"
 
-#include <algorithm>
 #include <cmath>
 
+#include "base/ranges.hpp"
 #include "mode/assembly.hpp"
 #include "mode/held.hpp"
 #include "slapstick/base/error.hpp"
@@ -48,7 +48,7 @@ Matrix load_rate(const Model& model, const Model& rate, const Frame& frame) {
       load(force.coordinate, frame.one()) += change.amplitude;
       continue;
     }
-    const auto k = std::ranges::find(frame.harmonics, force.harmonic) - frame.harmonics.begin();
+    const auto k = ranges::find(frame.harmonics, force.harmonic) - frame.harmonics.begin();
     const double sine = fixed::sin(force.phase), cosine = fixed::cos(force.phase), turn = force.amplitude * change.phase;
     load(force.coordinate, 2 * frame.d + 2 * k) += change.amplitude * sine + turn * cosine;
     load(force.coordinate, 2 * frame.d + 2 * k + 1) += change.amplitude * cosine - turn * sine;

@@ -1,12 +1,12 @@
 /// Chooses contact coordinates, and moves states into and out of them.
 #include "mode/frame.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/dense.hpp"
 #include "base/elementary.hpp"
 #include "base/phase.hpp"
+#include "base/ranges.hpp"
 #include "mode/assembly.hpp"
 
 namespace slapstick::mode {
@@ -74,10 +74,10 @@ std::vector<int> independent_first(Displacements& all, int n) {
 
 Frame::Frame(const Model& model) : n(model.size()) {
   for (const Force& force : model.forces) {
-    if (force.harmonic > 0 && std::ranges::find(harmonics, force.harmonic) == harmonics.end())
+    if (force.harmonic > 0 && ranges::find(harmonics, force.harmonic) == harmonics.end())
       harmonics.push_back(force.harmonic);
   }
-  std::ranges::sort(harmonics);
+  ranges::sort(harmonics);
   choose_displacements(model);
   set_dynamics(model);
 }
@@ -125,7 +125,7 @@ void Frame::set_dynamics(const Model& model) {
       load(force.coordinate, one()) += force.amplitude;
       continue;
     }
-    const auto k = std::ranges::find(harmonics, force.harmonic) - harmonics.begin();
+    const auto k = ranges::find(harmonics, force.harmonic) - harmonics.begin();
     // sin(j theta + phase) = sin(phase) cos(j theta) + cos(phase) sin(j theta)
     load(force.coordinate, 2 * d + 2 * k) += force.amplitude * fixed::sin(force.phase);
     load(force.coordinate, 2 * d + 2 * k + 1) += force.amplitude * fixed::cos(force.phase);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/ranges.hpp"
+
 namespace slapstick::mode {
 namespace {
 
@@ -19,7 +21,7 @@ std::vector<int> cuthill_mckee(const Eigen::MatrixXd& system, int d) {
     for (int j = 0; j < d; ++j) degree[i] += linked(i, j);
   }
   const auto fewer = [&](int i, int j) { return std::pair(degree[i], i) < std::pair(degree[j], j); };
-  std::ranges::sort(all, fewer);
+  ranges::sort(all, fewer);
   std::vector<bool> taken(d, false);
   const auto take = [&](int i) {
     if (!taken[i]) order.push_back(i);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/dense.hpp"
+#include "base/ranges.hpp"
 #include "flow/compiled_system.hpp"
 #include "orbit/continuum.hpp"
 #include "orbit/known_orbits.hpp"
@@ -110,7 +111,7 @@ Chosen choose(const Problem& problem, const System& system, const State& state, 
   if (!choice.nearest) searching.enough = [&](const Solution& found) { return choice.admits(problem, found); };
   SearchResult found = search(problem, system, state, searching);
   found.report.other =
-      std::ranges::count_if(found.orbits, [&](const Solution& one) { return !choice.admits(problem, one); });
+      ranges::count_if(found.orbits, [&](const Solution& one) { return !choice.admits(problem, one); });
   result.search = found.report;
   choose_among(problem, choice, std::move(found.orbits), result);
   return result;

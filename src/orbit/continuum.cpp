@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/dense.hpp"
+#include "base/ranges.hpp"
 #include "orbit/cyclic.hpp"
 #include "orbit/extent.hpp"
 #include "orbit/record.hpp"
@@ -133,7 +134,7 @@ bool has_multiplier_one(const Problem& problem, const Orbit& beside) {
   constexpr double half_the_digits = 1e-6;  // a double one is known to no more
   const ModeSet set(problem.family(), beside.values);
   const auto all = multipliers(problem, set, beside, linearise(problem, set, beside).legs);
-  return std::ranges::any_of(all, [](auto mu) { return std::abs(mu - 1.0) < half_the_digits; });
+  return ranges::any_of(all, [](std::complex<double> mu) { return std::abs(mu - 1.0) < half_the_digits; });
 }
 
 /// Is the j-th null direction one along which orbits lie, in both senses?
@@ -152,7 +153,7 @@ bool leads_along(const Problem& problem, const Orbit& orbit, const Null& null, I
 
 int continuum(const Problem& problem, const Orbit& orbit, const std::vector<std::complex<double>>& multipliers) {
   constexpr double near = 1e-4;  // a double multiplier 1, as of a conservative model, is known to half the digits
-  if (std::ranges::none_of(multipliers, [](auto mu) { return std::abs(mu - 1.0) < near; })) return 0;
+  if (ranges::none_of(multipliers, [](std::complex<double> mu) { return std::abs(mu - 1.0) < near; })) return 0;
   try {
     const Null null = null_vectors_at(problem, orbit);
     int dimension = 0;

@@ -6,6 +6,7 @@
 
 #include "base/dense.hpp"
 #include "base/elementary.hpp"
+#include "base/ranges.hpp"
 #include "orbit/equations.hpp"
 #include "slapstick/orbit/periodic_orbit.hpp"
 
@@ -58,7 +59,7 @@ void Account::powers(const ModeRates& mode, const VectorXd& X, double weight) {
   for (const Force& force : model_.forces) {
     double size = force.amplitude;
     if (force.harmonic > 0) {
-      const auto k = std::ranges::find(frame_.harmonics, force.harmonic) - frame_.harmonics.begin();
+      const auto k = ranges::find(frame_.harmonics, force.harmonic) - frame_.harmonics.begin();
       size *= fixed::sin(force.phase) * X[2 * frame_.d + 2 * k] + fixed::cos(force.phase) * X[2 * frame_.d + 2 * k + 1];
     }
     energy_.input += weight * size * v[force.coordinate];

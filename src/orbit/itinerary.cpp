@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/ranges.hpp"
+
 namespace slapstick::orbit {
 
 bool operator==(const Leg& a, const Leg& b) {
@@ -11,7 +13,7 @@ bool operator==(const Leg& a, const Leg& b) {
   };
   return a.states == b.states && a.ending == b.ending &&
          (a.ending == Ending::cut || (a.kind == b.kind && a.contact == b.contact)) &&
-         std::ranges::equal(a.strikes, b.strikes, same_strike);
+         ranges::equal(a.strikes, b.strikes, same_strike);
 }
 
 void rotate(Orbit& orbit, std::size_t first) {

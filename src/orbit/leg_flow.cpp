@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/dense.hpp"
+#include "base/ranges.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::orbit {
@@ -207,7 +208,7 @@ VectorXd state_within(const ModeSet& set, const Orbit& orbit, std::size_t leg, d
 }
 
 std::ptrdiff_t held(const ModeSet& set, const Leg& leg) {
-  return std::ranges::count(set.mode(leg.states).outline.steady, true);
+  return ranges::count(set.mode(leg.states).outline.steady, true);
 }
 
 std::size_t freest_leg(const ModeSet& set, const Orbit& orbit) {

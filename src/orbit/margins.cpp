@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/ranges.hpp"
 #include "orbit/equations.hpp"
 #include "orbit/leg_flow.hpp"
 #include "slapstick/orbit/periodic_orbit.hpp"
@@ -208,7 +209,7 @@ std::vector<Margin> margins(const Problem& problem, const Orbit& orbit) {
   for (const TestValue& test : test_values(set, orbit)) {
     const bool reversal = test.test == Test::no_stick;
     if ((test.test != Test::guard && !reversal) || !std::isfinite(test.value)) continue;
-    const auto same = std::ranges::find_if(least, [&](const Margin& m) {
+    const auto same = ranges::find_if(least, [&](const Margin& m) {
       return m.kind == test.kind && m.contact == test.contact && m.reversal == reversal;
     });
     if (same == least.end())

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/ranges.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::orbit {
@@ -39,7 +40,7 @@ ModeSet::ModeSet(const Family& family, const std::vector<double>& values)
 }
 
 const ModeRates& ModeSet::mode(const mode::ContactStates& states) const {
-  const auto known = std::ranges::find_if(modes_, [&](const auto& mode) { return mode->outline.states == states; });
+  const auto known = ranges::find_if(modes_, [&](const auto& mode) { return mode->outline.states == states; });
   if (known != modes_.end()) return **known;
   auto made = std::make_unique<ModeRates>(ModeRates{mode::Outline(model_, frame_, states), {}, 1.0});
   for (std::size_t j = 0; j < rates_.size(); ++j)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/ranges.hpp"
 #include "flow/engine.hpp"
 #include "flow/contact_state.hpp"
 #include "orbit/equations.hpp"
@@ -150,7 +151,7 @@ std::optional<Orbit> record(const Motion& start, int n, const std::atomic<bool>*
 }
 
 int chatters(const Orbit& orbit) {
-  return static_cast<int>(std::ranges::count(orbit.shape.legs, Ending::chatter, &Leg::ending));
+  return static_cast<int>(ranges::count(orbit.shape.legs, Ending::chatter, &Leg::ending));
 }
 
 bool in_burst(const Orbit& orbit, std::size_t leg) {

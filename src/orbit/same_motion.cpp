@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/ranges.hpp"
 #include "orbit/extent.hpp"
 
 namespace slapstick::orbit {
@@ -57,7 +58,7 @@ std::vector<double> instants(const Orbit& orbit) {
   std::vector<std::size_t> legs(orbit.legs());
   std::iota(legs.begin(), legs.end(), std::size_t{0});
   std::erase_if(legs, [&](std::size_t leg) { return orbit.shape.legs[leg].ending == Ending::chatter; });
-  std::ranges::sort(legs, {}, [&](std::size_t leg) { return -orbit.duration(leg); });
+  ranges::sort(legs, {}, [&](std::size_t leg) { return -orbit.duration(leg); });
   legs.resize(std::min(legs.size(), most_legs));
   std::vector<double> all;
   for (const std::size_t leg : legs)

@@ -1,9 +1,9 @@
 /// The search for orbits: near returns of many motions, each refined by Newton's method.
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 
+#include "base/ranges.hpp"
 #include "flow/contact_state.hpp"
 #include "orbit/continuum.hpp"
 #include "orbit/extent.hpp"
@@ -148,7 +148,7 @@ bool Hunt::add(const Orbit& orbit) {
   const auto of_same_family = [&](const Solution& other) {
     return other.family > 0 && in_one_family(problem_, other.orbit, orbit);
   };
-  if (solution.family > 0 && std::ranges::any_of(found, of_same_family)) {
+  if (solution.family > 0 && ranges::any_of(found, of_same_family)) {
     ++report.known;
     return false;
   }
@@ -184,7 +184,7 @@ SearchResult search(const Problem& problem, const System& system, const State& s
     if (options.progress) options.progress(report.motions);
   }
   if (hunt.over()) report.end = hunt.end();
-  std::ranges::stable_sort(hunt.found, {}, [](const Solution& s) {
+  ranges::stable_sort(hunt.found, {}, [](const Solution& s) {
     return std::pair(s.orbit.shape.n, s.chatter ? std::numeric_limits<long>::max() : s.impacts);
   });
   return {std::move(hunt.found), report};

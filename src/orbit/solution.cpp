@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 
+#include "base/ranges.hpp"
 #include "flow/contact_state.hpp"
 #include "orbit/continuum.hpp"
 #include "orbit/equations.hpp"
@@ -43,7 +44,7 @@ std::size_t most_held_leg(const ModeSet& set, const Orbit& orbit) {
 
 /// Without the multiplier of a direction that the map keeps, as that of the motion along itself, which is 1.
 void drop_kept_direction(std::vector<std::complex<double>>& multipliers) {
-  const auto nearest = std::ranges::min_element(multipliers, {}, [](auto m) { return std::abs(m - 1.0); });
+  const auto nearest = ranges::min_element(multipliers, {}, [](auto m) { return std::abs(m - 1.0); });
   if (nearest != multipliers.end()) multipliers.erase(nearest);
 }
 
@@ -97,7 +98,7 @@ std::vector<std::complex<double>> multipliers(const Problem& problem, const Mode
 bool Solution::stable() const {
   std::vector<std::complex<double>> others = multipliers;
   for (int along = 0; along < family; ++along) drop_kept_direction(others);
-  return std::ranges::all_of(others, [](auto mu) { return std::abs(mu) < 1.0; });
+  return ranges::all_of(others, [](auto mu) { return std::abs(mu) < 1.0; });
 }
 
 std::shared_ptr<const Problem> pose(const Family& family, const std::vector<double>& values) {

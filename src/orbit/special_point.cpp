@@ -1,8 +1,9 @@
 /// Names of what happens at special points, and the events and contacts that take part.
 #include "slapstick/orbit/special_point.hpp"
 
-#include <algorithm>
 #include <array>
+
+#include "base/ranges.hpp"
 
 namespace slapstick::orbit {
 namespace {
@@ -69,7 +70,7 @@ std::vector<std::size_t> events_at(const SpecialPoint& point) {
 std::vector<int> contacts_at(const SpecialPoint& point, const Model& model) {
   std::vector<int> contacts;
   const auto add = [&](int contact) {
-    if (std::ranges::find(contacts, contact) == contacts.end()) contacts.push_back(contact);
+    if (ranges::find(contacts, contact) == contacts.end()) contacts.push_back(contact);
   };
   if (point.occurrence != Occurrence::margin && point.occurrence != Occurrence::death) return contacts;
   for (const std::size_t leg : events_at(point))

@@ -56,7 +56,7 @@ class Settling {
   [[nodiscard]] bool cancelled() const;
   [[nodiscard]] bool out_of_time() const;
 
-  [[nodiscard]] long periods() const { return motion_.time().period; }
+  [[nodiscard]] long periods() const { return static_cast<long>(motion_.time().period); }
   [[nodiscard]] State state() const { return motion_.state(); }
   [[nodiscard]] const flow::Translations& translations() const { return translations_; }
   /// A state moved back along the translations to where the start was.

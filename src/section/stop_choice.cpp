@@ -1,9 +1,9 @@
 /// Chooses stops by name.
 #include "slapstick/section/stop_choice.hpp"
 
-#include <algorithm>
 #include <numeric>
 
+#include "base/ranges.hpp"
 #include "slapstick/base/error.hpp"
 #include "base/text.hpp"
 
@@ -14,7 +14,7 @@ StopChoice::StopChoice(const Model& model, const std::vector<std::string>& names
   contacts_ = 0;
   const std::vector<int> stops = stop_contacts(model);
   for (const std::string& name : names) {
-    const auto found = std::ranges::find_if(stops, [&](int contact) { return stop_name(model, contact) == name; });
+    const auto found = ranges::find_if(stops, [&](int contact) { return stop_name(model, contact) == name; });
     if (found != stops.end()) {
       contacts_ |= std::uint32_t{1} << static_cast<unsigned>(*found);
       continue;

@@ -44,7 +44,7 @@ struct Margin {
 
 /// No multiplier is 1.
 [[nodiscard]] inline bool isolated(const std::vector<std::complex<double>>& multipliers) {
-  return std::ranges::none_of(multipliers, [](auto mu) { return std::abs(mu - 1.0) < 1e-10; });
+  return std::none_of(multipliers.begin(), multipliers.end(), [](auto mu) { return std::abs(mu - 1.0) < 1e-10; });
 }
 
 struct Solution {

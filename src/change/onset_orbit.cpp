@@ -140,14 +140,13 @@ Orbit cut_off(const ModeSet& set, Orbit orbit, int stop, const Approach& approac
   rest.event = EventKind::release;
   const auto numbers = bounce.numbers(orbit.x[keep], orbit.t[keep]);
   const double left = numbers.a.value()[0] / numbers.j.value()[0];
-  const double cycle = orbit.shape.n > 0 ? orbit.shape.n : orbit.t.back() - orbit.t.front();
   orbit.shape.legs.resize(keep);
   orbit.shape.legs.push_back(rest);
   orbit.x.resize(keep + 1);
   orbit.t.resize(keep + 2);
   orbit.t.back() = orbit.t[keep] + left / set.period();
   orbit.x[0] = bounce.state_after(rest, orbit.x[keep], orbit.t[keep], left, 0.0);
-  orbit.t[0] = orbit.shape.n > 0 ? orbit.t.back() - cycle : 0.0;
+  orbit.t[0] = orbit.shape.n > 0 ? orbit.t.back() - orbit.shape.n : 0.0;
   return orbit;
 }
 

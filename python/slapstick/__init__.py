@@ -11,28 +11,51 @@ tolerances to choose. Errors are InputError (a ValueError), NumericalError and S
 """
 
 from ._attractor import Attractor, Attractors, classify
+from ._branch import Branch, continuation
+from ._certificate import Certificate, certify
 from ._core import InputError, NumericalError, Parameter, StorageError, __version__
+from ._diagram import Diagram, diagram
+from ._locus import Locus, Meeting, locus
 from ._model import Model, Parameters, load, models, new
 from ._motion import Events, Motion, simulate
+from ._orbit import Orbit, OrbitEvents, orbit, orbits
 from ._result import Interrupted, Result
+from ._section import Section, poincare
+from ._special import SpecialPoint
 
 __all__ = [
     "Attractor",
     "Attractors",
+    "Branch",
+    "Certificate",
+    "Diagram",
     "Events",
     "InputError",
     "Interrupted",
+    "Locus",
+    "Meeting",
     "Model",
     "Motion",
     "NumericalError",
+    "Orbit",
+    "OrbitEvents",
     "Parameter",
     "Parameters",
     "Result",
+    "Section",
+    "SpecialPoint",
     "StorageError",
     "__version__",
+    "certify",
     "classify",
+    "continuation",
+    "diagram",
     "load",
+    "locus",
     "models",
     "new",
+    "orbit",
+    "orbits",
+    "poincare",
     "simulate",
 ]

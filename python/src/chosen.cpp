@@ -2,6 +2,8 @@
 #include "chosen.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 
 #include "slapstick/base/error.hpp"
 
@@ -28,6 +30,18 @@ std::string listed(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
   return text;
+}
+
+/// Six digits: for messages.
+std::string shown(double number) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%g", number);
+  return text.data();
+}
+
+Overrides with(Overrides values, const std::string& name, double value) {
+  values[name] = value;
+  return values;
 }
 
 /// The numbers of `named` in place of those of the model's own start, or of rest if that does not fit the values.
@@ -81,6 +95,17 @@ double value_of(const ModelDefinition& definition, const Overrides& values, cons
       throw InputError("the members of " + name + " differ: " + listed(group->members) + "; set " + name +
                        ", or name one of them");
   }
+  return value;
+}
+
+double value_inside(const ModelDefinition& definition, const Overrides& values, const std::string& name, double from,
+                    double to) {
+  const double value = value_of(definition, values, name);
+  if (!(from < to)) throw InputError(name + ": the range " + shown(from) + " to " + shown(to) + " is empty");
+  if (value < from || value > to)
+    throw InputError(name + " = " + shown(value) + ", where the first orbit is sought, is outside " + shown(from) +
+                     " to " + shown(to) + "; give a value inside by " + name + "=");
+  for (const double end : {from, to}) static_cast<void>(definition.values(with(values, name, end)));
   return value;
 }
 

@@ -23,6 +23,10 @@ using Start = std::variant<Overrides, State>;
 /// The present value of a parameter or of a group whose members agree. @throws InputError
 [[nodiscard]] double value_of(const ModelDefinition& definition, const Overrides& values, const std::string& name);
 
+/// The same, inside a range that the parameter admits. @throws InputError
+[[nodiscard]] double value_inside(const ModelDefinition& definition, const Overrides& values, const std::string& name,
+                                  double from, double to);
+
 /// The names of all contacts, in the library's numbering: stops, friction contacts, compliant stops.
 [[nodiscard]] std::vector<std::string> contact_names(const Model& model);
 

@@ -45,6 +45,7 @@ void bind_model(nb::module_& module) {
       .def_prop_ro("state_names", [](const ModelDefinition& self) { return state_names(self.build()); })
       .def_prop_ro("contacts", [](const ModelDefinition& self) { return contact_names(self.build()); })
       .def_prop_ro("stops", &stop_names)
+      .def_prop_ro("forced", [](const ModelDefinition& self) { return self.build().forced(); })
       .def_prop_ro("observables",
                    [](const ModelDefinition& self) {
                      std::vector<std::string> names;

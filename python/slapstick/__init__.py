@@ -13,7 +13,8 @@ tolerances to choose. Errors are InputError (a ValueError), NumericalError and S
 from ._attractor import Attractor, Attractors, classify
 from ._branch import Branch, continuation
 from ._certificate import Certificate, certify
-from ._core import InputError, NumericalError, Parameter, StorageError, __version__
+from ._core import InputError, NumericalError, Parameter, StorageError
+from ._core import version as __version__
 from ._diagram import Diagram, diagram
 from ._locus import Locus, Meeting, locus
 from ._model import Model, Parameters, load, models, new

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any, overload
 
@@ -220,9 +220,33 @@ class Attractors(Sequence[Attractor]):
 
 
 @overload
-def classify(model: Model | str | os.PathLike[str], **values: float) -> Attractor: ...
+def classify(
+    model: Model | str | os.PathLike[str],
+    *,
+    transient: int = ...,
+    most_periods: int = ...,
+    most_n: int = ...,
+    stops: Sequence[str] = ...,
+    start: Start = ...,
+    threads: int = ...,
+    progress: Progress = ...,
+    parameters: Mapping[str, float] | None = ...,
+    **values: float,
+) -> Attractor: ...
 @overload
-def classify(model: Model | str | os.PathLike[str], **values: Any) -> Any: ...
+def classify(
+    model: Model | str | os.PathLike[str],
+    *,
+    transient: int = ...,
+    most_periods: int = ...,
+    most_n: int = ...,
+    stops: Sequence[str] = ...,
+    start: Start = ...,
+    threads: int = ...,
+    progress: Progress = ...,
+    parameters: Mapping[str, float] | None = ...,
+    **values: ArrayLike,
+) -> Attractors: ...
 def classify(
     model: Model | str | os.PathLike[str],
     *,

@@ -118,8 +118,12 @@ class Branch(Result):
             stable = bool(self.stable[of[0]])
             style = {"color": "0.1" if stable else "0.5", "linestyle": "-" if stable else "--", "linewidth": 1.2}
             ax.plot(self.value[of], speeds, **style)
-        for special in self.special:
-            self._mark(ax, special)
+        near = 0.04 * (self._core.end - self._core.begin)  # labels so close to one another are stacked
+        last, height = float("-inf"), 0
+        for special in sorted(self.special, key=lambda point: point.value):
+            height = height + 1 if special.value - last < near else 0
+            last = special.value
+            self._mark(ax, special, 5 + 10 * height)
         ax.set_xlabel(self.parameter)
         ax.set_ylabel("w just before the impact")
         return ax
@@ -139,14 +143,15 @@ class Branch(Result):
             yield of, w[first[begin] : first[end]].reshape(end - begin, kinds[begin][1])
             begin = i
 
-    def _mark(self, ax: Any, special: SpecialPoint) -> None:
+    def _mark(self, ax: Any, special: SpecialPoint, above: int) -> None:
         events = special.orbit.events
         w = events.w[np.isin(events.kind, ("impact", "engage"))]
         if len(w) == 0:
             return
         colour = COLOURS.get(special.type, "#0072b2")
         ax.plot([special.value], [w.max()], "o", color=colour, markersize=4, zorder=3)
-        ax.annotate(special.type, (special.value, w.max()), (0, 5), textcoords="offset points", ha="center", color=colour)
+        style = {"textcoords": "offset points", "ha": "center", "color": colour, "fontsize": "small"}
+        ax.annotate(special.type, (special.value, w.max()), (0, above), **style)
 
     def _facts(self) -> list[tuple[str, str]]:
         kinds = ", ".join(f"{point.type} {point.value:.8g}" for point in self.special[:12])
@@ -192,7 +197,7 @@ def continuation(
     >>> import slapstick
     >>> branch = slapstick.continuation("vibro-impact", "omega", (2.6, 2.9), orbit="1-1", omega=2.7)
     >>> [(point.type, round(point.value, 8)) for point in branch.special]
-    [('PD', 2.84595629)]
+    [('PD', 2.8459563)]
     """
     chosen = model_of(model)
     fixed = numbers(values if parameters is None else {**values, **parameters})
@@ -218,7 +223,7 @@ def continue_orbit(
     progress: Progress = None,
 ) -> Branch:
     begin, end = range_of(first.model, parameter, between)
-    options = {"parameter": parameter, "between": (begin, end), "step": step, "points": points}
+    options: dict[str, Any] = {"parameter": parameter, "between": (begin, end), "step": step, "points": points}
     options |= {"same_events": same_events}
     arguments = (first._core, parameter, begin, end, step, points, same_events)
     core = _progress.run(_core.continue_orbit, arguments, "points at most", 2 * points, progress)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import tempfile
-from collections.abc import Callable
+from collections.abc import Iterator
 from typing import Any
 
 from . import _core, _progress
@@ -65,30 +66,26 @@ def certify(
     chosen, target = model_of(model), os.fspath(path)
     fixed = numbers(values if parameters is None else {**values, **parameters})
 
-    def work(write: Callable[[str], object]) -> _core.Certified:
-        arguments = (chosen._core, fixed, start_of(start), periods, write)
-        return _progress.run(_core.certify, arguments, "periods", periods, progress)
-
-    certified = written_whole(target, work)
+    arguments = (chosen._core, fixed, start_of(start), periods)
+    with written_whole(target) as beside:
+        certified = _progress.run(_core.certify, (*arguments, beside), "periods", periods, progress)
     found = Certificate(certified, target, chosen, fixed, {"periods": periods, "start": start})
     if not certified.complete:
         raise Interrupted(found)
     return found
 
 
-def written_whole(path: str, work: Callable[[Callable[[str], object]], _core.Certified]) -> _core.Certified:
-    """What `work` writes becomes the file `path` when it has ended, or leaves nothing behind."""
+@contextlib.contextmanager
+def written_whole(path: str) -> Iterator[str]:
+    """A file beside `path` to write into, which becomes `path` at the end; after an error nothing is left."""
     try:
-        file = tempfile.NamedTemporaryFile("w", dir=os.path.dirname(path) or ".", delete=False, newline="\n")
+        descriptor, beside = tempfile.mkstemp(dir=os.path.dirname(path) or ".")
     except OSError as error:
         raise StorageError(f"cannot write '{path}': {error.strerror}") from None
+    os.close(descriptor)
     try:
-        with file:
-            certified = work(file.write)
-        os.replace(file.name, path)
-    except BaseException as error:
-        os.unlink(file.name)
-        if isinstance(error, OSError) and not isinstance(error, StorageError):
-            raise StorageError(f"cannot write '{path}': {error.strerror}") from None
+        yield beside
+        os.replace(beside, path)
+    except BaseException:
+        os.unlink(beside)
         raise
-    return certified

@@ -161,7 +161,7 @@ def diagram(
     >>> import slapstick
     >>> d = slapstick.diagram("vibro-impact", omega=(2.6, 3.1, 6), impacts=4)
     >>> d.w.reshape(6, 4)[0].round(4).tolist()
-    [1.3448, 1.3448, 1.3448, 1.3448]
+    [0.5769, 0.5769, 0.5769, 0.5769]
     """
     chosen = model_of(model)
     given = values if parameters is None else {**values, **parameters}

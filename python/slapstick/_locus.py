@@ -19,6 +19,8 @@ from ._progress import Progress
 from ._result import Interrupted, Result, axes
 from ._special import SpecialPoint
 
+BRANCH_STEP, BRANCH_POINTS = 0.02, 1000  # of the branch on which `slapstick curve` seeks its point
+
 
 class Meeting(NamedTuple):
     """What else happens at a point of a locus: a point of codimension two."""
@@ -100,6 +102,8 @@ class Locus(Result):
         ax = axes(ax)
         ax.plot(np.where(self.is_motion, self.x, np.nan), self.y, color="0.1", linewidth=1.2, label=self.type)
         for met in self.met:
+            if not self.is_motion[met.after]:
+                continue
             ax.plot(*met.values, "o", color="#d55e00", markersize=4)
             ax.annotate(met.type, met.values, (4, 4), textcoords="offset points", color="#d55e00")
         ax.set_xlabel(self.names[0])
@@ -137,9 +141,9 @@ def locus(
     >>> import slapstick
     >>> curve = slapstick.locus("vibro-impact", "omega", "friction", (2.6, 3), (0.1, 0.2), orbit="1-1", omega=2.7)
     >>> len(curve) > 10, curve.ended
-    (True, 'up: the end of the range; down: the end of the range')
+    (True, 'down: range; up: range')
     """
-    branch = continuation(model, first, between, progress=progress, **options)
+    branch = continuation(model, first, between, step=BRANCH_STEP, points=BRANCH_POINTS, progress=progress, **options)
     points_of_type = [point for point in branch.special if point.type == type]
     if len(points_of_type) < which:
         seen = ", ".join(f"{point.type} at {point.value:g}" for point in branch.special)
@@ -162,7 +166,7 @@ def follow_special(
 ) -> Locus:
     begin, end = range_of(special.model, special.parameter, between)
     lower, upper = range_of(special.model, second, second_between)
-    options = {"parameters": (special.parameter, second), "between": (begin, end), "second_between": (lower, upper)}
+    options: dict[str, Any] = {"parameters": (special.parameter, second), "between": (begin, end), "second_between": (lower, upper)}
     options |= {"step": step, "points": points}
     arguments = (special._core, second, begin, end, lower, upper, step, points)
     core = _progress.run(_core.locus, arguments, "points at most", 2 * points, progress)

@@ -226,7 +226,8 @@ def orbit(
     """
     chosen = model_of(model)
     fixed = numbers(values if parameters is None else {**values, **parameters})
-    options = {"orbit": orbit, "stable": stable, "symmetric": symmetric, "nearest": nearest, "transient": transient}
+    options: dict[str, Any] = {"orbit": orbit, "stable": stable, "symmetric": symmetric, "nearest": nearest}
+    options["transient"] = transient
     options |= {"starts": starts, "seconds": seconds, "seed": seed, "start": start}
     arguments = (chosen._core, fixed, start_of(start), wish_of(options))
     return Orbit(_progress.run(_core.find_orbit, arguments, "orbits", 1, progress), chosen, options)

@@ -19,7 +19,7 @@ class Result:
     def __init__(self, model: Model, values: dict[str, float], options: dict[str, Any]) -> None:
         self.model = model
         self.options = options
-        self.version: str = _core.__version__
+        self.version: str = _core.version
         self._values = values
 
     @property

@@ -114,6 +114,7 @@ class Section(Result):
         """Draws w over the phase of impacts, the first coordinate's phase plane at stroboscopic points, or a return map."""
         ax = axes(ax)
         kind = self.options["section"]
+        labels: tuple[str, ...]
         if kind == "impact" and self.model._core.forced:
             x, y, labels = self.phase, self.w, ("phase of the forcing", "w just before the impact")
         elif kind == "stroboscopic":

@@ -18,7 +18,7 @@ void bind_errors(nb::module_& module) {
 NB_MODULE(_core, module) {
   using namespace slapstick::python;
   module.doc() = "The library of slapstick over numpy arrays. The package slapstick is what users call.";
-  module.attr("__version__") = SLAPSTICK_VERSION;
+  module.attr("version") = SLAPSTICK_VERSION;
   bind_errors(module);
   bind_model(module);
   bind_motion(module);

@@ -31,6 +31,20 @@ struct Run {
   std::size_t width = 0, observed = 0;
   Counters work;
   bool complete = true;
+  double seconds = 0.0;  ///< that the library took
+};
+
+/// Writes down how long it lived.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() { seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
 /// The loop of a run.
@@ -95,6 +109,7 @@ std::unique_ptr<Run> simulate(const ModelDefinition& definition, const Overrides
   auto run = std::make_unique<Run>();
   Watch watch(std::move(progress));
   watch.run([&] {
+    const Stopwatch stopwatch(run->seconds);
     const System system(build(definition, values));
     run->start = start_of(definition, values, start);
     run->period = system.period();
@@ -143,6 +158,7 @@ void bind_motion(nb::module_& module) {
       .def_ro("period", &Run::period)
       .def_ro("duration", &Run::duration)
       .def_ro("complete", &Run::complete)
+      .def_ro("seconds", &Run::seconds)
       .def_prop_ro("work", [](const Run& self) {
         return std::map<std::string, long>{{"segments", self.work.segments},
                                            {"windows", self.work.windows},

@@ -38,8 +38,7 @@ std::unique_ptr<OrbitEvents> events_of(const FoundOrbit& self) {
   for (std::size_t k = 0; k < event_kinds; ++k) columns->kind.names.emplace_back(name(static_cast<EventKind>(k)));
   columns->contact.names = contact_names(system.model());
   columns->width = 2 * static_cast<std::size_t>(system.model().size());
-  const int n = self.solution.orbit.shape.n;  // 0 without forcing: times are in the model's unit
-  const double period = n > 0 ? self.solution.cycle / n : 1.0;
+  const double period = build(self.setting->definition, self.values()).forcing_period();
   for (const orbit::EventOfOrbit& event : orbit::events(*self.setting->problem, self.solution.orbit)) {
     columns->t.push_back(event.t * period);
     columns->w.push_back(event.w);
@@ -64,19 +63,17 @@ std::map<std::string, std::pair<double, double>> extremes(const FoundOrbit& self
   return all;
 }
 
-nb::dict energy(const FoundOrbit& self) {
+std::map<std::string, std::variant<double, std::map<std::string, double>>> energy(const FoundOrbit& self) {
   const orbit::Energy energy = orbit::energy(*self.setting->problem, self.solution.orbit);
   const Model& model = self.setting->system.model();
   std::map<std::string, double> friction, impacts;
   for (std::size_t i = 0; i < energy.friction.size(); ++i) friction[model.frictions[i].name] = energy.friction[i];
   for (std::size_t i = 0; i < energy.impacts.size(); ++i) impacts[model.stops[i].name] = energy.impacts[i];
-  nb::dict all;
-  all["input"] = energy.input;
-  all["damping"] = energy.damping;
-  all["friction"] = friction;
-  all["impacts"] = impacts;
-  all["balance"] = energy.balance();
-  return all;
+  return {{"input", energy.input},
+          {"damping", energy.damping},
+          {"friction", friction},
+          {"impacts", impacts},
+          {"balance", energy.balance()}};
 }
 
 /// What is measured, of which contact, its least value.

@@ -50,12 +50,14 @@ class Attractor(Result):
     """What a motion is after its transient.
 
     label: '1-1-II', '1-inf-II', 'quasi-periodic', 'chaotic', 'undecided'; attractor: 'periodic' or as the label.
-    Periodic: n forcing periods and p impacts in a cycle (p is inf with complete chatter), multipliers of the n-period map
-    (complex, largest first), impacts. state: on the attractor at phase 0, shape (2 n,).
+    Periodic: n forcing periods and p impacts in a cycle (p is inf with complete chatter), multipliers of the
+    n-period map (complex, largest first), impacts. state: on the attractor at phase 0, shape (2 n,).
     exponent: the largest Lyapunov exponent for each forcing period.
     """
 
-    def __init__(self, found: _core.Classified, model: Model, values: dict[str, float], options: dict[str, Any]) -> None:
+    def __init__(
+        self, found: _core.Classified, model: Model, values: dict[str, float], options: dict[str, Any]
+    ) -> None:
         super().__init__(model, values, options)
         self._found = found
 
@@ -191,9 +193,7 @@ class Attractors(Sequence[Attractor]):
         """A DataFrame: the values that vary, label, n, p, exponent."""
         import pandas as pd
 
-        return pd.DataFrame(
-            {**self.swept, "label": self.label, "n": self.n, "p": self.p, "exponent": self.exponent}
-        )
+        return pd.DataFrame({**self.swept, "label": self.label, "n": self.n, "p": self.p, "exponent": self.exponent})
 
     def plot(self, ax: Any = None) -> Any:
         """Draws the exponent over the first parameter that varies, a colour for each class. Returns the axes."""
@@ -283,9 +283,7 @@ def classify(
     if swept:
         return classify_many(chosen, given, swept, options, (*limits, threads), progress)
     fixed = numbers(given)
-    found = _progress.run(
-        _core.classify, (chosen._core, fixed, *limits), "periods", transient + most_periods, progress
-    )
+    found = _progress.run(_core.classify, (chosen._core, fixed, *limits), "periods", transient + most_periods, progress)
     return Attractor(found, chosen, fixed, options)
 
 

@@ -18,8 +18,8 @@ from ._result import Interrupted, Result
 class Certificate(Result):
     """What a certificate holds, in numbers; `slapstick-verify PATH` checks the file.
 
-    segments: of the motion; guards: proven on them; steps: of the proofs; touches: zeros that 256 bits could not decide;
-    chatters: limits of complete chatter; unproved: guards that the verifier will refuse. path: the file.
+    segments: of the motion; guards: proven on them; steps: of the proofs; touches: zeros that 256 bits could not
+    decide; chatters: limits of complete chatter; unproved: guards that the verifier will refuse. path: the file.
     """
 
     def __init__(

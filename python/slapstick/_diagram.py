@@ -24,8 +24,8 @@ LABELS = {"w": "w just before the impact", "flight": "flight / period", "sliding
 class Diagram(Result):
     """Impacts at many values of a parameter, as columns of shape (k,): a row for each impact.
 
-    parameter: its name; value: its value; w: relative velocity just before the impact; flight and sliding: time since the
-    impact before, and the part of it in slip, in forcing periods; phase: of the forcing, in [0, 1).
+    parameter: its name; value: its value; w: relative velocity just before the impact; flight and sliding: time
+    since the impact before, and the part of it in slip, in forcing periods; phase: of the forcing, in [0, 1).
     direction: 'up' or 'down', as the state was carried; contact: the stop; y: the state just before, shape (2 n, k).
     """
 
@@ -123,7 +123,9 @@ class Diagram(Result):
         ax.set_ylabel(LABELS[y])
         ax.margins(x=0)
         if len(ax.lines) > 1:
-            ax.legend(frameon=False, markerscale=8, ncols=2, loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.2)
+            ax.legend(
+                frameon=False, markerscale=8, ncols=2, loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.2
+            )
         return ax
 
     def _facts(self) -> list[tuple[str, str]]:
@@ -186,7 +188,9 @@ def swept(given: Values) -> tuple[str, list[float]]:
     """The one parameter that varies, and its values."""
     names = [name for name, value in given.items() if np.ndim(value) > 0]
     if len(names) != 1:
-        raise InputError("diagram: one parameter varies, as omega=(0.5, 10, 2400); given: " + (", ".join(names) or "none"))
+        raise InputError(
+            "diagram: one parameter varies, as omega=(0.5, 10, 2400); given: " + (", ".join(names) or "none")
+        )
     name, value = names[0], given[names[0]]
     if not isinstance(value, tuple):
         grid = np.asarray(value, dtype=np.float64)

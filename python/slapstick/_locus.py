@@ -34,8 +34,9 @@ class Meeting(NamedTuple):
 class Locus(Result):
     """A curve of special points in two parameters.
 
-    type: of the points; names: of both parameters; x, y: their values, shape (k,); is_motion: where the orbit is a motion,
-    shape (k,). met: the points of codimension two on the way. ended: why, in words. `locus[i]` is the orbit of a point.
+    type: of the points; names: of both parameters; x, y: their values, shape (k,); is_motion: where the orbit is a
+    motion, shape (k,). met: the points of codimension two on the way. ended: why, in words.
+    `locus[i]` is the orbit of a point.
     """
 
     def __init__(
@@ -149,8 +150,13 @@ def locus(
         seen = ", ".join(f"{point.type} at {point.value:g}" for point in branch.special)
         raise NumericalError(f"locus: no {type} on the branch in {first} (found: {seen or 'none'}; {branch.ended})")
     return follow_special(
-        points_of_type[which - 1], second, (branch._core.begin, branch._core.end), second_between, step=step,
-        points=points, progress=progress,
+        points_of_type[which - 1],
+        second,
+        (branch._core.begin, branch._core.end),
+        second_between,
+        step=step,
+        points=points,
+        progress=progress,
     )
 
 
@@ -166,7 +172,11 @@ def follow_special(
 ) -> Locus:
     begin, end = range_of(special.model, special.parameter, between)
     lower, upper = range_of(special.model, second, second_between)
-    options: dict[str, Any] = {"parameters": (special.parameter, second), "between": (begin, end), "second_between": (lower, upper)}
+    options: dict[str, Any] = {
+        "parameters": (special.parameter, second),
+        "between": (begin, end),
+        "second_between": (lower, upper),
+    }
     options |= {"step": step, "points": points}
     arguments = (special._core, second, begin, end, lower, upper, step, points)
     core = _progress.run(_core.locus, arguments, "points at most", 2 * points, progress)

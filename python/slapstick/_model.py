@@ -79,7 +79,7 @@ class Model:
 
         Raises InputError naming the line and the key.
         """
-        return Model(_core.Definition.parse(text, source))
+        return Model(_core.parse_model(text, source))
 
     @property
     def name(self) -> str:

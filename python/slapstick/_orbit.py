@@ -60,7 +60,8 @@ class OrbitEvents:
 class Orbit(Result):
     """A periodic orbit.
 
-    label: '1-1-II'; n: forcing periods in a cycle (0 without forcing); p: impacts in a cycle, inf with complete chatter.
+    label: '1-1-II'; n: forcing periods in a cycle (0 without forcing); p: impacts in a cycle, inf with complete
+    chatter.
     multipliers: of the return map, complex, largest first; stable: all are inside the unit circle.
     state: at phase 0, shape (2 n,); cycle: the period of the orbit in the model's unit of time.
     is_motion: the simulator does the same; if not, why. t and y: samples of one cycle, as of `simulate`.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -111,7 +111,7 @@ class Section(Result):
         return xr.Dataset({name: ("point", column) for name, column in columns.items()}, attrs=about)
 
     def plot(self, ax: Any = None) -> Any:
-        """Draws w over the phase of impacts, the first coordinate's phase plane at stroboscopic points, or a return map."""
+        """Draws w over the phase of impacts, the phase plane at stroboscopic points, or a return map."""
         ax = axes(ax)
         kind = self.options["section"]
         labels: tuple[str, ...]
@@ -148,8 +148,8 @@ def poincare(
 ) -> Section:
     """Points of a section: just before every impact, once in a forcing period, or just before every event of a kind.
 
-    section: 'impact', 'stroboscopic' or 'event'. event: 'stick', 'release:belt', .. of the event section.
-    phase: of the stroboscopic section, in [0, 1). transient: forcing periods that are left out. points: how many.
+    section: 'impact', 'stroboscopic' or 'event'. event: 'stick', 'release:belt', .. of the event section. phase: of the
+    stroboscopic section, in [0, 1). transient: forcing periods that are left out. points: how many.
     most_periods: the impact or event section ends here if points are rare (1e6, and after 1e4 without a point).
     stops: whose impacts are points (all).
 
@@ -166,28 +166,30 @@ def poincare(
     options = {"section": section, "event": event, "phase": phase, "transient": transient, "points": points}
     options |= {"most_periods": most_periods, "stops": stops, "start": start}
     begin = (chosen._core, fixed, start_of(start), transient, points)
+    limits = (MOST_PERIODS, PATIENCE) if most_periods is None else (most_periods, most_periods)
     if (section == "event") != bool(event):
         raise InputError("event belongs to section='event', and that section needs one: event='stick'")
-    limits = (MOST_PERIODS, PATIENCE) if most_periods is None else (most_periods, most_periods)
-    if section == "impact":
-        core = _progress.run(_core.impact_section, (*begin, *limits, list(stops)), "points", points, progress)
-    elif section == "stroboscopic":
-        core = _progress.run(_core.strobe_section, (*begin, phase), "points", points, progress)
-    elif section == "event":
-        core = _progress.run(_core.event_section, (*begin, *limits, event), "points", points, progress)
-    else:
-        raise InputError(f"section: {section!r} is none of impact, stroboscopic, event")
+    sections: dict[str, tuple[Callable[..., _core.Section], tuple[Any, ...]]] = {
+        "impact": (_core.impact_section, (*begin, *limits, list(stops))),
+        "stroboscopic": (_core.strobe_section, (*begin, phase)),
+        "event": (_core.event_section, (*begin, *limits, event)),
+    }
+    if section not in sections:
+        raise InputError(f"section: {section!r} is none of {', '.join(sections)}")
+    core = _progress.run(*sections[section], "points", points, progress)
     found = Section(core, chosen, fixed, options)
-    if not core.complete:
+    return finished(found)
+
+
+def finished(found: Section) -> Section:
+    """Says if there are fewer points than were asked for."""
+    if not found.complete:
         raise Interrupted(found)
-    if not core.whole and section != "stroboscopic":
-        few(found)
-    return found
-
-
-def few(found: Section) -> None:
+    if found._core.whole or found.options["section"] == "stroboscopic":
+        return found
     what = "impacts" if found.options["section"] == "impact" else "events"
     where = f"in {found._core.periods:g} periods after the transient"
     if len(found) == 0:
         raise NumericalError(f"no {what} {where}: try other parameters, another start or a longer most_periods")
     warnings.warn(f"only {len(found)} {what} {where} (see most_periods)", RuntimeWarning, stacklevel=3)
+    return found

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 class SpecialPoint:
     """A point of a branch at which something changes.
 
-    type: LP fold, PD period doubling, NS torus, BP branches cross, GR a stop is grazed, SL stick is gained or lost, CH a
-    complete chatter begins or ends, CO two events meet. value: of the parameter; error: how well it is known.
+    type: LP fold, PD period doubling, NS torus, BP branches cross, GR a stop is grazed, SL stick is gained or lost, CH
+    a complete chatter begins or ends, CO two events meet. value: of the parameter; error: how well it is known.
     what, outcome: in words. occurrence, passage, sliding, jump, verdict: the same as data (docs/command_line.md).
     rotation: of an NS; coefficient: of the normal form, or None. orbit: the orbit there.
     """

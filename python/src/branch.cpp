@@ -46,7 +46,8 @@ std::shared_ptr<FollowedBranch> continuation(const ModelDefinition& definition, 
     const State state = start_of(definition, values, start);
     const SharedSetting of = setting(definition, values, {name}, {value});
     const FoundOrbit first = find_orbit(of, state, wish, watch.cancel());
-    if (!stopped(watch.cancel())) found = follow(of, first.solution.orbit, from, to, {step, points, same_events}, watch);
+    if (!stopped(watch.cancel()))
+      found = follow(of, first.solution.orbit, from, to, {step, points, same_events}, watch);
   });
   const bool complete = watch.finish(found != nullptr);
   found->complete = complete;
@@ -117,40 +118,59 @@ std::tuple<std::string, bool, std::string> end_of(const B& self, const orbit::Br
   return {std::string(name(end.kind)), end.failed, orbit::sentence(self.branch, end)};
 }
 
-void bind_followed(nb::module_& module) {
-  nb::class_<B>(module, "Branch", "Orbits followed in a parameter.")
-      .def("__len__", [](const B& self) { return self.branch.points.size(); })
+void bind_points(nb::class_<B>& branch) {
+  branch.def("__len__", [](const B& self) { return self.branch.points.size(); })
       .def("orbit", &orbit_at, "index"_a)
       .def_prop_ro("parameter", [](const B& self) { return self.branch.parameter; })
-      .def_prop_ro("value", [](const B& self) {
-        return gathered<double>(self, [](const orbit::Solution& point) { return point.orbit.values[0]; });
-      }, nb::rv_policy::reference)
-      .def_prop_ro("cycle", [](const B& self) {
-        return gathered<double>(self, [](const orbit::Solution& point) { return point.cycle; });
-      }, nb::rv_policy::reference)
-      .def_prop_ro("stable", [](const B& self) {
-        return gathered<std::uint8_t>(self, [](const orbit::Solution& point) { return point.stable(); });
-      }, nb::rv_policy::reference)
-      .def_prop_ro("is_motion", [](const B& self) {
-        return gathered<std::uint8_t>(self, [](const orbit::Solution& point) { return point.is_motion; });
-      }, nb::rv_policy::reference)
-      .def_prop_ro("labels", [](const B& self) {
-        std::vector<std::string> labels;
-        for (const orbit::Solution& point : self.branch.points) labels.push_back(point.label);
-        return labels;
-      })
-      .def_prop_ro("multipliers", [](const B& self) {
-        std::vector<std::vector<std::complex<double>>> all;
-        for (const orbit::Solution& point : self.branch.points) all.push_back(point.multipliers);
-        return all;
-      })
+      .def_prop_ro(
+          "value",
+          [](const B& self) {
+            return gathered<double>(self, [](const orbit::Solution& point) { return point.orbit.values[0]; });
+          },
+          nb::rv_policy::reference)
+      .def_prop_ro(
+          "cycle",
+          [](const B& self) {
+            return gathered<double>(self, [](const orbit::Solution& point) { return point.cycle; });
+          },
+          nb::rv_policy::reference)
+      .def_prop_ro(
+          "stable",
+          [](const B& self) {
+            return gathered<std::uint8_t>(self, [](const orbit::Solution& point) { return point.stable(); });
+          },
+          nb::rv_policy::reference)
+      .def_prop_ro(
+          "is_motion",
+          [](const B& self) {
+            return gathered<std::uint8_t>(self, [](const orbit::Solution& point) { return point.is_motion; });
+          },
+          nb::rv_policy::reference)
+      .def_prop_ro("labels",
+                   [](const B& self) {
+                     std::vector<std::string> labels;
+                     for (const orbit::Solution& point : self.branch.points) labels.push_back(point.label);
+                     return labels;
+                   })
+      .def_prop_ro("multipliers",
+                   [](const B& self) {
+                     std::vector<std::vector<std::complex<double>>> all;
+                     for (const orbit::Solution& point : self.branch.points) all.push_back(point.multipliers);
+                     return all;
+                   })
       .def_prop_ro("state", &states, nb::rv_policy::reference)
-      .def_prop_ro("impacts", &speeds, nb::rv_policy::reference)
-      .def_prop_ro("special_count", [](const B& self) { return self.branch.special.size(); })
-      .def("special", [](const std::shared_ptr<B>& self, std::size_t index) {
-             if (index >= self->branch.special.size()) throw nb::index_error();
-             return Special{self, index};
-           }, "index"_a)
+      .def_prop_ro("impacts", &speeds, nb::rv_policy::reference);
+}
+
+void bind_ways(nb::class_<B>& branch) {
+  branch.def_prop_ro("special_count", [](const B& self) { return self.branch.special.size(); })
+      .def(
+          "special",
+          [](const std::shared_ptr<B>& self, std::size_t index) {
+            if (index >= self->branch.special.size()) throw nb::index_error();
+            return Special{self, index};
+          },
+          "index"_a)
       .def_ro("begin", &B::from)
       .def_ro("end", &B::to)
       .def_ro("complete", &B::complete)
@@ -199,7 +219,10 @@ void bind_special(nb::module_& module) {
       .def_prop_ro("type", [](const S& self) { return std::string(name(self.point().type)); })
       .def_prop_ro("value", [](const S& self) { return self.point().value; })
       .def_prop_ro("error", [](const S& self) { return self.point().error; })
-      .def_prop_ro("orbit", [](const S& self) { return FoundOrbit{self.of->setting, self.point().solution}; })
+      .def_prop_ro("orbit",
+                   [](const S& self) {
+                     return FoundOrbit{self.of->setting, self.point().solution};
+                   })
       .def_prop_ro("occurrence", [](const S& self) { return std::string(name(self.point().occurrence)); })
       .def_prop_ro("passage", [](const S& self) { return std::string(name(self.point().passage)); })
       .def_prop_ro("sliding", [](const S& self) { return std::string(name(self.point().sliding)); })
@@ -220,7 +243,9 @@ void bind_special(nb::module_& module) {
 }  // namespace
 
 void bind_branch(nb::module_& module) {
-  bind_followed(module);
+  nb::class_<B> branch(module, "Branch", "Orbits followed in a parameter.");
+  bind_points(branch);
+  bind_ways(branch);
   bind_special(module);
   module.def("continuation", &continuation, "definition"_a, "values"_a, "name"_a, "begin"_a, "end"_a, "start"_a.none(),
              "wish"_a, "step"_a, "points"_a, "same_events"_a, "progress"_a.none());

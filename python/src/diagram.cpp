@@ -21,8 +21,8 @@ struct Diagram {
   Words direction{{"up", "down"}, {}}, contact;
   std::size_t width = 0;
   bool complete = true;
-  std::vector<double> values;                           ///< of the parameter, at each point that is done
-  std::vector<std::string> directions;                  ///< of each
+  std::vector<double> values;           ///< of the parameter, at each point that is done
+  std::vector<std::string> directions;  ///< of each
   std::vector<std::tuple<double, std::string>> failures, notes, empty;
 };
 
@@ -82,7 +82,10 @@ class Sweep {
  public:
   Sweep(const ModelDefinition& definition, Overrides fixed, std::string name, std::vector<double> values,
         std::optional<Start> start)
-      : definition_(definition), fixed_(std::move(fixed)), name_(std::move(name)), values_(std::move(values)),
+      : definition_(definition),
+        fixed_(std::move(fixed)),
+        name_(std::move(name)),
+        values_(std::move(values)),
         start_(std::move(start)) {}
 
   [[nodiscard]] double value(double place) const { return values_[static_cast<std::size_t>(place)]; }
@@ -105,8 +108,7 @@ class Sweep {
 
   /// What can be known to be wrong before the work. @returns the model at the first value
   [[nodiscard]] Model check() const {
-    for (const double end : {problem_end(), 0.0})
-      static_cast<void>(start_of(definition_, at(end), start_));
+    for (const double end : {problem_end(), 0.0}) static_cast<void>(start_of(definition_, at(end), start_));
     Model model = build(definition_, at(0.0));
     if (stop_contacts(model).empty())
       throw InputError("model '" + model.name + "' has no stop, so a diagram has no impacts to show");

@@ -58,8 +58,8 @@ orbit::SearchOptions search_options(const OrbitWish& wish, const std::atomic<boo
   const double limit = wish.seconds > 0.0 ? wish.seconds : wish.starts > 0 ? 0.0 : default_seconds;
   using Clock = std::chrono::steady_clock;
   if (limit > 0.0)
-    search.until = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                      std::chrono::duration<double>(std::min(limit, 1e9)));
+    search.until =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(limit, 1e9)));
   return search;
 }
 
@@ -104,9 +104,8 @@ FoundOrbit find_orbit(SharedSetting of, const State& start, const OrbitWish& wis
                      "' has no forcing, so its cycles have no number of forcing periods and no phase; what the motion "
                      "settles on is found without");
   const orbit::SearchOptions search = search_options(wish, stop);
-  orbit::Chosen chosen =
-      orbit::choose(*of->problem, of->system, start, choice,
-                    {.transient = wish.transient, .stop = stop, .until = search.until}, search);
+  orbit::Chosen chosen = orbit::choose(*of->problem, of->system, start, choice,
+                                       {.transient = wish.transient, .stop = stop, .until = search.until}, search);
   if (stopped(stop)) return {std::move(of), {}};
   if (!chosen.orbit) refuse(chosen, wish, forced);
   return {std::move(of), std::move(*chosen.orbit), chosen.settles};

@@ -23,7 +23,8 @@ std::unique_ptr<L> locus(const Special& special, const std::string& second, doub
   watch.run_aside([&] {
     const Setting& of = *special.of->setting;
     if (!(step > 0.0 && step <= 0.2)) throw InputError("step: " + std::to_string(step) + " is outside (0, 0.2]");
-    if (second == of.names.front()) throw InputError("locus: two different parameters are wanted, not " + second + " twice");
+    if (second == of.names.front())
+      throw InputError("locus: two different parameters are wanted, not " + second + " twice");
     orbit::SpecialPoint point = special.point();
     const double value = value_inside(of.definition, of.values, second, second_from, second_to);
     point.solution.orbit.values = {point.value, value};
@@ -67,11 +68,15 @@ void bind_locus(nb::module_& module) {
       .def("__len__", [](const L& self) { return self.curve.points.size(); })
       .def_prop_ro("parameters", [](const L& self) { return self.curve.parameters; })
       .def("values", &values, "which"_a, nb::rv_policy::reference)
-      .def_prop_ro("is_motion", [](const L& self) {
-        auto motions = std::make_unique<std::vector<std::uint8_t>>();
-        for (const orbit::CurvePoint& point : self.curve.points) motions->push_back(point.solution.is_motion ? 1 : 0);
-        return owned(std::move(motions));
-      }, nb::rv_policy::reference)
+      .def_prop_ro(
+          "is_motion",
+          [](const L& self) {
+            auto motions = std::make_unique<std::vector<std::uint8_t>>();
+            for (const orbit::CurvePoint& point : self.curve.points)
+              motions->push_back(point.solution.is_motion ? 1 : 0);
+            return owned(std::move(motions));
+          },
+          nb::rv_policy::reference)
       .def_prop_ro("met", &met)
       .def("orbit", &orbit_at, "index"_a)
       .def_ro("complete", &L::complete)

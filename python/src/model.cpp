@@ -31,7 +31,6 @@ std::vector<std::string> stop_names(const ModelDefinition& definition) {
 void bind_model(nb::module_& module) {
   bind_parameter(module);
   nb::class_<ModelDefinition>(module, "Definition", "A model file that has been read and checked. Immutable.")
-      .def_static("parse", &ModelDefinition::parse, "text"_a, "source"_a)
       .def_prop_ro("name", &ModelDefinition::name)
       .def_prop_ro("summary", &ModelDefinition::summary)
       .def_prop_ro("notes", &ModelDefinition::notes)
@@ -53,14 +52,18 @@ void bind_model(nb::module_& module) {
                      return names;
                    })
       .def("values", &ModelDefinition::values, "values"_a)
-      .def("check", [](const ModelDefinition& self, const Overrides& values) { static_cast<void>(build(self, values)); },
-           "values"_a)
-      .def("start", [](const ModelDefinition& self, const Overrides& values) { return start_of(self, values, {}); },
-           "values"_a)
-      .def("period", [](const ModelDefinition& self, const Overrides& values) {
-             return build(self, values).forcing_period();
-           }, "values"_a)
+      .def(
+          "check", [](const ModelDefinition& self, const Overrides& values) { static_cast<void>(build(self, values)); },
+          "values"_a)
+      .def(
+          "start", [](const ModelDefinition& self, const Overrides& values) { return start_of(self, values, {}); },
+          "values"_a)
+      .def(
+          "period",
+          [](const ModelDefinition& self, const Overrides& values) { return build(self, values).forcing_period(); },
+          "values"_a)
       .def("to_toml", &ModelDefinition::to_toml, "values"_a);
+  module.def("parse_model", &ModelDefinition::parse, "text"_a, "source"_a);
   module.def("load_model", &load_model, "name_or_path"_a);
   module.def("builtin_models", &builtin_models);
   module.def("new_model", &new_model, "name"_a);

@@ -115,8 +115,7 @@ std::unique_ptr<Run> simulate(const ModelDefinition& definition, const Overrides
     run->period = system.period();
     run->width = run->start.size();
     run->observed = definition.observables().size();
-    for (std::size_t k = 0; k < event_kinds; ++k)
-      run->events.kind.names.emplace_back(name(static_cast<EventKind>(k)));
+    for (std::size_t k = 0; k < event_kinds; ++k) run->events.kind.names.emplace_back(name(static_cast<EventKind>(k)));
     run->events.contact.names = contact_names(system.model());
     SampledMotion motion(Motion(system, run->start), samples);
     Recorder(*run, system, definition.observer(values)).run(motion, end_of(periods, time, system), watch);
@@ -160,13 +159,11 @@ void bind_motion(nb::module_& module) {
       .def_ro("complete", &Run::complete)
       .def_ro("seconds", &Run::seconds)
       .def_prop_ro("work", [](const Run& self) {
-        return std::map<std::string, long>{{"segments", self.work.segments},
-                                           {"windows", self.work.windows},
-                                           {"evaluations", self.work.evaluations}};
+        return std::map<std::string, long>{
+            {"segments", self.work.segments}, {"windows", self.work.windows}, {"evaluations", self.work.evaluations}};
       });
   module.def("simulate", &simulate, "definition"_a, "values"_a, "start"_a.none(), "periods"_a, "time"_a.none(),
-             "samples"_a,
-             "progress"_a.none());
+             "samples"_a, "progress"_a.none());
 }
 
 }  // namespace slapstick::python

@@ -165,8 +165,10 @@ void bind_orbit(nb::module_& module) {
       .def_prop_ro("why", [](const O& self) { return self.solution.why; })
       .def_prop_ro("drift", [](O& self) { return column(self.solution.drift); })
       .def_prop_ro("settles", [](const O& self) { return self.settles; })
-      .def_prop_ro("symmetric", [](const O& self) { return orbit::symmetric(*self.setting->problem, self.solution.orbit); })
-      .def_prop_ro("state", [](const O& self) { return orbit::at_phase_zero(*self.setting->problem, self.solution.orbit); })
+      .def_prop_ro("symmetric",
+                   [](const O& self) { return orbit::symmetric(*self.setting->problem, self.solution.orbit); })
+      .def_prop_ro("state",
+                   [](const O& self) { return orbit::at_phase_zero(*self.setting->problem, self.solution.orbit); })
       .def_prop_ro("events", &events_of)
       .def_prop_ro("extremes", &extremes)
       .def_prop_ro("energy", &energy)

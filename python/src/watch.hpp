@@ -6,8 +6,8 @@
 ///     watch.run_aside([&] { run_diagram(problem with watch.cancel()); });  // work that does not
 ///
 /// The handlers of signals run on Python's main thread alone, with the GIL. `run` computes on the caller's thread and
-/// takes the GIL for a moment, twenty times a second: a short call pays for no thread. `run_aside` computes on a thread of
-/// its own, while the caller's sleeps and wakes up as often: some 50 microseconds a call.
+/// takes the GIL for a moment, twenty times a second: a short call pays for no thread. `run_aside` computes on a thread
+/// of its own, while the caller's sleeps and wakes up as often.
 /// Any exception of a handler ends the work; a KeyboardInterrupt is kept back if there is a result to keep (`finish`).
 /// Threads: a Watch belongs to one call; `note` may be called from any thread.
 #include <nanobind/nanobind.h>

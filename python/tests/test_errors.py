@@ -37,7 +37,9 @@ def test_a_file_that_is_not_there_is_a_storage_error(program, tmp_path):
 
 def test_a_mistake_in_a_model_file_names_its_line(program, tmp_path):
     path = tmp_path / "bad.toml"
-    path.write_text(slapstick.load("vibro-impact").to_toml().replace("mass_ratio]\nvalue = 10", "mass_ratio]\nvalue = -10"))
+    path.write_text(
+        slapstick.load("vibro-impact").to_toml().replace("mass_ratio]\nvalue = 10", "mass_ratio]\nvalue = -10")
+    )
     with pytest.raises(slapstick.InputError) as caught:
         slapstick.load(path)
     assert str(caught.value) == program.complaint("show", path)
@@ -52,7 +54,9 @@ def test_a_certificate_that_cannot_be_written_is_a_storage_error(program, tmp_pa
 
 
 def test_an_orbit_that_is_not_there_says_what_was_tried_and_leaves_no_thread():
-    with pytest.raises(slapstick.NumericalError, match=r"no unstable 1-7 orbit: the motion settles on .*; a search tried 3 motions"):
+    with pytest.raises(
+        slapstick.NumericalError, match=r"no unstable 1-7 orbit: the motion settles on .*; a search tried 3 motions"
+    ):
         slapstick.orbit("vibro-impact", "1-7", stable=False, starts=3, omega=2.2)
 
 

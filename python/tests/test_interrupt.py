@@ -8,13 +8,22 @@ import slapstick
 
 LONG = {
     "simulate": ("slapstick.simulate('vibro-impact', periods=10**9, samples=0)", "len(stop.result.events) > 1000"),
-    "simulate without an event": ("slapstick.simulate('coulomb-oscillator', periods=10**9, samples=0, amplitude=0)", "True"),
+    "simulate without an event": (
+        "slapstick.simulate('coulomb-oscillator', periods=10**9, samples=0, amplitude=0)",
+        "True",
+    ),
     "poincare": ("slapstick.poincare('vibro-impact', points=10**8, omega=4.805)", "len(stop.result) > 100"),
     "poincare in the transient": ("slapstick.poincare('vibro-impact', transient=10**8)", "len(stop.result) == 0"),
-    "stroboscopic": ("slapstick.poincare('vibro-impact', section='stroboscopic', points=10**8)", "len(stop.result) > 100"),
+    "stroboscopic": (
+        "slapstick.poincare('vibro-impact', section='stroboscopic', points=10**8)",
+        "len(stop.result) > 100",
+    ),
     "diagram": ("slapstick.diagram('vibro-impact', omega=(1, 9, 10**5), impacts=500)", "len(stop.result) > 500"),
     "classify": ("slapstick.classify('vibro-impact', transient=10**8)", "not hasattr(stop, 'result')"),
-    "classify many": ("slapstick.classify('vibro-impact', omega=[1 + i * 1e-5 for i in range(10**5)])", "len(stop.result) > 1"),
+    "classify many": (
+        "slapstick.classify('vibro-impact', omega=[1 + i * 1e-5 for i in range(10**5)])",
+        "len(stop.result) > 1",
+    ),
     "orbits": ("slapstick.orbits('vibro-impact', most_n=6, starts=10**5)", "True"),
     "continuation": (
         "slapstick.continuation('vibro-impact', 'omega', (1, 4), orbit='1-1', step=1e-5, points=10**6)",

@@ -21,7 +21,12 @@ def assert_same_table(table, printed):
 
 @pytest.mark.parametrize(
     ("model", "values", "periods"),
-    [("vibro-impact", {"omega": 1.5}, 50), ("vibro-impact", {"omega": 0.552}, 12), ("gear-pair", {}, 30), ("belt", {}, 40)],
+    [
+        ("vibro-impact", {"omega": 1.5}, 50),
+        ("vibro-impact", {"omega": 0.552}, 12),
+        ("gear-pair", {}, 30),
+        ("belt", {}, 40),
+    ],
 )
 def test_simulate_has_the_events_and_samples_of_the_program(program, tmp_path, model, values, periods):
     sets = [word for name, value in values.items() for word in ("--set", f"{name}={value}")]

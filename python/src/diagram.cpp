@@ -1,6 +1,7 @@
 /// Bifurcation diagrams: the impacts of the attractor at many values of a parameter, as columns.
 #include <nanobind/stl/tuple.h>
 
+#include <cmath>
 #include <memory>
 
 #include "arrays.hpp"
@@ -77,7 +78,8 @@ struct Wish {
   int threads;
 };
 
-/// A sweep over the places 0 .. count - 1 of a list of values: any increasing values will do.
+/// A sweep over the places 0 .. count - 1 of a list of values, which come back with rounding: any increasing values will
+/// do.
 class Sweep {
  public:
   Sweep(const ModelDefinition& definition, Overrides fixed, std::string name, std::vector<double> values,
@@ -88,7 +90,7 @@ class Sweep {
         values_(std::move(values)),
         start_(std::move(start)) {}
 
-  [[nodiscard]] double value(double place) const { return values_[static_cast<std::size_t>(place)]; }
+  [[nodiscard]] double value(double place) const { return values_[static_cast<std::size_t>(std::lround(place))]; }
 
   [[nodiscard]] sweep::DiagramProblem problem(const Wish& wish) const {
     sweep::DiagramProblem problem;

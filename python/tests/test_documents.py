@@ -12,7 +12,7 @@ from conftest import ROOT
 BLOCK = re.compile(r"```(\w*)\n(.*?)```", re.DOTALL)
 
 
-@pytest.mark.parametrize("path", ["docs/python.md", "python/README.md"])
+@pytest.mark.parametrize("path", ["README.md", "docs/python.md", "python/README.md"])
 def test_programs_of_a_page_print_what_stands_below_them(path):
     blocks = BLOCK.findall((ROOT / path).read_text())
     variables, ran = {}, 0

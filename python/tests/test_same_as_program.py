@@ -103,6 +103,15 @@ def test_diagram_has_the_rows_of_the_program(program, direction):
     assert_same_table(found.to_pandas(), program.table(ran.stdout))
 
 
+@pytest.mark.parametrize("count", [50, 99, 1000])
+def test_no_value_of_a_long_sweep_is_run_twice_or_left_out(program, count):
+    words = ("--sweep", f"omega=0.5:10:{count}", "--transient", 0, "--impacts", 1, "--start", "reset")
+    printed = program.table(program("diagram", "vibro-impact", *words).stdout)
+    found = slapstick.diagram("vibro-impact", omega=(0.5, 10, count), transient=0, impacts=1, carry=False)
+    assert found.value.tolist() == printed["omega"].tolist()
+    assert found.w.tolist() == printed["w"].tolist()
+
+
 def test_a_diagram_of_values_that_are_not_equidistant_is_that_of_each_value():
     values = [2.6, 2.7, 3.3]
     whole = slapstick.diagram("vibro-impact", omega=values, carry=False, impacts=15)

@@ -57,4 +57,4 @@ def test_the_notebook_draws_the_main_figure_and_the_branch_in_ten_lines():
     assert sum("<table>" in output.get("data", {}).get("text/html", "") for output in outputs) == 1
     rows, values, special = ast.literal_eval(outputs[-1]["text"])
     assert values == 1200 and rows > 200_000
-    assert ("PD", 2.84596) in special
+    assert ["PD", 2.84596] in special

@@ -108,5 +108,5 @@ def test_an_error_of_the_callers_progress_comes_through():
 
 
 def test_a_bar_appears_in_a_terminal_and_is_wiped(capsys):
-    slapstick.simulate("vibro-impact", periods=1_500_000, samples=0, progress=True)
+    slapstick.simulate("vibro-impact", periods=900_000, samples=0, progress=True)
     assert "periods" in capsys.readouterr().err

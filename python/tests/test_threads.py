@@ -22,7 +22,7 @@ def test_python_goes_on_while_the_library_works():
     other = threading.Thread(target=count)
     other.start()
     begin = time.monotonic()
-    slapstick.simulate(MODEL, periods=500_000, samples=0)
+    slapstick.simulate(MODEL, periods=200_000, samples=0)
     lasted = time.monotonic() - begin
     stop.set()
     other.join()

@@ -29,7 +29,8 @@ class Bar:
                 return
             from tqdm.auto import tqdm
 
-            self.shown = tqdm(total=self.total, unit=" " + self.what, leave=False)
+            self.shown = tqdm(total=self.total, unit=" " + self.what, leave=False, smoothing=0)
+            self.shown.start_t -= time.monotonic() - self.began
         self.shown.n = min(done, self.total)
         self.shown.refresh()
 
@@ -40,7 +41,10 @@ class Bar:
 
 def watched_by_a_person() -> bool:
     """Whether standard error is a terminal or the program is a notebook's."""
-    return "ipykernel" in sys.modules or (sys.stderr is not None and sys.stderr.isatty())
+    interactive = sys.modules.get("IPython")
+    if interactive is not None and hasattr(interactive.get_ipython(), "kernel"):
+        return True
+    return sys.stderr is not None and sys.stderr.isatty()
 
 
 def tqdm_is_there() -> bool:

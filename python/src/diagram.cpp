@@ -78,8 +78,7 @@ struct Wish {
   int threads;
 };
 
-/// A sweep over the places 0 .. count - 1 of a list of values, which come back with rounding: any increasing values will
-/// do.
+/// A sweep over the places 0 .. count - 1 of a list of increasing values. Places come back with rounding.
 class Sweep {
  public:
   Sweep(const ModelDefinition& definition, Overrides fixed, std::string name, std::vector<double> values,

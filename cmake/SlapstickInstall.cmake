@@ -38,12 +38,13 @@ list(TRANSFORM slapstick_dependencies REPLACE "^(.+)$" "find_dependency(\\1)")
 list(JOIN slapstick_dependencies "\n" SLAPSTICK_FIND_DEPENDENCIES)
 
 set(slapstick_cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/slapstick)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)  # the library by itself: cmake --install build --component development
 install(TARGETS slapstick EXPORT slapstick-targets)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/slapstick DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
 install(FILES ${PROJECT_SOURCE_DIR}/models/model.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/slapstick)
 install(EXPORT slapstick-targets NAMESPACE slapstick:: DESTINATION ${slapstick_cmake_folder})
 if(TARGET slapstick_app)
-  install(TARGETS slapstick_app)
+  install(TARGETS slapstick_app COMPONENT programs)
 endif()
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/slapstick-config.cmake.in

@@ -1,0 +1,62 @@
+"""Oscillators with dry friction and impacts: exact, event driven.
+
+    import slapstick
+
+    m = slapstick.load("vibro-impact")
+    motion = slapstick.simulate(m, periods=200, omega=1.5)
+    slapstick.classify(m, omega=1.5).label
+
+Parameters of the model are keywords. Times are in the model's unit, phases in forcing periods. There are no
+tolerances to choose. Errors are InputError (a ValueError), NumericalError and StorageError.
+"""
+
+from ._attractor import Attractor, Attractors, classify
+from ._branch import Branch, continuation
+from ._certificate import Certificate, certify
+from ._core import InputError, NumericalError, Parameter, StorageError
+from ._core import version as __version__
+from ._diagram import Diagram, diagram
+from ._locus import Locus, Meeting, locus
+from ._model import Model, Parameters, load, models, new
+from ._motion import Events, Motion, simulate
+from ._orbit import Orbit, OrbitEvents, orbit, orbits
+from ._result import Interrupted, Result
+from ._section import Section, poincare
+from ._special import SpecialPoint
+
+__all__ = [
+    "Attractor",
+    "Attractors",
+    "Branch",
+    "Certificate",
+    "Diagram",
+    "Events",
+    "InputError",
+    "Interrupted",
+    "Locus",
+    "Meeting",
+    "Model",
+    "Motion",
+    "NumericalError",
+    "Orbit",
+    "OrbitEvents",
+    "Parameter",
+    "Parameters",
+    "Result",
+    "Section",
+    "SpecialPoint",
+    "StorageError",
+    "__version__",
+    "certify",
+    "classify",
+    "continuation",
+    "diagram",
+    "load",
+    "locus",
+    "models",
+    "new",
+    "orbit",
+    "orbits",
+    "poincare",
+    "simulate",
+]

@@ -1,0 +1,309 @@
+"""classify: what a motion is after its transient."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+from typing import Any, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core, _progress
+from ._core import InputError
+from ._model import Model, Start, Values, model_of, number, numbers, start_of
+from ._progress import Progress
+from ._result import Interrupted, Result
+from ._tables import html_table, state_columns, words
+
+
+class Impacts:
+    """The impacts of one cycle, as columns.
+
+    phase: in forcing periods, in [0, 1), shape (k,); w: relative velocity just before, shape (k,); before: the
+    state just before, shape (2 n, k); contact: the stops that are hit, shape (k,).
+    """
+
+    def __init__(self, found: _core.Classified, names: list[str]) -> None:
+        self.phase: NDArray[np.float64] = found.impact_phase
+        self.w: NDArray[np.float64] = found.impact_w
+        self.before: NDArray[np.float64] = found.impact_before
+        self.contact: NDArray[np.str_] = words(found.contact_names, found.impact_contact_codes)
+        self._names = names
+
+    def __len__(self) -> int:
+        return len(self.w)
+
+    def to_pandas(self) -> Any:
+        """A DataFrame of these columns."""
+        import pandas as pd
+
+        columns = {"phase": self.phase, "w": self.w, "contact": self.contact}
+        return pd.DataFrame(columns | state_columns(self._names, self.before))
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} impacts: w = " + ", ".join(f"{w:.6g}" for w in self.w) + ">"
+
+
+class Attractor(Result):
+    """What a motion is after its transient.
+
+    label: '1-1-II', '1-inf-II', 'quasi-periodic', 'chaotic', 'undecided'; attractor: 'periodic' or as the label.
+    Periodic: n forcing periods and p impacts in a cycle (p is inf with complete chatter), multipliers of the
+    n-period map (complex, largest first), impacts. state: on the attractor at phase 0, shape (2 n,).
+    exponent: the largest Lyapunov exponent for each forcing period.
+    """
+
+    def __init__(
+        self, found: _core.Classified, model: Model, values: dict[str, float], options: dict[str, Any]
+    ) -> None:
+        super().__init__(model, values, options)
+        self._found = found
+
+    @property
+    def label(self) -> str:
+        return self._found.label
+
+    @property
+    def attractor(self) -> str:
+        return self._found.attractor
+
+    @property
+    def n(self) -> int:
+        """Forcing periods in a cycle; 0 if there is none."""
+        return self._found.n
+
+    @property
+    def p(self) -> float:
+        """Impacts in a cycle; inf with complete chatter."""
+        return float("inf") if self.chatter == "complete" else self._found.p
+
+    @property
+    def sticking(self) -> bool:
+        return self._found.sticking
+
+    @property
+    def chatter(self) -> str:
+        """'none', 'incomplete' or 'complete'."""
+        return self._found.chatter
+
+    @property
+    def multipliers(self) -> NDArray[np.complex128]:
+        return self._found.multipliers
+
+    @property
+    def return_distance(self) -> float:
+        """How far the state is from its image after n periods, relative to the size of the motion."""
+        return self._found.return_distance
+
+    @property
+    def approach(self) -> float:
+        """How far the motion was from the cycle when it was recognised."""
+        return self._found.approach
+
+    @property
+    def sticking_fraction(self) -> float:
+        """The share of the time at rest relative to each other, at any contact."""
+        return self._found.sticking_fraction
+
+    @property
+    def exponent(self) -> float:
+        return self._found.exponent
+
+    @property
+    def exponent_error(self) -> float:
+        return self._found.exponent_error
+
+    @property
+    def birkhoff_digits(self) -> float:
+        """Digits to which two averages of the impacts agree; not for cycles."""
+        return self._found.digits
+
+    @property
+    def drift(self) -> NDArray[np.float64]:
+        """How far the motion moves along translations that nothing opposes, for each coordinate; or empty."""
+        return self._found.drift
+
+    @property
+    def periods_used(self) -> int:
+        return self._found.periods_used
+
+    @property
+    def state(self) -> NDArray[np.float64]:
+        return self._found.state
+
+    @cached_property
+    def impacts(self) -> Impacts:
+        return Impacts(self._found, self.model.state_names)
+
+    @property
+    def failure(self) -> str:
+        """Of one among many: why there is no class; else ''."""
+        return self._found.failure
+
+    def _facts(self) -> list[tuple[str, str]]:
+        if self.failure:
+            return [("failed", self.failure)]
+        speeds = ", ".join(f"{w:.6g}" for w in self.impacts.w[:8]) + (", .." if len(self.impacts) > 8 else "")
+        facts = [("class", self.label), ("exponent", f"{self.exponent:.4g}")]
+        return facts + ([("w", speeds)] if speeds else [])
+
+
+class Attractors(Sequence[Attractor]):
+    """Classes at many values of parameters: a sequence of `Attractor`, and their columns.
+
+    label, n, p, exponent: shape (k,). An entry that Ctrl-C left undone is missing at the end.
+    """
+
+    def __init__(self, rows: list[Attractor], swept: dict[str, NDArray[np.float64]]) -> None:
+        self._rows = rows
+        self.swept = swept
+
+    @overload
+    def __getitem__(self, index: int) -> Attractor: ...
+    @overload
+    def __getitem__(self, index: slice) -> list[Attractor]: ...
+    def __getitem__(self, index: int | slice) -> Attractor | list[Attractor]:
+        return self._rows[index]
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    def __iter__(self) -> Iterator[Attractor]:
+        return iter(self._rows)
+
+    @property
+    def label(self) -> NDArray[np.str_]:
+        return np.array([row.label for row in self._rows], dtype=np.str_)
+
+    @property
+    def n(self) -> NDArray[np.int64]:
+        return np.array([row.n for row in self._rows], dtype=np.int64)
+
+    @property
+    def p(self) -> NDArray[np.float64]:
+        return np.array([row.p for row in self._rows], dtype=np.float64)
+
+    @property
+    def exponent(self) -> NDArray[np.float64]:
+        return np.array([row.exponent for row in self._rows], dtype=np.float64)
+
+    def to_pandas(self) -> Any:
+        """A DataFrame: the values that vary, label, n, p, exponent."""
+        import pandas as pd
+
+        return pd.DataFrame({**self.swept, "label": self.label, "n": self.n, "p": self.p, "exponent": self.exponent})
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws the exponent over the first parameter that varies, a colour for each class. Returns the axes."""
+        from ._result import axes
+
+        ax = axes(ax)
+        name, values = next(iter(self.swept.items()))
+        for label in dict.fromkeys(self.label.tolist()):
+            of = self.label == label
+            ax.plot(values[of], self.exponent[of], ".", label=label or "failed")
+        ax.set_xlabel(name)
+        ax.set_ylabel("largest exponent per period")
+        ax.legend(frameon=False)
+        return ax
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} attractors over {', '.join(self.swept)}: {', '.join(dict.fromkeys(self.label.tolist()))}>"
+
+    def _repr_html_(self) -> str:
+        head = (*self.swept, "class", "exponent")
+        columns = [*self.swept.values(), self.label, self.exponent]
+        cells = ([f"{cell:.6g}" if not isinstance(cell, str) else cell for cell in row] for row in zip(*columns))
+        return html_table(head, cells)
+
+
+@overload
+def classify(
+    model: Model | str | os.PathLike[str],
+    *,
+    transient: int = ...,
+    most_periods: int = ...,
+    most_n: int = ...,
+    stops: Sequence[str] = ...,
+    start: Start = ...,
+    threads: int = ...,
+    progress: Progress = ...,
+    parameters: Mapping[str, float] | None = ...,
+    **values: float,
+) -> Attractor: ...
+@overload
+def classify(
+    model: Model | str | os.PathLike[str],
+    *,
+    transient: int = ...,
+    most_periods: int = ...,
+    most_n: int = ...,
+    stops: Sequence[str] = ...,
+    start: Start = ...,
+    threads: int = ...,
+    progress: Progress = ...,
+    parameters: Mapping[str, float] | None = ...,
+    **values: ArrayLike,
+) -> Attractors: ...
+def classify(
+    model: Model | str | os.PathLike[str],
+    *,
+    transient: int = 500,
+    most_periods: int = 20_000,
+    most_n: int = 64,
+    stops: Sequence[str] = (),
+    start: Start = None,
+    threads: int = 0,
+    progress: Progress = None,
+    parameters: Values | None = None,
+    **values: Any,
+) -> Attractor | Attractors:
+    """What the motion is after its transient: n-p-I, n-p-II, quasi-periodic or chaotic.
+
+    transient: forcing periods that are left out; most_periods: a cycle is sought so long; most_n: the longest cycle.
+    stops: whose impacts are counted and listed (all). start: as of `simulate`.
+    Parameters are keywords. Where some are arrays of the same shape (k,), the result is an `Attractors` with k
+    entries, computed on all cores (`threads`); one that fails says why in its `failure`.
+
+    Raises InputError for a value out of range or a model without forcing, NumericalError if the motion cannot go on.
+
+    >>> import slapstick
+    >>> slapstick.classify("vibro-impact", omega=1.5).label
+    '1-1-II'
+    >>> slapstick.classify("vibro-impact", omega=[1.5, 2.2, 9]).label.tolist()
+    ['1-1-II', '1-1-I', '5-1-I']
+    """
+    chosen = model_of(model)
+    given = values if parameters is None else {**values, **parameters}
+    options = {"transient": transient, "most_periods": most_periods, "most_n": most_n, "stops": stops, "start": start}
+    limits = (start_of(start), transient, most_periods, most_n, list(stops))
+    swept = {name: value for name, value in given.items() if np.ndim(value) > 0}
+    if swept:
+        return classify_many(chosen, given, swept, options, (*limits, threads), progress)
+    fixed = numbers(given)
+    found = _progress.run(_core.classify, (chosen._core, fixed, *limits), "periods", transient + most_periods, progress)
+    return Attractor(found, chosen, fixed, options)
+
+
+def classify_many(
+    model: Model,
+    given: Values,
+    swept: dict[str, ArrayLike],
+    options: dict[str, Any],
+    limits: tuple[Any, ...],
+    progress: Progress,
+) -> Attractors:
+    columns = {name: np.asarray(value, dtype=np.float64) for name, value in swept.items()}
+    if len({column.shape for column in columns.values()}) != 1 or any(c.ndim != 1 for c in columns.values()):
+        raise InputError(", ".join(columns) + ": arrays of one length are wanted")
+    fixed = {name: number(name, value) for name, value in given.items() if name not in columns}
+    rows = [fixed | dict(zip(columns, row)) for row in zip(*(column.tolist() for column in columns.values()))]
+    found = _progress.run(_core.classify_many, (model._core, rows, *limits), "values", len(rows), progress)
+    done = [i for i, row in enumerate(found) if row is not None]
+    attractors = [Attractor(found[i], model, rows[i], options) for i in done]
+    result = Attractors(attractors, {name: column[done] for name, column in columns.items()})
+    if len(done) < len(rows):
+        raise Interrupted(result)
+    return result

@@ -1,0 +1,215 @@
+"""diagram: the impacts of the attractor at many values of a parameter."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Sequence
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _core, _progress
+from ._core import InputError
+from ._model import Model, Start, Values, model_of, number, numbers, start_of
+from ._progress import Progress
+from ._result import Interrupted, Result, axes
+from ._tables import categorical, state_columns, words
+
+LABELS = {"w": "w just before the impact", "flight": "flight / period", "sliding": "sliding / period", "phase": "phase"}
+
+
+class Diagram(Result):
+    """Impacts at many values of a parameter, as columns of shape (k,): a row for each impact.
+
+    parameter: its name; value: its value; w: relative velocity just before the impact; flight and sliding: time
+    since the impact before, and the part of it in slip, in forcing periods; phase: of the forcing, in [0, 1).
+    direction: 'up' or 'down', as the state was carried; contact: the stop; y: the state just before, shape (2 n, k).
+    """
+
+    def __init__(
+        self, core: _core.Diagram, parameter: str, model: Model, values: dict[str, float], options: dict[str, Any]
+    ) -> None:
+        super().__init__(model, values, options)
+        self._core, self.parameter = core, parameter
+
+    @cached_property
+    def value(self) -> NDArray[np.float64]:
+        return self._core.parameter
+
+    @cached_property
+    def w(self) -> NDArray[np.float64]:
+        return self._core.w
+
+    @cached_property
+    def flight(self) -> NDArray[np.float64]:
+        return self._core.flight
+
+    @cached_property
+    def sliding(self) -> NDArray[np.float64]:
+        return self._core.sliding
+
+    @cached_property
+    def phase(self) -> NDArray[np.float64]:
+        return self._core.phase
+
+    @cached_property
+    def y(self) -> NDArray[np.float64]:
+        return self._core.state
+
+    @cached_property
+    def direction(self) -> NDArray[np.str_]:
+        column: NDArray[np.str_] = words(("up", "down"), self._core.direction_codes)
+        return column
+
+    @cached_property
+    def contact(self) -> NDArray[np.str_]:
+        column: NDArray[np.str_] = words(self._core.contact_names, self._core.contact_codes)
+        return column
+
+    @property
+    def failures(self) -> list[tuple[float, str]]:
+        """Values of the parameter that failed, and why."""
+        return self._core.failures
+
+    @property
+    def notes(self) -> list[tuple[float, str]]:
+        """Values at which the carried state did not fit, and what was done."""
+        return self._core.notes
+
+    @property
+    def complete(self) -> bool:
+        """False after Ctrl-C."""
+        return self._core.complete
+
+    def __len__(self) -> int:
+        return len(self.w)
+
+    def _columns(self) -> dict[str, Any]:
+        names = {self.parameter: self.value, "w": self.w, "flight": self.flight, "sliding": self.sliding}
+        return names | {"phase": self.phase} | state_columns(self.model.state_names, self.y)
+
+    def to_pandas(self) -> Any:
+        """A DataFrame with the columns of `slapstick diagram`, and the contact."""
+        import pandas as pd
+
+        core = self._core
+        table = pd.DataFrame(self._columns())
+        table.insert(1, "direction", categorical(("up", "down"), core.direction_codes))
+        table["contact"] = categorical(core.contact_names, core.contact_codes)
+        return table
+
+    def to_xarray(self) -> Any:
+        """A Dataset over `impact` with the same columns."""
+        import xarray as xr
+
+        columns = self._columns() | {"direction": self.direction, "contact": self.contact}
+        about = {"model": self.model.name, "version": self.version}
+        return xr.Dataset({name: ("impact", column) for name, column in columns.items()}, attrs=about)
+
+    def plot(self, ax: Any = None, y: str = "w") -> Any:
+        """Draws `y` ('w', 'flight', 'sliding' or 'phase') of every impact over the parameter. Returns the axes."""
+        ax = axes(ax)
+        column = getattr(self, y)
+        for code, colour, size in ((0, "#0072b2", 0.7), (1, "#d55e00", 0.35)):
+            of = self._core.direction_codes == code
+            if of.any():
+                label = ("up", "down")[code]
+                style = {"markersize": size, "markeredgewidth": 0, "rasterized": True}
+                ax.plot(self.value[of], column[of], "o", color=colour, label=label, **style)
+        ax.set_xlabel(self.parameter)
+        ax.set_ylabel(LABELS[y])
+        ax.margins(x=0)
+        if len(ax.lines) > 1:
+            ax.legend(
+                frameon=False, markerscale=8, ncols=2, loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.2
+            )
+        return ax
+
+    def _facts(self) -> list[tuple[str, str]]:
+        values = self._core.values
+        facts = [("values", f"{len(values)} of {self.parameter}"), ("impacts", str(len(self)))]
+        return facts + ([("failed", str(len(self.failures)))] if self.failures else [])
+
+
+def diagram(
+    model: Model | str | os.PathLike[str],
+    *,
+    direction: str = "up",
+    carry: bool = True,
+    transient: int = 500,
+    impacts: int = 200,
+    most_periods: int = 5000,
+    stops: Sequence[str] = (),
+    start: Start = None,
+    threads: int = 0,
+    progress: Progress = None,
+    parameters: Values | None = None,
+    **values: Any,
+) -> Diagram:
+    """A bifurcation diagram: the impacts of the attractor at many values of one parameter, on all cores.
+
+    The parameter is a keyword: `omega=(0.5, 10, 2400)` are 2400 values, both ends included; an array or a list gives
+    the values themselves, increasing.
+    direction: 'up', 'down' or 'both', in which the state is carried; carry: False begins each value at the start.
+    transient: forcing periods before the impacts of a value are recorded; impacts: how many; most_periods: the
+    recording ends here if they are rare. stops: whose impacts (all). threads: 0 for all; the result is the same.
+
+    Raises InputError for what can be known to be wrong before the work. A value that fails is left out, stands in
+    `failures`, and is a RuntimeWarning.
+
+    >>> import slapstick
+    >>> d = slapstick.diagram("vibro-impact", omega=(2.6, 3.1, 6), impacts=4)
+    >>> d.w.reshape(6, 4)[0].round(4).tolist()
+    [0.5769, 0.5769, 0.5769, 0.5769]
+    """
+    chosen = model_of(model)
+    given = values if parameters is None else {**values, **parameters}
+    name, grid = swept(given)
+    fixed = numbers({key: value for key, value in given.items() if key != name})
+    if not carry and direction == "both":
+        raise InputError("direction: with carry=False, up and down are the same; choose one, or carry=True")
+    options: dict[str, Any] = {"direction": direction, "carry": carry, "transient": transient, "impacts": impacts}
+    options |= {"most_periods": most_periods, "stops": stops, "start": start}
+    arguments = (chosen._core, fixed, name, grid, start_of(start), direction, "carry" if carry else "reset")
+    arguments_too = (transient, impacts, most_periods, list(stops), threads)
+    total = len(grid) * (2 if direction == "both" else 1)
+    core = _progress.run(_core.diagram, (*arguments, *arguments_too), "values", total, progress)
+    found = Diagram(core, name, chosen, fixed, options)
+    if not core.complete:
+        raise Interrupted(found)
+    report(found, total)
+    return found
+
+
+def swept(given: Values) -> tuple[str, list[float]]:
+    """The one parameter that varies, and its values."""
+    names = [name for name, value in given.items() if np.ndim(value) > 0]
+    if len(names) != 1:
+        raise InputError(
+            "diagram: one parameter varies, as omega=(0.5, 10, 2400); given: " + (", ".join(names) or "none")
+        )
+    name, value = names[0], given[names[0]]
+    if not isinstance(value, tuple):
+        grid = np.asarray(value, dtype=np.float64)
+        if grid.ndim != 1 or len(grid) < 2 or not np.all(np.diff(grid) > 0):
+            raise InputError(f"{name}: two or more increasing values are wanted")
+        return name, grid.tolist()
+    if len(value) != 3 or number(name, value[2]) < 2 or not number(name, value[0]) < number(name, value[1]):
+        raise InputError(f"{name}: {value!r} is not of the form (A, B, COUNT) with A < B and COUNT at least 2")
+    count = int(value[2])
+    return name, [_core.sweep_value(float(value[0]), float(value[1]), count, i) for i in range(count)]
+
+
+def report(found: Diagram, total: int) -> None:
+    """Says what the columns cannot."""
+    for rows, words_of in (
+        (found.failures, f"{len(found.failures)} of {total} values failed"),
+        (found.notes, f"{len(found.notes)} values"),
+        (found._core.empty, f"no impacts at {len(found._core.empty)} of the values"),
+    ):
+        if rows:
+            value, text = rows[0]
+            warnings.warn(f"{words_of}, first {found.parameter} = {value:g}: {text}", RuntimeWarning, stacklevel=3)

@@ -1,0 +1,65 @@
+"""What all results have in common: they remember where they come from, and can be shown."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from . import _core
+from ._model import Model
+from ._tables import html_table
+
+
+class Result:
+    """A result of a verb.
+
+    model: the Model; parameters: every parameter's value; options: what the verb was called with;
+    version: of slapstick.
+    """
+
+    def __init__(self, model: Model, values: dict[str, float], options: dict[str, Any]) -> None:
+        self.model = model
+        self.options = options
+        self.version: str = _core.version
+        self._values = values
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """The value of every parameter of the model."""
+        return self.model._core.values(self._values)
+
+    def _facts(self) -> list[tuple[str, str]]:
+        """What the representations show, by name."""
+        return []
+
+    def _title(self) -> str:
+        changed = ", ".join(f"{name} = {value:g}" for name, value in self._values.items())
+        return f"{type(self).__name__} of {self.model.name}" + (f" at {changed}" if changed else "")
+
+    def __repr__(self) -> str:
+        facts = ", ".join(f"{name} {text}" for name, text in self._facts())
+        return f"<{self._title()}: {facts}>" if facts else f"<{self._title()}>"
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        return f"<b>{escape(self._title())}</b>" + html_table(("", ""), self._facts())
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C ended a call. `result` has what was complete by then; its `complete` is False.
+
+    In a notebook or at the prompt it is found as `sys.last_value.result`.
+    """
+
+    def __init__(self, result: Any) -> None:
+        super().__init__("interrupted; what is complete is the attribute `result` of this exception")
+        self.result = result
+
+
+def axes(ax: Any) -> Any:
+    """The axes to draw into: those given, or new ones."""
+    if ax is not None:
+        return ax
+    from matplotlib import pyplot
+
+    return pyplot.subplots(figsize=(6.4, 4.0), layout="constrained")[1]

@@ -1,0 +1,72 @@
+/// Models and the table of their parameters.
+#include "bind.hpp"
+#include "chosen.hpp"
+#include "slapstick/section/stop_choice.hpp"
+
+namespace slapstick::python {
+namespace {
+
+void bind_parameter(nb::module_& module) {
+  nb::class_<Parameter>(module, "Parameter", "A number of a model that a keyword of the verbs sets.")
+      .def_ro("name", &Parameter::name)
+      .def_ro("value", &Parameter::value, "the default")
+      .def_ro("expression", &Parameter::expression, "what it follows until it is set; '' for a plain number")
+      .def_ro("min", &Parameter::min)
+      .def_ro("max", &Parameter::max)
+      .def_ro("description", &Parameter::description)
+      .def_ro("unit", &Parameter::unit)
+      .def_prop_ro("range", &Parameter::range, "'(0, inf)', '[0, 1]'")
+      .def("admits", &Parameter::admits, "number"_a, "Whether the range holds this number.");
+}
+
+std::vector<std::string> stop_names(const ModelDefinition& definition) {
+  const Model model = definition.build();
+  std::vector<std::string> names;
+  for (const int contact : stop_contacts(model)) names.push_back(stop_name(model, contact));
+  return names;
+}
+
+}  // namespace
+
+void bind_model(nb::module_& module) {
+  bind_parameter(module);
+  nb::class_<ModelDefinition>(module, "Definition", "A model file that has been read and checked. Immutable.")
+      .def_prop_ro("name", &ModelDefinition::name)
+      .def_prop_ro("summary", &ModelDefinition::summary)
+      .def_prop_ro("notes", &ModelDefinition::notes)
+      .def_prop_ro("parameters", [](const ModelDefinition& self) { return std::vector<Parameter>(self.parameters()); })
+      .def_prop_ro("groups",
+                   [](const ModelDefinition& self) {
+                     std::map<std::string, std::vector<std::string>> groups;
+                     for (const Group& group : self.groups()) groups[group.name] = group.members;
+                     return groups;
+                   })
+      .def_prop_ro("state_names", [](const ModelDefinition& self) { return state_names(self.build()); })
+      .def_prop_ro("contacts", [](const ModelDefinition& self) { return contact_names(self.build()); })
+      .def_prop_ro("stops", &stop_names)
+      .def_prop_ro("forced", [](const ModelDefinition& self) { return self.build().forced(); })
+      .def_prop_ro("observables",
+                   [](const ModelDefinition& self) {
+                     std::vector<std::string> names;
+                     for (const Observable& observable : self.observables()) names.push_back(observable.name);
+                     return names;
+                   })
+      .def("values", &ModelDefinition::values, "values"_a)
+      .def(
+          "check", [](const ModelDefinition& self, const Overrides& values) { static_cast<void>(build(self, values)); },
+          "values"_a)
+      .def(
+          "start", [](const ModelDefinition& self, const Overrides& values) { return start_of(self, values, {}); },
+          "values"_a)
+      .def(
+          "period",
+          [](const ModelDefinition& self, const Overrides& values) { return build(self, values).forcing_period(); },
+          "values"_a)
+      .def("to_toml", &ModelDefinition::to_toml, "values"_a);
+  module.def("parse_model", &ModelDefinition::parse, "text"_a, "source"_a);
+  module.def("load_model", &load_model, "name_or_path"_a);
+  module.def("builtin_models", &builtin_models);
+  module.def("new_model", &new_model, "name"_a);
+}
+
+}  // namespace slapstick::python

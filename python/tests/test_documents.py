@@ -1,0 +1,60 @@
+"""What the documents show is what happens: the page docs/python.md, the package's README and the notebook."""
+
+import ast
+import contextlib
+import io
+import re
+
+import pytest
+import slapstick
+from conftest import ROOT
+
+BLOCK = re.compile(r"```(\w*)\n(.*?)```", re.DOTALL)
+
+
+@pytest.mark.parametrize("path", ["README.md", "docs/python.md", "python/README.md"])
+def test_programs_of_a_page_print_what_stands_below_them(path):
+    blocks = BLOCK.findall((ROOT / path).read_text())
+    variables, ran = {}, 0
+    for (kind, text), (next_kind, next_text) in zip(blocks, [*blocks[1:], ("", "")]):
+        if kind != "python":
+            continue
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            exec(compile(text, path, "exec"), variables)
+        ran += 1
+        if next_kind == "" and next_text:
+            assert printed.getvalue().rstrip("\n") == next_text.rstrip("\n")
+    assert ran > 0
+
+
+def test_the_page_names_every_call():
+    page = (ROOT / "docs/python.md").read_text()
+    calls = [name for name in slapstick.__all__ if not name.startswith("_") and name[0].islower()]
+    assert [name for name in calls if f"`{name}`" not in page] == []
+
+
+def test_the_notebook_draws_the_main_figure_and_the_branch_in_ten_lines():
+    import nbclient
+    import nbformat
+
+    notebook = nbformat.read(ROOT / "python/notebooks/first_figures.ipynb", as_version=4)
+    code = [cell.source for cell in notebook.cells if cell.cell_type == "code"]
+    assert sum(bool(line.strip()) for cell in code for line in cell.splitlines()) <= 10
+    assert all(ast.parse(cell) for cell in code)
+    # What the figures show, asked of the same kernel after the notebook's own cells.
+    notebook.cells.append(
+        nbformat.v4.new_code_cell(
+            "import json\n"
+            "print(json.dumps([len(impacts), len(set(impacts.value.tolist())), "
+            "[(point.type, round(point.value, 5)) for point in branch.special]]))"
+        )
+    )
+    nbclient.NotebookClient(notebook, timeout=300, kernel_name="python3").execute()
+    outputs = [output for cell in notebook.cells for output in cell.get("outputs", [])]
+    pictures = [output for output in outputs if "image/png" in output.get("data", {})]
+    assert len(pictures) == 2 and all(len(output["data"]["image/png"]) > 20_000 for output in pictures)
+    assert sum("<table>" in output.get("data", {}).get("text/html", "") for output in outputs) == 1
+    rows, values, special = ast.literal_eval(outputs[-1]["text"])
+    assert values == 1200 and rows > 200_000
+    assert ["PD", 2.84596] in special

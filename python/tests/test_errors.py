@@ -1,0 +1,93 @@
+"""Errors are the library's three kinds, with the text of the command line."""
+
+import pytest
+import slapstick
+
+
+@pytest.mark.parametrize(
+    ("words", "call"),
+    [
+        (["--set", "omega=-1"], lambda: slapstick.simulate("vibro-impact", omega=-1)),
+        (["--set", "omga=1"], lambda: slapstick.simulate("vibro-impact", omga=1)),
+        (["--set", "kinetic_friction=3"], lambda: slapstick.classify("vibro-impact", kinetic_friction=3)),
+        (["--state", "x1=9"], lambda: slapstick.simulate("vibro-impact", start={"x1": 9})),
+        (["--set", "omega=1e60"], lambda: slapstick.simulate("vibro-impact", omega=1e60)),
+    ],
+)
+def test_a_mistake_in_a_value_has_the_text_of_the_command_line(program, words, call):
+    with pytest.raises(slapstick.InputError) as caught:
+        call()
+    assert isinstance(caught.value, ValueError)
+    assert "\n" not in str(caught.value)
+    assert program.complaint("simulate", "vibro-impact", *words).endswith(str(caught.value))
+
+
+def test_an_unknown_model_has_the_text_of_the_command_line(program):
+    with pytest.raises(slapstick.InputError) as caught:
+        slapstick.load("vibro-imp")
+    assert str(caught.value) == program.complaint("show", "vibro-imp")
+
+
+def test_a_file_that_is_not_there_is_a_storage_error(program, tmp_path):
+    with pytest.raises(slapstick.StorageError) as caught:
+        slapstick.load(tmp_path / "none.toml")
+    assert str(caught.value) == program.complaint("show", tmp_path / "none.toml")
+    assert isinstance(caught.value, OSError)
+
+
+def test_a_mistake_in_a_model_file_names_its_line(program, tmp_path):
+    path = tmp_path / "bad.toml"
+    path.write_text(
+        slapstick.load("vibro-impact").to_toml().replace("mass_ratio]\nvalue = 10", "mass_ratio]\nvalue = -10")
+    )
+    with pytest.raises(slapstick.InputError) as caught:
+        slapstick.load(path)
+    assert str(caught.value) == program.complaint("show", path)
+    assert ":" in str(caught.value)
+
+
+def test_a_certificate_that_cannot_be_written_is_a_storage_error(program, tmp_path):
+    path = tmp_path / "none" / "run.cert"
+    with pytest.raises(slapstick.StorageError) as caught:
+        slapstick.certify("vibro-impact", path, periods=1)
+    assert str(caught.value) == program.complaint("simulate", "vibro-impact", "--periods", 1, "--certify", path)
+
+
+def test_an_orbit_that_is_not_there_says_what_was_tried_and_leaves_no_thread():
+    with pytest.raises(
+        slapstick.NumericalError, match=r"no unstable 1-7 orbit: the motion settles on .*; a search tried 3 motions"
+    ):
+        slapstick.orbit("vibro-impact", "1-7", stable=False, starts=3, omega=2.2)
+
+
+def test_an_orbit_that_is_no_orbit_is_refused():
+    for text in ("x", "1-", "1-1-III", "0-1", "1-1-I-I"):
+        with pytest.raises(slapstick.InputError, match="is not of the form N-P"):
+            slapstick.orbit("vibro-impact", text)
+
+
+@pytest.mark.parametrize(
+    ("call", "text"),
+    [
+        (lambda: slapstick.simulate("vibro-impact", omega=[1, 2]), r"omega: \[1, 2\] is not a number"),
+        (lambda: slapstick.simulate("vibro-impact", start=[1, 2, 3]), "state"),
+        (lambda: slapstick.simulate("vibro-impact", periods=-1), "periods is outside"),
+        (lambda: slapstick.poincare("belt"), "has no stop"),
+        (lambda: slapstick.diagram("vibro-impact"), "one parameter varies"),
+        (lambda: slapstick.diagram("vibro-impact", omega=(3, 2, 5)), "is not of the form"),
+        (lambda: slapstick.continuation("vibro-impact", "omega", orbit="1-1"), "no finite range"),
+        (lambda: slapstick.continuation("vibro-impact", "omega", (3, 4), omega=2.2), "is outside 3 to 4"),
+        (lambda: slapstick.continuation("vibro-impact", "omega", (2, 4), step=0.5), "step"),
+        (lambda: slapstick.classify("belt"), "forcing"),
+    ],
+)
+def test_a_call_that_makes_no_sense_is_an_input_error(call, text):
+    with pytest.raises(slapstick.InputError, match=text):
+        call()
+
+
+def test_few_points_are_a_warning_and_none_an_error():
+    with pytest.warns(RuntimeWarning, match="only .* impacts in"):
+        slapstick.poincare("vibro-impact", points=100, most_periods=20)
+    with pytest.raises(slapstick.NumericalError, match="no impacts in"):
+        slapstick.poincare("impact-oscillator", points=5, most_periods=50, clearance=100)

@@ -1,0 +1,59 @@
+"""Closed forms and second routes: what must hold whatever the program prints."""
+
+import numpy as np
+import pytest
+import slapstick
+
+BALL = slapstick.load("bouncing-ball")
+
+
+def test_impacts_of_a_bouncing_ball_are_a_geometric_series():
+    r = BALL.parameters["restitution"].value
+    w = slapstick.poincare(BALL, transient=0, points=12).w
+    assert np.allclose(w, w[0] * r ** np.arange(12), rtol=1e-14)
+
+
+def test_multipliers_are_those_of_differences_of_the_return_map():
+    orbit = slapstick.orbit("vibro-impact", "1-1", omega=2.9, stable=False)
+    step = 1e-6
+
+    def image(state):
+        return slapstick.simulate(orbit.model, periods=orbit.n, samples=0, start=state, omega=2.9).state
+
+    columns = [(image(orbit.state + h) - image(orbit.state - h)) / (2 * step) for h in step * np.eye(4)]
+    by_differences = np.linalg.eigvals(np.transpose(columns))
+    assert np.allclose(np.sort_complex(by_differences), np.sort_complex(orbit.multipliers), atol=1e-7)
+
+
+@pytest.mark.parametrize("omega", [1.2, 1.5, 2.2])
+def test_the_energy_of_a_cycle_balances_and_its_states_return(omega):
+    orbit = slapstick.orbit("vibro-impact", "1-1", omega=omega)
+    energy = orbit.energy
+    sinks = energy["damping"] + sum(energy["friction"].values()) + sum(energy["impacts"].values())
+    assert energy["input"] == pytest.approx(sinks, rel=1e-12)
+    assert np.allclose(orbit.y[:, 0], orbit.y[:, -1], atol=1e-12)
+    assert orbit.t[-1] == pytest.approx(2 * np.pi / omega, rel=1e-15)
+
+
+def test_a_period_doubling_is_where_a_multiplier_is_minus_one_and_the_doubled_orbit_is_born_there():
+    branch = slapstick.continuation("vibro-impact", "omega", (2.6, 2.9), orbit="1-1", omega=2.7)
+    (doubling,) = branch.special
+    assert min(abs(doubling.orbit.multipliers + 1)) < 1e-6
+    doubled = doubling.born[0].continuation("omega", (2.6, 2.9))
+    assert {orbit.n for orbit in doubled} == {2}
+    settled = slapstick.classify("vibro-impact", omega=2.87)
+    assert settled.n == 2
+
+
+def test_a_branch_through_an_orbit_passes_through_the_orbit():
+    orbit = slapstick.orbit("vibro-impact", "1-1", omega=2.7)
+    branch = orbit.continuation("omega", (2.6, 2.9))
+    at = int(np.argmin(abs(branch.value - 2.7)))
+    assert branch.value[at] == 2.7
+    assert np.allclose(branch.y[:, at], orbit.state, atol=1e-13)
+
+
+def test_a_start_on_the_attractor_needs_no_transient():
+    found = slapstick.classify("vibro-impact", omega=2.2)
+    again = slapstick.simulate("vibro-impact", periods=1, samples=0, start=found.state, omega=2.2)
+    assert np.allclose(again.state, found.state, atol=1e-10)

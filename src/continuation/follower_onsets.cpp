@@ -187,13 +187,13 @@ std::optional<PlaceLimit> Follower::onset_ahead(const PathPoint& at) {
   return ahead_;
 }
 
-/// Passes the onset of a complete chatter where a branch, with the chatter or with the cascade of its changes, is so near that nothing but ever more impacts
+/// Passes an onset of a complete chatter that is known by its own equations where a branch, with the chatter or with the cascade of its changes, is so near that nothing but ever more impacts
 /// lies before it. @returns false if there is none
 bool Follower::meet_onset(PathPoint& at) {
   if (!options_.through_changes) return false;
   if (!branch_.points.back().chatter) {
     const std::optional<CascadeLimit> limit = cascade_ends(at);
-    return limit && limit->left < gathered * limit->began && end_cascade(at);
+    return limit && ahead_ && limit->left < gathered * limit->began && end_cascade(at);
   }
   if (!chatter_lengthens(branch_.points)) return false;
   const std::optional<PlaceLimit> ahead = onset_ahead(at);

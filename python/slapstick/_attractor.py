@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any, overload
@@ -12,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _progress
 from ._core import InputError
-from ._model import Model, Start, Values, model_of, number, numbers, start_of
+from ._model import Model, Start, Values, given_to, model_of, number, numbers, start_of, stops_of, sweep_of
 from ._progress import Progress
 from ._result import Interrupted, Result
 from ._tables import html_table, state_columns, words
@@ -153,7 +154,8 @@ class Attractor(Result):
 class Attractors(Sequence[Attractor]):
     """Classes at many values of parameters: a sequence of `Attractor`, and their columns.
 
-    label, n, p, exponent: shape (k,). An entry that Ctrl-C left undone is missing at the end.
+    label, n, p, exponent, failure: shape (k,). An entry that failed has the label 'failed' and the exponent nan.
+    An entry that Ctrl-C left undone is missing at the end.
     """
 
     def __init__(self, rows: list[Attractor], swept: dict[str, NDArray[np.float64]]) -> None:
@@ -175,7 +177,7 @@ class Attractors(Sequence[Attractor]):
 
     @property
     def label(self) -> NDArray[np.str_]:
-        return np.array([row.label for row in self._rows], dtype=np.str_)
+        return np.array(["failed" if row.failure else row.label for row in self._rows], dtype=np.str_)
 
     @property
     def n(self) -> NDArray[np.int64]:
@@ -187,13 +189,19 @@ class Attractors(Sequence[Attractor]):
 
     @property
     def exponent(self) -> NDArray[np.float64]:
-        return np.array([row.exponent for row in self._rows], dtype=np.float64)
+        return np.array([np.nan if row.failure else row.exponent for row in self._rows], dtype=np.float64)
+
+    @property
+    def failure(self) -> NDArray[np.str_]:
+        """Why an entry has no class; else ''."""
+        return np.array([row.failure for row in self._rows], dtype=np.str_)
 
     def to_pandas(self) -> Any:
-        """A DataFrame: the values that vary, label, n, p, exponent."""
+        """A DataFrame: the values that vary, label, n, p, exponent, and failure if there is one."""
         import pandas as pd
 
-        return pd.DataFrame({**self.swept, "label": self.label, "n": self.n, "p": self.p, "exponent": self.exponent})
+        columns = {**self.swept, "label": self.label, "n": self.n, "p": self.p, "exponent": self.exponent}
+        return pd.DataFrame(columns | ({"failure": self.failure} if any(self.failure) else {}))
 
     def plot(self, ax: Any = None) -> Any:
         """Draws the exponent over the first parameter that varies, a colour for each class. Returns the axes."""
@@ -203,7 +211,7 @@ class Attractors(Sequence[Attractor]):
         name, values = next(iter(self.swept.items()))
         for label in dict.fromkeys(self.label.tolist()):
             of = self.label == label
-            ax.plot(values[of], self.exponent[of], ".", label=label or "failed")
+            ax.plot(values[of], self.exponent[of], ".", label=label)
         ax.set_xlabel(name)
         ax.set_ylabel("largest exponent per period")
         ax.legend(frameon=False)
@@ -226,7 +234,7 @@ def classify(
     transient: int = ...,
     most_periods: int = ...,
     most_n: int = ...,
-    stops: Sequence[str] = ...,
+    stops: str | Sequence[str] = ...,
     start: Start = ...,
     threads: int = ...,
     progress: Progress = ...,
@@ -240,7 +248,7 @@ def classify(
     transient: int = ...,
     most_periods: int = ...,
     most_n: int = ...,
-    stops: Sequence[str] = ...,
+    stops: str | Sequence[str] = ...,
     start: Start = ...,
     threads: int = ...,
     progress: Progress = ...,
@@ -253,7 +261,7 @@ def classify(
     transient: int = 500,
     most_periods: int = 20_000,
     most_n: int = 64,
-    stops: Sequence[str] = (),
+    stops: str | Sequence[str] = (),
     start: Start = None,
     threads: int = 0,
     progress: Progress = None,
@@ -264,8 +272,9 @@ def classify(
 
     transient: forcing periods that are left out; most_periods: a cycle is sought so long; most_n: the longest cycle.
     stops: whose impacts are counted and listed (all). start: as of `simulate`.
-    Parameters are keywords. Where some are arrays of the same shape (k,), the result is an `Attractors` with k
-    entries, computed on all cores (`threads`); one that fails says why in its `failure`.
+    Parameters are keywords. Where some are arrays of the same shape (k,), or tuples (A, B, k) for a range with both
+    ends, the result is an `Attractors` with k entries, computed on all cores (`threads`). An entry that fails says why
+    in its `failure`, and is a RuntimeWarning.
 
     Raises InputError for a value out of range or a model without forcing, NumericalError if the motion cannot go on.
 
@@ -276,9 +285,9 @@ def classify(
     ['1-1-II', '1-1-I', '5-1-I']
     """
     chosen = model_of(model)
-    given = values if parameters is None else {**values, **parameters}
+    given = given_to(classify, chosen, values, parameters)
     options = {"transient": transient, "most_periods": most_periods, "most_n": most_n, "stops": stops, "start": start}
-    limits = (start_of(start), transient, most_periods, most_n, list(stops))
+    limits = (start_of(start), transient, most_periods, most_n, stops_of(stops))
     swept = {name: value for name, value in given.items() if np.ndim(value) > 0}
     if swept:
         return classify_many(chosen, given, swept, options, (*limits, threads), progress)
@@ -295,7 +304,7 @@ def classify_many(
     limits: tuple[Any, ...],
     progress: Progress,
 ) -> Attractors:
-    columns = {name: np.asarray(value, dtype=np.float64) for name, value in swept.items()}
+    columns = {name: sweep_of(name, value) for name, value in swept.items()}
     if len({column.shape for column in columns.values()}) != 1 or any(c.ndim != 1 for c in columns.values()):
         raise InputError(", ".join(columns) + ": arrays of one length are wanted")
     fixed = {name: number(name, value) for name, value in given.items() if name not in columns}
@@ -304,6 +313,10 @@ def classify_many(
     done = [i for i, row in enumerate(found) if row is not None]
     attractors = [Attractor(found[i], model, rows[i], options) for i in done]
     result = Attractors(attractors, {name: column[done] for name, column in columns.items()})
+    failed = [row for row in attractors if row.failure]
+    if failed:
+        what = f"{len(failed)} of {len(attractors)} values failed, first {failed[0]._title()}: {failed[0].failure}"
+        warnings.warn(what, RuntimeWarning, stacklevel=3)
     if len(done) < len(rows):
         raise Interrupted(result)
     return result

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from . import _core, _progress
 from ._core import InputError
-from ._model import Model, Start, Values, model_of, numbers, start_of
+from ._model import Model, Start, Values, given_to, model_of, numbers, start_of
 from ._orbit import Orbit, wish_of
 from ._progress import Progress
 from ._result import Interrupted, Result, axes
@@ -35,6 +35,7 @@ class Branch(Result):
     def __init__(self, core: _core.Branch, model: Model, values: dict[str, float], options: dict[str, Any]) -> None:
         super().__init__(model, values, options)
         self._core = core
+        self._free = (core.parameter,)
 
     @property
     def parameter(self) -> str:
@@ -200,7 +201,7 @@ def continuation(
     [('PD', 2.8459563)]
     """
     chosen = model_of(model)
-    fixed = numbers(values if parameters is None else {**values, **parameters})
+    fixed = numbers(given_to(continuation, chosen, values, parameters))
     options: dict[str, Any] = {"orbit": orbit, "stable": stable, "symmetric": symmetric, "nearest": nearest}
     options |= {"transient": transient, "starts": starts, "seconds": seconds, "seed": seed, "start": start}
     wish = wish_of(options)

@@ -10,7 +10,7 @@ from typing import Any
 
 from . import _core, _progress
 from ._core import StorageError
-from ._model import Model, Start, Values, model_of, numbers, start_of
+from ._model import Model, Start, Values, given_to, model_of, numbers, start_of
 from ._progress import Progress
 from ._result import Interrupted, Result
 
@@ -64,7 +64,7 @@ def certify(
     0
     """
     chosen, target = model_of(model), os.fspath(path)
-    fixed = numbers(values if parameters is None else {**values, **parameters})
+    fixed = numbers(given_to(certify, chosen, values, parameters))
 
     arguments = (chosen._core, fixed, start_of(start), periods)
     with written_whole(target) as beside:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from . import _core, _progress
 from ._core import InputError
-from ._model import Model, Start, Values, model_of, number, numbers, start_of
+from ._model import Model, Start, Values, given_to, model_of, numbers, start_of, stops_of, sweep_of
 from ._progress import Progress
 from ._result import Interrupted, Result, axes
 from ._tables import categorical, state_columns, words
@@ -34,6 +34,7 @@ class Diagram(Result):
     ) -> None:
         super().__init__(model, values, options)
         self._core, self.parameter = core, parameter
+        self._free = (parameter,)
 
     @cached_property
     def value(self) -> NDArray[np.float64]:
@@ -142,7 +143,7 @@ def diagram(
     transient: int = 500,
     impacts: int = 200,
     most_periods: int = 5000,
-    stops: Sequence[str] = (),
+    stops: str | Sequence[str] = (),
     start: Start = None,
     threads: int = 0,
     progress: Progress = None,
@@ -166,7 +167,7 @@ def diagram(
     [0.5769, 0.5769, 0.5769, 0.5769]
     """
     chosen = model_of(model)
-    given = values if parameters is None else {**values, **parameters}
+    given = given_to(diagram, chosen, values, parameters)
     name, grid = swept(given)
     fixed = numbers({key: value for key, value in given.items() if key != name})
     if not carry and direction == "both":
@@ -174,7 +175,7 @@ def diagram(
     options: dict[str, Any] = {"direction": direction, "carry": carry, "transient": transient, "impacts": impacts}
     options |= {"most_periods": most_periods, "stops": stops, "start": start}
     arguments = (chosen._core, fixed, name, grid, start_of(start), direction, "carry" if carry else "reset")
-    arguments_too = (transient, impacts, most_periods, list(stops), threads)
+    arguments_too = (transient, impacts, most_periods, stops_of(stops), threads)
     total = len(grid) * (2 if direction == "both" else 1)
     core = _progress.run(_core.diagram, (*arguments, *arguments_too), "values", total, progress)
     found = Diagram(core, name, chosen, fixed, options)
@@ -192,15 +193,10 @@ def swept(given: Values) -> tuple[str, list[float]]:
             "diagram: one parameter varies, as omega=(0.5, 10, 2400); given: " + (", ".join(names) or "none")
         )
     name, value = names[0], given[names[0]]
-    if not isinstance(value, tuple):
-        grid = np.asarray(value, dtype=np.float64)
-        if grid.ndim != 1 or len(grid) < 2 or not np.all(np.diff(grid) > 0):
-            raise InputError(f"{name}: two or more increasing values are wanted")
-        return name, grid.tolist()
-    if len(value) != 3 or number(name, value[2]) < 2 or not number(name, value[0]) < number(name, value[1]):
-        raise InputError(f"{name}: {value!r} is not of the form (A, B, COUNT) with A < B and COUNT at least 2")
-    count = int(value[2])
-    return name, [_core.sweep_value(float(value[0]), float(value[1]), count, i) for i in range(count)]
+    grid = sweep_of(name, value)
+    if grid.ndim != 1 or len(grid) < 2 or not np.all(np.diff(grid) > 0):
+        raise InputError(f"{name}: two or more increasing values are wanted; direction='down' carries the state down")
+    return name, grid.tolist()
 
 
 def report(found: Diagram, total: int) -> None:

@@ -44,6 +44,7 @@ class Locus(Result):
     ) -> None:
         super().__init__(model, values, options)
         self._core, self.type = core, kind
+        self._free = tuple(core.parameters)
 
     @property
     def names(self) -> list[str]:

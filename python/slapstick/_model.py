@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from difflib import get_close_matches
+from inspect import signature
 from typing import Any, Union
 
 import numpy as np
@@ -68,10 +70,11 @@ class Model:
     ['x', 'v']
     """
 
-    __slots__ = ("__weakref__", "_core")
+    __slots__ = ("__weakref__", "_core", "_names")
 
     def __init__(self, definition: _core.Definition) -> None:
         self._core = definition
+        self._names = frozenset(row.name for row in definition.parameters) | frozenset(definition.groups)
 
     @staticmethod
     def from_toml(text: str, source: str = "text") -> Model:
@@ -172,6 +175,40 @@ def new(name: str) -> str:
 
 def model_of(model: Model | str | os.PathLike[str]) -> Model:
     return model if isinstance(model, Model) else load(model)
+
+
+def given_to(verb: Callable[..., Any], model: Model, values: Values, parameters: Values | None) -> Values:
+    """Values by keyword and those of `parameters`. Raises InputError for an option that is mistyped."""
+    given = values if parameters is None else {**values, **parameters}
+    for name in values:
+        if name not in model._names:
+            refuse_option(verb, model, name)
+    return given
+
+
+def refuse_option(verb: Callable[..., Any], model: Model, name: str) -> None:
+    """A word that is no parameter but like an option. What is neither is left to the library, which lists the parameters."""
+    if name in ("tol", "rtol", "atol", "tolerance"):
+        raise InputError(f"{name}: there is no tolerance; every event is found to the last digits")
+    options = [option for option in signature(verb).parameters if option not in ("model", "values")]
+    like = get_close_matches(name, options, 1, 0.75)
+    if like and not get_close_matches(name, model._names, 1, 0.75):
+        raise InputError(f"{name}: neither a parameter of {model.name} nor an option; did you mean the option {like[0]}?")
+
+
+def stops_of(stops: str | Sequence[str]) -> list[str]:
+    """Names of stops; one may stand by itself."""
+    return [stops] if isinstance(stops, str) else list(stops)
+
+
+def sweep_of(name: str, value: Any) -> NDArray[np.float64]:
+    """The values of a parameter that varies: a tuple (A, B, COUNT) with both ends, or an array."""
+    if not isinstance(value, tuple):
+        return np.asarray(value, dtype=np.float64)
+    if len(value) != 3 or number(name, value[2]) < 2 or not number(name, value[0]) < number(name, value[1]):
+        raise InputError(f"{name}: {value!r} is not of the form (A, B, COUNT) with A < B and COUNT at least 2")
+    count = int(value[2])
+    return np.array([_core.sweep_value(float(value[0]), float(value[1]), count, i) for i in range(count)])
 
 
 def numbers(values: Values) -> dict[str, float]:

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core, _progress
-from ._model import Model, Start, Values, model_of, numbers, start_of
+from ._core import InputError
+from ._model import Model, Start, Values, given_to, model_of, numbers, start_of
 from ._progress import Progress
 from ._result import Interrupted, Result, axes
 from ._tables import categorical, state_columns, words
@@ -208,7 +209,7 @@ class Motion(Result):
 def simulate(
     model: Model | str | os.PathLike[str],
     *,
-    periods: float = 100,
+    periods: float | None = None,
     time: float | None = None,
     samples: int = 100,
     start: Start = None,
@@ -218,8 +219,9 @@ def simulate(
 ) -> Motion:
     """One exact trajectory.
 
-    periods: its length in forcing periods (units of time without forcing); time: its length in the model's unit of
-    time, instead. samples: for each period; 0 for events only. They change nothing in the motion.
+    periods: its length in forcing periods (units of time without forcing), 100 if nothing is said; time: its length in
+    the model's unit of time, instead. samples: for each period, from its start on, at most 1e9 in all; 0 for events
+    only. They change nothing in the motion.
     start: numbers by name in place of the model's own start, or all 2 n of them.
     Parameters are keywords; `parameters` takes those whose name is an option's.
 
@@ -232,7 +234,12 @@ def simulate(
     ((2, 301), np.str_('impact'))
     """
     chosen = model_of(model)
-    given = numbers(values if parameters is None else {**values, **parameters})
+    given = numbers(given_to(simulate, chosen, values, parameters))
+    if time is not None and periods is not None:
+        raise InputError("periods, time: one length is wanted, not both")
+    periods = 100 if periods is None else periods
+    if time is None and periods * samples > 1e9:
+        raise InputError(f"samples: {periods * samples:g} samples in all are more than 1e9; samples=0 keeps events only")
     options = {"periods": periods, "time": time, "samples": samples, "start": start}
     arguments = (chosen._core, given, start_of(start), periods, time, samples)
     run = _progress.run(_core.simulate, arguments, "periods", periods, progress)

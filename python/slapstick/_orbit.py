@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core, _progress
-from ._model import Model, Start, Values, model_of, numbers, start_of
+from ._model import Model, Start, Values, given_to, model_of, numbers, start_of
 from ._motion import Motion, simulate
 from ._progress import Progress
 from ._result import Interrupted, Result
@@ -226,12 +226,15 @@ def orbit(
     '1-1-I'
     """
     chosen = model_of(model)
-    fixed = numbers(values if parameters is None else {**values, **parameters})
+    fixed = numbers(given_to(VERB, chosen, values, parameters))
     options: dict[str, Any] = {"orbit": orbit, "stable": stable, "symmetric": symmetric, "nearest": nearest}
     options["transient"] = transient
     options |= {"starts": starts, "seconds": seconds, "seed": seed, "start": start}
     arguments = (chosen._core, fixed, start_of(start), wish_of(options))
     return Orbit(_progress.run(_core.find_orbit, arguments, "orbits", 1, progress), chosen, options)
+
+
+VERB = orbit  # which has an argument of its own name
 
 
 def orbits(
@@ -253,7 +256,7 @@ def orbits(
     A search is no proof of completeness.
     """
     chosen = model_of(model)
-    fixed = numbers(values if parameters is None else {**values, **parameters})
+    fixed = numbers(given_to(orbits, chosen, values, parameters))
     options: dict[str, Any] = {"orbit": "", "stable": stable, "symmetric": symmetric, "nearest": False}
     options |= {"transient": 0, "starts": starts, "seconds": seconds, "seed": seed, "start": start}
     arguments = (chosen._core, fixed, start_of(start), wish_of(options), most_n)

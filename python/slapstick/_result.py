@@ -12,9 +12,11 @@ from ._tables import html_table
 class Result:
     """A result of a verb.
 
-    model: the Model; parameters: every parameter's value; options: what the verb was called with;
-    version: of slapstick.
+    model: the Model; parameters: every parameter's value, but for those that vary; options: what the verb was called
+    with; version: of slapstick.
     """
+
+    _free: tuple[str, ...] = ()  # parameters that vary
 
     def __init__(self, model: Model, values: dict[str, float], options: dict[str, Any]) -> None:
         self.model = model
@@ -24,15 +26,17 @@ class Result:
 
     @property
     def parameters(self) -> dict[str, float]:
-        """The value of every parameter of the model."""
-        return self.model._core.values(self._values)
+        """The value of every parameter of the model, but for those that vary."""
+        values = self.model._core.values(self._values)
+        return {name: value for name, value in values.items() if name not in self._free}
 
     def _facts(self) -> list[tuple[str, str]]:
         """What the representations show, by name."""
         return []
 
     def _title(self) -> str:
-        changed = ", ".join(f"{name} = {value:g}" for name, value in self._values.items())
+        fixed = {name: value for name, value in self._values.items() if name not in self._free}
+        changed = ", ".join(f"{name} = {value:g}" for name, value in fixed.items())
         return f"{type(self).__name__} of {self.model.name}" + (f" at {changed}" if changed else "")
 
     def __repr__(self) -> str:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from . import _core, _progress
 from ._core import InputError, NumericalError
-from ._model import Model, Start, Values, model_of, numbers, start_of
+from ._model import Model, Start, Values, given_to, model_of, numbers, start_of, stops_of
 from ._progress import Progress
 from ._result import Interrupted, Result, axes
 from ._tables import categorical, state_columns, words
@@ -140,7 +140,7 @@ def poincare(
     transient: int = 500,
     points: int = 1000,
     most_periods: int | None = None,
-    stops: Sequence[str] = (),
+    stops: str | Sequence[str] = (),
     start: Start = None,
     progress: Progress = None,
     parameters: Values | None = None,
@@ -162,7 +162,7 @@ def poincare(
     [4.429447, 3.543558, 2.834846]
     """
     chosen = model_of(model)
-    fixed = numbers(values if parameters is None else {**values, **parameters})
+    fixed = numbers(given_to(poincare, chosen, values, parameters))
     options = {"section": section, "event": event, "phase": phase, "transient": transient, "points": points}
     options |= {"most_periods": most_periods, "stops": stops, "start": start}
     begin = (chosen._core, fixed, start_of(start), transient, points)
@@ -170,7 +170,7 @@ def poincare(
     if (section == "event") != bool(event):
         raise InputError("event belongs to section='event', and that section needs one: event='stick'")
     sections: dict[str, tuple[Callable[..., _core.Section], tuple[Any, ...]]] = {
-        "impact": (_core.impact_section, (*begin, *limits, list(stops))),
+        "impact": (_core.impact_section, (*begin, *limits, stops_of(stops))),
         "stroboscopic": (_core.strobe_section, (*begin, phase)),
         "event": (_core.event_section, (*begin, *limits, event)),
     }

@@ -1,5 +1,6 @@
 """Errors are the library's three kinds, with the text of the command line."""
 
+import numpy as np
 import pytest
 import slapstick
 
@@ -91,3 +92,27 @@ def test_few_points_are_a_warning_and_none_an_error():
         slapstick.poincare("vibro-impact", points=100, most_periods=20)
     with pytest.raises(slapstick.NumericalError, match="no impacts in"):
         slapstick.poincare("impact-oscillator", points=5, most_periods=50, clearance=100)
+
+
+@pytest.mark.parametrize(
+    ("call", "text"),
+    [
+        (lambda: slapstick.simulate("vibro-impact", period=5), "did you mean the option periods?"),
+        (lambda: slapstick.classify("vibro-impact", transients=5), "did you mean the option transient?"),
+        (lambda: slapstick.orbit("vibro-impact", "1-1", symetric=True), "did you mean the option symmetric?"),
+        (lambda: slapstick.simulate("vibro-impact", rtol=1e-6), "there is no tolerance"),
+        (lambda: slapstick.simulate("vibro-impact", periods=1, time=1), "one length is wanted, not both"),
+        (lambda: slapstick.simulate("vibro-impact", periods=1e9, samples=1000), "samples=0 keeps events only"),
+    ],
+)
+def test_a_mistyped_option_is_not_called_a_parameter(call, text):
+    with pytest.raises(slapstick.InputError, match=text.replace("?", "[?]")):
+        call()
+
+
+def test_a_row_that_fails_is_not_taken_for_a_class():
+    with pytest.warns(RuntimeWarning, match="1 of 2 values failed"):
+        found = slapstick.classify("vibro-impact", omega=np.array([2.2, -1.0]))
+    assert found.label.tolist() == ["1-1-I", "failed"]
+    assert np.isnan(found.exponent).tolist() == [False, True]
+    assert "omega" in found.to_pandas()["failure"][1]

@@ -106,3 +106,22 @@ def test_a_parameter_whose_name_is_an_options_is_given_by_the_table():
 def test_all_public_names_have_a_docstring():
     for name in slapstick.__all__:
         assert name == "__version__" or getattr(slapstick, name).__doc__, name
+
+
+def test_a_range_means_the_same_to_every_verb():
+    classes = slapstick.classify("vibro-impact", omega=(2.0, 3.0, 3))
+    drawn = slapstick.diagram("vibro-impact", omega=(2.0, 3.0, 3), impacts=1)
+    assert classes.swept["omega"].tolist() == sorted(set(drawn.value.tolist())) == [2.0, 2.5, 3.0]
+
+
+def test_a_parameter_that_varies_has_no_value():
+    drawn = slapstick.diagram("vibro-impact", omega=(2.0, 2.2, 2), impacts=1, restitution=0.7)
+    assert "omega" not in drawn.parameters and drawn.parameters["restitution"] == 0.7
+    assert "omega =" not in repr(drawn)
+    branch = slapstick.continuation("vibro-impact", "omega", (2.19, 2.21), orbit="1-1", omega=2.2)
+    assert "omega" not in branch.parameters
+
+
+def test_a_stop_may_stand_by_itself():
+    one, many = (slapstick.classify("vibro-impact", omega=2.2, stops=stops) for stops in ("stop", ["stop"]))
+    assert one.label == many.label

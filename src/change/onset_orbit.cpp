@@ -106,6 +106,7 @@ std::optional<std::size_t> leg_beyond(const ModeSet& set, const Orbit& orbit, in
 
 /// Far from the onset a is as good as constant during a burst, and w falls by r from impact to impact; near the fixed point w stays.
 std::optional<Approach> nearest_approach(const ModeSet& set, const Orbit& orbit, int stop, double restitution) {
+  constexpr double slow = 0.25;  // of the fall far from the onset
   const double wanted = bounce_rates(restitution).w;
   const auto w_at = [&](std::size_t leg) -> std::optional<double> {
     const Leg& before = orbit.shape.legs[(leg + orbit.legs() - 1) % orbit.legs()];
@@ -117,7 +118,7 @@ std::optional<Approach> nearest_approach(const ModeSet& set, const Orbit& orbit,
   std::optional<Approach> best;
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
     const std::optional<double> w = w_at(i), next = w_at((i + 1) % orbit.legs());
-    if (!w || !next || !(*next > 0.5 * (1.0 + restitution) * *w)) continue;
+    if (!w || !next || !(*w - *next < slow * (1.0 - restitution) * *w)) continue;
     const double off = std::abs(*w - wanted);
     if (!(off < (best ? best->off : 0.5 * wanted))) continue;
     const std::optional<std::size_t> beyond = leg_beyond(set, orbit, stop, i);

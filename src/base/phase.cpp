@@ -31,7 +31,7 @@ CosineSine of_eighth(double t) {
 }  // namespace
 
 CosineSine of_turns(double turns) {
-  turns -= std::floor(turns);
+  turns -= std::nearbyint(turns);
   const double quarters = std::nearbyint(4.0 * turns);
   const auto [c, s] = of_eighth(turns - 0.25 * quarters);
   switch (static_cast<int>(quarters) & 3) {

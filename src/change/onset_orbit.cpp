@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "change/cascade_law.hpp"
+#include "orbit/margins.hpp"
+#include "slapstick/base/error.hpp"
 
 namespace slapstick::orbit {
 namespace {
@@ -85,7 +87,8 @@ struct Approach {
   double off = INFINITY;
 };
 
-/// The first leg after a burst: behind the chatter's rest, or the flight from which the contact does not come back at once.
+/// The first leg after a burst: behind the chatter's rest, or the flight from which the contact does not come back at once. An orbit with a complete
+/// chatter of the stop has only that burst.
 std::optional<std::size_t> leg_beyond(const ModeSet& set, const Orbit& orbit, int stop, std::size_t from) {
   for (std::size_t step = 0; step < orbit.legs(); ++step) {
     const std::size_t i = (from + step) % orbit.legs();
@@ -98,7 +101,7 @@ std::optional<std::size_t> leg_beyond(const ModeSet& set, const Orbit& orbit, in
     const auto numbers = Bounce(set, stop, leg.states).numbers(orbit.x[i], orbit.t[i]);
     const double a = numbers.a.value()[0], j = numbers.j.value()[0];
     const bool returns = a > 0.0 && j > 0.0 && orbit.duration(i) * set.period() * j < 2.0 * a;  // a graze's flight: 1.5 a / j
-    if (!returns) return step == 0 ? std::nullopt : std::optional(i);
+    if (!returns) return step == 0 || chattering_stop(orbit) == stop ? std::nullopt : std::optional(i);
     if (!is_flight(leg, stop, orbit.shape.legs[from].states)) return std::nullopt;
   }
   return std::nullopt;
@@ -174,6 +177,20 @@ Orbit with_more_impacts(const ModeSet& set, Orbit orbit, int count, const Bounce
   return orbit;
 }
 
+/// Could it be a motion? All that ends a leg must be positive within, but for the flights of the burst, which the fixed point keeps apart.
+bool is_possible(const Problem& problem, Orbit orbit) {
+  const Leg flight = orbit.shape.legs.end()[-2];
+  Leg& rest = orbit.shape.legs.back();
+  rest.ending = Ending::guard;
+  const auto of_burst = [&](const TestValue& test) {
+    const bool in_burst = test.leg + 1 == orbit.legs() || orbit.shape.legs[test.leg] == flight;
+    return in_burst && test.contact == rest.contact && (test.kind == mode::GuardKind::gap || test.kind == mode::GuardKind::press);
+  };
+  for (const TestValue& test : test_values(ModeSet(problem.family(), orbit.values), orbit))
+    if (!of_burst(test) && !(test.value > 0.0)) return false;
+  return true;
+}
+
 /// Solves the equations, with the first parameter as an unknown. @returns whether its legs come one after the other
 bool solve_onset(const Problem& problem, Orbit& orbit) {
   constexpr int most_steps = 20;
@@ -192,7 +209,7 @@ bool solve_onset(const Problem& problem, Orbit& orbit) {
     return Residual{numbers.w() - rates.w + w.by_state().row(0).dot(at.defects[last]), by};
   };
   if (!solve(problem, orbit, conditions, most_steps).converged) return false;
-  return std::is_sorted(orbit.t.begin(), orbit.t.end(), std::less_equal());
+  return std::adjacent_find(orbit.t.begin(), orbit.t.end(), std::greater_equal()) == orbit.t.end();
 }
 
 }  // namespace
@@ -214,36 +231,73 @@ std::optional<int> chattering_stop(const Orbit& orbit) {
   return stop;
 }
 
-std::optional<OnsetOrbit> onset_orbit(const Problem& problem, const Orbit& near, int stop) {
+namespace {
+
+constexpr std::size_t most_legs = 600;  ///< with more a step costs seconds; r = 0.96 is known to rounding with these
+
+/// Do the equations hold for a stop of these modes? A contact that rests meanwhile must not feel its impacts.
+bool has_equations(const ModeSet& set, const Orbit& near, int stop) {
+  const mode::Frame& frame = set.frame();
+  const int own = frame.stops[static_cast<std::size_t>(stop)].own;
+  const double r = set.model().stops[static_cast<std::size_t>(stop)].restitution;
+  if (!(r > 0.0 && r < 1.0) || own >= frame.n || has_friction(set.model(), frame, stop)) return false;
+  for (const Leg& leg : near.shape.legs) {
+    if (!is_flight(leg, stop, leg.states)) continue;
+    const std::vector<bool>& steady = set.mode(leg.states).outline.steady;
+    for (int i = 0; i < frame.d; ++i)
+      if (steady[static_cast<std::size_t>(i)] && frame.mass_inverse(own, i) != 0.0) return false;
+  }
+  for (int other = 0; other < static_cast<int>(frame.stops.size()); ++other)  // two onsets at once, as of equal stops
+    if (other != stop && nearest_approach(set, near, other, set.model().stops[static_cast<std::size_t>(other)].restitution))
+      return false;
+  return true;
+}
+
+/// Adds impacts until the parameter stops to change. What is left of the changes then is rounding, by chance small in one of them.
+std::optional<OnsetOrbit> converged(const Problem& problem, Orbit orbit, int stop) {
   constexpr int at_once = 16;
-  constexpr std::size_t most_legs = 600;
-  const ModeSet set(problem.family(), near.values);
-  const double restitution = set.model().stops[static_cast<std::size_t>(stop)].restitution;
-  const bool in_basis = set.frame().stops[static_cast<std::size_t>(stop)].own < set.frame().n;
-  if (!(restitution > 0.0 && restitution < 1.0) || !in_basis || has_friction(set.model(), set.frame(), stop))
-    return std::nullopt;
-  const BounceRates rates = bounce_rates(restitution);
-  const std::optional<Approach> approach = nearest_approach(set, near, stop, restitution);
-  if (!approach) return std::nullopt;
-  Orbit orbit = cut_off(set, near, stop, *approach);
-  if (orbit.legs() > most_legs || !solve_onset(problem, orbit)) return std::nullopt;
-  std::optional<OnsetOrbit> best;
-  for (int more = at_once; more > 0 && orbit.legs() < most_legs;) {
-    const ModeSet here(problem.family(), orbit.values);
-    Orbit next = with_more_impacts(here, orbit, more, rates);
+  constexpr double safety = 4.0;
+  double change = INFINITY, left = 1.0;
+  int settled = 0;
+  for (int more = at_once; more > 0 && settled < 2 && orbit.legs() < most_legs;) {
+    const ModeSet set(problem.family(), orbit.values);
+    const BounceRates rates = bounce_rates(set.model().stops[static_cast<std::size_t>(stop)].restitution);
+    Orbit next = with_more_impacts(set, orbit, more, rates);
     if (!solve_onset(problem, next)) {
       more /= 2;
       continue;
     }
-    const double left = std::pow(rates.mu / rates.lambda, more);
-    const double error = std::abs(next.values[0] - orbit.values[0]) * left / (1.0 - left);
-    const bool rounding = best && error >= 0.5 * best->error;
-    if (!rounding) best = OnsetOrbit{next, error};
+    const double moved = std::abs(next.values[0] - orbit.values[0]);
+    left = std::pow(rates.mu / rates.lambda, more);
+    settled = moved >= 0.5 * change || moved == 0.0 ? settled + 1 : 0;
+    change = settled > 1 ? std::max(moved, change) : moved;
     orbit = std::move(next);
-    if (rounding) break;
   }
-  if (best) best->error += 4.0 * std::numeric_limits<double>::epsilon() * std::abs(best->orbit.values[0]);
-  return best;
+  if (change == INFINITY || !is_possible(problem, orbit)) return std::nullopt;
+  const double truncated = change * left / (1.0 - left);
+  const double rounding = settled > 0 ? change : 0.0;
+  const double error =
+      truncated + safety * (rounding + std::numeric_limits<double>::epsilon() * std::abs(orbit.values[0]));
+  return OnsetOrbit{std::move(orbit), error};
+}
+
+}  // namespace
+
+std::optional<OnsetOrbit> onset_orbit(const Problem& problem, const Orbit& near, int stop) {
+  try {
+    const ModeSet set(problem.family(), near.values);
+    if (!has_equations(set, near, stop)) return std::nullopt;
+    const double restitution = set.model().stops[static_cast<std::size_t>(stop)].restitution;
+    const std::optional<Approach> approach = nearest_approach(set, near, stop, restitution);
+    if (!approach) return std::nullopt;
+    Orbit orbit = cut_off(set, near, stop, *approach);
+    if (orbit.legs() > most_legs || !solve_onset(problem, orbit)) return std::nullopt;
+    return converged(problem, std::move(orbit), stop);
+  } catch (const InputError&) {  // no model where a step led
+    return std::nullopt;
+  } catch (const NumericalError&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace slapstick::orbit

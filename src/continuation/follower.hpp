@@ -54,6 +54,7 @@ class Follower {
   bool leave_chatter(PathPoint& at);
   bool leave_clear_of_onset(PathPoint& at);
   bool meet_onset(PathPoint& at);
+  [[nodiscard]] bool in_gathering(const PathPoint& at, const Change& change) const;
   [[nodiscard]] std::optional<PlaceLimit> onset_ahead(const PathPoint& at);
   [[nodiscard]] std::optional<CascadeLimit> cascade() const;
   [[nodiscard]] std::optional<CascadeLimit> cascade_ends(const PathPoint& at) const;

@@ -80,8 +80,8 @@ bool Follower::at_end(double place, double error, const PathPoint& at) const {
 
 /// Between `at` and `beyond` the motion's events change. Notes the point and goes on with new ones. @returns false if the branch ends
 bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why) {
-  if (meet_onset(at)) return !ended_;
   std::optional<Change> change = first_change(at, beyond, length);
+  if ((!change || in_gathering(at, *change)) && meet_onset(at)) return !ended_;
   if (!change || fades(at.orbit, change->test.leg)) return look_nearer(at, length, why);
   sharpen_death(problem_, branch_.points, has_before(at) ? before_->point : at, range_, *change);
   SpecialPoint& special = change->special;
@@ -290,6 +290,10 @@ void Follower::restart(PathPoint& at, PathPoint from) {
 /// @param between  followed back from there to the change, if other changes lie between
 void Follower::go_on(PathPoint& at, SpecialPoint special, HalfBranch next, std::optional<Branch> between) {
   special.passage = next.folds ? Passage::fold : Passage::persistence;
+  if (branch_.points.back().chatter || special.type != SpecialType::GR) {  // no change of a cascade
+    ahead_.reset();
+    looked_from_ = 0;
+  }
   Solution first = solution_of(next.point, nullptr);
   const bool begins = chatters(next.point.orbit) > chatters(special.solution.orbit);
   if (next.onset && next.onset->release && begins) {

@@ -7,6 +7,7 @@
 #include "continuation/follower.hpp"
 #include "continuation/lies_on.hpp"
 #include "change/onset.hpp"
+#include "orbit/record.hpp"
 #include "base/text.hpp"
 
 namespace slapstick::orbit {
@@ -123,7 +124,7 @@ bool Follower::leave_chatter(PathPoint& at) {
   SpecialPoint special = onset(about, branch_.points.back());
   if (!found.empty() && !release)
     special.error = std::max(special.error, std::abs(value(found.front().point) - value(at)));
-  if (ahead && !release) {
+  if (ahead && !release && std::abs(ahead->value - value(at)) <= std::max(special.error, clear * range_)) {
     special.value = ahead->value;
     special.error = ahead->error;
   }
@@ -185,6 +186,15 @@ std::optional<PlaceLimit> Follower::onset_ahead(const PathPoint& at) {
   }
   if (ahead_ && (ahead_->value - value(at)) * at.watched.turn < 0.0) return std::nullopt;
   return ahead_;
+}
+
+/// Is it a change of the burst that lengthens, or of the cascade, as those before it?
+bool Follower::in_gathering(const PathPoint& at, const Change& change) const {
+  if (branch_.points.back().chatter) return in_burst(at.orbit, change.test.leg);
+  const auto last = std::find_if(branch_.special.rbegin(), branch_.special.rend(),
+                                 [](const SpecialPoint& point) { return point.type == SpecialType::GR; });
+  return last != branch_.special.rend() && change.special.type == SpecialType::GR &&
+         change.special.margin.contact == last->margin.contact;
 }
 
 /// Passes an onset of a complete chatter that is known by its own equations where a branch, with the chatter or with the cascade of its changes, is so near that nothing but ever more impacts

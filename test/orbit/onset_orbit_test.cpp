@@ -48,7 +48,7 @@ TEST(OnsetOrbit, OfAShakenBallIsWhereTheSimulatorSaysForAnyRestitution) {
     const auto found = orbit::onset_orbit(*posed.problem, first->orbit, 0);
     ASSERT_TRUE(found) << restitution;
     EXPECT_NEAR(found->orbit.values[0], onset, found->error + 2e-13) << restitution;  // bisection ends at 1e-13
-    EXPECT_LT(found->error, 1e-14) << restitution;
+    EXPECT_LT(found->error, 1e-13) << restitution;
   }
 }
 
@@ -68,6 +68,35 @@ TEST(OnsetOrbit, IsTheSameFromTheCascade) {
   EXPECT_NEAR(found->orbit.values[0], onset, found->error + 2e-13);
 }
 
+/// What rounding leaves is in the stated error, however small the parameter: 1.459 + offset is the onset for r = 0.6, by 40 digits.
+TEST(OnsetOrbit, IsAsWellKnownAsItSaysWhereTheParameterIsSmall) {
+  const Posed posed(SLAPSTICK_ORBIT_MODELS "table-by-offset.toml", {}, {"offset"}, {-1e-4});
+  const auto first = orbit::settle(*posed.problem, posed.system, {0.0, 0.0}).orbit;
+  ASSERT_TRUE(first);
+  const auto found = orbit::onset_orbit(*posed.problem, first->orbit, 0);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->orbit.values[0], 4.60027577467332e-5, found->error);
+  EXPECT_LT(found->error, 1e-14);
+}
+
+/// An orbit whose oscillator does not reach its bumper yet has an onset of its own, which is no motion's: it lies behind the graze.
+TEST(Onset, OfAnOrbitThatIsNoMotionThereIsNotSaid) {
+  double onsets[2] = {};
+  for (const int i : {0, 1}) {
+    const double at = i == 0 ? 1.1 : 1.435;
+    const Posed posed(SLAPSTICK_ORBIT_MODELS "ball-and-oscillator.toml", {{"stop", 1.40712}, {"kappa", 20000.0}},
+                      {"acceleration"}, {at});
+    const auto first = posed.settled();
+    ASSERT_TRUE(first && first->chatter);
+    const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 1.05, .to = 1.4361});
+    const auto onset = std::ranges::find(branch.special, orbit::SpecialType::CH, &orbit::SpecialPoint::type);
+    ASSERT_NE(onset, branch.special.end()) << ended(branch);
+    onsets[i] = onset->value;
+  }
+  EXPECT_NEAR(onsets[0], onsets[1], 1e-13);
+  EXPECT_NEAR(onsets[0], 1.4360390142653, 1e-12);
+}
+
 /// The onset on a branch. By the places of the cascade's changes, with one rate, onsets were off by 1.7e-7, 7.8e-8 and 3.1e-8, and said less.
 TEST(Onset, OnABranchIsWhereTheSimulatorSaysAndAsWellKnownAsItSays) {
   struct Case {
@@ -82,7 +111,7 @@ TEST(Onset, OnABranchIsWhereTheSimulatorSaysAndAsWellKnownAsItSays) {
     const auto onset = std::ranges::find(branch.special, orbit::SpecialType::CH, &orbit::SpecialPoint::type);
     ASSERT_NE(onset, branch.special.end()) << restitution << ": " << ended(branch);
     EXPECT_NEAR(onset->value, onset_by_bisection(restitution, at, to), onset->error + 2e-13) << restitution;
-    EXPECT_LT(onset->error, 1e-14) << restitution;
+    EXPECT_LT(onset->error, 1e-13) << restitution;
   }
 }
 

@@ -9,8 +9,8 @@
 ///
 /// Where the error comes from: an operation of double_double.hpp has at most 15 u^2 < 2^-102, Horner's rule with 30
 /// falling terms less than 2^-98, and the series are cut below 2^-108. These grow by 746 = most |y ln x| in x^y, to
-/// 2^-88, and by 2^26 at most in acosh x, the logarithm of a number near 1. test/base/fixed_test.cpp compares with
-/// MPFR.
+/// 2^-88. In acosh x, the logarithm of a number near 1, only the errors of operations grow, by 2^26 at most.
+/// test/base/fixed_test.cpp compares with MPFR.
 namespace slapstick::fixed {
 
 double exp(double x);
@@ -18,7 +18,7 @@ double ln(double x);
 double log2(double x);
 double log10(double x);
 double power(double x, double y);
-/// The cube root of x >= 0, to 4 ulps.
+/// The cube root of x >= 0, to 4 ulps (measured). For lengths of steps, which need no digits.
 double cube_root(double x);
 
 double sin(double x);

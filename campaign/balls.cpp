@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "batches.hpp"
-#include "check.hpp"
 #include "near_graze.hpp"
+#include "verdict.hpp"
 #include "base/text.hpp"
 #include "slapstick/certify/certificate.hpp"
 
@@ -16,8 +16,8 @@ namespace {
 using slapstick::Json;
 
 struct Tally {
-  long motions = 0, segments = 0, near_grazes = 0, guards = 0, steps = 0, events = 0, impacts = 0, touches = 0,
-       flats = 0, chatters = 0, refusals = 0;
+  long motions = 0, segments = 0, near_grazes = 0, conditions = 0, events = 0, impacts = 0, touches = 0, flats = 0,
+       chatters = 0, pile_ups = 0, choices = 0, refusals = 0;
   double jump = 0.0;  ///< largest, of what rounding is allowed from segment to segment
   /// What was refused, without its numbers: how often, and a motion in which it was.
   struct Kind {
@@ -27,9 +27,9 @@ struct Tally {
   std::map<std::string, Kind> kinds;
 
   void add(const Tally& o) {
-    motions += o.motions, segments += o.segments, near_grazes += o.near_grazes, guards += o.guards, steps += o.steps;
-    events += o.events, impacts += o.impacts, touches += o.touches, flats += o.flats, chatters += o.chatters,
-        refusals += o.refusals;
+    motions += o.motions, segments += o.segments, near_grazes += o.near_grazes, conditions += o.conditions;
+    events += o.events, impacts += o.impacts, touches += o.touches, flats += o.flats, chatters += o.chatters;
+    pile_ups += o.pile_ups, choices += o.choices, refusals += o.refusals;
     jump = std::max(jump, o.jump);
     for (const auto& [name, kind] : o.kinds) {
       Kind& mine = kinds[name];
@@ -66,13 +66,11 @@ void check(const std::string& text, const std::string& where, Tally& tally) {
     Tally::Kind& kind = tally.kinds[kind_of(what)];
     if (kind.count++ == 0) kind.example = where + ": " + what;
   };
-  verify::Reader reader(in);
-  verify::Checker checker(reader.head(), reader.modes(), refuse);
-  for (verify::Segment segment; reader.next(segment);) checker.segment(segment);
-  const verify::Tally& t = checker.tally();
-  tally.segments += t.segments, tally.guards += t.guards, tally.steps += t.steps, tally.events += t.events;
-  tally.impacts += t.impacts, tally.touches += t.touches, tally.flats += t.flats, tally.chatters += t.chatters;
-  tally.jump = std::max(tally.jump, t.jump);
+  const verify::Tally t = verify::check(in, refuse).tally;
+  tally.segments += t.segments, tally.conditions += t.flight.conditions, tally.events += t.events;
+  tally.impacts += t.impacts, tally.touches += t.open.undecided, tally.flats += t.flight.flats;
+  tally.chatters += t.chatters, tally.pile_ups += t.open.pile_ups, tally.choices += t.open.choices;
+  tally.jump = std::max(tally.jump, t.of_allowed);
 }
 
 /// Every other motion begins with a near-graze.
@@ -108,9 +106,10 @@ Report run_balls(const Options& options) {
   report.figures.set("segments", all.segments).set("motions", all.motions).set("near_grazes", all.near_grazes);
   report.figures.set("events", all.events)
       .set("impacts", all.impacts)
-      .set("guards", all.guards)
-      .set("steps", all.steps);
-  report.figures.set("touches", all.touches)
+      .set("conditions", all.conditions);
+  report.figures.set("undecided_signs", all.touches)
+      .set("pile_ups", all.pile_ups)
+      .set("choices", all.choices)
       .set("flat_zeros", all.flats)
       .set("chatter_limits", all.chatters)
       .set("refusals", all.refusals);

@@ -42,10 +42,12 @@ int campaign_main(int count, char** arguments);
 Report run_segments(const Options& options);
 Report run_wide(const Options& options);
 Report run_balls(const Options& options);
+Report run_forgeries(const Options& options);
 Report run_noise(const Options& options);
 Report run_orbit(const Options& options);
 Report run_families(const Options& options);
 Report run_branches(const Options& options);
+Report run_classes(const Options& options);
 Report run_peers(const Options& options);
 
 }  // namespace campaign

@@ -9,9 +9,13 @@ const std::vector<Campaign>& campaigns() {
        run_segments},
       {"wide", "the same against a search with 113 bits throughout", "segments", 10'000'000, run_wide},
       {"balls", "random motions proved by certificates in ball arithmetic", "segments", 100'000, run_balls},
+      {"forgeries", "forged certificates, none of which may be accepted unless it is true", "forgeries", 100'000,
+       run_forgeries},
       {"noise", "the rounding bound of guards against exact values", "evaluations", 1'000'000'000, run_noise},
       {"orbit", "drift of stable orbits", "periods", 10'000'000, run_orbit},
       {"branches", "branches followed from three starts each have the same special points", "cases", 300, run_branches},
+      {"classes", "what classify says, also right beside special points, against orbits and 50 digits", "cases", 10'000,
+       run_classes},
       {"families", "error near resonance and near defective matrices", "starts", 1'000, run_families},
   };
   return all;

@@ -13,6 +13,6 @@ int main() {
   certificate.finish();
   file.close();
   const slapstick::certify::Tally& tally = certificate.tally();
-  std::printf("%ld segments; guards without a proof: %ld\n", tally.segments, tally.unproved);
+  std::printf("%ld segments; pile-ups, which are not proved: %ld\n", tally.segments, tally.unproved);
   // slapstick-verify run.cert
 }

@@ -1,8 +1,8 @@
 /// Bytes as a certificate: slapstick-verify's reader and rules give a verdict, or say which line is not readable.
 #include <sstream>
 
-#include "check.hpp"
 #include "target.hpp"
+#include "verdict.hpp"
 
 namespace slapstick::fuzz {
 namespace {
@@ -13,9 +13,9 @@ void demand_one_line(const std::string& message) {
 
 void check(std::string_view text) {
   std::istringstream in{std::string(text)};
-  verify::Reader reader(in);
-  verify::Checker checker(reader.head(), reader.modes(), [](long, const std::string& what) { demand_one_line(what); });
-  for (verify::Segment segment; reader.next(segment);) checker.segment(segment);
+  const verify::Verdict verdict =
+      verify::check(in, [](long, const std::string& what) { demand_one_line(what); });
+  demand_one_line(verify::sentence(verdict));
 }
 
 }  // namespace

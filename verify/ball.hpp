@@ -22,6 +22,11 @@ class Ball {
   friend Ball operator-(Ball a, const Ball& b) { return arb_sub(a.x_, a.x_, b.x_, bits), a; }
   friend Ball operator*(Ball a, const Ball& b) { return arb_mul(a.x_, a.x_, b.x_, bits), a; }
   friend Ball operator/(Ball a, const Ball& b) { return arb_div(a.x_, a.x_, b.x_, bits), a; }
+  friend Ball operator-(Ball a) { return arb_neg(a.x_, a.x_), a; }
+  Ball& operator+=(const Ball& b) { return arb_add(x_, x_, b.x_, bits), *this; }
+  Ball& operator-=(const Ball& b) { return arb_sub(x_, x_, b.x_, bits), *this; }
+  /// this += a b.
+  void add_product(const Ball& a, const Ball& b) { arb_addmul(x_, a.x_, b.x_, bits); }
   friend bool operator<(const Ball& a, const Ball& b) { return arb_lt(a.x_, b.x_) != 0; }
   friend bool operator<=(const Ball& a, const Ball& b) { return arb_le(a.x_, b.x_) != 0; }
   friend bool operator>(const Ball& a, const Ball& b) { return b < a; }
@@ -37,6 +42,7 @@ class Ball {
   friend Ball over(Ball a, ulong n) { return arb_div_ui(a.x_, a.x_, n, bits), a; }
   /// cos and sin of pi times a.
   friend void cos_sin_pi(Ball& c, Ball& s, const Ball& a) { arb_sin_cos_pi(s.x_, c.x_, a.x_, bits); }
+  friend void cos_sin(Ball& c, Ball& s, const Ball& a) { arb_sin_cos(s.x_, c.x_, a.x_, bits); }
   static Ball pi() {
     Ball a;
     return arb_const_pi(a.x_, bits), a;
@@ -44,6 +50,19 @@ class Ball {
   [[nodiscard]] bool is_zero() const { return arb_is_zero(x_) != 0; }
   /// Something near the midpoint, for messages and for choices that need no proof.
   [[nodiscard]] double near() const { return arf_get_d(arb_midref(x_), ARF_RND_NEAR); }
+
+  /// Doubles that no number of the ball is above, or below.
+  [[nodiscard]] double highest() const { return bound(arb_get_ubound_arf, ARF_RND_CEIL); }
+  [[nodiscard]] double lowest() const { return bound(arb_get_lbound_arf, ARF_RND_FLOOR); }
+
+  /// The midpoint alone; `off` is raised by what the ball was wide.
+  [[nodiscard]] Ball middle(double& off) const {
+    Ball m, radius;
+    arb_get_mid_arb(m.x_, x_);
+    arb_get_rad_arb(radius.x_, x_);
+    off += radius.highest();
+    return m;
+  }
 
   /// e with |midpoint| < 2^e, far below zero for 0. A guide, no bound.
   [[nodiscard]] double exponent() const { return static_cast<double>(arf_abs_bound_lt_2exp_si(arb_midref(x_))); }
@@ -56,6 +75,14 @@ class Ball {
   }
 
  private:
+  double bound(void (*of)(arf_t, const arb_t, slong), arf_rnd_t rounding) const {
+    arf_t edge;
+    arf_init(edge);
+    of(edge, x_, bits);
+    const double x = arf_get_d(edge, rounding);
+    return arf_clear(edge), x;
+  }
+
   arb_t x_;
 };
 

@@ -1,110 +1,197 @@
-/// Impulses at the end of a segment, and the impacts that are reported of them.
+/// Impulses at the end of a segment: that each follows the stated law from the state before.
+///
+/// Moreau's law at the stops S in contact, v their velocities of approach: impulses P >= 0 with v+ + r v <= 0, one of
+/// both zero at each stop. Where the stops that are hit depend on each other P is not unique, and v+ is: some solution
+/// has impulses at independent stops only. At one stop it is Newton's law, v+ = -r v.
 #include <algorithm>
 #include <cmath>
 
+#include "bodies.hpp"
 #include "check.hpp"
 
 namespace verify {
 namespace {
 
-constexpr double rounding = 0x1p-40;
-constexpr double singular = 0x1p-40;  ///< pivots this small, in units of the diagonal, are rounding
-
-/// A solution of D x = b, D symmetric and positive semidefinite. Where D is singular, some x are 0: M^-1 G^T x does not
-/// depend on the choice.
-Balls solve(std::vector<Balls> D, Balls b) {
-  const std::size_t n = b.size();
-  std::vector<double> diagonal(n);
-  std::vector<bool> done(n);
-  for (std::size_t i = 0; i < n; ++i) diagonal[i] = D[i][i].near();
-  Balls x(n);
-  for (;;) {
-    std::size_t k = n;
-    double best = singular;
-    for (std::size_t i = 0; i < n; ++i)
-      if (!done[i] && D[i][i].near() / diagonal[i] > best) best = D[k = i][i].near() / diagonal[i];
-    if (k == n) break;
-    done[k] = true;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (i == k) continue;
-      const Ball factor = D[i][k] / D[k][k];
-      for (std::size_t j = 0; j < n; ++j) D[i][j] = D[i][j] - factor * D[k][j];
-      b[i] = b[i] - factor * b[k];
-    }
-  }
-  for (std::size_t i = 0; i < n; ++i)
-    if (done[i]) x[i] = b[i] / D[i][i];
-  return x;
-}
+/// Impacts this much slower than the fastest of their instant, or so many, may be called a pile-up.
+constexpr double slow = 0x1p-20;
+constexpr long many_blows = 5000;
+/// Segments this short, in periods, are at one instant.
+constexpr double no_time = 0x1p-44;
+constexpr std::size_t most_dependent = 16;
 
 }  // namespace
 
-void Checker::blows(Departure& departure) {
-  const Segment& segment = departure.segment;
-  tally_.events += static_cast<long>(segment.events.size());
-  if (segment.end.kind == EndKind::cut && !(segment.blows.empty() && segment.events.empty()))
-    refuse_(segment.end.line, "something happens at `end cut`");
-  std::vector<bool> found(segment.events.size());
-  for (const Blow& b : segment.blows) {
-    report_of(departure, b, found);
-    blow(departure, b);
-  }
-  for (std::size_t e = 0; e < found.size(); ++e) {
-    const Event& event = segment.events[e];
-    if (event.kind == "impact" && !found[e])
-      refuse_(event.line, "no blow belongs to this impact at " + event.contact + " with w = " + digits(event.w));
-  }
+Ball Checker::approach(int stop) const {
+  return Ball(m_.stop(static_cast<std::size_t>(stop)).sign) * last_->X[u(stop)];
 }
 
-/// A stop that is approached when it is struck has an event that says so. What brings stops to rest stands for impacts
-/// that nobody counts.
-void Checker::report_of(const Departure& departure, const Blow& blow, std::vector<bool>& found) {
-  if (blow.rest) return;
+double Checker::speed_rounding(int stop) const { return rounding * (last_->size[u(stop)] + size_of_others(u(stop))); }
+
+void Checker::blows() {
+  const Segment& segment = last_->segment;
+  if (segment.duration > no_time * period_) instant_ = Instant{};
+  std::vector<bool> found(segment.impacts.size());
+  for (const Blow& each : segment.blows) {
+    for (const int k : each.stops)
+      if (!last_->touches[static_cast<std::size_t>(k)])
+        refuse_(each.line, "stop " + name(k) + " is struck with a gap of " +
+                               digits(-m_.stop(static_cast<std::size_t>(k)).sign * last_->X[p(k)].near()));
+    blow(each, found);
+    if (each.kind != Blow::Kind::impact && &each != &segment.blows.back())
+      refuse_(each.line, "a stop that has come to rest is struck again");
+  }
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (!found[i])
+      refuse_(segment.impacts[i].line, "no blow belongs to this impact at " + name(segment.impacts[i].stop) +
+                                           " with w = " + digits(segment.impacts[i].w));
+}
+
+void Checker::blow(const Blow& blow, std::vector<bool>& found) {
+  if (blow.kind == Blow::Kind::pile_up) return pile_up(blow);
+  if (blow.kind == Blow::Kind::chatter) {
+    last_->rests_from = approach(blow.stops.front());
+    return bring_to_rest(blow);
+  }
+  impact(blow, found);
+}
+
+/// One of its stops approaches; each that does is reported.
+void Checker::report(const Blow& blow, std::vector<bool>& found) {
+  bool certain = false, possible = false;
   for (const int k : blow.stops) {
-    const Stop& stop = head_.stops[static_cast<std::size_t>(k)];
-    const Ball w = Ball(stop.sign) * departure.X[u(stop)], allowed(rounding * departure.size[u(stop)]);
+    const Ball w = approach(k), allowed(speed_rounding(k));
+    instant_.fastest = std::max(instant_.fastest, w.near());
+    certain = certain || w > Ball(0.0);
+    possible = possible || !(w < -allowed);
     bool reported = false;
-    for (std::size_t e = 0; e < found.size() && !reported; ++e) {
-      const Event& event = departure.segment.events[e];
-      if (found[e] || event.kind != "impact" || event.contact != stop.name || !(abs(w - Ball(event.w)) <= allowed))
-        continue;
-      reported = found[e] = true;
+    for (std::size_t i = 0; i < found.size() && !reported; ++i) {
+      const Impact& impact = last_->segment.impacts[i];
+      if (found[i] || impact.stop != k || !(abs(w - Ball(impact.w)) <= allowed)) continue;
+      reported = found[i] = true;
       ++tally_.impacts;
     }
-    if (!reported && w > allowed)
-      refuse_(blow.line, "the impact at " + stop.name + " with w = " + digits(w.near()) + " has no event");
+    if (!reported && w > allowed) refuse_(blow.line, "the impact at " + name(k) + " with w = " + digits(w.near()) + " is not listed");
+  }
+  if (!certain && !possible) refuse_(blow.line, "no stop of this blow approaches");
+  else if (!certain) ++tally_.open.undecided;
+}
+
+void Checker::impact(const Blow& blow, std::vector<bool>& found) {
+  ++instant_.blows;
+  report(blow, found);
+  const Balls before = last_->X;
+  Bodies bodies(m_.model().n);
+  std::vector<int> forest;
+  for (const int k : blow.stops)
+    if (bodies.join(m_.model().numbers[p(k)].pair)) forest.push_back(k);
+  bool lawful = strike(blow, forest);
+  // Others of the sets of independent stops, where those that are hit depend on each other.
+  const std::size_t n = blow.stops.size();
+  for (std::size_t set = 1; !lawful && forest.size() < n && n <= most_dependent && set >> n == 0; ++set) {
+    Bodies joined(m_.model().n);
+    std::vector<int> chosen;
+    for (std::size_t i = 0; i < n; ++i)
+      if ((set >> i & 1U) != 0 && joined.join(m_.model().numbers[p(blow.stops[i])].pair)) chosen.push_back(blow.stops[i]);
+    last_->X = before;
+    lawful = strike(blow, chosen);
+  }
+  if (!lawful) refuse_(blow.line, "an impulse of this blow pulls");
+  m_.model().in_sequence ? in_sequence(blow, before) : law(blow, before);
+}
+
+/// D P = (1 + r) v at these stops. @returns whether no impulse pulls
+bool Checker::strike(const Blow& blow, const std::vector<int>& stops) {
+  const Balls P = impulses(stops, false);
+  if (P.size() != stops.size()) return refuse_(blow.line, "the inertia at the stops is singular"), true;
+  bool pushes = true;
+  for (std::size_t i = 0; i < stops.size(); ++i)
+    pushes = pushes && P[i] >= -(Ball(4.0 * speed_rounding(stops[i])) / m_.inertia()[p(stops[i])][p(stops[i])]);
+  apply(stops, P);
+  return pushes;
+}
+
+/// v+ + r v <= 0 at all stops in contact: those that were not hit need no impulse.
+void Checker::law(const Blow& blow, const Balls& before) {
+  for (std::size_t k = 0; k < last_->touches.size(); ++k) {
+    const int stop = static_cast<int>(k);
+    if (!last_->touches[k]) continue;
+    const Ball v = Ball(m_.stop(k).sign) * before[u(stop)], r(m_.model().stops[k].restitution);
+    if (!(approach(stop) + r * v <= Ball(4.0 * speed_rounding(stop))))
+      refuse_(blow.line, "Moreau's law: stop " + name(stop) + " touches, and gets no impulse that it needs");
   }
 }
 
-void Checker::blow(Departure& departure, const Blow& blow) {
-  const std::size_t n = blow.stops.size();
-  std::vector<const Stop*> stops;
-  for (const int k : blow.stops) stops.push_back(&head_.stops[static_cast<std::size_t>(k)]);
-  std::vector<Balls> D(n, Balls(n));
-  Balls b(n);
-  std::vector<double> speed(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const Stop& stop = *stops[i];
-    const double gap = rounding * departure.size[p(stop)];
-    if (!(abs(departure.X[p(stop)]) <= Ball(gap)))
-      refuse_(blow.line,
-              "stop " + stop.name + " is struck with a gap of " + digits(-stop.sign * departure.X[p(stop)].near()));
-    b[i] = (blow.rest ? Ball(1.0) : Ball(1.0) + Ball(stop.restitution)) * Ball(stop.sign) * departure.X[u(stop)];
-    for (std::size_t j = 0; j < n; ++j)
-      D[i][j] = Ball(stop.sign * stops[j]->sign * head_.inertia[p(stop)][p(*stops[j])]);
-    if (!(D[i][i] > Ball(0.0))) return refuse_(blow.line, "stop " + stop.name + " has no inertia");
-    speed[i] = 2.0 * departure.size[u(stop)] / D[i][i].near();
+/// Newton's law at the first of the stops in contact that approaches.
+void Checker::in_sequence(const Blow& blow, const Balls& before) {
+  if (blow.stops.size() != 1) return refuse_(blow.line, "by the law of the model one stop is struck after the other");
+  for (int k = 0; k < blow.stops.front(); ++k) {
+    const Ball v = Ball(m_.stop(static_cast<std::size_t>(k)).sign) * before[u(k)];
+    if (last_->touches[static_cast<std::size_t>(k)] && v > Ball(speed_rounding(k)))
+      refuse_(blow.line, "stop " + name(k) + " approaches too, and comes first");
   }
-  departure.rests_from = Ball(stops.front()->sign) * departure.X[u(*stops.front())];
-  const Balls impulse = solve(D, b);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(head_.d); ++i) {
-    const std::size_t row = static_cast<std::size_t>(head_.d) + i;
-    for (std::size_t j = 0; j < n; ++j) {
-      const double inertia = head_.inertia[i][p(*stops[j])];
-      departure.X[row] = departure.X[row] - impulse[j] * Ball(stops[j]->sign * inertia);
-      departure.size[row] += std::abs(inertia) * (std::abs(impulse[j].near()) + speed[j]);
+}
+
+/// D P = (1 + r) v, or D P = v to bring the stops to rest; empty where D is not certainly regular.
+Balls Checker::impulses(const std::vector<int>& stops, bool to_rest) const {
+  Matrix D, rates;
+  for (const int i : stops) {
+    const Place& a = m_.stop(static_cast<std::size_t>(i));
+    D.emplace_back();
+    for (const int j : stops) {
+      const Place& b = m_.stop(static_cast<std::size_t>(j));
+      D.back().push_back(Ball(a.sign * b.sign) * m_.inertia()[a.own][b.own]);
+    }
+    const double r = to_rest ? 0.0 : m_.model().stops[static_cast<std::size_t>(i)].restitution;
+    rates.push_back({(Ball(1.0) + Ball(r)) * approach(i)});
+  }
+  const auto solution = solve(std::move(D), std::move(rates));
+  Balls P;
+  for (std::size_t i = 0; solution && i < stops.size(); ++i) P.push_back((*solution)[i].front());
+  return P;
+}
+
+/// What an impulse adds up from: its own size and, once for each stop, that of the roundings of the velocities that it
+/// is made of; so that what many impulses at one instant are allowed does not grow with each. Balls would grow too:
+/// their midpoints are gone on with, by a jump that is counted.
+void Checker::apply(const std::vector<int>& stops, const Balls& P) {
+  const std::vector<double> before = last_->size;
+  for (std::size_t i = 0; i < stops.size(); ++i) {
+    const Place& place = m_.stop(static_cast<std::size_t>(stops[i]));
+    const bool again = last_->struck[static_cast<std::size_t>(stops[i])];
+    const double speed = again ? 0.0 : 2.0 * before[m_.d() + place.own] / m_.inertia()[place.own][place.own].near();
+    last_->struck[static_cast<std::size_t>(stops[i])] = true;
+    for (std::size_t j = 0; j < m_.d(); ++j) {
+      const Ball& inertia = m_.inertia()[j][place.own];
+      last_->X[m_.d() + j] = (last_->X[m_.d() + j] - P[i] * Ball(place.sign) * inertia).middle(tally_.velocity.sum);
+      last_->size[m_.d() + j] += std::abs(inertia.near()) * (std::abs(P[i].near()) + speed);
     }
   }
+}
+
+void Checker::bring_to_rest(const Blow& blow) {
+  Bodies bodies(m_.model().n);
+  std::vector<int> forest;
+  for (const int k : blow.stops)
+    if (bodies.join(m_.model().numbers[p(k)].pair)) forest.push_back(k);
+  const Balls P = impulses(forest, true);
+  if (P.size() != forest.size()) return refuse_(blow.line, "the inertia at the stops is singular");
+  apply(forest, P);
+}
+
+/// Only of stops that have become slow by the impacts of this instant, one of which would be struck again. That they
+/// come to rest is an assumption.
+void Checker::pile_up(const Blow& blow) {
+  ++tally_.open.pile_ups;
+  bool approaches = false;
+  for (const int k : blow.stops) {
+    const Ball v = approach(k);
+    approaches = approaches || v > Ball(-speed_rounding(k));
+    if (instant_.blows < many_blows && !(abs(v) <= Ball(slow * instant_.fastest)))
+      refuse_(blow.line, "stop " + name(k) + " with w = " + digits(v.near()) + " is not slow beside the fastest impact of the instant, " +
+                             digits(instant_.fastest));
+  }
+  if (!approaches) refuse_(blow.line, "no stop of this pile-up approaches");
+  bring_to_rest(blow);
 }
 
 }  // namespace verify

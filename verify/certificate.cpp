@@ -1,4 +1,4 @@
-/// Reads a certificate segment by segment.
+/// Reads a certificate: the model, then segment by segment.
 #include "certificate.hpp"
 
 #include <algorithm>
@@ -11,10 +11,13 @@ namespace verify {
 namespace {
 
 constexpr long most = 1'000'000'000'000'000;  ///< of a count; exact as a double, and no sum overflows
-constexpr long most_numbers = 1000;           ///< of a state
-constexpr std::array kinds = {"gap", "slip", "stick", "press", "engage", "leave", "let-go", "push"};
+constexpr long most_coordinates = 400, most_harmonic = 1'000'000, most_corners = 1000;
 
 }  // namespace
+
+bool Model::forced() const {
+  return std::any_of(forces.begin(), forces.end(), [](const Force& force) { return force.harmonic > 0; });
+}
 
 Reader::Reader(std::istream& in) : in_(in) {
   advance();
@@ -61,6 +64,12 @@ double Reader::real() {
   return x;
 }
 
+double Reader::real_from(double least) {
+  const double x = real();
+  if (!(x >= least)) fail("`" + words_[next_word_ - 1] + "` is too small");
+  return x;
+}
+
 long Reader::count(long least, long greatest) {
   const std::string text = word();
   char* end = nullptr;
@@ -71,13 +80,24 @@ long Reader::count(long least, long greatest) {
   return n;
 }
 
-Entries Reader::entries() {
-  Entries row;
-  for (long n = count(0, head_.m); n > 0; --n) {
-    const int index = static_cast<int>(count(row.empty() ? 0 : row.back().first + 1, head_.m - 1));
-    row.emplace_back(index, real());
-  }
-  return row;
+std::vector<double> Reader::reals(int n) {
+  std::vector<double> numbers;
+  for (int i = 0; i < n; ++i) numbers.push_back(real());
+  return numbers;
+}
+
+Pair Reader::pair() {
+  Pair pair;
+  pair.a = static_cast<int>(count(ground, model_.n - 1));
+  pair.b = static_cast<int>(count(ground, model_.n - 1));
+  if (pair.a == pair.b) fail("a pair of one body");
+  return pair;
+}
+
+Clock Reader::clock() {
+  Clock clock{count(-most, most), real()};
+  if (!(clock.fraction >= 0.0 && clock.fraction < 1.0)) fail("FRACTION is not in [0, 1)");
+  return clock;
 }
 
 void Reader::finish_line() {
@@ -86,147 +106,218 @@ void Reader::finish_line() {
 
 void Reader::read_head() {
   expect("slapstick-certificate");
-  count(1, 1);
+  count(2, 2);
   finish_line(), advance(), expect("model");
-  head_.model = rest_of_line();
-  advance(), expect("sizes");
-  head_.m = static_cast<int>(count(3, most_numbers));
-  head_.d = static_cast<int>(count(1, (head_.m - 1) / 2));
-  if ((head_.m - 2 * head_.d) % 2 != 1) fail("a state has 2 d + 2 harmonics + 1 numbers");
-  finish_line(), advance(), expect("period");
-  head_.period = real();
-  if (!(head_.period > 0.0)) fail("the period is not positive");
-  for (finish_line(), advance(); at("stop"); advance()) {
-    const long k = static_cast<long>(head_.stops.size());
-    count(k, k);
-    Stop stop{static_cast<int>(count(0, head_.d - 1)), real(), real(), {}};
-    stop.name = rest_of_line();
-    if (std::abs(stop.sign) != 1.0) fail("the sign of a stop is 1 or -1");
-    if (!(stop.restitution >= 0.0 && stop.restitution <= 1.0)) fail("the restitution is not in [0, 1]");
-    head_.stops.push_back(stop);
-  }
-  read_inertia();
+  model_.name = rest_of_line();
+  advance(), expect("size");
+  model_.n = static_cast<int>(count(1, most_coordinates));
+  finish_line(), advance(), expect("omega");
+  model_.omega = real_from(0.0);
+  finish_line(), advance(), expect("law");
+  const std::string law = word();
+  if (law != "moreau" && law != "sequence") fail("there is no law `" + law.substr(0, 40) + "`");
+  model_.in_sequence = law == "sequence";
+  finish_line(), advance();
+  read_masses();
+  read_table("mass", model_.mass);
+  read_table("damping", model_.damping);
+  read_table("stiffness", model_.stiffness);
+  read_elements("spring", model_.springs);
+  read_elements("damper", model_.dampers);
+  read_forces();
+  if (model_.forced() && !(model_.omega > 0.0)) fail("a harmonic force needs omega > 0");
+  read_stops();
+  read_frictions();
+  read_compliant();
+  read_polylines();
+  read_numbers();
+  read_start();
 }
 
-void Reader::read_inertia() {
-  auto& V = head_.inertia;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(head_.d); ++i) {
-    expect("inertia"), count(static_cast<long>(i), static_cast<long>(i));
-    V.emplace_back();
-    for (int j = 0; j < head_.d; ++j) V.back().push_back(real());
-    for (std::size_t j = 0; j < i; ++j)
-      if (!(std::abs(V[i][j] - V[j][i]) <= 0x1p-40 * (V[i][i] + V[j][j]))) fail("the inertia is not symmetric");
+void Reader::read_masses() {
+  for (int i = 0; i < model_.n; ++i) {
+    expect("coordinate");
+    count(i, i);
+    model_.masses.push_back(real_from(0.0));
+    rest_of_line();
+    advance();
+  }
+}
+
+void Reader::read_table(const char* word, Table& table) {
+  for (int i = 0; (i == 0 && at(word)) || (i > 0 && i < model_.n); ++i) {
+    expect(word), count(i, i);
+    table.push_back(reals(model_.n));
+    for (std::size_t j = 0; j < table.size(); ++j)
+      if (table.back()[j] != table[j][table.size() - 1]) fail("the matrix is not symmetric");
     finish_line(), advance();
   }
 }
 
-void Reader::read_mode() {
-  const long id = count(0, most);
-  if (modes_.contains(id)) fail("mode " + std::to_string(id) + " is there already");
-  rest_of_line();
-  Mode mode{line_, std::vector<Entries>(static_cast<std::size_t>(head_.m)), {}};
-  long row = -1;
-  for (advance(); at("row"); finish_line(), advance()) {
-    row = count(row + 1, head_.m - 1);
-    mode.rows[static_cast<std::size_t>(row)] = entries();
+void Reader::read_elements(const char* word, std::vector<Element>& elements) {
+  for (; at(word); finish_line(), advance()) {
+    const Pair of = pair();
+    elements.push_back({of, real()});
   }
-  for (; at("guard"); finish_line(), advance()) {
-    const long g = static_cast<long>(mode.guards.size());
-    count(g, g);
-    const std::string kind = word();
-    if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) fail("there is no guard `" + kind + "`");
-    mode.guards.push_back({kind, entries()});
+}
+
+void Reader::read_forces() {
+  for (; at("force"); finish_line(), advance()) {
+    Force force{static_cast<int>(count(0, model_.n - 1)), static_cast<int>(count(0, most_harmonic)), real(), real()};
+    model_.forces.push_back(force);
   }
-  modes_.emplace(id, std::move(mode));
+}
+
+void Reader::read_stops() {
+  for (; at("stop"); advance()) {
+    const Pair of = pair();
+    Stop stop{of, real(), real_from(0.0), rest_of_line()};
+    if (!(stop.restitution <= 1.0)) fail("the restitution is not in [0, 1]");
+    model_.stops.push_back(stop);
+  }
+}
+
+void Reader::read_frictions() {
+  for (; at("friction"); advance()) {
+    const Pair of = pair();
+    Friction friction{of, real(), real_from(0.0), real_from(0.0), rest_of_line()};
+    if (!(friction.kinetic <= friction.static_limit)) fail("kinetic friction is greater than static friction");
+    model_.frictions.push_back(friction);
+  }
+}
+
+void Reader::read_compliant() {
+  for (; at("compliant"); advance()) {
+    const Pair of = pair();
+    Compliant stop{of, real(), real_from(0.0), real_from(0.0), count(0, 1) == 1, rest_of_line()};
+    if (!(stop.stiffness > 0.0)) fail("the stiffness is not positive");
+    model_.compliant.push_back(stop);
+  }
+}
+
+void Reader::read_polylines() {
+  for (; at("polyline"); advance()) {
+    Polyline line{pair(), false, 0.0, 0.0, {}, {}};
+    const std::string over = word();
+    if (over != "displacement" && over != "velocity") fail("there is no polyline over `" + over.substr(0, 40) + "`");
+    line.over_velocity = over == "velocity";
+    line.slope_below = real();
+    line.slope_above = real();
+    for (long n = count(1, most_corners); n > 0; --n) {
+      const double place = real();
+      if (!line.corners.empty() && !(place > line.corners.back().at)) fail("corners do not ascend");
+      line.corners.push_back({place, real()});
+    }
+    line.name = rest_of_line();
+    model_.polylines.push_back(line);
+  }
+}
+
+void Reader::read_numbers() {
+  for (; at("number"); finish_line(), advance()) {
+    const Pair of = pair();
+    model_.numbers.push_back({of, real(), real()});
+    if (model_.d() > 2 * most_coordinates) fail("there are too many numbers");
+  }
+  if (model_.d() < model_.n) expect("number");
+}
+
+void Reader::read_start() {
+  expect("start");
+  start_.line = line_;
+  start_.at = clock();
+  for (int i = 0; i < model_.n; ++i) {
+    start_.q.push_back(real());
+    start_.v.push_back(real());
+  }
+  finish_line(), advance();
+}
+
+ContactStates Reader::contact_states() {
+  ContactStates states;
+  const auto choose = [&](std::initializer_list<const char*> words) {
+    const std::string text = word();
+    int k = 0;
+    for (const char* each : words) {
+      if (text == each) return k;
+      ++k;
+    }
+    fail("`" + text.substr(0, 40) + "` is no state of this contact");
+  };
+  for (std::size_t i = 0; i < model_.stops.size(); ++i) states.closed.push_back(choose({"open", "closed"}) == 1);
+  for (std::size_t i = 0; i < model_.frictions.size(); ++i)
+    states.slip.push_back(choose({"slip-", "stick", "slip+"}) - 1);
+  for (const Compliant& stop : model_.compliant) {
+    states.compliant.push_back(ContactStates::Spring(choose({"off", "on", "detached"})));
+    if (stop.pulls && states.compliant.back() == ContactStates::Spring::detached)
+      fail("compliant stop " + stop.name + " pulls, and is never detached");
+  }
+  for (const Polyline& line : model_.polylines)
+    states.pieces.push_back(static_cast<int>(count(0, static_cast<long>(line.corners.size()))));
+  return states;
 }
 
 bool Reader::next(Segment& segment) {
-  while (at("mode")) read_mode();
-  if (at("done")) {
-    count(segments_, segments_);
-    finish_line();
-    if (in_.peek() != std::istream::traits_type::eof()) fail("something follows `done`");
-    return false;
-  }
+  if (at("done")) return read_done(), false;
   expect("segment");
   segment = Segment{};
   segment.line = line_;
-  segment.number = count(0, most);
-  segment.mode = count(0, most);
-  if (!modes_.contains(segment.mode)) fail("mode " + std::to_string(segment.mode) + " is not there");
-  segment.period = count(-most, most);
-  segment.fraction = real();
-  segment.duration = real();
-  if (!(segment.fraction >= 0.0 && segment.fraction < 1.0)) fail("FRACTION is not in [0, 1)");
-  if (!(segment.duration >= 0.0)) fail("DURATION is negative");
+  segment.number = count(segments_, segments_);
+  segment.start = clock();
+  segment.duration = real_from(0.0);
+  segment.states = contact_states();
   finish_line(), advance(), expect("state");
-  for (int i = 0; i < head_.m; ++i) segment.state.push_back(real());
+  segment.p = reals(model_.d());
+  segment.u = reals(model_.d());
   finish_line(), advance();
-  read_claims(segment);
-  if (at("tail")) read_tail(segment);
   read_end(segment);
   ++segments_;
   return true;
 }
 
-void Reader::read_claims(Segment& segment) {
-  const int guards = static_cast<int>(modes_.at(segment.mode).guards.size());
-  for (; at("prove") || at("rest");) {
-    const bool rest = at("rest");
-    Claim claim{line_, static_cast<int>(count(0, guards - 1)), rest};
-    if (!rest) claim.order = static_cast<int>(count(0, 64));
-    if (!rest) claim.limit = real();
-    for (finish_line(), advance(); !rest && at("step"); finish_line(), advance()) {
-      Step step{line_, real(), real(), real(), real(), real()};
-      claim.steps.push_back(step);
-    }
-    segment.claims.push_back(std::move(claim));
-  }
-}
-
-void Reader::read_tail(Segment& segment) {
-  Tail& tail = segment.tail;
-  tail.line = line_;
-  for (long* id : {&tail.rise, &tail.back, &tail.hold}) {
-    *id = count(0, most);
-    if (!modes_.contains(*id)) fail("mode " + std::to_string(*id) + " is not there");
-  }
-  for (double* x : {&tail.duration, &tail.rise_least, &tail.rise_most, &tail.fall_least, &tail.fall_most}) *x = real();
-  finish_line(), advance();
-}
-
 void Reader::read_end(Segment& segment) {
   expect("end");
-  End& end = segment.end;
-  end.line = line_;
+  segment.end_line = line_;
   const std::string kind = word();
-  if (kind == "zero" || kind == "touch") {
-    end.kind = kind == "zero" ? EndKind::zero : EndKind::touch;
-    end.index = static_cast<int>(count(0, static_cast<long>(modes_.at(segment.mode).guards.size()) - 1));
+  if (kind == "event") {
+    segment.end = EndKind::event;
   } else if (kind == "chatter") {
-    end.kind = EndKind::chatter;
-    end.index = static_cast<int>(count(0, static_cast<long>(head_.stops.size()) - 1));
+    segment.end = EndKind::chatter;
+    segment.chatter = static_cast<int>(count(0, static_cast<long>(model_.stops.size()) - 1));
   } else if (kind != "cut") {
-    fail("there is no end `" + kind + "`");
+    fail("there is no end `" + kind.substr(0, 40) + "`");
   }
-  if ((segment.tail.line != 0) != (end.kind == EndKind::chatter)) fail("`tail` and `end chatter` belong together");
-  if (kind != "cut") end.size = real();
-  if (!(end.size >= 0.0)) fail("a bound is negative");
-  for (finish_line(), advance(); at("blow") || at("event"); finish_line(), advance()) {
-    if (at("event")) {
-      Event event{line_, word(), word(), 0.0};
-      while (next_word_ + 1 < words_.size()) event.contact += " " + word();
-      event.w = real();
-      segment.events.push_back(event);
+  finish_line(), advance();
+  read_what_happens(segment);
+}
+
+void Reader::read_what_happens(Segment& segment) {
+  using Kind = Blow::Kind;
+  const long stops = static_cast<long>(model_.stops.size());
+  for (; at("blow") || at("pile-up") || at("chatter") || at("impact"); finish_line(), advance()) {
+    if (at("impact")) {
+      const int stop = static_cast<int>(count(0, stops - 1));
+      segment.impacts.push_back({line_, stop, real()});
       continue;
     }
-    Blow blow{line_, count(0, 1) == 1, {}};
+    Blow blow{line_, at("blow") ? Kind::impact : at("pile-up") ? Kind::pile_up : Kind::chatter, {}};
     do {
       const long least = blow.stops.empty() ? 0 : blow.stops.back() + 1;
-      blow.stops.push_back(static_cast<int>(count(least, static_cast<long>(head_.stops.size()) - 1)));
+      blow.stops.push_back(static_cast<int>(count(least, stops - 1)));
     } while (next_word_ < words_.size());
+    if (blow.kind == Kind::chatter && blow.stops.size() != 1) fail("one stop chatters, not several");
     segment.blows.push_back(blow);
   }
+}
+
+void Reader::read_done() {
+  done_.line = line_;
+  count(segments_, segments_);
+  done_.at = clock();
+  done_.p = reals(model_.d());
+  done_.u = reals(model_.d());
+  finish_line();
+  if (in_.peek() != std::istream::traits_type::eof()) fail("something follows `done`");
 }
 
 }  // namespace verify

@@ -1,11 +1,9 @@
 #pragma once
-/// A certificate (docs/certificate.md) as it is read, segment by segment. Only the text is judged here: words, numbers,
-/// indices, order of records.
+/// A certificate (docs/certificate.md) as it is read: the model, then segment by segment. Only the text is judged here:
+/// words, numbers, indices, order of records.
 #include <istream>
-#include <map>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace verify {
@@ -15,94 +13,145 @@ struct Unreadable : std::runtime_error {
   Unreadable(long line, const std::string& why) : std::runtime_error("line " + std::to_string(line) + ": " + why) {}
 };
 
-using Entries = std::vector<std::pair<int, double>>;  ///< (index, value), ascending
+inline constexpr int ground = -1;
+
+/// A pair of coordinates; either may be the ground. Its displacement is x_a - x_b.
+struct Pair {
+  int a = 0, b = ground;
+};
+
+struct Element {
+  Pair pair;
+  double coefficient;  ///< stiffness of a spring, coefficient of a damper
+};
+
+struct Force {
+  int coordinate, harmonic;
+  double amplitude, phase;
+};
 
 struct Stop {
-  int own;
-  double sign, restitution;
+  Pair pair;
+  double clearance, restitution;
   std::string name;
 };
 
-struct Guard {
-  std::string kind;
-  Entries row;
+struct Friction {
+  Pair pair;
+  double belt_speed, static_limit, kinetic;
+  std::string name;
 };
 
-struct Mode {
-  long line;
-  std::vector<Entries> rows;
-  std::vector<Guard> guards;
+struct Compliant {
+  Pair pair;
+  double clearance, stiffness, damping;
+  bool pulls;
+  std::string name;
 };
 
-struct Head {
-  std::string model;
-  int m = 0, d = 0;
-  double period = 0.0;
+struct Corner {
+  double at, force;
+};
+
+struct Polyline {
+  Pair pair;
+  bool over_velocity;
+  double slope_below, slope_above;
+  std::vector<Corner> corners;
+  std::string name;
+};
+
+/// A contact coordinate: p = x_a - x_b - shift, u = v_a - v_b - drift.
+struct Number {
+  Pair pair;
+  double shift, drift;
+};
+
+using Table = std::vector<std::vector<double>>;
+
+struct Model {
+  std::string name;
+  int n = 0;
+  double omega = 0.0;
+  bool in_sequence = false;  ///< Newton's law at one stop after the other, instead of Moreau's at all at once
+  std::vector<double> masses;
+  Table mass, damping, stiffness;  ///< added to what the parts give; empty for zero
+  std::vector<Element> springs, dampers;
+  std::vector<Force> forces;
   std::vector<Stop> stops;
-  std::vector<std::vector<double>> inertia;
+  std::vector<Friction> frictions;
+  std::vector<Compliant> compliant;
+  std::vector<Polyline> polylines;
+  std::vector<Number> numbers;
+
+  [[nodiscard]] int d() const { return static_cast<int>(numbers.size()); }
+  [[nodiscard]] bool forced() const;
 };
 
-struct Step {
-  long line;
-  double s, h, h1, M, d;
+struct Clock {
+  long period = 0;
+  double fraction = 0.0;
 };
 
-/// `prove` with its steps, or `rest`.
-struct Claim {
-  long line;
-  int guard;
-  bool rest;
-  int order = 0;
-  double limit = 0.0;
-  std::vector<Step> steps = {};
+/// The state of every contact, in the order stops, friction contacts, compliant stops, polylines.
+struct ContactStates {
+  std::vector<bool> closed;
+  std::vector<int> slip;                  ///< -1, 0 (stick), 1
+  enum class Spring { off, on, detached };
+  std::vector<Spring> compliant;
+  std::vector<int> pieces;
+  auto operator<=>(const ContactStates&) const = default;
 };
 
-enum class EndKind { cut, zero, touch, chatter };
+enum class EndKind { cut, event, chatter };
 
-struct End {
-  long line = 0;
-  EndKind kind = EndKind::cut;
-  int index = -1;     ///< guard, or stop of a chatter
-  double size = 0.0;  ///< DELTA, NOISE or ERROR
-};
-
-/// How the limit of a chatter is proved: modes, a bound of the time, of the accelerations towards the stop on the way
-/// away from it and back.
-struct Tail {
-  long line = 0;  ///< 0: there is none
-  long rise = 0, back = 0, hold = 0;
-  double duration = 0.0, rise_least = 0.0, rise_most = 0.0, fall_least = 0.0, fall_most = 0.0;
-};
-
+/// Stops that get an impulse together.
 struct Blow {
-  long line;
-  bool rest;
+  enum class Kind { impact, pile_up, chatter };
+  long line = 0;
+  Kind kind = Kind::impact;
   std::vector<int> stops;
 };
 
-struct Event {
+struct Impact {
   long line;
-  std::string kind, contact;
+  int stop;
   double w;
 };
 
 struct Segment {
-  long line = 0, number = 0, mode = 0, period = 0;
-  double fraction = 0.0, duration = 0.0;
-  std::vector<double> state;
-  std::vector<Claim> claims;
-  Tail tail;
-  End end;
+  long line = 0, number = 0;
+  Clock start;
+  double duration = 0.0;
+  ContactStates states;
+  std::vector<double> p, u;
+  EndKind end = EndKind::cut;
+  long end_line = 0;
+  int chatter = -1;  ///< the stop
   std::vector<Blow> blows;
-  std::vector<Event> events;
+  std::vector<Impact> impacts;
+};
+
+/// The end of the run.
+struct Done {
+  long line = 0;
+  Clock at;
+  std::vector<double> p, u;
+};
+
+struct Start {
+  long line = 0;
+  Clock at;
+  std::vector<double> q, v;
 };
 
 class Reader {
  public:
-  /// Reads the head. @throws Unreadable
+  /// Reads the model and the start. @throws Unreadable
   explicit Reader(std::istream& in);
-  [[nodiscard]] const Head& head() const { return head_; }
-  [[nodiscard]] const std::map<long, Mode>& modes() const { return modes_; }
+  [[nodiscard]] const Model& model() const { return model_; }
+  [[nodiscard]] const Start& start() const { return start_; }
+  [[nodiscard]] const Done& done() const { return done_; }
   /// The next segment with all that happens at its end; false at `done`. @throws Unreadable
   bool next(Segment& segment);
 
@@ -114,20 +163,33 @@ class Reader {
   std::string word();
   std::string rest_of_line();
   double real();
+  double real_from(double least);
   long count(long least, long most);
-  Entries entries();
+  std::vector<double> reals(int n);
+  Pair pair();
+  Clock clock();
   void finish_line();
 
   void read_head();
-  void read_inertia();
-  void read_mode();
-  void read_claims(Segment& segment);
-  void read_tail(Segment& segment);
+  void read_masses();
+  void read_table(const char* word, Table& table);
+  void read_elements(const char* word, std::vector<Element>& elements);
+  void read_forces();
+  void read_stops();
+  void read_frictions();
+  void read_compliant();
+  void read_polylines();
+  void read_numbers();
+  void read_start();
+  ContactStates contact_states();
   void read_end(Segment& segment);
+  void read_what_happens(Segment& segment);
+  void read_done();
 
   std::istream& in_;
-  Head head_;
-  std::map<long, Mode> modes_;
+  Model model_;
+  Start start_;
+  Done done_;
   std::vector<std::string> words_;
   std::size_t next_word_ = 0;
   long line_ = 0, segments_ = 0;

@@ -4,146 +4,171 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tail.hpp"
+#include "bodies.hpp"
 
 namespace verify {
 namespace {
 
-constexpr double rounding = 0x1p-40;   ///< of a state, in units of the sizes of what it was added up from
-constexpr double dependent = 0x1p-40;  ///< what is left of its inertia when others are held, in units of it
-constexpr double clock_rounding = 0x1p-48, flight_rounding = 0x1p-50, phase_rounding = 0x1p-46;
-
-/// Not below the exact difference that x is the rounding of; exact where nothing was lost.
-double rounded_up(double x) { return x == 0.0 ? 0.0 : std::nextafter(x, INFINITY); }
-
-/// Is displacement k a combination of the others? Then holding all of them holds it: nothing is left of its inertia.
-bool is_combination(std::vector<std::vector<double>> V, std::size_t k) {
-  const std::vector<std::vector<double>> whole = V;
-  std::vector<bool> held(V.size());
-  for (;;) {
-    std::size_t pivot = k;
-    double best = dependent;
-    for (std::size_t i = 0; i < V.size(); ++i)
-      if (i != k && !held[i] && V[i][i] > best * whole[i][i]) best = V[pivot = i][i] / whole[i][i];
-    if (pivot == k) return V[k][k] <= dependent * whole[k][k];
-    held[pivot] = true;
-    for (std::size_t i = 0; i < V.size(); ++i) {
-      if (held[i]) continue;
-      const double factor = V[i][pivot] / V[pivot][pivot];
-      for (std::size_t j = 0; j < V.size(); ++j) V[i][j] -= factor * V[pivot][j];
-    }
-  }
-}
+constexpr double clock_rounding = 0x1p-48, flight_rounding = 0x1p-50;
+constexpr double start_of_run = 0x1p-48;  ///< of W q - shift, in units of its terms
+constexpr double most_in_sum = 0x1p-24;   ///< all jumps of a run together, in units of the greatest number
 
 }  // namespace
 
-Checker::Checker(const Head& head, const std::map<long, Mode>& modes, const Refuse& refuse)
-    : head_(head), modes_(modes), refuse_([this, refuse](long line, const std::string& what) {
+Checker::Checker(const Model& model, const Start& start, const Refuse& refuse)
+    : m_(model, start.line),
+      refuse_([this, refuse](long line, const std::string& what) {
         refuse(line, "segment " + std::to_string(tally_.segments) + ", " + what);
-      }) {
-  for (std::size_t k = 0; k < head.inertia.size(); ++k) follows_.push_back(is_combination(head.inertia, k));
+      }),
+      start_(start),
+      period_(m_.period().near()) {
+  for (std::size_t i = 0; i < m_.d(); ++i) {
+    Bodies bodies(model.n);
+    for (std::size_t j = 0; j < m_.d(); ++j)
+      if (j != i) bodies.join(model.numbers[j].pair);
+    follows_.push_back(bodies.joined(model.numbers[i].pair));
+  }
+}
+
+const FlownMode& Checker::flown(const ContactStates& states) {
+  std::unique_ptr<FlownMode>& mode = flown_[states];
+  if (!mode) mode = std::make_unique<FlownMode>(m_, m_.mode(states));
+  return *mode;
 }
 
 void Checker::segment(const Segment& segment) {
-  start(segment);
-  Flight flight(flow(segment.mode), modes_.at(segment.mode), segment, head_.period, tally_, refuse_);
+  begin(segment);
+  const FlownMode& mode = flown(segment.states);
+  Flight flight(mode, segment, m_.extended(segment.p, segment.u, segment.start.fraction), period_, tally_.flight,
+                refuse_);
   flight.fly();
+  ends(segment, flight, mode);
+  for (std::size_t i = 0; i < 2 * m_.d(); ++i) {
+    Jumps& jumps = i < m_.d() ? tally_.displacement : tally_.velocity;
+    jumps.scale = std::max(jumps.scale, flight.greatest[i]);
+  }
   auto departure = std::make_unique<Departure>(Departure{segment, std::move(flight.X), std::move(flight.size)});
-  blur(*departure, flow(segment.mode));
-  if (segment.end.kind == EndKind::chatter) chatter(segment, departure->size);
+  blur(*departure, mode.flow);
+  if (segment.end == EndKind::chatter) chatter(segment, departure->size);
   last_ = std::move(departure);
-  blows(*last_);
   ++tally_.segments;
 }
 
-const Flow& Checker::flow(long mode) {
-  std::unique_ptr<Flow>& flow = flows_[mode];
-  if (!flow) {
-    mode_is_mechanical(modes_.at(mode));
-    flow = std::make_unique<Flow>(modes_.at(mode), head_);
+void Checker::begin(const Segment& segment) {
+  if (last_ == nullptr) {
+    const Balls X = m_.contact_numbers(start_.q, start_.v);
+    const double scale = [&] {
+      double most = 0.0;
+      for (const Number& number : m_.model().numbers) most = std::max({most, std::abs(number.shift), std::abs(number.drift)});
+      for (const double x : start_.q) most = std::max(most, std::abs(x));
+      for (const double x : start_.v) most = std::max(most, std::abs(x));
+      return most;
+    }();
+    for (std::size_t i = 0; i < 2 * m_.d(); ++i) {
+      const double stated = i < m_.d() ? segment.p[i] : segment.u[i - m_.d()];
+      jump(segment.line, i, X[i] - Ball(stated), start_of_run * scale);
+    }
+    if (segment.start.period != start_.at.period || segment.start.fraction != start_.at.fraction)
+      refuse_(segment.line, "the run does not begin at its start");
+  } else {
+    cut_ = last_->segment.end == EndKind::cut;
+    if (!last_->segment.blows.empty() && last_->segment.blows.back().kind == Blow::Kind::chatter &&
+        segment.chatter != last_->segment.blows.back().stops.front())
+      refuse_(last_->segment.blows.back().line, "a stop is brought to rest by a chatter that nothing proves");
+    if (cut_ && last_->segment.states != segment.states) refuse_(segment.line, "the mode has changed at `end cut`");
+    arrive(segment.line, segment.start, segment.p, segment.u);
   }
-  return *flow;
+  dependence(segment.line, m_.extended(segment.p, segment.u, 0.0), last_ ? last_->size : std::vector<double>());
+  rest(segment);
+  if (segment.duration > 0.0 && !cut_) choice(segment);
 }
 
-/// p' = u (+ the speed of a belt, but not under a stop), phases that turn j times per period, a constant that stays.
-void Checker::mode_is_mechanical(const Mode& mode) {
-  const auto fault = [&](std::size_t row, const char* what) {
-    refuse_(mode.line, "row " + std::to_string(row) + " of its mode: " + what);
-  };
-  const auto d = static_cast<std::size_t>(head_.d), one = static_cast<std::size_t>(head_.m - 1);
-  for (std::size_t i = 0; i < d; ++i) {
-    Entries row = mode.rows[i];
-    const bool under_stop =
-        std::any_of(head_.stops.begin(), head_.stops.end(), [&](const Stop& s) { return p(s) == i; });
-    if (!under_stop && row.size() == 2 && row[1].first == head_.m - 1) row.pop_back();
-    if (row != Entries{{static_cast<int>(d + i), 1.0}}) fault(i, "a displacement's rate is not its velocity");
-  }
-  for (std::size_t i = 2 * d; i < one; i += 2) {
-    const Entries &c = mode.rows[i], &s = mode.rows[i + 1];
-    const bool turns = c.size() == 1 && s.size() == 1 && c[0].first == static_cast<int>(i + 1) &&
-                       s[0].first == static_cast<int>(i) && c[0].second == -s[0].second;
-    const double j = turns ? harmonic(mode, i).near() : 0.0;
-    if (!(j > 0.5 && abs(harmonic(mode, i) - Ball(std::nearbyint(j))) <= Ball(0x1p-45 * j)))
-      fault(i, "phases do not turn a whole number of times in a period");
-  }
-  if (!mode.rows[one].empty()) fault(one, "the constant does not stay");
+void Checker::done(const Done& done) {
+  if (last_ == nullptr) return refuse_(done.line, "there is no segment");
+  arrive(done.line, done.at, done.p, done.u);
+  if (!last_->segment.blows.empty() && last_->segment.blows.back().kind == Blow::Kind::chatter)
+    refuse_(done.line, "the run ends before the limit of a chatter");
+  for (const Jumps* jumps : {&tally_.displacement, &tally_.velocity})
+    if (!(jumps->relative(jumps->sum) <= most_in_sum))
+      refuse_(done.line, "all jumps together are " + digits(jumps->relative(jumps->sum)) +
+                             " of the greatest number, more than 2^-24");
 }
 
-/// How often the phases at i, i + 1 turn in a period.
-Ball Checker::harmonic(const Mode& mode, std::size_t i) const {
-  return mode.rows[i + 1].empty() ? Ball(0.0)
-                                  : Ball(mode.rows[i + 1][0].second) * Ball(head_.period) / times(Ball::pi(), 2);
+/// What happens at the end of the segment before leads to this state.
+void Checker::arrive(long line, const Clock& at, const std::vector<double>& p, const std::vector<double>& u) {
+  clock(line, at);
+  land(p);
+  blows();
+  continuity(line, p, u);
 }
 
-void Checker::start(const Segment& segment) {
-  const Mode& mode = modes_.at(segment.mode);
-  if (segment.number != tally_.segments) refuse_(segment.line, "it is called number " + std::to_string(segment.number));
-  phases(segment, mode);
-  stops(segment, mode);
-  if (last_ == nullptr) return;
-  clock(segment);
-  continuity(segment);
-  if (last_->segment.end.kind == EndKind::cut && last_->segment.mode != segment.mode)
-    refuse_(segment.line, "the mode has changed at `end cut`");
-}
-
-void Checker::phases(const Segment& segment, const Mode& mode) {
-  for (std::size_t i = 2 * static_cast<std::size_t>(head_.d); i + 1 < segment.state.size(); i += 2) {
-    Ball c, s;
-    cos_sin_pi(c, s, Ball(2.0 * std::nearbyint(harmonic(mode, i).near())) * Ball(segment.fraction));
-    if (!(abs(c - Ball(segment.state[i])) <= Ball(phase_rounding) &&
-          abs(s - Ball(segment.state[i + 1])) <= Ball(phase_rounding)))
-      refuse_(segment.line, "the phases at " + std::to_string(i) + " are not those of the clock: they are " +
-                                digits(c.near()) + ", " + digits(s.near()));
-  }
-  if (segment.state.back() != 1.0) refuse_(segment.line, "the last number of the state is not 1");
-}
-
-void Checker::clock(const Segment& segment) {
+void Checker::clock(long line, const Clock& at) {
   const Segment& before = last_->segment;
-  const Ball flown = Ball(before.duration) / Ball(head_.period);
-  const Ball shown =
-      Ball(static_cast<double>(segment.period - before.period)) + Ball(segment.fraction) - Ball(before.fraction);
-  if (!(abs(shown - flown) <= Ball(clock_rounding) + Ball(flight_rounding) * flown))
-    refuse_(segment.line, "begins " + digits((shown - flown).near()) + " periods from where the one before has ended");
+  const Ball flown = Ball(before.duration) / m_.period();
+  const Ball shown = Ball(static_cast<double>(at.period - before.start.period)) + Ball(at.fraction) -
+                     Ball(before.start.fraction);
+  const Ball off = abs(shown - flown);
+  tally_.clock = std::max(tally_.clock, off.near());
+  if (!(off <= Ball(clock_rounding) + Ball(flight_rounding) * flown))
+    refuse_(line, "begins " + digits((shown - flown).near()) + " periods from where the one before has ended");
+}
+
+/// Stops whose gap is exactly zero in the state that follows touch.
+void Checker::land(const std::vector<double>& next) {
+  for (std::size_t k = 0; k < m_.model().stops.size(); ++k) {
+    const int stop = static_cast<int>(k);
+    const bool near = abs(last_->X[p(stop)]) <= Ball(rounding * (last_->size[p(stop)] + size_of_others(p(stop))));
+    last_->touches.push_back(near && next[p(stop)] == 0.0);
+    last_->struck.push_back(false);
+  }
 }
 
 /// The instant of the end is known to a rounding of the clock, and a number of the state to its rate times that: so
 /// much its size is more.
 void Checker::blur(Departure& end, const Flow& flow) const {
-  const double instant = clock_rounding * head_.period + flight_rounding * end.segment.duration;
-  for (std::size_t i = 0; i < 2 * static_cast<std::size_t>(head_.d); ++i)
-    end.size[i] += instant / rounding * std::abs(dot(flow.A[i], end.X).near());
+  const double length = clock_rounding * period_ + flight_rounding * end.segment.duration;
+  const Balls rate = flow.rate(end.X);
+  for (std::size_t i = 0; i < 2 * m_.d(); ++i) end.size[i] += length / rounding * std::abs(rate[i].near());
 }
 
-void Checker::continuity(const Segment& segment) {
-  for (std::size_t i = 0; i < 2 * static_cast<std::size_t>(head_.d); ++i) {
-    const Ball jump = abs(Ball(segment.state[i]) - last_->X[i]);
-    const double allowed = rounding * (last_->size[i] + size_of_others(i));
-    if (jump.near() > 0.0) tally_.jump = std::max(tally_.jump, jump.near() / allowed);
-    if (!(jump <= Ball(allowed)))
-      refuse_(segment.line, "number " + std::to_string(i) + " of the state is " + digits(segment.state[i]) +
-                                ", it must be " + digits(last_->X[i].near()) + " to " + digits(allowed));
+void Checker::jump(long line, std::size_t i, const Ball& by, double allowed) {
+  const double size = abs(by).highest();
+  Jumps& jumps = i < m_.d() ? tally_.displacement : tally_.velocity;
+  jumps.largest = std::max(jumps.largest, size);
+  jumps.sum += size;
+  if (size > 0.0) tally_.of_allowed = std::max(tally_.of_allowed, size / allowed);
+  if (!(size <= allowed))
+    refuse_(line, "number " + std::to_string(i) + " of the state is " + digits(by.near()) +
+                      " from where it must be, rounding explains " + digits(allowed));
+}
+
+void Checker::continuity(long line, const std::vector<double>& p, const std::vector<double>& u) {
+  for (std::size_t i = 0; i < 2 * m_.d(); ++i) {
+    const double stated = i < m_.d() ? p[i] : u[i - m_.d()];
+    jump(line, i, Ball(stated) - last_->X[i], rounding * (last_->size[i] + size_of_others(i)));
+  }
+}
+
+/// Numbers that are combinations of others agree with them.
+void Checker::dependence(long line, const Balls& X, const std::vector<double>& size) {
+  for (std::size_t i = 0; i < 2 * m_.d(); ++i) {
+    const std::size_t k = i % m_.d(), block = i - k;
+    if (k < m_.n()) continue;
+    const auto offset = [&](std::size_t j) {
+      const Number& number = m_.model().numbers[j];
+      return Ball(block == 0 ? number.shift : number.drift);
+    };
+    Ball sum = -(X[i] + offset(k));
+    double allowed = std::abs(X[i].near()) + std::abs(offset(k).near()) + (size.empty() ? 0.0 : size[i]);
+    for (std::size_t j = 0; j < m_.n(); ++j) {
+      const Ball& c = m_.dependence()[k][j];
+      sum.add_product(c, X[block + j] + offset(j));
+      const double part = std::abs(X[block + j].near()) + std::abs(offset(j).near()) + (size.empty() ? 0.0 : size[block + j]);
+      allowed += std::abs(c.near()) * part;
+    }
+    if (!(abs(sum) <= Ball(rounding * allowed)))
+      refuse_(line, "number " + std::to_string(i) + " of the state is " + digits(sum.near()) +
+                        " from what it follows from, rounding explains " + digits(rounding * allowed));
   }
 }
 
@@ -156,62 +181,73 @@ double Checker::size_of_others(std::size_t i) const {
   return sum;
 }
 
-/// The most that the velocity towards a stop can be, or infinity: it is constant, or a slip guard v u_i > 0 keeps it
-/// below a constant, because u_own -+ u_i does not change.
-double Checker::fastest_approach(const Stop& stop, const Segment& segment, const Mode& mode) const {
-  const double own = stop.sign * segment.state[u(stop)];
-  double least = mode.rows[u(stop)].empty() ? own : INFINITY;
-  for (const Guard& guard : mode.guards) {
-    if (guard.kind != "slip" || guard.row.size() != 1 || guard.row[0].first < head_.d) continue;
-    const auto i = static_cast<std::size_t>(guard.row[0].first);
-    const double turn =
-        guard.row[0].second * stop.sign > 0.0 ? -1.0 : 1.0;  // turn u_i leads away while the guard lasts
-    Entries rate = mode.rows[i];
-    for (auto& entry : rate) entry.second *= turn;
-    if (rate == mode.rows[u(stop)]) least = std::min(least, rounded_up(own - stop.sign * turn * segment.state[i]));
+/// A closed stop and a sticking contact are at rest, exactly.
+void Checker::rest(const Segment& segment) {
+  for (std::size_t k = 0; k < segment.states.closed.size(); ++k) {
+    const std::size_t own = m_.stop(k).own;
+    if (segment.states.closed[k] && (segment.p[own] != 0.0 || segment.u[own] != 0.0))
+      refuse_(segment.line, "stop " + m_.model().stops[k].name + " is not at rest where it is called closed");
   }
-  return least;
+  for (std::size_t k = 0; k < segment.states.slip.size(); ++k)
+    if (segment.states.slip[k] == 0 && segment.u[m_.friction(k).own] != 0.0)
+      refuse_(segment.line,
+              "friction contact " + m_.model().frictions[k].name + " is not at rest where it is said to stick");
 }
 
-/// A stop that no guard watches is open or just closed, and cannot close further.
-void Checker::stops(const Segment& segment, const Mode& mode) {
-  double largest = 0.0;
-  for (int i = 0; i < head_.d; ++i) largest = std::max(largest, std::abs(segment.state[static_cast<std::size_t>(i)]));
-  for (const Stop& stop : head_.stops) {
-    const bool watched = std::any_of(mode.guards.begin(), mode.guards.end(), [&](const Guard& guard) {
-      return guard.kind == "gap" && guard.row.size() == 1 && guard.row[0].first == stop.own &&
-             guard.row[0].second * stop.sign < 0.0;
-    });
-    if (watched) continue;
-    const double gap = -stop.sign * segment.state[p(stop)], approach = fastest_approach(stop, segment, mode);
-    if (!(approach <= 0.0 || Ball(approach) * Ball(segment.duration) <= Ball(gap)))
-      refuse_(segment.line, "stop " + stop.name + " may close: no guard watches it");
-    if (!(gap >= -rounding * largest))
-      refuse_(segment.line, "stop " + stop.name + " is passed, its gap is " + digits(gap));
+/// An event is the zero of a condition. Whether it is one, or a touch, is asked behind the end.
+void Checker::ends(const Segment& segment, const Flight& flight, const FlownMode& mode) {
+  if (segment.end == EndKind::cut) {
+    if (!segment.blows.empty()) refuse_(segment.end_line, "something happens at `end cut`");
+    return;
   }
+  if (segment.end != EndKind::event) return;
+  ++tally_.events;
+  if (flight.zeros.empty()) {
+    if (!flight.failed()) refuse_(segment.end_line, "nothing ends the segment: no condition of its mode is zero");
+    return;
+  }
+  if (segment.duration == 0.0) return;
+  for (double ahead = 0x1p-50; ahead <= instant; ahead *= 2.0) {
+    const Ball t(ahead * period_);
+    const Expansion behind(mode.flow, flight.X, t);
+    for (const std::size_t i : flight.zeros)
+      if (behind.of(mode.flow.rows[i]).value(0, t) < Ball(0.0)) return;
+  }
+  ++tally_.flight.touches;
+}
+
+/// The states of the closed segment, but the stop open and friction on its own pair slipping: 1 away from the stop, -1
+/// back, 0 held.
+ContactStates Checker::with_pair(const Segment& segment, int direction) const {
+  ContactStates states = segment.states;
+  const auto stop = static_cast<std::size_t>(segment.chatter);
+  const Place& place = m_.stop(stop);
+  states.closed[stop] = false;
+  for (std::size_t i = 0; i < states.slip.size(); ++i) {
+    const Place& friction = m_.friction(i);
+    const double same = m_.parallel(friction.own, place.own) * place.sign * friction.sign;
+    if (same != 0.0 && m_.model().numbers[friction.own].drift == 0.0)
+      states.slip[i] = same > 0.0 ? -direction : direction;
+  }
+  return states;
 }
 
 /// A segment on the closed stop that stands for infinitely many impacts.
 void Checker::chatter(const Segment& segment, const std::vector<double>& sizes) {
-  const End& end = segment.end;
-  const Tail& tail = segment.tail;
-  const Stop& stop = head_.stops[static_cast<std::size_t>(end.index)];
   ++tally_.chatters;
-  if (last_ == nullptr || last_->segment.blows.empty() || !last_->segment.blows.back().rest ||
-      last_->segment.blows.back().stops != std::vector<int>{end.index})
-    return refuse_(end.line, "the segment before has not brought stop " + stop.name + " to rest");
-  if (!modes_.at(segment.mode).rows[u(stop)].empty() || segment.state[u(stop)] != 0.0 || segment.state[p(stop)] != 0.0)
-    return refuse_(end.line, "stop " + stop.name + " is not at rest in the segment that stands for its chatter");
-  if (!(end.size <= 0x1p-49 * head_.period))
-    refuse_(end.line, "ERROR = " + digits(end.size) + " is more than 2^-49 periods");
-  Limit limit(head_, segment, flow(tail.rise), flow(tail.back), flow(segment.mode), Ball(0.0) - last_->rests_from,
+  const auto stop = static_cast<std::size_t>(segment.chatter);
+  const std::vector<int> itself{segment.chatter};
+  if (last_ == nullptr || last_->segment.blows.empty() || last_->segment.blows.back().kind != Blow::Kind::chatter ||
+      last_->segment.blows.back().stops != itself)
+    return refuse_(segment.end_line, "the segment before has not brought stop " + name(segment.chatter) + " to rest");
+  if (!flown(segment.states).mode.held[m_.stop(stop).own] || segment.u[m_.stop(stop).own] != 0.0 ||
+      segment.p[m_.stop(stop).own] != 0.0)
+    return refuse_(segment.end_line, "stop " + name(segment.chatter) + " is not at rest at the limit of its chatter");
+  const Limit::Modes modes{flown(with_pair(segment, 1)), flown(with_pair(segment, -1)), flown(with_pair(segment, 0)),
+                           flown(segment.states)};
+  Limit limit(m_, segment, modes, m_.extended(segment.p, segment.u, segment.start.fraction), -last_->rests_from,
               refuse_);
-  limit.check(sizes);
-  const bool up = limit.guards(modes_.at(tail.rise), flow(tail.rise), true);
-  const bool down = limit.guards(modes_.at(tail.back), flow(tail.back), false);
-  if (tail.rise == tail.back) return;
-  if (!up || !down) refuse_(tail.line, "a mode of the tail is for both directions");
-  limit.holds_not(modes_.at(tail.hold), flow(tail.hold));
+  tally_.limit_error = std::max(tally_.limit_error, limit.check(sizes) / period_);
 }
 
 }  // namespace verify

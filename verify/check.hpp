@@ -1,20 +1,47 @@
 #pragma once
-/// The rules of docs/certificate.md that lead from segment to segment: clock, phases, continuity, impulses, stops that
-/// are not watched.
+/// The rules of docs/certificate.md that lead from segment to segment: clock, continuity, rest, impulses, the choice of
+/// the mode. What happens at the end of a segment is judged with the start of the next one, whose state says which
+/// stops touch.
 #include <map>
 #include <memory>
 
 #include "flight.hpp"
+#include "limit.hpp"
 
 namespace verify {
 
+/// What a verdict leaves open.
+struct Open {
+  long pile_ups = 0;   ///< impacts without end at one instant, ended by assumption
+  long undecided = 0;  ///< signs that rounding decides: touches, impacts without speed
+  long choices = 0;    ///< starts at which another mode is as lawful
+  [[nodiscard]] bool none() const { return pile_ups + undecided + choices == 0; }
+};
+
+/// Largest and sum, in units of the greatest number of the kind in the run.
+struct Jumps {
+  double largest = 0.0, sum = 0.0, scale = 0.0;
+  [[nodiscard]] double relative(double x) const { return x == 0.0 ? 0.0 : x / scale; }
+};
+
+struct Tally {
+  FlightTally flight;
+  Open open;
+  long segments = 0, events = 0, impacts = 0, chatters = 0;
+  Jumps displacement, velocity;
+  double of_allowed = 0.0;   ///< the greatest jump in units of what it may be
+  double clock = 0.0;        ///< the greatest jump of the clock, in periods
+  double limit_error = 0.0;  ///< of the limits of chatter, in periods
+};
+
 class Checker {
  public:
-  /// @param head, modes  as the reader fills them; they must outlive the object
-  Checker(const Head& head, const std::map<long, Mode>& modes, const Refuse& refuse);
+  /// @param model, start  as the reader fills them; they must outlive the object
+  Checker(const Model& model, const Start& start, const Refuse& refuse);
   Checker(const Checker&) = delete;
   Checker& operator=(const Checker&) = delete;
   void segment(const Segment& segment);
+  void done(const Done& done);
   [[nodiscard]] const Tally& tally() const { return tally_; }
 
  private:
@@ -23,34 +50,64 @@ class Checker {
     Segment segment;
     Balls X;
     std::vector<double> size;
-    Ball rests_from = {};  ///< velocity towards the stop that the last blow has brought to rest
+    std::vector<bool> touches = {};  ///< stops whose gap is zero
+    std::vector<bool> struck = {};   ///< stops that had an impulse
+    Ball rests_from = {};            ///< velocity towards the stop that a chatter has brought to rest
+  };
+  /// Impacts of one instant.
+  struct Instant {
+    double fastest = 0.0;
+    long blows = 0;
   };
 
-  const Flow& flow(long mode);
-  void mode_is_mechanical(const Mode& mode);
-  [[nodiscard]] Ball harmonic(const Mode& mode, std::size_t i) const;
-  void start(const Segment& segment);
-  void phases(const Segment& segment, const Mode& mode);
-  void clock(const Segment& segment);
+  const FlownMode& flown(const ContactStates& states);
+  void begin(const Segment& segment);
+  void arrive(long line, const Clock& at, const std::vector<double>& p, const std::vector<double>& u);
+  void clock(long line, const Clock& at);
+  void land(const std::vector<double>& p);
+  void continuity(long line, const std::vector<double>& p, const std::vector<double>& u);
+  void dependence(long line, const Balls& X, const std::vector<double>& size);
+  void jump(long line, std::size_t i, const Ball& by, double allowed);
+  void rest(const Segment& segment);
   void blur(Departure& end, const Flow& flow) const;
-  void continuity(const Segment& segment);
   [[nodiscard]] double size_of_others(std::size_t i) const;
-  [[nodiscard]] double fastest_approach(const Stop& stop, const Segment& segment, const Mode& mode) const;
-  void stops(const Segment& segment, const Mode& mode);
+  void ends(const Segment& segment, const Flight& flight, const FlownMode& mode);
   void chatter(const Segment& segment, const std::vector<double>& sizes);
-  void blows(Departure& departure);
-  void blow(Departure& departure, const Blow& blow);
-  void report_of(const Departure& departure, const Blow& blow, std::vector<bool>& found);
+  [[nodiscard]] ContactStates with_pair(const Segment& segment, int direction) const;
 
-  [[nodiscard]] std::size_t u(const Stop& stop) const { return static_cast<std::size_t>(head_.d + stop.own); }
-  [[nodiscard]] std::size_t p(const Stop& stop) const { return static_cast<std::size_t>(stop.own); }
+  // blows.cpp
+  void blows();
+  void blow(const Blow& blow, std::vector<bool>& found);
+  void law(const Blow& blow, const Balls& before);
+  void in_sequence(const Blow& blow, const Balls& before);
+  void impact(const Blow& blow, std::vector<bool>& found);
+  void bring_to_rest(const Blow& blow);
+  void pile_up(const Blow& blow);
+  void report(const Blow& blow, std::vector<bool>& found);
+  [[nodiscard]] bool strike(const Blow& blow, const std::vector<int>& stops);
+  [[nodiscard]] Balls impulses(const std::vector<int>& stops, bool to_rest) const;
+  void apply(const std::vector<int>& stops, const Balls& impulses);
+  [[nodiscard]] Ball approach(int stop) const;
+  [[nodiscard]] double speed_rounding(int stop) const;
 
-  const Head& head_;
-  const std::map<long, Mode>& modes_;
-  Refuse refuse_;              ///< names the segment
-  std::vector<bool> follows_;  ///< by displacement: it is a combination of others
-  std::map<long, std::unique_ptr<Flow>> flows_;
+  // choice.cpp
+  void choice(const Segment& segment);
+
+  [[nodiscard]] std::size_t p(int stop) const { return m_.stop(static_cast<std::size_t>(stop)).own; }
+  [[nodiscard]] std::size_t u(int stop) const { return m_.d() + p(stop); }
+  [[nodiscard]] const std::string& name(int stop) const {
+    return m_.model().stops[static_cast<std::size_t>(stop)].name;
+  }
+
+  Mechanics m_;
+  Refuse refuse_;  ///< names the segment
+  const Start& start_;
+  double period_;
+  std::vector<bool> follows_;  ///< by number: it is a combination of others
+  std::map<ContactStates, std::unique_ptr<FlownMode>> flown_;
   std::unique_ptr<Departure> last_;
+  bool cut_ = false;  ///< the segment goes on where the one before was cut
+  Instant instant_;
   Tally tally_;
 };
 

@@ -1,4 +1,4 @@
-/// Flies one segment in balls, and checks what is claimed of its guards.
+/// Flies one segment in balls, and proves the conditions of its mode.
 #include "flight.hpp"
 
 #include <algorithm>
@@ -9,14 +9,20 @@
 namespace verify {
 namespace {
 
-constexpr double rounding = 0x1p-40;        ///< of sums, in units of the sizes of what is added
-constexpr double start_rounding = 0x1p-44;  ///< the same, of a zero at the start
-constexpr double instant = 0x1p-30;         ///< events within it, in periods, are at one instant
-constexpr double reach_of_series = 4.0;     ///< radians, nearly: longer pieces are cut
-constexpr double most_cuts = 1e5;
+constexpr double radians_of_piece = 1.5;  ///< nearly: by the norm of A
+constexpr double most_pieces = 4e5;
+constexpr int most_walked = 4000;
+/// What is no more than this of its sizes is walked through as a band.
+constexpr double band_level = 0x1p-46;
 
 /// A double not below to - from.
 double length(double from, double to) { return from == to ? 0.0 : std::nextafter(to - from, INFINITY); }
+
+Matrix rows_of(const Mode& mode) {
+  Matrix rows;
+  for (const Condition& condition : mode.conditions) rows.push_back(condition.row);
+  return rows;
+}
 
 }  // namespace
 
@@ -26,252 +32,167 @@ std::string digits(double x) {
   return text.data();
 }
 
-Flight::Flight(const Flow& flow, const Mode& mode, const Segment& segment, double period, Tally& tally,
+FlownMode::FlownMode(const Mechanics& mechanics, const Mode& of) : mode(of), flow(of.A, rows_of(of), 2 * mechanics.d()) {}
+
+Order order_at(const Flow& flow, std::size_t condition, const Series& h, const std::vector<double>& sizes) {
+  std::vector<double> term = sizes;
+  double factorial = 1.0;
+  Order found;
+  int rose = Order::rest;  // a derivative before that is certainly positive, if only by rounding
+  for (found.order = 0; found.order < Order::rest; ++found.order) {
+    const auto n = static_cast<std::size_t>(found.order);
+    if (n > 0) factorial *= static_cast<double>(n);
+    const double allowed = start_rounding * flow.size_of(condition, term) / factorial;
+    if (h.b[n] > Ball(allowed)) return found;
+    if (h.b[n] < Ball(-allowed)) {
+      found.value = h.b[n].near() * factorial;
+      found.rises = rose < Order::rest;
+      found.certain = !found.rises;
+      if (found.rises) found.order = rose;
+      return found;
+    }
+    if (rose == Order::rest && h.b[n] > Ball(0.0)) rose = found.order;
+    term = flow.apply_sizes(term);
+  }
+  return found;
+}
+
+Flight::Flight(const FlownMode& flown, const Segment& segment, Balls state, double period, FlightTally& tally,
                const Refuse& refuse)
-    : X(segment.state.begin(), segment.state.end()),
-      size(flow.sizes_of(X)),
-      flow_(flow),
-      mode_(mode),
+    : X(std::move(state)),
+      size(flown.flow.sizes_of(X)),
+      greatest(size),
+      flown_(flown),
       segment_(segment),
       period_(period),
       tally_(tally),
       refuse_(refuse),
-      proofs_(mode.guards.size()) {}
+      proofs_(flown.mode.conditions.size()),
+      drops_(proofs_.size(), 0) {}
 
-void Flight::refuse(long line, std::size_t guard, const std::string& what) const {
-  refuse_(line, "guard " + std::to_string(guard) + " (" + mode_.guards[guard].kind + "): " + what);
-}
-
-double Flight::size_of(std::size_t guard, const std::vector<double>& sizes) const {
-  double sum = 0.0;
-  for (const auto& [j, c] : mode_.guards[guard].row) sum += std::abs(c) * sizes[static_cast<std::size_t>(j)];
-  return sum;
-}
-
-/// Every guard has one claim, but where there is no time for a zero.
-void Flight::collect() {
-  std::vector<bool> seen(proofs_.size());
-  for (const Claim& claim : segment_.claims) {
-    const auto g = static_cast<std::size_t>(claim.guard);
-    if (seen[g]) refuse(claim.line, g, "is claimed twice");
-    seen[g] = true;
-    ++(claim.rest ? tally_.rests : tally_.guards);
-    tally_.steps += static_cast<long>(claim.steps.size());
-    if (claim.rest || steps_follow(claim)) proofs_[g].claim = &claim;
-    if (!claim.rest) limit_reaches(claim);
-  }
-  for (std::size_t g = 0; g < seen.size(); ++g)
-    if (!seen[g] && segment_.duration > 0.0) refuse(segment_.line, g, "neither `prove` nor `rest`");
-}
-
-/// What can be said of the steps without the flow.
-bool Flight::steps_follow(const Claim& claim) {
-  const auto g = static_cast<std::size_t>(claim.guard);
-  const auto fail = [&](long line, std::size_t j, const std::string& what) {
-    refuse(line, g, "step " + std::to_string(j) + ": " + what);
-    return false;
-  };
-  if (claim.steps.empty() && claim.limit > 0.0) return refuse(claim.line, g, "there is no step"), false;
-  for (std::size_t j = 0; j < claim.steps.size(); ++j) {
-    const Step& step = claim.steps[j];
-    const Ball end = Ball(step.s) + Ball(step.d);
-    if (j == 0 && step.s != 0.0) return fail(step.line, j, "starts at s = " + digits(step.s) + ", not at 0");
-    if (j > 0 && !(step.s > claim.steps[j - 1].s)) return fail(step.line, j, "does not start behind the one before");
-    if (!(step.s < claim.limit)) return fail(step.line, j, "starts at s = " + digits(step.s) + ", at or behind LIMIT");
-    const bool last = j + 1 == claim.steps.size();
-    const double next = last ? claim.limit : claim.steps[j + 1].s;
-    if (!(end >= Ball(next)))
-      return fail(
-          step.line, j,
-          "ends at " + digits(end.near()) + ", before " + (last ? "LIMIT, " : "the next starts, ") + digits(next));
-    if (!(step.M >= 0.0)) return fail(step.line, j, "M = " + digits(step.M) + " is negative");
-    const Ball d(step.d), there = Ball(step.h) + Ball(step.h1) * d - Ball(step.M) * d * d * Ball(0.5);
-    if (!(step.h > 0.0)) return fail(step.line, j, "its parabola is " + digits(step.h) + " at its start, not positive");
-    if (!(there > Ball(0.0)))
-      return fail(step.line, j, "its parabola is " + digits(there.near()) + " at its end, not positive");
-  }
-  return true;
-}
-
-void Flight::limit_reaches(const Claim& claim) {
-  const End& end = segment_.end;
-  const auto g = static_cast<std::size_t>(claim.guard);
-  const bool zero = end.kind == EndKind::zero && end.index == claim.guard;
-  const bool touch = end.kind == EndKind::touch && end.index == claim.guard;
-  const double missing = segment_.duration - claim.limit;
-  const std::string text = "LIMIT = " + digits(claim.limit) + " is " + digits(missing) + " short of DURATION";
-  if (missing < 0.0)
-    refuse(claim.line, g, "LIMIT = " + digits(claim.limit) + " is behind DURATION = " + digits(segment_.duration));
-  if (missing <= 0.0 || touch) return;
-  if (zero) {
-    if (missing > end.size + 0x1p-52 * segment_.duration)
-      refuse(claim.line, g, text + ", more than DELTA = " + digits(end.size));
-  } else if (end.kind == EndKind::cut) {
-    refuse(claim.line, g, text);
-  } else if (missing > instant * period_) {
-    note_flat(missing);
-  } else {
-    ++tally_.ties;
-    tally_.tie = std::max(tally_.tie, missing / period_);
-  }
-}
-
-/// A zero or a tie whose place rounding leaves open for longer than an instant: between, |h| must be within rounding.
-void Flight::note_flat(double length) {
-  ++tally_.flats;
-  tally_.flat = std::max(tally_.flat, length / period_);
-}
-
-std::vector<double> Flight::cuts() {
-  std::vector<double> at{0.0, segment_.duration};
-  for (const Proof& proof : proofs_) {
-    if (proof.claim == nullptr || proof.claim->rest) continue;
-    at.push_back(proof.claim->limit);
-    for (const Step& step : proof.claim->steps) at.push_back(step.s);
-  }
-  const double most = reach_of_series / flow_.nu;
-  for (double n = 1; n * most < segment_.duration; ++n) at.push_back(n * most);
-  std::sort(at.begin(), at.end());
-  at.erase(std::unique(at.begin(), at.end()), at.end());
-  at.erase(std::upper_bound(at.begin(), at.end(), segment_.duration), at.end());
-  at.erase(at.begin(), std::lower_bound(at.begin(), at.end(), 0.0));
-  return at;
+void Flight::refuse(std::size_t condition, const std::string& what) const {
+  refuse_(segment_.line, flown_.mode.conditions[condition].name + ": " + what);
 }
 
 void Flight::fly() {
-  collect();
-  if (!(flow_.nu * segment_.duration / reach_of_series <= most_cuts))
-    return refuse_(segment_.line,
-                   "DURATION = " + digits(segment_.duration) + " is too long to be followed: cut the segment");
-  const std::vector<double> at = cuts();
-  for (std::size_t i = 0; i + 1 < at.size(); ++i) {
-    double reach = length(at[i], at[i + 1]);
-    std::size_t terms = 0;
-    for (const Proof& proof : proofs_) {
-      if (i > 0 || proof.claim == nullptr || proof.claim->order == 0 || proof.claim->steps.empty()) continue;
-      const auto& steps = proof.claim->steps;
-      reach = std::max(reach, length(0.0, std::min(steps[0].d, 16.0 * reach_of_series / flow_.nu)));
-      terms = std::max(terms, static_cast<std::size_t>(proof.claim->order) + 8);
-    }
-    const Expansion about(flow_, X, Ball(reach), terms);
-    for (const Proof& proof : proofs_)
-      if (i == 0 && proof.claim != nullptr) order(about, *proof.claim);
-    piece(about, at[i], at[i + 1]);
-    X = about.at(Ball(at[i + 1]) - Ball(at[i]));
+  const Flow& flow = flown_.flow;
+  const double T = segment_.duration, count = std::ceil(flow.nu * T / radians_of_piece);
+  if (!(count <= most_pieces)) {
+    size.assign(size.size(), INFINITY);
+    return refuse_(segment_.line, "DURATION = " + digits(T) + " is too long to be followed: cut the segment");
+  }
+  const long pieces = std::max(1L, static_cast<long>(count));
+  double from = 0.0;
+  for (long k = 0; k < pieces; ++k) {
+    const double to = k + 1 == pieces ? T : T * (static_cast<double>(k + 1) / static_cast<double>(pieces));
+    const Expansion about(flow, X, Ball(length(from, to)), Order::rest + 8);
+    if (k == 0) start(about);
+    piece(about, from, to, k == 0);
+    X = about.at(Ball(to) - Ball(from));
+    for (std::size_t i = 0; i < X.size(); ++i) greatest[i] = std::max(greatest[i], std::abs(X[i].near()));
+    from = to;
   }
   end();
 }
 
-/// The zero that a claim has at the start.
-void Flight::order(const Expansion& about, const Claim& claim) {
-  if (claim.order == 0) return;
-  const auto g = static_cast<std::size_t>(claim.guard);
-  const Series h = about.of(flow_.guards[g]);
-  std::vector<double> term = flow_.sizes_of(X);
-  Ball factorial(1.0);
-  for (std::size_t n = 0; n < static_cast<std::size_t>(claim.order); ++n) {
-    if (n > 0) factorial = times(std::move(factorial), n);
-    const Ball derivative = h.b[n] * factorial;
-    const double allowed = start_rounding * size_of(g, term);
-    if (!(abs(derivative) <= Ball(allowed)))
-      refuse(claim.line, g,
-             "has no zero of order " + std::to_string(claim.order) + ": derivative " + std::to_string(n) + " is " +
-                 digits(derivative.near()) + ", rounding explains " + digits(allowed));
-    term = flow_.apply_sizes(term);
+/// Which of the conditions are zero at the start, and whether all rise.
+void Flight::start(const Expansion& about) {
+  for (std::size_t i = 0; i < proofs_.size(); ++i) {
+    const Order order = order_at(flown_.flow, i, about.of(flown_.flow.rows[i]), flown_.flow.sizes_of(X));
+    proofs_[i].rests = order.order == Order::rest;
+    drops_[i] = proofs_[i].rests ? 0 : static_cast<ulong>(order.order);
+    ++(proofs_[i].rests ? tally_.rests : tally_.conditions);
+    if (order.rises || segment_.duration == 0.0) continue;  // what lasts no time obeys any law
+    failed_ = true;
+    refuse(i, order.order == 0 ? "fails at the start: it is " + digits(order.value)
+                               : "fails at once: it is zero at the start, and its derivative of order " +
+                                     std::to_string(order.order) + " is " + digits(order.value));
   }
 }
 
-void Flight::piece(const Expansion& about, double from, double to) {
-  const std::vector<double> sizes = flow_.carry_sizes(flow_.sizes_of(X), length(from, to));
+void Flight::piece(const Expansion& about, double from, double to, bool first) {
+  const Flow& flow = flown_.flow;
+  const double L = length(from, to);
+  const std::vector<double> sizes = flow.carry_sizes(flow.sizes_of(X), L);
   for (std::size_t i = 0; i < size.size(); ++i) size[i] = std::max(size[i], sizes[i]);
-  for (std::size_t g = 0; g < proofs_.size(); ++g) {
-    Proof& proof = proofs_[g];
-    if (proof.claim == nullptr) continue;
-    if (proof.claim->rest)
-      at_rest(about.of(flow_.guards[g]), *proof.claim, Ball(to) - Ball(from), size_of(g, sizes));
-    else if (from < proof.claim->limit)
-      step(about, proof, from, to);
-    else if (segment_.end.kind == EndKind::touch && segment_.end.index == proof.claim->guard)
-      flat(about.of(flow_.guards[g]), *proof.claim, Ball(to) - Ball(from), segment_.end.size, "NOISE = ");
-    else if (segment_.duration - proof.claim->limit > instant * period_)
-      flat(about.of(flow_.guards[g]), *proof.claim, Ball(to) - Ball(from), rounding * size_of(g, size),
-           "rounding explains ");
+  for (std::size_t i = 0; i < proofs_.size() && !failed_; ++i) {
+    const double allowed = rounding * flow.size_of(i, size);
+    const ulong drop = first ? drops_[i] : 0;
+    const Series f = about.of(flow.rows[i], drop);
+    if (!proofs_[i].rests) {
+      walk({i, f, drop, from, to - from, allowed, f.most(2, Ball(L))});
+    } else if (const Ball most = f.most(0, Ball(L)); !(most <= Ball(allowed))) {
+      failed_ = true;
+      refuse(i, "does not stay zero: it is up to " + digits(most.near()) + ", rounding explains " + digits(allowed));
+    }
   }
 }
 
-void Flight::at_rest(const Series& h, const Claim& claim, const Ball& t, double size_there) {
-  const Ball most = h.most(0, t);
-  if (!(most <= Ball(rounding * size_there)))
-    refuse(claim.line, static_cast<std::size_t>(claim.guard),
-           "does not rest: up to " + digits(most.near()) + ", rounding explains " + digits(rounding * size_there));
-}
-
-void Flight::step(const Expansion& about, Proof& proof, double from, double to) {
-  const auto& steps = proof.claim->steps;
-  const Balls& row = flow_.guards[static_cast<std::size_t>(proof.claim->guard)];
-  if (proof.step + 1 < steps.size() && steps[proof.step + 1].s == from) ++proof.step;
-  const Step& now = steps[proof.step];
-  if (proof.step > 0 || proof.claim->order == 0) return lower_bound(about.of(row), *proof.claim, now, from, to);
-  if (from > 0.0) return;
-  const double covered = steps.size() > 1 ? steps[1].s : proof.claim->limit;
-  if (flow_.nu * covered > 16.0 * reach_of_series)
-    return refuse(now.line, static_cast<std::size_t>(proof.claim->guard), "step 0 is too long to be followed");
-  lower_bound(about.of(row, static_cast<std::size_t>(proof.claim->order)), *proof.claim, now, 0.0, covered);
-}
-
-void Flight::lower_bound(const Series& f, const Claim& claim, const Step& step, double from, double to) {
-  const auto g = static_cast<std::size_t>(claim.guard);
-  const auto name = [&] { return "step " + std::to_string(&step - claim.steps.data()) + ": "; };
-  if (step.s == from) {
-    const Ball &h = f.b[0], &h1 = f.b[1];
-    if (!(h >= Ball(step.h)))
-      refuse(step.line, g, name() + "h >= " + digits(step.h) + " claimed, it is " + digits(h.near()));
-    if (!(h1 >= Ball(step.h1)))
-      refuse(step.line, g, name() + "h' >= " + digits(step.h1) + " claimed, it is " + digits(h1.near()));
+/// From the piece's start to its end, step by step.
+void Flight::walk(const Piece& piece) {
+  Proof& proof = proofs_[piece.condition];
+  const double M = piece.M.highest();
+  double t = 0.0;
+  for (int n = 0; n < most_walked && t < piece.length; ++n) {
+    const Ball h = piece.f.value(0, Ball(t)), h1 = piece.f.value(1, Ball(t));
+    const double low = h.lowest(), slope = h1.lowest(), left = length(t, piece.length);
+    const double level = band_level / rounding * piece.allowed / (piece.drop > 0 ? std::pow(t, piece.drop) : 1.0);
+    const bool positive = low > 0.0 && (low > level || !proof.in_band);
+    if (positive) leave_band(proof, piece.begin + t);
+    if (positive && h + h1 * Ball(left) - Ball(M) * Ball(left) * Ball(left) * Ball(0.5) > Ball(0.0)) return;
+    double d = 0.0;
+    if (positive) {
+      const double root = std::sqrt(slope * slope + 2.0 * M * low);
+      d = (1.0 - 0x1p-20) * std::min(slope < 0.0 ? 2.0 * low / (root - slope) : (slope + root) / M, left);
+      const Ball D(d);
+      if (!(d > 0.0 && h + h1 * D - Ball(M) * D * D * Ball(0.5) > Ball(0.0))) d = 0.0;
+    }
+    if (!(d > 0x1p-51 * (piece.begin + t)) || !(t + d > t)) {
+      d = through_band(piece, t);
+      if (failed_) return;
+    }
+    t = std::nextafter(t + d, 0.0) > t ? std::nextafter(t + d, 0.0) : t + d;  // no hole
+    if (d == left) return;
   }
-  if (!f.curvature_within(Ball(step.M), 0.0, length(from, to)))
-    refuse(step.line, g,
-           name() + "|h''| <= " + digits(step.M) + " claimed, it is up to " +
-               digits(f.most(2, Ball(length(from, to))).near()) + " behind s = " + digits(from));
+  if (t >= piece.length) return;
+  failed_ = true;
+  refuse(piece.condition, "is too near to zero to be followed, at s = " + digits(piece.begin + t));
 }
 
-/// Behind the limit of a guard that touches, or whose zero is flat.
-void Flight::flat(const Series& h, const Claim& claim, const Ball& t, double allowed, const char* why) {
-  const Ball most = h.most(0, t);
-  if (!(most <= Ball(allowed)))
-    refuse(claim.line, static_cast<std::size_t>(claim.guard),
-           "is up to " + digits(most.near()) + " between LIMIT and DURATION, " + why + digits(allowed));
+/// The longest step of halves and halves on which |h| is no more than rounding.
+double Flight::through_band(const Piece& piece, double t) {
+  Proof& proof = proofs_[piece.condition];
+  const Ball h = abs(piece.f.value(0, Ball(t))), h1 = abs(piece.f.value(1, Ball(t)));
+  if (!proof.in_band) proof.band_begin = piece.begin + t;
+  proof.in_band = true;
+  for (double d = length(t, piece.length); t + d > t; d *= 0.5) {
+    const Ball D(d), most = h + h1 * D + piece.M * D * D * Ball(0.5);
+    if (most * power(Ball(t) + D, piece.drop) <= Ball(piece.allowed)) return d;
+  }
+  failed_ = true;
+  refuse(piece.condition, "fails at s = " + digits(piece.begin + t) + " of " + digits(segment_.duration) + ": it is " +
+                              digits(piece.f.value(0, Ball(t)).near()) + ", rounding explains " + digits(piece.allowed));
+  return 0.0;
 }
 
+void Flight::leave_band(Proof& proof, double at) {
+  if (!proof.in_band) return;
+  proof.in_band = false;
+  ++tally_.touches;
+  tally_.band = std::max(tally_.band, (at - proof.band_begin) / period_);
+}
+
+/// Conditions that are zero at the end, but for rounding.
 void Flight::end() {
-  const End& end = segment_.end;
-  if (end.kind != EndKind::zero && end.kind != EndKind::touch) return;
-  const auto g = static_cast<std::size_t>(end.index);
-  const double noise = rounding * size_of(g, size);
-  if (proofs_[g].claim != nullptr && proofs_[g].claim->rest) refuse(end.line, g, "rests, and cannot end the segment");
-  const Ball here = dot(flow_.guards[g], X);
-  if (end.kind == EndKind::touch) {
-    ++tally_.touches;
-    if (!(end.size <= noise))
-      refuse(end.line, g, "NOISE = " + digits(end.size) + ", rounding explains " + digits(noise));
-    if (!(abs(here) <= Ball(end.size)))
-      refuse(end.line, g, "is " + digits(here.near()) + " at DURATION, more than NOISE");
-    return;
+  for (std::size_t i = 0; i < proofs_.size(); ++i) {
+    const Proof& proof = proofs_[i];
+    const bool zero = abs(dot(flown_.flow.rows[i], X)) <= Ball(rounding * flown_.flow.size_of(i, size));
+    if (proof.rests || !zero) continue;
+    zeros.push_back(i);
+    const double band = proof.in_band ? (segment_.duration - proof.band_begin) / period_ : 0.0;
+    tally_.band = std::max(tally_.band, band);
+    if (band > instant) ++tally_.flats;
   }
-  if (!(flow_.nu * end.size <= 16.0 * reach_of_series))
-    return refuse(end.line, g, "DELTA = " + digits(end.size) + " is too long to be followed");
-  const Ball delta(end.size);
-  const Series behind = Expansion(flow_, X, delta).of(flow_.guards[g]);
-  if (end.size <= instant * period_)
-    tally_.delta = std::max(tally_.delta, end.size / period_);
-  else if (behind.most(0, delta) <= Ball(noise))
-    note_flat(end.size);
-  else
-    refuse(end.line, g,
-           "DELTA = " + digits(end.size) + " is more than 2^-30 periods, and h is more than rounding there");
-  const Ball after = behind.value(0, delta);
-  if (segment_.duration > 0.0 ? !(after < Ball(0.0)) : !(abs(here) <= Ball(noise)))
-    refuse(end.line, g, "has no zero at the end: it is " + digits(after.near()) + " at DURATION + DELTA");
 }
 
 }  // namespace verify

@@ -1,13 +1,17 @@
 #pragma once
-/// One segment flown in balls, from its start to its end, and all that is claimed of its guards on the way.
+/// One segment flown in balls, and the proof that no condition of its mode fails on the way.
 ///
-/// The segment is cut at every start of a step and at every limit. About each cut p the guards are Taylor series; a
-/// step that starts at p is held against h(p) and h'(p), and each step that covers the piece from p to the next cut
-/// against h'' there.
+/// The segment is cut into pieces of about a radian. In each piece a condition h is a Taylor series with |h''| <= M,
+/// and h + h' t - M t^2 / 2 a parabola below it: from a place where h > 0 one step leads to where the parabola
+/// vanishes. A condition that vanishes at the start, but for rounding, is led by the first of its derivatives that does
+/// not.
+/// Where a condition is no more than rounding the parabola leads nowhere. Such a *band* is allowed at the segment's end
+/// (there the condition ends it) and, counted as a touch, where the condition is positive again behind it.
 #include <functional>
 #include <string>
 
 #include "flow.hpp"
+#include "mechanics.hpp"
 
 namespace verify {
 
@@ -16,53 +20,76 @@ using Refuse = std::function<void(long, const std::string&)>;
 
 [[nodiscard]] std::string digits(double x);
 
-/// What is counted, and the largest of what is allowed to be small. Times in forcing periods.
-struct Tally {
-  long segments = 0, guards = 0, steps = 0, rests = 0, touches = 0, chatters = 0, ties = 0, flats = 0, events = 0,
-       impacts = 0;
-  double delta = 0.0;  ///< DELTA
-  double tie = 0.0;    ///< by what the LIMIT of a guard that vanishes together with another is shorter than DURATION
-  double flat =
-      0.0;  ///< DELTA, or what LIMIT is short by, of zeros that rounding leaves open for longer than an instant
-  double jump = 0.0;  ///< in units of its allowance
+inline constexpr double rounding = 0x1p-40;        ///< of sums, in units of the sizes of what is added
+inline constexpr double start_rounding = 0x1p-44;  ///< the same, of a zero at the start
+inline constexpr double instant = 0x1p-30;         ///< events within it, in periods, are at one instant
+
+/// A mode with what its conditions are flown by.
+struct FlownMode {
+  const Mode& mode;
+  Flow flow;
+  FlownMode(const Mechanics& mechanics, const Mode& mode);
+};
+
+/// The order of a condition's zero at X: the first derivative that is no rounding.
+struct Order {
+  static constexpr int rest = 8;  ///< all derivatives below are rounding
+  int order = 0;
+  bool rises = true;  ///< it is positive; else it is negative, and `value` says what
+  bool certain = true;  ///< false: one before is positive, if only by rounding, and is `order`
+  double value = 0.0;
+};
+/// @param terms  at least 9 of them
+[[nodiscard]] Order order_at(const Flow& flow, std::size_t condition, const Series& h, const std::vector<double>& sizes);
+
+struct FlightTally {
+  long conditions = 0, rests = 0, touches = 0, flats = 0;
+  double band = 0.0;  ///< the longest one, in periods
 };
 
 class Flight {
  public:
-  Flight(const Flow& flow, const Mode& mode, const Segment& segment, double period, Tally& tally, const Refuse& refuse);
+  Flight(const FlownMode& flown, const Segment& segment, Balls X, double period, FlightTally& tally,
+         const Refuse& refuse);
   void fly();
+  [[nodiscard]] bool failed() const { return failed_; }
 
-  Balls X;                   ///< at the end
-  std::vector<double> size;  ///< of what X was added up from: the most along the segment
+  Balls X;                         ///< at the end
+  std::vector<double> size;        ///< of what X was added up from: the most along the segment
+  std::vector<double> greatest;    ///< |X| where it was looked at
+  std::vector<std::size_t> zeros;  ///< conditions that are zero at the end, but for rounding
 
  private:
+  /// How far a condition has been proved.
   struct Proof {
-    const Claim* claim = nullptr;
-    std::size_t step = 0;
+    bool rests = false, in_band = false;
+    double band_begin = 0.0;
+  };
+  /// One condition on one piece: h = f t^drop.
+  struct Piece {
+    std::size_t condition;
+    const Series& f;
+    ulong drop;
+    double begin, length, allowed;
+    Ball M;
   };
 
-  void collect();
-  bool steps_follow(const Claim& claim);
-  void limit_reaches(const Claim& claim);
-  void note_flat(double length);
-  [[nodiscard]] std::vector<double> cuts();
-  void order(const Expansion& about, const Claim& claim);
-  void piece(const Expansion& about, double from, double to);
-  void at_rest(const Series& h, const Claim& claim, const Ball& t, double size_there);
-  void step(const Expansion& about, Proof& proof, double from, double to);
-  void lower_bound(const Series& f, const Claim& claim, const Step& step, double from, double to);
-  void flat(const Series& h, const Claim& claim, const Ball& t, double allowed, const char* why);
+  void start(const Expansion& about);
+  void piece(const Expansion& about, double from, double to, bool first);
+  void walk(const Piece& piece);
+  double through_band(const Piece& piece, double t);
+  void leave_band(Proof& proof, double at);
   void end();
-  [[nodiscard]] double size_of(std::size_t guard, const std::vector<double>& sizes) const;
-  void refuse(long line, std::size_t guard, const std::string& what) const;
+  void refuse(std::size_t condition, const std::string& what) const;
 
-  const Flow& flow_;
-  const Mode& mode_;
+  const FlownMode& flown_;
   const Segment& segment_;
   double period_;
-  Tally& tally_;
+  FlightTally& tally_;
   const Refuse& refuse_;
-  std::vector<Proof> proofs_;  ///< by guard; those whose claim is consistent in itself
+  std::vector<Proof> proofs_;
+  std::vector<ulong> drops_;
+  bool failed_ = false;
 };
 
 }  // namespace verify

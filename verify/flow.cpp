@@ -6,18 +6,30 @@
 
 namespace verify {
 
-Flow::Flow(const Mode& mode, const Head& head)
-    : A(mode.rows.size(), Balls(mode.rows.size())),
-      weight(mode.rows.size(), 1.0),
-      nu(0.0),
-      rows_(mode.rows),
-      first_phase_(2 * static_cast<std::size_t>(head.d)) {
-  for (std::size_t i = 0; i < size(); ++i)
-    for (const auto& [j, a] : rows_[i]) A[i][static_cast<std::size_t>(j)] = a;
-  for (const Guard& guard : mode.guards) {
-    guards.emplace_back(size());
-    for (const auto& [j, c] : guard.row) guards.back()[static_cast<std::size_t>(j)] = c;
-  }
+namespace {
+
+std::vector<double> magnitudes(const Balls& row) {
+  std::vector<double> sizes;
+  for (const Ball& x : row) sizes.push_back(abs(x).highest());
+  return sizes;
+}
+
+}  // namespace
+
+Flow::Flow(Matrix system, Matrix functionals, std::size_t phases)
+    : A(std::move(system)), rows(std::move(functionals)), weight(A.size(), 1.0), nu(0.0), phases_(phases) {
+  const auto entries_of = [](const Matrix& matrix) {
+    std::vector<std::vector<Entry>> all;
+    for (const Balls& row : matrix) {
+      all.emplace_back();
+      const std::vector<double> sizes = magnitudes(row);
+      for (std::size_t j = 0; j < sizes.size(); ++j)
+        if (sizes[j] != 0.0) all.back().push_back({j, sizes[j]});
+    }
+    return all;
+  };
+  entries_ = entries_of(A);
+  row_entries_ = entries_of(rows);
   // Any positive weights are right; good ones save terms.
   for (int round = 0;; ++round) {
     const std::vector<double> image = apply_sizes(weight);
@@ -29,16 +41,29 @@ Flow::Flow(const Mode& mode, const Head& head)
   nu = nu * (1.0 + 0x1p-30) + 0x1p-900;  // more than the rounding of sums of up to 10000 terms, and than underflow
 }
 
+Balls Flow::rate(const Balls& x) const {
+  Balls y(size());
+  for (std::size_t i = 0; i < size(); ++i)
+    for (const Entry& entry : entries_[i]) y[i].add_product(A[i][entry.column], x[entry.column]);
+  return y;
+}
+
 std::vector<double> Flow::apply_sizes(const std::vector<double>& x) const {
   std::vector<double> y(size(), 0.0);
   for (std::size_t i = 0; i < size(); ++i)
-    for (const auto& [j, a] : rows_[i]) y[i] += std::abs(a) * x[static_cast<std::size_t>(j)];
+    for (const Entry& entry : entries_[i]) y[i] += entry.size * x[entry.column];
   return y;
+}
+
+double Flow::size_of(std::size_t row, const std::vector<double>& x) const {
+  double sum = 0.0;
+  for (const Entry& entry : row_entries_[row]) sum += entry.size * x[entry.column];
+  return sum;
 }
 
 std::vector<double> Flow::sizes_of(const Balls& x) const {
   std::vector<double> y(size(), 1.0);
-  for (std::size_t i = 0; i < first_phase_; ++i) y[i] = std::abs(x[i].near());
+  for (std::size_t i = 0; i < phases_; ++i) y[i] = std::abs(x[i].near());
   return y;
 }
 
@@ -74,11 +99,8 @@ std::vector<bool> Flow::still(const Balls& x) const {
   for (bool changed = true; changed;) {
     changed = false;
     for (std::size_t i = 0; i < size(); ++i) {
-      const auto zero = [&](const auto& entry) {
-        const auto j = static_cast<std::size_t>(entry.first);
-        return still[j] && x[j].is_zero();
-      };
-      if (!still[i] || std::all_of(rows_[i].begin(), rows_[i].end(), zero)) continue;
+      const auto zero = [&](const Entry& entry) { return still[entry.column] && x[entry.column].is_zero(); };
+      if (!still[i] || std::all_of(entries_[i].begin(), entries_[i].end(), zero)) continue;
       still[i] = false;
       changed = true;
     }
@@ -93,9 +115,8 @@ Expansion::Expansion(const Flow& flow, const Balls& X, const Ball& reach, std::s
   least = std::max(least, 10 + static_cast<std::size_t>(4.0 * flow.nu * reach.near()));
   const std::size_t most = 4 * least + 200;
   for (std::size_t n = 1;; ++n) {
-    Balls next;
-    next.reserve(X.size());
-    for (const Balls& row : flow.A) next.push_back(over(dot(row, V_.back()), n));
+    Balls next = flow.rate(V_.back());
+    for (Ball& x : next) x = over(std::move(x), n);
     V_.push_back(std::move(next));
     const double size = magnitude(V_.back(), flow.weight) + static_cast<double>(n) * pace;
     if (n >= least && (n >= most || !(size > start + below))) break;
@@ -136,15 +157,6 @@ Ball Series::sum(ulong r, const Ball& t, bool of_sizes) const {
   }
   const Ball missing = tail * power(Ball(static_cast<double>(N)), r) * power(reach, N - drop - r);
   return of_sizes ? total + missing : widen(std::move(total), missing);
-}
-
-bool Series::curvature_within(const Ball& M, double from, double to, int depth) const {
-  if (depth == 12 && most(2, Ball(to)) <= M) return true;
-  const double middle = from + 0.5 * (to - from);
-  const Ball here = abs(value(2, Ball(middle)));
-  if (here + (Ball(to) - Ball(from)) * most(3, Ball(to)) <= M) return true;
-  if (depth == 0 || here > M) return false;
-  return curvature_within(M, from, middle, depth - 1) && curvature_within(M, middle, to, depth - 1);
 }
 
 }  // namespace verify

@@ -5,21 +5,23 @@
 /// |V_{N+j}|_w <= |V_N|_w nu^j N! / (N+j)!. N is chosen so large that nu t <= (N - 8) / 4; then for r <= 3
 ///     sum over n >= N of n^r |V_n|_w t^n  <=  2 N^r |V_N|_w t^N,
 /// because each term is below (1/4) (1 + 1/N)^3 of the one before, less than a half.
-#include "ball.hpp"
-#include "certificate.hpp"
+#include "linear.hpp"
 
 namespace verify {
 
 /// A, its norm, and the weights of the norm, which are near the eigenvector of |A|.
 class Flow {
  public:
-  Flow(const Mode& mode, const Head& head);
+  /// @param phases  the first number of X that is a cosine or sine; the last number is 1
+  Flow(Matrix A, Matrix rows, std::size_t phases);
 
-  std::vector<Balls> A;
+  Matrix A;
+  Matrix rows;  ///< the functionals of X that are looked at
   std::vector<double> weight;
-  double nu;                  ///< not below |A|_w
-  std::vector<Balls> guards;  ///< rows, dense
+  double nu;  ///< not below |A|_w
   [[nodiscard]] std::size_t size() const { return weight.size(); }
+  /// A x.
+  [[nodiscard]] Balls rate(const Balls& x) const;
   /// The numbers that exp(A t) x leaves as they are, exactly.
   [[nodiscard]] std::vector<bool> still(const Balls& x) const;
 
@@ -29,10 +31,16 @@ class Flow {
   /// |A| x and exp(|A| t) x.
   [[nodiscard]] std::vector<double> apply_sizes(const std::vector<double>& x) const;
   [[nodiscard]] std::vector<double> carry_sizes(const std::vector<double>& x, double t) const;
+  /// |row| x.
+  [[nodiscard]] double size_of(std::size_t row, const std::vector<double>& x) const;
 
  private:
-  std::vector<Entries> rows_;
-  std::size_t first_phase_;
+  struct Entry {
+    std::size_t column;
+    double size;  ///< not below the entry's
+  };
+  std::vector<std::vector<Entry>> entries_, row_entries_;
+  std::size_t phases_;
 };
 
 /// f(t) = sum b_n t^n for t in [0, reach], of which the first terms are stored.
@@ -46,8 +54,6 @@ struct Series {
   [[nodiscard]] Ball value(ulong r, const Ball& t) const { return sum(r, t, false); }
   /// The sum of the sizes of the terms of f^(r) at t: |f^(r)| is no larger on [0, t].
   [[nodiscard]] Ball most(ulong r, const Ball& t) const { return sum(r, t, true); }
-  /// True if |f''| <= M on [from, to] is proven.
-  [[nodiscard]] bool curvature_within(const Ball& M, double from, double to, int depth = 12) const;
 
  private:
   [[nodiscard]] Ball sum(ulong r, const Ball& t, bool of_sizes) const;

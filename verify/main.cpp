@@ -4,51 +4,31 @@
 #include <fstream>
 #include <iostream>
 
-#include "check.hpp"
+#include "verdict.hpp"
 
 namespace verify {
 namespace {
 
-enum Status { proved = 0, not_proved = 1, unreadable = 2 };
+enum Status { proved = 0, not_proved = 1, unreadable = 2, proved_but_for = 3 };
 
 constexpr char usage[] =
     "slapstick-verify FILE    checks a certificate that `slapstick simulate --certify FILE` has written; `-` reads it "
     "from standard input\n\n"
-    "Every claim of the file is checked in ball arithmetic of 256 bits; the rules are in docs/certificate.md. Standard "
-    "output gets one line\n"
-    "for each claim that is not proved (the first 20) and a report. Exit status: 0 proved, 1 not proved, 2 unreadable "
-    "or incomplete.\n";
+    "The motion is checked against the model in the file, in ball arithmetic of 256 bits; the rules are in "
+    "docs/certificate.md.\n"
+    "Standard output gets one line for each claim that does not hold (the first 20) and a report.\n"
+    "Exit status: 0 proved, 1 not proved, 2 unreadable or incomplete, 3 proved but for what the last line names.\n";
 
 constexpr long most_shown = 20;
 
-void report(const Head& head, const Tally& t, long refused) {
-  std::printf("model            %s\n", head.model.c_str());
-  std::printf("segments         %ld\n", t.segments);
-  std::printf("guards           %ld proved free of zeros by %ld steps, %ld at rest\n", t.guards, t.steps, t.rests);
-  std::printf("events           %ld, of them %ld impacts\n", t.events, t.impacts);
-  std::printf("touches          %ld (whether there is a zero cannot be decided)\n", t.touches);
-  std::printf("chatter limits   %ld proved\n", t.chatters);
-  std::printf("ties             %ld, within %.2g periods\n", t.ties, t.tie);
-  std::printf("flat zeros       %ld, within %.2g periods (there, the guard is no more than rounding)\n", t.flats,
-              t.flat);
-  std::printf("largest DELTA    %.2g periods\n", t.delta);
-  std::printf("largest jump     %.2g of what rounding is allowed\n", t.jump);
-  if (refused == 0)
-    std::printf("proved\n");
-  else
-    std::printf("not proved: %ld refusals\n", refused);
-}
-
 int run(std::istream& in) {
   long refused = 0;
-  const Refuse refuse = [&](long line, const std::string& what) {
+  const Verdict verdict = check(in, [&](long line, const std::string& what) {
     if (++refused <= most_shown) std::printf("line %ld: %s\n", line, what.c_str());
-  };
-  Reader reader(in);
-  Checker checker(reader.head(), reader.modes(), refuse);
-  for (Segment segment; reader.next(segment);) checker.segment(segment);
-  report(reader.head(), checker.tally(), refused);
-  return refused == 0 ? proved : not_proved;
+  });
+  std::printf("%s%s\n", report(verdict).c_str(), sentence(verdict).c_str());
+  if (verdict.refusals > 0) return not_proved;
+  return verdict.proved() ? proved : proved_but_for;
 }
 
 }  // namespace
@@ -57,7 +37,7 @@ int run(std::istream& in) {
 int main(int count, char** arguments) {
   using namespace verify;
   if (count == 2 && (std::strcmp(arguments[1], "--help") == 0 || std::strcmp(arguments[1], "-h") == 0))
-    return std::fputs(usage, stdout), 0;
+    return std::fputs(usage, stdout), proved;
   if (count != 2) return std::fputs(usage, stderr), unreadable;
   const std::string name = arguments[1];
   try {

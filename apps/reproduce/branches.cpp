@@ -1,15 +1,16 @@
 /// Follows the branches of n-1 orbits and compares them with the windows of the diagrams.
 #include "reproduce/branches.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
 #include "base/ranges.hpp"
+#include "base/text.hpp"
 #include "reproduce/claims.hpp"
 #include "slapstick/base/error.hpp"
-#include "slapstick/orbit/search.hpp"
-#include "base/text.hpp"
 #include "slapstick/continuation/sentences.hpp"
+#include "slapstick/orbit/search.hpp"
 
 namespace slapstick::paper {
 namespace {
@@ -154,6 +155,34 @@ void add_quantities(Claim& claim, const std::string& of, const orbit::Branch& br
   }
 }
 
+/// The divided difference of second order of omega over friction at three neighbouring points of a curve.
+double second_difference(const std::vector<orbit::CurvePoint>& points, std::size_t first) {
+  const auto& a = points[first].values;
+  const auto& b = points[first + 1].values;
+  const auto& c = points[first + 2].values;
+  return ((c[0] - b[0]) / (c[1] - b[1]) - (b[0] - a[0]) / (b[1] - a[1])) / (c[1] - a[1]);
+}
+
+/// Interpolates a bound between two points of its curve. The error is (f - a) (f - b) omega'' / 2, which the difference
+/// with either neighbour estimates.
+void add_bound(const BoundCurve& bound, double friction, Claim& claim) {
+  constexpr double points_known_to = 5e-10;
+  const auto& points = bound.curve.points;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const double a = points[i].values[1], b = points[i + 1].values[1];
+    if ((a - friction) * (b - friction) > 0.0 || a == b) continue;
+    const double omega =
+        points[i].values[0] + (friction - a) / (b - a) * (points[i + 1].values[0] - points[i].values[0]);
+    double bend = 0.0;
+    if (i > 0) bend = std::abs(second_difference(points, i - 1));
+    if (i + 2 < points.size()) bend = std::max(bend, std::abs(second_difference(points, i)));
+    const double within = points_known_to + std::abs((friction - a) * (friction - b)) * bend;
+    claim.quantities.push_back({bound.label + " at friction " + shown(friction), "", place(omega, within), omega,
+                                "between two points of the curve", within});
+    return;
+  }
+}
+
 }  // namespace
 
 Claim claim_branches(const Study& study, const Branches& branches) {
@@ -187,18 +216,7 @@ Claim claim_bounds(const Study& study, const Branches& branches) {
               "",       Agreement::not_claimed,
               "",       {}};
   for (const BoundCurve& bound : branches.bounds) {
-    for (const double friction : friction_values) {
-      const auto& points = bound.curve.points;
-      for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-        const double a = points[i].values[1], b = points[i + 1].values[1];
-        if ((a - friction) * (b - friction) > 0.0 || a == b) continue;
-        const double omega =
-            points[i].values[0] + (friction - a) / (b - a) * (points[i + 1].values[0] - points[i].values[0]);
-        claim.quantities.push_back({bound.label + " at friction " + shown(friction), "", fixed(omega, 4), omega,
-                                    "between two points of the curve"});
-        break;
-      }
-    }
+    for (const double friction : friction_values) add_bound(bound, friction, claim);
     for (const orbit::CurveEvent& event : bound.curve.met)
       claim.quantities.push_back({bound.label + ", met", "",
                                   "(" + fixed(event.values[0], 4) + ", " + fixed(event.values[1], 4) + ")",

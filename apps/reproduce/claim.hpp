@@ -15,11 +15,12 @@ std::string_view name(Agreement agreement);
 
 /// One number (or word) of a claim.
 struct Quantity {
-  std::string name;               ///< "upper edge of the 1-1 window"
-  std::string printed;            ///< as the paper has it: "2.84"; empty if the paper gives no number
-  std::string computed;           ///< as people read it: "2.8451"
-  std::optional<double> value{};  ///< the same as a number, where there is one
-  std::string note;               ///< what lies on either side, how it was found
+  std::string name;                ///< "upper edge of the 1-1 window"
+  std::string printed;             ///< as the paper has it: "2.84"; empty if the paper gives no number
+  std::string computed;            ///< as people read it: "2.8451"
+  std::optional<double> value{};   ///< the same as a number, where there is one
+  std::string note{};              ///< what lies on either side, how it was found
+  std::optional<double> within{};  ///< so far from `value` the true number may be, where that is known
 };
 
 /// A claim of the table. `id` is C1 to C9, or "print" for the comparison with the printed

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/text.hpp"
 #include "reproduce/claims.hpp"
 
 namespace slapstick::paper {
@@ -22,6 +23,22 @@ std::string fixed(double value, int digits) {
   char text[64];
   std::snprintf(text, sizeof text, "%.*f", digits, value);
   return text;
+}
+
+/// Rounding to a unit adds half of it to the error, which may be the other half.
+std::string place(double value, double within) {
+  if (within <= 0.0) return shown(value);
+  int decimals = 0;
+  for (double unit = 0.1; unit >= 2.0 * within && decimals < 9; unit /= 10.0) ++decimals;
+  return fixed(value, decimals);
+}
+
+std::string place(const Edge& edge) { return place(edge.omega(), edge.within()); }
+
+std::string grid_value(double value, double step) {
+  int decimals = 0;
+  for (double unit = 1.0; std::abs(std::remainder(step, unit)) > 1e-9 * step; unit /= 10.0) ++decimals;
+  return fixed(value, decimals);
 }
 
 std::optional<Found> middle_of_longest(const std::vector<Found>& survey, const Wanted& wanted) {
@@ -78,15 +95,17 @@ std::string describe(const Edge& edge) {
     return text + "; the orbit goes on, a stick phase comes or goes";
   if (edge.inside.what.multipliers.empty()) return text;
   const std::complex<double> leading = edge.inside.what.multipliers.front();
-  if (std::abs(leading) < 0.98) return text + "; no multiplier near the unit circle: a jump, as at a grazing";
+  if (std::abs(leading) < weakly_attracting)
+    return text + "; no multiplier near the unit circle: a jump, as at a grazing";
   if (std::abs(leading.imag()) > 1e-3) return text + "; a pair of multipliers leaves the unit circle: Neimark-Sacker";
   return text +
          (leading.real() < 0.0 ? "; a multiplier passes -1: period doubling" : "; a multiplier reaches +1: fold");
 }
 
-Quantity edge_quantity(const std::string& name, const std::string& printed, const Edge& edge, int digits) {
+Quantity edge_quantity(const std::string& name, const std::string& printed, const Edge& edge) {
   Quantity out{name, printed, "", edge.omega(), describe(edge)};
-  out.computed = (edge.found ? "" : "none up to ") + fixed(edge.omega(), digits);
+  out.computed = (edge.found ? "" : "none up to ") + place(edge);
+  if (edge.found) out.within = edge.within();
   return out;
 }
 

@@ -3,8 +3,8 @@
 /// judged.
 #include <optional>
 
-#include "reproduce/window.hpp"
 #include "reproduce/claim.hpp"
+#include "reproduce/window.hpp"
 
 namespace slapstick::paper {
 
@@ -61,10 +61,15 @@ struct Evidence {
 [[nodiscard]] double share(const std::vector<Found>& survey, double from, double to, const Wanted& of);
 
 [[nodiscard]] std::string fixed(double value, int digits);
+/// A place that is known to `within`: so many decimals that the number printed is off by at most one unit of its last.
+/// What is known exactly (0) has all its digits.
+[[nodiscard]] std::string place(double value, double within);
+[[nodiscard]] std::string place(const Edge& edge);
+/// A value of a grid, to the decimals that tell the grid's values apart.
+[[nodiscard]] std::string grid_value(double value, double step);
 /// "1-1-I -> 2-2-I at ..., multiplier -0.9999: period doubling".
 [[nodiscard]] std::string describe(const Edge& edge);
-[[nodiscard]] Quantity edge_quantity(const std::string& name, const std::string& printed, const Edge& edge,
-                                     int digits = 4);
+[[nodiscard]] Quantity edge_quantity(const std::string& name, const std::string& printed, const Edge& edge);
 [[nodiscard]] Quantity class_quantity(const std::string& name, const std::string& printed, const Found& found);
 [[nodiscard]] Quantity number_quantity(const std::string& name, const std::string& printed, double value, int digits,
                                        const std::string& note = "");

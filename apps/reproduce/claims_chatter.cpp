@@ -79,7 +79,7 @@ Claim claim_4(const Evidence& evidence) {
       {}};
   claim.computed = "At 0.552 " + at.what.label + ": " + std::to_string(burst.impacts) +
                    " impacts are bounced through one by one, then the proven limit; " + std::to_string(burst.limits) +
-                   " limits in 10 periods. Complete chatter up to ω = " + fixed(upper.omega(), 4) +
+                   " limits in 10 periods. Complete chatter up to ω = " + place(upper) +
                    ", from there to 1.12 finite bursts.";
   const bool confirmed = complete(at.what) && burst.limits == 10;
   claim.agreement = !confirmed                                             ? Agreement::no

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reproduce/claims.hpp"
 #include "base/text.hpp"
+#include "reproduce/claims.hpp"
 
 namespace slapstick::paper {
 namespace {
@@ -86,6 +86,16 @@ std::string listed(const std::vector<Row>& rows, int digits, const Value& value)
   return out;
 }
 
+/// The upper edges of the n-1 windows, likewise.
+std::string upper_edges(const std::vector<Row>& rows, int n) {
+  std::string out;
+  for (const Row& row : rows) {
+    const Window& window = row.windows[n];
+    out += (out.empty() ? "" : ", ") + (window.found ? place(window.upper) : "none");
+  }
+  return out;
+}
+
 template <class Value>
 bool falls(const std::vector<Row>& rows, const Value& value) {
   for (std::size_t i = 1; i < rows.size(); ++i)
@@ -110,8 +120,8 @@ void judge(const std::vector<Row>& rows, Claim& claim) {
   claim.agreement = good == 5 ? Agreement::yes : good > 0 ? Agreement::partly : Agreement::no;
   claim.computed =
       "For f_s = f_k = 0, 0.05, 0.1, 0.15, 0.2, 0.3: mean impact speed below 1.12: " +
-      listed(rows, 3, [](const Row& row) { return row.low_speed; }) +
-      "; upper edge of 1-1: " + listed(rows, 3, upper_1) + "; of 3-1: " + listed(rows, 3, upper_3) +
+      listed(rows, 3, [](const Row& row) { return row.low_speed; }) + "; upper edge of 1-1: " + upper_edges(rows, 1) +
+      "; of 3-1: " + upper_edges(rows, 3) +
       "; share of [5, 10] that is chaotic: " + listed(rows, 2, [](const Row& row) { return row.high_chaotic; }) +
       "; share of [0.56, 10] that sticks: " + listed(rows, 2, [](const Row& row) { return row.sticking; }) + ".";
   claim.explanation = verdict("Smaller impact speeds at low ω", slower) +

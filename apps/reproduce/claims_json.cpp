@@ -14,6 +14,7 @@ std::string claims_json(const Options& options, const std::vector<Claim>& claims
       if (!quantity.printed.empty()) one.set("printed", quantity.printed);
       one.set("computed", quantity.computed);
       if (quantity.value) one.set("value", *quantity.value);
+      if (quantity.within) one.set("within", *quantity.within);
       if (!quantity.note.empty()) one.set("note", quantity.note);
       quantities.push(std::move(one));
     }
@@ -25,7 +26,7 @@ std::string claims_json(const Options& options, const std::vector<Claim>& claims
   }
   Json all = Json::object();
   all.set("version", SLAPSTICK_VERSION).set("model", "vibro-impact").set("quick", options.quick);
-  all.set("edges_refined_to", 1e-4).set("claims", std::move(list));
+  all.set("claims", std::move(list));
   return all.dump() + "\n";
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/text.hpp"
 #include "reproduce/claims.hpp"
 
 namespace slapstick::paper {
@@ -97,7 +98,8 @@ Claim coexisting(const Evidence& evidence) {
     if (current.empty()) return;
     std::string names;
     for (const std::string& label : current) names += (names.empty() ? "" : ", ") + label;
-    claim.quantities.push_back({"ω in [" + fixed(begin, 2) + ", " + fixed(end, 2) + "]", "", names, std::nullopt, ""});
+    claim.quantities.push_back({"ω in [" + fixed(begin, 2) + ", " + fixed(end, 2) + "]", "", names, std::nullopt,
+                                "in steps of " + shown(evidence.study.sizes().survey_step)});
   };
   for (std::size_t i = 0; i < up.size(); ++i) {
     const auto labels = together(up[i].what, all.down[i].what, all.rest[i].what);

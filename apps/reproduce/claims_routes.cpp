@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.hpp"
 #include "reproduce/claims.hpp"
 
 namespace slapstick::paper {
@@ -74,8 +75,8 @@ Route route(const Evidence& evidence, int n, double to) {
 }
 
 void add_first(Claim& claim, const std::string& what, const std::optional<double>& omega, double step) {
-  Quantity quantity{"first " + what + " value beyond it", "", "none", omega, "in steps of " + fixed(step, 5)};
-  if (omega) quantity.computed = fixed(*omega, 5);
+  Quantity quantity{"first " + what + " value beyond it", "", "none", omega, "in steps of " + shown(step)};
+  if (omega) quantity.computed = grid_value(*omega, step);
   claim.quantities.push_back(quantity);
 }
 
@@ -89,6 +90,19 @@ void add_route(const Study& study, const Route& route, Claim& claim, const std::
   add_first(claim, "locked", route.locked, step);
   add_first(claim, "chaotic", route.chaos, step);
   add_locked(study, route.after, claim);
+}
+
+/// Of two neighbouring intervals between doublings, with what the edges' errors make of it to first order.
+Quantity interval_ratio(std::size_t index, const Edge& a, const Edge& b, const Edge& c) {
+  const double first = b.omega() - a.omega(), second = c.omega() - b.omega(), ratio = first / second;
+  const double within =
+      std::abs(ratio) * ((a.within() + b.within()) / std::abs(first) + (b.within() + c.within()) / std::abs(second));
+  return {"ratio of successive intervals, " + std::to_string(index),
+          "",
+          place(ratio, within),
+          ratio,
+          "tends to 4.6692 (Feigenbaum)",
+          within};
 }
 
 /// The pair of multipliers at the end of `edge` is complex and on the unit circle.
@@ -105,30 +119,31 @@ Claim claim_6(const Evidence& evidence) {
   Claim claim{"C6", "1-1-I doubles to 2-2 near 2.84 and on to chaos (Fig. 6a).", "", Agreement::no, "", {}};
   Edge edge = evidence.surveys.paper().windows[1].upper;
   if (edge.found) edge = follow(study, {}, edge.inside, 3.0, cycle(1, 1), {1e-4, 1e-6, 1e-3});
-  std::vector<double> edges = {edge.omega()};
-  claim.quantities.push_back(edge_quantity("1-1 doubles", "2.84", edge, 5));
+  std::vector<Edge> edges = {edge};
+  claim.quantities.push_back(edge_quantity("1-1 doubles", "2.84", edge));
   double step = 2e-3;
   for (int n = 2; n <= 16; n *= 2, step /= 4.5) {
     const auto next = doubled(study, edge, n / 2, n / 2, step, 1e-6);
     if (!next || !next->found) break;
     edge = *next;
-    edges.push_back(edge.omega());
+    edges.push_back(edge);
     const std::string kind = std::to_string(n) + "-" + std::to_string(n);
-    claim.quantities.push_back(edge_quantity(kind + " doubles", "", edge, 5));
+    claim.quantities.push_back(edge_quantity(kind + " doubles", "", edge));
   }
   for (std::size_t k = 2; k < edges.size(); ++k)
-    claim.quantities.push_back(number_quantity("ratio of successive intervals, " + std::to_string(k - 1), "",
-                                               (edges[k - 1] - edges[k - 2]) / (edges[k] - edges[k - 1]), 2,
-                                               "tends to 4.6692 (Feigenbaum)"));
-  const auto chaos = scan(study, {}, edges.back(), edge.outside.what.state, 5e-4, 3.0, is_chaotic);
+    claim.quantities.push_back(interval_ratio(k - 1, edges[k - 2], edges[k - 1], edges[k]));
+  constexpr double chaos_step = 5e-4;
+  const auto chaos = scan(study, {}, edge.omega(), edge.outside.what.state, chaos_step, 3.0, is_chaotic);
+  const std::string chaos_from = chaos ? place(chaos->omega, chaos_step) : "";
   if (chaos)
     claim.quantities.push_back(
-        number_quantity("first chaotic value", "", chaos->omega, 4,
-                        "in steps of 0.0005; exponent " + fixed(chaos->what.exponent, 3) + " per period"));
+        {"first chaotic value", "", chaos_from, chaos->omega,
+         "in steps of " + shown(chaos_step) + "; exponent " + fixed(chaos->what.exponent, 3) + " per period",
+         chaos_step});
   claim.computed = std::to_string(edges.size()) + " period doublings at ω =";
-  for (const double omega : edges) claim.computed += " " + fixed(omega, 4);
-  claim.computed += chaos ? "; chaos from " + fixed(chaos->omega, 4) + " on." : "; no chaos found.";
-  const bool good = edges.size() >= 3 && chaos && std::abs(edges[0] - 2.84) < 0.01;
+  for (const Edge& one : edges) claim.computed += " " + place(one);
+  claim.computed += chaos ? "; chaos from " + chaos_from + " on." : "; no chaos found.";
+  const bool good = edges.size() >= 3 && chaos && std::abs(edges[0].omega() - 2.84) < 0.01;
   claim.agreement = good ? Agreement::yes : Agreement::partly;
   claim.explanation =
       "A multiplier passes -1 at each step. The intervals do not shrink at Feigenbaum's rate, 4.67, throughout: that "
@@ -154,9 +169,9 @@ Claim claim_7(const Evidence& evidence) {
   const bool points = at_4801.what.label == "4-2-I" && quasi_periodic(at_4805.what);
   const bool way = leaves_as_a_pair(found.circle) && found.locked && found.chaos;
   claim.agreement = points && way ? Agreement::yes : points ? Agreement::partly : Agreement::no;
-  claim.computed = "4.801: " + at_4801.what.label + "; 4.805: " + at_4805.what.label +
-                   "; the pair of multipliers leaves the unit circle at ω = " +
-                   (found.circle ? fixed(found.circle->omega(), 4) : "?") + ".";
+  claim.computed =
+      "4.801: " + at_4801.what.label + "; 4.805: " + at_4805.what.label +
+      "; the pair of multipliers leaves the unit circle at ω = " + (found.circle ? place(*found.circle) : "?") + ".";
   claim.explanation =
       "For a map the bifurcation is called Neimark-Sacker; the paper's word Hopf means the same here. After the "
       "circles come "
@@ -175,9 +190,9 @@ Claim claim_8(const Evidence& evidence) {
                         found.doubling.inside.what.multipliers.front().real() < -0.98;
   const bool way = doubling && leaves_as_a_pair(found.circle) && found.chaos && *found.chaos < 6.7;
   claim.agreement = way ? Agreement::yes : Agreement::partly;
-  claim.computed = "Doubling at ω = " + fixed(found.doubling.omega(), 4) + ", Neimark-Sacker at " +
-                   (found.circle ? fixed(found.circle->omega(), 4) : "?") + ", chaos from " +
-                   (found.chaos ? fixed(*found.chaos, 4) : "?") + ".";
+  claim.computed = "Doubling at ω = " + place(found.doubling) + ", Neimark-Sacker at " +
+                   (found.circle ? place(*found.circle) : "?") + ", chaos from " +
+                   (found.chaos ? grid_value(*found.chaos, study.sizes().locked_step) : "?") + ".";
   claim.explanation =
       "The route and its place are confirmed. The first step is a period doubling (a multiplier passes -1), "
       "not a pitchfork: in the diagram both look like a fork.";

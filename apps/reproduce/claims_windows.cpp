@@ -19,9 +19,7 @@ const char* const as_a_grid =
     "Each printed edge is the last multiple of 0.01 inside the computed window: a diagram in such steps shows exactly "
     "these.";
 
-std::string interval(const Window& window) {
-  return "[" + fixed(window.lower.omega(), 4) + ", " + fixed(window.upper.omega(), 4) + "]";
-}
+std::string interval(const Window& window) { return "[" + place(window.lower) + ", " + place(window.upper) + "]"; }
 
 const Window& one_impact(const Evidence& evidence) { return evidence.surveys.paper().windows[1]; }
 
@@ -75,8 +73,8 @@ Claim claim_3(const Evidence& evidence) {
   Claim claim{"C3", "1-1-I for ω in [1.12, 1.47] and [1.6, 2.84]; Fig. 4: ω = 2.2 in the text, 2 in the caption.",
               "",   Agreement::no,
               "",   {}};
-  claim.computed = "1-1-I for ω in [" + fixed(whole.lower.omega(), 4) + ", " + fixed(stick.lower.omega(), 4) +
-                   "] and [" + fixed(stick.upper.omega(), 4) + ", " + fixed(whole.upper.omega(), 4) + "].";
+  claim.computed = "1-1-I for ω in [" + place(whole.lower) + ", " + place(stick.lower) + "] and [" +
+                   place(stick.upper) + ", " + place(whole.upper) + "].";
   const bool good = below == 1.0 && above == 1.0 && text.what.label == "1-1-I" && caption.what.label == "1-1-I";
   claim.agreement = good ? Agreement::yes : Agreement::partly;
   claim.explanation = "Both readings of Fig. 4 are 1-1-I; the edges are those of C1 and C2.";
@@ -95,7 +93,7 @@ Claim claim_5(const Evidence& evidence) {
               "",
               {}};
   const auto& up = evidence.surveys.paper().survey;
-  double covered = 0.0, bands = 0.0;
+  double covered = 0.0, bands = 0.0, within_all = 0.0;
   Window before;
   int found = 0;
   for (int n = 1; n <= 6; ++n) {
@@ -104,23 +102,26 @@ Claim claim_5(const Evidence& evidence) {
     const std::string name = std::to_string(n) + "-1";
     ++found;
     covered += window.width();
+    within_all += window.lower.within() + window.upper.within();
     if (before.found) {
       const double low = before.upper.omega(), high = window.lower.omega();
       bands += std::max(0.0, high - low);
       const double chaotic =
           share(up, low, high, [](const Classification& what) { return what.attractor == Attractor::chaotic; });
-      claim.quantities.push_back(
-          number_quantity("band below the " + name + " window", "narrow, chaotic", high - low, 4,
-                          high < low ? "the two windows overlap: both motions exist there"
-                                     : "chaotic at " + fixed(100.0 * chaotic, 0) +
-                                           " % of its frequencies; the rest are cascades and locked windows"));
+      const double within = before.upper.within() + window.lower.within();
+      claim.quantities.push_back({"band below the " + name + " window", "narrow, chaotic", place(high - low, within),
+                                  high - low,
+                                  high < low ? "the two windows overlap: both motions exist there"
+                                             : "chaotic at " + fixed(100.0 * chaotic, 0) +
+                                                   " % of its frequencies; the rest are cascades and locked windows",
+                                  within});
     }
     claim.quantities.push_back(edge_quantity("lower edge of the " + name + " window", "", window.lower));
     claim.quantities.push_back(edge_quantity("upper edge of the " + name + " window", "", window.upper));
     before = window;
   }
-  claim.computed = std::to_string(found) + " windows, n = 1 to 6, cover " + fixed(covered, 2) +
-                   " of the 9.44 units of ω; the bands between them " + fixed(bands, 2) + ".";
+  claim.computed = std::to_string(found) + " windows, n = 1 to 6, cover " + place(covered, within_all) +
+                   " of the 9.44 units of ω; the bands between them " + place(bands, within_all) + ".";
   claim.agreement = found == 6 && covered > 3.0 * bands ? Agreement::partly : Agreement::no;
   claim.explanation =
       "The staircase is there from ω = 1.12 on. Two things differ from the words: below 1.12 the motion is 1-p with p "

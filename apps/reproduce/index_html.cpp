@@ -3,9 +3,9 @@
 #include <fstream>
 #include <iterator>
 
+#include "base/text.hpp"
 #include "reproduce/report.hpp"
 #include "slapstick/base/error.hpp"
-#include "base/text.hpp"
 
 namespace slapstick::paper {
 namespace {
@@ -140,7 +140,9 @@ std::string claims_section(const std::vector<Claim>& claims) {
   out +=
       "</table>\n<p>Window edges are found by following the attractor from inside and bisecting on its class until the "
       "edge is enclosed in "
-      "10<sup>-4</sup> of ω (printed: the middle). A class after an arrow is what a long transient leads to just "
+      "5·10<sup>-5</sup> of ω. Near a loss of stability a class is hard to tell: how far, the multipliers say. Of each "
+      "place only the decimals are printed that this leaves, the last one off by at most one. A class after an arrow "
+      "is what a long transient leads to just "
       "beyond the edge. All numbers: "
       "<a href=\"claims.json\">claims.json</a>.</p>\n";
   for (const Claim& claim : claims) out += quantity_table(claim);

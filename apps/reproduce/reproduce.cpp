@@ -24,7 +24,7 @@ std::vector<PlannedPart> plan() {
           {"bounds over friction", 2},
           {"attractors beneath", 5},
           {"attractors over omega", 35},
-          {"windows to 1e-4", 12},
+          {"windows", 12},
           {"claims", 20}};
 }
 

@@ -4,7 +4,7 @@
 #include <mutex>
 
 #include "slapstick/base/error.hpp"
-#include "sweep/parallel.hpp"
+#include "slapstick/sweep/parallel.hpp"
 #include "sweep/diagram_point.hpp"
 
 namespace slapstick::paper {

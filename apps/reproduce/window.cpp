@@ -3,16 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <utility>
 
 namespace slapstick::paper {
 
 namespace {
 
-/// Enough to tell a periodic motion, started next to itself, from all others.
-ClassifyOptions brief(const Study& study) {
+/// Enough to tell a periodic motion, started next to itself, from all others. Less would deny cycles that attract
+/// weakly, and put edges where none are.
+ClassifyOptions brief() {
   ClassifyOptions how;
-  how.transient_periods = study.options().quick ? 200 : 500;
-  how.most_periods = study.options().quick ? 1000 : 15'000;
+  how.transient_periods = 500;
+  how.most_periods = 15'000;
   how.exponent_periods = 400;
   return how;
 }
@@ -24,12 +27,28 @@ ClassifyOptions for_survey() {
   return how;
 }
 
+double largest_multiplier(const Found& found) {
+  return found.what.multipliers.empty() ? 0.0 : std::abs(found.what.multipliers.front());
+}
+
+/// `Edge::hidden` by the last two cycles inside; no more than `most`, also where the multipliers do not grow.
+double hidden_beyond(const Found& before, const Found& inside, double most) {
+  const double modulus = largest_multiplier(inside);
+  if (modulus < weakly_attracting) return 0.0;
+  const double growth = (modulus - largest_multiplier(before)) / std::abs(inside.omega - before.omega);
+  const double distance = std::max(1.0 - modulus, 0.0) / growth;
+  return growth > 0.0 && distance < most ? distance : most;
+}
+
 }  // namespace
+
+double Edge::within() const { return found ? std::max(std::abs(outside.omega - inside.omega), 2.0 * hidden) : 0.0; }
 
 Edge follow(const Study& study, const Overrides& with, const Found& seed, double limit, const Wanted& wanted,
             const Search& search) {
   Edge edge;
   edge.inside = seed;
+  Found before = seed;
   const double sign = limit > seed.omega ? 1.0 : -1.0;
   // A long step may leave the basin before the attractor ends: each time, go on in steps of a third as long.
   for (double step = search.step; !edge.found || std::abs(edge.outside.omega - edge.inside.omega) > search.tolerance;
@@ -39,15 +58,19 @@ Edge follow(const Study& study, const Overrides& with, const Found& seed, double
       const double ahead = std::abs(limit - edge.inside.omega);
       if (ahead == 0.0) return edge;
       const double omega = ahead < 1.5 * step ? limit : edge.inside.omega + sign * step;
-      Found next = study.find(with, omega, edge.inside.what.state, brief(study));
+      Found next = study.find(with, omega, edge.inside.what.state, brief());
       edge.found = !wanted(next.what);
-      (edge.found ? edge.outside : edge.inside) = std::move(next);
+      if (!edge.found)
+        before = std::exchange(edge.inside, std::move(next));
+      else
+        edge.outside = std::move(next);
     }
   }
+  edge.hidden = hidden_beyond(before, edge.inside, std::abs(limit - edge.inside.omega));
   ClassifyOptions patient;
-  patient.transient_periods = study.options().quick ? 500 : 3000;
-  patient.most_periods = study.options().quick ? 600 : 5000;
-  patient.exponent_periods = study.options().quick ? 500 : 2000;  // attraction is weak near a bifurcation
+  patient.transient_periods = 3000;
+  patient.most_periods = 5000;
+  patient.exponent_periods = 2000;  // attraction is weak near a bifurcation
   const double further = edge.outside.omega + sign * search.beyond;
   edge.beyond = study.find(with, further, edge.outside.what.state, patient);
   return edge;

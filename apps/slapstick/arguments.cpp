@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <system_error>
 
 #include "slapstick/base/error.hpp"
 #include "base/decimal.hpp"
 #include "base/nearest.hpp"
+#include "io/expression.hpp"
 
 namespace slapstick::app {
 
@@ -129,8 +131,31 @@ std::string number_advice(const std::string& text) {
   if (text[end] == ',' && text.find_first_not_of("0123456789", end + 1) == std::string::npos)
     return " (decimals have a point: 0.5, not 0,5)";
   if (text[end] == ',' || text[end] == ';') return " (one number is expected here)";
-  return " (only the number, in the model's units: no unit, no expression)";
+  return " (only the number, in the model's units: no unit)";
 }
+
+namespace {
+
+/// The value of an expression of numbers, as "pi/2"; nothing if `text` is none.
+std::optional<double> constant(const std::string& text) {
+  try {
+    const Expression expression(text);
+    if (expression.names().empty()) return expression.value({});
+  } catch (const InputError&) {
+  }
+  return std::nullopt;
+}
+
+/// "1e6" and "1000000.0" are whole numbers too.
+std::optional<long long> whole(const std::string& text) {
+  constexpr double exact = 9007199254740992.0;  // 2^53: up to here a double is the number that was written
+  double value = 0.0;
+  if (read_decimal(text, value) != std::errc() || std::floor(value) != value || std::abs(value) > exact)
+    return std::nullopt;
+  return static_cast<long long>(value);
+}
+
+}  // namespace
 
 double parse_number(const std::string& argument, const std::string& text) {
   const std::size_t begin = text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0;
@@ -138,8 +163,11 @@ double parse_number(const std::string& argument, const std::string& text) {
   const std::errc error = read_decimal(std::string_view(text).substr(begin), value);
   if (error == std::errc::result_out_of_range)
     throw InputError(argument + ": " + in_quotes(text) + " is too large or too small for a number");
-  if (error != std::errc())
-    throw InputError(argument + ": " + in_quotes(text) + " is not a number" + number_advice(text));
+  if (error != std::errc()) {
+    const std::optional<double> computed = constant(text);
+    if (!computed) throw InputError(argument + ": " + in_quotes(text) + " is not a number" + number_advice(text));
+    value = *computed;
+  }
   if (!std::isfinite(value)) throw InputError(argument + ": " + in_quotes(text) + " is not finite");
   return value;
 }
@@ -147,24 +175,14 @@ double parse_number(const std::string& argument, const std::string& text) {
 long long parse_integer(const std::string& argument, const std::string& text, long long least, long long most) {
   long long value = 0;
   const std::errc error = read_decimal(text, value);
-  if (error == std::errc::invalid_argument)
+  const std::optional<long long> read = error == std::errc::invalid_argument ? whole(text) : std::nullopt;
+  if (error == std::errc::invalid_argument && !read)
     throw InputError(argument + ": " + in_quotes(text) + " is not a whole number");
-  if (error != std::errc() || value < least || value > most)
+  value = read.value_or(value);
+  if ((error != std::errc() && !read) || value < least || value > most)
     throw InputError(argument + ": " + in_quotes(text) + " is outside [" + std::to_string(least) + ", " +
                      std::to_string(most) + "]");
   return value;
-}
-
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts(1);
-  for (const char c : text) {
-    if (c == separator) {
-      parts.emplace_back();
-    } else {
-      parts.back() += c;
-    }
-  }
-  return parts;
 }
 
 }  // namespace slapstick::app

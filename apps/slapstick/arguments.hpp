@@ -50,12 +50,11 @@ class Arguments {
 /// What may help somebody whose `text` begins like a number and is none: " (decimals have a point: 0.5, not 0,5)"; or
 /// nothing.
 [[nodiscard]] std::string number_advice(const std::string& text);
-/// The number that `text` is, whole and finite. @throws InputError "ARGUMENT: 'text' is not a number"
+/// The finite number that `text` is, or that the expression `text` gives ("pi/2").
+/// @throws InputError "ARGUMENT: 'text' is not a number"
 [[nodiscard]] double parse_number(const std::string& argument, const std::string& text);
 /// The same for a whole number in [least, most].
 [[nodiscard]] long long parse_integer(const std::string& argument, const std::string& text, long long least,
                                       long long most);
-/// Splits at every `separator`; an empty text gives one empty part.
-[[nodiscard]] std::vector<std::string> split(const std::string& text, char separator);
 
 }  // namespace slapstick::app

@@ -156,10 +156,13 @@ std::vector<figure::Key> keys(const std::vector<orbit::Branch>& branches, const 
 figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const BranchAxes& axes,
                              const orbit::Problem& problem, const SettledMotions& beneath) {
   const bool speeds = beneath.speeds || have_impacts(branches);
-  const auto heights_of = [&](const Solution& solution) { return heights(problem, solution, speeds); };
+  const auto heights_of = [&](const Solution& solution) {
+    return axes.y ? std::vector{axes.y(solution)} : heights(problem, solution, speeds);
+  };
   figure::Panel panel{.x_label = axes.x_label,
                       .y_label = speeds ? with_unit("impact speed {/:Italic w}", axes.speed)
                                         : with_unit("first coordinate at the events", axes.place)};
+  if (axes.y) panel.y_label = axes.y_label;
   panel.legend = figure::Legend::below;
   panel.x_range = figure::Range{axes.range.from, axes.range.to};
   if (!beneath.cloud.x.empty()) panel.points.push_back(beneath.cloud);
@@ -176,8 +179,8 @@ figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const B
   if (branches.size() > 1) add_branch_numbers(panel, first_line);
   figure::Figure figure;
   figure.panels.push_back(std::move(panel));
-  figure.caption =
-      "stable: solid; unstable: dashed; special points at the fastest impact; numbers: the branch (BR) of the table";
+  figure.caption = std::string("stable: solid; unstable: dashed; ") +
+                   (axes.y ? "" : "special points at the fastest impact; ") + "numbers: the branch (BR) of the table";
   return figure;
 }
 

@@ -3,6 +3,7 @@
 /// each branch, a marker for each special point, over the motions that settle, if there are some. The legend stands
 /// below. Where a branch has no impacts it is drawn at speed 0; if nothing has impacts, the first coordinate at the
 /// events is drawn. Axes have units where the model's file states them.
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct BranchAxes {
   std::string x_label;
   ParameterRange range;      ///< asked for
   std::string speed, place;  ///< units of the impact speeds, and of the first coordinate; empty: not stated
+  std::string y_label = {};  ///< of `y`
+  std::function<double(const orbit::Solution&)> y = {};  ///< what is drawn instead, if there is one
 };
 
 [[nodiscard]] figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const BranchAxes& axes,

@@ -21,8 +21,8 @@ bool CertifiedRun::operator()(const System& system, const State& start, Instant 
 
 Json CertifiedRun::summary() const {
   Json json = Json::object();
-  json.set("segments", tally_.segments).set("guards", tally_.guards).set("steps", tally_.steps);
-  json.set("touches", tally_.touches).set("chatters", tally_.chatters).set("unproved", tally_.unproved);
+  json.set("segments", tally_.segments).set("impacts", tally_.impacts);
+  json.set("chatters", tally_.chatters).set("unproved", tally_.unproved);
   return json;
 }
 

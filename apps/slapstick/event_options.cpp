@@ -1,11 +1,12 @@
 /// Reads --event, and says what the return map of these events shows.
 #include "event_options.hpp"
 
+#include <set>
 #include <vector>
 
 #include "base/ranges.hpp"
-#include "slapstick/base/error.hpp"
 #include "base/text.hpp"
+#include "slapstick/base/error.hpp"
 #include "stop_options.hpp"
 
 namespace slapstick::app {
@@ -14,10 +15,6 @@ namespace {
 using enum EventKind;
 using Kinds = std::vector<EventKind>;
 
-const Kinds of_stop = {impact, stick, release, graze, chatter};
-const Kinds of_friction = {slip_plus, slip_minus, stick, release, graze};
-const Kinds of_compliant_stop = {engage, disengage, separate};
-
 bool holds(const Kinds& kinds, EventKind kind) { return ranges::find(kinds, kind) != kinds.end(); }
 
 bool is_friction(const Model& model, int contact) {
@@ -25,23 +22,32 @@ bool is_friction(const Model& model, int contact) {
   return contact >= first && contact < first + static_cast<int>(model.frictions.size());
 }
 
-/// The kinds of event that the chosen contact can have, or any contact.
+/// The kinds of event that a contact can have.
+Kinds kinds_of(const Model& model, std::size_t contact) {
+  if (contact < model.stops.size()) return {impact, stick, release, graze, chatter};
+  contact -= model.stops.size();
+  if (contact < model.frictions.size()) {
+    Kinds kinds = {slip_plus, slip_minus, stick, release, graze};
+    if (model.frictions[contact].normal) kinds.insert(kinds.end(), {unload, load});
+    return kinds;
+  }
+  contact -= model.frictions.size();
+  if (contact >= model.compliant_stops.size()) return {corner, graze};
+  Kinds kinds = {engage, disengage, separate};
+  if (model.compliant_stops[contact].bounded) kinds.push_back(corner);
+  return kinds;
+}
+
+/// The kinds of event that the chosen contact can have, or any contact, in the order of their enumeration.
 Kinds possible(const EventChoice& events, const Model& model) {
-  const auto stops = static_cast<int>(model.stops.size());
-  const auto chosen = [&](const Kinds& kinds) {
-    if (!events.contact)
-      return &kinds == &of_stop       ? !model.stops.empty()
-             : &kinds == &of_friction ? !model.frictions.empty()
-                                      : !model.compliant_stops.empty();
-    const int contact = *events.contact;
-    return &kinds == (contact < stops ? &of_stop : is_friction(model, contact) ? &of_friction : &of_compliant_stop);
-  };
-  Kinds all;
-  for (std::size_t k = 0; k < event_kinds; ++k)
-    for (const Kinds* kinds : {&of_stop, &of_friction, &of_compliant_stop})
-      if (const auto kind = static_cast<EventKind>(k); chosen(*kinds) && holds(*kinds, kind) && !holds(all, kind))
-        all.push_back(kind);
-  return all;
+  const std::size_t contacts = model.stops.size() + model.frictions.size() + model.compliant_stops.size() +
+                               model.characteristics.size();
+  std::set<EventKind> all;
+  for (std::size_t contact = 0; contact < contacts; ++contact) {
+    if (events.contact && static_cast<std::size_t>(*events.contact) != contact) continue;
+    for (const EventKind kind : kinds_of(model, contact)) all.insert(kind);
+  }
+  return {all.begin(), all.end()};
 }
 
 }  // namespace
@@ -66,7 +72,8 @@ EventChoice event_choice(const std::string& text, const System& system) {
 
 int mapped_contact(const EventChoice& events, const Model& model) {
   if (events.contact) return *events.contact;
-  if (holds(of_friction, events.kind) && !model.frictions.empty()) return static_cast<int>(model.stops.size());
+  const std::size_t friction = model.stops.size();
+  if (!model.frictions.empty() && holds(kinds_of(model, friction), events.kind)) return static_cast<int>(friction);
   return shown_contact(model, {});
 }
 

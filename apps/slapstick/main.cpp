@@ -11,8 +11,10 @@
 #include "output.hpp"
 #include "slapstick/base/error.hpp"
 #include "base/floating_point.hpp"
+#include "base/ranges.hpp"
 #include "base/nearest.hpp"
 #include "io/atomic_file.hpp"
+#include "slapstick/io/model_file.hpp"
 #include "verb.hpp"
 
 namespace slapstick::app {
@@ -84,6 +86,9 @@ const Verb& find_verb(const std::string& word) {
     names.emplace_back(verb.name);
   }
   const bool option = !word.empty() && word[0] == '-';
+  const bool model = word.ends_with(".toml") || ranges::any_of(builtin_models(), [&](const std::string& name) { return name == word; });
+  if (model)
+    throw InputError("a verb comes before the model: slapstick simulate " + word + " (see slapstick --help)");
   throw InputError((option ? "the verb comes first, not option " : "unknown verb ") + in_quotes(word) +
                    suggestion(word, names));
 }

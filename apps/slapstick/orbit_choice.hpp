@@ -1,12 +1,11 @@
 #pragma once
-/// Which orbit `orbit`, `continue` and `curve` begin with: its options, the search for it, and what is said when there
-/// is none.
+/// The options of the orbit that `orbit`, `continue` and `curve` begin with.
 #include <string>
 
 #include "arguments.hpp"
 #include "io/json.hpp"
 #include "model_options.hpp"
-#include "slapstick/orbit/search.hpp"
+#include "slapstick/orbit/find.hpp"
 
 namespace slapstick::app {
 
@@ -19,8 +18,8 @@ struct OrbitOptions {
   double seconds = 0.0;       ///< --seconds; 0: ten, or with --starts no limit
 
   void declare(Arguments& arguments);
-  /// Begun now: the limits of a search.
-  [[nodiscard]] orbit::SearchOptions search(const std::atomic<bool>& stop) const;
+  /// What the library is asked for. @throws InputError for options that exclude one another
+  [[nodiscard]] orbit::OrbitWish wish() const;
 };
 
 /// What the options say about the orbit. @throws InputError naming the option

@@ -6,6 +6,7 @@
 
 #include "base/text.hpp"
 #include "slapstick/base/error.hpp"
+#include "slapstick/orbit/special_point.hpp"
 
 namespace slapstick::app {
 
@@ -21,63 +22,27 @@ ParameterRange parse_range(const std::string& argument, const std::string& text)
 
 namespace {
 
-/// The one value that the members of a group have. A member that is set by itself would not move with it.
-double value_of_group(const ChosenModel& chosen, const std::string& argument, const Group& group,
-                      const Overrides& values) {
-  std::string all;
-  for (const std::string& member : group.members) {
-    if (chosen.overrides.contains(member))
-      throw InputError(argument + ": " + member + " is set by itself and does not move with " + group.name + "; set " +
-                       group.name + " instead, or name one of its members");
-    all += (all.empty() ? "" : ", ") + member + " = " + shown(values.at(member));
+/// call(), whose errors name the argument.
+template <class Call>
+auto named(const std::string& argument, const Call& call) {
+  try {
+    return call();
+  } catch (const InputError& error) {
+    throw InputError(argument + ": " + error.message());
   }
-  const double value = values.at(group.members.front());
-  for (const std::string& member : group.members)
-    if (values.at(member) != value)
-      throw InputError(argument + ": the members of " + group.name + " differ: " + all +
-                       "; give them one value by --set " + group.name + "=VALUE, or name one of them");
-  return value;
-}
-
-/// The parameters that a name stands for.
-std::vector<std::string> members(const ModelDefinition& definition, const std::string& name) {
-  for (const Group& group : definition.groups())
-    if (group.name == name) return group.members;
-  return {name};
 }
 
 }  // namespace
 
 double present_value(const ChosenModel& chosen, const std::string& argument, const std::string& parameter) {
   if (parameter.empty()) throw InputError(argument + " is needed: the name of a parameter");
-  const auto values = chosen.definition.values(chosen.overrides);
-  for (const Group& group : chosen.definition.groups())
-    if (group.name == parameter) return value_of_group(chosen, argument, group, values);
-  const auto found = values.find(parameter);
-  if (found != values.end()) return found->second;
-  try {
-    (void)chosen.definition.values({{parameter, 1.0}});
-  } catch (const InputError& error) {
-    throw InputError(argument + ": " + error.message());
-  }
-  throw InputError(argument + ": model " + in_quotes(chosen.model.name) + " has no parameter " + in_quotes(parameter));
+  return named(argument, [&] { return chosen.definition.present_value(parameter, chosen.overrides, "--set "); });
 }
 
 double value_inside(const ChosenModel& chosen, const std::string& argument, const std::string& parameter,
                     const ParameterRange& range) {
   const double value = present_value(chosen, argument, parameter);
-  if (value < range.from || value > range.to)
-    throw InputError("--range: " + parameter + " = " + shown(value) + ", where the first orbit is sought, is outside " +
-                     shown(range.from) + ":" + shown(range.to) + "; give a value inside by --set " + parameter +
-                     "=VALUE");
-  for (const std::string& member : members(chosen.definition, parameter)) {
-    for (const Parameter& own : chosen.definition.parameters()) {
-      if (own.name != member) continue;
-      for (const double end : {range.from, range.to})
-        if (!own.admits(end))
-          throw InputError("--range: " + parameter + " = " + shown(end) + " is outside " + own.range());
-    }
-  }
+  named("--range", [&] { chosen.definition.check_range(parameter, chosen.overrides, range.from, range.to, "--set "); });
   return value;
 }
 
@@ -155,12 +120,8 @@ Json energy_json(const orbit::Energy& energy, const Model& model) {
 
 Json margins_json(const std::vector<orbit::Margin>& margins, const System& system) {
   Json list = Json::list();
-  const Model& model = system.model();
-  const int stops = static_cast<int>(model.stops.size()), frictions = static_cast<int>(model.frictions.size());
   for (const orbit::Margin& margin : margins) {
-    const bool friction = mode::of_friction(margin.kind);
-    const bool stop = margin.kind == mode::GuardKind::gap || margin.kind == mode::GuardKind::press;
-    const int contact = margin.contact + (stop ? 0 : friction ? stops : stops + frictions);
+    const int contact = orbit::contact_index(margin.kind, margin.contact, system.model());
     Json item = Json::object();
     item.set("guard", margin.reversal ? "reversal" : std::string(mode::name(margin.kind)))
         .set("contact", system.contact_name(contact))

@@ -17,7 +17,7 @@ Sweep parse_sweep(const std::string& text) {
               static_cast<int>(parse_integer("--sweep COUNT", parts[2], 2, 100'000'000))};
   if (!(sweep.from < sweep.to))
     throw InputError("--sweep: A = " + shown(sweep.from) + " is not below B = " + shown(sweep.to) +
-                     " (use --direction down to sweep downwards)");
+                     " (A:B is the range, from its lower to its upper end)");
   return sweep;
 }
 

@@ -7,14 +7,17 @@
 #include "axis_text.hpp"
 
 namespace slapstick::app {
-std::pair<int, int> sides_of(const Model& model,
-                             int contact) {  // stops first, then friction contacts, then compliant stops
+std::pair<int, int> sides_of(
+    const Model& model,
+    int contact) {  // stops first, then friction contacts, then compliant stops, then characteristics
   const auto of = [](const auto& part) { return std::pair(part.a, part.b); };
   auto index = static_cast<std::size_t>(contact);
   if (index < model.stops.size()) return of(model.stops[index]);
   index -= model.stops.size();
   if (index < model.frictions.size()) return of(model.frictions[index]);
-  return of(model.compliant_stops.at(index - model.frictions.size()));
+  index -= model.frictions.size();
+  if (index < model.compliant_stops.size()) return of(model.compliant_stops[index]);
+  return of(model.characteristics.at(index - model.compliant_stops.size()));
 }
 
 RelativeMotion::RelativeMotion(const Model& model, int contact) {

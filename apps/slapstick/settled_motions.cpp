@@ -8,7 +8,7 @@
 #include "slapstick/base/error.hpp"
 #include "slapstick/flow/stage.hpp"
 #include "slapstick/sweep/diagram.hpp"
-#include "sweep/parallel.hpp"
+#include "slapstick/sweep/parallel.hpp"
 
 namespace slapstick::app {
 namespace {

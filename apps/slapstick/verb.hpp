@@ -35,11 +35,15 @@ Action add_show(Arguments& arguments);
 Action add_check(Arguments& arguments);
 Action add_simulate(Arguments& arguments);
 Action add_classify(Arguments& arguments);
+Action add_lyapunov(Arguments& arguments);
 Action add_orbit(Arguments& arguments);
 Action add_continue(Arguments& arguments);
 Action add_curve(Arguments& arguments);
 Action add_poincare(Arguments& arguments);
 Action add_diagram(Arguments& arguments);
+Action add_quantities(Arguments& arguments);
+Action add_measure(Arguments& arguments);
+Action add_spectrum(Arguments& arguments);
 Action add_reproduce(Arguments& arguments);
 
 }  // namespace slapstick::app

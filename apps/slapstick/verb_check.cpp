@@ -1,12 +1,39 @@
 /// slapstick check FILE
+#include "io/json.hpp"
+#include "slapstick/model/energy_sources.hpp"
 #include "model_options.hpp"
 #include "output.hpp"
 #include "slapstick/flow/motion.hpp"
-#include "io/json.hpp"
+#include "slapstick/flow/natural_modes.hpp"
 #include "verb.hpp"
 #include "work.hpp"
 
 namespace slapstick::app {
+
+namespace {
+
+/// What the file states; a text is empty where it states nothing.
+Json units(const ChosenModel& chosen) {
+  const StatedUnits stated = chosen.definition.stated_units();
+  Json result = Json::object(), parameters = Json::object();
+  result.set("time", stated.time);
+  for (std::size_t i = 0; i < stated.coordinates.size(); ++i)
+    result.set(chosen.model.coordinates[i].name, stated.coordinates[i]);
+  for (const Parameter& parameter : chosen.definition.parameters()) parameters.set(parameter.name, parameter.unit);
+  return result.set("parameters", std::move(parameters));
+}
+
+Json natural(const System& system, const State& start) {
+  Json list = Json::list();
+  for (const NaturalMode& mode : natural_modes(system, start)) {
+    Json entry = Json::object();
+    if (mode.oscillates()) entry.set("frequency", mode.frequency).set("damping_ratio", mode.damping_ratio());
+    list.push(std::move(entry.set("decay", mode.decay)));
+  }
+  return list;
+}
+
+}  // namespace
 
 Action add_check(Arguments& arguments) {
   auto options = std::make_shared<ModelOptions>();
@@ -19,7 +46,8 @@ Action add_check(Arguments& arguments) {
   return [options](const Context&) {
     const ChosenModel chosen = options->load();
     const System system = affordable_system(chosen, {});
-    const Motion motion(system, options->start(chosen));
+    const State start = options->start(chosen);
+    const Motion motion(system, start);
     Json parameters = Json::object();
     for (const auto& [name, value] : chosen.definition.values(chosen.overrides)) parameters.set(name, value);
     Json result = Json::object();
@@ -27,10 +55,16 @@ Action add_check(Arguments& arguments) {
     result.set("coordinates", chosen.model.size())
         .set("stops", chosen.model.stops.size())
         .set("compliant_stops", chosen.model.compliant_stops.size())
-        .set("frictions", chosen.model.frictions.size());
+        .set("frictions", chosen.model.frictions.size())
+        .set("characteristics", chosen.model.characteristics.size());
+    Json feeds = Json::list();
+    for (const std::string& part : energy_sources(chosen.model)) feeds.push(part);
     result.set("period", chosen.model.forcing_period())
         .set("forced", chosen.model.forced())
-        .set("parameters", std::move(parameters));
+        .set("feeds_energy", std::move(feeds))
+        .set("parameters", std::move(parameters))
+        .set("units", units(chosen))
+        .set("natural_modes", natural(system, start));
     Output out("");
     out.write(result.dump() + "\n");
     out.commit();

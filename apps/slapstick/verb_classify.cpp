@@ -1,9 +1,11 @@
 /// slapstick classify MODEL
+#include <algorithm>
+
+#include "io/json.hpp"
 #include "model_options.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "slapstick/attractor/classify.hpp"
-#include "io/json.hpp"
 #include "stop_options.hpp"
 #include "verb.hpp"
 #include "work.hpp"
@@ -15,9 +17,16 @@ struct Options {
   ModelOptions model;
   StopOptions stops;
   std::string out;
-  long long transient = 500, most_periods = 20'000, most_n = 64;
+  long long transient = 500, most_periods = 20'000, most_n = 64, exponent_periods = 4000, quick = 0;
   bool progress = false;
 };
+
+/// As an option is written: "most_n" -> "most-n".
+std::string dashed(std::string_view option) {
+  std::string text(option);
+  std::replace(text.begin(), text.end(), '_', '-');
+  return text;
+}
 
 /// With several stops each impact says which one was hit.
 Json impacts_json(const std::vector<CycleImpact>& impacts, const Model& model) {
@@ -48,7 +57,32 @@ Json cycle_json(const Classification& found, Json json, const Model& model) {
   return json;
 }
 
-Json result_json(const Classification& found, const ChosenModel& chosen) {
+bool is_cycle(const Classification& found) { return found.n > 0; }
+
+/// What is missing for a class, and the option that would decide.
+std::string missing(const Classification& found, const Options& options) {
+  const std::string option = dashed(option_that_decides(found.doubt));
+  std::string decides = " (--" + option;
+  if (option == "most-n") decides += ", now " + std::to_string(options.most_n);
+  if (option == "most-periods") decides += ", now " + std::to_string(options.most_periods);
+  if (option == "exponent-periods") decides += ", now " + std::to_string(options.exponent_periods);
+  decides += ")";
+  switch (found.doubt) {
+    case Doubt::none:
+      break;
+    case Doubt::not_confirmed:
+      return "Newton's method confirmed no cycle within --quick; without it more is looked at";
+    case Doubt::approach:
+      return "the motion still closes in on something: leave out or search more periods" + decides;
+    case Doubt::long_cycle:
+      return "the motion repeats itself, but not within the longest cycle that was sought" + decides;
+    case Doubt::exponent:
+      return "exponent, averages and rotation number do not agree on a kind: a longer run tells" + decides;
+  }
+  return {};
+}
+
+Json result_json(const Classification& found, const Options& options, const ChosenModel& chosen) {
   const auto names = state_names(chosen.model);
   Json parameters = Json::object(), state = Json::object(), json = Json::object();
   for (const auto& [name, value] : chosen.definition.values(chosen.overrides)) parameters.set(name, value);
@@ -56,12 +90,14 @@ Json result_json(const Classification& found, const ChosenModel& chosen) {
   json.set("model", chosen.model.name).set("parameters", std::move(parameters));
   json.set("class", found.label).set("attractor", std::string(name(found.attractor)));
   json.set("sticking", found.sticking).set("chatter", std::string(name(found.chatter)));
-  if (found.attractor == Attractor::periodic) json = cycle_json(found, std::move(json), chosen.model);
-  json.set("exponent", found.exponent);
-  if (found.attractor != Attractor::periodic)
-    json.set("exponent_error", found.exponent_error).set("birkhoff_digits", found.digits);
-  if (found.attractor == Attractor::undecided && found.exponent < 0.0)
-    json.set("hint", "the motion contracts: a cycle longer than --most-n or an approach longer than --most-periods");
+  if (is_cycle(found)) json = cycle_json(found, std::move(json), chosen.model);
+  if (found.family > 0) json.set("family", found.family);
+  const bool averaged = is_cycle(found) || options.quick == 0;
+  if (averaged) json.set("exponent", found.exponent);
+  if (averaged && !is_cycle(found)) json.set("exponent_error", found.exponent_error).set("birkhoff_digits", found.digits);
+  if (found.curves > 0)
+    json.set("rotation", found.rotation).set("rotation_digits", found.rotation_digits).set("curves", found.curves);
+  if (found.doubt != Doubt::none) json.set("doubt", std::string(name(found.doubt))).set("missing", missing(found, options));
   if (!found.drift.empty()) {
     Json drift = Json::object();
     for (std::size_t i = 0; i < found.drift.size(); ++i) drift.set(chosen.model.coordinates[i].name, found.drift[i]);
@@ -71,15 +107,17 @@ Json result_json(const Classification& found, const ChosenModel& chosen) {
   return json;
 }
 
-}  // namespace
-
-Action add_classify(Arguments& arguments) {
-  auto options = std::make_shared<Options>();
+void declare(Arguments& arguments, Options* options) {
   options->model.declare(arguments);
   options->model.declare_state(arguments);
   arguments.count("--transient", options->transient, 0, 1'000'000'000, "forcing periods to leave out first (500)");
   arguments.count("--most-periods", options->most_periods, 10, 1'000'000'000, "search for a cycle this long (20000)");
   arguments.count("--most-n", options->most_n, 1, 4096, "longest cycle sought, in forcing periods (64)");
+  arguments.count("--exponent-periods", options->exponent_periods, 400, 100'000'000,
+                  "length of the run from which exponent, averages and rotation number are taken (4000)");
+  arguments.count("--quick", options->quick, 20, 1'000'000'000,
+                  "look at so many periods only, half of them transient: a cycle that Newton's method confirms, or "
+                  "undecided");
   options->stops.declare(arguments, "count and list the impacts of this stop only; may be repeated (all)");
   arguments.text("--out", options->out, "FILE", "write the JSON there instead of to standard output");
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
@@ -88,7 +126,17 @@ Action add_classify(Arguments& arguments) {
       "A compliant stop counts by its engagements.\n"
       "A motion without a cycle is quasi-periodic, chaotic or undecided; docs/classify.md says how that is decided.\n"
       "  slapstick classify vibro-impact --set omega=1.5");
-  return [options](const Context& context) {
+}
+
+}  // namespace
+
+Action add_classify(Arguments& arguments) {
+  auto options = std::make_shared<Options>();
+  declare(arguments, options.get());
+  return [options, &arguments](const Context& context) {
+    if (arguments.given("--quick"))
+      for (const char* other : {"--transient", "--most-periods", "--exponent-periods"})
+        if (arguments.given(other)) throw InputError(std::string(other) + " has no meaning with --quick");
     FileRoles roles;
     roles.add("MODEL", options->model.source);
     roles.add("--out", options->out);
@@ -101,16 +149,18 @@ Action add_classify(Arguments& arguments) {
         affordable_system(chosen, {static_cast<double>(options->transient) + least_search, "--transient"});
     Progress progress("periods at most", static_cast<double>(options->transient + options->most_periods),
                       options->progress);
-    const Classification found =
-        classify(system, start,
-                 {.transient_periods = static_cast<int>(options->transient),
-                  .most_periods = static_cast<int>(options->most_periods),
-                  .most_n = static_cast<int>(options->most_n),
-                  .stops = stops,
-                  .cancel = &context.stop,
-                  .progress = [&](long periods) { progress.update(static_cast<double>(periods)); }});
+    const ClassifyOptions how{.transient_periods = static_cast<int>(options->transient),
+                              .most_periods = static_cast<int>(options->most_periods),
+                              .most_n = static_cast<int>(options->most_n),
+                              .exponent_periods = static_cast<int>(options->exponent_periods),
+                              .stops = stops,
+                              .cancel = &context.stop,
+                              .progress = [&](long periods) { progress.update(static_cast<double>(periods)); }};
+    const Classification found = options->quick > 0
+                                     ? classify_quickly(system, start, static_cast<int>(options->quick), how)
+                                     : classify(system, start, how);
     if (found.interrupted) return interrupted;
-    out.write(result_json(found, chosen).dump() + "\n");
+    out.write(result_json(found, *options, chosen).dump() + "\n");
     out.commit();
     return done;
   };

@@ -10,6 +10,7 @@
 #include "branch_figure.hpp"
 #include "branch_json.hpp"
 #include "branch_table.hpp"
+#include "measured_diagram.hpp"
 #include "orbit_choice.hpp"
 #include "orbit_options.hpp"
 #include "output.hpp"
@@ -27,7 +28,7 @@ namespace {
 struct Options {
   ModelOptions model;
   OrbitOptions orbit;
-  std::string parameter, range, out, plot;
+  std::string parameter, range, y, out, plot;
   std::vector<std::string> sensitivity;
   long long points = 2000, branches = 1, diagram = 0;
   double step = 0.01;
@@ -38,7 +39,19 @@ struct Options {
 struct Described {
   const orbit::Problem& problem;
   const System& system;
+  std::vector<Wanted> wanted = {};  ///< --y
 };
+
+/// "values" of an orbit: what --y asks for, over its cycle.
+Json values_json(const Described& with, const orbit::Orbit& orbit) {
+  std::vector<Quantity> of;
+  for (const Wanted& one : with.wanted) of.push_back(one.quantity);
+  const Measured found = measure(with.problem, orbit, of);
+  Json values = Json::object();
+  for (std::size_t k = 0; k < of.size(); ++k)
+    values.set(of[k].name + ":" + with.wanted[k].statistic, statistic(found.of[k], with.wanted[k].statistic));
+  return values;
+}
 
 /// A branch and what is known of its special points besides.
 struct Whole {
@@ -57,6 +70,7 @@ Json on_branch_json(const Described& with, const orbit::Solution& solution) {
   Json json = Json::object();
   json.set("param", solution.orbit.values[0]);
   add_keys(json, point_json(with.problem, solution, with.system.model()), true);
+  if (!with.wanted.empty()) json.set("values", values_json(with, solution.orbit));
   return json;
 }
 
@@ -67,6 +81,7 @@ Json special_json(const Described& with, const Whole& whole, std::size_t which) 
   json.set("type", std::string(name(special.type))).set("param", special.value).set("error", special.error);
   add_keys(json, point_json(with.problem, special.solution, with.system.model()), false);
   json.set("what", orbit::what_happens(special, with.system) + image_words(images[which]));
+  if (!with.wanted.empty()) json.set("values", values_json(with, special.solution.orbit));
   if (const std::string outcome = orbit::what_becomes(special); !outcome.empty()) json.set("outcome", outcome);
   add_keys(json, typed_json(special, with.system), true);
   if (const auto classes = classes_around(branch, special))
@@ -139,6 +154,9 @@ void check(const Options& options, const ChosenModel& chosen) {
   if (!(options.step > 0.0 && options.step <= 0.2))
     throw InputError("--step: " + shown(options.step) + " is outside (0, 0.2]");
   if (options.diagram == 1) throw InputError("--diagram: a range has two ends; 1 is too few values");
+  if (!options.y.empty() && options.table) throw InputError("--y: the JSON has its values, and --table asks for none");
+  if (!options.y.empty() && options.diagram > 0)
+    throw InputError("--diagram draws the speeds of impacts, and --y something else: choose one");
   if (options.diagram > 0 && options.plot.empty())
     throw InputError("--diagram is drawn beneath the branches of --plot; give both");
   for (const std::string& name : options.sensitivity) {
@@ -198,8 +216,15 @@ void draw(const Plot& plot, const std::vector<orbit::Branch>& branches, const Ch
     std::fprintf(stderr, "slapstick: %ld values of --diagram failed and are left out, first: %s\n", settled.failed,
                  settled.failure.c_str());
   const AxisUnits units(chosen.definition, chosen.model);
-  const BranchAxes axes{parameter_axis(chosen.definition, options.parameter), range,
-                        units.speed(stop_contacts(chosen.model)), units.displacement(0, ground)};
+  BranchAxes axes{parameter_axis(chosen.definition, options.parameter), range,
+                  units.speed(stop_contacts(chosen.model)), units.displacement(0, ground)};
+  if (!options.y.empty()) {
+    const Wanted shown = parse_statistics("--y", options.y, chosen).front();
+    axes.y_label = statistic_axis(shown);
+    axes.y = [&problem, shown](const orbit::Solution& solution) {
+      return statistic(measure(problem, solution.orbit, {shown.quantity}).of.front(), shown.statistic);
+    };
+  }
   plot.write(branch_figure(branches, axes, problem, settled));
 }
 
@@ -214,6 +239,8 @@ int run(const Options& options, const Context& context) {
   const ParameterRange range = parse_range("--range", options.range);
   const double value = value_inside(chosen, "--param", options.parameter, range);
   check(options, chosen);
+  std::vector<Wanted> wanted;
+  if (!options.y.empty()) wanted = parse_statistics("--y", options.y, chosen);
   const State start = options.model.start(chosen);
   const System system = affordable_system(chosen, {static_cast<double>(options.orbit.transient) + 1.0, "--transient"});
   const auto problem = orbit::pose(chosen.definition.family({options.parameter}, chosen.overrides), {value});
@@ -223,7 +250,7 @@ int run(const Options& options, const Context& context) {
   how.progress = [&](double, long points) { progress.update(static_cast<double>(points)); };
   std::vector<orbit::Branch> branches = {orbit::follow(*problem, first.orbit, how)};
   const Lineage lineage = follow_born(*problem, branches, static_cast<std::size_t>(options.branches), how);
-  write(out, branches, lineage, chosen, {*problem, system}, options);
+  write(out, branches, lineage, chosen, {*problem, system, std::move(wanted)}, options);
   if (plot.wanted()) draw(plot, branches, chosen, *problem, options, context.stop);
   if (context.stop.load()) return interrupted;
   const auto failed = ranges::find_if(branches, &orbit::Branch::failed);
@@ -252,6 +279,8 @@ Action add_continue(Arguments& arguments) {
   arguments.flag("--table", options->table, "write a table instead of JSON");
   arguments.flag("--all-changes", options->all_changes,
                  "with --table: a row for every change of a cascade towards a chatter, instead of one for all");
+  arguments.text("--y", options->y, "Q:STAT,..",
+                 "statistics of every orbit's cycle, as `measure` gives them; --plot draws the first");
   arguments.text("--plot", options->plot, "F.png", "draw impact speeds along the branches (.png, .pdf or .svg)");
   arguments.count("--diagram", options->diagram, 0, 100'000,
                   "with --plot: draw the motions that settle at so many values beneath, as `diagram` finds them (0)");

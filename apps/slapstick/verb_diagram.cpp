@@ -7,6 +7,7 @@
 #include "contact_clouds.hpp"
 #include "model_options.hpp"
 #include "output.hpp"
+#include "measured_diagram.hpp"
 #include "parameter_ranges.hpp"
 #include "progress.hpp"
 #include "slapstick/base/error.hpp"
@@ -24,8 +25,8 @@ using sweep::Direction;
 struct Options {
   ModelOptions model;
   StopOptions stops;
-  std::string sweep, direction = "up", start = "carry", out, plot;
-  long long transient = 500, impacts = 200, most_periods = 5000, threads = 0;
+  std::string sweep, direction = "up", start = "carry", y, out, plot;
+  long long transient = 500, impacts = 200, most_periods = 5000, periods = 100, threads = 0;
   bool progress = false;
 };
 
@@ -54,9 +55,9 @@ void check_size(const Options& options, const Sweep& sweep) {
 void check_ends(const Options& options, const ChosenModel& chosen, const Sweep& sweep) {
   if (chosen.overrides.count(sweep.name) != 0)
     throw InputError("--sweep: " + in_quotes(sweep.name) + " is given by --set too");
-  if (stop_contacts(chosen.model).empty())
+  if (options.y.empty() && stop_contacts(chosen.model).empty())
     throw InputError(
-        "model " + in_quotes(chosen.model.name) + " has no stop, so a diagram has no impacts to show; " +
+        "model " + in_quotes(chosen.model.name) + " has no stop, so a diagram has no impacts to show; `--y` shows statistics of quantities, and " +
         (chosen.model.forced() ? "`poincare --section stroboscopic` needs none" : "`simulate` needs none"));
   for (const double value : {sweep.from, sweep.to}) {
     try {
@@ -77,7 +78,8 @@ sweep::DiagramProblem problem_of(const Options& options, const ChosenModel& chos
   problem.start_at = [&options, &chosen, sweep](double value) {
     return options.model.start(chosen, {{sweep.name, value}});
   };
-  problem.stops = options.stops.choice(chosen.model);
+  if (options.y.empty()) problem.stops = options.stops.choice(chosen.model);
+  problem.measured_periods = static_cast<int>(options.periods);
   problem.from = sweep.from;
   problem.to = sweep.to;
   problem.count = sweep.count;
@@ -159,17 +161,22 @@ std::string per_direction(long up, long down) {
 }
 
 /// Says on standard error what a table cannot. @throws NumericalError if a value failed
-void report(const sweep::Diagram& diagram, const Sweep& sweep, const std::string& noun) {
+void report(const sweep::Diagram& diagram, const Sweep& sweep, const std::string& noun, bool of_measures = false) {
   long notes = 0, failures = 0, empty[2] = {};
   const sweep::DiagramPoint *note = nullptr, *failure = nullptr, *without = nullptr;
   for (const sweep::DiagramPoint& point : diagram.points) {
     if (!point.note.empty() && notes++ == 0) note = &point;
     if (!point.failure.empty() && failures++ == 0) failure = &point;
-    if (!point.done || !point.failure.empty() || point.impacts.size() > 0) continue;
+    if (!point.done || !point.failure.empty() || point.impacts.size() > 0 || of_measures) continue;
     if (without == nullptr) without = &point;
     ++empty[point.direction == Direction::up ? 0 : 1];
   }
   const auto at = [&](const sweep::DiagramPoint& point) { return sweep.name + " = " + shown(point.parameter); };
+  if (!diagram.complete) {
+    const auto finished = ranges::count_if(diagram.points, [](const auto& point) { return point.done; });
+    std::fprintf(stderr, "slapstick: stopped after %ld of %zu values; these are written\n",
+                 static_cast<long>(finished), diagram.points.size());
+  }
   if (without != nullptr)
     std::fprintf(stderr, "slapstick: no %ss at %s of the values, first %s (see --most-periods)\n", noun.c_str(),
                  per_direction(empty[0], empty[1]).c_str(), at(*without).c_str());
@@ -181,6 +188,28 @@ void report(const sweep::Diagram& diagram, const Sweep& sweep, const std::string
                          ", first " + at(*failure) + ": " + failure->failure);
 }
 
+/// --y: statistics instead of impacts.
+int measured(const Options& options, const ChosenModel& chosen, const Sweep& sweep, const Context& context) {
+  const MeasuredDiagram about(chosen, options.y, sweep);
+  const Plot plot(options.plot);
+  TableOutput table(options.out, about.columns());
+  sweep::DiagramProblem problem = problem_of(options, chosen, sweep);
+  problem.of = about.of();
+  sweep::Diagram result;
+  {
+    Progress progress("values", sweep.count * (problem.direction == Direction::both ? 2.0 : 1.0), options.progress);
+    problem.progress = [&](int count, int) { progress.update(count); };
+    problem.cancel = &context.stop;
+    result = sweep::run_diagram(problem);
+  }
+  about.write(result, table);
+  const auto some = [](const sweep::DiagramPoint& point) { return !point.of.empty(); };
+  const int status = plot.write_or_say(about.figure(result), ranges::none_of(result.points, some),
+                                       result.complete ? done : interrupted);
+  report(result, sweep, "", true);
+  return status;
+}
+
 int diagram(const Options& options, const Context& context) {
   const Sweep sweep = parse_sweep(options.sweep);
   check_size(options, sweep);
@@ -190,6 +219,7 @@ int diagram(const Options& options, const Context& context) {
   roles.add("MODEL", options.model.source);
   roles.add("--out", options.out);
   roles.add_plot(options.plot);
+  if (!options.y.empty()) return measured(options, chosen, sweep, context);
   const Plot plot(options.plot);
   std::vector<std::string> columns{sweep.name, "direction", "w", "flight", "sliding", "phase"};
   for (const std::string& name : state_names(chosen.model)) columns.push_back(name);
@@ -231,6 +261,9 @@ Action add_diagram(Arguments& arguments) {
   arguments.count("--most-periods", options->most_periods, 1, 1'000'000'000,
                   "end a recording here if impacts are rare (5000)");
   arguments.count("--threads", options->threads, 0, 1024, "0: all cores; the result is the same for any number (0)");
+  arguments.text("--y", options->y, "Q:STAT,..",
+                 "instead of impacts statistics of quantities over --periods, as `measure` gives them");
+  arguments.count("--periods", options->periods, 1, 1'000'000'000, "of --y: forcing periods that are measured (100)");
   options->stops.declare(arguments, "record the impacts of this stop only; may be repeated (all)");
   arguments.text("--out", options->out, "F.csv", "write the impacts there instead of to standard output");
   arguments.text("--plot", options->plot, "F.png",
@@ -247,6 +280,11 @@ Action add_diagram(Arguments& arguments) {
       "impacts.csv");
   return [options, &arguments](const Context& context) {
     if (!arguments.given("--sweep")) throw InputError("--sweep NAME=A:B:COUNT is required");
+    for (const char* name : {"--impacts", "--most-periods", "--stop"})
+      if (!options->y.empty() && arguments.given(name))
+        throw InputError(std::string(name) + ": it is for impacts, and --y measures quantities");
+    if (options->y.empty() && arguments.given("--periods"))
+      throw InputError("--periods: it is for --y, which is not given");
     if (options->start == "reset" && options->direction == "both")
       throw InputError("--direction both: with --start reset, up and down are the same; choose one, or --start carry");
     return diagram(*options, context);

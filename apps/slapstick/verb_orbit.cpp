@@ -40,7 +40,7 @@ Json head_json(const ChosenModel& chosen) {
 /// --all: every orbit that a search finds, as far as it is admitted.
 void search_all(const Options& options, const orbit::Problem& problem, const System& system, const State& start,
                 const std::atomic<bool>& stop, Json& json) {
-  orbit::SearchOptions search = options.orbit.search(stop);
+  orbit::SearchOptions search = orbit::search_options(options.orbit.wish(), &stop);
   search.most_n = static_cast<int>(std::max(1LL, options.most_n));
   Progress progress("motions", static_cast<double>(search.starts), options.progress);
   search.progress = [&](int motions) { progress.update(motions); };

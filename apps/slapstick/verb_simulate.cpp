@@ -2,7 +2,10 @@
 #include <algorithm>
 #include <array>
 
+#include "base/ranges.hpp"
+#include "base/text.hpp"
 #include "certified_run.hpp"
+#include "io/json.hpp"
 #include "model_options.hpp"
 #include "motion_plot.hpp"
 #include "output.hpp"
@@ -10,9 +13,7 @@
 #include "progress.hpp"
 #include "retrace.hpp"
 #include "slapstick/base/error.hpp"
-#include "base/text.hpp"
 #include "slapstick/flow/stage.hpp"
-#include "io/json.hpp"
 #include "slapstick/io/observer.hpp"
 #include "slapstick/section/sampled_motion.hpp"
 #include "stop_options.hpp"
@@ -148,10 +149,16 @@ class Run {
     const Motion& motion = motion_->motion();
     Json parameters = Json::object(), events = Json::object(), work = Json::object(), end = Json::object();
     for (const auto& [name, value] : chosen.definition.values(chosen.overrides)) parameters.set(name, value);
-    const bool compliant = !system_.model().compliant_stops.empty();
+    const Model& model = system_.model();
+    const bool compliant = !model.compliant_stops.empty(),
+               bent = !model.characteristics.empty() || ranges::any_of(model.compliant_stops, &CompliantStop::bounded),
+               loaded = ranges::any_of(model.frictions, [](const FrictionContact& one) { return one.normal.has_value(); });
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
       const auto event = static_cast<EventKind>(kind);
-      if (event < EventKind::engage || compliant) events.set(name(event), kinds_[kind]);
+      const bool possible = event == EventKind::corner  ? bent
+                            : event > EventKind::corner ? loaded
+                                                        : event < EventKind::engage || compliant;
+      if (possible) events.set(name(event), kinds_[kind]);
     }
     const Counters& counters = motion.counters();
     work.set("segments", counters.segments).set("windows", counters.windows).set("evaluations", counters.evaluations);
@@ -222,7 +229,7 @@ Action add_simulate(Arguments& arguments) {
   arguments.text("--trajectory", options->trajectory, "F.csv",
                  "samples: time, state, mode, and the model's observables");
   arguments.text("--certify", options->certify, "F.txt",
-                 "the proof that no event was missed, for slapstick-verify (docs/certificate.md)");
+                 "the run with its model, for slapstick-verify to prove (docs/certificate.md)");
   arguments.count("--samples", options->samples, 1, 1'000'000, "samples of --trajectory per forcing period (100)");
   arguments.text("--plot", options->plot, "F.png",
                  "picture of the last 20 periods: .png, .pdf or .svg; its data and script lie beside it");
@@ -236,7 +243,9 @@ Action add_simulate(Arguments& arguments) {
       "events.csv --plot motion.png\n"
       "Events are impact, slip+, slip-, stick, release, graze, chatter (the limit of infinitely many impacts), and "
       "engage,\n"
-      "disengage, separate of compliant stops; w is the relative velocity just before. A model without forcing has a "
+      "disengage, separate of compliant stops, corner of characteristics, unload, load of friction contacts with a normal\n"
+      "force; w is the relative velocity just before. A "
+      "model without forcing has a "
       "period of 1.");
   return [options, &arguments](const Context& context) {
     if (arguments.given("--time") && arguments.given("--periods"))

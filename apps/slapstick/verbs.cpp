@@ -11,11 +11,15 @@ const std::vector<Verb>& verbs() {
       {"check", "read and check a model file", add_check},
       {"simulate", "one exact trajectory: events, samples, a picture", add_simulate},
       {"classify", "what the motion is after its transient: n-p-I, n-p-II, quasi-periodic, chaotic", add_classify},
+      {"lyapunov", "all Lyapunov exponents, through impacts, stick and chatter", add_lyapunov},
       {"orbit", "a periodic orbit by Newton's method, stable or not: class, multipliers, impacts, energy", add_orbit},
       {"continue", "a branch of periodic orbits in one parameter, with its bifurcations by name", add_continue},
       {"curve", "the locus of a bifurcation of `continue` in two parameters", add_curve},
       {"poincare", "points of a section: at every impact, or once per forcing period", add_poincare},
       {"diagram", "bifurcation diagram over a parameter, on all cores", add_diagram},
+      {"quantities", "what can be measured on a model: names, units, meanings", add_quantities},
+      {"measure", "statistics of forces, accelerations, energies and impacts, exact", add_measure},
+      {"spectrum", "Fourier lines of a cycle, or the power density of a motion, impulses included", add_spectrum},
       {"reproduce", "every figure and claim of the paper, into a folder", add_reproduce},
   };
   return all;

@@ -13,13 +13,15 @@ tolerances to choose. Errors are InputError (a ValueError), NumericalError and S
 from ._attractor import Attractor, Attractors, classify
 from ._branch import Branch, continuation
 from ._certificate import Certificate, certify
-from ._core import InputError, NumericalError, Parameter, StorageError
+from ._core import InputError, NumericalError, Parameter, Quantity, StorageError
 from ._core import version as __version__
 from ._diagram import Diagram, diagram
 from ._locus import Locus, Meeting, locus
+from ._lyapunov import Exponents, lyapunov
 from ._model import Model, Parameters, load, models, new
 from ._motion import Events, Motion, simulate
 from ._orbit import Orbit, OrbitEvents, orbit, orbits
+from ._quantity import Measured, Spectrum, measure, quantities, spectrum
 from ._result import Interrupted, Result
 from ._section import Section, poincare
 from ._special import SpecialPoint
@@ -31,10 +33,12 @@ __all__ = [
     "Certificate",
     "Diagram",
     "Events",
+    "Exponents",
     "InputError",
     "Interrupted",
     "Locus",
     "Meeting",
+    "Measured",
     "Model",
     "Motion",
     "NumericalError",
@@ -42,9 +46,11 @@ __all__ = [
     "OrbitEvents",
     "Parameter",
     "Parameters",
+    "Quantity",
     "Result",
     "Section",
     "SpecialPoint",
+    "Spectrum",
     "StorageError",
     "__version__",
     "certify",
@@ -53,10 +59,14 @@ __all__ = [
     "diagram",
     "load",
     "locus",
+    "lyapunov",
+    "measure",
     "models",
     "new",
     "orbit",
     "orbits",
     "poincare",
+    "quantities",
     "simulate",
+    "spectrum",
 ]

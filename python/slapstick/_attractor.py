@@ -12,10 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _progress
-from ._core import InputError
-from ._model import Model, Start, Values, given_to, model_of, number, numbers, start_of, stops_of, sweep_of
+from ._model import Model, Start, Values, given_to, model_of, numbers, rows_of, start_of, stops_of
 from ._progress import Progress
-from ._result import Interrupted, Result
+from ._result import Floats, Given, Interrupted, Result
 from ._tables import html_table, state_columns, words
 
 
@@ -50,7 +49,8 @@ class Impacts:
 class Attractor(Result):
     """What a motion is after its transient.
 
-    label: '1-1-II', '1-inf-II', 'quasi-periodic', 'chaotic', 'undecided'; attractor: 'periodic' or as the label.
+    label: '1-1-II', '1-inf-II', 'quasi-periodic', 'chaotic', 'one of a family', 'undecided'.
+    attractor: 'periodic', 'quasi-periodic', 'chaotic', 'one of a family', 'undecided'.
     Periodic: n forcing periods and p impacts in a cycle (p is inf with complete chatter), multipliers of the
     n-period map (complex, largest first), impacts. state: on the attractor at phase 0, shape (2 n,).
     exponent: the largest Lyapunov exponent for each forcing period.
@@ -60,88 +60,55 @@ class Attractor(Result):
         self, found: _core.Classified, model: Model, values: dict[str, float], options: dict[str, Any]
     ) -> None:
         super().__init__(model, values, options)
-        self._found = found
+        self._core = found
 
-    @property
-    def label(self) -> str:
-        return self._found.label
-
-    @property
-    def attractor(self) -> str:
-        return self._found.attractor
-
-    @property
-    def n(self) -> int:
-        """Forcing periods in a cycle; 0 if there is none."""
-        return self._found.n
+    label = Given[str]("'1-1-II', '1-inf-II', also of one of a family; 'quasi-periodic', 'chaotic', 'undecided'.")
+    attractor = Given[str]("'periodic', 'quasi-periodic', 'chaotic', 'one of a family' or 'undecided'.")
+    n = Given[int]("Forcing periods in a cycle; 0 if there is none.")
 
     @property
     def p(self) -> float:
         """Impacts in a cycle; inf with complete chatter."""
-        return float("inf") if self.chatter == "complete" else self._found.p
+        return float("inf") if self.chatter == "complete" else self._core.p
 
-    @property
-    def sticking(self) -> bool:
-        return self._found.sticking
-
-    @property
-    def chatter(self) -> str:
-        """'none', 'incomplete' or 'complete'."""
-        return self._found.chatter
-
-    @property
-    def multipliers(self) -> NDArray[np.complex128]:
-        return self._found.multipliers
-
-    @property
-    def return_distance(self) -> float:
-        """How far the state is from its image after n periods, relative to the size of the motion."""
-        return self._found.return_distance
-
-    @property
-    def approach(self) -> float:
-        """How far the motion was from the cycle when it was recognised."""
-        return self._found.approach
-
-    @property
-    def sticking_fraction(self) -> float:
-        """The share of the time at rest relative to each other, at any contact."""
-        return self._found.sticking_fraction
-
-    @property
-    def exponent(self) -> float:
-        return self._found.exponent
-
-    @property
-    def exponent_error(self) -> float:
-        return self._found.exponent_error
-
-    @property
-    def birkhoff_digits(self) -> float:
-        """Digits to which two averages of the impacts agree; not for cycles."""
-        return self._found.digits
-
-    @property
-    def drift(self) -> NDArray[np.float64]:
-        """How far the motion moves along translations that nothing opposes, for each coordinate; or empty."""
-        return self._found.drift
-
-    @property
-    def periods_used(self) -> int:
-        return self._found.periods_used
-
-    @property
-    def state(self) -> NDArray[np.float64]:
-        return self._found.state
+    sticking = Given[bool]("Whether there is a stick phase in the cycle, or in the recorded motion.")
+    chatter = Given[str]("'none', 'incomplete' or 'complete'.")
+    multipliers = Given[NDArray[np.complex128]](
+        "Of the n-period map, complex, largest first, shape (k,); empty without a cycle."
+    )
+    return_distance = Given[float](
+        "How far the state is from its image after n periods, relative to the size of the motion."
+    )
+    approach = Given[float](
+        "How far the motion was from the cycle when it was recognised, relative to the size of the motion."
+    )
+    sticking_fraction = Given[float](
+        "The share of the time at rest relative to each other, at any contact, from 0 to 1."
+    )
+    exponent = Given[float]("The largest Lyapunov exponent for each forcing period, by the multipliers for a cycle.")
+    exponent_error = Given[float]("Its standard error; 0 for a cycle.")
+    birkhoff_digits = Given[float]("Digits to which two averages of the impacts agree; not for cycles.", name="digits")
+    drift = Given[Floats](
+        "How far the motion moves along translations that nothing opposes, in the unit of each coordinate, shape (n,); or empty."
+    )
+    rotation = Given[float](
+        "Quasi-periodic: turns of a closed curve in `curves` forcing periods, in (0, 0.5]; orientation is not told."
+    )
+    rotation_digits = Given[float]("Digits to which two halves of the run agree on the rotation number.")
+    curves = Given[int]("Quasi-periodic: closed curves that the stroboscopic points lie on in turn.")
+    family = Given[int]("Of a cycle: dimensions of the continuum of cycles that it is a member of; 0 if none.")
+    doubt = Given[str](
+        "Why there is no class: 'not confirmed', 'approach', 'long cycle' or 'exponent'; 'none' if there is one."
+    )
+    option_that_decides = Given[str]("The option of `classify` that would decide; '' if there is a class.")
+    periods_used = Given[int]("Forcing periods that the motion was followed.")
+    state = Given[Floats]("On the attractor, at phase 0, in the model's units, shape (2 n,).")
 
     @cached_property
     def impacts(self) -> Impacts:
-        return Impacts(self._found, self.model.state_names)
+        return Impacts(self._core, self.model.state_names)
 
-    @property
-    def failure(self) -> str:
-        """Of one among many: why there is no class; else ''."""
-        return self._found.failure
+    failure = Given[str]("Of one among many: why there is no class; else ''.")
 
     def _facts(self) -> list[tuple[str, str]]:
         if self.failure:
@@ -234,6 +201,8 @@ def classify(
     transient: int = ...,
     most_periods: int = ...,
     most_n: int = ...,
+    exponent_periods: int = ...,
+    quick: int = ...,
     stops: str | Sequence[str] = ...,
     start: Start = ...,
     threads: int = ...,
@@ -248,6 +217,8 @@ def classify(
     transient: int = ...,
     most_periods: int = ...,
     most_n: int = ...,
+    exponent_periods: int = ...,
+    quick: int = ...,
     stops: str | Sequence[str] = ...,
     start: Start = ...,
     threads: int = ...,
@@ -261,6 +232,8 @@ def classify(
     transient: int = 500,
     most_periods: int = 20_000,
     most_n: int = 64,
+    exponent_periods: int = 4000,
+    quick: int = 0,
     stops: str | Sequence[str] = (),
     start: Start = None,
     threads: int = 0,
@@ -271,6 +244,8 @@ def classify(
     """What the motion is after its transient: n-p-I, n-p-II, quasi-periodic or chaotic.
 
     transient: forcing periods that are left out; most_periods: a cycle is sought so long; most_n: the longest cycle.
+    exponent_periods: length of the run from which exponent, averages and rotation number are taken. quick: look at so
+    many periods only, half of them transient; a cycle that Newton's method confirms is named, else 'undecided'.
     stops: whose impacts are counted and listed (all). start: as of `simulate`.
     Parameters are keywords. Where some are arrays of the same shape (k,), or tuples (A, B, k) for a range with both
     ends, the result is an `Attractors` with k entries, computed on all cores (`threads`). An entry that fails says why
@@ -287,28 +262,24 @@ def classify(
     chosen = model_of(model)
     given = given_to(classify, chosen, values, parameters)
     options = {"transient": transient, "most_periods": most_periods, "most_n": most_n, "stops": stops, "start": start}
-    limits = (start_of(start), transient, most_periods, most_n, stops_of(stops))
-    swept = {name: value for name, value in given.items() if np.ndim(value) > 0}
-    if swept:
-        return classify_many(chosen, given, swept, options, (*limits, threads), progress)
+    options |= {"exponent_periods": exponent_periods, "quick": quick}
+    limits = _core.Limits(transient, most_periods, most_n, exponent_periods, quick, stops_of(stops))
+    begin = start_of(start)
+    if any(np.ndim(value) > 0 for value in given.values()):
+        return classify_many(chosen, given, options, (begin, limits, threads), progress)
     fixed = numbers(given)
-    found = _progress.run(_core.classify, (chosen._core, fixed, *limits), "periods", transient + most_periods, progress)
+    found = _progress.run(_core.classify, (chosen._core, fixed, begin, limits), "periods", quick or transient + most_periods, progress)
     return Attractor(found, chosen, fixed, options)
 
 
 def classify_many(
     model: Model,
     given: Values,
-    swept: dict[str, ArrayLike],
     options: dict[str, Any],
     limits: tuple[Any, ...],
     progress: Progress,
 ) -> Attractors:
-    columns = {name: sweep_of(name, value) for name, value in swept.items()}
-    if len({column.shape for column in columns.values()}) != 1 or any(c.ndim != 1 for c in columns.values()):
-        raise InputError(", ".join(columns) + ": arrays of one length are wanted")
-    fixed = {name: number(name, value) for name, value in given.items() if name not in columns}
-    rows = [fixed | dict(zip(columns, row)) for row in zip(*(column.tolist() for column in columns.values()))]
+    rows, columns = rows_of(given)
     found = _progress.run(_core.classify_many, (model._core, rows, *limits), "values", len(rows), progress)
     done = [i for i, row in enumerate(found) if row is not None]
     attractors = [Attractor(found[i], model, rows[i], options) for i in done]

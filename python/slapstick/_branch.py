@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Iterator
 from functools import cached_property
 from typing import Any
@@ -13,17 +12,18 @@ from numpy.typing import NDArray
 
 from . import _core, _progress
 from ._core import InputError
+from ._followed import Followed, finished
 from ._model import Model, Start, Values, given_to, model_of, numbers, start_of
 from ._orbit import Orbit, wish_of
 from ._progress import Progress
-from ._result import Interrupted, Result, axes
+from ._result import Floats, Given, GivenTruths, axes
 from ._special import SpecialPoint
 from ._tables import html_table
 
 COLOURS = {"LP": "#d55e00", "PD": "#cc79a7", "NS": "#e69f00", "BP": "#000000"}
 
 
-class Branch(Result):
+class Branch(Followed):
     """Orbits along a branch, as columns of shape (k,).
 
     parameter: its name; value: its value; cycle: the period of the orbit; label: its class; stable, is_motion: bool.
@@ -33,37 +33,20 @@ class Branch(Result):
     """
 
     def __init__(self, core: _core.Branch, model: Model, values: dict[str, float], options: dict[str, Any]) -> None:
-        super().__init__(model, values, options)
-        self._core = core
+        super().__init__(core, model, values, options)
         self._free = (core.parameter,)
 
-    @property
-    def parameter(self) -> str:
-        return self._core.parameter
-
-    @cached_property
-    def value(self) -> NDArray[np.float64]:
-        return self._core.value
-
-    @cached_property
-    def cycle(self) -> NDArray[np.float64]:
-        return self._core.cycle
-
-    @cached_property
-    def stable(self) -> NDArray[np.bool_]:
-        return self._core.stable.view(np.bool_)
-
-    @cached_property
-    def is_motion(self) -> NDArray[np.bool_]:
-        return self._core.is_motion.view(np.bool_)
+    _core: _core.Branch
+    parameter = Given[str]("The name of the parameter.")
+    value = Given[Floats]("Of the parameter, shape (k,).")
+    cycle = Given[Floats]("The period of the orbit in the model's unit of time, shape (k,).")
+    stable = GivenTruths("Shape (k,).")
 
     @cached_property
     def label(self) -> NDArray[np.str_]:
         return np.array(self._core.labels, dtype=np.str_)
 
-    @cached_property
-    def y(self) -> NDArray[np.float64]:
-        return self._core.state
+    y = Given[Floats]("States at phase 0, in the model's units, shape (2 n, k).", name="state")
 
     @cached_property
     def multipliers(self) -> list[NDArray[np.complex128]]:
@@ -74,28 +57,6 @@ class Branch(Result):
         between = (self._core.begin, self._core.end)
         specials = (self._core.special(i) for i in range(self._core.special_count))
         return [SpecialPoint(core, self.parameter, between, self.model) for core in specials]
-
-    @property
-    def ended(self) -> str:
-        return self._core.ended
-
-    @property
-    def failed(self) -> bool:
-        return self._core.failed
-
-    @property
-    def complete(self) -> bool:
-        """False after Ctrl-C."""
-        return self._core.complete
-
-    def __len__(self) -> int:
-        return len(self._core)
-
-    def __getitem__(self, index: int) -> Orbit:
-        return Orbit(self._core.orbit(range(len(self))[index]), self.model, {})
-
-    def __iter__(self) -> Iterator[Orbit]:
-        return (self[i] for i in range(len(self)))
 
     def to_pandas(self) -> Any:
         """A DataFrame: a row for each point, with its class, period, stability and state at phase 0."""
@@ -210,7 +171,7 @@ def continuation(
     options |= {"same_events": same_events}
     arguments = (chosen._core, fixed, parameter, begin, end, start_of(start), wish, step, points, same_events)
     core = _progress.run(_core.continuation, arguments, "points at most", 2 * points, progress)
-    return finished(Branch(core, chosen, fixed, options))
+    return finished(Branch(core, chosen, fixed, options), "continuation", 3)
 
 
 def continue_orbit(
@@ -228,7 +189,7 @@ def continue_orbit(
     options |= {"same_events": same_events}
     arguments = (first._core, parameter, begin, end, step, points, same_events)
     core = _progress.run(_core.continue_orbit, arguments, "points at most", 2 * points, progress)
-    return finished(Branch(core, first.model, first._values, options))
+    return finished(Branch(core, first.model, first._values, options), "continuation", 4)
 
 
 def range_of(model: Model, parameter: str, between: tuple[float, float] | None) -> tuple[float, float]:
@@ -245,10 +206,3 @@ def range_of(model: Model, parameter: str, between: tuple[float, float] | None) 
     model.values(**({} if parameter in model.groups else {parameter: 1.0}))  # names the nearest of an unknown one
     raise InputError(f"{parameter}: the model gives no finite range; say between which values")
 
-
-def finished(branch: Branch) -> Branch:
-    if not branch.complete:
-        raise Interrupted(branch)
-    if branch.failed:
-        warnings.warn(f"continuation: {branch.ended}", RuntimeWarning, stacklevel=3)
-    return branch

@@ -1,4 +1,4 @@
-"""certify: a run written down as a proof that no event was missed."""
+"""certify: a run written down so that slapstick-verify can prove it."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ from ._result import Interrupted, Result
 class Certificate(Result):
     """What a certificate holds, in numbers; `slapstick-verify PATH` checks the file.
 
-    segments: of the motion; guards: proven on them; steps: of the proofs; touches: zeros that 256 bits could not
-    decide; chatters: limits of complete chatter; unproved: guards that the verifier will refuse. path: the file.
+    segments: of the motion; impacts: on them; chatters: limits of complete chatter; unproved: pile-ups, which are
+    assumed and not proved. path: the file.
     """
 
     def __init__(
@@ -32,12 +32,12 @@ class Certificate(Result):
     ) -> None:
         super().__init__(model, values, options)
         self.path = path
-        self.segments, self.guards, self.steps = core.segments, core.guards, core.steps
-        self.touches, self.chatters, self.unproved = core.touches, core.chatters, core.unproved
+        self.segments, self.impacts = core.segments, core.impacts
+        self.chatters, self.unproved = core.chatters, core.unproved
         self.periods, self.complete = core.periods, core.complete
 
     def _facts(self) -> list[tuple[str, str]]:
-        names = ("segments", "guards", "touches", "chatters", "unproved", "path")
+        names = ("segments", "impacts", "chatters", "unproved", "path")
         return [(name, str(getattr(self, name))) for name in names]
 
 
@@ -51,7 +51,7 @@ def certify(
     parameters: Values | None = None,
     **values: float,
 ) -> Certificate:
-    """Writes a certificate of the motion that `simulate` gives: a proof of every guard of every segment.
+    """Writes a certificate of the motion that `simulate` gives: the model, every segment, every impact.
 
     The file appears whole or not at all; after Ctrl-C it holds what is complete.
 

@@ -15,7 +15,7 @@ from . import _core, _progress
 from ._core import InputError
 from ._model import Model, Start, Values, given_to, model_of, numbers, start_of, stops_of, sweep_of
 from ._progress import Progress
-from ._result import Interrupted, Result, axes
+from ._result import Floats, Given, GivenWords, Interrupted, Result, axes
 from ._tables import categorical, state_columns, words
 
 LABELS = {"w": "w just before the impact", "flight": "flight / period", "sliding": "sliding / period", "phase": "phase"}
@@ -36,54 +36,22 @@ class Diagram(Result):
         self._core, self.parameter = core, parameter
         self._free = (parameter,)
 
-    @cached_property
-    def value(self) -> NDArray[np.float64]:
-        return self._core.parameter
-
-    @cached_property
-    def w(self) -> NDArray[np.float64]:
-        return self._core.w
-
-    @cached_property
-    def flight(self) -> NDArray[np.float64]:
-        return self._core.flight
-
-    @cached_property
-    def sliding(self) -> NDArray[np.float64]:
-        return self._core.sliding
-
-    @cached_property
-    def phase(self) -> NDArray[np.float64]:
-        return self._core.phase
-
-    @cached_property
-    def y(self) -> NDArray[np.float64]:
-        return self._core.state
+    value = Given[Floats]("Of the parameter, shape (k,).", name="parameter")
+    w = Given[Floats]("Relative velocity just before the impact, in the model's unit of speed, shape (k,).")
+    flight = Given[Floats]("Time since the impact before, in forcing periods, shape (k,).")
+    sliding = Given[Floats]("The part of it in slip, in forcing periods, shape (k,).")
+    phase = Given[Floats]("Of the forcing, in [0, 1), shape (k,).")
+    y = Given[Floats]("States just before, in the model's units, shape (2 n, k).", name="state")
 
     @cached_property
     def direction(self) -> NDArray[np.str_]:
         column: NDArray[np.str_] = words(("up", "down"), self._core.direction_codes)
         return column
 
-    @cached_property
-    def contact(self) -> NDArray[np.str_]:
-        column: NDArray[np.str_] = words(self._core.contact_names, self._core.contact_codes)
-        return column
-
-    @property
-    def failures(self) -> list[tuple[float, str]]:
-        """Values of the parameter that failed, and why."""
-        return self._core.failures
-
-    @property
-    def notes(self) -> list[tuple[float, str]]:
-        """Values at which the carried state did not fit, and what was done."""
-        return self._core.notes
-
-    @property
-    def complete(self) -> bool:
-        """False after Ctrl-C."""
-        return self._core.complete
+    contact = GivenWords("The stop that is hit, shape (k,).")
+    failures = Given[list[tuple[float, str]]]("Values of the parameter that failed, and why.")
+    notes = Given[list[tuple[float, str]]]("Values at which the carried state did not fit, and what was done.")
+    complete = Given[bool]("False after Ctrl-C.")
 
     def __len__(self) -> int:
         return len(self.w)

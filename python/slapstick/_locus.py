@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import warnings
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -13,10 +12,10 @@ from numpy.typing import NDArray
 from . import _core, _progress
 from ._branch import continuation, range_of
 from ._core import NumericalError
+from ._followed import Followed, finished
 from ._model import Model
-from ._orbit import Orbit
 from ._progress import Progress
-from ._result import Interrupted, Result, axes
+from ._result import Given, axes
 from ._special import SpecialPoint
 
 BRANCH_STEP, BRANCH_POINTS = 0.02, 1000  # of the branch on which `slapstick curve` seeks its point
@@ -31,7 +30,7 @@ class Meeting(NamedTuple):
     after: int
 
 
-class Locus(Result):
+class Locus(Followed):
     """A curve of special points in two parameters.
 
     type: of the points; names: of both parameters; x, y: their values, shape (k,); is_motion: where the orbit is a
@@ -42,13 +41,12 @@ class Locus(Result):
     def __init__(
         self, core: _core.Locus, kind: str, model: Model, values: dict[str, float], options: dict[str, Any]
     ) -> None:
-        super().__init__(model, values, options)
-        self._core, self.type = core, kind
+        super().__init__(core, model, values, options)
+        self.type = kind
         self._free = tuple(core.parameters)
 
-    @property
-    def names(self) -> list[str]:
-        return self._core.parameters
+    _core: _core.Locus
+    names = Given[list[str]]("Of both parameters.", name="parameters")
 
     @cached_property
     def x(self) -> NDArray[np.float64]:
@@ -58,32 +56,9 @@ class Locus(Result):
     def y(self) -> NDArray[np.float64]:
         return self._core.values(1)
 
-    @cached_property
-    def is_motion(self) -> NDArray[np.bool_]:
-        return self._core.is_motion.view(np.bool_)
-
     @property
     def met(self) -> list[Meeting]:
         return [Meeting(kind, (x, y), what, after) for kind, x, y, what, after in self._core.met]
-
-    @property
-    def ended(self) -> str:
-        return self._core.ended
-
-    @property
-    def failed(self) -> bool:
-        return self._core.failed
-
-    @property
-    def complete(self) -> bool:
-        """False after Ctrl-C."""
-        return self._core.complete
-
-    def __len__(self) -> int:
-        return len(self._core)
-
-    def __getitem__(self, index: int) -> Orbit:
-        return Orbit(self._core.orbit(range(len(self))[index]), self.model, {})
 
     def to_pandas(self) -> Any:
         """A DataFrame: both parameters and is_motion, a row for each point."""
@@ -181,9 +156,4 @@ def follow_special(
     options |= {"step": step, "points": points}
     arguments = (special._core, second, begin, end, lower, upper, step, points)
     core = _progress.run(_core.locus, arguments, "points at most", 2 * points, progress)
-    found = Locus(core, special.type, special.model, special.orbit._values, options)
-    if not core.complete:
-        raise Interrupted(found)
-    if core.failed:
-        warnings.warn(f"locus: {core.ended}", RuntimeWarning, stacklevel=3)
-    return found
+    return finished(Locus(core, special.type, special.model, special.orbit._values, options), "locus", 4)

@@ -115,8 +115,13 @@ class Model:
 
     @property
     def contacts(self) -> list[str]:
-        """All contacts: stops, friction contacts, compliant stops."""
+        """All contacts: stops, friction contacts, compliant stops, characteristics."""
         return self._core.contacts
+
+    @property
+    def feeds_energy(self) -> list[str]:
+        """The parts that can feed energy besides forces and belts, as `slapstick check` lists them."""
+        return self._core.feeds_energy
 
     @property
     def stops(self) -> list[str]:
@@ -209,6 +214,16 @@ def sweep_of(name: str, value: Any) -> NDArray[np.float64]:
         raise InputError(f"{name}: {value!r} is not of the form (A, B, COUNT) with A < B and COUNT at least 2")
     count = int(value[2])
     return np.array([_core.sweep_value(float(value[0]), float(value[1]), count, i) for i in range(count)])
+
+
+def rows_of(given: Values) -> tuple[list[dict[str, float]], dict[str, NDArray[np.float64]]]:
+    """Values that are arrays of one length, row by row beside the fixed ones; and the columns. Raises InputError."""
+    columns = {name: sweep_of(name, value) for name, value in given.items() if np.ndim(value) > 0}
+    if len({column.shape for column in columns.values()}) != 1 or any(c.ndim != 1 for c in columns.values()):
+        raise InputError(", ".join(columns) + ": arrays of one length are wanted")
+    fixed = {name: number(name, value) for name, value in given.items() if name not in columns}
+    rows = [fixed | dict(zip(columns, row)) for row in zip(*(column.tolist() for column in columns.values()))]
+    return rows, columns
 
 
 def numbers(values: Values) -> dict[str, float]:

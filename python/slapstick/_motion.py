@@ -13,7 +13,7 @@ from . import _core, _progress
 from ._core import InputError
 from ._model import Model, Start, Values, given_to, model_of, numbers, start_of
 from ._progress import Progress
-from ._result import Interrupted, Result, axes
+from ._result import Floats, Given, GivenWords, Interrupted, Result, axes
 from ._tables import categorical, state_columns, words
 
 
@@ -26,37 +26,17 @@ class Events:
     """
 
     def __init__(self, run: _core.Run, names: list[str]) -> None:
-        self._run, self._names = run, names
+        self._core, self._names = run, names
 
-    @cached_property
-    def t(self) -> NDArray[np.float64]:
-        return self._run.event_t
-
-    @cached_property
-    def period(self) -> NDArray[np.int64]:
-        return self._run.event_period
-
-    @cached_property
-    def phase(self) -> NDArray[np.float64]:
-        return self._run.event_phase
-
-    @cached_property
-    def w(self) -> NDArray[np.float64]:
-        return self._run.event_w
-
-    @cached_property
-    def before(self) -> NDArray[np.float64]:
-        return self._run.event_before
-
-    @cached_property
-    def kind(self) -> NDArray[np.str_]:
-        column: NDArray[np.str_] = words(self._run.event_kind_names, self._run.event_kind_codes)
-        return column
-
-    @cached_property
-    def contact(self) -> NDArray[np.str_]:
-        column: NDArray[np.str_] = words(self._run.event_contact_names, self._run.event_contact_codes)
-        return column
+    t = Given[Floats]("Time in the model's unit, shape (k,).", name="event_t")
+    period = Given[NDArray[np.int64]]("The whole forcing periods of the time, shape (k,).", name="event_period")
+    phase = Given[Floats]("The rest of the time in forcing periods, in [0, 1), shape (k,).", name="event_phase")
+    w = Given[Floats](
+        "Relative velocity of the contact's pair just before, in the model's unit of speed, shape (k,).", name="event_w"
+    )
+    before = Given[Floats]("States just before, in the model's units, shape (2 n, k).", name="event_before")
+    kind = GivenWords("'impact', 'stick', 'graze', .., shape (k,).", name="event_kind")
+    contact = GivenWords("Names of the contacts, shape (k,).", name="event_contact")
 
     def __len__(self) -> int:
         return len(self.t)
@@ -70,7 +50,7 @@ class Events:
         """A DataFrame with the columns of `slapstick simulate --events`."""
         import pandas as pd
 
-        run = self._run
+        run = self._core
         columns = {
             "time": self.t,
             "kind": categorical(run.event_kind_names, run.event_kind_codes),
@@ -97,68 +77,30 @@ class Motion(Result):
 
     def __init__(self, run: _core.Run, model: Model, values: dict[str, float], options: dict[str, Any]) -> None:
         super().__init__(model, values, options)
-        self._run = run
+        self._core = run
 
-    @cached_property
-    def t(self) -> NDArray[np.float64]:
-        """Instants of the samples, shape (k,), in the model's unit of time."""
-        return self._run.t
-
-    @cached_property
-    def y(self) -> NDArray[np.float64]:
-        """States at the samples, shape (2 n, k)."""
-        return self._run.y
+    t = Given[Floats]("Instants of the samples, shape (k,), in the model's unit of time.")
+    y = Given[Floats]("States at the samples, shape (2 n, k).")
 
     @cached_property
     def events(self) -> Events:
         """Every event: impacts, reversals, sticks, releases, grazes, chatters."""
-        return Events(self._run, self.model.state_names)
+        return Events(self._core, self.model.state_names)
 
-    @cached_property
-    def mode(self) -> NDArray[np.str_]:
-        """The contacts' states at the samples: 'slip+', 'stick', 'free|closed', .., shape (k,)."""
-        column: NDArray[np.str_] = words(self._run.mode_names, self._run.mode_codes)
-        return column
+    mode = GivenWords("The contacts' states at the samples: 'slip+', 'stick', 'free|closed', .., shape (k,).")
 
     @cached_property
     def observables(self) -> dict[str, NDArray[np.float64]]:
         """The model's observables at the samples, by name."""
-        return state_columns(self.model._core.observables, self._run.observables)
+        return state_columns(self.model._core.observables, self._core.observables)
 
-    @property
-    def start(self) -> NDArray[np.float64]:
-        """The state at time 0, shape (2 n,)."""
-        return self._run.start
-
-    @property
-    def state(self) -> NDArray[np.float64]:
-        """The state at the end, shape (2 n,)."""
-        return self._run.end
-
-    @property
-    def end_mode(self) -> str:
-        """The contacts' states at the end."""
-        return self._run.end_mode
-
-    @property
-    def duration(self) -> float:
-        """The time at the end, in the model's unit."""
-        return self._run.duration
-
-    @property
-    def period(self) -> float:
-        """The forcing period in the model's unit of time; 1 without forcing."""
-        return self._run.period
-
-    @property
-    def work(self) -> dict[str, int]:
-        """What the run cost: segments, windows, evaluations."""
-        return self._run.work
-
-    @property
-    def complete(self) -> bool:
-        """False after Ctrl-C."""
-        return self._run.complete
+    start = Given[Floats]("The state at time 0, shape (2 n,).")
+    state = Given[Floats]("The state at the end, shape (2 n,).", name="end")
+    end_mode = Given[str]("The contacts' states at the end.")
+    duration = Given[float]("The time at the end, in the model's unit.")
+    period = Given[float]("The forcing period in the model's unit of time; 1 without forcing.")
+    work = Given[dict[str, int]]("What the run cost: segments, windows, evaluations.")
+    complete = Given[bool]("False after Ctrl-C.")
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         """One number of the state, or an observable, at the samples: `motion["x1"]`, shape (k,)."""
@@ -171,7 +113,7 @@ class Motion(Result):
         """A DataFrame with the columns of `slapstick simulate --trajectory`."""
         import pandas as pd
 
-        mode = {"mode": categorical(self._run.mode_names, self._run.mode_codes)}
+        mode = {"mode": categorical(self._core.mode_names, self._core.mode_codes)}
         states = state_columns(self.model.state_names, self.y)
         return pd.DataFrame({"time": self.t} | states | mode | self.observables)
 

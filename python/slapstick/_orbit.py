@@ -13,7 +13,7 @@ from . import _core, _progress
 from ._model import Model, Start, Values, given_to, model_of, numbers, start_of
 from ._motion import Motion, simulate
 from ._progress import Progress
-from ._result import Interrupted, Result
+from ._result import Floats, Given, Interrupted, Result
 from ._tables import categorical, state_columns, words
 
 if TYPE_CHECKING:
@@ -71,61 +71,25 @@ class Orbit(Result):
         super().__init__(model, core.values, options)
         self._core = core
 
-    @property
-    def label(self) -> str:
-        return self._core.label
-
-    @property
-    def n(self) -> int:
-        return self._core.n
+    label = Given[str]("'1-1-II', '2-inf-II'.")
+    n = Given[int]("Forcing periods in a cycle; 0 without forcing.")
 
     @property
     def p(self) -> float:
         return float("inf") if self._core.chatter else self._core.impacts
 
-    @property
-    def sticking(self) -> bool:
-        return self._core.sticking
-
-    @property
-    def stable(self) -> bool:
-        return self._core.stable
-
-    @property
-    def family(self) -> int:
-        """Dimensions of the continuum of orbits that this is a member of; 0: it is isolated."""
-        return self._core.family
-
-    @property
-    def multipliers(self) -> NDArray[np.complex128]:
-        return self._core.multipliers
-
-    @property
-    def cycle(self) -> float:
-        return self._core.cycle
-
-    @property
-    def is_motion(self) -> bool:
-        return self._core.is_motion
-
-    @property
-    def why(self) -> str:
-        return self._core.why
-
-    @property
-    def drift(self) -> NDArray[np.float64]:
-        """Along rigid translations, for each coordinate and cycle; empty without such."""
-        return self._core.drift
-
-    @property
-    def settles(self) -> bool:
-        """Whether the motion from the start settles on it."""
-        return self._core.settles
-
-    @property
-    def symmetric(self) -> bool:
-        """Whether it is its own image half a forcing period later."""
-        return self._core.symmetric
+    sticking = Given[bool]("Whether there is a stick phase in the cycle.")
+    stable = Given[bool]("Whether all multipliers are inside the unit circle.")
+    family = Given[int]("Dimensions of the continuum of orbits that this is a member of; 0: it is isolated.")
+    multipliers = Given[NDArray[np.complex128]]("Of the return map, complex, largest first, shape (k,).")
+    cycle = Given[float]("The period of the orbit in the model's unit of time.")
+    is_motion = Given[bool]("Whether the simulator does the same.")
+    why = Given[str]("What the simulator does instead; '' if it does the same.")
+    drift = Given[Floats](
+        "Along rigid translations, in the unit of each coordinate, for each cycle, shape (n,); empty without such."
+    )
+    settles = Given[bool]("Whether the motion from the start settles on it.")
+    symmetric = Given[bool]("Whether it is its own image half a forcing period later.")
 
     @cached_property
     def state(self) -> NDArray[np.float64]:
@@ -135,20 +99,15 @@ class Orbit(Result):
     def events(self) -> OrbitEvents:
         return OrbitEvents(self._core.events, self.model.state_names)
 
-    @property
-    def extremes(self) -> dict[str, tuple[float, float]]:
-        """The least and the largest value of every number of the state, exact to rounding."""
-        return self._core.extremes
-
-    @property
-    def energy(self) -> dict[str, Any]:
-        """Of one cycle: input, damping, friction and impacts by contact, balance."""
-        return self._core.energy
-
-    @property
-    def margins(self) -> list[tuple[str, str, float]]:
-        """How near the cycle comes to a change of its events: what is measured, of which contact, the least value."""
-        return self._core.margins
+    extremes = Given[dict[str, tuple[float, float]]](
+        "The least and the largest value of every number of the state, in the model's units, exact to rounding."
+    )
+    energy = Given[dict[str, Any]](
+        "Of one cycle, in the model's unit of energy: input, damping, friction and impacts by contact, balance."
+    )
+    margins = Given[list[tuple[str, str, float]]](
+        "How near the cycle comes to a change of its events: what is measured, of which contact, the least value."
+    )
 
     def motion(self, *, samples: int = 200) -> Motion:
         """One cycle as `simulate` gives it. Of an unstable orbit rounding grows by its multipliers."""

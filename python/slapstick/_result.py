@@ -2,11 +2,61 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Generic, TypeVar, overload
+
+import numpy as np
+from numpy.typing import NDArray
 
 from . import _core
 from ._model import Model
-from ._tables import html_table
+from ._tables import html_table, words
+
+T = TypeVar("T")
+Floats = NDArray[np.float64]
+
+
+class Given(Generic[T]):
+    """An attribute that the extension's object `_core` gives, under the same name or another. It is read once."""
+
+    def __init__(self, doc: str = "", name: str = "") -> None:
+        self.__doc__, self._of_core = doc, name
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+        self._of_core = self._of_core or name
+
+    @overload
+    def __get__(self, of: None, owner: type) -> Given[T]: ...
+    @overload
+    def __get__(self, of: Any, owner: type) -> T: ...
+    def __get__(self, of: Any, owner: type) -> Given[T] | T:
+        if of is None:
+            return self
+        known: dict[str, Any] = of.__dict__
+        if self._name not in known:
+            known[self._name] = self._read(of._core)
+        value: T = known[self._name]
+        return value
+
+    def __set__(self, of: Any, value: object) -> None:
+        raise AttributeError(f"{self._name} is what was computed; it cannot be set")
+
+    def _read(self, core: Any) -> Any:
+        return getattr(core, self._of_core)
+
+
+class GivenTruths(Given[NDArray[np.bool_]]):
+    """The same of a column of truths."""
+
+    def _read(self, core: Any) -> Any:
+        return super()._read(core).view(np.bool_)
+
+
+class GivenWords(Given[NDArray[np.str_]]):
+    """The same of a column of words, which the extension keeps as numbers `NAME_codes` of a list `NAME_names`."""
+
+    def _read(self, core: Any) -> Any:
+        return words(getattr(core, self._of_core + "_names"), getattr(core, self._of_core + "_codes"))
 
 
 class Result:

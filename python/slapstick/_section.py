@@ -15,7 +15,7 @@ from . import _core, _progress
 from ._core import InputError, NumericalError
 from ._model import Model, Start, Values, given_to, model_of, numbers, start_of, stops_of
 from ._progress import Progress
-from ._result import Interrupted, Result, axes
+from ._result import Floats, Given, GivenWords, Interrupted, Result, axes
 from ._tables import categorical, state_columns, words
 
 PATIENCE = 10_000  # forcing periods without a point, after which none is expected
@@ -34,48 +34,18 @@ class Section(Result):
         super().__init__(model, values, options)
         self._core = core
 
-    @cached_property
-    def t(self) -> NDArray[np.float64]:
-        return self._core.t
-
-    @cached_property
-    def y(self) -> NDArray[np.float64]:
-        return self._core.state
-
-    @cached_property
-    def phase(self) -> NDArray[np.float64]:
-        return self._core.phase
-
-    @cached_property
-    def w(self) -> NDArray[np.float64]:
-        return self._core.w
-
-    @cached_property
-    def flight(self) -> NDArray[np.float64]:
-        return self._core.flight
-
-    @cached_property
-    def sliding(self) -> NDArray[np.float64]:
-        return self._core.sliding
-
-    @cached_property
-    def return_time(self) -> NDArray[np.float64]:
-        return self._core.return_time
-
-    @cached_property
-    def contact(self) -> NDArray[np.str_]:
-        column: NDArray[np.str_] = words(self._core.contact_names, self._core.contact_codes)
-        return column
-
-    @cached_property
-    def mode(self) -> NDArray[np.str_]:
-        column: NDArray[np.str_] = words(self._core.mode_names, self._core.mode_codes)
-        return column
-
-    @property
-    def complete(self) -> bool:
-        """False after Ctrl-C."""
-        return self._core.complete
+    t = Given[Floats]("Instants in the model's unit of time, shape (k,).")
+    y = Given[Floats]("States, in the model's units, shape (2 n, k).", name="state")
+    phase = Given[Floats]("Of the forcing, in [0, 1), shape (k,).")
+    w = Given[Floats](
+        "Relative velocity just before, in the model's unit of speed, shape (k,); empty for the stroboscopic section."
+    )
+    flight = Given[Floats]("Of impacts: time since the one before, in forcing periods, shape (k,).")
+    sliding = Given[Floats]("Of impacts: the part of the flight in slip, in forcing periods, shape (k,).")
+    return_time = Given[Floats]("Of events: time since the point before, in the model's unit, shape (k,).")
+    contact = GivenWords("Names of the contacts, shape (k,); empty for the stroboscopic section.")
+    mode = GivenWords("Of stroboscopic points: the contacts' states, shape (k,).")
+    complete = Given[bool]("False after Ctrl-C.")
 
     def __len__(self) -> int:
         return len(self.t)

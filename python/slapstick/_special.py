@@ -8,6 +8,7 @@ from . import _core
 from ._core import InputError
 from ._model import Model
 from ._orbit import Orbit
+from ._result import Given
 
 if TYPE_CHECKING:
     from ._locus import Locus
@@ -31,23 +32,12 @@ class SpecialPoint:
         self.coefficient, self.coefficient_error = core.coefficient, core.coefficient_error
         self.verdict = core.verdict
 
-    @property
-    def what(self) -> str:
-        return self._core.what
-
-    @property
-    def outcome(self) -> str:
-        return self._core.outcome
-
-    @property
-    def normal_form(self) -> str:
-        """'supercritical', 'subcritical', or why there is no coefficient."""
-        return self._core.normal_form
-
-    @property
-    def classes(self) -> tuple[str, str]:
-        """Of the orbits before and behind a change of events; empty where the branch does not go on so."""
-        return self._core.classes
+    what = Given[str]("What happens, in words.")
+    outcome = Given[str]("What becomes of the branch, in words; '' where it simply goes on.")
+    normal_form = Given[str]("'supercritical', 'subcritical', or why there is no coefficient.")
+    classes = Given[tuple[str, str]](
+        "Of the orbits before and behind a change of events; empty where the branch does not go on so."
+    )
 
     @property
     def orbit(self) -> Orbit:

@@ -7,8 +7,8 @@
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "chosen.hpp"
-#include "many.hpp"
 #include "slapstick/attractor/classify.hpp"
+#include "slapstick/sweep/parallel.hpp"
 #include "watch.hpp"
 
 namespace slapstick::python {
@@ -25,8 +25,16 @@ struct Classified {
 };
 
 struct Limits {
-  int transient, most_periods, most_n;
+  int transient, most_periods, most_n, exponent_periods, quick;
   std::vector<std::string> stops;
+
+  Limits(int first, int most, int longest, int exponent, int fast, std::vector<std::string> chosen)
+      : transient(first),
+        most_periods(most),
+        most_n(longest),
+        exponent_periods(exponent),
+        quick(fast),
+        stops(std::move(chosen)) {}
 };
 
 void classify(Classified& into, const ModelDefinition& definition, const Overrides& values,
@@ -34,13 +42,15 @@ void classify(Classified& into, const ModelDefinition& definition, const Overrid
               std::function<void(long)> progress) {
   const System system(build(definition, values));
   const State state = start_of(definition, values, start);
-  into.found = slapstick::classify(system, state,
-                                   {.transient_periods = limits.transient,
-                                    .most_periods = limits.most_periods,
-                                    .most_n = limits.most_n,
-                                    .stops = StopChoice(system.model(), limits.stops),
-                                    .cancel = cancel,
-                                    .progress = std::move(progress)});
+  const ClassifyOptions how{.transient_periods = limits.transient,
+                            .most_periods = limits.most_periods,
+                            .most_n = limits.most_n,
+                            .exponent_periods = limits.exponent_periods,
+                            .stops = StopChoice(system.model(), limits.stops),
+                            .cancel = cancel,
+                            .progress = std::move(progress)};
+  into.found =
+      limits.quick > 0 ? classify_quickly(system, state, limits.quick, how) : slapstick::classify(system, state, how);
   into.period = system.period();
   into.contact_names = contact_names(system.model());
   for (const CycleImpact& impact : into.found.impacts) {
@@ -52,12 +62,11 @@ void classify(Classified& into, const ModelDefinition& definition, const Overrid
 }
 
 std::unique_ptr<Classified> classify_one(const ModelDefinition& definition, const Overrides& values,
-                                         const std::optional<Start>& start, int transient, int most_periods, int most_n,
-                                         std::vector<std::string> stops, nb::object progress) {
+                                         const std::optional<Start>& start, const Limits& limits, nb::object progress) {
   auto found = std::make_unique<Classified>();
   Watch watch(std::move(progress));
   watch.run([&] {
-    classify(*found, definition, values, start, {transient, most_periods, most_n, std::move(stops)}, watch.cancel(),
+    classify(*found, definition, values, start, limits, watch.cancel(),
              [&](long periods) { watch.go_on(static_cast<double>(periods)); });
   });
   watch.finish(false);
@@ -67,22 +76,24 @@ std::unique_ptr<Classified> classify_one(const ModelDefinition& definition, cons
 /// Each on its own, by index: the same results on any number of threads. A failure is that row's.
 std::vector<std::unique_ptr<Classified>> classify_many(const ModelDefinition& definition,
                                                        const std::vector<Overrides>& values,
-                                                       const std::optional<Start>& start, int transient,
-                                                       int most_periods, int most_n, std::vector<std::string> stops,
+                                                       const std::optional<Start>& start, const Limits& limits,
                                                        int threads, nb::object progress) {
   std::vector<std::unique_ptr<Classified>> rows(values.size());
-  const Limits limits{transient, most_periods, most_n, std::move(stops)};
   Watch watch(std::move(progress));
   watch.run_aside([&] {
-    for_each_index(values.size(), threads, watch, [&](std::size_t i) {
+    std::atomic<int> done{0};
+    const auto classify_row = [&](int i) {
       auto row = std::make_unique<Classified>();
+      const auto at = static_cast<std::size_t>(i);
       try {
-        classify(*row, definition, values[i], start, limits, watch.cancel(), {});
+        classify(*row, definition, values[at], start, limits, watch.cancel(), {});
       } catch (const std::runtime_error& error) {
         row->failure = error.what();
       }
-      if (!row->found.interrupted) rows[i] = std::move(row);
-    });
+      if (!row->found.interrupted) rows[at] = std::move(row);
+      watch.note(++done);
+    };
+    sweep::for_each_index(static_cast<int>(values.size()), threads, classify_row, watch.cancel());
   });
   watch.finish(true);
   return rows;  // None where Ctrl-C came first
@@ -112,6 +123,13 @@ void bind_attractor(nb::module_& module) {
       .def_prop_ro("exponent", [](const C& self) { return self.found.exponent; })
       .def_prop_ro("exponent_error", [](const C& self) { return self.found.exponent_error; })
       .def_prop_ro("digits", [](const C& self) { return self.found.digits; })
+      .def_prop_ro("rotation", [](const C& self) { return self.found.rotation; })
+      .def_prop_ro("rotation_digits", [](const C& self) { return self.found.rotation_digits; })
+      .def_prop_ro("curves", [](const C& self) { return self.found.curves; })
+      .def_prop_ro("family", [](const C& self) { return self.found.family; })
+      .def_prop_ro("doubt", [](const C& self) { return word(self.found.doubt); })
+      .def_prop_ro("option_that_decides",
+                   [](const C& self) { return std::string(option_that_decides(self.found.doubt)); })
       .def_prop_ro("periods_used", [](const C& self) { return self.found.periods_used; })
       .def_prop_ro("drift", [](C& self) { return column(self.found.drift); })
       .def_prop_ro("state", [](C& self) { return column(self.found.state); })
@@ -122,10 +140,12 @@ void bind_attractor(nb::module_& module) {
       .def_ro("contact_names", &C::contact_names)
       .def_ro("period", &C::period)
       .def_ro("failure", &C::failure);
-  module.def("classify", &classify_one, "definition"_a, "values"_a, "start"_a.none(), "transient"_a, "most_periods"_a,
-             "most_n"_a, "stops"_a, "progress"_a.none());
-  module.def("classify_many", &classify_many, "definition"_a, "values"_a, "start"_a.none(), "transient"_a,
-             "most_periods"_a, "most_n"_a, "stops"_a, "threads"_a, "progress"_a.none());
+  nb::class_<Limits>(module, "Limits", "How long a motion is looked at, and whose impacts are counted.")
+      .def(nb::init<int, int, int, int, int, std::vector<std::string>>(), "transient"_a, "most_periods"_a, "most_n"_a,
+           "exponent_periods"_a, "quick"_a, "stops"_a);
+  module.def("classify", &classify_one, "definition"_a, "values"_a, "start"_a.none(), "limits"_a, "progress"_a.none());
+  module.def("classify_many", &classify_many, "definition"_a, "values"_a, "start"_a.none(), "limits"_a, "threads"_a,
+             "progress"_a.none());
 }
 
 }  // namespace slapstick::python

@@ -19,11 +19,13 @@ void bind_errors(nb::module_& module);
 void bind_model(nb::module_& module);
 void bind_motion(nb::module_& module);
 void bind_attractor(nb::module_& module);
+void bind_lyapunov(nb::module_& module);
 void bind_section(nb::module_& module);
 void bind_diagram(nb::module_& module);
 void bind_orbit(nb::module_& module);
 void bind_branch(nb::module_& module);
 void bind_locus(nb::module_& module);
+void bind_quantity(nb::module_& module);
 void bind_certificate(nb::module_& module);
 
 }  // namespace slapstick::python

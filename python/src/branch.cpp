@@ -37,17 +37,16 @@ std::shared_ptr<FollowedBranch> follow(const SharedSetting& of, const orbit::Orb
 
 std::shared_ptr<FollowedBranch> continuation(const ModelDefinition& definition, const Overrides& values,
                                              const std::string& name, double from, double to,
-                                             const std::optional<Start>& start, const OrbitWish& wish, double step,
-                                             int points, bool same_events, nb::object progress) {
+                                             const std::optional<Start>& start, const orbit::OrbitWish& wish,
+                                             double step, int points, bool same_events, nb::object progress) {
   std::shared_ptr<FollowedBranch> found;
   Watch watch(std::move(progress));
   watch.run_aside([&] {
-    const double value = value_inside(definition, values, name, from, to);
+    definition.check_range(name, values, from, to);
     const State state = start_of(definition, values, start);
-    const SharedSetting of = setting(definition, values, {name}, {value});
+    const SharedSetting of = setting(definition, values, {name}, {definition.present_value(name, values)});
     const FoundOrbit first = find_orbit(of, state, wish, watch.cancel());
-    if (!stopped(watch.cancel()))
-      found = follow(of, first.solution.orbit, from, to, {step, points, same_events}, watch);
+    found = follow(of, first.solution.orbit, from, to, {step, points, same_events}, watch);
   });
   const bool complete = watch.finish(found != nullptr);
   found->complete = complete;
@@ -61,7 +60,8 @@ std::shared_ptr<FollowedBranch> continue_orbit(const FoundOrbit& first, const st
   Watch watch(std::move(progress));
   watch.run_aside([&] {
     const ModelDefinition& definition = first.setting->definition;
-    const double value = value_inside(definition, first.values(), name, from, to);
+    definition.check_range(name, first.values(), from, to);
+    const double value = definition.present_value(name, first.values());
     const SharedSetting of = setting(definition, first.values(), {name}, {value});
     orbit::Orbit orbit = first.solution.orbit;
     orbit.values = {value};
@@ -193,7 +193,7 @@ std::pair<std::string, std::string> classes(const S& self) {
 /// d value / d other, and how it is known.
 std::pair<double, std::string> sensitivity(const S& self, const std::string& other) {
   const Setting& of = *self.of->setting;
-  const std::vector<double> values = {self.point().value, value_of(of.definition, of.values, other)};
+  const std::vector<double> values = {self.point().value, of.definition.present_value(other, of.values)};
   const Family family = of.definition.family({of.names.front(), other}, of.values);
   const nb::gil_scoped_release release;
   const auto rate = orbit::sensitivities(family, values, self.point(), self.of->to - self.of->from).front();

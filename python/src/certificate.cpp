@@ -66,9 +66,7 @@ std::unique_ptr<Certified> certify_run(const ModelDefinition& definition, const 
 void bind_certificate(nb::module_& module) {
   nb::class_<Certified>(module, "Certified", "What a certificate holds, in numbers.")
       .def_prop_ro("segments", [](const Certified& self) { return self.tally.segments; })
-      .def_prop_ro("guards", [](const Certified& self) { return self.tally.guards; })
-      .def_prop_ro("steps", [](const Certified& self) { return self.tally.steps; })
-      .def_prop_ro("touches", [](const Certified& self) { return self.tally.touches; })
+      .def_prop_ro("impacts", [](const Certified& self) { return self.tally.impacts; })
       .def_prop_ro("chatters", [](const Certified& self) { return self.tally.chatters; })
       .def_prop_ro("unproved", [](const Certified& self) { return self.tally.unproved; })
       .def_ro("periods", &Certified::periods)

@@ -20,14 +20,7 @@ using Start = std::variant<Overrides, State>;
 [[nodiscard]] State start_of(const ModelDefinition& definition, const Overrides& values,
                              const std::optional<Start>& start);
 
-/// The present value of a parameter or of a group whose members agree. @throws InputError
-[[nodiscard]] double value_of(const ModelDefinition& definition, const Overrides& values, const std::string& name);
-
-/// The same, inside a range that the parameter admits. @throws InputError
-[[nodiscard]] double value_inside(const ModelDefinition& definition, const Overrides& values, const std::string& name,
-                                  double from, double to);
-
-/// The names of all contacts, in the library's numbering: stops, friction contacts, compliant stops.
+/// The names of all contacts, in the library's numbering: stops, friction contacts, compliant stops, characteristics.
 [[nodiscard]] std::vector<std::string> contact_names(const Model& model);
 
 }  // namespace slapstick::python

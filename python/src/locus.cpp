@@ -26,7 +26,8 @@ std::unique_ptr<L> locus(const Special& special, const std::string& second, doub
     if (second == of.names.front())
       throw InputError("locus: two different parameters are wanted, not " + second + " twice");
     orbit::SpecialPoint point = special.point();
-    const double value = value_inside(of.definition, of.values, second, second_from, second_to);
+    of.definition.check_range(second, of.values, second_from, second_to);
+    const double value = of.definition.present_value(second, of.values);
     point.solution.orbit.values = {point.value, value};
     found->setting = setting(of.definition, of.values, {of.names.front(), second}, point.solution.orbit.values);
     orbit::CurveOptions how{.from = from, .to = to, .second_from = second_from, .second_to = second_to};

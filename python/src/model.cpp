@@ -1,6 +1,7 @@
 /// Models and the table of their parameters.
 #include "bind.hpp"
 #include "chosen.hpp"
+#include "slapstick/model/energy_sources.hpp"
 #include "slapstick/section/stop_choice.hpp"
 
 namespace slapstick::python {
@@ -43,6 +44,7 @@ void bind_model(nb::module_& module) {
                    })
       .def_prop_ro("state_names", [](const ModelDefinition& self) { return state_names(self.build()); })
       .def_prop_ro("contacts", [](const ModelDefinition& self) { return contact_names(self.build()); })
+      .def_prop_ro("feeds_energy", [](const ModelDefinition& self) { return energy_sources(self.build()); })
       .def_prop_ro("stops", &stop_names)
       .def_prop_ro("forced", [](const ModelDefinition& self) { return self.build().forced(); })
       .def_prop_ro("observables",

@@ -23,10 +23,12 @@ NB_MODULE(_core, module) {
   bind_model(module);
   bind_motion(module);
   bind_attractor(module);
+  bind_lyapunov(module);
   bind_section(module);
   bind_diagram(module);
   bind_orbit(module);
   bind_branch(module);
   bind_locus(module);
+  bind_quantity(module);
   bind_certificate(module);
 }

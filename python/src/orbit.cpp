@@ -24,6 +24,19 @@ Overrides FoundOrbit::values() const {
 
 namespace {
 
+/// Options as Python's users write them.
+std::string spelled(std::string_view option) { return option == "unstable" ? "stable=False" : std::string(option); }
+
+}  // namespace
+
+FoundOrbit find_orbit(SharedSetting of, const State& start, const orbit::OrbitWish& wish,
+                      const std::atomic<bool>* stop) {
+  orbit::Chosen chosen = orbit::find_orbit(*of->problem, of->system, start, wish, stop, spelled);
+  return {std::move(of), std::move(*chosen.orbit), chosen.settles};
+}
+
+namespace {
+
 /// The events of a cycle as columns.
 struct OrbitEvents {
   std::vector<double> t, w, before;
@@ -88,7 +101,7 @@ std::vector<std::tuple<std::string, std::string, double>> margins(const FoundOrb
 }
 
 std::unique_ptr<FoundOrbit> find(const ModelDefinition& definition, const Overrides& values,
-                                 const std::optional<Start>& start, const OrbitWish& wish, nb::object progress) {
+                                 const std::optional<Start>& start, const orbit::OrbitWish& wish, nb::object progress) {
   std::optional<FoundOrbit> found;
   Watch watch(std::move(progress));
   watch.run_aside([&] {
@@ -101,19 +114,17 @@ std::unique_ptr<FoundOrbit> find(const ModelDefinition& definition, const Overri
 
 /// Every orbit that a search finds, as far as the wish admits it. Of a search that was stopped: those so far.
 std::tuple<std::vector<FoundOrbit>, bool> find_all(const ModelDefinition& definition, const Overrides& values,
-                                                   const std::optional<Start>& start, const OrbitWish& wish, int most_n,
-                                                   nb::object progress) {
+                                                   const std::optional<Start>& start, const orbit::OrbitWish& wish,
+                                                   int most_n, nb::object progress) {
   std::vector<FoundOrbit> found;
   Watch watch(std::move(progress));
   watch.run_aside([&] {
     const SharedSetting of = setting(definition, values, {}, {});
-    orbit::SearchOptions search = search_options(wish, watch.cancel());
+    orbit::SearchOptions search = orbit::search_options(wish, watch.cancel());
     search.most_n = most_n;
     search.progress = [&](int motions) { watch.note(motions); };
     const State state = start_of(definition, values, start);
-    orbit::OrbitChoice choice;
-    choice.stable = wish.stable;
-    choice.symmetric = wish.symmetric;
+    const orbit::OrbitChoice choice = orbit::choice_of(wish, state, spelled);
     for (orbit::Solution& one : orbit::search(*of->problem, of->system, state, search).orbits)
       if (choice.admits(*of->problem, one)) found.push_back({of, std::move(one)});
   });
@@ -135,8 +146,8 @@ void bind_events(nb::module_& module) {
 }
 
 void bind_wish(nb::module_& module) {
-  nb::class_<OrbitWish>(module, "OrbitWish", "Which orbit is meant, and how long it is sought.")
-      .def(nb::init<std::string, std::optional<bool>, std::optional<bool>, bool, int, int, double, std::uint32_t>(),
+  nb::class_<orbit::OrbitWish>(module, "OrbitWish", "Which orbit is meant, and how long it is sought.")
+      .def(nb::init<std::string, std::optional<bool>, std::optional<bool>, bool, long, int, double, std::uint32_t>(),
            "orbit"_a, "stable"_a.none(), "symmetric"_a.none(), "nearest"_a, "transient"_a, "starts"_a, "seconds"_a,
            "seed"_a);
 }

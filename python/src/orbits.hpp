@@ -5,7 +5,7 @@
 #include "bind.hpp"
 #include "chosen.hpp"
 #include "slapstick/continuation/branch.hpp"
-#include "slapstick/orbit/search.hpp"
+#include "slapstick/orbit/find.hpp"
 #include "watch.hpp"
 
 namespace slapstick::python {
@@ -33,21 +33,8 @@ struct FoundOrbit {
   [[nodiscard]] Overrides values() const;
 };
 
-/// Which orbit is meant, as callers say it.
-struct OrbitWish {
-  std::string orbit;  ///< "1-1", "2-inf", "1-1-II", "3", or ""
-  std::optional<bool> stable, symmetric;
-  bool nearest = false;  ///< to the start
-  int transient = 500, starts = 0;
-  double seconds = 0.0;
-  std::uint32_t seed = 1;
-};
-
-/// The limits of a search that begins now.
-[[nodiscard]] orbit::SearchOptions search_options(const OrbitWish& wish, const std::atomic<bool>* stop);
-
-/// The orbit that is meant. @throws NumericalError saying what was tried and found instead
-[[nodiscard]] FoundOrbit find_orbit(SharedSetting of, const State& start, const OrbitWish& wish,
+/// The orbit that is meant. @throws InputError, NumericalError saying what was tried and found instead
+[[nodiscard]] FoundOrbit find_orbit(SharedSetting of, const State& start, const orbit::OrbitWish& wish,
                                     const std::atomic<bool>* stop);
 
 }  // namespace slapstick::python

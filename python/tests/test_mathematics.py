@@ -57,3 +57,18 @@ def test_a_start_on_the_attractor_needs_no_transient():
     found = slapstick.classify("vibro-impact", omega=2.2)
     again = slapstick.simulate("vibro-impact", periods=1, samples=0, start=found.state, omega=2.2)
     assert np.allclose(again.state, found.state, atol=1e-10)
+
+
+def test_exponents_of_a_cycle_are_the_logarithms_of_its_multipliers():
+    cycle = slapstick.classify("vibro-impact", omega=2.2)
+    (found,) = slapstick.lyapunov("vibro-impact", omega=[2.2], start=cycle.state, periods=4000)
+    assert found.sum_rule_holds
+    assert np.allclose(found.per_period, np.log(abs(cycle.multipliers)) / cycle.n, atol=2e-3)
+    assert slapstick.lyapunov("vibro-impact", omega=1.5, periods=100).exponents[-1] == -np.inf
+
+
+def test_a_cycle_beside_its_doubling_is_named_and_a_quick_look_agrees():
+    assert slapstick.classify("vibro-impact", omega=6.629902).label == "3-1-I"
+    assert slapstick.classify("vibro-impact", omega=6.629902, quick=600).label == "3-1-I"
+    curve = slapstick.classify("vibro-impact", omega=4.805, quick=600)
+    assert (curve.label, curve.doubt) == ("undecided", "not confirmed")

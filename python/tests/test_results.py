@@ -66,8 +66,8 @@ def test_a_plot_draws_into_the_axes_that_are_given(results, name):
 
 def test_arrays_are_not_copied_and_outlive_their_result():
     motion = slapstick.simulate(MODEL, periods=50, omega=1.5)
-    assert np.shares_memory(motion.y, motion._run.y)
-    assert np.shares_memory(motion.events.w, motion._run.event_w)
+    assert np.shares_memory(motion.y, motion._core.y)
+    assert np.shares_memory(motion.events.w, motion._core.event_w)
     y, w, kept = motion.y, motion.events.w, motion.y.copy()
     speeds = w.copy()
     del motion

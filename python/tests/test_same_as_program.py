@@ -181,3 +181,29 @@ def test_certificate_is_the_file_of_the_program_and_the_verifier_takes_it(progra
     assert (tmp_path / "python.cert").read_bytes() == (tmp_path / "program.cert").read_bytes()
     assert {name: getattr(found, name) for name in printed} == printed
     assert sorted(path.name for path in tmp_path.iterdir()) == ["program.cert", "python.cert"]
+
+
+def test_measure_and_quantities_have_every_number_of_the_program(program):
+    listed = program.json("quantities", "vibro-impact")
+    found = slapstick.quantities("vibro-impact")
+    assert [(q.name, q.unit, q.kind, q.meaning) for q in found] == [tuple(one.values()) for one in listed]
+    words = ("--set", "omega=2.2", "--of", "a1,F_stop,impulse:q50", "--transient", 300)
+    printed = program.json("measure", "vibro-impact", *words)
+    measured = slapstick.measure("vibro-impact", "a1,F_stop,impulse:q50", transient=300, omega=2.2)
+    # repr: of an idle stop the crest factor is nan, and nan is no nan
+    assert {name: repr(value) for name, value in measured.items()} == {
+        name: repr(float(value)) for name, value in printed["values"].items()
+    }
+    assert (measured.label, measured.duration) == (printed["over"]["class"], printed["over"]["time"])
+    assert len(measured.impacts["stop"].w) == printed["impacts"]["stop"]["number"]
+
+
+@pytest.mark.parametrize("periods", [0, 256])
+def test_spectrum_has_every_line_of_the_program(program, periods):
+    words = ("--periods", periods) if periods else ()
+    printed = program.json("spectrum", "vibro-impact", "--set", "omega=2.2", "--of", "a1", *words)
+    found = slapstick.spectrum("vibro-impact", "a1", periods=periods, omega=2.2)
+    rows = printed["points" if periods else "lines"]
+    for name in rows[0]:
+        assert getattr(found, name).tolist() == [row[name] for row in rows]
+    assert found.of_cycle == (printed["kind"] == "lines")

@@ -4,14 +4,25 @@
 #include <cmath>
 
 #include "attractor/exponent.hpp"
+#include "base/ranges.hpp"
 #include "section/settling.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick {
 
 std::string_view name(Attractor attractor) {
-  constexpr std::string_view names[] = {"periodic", "quasi-periodic", "chaotic", "undecided"};
+  constexpr std::string_view names[] = {"periodic", "quasi-periodic", "chaotic", "one of a family", "undecided"};
   return names[static_cast<int>(attractor)];
+}
+
+std::string_view name(Doubt doubt) {
+  constexpr std::string_view names[] = {"none", "not confirmed", "approach", "long cycle", "exponent"};
+  return names[static_cast<int>(doubt)];
+}
+
+std::string_view option_that_decides(Doubt doubt) {
+  constexpr std::string_view options[] = {"", "full", "transient", "most_n", "exponent_periods"};
+  return options[static_cast<int>(doubt)];
 }
 
 std::string_view name(Chatter chatter) {
@@ -25,7 +36,9 @@ namespace {
 void record(const section::Settling& settling, const section::Cycle& cycle, const ClassifyOptions& options,
             Classification& result) {
   const System& system = settling.translations().system();
-  result.attractor = Attractor::periodic;
+  result.attractor = cycle.neutral ? Attractor::family : Attractor::periodic;
+  result.family = cycle.family;
+  result.doubt = Doubt::none;
   result.approach = cycle.approach;
   attractor::record_cycle(system, settling.at_home(flow::user_state(system, cycle.x)), cycle.n, options.stops,
                           options.cancel, result);
@@ -35,20 +48,79 @@ void record(const section::Settling& settling, const section::Cycle& cycle, cons
   if (!cycle.multipliers.empty()) result.exponent = std::log(std::abs(cycle.multipliers.front())) / cycle.n;
 }
 
-void decide_aperiodic(const attractor::RunFigures& run, const ClassifyOptions& options, Classification& result) {
+/// ln N / N: the exponent that a tangent shows which grows no faster than the time, as on every curve of a family.
+double growth_without_exponent(int periods) { return std::log(static_cast<double>(periods)) / periods; }
+
+bool dissipates(const Model& model) {
+  const auto acts = [](double coefficient) { return coefficient != 0.0; };
+  return !model.damping.empty() || ranges::any_of(model.dampers, acts, &Damper::coefficient) ||
+         ranges::any_of(model.frictions, acts, &FrictionContact::static_friction) ||
+         ranges::any_of(model.stops, [](const Stop& stop) { return stop.restitution != 1.0 || !stop.corners.empty(); }) ||
+         ranges::any_of(model.compliant_stops, acts, &CompliantStop::damping) ||
+         ranges::any_of(model.characteristics,
+                        [](const Characteristic& one_of) { return one_of.over != Characteristic::Over::displacement; });
+}
+
+struct Finding {
+  Attractor attractor;
+  Doubt doubt;
+};
+
+/// @param periods  of the run
+Finding finding(const attractor::RunFigures& run, int periods, bool approaching, const ClassifyOptions& options) {
+  const double nothing = growth_without_exponent(periods), uncertain = 3.0 * run.exponent_error;
+  const bool smooth = run.digits >= options.curve_digits;
+  if (run.exponent - uncertain > nothing) {
+    if (!smooth) return {Attractor::chaotic, Doubt::none};
+    return {Attractor::undecided, Doubt::exponent};
+  }
+  // Every difference is forgotten, so nothing approaches.
+  if (run.exponent == -INFINITY) return {Attractor::undecided, Doubt::long_cycle};
+  if (approaching) return {Attractor::undecided, Doubt::approach};
+  if (run.exponent + uncertain < -nothing) return {Attractor::undecided, smooth ? Doubt::long_cycle : Doubt::approach};
+  if (!smooth || run.rotation.digits < options.curve_digits) return {Attractor::undecided, Doubt::exponent};
+  if (run.rotation.locked > 0) return {Attractor::undecided, Doubt::long_cycle};
+  return {Attractor::quasi_periodic, Doubt::none};
+}
+
+void record(const attractor::RunFigures& run, const Finding& found, const System& system, Classification& result) {
   result.exponent = run.exponent;
   result.exponent_error = run.exponent_error;
   result.digits = run.digits;
   result.sticking = run.events.sticks > 0 || run.events.chatters > 0;
   result.chatter = run.events.chatters > 0 ? Chatter::complete : run.burst ? Chatter::incomplete : Chatter::none;
-  const bool positive = run.exponent > 3.0 * run.exponent_error && run.exponent > 0.005;
-  if (positive && run.digits < options.curve_digits)
-    result.attractor = Attractor::chaotic;
-  else if (!positive && run.exponent > -0.005 && run.digits >= options.curve_digits)
-    result.attractor = Attractor::quasi_periodic;
-  else
-    result.attractor = Attractor::undecided;
+  result.doubt = found.doubt;
+  result.attractor = found.attractor;
+  if (found.attractor == Attractor::quasi_periodic) {
+    result.rotation = run.rotation.number;
+    result.rotation_digits = run.rotation.digits;
+    result.curves = run.rotation.curves;
+    if (!dissipates(system.model())) result.attractor = Attractor::family;
+  }
   result.label = name(result.attractor);
+}
+
+}  // namespace
+
+namespace {
+
+/// What a motion is that comes to no cycle, by exponent, averages and rotation number of a further run.
+Classification without_cycle(const section::Settling& settling, const System& system, const ClassifyOptions& options) {
+  Classification result;
+  if (options.exponent_periods == 0) {
+    result.doubt = Doubt::not_confirmed;
+    result.label = name(result.attractor);
+    result.state = settling.at_home(settling.state());
+    return result;
+  }
+  const int periods = options.exponent_periods;
+  const auto run =
+      attractor::run_figures(settling.translations(), settling.state(), periods, options.stops, options.cancel);
+  if (settling.cancelled()) return result;
+  record(run, finding(run, periods, settling.still_approaching(), options), system, result);
+  result.state = settling.at_home(run.state);
+  result.drift = settling.drift(run.advance);
+  return result;
 }
 
 }  // namespace
@@ -67,31 +139,23 @@ Classification classify(const System& system, const State& state, const Classify
                               .stop = options.cancel,
                               .progress = options.progress});
   settling.discard(options.transient_periods);
-  // Rounds of growing length: a clearly chaotic motion is recognised early, a slow approach gets its time.
-  while (!settling.exhausted()) {
-    const std::optional<section::Cycle> cycle = settling.next_round();
-    if (cycle) record(settling, *cycle, options, result);
-    if (cycle || settling.cancelled()) break;
-    const bool last = settling.exhausted();
-    const auto run = attractor::run_figures(settling.translations(), settling.state(),
-                                            last ? options.exponent_periods : options.exponent_periods / 4,
-                                            options.stops, options.cancel);
-    if (settling.cancelled()) break;
-    decide_aperiodic(run, options, result);
-    if (result.attractor == Attractor::quasi_periodic && settling.still_approaching()) {
-      result.attractor = Attractor::undecided;
-      result.label = name(result.attractor);
-    }
-    result.state = settling.at_home(run.state);
-    result.drift = settling.drift(run.advance);
-    const bool clear =
-        result.attractor == Attractor::chaotic && run.exponent > 10.0 * run.exponent_error && run.exponent > 0.02;
-    if (clear || last) break;
-    result = {};
-  }
+  // However chaotic a motion looks, the whole search goes before: a chaotic transient ends in a cycle.
+  std::optional<section::Cycle> cycle;
+  while (!cycle && !settling.exhausted() && !settling.cancelled()) cycle = settling.next_round();
+  if (cycle)
+    record(settling, *cycle, options, result);
+  else if (!settling.cancelled())
+    result = without_cycle(settling, system, options);
   result.periods_used = settling.periods();
   result.interrupted = settling.cancelled();
   return result;
+}
+
+Classification classify_quickly(const System& system, const State& state, int periods, ClassifyOptions options) {
+  options.transient_periods = periods / 2;
+  options.most_periods = periods - options.transient_periods;
+  options.exponent_periods = 0;
+  return classify(system, state, options);
 }
 
 }  // namespace slapstick

@@ -5,38 +5,22 @@
 #include <cmath>
 #include <numbers>
 
+#include "attractor/batches.hpp"
 #include "flow/compiled_system.hpp"
 #include "slapstick/flow/tangent.hpp"
 
 namespace slapstick::attractor {
 namespace {
 
-constexpr int batches = 20;
-
 double weighted_average(const double* values, std::size_t count) {
   double sum = 0.0, total = 0.0;
   for (std::size_t i = 1; i < count; ++i) {
     const double t = static_cast<double>(i) / static_cast<double>(count);
-    const double weight = std::exp(-1.0 / (t * (1.0 - t)));
+    const double weight = bump(t);
     sum += weight * values[i];
     total += weight;
   }
   return sum / total;
-}
-
-/// Mean and standard error of the batch means.
-void batch_statistics(const std::vector<double>& growth, double& mean, double& error) {
-  const std::size_t length = growth.size() / batches;
-  double sum = 0.0, squares = 0.0;
-  for (int b = 0; b < batches; ++b) {
-    double batch = 0.0;
-    for (std::size_t i = 0; i < length; ++i) batch += growth[b * length + i];
-    batch /= static_cast<double>(length);
-    sum += batch;
-    squares += batch * batch;
-  }
-  mean = sum / batches;
-  error = std::sqrt(std::max(0.0, squares / batches - mean * mean) / (batches - 1));
 }
 
 }  // namespace
@@ -58,9 +42,11 @@ RunFigures run_figures(const flow::Translations& translations, const State& stat
   for (Eigen::Index i = 0; i < size; ++i) tangent(i, 0) = std::cos(1.0 + 2.0 * static_cast<double>(i));
   tangent.normalize();
   TangentMotion motion(translations.system(), state, tangent);
+  const double period = 1.0 / translations.system().period();  // a displacement as large as a velocity
   RunFigures figures;
   figures.advance = Eigen::VectorXd::Zero(translations.count());
   std::vector<double> growth, speeds, phases, strobe;
+  std::vector<std::complex<double>> points;
   std::vector<double> chosen_speeds, chosen_times;
   bool dead = false;
   const int discard = periods / 20;  // until the tangent points along the fastest growing direction
@@ -79,19 +65,21 @@ RunFigures run_figures(const flow::Translations& translations, const State& stat
     });
     if (!whole) return figures;
     figures.advance += translations.take_out(motion) / (periods + discard);
-    strobe.push_back(contact_state(motion.motion())[translations.observed()]);
+    const Eigen::VectorXd x = contact_state(motion.motion());
+    strobe.push_back(x[translations.observed()]);
+    points.emplace_back(period * x[translations.observed()], x[size - 1]);
     const double norm = motion.tangents().norm();
     dead = dead || norm < 1e-280;
     if (dead) continue;
     if (k >= discard) growth.push_back(std::log(norm));
     motion.set_tangents(motion.tangents() / norm);
   }
-  if (dead)
-    figures.exponent = -INFINITY;
-  else
-    batch_statistics(growth, figures.exponent, figures.exponent_error);
+  const Mean mean = dead ? Mean{-INFINITY, 0.0} : batch_mean(growth);
+  figures.exponent = mean.value;
+  figures.exponent_error = mean.error;
   figures.digits =
       speeds.size() >= 100 ? std::min(birkhoff_digits(speeds), birkhoff_digits(phases)) : birkhoff_digits(strobe);
+  figures.rotation = rotation(std::move(points));
   figures.state = motion.motion().state();
   figures.burst = has_burst(chosen_times, chosen_speeds);
   return figures;

@@ -1,6 +1,7 @@
 #pragma once
 /// Largest Lyapunov exponent and weighted Birkhoff averages of one run.
 #include "attractor/cycle.hpp"
+#include "attractor/rotation.hpp"
 #include "flow/translations.hpp"
 
 namespace slapstick::attractor {
@@ -8,6 +9,7 @@ namespace slapstick::attractor {
 struct RunFigures {
   double exponent = 0.0, exponent_error = 0.0;  ///< per forcing period; -infinity if every tangent dies out (stick)
   double digits = 0.0;      ///< agreement of the weighted Birkhoff averages of two halves, decimal digits
+  Rotation rotation;        ///< of the stroboscopic points
   PeriodEvents events;      ///< chatters: of the chosen stops
   State state;              ///< at the end; its class is represented as in Translations
   Eigen::VectorXd advance;  ///< mean along each translation, per forcing period

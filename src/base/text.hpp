@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "base/decimal.hpp"
 
@@ -43,6 +44,19 @@ namespace slapstick {
     i += std::max<std::size_t>(length, 1);
   }
   return out + "'";
+}
+
+/// Splits at every `separator`; an empty text gives one empty part.
+[[nodiscard]] inline std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == separator) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
 }
 
 /// The shortest usual notation that reads back as the same double: "0.1", "1e+300", "nan".

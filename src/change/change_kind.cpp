@@ -131,7 +131,7 @@ bool states_differ(const Orbit& a, const Orbit& b, std::vector<State> mode::Cont
 bool stops_differ(const Orbit& a, const Orbit& b) {
   if (chatters(a) + chatters(b) > 0) return false;
   return strikes(a) != strikes(b) || states_differ(a, b, &mode::ContactStates::stops) ||
-         states_differ(a, b, &mode::ContactStates::compliant);
+         states_differ(a, b, &mode::ContactStates::compliant) || states_differ(a, b, &mode::ContactStates::pieces);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ using Eigen::VectorXd;
 class Bounce {
  public:
   Bounce(const ModeSet& set, int stop, const mode::ContactStates& flight)
-      : set_(set), row_(set.frame().stops[static_cast<std::size_t>(stop)]), flight_(flight), closed_(flight) {
+      : set_(set), stop_(stop), row_(set.frame().stops[static_cast<std::size_t>(stop)]), flight_(flight), closed_(flight) {
     closed_.stops[static_cast<std::size_t>(stop)] = mode::StopState::closed;
   }
 
@@ -38,7 +38,7 @@ class Bounce {
     const Jet before = extended(set_, x, t);
     Leg rest;
     rest.ending = Ending::onset;
-    rest.contact = static_cast<int>(&row_ - set_.frame().stops.data());
+    rest.contact = stop_;
     const Jet X = leg_start(set_, rest, x, t);
     const ModeRates &flight = set_.mode(flight_), &closed = set_.mode(closed_);
     const RowVectorXd pressing = row_.sign * flight.outline.system.row(velocity());
@@ -72,6 +72,7 @@ class Bounce {
   }
 
   const ModeSet& set_;
+  int stop_;
   const mode::ContactRow& row_;
   mode::ContactStates flight_, closed_;
 };
@@ -109,7 +110,9 @@ std::optional<std::size_t> leg_beyond(const ModeSet& set, const Orbit& orbit, in
 
 /// Far from the onset a is as good as constant during a burst, and w falls by r from impact to impact; near the fixed point w stays.
 std::optional<Approach> nearest_approach(const ModeSet& set, const Orbit& orbit, int stop, double restitution) {
-  constexpr double slow = 0.25;  // of the fall far from the onset
+  // Of the fall far from the onset. A larger share takes bursts for approaches that Newton's method then leads astray; with
+  // a smaller one an onset is looked for only where a cascade has hardly anything left to gather.
+  constexpr double slow = 0.25;
   const double wanted = bounce_rates(restitution).w;
   const auto w_at = [&](std::size_t leg) -> std::optional<double> {
     const Leg& before = orbit.shape.legs[(leg + orbit.legs() - 1) % orbit.legs()];
@@ -255,8 +258,8 @@ bool has_equations(const ModeSet& set, const Orbit& near, int stop) {
 
 /// Adds impacts until the parameter stops to change. What is left of the changes then is rounding, by chance small in one of them.
 std::optional<OnsetOrbit> converged(const Problem& problem, Orbit orbit, int stop) {
-  constexpr int at_once = 16;
-  constexpr double safety = 4.0;
+  constexpr int at_once = 16;      // halved where Newton's method fails: larger saves steps, and changes no result
+  constexpr double safety = 4.0;   // of rounding, of which the last two changes are but samples
   double change = INFINITY, left = 1.0;
   int settled = 0;
   for (int more = at_once; more > 0 && settled < 2 && orbit.legs() < most_legs;) {

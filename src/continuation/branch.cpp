@@ -154,12 +154,30 @@ bool Follower::grows_without_bound(const PathPoint& at) {
   return true;
 }
 
+/// Ends the branch if the model ends within twice the shortest step: a static friction falls to the kinetic one.
+bool Follower::end_of_model(const PathPoint& at) {
+  std::vector<double> values = at.orbit.values;
+  values[0] += std::copysign(2.0 * shortest_step() * range_, at.watched.turn);
+  try {
+    const System beyond(problem_.family().model(values));
+  } catch (const InputError& error) {
+    branch_.up = {.kind = BranchEnd::Kind::no_model, .value = value(at), .detail = error.what()};
+    return ended_ = true;
+  }
+  return false;
+}
+
 /// Takes a step, or makes it shorter. @returns false if the branch ends
 bool Follower::accept(PathPoint& at, PathPoint next, double length) {
   Verification seen;
   Solution solution;
   try {
     solution = solution_of(next, &seen);
+  } catch (const InputError& error) {  // no model there
+    step_ = 0.5 * length;
+    if (step_ >= shortest_step()) return true;
+    if (!end_of_model(at)) fail({.kind = BranchEnd::Kind::refused, .value = value(at), .detail = error.what()});
+    return false;
   } catch (const std::runtime_error& error) {
     fail({.kind = BranchEnd::Kind::refused, .value = value(at), .detail = error.what()});
     return false;
@@ -214,6 +232,7 @@ void Follower::run(PathPoint at) {
     const double bend = next ? at.tangent.dot(next->tangent) : -1.0;
     if (!next || !inside(value(*next)) || (bend < straight && step_ > 1e-4)) {
       step_ *= 0.5;
+      if (step_ < shortest_step() && end_of_model(at)) return;
       if (step_ < shortest_step() && leave(at)) continue;
       if (step_ < shortest_step()) {
         if (at_end(value(at), structure * range_, at)) return end(BranchEnd::Kind::range);

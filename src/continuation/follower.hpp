@@ -79,6 +79,9 @@ class Follower {
   void look_for_pairs(const PathPoint& at, const PathPoint& next, double length);
   void add(std::vector<SpecialPoint> smooth, std::size_t after);
   bool end_at_boundary(PathPoint& at);
+  bool end_of_model(const PathPoint& at);
+  [[nodiscard]] bool comes_to_rest(const SpecialPoint& special) const;
+  [[nodiscard]] bool stays_in_one_mode(const Orbit& orbit) const;
   bool runs_over_itself();
   bool grows_without_bound(const PathPoint& at);
   void end(BranchEnd::Kind why);

@@ -178,7 +178,7 @@ bool Follower::clear_onset(PathPoint& at) {
 
 /// The onset that a branch with a complete chatter runs towards, by the onset's own equations. Looked for again where the chatter has more impacts by far.
 std::optional<PlaceLimit> Follower::onset_ahead(const PathPoint& at) {
-  constexpr double much = 1.2;
+  constexpr double much = 1.2;  // a look costs as much as a step: with fewer legs more they add up, with more the onset comes late
   if (!branch_.points.back().chatter) return std::nullopt;
   if (!ahead_ && static_cast<double>(at.orbit.legs()) >= much * static_cast<double>(looked_from_)) {
     looked_from_ = at.orbit.legs();

@@ -36,6 +36,14 @@ std::string tangential(const Leg& leg, mode::GuardKind kind, const System& syste
       return "the end of the push at " + contact + " becomes tangential: its force only touches zero";
     case push:
       return "the return of the push at " + contact + " becomes tangential: its force only touches zero";
+    case corner_above:
+    case corner_below:
+    case bound:
+    case beyond:
+      return "the passage of a corner of " + contact + " becomes tangential";
+    case load:
+    case unloaded:
+      return "the zero of the normal force of " + contact + " becomes tangential";
     case leave:
       break;
   }
@@ -57,6 +65,14 @@ std::string touching(const UsedMargin& margin, const System& system) {
       return "the holding force of " + contact + " touches static friction" + leg;
     case press:
       return "the force of " + contact + " touches zero" + leg;
+    case corner_above:
+    case corner_below:
+    case bound:
+    case beyond:
+      return contact + " touches a corner" + leg;
+    case load:
+    case unloaded:
+      return "the normal force of " + contact + " touches zero" + leg;
     default:
       return "a compliant stop touches" + leg;
   }
@@ -155,7 +171,8 @@ std::string describe(const UsedMargin& margin, const Itinerary& shape, const Sys
     case UsedMargin::Kind::duration:
       return shrinking(margin.leg) + " (" + system.mode_name(system.mode_id(leg.states)) + ") shrinks to nothing";
     case UsedMargin::Kind::no_stick:
-      return "the holding force of " + system.contact_name(contact_index(mode::GuardKind::slip, margin.contact, system.model())) +
+      return "the holding force of " +
+             system.contact_name(contact_index(mode::GuardKind::slip, margin.contact, system.model())) +
              " comes to static friction at its reversal (" + std::string(name(leg.event)) + ")";
     case UsedMargin::Kind::speed:
       return tangential(leg, margin.guard, system);
@@ -183,7 +200,9 @@ std::string what_happens(const SpecialPoint& point, const System& system) {
       return "a contact that has rested lets go, into a complete chatter";
     case Occurrence::onset:
       return "infinitely many changes gather at the onset of a complete chatter" +
-             (point.cascade_ratio > 0.0 ? " (a cascade, ratio " + shown(std::round(1e4 * point.cascade_ratio) / 1e4) + ")" : "");
+             (point.cascade_ratio > 0.0
+                  ? " (a cascade, ratio " + shown(std::round(1e4 * point.cascade_ratio) / 1e4) + ")"
+                  : "");
     case Occurrence::death:
       return "the motion dies out: " + shrinking(point.margin.leg) + " and others shrink to nothing together";
     case Occurrence::margin:
@@ -208,6 +227,8 @@ std::string what_becomes(const SpecialPoint& point) {
       return "one of infinitely many changes";
     case Passage::merges:
       return point.type == SpecialType::PD ? "" : "from there on it is a shorter orbit, run through more than once";
+    case Passage::equilibrium:
+      return "the cycle shrinks to a state of rest";
     case Passage::retraced:
       return "the branch as it came";
     case Passage::not_followed:
@@ -222,8 +243,9 @@ std::string what_becomes(const SpecialPoint& point) {
 }
 
 std::string_view name(BranchEnd::Kind kind) {
-  constexpr std::array<std::string_view, 12> names = {"range",   "closed",   "special",         "over-itself", "unbounded", "most-points",
-                                                      "stopped", "led-back", "too-many-events", "no-step",     "no-change", "refused"};
+  constexpr std::array<std::string_view, 13> names = {
+      "range",   "closed",   "no-model",        "special", "over-itself", "unbounded", "most-points",
+      "stopped", "led-back", "too-many-events", "no-step", "no-change",   "refused"};
   return names.at(static_cast<std::size_t>(kind));
 }
 
@@ -274,6 +296,8 @@ std::string sentence(const Branch& branch, const BranchEnd& end) {
       return "range";
     case BranchEnd::Kind::closed:
       return "closed";
+    case BranchEnd::Kind::no_model:
+      return "the model ends at " + branch.parameter + " = " + shown(end.value) + " (" + end.detail + ")";
     case BranchEnd::Kind::special:
       return end_at(branch.special.at(*end.special));
     case BranchEnd::Kind::over_itself:

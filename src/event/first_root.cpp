@@ -154,8 +154,12 @@ Curvature Search::near_start() const {
   return {2.0 * a[2] - spread, 2.0 * a[2] + spread, X};
 }
 
+/// Of the terms as they are computed, and of what they lack: rounding up to n = 23, and dropped terms, whose sums of n (n - 1) (n - 2) |T_n| are
+/// at most 40 times those of n (n - 1) |T_n| (docs/certainty.md, section 3).
 double Search::third() {
-  if (third_ < 0.0) third_ = weighted_size(guard_.taylor, [](int n) { return n * (n - 1.0) * (n - 2.0); });
+  if (third_ < 0.0)
+    third_ = weighted_size(guard_.taylor, [](int n) { return n * (n - 1.0) * (n - 2.0); }) +
+             40.0 * bound(Bound::curvature_noise);
   return third_;
 }
 

@@ -38,8 +38,8 @@ Hull enclose(const double* a, const double* size, int count, double noise_factor
 
 /// The bounds for a state that carries another rounding beside its own: `more` times that of the bounds b.
 static inline void add_noise(Hull& hull, const Lane8& b, double more) {
-  const double n0 = b[noise_0], n1 = b[noise_1], n2 = b[noise_2];
-  hull.bounds += more * Lane8{8.0 * (n0 + n1 + n2), 0, 0, n0, n1, n2, b[slope_noise], b[curvature_noise]};
+  const double n0 = b[noise_0], n1 = b[noise_1], n2 = b[noise_2], slope = b[slope_noise], curvature = b[curvature_noise];
+  hull.bounds += more * Lane8{8.0 * (n0 + n1 + n2), n1 + slope, curvature, n0, n1, n2, slope, curvature};
 }
 
 /// True if g > 0 on [0, 1], by eight times its noise: no Bernstein coefficient is as low as the error bound.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "flow/mode_graph.hpp"
+#include "mode/contact_force.hpp"
 
 namespace slapstick::flow {
 namespace {
@@ -52,8 +53,24 @@ double friction_rate(const CompiledSystem& system, int i) {
   const mode::Frame& frame = system.frame();
   double rate = 0.0;
   for (std::size_t k = 0; k < frame.frictions.size(); ++k) {
+    const FrictionContact& contact = system.model().frictions[k];
     const double effect = frame.mass_inverse(i, frame.frictions[k].own);
-    rate += std::abs(effect) * system.model().frictions[k].static_friction;
+    if (!contact.normal) rate += std::abs(effect) * contact.static_friction;
+  }
+  return rate;
+}
+
+/// What friction whose limit is f_s N can add to that: f_s |N|.
+double loaded_friction_rate(const CompiledSystem& system, const mode::Mode& here, int i, const double* v) {
+  const mode::Frame& frame = system.frame();
+  double rate = 0.0;
+  for (std::size_t k = 0; k < frame.frictions.size(); ++k) {
+    const FrictionContact& contact = system.model().frictions[k];
+    const double effect = frame.mass_inverse(i, frame.frictions[k].own);
+    if (!contact.normal || effect == 0.0) continue;
+    const mode::RowVector load = load_row(system.model(), frame, here.states(), static_cast<int>(k));
+    for (Eigen::Index j = 0; j < load.size(); ++j)
+      rate += std::abs(effect) * contact.static_friction * std::abs(load[j]) * v[j];
   }
   return rate;
 }
@@ -67,7 +84,7 @@ void magnitude_product(const CompiledSystem& system, const mode::Mode& here, con
     double sum = 0.0;
     for (int j = 0; j < m; ++j)
       sum += std::max(std::abs(frame.free(i, j)), std::abs(here.system()(frame.u(i), j))) * v[j];
-    out[frame.u(i)] = sum;
+    out[frame.u(i)] = sum + loaded_friction_rate(system, here, i, v);
   }
   for (std::size_t k = 0; k < frame.harmonics.size(); ++k) {
     const auto c = 2 * frame.d + 2 * static_cast<int>(k);
@@ -90,15 +107,54 @@ bool others_change(const CompiledSystem& system, int stop, const double* X, cons
     const double open = gap(system, i, X);
     if (i != stop && open > 0.0 && open <= delta[frame.stops[i].own]) return true;
   }
+  for (int i = 0; i < static_cast<int>(frame.characteristics.size()); ++i) {
+    const mode::RowVector& row = frame.value_row(system.model(), i);
+    double value = 0.0, change = 0.0;
+    for (Eigen::Index j = 0; j < row.size(); ++j) {
+      value += row[j] * X[j];
+      change += std::abs(row[j]) * delta[j];
+    }
+    for (const Characteristic::Corner& corner : system.model().characteristics[i].corners)
+      if (std::abs(value - corner.at) <= change) return true;
+  }
   for (int i = 0; i < static_cast<int>(frame.compliant.size()); ++i) {
     if (std::abs(depth(system, i, X)) <= delta[frame.compliant[i].own]) return true;
   }
   return false;
 }
 
+/// Acceleration of the stop's pair towards the stop without friction, in the pieces of the characteristics that are in
+/// force.
+double press(const CompiledSystem& system, const mode::Mode& here, int stop, const double* X) {
+  double towards = row_product(system.press(stop), X);
+  const mode::ContactRow& own = system.frame().stops[stop];
+  for (std::size_t i = 0; i < here.states().pieces.size(); ++i) {
+    const int characteristic = static_cast<int>(i);
+    const mode::Piece piece = mode::piece_of(system.model().characteristics[i], here.states().pieces[i]);
+    towards -= own.sign * system.frame().characteristics[i].push[own.own] *
+               (piece.slope * row_product(system.frame().slope_row(system.model(), characteristic), X) + piece.offset);
+  }
+  return towards;
+}
+
+/// The most that it can change while X changes by delta.
+double press_change(const CompiledSystem& system, const mode::Mode& here, int stop, const double* delta) {
+  double change = 0.0;
+  const auto add = [&](const mode::RowVector& row, double factor) {
+    for (Eigen::Index j = 0; j < row.size(); ++j) change += std::abs(factor * row[j]) * delta[j];
+  };
+  add(system.press(stop), 1.0);
+  const mode::ContactRow& own = system.frame().stops[stop];
+  for (std::size_t i = 0; i < here.states().pieces.size(); ++i)
+    add(system.frame().slope_row(system.model(), static_cast<int>(i)),
+        system.frame().characteristics[i].push[own.own] *
+            mode::piece_of(system.model().characteristics[i], here.states().pieces[i]).slope);
+  return change;
+}
+
 /// Bound on |R(X(t)) - R_0| over a window of length D, or infinity if the bound on the states cannot be verified.
-double drift_of_R(const CompiledSystem& system, const mode::Mode& here, int stop, const double* X, double D, double impulse_sum,
-                  std::span<double> scratch) {
+double drift_of_R(const CompiledSystem& system, const mode::Mode& here, int stop, const double* X, double D,
+                  double impulse_sum, std::span<double> scratch) {
   const mode::Frame& frame = system.frame();
   const int m = frame.size();
   double* magnitude = scratch.data();
@@ -117,13 +173,11 @@ double drift_of_R(const CompiledSystem& system, const mode::Mode& here, int stop
   magnitude_product(system, here, delta, product);
   for (int i = 0; i < m; ++i) delta[i] += 2.0 * D * product[i];
   magnitude_product(system, here, delta, product);
-  double drift = 0.0;
   for (int i = 0; i < m; ++i) {
     if (D * (rate[i] + product[i]) + jump(i) > delta[i]) return INFINITY;
   }
   if (others_change(system, stop, X, delta)) return INFINITY;
-  for (int j = 0; j < m; ++j) drift += std::abs(system.press(stop)[j]) * delta[j];
-  return drift;
+  return press_change(system, here, stop, delta);
 }
 
 /// The proof of the header, for friction as given; leaves the bounds on the changes of X in scratch[2 m ..].
@@ -131,7 +185,7 @@ ChatterLimit prove(const CompiledSystem& system, const mode::Mode& here, int sto
                    const Friction& friction, std::span<double> scratch) {
   const double r = system.model().stops[stop].restitution;
   const double v = -approach_velocity(system, stop, X);
-  const double R = row_product(system.press(stop), X) + friction.steady;
+  const double R = press(system, here, stop, X) + friction.steady;
   if (R - friction.phi - friction.unknown <= 0.0 || R - friction.unknown <= friction.phi_static) return {};
   const double nominal_rho = r * std::sqrt((R - friction.phi) / (R + friction.phi));
   if (!(nominal_rho < 1.0)) return {};
@@ -163,13 +217,17 @@ bool all_slip_on(const CompiledSystem& system, int stop, const double* X, const 
   return true;
 }
 
-/// A closed stop, or a compliant one, that pushes on the chattering pair is more than the proof looks at.
+/// A closed stop, or a compliant one, that pushes on the chattering pair is more than the proof looks at; so is
+/// friction whose limit changes with the state.
 bool coupled_to_others(const CompiledSystem& system, int stop, const double* X) {
   const mode::Frame& frame = system.frame();
   const int own = frame.stops[stop].own;
   for (std::size_t i = 0; i < frame.stops.size(); ++i) {
     const bool in_contact = static_cast<int>(i) != stop && gap(system, static_cast<int>(i), X) == 0.0;
     if (in_contact && frame.mass_inverse(own, frame.stops[i].own) != 0.0) return true;
+  }
+  for (std::size_t i = 0; i < frame.frictions.size(); ++i) {
+    if (system.model().frictions[i].normal && frame.mass_inverse(own, frame.frictions[i].own) != 0.0) return true;
   }
   for (std::size_t i = 0; i < frame.compliant.size(); ++i) {
     const bool acts = depth(system, static_cast<int>(i), X) >= 0.0;
@@ -180,14 +238,16 @@ bool coupled_to_others(const CompiledSystem& system, int stop, const double* X) 
 
 }  // namespace
 
-ChatterLimit prove_chatter(const CompiledSystem& system, const mode::Mode& here, int stop, const double* X, double tolerance,
-                           std::span<double> scratch) {
+ChatterLimit prove_chatter(const CompiledSystem& system, const mode::Mode& here, int stop, const double* X,
+                           double tolerance, std::span<double> scratch) {
   const double v = -approach_velocity(system, stop, X);
   const Friction friction = friction_on(system, stop, X, nullptr);
-  const double R = row_product(system.press(stop), X) + friction.steady;
+  const double R = press(system, here, stop, X) + friction.steady;
   // The error of the limit is about (duration^2 / period): too early to be worth a proof?
   if (!(v > 0.0) || !(v < 100.0 * std::sqrt(tolerance * system.period()) * R)) return {};
   if (coupled_to_others(system, stop, X)) return {};
+  const auto& corners = system.model().stops[stop].corners;  // below the first the restitution is constant
+  if (!corners.empty() && v > system.model().stops[stop].restitution * corners.front().speed) return {};
 
   const ChatterLimit limit = prove(system, here, stop, X, tolerance, friction, scratch);
   const double* delta = scratch.data() + 2 * system.frame().size();

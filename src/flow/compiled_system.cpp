@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "base/dense.hpp"
-#include "base/ranges.hpp"
-#include "slapstick/base/error.hpp"
 #include "base/floating_point.hpp"
+#include "base/ranges.hpp"
 #include "base/text.hpp"
+#include "slapstick/base/error.hpp"
 
 namespace slapstick::flow {
 
@@ -21,7 +21,8 @@ namespace {
 
 Model checked(Model model) {
   validate(model);
-  const std::size_t contacts = model.stops.size() + model.frictions.size() + model.compliant_stops.size();
+  const std::size_t contacts =
+      model.stops.size() + model.frictions.size() + model.compliant_stops.size() + model.characteristics.size();
   if (contacts > System::most_contacts)
     throw InputError("model '" + model.name + "' has " + std::to_string(contacts) + " contacts; at most " +
                      std::to_string(System::most_contacts) + " can be run");
@@ -59,6 +60,10 @@ double checked_window(const Model& model, const mode::Mode& mode, int displaceme
 /// The clock's fraction of a period has 53 bits; a window must be many of its units.
 constexpr double most_windows_per_period = 0x1p48;
 
+constexpr ModeId most_modes = ModeId{1} << 62;
+
+ModeId pieces(const Characteristic& characteristic) { return static_cast<ModeId>(characteristic.corners.size()) + 1; }
+
 /// A model with so few modes has them built at once.
 constexpr ModeId built_at_once = 8;
 
@@ -72,12 +77,21 @@ CompiledSystem::CompiledSystem(Model model, SystemOptions options)
   if (!(options_.longest_window >= shortest_cap))
     throw InputError("longest_window = " + shown(options_.longest_window) + " is not at least " + shown(shortest_cap));
   for (std::size_t i = 0; i < model_.stops.size(); ++i) mode_count_ *= 2;
-  for (std::size_t i = 0; i < model_.frictions.size() + model_.compliant_stops.size(); ++i) mode_count_ *= 3;
+  for (std::size_t i = 0; i < model_.frictions.size(); ++i) mode_count_ *= friction_states(i);
+  for (std::size_t i = 0; i < model_.compliant_stops.size(); ++i) mode_count_ *= compliant_states(i);
+  for (const Characteristic& one_of : model_.characteristics) {
+    if (mode_count_ > most_modes / pieces(one_of))
+      throw InputError("model '" + model_.name + "' has more combinations of contact states and pieces than 2^62");
+    mode_count_ *= pieces(one_of);
+  }
   modes_ = std::make_unique<ModeTable>(mode_count_);
   ContactStates free = states(0);
   windows_per_period_ = period_ / mode(mode_id(free)).window();
   ranges::fill(free.compliant, CompliantState::on);
   windows_per_period_ = std::max(windows_per_period_, period_ / mode(mode_id(free)).window());
+  for (std::size_t i = 0; i < model_.characteristics.size(); ++i)
+    for (; free.pieces[i] + 1 < pieces(model_.characteristics[i]); ++free.pieces[i])
+      windows_per_period_ = std::max(windows_per_period_, period_ / mode(mode_id(free)).window());
   if (windows_per_period_ > most_windows_per_period)
     throw InputError("model '" + model_.name + "' has " + shown(windows_per_period_) +
                      " windows of its fastest motion in a forcing period, more than the clock can tell apart; raise "
@@ -114,8 +128,12 @@ ModeId CompiledSystem::mode_id(const ContactStates& states) const {
     stride *= base;
   };
   for (StopState state : states.stops) digit(static_cast<int>(state), 2);
-  for (FrictionState state : states.frictions) digit(static_cast<int>(state) + 1, 3);
-  for (CompliantState state : states.compliant) digit(static_cast<int>(state), 3);
+  for (std::size_t i = 0; i < model_.frictions.size(); ++i)
+    digit(static_cast<int>(states.frictions[i]) + 1, friction_states(i));
+  for (std::size_t i = 0; i < model_.compliant_stops.size(); ++i)
+    digit(static_cast<int>(states.compliant[i]), compliant_states(i));
+  for (std::size_t i = 0; i < model_.characteristics.size(); ++i)
+    digit(states.pieces[i], static_cast<int>(pieces(model_.characteristics[i])));
   return id;
 }
 
@@ -128,9 +146,11 @@ ContactStates CompiledSystem::states(ModeId id) const {
   };
   for (std::size_t i = 0; i < model_.stops.size(); ++i) states.stops.push_back(static_cast<StopState>(digit(2)));
   for (std::size_t i = 0; i < model_.frictions.size(); ++i)
-    states.frictions.push_back(static_cast<FrictionState>(digit(3) - 1));
+    states.frictions.push_back(static_cast<FrictionState>(digit(friction_states(i)) - 1));
   for (std::size_t i = 0; i < model_.compliant_stops.size(); ++i)
-    states.compliant.push_back(static_cast<CompliantState>(digit(3)));
+    states.compliant.push_back(static_cast<CompliantState>(digit(compliant_states(i))));
+  for (const Characteristic& one_of : model_.characteristics)
+    states.pieces.push_back(digit(static_cast<int>(pieces(one_of))));
   return states;
 }
 
@@ -140,14 +160,19 @@ std::string CompiledSystem::mode_name(ModeId id) const {
   for (FrictionState state : all.frictions)
     name += std::string(name.empty() ? "" : "/") + (state == FrictionState::stick       ? "stick"
                                                     : state == FrictionState::slip_plus ? "slip+"
+                                                    : state == FrictionState::unloaded  ? "unloaded"
                                                                                         : "slip-");
   if (name.empty()) name = "free";
   const bool several = model_.stops.size() + model_.compliant_stops.size() > 1;
   const auto named = [&](const std::string& what) { return several ? ":" + what : std::string(); };
   for (std::size_t i = 0; i < all.stops.size(); ++i)
     if (all.stops[i] == StopState::closed) name += "|closed" + named(model_.stops[i].name);
-  for (std::size_t i = 0; i < all.compliant.size(); ++i)
+  for (std::size_t i = 0; i < all.compliant.size(); ++i) {
     if (all.compliant[i] == CompliantState::on) name += "|on" + named(model_.compliant_stops[i].name);
+    if (all.compliant[i] == CompliantState::bounded) name += "|bounded" + named(model_.compliant_stops[i].name);
+  }
+  for (std::size_t i = 0; i < all.pieces.size(); ++i)
+    name += "|" + model_.characteristics[i].name + ":" + std::to_string(all.pieces[i]);
   return name;
 }
 
@@ -155,7 +180,10 @@ std::string CompiledSystem::contact_name(int contact) const {
   const auto stops = static_cast<int>(model_.stops.size()), frictions = static_cast<int>(model_.frictions.size());
   if (contact < stops) return model_.stops[contact].name;
   contact -= stops;
-  return contact < frictions ? model_.frictions[contact].name : model_.compliant_stops[contact - frictions].name;
+  if (contact < frictions) return model_.frictions[contact].name;
+  contact -= frictions;
+  const auto compliant = static_cast<int>(model_.compliant_stops.size());
+  return contact < compliant ? model_.compliant_stops[contact].name : model_.characteristics[contact - compliant].name;
 }
 
 }  // namespace slapstick::flow

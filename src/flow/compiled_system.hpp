@@ -50,6 +50,15 @@ class CompiledSystem {
   }
 
   [[nodiscard]] std::string contact_name(int contact) const;
+  /// How many states a friction contact or a compliant stop can be in.
+  [[nodiscard]] int friction_states(std::size_t i) const { return model_.frictions[i].normal ? 4 : 3; }
+  [[nodiscard]] int compliant_states(std::size_t i) const { return model_.compliant_stops[i].bounded ? 4 : 3; }
+  /// No mode has more guards.
+  [[nodiscard]] int most_guards() const {
+    return static_cast<int>(
+        1 + model_.stops.size() + 3 * model_.frictions.size() +
+        2 * (model_.compliant_stops.size() + model_.characteristics.size()));
+  }
 
  private:
   [[nodiscard]] mode::Mode build(ModeId id) const;

@@ -15,9 +15,10 @@ Engine::Engine(const CompiledSystem& system, const State& state, Instant start, 
   const IeeeArithmetic ieee;
   validate(system.model(), state);
   const mode::Frame& frame = system.frame();
-  const int guards = 1 + stops() + 2 * frictions() + 2 * compliants();
+  const int guards = system.most_guards();
   touching_.reserve(stops());
   pending_.reserve(64 + 4 * guards);
+  later_before_.reserve(16 * X_.span().size());
   hits_.reserve(guards);
   strikes_.reserve(64);
   scratch_.assign(4 * X_.span().size(), 0.0);
@@ -59,7 +60,9 @@ void Engine::begin_segment() {
 
 std::span<const double> Engine::before() const {
   const IeeeArithmetic ieee;
-  system_->frame().leave(X_before_.data(), before_.data());
+  const bool later = shown_ > 0 && !pending_.empty();
+  const std::size_t skipped = later ? static_cast<std::size_t>(shown_ - 1) * X_.span().size() : 0;
+  system_->frame().leave(later ? later_before_.data() + skipped : X_before_.data(), before_.data());
   return before_;
 }
 
@@ -90,6 +93,7 @@ Outcome Engine::advance(Instant end) {
   const double limit = end.since(place_.start) * system_->period();
   if (!pending_.empty()) last_ = pending_[shown_];
   pending_.clear();
+  later_before_.clear();
   shown_ = 0;
   if (chatter_stop_ >= 0 && !place_.moved && end_chatter(limit)) return Outcome::event;
   begin_segment();

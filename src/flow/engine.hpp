@@ -18,7 +18,7 @@ class Engine : public Flight {
 
   [[nodiscard]] const Event& event() const { return pending_.empty() ? last_ : pending_[shown_]; }
   [[nodiscard]] std::span<const double> before() const;
-  /// The extended state just before the last event.
+  /// The extended state just before the first event of the last instant that had one.
   [[nodiscard]] std::span<const double> extended_before() const { return X_before_.span(); }
 
   /// The guard whose zero ended the last segment; null if the segment ended without one (cut, chatter limit).
@@ -30,7 +30,7 @@ class Engine : public Flight {
   [[nodiscard]] std::span<const Motion::Strike> strikes() const { return strikes_; }
 
  private:
-  enum class Cause { impact, graze, reversal, force, compliant };
+  enum class Cause { impact, graze, reversal, force, compliant /* and characteristic */ };
 
   void start();
   void begin_segment();
@@ -52,12 +52,15 @@ class Engine : public Flight {
   void report_others(const mode::ContactStates& old);
   [[nodiscard]] int stop_touched_at_rest(int friction) const;
   void force_limit(int guard, int contact, bool graze);
+  void land_on_crossing(const mode::Guard& guard);
+  void cross(int guard, bool graze);
   void touch(int stop, bool graze);
   bool end_chatter(double limit);
   void choose_mode();
   void settle(Cause cause);
   void report_settled(Cause cause, const mode::ContactStates& old);
-  void report(EventKind kind, int contact, double w);
+  void report(EventKind kind, int contact, double w) { report(kind, contact, w, X_); }
+  void report(EventKind kind, int contact, double w, const Extended& before);
   [[noreturn]] void fail(const std::string& what) const;
   [[noreturn]] void fail_pile_up() const;
   [[nodiscard]] int stops() const { return static_cast<int>(system_->model().stops.size()); }
@@ -70,8 +73,9 @@ class Engine : public Flight {
   std::vector<double> scratch_;   ///< of the proof of a chatter
   std::vector<int> tail_orders_;  ///< of the guards' zeros at the start of a chatter's tail
   mutable State before_;
-  std::vector<Event> pending_;  ///< the events of one instant, in order ..
-  int shown_ = 0;               ///< .. and which one `event()` is
+  std::vector<Event> pending_;        ///< the events of one instant, in order ..
+  int shown_ = 0;                     ///< .. and which one `event()` is
+  std::vector<double> later_before_;  ///< the states just before all of them but the first, one after the other
   Event last_;
   std::vector<int> touching_;
   std::vector<int> hits_;

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "flow/chatter.hpp"
+#include "flow/engine.hpp"
 #include "flow/impact_law.hpp"
 #include "flow/mode_graph.hpp"
-#include "flow/engine.hpp"
 
 namespace slapstick::flow {
 
@@ -26,6 +26,7 @@ void Engine::handle(int guard, bool graze) {
   hits_.push_back(guard);
   const mode::Frame& frame = system_->frame();
   if (hit.kind == GuardKind::gap) land(frame.stops[hit.contact]);  // so that x- can be started from
+  if (of_crossing(hit.kind)) land_on_crossing(hit);
   X_before_ = X_;
   gather_ties(guard);
   switch (hit.kind) {
@@ -45,6 +46,13 @@ void Engine::handle(int guard, bool graze) {
     case GuardKind::let_go:
     case GuardKind::push:
       return compliant_limit(hit.contact, hit.kind);
+    case GuardKind::corner_above:
+    case GuardKind::corner_below:
+    case GuardKind::load:
+    case GuardKind::unloaded:
+    case GuardKind::bound:
+    case GuardKind::beyond:
+      return cross(guard, graze);
   }
 }
 
@@ -141,7 +149,7 @@ void Engine::touch(int stop, bool graze) {
 /// A compliant stop begins or ends to act: at its gap, or beyond it where its force has come to zero.
 void Engine::compliant_limit(int compliant, GuardKind kind) {
   const bool at_gap = kind == GuardKind::engage || kind == GuardKind::leave;
-  const bool was_on = here_->states().compliant[compliant] == mode::CompliantState::on;
+  const bool was_on = here_->states().compliant[compliant] != mode::CompliantState::detached;
   at_gap ? land(system_->frame().compliant[compliant]) : let_off(compliant);
   const bool begins = kind == GuardKind::engage || kind == GuardKind::push;
   const mode::ContactRow& row = system_->frame().compliant[compliant];
@@ -149,6 +157,45 @@ void Engine::compliant_limit(int compliant, GuardKind kind) {
          : was_on ? EventKind::disengage
                   : EventKind::separate,
          stops() + frictions() + compliant, row.sign * X_.data()[system_->frame().u(row.own)]);
+  settle(Cause::compliant);
+}
+
+/// The displacement (velocity) of a characteristic made that of its corner, or a force made zero, but for the rounding
+/// of a sum: by the number that has most of it and is not held at zero.
+void Engine::land_on_crossing(const mode::Guard& guard) {
+  const mode::Guard::Entry* most = nullptr;
+  for (const mode::Guard::Entry& entry : guard.entries) {
+    if (entry.column >= 2 * system_->frame().d || X_.data()[entry.column] == 0.0) continue;
+    if (most == nullptr || std::abs(entry.value) > std::abs(most->value)) most = &entry;
+  }
+  if (most == nullptr) return;
+  const int d = system_->frame().d, own = most->column < d ? most->column : most->column - d;
+  X_.data()[most->column] -= guard.at(X_.data()) / most->value;
+  most->column < d ? system_->frame().match_displacements(own, X_.data())
+                   : system_->frame().match_velocities(own, X_.data());
+}
+
+/// A characteristic passes a corner, a normal force or the excess of a spring force its zero; or touches it.
+void Engine::cross(int guard, bool graze) {
+  const mode::Guard& hit = here_->guards()[guard];
+  const mode::Frame& frame = system_->frame();
+  const int first = stops() + frictions();  // of the compliant stops
+  if (of_corner(hit.kind)) {
+    const int contact = first + compliants() + hit.contact;
+    if (graze) return force_limit(guard, contact, graze);
+    const mode::RowVector& speed = frame.characteristics[hit.contact].velocity;
+    double w = 0.0;
+    for (Eigen::Index j = 0; j < speed.size(); ++j) w += speed[j] * X_.data()[j];
+    report(EventKind::corner, contact, w);
+    return settle(Cause::compliant);
+  }
+  const int contact = (of_load(hit.kind) ? stops() : first) + hit.contact;
+  if (graze) return force_limit(guard, contact, graze);
+  const mode::ContactRow& row = of_load(hit.kind) ? frame.frictions[hit.contact] : frame.compliant[hit.contact];
+  report(hit.kind == GuardKind::load       ? EventKind::unload
+         : hit.kind == GuardKind::unloaded ? EventKind::load
+                                           : EventKind::corner,
+         contact, row.sign * X_.data()[frame.u(row.own)]);
   settle(Cause::compliant);
 }
 
@@ -199,7 +246,10 @@ void Engine::report_settled(Cause cause, const mode::ContactStates& old) {
       stuck = true;
     } else if (!sticks && cause == Cause::reversal &&
                (itself || (old.frictions[i] != now.frictions[i] && old.frictions[i] != FrictionState::stick))) {
-      report(now.frictions[i] == FrictionState::slip_plus ? EventKind::slip_plus : EventKind::slip_minus, contact, 0.0);
+      report(now.frictions[i] == FrictionState::slip_plus    ? EventKind::slip_plus
+             : now.frictions[i] == FrictionState::slip_minus ? EventKind::slip_minus
+                                                             : EventKind::unload,
+             contact, 0.0);
     }
   }
   for (std::size_t i = 0; i < now.stops.size() && !stuck; ++i) {
@@ -238,8 +288,8 @@ void Engine::report_others(const mode::ContactStates& old) {
 /// enough and comes within `limit` of the impact. A cut before the limit leaves the question to the next call.
 bool Engine::end_chatter(double limit) {
   const int stop = chatter_stop_;
-  const ChatterLimit chatter = prove_chatter(*system_, *here_, stop, X_window_.data(),
-                                                         options_.chatter_tolerance * system_->period(), scratch_);
+  const ChatterLimit chatter =
+      prove_chatter(*system_, *here_, stop, X_window_.data(), options_.chatter_tolerance * system_->period(), scratch_);
   if (!chatter.proven || place_.windows > 0 || chatter.duration > 0.5 * here_->window()) {
     chatter_stop_ = -1;
     return false;
@@ -301,7 +351,9 @@ void Engine::fail_pile_up() const {
   fail("more than " + std::to_string(most_events_at_one_instant) + " events at one instant");
 }
 
-void Engine::report(EventKind kind, int contact, double w) {
+/// @param before  the state just before; of the first event of an instant X_before_ is it, as the flight has left it
+void Engine::report(EventKind kind, int contact, double w, const Extended& before) {
+  if (!pending_.empty()) later_before_.insert(later_before_.end(), before.span().begin(), before.span().end());
   pending_.push_back(Event{kind, contact, now_, w, 0.0});
   ++counters_.events;
   counters_.grazes += kind == EventKind::graze;
@@ -312,7 +364,7 @@ void Engine::report(EventKind kind, int contact, double w) {
   }
   if (++budget_events_ > options_.most_events_per_period)
     fail("event budget: more than " + std::to_string(options_.most_events_per_period) +
-         " events in one period; raise the budget or change the restitution");
+         " events in one period (fewer with a lower restitution, a shorter forcing period or an earlier end)");
 }
 
 }  // namespace slapstick::flow

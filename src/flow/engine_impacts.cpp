@@ -82,15 +82,16 @@ void Engine::end_pile_up() {
 
 void Engine::newton(int stop) {
   const double w = approach_velocity(*system_, stop, X_.data());
-  strike(*system_, stop, system_->model().stops[stop].restitution, X_.data());
+  report(EventKind::impact, stop, w);
+  strike(*system_, stop, rebound(system_->model().stops[stop], w).restitution, X_.data());
   ++counters_.impacts;
   strikes_.push_back({std::uint32_t{1} << stop});
-  report(EventKind::impact, stop, w);
 }
 
 void Engine::moreau(std::span<const int> stops) {
   std::array<bool, System::most_contacts> hit{};
   std::array<double, System::most_contacts> w{};
+  X_next_ = X_;  // as it is before the impacts
   for (std::size_t i = 0; i < stops.size(); ++i) w[i] = approach_velocity(*system_, stops[i], X_.data());
   if (!strike_together(*system_, stops, X_.data(), std::span(hit).first(stops.size())))
     fail("the impacts of this instant have no solution");
@@ -99,7 +100,7 @@ void Engine::moreau(std::span<const int> stops) {
     if (hit[i]) strikes_.back().stops |= std::uint32_t{1} << stops[i];
     if (!hit[i] || w[i] <= 0.0) continue;  // one that was at rest transmits an impulse
     ++counters_.impacts;
-    report(EventKind::impact, stops[i], w[i]);
+    report(EventKind::impact, stops[i], w[i], X_next_);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/floating_point.hpp"
+#include "base/repeated_difference.hpp"
 #include "flow/mode_graph.hpp"
 
 namespace slapstick::flow {
@@ -32,8 +33,7 @@ Flight::Flight(const CompiledSystem& system, Instant start)
       origin_(system.frame().size()),
       X_segment_(X_),
       phase_floor_(X_) {
-  const Model& model = system.model();
-  const std::size_t guards = 1 + model.stops.size() + 2 * model.frictions.size() + 2 * model.compliant_stops.size();
+  const auto guards = static_cast<std::size_t>(system.most_guards());
   orders_.assign(guards, 0);
   lingers_.assign(guards, false);
   sample_.assign(2 * X_.span().size(), 0.0);
@@ -53,8 +53,12 @@ void Flight::sample(double s, std::span<double> out) const {
   const int m = system_->frame().size();
   double* X = sample_.data();
   double* at = X + m;
-  std::copy_n(X_segment_.data(), m, X);
-  for (; s > mode.window(); s -= mode.window()) {
+  const std::int64_t windows = subtract_repeatedly(s, mode.window());
+  if (sample_at_ < 0 || sample_at_ > windows) {
+    std::copy_n(X_segment_.data(), m, X);
+    sample_at_ = 0;
+  }
+  for (; sample_at_ < windows; ++sample_at_, ++sampled_windows_) {
     mode.step(X, sample_out_.data());
     std::copy_n(reinterpret_cast<const double*>(sample_out_.data()), m, X);
   }
@@ -70,6 +74,11 @@ void Flight::begin_flight() {
   X_window_ = X_;
   origin_.begin();
   ++counters_.windows;
+}
+
+void Flight::keep_segment_start() {
+  X_segment_ = X_;
+  sample_at_ = -1;
 }
 
 void Flight::begin_segment() {
@@ -123,11 +132,10 @@ Flight::Found Flight::first_event_in_window(double x_end) {
   int falling = -1;  // a gap that falls all over the window: its pair does not come to rest before the impact
   for (int g = 0; g < mode.guard_count(); ++g) {
     if (orders_[g] == negative) return {event::RootKind::crossing, g, 0.0};
-    if (found.x == 0.0 || orders_[g] == never || (falling >= 0 && mode.guards()[g].falls_with == falling))
-      continue;
+    if (found.x == 0.0 || orders_[g] == never || (falling >= 0 && mode.guards()[g].falls_with == falling)) continue;
     if (mode.excludes(g, orders_[g], X_window_.data(), size_, flown_noise(g))) continue;
     event::GuardWindow window;
-    window.hull = enclosed(g);
+    enclose(g, window.hull);
     if (event::excluded(window.hull)) continue;
     mode.taylor(g, orders_[g], X_window_.data(), window.taylor);
     const event::Root root = event::first_root(window, found.x, counters_.evaluations);
@@ -148,14 +156,14 @@ double Flight::flown_noise(int guard) const {
 }
 
 /// The hull of a guard in the present window, with what earlier windows' rounding adds to its noise.
-event::Hull Flight::enclosed(int guard) const {
-  event::Hull hull, flown;
-  here_->enclose(guard, orders_[guard], X_window_.data(), magnitude_.data(), hull);
-  const double lowest = hull.bounds[event::hull_error] + flown_noise(guard);
-  if (!origin_.stale() || event::all_above(hull.bernstein, lowest)) return hull;
+/// Into a named place: gcc 12 aligns the unnamed result of a call less than the kernels' vectors ask for.
+void Flight::enclose(int guard, event::Hull& out) const {
+  here_->enclose(guard, orders_[guard], X_window_.data(), magnitude_.data(), out);
+  const double lowest = out.bounds[event::hull_error] + flown_noise(guard);
+  if (!origin_.stale() || event::all_above(out.bernstein, lowest)) return;
+  event::Hull flown;
   here_->enclose(guard, orders_[guard], X_window_.data(), origin_.largest(), flown);
-  event::add_noise(hull, flown.bounds, origin_.staleness());
-  return hull;
+  event::add_noise(out, flown.bounds, origin_.staleness());
 }
 
 /// No event in this window: every guard is clear of its noise at its end, or lingers in it, or has been zero so far, as
@@ -189,8 +197,7 @@ void Flight::restart_window(double x) {
   std::swap(X_window_, X_next_);
   ++counters_.windows;
   note_magnitude(X_window_);
-  for (int g = 0; g < mode.guard_count(); ++g)
-    orders_[g] = start_order(mode, g, X_window_.data(), magnitude_.data());
+  for (int g = 0; g < mode.guard_count(); ++g) orders_[g] = start_order(mode, g, X_window_.data(), magnitude_.data());
 }
 
 /// Is a gap or a velocity, at x of the window and in the state there, within its rounding bound of zero? False for
@@ -198,14 +205,15 @@ void Flight::restart_window(double x) {
 bool Flight::within_noise(int guard, double x) const {
   const mode::Guard& h = here_->guards()[guard];
   const int order = orders_[guard];
-  const bool force = h.kind != mode::GuardKind::gap && h.kind != mode::GuardKind::slip && h.kind != mode::GuardKind::engage &&
-                     h.kind != mode::GuardKind::leave;
+  const bool force = h.kind != mode::GuardKind::gap && h.kind != mode::GuardKind::slip &&
+                     h.kind != mode::GuardKind::engage && h.kind != mode::GuardKind::leave;
   if (force || order < 0 || order == never) return false;
   const double value = h.kind == mode::GuardKind::gap    ? gap(*system_, h.contact, X_.data())
                        : h.kind == mode::GuardKind::slip ? sliding_velocity(*system_, h.contact, X_.data())
-                                                   : depth(*system_, h.contact, X_.data());
+                                                         : depth(*system_, h.contact, X_.data());
   if (std::abs(value) > 0x1p-30 * size_) return false;
-  const event::Hull hull = enclosed(guard);
+  event::Hull hull;
+  enclose(guard, hull);
   const double noise =
       hull.bounds[event::noise_0] + x * (hull.bounds[event::noise_1] + x * hull.bounds[event::noise_2]);
   double lift = 1.0;  // x^order
@@ -240,8 +248,7 @@ void Flight::sharpen_window() {
   origin_.carry(mode, X_window_.data());
   move_start(0.0, X_window_);
   note_magnitude(X_window_);
-  for (int g = 0; g < mode.guard_count(); ++g)
-    orders_[g] = start_order(mode, g, X_window_.data(), magnitude_.data());
+  for (int g = 0; g < mode.guard_count(); ++g) orders_[g] = start_order(mode, g, X_window_.data(), magnitude_.data());
 }
 
 /// Counts the flight from x of its present window on, where the state is X. The clock sets the phase, which steps from
@@ -254,9 +261,7 @@ void Flight::move_start(double x, Extended& X) {
 }
 
 /// x of the present window on the clock.
-Instant Flight::instant(double x) const {
-  return place_.start.plus((place_.windows + x) * here_->window_in_periods());
-}
+Instant Flight::instant(double x) const { return place_.start.plus((place_.windows + x) * here_->window_in_periods()); }
 
 /// Reads the coordinates at x of the present window.
 void Flight::look(double x) {

@@ -44,6 +44,8 @@ class Flight {
   void state(std::span<double> out) const;
   [[nodiscard]] Motion::Segment segment() const { return {segment_start_, segment_mode_, segment_duration_}; }
   void sample(double s, std::span<double> out) const;
+  /// The windows that all calls of `sample` have stepped over.
+  [[nodiscard]] long sampled_windows() const { return sampled_windows_; }
   /// The extended state now, and at the start of the last segment.
   [[nodiscard]] std::span<const double> extended() const { return X_.span(); }
   [[nodiscard]] std::span<const double> extended_at_start() const { return X_segment_.span(); }
@@ -75,7 +77,7 @@ class Flight {
 
   void begin_flight();
   void begin_segment();
-  void keep_segment_start() { X_segment_ = X_; }
+  void keep_segment_start();
   /// Goes on with the flight, up to `end`. The event that has ended it, at which the state and the clock stand; or
   /// nothing.
   std::optional<Found> fly(Instant end);
@@ -107,7 +109,7 @@ class Flight {
   void next_window();
   void restart_window(double x);
   void sharpen_window();
-  [[nodiscard]] event::Hull enclosed(int guard) const;
+  void enclose(int guard, event::Hull& out) const;
   [[nodiscard]] double flown_noise(int guard) const;
   void move_start(double x, Extended& X);
   [[nodiscard]] Instant instant(double x) const;
@@ -118,8 +120,11 @@ class Flight {
   FlightOrigin origin_;
   double size_ = 0.0;  ///< the sum of magnitude_
   Extended X_segment_, phase_floor_;
+  // Of `sample`: the state at the end of the first `sample_at_` windows of the segment (-1: of none), and scratch.
   mutable std::vector<double> sample_;
+  mutable std::int64_t sample_at_ = -1;
   mutable event::Lanes sample_out_;
+  mutable long sampled_windows_ = 0;
   std::vector<bool> lingers_;  ///< guards that are not clear of their noise at the window's end
   bool any_lingers_ = false;
 };

@@ -134,7 +134,7 @@ bool strike_together(const CompiledSystem& system, std::span<const int> stops, d
   assemble(system, stops, X, D, v);
   Column q = v;
   for (std::size_t i = 0; i < stops.size(); ++i)
-    q[static_cast<Eigen::Index>(i)] *= 1.0 + system.model().stops[stops[i]].restitution;
+    q[static_cast<Eigen::Index>(i)] *= 1.0 + rebound(system.model().stops[stops[i]], v[static_cast<Eigen::Index>(i)]).restitution;
   // Lemke's method compares entries of D: in units in which its diagonal is one.
   const Column unit = D.diagonal().cwiseSqrt().cwiseInverse();
   if (!Lemke(unit.asDiagonal() * D * unit.asDiagonal(), unit.cwiseProduct(q)).solve(P)) return false;
@@ -143,7 +143,7 @@ bool strike_together(const CompiledSystem& system, std::span<const int> stops, d
   for (std::size_t i = 0; i < stops.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     hit[i] = P[k] > 0.0;
-    const double r = system.model().stops[stops[i]].restitution;
+    const double r = rebound(system.model().stops[stops[i]], v[k]).restitution;
     if (hit[i]) set_velocity(system.frame(), system.frame().stops[stops[i]], -r * v[k], X);
   }
   return true;

@@ -16,17 +16,18 @@ constexpr double no_underflow = 0x1p-900;
 
 constexpr int most_contacts = System::most_contacts;
 
-/// What one contact offers, as digits of a mode id (stop: open 0, closed 1; friction: slip- 0, stick 1, slip+ 2;
-/// compliant: off 0, on 1, detached 2).
+/// What one contact offers, as digits of a mode id (stop: open 0, closed 1; friction: slip- 0, stick 1, slip+ 2,
+/// unloaded 3; compliant: off 0, on 1, detached 2, bounded 3).
 struct Candidates {
-  std::array<std::int8_t, 3> digit;
+  std::array<std::int8_t, 4> digit;
   std::int8_t count;
 };
 
-Candidates friction_candidates(double w) {
-  if (w > 0.0) return {{2}, 1};
-  if (w < 0.0) return {{0}, 1};
-  return {{1, 2, 0}, 3};
+Candidates friction_candidates(double w, bool can_unload) {
+  const auto count = [&](int loaded) { return static_cast<std::int8_t>(loaded + (can_unload ? 1 : 0)); };
+  if (w > 0.0) return {{2, 3}, count(1)};
+  if (w < 0.0) return {{0, 3}, count(1)};
+  return {{1, 2, 0, 3}, count(3)};
 }
 
 Candidates stop_candidates(double gap, double approach) {
@@ -34,10 +35,39 @@ Candidates stop_candidates(double gap, double approach) {
   return {{0}, 1};
 }
 
-Candidates compliant_candidates(double depth, bool can_detach) {
+Candidates compliant_candidates(double depth, const CompliantStop& stop) {
+  const bool can_detach = !stop.pulls && stop.damping > 0.0;
   if (depth < 0.0) return {{0}, 1};
+  if (can_detach && stop.bounded) return depth == 0.0 ? Candidates{{0, 3, 2, 1}, 4} : Candidates{{1, 3, 2}, 3};
   if (depth == 0.0) return can_detach ? Candidates{{0, 1, 2}, 3} : Candidates{{0, 1}, 2};
   return can_detach ? Candidates{{1, 2}, 2} : Candidates{{1}, 1};
+}
+
+/// What a characteristic is a polyline over, at X.
+double value_of(const CompiledSystem& system, int i, const double* X) {
+  const mode::RowVector& row = system.frame().value_row(system.model(), i);
+  double value = 0.0;
+  for (Eigen::Index j = 0; j < row.size(); ++j) value += row[j] * X[j];
+  return value;
+}
+
+/// At a corner, within twice the bound that `start_order` allows, also the piece on its other side.
+Candidates piece_candidates(const CompiledSystem& system, int i, const double* X, const double* magnitude) {
+  const mode::RowVector& row = system.frame().value_row(system.model(), i);
+  const auto& corners = system.model().characteristics[i].corners;
+  const auto piece = static_cast<std::size_t>(piece_at(system, i, X));
+  const double value = value_of(system, i, X);
+  double size = 0.0;
+  for (Eigen::Index j = 0; j < row.size(); ++j) size += std::abs(row[j]) * magnitude[j];
+  const auto near = [&](std::size_t corner) {
+    const double noise =
+        mode::Mode::noise_factor_of(static_cast<int>(row.size())) * (size + std::abs(corners[corner].at));
+    return std::abs(value - corners[corner].at) <= 2.0 * rest_factor * noise;
+  };
+  const auto digit = static_cast<std::int8_t>(piece);
+  if (piece < corners.size() && near(piece)) return {{digit, static_cast<std::int8_t>(digit + 1)}, 2};
+  if (piece > 0 && near(piece - 1)) return {{digit, static_cast<std::int8_t>(digit - 1)}, 2};
+  return {{digit}, 1};
 }
 
 bool fits(const mode::Mode& mode, const double* X, const double* magnitude, std::span<int> orders) {
@@ -125,16 +155,19 @@ namespace {
 /// What every contact offers at X, in the order of the digits of a mode id.
 class Choice {
  public:
-  Choice(const CompiledSystem& system, const double* X) {
+  Choice(const CompiledSystem& system, const double* X, const double* magnitude) {
     const Model& model = system.model();
     for (int i = 0; i < static_cast<int>(model.stops.size()); ++i)
       add(stop_candidates(gap(system, i, X), approach_velocity(system, i, X)), 2);
     for (int i = 0; i < static_cast<int>(model.frictions.size()); ++i)
-      add(friction_candidates(sliding_velocity(system, i, X)), 3);
-    for (int i = 0; i < static_cast<int>(model.compliant_stops.size()); ++i) {
-      const CompliantStop& stop = model.compliant_stops[i];
-      add(compliant_candidates(depth(system, i, X), !stop.pulls && stop.damping > 0.0), 3);
-    }
+      add(friction_candidates(sliding_velocity(system, i, X), model.frictions[i].normal.has_value()),
+          system.friction_states(static_cast<std::size_t>(i)), sliding_velocity(system, i, X) != 0.0);
+    for (int i = 0; i < static_cast<int>(model.compliant_stops.size()); ++i)
+      add(compliant_candidates(depth(system, i, X), model.compliant_stops[i]),
+          system.compliant_states(static_cast<std::size_t>(i)), model.compliant_stops[i].bounded);
+    for (int i = 0; i < static_cast<int>(model.characteristics.size()); ++i)
+      add(piece_candidates(system, i, X, magnitude), static_cast<int>(model.characteristics[i].corners.size()) + 1,
+          true);
   }
 
   [[nodiscard]] ModeId id() const {
@@ -143,22 +176,33 @@ class Choice {
     return id;
   }
 
-  /// The next combination: those in which few contacts differ from what they prefer come first. False if there is none.
+  /// The next combination: those in which few contacts differ from what they prefer come first, each with all sides of
+  /// the lines that are being crossed: a corner is no reason to let go. False if there is none.
   bool next() {
-    if (next_digits()) return true;
+    if (next_side() || next_digits()) return true;
     if (!next_changed()) return false;
     for (int k = 0; k < changes_; ++k) choice_[several_[changed_[k]]] = 1;
     return true;
   }
 
-  [[nodiscard]] bool only_one() const { return several_count_ == 0; }
+  [[nodiscard]] bool only_one() const { return several_count_ == 0 && crossed_count_ == 0; }
 
  private:
-  void add(const Candidates& candidates, int base) {
-    if (candidates.count > 1) several_[several_count_++] = count_;
+  /// @param crosses  whether its candidates are the sides of a line (see mode::of_crossing)
+  void add(const Candidates& candidates, int base, bool crosses = false) {
+    if (candidates.count > 1) (crosses ? crossed_[crossed_count_++] : several_[several_count_++]) = count_;
     offered_[count_] = candidates;
     stride_[count_++] = next_stride_;
     next_stride_ *= base;
+  }
+
+  bool next_side() {
+    for (int k = crossed_count_ - 1; k >= 0; --k) {
+      const int c = crossed_[k];
+      if (++choice_[c] < offered_[c].count) return true;
+      choice_[c] = 0;
+    }
+    return false;
   }
 
   /// The next choice of the contacts that differ, among their candidates after the first.
@@ -189,7 +233,8 @@ class Choice {
   std::array<Candidates, most_contacts> offered_;
   std::array<int, most_contacts> several_;  ///< contacts with more than one candidate
   std::array<int, most_contacts> changed_;  ///< those of `several_` that do not have their first, ascending
-  int several_count_ = 0, changes_ = 0;
+  std::array<int, most_contacts> crossed_;  ///< contacts at a line that is being crossed
+  int several_count_ = 0, changes_ = 0, crossed_count_ = 0;
   std::array<ModeId, most_contacts> stride_;
   std::array<int, most_contacts> choice_{};
   ModeId next_stride_ = 1;
@@ -208,11 +253,20 @@ ModeId approaching_mode(const CompiledSystem& system, const double* X) {
   }
   for (std::size_t i = 0; i < states.compliant.size(); ++i)
     if (depth(system, static_cast<int>(i), X) > 0.0) states.compliant[i] = mode::CompliantState::on;
+  for (std::size_t i = 0; i < states.pieces.size(); ++i) states.pieces[i] = piece_at(system, static_cast<int>(i), X);
   return system.mode_id(states);
 }
 
+int piece_at(const CompiledSystem& system, int characteristic, const double* X) {
+  const auto& corners = system.model().characteristics[characteristic].corners;
+  const double value = value_of(system, characteristic, X);
+  int piece = 0;
+  while (piece < static_cast<int>(corners.size()) && value > corners[static_cast<std::size_t>(piece)].at) ++piece;
+  return piece;
+}
+
 ModeId select_mode(const CompiledSystem& system, const double* X, const double* magnitude, std::span<int> orders) {
-  Choice choice(system, X);
+  Choice choice(system, X, magnitude);
   do {
     const ModeId id = choice.id();
     const mode::Mode* known = system.known_mode(id);

@@ -8,12 +8,16 @@
 ///   | friction | w > 0                       | slip+                                |
 ///   | friction | w < 0                       | slip-                                |
 ///   | friction | w = 0                       | stick, slip+, slip-                  |
+///   | friction | any, N linear in the state  | those above, unloaded                |
 ///   | stop     | gap > 0, or separating      | open                                 |
 ///   | stop     | gap = 0 and at rest         | closed, open                         |
 ///   | stop     | gap = 0 and approaching     | none: an impact comes first          |
 ///   | compliant| delta < 0                   | off                                  |
 ///   | compliant| delta = 0                   | off, on, detached                    |
 ///   | compliant| delta > 0                   | on; detached too if it cannot pull   |
+///   | bounded  | delta = 0; delta > 0        | off or these; on, bounded, detached  |
+///   | charact. | between two corners         | the piece there                      |
+///   | charact. | at a corner                 | the pieces on both sides             |
 ///
 /// and a combination *fits* if every guard it arms is positive at once: h > 0, or h = 0 with a positive first non-zero
 /// derivative (h = 0 for good also fits). For the paper's system this is its table (docs/mode_graph.md): after w = 0,
@@ -23,8 +27,9 @@
 /// With several contacts at rest this is the complementarity problem of rigid-body dynamics (Pfeiffer and Glocker 1996,
 /// chapter 5), solved by going through the combinations: first those in which one contact differs from what it prefers,
 /// then two, and so on; so a contact lets go only where it must, and a release costs as many tries as there are
-/// contacts, not as there are combinations. Among redundant contacts one that would have to pull is left open, at rest
-/// all the same. Combinations that certainly do not fit are refused before their mode is built.
+/// contacts, not as there are combinations. Each combination is tried on all sides of the lines that are being crossed
+/// before the next. Among redundant contacts one that would have to pull is left open, at rest all the same.
+/// Combinations that certainly do not fit are refused before their mode is built.
 #include <span>
 
 #include "flow/compiled_system.hpp"
@@ -47,6 +52,9 @@ ModeId select_mode(const CompiledSystem& system, const double* X, const double* 
 /// The mode of a state that is about to hit a stop: all stops open, the other contacts by their displacements and
 /// velocities.
 ModeId approaching_mode(const CompiledSystem& system, const double* X);
+
+/// The piece of a characteristic that the stored value lies in.
+int piece_at(const CompiledSystem& system, int characteristic, const double* X);
 
 /// w of a friction contact, gap of a stop and the rate at which it closes, depth delta of a compliant stop, at X: each
 /// one stored number.

@@ -6,8 +6,9 @@
 namespace slapstick {
 
 std::string_view name(EventKind kind) {
-  constexpr std::string_view names[event_kinds] = {"impact", "slip+",   "slip-",  "stick",     "release",
-                                                   "graze",  "chatter", "engage", "disengage", "separate"};
+  constexpr std::string_view names[event_kinds] = {"impact",  "slip+",  "slip-",     "stick",    "release", "graze",
+                                                   "chatter", "engage", "disengage", "separate", "corner",
+                                                   "unload",  "load"};
   return names[static_cast<int>(kind)];
 }
 

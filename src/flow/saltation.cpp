@@ -7,6 +7,7 @@
 #include "base/dense.hpp"
 #include "base/ranges.hpp"
 #include "flow/engine.hpp"
+#include "flow/mode_graph.hpp"
 
 namespace slapstick::flow {
 namespace {
@@ -28,14 +29,16 @@ class Passage {
   void carry_at_once(Eigen::MatrixXd& tangents) const;
 
  private:
-  [[nodiscard]] const ContactRow& row(const mode::Guard& guard) const;
+  [[nodiscard]] bool jumps(int hit) const;
+  [[nodiscard]] bool acts_on(const mode::Guard& guard, const ContactRow& contact) const;
   [[nodiscard]] bool coupled(const ContactRow& a, const ContactRow& b) const;
   [[nodiscard]] std::vector<Blow> separated(const Motion::Strike& strike) const;
   [[nodiscard]] std::size_t owner(const ContactRow& contact) const;
   [[nodiscard]] std::size_t owner(const Blow& blow) const;
   void drop_hits_of_others();
   void take_states(std::size_t k);
-  void apply(const Blow& blow, Eigen::Ref<Eigen::MatrixXd> velocities) const;
+  void apply(const Blow& blow, const Eigen::VectorXd& speeds, bool rates, Eigen::Ref<Eigen::MatrixXd> velocities) const;
+  [[nodiscard]] Eigen::VectorXd speeds(const Blow& blow) const;
   [[nodiscard]] Eigen::VectorXd flow(ModeId id, const Eigen::VectorXd& X) const;
 
   const Motion& motion_;
@@ -59,12 +62,24 @@ Passage::Passage(const Motion& motion)
   for (const Motion::Strike& strike : motion.strikes()) {
     for (Blow& blow : separated(strike)) blows_.push_back(std::move(blow));
   }
+  // The field is continuous at a crossing: nothing happens to a tangent there, but at the edge of a zone.
+  std::erase_if(hits_, [&](int hit) { return mode::of_crossing(before_.guards()[hit].kind) && !jumps(hit); });
   drop_hits_of_others();
 }
 
-const ContactRow& Passage::row(const mode::Guard& guard) const {
-  if (guard.kind == GuardKind::gap || guard.kind == GuardKind::press) return frame_.stops[guard.contact];
-  return mode::of_friction(guard.kind) ? frame_.frictions[guard.contact] : frame_.compliant[guard.contact];
+/// Is this crossing the edge of a zone?
+bool Passage::jumps(int hit) const {
+  const mode::Guard& guard = before_.guards()[hit];
+  return mode::of_corner(guard.kind) &&
+         system_.model().characteristics[guard.contact].over == Characteristic::Over::zones;
+}
+
+/// Does the guard's pair share a mass with the contact's?
+bool Passage::acts_on(const mode::Guard& guard, const ContactRow& contact) const {
+  if (mode::of_corner(guard.kind)) return frame_.characteristics[guard.contact].push[contact.own] != 0.0;
+  if (guard.kind == GuardKind::gap || guard.kind == GuardKind::press) return coupled(frame_.stops[guard.contact], contact);
+  const bool friction = mode::of_friction(guard.kind) || mode::of_load(guard.kind);
+  return coupled(friction ? frame_.frictions[guard.contact] : frame_.compliant[guard.contact], contact);
 }
 
 bool Passage::coupled(const ContactRow& a, const ContactRow& b) const {
@@ -95,7 +110,7 @@ std::vector<Blow> Passage::separated(const Motion::Strike& strike) const {
 /// The first guard whose pair shares a mass with the contact's; the last one if there is none.
 std::size_t Passage::owner(const ContactRow& contact) const {
   for (std::size_t k = 0; k < hits_.size(); ++k)
-    if (coupled(row(before_.guards()[hits_[k]]), contact)) return k;
+    if (acts_on(before_.guards()[hits_[k]], contact)) return k;
   return hits_.size() - 1;
 }
 
@@ -140,13 +155,26 @@ void Passage::take_states(std::size_t k) {
   take(states_.compliant, final.compliant, frame_.compliant);
 }
 
-/// Each of the stops leaves with -r of the velocity it came with.
+/// With which the stops are hit, in the state now.
+Eigen::VectorXd Passage::speeds(const Blow& blow) const {
+  Eigen::VectorXd all(blow.stops.size());
+  for (std::size_t i = 0; i < blow.stops.size(); ++i)
+    all[static_cast<Eigen::Index>(i)] = approach_velocity(system_, blow.stops[i], X_.data());
+  return all;
+}
+
+/// Each of the stops leaves with -r(v) v of the velocity v it came with; a small change of v is multiplied by
+/// -d(r v)/dv.
+/// @param rates  of small changes
 // NOLINTNEXTLINE(performance-unnecessary-value-param): a view, through which is written
-void Passage::apply(const Blow& blow, Eigen::Ref<Eigen::MatrixXd> velocities) const {
+void Passage::apply(const Blow& blow, const Eigen::VectorXd& speeds, bool rates,
+                    Eigen::Ref<Eigen::MatrixXd> velocities) const {
   std::vector<int> rows;
-  Eigen::VectorXd factor(blow.stops.size());
+  Eigen::VectorXd factor = Eigen::VectorXd::Ones(speeds.size());
   for (int stop : blow.stops) {
-    factor[static_cast<Eigen::Index>(rows.size())] = blow.to_rest ? 1.0 : 1.0 + system_.model().stops[stop].restitution;
+    const auto i = static_cast<Eigen::Index>(rows.size());
+    const Rebound law = rebound(system_.model().stops[stop], speeds[i]);
+    if (!blow.to_rest) factor[i] += rates ? law.rate : law.restitution;
     rows.push_back(frame_.stops[stop].own);
   }
   push_along(frame_, rows, factor, velocities);
@@ -160,6 +188,7 @@ Eigen::VectorXd Passage::flow(ModeId id, const Eigen::VectorXd& X) const {
 }
 
 void Passage::carry(Eigen::MatrixXd& tangents) {
+  if (hits_.empty()) return;
   const int d = frame_.d;
   const Eigen::Map<const Eigen::VectorXd> after(motion_.engine().extended().data(), before_.size());
   for (std::size_t k = 0; k < hits_.size(); ++k) {
@@ -171,8 +200,9 @@ void Passage::carry(Eigen::MatrixXd& tangents) {
     tangents += f_minus.head(2 * d) * dt;
     for (const Blow& blow : blows_) {
       if (owner(blow) != k) continue;
-      apply(blow, tangents.bottomRows(d));
-      apply(blow, X_.segment(d, d));
+      const Eigen::VectorXd v = speeds(blow);
+      apply(blow, v, true, tangents.bottomRows(d));
+      apply(blow, v, false, X_.segment(d, d));
     }
     take_states(k);
     if (k + 1 == hits_.size()) X_ = after;
@@ -184,8 +214,9 @@ void Passage::carry(Eigen::MatrixXd& tangents) {
 /// the momentum is kept.
 void Passage::carry_at_once(Eigen::MatrixXd& tangents) const {
   for (const Blow& blow : blows_) {
-    apply(blow, tangents.bottomRows(frame_.d));
-    if (blow.to_rest) apply(blow, tangents.topRows(frame_.d));
+    const Eigen::VectorXd v = speeds(blow);
+    apply(blow, v, true, tangents.bottomRows(frame_.d));
+    if (blow.to_rest) apply(blow, v, true, tangents.topRows(frame_.d));
   }
 }
 

@@ -31,6 +31,14 @@ MatrixXd seen_displacements(const Model& model) {
   }
   for (const slapstick::Stop& stop : model.stops) add(stop.a, stop.b);
   for (const CompliantStop& stop : model.compliant_stops) add(stop.a, stop.b);
+  for (const Characteristic& one_of : model.characteristics)
+    if (one_of.over != Characteristic::Over::velocity) add(one_of.a, one_of.b);
+  for (const FrictionContact& contact : model.frictions) {
+    if (!contact.normal) continue;
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(n);
+    for (const NormalForce::Term& term : contact.normal->terms) row[term.coordinate] += term.stiffness;
+    if (const double largest = row.cwiseAbs().maxCoeff(); largest > 0.0) rows.push_back(row / largest);
+  }
   for (std::size_t i = 0; i < model.stiffness.size(); i += static_cast<std::size_t>(n)) {
     const Eigen::Map<const Eigen::RowVectorXd> row(&model.stiffness[i], n);
     if (const double largest = row.cwiseAbs().maxCoeff(); largest > 0.0) rows.push_back(row / largest);

@@ -5,10 +5,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <system_error>
 
+#include "io/abandoned_files.hpp"
 #include "io/temporary_files.hpp"
 #include "slapstick/base/error.hpp"
 #include "base/text.hpp"
@@ -20,14 +20,7 @@ constexpr std::size_t buffer_size = std::size_t{1} << 16;
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-/// A name beside `target` that no other thread or process uses; open with O_EXCL settles what is left of the question.
-std::filesystem::path temporary_name(const std::filesystem::path& target) {
-  static std::atomic<unsigned> serial{0};
-  auto name = target;
-  name += ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(serial++);
-  return name;
-}
-
+/// O_EXCL settles what the name leaves open of the question whose file it is.
 int open_new(const std::filesystem::path& target, std::filesystem::path& temporary, int& note) {
   for (int attempt = 0; attempt < 1000; ++attempt) {
     temporary = temporary_name(target);
@@ -67,6 +60,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& path) : shown_(path), target
   std::error_code ignored;
   if (exists) target_ = std::filesystem::canonical(path, ignored);
   if (target_.empty()) target_ = path;
+  remove_abandoned_beside(target_);
   descriptor_ = open_new(target_, temporary_, note_);
   if (descriptor_ < 0) {
     const int error = errno;

@@ -10,7 +10,8 @@ namespace slapstick {
 ///
 /// The bytes go to a new file in the same folder; `commit` syncs it to disk and renames it over the old one, which
 /// keeps its permissions. Without `commit` (an exception, an early return) the destructor removes the new file and the
-/// old one is untouched. A symbolic link is followed. A device or pipe (/dev/stdout) cannot be renamed over: it is
+/// old one is untouched. What killed programs have left in that folder is removed (io/abandoned_files.hpp). A symbolic
+/// link is followed. A device or pipe (/dev/stdout) cannot be renamed over: it is
 /// written directly. Every failure is a StorageError of one line, "cannot write 'PATH': REASON"; after one, the object
 /// is closed and nothing is left.
 class AtomicFile {

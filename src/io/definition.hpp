@@ -19,17 +19,21 @@ struct Scalar {
 };
 
 /// What a key of a [[part]] holds: a Scalar, a Scalar whose expression may name states as well, true or false, one line
-/// of text, or a list of tables with fields of their own.
-enum class Holds { number, observed, flag, text, harmonics };
+/// of text, a list of tables with fields of their own, a list of points [x, force], a list of two Scalars, a word of
+/// `contact_laws`, a table of `stribeck_keys`, or a table of `constant`, states and a `compliant_stop`.
+enum class Holds { number, observed, flag, text, harmonics, points, interval, contact_law, stribeck, load };
 
 struct FieldRule {
   std::string_view key;
   bool required = false;
   Holds holds = Holds::number;
+  std::string_view instead_of = {};  ///< keys that this one replaces, with '|' between them
+  std::string_view needs = {};       ///< keys without one of which this one means nothing, in the same way
 };
 
-/// How a [[part]] says what it acts on: not at all, `on = "x"`, or `between = ["x", "ground"]`; `moving` admits a
-/// [[base]] too.
+/// How a [[part]] says what it acts on: not at all, `on = "x"`, or `between = ["x", "ground"]`, where a [[base]] may
+/// stand too. Between the ends of a contact, and of a characteristic, the surroundings may not move: both are measured
+/// from the same base, or from none. `moving` admits other ends.
 enum class Ends { none, on, between, moving };
 
 /// The grammar of one kind of [[part]]; reader, evaluation and printer all follow this table.
@@ -40,14 +44,24 @@ struct PartRule {
   std::vector<FieldRule> fields;
 };
 
+/// A point of a characteristic.
+struct Point {
+  Scalar at, force;
+};
+
 /// One [[part]] of the file.
 struct Part {
   std::string name, description;
-  int a = ground, b = ground;  // a coordinate, `ground`, or base_end(k)
+  int a = ground, b = ground;  // a coordinate, `ground`, or base_end(k); of a coordinate b is what it is measured from
   std::map<std::string, Scalar, std::less<>> fields;
   std::map<std::string, bool, std::less<>> flags;
   std::map<std::string, std::string, std::less<>> texts;
   std::vector<Part> harmonics;
+  std::vector<Point> points;  ///< of its characteristic, or of its restitution
+  std::vector<Scalar> within;
+  std::map<std::string, Scalar, std::less<>> stribeck;     // by stribeck_keys()
+  std::vector<std::pair<std::string, Scalar>> load;        // of a normal force, in the file's order
+  std::string load_stop;                                   // the compliant stop whose force it is
   int line = 0;
 
   [[nodiscard]] bool flag(std::string_view key) const {
@@ -120,6 +134,9 @@ struct Definition {
 [[nodiscard]] const std::vector<std::string>& quantity_keys();
 [[nodiscard]] const PartRule& harmonic_rule();
 
+/// The keys of a `stribeck` table, and the words of `law` of a compliant stop.
+[[nodiscard]] const std::vector<std::string>& stribeck_keys();
+[[nodiscard]] const std::vector<std::string>& contact_laws();
 /// The words of `impact_law`, in the order of the enumeration.
 [[nodiscard]] const std::vector<std::string>& impact_laws();
 

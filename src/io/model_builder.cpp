@@ -7,22 +7,11 @@
 
 #include "base/elementary.hpp"
 #include "base/ranges.hpp"
+#include "base/text.hpp"
 #include "io/model_numbers.hpp"
 #include "model/fault.hpp"
-#include "base/text.hpp"
 
 namespace slapstick {
-
-/// Calls `add(part)` for every part of a kind; kind_ and index_ say which one it is, for messages.
-template <class Add>
-void ModelBuilder::each(const char* kind, Add add) {
-  kind_ = kind;
-  index_ = 0;
-  for (const auto& part : definition_.of(kind)) {
-    add(part);
-    ++index_;
-  }
-}
 
 double ModelBuilder::number(const Scalar& scalar, const std::string& where) const {
   if (!scalar.expression) return scalar.number;
@@ -45,7 +34,7 @@ Dual ModelBuilder::dual(const Scalar& scalar, const std::string& where) const {
     if (!std::isfinite(rates_->at(name).rate)) broken = ", as " + in_quotes(name) + " has none";
   }
   throw InputError(definition_.place(scalar.line), where + ": expression " + in_quotes(scalar.expression->text()) +
-                   ": it has no derivative" + with + broken);
+                                                       ": it has no derivative" + with + broken);
 }
 
 std::string ModelBuilder::where(std::string_view key) const {
@@ -67,38 +56,151 @@ int ModelBuilder::harmonic(const Part& part, const std::string& place) const {
   const double value = number.value;
   const bool whole = value >= 0.0 && value <= 1e6 && value == std::floor(value);
   if (whole && !number.varies) return static_cast<int>(value);
-  throw InputError(definition_.place(part.fields.find("harmonic")->second.line), place + " = " + shown(value) +
-                   (whole ? " is a whole number, which has no derivative" : " is not a whole number in [0, 1000000]"));
+  throw InputError(
+      definition_.place(part.fields.find("harmonic")->second.line),
+      place + " = " + shown(value) +
+          (whole ? " is a whole number, which has no derivative" : " is not a whole number in [0, 1000000]"));
 }
+
+namespace {
+
+/// In coordinates that are measured from a base it is the ground.
+int end(int index) { return is_base(index) ? ground : index; }
+
+}  // namespace
 
 /// Springs and dampers; to a base they are springs and dampers to ground, and a force for its motion.
 void ModelBuilder::add_links(Model& model) {
-  const auto end = [](int index) { return is_base(index) ? ground : index; };
   each("spring", [&](const Part& part) {
+    if (!part.points.empty()) return add_bends(model, part, Characteristic::Over::displacement);
+    origins_["spring"].push_back({kind_, index_});
     const Dual stiffness = field(part, "stiffness");
     model.springs.push_back({end(part.a), end(part.b), written(stiffness)});
-    add_motion(model, part, stiffness, false);
+    add_motion(model, part, stiffness, 0);
   });
   each("damper", [&](const Part& part) {
+    if (!part.points.empty()) return add_bends(model, part, Characteristic::Over::velocity);
     const Dual coefficient = field(part, "coefficient");
-    model.dampers.push_back({end(part.a), end(part.b), written(coefficient)});
-    add_motion(model, part, coefficient, true);
+    if (!part.within.empty()) return add_zones(model, part, coefficient);
+    origins_["damper"].push_back({kind_, index_});
+    model.dampers.push_back({end(part.a), end(part.b), written(coefficient), part.flag("feeds")});
+    add_motion(model, part, coefficient, 1);
   });
 }
 
-/// What a base passes on: strength * x_base, or strength * x_base' with
-/// x_base' = sum amplitude harmonic omega sin(harmonic omega t + phase + pi / 2).
-void ModelBuilder::add_motion(Model& model, const Part& part, const Dual& strength, bool velocity) {
-  const int base = is_base(part.a) ? part.a : part.b;
+std::vector<std::pair<Dual, Dual>> ModelBuilder::points(const Part& part, std::string_view key) const {
+  std::vector<std::pair<Dual, Dual>> all;
+  for (const Point& point : part.points) {
+    const std::string place = where(key) + ": point " + std::to_string(all.size() + 1);
+    all.emplace_back(dual(point.at, place + ": x"), dual(point.force, place + ": force"));
+    if (all.size() > 1 && !(all.back().first.value > all[all.size() - 2].first.value))
+      throw InputError(definition_.place(point.at.line),
+                       place + ": " + shown(all.back().first.value) + " is not above the " +
+                           shown(all[all.size() - 2].first.value) + " of the point before");
+  }
+  return all;
+}
+
+void ModelBuilder::add(Model& model, Characteristic head, const Bends& bends) {
+  for (const auto& [at, force] : bends.corners) head.corners.push_back({written(at), written(force)});
+  head.slope_below = written(bends.below);
+  head.slope_above = written(bends.above);
+  origins_["characteristic"].push_back({kind_, index_});
+  model.characteristics.push_back(std::move(head));
+}
+
+/// Of a spring or damper. Where no slope beyond an end is given the last piece goes on, and the end is no corner.
+void ModelBuilder::add_bends(Model& model, const Part& part, Characteristic::Over over) {
+  const auto all = points(part);
+  const auto slope = [&](std::size_t i) {
+    return (all[i + 1].second - all[i].second) / (all[i + 1].first - all[i].first);
+  };
+  const bool below = part.fields.contains("slope_below"), above = part.fields.contains("slope_above");
+  Bends bends{{all.begin() + (below ? 0 : 1), all.end() - (above ? 0 : 1)},
+              below ? field(part, "slope_below") : slope(0),
+              above ? field(part, "slope_above") : slope(all.size() - 2)};
+  if (bends.corners.empty())
+    throw InputError(
+        definition_.place(part.line),
+        where("characteristic") + ": two points are a straight line: give a third one, or slope_below or slope_above");
+  const auto name = part.texts.find("name");
+  const std::string own = std::string(kind_) + std::to_string(index_ + 1);
+  add(model, {name != part.texts.end() ? name->second : own, part.a, part.b, over, {}}, bends);
+}
+
+/// A damper of one coefficient within an interval of x_a - x_b, and another outside.
+void ModelBuilder::add_zones(Model& model, const Part& part, const Dual& inside) {
+  const Dual from = dual(part.within[0], where("within") + ": from"), to = dual(part.within[1], where("within") + ": to");
+  if (!(from.value < to.value))
+    throw InputError(definition_.place(part.within[0].line), where("within") + ": " + shown(from.value) +
+                                                                 " is not below " + shown(to.value));
+  const Dual outside = field(part, "coefficient_outside");
+  if (!part.flag("feeds"))
+    for (const auto& [key, value] : {std::pair("coefficient", inside), std::pair("coefficient_outside", outside)})
+      if (value.value < 0.0) throw InputError(definition_.place(part.line), where(key) + " = " + shown(value.value) + " is negative; a damper that may feed energy says feeds = true");
+  const auto name = part.texts.find("name");
+  const std::string own = std::string(kind_) + std::to_string(index_ + 1);
+  add(model, {name != part.texts.end() ? name->second : own, part.a, part.b, Characteristic::Over::zones, {}},
+      {{{from, inside}, {to, outside}}, outside, outside});
+}
+
+/// The base of a contact or of a polyline is the ground: both sides are measured from the base.
+void ModelBuilder::stand_still(Model& model) {
+  const auto each_of = [](auto& parts) {
+    for (auto& part : parts) {
+      part.a = end(part.a);
+      part.b = end(part.b);
+    }
+  };
+  each_of(model.frictions);
+  each_of(model.stops);
+  each_of(model.compliant_stops);
+  each_of(model.characteristics);
+}
+
+/// Between two ends the surroundings move apart by x_base of one less x_base of the other.
+void ModelBuilder::add_motion(Model& model, const Part& part, const Dual& strength, int order) {
+  if (home(part.a) == home(part.b)) return;
+  for (const auto& [coordinate, other] : {std::pair{part.a, part.b}, std::pair{part.b, part.a}}) {
+    if (coordinate < 0) continue;
+    push(model, coordinate, home(other), strength, order);
+    push(model, coordinate, home(coordinate), -strength, order);
+  }
+}
+
+/// x_base   = sum amplitude sin(harmonic omega t + phase)
+/// x_base'  = sum amplitude harmonic omega sin(harmonic omega t + phase + pi / 2)
+/// x_base'' = sum -amplitude (harmonic omega)^2 sin(harmonic omega t + phase)
+void ModelBuilder::push(Model& model, int coordinate, int base, const Dual& strength, int order) {
   if (!is_base(base)) return;
-  const int coordinate = is_base(part.a) ? part.b : part.a;
   for (const Term& term : bases_[static_cast<std::size_t>(base_end(base))]) {
-    if (velocity && term.harmonic == 0) continue;  // a constant displacement has no velocity
-    const Dual frequency = velocity ? Dual{static_cast<double>(term.harmonic)} * omega_ : Dual{1.0};
-    const Dual phase = velocity ? term.phase + Dual{std::numbers::pi / 2} : term.phase;
-    model.forces.push_back({coordinate, term.harmonic, written(strength * frequency * term.amplitude), written(phase)});
+    if (order > 0 && term.harmonic == 0) continue;  // a constant displacement has no velocity
+    const Dual frequency = order > 0 ? Dual{static_cast<double>(term.harmonic)} * omega_ : Dual{1.0};
+    const Dual phase = order == 1 ? term.phase + Dual{std::numbers::pi / 2} : term.phase;
+    const Dual size = order == 2 ? -(strength * term.amplitude * (frequency * frequency))
+                                 : strength * frequency * term.amplitude;
+    model.forces.push_back({coordinate, term.harmonic, written(size), written(phase)});
     origins_["force"].push_back({kind_, index_});
   }
+}
+
+void ModelBuilder::add_inertia(Model& model) {
+  each("coordinate", [&](const Part& part) {
+    const int i = static_cast<int>(index_);
+    if (part.fields.contains("mass")) push(model, i, part.b, -field(part, "mass"), 2);
+    const auto n = definition_.of("coordinate").size();
+    for (int order = 0; order < 3; ++order) {
+      const char* key = order == 2 ? "mass" : order == 1 ? "damping" : "stiffness";
+      const auto matrix = definition_.matrices.find(key);
+      if (matrix == definition_.matrices.end()) continue;
+      for (std::size_t j = 0; j < n; ++j) {
+        const int base = definition_.of("coordinate")[j].b;
+        if (!is_base(base)) continue;
+        const Dual entry = dual(matrix->second.entries[index_ * n + j], std::string("matrix: ") + key);
+        if (entry.value != 0.0 || entry.varies) push(model, i, base, -entry, order);
+      }
+    }
+  });
 }
 
 double ModelBuilder::base(std::size_t k, double omega, double time) const {
@@ -107,35 +209,6 @@ double ModelBuilder::base(std::size_t k, double omega, double time) const {
     sum +=
         term.amplitude.value * (term.harmonic == 0 ? 1.0 : fixed::sin(term.harmonic * omega * time + term.phase.value));
   return sum;
-}
-
-/// A two-sided stop stands for two: NAME_upper as it is written, and NAME_lower on x_b - x_a.
-void ModelBuilder::add_contacts(Model& model) {
-  each("friction", [&](const Part& part) {
-    const Dual limit = field(part, "static");
-    model.frictions.push_back({part.name, part.a, part.b, written(part, "belt_speed"), written(limit),
-                               written(field(part, "kinetic", limit))});
-  });
-  const auto sides = [&](const Part& part, auto& stops, auto stop) {
-    auto& origins = origins_[std::string(kind_)];
-    origins.push_back({kind_, index_});
-    stops.push_back(stop);
-    if (!part.flag("two_sided")) return;
-    stops.back().name += "_upper";
-    stop.name += "_lower";
-    std::swap(stop.a, stop.b);
-    stop.clearance = written(field(part, "clearance_lower", field(part, "clearance")));
-    origins.push_back({kind_, index_, true});
-    stops.push_back(stop);
-  };
-  each("stop", [&](const Part& part) {
-    sides(part, model.stops, Stop{part.name, part.a, part.b, written(part, "clearance"), written(part, "restitution")});
-  });
-  each("compliant_stop", [&](const Part& part) {
-    sides(part, model.compliant_stops,
-          CompliantStop{part.name, part.a, part.b, written(part, "clearance"), written(part, "stiffness"),
-                        written(part, "damping"), part.flag("pulls")});
-  });
 }
 
 void ModelBuilder::add_matrices(Model& model) const {
@@ -169,8 +242,10 @@ Model ModelBuilder::assembled() {
         {part.a, harmonic(part, where("harmonic")), written(part, "amplitude"), written(part, "phase")});
   });
   add_links(model);
+  add_inertia(model);
   add_contacts(model);
   add_matrices(model);
+  stand_still(model);
   return model;
 }
 
@@ -187,10 +262,11 @@ void ModelBuilder::demand_no_forcing(const Model& model) const {
   if (found == model.forces.end()) return;
   const Origin& from = origins_.at("force")[static_cast<std::size_t>(found - model.forces.begin())];
   const auto& part = definition_.of(from.kind)[from.index];
-  throw InputError(definition_.place(part.line), part_label(from.kind, from.index, part) +
-                   (from.kind == "force" ? ": harmonic " : ": its base moves with harmonic ") +
-                   std::to_string(found->harmonic) + " of the forcing frequency, and the file has no 'omega'" +
-                   (values_.contains("omega") ? ": write omega = \"omega\" above [parameters]" : ""));
+  throw InputError(definition_.place(part.line),
+                   part_label(from.kind, from.index, part) +
+                       (from.kind == "force" ? ": harmonic " : ": its base moves with harmonic ") +
+                       std::to_string(found->harmonic) + " of the forcing frequency, and the file has no 'omega'" +
+                       (values_.contains("omega") ? ": write omega = \"omega\" above [parameters]" : ""));
 }
 
 const ModelBuilder::Origin* ModelBuilder::origin(const Fault& fault) const {
@@ -216,7 +292,7 @@ InputError ModelBuilder::refusal(const Fault& fault, const Model& model) const {
     if (from && from->lower && fault.field == "clearance" && part.fields.contains("clearance_lower"))
       found = part.fields.find("clearance_lower");
     line = found == part.fields.end() ? part.line : found->second.line;
-    if (kind != fault.part) place += ": with its base's motion, as a force";
+    if (fault.part == "force" && kind != fault.part) place += ": with its base's motion, as a force";
   }
   return InputError(definition_.place(line), place + ": " + fault.what);
 }

@@ -2,8 +2,8 @@
 /// From a Definition and the values of its parameters to a validated Model.
 ///
 /// Two things of a file are not in a Model but stand for others: a two-sided stop is two Stops, and a [[base]] is the
-/// forces that its springs and dampers pass on. So each part of the Model remembers the part of the file that it came
-/// from, for messages.
+/// forces that its springs and dampers pass on, and the inertia of the coordinates that are measured from it. So each
+/// part of the Model remembers the part of the file that it came from, for messages.
 ///
 /// The derivative of a Model goes the same way: every number is calculated as a Dual, of which its value or its rate is
 /// written down.
@@ -52,6 +52,11 @@ class ModelBuilder {
     std::size_t index;
     bool lower = false;  ///< the lower side of a two-sided stop
   };
+  /// A characteristic while it is being built: its corners and the slopes beyond them.
+  struct Bends {
+    std::vector<std::pair<Dual, Dual>> corners;
+    Dual below, above;
+  };
   /// One term of a prescribed motion: amplitude sin(harmonic omega t + phase).
   struct Term {
     Dual amplitude;
@@ -59,19 +64,51 @@ class ModelBuilder {
     Dual phase;
   };
 
+  /// Calls `add(part)` for every part of a kind; kind_ and index_ say which one it is, for messages.
   template <class Add>
-  void each(const char* kind, Add add);
+  void each(const char* kind, Add add) {
+    kind_ = kind;
+    index_ = 0;
+    for (const auto& part : definition_.of(kind)) {
+      add(part);
+      ++index_;
+    }
+  }
   [[nodiscard]] std::string where(std::string_view key) const;
   [[nodiscard]] Dual dual(const Scalar& scalar, const std::string& where) const;
   [[nodiscard]] Dual field(const Part& part, std::string_view key, const Dual& fallback = {}) const;
   [[nodiscard]] Dual at(const Part& part, std::string_view key, const Dual& fallback, const std::string& place) const;
   /// What the model that is being made has in the place of a number.
   [[nodiscard]] double written(const Dual& number) const { return rates_ == nullptr ? number.value : number.rate; }
+  [[nodiscard]] std::vector<std::pair<Dual, Dual>> points(const Part& part,
+                                                          std::string_view key = "characteristic") const;
+  void add_bends(Model& model, const Part& part, Characteristic::Over over);
+  void add_zones(Model& model, const Part& part, const Dual& inside);
+  void add_friction(Model& model, const Part& part);
+  void add_falling_friction(Model& model, const Part& part, const std::vector<std::pair<Dual, Dual>>& law);
+  [[nodiscard]] std::vector<std::pair<Dual, Dual>> friction_law(const Part& part) const;
+  [[nodiscard]] std::vector<std::pair<Dual, Dual>> stribeck(const Part& part) const;
+  [[nodiscard]] NormalForce load(const Part& part, const Model& model) const;
+  [[nodiscard]] Stop stop(const Part& part) const;
+  [[nodiscard]] CompliantStop compliant_stop(const Part& part) const;
+  void add_hysteresis(Model& model);
+  void add(Model& model, Characteristic head, const Bends& bends);
   [[nodiscard]] double written(const Part& part, std::string_view key) const { return written(field(part, key)); }
   [[nodiscard]] Model assembled();
   [[nodiscard]] int harmonic(const Part& part, const std::string& place) const;
   void add_links(Model& model);
-  void add_motion(Model& model, const Part& part, const Dual& strength, bool velocity);
+  /// The force that the motion of the surroundings passes on through a spring (`order` 0) or a damper (1).
+  void add_motion(Model& model, const Part& part, const Dual& strength, int order);
+  /// `strength` times the derivative of a base's motion of this order, as forces on a coordinate.
+  void push(Model& model, int coordinate, int base, const Dual& strength, int order);
+  /// What a coordinate that is measured from a base feels of its motion: -M x_base'', and of the matrices
+  /// -C x_base' and -K x_base.
+  void add_inertia(Model& model);
+  static void stand_still(Model& model);
+  /// The base that an end moves with when its own number stands still, or the ground.
+  [[nodiscard]] int home(int end) const {
+    return end >= 0 ? definition_.of("coordinate")[static_cast<std::size_t>(end)].b : end;
+  }
   void add_contacts(Model& model);
   void add_matrices(Model& model) const;
   void demand_no_forcing(const Model& model) const;

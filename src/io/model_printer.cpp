@@ -62,6 +62,23 @@ class Printer {
     return scalar.expression ? toml_string(scalar.expression->text()) : toml_number(scalar.number);
   }
 
+  static std::string points_text(const std::vector<Point>& points) {
+    std::string out = "[";
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      out += i == 0 ? "" : i % 8 == 0 ? ",\n  " : ", ";  // a line has at most 4096 bytes
+      out += "[" + scalar_text(points[i].at) + ", " + scalar_text(points[i].force) + "]";
+    }
+    return out + "]";
+  }
+
+  static std::string table_text(const std::vector<std::pair<std::string, Scalar>>& numbers, const std::string& stop) {
+    std::string out;
+    for (const auto& [key, number] : numbers)
+      out += (out.empty() ? "" : ", ") + key + " = " + scalar_text(number);
+    if (!stop.empty()) out += (out.empty() ? "" : ", ") + std::string("compliant_stop = ") + toml_string(stop);
+    return "{ " + out + " }";
+  }
+
   void parameter(const ParameterEntry& entry) {
     const auto& shown = entry.shown;
     out_.append("\n[parameters.").append(shown.name).append("]\n");
@@ -113,6 +130,13 @@ class Printer {
     for (const auto& field : rule.fields) {
       const auto number = part.fields.find(field.key);
       if (number != part.fields.end()) line(field.key, scalar_text(number->second));
+      if (field.holds == Holds::points && !part.points.empty()) line(field.key, points_text(part.points));
+      if (field.holds == Holds::interval && !part.within.empty())
+        line(field.key, "[" + scalar_text(part.within[0]) + ", " + scalar_text(part.within[1]) + "]");
+      if (field.holds == Holds::stribeck && !part.stribeck.empty())
+        line(field.key, table_text({part.stribeck.begin(), part.stribeck.end()}, ""));
+      if (field.holds == Holds::load && (!part.load.empty() || !part.load_stop.empty()))
+        line(field.key, table_text(part.load, part.load_stop));
       const auto flag = part.flags.find(field.key);
       if (flag != part.flags.end()) line(field.key, flag->second ? "true" : "false");
       const auto text = part.texts.find(field.key);

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "base/ranges.hpp"
+#include "io/matrix_reader.hpp"
 #include "io/part_reader.hpp"
 #include "io/scale.hpp"
 #include "model/fault.hpp"
@@ -66,6 +67,10 @@ class Reader {
   void know_states(const TomlNode& root) {
     tree_.know_state("time");
     tree_.know_state("t");
+    for (const auto& row : matrix_rows(tree_, root, definition_.source)) {
+      tree_.know_state(row.name);
+      tree_.know_state(velocity_name(row.name));
+    }
     const auto* list = root.find("coordinate");
     if (list == nullptr) return;
     for (const auto& item : list->items)

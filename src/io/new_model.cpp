@@ -1,6 +1,6 @@
 /// Writes the commented file of `slapstick new`.
-#include "slapstick/base/error.hpp"
 #include "base/text.hpp"
+#include "slapstick/base/error.hpp"
 #include "slapstick/io/model_file.hpp"
 
 namespace slapstick {
@@ -45,6 +45,12 @@ mass = 1
 #name = "x2"
 #mass = 2
 
+# Measured from a base: stops and friction contacts may then name the base, and so move.
+#[[coordinate]]
+#name = "x3"
+#mass = 1
+#base = "shaker"
+
 # Between two coordinates, or one and "ground"; the force is stiffness * (x_a - x_b).
 [[spring]]
 between = ["x1", "ground"]
@@ -61,7 +67,7 @@ amplitude = "amplitude"
 harmonic = 1
 phase = "pi / 2"
 
-# A moving base, which springs and dampers may name.
+# A moving base, which springs and dampers may name, and contacts of coordinates that are measured from it.
 #[[base]]
 #name = "shaker"
 #harmonics = [{ amplitude = 0.1, harmonic = 1, phase = 0 }, { amplitude = 0.01, harmonic = 3 }]
@@ -69,6 +75,51 @@ phase = "pi / 2"
 #[[spring]]
 #between = ["x2", "shaker"]
 #stiffness = 4
+
+# A spring (damper) whose force is a polyline over x_a - x_b (v_a - v_b); a slope beyond an end makes that end a corner.
+#[[spring]]
+#name = "bump_stop"
+#between = ["x1", "x2"]
+#characteristic = [[-0.5, 0], [0.5, 0], [1, 2]]
+#slope_below = 1
+#slope_above = 8
+
+#[[damper]]
+#name = "valve"
+#between = ["x1", "x2"]
+#characteristic = [[-1, -0.5], [0, 0], [1, 0.2]]
+#slope_below = 0.1
+#slope_above = 0.05
+
+# A damper that acts in an interval of x_a - x_b; feeds admits a coefficient below 0.
+#[[damper]]
+#name = "magnet"
+#between = ["x1", "ground"]
+#coefficient = -0.01
+#feeds = true
+#within = [-0.2, 0.2]
+#coefficient_outside = 0.02
+
+# Friction that depends on the speed, and is constant beyond the last one.
+#[[friction]]
+#name = "falling"
+#between = ["x1", "x2"]
+#static = 0.2
+#characteristic = [[0, 0.2], [0.5, 0.1], [1, 0.12]]
+
+# The same with a law that falls as exp(-|w| / speed), laid as a polyline of so many corners.
+#[[friction]]
+#name = "lubricated"
+#between = ["x1", "x2"]
+#stribeck = { static = 0.2, kinetic = 0.1, speed = 0.3, corners = 12 }
+
+# Friction with a normal force: static and kinetic are coefficients. N = constant + stiffness x + damping v + a stop's force.
+#[[friction]]
+#name = "pressed"
+#between = ["x1", "x2"]
+#static = 0.4
+#kinetic = 0.3
+#normal_force = { constant = 2, x2 = -0.5, v2 = -0.1, compliant_stop = "bumper_upper" }
 
 # Coulomb friction. kinetic is static if it is absent.
 [[friction]]
@@ -87,6 +138,13 @@ restitution = "restitution"
 #two_sided = true            # a wall on both sides, in tables as wall_upper and wall_lower,
 #clearance_lower = 2         # at this distance; clearance if absent
 
+# A stop whose restitution depends on the speed of the impact.
+#[[stop]]
+#name = "post"
+#between = ["x1", "x2"]
+#clearance = 3
+#restitution_over_speed = [[0.1, 0.9], [2, 0.6]]
+
 # A spring and damper that act beyond a gap. Unless it pulls, it lets go where its force would become negative.
 #[[compliant_stop]]
 #name = "bumper"
@@ -98,6 +156,23 @@ restitution = "restitution"
 #two_sided = true
 #clearance_lower = 0.5
 
+# law: "lets_go", "pulls", or "bounded": the damping force is no larger than the spring force.
+#[[compliant_stop]]
+#name = "rubber"
+#between = ["x2", "ground"]
+#clearance = 1
+#stiffness = 50
+#damping = 2
+#law = "bounded"
+
+# Another stiffness on the way back.
+#[[compliant_stop]]
+#name = "cork"
+#between = ["ground", "x2"]
+#clearance = 1
+#stiffness = 50
+#unloading_stiffness = 20
+
 # A quantity of the state, as a column of `simulate --trajectory`: parameters, the state, gap_NAME of stops, time.
 [[observable]]
 name = "energy"
@@ -105,8 +180,10 @@ value = "(x1^2 + v1^2) / 2"
 unit = "J"
 description = "kinetic and elastic energy"
 
-# Added to what the parts above give; n x n for n coordinates, symmetric.
+# Added to what the parts above give; n x n for n coordinates, symmetric. In place of the rows a file of this folder may stand,
+# "K.mtx", "K.csv" or { file = "K.mtx", factor = 0.5 }. coordinates: what the rows stand for, names or a file of names.
 #[matrix]
+#coordinates = ["x1", "x2"]
 #mass = [[0, 0.1], [0.1, 0]]
 #damping = [[0, 0], [0, 0.2]]
 #stiffness = [[0, "-amplitude"], ["-amplitude", 0]]

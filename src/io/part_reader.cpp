@@ -3,8 +3,9 @@
 
 #include <algorithm>
 
-#include "model/fault.hpp"
 #include "base/nearest.hpp"
+#include "io/matrix_reader.hpp"
+#include "model/fault.hpp"
 
 namespace slapstick {
 namespace {
@@ -18,9 +19,10 @@ class PartReader {
     for (const auto& rule : part_rules()) {
       if (rule.kind == "observable") check_contact_names();  // before gaps get their names
       read_kind(rule);
+      if (rule.kind == "base") read_homes();
     }
     check_bases_are_used();
-    read_matrices();
+    read_matrices(tree_, root_, coordinates_, definition_);
     return std::move(states_);
   }
 
@@ -28,6 +30,7 @@ class PartReader {
   void read_kind(const PartRule& rule) {
     const auto* list = root_.find(rule.kind);
     const std::string kind(rule.kind);
+    if (kind == "coordinate" && list == nullptr) return read_coordinates({});
     if (list == nullptr) return;
     if (list->kind != TomlNode::Kind::list)
       tree_.fail(list->line, kind, std::string("expected [[") + kind + "]], found " + list->kind_name());
@@ -35,9 +38,19 @@ class PartReader {
     if (kind == "observable") gather_observed();
     auto& parts = definition_.parts[kind];
     for (std::size_t i = 0; i < list->items.size(); ++i) parts.push_back(part(list->items[i], rule, i));
-    if (kind == "coordinate") keep_coordinates(parts);
+    if (kind == "coordinate") read_coordinates(std::move(parts));
     if (kind == "base") keep_bases(parts);
     if (kind == "observable") check_observables(parts);
+  }
+
+  /// Those of [[coordinate]], and then the rows of [matrix] that have none.
+  void read_coordinates(std::vector<Part> parts) {
+    for (auto& row : matrix_rows(tree_, root_, definition_.source))
+      if (std::none_of(parts.begin(), parts.end(), [&](const Part& part) { return part.name == row.name; }))
+        parts.push_back(std::move(row));
+    if (parts.empty()) return;
+    keep_coordinates(parts);
+    definition_.parts["coordinate"] = std::move(parts);
   }
 
   /// A sweep's table has a column for its parameter beside those of the state.
@@ -83,6 +96,37 @@ class PartReader {
           tree_.fail(part.line, where, "name " + in_quotes(part.name) + " is used twice");
       bases_.push_back(part.name);
     }
+  }
+
+  /// The bases that coordinates are measured from.
+  void read_homes() {
+    const auto found = definition_.parts.find("coordinate");
+    if (found == definition_.parts.end()) return;
+    for (auto& part : found->second) {
+      const auto text = part.texts.find("base");
+      if (text == part.texts.end()) continue;
+      const auto base = std::find(bases_.begin(), bases_.end(), text->second);
+      if (base == bases_.end())
+        tree_.fail(part.line, "coordinate " + in_quotes(part.name) + ": base",
+                   "unknown base " + in_quotes(text->second) + suggestion(text->second, bases_));
+      part.b = base_end(static_cast<int>(base - bases_.begin()));
+    }
+  }
+
+  /// What an end moves with when its own number stands still: a base, or the ground.
+  [[nodiscard]] int home(int end) const {
+    return end >= 0 ? definition_.of("coordinate")[static_cast<std::size_t>(end)].b : end;
+  }
+
+  void demand_one_home(const Part& part, int line, const std::string& where, const char* what) const {
+    const int a = home(part.a), b = home(part.b);
+    if (a == b) return;
+    const auto name = [&](int of) { return bases_[static_cast<std::size_t>(base_end(of))]; };
+    const auto shown = [&](int of) { return of == ground ? "the ground" : in_quotes(name(of)); };
+    tree_.fail(line, where,
+               "its sides move with " + shown(a) + " and with " + shown(b) + ": " + what + " would depend on time. " +
+                   "Measure the coordinates from the base: base = \"" + name(a == ground ? b : a) +
+                   "\" in [[coordinate]]");
   }
 
   /// What an observable may name: parameters, the state, bases, the gaps of stops, and time.
@@ -133,10 +177,12 @@ class PartReader {
       for (const auto& part : definition_.of(kind))
         for (const int end : {part.a, part.b})
           if (is_base(end)) used[static_cast<std::size_t>(base_end(end))] = true;
+    for (const auto& part : definition_.of("coordinate"))
+      if (is_base(part.b)) used[static_cast<std::size_t>(base_end(part.b))] = true;
     for (std::size_t i = 0; i < used.size(); ++i)
       if (!used[i])
         tree_.fail(definition_.of("base")[i].line, "base " + in_quotes(bases_[i]),
-                   "no spring or damper is attached to it, so it moves nothing");
+                   "no spring or damper is attached to it and no coordinate measured from it, so it moves nothing");
   }
 
   Part part(const TomlNode& node, const PartRule& rule, std::size_t index) const {
@@ -150,10 +196,33 @@ class PartReader {
     if (rule.named && part.name.empty()) tree_.fail(node.line, where, "'name' is missing");
     where = part_label(rule.kind, index, part);
     read_ends(node, rule, where, part);
+    if (rule.ends == Ends::between)
+      demand_one_home(part, node.find("between")->line, where + ": between", "the gap or the sliding");
     read_fields(node, rule, where, part);
+    for (const char* key : {"characteristic", "within"})
+      if (const auto* bent = node.find(key); bent != nullptr)
+        demand_one_home(part, bent->line, where + ": " + key, "the corners");
     if (node.find("clearance_lower") != nullptr && !part.flag("two_sided"))
       tree_.fail(node.find("clearance_lower")->line, where + ": clearance_lower", "it needs two_sided = true");
     return part;
+  }
+
+  static bool has(const TomlNode& node, std::string_view key) { return node.find(std::string(key)) != nullptr; }
+
+  /// The first of keys with '|' between them that a table has, or "".
+  static std::string first_present(const TomlNode& node, std::string_view keys) {
+    for (std::size_t begin = 0; begin < keys.size();) {
+      const auto end = std::min(keys.find('|', begin), keys.size());
+      if (const auto key = keys.substr(begin, end - begin); has(node, key)) return std::string(key);
+      begin = end + 1;
+    }
+    return "";
+  }
+
+  static bool replaced(const TomlNode& node, const PartRule& rule, std::string_view key) {
+    return std::any_of(rule.fields.begin(), rule.fields.end(), [&](const FieldRule& field) {
+      return has(node, field.key) && ("|" + std::string(field.instead_of) + "|").find("|" + std::string(key) + "|") != std::string::npos;
+    });
   }
 
   void read_fields(const TomlNode& node, const PartRule& rule, const std::string& where, Part& part) const {
@@ -161,9 +230,16 @@ class PartReader {
       const std::string key(field.key), place = where + ": " + key;
       const auto* value = node.find(key);
       if (value == nullptr) {
-        if (field.required) tree_.fail(node.line, where, in_quotes(key) + " is missing");
+        if (field.required && !replaced(node, rule, field.key))
+          tree_.fail(node.line, where, in_quotes(key) + " is missing");
         continue;
       }
+      if (const std::string other = first_present(node, field.instead_of); !other.empty())
+        tree_.fail(value->line, place, "it stands in place of " + in_quotes(other) + ": give one of the two");
+      if (!field.needs.empty() && first_present(node, field.needs).empty())
+        tree_.fail(value->line, place,
+                   "it belongs to a " + in_quotes(std::string(field.needs.substr(0, field.needs.find('|')))) +
+                       ", and there is none");
       switch (field.holds) {
         case Holds::number:
           part.fields[key] = tree_.scalar(*value, place);
@@ -180,8 +256,77 @@ class PartReader {
         case Holds::harmonics:
           part.harmonics = harmonics(*value, place);
           break;
+        case Holds::points:
+          part.points = points(*value, place);
+          break;
+        case Holds::interval:
+          part.within = interval(*value, place);
+          break;
+        case Holds::contact_law:
+          part.texts[key] = contact_laws()[tree_.word(*value, place, contact_laws())];
+          break;
+        case Holds::stribeck:
+          part.stribeck = stribeck(*value, place);
+          break;
+        case Holds::load:
+          read_load(*value, place, part);
+          break;
       }
     }
+  }
+
+  std::vector<Point> points(const TomlNode& list, const std::string& where) const {
+    constexpr std::size_t most = 100;
+    tree_.expect(list, TomlNode::Kind::list, where);
+    if (list.items.size() < 2 || list.items.size() > most)
+      tree_.fail(list.line, where, "expected 2 to 100 points [x, force], found " + std::to_string(list.items.size()));
+    std::vector<Point> points;
+    for (const auto& item : list.items) {
+      const auto each = where + ": point " + std::to_string(points.size() + 1);
+      tree_.expect(item, TomlNode::Kind::list, each);
+      if (item.items.size() != 2)
+        tree_.fail(item.line, each, "expected [x, force], found " + std::to_string(item.items.size()) + " numbers");
+      points.push_back({tree_.scalar(item.items[0], each + ": x"), tree_.scalar(item.items[1], each + ": force")});
+    }
+    return points;
+  }
+
+  std::vector<Scalar> interval(const TomlNode& list, const std::string& where) const {
+    tree_.expect(list, TomlNode::Kind::list, where);
+    if (list.items.size() != 2)
+      tree_.fail(list.line, where, "expected [from, to], found " + std::to_string(list.items.size()) + " numbers");
+    return {tree_.scalar(list.items[0], where + ": from"), tree_.scalar(list.items[1], where + ": to")};
+  }
+
+  std::map<std::string, Scalar, std::less<>> stribeck(const TomlNode& table, const std::string& where) const {
+    tree_.expect(table, TomlNode::Kind::table, where);
+    tree_.check_keys(table, where, stribeck_keys());
+    std::map<std::string, Scalar, std::less<>> numbers;
+    for (const auto& [key, node] : table.entries) numbers[key] = tree_.scalar(node, where + ": " + key);
+    for (const char* key : {"static", "kinetic", "speed"})
+      if (!numbers.contains(key)) tree_.fail(table.line, where, in_quotes(key) + " is missing");
+    return numbers;
+  }
+
+  /// The stops of a file, which come after its friction contacts, are looked up in the tree.
+  void read_load(const TomlNode& table, const std::string& where, Part& part) const {
+    tree_.expect(table, TomlNode::Kind::table, where);
+    for (const auto& [key, node] : table.entries)
+      if (key == "stop")
+        tree_.fail(node.line, where + ": stop",
+                   "the force of a rigid stop is a constraint force, not a function of the state: friction along a rigid "
+                   "stop is not available; write the stop as a [[compliant_stop]] and name it by compliant_stop");
+    std::vector<std::string> known = states_;
+    known.emplace_back("constant");
+    known.emplace_back("compliant_stop");
+    tree_.check_keys(table, where, known);
+    for (const auto& [key, node] : table.entries) {
+      if (key == "compliant_stop")
+        part.load_stop = tree_.text(table, "compliant_stop", where);
+      else
+        part.load.emplace_back(key, tree_.scalar(node, where + ": " + key));
+    }
+    if (table.entries.empty()) tree_.fail(table.line, where, "it is empty");
   }
 
   std::vector<Part> harmonics(const TomlNode& list, const std::string& where) const {
@@ -227,54 +372,15 @@ class PartReader {
     if (found != coordinates_.end()) return static_cast<int>(found - coordinates_.begin());
     const auto base = std::find(bases_.begin(), bases_.end(), node.text);
     if (base != bases_.end()) {
-      if (rule.ends != Ends::moving) refuse_base(node, rule, where);
+      if (rule.ends == Ends::on)
+        tree_.fail(node.line, where, in_quotes(node.text) + " is a base: its motion is given, a force cannot change it");
       return base_end(static_cast<int>(base - bases_.begin()));
     }
     if (coordinates_.empty()) tree_.fail(1, "model", "it has no coordinates");
     auto known = coordinates_;
-    if (rule.ends == Ends::moving) known.insert(known.end(), bases_.begin(), bases_.end());
+    if (rule.ends != Ends::on) known.insert(known.end(), bases_.begin(), bases_.end());
     known.emplace_back("ground");
     tree_.fail(node.line, where, "unknown coordinate " + in_quotes(node.text) + suggestion(node.text, known));
-  }
-
-  [[noreturn]] void refuse_base(const TomlNode& node, const PartRule& rule, const std::string& where) const {
-    const std::string base = in_quotes(node.text);
-    if (rule.ends == Ends::on)
-      tree_.fail(node.line, where, base + " is a base: its motion is given, a force cannot change it");
-    tree_.fail(node.line, where,
-               base +
-                   " is a base, which only springs and dampers may name: the gap or the sliding would depend on time. "
-                   "Measure the coordinates from the base instead ('ground' is then the base) and give each one "
-                   "its inertia force, [[force]] amplitude = mass * amplitude * (harmonic * omega)^2");
-  }
-
-  void read_matrices() {
-    const auto* table = root_.find("matrix");
-    if (table == nullptr) return;
-    tree_.expect(*table, TomlNode::Kind::table, "matrix");
-    tree_.check_keys(*table, "matrix", matrix_keys());
-    for (const auto& [key, node] : table->entries) definition_.matrices[key] = matrix(node, "matrix: " + key);
-  }
-
-  MatrixEntry matrix(const TomlNode& node, const std::string& where) const {
-    const auto n = coordinates_.size();
-    MatrixEntry matrix{{}, node.line};
-    const auto demand = [&](const TomlNode& list, const char* what, const std::string& whose) {
-      tree_.expect(list, TomlNode::Kind::list, whose);
-      if (list.items.size() != n)
-        tree_.fail(list.line, whose,
-                   "expected " + std::to_string(n) + " " + what + " (one per coordinate), found " +
-                       std::to_string(list.items.size()));
-    };
-    demand(node, "rows", where);
-    for (std::size_t i = 0; i < n; ++i) {
-      const auto row = where + "[" + coordinates_[i] + "]";
-      demand(node.items[i], "entries", row);
-      for (std::size_t j = 0; j < n; ++j)
-        matrix.entries.push_back(
-            tree_.scalar(node.items[i].items[j], where + "[" + coordinates_[i] + ", " + coordinates_[j] + "]"));
-    }
-    return matrix;
   }
 
   const TreeReader& tree_;

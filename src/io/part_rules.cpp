@@ -1,30 +1,53 @@
 /// Lists the keys of a model file: the one table that reader, printer and reference follow.
-#include "io/definition.hpp"
 #include "base/text.hpp"
+#include "io/definition.hpp"
 
 namespace slapstick {
 
 const std::vector<PartRule>& part_rules() {
+  static const FieldRule below{"slope_below", false, Holds::number, {}, "characteristic"},
+      above{"slope_above", false, Holds::number, {}, "characteristic"};
   static const std::vector<PartRule> rules = {
-      {"coordinate", true, Ends::none, {{"mass"}, {"unit", false, Holds::text}}},
+      {"coordinate", true, Ends::none, {{"mass"}, {"unit", false, Holds::text}, {"base", false, Holds::text}}},
       {"base", true, Ends::none, {{"harmonics", true, Holds::harmonics}}},
-      {"spring", false, Ends::moving, {{"stiffness", true}}},
-      {"damper", false, Ends::moving, {{"coefficient", true}}},
+      {"spring", false, Ends::moving,
+       {{"stiffness", true},
+        {"characteristic", false, Holds::points, "stiffness"},
+        below,
+        above,
+        {"name", false, Holds::text, {}, "characteristic"}}},
+      {"damper", false, Ends::moving,
+       {{"coefficient", true},
+        {"feeds", false, Holds::flag, {}, "coefficient"},
+        {"within", false, Holds::interval, {}, "coefficient"},
+        {"coefficient_outside", false, Holds::number, {}, "within"},
+        {"characteristic", false, Holds::points, "coefficient"},
+        below,
+        above,
+        {"name", false, Holds::text, {}, "characteristic|within"}}},
       {"force", false, Ends::on, {{"amplitude", true}, {"harmonic"}, {"phase"}}},
-      {"friction", true, Ends::between, {{"static", true}, {"kinetic"}, {"belt_speed"}}},
-      {"stop",
-       true,
-       Ends::between,
-       {{"two_sided", false, Holds::flag}, {"clearance", true}, {"clearance_lower"}, {"restitution", true}}},
-      {"compliant_stop",
-       true,
-       Ends::between,
+      {"friction", true, Ends::between,
+       {{"static", true},
+        {"kinetic"},
+        {"characteristic", false, Holds::points, "kinetic"},
+        {"stribeck", false, Holds::stribeck, "static|kinetic|characteristic"},
+        {"normal_force", false, Holds::load},
+        {"belt_speed"}}},
+      {"stop", true, Ends::between,
+       {{"two_sided", false, Holds::flag},
+        {"clearance", true},
+        {"clearance_lower"},
+        {"restitution", true},
+        {"restitution_over_speed", false, Holds::points, "restitution"}}},
+      {"compliant_stop", true, Ends::between,
        {{"two_sided", false, Holds::flag},
         {"clearance", true},
         {"clearance_lower"},
         {"stiffness", true},
         {"damping"},
-        {"pulls", false, Holds::flag}}},
+        {"unloading_stiffness", false, Holds::number, "damping"},
+        {"pulls", false, Holds::flag},
+        {"law", false, Holds::contact_law, "pulls"}}},
       {"observable", true, Ends::none, {{"value", true, Holds::observed}, {"unit", false, Holds::text}}},
   };
   return rules;
@@ -60,7 +83,7 @@ const std::vector<std::string>& parameter_keys() {
 }
 
 const std::vector<std::string>& matrix_keys() {
-  static const std::vector<std::string> keys = {"mass", "damping", "stiffness"};
+  static const std::vector<std::string> keys = {"mass", "damping", "stiffness", "coordinates"};
   return keys;
 }
 
@@ -72,6 +95,16 @@ const std::vector<std::string>& scale_keys() {
 const std::vector<std::string>& quantity_keys() {
   static const std::vector<std::string> keys = {"value", "unit"};
   return keys;
+}
+
+const std::vector<std::string>& stribeck_keys() {
+  static const std::vector<std::string> keys = {"static", "kinetic", "speed", "corners"};
+  return keys;
+}
+
+const std::vector<std::string>& contact_laws() {
+  static const std::vector<std::string> words = {"lets_go", "pulls", "bounded"};
+  return words;
 }
 
 const std::vector<std::string>& impact_laws() {

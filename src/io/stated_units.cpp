@@ -26,11 +26,24 @@ std::vector<std::pair<double, int>> numbers_of(const Model& model) {
   for (const Force& force : model.forces) add(force.amplitude, -2), add(force.phase, 0);
   for (const FrictionContact& friction : model.frictions) {
     add(friction.belt_speed, -1);
-    add(friction.static_friction, -2), add(friction.kinetic_friction, -2);
+    const int force = friction.normal ? 0 : -2;  // a coefficient has no unit
+    add(friction.static_friction, force), add(friction.kinetic_friction, force);
+    if (!friction.normal) continue;
+    add(friction.normal->constant, -2);
+    for (const NormalForce::Term& term : friction.normal->terms) add(term.stiffness, -2), add(term.damping, -1);
   }
-  for (const Stop& stop : model.stops) add(stop.clearance, 0), add(stop.restitution, 0);
+  for (const Stop& stop : model.stops) {
+    add(stop.clearance, 0), add(stop.restitution, 0);
+    for (const Stop::Corner& corner : stop.corners) add(corner.speed, -1), add(corner.restitution, 0);
+  }
   for (const CompliantStop& stop : model.compliant_stops)
     add(stop.clearance, 0), add(stop.stiffness, -2), add(stop.damping, -1);
+  for (const Characteristic& one_of : model.characteristics) {
+    const bool zones = one_of.over == Characteristic::Over::zones;
+    const int time = one_of.over == Characteristic::Over::velocity ? -1 : 0;
+    for (const Characteristic::Corner& corner : one_of.corners) add(corner.at, time), add(corner.force, zones ? -1 : -2);
+    add(one_of.slope_below, zones ? -1 : -2 - time), add(one_of.slope_above, zones ? -1 : -2 - time);
+  }
   for (const double number : model.mass) add(number, 0);
   for (const double number : model.damping) add(number, -1);
   for (const double number : model.stiffness) add(number, -2);

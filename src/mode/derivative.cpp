@@ -3,12 +3,13 @@
 
 #include <cmath>
 
+#include "base/elementary.hpp"
 #include "base/ranges.hpp"
+#include "base/text.hpp"
 #include "mode/assembly.hpp"
+#include "mode/contact_force.hpp"
 #include "mode/held.hpp"
 #include "slapstick/base/error.hpp"
-#include "base/elementary.hpp"
-#include "base/text.hpp"
 
 namespace slapstick::mode {
 namespace {
@@ -49,7 +50,8 @@ Matrix load_rate(const Model& model, const Model& rate, const Frame& frame) {
       continue;
     }
     const auto k = ranges::find(frame.harmonics, force.harmonic) - frame.harmonics.begin();
-    const double sine = fixed::sin(force.phase), cosine = fixed::cos(force.phase), turn = force.amplitude * change.phase;
+    const double sine = fixed::sin(force.phase), cosine = fixed::cos(force.phase),
+                 turn = force.amplitude * change.phase;
     load(force.coordinate, 2 * frame.d + 2 * k) += change.amplitude * sine + turn * cosine;
     load(force.coordinate, 2 * frame.d + 2 * k + 1) += change.amplitude * cosine - turn * sine;
   }
@@ -76,7 +78,12 @@ class Differentiator {
  private:
   void push_away(const ContactRow& contact, const RowVector& force, const RowVector& force_rate);
   void hold();
+  void piece(int i, int k);
+  [[nodiscard]] RowVector moved(const RowVector& row) const;
   [[nodiscard]] RowVector compliant_rate(const Guard& guard) const;
+  [[nodiscard]] RowVector limit_rate(const HeldPair& pair) const;
+  [[nodiscard]] RowVector corner_rate(const Guard& guard) const;
+  [[nodiscard]] RowVector rate_of(const Guard& guard) const;
 
   const Model &model_, &rate_;
   const Frame& frame_;
@@ -91,6 +98,24 @@ void Differentiator::push_away(const ContactRow& contact, const RowVector& force
   const Vector column = contact.sign * frame_.mass_inverse.col(contact.own);
   acceleration_ -= column * force;
   acceleration_rate_ -= column * force_rate + contact.sign * change_.mass_inverse.col(contact.own) * force;
+}
+
+/// Of a row over displacements and velocities: q = W^{-1} (p + shift), q' = W^{-1} (u + drift).
+RowVector Differentiator::moved(const RowVector& row) const {
+  const double change = row.head(frame_.n).dot(change_.shift.head(frame_.n)) +
+                        row.segment(frame_.d, frame_.n).dot(change_.drift.head(frame_.n));
+  return change * RowVector::Unit(frame_.size(), frame_.one());
+}
+
+/// -push (slope value + offset), push = W M^{-1} (e_a - e_b).
+void Differentiator::piece(int i, int k) {
+  const Characteristic& one_of = model_.characteristics[i];
+  const Piece line = piece_of(one_of, k), rate = piece_rate(one_of, rate_.characteristics[i], k);
+  RowVector force_rate = rate.slope * frame_.slope_row(model_, i) + line.slope * moved(frame_.slope_row(model_, i));
+  force_rate[frame_.one()] += rate.offset;
+  const RowVector force = frame_.force_row(model_, i, k);
+  acceleration_ -= frame_.characteristics[i].push * force;
+  acceleration_rate_ -= frame_.characteristics[i].push * force_rate + change_.push[static_cast<std::size_t>(i)] * force;
 }
 
 /// holding = D^+ G a and a - M^{-1} G^T holding. The range of D is that of G W, a constant one, so that (D^+)' = -D^+ D' D^+ on it, whether or
@@ -108,15 +133,21 @@ void Differentiator::hold() {
 Matrix Differentiator::system() {
   const RowVector one = RowVector::Unit(frame_.size(), frame_.one());
   for (std::size_t i = 0; i < frame_.frictions.size(); ++i) {
-    const auto s = static_cast<double>(outline_.states.frictions[i]);
-    push_away(frame_.frictions[i], s * model_.frictions[i].kinetic_friction * one,
-              s * rate_.frictions[i].kinetic_friction * one);
+    const double s = direction(outline_.states.frictions[i]);
+    const int contact = static_cast<int>(i);
+    const RowVector load = load_row(model_, frame_, outline_.states, contact),
+                    load_change = load_rate(model_, rate_, frame_, change_, outline_.states, contact);
+    push_away(frame_.frictions[i], s * model_.frictions[i].kinetic_friction * load,
+              s * (rate_.frictions[i].kinetic_friction * load + model_.frictions[i].kinetic_friction * load_change));
   }
   for (std::size_t i = 0; i < frame_.compliant.size(); ++i) {
-    if (outline_.states.compliant[i] != CompliantState::on) continue;
+    const CompliantState state = outline_.states.compliant[i];
+    if (state != CompliantState::on && state != CompliantState::bounded) continue;
     const int stop = static_cast<int>(i);
-    push_away(frame_.compliant[i], frame_.push_row(model_, stop), frame_.push_row(rate_, stop));
+    push_away(frame_.compliant[i], compliant_row(model_, frame_, stop, state),
+              compliant_row(rate_, frame_, stop, state));
   }
+  for (std::size_t i = 0; i < outline_.states.pieces.size(); ++i) piece(static_cast<int>(i), outline_.states.pieces[i]);
   if (!held_.empty()) hold();
   Matrix A = frame_.kinematics(change_.omega);
   for (int i = 0; i < frame_.d; ++i) {
@@ -134,24 +165,67 @@ std::vector<RowVector> Differentiator::guards() const {
   std::vector<RowVector> rows;
   std::size_t next = 0;
   for (const Guard& guard : outline_.guards) {
-    RowVector row = RowVector::Zero(frame_.size());
-    if (guard.kind == GuardKind::stick_above || guard.kind == GuardKind::stick_below ||
-        guard.kind == GuardKind::press) {
-      const ForceLimit& limit = limits[next++];
-      row = limit.side * holding_rate_.row(static_cast<Eigen::Index>(limit.pair));
-      row[frame_.one()] += friction_limit(held_[limit.pair], rate_);
-    } else if (guard.kind == GuardKind::let_go || guard.kind == GuardKind::push || guard.kind == GuardKind::leave) {
-      row = compliant_rate(guard);
+    const bool of_force = guard.kind == GuardKind::stick_above || guard.kind == GuardKind::stick_below ||
+                          guard.kind == GuardKind::press;
+    if (!of_force) {
+      rows.push_back(rate_of(guard));
+      continue;
     }
-    rows.push_back(row);
+    const ForceLimit& limit = limits[next++];
+    rows.push_back(limit.side * holding_rate_.row(static_cast<Eigen::Index>(limit.pair)) +
+                   limit_rate(held_[limit.pair]));
   }
   return rows;
 }
 
+RowVector Differentiator::rate_of(const Guard& guard) const {
+  const RowVector zero = RowVector::Zero(frame_.size());
+  switch (guard.kind) {
+    case GuardKind::leave:
+    case GuardKind::let_go:
+    case GuardKind::push:
+    case GuardKind::bound:
+    case GuardKind::beyond:
+      return compliant_rate(guard);
+    case GuardKind::corner_above:
+    case GuardKind::corner_below:
+      return corner_rate(guard);
+    case GuardKind::load:
+    case GuardKind::unloaded: {
+      if (load_row(model_, frame_, outline_.states, guard.contact).isZero(0.0)) return zero;
+      const RowVector rate = load_rate(model_, rate_, frame_, change_, outline_.states, guard.contact);
+      return guard.kind == GuardKind::load ? rate : RowVector(-rate);
+    }
+    default:
+      return zero;
+  }
+}
+
+/// Of the sum of f_s, or f_s N, over a pair's friction contacts.
+RowVector Differentiator::limit_rate(const HeldPair& pair) const {
+  RowVector sum = RowVector::Zero(frame_.size());
+  for (int i : pair.frictions)
+    sum += rate_.frictions[i].static_friction * load_row(model_, frame_, outline_.states, i) +
+           model_.frictions[i].static_friction * load_rate(model_, rate_, frame_, change_, outline_.states, i);
+  return sum;
+}
+
+RowVector Differentiator::corner_rate(const Guard& guard) const {
+  const bool above = guard.kind == GuardKind::corner_above;
+  const int k = outline_.states.pieces[guard.contact] - (above ? 0 : 1);
+  RowVector row = -moved(frame_.value_row(model_, guard.contact));
+  row[frame_.one()] += rate_.characteristics[guard.contact].corners[k].at;
+  return above ? row : RowVector(-row);
+}
+
 RowVector Differentiator::compliant_rate(const Guard& guard) const {
   const RowVector force = frame_.push_row(rate_, guard.contact);
+  const RowVector excess =
+      -2.0 * rate_.compliant_stops[guard.contact].stiffness * frame_.gap_row(frame_.compliant[guard.contact]) - force;
   if (guard.kind == GuardKind::let_go) return force;
   if (guard.kind == GuardKind::push) return -force;
+  if (guard.kind == GuardKind::bound) return excess;
+  if (guard.kind == GuardKind::beyond) return -excess;
   const CompliantStop& stop = model_.compliant_stops[guard.contact];
   if (stop.pulls || outline_.states.compliant[guard.contact] != CompliantState::on)
     return RowVector::Zero(frame_.size());
@@ -188,6 +262,8 @@ FrameDerivative::FrameDerivative(const Model& model, const Model& rate, const Fr
   const Matrix W_over_M = frame.W * inverse_mass(model), M_rate = mass_matrix(rate);
   mass_inverse = -W_over_M * M_rate * W_over_M.transpose();
   free = W_over_M * (force - M_rate * (frame.W_inverse * frame.free.topRows(n)));
+  for (const Characteristic& one_of : model.characteristics)
+    push.emplace_back(-W_over_M * (M_rate * (inverse_mass(model) * pair_row(frame.n, one_of.a, one_of.b).transpose())));
 }
 
 OutlineDerivative::OutlineDerivative(const Model& model, const Model& rate, const Frame& frame,

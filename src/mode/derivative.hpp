@@ -17,8 +17,9 @@ struct FrameDerivative {
   FrameDerivative(const Model& model, const Model& rate, const Frame& frame);
 
   Vector shift, drift;
-  Matrix mass_inverse;  ///< -W M^{-1} M' M^{-1} W^T
-  Matrix free;          ///< d x m
+  Matrix mass_inverse;       ///< -W M^{-1} M' M^{-1} W^T
+  Matrix free;               ///< d x m
+  std::vector<Vector> push;  ///< of each characteristic
   double omega = 0.0;
 };
 

@@ -80,6 +80,7 @@ Frame::Frame(const Model& model) : n(model.size()) {
   ranges::sort(harmonics);
   choose_displacements(model);
   set_dynamics(model);
+  set_characteristics(model);
 }
 
 void Frame::choose_displacements(const Model& model) {
@@ -148,6 +149,26 @@ void Frame::set_dynamics(const Model& model) {
   drop_rounding(free, free_size);
 }
 
+/// q = W^{-1} (p + shift), q' = W^{-1} (u + drift); u' = W M^{-1} force.
+void Frame::set_characteristics(const Model& model) {
+  if (model.characteristics.empty()) return;
+  const Matrix to_velocity = W * inverse_mass(model), size = W.cwiseAbs() * inverse_mass(model).cwiseAbs();
+  for (const Characteristic& one_of : model.characteristics) {
+    const RowVector pair = pair_row(n, one_of.a, one_of.b);
+    Matrix row = pair * W_inverse;
+    drop_rounding(row, pair.cwiseAbs() * W_inverse.cwiseAbs());
+    PairRows rows{RowVector::Zero(this->size()), RowVector::Zero(this->size()), {}};
+    rows.displacement.head(n) = row;
+    rows.displacement[one()] = row.row(0).dot(shift.head(n));
+    rows.velocity.segment(d, n) = row;
+    rows.velocity[one()] = row.row(0).dot(drift.head(n));
+    Matrix push = to_velocity * pair.transpose();
+    drop_rounding(push, size * pair.cwiseAbs().transpose());
+    rows.push = push;
+    characteristics.push_back(std::move(rows));
+  }
+}
+
 void Frame::drop_rounding(Matrix& matrix, const Matrix& size) {
   constexpr double roundings = 0x1p-47;  // 64 units
   matrix = (matrix.array().abs() > roundings * size.array()).select(matrix, 0.0);
@@ -166,6 +187,41 @@ RowVector Frame::gap_row(const ContactRow& contact) const {
 RowVector Frame::push_row(const Model& model, int i) const {
   const CompliantStop& stop = model.compliant_stops[i];
   return -stop.stiffness * gap_row(compliant[i]) + stop.damping * velocity_row(compliant[i]);
+}
+
+Piece piece_of(const Characteristic& characteristic, int piece) {
+  const auto& corners = characteristic.corners;
+  const auto last = static_cast<int>(corners.size());
+  const Characteristic::Corner& from = corners[static_cast<std::size_t>(std::max(piece - 1, 0))];
+  if (characteristic.over == Characteristic::Over::zones)
+    return {piece == 0 ? characteristic.slope_below : from.force, 0.0};
+  double slope = piece == 0 ? characteristic.slope_below : characteristic.slope_above;
+  if (piece > 0 && piece < last) {
+    const Characteristic::Corner& to = corners[static_cast<std::size_t>(piece)];
+    slope = (to.force - from.force) / (to.at - from.at);
+  }
+  return {slope, from.force - slope * from.at};
+}
+
+Piece piece_rate(const Characteristic& characteristic, const Characteristic& rate, int piece) {
+  const auto last = static_cast<int>(characteristic.corners.size());
+  const auto i = static_cast<std::size_t>(std::max(piece - 1, 0));
+  const Characteristic::Corner &from = characteristic.corners[i], &change = rate.corners[i];
+  if (characteristic.over == Characteristic::Over::zones) return {piece == 0 ? rate.slope_below : change.force, 0.0};
+  const double slope = piece_of(characteristic, piece).slope;
+  double slope_rate = piece == 0 ? rate.slope_below : rate.slope_above;
+  if (piece > 0 && piece < last) {
+    const Characteristic::Corner &to = characteristic.corners[i + 1], &to_change = rate.corners[i + 1];
+    slope_rate = (to_change.force - change.force - slope * (to_change.at - change.at)) / (to.at - from.at);
+  }
+  return {slope_rate, change.force - slope_rate * from.at - slope * change.at};
+}
+
+RowVector Frame::force_row(const Model& model, int i, int piece) const {
+  const Piece line = piece_of(model.characteristics[i], piece);
+  RowVector row = line.slope * slope_row(model, i);
+  row[one()] += line.offset;
+  return row;
 }
 
 Matrix Frame::kinematics(double omega) const {

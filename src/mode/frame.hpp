@@ -32,6 +32,21 @@ struct ContactRow {
   double sign = 1.0;
 };
 
+/// A pair of bodies without a number of its own in contact coordinates: rows over X, and u' per unit force on a against
+/// one on b.
+struct PairRows {
+  RowVector displacement, velocity;
+  Vector push;
+};
+
+/// One piece of a characteristic: force = slope value + offset; in a zone slope times the velocity.
+struct Piece {
+  double slope = 0.0, offset = 0.0;
+};
+[[nodiscard]] Piece piece_of(const Characteristic& characteristic, int piece);
+/// Its derivative, `rate` the derivative of the characteristic's numbers.
+[[nodiscard]] Piece piece_rate(const Characteristic& characteristic, const Characteristic& rate, int piece);
+
 struct Frame {
   explicit Frame(const Model& model);
 
@@ -46,6 +61,7 @@ struct Frame {
   /// where that is rounding: clearances that add up, as 0.1 + 0.2 and 0.3, let all gaps of a loop close at once.
   Vector shift_slack, drift_slack;
   std::vector<ContactRow> stops, frictions, compliant;
+  std::vector<PairRows> characteristics;
   Matrix mass_inverse;  ///< d x d: W M^{-1} W^T
   Matrix free;          ///< d x m: u' = free . X with no contact force
   Matrix free_size;     ///< the sums of the sizes of the terms that each of its entries was made of
@@ -65,6 +81,17 @@ struct Frame {
   [[nodiscard]] RowVector gap_row(const ContactRow& contact) const;
   /// Row over X of the force of a compliant stop, stiffness delta + damping delta'.
   [[nodiscard]] RowVector push_row(const Model& model, int i) const;
+  /// Row over X of what a characteristic is a polyline over, and of its force in a piece.
+  [[nodiscard]] const RowVector& value_row(const Model& model, int i) const {
+    const bool rated = model.characteristics[i].over == Characteristic::Over::velocity;
+    return rated ? characteristics[i].velocity : characteristics[i].displacement;
+  }
+  /// What the slope of a piece multiplies.
+  [[nodiscard]] const RowVector& slope_row(const Model& model, int i) const {
+    const bool displaced = model.characteristics[i].over == Characteristic::Over::displacement;
+    return displaced ? characteristics[i].displacement : characteristics[i].velocity;
+  }
+  [[nodiscard]] RowVector force_row(const Model& model, int i, int piece) const;
   /// The rows p' = u + drift and the forcing oscillators of A; the rows u' are left zero.
   [[nodiscard]] Matrix kinematics(double omega) const;
 
@@ -86,6 +113,7 @@ struct Frame {
  private:
   void choose_displacements(const Model& model);
   void set_dynamics(const Model& model);
+  void set_characteristics(const Model& model);
 };
 
 }  // namespace slapstick::mode

@@ -2,6 +2,8 @@
 #include "mode/held.hpp"
 
 #include "base/dense.hpp"
+#include "base/ranges.hpp"
+#include "mode/contact_force.hpp"
 
 namespace slapstick::mode {
 namespace {
@@ -62,10 +64,24 @@ std::vector<ForceLimit> force_limits(const Frame& frame, const std::vector<HeldP
   return limits;
 }
 
-double friction_limit(const HeldPair& pair, const Model& model) {
-  double limit = 0.0;
-  for (int i : pair.frictions) limit += model.frictions[i].static_friction;
+RowVector friction_limit(const HeldPair& pair, const Model& model, const Frame& frame, const ContactStates& states) {
+  double fixed = 0.0;
+  RowVector limit = RowVector::Zero(frame.size());
+  for (int i : pair.frictions) {
+    const FrictionContact& contact = model.frictions[i];
+    if (contact.normal)
+      limit += contact.static_friction * load_row(model, frame, states, i);
+    else
+      fixed += contact.static_friction;
+  }
+  limit[frame.one()] += fixed;
   return limit;
+}
+
+bool alone(const std::vector<HeldPair>& pairs, int friction) {
+  return ranges::any_of(pairs, [&](const HeldPair& pair) {
+    return pair.stops.empty() && pair.frictions.size() == 1 && pair.frictions.front() == friction;
+  });
 }
 
 }  // namespace slapstick::mode

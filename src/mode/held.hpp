@@ -33,7 +33,11 @@ struct ForceLimit {
 /// What the pairs can bear: friction up to the sum of its limits either way, stops any push on their side. In the order of the guards.
 [[nodiscard]] std::vector<ForceLimit> force_limits(const Frame& frame, const std::vector<HeldPair>& pairs);
 
-/// The sum of the static limits of a pair's friction contacts.
-[[nodiscard]] double friction_limit(const HeldPair& pair, const Model& model);
+/// Row over X of the sum of the static limits of a pair's friction contacts.
+[[nodiscard]] RowVector friction_limit(const HeldPair& pair, const Model& model, const Frame& frame,
+                                       const ContactStates& states);
+
+/// Does no other contact hold the pair of a friction contact that sticks?
+[[nodiscard]] bool alone(const std::vector<HeldPair>& pairs, int friction);
 
 }  // namespace slapstick::mode

@@ -42,7 +42,7 @@ void Mode::build_operators(const Frame& frame, const Model& model, double longes
   const Series series(outline_.system, outline_.system_size, rows, d_, model.forcing_period(), longest_window);
   window_ = series.window();
   window_in_periods_ = series.window_in_periods();
-  noise_factor_ = (m_ + 16.0) * event::unit_roundoff;
+  noise_factor_ = noise_factor_of(m_);
 
   const auto guards = outline_.guards.size();
   state_blocks_ = (m_ + 7) / 8;
@@ -86,14 +86,29 @@ void Mode::store_start(const Series& series, int g) {
   start_noise_.close();
 }
 
+namespace {
+
+/// The lanes that dropped terms add to. Divided by x^order they are no larger, nor are their slopes and curvatures: the
+/// first is x^24.
+event::Lane8 bounds_of(const Tail<double>& tail) {
+  event::Lane8 bounds{};
+  bounds[event::hull_error] = bounds[event::noise_2] = tail.value;
+  bounds[event::slope_error] = bounds[event::slope_noise] = tail.slope;
+  bounds[event::curvature_error] = bounds[event::curvature_noise] = tail.curvature;
+  return bounds;
+}
+
+}  // namespace
+
 /// What guard g adds to its hull, by column.
 void Mode::store_bounds(int g, const Series& series) {
   coarse_noise_.push_back(0.0);
   for (int i = 0; i < m_; ++i) {
-    remainders_.push_back(series.remainder(static_cast<std::size_t>(g), i));
+    const Tail<double> tail = series.tail(static_cast<std::size_t>(g), i);
+    tails_.push_back(bounds_of(tail));
     double size = 0.0;
     for (int b = 0; b < 3; ++b) size += event::sum(event::magnitude(taylor_[(3 * g + b) * m_ + i]));
-    coarse_noise_[g] = std::max(coarse_noise_[g], noise_factor_ * size + remainders_.back());
+    coarse_noise_[g] = std::max(coarse_noise_[g], noise_factor_ * size + tail.value);
   }
   for (int order = 0; order < stored_orders; ++order) {
     for (int i = 0; i < m_; ++i) {
@@ -121,9 +136,6 @@ void Mode::store_quick_look(int g, int order) {
   quick_errors_.push_back(up * error);
 }
 
-/// The bounds that a Taylor remainder adds to.
-constexpr event::Lane8 remainder_counts = {1, 1, 1, 0, 0, 1, 1, 1};
-
 /// The hull of column i of guard g, x^order divided out.
 event::Hull Mode::hull_column(int g, int order, int i) const {
   std::array<double, event::terms> a{}, size{};
@@ -132,11 +144,13 @@ event::Hull Mode::hull_column(int g, int order, int i) const {
     size[n - order] = std::abs(a[n - order]);
   }
   event::Hull hull = event::enclose(a.data(), size.data(), event::terms - order, noise_factor_);
-  hull.bounds += remainders_[g * m_ + i] * remainder_counts;
+  hull.bounds += tails_[g * m_ + i];
   return hull;
 }
 
-void Mode::step(const double* X, event::Lane8* out) const { kernels_->multiply(step_.data(), state_blocks_, m_, X, out); }
+void Mode::step(const double* X, event::Lane8* out) const {
+  kernels_->multiply(step_.data(), state_blocks_, m_, X, out);
+}
 
 bool Mode::excludes(int g, int order, const double* X, double size, double more) const {
   if (order >= stored_orders) return false;
@@ -161,9 +175,9 @@ void Mode::enclose_rare(int g, int order, const double* X, const double* magnitu
   const auto row = static_cast<std::ptrdiff_t>(3 * g) * m_;
   event::Coefficients a, size{};
   kernels_->multiply(taylor_.data() + row, 3, m_, X, a.data());
-  double remainder = 0.0;
+  event::Lane8 tail{};
   for (int i = 0; i < m_; ++i) {
-    remainder += remainders_[g * m_ + i] * magnitude[i];
+    tail += tails_[g * m_ + i] * magnitude[i];
     for (int b = 0; b < 3; ++b) size[b] += event::magnitude(taylor_[row + b * m_ + i]) * magnitude[i];
   }
   std::array<double, event::terms> values{}, sizes{};
@@ -172,7 +186,7 @@ void Mode::enclose_rare(int g, int order, const double* X, const double* magnitu
     sizes[n - order] = size[n / 8][n % 8];
   }
   out = event::enclose(values.data(), sizes.data(), event::terms - order, noise_factor_);
-  out.bounds += remainder * remainder_counts;
+  out.bounds += tail;
 }
 
 void Mode::taylor(int g, int order, const double* X, event::Coefficients& out) const {

@@ -37,6 +37,8 @@ class Mode {
   void step(const double* X, event::Lane8* out) const;
   /// The rounding of a guard at the start is within this times Guard::size.
   [[nodiscard]] double noise_factor() const { return noise_factor_; }
+  /// Of every mode with m numbers.
+  [[nodiscard]] static double noise_factor_of(int m) { return (m + 16.0) * event::unit_roundoff; }
   /// A coarse bound of the rounding of guard g, anywhere on the window, for numbers whose sizes sum to 1.
   [[nodiscard]] double coarse_noise(int g) const { return coarse_noise_[g]; }
   /// A quick look at a guard: true only if it is excluded, also where its noise is `more` than X's own. size: sum of |X|. The bounds are replaced
@@ -68,13 +70,14 @@ class Mode {
 
   const event::Kernels* kernels_ = &event::kernels();
   Outline outline_;
-  std::vector<double> drift_, remainders_, coarse_noise_;
+  std::vector<double> drift_, coarse_noise_;
   int d_ = 0, m_ = 0, state_blocks_ = 0;
   double window_ = 1.0, window_in_periods_ = 1.0, noise_factor_ = 0.0;
   event::Lanes step_, taylor_, leading_noise_;
   event::Lanes coordinates_;  ///< Taylor rows of the displacements, or empty: then `terms_` is used
   TermSum terms_;
   event::Lanes hulls_, hull_bounds_;  ///< [guard][order], see event::Hull
+  event::Lanes tails_;                ///< [guard], what the dropped terms add to the bounds
   std::vector<double> quick_errors_;  ///< [guard][order], of `excludes`, per unit of any X_i
   // Larger modes only:
   PackedRows near_hulls_;            ///< [guard][order], the columns that are not small

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/dense.hpp"
+#include "mode/contact_force.hpp"
 #include "mode/held.hpp"
 
 namespace slapstick::mode {
@@ -25,13 +26,14 @@ class Builder {
   void note_steady(const Matrix& G);
   void arm_gap(int stop);
   void arm_compliant(int i);
+  void arm_corners(int i);
+  void arm_load(int friction);
 
   const Model& model_;
   const Frame& frame_;
   Outline& out_;
   const int d_, m_;
   std::vector<HeldPair> held_;
-  Matrix holding_;  ///< f0 = holding X, one row per held pair
 };
 
 /// Along a displacement the holding force is f0 = -lambda, positive when it pushes a in the -x direction.
@@ -39,16 +41,29 @@ void Builder::select_linear_system() {
   Matrix acceleration = frame_.free, size = frame_.free_size;
   for (std::size_t i = 0; i < out_.states.frictions.size(); ++i) {
     const ContactRow& contact = frame_.frictions[i];
-    const double force = static_cast<double>(out_.states.frictions[i]) * model_.frictions[i].kinetic_friction;
+    const double force = direction(out_.states.frictions[i]) * model_.frictions[i].kinetic_friction;
     const Vector change = force * contact.sign * frame_.mass_inverse.col(contact.own);
+    if (model_.frictions[i].normal) {
+      const Matrix loaded = change * load_row(model_, frame_, out_.states, static_cast<int>(i));
+      acceleration -= loaded;
+      size += loaded.cwiseAbs();
+      continue;
+    }
     acceleration.col(frame_.one()) -= change;
     size.col(frame_.one()) += change.cwiseAbs();
   }
   for (std::size_t i = 0; i < out_.states.compliant.size(); ++i) {
-    if (out_.states.compliant[i] != CompliantState::on) continue;
+    const CompliantState state = out_.states.compliant[i];
+    if (state != CompliantState::on && state != CompliantState::bounded) continue;
     const ContactRow& contact = frame_.compliant[i];
+    const Matrix change = contact.sign * frame_.mass_inverse.col(contact.own) *
+                          compliant_row(model_, frame_, static_cast<int>(i), state);
+    acceleration -= change;
+    size += change.cwiseAbs();
+  }
+  for (std::size_t i = 0; i < out_.states.pieces.size(); ++i) {
     const Matrix change =
-        contact.sign * frame_.mass_inverse.col(contact.own) * frame_.push_row(model_, static_cast<int>(i));
+        frame_.characteristics[i].push * frame_.force_row(model_, static_cast<int>(i), out_.states.pieces[i]);
     acceleration -= change;
     size += change.cwiseAbs();
   }
@@ -71,9 +86,9 @@ void Builder::hold(Matrix& acceleration, Matrix& size) {
   const Matrix D_inverse = least_norm_inverse(G * frame_.mass_inverse * G.transpose());
   const Matrix push = frame_.mass_inverse * G.transpose();
   const Matrix holding_size = D_inverse.cwiseAbs() * (G * size);
-  holding_ = D_inverse * (G * acceleration);
-  Frame::drop_rounding(holding_, holding_size);
-  acceleration -= push * holding_;
+  out_.holding = D_inverse * (G * acceleration);
+  Frame::drop_rounding(out_.holding, holding_size);
+  acceleration -= push * out_.holding;
   size += push.cwiseAbs() * holding_size;
   Frame::drop_rounding(acceleration, size);
   note_steady(G);
@@ -96,15 +111,30 @@ void Builder::arm_guards() {
   }
   for (std::size_t i = 0; i < out_.states.compliant.size(); ++i) arm_compliant(static_cast<int>(i));
   for (std::size_t i = 0; i < out_.states.frictions.size(); ++i) {
-    const auto s = static_cast<double>(out_.states.frictions[i]);
+    const double s = direction(out_.states.frictions[i]);
     if (s != 0.0)
       out_.guards.push_back({GuardKind::slip, static_cast<int>(i), s * frame_.velocity_row(frame_.frictions[i])});
   }
   for (const ForceLimit& limit : force_limits(frame_, held_)) {
-    const RowVector friction = friction_limit(held_[limit.pair], model_) * RowVector::Unit(m_, frame_.one());
-    const RowVector f0 = holding_.row(static_cast<Eigen::Index>(limit.pair));
+    const RowVector friction = friction_limit(held_[limit.pair], model_, frame_, out_.states);
+    const RowVector f0 = out_.holding.row(static_cast<Eigen::Index>(limit.pair));
     out_.guards.push_back({limit.kind, limit.contact, friction + limit.side * f0});
   }
+  for (std::size_t i = 0; i < out_.states.frictions.size(); ++i) {
+    if (model_.frictions[i].normal) arm_load(static_cast<int>(i));
+  }
+  for (std::size_t i = 0; i < out_.states.pieces.size(); ++i) arm_corners(static_cast<int>(i));
+}
+
+/// A contact that nothing presses is unloaded. In stick the limits +-f_s N of a contact alone on its pair say that N > 0.
+void Builder::arm_load(int friction) {
+  const FrictionState state = out_.states.frictions[friction];
+  RowVector load = load_row(model_, frame_, out_.states, friction);
+  const bool pressed = !load.isZero(0.0);
+  if (!pressed) load[frame_.one()] = -1.0;
+  if (state == FrictionState::unloaded) return out_.guards.push_back({GuardKind::unloaded, friction, -load});
+  if (state == FrictionState::stick && pressed && alone(held_, friction)) return;
+  out_.guards.push_back({GuardKind::load, friction, load});
 }
 
 void Builder::arm_compliant(int i) {
@@ -112,14 +142,33 @@ void Builder::arm_compliant(int i) {
   const RowVector gap = frame_.gap_row(frame_.compliant[i]), force = frame_.push_row(model_, i);
   const CompliantStop& stop = model_.compliant_stops[i];
   const bool by_force = !stop.pulls && stop.damping > 0.0;
-  if (state == CompliantState::off)
-    out_.guards.push_back({GuardKind::engage, i, gap});
-  else if (state == CompliantState::on)
-    out_.guards.push_back({by_force ? GuardKind::let_go : GuardKind::leave, i, by_force ? force : RowVector(-gap)});
-  else {
-    out_.guards.push_back({GuardKind::leave, i, -gap});
-    out_.guards.push_back({GuardKind::push, i, -force});
+  const RowVector excess = -2.0 * stop.stiffness * gap - force;  // of the spring force over the damping force
+  switch (state) {
+    case CompliantState::off:
+      out_.guards.push_back({GuardKind::engage, i, gap});
+      break;
+    case CompliantState::on:
+      out_.guards.push_back({by_force ? GuardKind::let_go : GuardKind::leave, i, by_force ? force : RowVector(-gap)});
+      if (stop.bounded && by_force) out_.guards.push_back({GuardKind::bound, i, excess});
+      break;
+    case CompliantState::detached:
+      out_.guards.push_back({GuardKind::leave, i, -gap});
+      out_.guards.push_back({GuardKind::push, i, -force});
+      break;
+    case CompliantState::bounded:
+      out_.guards.push_back({GuardKind::leave, i, -gap});
+      out_.guards.push_back({GuardKind::beyond, i, -excess});
+      break;
   }
+}
+
+/// The corners on both sides of the piece that is in force.
+void Builder::arm_corners(int i) {
+  const auto& corners = model_.characteristics[i].corners;
+  const auto piece = static_cast<std::size_t>(out_.states.pieces[i]);
+  const RowVector value = frame_.value_row(model_, i), one = RowVector::Unit(m_, frame_.one());
+  if (piece < corners.size()) out_.guards.push_back({GuardKind::corner_above, i, corners[piece].at * one - value});
+  if (piece > 0) out_.guards.push_back({GuardKind::corner_below, i, value - corners[piece - 1].at * one});
 }
 
 void Builder::note_guard_structure() {
@@ -129,7 +178,7 @@ void Builder::note_guard_structure() {
       if (guard.row[i] != 0.0) guard.entries.push_back({i, guard.row[i]});
     const bool mechanical =
         guard.row.tail(m_ - 2 * d_).isZero(0.0);  // a phase has the clock's rounding besides its own
-    if (mechanical && guard.entries.size() == 1) {
+    if (mechanical && guard.entries.size() == 1 && !of_crossing(guard.kind)) {  // a corner is not made exactly zero
       guard.single = guard.entries.front().column;
       guard.factor = guard.entries.front().value;
       if (guard.single < d_ && frame_.drift[guard.single] == 0.0) guard.rate = frame_.u(guard.single);
@@ -154,7 +203,7 @@ void Builder::arm_gap(int stop) {
     }
     const ContactRow& friction = frame_.frictions[i];
     const double same = contact.sign * friction.sign * frame_.parallel(contact.own, friction.own);
-    if (same * static_cast<int>(out_.states.frictions[i]) < 0.0) return;
+    if (same * direction(out_.states.frictions[i]) < 0.0) return;
   }
   if (out_.steady[contact.own] && !on_belt) return;
   out_.guards.push_back({GuardKind::gap, stop, frame_.gap_row(contact)});
@@ -163,7 +212,8 @@ void Builder::arm_gap(int stop) {
 }  // namespace
 
 std::string_view name(GuardKind kind) {
-  constexpr std::string_view words[] = {"gap", "slip", "stick", "stick", "press", "engage", "leave", "let-go", "push"};
+  constexpr std::string_view words[] = {"gap",  "slip",   "stick",  "stick", "press",    "engage", "leave", "let-go",
+                                        "push", "corner", "corner", "load",  "unloaded", "bound",  "beyond"};
   return words[static_cast<int>(kind)];
 }
 

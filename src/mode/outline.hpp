@@ -10,7 +10,7 @@ namespace slapstick::mode {
 
 struct Guard {
   GuardKind kind;
-  int contact;    ///< index among the stops (gap, press), friction contacts (slip, stick) or compliant stops (others)
+  int contact;  ///< index among the stops (gap, press), friction contacts (slip, stick) compliant stops or characteristics (others)
   RowVector row;  ///< h = row . X
   /// Index of the gap guard of the same pair whose rate of fall this slip guard is (h = -gap'), or -1. While such a gap is proven to
   /// fall, the slip guard is positive: y and w are one function and its derivative.
@@ -42,7 +42,7 @@ struct Guard {
 
 /// X' = system X in a combination of contact states, and what must stay positive while it lasts. Cost: O(m^3), some microseconds.
 ///
-/// Slip: kinetic friction -s f_k on a. Compliant stops: their force on b, the opposite on a. Held contacts: M u' = R(X) + G^T lambda
+/// Slip: kinetic friction -s f_k on a. Compliant stops: their force on b, the opposite on a. Characteristics: the force of their piece. Held contacts: M u' = R(X) + G^T lambda
 /// with G u' = 0, so that lambda = -(G M^{-1} G^T)^{-1} G M^{-1} R is a linear functional of X. Contacts on one pair are held by one
 /// multiplier and share their limits; where other held contacts depend on each other lambda is the solution of least norm.
 struct Outline {
@@ -54,6 +54,7 @@ struct Outline {
   std::vector<Guard>
       guards;  ///< in the order in which events at one instant are handled: gaps, relative velocities, forces
   std::vector<bool> steady;  ///< u_i keeps its value to the last bit: its pair is held
+  Matrix holding;            ///< f0 of each held pair (mode/held.hpp): a row over X each
 };
 
 }  // namespace slapstick::mode

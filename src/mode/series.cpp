@@ -121,25 +121,40 @@ double Series::norm(const RowVector& scale) const {
   return norm;
 }
 
-/// By columns, the sum of the dropped terms: n < 40 as they are, the others by their norm, |T_{39+k}| <= |T_39| nu^k 39! / (39 + k)!.
-RowVector Series::tail(std::size_t r, const RowVector& scale, double ratio) const {
-  RowVector sum = RowVector::Zero(m_);
+/// By columns, the sums over the dropped terms: n < 40 as they are, the others by their norm, |T_{39+k}| <= |T_39| nu^k 39! / (39 + k)!, so that
+///     sum |T_n|          <= |T_39| nu / 40 / (1 - nu / 41),
+///     sum n |T_n|        <= |T_39| nu / (1 - nu / 40),
+///     sum n (n-1) |T_n|  <= |T_39| nu (39 + nu / (1 - nu / 40)).
+Tail<RowVector> Series::tail(std::size_t r, const RowVector& scale, double ratio) const {
+  Tail<RowVector> sum{RowVector::Zero(m_), RowVector::Zero(m_), RowVector::Zero(m_)};
   double power = 1.0;
   for (int n = 0; n < event::terms; ++n) power *= ratio;
-  for (int n = event::terms; n < all_terms; ++n, power *= ratio) sum += power * sizes_[r].row(n);
+  for (int n = event::terms; n < all_terms; ++n, power *= ratio) {
+    const RowVector term = power * sizes_[r].row(n);
+    sum.value += term;
+    sum.slope += n * term;
+    sum.curvature += n * (n - 1.0) * term;
+  }
   double last = 0.0;
   for (Eigen::Index i = 0; i < m_; ++i)
     if (scale[i] > 0.0) last = std::max(last, power / ratio * sizes_[r](all_terms - 1, i) / scale[i]);
   const double nu = ratio * norm(scale);
   if (last == 0.0) return sum;
-  if (!(nu < all_terms)) return RowVector::Constant(m_, INFINITY);
-  return sum + last * (nu / all_terms) / (1.0 - nu / (all_terms + 1)) * scale;
+  if (!(nu < all_terms)) {
+    const RowVector none = RowVector::Constant(m_, INFINITY);
+    return {none, none, none};
+  }
+  const double left = nu / (1.0 - nu / all_terms);
+  sum.value += last * (nu / all_terms) / (1.0 - nu / (all_terms + 1)) * scale;
+  sum.slope += last * left * scale;
+  sum.curvature += last * (nu * (all_terms - 1.0) + nu * left) * scale;
+  return sum;
 }
 
 bool Series::tail_is_negligible(double ratio) const {
   const std::vector<RowVector> all = scales(ratio);
   for (std::size_t r = 0; r < all.size(); ++r) {
-    if ((tail(r, all[r], ratio).array() > 0.25 * event::unit_roundoff * all[r].array()).any()) return false;
+    if ((tail(r, all[r], ratio).value.array() > 0.25 * event::unit_roundoff * all[r].array()).any()) return false;
   }
   return true;
 }
@@ -150,7 +165,7 @@ void Series::set_window(double low, double period, double longest_window) {
   const DoubleDouble ratio = two_product(window_in_periods_, period) / reference_;
   const std::vector<RowVector> all = scales(ratio.hi);
   for (std::size_t r = 0; r < all.size(); ++r) {
-    remainders_.push_back(tail(r, all[r], ratio.hi));
+    tails_.push_back(tail(r, all[r], ratio.hi));
     DoubleDouble power = 1.0;
     for (int n = 0; n < all_terms; ++n, power *= ratio) {
       for (DoubleDouble& term : scaled_[r][n]) term *= power;

@@ -18,6 +18,14 @@ namespace slapstick::mode {
 /// that column: the largest kept term in its block (displacements, velocities, phases, constant), of this row or of a displacement.
 /// What is dropped is bounded column by column and enters the bounds of every guard; beyond n = 39 by a norm in those scales. As a
 /// number of periods H has at most 24 bits: multiples of it are exact, and a clock that counts windows loses nothing.
+/// What is dropped by T_n, n >= 24, adds on the window to a row, to its slope and to its curvature by x.
+template <class Number>
+struct Tail {
+  Number value;      ///< sum |T_n|
+  Number slope;      ///< sum n |T_n|
+  Number curvature;  ///< sum n (n - 1) |T_n|
+};
+
 class Series {
  public:
   /// @param rows  the last `displacements` of them read the displacements
@@ -32,8 +40,10 @@ class Series {
   [[nodiscard]] double taylor(std::size_t r, int n, int i) const;
   /// e_n of that coefficient.
   [[nodiscard]] double error(std::size_t r, int n, int i) const;
-  /// Bound on what the terms n >= 24 of column i add to row r on the window, per unit of X_i.
-  [[nodiscard]] double remainder(std::size_t r, int i) const { return remainders_[r][i]; }
+  /// Bounds on the dropped terms of column i of row r, per unit of X_i.
+  [[nodiscard]] Tail<double> tail(std::size_t r, int i) const {
+    return {tails_[r].value[i], tails_[r].slope[i], tails_[r].curvature[i]};
+  }
   /// Row r at the window's end, c exp(A H), and its time derivative there.
   [[nodiscard]] RowVector end_value(std::size_t r) const;
   [[nodiscard]] RowVector end_slope(std::size_t r) const;
@@ -52,7 +62,7 @@ class Series {
   void expand(const RowVector& row);
   [[nodiscard]] RowVector largest(std::size_t r, double ratio) const;
   [[nodiscard]] std::vector<RowVector> scales(double ratio) const;
-  [[nodiscard]] RowVector tail(std::size_t r, const RowVector& scale, double ratio) const;
+  [[nodiscard]] Tail<RowVector> tail(std::size_t r, const RowVector& scale, double ratio) const;
   [[nodiscard]] double norm(const RowVector& scale) const;
   [[nodiscard]] bool tail_is_negligible(double ratio) const;
   void set_window(double ratio, double period, double longest_window);
@@ -62,7 +72,7 @@ class Series {
   std::vector<std::vector<LongRow>> scaled_;  ///< [row][n]: c A^n / n! times window^n
   std::vector<Matrix> sizes_;                 ///< [row]: 40 x m, |c A^n / n!| times the reference length^n
   std::vector<Matrix> errors_;                ///< [row]: 40 x m, e_n, times the window^n once it is known
-  std::vector<RowVector> remainders_;
+  std::vector<Tail<RowVector>> tails_;
   double reference_ = 1.0, window_ = 1.0, window_in_periods_ = 1.0;
 };
 

@@ -112,7 +112,10 @@ Found check_spring(const Spring& spring, int index, const Model& model) {
 Found check_damper(const Damper& damper, int index, const Model& model) {
   Check check("damper", index);
   check.ends(damper.a, damper.b, model);
-  check.not_negative("coefficient", damper.coefficient);
+  check.sized("coefficient", damper.coefficient);
+  if (damper.coefficient < 0.0 && !damper.feeds)
+    check.fail("coefficient", assigned("coefficient", damper.coefficient) +
+                                  " is negative; a damper that may feed energy says feeds = true");
   return check.result();
 }
 
@@ -126,6 +129,20 @@ Found check_force(const Force& force, int index, const Model& model) {
   return check.result();
 }
 
+void check_normal(Check& check, const NormalForce& normal, const Model& model) {
+  check.sized("normal_force", normal.constant);
+  for (const NormalForce::Term& term : normal.terms) {
+    check.end("normal_force", term.coordinate, model);
+    if (term.coordinate == ground) check.fail("normal_force", "the ground does not move");
+    check.sized("normal_force", term.stiffness);
+    check.sized("normal_force", term.damping);
+  }
+  if (normal.compliant_stop >= static_cast<int>(model.compliant_stops.size()))
+    check.fail("normal_force", "there is no compliant stop " + std::to_string(normal.compliant_stop));
+  if (normal.terms.empty() && normal.compliant_stop < 0)
+    check.fail("normal_force", "it is constant: multiply static and kinetic by the constant instead");
+}
+
 Found check_friction(const FrictionContact& friction, int index, const Model& model, std::set<std::string>& used) {
   Check check("friction", index);
   check_name(check, friction.name, used);
@@ -136,6 +153,7 @@ Found check_friction(const FrictionContact& friction, int index, const Model& mo
   if (friction.kinetic_friction > friction.static_friction)
     check.fail("kinetic", assigned("kinetic", friction.kinetic_friction) + " exceeds " +
                               assigned("static", friction.static_friction));
+  if (friction.normal) check_normal(check, *friction.normal, model);
   return check.result();
 }
 
@@ -147,6 +165,18 @@ Found check_stop(const Stop& stop, int index, const Model& model, std::set<std::
   check.finite("restitution", stop.restitution);
   if (!(stop.restitution >= 0.0 && stop.restitution <= 1.0))
     check.fail("restitution", assigned("restitution", stop.restitution) + " is outside [0, 1]");
+  for (std::size_t i = 0; i < stop.corners.size(); ++i) {
+    const auto& [speed, restitution] = stop.corners[i];
+    const std::string point = "point " + std::to_string(i + 1) + ": ";
+    check.positive((point + "speed").c_str(), speed);
+    if (i > 0 && !(speed > stop.corners[i - 1].speed))
+      check.fail("restitution", point + shown(speed) + " is not above " + shown(stop.corners[i - 1].speed) +
+                                    " of the point before");
+    if (!(restitution >= 0.0 && restitution <= 1.0))
+      check.fail("restitution", point + assigned("restitution", restitution) + " is outside [0, 1]");
+  }
+  if (!stop.corners.empty() && stop.corners.front().restitution != stop.restitution)
+    check.fail("restitution", "it is not that of the first corner");
   return check.result();
 }
 
@@ -157,6 +187,26 @@ Found check_compliant_stop(const CompliantStop& stop, int index, const Model& mo
   check.sized("clearance", stop.clearance);
   check.positive("stiffness", stop.stiffness);
   check.not_negative("damping", stop.damping);
+  if (stop.bounded && stop.pulls) check.fail("law", "a stop whose damping force is bounded does not pull");
+  return check.result();
+}
+
+Found check_characteristic(const Characteristic& one_of, int index, const Model& model, std::set<std::string>& used) {
+  Check check("characteristic", index);
+  check_name(check, one_of.name, used);
+  check.ends(one_of.a, one_of.b, model);
+  if (one_of.corners.empty())
+    check.fail("characteristic", "it has no corner: a straight line is a stiffness or a coefficient");
+  for (std::size_t i = 0; i < one_of.corners.size(); ++i) {
+    const std::string point = "point " + std::to_string(i + 1);
+    check.sized((point + ": position").c_str(), one_of.corners[i].at);
+    check.sized((point + ": force").c_str(), one_of.corners[i].force);
+    if (i > 0 && !(one_of.corners[i].at > one_of.corners[i - 1].at))
+      check.fail("characteristic", point + ": " + shown(one_of.corners[i].at) + " is not above " +
+                                       shown(one_of.corners[i - 1].at) + " of the point before");
+  }
+  check.sized("slope_below", one_of.slope_below);
+  check.sized("slope_above", one_of.slope_above);
   return check.result();
 }
 
@@ -176,8 +226,11 @@ double size_of_motion(const Model& model, const State& state) {
   double stiffness = 0.0, force = 0.0, size = 0.0;
   for (const auto& spring : model.springs) stiffness = std::max(stiffness, std::abs(spring.stiffness));
   for (const double entry : model.stiffness) stiffness = std::max(stiffness, std::abs(entry));
+  for (const auto& one_of : model.characteristics)
+    if (one_of.over == Characteristic::Over::displacement)
+      stiffness = std::max({stiffness, std::abs(one_of.slope_below), std::abs(one_of.slope_above)});
   for (const auto& load : model.forces) force = std::max(force, std::abs(load.amplitude));
-  for (const auto& friction : model.frictions) force = std::max(force, friction.static_friction);
+  for (const auto& friction : model.frictions) force = std::max(force, friction.static_friction * (friction.normal ? std::abs(friction.normal->constant) : 1.0));
   for (std::size_t i = 0; i < state.size(); i += 2) size = std::max(size, std::abs(state[i]));
   return stiffness > 0.0 ? std::max(size, force / stiffness) : 0.0;
 }
@@ -218,6 +271,7 @@ std::string part_name(const Fault& fault, const Model& model) {
   if (fault.part == "friction") return model.frictions[i].name;
   if (fault.part == "stop") return model.stops[i].name;
   if (fault.part == "compliant_stop") return model.compliant_stops[i].name;
+  if (fault.part == "characteristic") return model.characteristics[i].name;
   return "";
 }
 
@@ -247,6 +301,7 @@ std::optional<Fault> first_fault(const Model& model) {
   look(model.frictions, [&](const auto& part, int i) { return check_friction(part, i, model, contacts); });
   look(model.stops, [&](const auto& part, int i) { return check_stop(part, i, model, contacts); });
   look(model.compliant_stops, [&](const auto& part, int i) { return check_compliant_stop(part, i, model, contacts); });
+  look(model.characteristics, [&](const auto& part, int i) { return check_characteristic(part, i, model, contacts); });
   if (!fault) fault = first_room_fault(model);
   return fault ? fault : check_omega(model);
 }

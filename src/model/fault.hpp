@@ -10,7 +10,8 @@ namespace slapstick {
 
 struct Fault {
   std::string
-      part;  ///< "coordinate", "spring", "damper", "force", "friction", "stop", "compliant_stop", "matrix" or "model"
+      part;  ///< "coordinate", "spring", "damper", "force", "friction", "stop", "compliant_stop", "characteristic",
+             ///< "matrix" or "model"
   int index = -1;     ///< which of them, from 0; -1 for the model itself and its matrices
   std::string field;  ///< the key as in a model file: "mass", "between", "static", ...; "" if it is not one field
   std::string what;   ///< "mass = -1 is not positive"

@@ -30,6 +30,41 @@ std::vector<std::string> state_names(const Model& model) {
   return names;
 }
 
+namespace {
+
+/// How many corners lie at or below this speed.
+std::size_t corners_below(const Stop& stop, double speed) {
+  std::size_t count = 0;
+  while (count < stop.corners.size() && speed >= stop.corners[count].speed) ++count;
+  return count;
+}
+
+}  // namespace
+
+double rebound_rate(const Stop& stop, const Stop& rate, double speed) {
+  const std::size_t above = corners_below(stop, speed);
+  if (above == 0) return rate.restitution;
+  const Stop::Corner &from = stop.corners[above - 1], &change = rate.corners[above - 1];
+  if (above == stop.corners.size()) return change.restitution;
+  const Stop::Corner &to = stop.corners[above], &to_change = rate.corners[above];
+  const double width = to.speed - from.speed, part = (speed - from.speed) / width;
+  const double slope = (to.restitution - from.restitution) / width;
+  return (1.0 - part) * (change.restitution - slope * change.speed) +
+         part * (to_change.restitution - slope * to_change.speed);
+}
+
+Rebound rebound(const Stop& stop, double speed) {
+  const auto& corners = stop.corners;
+  const std::size_t above = corners_below(stop, speed);
+  if (above == 0) return {stop.restitution, stop.restitution};
+  const Stop::Corner& from = corners[above - 1];
+  if (above == corners.size()) return {from.restitution, from.restitution};
+  const Stop::Corner& to = corners[above];
+  const double slope = (to.restitution - from.restitution) / (to.speed - from.speed);
+  const double r = from.restitution + slope * (speed - from.speed);
+  return {r, r + slope * speed};
+}
+
 void validate(const Model& model) {
   if (const auto fault = first_fault(model)) throw InputError(fault->place(model) + ": " + fault->what);
 }

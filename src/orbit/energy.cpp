@@ -7,6 +7,7 @@
 #include "base/dense.hpp"
 #include "base/elementary.hpp"
 #include "base/ranges.hpp"
+#include "mode/contact_force.hpp"
 #include "orbit/equations.hpp"
 #include "slapstick/orbit/periodic_orbit.hpp"
 
@@ -18,9 +19,9 @@ using mode::GuardKind;
 
 /// Nodes and weights of Gauss and Legendre on [-1, 1], eight points; exact to degree 15.
 constexpr std::array<double, 4> gauss_nodes = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
-                                         0.9602898564975363};
+                                               0.9602898564975363};
 constexpr std::array<double, 4> gauss_weights = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
-                                           0.1012285362903763};
+                                                 0.1012285362903763};
 
 class Account {
  public:
@@ -71,9 +72,18 @@ void Account::powers(const ModeRates& mode, const VectorXd& X, double weight) {
     energy_.damping += weight * v.dot(C * v);
   }
   for (std::size_t i = 0; i < model_.compliant_stops.size(); ++i) {
-    if (mode.outline.states.compliant[i] != mode::CompliantState::on) continue;
+    const mode::CompliantState state = mode.outline.states.compliant[i];
     const CompliantStop& stop = model_.compliant_stops[i];
-    energy_.damping += weight * stop.damping * rate(stop.a, stop.b) * rate(stop.a, stop.b);
+    const double speed = rate(stop.a, stop.b);
+    if (state == mode::CompliantState::on) energy_.damping += weight * stop.damping * speed * speed;
+    if (state == mode::CompliantState::bounded)  // as much as the spring's force
+      energy_.damping += weight * stop.stiffness * -frame_.gap_row(frame_.compliant[i]).dot(X) * speed;
+  }
+  for (std::size_t i = 0; i < model_.characteristics.size(); ++i) {
+    const Characteristic& one_of = model_.characteristics[i];
+    if (one_of.over == Characteristic::Over::displacement) continue;
+    const mode::RowVector force = frame_.force_row(model_, static_cast<int>(i), mode.outline.states.pieces[i]);
+    energy_.damping += weight * force.dot(X) * rate(one_of.a, one_of.b);
   }
   for (std::size_t i = 0; i < model_.frictions.size(); ++i) friction_power(mode, i, X, weight);
 }
@@ -82,26 +92,30 @@ void Account::powers(const ModeRates& mode, const VectorXd& X, double weight) {
 void Account::friction_power(const ModeRates& mode, std::size_t i, const VectorXd& X, double weight) {
   const FrictionContact& contact = model_.frictions[i];
   const auto state = mode.outline.states.frictions[i];
+  if (state == mode::FrictionState::unloaded) return;
+  const double load = load_row(model_, frame_, mode.outline.states, static_cast<int>(i)).dot(X);
   const double w = frame_.frictions[i].sign * X[frame_.u(frame_.frictions[i].own)];
-  double force = -static_cast<double>(state) * contact.kinetic_friction;  // on a
+  double force = -static_cast<double>(state) * contact.kinetic_friction * load;  // on a
   if (state == mode::FrictionState::stick && contact.belt_speed != 0.0) {
     const std::size_t g = mode.guard(GuardKind::stick_above, static_cast<int>(i));  // f_s - f0, f0 against a
-    force = mode.outline.guards[g].row.dot(X) - contact.static_friction;
+    force = mode.outline.guards[g].row.dot(X) - contact.static_friction * load;
   }
-  if (state != mode::FrictionState::stick) energy_.friction[i] += weight * contact.kinetic_friction * std::abs(w);
+  if (state != mode::FrictionState::stick) energy_.friction[i] += weight * contact.kinetic_friction * load * std::abs(w);
   energy_.input += weight * force * contact.belt_speed;
 }
 
-/// What the impacts of a leg's end take, and the spring energy of a compliant stop that is let go beyond its gap.
+/// What the impacts of a leg's end take, and the spring energy of a compliant stop that is let go beyond its gap; one
+/// that pushes again there brings the energy back.
 void Account::end(const Leg& leg, const LegValue& value) {
   const VectorXd X = value.X_end.value();
   if (!leg.strikes.empty()) {
     const double lost = kinetic(X.segment(frame_.d, frame_.n)) - kinetic(value.after.value().tail(frame_.n));
     energy_.impacts[static_cast<std::size_t>(std::countr_zero(leg.strikes.front().stops))] += lost;
   }
-  if (leg.ending == Ending::guard && leg.kind == GuardKind::let_go) {
+  if (leg.ending == Ending::guard && (leg.kind == GuardKind::let_go || leg.kind == GuardKind::push)) {
     const mode::ContactRow& own = frame_.compliant[leg.contact];
-    energy_.damping += 0.5 * model_.compliant_stops[leg.contact].stiffness * X[own.own] * X[own.own];
+    const double sign = leg.kind == GuardKind::let_go ? 1.0 : -1.0;
+    energy_.damping += sign * 0.5 * model_.compliant_stops[leg.contact].stiffness * X[own.own] * X[own.own];
   }
 }
 

@@ -11,6 +11,8 @@ class Extent {
   /// @throws as the family and System
   Extent(const Problem& problem, const Orbit& orbit);
 
+  /// The largest range of a velocity over the cycle.
+  [[nodiscard]] double velocity() const { return velocity_; }
   /// The distance of two contact states modulo translations: the largest of displacements and of velocities, each against the largest range of one over
   /// the cycle. Where nothing varies, as at rest, against the states themselves.
   [[nodiscard]] double distance(Eigen::VectorXd a, Eigen::VectorXd b) const;

@@ -1,11 +1,10 @@
-/// The extremes of linear functionals along a leg: roots of the derivative, isolated by the changes of sign in Bernstein's basis.
+/// The extremes of linear functionals along a leg: those of the polynomials that they are on short steps.
 #include "orbit/extremes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "base/bracketed_root.hpp"
+#include "event/polynomial.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::orbit {
@@ -18,87 +17,6 @@ using Eigen::VectorXd;
 constexpr int degree = 20;  ///< the terms of exp(A h) fall at least like those of e: 1 / 20! is below rounding
 constexpr double part_of_step = 0.5;  ///< .. over this part of ModeRates::longest_step
 constexpr double most_steps = 1e4;    ///< as in flow(): a mass may be next to nothing
-constexpr double unit_rounding = 0x1p-53;
-
-using Polynomial = std::array<double, degree + 1>;  ///< coefficients of x^j, x in [0, 1]
-using Bernstein = std::array<double, degree>;       ///< of a derivative, degree - 1
-
-double value_at(const Polynomial& f, double x) {
-  double sum = 0.0;
-  for (int j = degree; j >= 0; --j) sum = sum * x + f[static_cast<std::size_t>(j)];
-  return sum;
-}
-
-double slope_at(const Polynomial& f, double x) {
-  double sum = 0.0;
-  for (int j = degree; j > 0; --j) sum = sum * x + j * f[static_cast<std::size_t>(j)];
-  return sum;
-}
-
-/// b_i = sum_{j <= i} C(i, j) / C(n, j) a_j, n = degree - 1; a: coefficients of the derivative.
-Bernstein slope_of(const Polynomial& f) {
-  constexpr int n = degree - 1;
-  Bernstein b{};
-  for (int i = 0; i <= n; ++i) {
-    double weight = 1.0;  // C(i, j) / C(n, j)
-    for (int j = 0; j <= i; ++j) {
-      b[static_cast<std::size_t>(i)] += weight * (j + 1) * f[static_cast<std::size_t>(j) + 1];
-      weight *= static_cast<double>(i - j) / (n - j > 0 ? n - j : 1);
-    }
-  }
-  return b;
-}
-
-/// de Casteljau: `b` becomes the right half's. @returns the left half's
-Bernstein halve(Bernstein& b) {
-  Bernstein left{};
-  for (std::size_t k = 0; k < b.size(); ++k) {
-    left[k] = b[0];
-    for (std::size_t i = 0; i + 1 < b.size() - k; ++i) b[i] = 0.5 * (b[i] + b[i + 1]);
-  }
-  return left;
-}
-
-int changes_of_sign(const Bernstein& b) {
-  int changes = 0;
-  double last = 0.0;
-  for (const double value : b) {
-    if (value * last < 0.0) ++changes;
-    if (value != 0.0) last = std::copysign(1.0, value);
-  }
-  return changes;
-}
-
-/// One functional on one step: hands every place to `take` at which it may have an extreme.
-template <class Take>
-class Search {
- public:
-  Search(const Polynomial& f, const Take& take) : f_(f), take_(take) {
-    for (const double a : f) size_ += std::abs(a);
-  }
-
-  void within(Bernstein slope, double from, double to) const {
-    double steepest = 0.0;
-    for (const double b : slope) steepest = std::max(steepest, std::abs(b));
-    const int changes = changes_of_sign(slope);
-    if (changes == 0) return;  // monotone
-    const double middle = 0.5 * (from + to);
-    if (steepest * (to - from) <= unit_rounding * size_) return take_(middle, value_at(f_, middle));
-    if (changes == 1 && slope.front() != 0.0 && slope.back() != 0.0) {
-      const double x = bracketed_root([&](double at) { return slope_at(f_, at); }, from, to, unit_rounding);
-      return take_(x, value_at(f_, x));
-    }
-    take_(middle, value_at(f_, middle));
-    const Bernstein left = halve(slope);
-    within(left, from, middle);
-    within(slope, middle, to);
-  }
-
- private:
-  const Polynomial& f_;
-  const Take& take_;
-  double size_ = 0.0;
-};
 
 void note(Extremes& known, double value, std::size_t leg, double at) {
   if (value < known.least.value) known.least = {value, leg, at};
@@ -120,14 +38,11 @@ void look_along(const ModeSet& set, const Orbit& orbit, std::size_t leg, const M
     X = terms.rowwise().sum();
     const MatrixXd coefficients = functionals * terms;
     for (std::size_t k = 0; k < all.size(); ++k) {
-      Polynomial f;
-      for (int j = 0; j <= degree; ++j) f[static_cast<std::size_t>(j)] = coefficients(static_cast<Index>(k), j);
-      const auto take = [&](double x, double value) {
-        note(all[k], value, leg, orbit.duration(leg) * (i + x) / steps);
-      };
-      take(0.0, f[0]);
-      take(1.0, value_at(f, 1.0));
-      Search(f, take).within(slope_of(f), 0.0, 1.0);
+      event::Polynomial f;
+      f.degree = degree;
+      for (int j = 0; j <= degree; ++j) f.a[static_cast<std::size_t>(j)] = coefficients(static_cast<Index>(k), j);
+      event::possible_extremes(
+          f, [&](double x, double value) { note(all[k], value, leg, orbit.duration(leg) * (i + x) / steps); });
     }
   }
 }

@@ -46,20 +46,27 @@ void step(const ModeRates& mode, Index d, double s, Jet& X) {
   }
 }
 
+/// The factor F of an impulse and what a small change of the velocity is multiplied by: 1 + r and 1 + d(r v)/dv.
+struct Factors {
+  VectorXd value, slope;
+  MatrixXd rates;  ///< of F, by the parameters
+};
+
 /// Impulses along some displacements: u -> u - M^{-1} G^T D^+ F G u, of all columns of a jet.
-void push(const ModeSet& set, const std::vector<int>& rows, const VectorXd& factor, const MatrixXd& factor_rates,
-          Jet& X) {
+void push(const ModeSet& set, const std::vector<int>& rows, const Factors& factor, Jet& X) {
   const mode::Frame& frame = set.frame();
   const Index d = frame.d;
   const MatrixXd S = frame.mass_inverse(Eigen::all, rows), D = S(rows, Eigen::all);
   const dense::LeastNorm solver(D);
   const MatrixXd before = X.all.middleRows(d, d)(rows, Eigen::all);
-  const MatrixXd impulses = solver.solve(MatrixXd(factor.asDiagonal() * before));
+  MatrixXd load = factor.slope.asDiagonal() * before;
+  load.col(0) = factor.value.cwiseProduct(before.col(0));
+  const MatrixXd impulses = solver.solve(load);
   X.all.middleRows(d, d) -= S * impulses;
   for (Index p = 0; p < X.parameters; ++p) {
     const MatrixXd S_rate = set.frame_rate(static_cast<std::size_t>(p)).mass_inverse(Eigen::all, rows);
-    const VectorXd load = factor_rates.col(p).cwiseProduct(before.col(0)) - S_rate(rows, Eigen::all) * impulses.col(0);
-    X.by_parameter().col(p).segment(d, d) -= S * solver.solve(load) + S_rate * impulses.col(0);
+    const VectorXd change = factor.rates.col(p).cwiseProduct(before.col(0)) - S_rate(rows, Eigen::all) * impulses.col(0);
+    X.by_parameter().col(p).segment(d, d) -= S * solver.solve(change) + S_rate * impulses.col(0);
   }
 }
 
@@ -70,16 +77,22 @@ void strike(const ModeSet& set, const Leg& leg, Jet& X) {
     std::vector<int> stops;
     for (int stop = 0; stop < static_cast<int>(set.frame().stops.size()); ++stop)
       if ((strike.stops >> stop & 1U) != 0) stops.push_back(stop);
-    VectorXd factor = VectorXd::Ones(static_cast<Index>(stops.size()));
-    MatrixXd rates = MatrixXd::Zero(factor.size(), X.parameters);
-    for (std::size_t i = 0; i < stops.size(); ++i) {
-      rows.push_back(set.frame().stops[stops[i]].own);
+    const auto count = static_cast<Index>(stops.size());
+    Factors factor{VectorXd::Ones(count), VectorXd::Ones(count), MatrixXd::Zero(count, X.parameters)};
+    for (Index i = 0; i < count; ++i) {
+      const int k = stops[static_cast<std::size_t>(i)];
+      const mode::ContactRow& own = set.frame().stops[k];
+      rows.push_back(own.own);
       if (strike.to_rest) continue;
-      factor[static_cast<Index>(i)] += set.model().stops[stops[i]].restitution;
+      const Stop& stop = set.model().stops[k];
+      const double speed = own.sign * X.value()[set.frame().u(own.own)];
+      const Rebound law = rebound(stop, speed);
+      factor.value[i] += law.restitution;
+      factor.slope[i] += law.rate;
       for (Index p = 0; p < X.parameters; ++p)
-        rates(static_cast<Index>(i), p) = set.rate(static_cast<std::size_t>(p)).stops[stops[i]].restitution;
+        factor.rates(i, p) = rebound_rate(stop, set.rate(static_cast<std::size_t>(p)).stops[k], speed);
     }
-    push(set, rows, factor, rates, X);
+    push(set, rows, factor, X);
   }
 }
 
@@ -195,7 +208,8 @@ void flow(const ModeRates& mode, double s, Jet& X) {
 Jet leg_start(const ModeSet& set, const Leg& leg, const VectorXd& x, double t_begin) {
   Jet X = extended(set, x, t_begin);
   if (sums_impacts(leg))
-    push(set, {set.frame().stops[leg.contact].own}, VectorXd::Ones(1), MatrixXd::Zero(1, X.parameters), X);
+    push(set, {set.frame().stops[leg.contact].own},
+         {VectorXd::Ones(1), VectorXd::Ones(1), MatrixXd::Zero(1, X.parameters)}, X);
   return X;
 }
 

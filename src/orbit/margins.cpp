@@ -21,7 +21,7 @@ constexpr double samples_per_step =
 
 bool of_gap(GuardKind kind) { return kind == GuardKind::gap || kind == GuardKind::engage || kind == GuardKind::leave; }
 
-/// The displacement of a guard's contact.
+/// The displacement of a guard's contact, of all but corners.
 int displacement(const mode::Frame& frame, GuardKind kind, int contact) {
   if (mode::of_friction(kind)) return frame.frictions[contact].own;
   if (kind == GuardKind::gap || kind == GuardKind::press) return frame.stops[contact].own;
@@ -32,6 +32,11 @@ int displacement(const mode::Frame& frame, GuardKind kind, int contact) {
 bool zero_by_event(const mode::Frame& frame, const Leg& before, const mode::Guard& guard) {
   if (before.ending == Ending::cut) return false;
   const GuardKind kind = before.ending == Ending::chatter ? GuardKind::gap : before.kind;
+  if (of_crossing(kind) || of_crossing(guard.kind)) {  // the line just crossed, seen from its other side
+    const bool same = (of_corner(kind) && of_corner(guard.kind)) || (of_load(kind) && of_load(guard.kind)) ||
+                      (of_bound(kind) && of_bound(guard.kind));
+    return same && kind != guard.kind && before.contact == guard.contact;
+  }
   if (frame.parallel(displacement(frame, kind, before.contact), displacement(frame, guard.kind, guard.contact)) == 0)
     return false;
   if (of_gap(guard.kind))

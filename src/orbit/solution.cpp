@@ -65,6 +65,7 @@ void count_changes(Solution& found, const Orbit& orbit) {
                &after = orbit.shape.legs[(i + 1) % orbit.legs()].states.frictions;
     for (std::size_t c = 0; c < before.size(); ++c) {
       if (before[c] == after[c] || before[c] == FrictionState::stick) continue;
+      if (before[c] == FrictionState::unloaded || after[c] == FrictionState::unloaded) continue;
       ++(after[c] == FrictionState::stick ? found.sticks : found.reversals);
     }
   }
@@ -158,6 +159,11 @@ std::vector<EventOfOrbit> events(const Problem& problem, const Orbit& orbit) {
     frame.leave(X.data(), X.data() + frame.d, event.before.data());
     const auto stops = frame.stops.size(), frictions = frame.frictions.size(),
                at = static_cast<std::size_t>(leg.event_contact);
+    if (const auto first = stops + frictions + frame.compliant.size(); at >= first) {
+      event.w = frame.characteristics[at - first].velocity.dot(X);
+      all.push_back(std::move(event));
+      continue;
+    }
     const mode::ContactRow& row = at < stops               ? frame.stops[at]
                                   : at < stops + frictions ? frame.frictions[at - stops]
                                                            : frame.compliant[at - stops - frictions];

@@ -20,8 +20,8 @@ std::string_view name(SpecialType type) {
 }
 
 std::string_view name(Occurrence occurrence) {
-  return named<Occurrence, 10>(occurrence, {"fold", "doubling", "end-of-doubled", "torus", "crossing", "broken-symmetry",
-                                            "margin", "release", "onset", "death"});
+  return named<Occurrence, 10>(occurrence, {"fold", "doubling", "end-of-doubled", "torus", "crossing",
+                                            "broken-symmetry", "margin", "release", "onset", "death"});
 }
 
 std::string_view name(UsedMargin::Kind kind) {
@@ -33,7 +33,7 @@ std::string_view name(Sliding sliding) {
 }
 
 std::string_view name(Passage passage) {
-  return named<Passage, 11>(passage, {"same-events", "persistence", "fold", "jump", "family", "cascade", "merges",
+  return named<Passage, 12>(passage, {"same-events", "persistence", "fold", "jump", "family", "cascade", "merges", "equilibrium",
                                       "symmetric", "retraced", "not-followed", "unknown"});
 }
 
@@ -46,9 +46,10 @@ std::string_view name(NormalForm::Verdict verdict) {
 
 int contact_index(mode::GuardKind guard, int contact, const Model& model) {
   const auto stops = static_cast<int>(model.stops.size()), frictions = static_cast<int>(model.frictions.size());
-  if (mode::of_friction(guard)) return stops + contact;
+  if (mode::of_friction(guard) || mode::of_load(guard)) return stops + contact;
   if (guard == mode::GuardKind::gap || guard == mode::GuardKind::press) return contact;
-  return stops + frictions + contact;
+  if (!mode::of_corner(guard)) return stops + frictions + contact;
+  return stops + frictions + static_cast<int>(model.compliant_stops.size()) + contact;
 }
 
 std::vector<std::size_t> events_at(const SpecialPoint& point) {

@@ -1,8 +1,8 @@
 /// Walks a motion from event to event of one kind.
 #include "slapstick/section/event_section.hpp"
 
-#include "slapstick/base/error.hpp"
 #include "base/text.hpp"
+#include "slapstick/base/error.hpp"
 
 namespace slapstick {
 
@@ -25,7 +25,8 @@ EventChoice parse_event_choice(const std::string& text, const System& system) {
   EventChoice choice{parse_kind(text.substr(0, colon)), {}};
   if (colon == std::string::npos) return choice;
   const Model& model = system.model();
-  const auto contacts = static_cast<int>(model.stops.size() + model.frictions.size() + model.compliant_stops.size());
+  const auto contacts = static_cast<int>(model.stops.size() + model.frictions.size() + model.compliant_stops.size() +
+                                         model.characteristics.size());
   std::string known;
   for (int c = 0; c < contacts; ++c) {
     if (system.contact_name(c) == text.substr(colon + 1)) choice.contact = c;

@@ -68,6 +68,9 @@ void ImpactSection::note(const Event& event) {
     case EventKind::engage:
     case EventKind::disengage:
     case EventKind::separate:
+    case EventKind::corner:
+    case EventKind::unload:
+    case EventKind::load:
       break;
     case EventKind::chatter:
       ++between_.chatters;

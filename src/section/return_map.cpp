@@ -30,16 +30,23 @@ std::optional<FixedPoint> fixed_point(const Translations& translations, Eigen::V
                                       const Eigen::VectorXd& scale, Stop stop) {
   const Eigen::Index numbers = x.size() - translations.count();
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(numbers, numbers);
+  constexpr int most_steps = 40, most_idle = 4;
+  constexpr double idle = 0.8;  // of the step before
+  double last = INFINITY;
+  int idling = 0;
   try {
-    for (int step = 0; step < 12; ++step) {
+    for (int step = 0; step < most_steps && idling < most_idle; ++step) {
       const MapValue value = return_map(translations, x, n, stop);
       if (stopped(stop)) return {};
       const bool arrived = distance(value.image, x, scale) < 1e-11;
-      if (arrived) return FixedPoint{x, multipliers_of(value.jacobian)};
+      if (arrived) return FixedPoint{x, value.jacobian, multipliers_of(value.jacobian)};
       const Eigen::VectorXd residual = x - value.image;
       const Eigen::VectorXd correction =
           translations.representative(dense::solve(value.jacobian - identity, translations.numbers(residual)));
-      if (!correction.allFinite() || (correction.array().abs() / scale.array()).maxCoeff() > 0.5) return {};
+      const double size = (correction.array().abs() / scale.array()).maxCoeff();
+      if (!correction.allFinite() || size > 0.5) return {};
+      idling = size > idle * last ? idling + 1 : 0;
+      last = size;
       x += correction;
     }
   } catch (const InputError&) {      // the correction led behind a stop

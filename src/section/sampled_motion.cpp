@@ -43,7 +43,7 @@ SampledMotion::Item SampledMotion::next(Instant end) {
 void SampledMotion::read_sample() {
   sample_.time = due_;
   const Motion::Segment segment = motion_.segment();
-  sample_.mode = segment.mode;
+  sample_.mode = segment.duration > 0.0 ? segment.mode : motion_.mode_id();
   motion_.sample(std::clamp(due_.since(segment.start) * motion_.system().period(), 0.0, segment.duration),
                  sample_.state);
 }

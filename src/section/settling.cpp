@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "flow/compiled_system.hpp"
+#include "section/attraction.hpp"
 #include "slapstick/flow/stage.hpp"
 #include "slapstick/section/stop_choice.hpp"
 
@@ -15,7 +16,8 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr long returns_compared = 100;
-constexpr double repelling = 1e-6;  ///< a multiplier beyond 1 by more than its own error
+constexpr double known_to = 1e-9;   ///< a multiplier of a return within 1e-10
+constexpr double repelling = 1e-6;  ///< a multiplier of one of a family beyond 1 by more than its own error
 constexpr int shortest_round = 500;
 
 }  // namespace
@@ -143,64 +145,117 @@ std::vector<double> Settling::drift(const VectorXd& advance) const {
 
 std::optional<Cycle> Settling::run(int periods) {
   look_between();
-  long next_newton = 8;
+  constexpr long first_turn = 8;
+  long next_newton = first_turn, next_return = 0;
   for (int k = 0; k < periods && !cancelled(); ++k) {
     note_period();
     if (cancelled()) break;
+    const auto later = k + first_turn + k / 4;  // what failed is tried again so seldom that the motion costs more
     const bool newton_turn = k >= next_newton;
-    if (auto cycle = look_for_return(newton_turn)) return cycle;
-    if (newton_turn) next_newton = k + 8 + k / 4;
+    if (newton_turn) next_newton = later;
+    if (newton_turn || k >= next_return) {
+      const Look look = look_for_return(newton_turn, k >= next_return);
+      if (look.cycle) return look.cycle;
+      if (look.refused_return) next_return = later;
+    }
     note_approach(k, periods);
   }
-  return std::nullopt;
+  return cancelled() ? std::nullopt : look_around();
 }
 
-std::optional<Cycle> Settling::look_for_return(bool newton_turn) {
+Settling::Look Settling::look_for_return(bool newton_turn, bool return_turn) const {
   const auto kept = static_cast<long>(states_.size());
+  Look look;
+  double nearest = INFINITY;  // of the returns after fewer periods
   for (int n = 1; n <= options_.most_n && 2 * n < kept; ++n) {
     const double d = returned(n);
-    const bool returns = d <= options_.tolerance && same_events(n) && returned(n, 1) <= 2.0 * options_.tolerance;
-    if (returns)
-      if (auto cycle = accept(back(0), n, d)) return cycle;
-    const bool approaching = 3 * n < kept && d < options_.newton_start && d < returned(n, 1);
-    if (newton_turn && approaching)
-      if (auto cycle = try_newton(n)) return cycle;
+    const bool returns =
+        return_turn && d <= options_.tolerance && same_events(n) && returned(n, 1) <= 2.0 * options_.tolerance;
+    const bool approaching = newton_turn && 3 * n < kept && d < options_.newton_start && d < returned(n, 1);
+    const bool nearer = d < 0.5 * nearest;  // else it is a multiple of an n that was tried
+    nearest = std::min(nearest, d);
+    const bool multiple = look.refused_return != 0 && n % look.refused_return == 0;
+    const bool worthwhile = (returns && !multiple) || (approaching && nearer);
+    if (!worthwhile) continue;
+    if ((look.cycle = confirm(n))) return look;
+    if (returns) {
+      if ((look.cycle = member(n))) return look;
+      if (look.refused_return == 0) look.refused_return = n;
+    }
+  }
+  return look;
+}
+
+/// Of the last returns after n periods.
+VectorXd Settling::mean(int n, long count) const {
+  VectorXd sum = VectorXd::Zero(scale_.size());
+  for (long j = 0; j < count; ++j) sum += back(j * n);
+  return sum / static_cast<double>(count);
+}
+
+/// The cycle beside a motion that returns after n periods, the shortest first: a motion that alternates beside it,
+/// slowly nearer, returns after twice its length. Its mean over the alternations is where Newton's method begins.
+std::optional<Cycle> Settling::confirm(int n) const {
+  constexpr double beside = 0.1;  // of the motion's size: what alternates more widely is not beside a shorter cycle
+  for (int length = 1; length <= n && !cancelled(); ++length) {
+    if (n % length != 0 || (length < n && returned(length) > beside)) continue;
+    if (auto cycle = drawn_to(length, mean(length, n / length))) return cycle;
   }
   return std::nullopt;
 }
 
-/// Newton's method on the n-period map also finds cycles whose length divides n.
-int Settling::shortest_cycle(const VectorXd& x, int n) const {
-  for (int d = 1; d < n; ++d) {
-    if (n % d == 0 && distance(return_map(translations_, x, d, options_.stop).image, x, scale_) < 1e-8) return d;
+/// A shorter cycle that a stable one of n periods goes round several times; n becomes its length. Beside a multiplier
+/// -1 the cycle solves the equations of twice its length also at points beside it: 1 - lambda^2 is almost zero.
+FixedPoint Settling::once_round(FixedPoint found, int& n) const {
+  constexpr double same = 1e-5;  // of the motion's size: rounding over 1 - |lambda| where the cycle is barely stable
+  for (int length = 1; length < n; ++length) {
+    if (n % length != 0) continue;
+    auto shorter = fixed_point(translations_, found.x, length, scale_, options_.stop);
+    if (!shorter || !shorter->stable() || distance(shorter->x, found.x, scale_) > same) continue;
+    n = length;
+    return std::move(*shorter);
   }
-  return n;
+  return found;
 }
 
-/// Empty if the cycle at x repels: a motion that began on it, or passes it closely, is not drawn to it.
-std::optional<Cycle> Settling::accept(const VectorXd& x, int cycle, double d) const {
-  const int n = shortest_cycle(x, cycle);
-  const MapValue map = return_map(translations_, x, n, options_.stop);
-  auto multipliers = flow::multipliers_of(map.jacobian);
-  if (!multipliers.empty() && std::abs(multipliers.front()) > 1.0 + repelling) return std::nullopt;
-  return Cycle{x, n, std::move(multipliers), map.advance, distance(map.image, x, scale_), d};
-}
-
-/// A stable fixed point of the n-period map close by that the motion is drawn to.
-std::optional<Cycle> Settling::try_newton(int n) const {
-  const auto found = fixed_point(translations_, back(0), n, scale_, options_.stop);
+/// A stable fixed point of the n-period map that the motion is drawn to.
+std::optional<Cycle> Settling::drawn_to(int n, const VectorXd& start) const {
+  auto found = fixed_point(translations_, start, n, scale_, options_.stop);
   if (!found || !found->stable()) return std::nullopt;
-  const double before = distance(back(0), found->x, scale_);
-  if (before > 10.0 * options_.newton_start) return std::nullopt;
-  // Long enough for the slowest multiplier to halve the distance.
-  const double slowest = found->multipliers.empty() ? 0.0 : std::abs(found->multipliers.front());
-  const double cycles = slowest > 0.5 ? std::ceil(std::log(0.5) / std::log(slowest)) : 1.0;
-  if (cycles * n > options_.most_periods) return std::nullopt;
-  Motion trial = motion_;
-  for (long k = 0; k < static_cast<long>(cycles) * n && !cancelled(); ++k) run_period(trial);
-  const double after = distance(flow::contact_state(trial), found->x, scale_);
-  if (after > 0.8 * before + options_.tolerance) return std::nullopt;
-  return accept(found->x, n, after);
+  const Attraction seen = attraction(translations_, motion_, *found, n, scale_, options_.stop);
+  if (!seen.drawn) return std::nullopt;
+  found = once_round(std::move(*found), n);
+  const MapValue map = return_map(translations_, found->x, n, options_.stop);
+  return Cycle{found->x, n, found->multipliers, map.advance, distance(map.image, found->x, scale_), seen.distance};
+}
+
+/// The cycle that the motion is on, if that is one of a family, where Newton's method has no single point to go to, or
+/// if nothing draws motions beside it nor repels them.
+std::optional<Cycle> Settling::member(int n) const {
+  for (int length = 1; length <= n; ++length) {
+    if (n % length != 0 || returned(length) > options_.tolerance) continue;
+    const int dimensions = family(translations_, back(0), length, scale_, options_.stop);
+    const MapValue map = return_map(translations_, back(0), length, options_.stop);
+    auto multipliers = flow::multipliers_of(map.jacobian);
+    const double largest = multipliers.empty() ? 0.0 : std::abs(multipliers.front());
+    const bool neutral = largest >= 1.0 - known_to;
+    if ((dimensions == 0 && !neutral) || largest > 1.0 + repelling) continue;
+    return Cycle{
+        back(0),    length, std::move(multipliers), map.advance, distance(map.image, back(0), scale_), returned(length),
+        dimensions, true};
+  }
+  return std::nullopt;
+}
+
+/// A short cycle that the motion winds round: it returns to none of its states, but their mean is near the cycle.
+std::optional<Cycle> Settling::look_around() const {
+  constexpr int longest = 8;
+  for (int n = 1; n <= std::min(longest, options_.most_n) && !cancelled(); ++n) {
+    const long count = std::min(returns_compared, static_cast<long>(states_.size()) / n);
+    if (count < 2) break;
+    if (auto cycle = drawn_to(n, mean(n, count))) return cycle;
+  }
+  return std::nullopt;
 }
 
 }  // namespace slapstick::section

@@ -1,6 +1,6 @@
 #pragma once
-/// Whether a motion of a forced model settles on a cycle: returns of its stroboscopic state, and Newton's method on the
-/// n-period map where they come slowly.
+/// Whether a motion of a forced model settles on a cycle. Returns of its stroboscopic state say where to look; Newton's
+/// method on the n-period map and the rate at which the motion approaches decide.
 ///
 /// Both `classify` and the search for orbits ask this class, so that what one names the other finds. docs/classify.md,
 /// section 1, says how it decides.
@@ -27,13 +27,13 @@ struct SettlingOptions {
   int most_periods = 20'000;   ///< how long returns are looked for
   int most_n = 64;             ///< longest cycle sought, forcing periods
   double tolerance = 1e-10;    ///< return distance, relative to the size of the motion
-  double newton_start = 1e-3;  ///< return distance below which Newton's method is tried
+  double newton_start = 1e-3;  ///< return distance below which a cycle is looked for nearby
   Stop stop = nullptr;
   std::optional<std::chrono::steady_clock::time_point> until = {};  ///< ends the search, as `stop` does
   std::function<void(long periods)> progress = {};
 };
 
-/// A cycle of the stroboscopic map that the motion is drawn to.
+/// A cycle of the stroboscopic map that the motion is drawn to, or that it is on where the cycle is one of a family.
 struct Cycle {
   Eigen::VectorXd x;                              ///< contact state at phase 0, representative of its class
   int n = 0;                                      ///< forcing periods
@@ -41,6 +41,8 @@ struct Cycle {
   Eigen::VectorXd advance;                        ///< along each translation, per cycle
   double return_distance = 0.0;                   ///< of x from its image, relative to the motion's size
   double approach = 0.0;                          ///< how far the motion itself still was from the cycle
+  int family = 0;                                 ///< dimensions of the continuum of cycles that it is a member of
+  bool neutral = false;                           ///< the motion is on it, but is not drawn to it
 };
 
 class Settling {
@@ -77,7 +79,12 @@ class Settling {
   [[nodiscard]] double widest_return(int n) const;
   PeriodEvents run_period(Motion& motion) const;
   std::optional<Cycle> run(int periods);
-  std::optional<Cycle> look_for_return(bool newton_turn);
+  struct Look {
+    std::optional<Cycle> cycle;
+    int refused_return = 0;  ///< after so many periods the motion returned, but is drawn to no cycle; 0: none
+  };
+  /// Returns within the tolerance, and, as a start for Newton's method, wider ones.
+  [[nodiscard]] Look look_for_return(bool newton_turn, bool return_turn) const;
   void note_approach(int k, int periods);
   void note_period();
   void note_size(const Eigen::VectorXd& x);
@@ -86,9 +93,12 @@ class Settling {
     if (options_.progress) options_.progress(periods());
   }
   [[nodiscard]] bool same_events(long n) const;
-  [[nodiscard]] int shortest_cycle(const Eigen::VectorXd& x, int n) const;
-  [[nodiscard]] std::optional<Cycle> accept(const Eigen::VectorXd& x, int cycle, double returned) const;
-  [[nodiscard]] std::optional<Cycle> try_newton(int n) const;
+  [[nodiscard]] Eigen::VectorXd mean(int n, long count) const;
+  [[nodiscard]] std::optional<Cycle> confirm(int n) const;
+  [[nodiscard]] FixedPoint once_round(FixedPoint found, int& n) const;
+  [[nodiscard]] std::optional<Cycle> drawn_to(int n, const Eigen::VectorXd& start) const;
+  [[nodiscard]] std::optional<Cycle> member(int n) const;
+  [[nodiscard]] std::optional<Cycle> look_around() const;
 
   const System& system_;
   SettlingOptions options_;

@@ -36,6 +36,7 @@ void check(const DiagramProblem& problem) {
   at_least("transient_periods", problem.transient_periods, 0);
   at_least("impacts", problem.impacts, 1);
   at_least("most_periods", problem.most_periods, 1);
+  at_least("measured_periods", problem.measured_periods, 1);
   at_least("threads", problem.threads, 0);
   demand(problem.start == StartRule::carry || problem.direction != Direction::both,
          "with start = reset, up and down are the same: choose one of them, or start = carry");

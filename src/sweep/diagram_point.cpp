@@ -72,7 +72,7 @@ std::optional<Settled> settle(const DiagramProblem& problem, const Carried& carr
   bool interrupted = false;
   const bool good = attempt(point, [&] {
     auto system = std::make_shared<const System>(problem.model_at(point.parameter));
-    if (stop_contacts(system->model()).empty())
+    if (problem.of.empty() && stop_contacts(system->model()).empty())
       throw InputError("model '" + system->model().name + "' has no stop, so there are no impacts to record");
     ImpactSection section(start_motion(problem, carried, *system, point), problem.stops);
     const Instant end = after(section, problem.transient_periods);
@@ -95,6 +95,12 @@ void record(const DiagramProblem& problem, Settled settled, DiagramPoint& point)
   const bool good = attempt(point, [&] {
     ImpactSection& section = settled.section;
     const Instant begin = section.motion().time();
+    if (!problem.of.empty()) {
+      Measured found = measure(section.motion(), after(section, problem.measured_periods), problem.of, problem.cancel);
+      interrupted = !found.complete;
+      if (!interrupted) point.of = std::move(found.of);
+      return;
+    }
     const Instant end = after(section, problem.most_periods);
     interrupted = !run_impacts(section, end, problem.cancel, [&](const SectionPoint& impact) {
       if (!std::isnan(impact.flight))

@@ -1,5 +1,5 @@
 /// Runs a loop over an index on all cores.
-#include "sweep/parallel.hpp"
+#include "slapstick/sweep/parallel.hpp"
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>

@@ -1,4 +1,6 @@
 """What the program says when something is wrong with a number, a model file or a motion. One CTest case per function `test_...`."""
+import json
+import math
 import os
 import signal
 
@@ -131,6 +133,53 @@ def test_ctrl_c_plots_the_last_periods_that_there_are():
         times = [float(line.split(',')[2]) for line in read('p-plot.csv').splitlines()[1:] if line.split(',')[2]]
         assert times == sorted(times) and times[0] >= end - 20.1 and abs(times[-1] - end) < 0.1, (omega, end, times[0], times[-1])
         assert len(times) > 1000 or end < 20, (omega, len(times))
+
+
+def test_numbers_may_be_written_as_powers_of_ten_and_expressions():
+    assert '"end"' in good('simulate', 'vibro-impact', '--periods', '1e1')
+    same = good('simulate', 'vibro-impact', '--set', f'omega={math.pi / 2!r}', '--periods', '10')
+    assert good('simulate', 'vibro-impact', '--set', 'omega=pi/2', '--periods', '10') == same
+    says(refused(2, 'simulate', 'vibro-impact', '--periods', '1e12'), 'lower --periods')
+    says(refused(2, 'simulate', 'vibro-impact', '--set', 'omega=2*friction'), '--set omega', 'not a number')
+
+
+def test_a_model_in_place_of_a_verb_is_recognised():
+    for model in ('vibro-impact', 'mine.toml'):
+        says(refused(2, model), f'slapstick simulate {model}')
+
+
+def test_check_tells_units_and_natural_frequencies():
+    told = json.loads(good('check', 'impact-oscillator', '--set', 'damping_ratio=0.25'))
+    assert set(told['units']) == {'time', 'x', 'parameters'}
+    (mode,) = told['natural_modes']
+    assert abs(mode['frequency'] - 1) < 1e-14 and abs(mode['damping_ratio'] - 0.25) < 1e-14
+
+
+def test_options_that_quick_leaves_no_meaning_are_refused():
+    for option in ('--transient', '--most-periods', '--exponent-periods'):
+        says(refused(2, 'classify', 'vibro-impact', '--quick', '100', option, '500'), option, '--quick')
+
+
+def test_what_certificates_do_not_hold_yet_is_named():
+    damper = '[[damper]]\nbetween = ["x", "ground"]\ncoefficient = 1\nwithin = [0, 1]\nname = "grease"\n'
+    dry = '[[friction]]\nname = "pad"\nbetween = ["x", "ground"]\nstatic = 1\nnormal_force = { constant = 1, x = 1 }\n'
+    wall = '[[stop]]\nname = "wall"\nbetween = ["x", "ground"]\nclearance = 9\nrestitution_over_speed = [[1, 0.5], [2, 0.4]]\n'
+    rubber = '[[compliant_stop]]\nname = "rubber"\nbetween = ["x", "ground"]\nclearance = 9\nstiffness = 1\ndamping = 1\nlaw = "bounded"\n'
+    for part, words in ((damper, 'in an interval'), (dry, 'normal force'), (wall, 'impact speed'), (rubber, 'bounded damping')):
+        name = part.split('name = "')[1].split('"')[0]
+        says(refused(2, 'simulate', write('p.toml', HEAD + COORDINATE % 1 + part), '--periods', '1', '--certify', 'p.txt'), "model 'm'", words, "'%s'" % name)
+
+
+def test_friction_along_a_rigid_stop_is_refused_with_what_to_write_instead():
+    dry = '[[friction]]\nname = "pad"\nbetween = ["x", "ground"]\nstatic = 1\nnormal_force = { stop = "wall" }\n'
+    says(refused(2, 'check', write('p.toml', HEAD + COORDINATE % 1 + dry)), "p.toml:9: friction 'pad': normal_force: stop: ", 'constraint force', '[[compliant_stop]]')
+
+
+def test_check_names_what_can_feed_energy():
+    damper = '[[damper]]\nbetween = ["x", "ground"]\ncoefficient = -1\n'
+    says(refused(2, 'check', write('p.toml', HEAD + COORDINATE % 1 + damper)), "p.toml:7: damper 1: coefficient = -1 is negative")
+    assert '"damper 1"' in good('check', write('p.toml', HEAD + COORDINATE % 1 + damper + 'feeds = true\n'))
+    assert '"feeds_energy": []' in good('check', 'vibro-impact')
 
 
 main({name: case for name, case in globals().items() if name.startswith('test_')})

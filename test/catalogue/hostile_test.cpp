@@ -7,7 +7,7 @@
 #include "catalogue/run.hpp"
 #include "slapstick/base/error.hpp"
 #include "base/floating_point.hpp"
-#include "sweep/parallel.hpp"
+#include "slapstick/sweep/parallel.hpp"
 #if defined(__SSE2__)
 #include <immintrin.h>
 #endif

@@ -52,14 +52,16 @@ TEST(Base, springs_and_dampers_pass_on_its_motion) {
 TEST(Base, refusals_say_what_to_write_instead) {
   const auto base = [](const std::string& more) { return refusal(head + shaker + more); };
   const auto at = [](int line) { return "f.toml:" + std::to_string(line) + ": "; };
-  EXPECT_EQ(base(""), at(next) + "base 'shaker': no spring or damper is attached to it, so it moves nothing");
-  const auto contact = base("[[stop]]\nname = 's'\nbetween = ['x1', 'shaker']\nclearance = 0\nrestitution = 1\n");
-  EXPECT_TRUE(contact.starts_with(
-      at(next + 5) + "stop 's': between: 'shaker' is a base, which only springs and dampers may name: the gap"))
-      << contact;
-  EXPECT_TRUE(contact.ends_with("inertia force, [[force]] amplitude = mass * amplitude * (harmonic * omega)^2"));
-  for (const std::string kind : {"friction", "compliant_stop"})
-    EXPECT_NE(base("[[" + kind + "]]\nname = 's'\nbetween = ['x1', 'shaker']\n").find("inertia"), std::string::npos);
+  EXPECT_EQ(base(""), at(next) + "base 'shaker': no spring or damper is attached to it and no coordinate measured from it, so it moves nothing");
+  const std::string measured =
+      " would depend on time. Measure the coordinates from the base: base = \"shaker\" in [[coordinate]]";
+  const std::string pair = "its sides move with the ground and with 'shaker': ";
+  const std::string between = "name = 's'\nbetween = ['x1', 'shaker']\n";
+  for (const std::string kind : {"stop", "friction", "compliant_stop"})
+    EXPECT_EQ(base("[[" + kind + "]]\n" + between),
+              at(next + 5) + kind + " 's': between: " + pair + "the gap or the sliding" + measured);
+  EXPECT_EQ(base("[[spring]]\nbetween = ['x1', 'shaker']\ncharacteristic = [[0, 0], [1, 1], [2, 3]]\n"),
+            at(next + 5) + "spring 1: characteristic: " + pair + "the corners" + measured);
   EXPECT_EQ(base("[[force]]\non = 'shaker'\namplitude = 1\n"),
             at(next + 4) + "force 1: on: 'shaker' is a base: its motion is given, a force cannot change it");
   EXPECT_EQ(base("[[spring]]\nbetween = ['ground', 'shaker']\nstiffness = 1\n"),

@@ -193,7 +193,9 @@ TEST(HostileFile, names_that_are_no_regular_file) {
   EXPECT_EQ(message("vibro-impct"),
             "unknown model 'vibro-impct'; did you mean 'vibro-impact'? (a model file's path ends in .toml)");
   std::string known;
-  for (const auto& name : builtin_models()) known += (known.empty() ? "" : ", ") + name;
+  constexpr std::size_t most = 20;
+  for (std::size_t i = 0; i < most; ++i) known += builtin_models()[i] + ", ";
+  known += "...";
   EXPECT_EQ(message(""), "unknown model ''; known: " + known + " (a model file's path ends in .toml)");
   std::ofstream(folder / "own.toml") << whole;
   expect_same(load_model(folder / "own.toml").build(), load_model("vibro-impact").build());

@@ -24,7 +24,7 @@ TEST(ModelFile, smallest_model) {
 TEST(ModelFile, unknown_names_suggest_the_nearest) {
   EXPECT_EQ(refusal("nmae = 'm'\n"), "f.toml:1: unknown key 'nmae'; did you mean 'name'?");
   EXPECT_EQ(refusal(good + "stifness = 1\n"),
-            "f.toml:6: coordinate 1: unknown key 'stifness'; known: description, name, mass, unit");
+            "f.toml:6: coordinate 1: unknown key 'stifness'; known: description, name, mass, unit, base");
   EXPECT_EQ(refusal(good + "[[sprin]]\n"), "f.toml:6: unknown key 'sprin'; did you mean 'spring'?");
   EXPECT_EQ(refusal(good + "[[spring]]\nbetween = ['x1', 'ground']\nstifness = 1\n"),
             "f.toml:8: spring 1: unknown key 'stifness'; did you mean 'stiffness'?");
@@ -35,6 +35,33 @@ TEST(ModelFile, unknown_names_suggest_the_nearest) {
   EXPECT_EQ(refusal(good + "[start]\nx2 = 1\n"), "f.toml:7: start: unknown key 'x2'; did you mean 'x1'?");
   EXPECT_EQ(refusal(good + "[groups]\ng = ['n']\n"), "f.toml:7: group 'g': unknown parameter 'n'; known: m");
   EXPECT_EQ(refusal(good, {{"mm", 1}}), "model 'm' has no parameter 'mm'; did you mean 'm'?");
+}
+
+TEST(ModelFile, a_polyline_that_is_none_is_named_with_its_point) {
+  const std::string spring = good + "[[spring]]\nbetween = ['x1', 'ground']\n", here = "f.toml:8: spring 1: ";
+  EXPECT_EQ(refusal(spring), "f.toml:6: spring 1: 'stiffness' is missing");
+  EXPECT_EQ(refusal(spring + "characteristic = [[0, 0], [1, 2]]\nstiffness = 3\n"),
+            here + "characteristic: it stands in place of 'stiffness': give one of the two");
+  EXPECT_EQ(refusal(spring + "characteristic = [[0, 0]]\n"),
+            here + "characteristic: expected 2 to 100 points [x, force], found 1");
+  EXPECT_EQ(refusal(spring + "characteristic = [[0, 0], [1]]\n"),
+            here + "characteristic: point 2: expected [x, force], found 1 numbers");
+  EXPECT_EQ(refusal(spring + "stiffness = 1\nslope_above = 2\n").substr(0, 60),
+            "f.toml:9: spring 1: slope_above: it belongs to a 'characteri");
+  for (const char* points : {"[[0, 0], [0, 1], [1, 2]]", "[[0, 0], [1, 1], [0.5, 2]]"})
+    EXPECT_NE(refusal(spring + "characteristic = " + points + "\n").find("is not above"), std::string::npos) << points;
+  EXPECT_EQ(refusal(spring + "characteristic = [[0, 0], ['m', 1], [1, 2]]\n"),
+            here + "characteristic: point 3: 1 is not above the 2 of the point before");
+  EXPECT_EQ(refusal(spring + "characteristic = [[0, 0], [1, 1], [2, 3]]\n"), "accepted");
+}
+
+TEST(ModelFile, friction_over_the_speed_begins_at_rest) {
+  const std::string dry = good + "[[friction]]\nname = 'dry'\nbetween = ['x1', 'ground']\nstatic = 1\n";
+  EXPECT_EQ(refusal(dry + "characteristic = [[0, 1], [1, 0.5]]\n"), "accepted");
+  for (const char* points : {"[[0.1, 1], [1, 0.5]]", "[[0, 2], [1, 0.5]]", "[[0, 1], [1, -0.5]]"})
+    EXPECT_NE(refusal(dry + "characteristic = " + points + "\n"), "accepted") << points;
+  EXPECT_EQ(refusal(dry + "kinetic = 1\ncharacteristic = [[0, 1], [1, 0.5]]\n"),
+            "f.toml:11: friction 'dry': characteristic: it stands in place of 'kinetic': give one of the two");
 }
 
 TEST(ModelFile, values_out_of_range_name_parameter_value_and_range) {

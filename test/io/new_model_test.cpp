@@ -15,7 +15,7 @@ TEST(NewModel, as_written_and_with_everything_switched_on) {
   const auto model = ModelDefinition::parse(text, "f.toml").build();
   EXPECT_EQ(model.name, "my-model");
   EXPECT_TRUE(model.stops.size() == 1 && model.frictions.size() == 1 && model.forced());
-  EXPECT_EQ(ModelDefinition::parse(switched_on(text), "f.toml").build().stops.size(), 2U);
+  EXPECT_EQ(ModelDefinition::parse(switched_on(text), "f.toml").build().stops.size(), 3U);
 }
 
 TEST(NewModel, every_key_has_an_example) {
@@ -35,7 +35,11 @@ TEST(NewModel, every_key_has_an_example) {
       const std::string key(field.key);
       bool given = field.holds == Holds::harmonics;
       for (const auto& part : parts)
-        given = given || part.fields.count(key) + part.flags.count(key) + part.texts.count(key) != 0;
+        given = given || (field.holds == Holds::points && !part.points.empty()) ||
+                (field.holds == Holds::interval && !part.within.empty()) ||
+                (field.holds == Holds::stribeck && !part.stribeck.empty()) ||
+                (field.holds == Holds::load && !part.load.empty() && !part.load_stop.empty()) ||
+                part.fields.count(key) + part.flags.count(key) + part.texts.count(key) != 0;
       EXPECT_TRUE(given) << rule.kind << ": " << key;
     }
   }

@@ -1,5 +1,6 @@
 /// models/model.schema.json, which editors use, and the reader know the same keys, and agree on what is a model.
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <fstream>
 
@@ -55,12 +56,21 @@ Names keys_of(const JsonValue& object) {
 Names names(const std::vector<std::string>& list) { return {list.begin(), list.end()}; }
 Names required(const JsonValue& object) { return object.at("required").get<Names>(); }
 
+/// By another key of the part; the schema says so in `anyOf`.
+bool replaceable(const PartRule& rule, std::string_view key) {
+  return std::any_of(rule.fields.begin(), rule.fields.end(),
+                     [&](const auto& field) {
+                       return ("|" + std::string(field.instead_of) + "|").find("|" + std::string(key) + "|") !=
+                              std::string::npos;
+                     });
+}
+
 Names required(const PartRule& rule) {
   Names keys;
   if (rule.named) keys.insert("name");
   if (rule.ends != Ends::none) keys.insert(rule.ends == Ends::on ? "on" : "between");
   for (const auto& field : rule.fields)
-    if (field.required) keys.emplace(field.key);
+    if (field.required && !replaceable(rule, field.key)) keys.emplace(field.key);
   return keys;
 }
 
@@ -71,8 +81,14 @@ std::string type_of(Holds holds, std::string_view key) {
     case Holds::flag:
       return R"("boolean")";
     case Holds::text:
+    case Holds::contact_law:
       return R"("string")";
+    case Holds::stribeck:
+    case Holds::load:
+      return R"("object")";
+    case Holds::interval:
     case Holds::harmonics:
+    case Holds::points:
       return R"("array")";
     default:
       return R"(["number","string"])";

@@ -102,7 +102,7 @@ TEST(Model, every_refusal_names_part_and_value) {
       {[](Model& m) { m.springs[1].b = -2; }, "spring 2: coordinate index -2 is outside [0, 1]"},
       {[](Model& m) { m.springs[0].b = 0; }, "spring 1: both ends are 'x1'"},
       {[](Model& m) { m.dampers[1].a = ground; }, "damper 2: both ends are the ground"},
-      {[](Model& m) { m.dampers[1].coefficient = -0.1; }, "damper 2: coefficient = -0.1 is negative"},
+      {[](Model& m) { m.dampers[1].coefficient = -0.1; }, "damper 2: coefficient = -0.1 is negative; a damper that may feed energy says feeds = true"},
       {[](Model& m) { m.forces[0].coordinate = ground; }, "force 1: a force acts on a coordinate, not on the ground"},
       {[](Model& m) { m.forces[0].coordinate = 9; }, "force 1: coordinate index 9 is outside [0, 1]"},
       {[](Model& m) { m.forces[0].harmonic = -1; }, "force 1: harmonic = -1 is negative"},

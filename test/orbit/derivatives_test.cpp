@@ -2,6 +2,9 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "section/return_map.hpp"
 #include "families.hpp"
 #include "orbit/path.hpp"
@@ -94,6 +97,14 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"vibro-impact", {{"omega", 1.5}}, paper, "stick friction, release friction"},
         Case{"impact-oscillator", {{"omega", 2.0}}, {"omega", "restitution", "clearance", "cosine"}, "impact stop"},
         Case{"coulomb-oscillator", {}, {"omega", "static_friction", "amplitude"}, "slip"},
+        Case{SLAPSTICK_ORBIT_MODELS "pressed-pair.toml",
+             {},
+             {"omega", "preload", "press", "rate", "static_friction", "kinetic_friction", "belt_speed", "stiffness"},
+             "stick pad"},
+        Case{SLAPSTICK_ORBIT_MODELS "every-stop.toml",
+             {},
+             {"omega", "fast", "corner", "bump", "bump_damping", "grease", "edge", "outside"},
+             "impact wall"},
         Case{"bilinear-oscillator", {}, {"omega", "stiffness_ratio", "clearance", "damping_ratio"}, "engage"}));
 
 /// A direction that stick annihilates has the multiplier zero, not a rounding of it.
@@ -102,6 +113,35 @@ TEST(Multipliers, OfStickAreExactlyZero) {
   const auto solution = posed.settled();
   ASSERT_TRUE(solution);
   EXPECT_EQ(std::abs(solution->multipliers.back()), 0.0);
+}
+
+/// The period of stick-slip on a belt whose press softens the spring, and its derivatives by the parameters.
+TEST(NormalForce, PeriodOfABlockThatASpringPresses) {
+  const auto period = [](double mu, double v) {  // k = 1/2, preload 2, mu_s = 0.6
+    const double release = 0.6 * 2.0 / (1.0 - 0.3), centre = 2.0 * mu / (1.0 - 0.5 * mu), w = std::sqrt(1.0 - 0.5 * mu);
+    const double phi = std::atan(v / (w * (release - centre)));
+    return (std::numbers::pi + 2.0 * phi) / w + 2.0 * (release - centre) / v;
+  };
+  for (const double mu : {0.3, 0.4, 0.5}) {
+    const Posed posed("pressed-block", {}, {"kinetic_friction", "belt_speed"}, {mu, 0.3});
+    const auto solution = posed.settled();
+    ASSERT_TRUE(solution);
+    EXPECT_NEAR(solution->cycle, period(mu, 0.3), 1e-13);
+    const orbit::Energy energy = orbit::energy(*posed.problem, solution->orbit);
+    EXPECT_GT(energy.friction[0], 0.0);
+    EXPECT_LT(std::abs(energy.balance()), 1e-13 * energy.input);
+  }
+}
+
+/// Friction that is pressed by another coordinate, restitution over the speed, bounded damping, zones: all balances close.
+TEST(Energy, OfCyclesWithEveryLawIsBalanced) {
+  for (const char* file : {"pressed-pair.toml", "every-stop.toml"}) {
+    const Posed posed(std::string(SLAPSTICK_ORBIT_MODELS) + file, {}, {}, {});
+    const auto solution = posed.settled();
+    ASSERT_TRUE(solution) << file;
+    const orbit::Energy energy = orbit::energy(*posed.problem, solution->orbit);
+    EXPECT_LT(std::abs(energy.balance()), 1e-12 * energy.input) << file;
+  }
 }
 
 /// Energy of a cycle: what comes in goes out.

@@ -52,9 +52,8 @@ TEST(DyingMotion, IsNotSaidToEndWhereThereIsNoModel) {
   const auto first = posed.settled();
   ASSERT_TRUE(first);
   const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.15, .to = 0.25});
-  EXPECT_TRUE(branch.failed());
+  EXPECT_EQ(branch.down.kind, orbit::BranchEnd::Kind::no_model) << ended(branch);
   EXPECT_EQ(find_near(branch, SpecialType::SL, 0.2, 1e-3), nullptr);
-  EXPECT_NE(ended(branch).find("behind amplitude = 0.2"), std::string::npos) << ended(branch);
   EXPECT_GT(branch.points.front().orbit.values[0], 0.2002);
 }
 

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "families.hpp"
+#include "shaken_ball.hpp"
 
 namespace slapstick::test {
 namespace {
@@ -48,6 +48,20 @@ TEST(BranchFromEitherEnd, HasTheSameSpecialPoints) {
                                  << " " << point.value;
     }
   }
+}
+
+/// Below the kinetic friction a static friction has no meaning: the branch ends there, and nothing failed.
+TEST(Branch, EndsWhereTheModelEnds) {
+  const Posed posed("falling-friction", {}, {"static_friction"}, {1.2});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.4, .to = 3.6});
+  EXPECT_FALSE(branch.failed()) << ended(branch);
+  EXPECT_EQ(branch.down.kind, orbit::BranchEnd::Kind::no_model) << ended(branch);
+  EXPECT_EQ(branch.up.kind, orbit::BranchEnd::Kind::range) << ended(branch);
+  constexpr double shortest = 1e-8 * 3.2;
+  EXPECT_NEAR(branch.down.value, 1.0, 2.0 * shortest);
+  EXPECT_GE(branch.down.value, 1.0);
 }
 
 /// Near the onset of a chatter with friction no step leads on, and orbits are sought whose impacts are not those of the chatter.
@@ -123,18 +137,6 @@ TEST(BranchOfChatter, OfASpoolBetweenTwoStopsIsPassed) {
   }
 }
 
-/// Does a ball that a shaken table has released come to rest before the table releases it again?
-bool comes_to_rest(double restitution, double acceleration) {
-  const Model model = load_model("shaken-table").build({{"restitution", restitution}, {"acceleration", acceleration}});
-  const System system(model);
-  const double release = std::asin(1.0 / acceleration) / (2.0 * std::numbers::pi);
-  Motion motion(system, {0.0, 0.0}, Instant{}.plus(release - 0.05));
-  const Instant again = Instant{}.plus(release + 1.0);
-  while (motion.advance(again) == Outcome::event)
-    if (motion.event().kind == EventKind::chatter) return true;
-  return false;
-}
-
 /// Orbits with ever more impacts, each behind a graze that the branch turns back at, gather where a ball that is released comes to rest just as it is
 /// released again. That place is found by one simulation of one period.
 TEST(Cascade, GathersWhereACompleteChatterBegins) {
@@ -151,16 +153,13 @@ TEST(Cascade, GathersWhereACompleteChatterBegins) {
     EXPECT_EQ(branch.points.back().label, "1-1-I") << step;
     const auto onset = std::ranges::find(branch.special, SpecialType::CH, &orbit::SpecialPoint::type);
     ASSERT_NE(onset, branch.special.end()) << ended(branch);
-    double rests = onset->value - 0.05, bounces = onset->value + 0.05;
+    const double rests = onset->value - 0.05, bounces = onset->value + 0.05;
     ASSERT_TRUE(comes_to_rest(restitution, rests));
     ASSERT_FALSE(comes_to_rest(restitution, bounces));
     constexpr double width = 1e-12;
-    while (bounces - rests > width) {
-      const double middle = 0.5 * (rests + bounces);
-      (comes_to_rest(restitution, middle) ? rests : bounces) = middle;
-    }
-    EXPECT_NEAR(onset->value, rests, onset->error + width) << name(onset->occurrence);
-    EXPECT_LT(onset->error, 1e-6);  // by the grazes of the cascade; where the chatter is left alone it is known to 6e-6
+    EXPECT_NEAR(onset->value, onset_by_bisection(restitution, rests, bounces), onset->error + width)
+        << name(onset->occurrence);
+    EXPECT_LT(onset->error, 1e-6);  // where the chatter is left alone it is known to 6e-6
     EXPECT_EQ(branch.points.front().label, "1-inf-II") << ended(branch);
     EXPECT_FALSE(branch.failed()) << ended(branch);
   }

@@ -5,32 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "families.hpp"
+#include "shaken_ball.hpp"
 
 namespace slapstick::test {
 namespace {
-
-/// Does a ball that a shaken table has released come to rest before the table releases it again?
-bool comes_to_rest(double restitution, double acceleration) {
-  const Model model = load_model("shaken-table").build({{"restitution", restitution}, {"acceleration", acceleration}});
-  const System system(model);
-  const double release = std::asin(1.0 / acceleration) / (2.0 * std::numbers::pi);
-  Motion motion(system, {0.0, 0.0}, Instant{}.plus(release - 0.05));
-  const Instant again = Instant{}.plus(release + 1.0);
-  while (motion.advance(again) == Outcome::event)
-    if (motion.event().kind == EventKind::chatter) return true;
-  return false;
-}
-
-double onset_by_bisection(double restitution, double rests, double bounces) {
-  while (bounces - rests > 1e-13) {
-    const double middle = 0.5 * (rests + bounces);
-    (comes_to_rest(restitution, middle) ? rests : bounces) = middle;
-  }
-  return rests;
-}
 
 /// A ball that lies on the table until the table falls faster than the ball: nothing before is remembered, so that one period decides.
 TEST(OnsetOrbit, OfAShakenBallIsWhereTheSimulatorSaysForAnyRestitution) {

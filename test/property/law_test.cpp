@@ -45,7 +45,7 @@ class Watchman {
     return wrong_;
   }
 
-  long segments = 0, forces = 0;
+  long segments = 0, forces = 0, loads = 0;
   double worst = 0.0;
 
  private:
@@ -101,9 +101,10 @@ class Watchman {
     for (std::size_t i = 0; i < m.frictions.size(); ++i) {
       const FrictionContact& f = m.frictions[i];
       const double w = Newton::difference(x_, f.a, f.b, 1) - f.belt_speed;
+      load(contacts, i, x, v);
       if (contacts.frictions[i] == FrictionState::stick)
         expect("slip in stick of " + f.name, -std::abs(w), v);
-      else
+      else if (contacts.frictions[i] != FrictionState::unloaded)
         expect("slip of " + f.name, static_cast<int>(contacts.frictions[i]) * w, v);
     }
     for (std::size_t i = 0; i < m.compliant_stops.size(); ++i) {
@@ -113,8 +114,32 @@ class Watchman {
       const CompliantState state = contacts.compliant[i];
       expect("depth of " + c.name, state == CompliantState::off ? -delta : delta, x);
       if (c.pulls || state == CompliantState::off) continue;
+      if (c.bounded && c.damping > 0.0) {
+        bounds(c, state, c.stiffness * delta, c.damping * Newton::difference(x_, c.a, c.b, 1), c.stiffness * x + c.damping * v);
+        continue;
+      }
       expect("push of " + c.name, state == CompliantState::on ? force : -force, c.stiffness * x + c.damping * v);
     }
+  }
+
+  /// N >= 0 of a contact that carries friction, N <= 0 of one that is unloaded.
+  void load(const mode::ContactStates& contacts, std::size_t i, double x, double v) {
+    const FrictionContact& f = system_.model().frictions[i];
+    if (!f.normal) return;
+    const double sign = contacts.frictions[i] == FrictionState::unloaded ? -1.0 : 1.0;
+    double allowed = newton_.load_size({}, i) * 0x1p-44 + 0x1p-44;
+    for (const NormalForce::Term& term : f.normal->terms)
+      allowed += std::abs(term.stiffness) * x + std::abs(term.damping) * v;
+    if (const int stop = f.normal->compliant_stop; stop >= 0)
+      allowed += 2.0 * (system_.model().compliant_stops[stop].stiffness * x + system_.model().compliant_stops[stop].damping * v);
+    expect("load of " + f.name, sign * newton_.load(x_, contacts, i), allowed);
+    loads += f.normal.has_value();
+  }
+
+  void bounds(const CompliantStop& c, CompliantState state, double spring, double damper, double allowed) {
+    if (state == CompliantState::on) expect("bounded push of " + c.name, spring - std::abs(damper), allowed);
+    if (state == CompliantState::bounded) expect("bound of " + c.name, damper - spring, allowed);
+    if (state == CompliantState::detached) expect("detached " + c.name, -damper - spring, allowed);
   }
 
   /// |f0| <= f_s in stick; on a closed stop N >= 0: the pair's force on a is at most what friction can add to a push.
@@ -152,6 +177,10 @@ void expect_lawful(const Shape& shape, int machines, long least_segments, long l
 }
 
 TEST(Law, OfContactHoldsAllAlongTheSegmentsOfSmallMachines) { expect_lawful({}, 300, 6000, 12'000); }
+
+TEST(Law, OfContactHoldsWithEveryLawOfForce) {
+  expect_lawful({.most_stops = 2, .most_frictions = 2, .most_compliant = 2, .laws = true}, 300, 6000, 6000);
+}
 
 TEST(Law, OfContactHoldsInNetworks) {
   expect_lawful(

@@ -23,6 +23,7 @@ class Draw {
     forcing(m.model);
     start(m);
     contacts(m);
+    if (shape_.laws) laws(m);
     return m;
   }
 
@@ -121,6 +122,36 @@ class Draw {
     auto& all = m.model.compliant_stops;
     const double clearance = between(m.start, a, b) + real(-0.1, 0.4);
     all.push_back({numbered("compliant", all.size()), a, b, clearance, decades(0, 1.3), real(0, 0.5), one_in(2)});
+  }
+
+  /// Every law in about every second machine, together with what the machine has already.
+  void laws(Machine& m) {
+    for (int k = integer(0, 2); k > 0; --k) characteristic(m);
+    for (FrictionContact& f : m.model.frictions)
+      if (one_in(2)) f.normal = normal_force(m.model);
+    for (CompliantStop& c : m.model.compliant_stops) c.bounded = !c.pulls && one_in(2);
+    for (Stop& s : m.model.stops)
+      if (one_in(2)) s.corners = {{real(0.1, 0.5), s.restitution}, {real(0.6, 2), s.restitution * real(0.3, 1)}};
+  }
+
+  void characteristic(Machine& m) {
+    const auto [a, b] = pair(m.model);
+    const auto over = static_cast<Characteristic::Over>(integer(0, 2));
+    auto& all = m.model.characteristics;
+    all.push_back({numbered("bent", all.size()), a, b, over, {}, real(0, 0.4), real(0, 0.4)});
+    double at = over == Characteristic::Over::velocity ? real(-1, 0) : between(m.start, a, b) + real(-0.6, 0);
+    for (int k = integer(1, 3); k > 0; --k, at += real(0.2, 0.6)) {
+      const double size = over == Characteristic::Over::velocity ? 0.3 : 0.8;
+      all.back().corners.push_back({at, over == Characteristic::Over::zones ? real(0, 0.6) : real(-size, size)});
+    }
+  }
+
+  NormalForce normal_force(const Model& m) {
+    NormalForce normal{real(-0.2, 1.5), {{integer(0, m.size() - 1), real(-0.4, 0.4), real(-0.1, 0.1)}}, -1};
+    if (!m.compliant_stops.empty() && one_in(2))
+      normal.compliant_stop = integer(0, static_cast<int>(m.compliant_stops.size()) - 1);
+    if (normal.compliant_stop >= 0 && one_in(2)) normal.terms.clear(), normal.constant = 0.0;
+    return normal;
   }
 
   std::mt19937_64 random_;

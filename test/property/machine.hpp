@@ -28,6 +28,7 @@ struct Shape {
       true;  ///< contacts on pairs that depend on each other: of those at rest together no one force is determined
   bool at_rest = true;   ///< one in four starts at rest at the origin: all friction contacts stick
   bool sequence = true;  ///< the impact law `sequence` too
+  bool laws = false;     ///< polylines, zones, normal forces, bounded stops, restitution over the speed
 };
 
 /// Chains and networks with springs, dampers, up to two harmonics and a constant load; masses and stiffnesses over more than a decade.

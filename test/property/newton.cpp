@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 
 namespace slapstick::test {
@@ -65,15 +66,61 @@ Eigen::VectorXd Newton::force(std::span<const double> state, const mode::Contact
     add(f.coordinate, f.harmonic == 0 ? f.amplitude : f.amplitude * std::sin(f.harmonic * theta + f.phase));
   for (std::size_t i = 0; i < contacts.frictions.size(); ++i) {
     const FrictionContact& f = model_.frictions[i];
-    pull(f.a, f.b, static_cast<int>(contacts.frictions[i]) * f.kinetic_friction);
+    if (contacts.frictions[i] == mode::FrictionState::unloaded) continue;
+    pull(f.a, f.b, static_cast<int>(contacts.frictions[i]) * f.kinetic_friction * load(state, contacts, i));
   }
-  for (std::size_t i = 0; i < contacts.compliant.size(); ++i) {
-    const CompliantStop& s = model_.compliant_stops[i];
-    if (contacts.compliant[i] != mode::CompliantState::on) continue;
-    const double delta = difference(state, s.a, s.b, 0) - s.clearance;
-    pull(s.a, s.b, s.stiffness * delta + s.damping * difference(state, s.a, s.b, 1));
-  }
+  for (std::size_t i = 0; i < contacts.compliant.size(); ++i)
+    pull(model_.compliant_stops[i].a, model_.compliant_stops[i].b, compliant_force(state, contacts, i));
+  for (std::size_t i = 0; i < contacts.pieces.size(); ++i)
+    pull(model_.characteristics[i].a, model_.characteristics[i].b, bent_force(state, contacts, i));
   return total;
+}
+
+/// That of a bounded stop needs no state but its depth.
+double Newton::compliant_force(std::span<const double> state, const mode::ContactStates& contacts, std::size_t i) const {
+  const CompliantStop& s = model_.compliant_stops[i];
+  const double spring = s.stiffness * (difference(state, s.a, s.b, 0) - s.clearance);
+  const double damper = s.damping * difference(state, s.a, s.b, 1);
+  if (s.bounded && s.damping > 0.0) return spring > 0.0 ? spring + std::clamp(damper, -spring, spring) : 0.0;
+  return contacts.compliant[i] == mode::CompliantState::on ? spring + damper : 0.0;
+}
+
+/// Of a polyline by its corners, whatever its piece; of zones by the zone, as the force jumps at an edge.
+double Newton::bent_force(std::span<const double> state, const mode::ContactStates& contacts, std::size_t i) const {
+  const Characteristic& c = model_.characteristics[i];
+  const auto& corners = c.corners;
+  const double v = difference(state, c.a, c.b, 1);
+  if (c.over == Characteristic::Over::zones)
+    return v * (contacts.pieces[i] == 0 ? c.slope_below : corners[static_cast<std::size_t>(contacts.pieces[i] - 1)].force);
+  const double at = c.over == Characteristic::Over::velocity ? v : difference(state, c.a, c.b, 0);
+  if (at <= corners.front().at) return corners.front().force + c.slope_below * (at - corners.front().at);
+  if (at >= corners.back().at) return corners.back().force + c.slope_above * (at - corners.back().at);
+  std::size_t k = 1;
+  while (corners[k].at < at) ++k;
+  const double part = (at - corners[k - 1].at) / (corners[k].at - corners[k - 1].at);
+  return (1.0 - part) * corners[k - 1].force + part * corners[k].force;
+}
+
+double Newton::load(std::span<const double> state, const mode::ContactStates& contacts, std::size_t i) const {
+  const auto& normal = model_.frictions[i].normal;
+  if (!normal) return 1.0;
+  double sum = normal->constant;
+  for (const NormalForce::Term& term : normal->terms)
+    sum += term.stiffness * difference(state, term.coordinate, ground, 0) +
+           term.damping * difference(state, term.coordinate, ground, 1);
+  const int stop = normal->compliant_stop;
+  return stop < 0 ? sum : sum + compliant_force(state, contacts, static_cast<std::size_t>(stop));
+}
+
+double Newton::load_size(const Sizes& sizes, std::size_t i) const {
+  const auto& normal = model_.frictions[i].normal;
+  if (!normal) return 1.0;
+  const double x = sizes.x + least_.x, v = sizes.v + least_.v;
+  double sum = std::abs(normal->constant);
+  for (const NormalForce::Term& term : normal->terms) sum += std::abs(term.stiffness) * x + std::abs(term.damping) * v;
+  if (normal->compliant_stop < 0) return sum;
+  const CompliantStop& s = model_.compliant_stops[static_cast<std::size_t>(normal->compliant_stop)];
+  return sum + 2.0 * (s.stiffness * x + s.damping * v);
 }
 
 double Newton::power(std::span<const double> state, const mode::ContactStates& contacts, double theta) const {
@@ -83,7 +130,7 @@ double Newton::power(std::span<const double> state, const mode::ContactStates& c
   return sum;
 }
 
-std::vector<Newton::Held> Newton::held_pairs(const mode::ContactStates& contacts) const {
+std::vector<Newton::Held> Newton::held_pairs(std::span<const double> state, const mode::ContactStates& contacts) const {
   std::vector<Held> pairs;
   const auto pair_of = [&](int a, int b) -> std::pair<Held&, bool> {
     for (Held& p : pairs) {
@@ -101,7 +148,7 @@ std::vector<Newton::Held> Newton::held_pairs(const mode::ContactStates& contacts
     const FrictionContact& f = model_.frictions[i];
     if (contacts.frictions[i] != mode::FrictionState::stick) continue;
     const auto [pair, turned] = pair_of(f.a, f.b);
-    pair.limit += f.static_friction;
+    pair.limit += f.static_friction * load(state, contacts, i);
     pair.belt = turned ? -f.belt_speed : f.belt_speed;
   }
   return pairs;
@@ -109,7 +156,7 @@ std::vector<Newton::Held> Newton::held_pairs(const mode::ContactStates& contacts
 
 std::vector<Newton::Held> Newton::held(std::span<const double> state, const mode::ContactStates& contacts, double theta,
                                        const Sizes& sizes) const {
-  std::vector<Held> pairs = held_pairs(contacts);
+  std::vector<Held> pairs = held_pairs(state, contacts);
   const auto k = static_cast<Eigen::Index>(pairs.size());
   Eigen::MatrixXd G(k, model_.size());
   for (Eigen::Index i = 0; i < k; ++i) G.row(i) = row(pairs[i].a, pairs[i].b);
@@ -142,7 +189,24 @@ Eigen::VectorXd Newton::force_size(const Sizes& sizes) const {
     if (i != ground) total[i] += value;
   };
   for (const Force& f : model_.forces) add(f.coordinate, std::abs(f.amplitude));
-  for (const FrictionContact& f : model_.frictions) add(f.a, f.static_friction), add(f.b, f.static_friction);
+  for (std::size_t i = 0; i < model_.frictions.size(); ++i) {
+    const FrictionContact& f = model_.frictions[i];
+    add(f.a, f.static_friction * load_size(sizes, i)), add(f.b, f.static_friction * load_size(sizes, i));
+  }
+  for (const Characteristic& c : model_.characteristics) {
+    const double at = c.over == Characteristic::Over::displacement ? x : v;
+    double force = std::max(std::abs(c.slope_below), std::abs(c.slope_above)) * at;
+    for (std::size_t k = 0; k < c.corners.size(); ++k) {
+      const Characteristic::Corner& corner = c.corners[k];
+      if (c.over == Characteristic::Over::zones) {
+        force = std::max(force, std::abs(corner.force) * v);
+        continue;
+      }
+      const double slope = k == 0 ? 0.0 : std::abs((corner.force - c.corners[k - 1].force) / (corner.at - c.corners[k - 1].at));
+      force = std::max(force, std::abs(corner.force) + slope * (at + std::abs(corner.at)));
+    }
+    add(c.a, force), add(c.b, force);
+  }
   for (const CompliantStop& s : model_.compliant_stops) {
     const double force = 2.0 * (s.stiffness * x + s.damping * v);
     add(s.a, force), add(s.b, force);

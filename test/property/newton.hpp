@@ -43,6 +43,12 @@ class Newton {
   [[nodiscard]] double power_size(const Sizes& sizes) const { return sizes.v * force_size(sizes).sum(); }
   [[nodiscard]] double acceleration_size(const Sizes& sizes) const;
 
+  /// The normal force of a friction contact, 1 if it has fixed limits; and the sum of the sizes of its terms.
+  [[nodiscard]] double load(std::span<const double> state, const mode::ContactStates& contacts, std::size_t i) const;
+  [[nodiscard]] double load_size(const Sizes& sizes, std::size_t i) const;
+  /// The force of a compliant stop that pushes b.
+  [[nodiscard]] double compliant_force(std::span<const double> state, const mode::ContactStates& contacts, std::size_t i) const;
+
   /// The force on a of a pair that is held, along x_a - x_b, from G v' = 0; all contacts of the pair together.
   struct Held {
     int a, b;
@@ -59,7 +65,8 @@ class Newton {
  private:
   [[nodiscard]] Eigen::VectorXd force(std::span<const double> state, const mode::ContactStates& contacts,
                                       double theta) const;
-  [[nodiscard]] std::vector<Held> held_pairs(const mode::ContactStates& contacts) const;
+  [[nodiscard]] std::vector<Held> held_pairs(std::span<const double> state, const mode::ContactStates& contacts) const;
+  [[nodiscard]] double bent_force(std::span<const double> state, const mode::ContactStates& contacts, std::size_t i) const;
 
   const Model& model_;
   Eigen::MatrixXd M_, M_inverse_, C_, K_;

@@ -34,6 +34,15 @@ std::vector<double*> numbers(Machine& machine) {
   for (FrictionContact& f : m.frictions)
     all.insert(all.end(), {&f.belt_speed, &f.static_friction, &f.kinetic_friction});
   for (CompliantStop& c : m.compliant_stops) all.insert(all.end(), {&c.clearance, &c.stiffness, &c.damping});
+  for (Characteristic& c : m.characteristics) {
+    all.insert(all.end(), {&c.slope_below, &c.slope_above});
+    for (Characteristic::Corner& corner : c.corners) all.insert(all.end(), {&corner.at, &corner.force});
+  }
+  for (FrictionContact& f : m.frictions) {
+    if (!f.normal) continue;
+    all.push_back(&f.normal->constant);
+    for (NormalForce::Term& term : f.normal->terms) all.insert(all.end(), {&term.stiffness, &term.damping});
+  }
   return all;
 }
 
@@ -41,6 +50,8 @@ std::vector<double*> numbers(Machine& machine) {
 void agree(Machine& machine, const Shape& shape) {
   for (FrictionContact& f : machine.model.frictions)
     f.kinetic_friction = shape.one_friction ? f.static_friction : std::min(f.kinetic_friction, f.static_friction);
+  for (Stop& s : machine.model.stops)
+    if (!s.corners.empty()) s.restitution = s.corners.front().restitution;
   if (!shape.one_restitution) return;
   for (Stop& s : machine.model.stops) s.restitution = machine.model.stops[0].restitution;
 }
@@ -62,6 +73,12 @@ Machine without_coordinate(Machine machine, int gone) {
   without_coordinate(m.stops, gone);
   without_coordinate(m.frictions, gone);
   without_coordinate(m.compliant_stops, gone);
+  without_coordinate(m.characteristics, gone);
+  for (FrictionContact& f : m.frictions) {
+    if (!f.normal) continue;
+    std::erase_if(f.normal->terms, [gone](const NormalForce::Term& term) { return term.coordinate == gone; });
+    for (NormalForce::Term& term : f.normal->terms) term.coordinate -= term.coordinate > gone ? 1 : 0;
+  }
   for (Force& f : m.forces) f.coordinate = std::max(0, f.coordinate - (f.coordinate >= gone ? 1 : 0));
   return machine;
 }
@@ -75,7 +92,10 @@ class Simpler {
     for (int i = m.size() - 1; i >= 0 && m.size() > 1; --i) offer(without_coordinate(machine_, i));
     without_each(&Model::stops);
     without_each(&Model::frictions);
-    without_each(&Model::compliant_stops);
+    if (std::ranges::none_of(m.frictions, [](const FrictionContact& f) { return f.normal && f.normal->compliant_stop >= 0; }))
+      without_each(&Model::compliant_stops);
+    without_each(&Model::characteristics);
+    without_laws();
     without_each(&Model::dampers);
     without_each(&Model::forces);
     without_each(&Model::springs);
@@ -87,6 +107,26 @@ class Simpler {
   void offer(Machine candidate) {
     agree(candidate, shape_);
     if (is_of(shape_, candidate)) out_.push_back(std::move(candidate));
+  }
+
+  /// One contact with a simpler law.
+  void without_laws() {
+    for (std::size_t i = 0; i < machine_.model.frictions.size(); ++i)
+      if (machine_.model.frictions[i].normal) offer_changed([i](Model& m) { m.frictions[i].normal.reset(); });
+    for (std::size_t i = 0; i < machine_.model.compliant_stops.size(); ++i)
+      if (machine_.model.compliant_stops[i].bounded) offer_changed([i](Model& m) { m.compliant_stops[i].bounded = false; });
+    for (std::size_t i = 0; i < machine_.model.stops.size(); ++i)
+      if (!machine_.model.stops[i].corners.empty()) offer_changed([i](Model& m) { m.stops[i].corners.clear(); });
+    for (std::size_t i = 0; i < machine_.model.characteristics.size(); ++i)
+      if (machine_.model.characteristics[i].corners.size() > 1)
+        offer_changed([i](Model& m) { m.characteristics[i].corners.pop_back(); });
+  }
+
+  template <class Change>
+  void offer_changed(Change change) {
+    Machine candidate = machine_;
+    change(candidate.model);
+    offer(std::move(candidate));
   }
 
   template <class Parts>

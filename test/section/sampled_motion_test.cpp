@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "flow/engine.hpp"
+
 namespace slapstick {
 namespace {
 
@@ -112,6 +114,78 @@ TEST(SampledMotion, SamplesOnlyFromAnInstantOnAreTheSame) {
     if (item == SampledMotion::Item::sample) found.push_back(late.sample().state);
   EXPECT_EQ(expected.size(), 20U);
   EXPECT_EQ(found, expected);
+}
+
+/// Never reaches its stop.
+System flight_without_end() {
+  Model model = paper(1.3);
+  model.frictions.clear();
+  model.stops[0].clearance = 100.0;
+  return System(model);
+}
+
+/// Each sample once began at the flight's start again: four times the work for twice the time.
+TEST(SampledMotion, AFlightWithoutEventsIsSteppedThroughOnce) {
+  const System system = flight_without_end();
+  for (const int periods : {50, 400}) {
+    SampledMotion run(Motion(system, {-0.5, 0.0, 0.0, 0.0}), 20);
+    long samples = 0;
+    while (run.next({periods, 0.0}) == SampledMotion::Item::sample) ++samples;
+    EXPECT_EQ(samples, 20 * periods + 1);
+    EXPECT_GT(run.motion().counters().windows, 2 * periods);
+    EXPECT_LE(run.motion().engine().sampled_windows(), run.motion().counters().windows);
+  }
+}
+
+TEST(SampledMotion, AStateDoesNotDependOnTheStatesReadBefore) {
+  const System system = flight_without_end();
+  Motion motion(system, {-0.5, 0.0, 0.0, 0.0});
+  ASSERT_EQ(motion.advance({60, 0.0}), Outcome::reached_end);
+  const Motion unread = motion;
+  State state(4);
+  const auto at = [&](const Motion& from, double s) {
+    from.sample(s, state);
+    return state;
+  };
+  for (const bool back : {false, true}) {
+    for (int i = 0; i <= 100; ++i) {
+      const double s = motion.segment().duration * (back ? 100 - i : i) / 100;
+      EXPECT_EQ(at(motion, s), at(Motion(unread), s)) << i << " " << back;
+    }
+  }
+}
+
+TEST(SampledMotion, AfterACutStatesAreThoseOfTheNewSegment) {
+  const System system = flight_without_end();
+  Motion motion(system, {-0.5, 0.0, 0.0, 0.0});
+  State before(4), after(4);
+  ASSERT_EQ(motion.advance({7, 0.0}), Outcome::reached_end);
+  motion.sample(motion.segment().duration, before);
+  ASSERT_EQ(motion.advance({9, 0.0}), Outcome::reached_end);
+  motion.sample(0.0, after);
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(after[i], before[i], 1e-13) << i;  // rounding of some thirty windows
+}
+
+/// The pair touches its stop and approaches: the impact is due, and turns the direction of slip at once.
+TEST(SampledMotion, StartsInTheModeAfterAnImpactThatIsDue) {
+  const System system(paper(2.2));
+  for (const int periods : {0, 1}) {
+    SampledMotion run(Motion(system, {0.0, 1.0, 0.0, 0.0}), 4);
+    ASSERT_EQ(run.next({periods, 0.0}), SampledMotion::Item::sample);
+    EXPECT_EQ(system.mode_name(run.sample().mode), "slip-") << periods;
+  }
+}
+
+TEST(SampledMotion, OfNoLengthIsInTheModeThatStarts) {
+  const System system(paper(2.2));
+  const auto mode = [&](const State& start) {
+    SampledMotion run(Motion(system, start), 4);
+    EXPECT_EQ(run.next({}), SampledMotion::Item::sample);
+    return system.mode_name(run.sample().mode);
+  };
+  EXPECT_EQ(mode({-0.1, 1.0, 0.0, 0.0}), "slip+");
+  EXPECT_EQ(mode({-0.1, -1.0, 0.0, 0.0}), "slip-");
+  EXPECT_EQ(mode({-0.1, 0.0, 0.0, 0.0}), "stick");
 }
 
 TEST(SampledMotion, StartsAtTheFirstMultipleFromItsOwnInstant) {

@@ -1,5 +1,5 @@
 /// The parallel loop over an index: every index once, errors come through, cancelling ends it.
-#include "sweep/parallel.hpp"
+#include "slapstick/sweep/parallel.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,8 +11,8 @@ import motions
 from motions import line
 
 PROGRAM = sys.argv[1]
-ALL = [motions.ball, motions.chatter, motions.rubbing, motions.oscillator, motions.released, motions.twins, motions.touching, motions.flat, motions.tie,
-       motions.rattle, lambda: motions.lift(2), lambda: motions.lift(3)]
+ALL = [motions.ball, motions.dead_ball, motions.chatter, motions.rubbing, motions.oscillator, motions.released, motions.cradle,
+       lambda: motions.cradle('sequence'), motions.bumper, motions.kink, motions.loop]
 
 
 def check(lines):
@@ -25,6 +25,12 @@ def check(lines):
 def proved(lines):
     status, text = check(lines)
     assert status == 0 and text.endswith('\nproved\n') and 'line ' not in text, text
+    return text
+
+
+def proved_but_for(lines, what):
+    status, text = check(lines)
+    assert status == 3 and text.endswith(f'\nproved but for {what}\n') and 'line ' not in text, text
     return text
 
 

@@ -3,34 +3,30 @@
 
 #include <sstream>
 
-#include "check.hpp"
 #include "property/machine.hpp"
 #include "slapstick/certify/certificate.hpp"
+#include "verdict.hpp"
 
 namespace slapstick {
 namespace {
 
-struct Verdict {
-  long refusals = 0;
-  std::string first;
-  verify::Tally tally;
+struct Checked {
+  verify::Verdict verdict;
+  std::string first, text;
 };
 
-Verdict verdict_on(const test::Machine& machine) {
+Checked verdict_on(const test::Machine& machine) {
   const System system(machine.model);
   std::stringstream text;
   certify::Certificate certificate(system, machine.start, [&](const std::string& lines) { text << lines; });
   certificate.run(Instant{}.plus(6.0), [](Instant) { return true; });
   certificate.finish();
-  Verdict verdict;
-  const verify::Refuse refuse = [&](long, const std::string& what) {
-    if (verdict.refusals++ == 0) verdict.first = what;
-  };
-  verify::Reader reader(text);
-  verify::Checker checker(reader.head(), reader.modes(), refuse);
-  for (verify::Segment segment; reader.next(segment);) checker.segment(segment);
-  verdict.tally = checker.tally();
-  return verdict;
+  Checked checked;
+  checked.text = text.str();
+  checked.verdict = verify::check(text, [&](long line, const std::string& what) {
+    if (checked.first.empty()) checked.first = "line " + std::to_string(line) + ": " + what;
+  });
+  return checked;
 }
 
 TEST(CertificateOfManyContacts, IsProvedWithItsChatterLimitsWhateverTheMachine) {
@@ -40,10 +36,10 @@ TEST(CertificateOfManyContacts, IsProvedWithItsChatterLimitsWhateverTheMachine) 
   long chatters = 0, impacts = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const test::Machine machine = test::random_machine(seed, shape);
-    const Verdict verdict = verdict_on(machine);
-    EXPECT_EQ(verdict.refusals, 0) << verdict.first << "\n" << machine;
-    chatters += verdict.tally.chatters;
-    impacts += verdict.tally.impacts;
+    const Checked checked = verdict_on(machine);
+    EXPECT_EQ(checked.verdict.refusals, 0) << checked.first << "\n" << machine;
+    chatters += checked.verdict.tally.chatters;
+    impacts += checked.verdict.tally.impacts;
   }
   EXPECT_GT(chatters, 20);
   EXPECT_GT(impacts, 1000);

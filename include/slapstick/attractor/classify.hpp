@@ -5,17 +5,16 @@
 /// amount every blow is periodic, with a `drift`. The multiplier 1 of every such translation is left out.
 ///
 /// How it decides (docs/classify.md):
-///  1. *Periodic.* The stroboscopic state returns after n periods: ||X_k - X_{k-n}|| <= `tolerance` for the smallest
-///     such n, with the same events in both cycles. Close to a bifurcation convergence is slow, so a candidate with a
-///     return below `newton_start` is also solved for by Newton's method on the n-period map (exact Jacobian through
-///     all events); it counts if it reproduces itself, is stable (all multipliers inside the unit circle) and the
-///     motion is still approaching it.
-///  2. Otherwise the *largest Lyapunov exponent* (per period, with its standard error from batches) and the *weighted
-///     Birkhoff average* of the impact sequence over two halves are computed. On a smooth invariant curve the two
-///     averages agree to many digits; on a chaotic set to about two. Chaotic: exponent > 3 errors and > 0.005, few
-///     digits. Quasi-periodic: exponent not positive by that measure, at least `curve_digits` digits, and the motion no
-///     longer closing in on a cycle.
-///  3. Neither: *undecided*, with the figures that would not agree.
+///  1. *Periodic.* Where the stroboscopic state nearly returns after n periods, Newton's method on the map of n periods
+///     and of its divisors (exact Jacobian through all events) looks for a cycle, the shortest first. A cycle counts if
+///     its multipliers are inside the unit circle and the motion loses distance at their rate. No return counts
+///     without Newton's method. What returns and is one of a continuum of cycles is *one of a family*.
+///  2. Otherwise the *largest Lyapunov exponent* (per period, with its standard error from batches), the *weighted
+///     Birkhoff average* of the impact sequence over two halves, and the *rotation number* are computed. Chaotic: the
+///     exponent's confidence interval lies above what a motion without exponent can show, and the averages agree to few
+///     digits. Quasi-periodic: the interval holds zero, averages and rotation number have `curve_digits` digits, the
+///     number is no fraction, and the motion no longer closes in on a cycle; without dissipation *one of a family*.
+///  3. Neither: *undecided*, with what is missing (`Doubt`) and the option that would decide.
 ///
 /// Cost: the transient and the search take about a microsecond a period for the paper's system; the exponent adds a
 /// tangent vector to the motion. Threads: safe to call at once, one System for all. Source: docs/classify.md; Das et
@@ -30,20 +29,35 @@
 
 namespace slapstick {
 
-enum class Attractor { periodic, quasi_periodic, chaotic, undecided };
+/// family: a cycle of a continuum of cycles, or a motion on a curve that nothing draws it to.
+enum class Attractor { periodic, quasi_periodic, chaotic, family, undecided };
 enum class Chatter { none, incomplete, complete };
 
-/// "periodic", "quasi-periodic", "chaotic", "undecided"; "none", "incomplete", "complete".
+/// Why a motion has no class.
+enum class Doubt {
+  none,
+  not_confirmed,  ///< classify_quickly: Newton's method confirmed no cycle; classify decides
+  approach,       ///< the motion still closes in on something: a longer transient or search
+  long_cycle,     ///< a negative exponent or a fractional rotation number: a cycle longer than most_n
+  exponent        ///< exponent, averages and rotation number do not agree: a longer exponent run
+};
+
+/// "periodic", "quasi-periodic", "chaotic", "one of a family", "undecided"; "none", "incomplete", "complete"; "not
+/// confirmed", "approach", "long cycle", "exponent".
 std::string_view name(Attractor attractor);
 std::string_view name(Chatter chatter);
+std::string_view name(Doubt doubt);
+/// The option of ClassifyOptions that would decide: "transient", "most_n", "exponent_periods"; "full" for classify
+/// itself; or nothing.
+std::string_view option_that_decides(Doubt doubt);
 
 struct ClassifyOptions {
   int transient_periods = 500;
   int most_periods = 20'000;    ///< search for a return this long before the motion is taken as not periodic
   int most_n = 64;              ///< longest cycle sought, forcing periods
   double tolerance = 1e-10;     ///< return distance, relative to the size of the motion
-  double newton_start = 1e-3;   ///< return distance below which Newton's method is tried
-  int exponent_periods = 4000;  ///< length of the exponent and average runs
+  double newton_start = 1e-3;   ///< return distance below which a cycle is looked for nearby
+  int exponent_periods = 4000;  ///< length of the exponent and average runs; 0: none, so that only cycles are named
   double curve_digits = 5.0;
   /// Whose impacts a cycle is counted and listed by: p, `impacts`, `chatter` and the label. Engagements of compliant
   /// stops count as impacts. The attractor is the same for every choice.
@@ -68,7 +82,9 @@ struct Classification {
   long p = 0;             ///< periodic: impacts per cycle; meaningless with complete chatter (then infinite)
   bool sticking = false;  ///< a stick phase in the cycle (or in the recorded motion)
   Chatter chatter = Chatter::none;
-  std::string label;  ///< "1-1-II", "1-inf-II", "quasi-periodic", "chaotic", "undecided"
+  std::string label;  ///< "1-1-II", "1-inf-II", also of one of a family; "quasi-periodic", "chaotic", ..
+  int family = 0;     ///< of a cycle: dimensions of the continuum of cycles that it is a member of
+  Doubt doubt = Doubt::none;
 
   std::vector<std::complex<double>> multipliers;  ///< periodic: of the n-period map, largest first
   double return_distance = 0.0;  ///< periodic: how far the recorded state is from its image after n periods, relative
@@ -79,6 +95,10 @@ struct Classification {
   double exponent = 0.0,
          exponent_error = 0.0;  ///< largest Lyapunov exponent per period; multipliers give it if periodic
   double digits = 0.0;          ///< agreement of the two weighted Birkhoff averages
+  /// Quasi-periodic: turns of a closed curve in `curves` periods, in (0, 0.5] (orientation is not told), and the digits
+  /// to which two halves agree.
+  double rotation = 0.0, rotation_digits = 0.0;
+  int curves = 0;  ///< that the stroboscopic points lie on in turn
   long periods_used = 0;
   bool interrupted = false;  ///< by `cancel`: nothing else is meant
   /// How far the motion moves along the translations that the model does not notice (docs/classify.md), by coordinate:
@@ -92,5 +112,9 @@ struct Classification {
 /// @throws InputError for a model without forcing (no stroboscopic map) or a state that the stops forbid;
 /// NumericalError as Motion::advance
 Classification classify(const System& system, const State& state, const ClassifyOptions& options = {});
+
+/// The same within so many periods, half of them transient: names a cycle if Newton's method confirms it there, else
+/// says undecided. Where both decide they agree. Throws as classify.
+Classification classify_quickly(const System& system, const State& state, int periods, ClassifyOptions options = {});
 
 }  // namespace slapstick

@@ -1,12 +1,11 @@
 #pragma once
-/// A run written down as a certificate: every segment with its state, the proofs of its guards, and what happened at
-/// its end.
+/// A run written down as a certificate: the model in exact numbers, the start, every segment with its contacts and its
+/// state, what happened at its end, and the end of the run.
 ///
-/// docs/certificate.md has the format. The program `slapstick-verify` checks it, and shares no code with the library.
-/// The proofs are found anew from the modes and the states; the event kernel that drives the motion is not used, so
-/// that they are a second opinion on it.
+/// docs/certificate.md has the format. The program `slapstick-verify` checks it against the model, by mechanics and
+/// arithmetic of its own: it shares no code with the library. Proofs are the verifier's: nothing here claims one.
 ///
-/// Threads: one Certificate belongs to one thread at a time. Source: docs/certainty.md.
+/// Threads: one Certificate belongs to one thread at a time. Source: docs/certificate.md.
 #include <functional>
 #include <memory>
 #include <string>
@@ -16,10 +15,9 @@
 namespace slapstick::certify {
 
 struct Tally {
-  long segments = 0, guards = 0, steps = 0;
-  long touches = 0;   ///< zeros that could not be decided with 256 bits
+  long segments = 0, impacts = 0;
   long chatters = 0;  ///< limits of complete chatter
-  long unproved = 0;  ///< guards whose steps do not reach their limit: the verifier will say so
+  long unproved = 0;  ///< pile-ups: rest after impacts without end at one instant, which is assumed and not proved
 };
 
 /// Follows a motion of its own from `start` at phase 0. What was moved from may only be destroyed.

@@ -38,6 +38,7 @@ struct BranchEnd {
   enum class Kind : std::uint8_t {
     range,           ///< the parameter has come to the end of its range
     closed,          ///< the branch has come round to its first orbit
+    no_model,        ///< the model has no meaning beyond; `detail` says why
     special,         ///< at a special point: its passage says why
     over_itself,     ///< it runs over itself
     unbounded,       ///< the orbit grows without bound as the parameter hardly moves

@@ -46,17 +46,21 @@ enum class EventKind : std::uint8_t {
   chatter,     ///< the limit of infinitely many impacts; the stop is closed
   engage,      ///< a compliant stop begins to act; w is its delta'
   disengage,   ///< .. and ceases to, at delta' = w
-  separate     ///< a compliant stop that had let go beyond its gap is back at it
+  separate,    ///< a compliant stop that had let go beyond its gap is back at it
+  corner,      ///< a characteristic, or the force of a bounded compliant stop, passes a corner; w is that of the pair
+  unload,      ///< the normal force of a friction contact has come to zero
+  load         ///< .. and becomes positive again
 };
 
-inline constexpr std::size_t event_kinds = 10;
+inline constexpr std::size_t event_kinds = 13;
 
-/// "impact", "slip+", "slip-", "stick", "release", "graze", "chatter", "engage", "disengage", "separate".
+/// "impact", "slip+", "slip-", "stick", "release", "graze", "chatter", "engage", "disengage", "separate", "corner",
+/// "unload", "load".
 std::string_view name(EventKind kind);
 
 struct Event {
   EventKind kind = EventKind::impact;
-  int contact = 0;  ///< stops first, then friction contacts; System::contact_name
+  int contact = 0;  ///< stops, friction contacts, compliant stops, characteristics; System::contact_name
   Instant time;
   double w = 0.0;      ///< relative velocity of the contact's pair just before, v_a - v_b - belt speed
   double error = 0.0;  ///< chatter: bound on the error of `time`, in time units; else 0
@@ -117,7 +121,7 @@ class Motion {
     double duration = 0.0;  ///< time units
   };
   [[nodiscard]] Segment segment() const;
-  /// User's state at time s in [0, duration] of that segment, into 2 n numbers. Cost: one step per window up to s.
+  /// User's state at time s in [0, duration] of that segment, into 2 n numbers. Cost: a step a window from the last s.
   void sample(double s, std::span<double> out) const;
 
   /// The impacts that ended the last segment, in order: the stops, bit by bit, that got an impulse together.

@@ -6,7 +6,8 @@
 /// when they are first met, and kept: of the 2^s 3^f combinations of s stops and f friction contacts a motion meets a
 /// handful. Those of a model with up to eight are compiled at once, so that its motions allocate nothing.
 ///
-/// Contacts have one numbering: stops first, then friction contacts, then compliant stops.
+/// Contacts have one numbering: stops first, then friction contacts, then compliant stops, then
+/// characteristics.
 ///
 /// Threads: all functions are const and safe to call at once, also while modes are compiled.
 /// Source: docs/architecture.md, sections 2 and 3; docs/certainty.md for the operators' error bounds.

@@ -106,6 +106,18 @@ class ModelDefinition {
   /// expression is not finite
   [[nodiscard]] std::map<std::string, double> values(const Overrides& overrides = {}) const;
 
+  /// The present value of a parameter, or of a group whose members agree.
+  /// @param set  how the caller's users set a value, before "NAME=VALUE" in messages: "--set "
+  /// @throws InputError for an unknown name (the nearest is suggested), and for a group whose members differ or one of
+  /// which is set by itself
+  [[nodiscard]] double present_value(const std::string& name, const Overrides& overrides,
+                                     const std::string& set = {}) const;
+
+  /// May a parameter or group go from its present value to both ends of a range?
+  /// @throws InputError if the range is empty, the value outside, or an end outside of what a parameter admits
+  void check_range(const std::string& name, const Overrides& overrides, double from, double to,
+                   const std::string& set = {}) const;
+
   /// The validated model. @throws InputError as `values`, and with the file's line for what `validate` refuses
   [[nodiscard]] Model build(const Overrides& overrides = {}) const;
 

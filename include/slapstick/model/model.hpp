@@ -1,12 +1,13 @@
 #pragma once
 /// A mechanical oscillator with dry friction and stops, as plain data.
 ///
-///     M x'' + C x' + K x = sum forces + friction + stop forces + compliant stops,
+///     M x'' + C x' + K x = sum forces + friction + stop forces + compliant stops + characteristics,
 ///
 /// M, C, K: the coordinates' masses, the dampers and the springs, plus the model's own matrices.
 /// Nothing here assumes a number of coordinates or contacts. Units are the user's; the paper's system is dimensionless.
 /// Plain data: no function but `validate` throws. Source: NOTATION.md; Glocker (2001) for contacts and impacts.
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,10 +29,11 @@ struct Spring {
   double stiffness = 0.0;
 };
 
-/// Force coefficient * (v_a - v_b); coefficient >= 0.
+/// Force coefficient * (v_a - v_b); coefficient >= 0, or of either sign for one that may feed energy.
 struct Damper {
   int a = 0, b = ground;
   double coefficient = 0.0;
+  bool feeds = false;
 };
 
 /// amplitude * sin(harmonic * omega * t + phase) on one coordinate; harmonic 0 is a constant force of size `amplitude`.
@@ -42,14 +44,28 @@ struct Force {
   double phase = 0.0;
 };
 
+/// A normal force that is linear in the state: constant + sum (stiffness x_i + damping v_i) + the force of a compliant
+/// stop. Where the sum is negative there is no normal force, and no friction.
+struct NormalForce {
+  struct Term {
+    int coordinate = 0;
+    double stiffness = 0.0, damping = 0.0;
+  };
+  double constant = 0.0;
+  std::vector<Term> terms;
+  int compliant_stop = -1;  ///< index of a compliant stop, or -1
+};
+
 /// Coulomb friction on w = v_a - v_b - belt_speed. Slip: force -sgn(w) * kinetic_friction on a, the opposite on b.
 /// Stick: any force up to static_friction. static_friction >= kinetic_friction >= 0.
+/// With a normal force N the two are coefficients of friction: the forces are theirs times N.
 struct FrictionContact {
   std::string name;
   int a = 0, b = ground;
   double belt_speed = 0.0;
   double static_friction = 0.0;
   double kinetic_friction = 0.0;
+  std::optional<NormalForce> normal = std::nullopt;
 };
 
 /// A rigid stop that demands x_a - x_b <= clearance; Newton impact with restitution in [0, 1].
@@ -59,10 +75,25 @@ struct Stop {
   int a = 0, b = ground;
   double clearance = 0.0;
   double restitution = 1.0;
+  /// Restitution over the impact speed, constant beyond both ends: `restitution` is that below the first corner.
+  struct Corner {
+    double speed = 0.0, restitution = 0.0;
+  };
+  std::vector<Corner> corners = {};
 };
 
+/// Restitution of an impact at speed v, and d(r v)/dv there (of the piece above, at a corner).
+struct Rebound {
+  double restitution = 0.0, rate = 0.0;
+};
+[[nodiscard]] Rebound rebound(const Stop& stop, double speed);
+/// Derivative of the restitution at this speed, `rate` the derivative of the stop's numbers.
+[[nodiscard]] double rebound_rate(const Stop& stop, const Stop& rate, double speed);
+
 /// A spring and damper that act only beyond a gap, delta = x_a - x_b - clearance > 0: force stiffness delta + damping
-/// delta' on b, the opposite on a. One that does not pull lets go where that force would become negative.
+/// delta' on b, the opposite on a. One that does not pull lets go where that force would become negative. The damping
+/// force of one that is `bounded` is no larger than the force of its spring, either way: its force is 0 to 2 stiffness
+/// delta, and continuous.
 struct CompliantStop {
   std::string name;
   int a = 0, b = ground;
@@ -70,6 +101,25 @@ struct CompliantStop {
   double stiffness = 0.0;
   double damping = 0.0;
   bool pulls = false;
+  bool bounded = false;
+};
+
+/// A force that is a polyline over the relative displacement x_a - x_b or the relative velocity v_a - v_b, continuous
+/// at its corners, pulling a and b together where it is positive. Slopes may be of either sign.
+/// Below the first corner and above the last one the force goes on with the slopes given.
+///
+/// Over `zones` of the displacement the force is coefficient * (v_a - v_b) instead, with a coefficient for each zone;
+/// the force jumps at a corner. `force` of a corner is the coefficient above it, slope_below that below the first.
+struct Characteristic {
+  enum class Over : std::uint8_t { displacement, velocity, zones };
+  struct Corner {
+    double at = 0.0, force = 0.0;
+  };
+  std::string name;
+  int a = 0, b = ground;
+  Over over = Over::displacement;
+  std::vector<Corner> corners;  ///< at least one, `at` ascending
+  double slope_below = 0.0, slope_above = 0.0;
 };
 
 /// What happens when several stops are hit or touched at one instant.
@@ -90,6 +140,7 @@ struct Model {
   std::vector<FrictionContact> frictions;
   std::vector<Stop> stops;
   std::vector<CompliantStop> compliant_stops;
+  std::vector<Characteristic> characteristics;
   SymmetricMatrix mass, damping, stiffness;  ///< added to what coordinates, dampers and springs give
   ImpactLaw impact_law = ImpactLaw::moreau;
   double omega = 0.0;  ///< forcing frequency; 0 only if no force has a harmonic > 0

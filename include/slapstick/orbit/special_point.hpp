@@ -75,6 +75,7 @@ enum class Passage : std::uint8_t {
   family,        ///< the orbits beyond are isolated no more: one of a family
   cascade,       ///< one of infinitely many changes that gather at the onset of a chatter
   merges,        ///< the orbit becomes a shorter one, run through more than once
+  equilibrium,   ///< the orbit shrinks to a state of rest, at a corner of a characteristic
   symmetric,     ///< BP: behind a symmetric orbit are the images of the branch's own orbits
   retraced,      ///< the branch as it came
   not_followed,  ///< the events change, and the caller wanted them to stay

@@ -14,7 +14,7 @@ class SampledMotion {
 
   struct Sample {
     Instant time;     ///< k / samples_per_period exactly
-    ModeId mode = 0;  ///< System::mode_name
+    ModeId mode = 0;  ///< of the motion up to here; at the start the mode that starts, after impacts due there
     State state;      ///< user's coordinates; just before an event that falls on this very instant
   };
 

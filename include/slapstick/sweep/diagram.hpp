@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "slapstick/quantity/measure.hpp"
 #include "slapstick/section/stop_choice.hpp"
 
 namespace slapstick::sweep {
@@ -36,7 +37,10 @@ struct DiagramProblem {
   Direction direction = Direction::up;
   StartRule start = StartRule::carry;
   StopChoice stops = {};  ///< whose impacts are recorded (section/stop_choice.hpp); those of other stops end no flight
-  int threads = 0;        ///< 0: all
+  /// Measured over `measured_periods` after the transient, in place of the impacts; then a model needs no stop.
+  std::vector<Quantity> of = {};
+  int measured_periods = 100;
+  int threads = 0;  ///< 0: all
   /// Called after every value with the numbers done and to do; from any of the threads, but never two at once.
   std::function<void(int done, int total)> progress;
   const std::atomic<bool>* cancel = nullptr;  ///< set it and the sweep returns soon with what is complete
@@ -74,6 +78,7 @@ struct DiagramPoint {
   Direction direction = Direction::up;  ///< up or down
   bool done = false;                    ///< false only if the sweep was cancelled before
   ImpactTable impacts;                  ///< empty if there are none, or after a failure
+  std::vector<Statistics> of;           ///< of each of DiagramProblem::of; empty after a failure
   double periods = 0.0;                 ///< length of the recording
   std::string failure;                  ///< one line, what the NumericalError or InputError said; else empty
   std::string note;                     ///< e.g. that the carried state does not fit this model; else empty

@@ -1,0 +1,60 @@
+/// Finds the cycle or the motion that is measured.
+#include "span_options.hpp"
+
+#include "base/text.hpp"
+#include "slapstick/base/error.hpp"
+#include "work.hpp"
+
+namespace slapstick::app {
+
+Json span_json(const Span& span) {
+  Json json = Json::object();
+  if (span.cycle) {
+    json.set("kind", "cycle").set("class", span.cycle->label);
+    if (span.cycle->orbit.shape.n > 0) json.set("n", span.cycle->orbit.shape.n);
+    return json;
+  }
+  return json.set("kind", "motion").set("transient", span.motion->time().since({})).set("periods", span.periods());
+}
+
+void SpanOptions::declare(Arguments& arguments) {
+  model.declare(arguments);
+  model.declare_state(arguments);
+  arguments.count("--transient", transient, 0, 1'000'000'000, "forcing periods to leave out first (500)");
+  arguments.count("--periods", periods, 1, 1'000'000'000, "measure over so many forcing periods instead of a cycle");
+  arguments.number("--time", time, "T", "the same by a time in the model's unit");
+  arguments.text("--out", out, "FILE", "write there instead of to standard output");
+}
+
+void SpanOptions::check() const {
+  if (periods > 0 && time != 0.0) throw InputError("--time and --periods both give the length: choose one");
+  if (time < 0.0) throw InputError("--time: " + shown(time) + " is negative");
+  if (of.empty()) throw InputError("--of is needed: the name of a quantity ('slapstick quantities MODEL' lists them)");
+}
+
+std::optional<Span> SpanOptions::span(const ChosenModel& chosen, long long instead, const Context& context) const {
+  const State start = model.start(chosen);
+  SpanWish wish{static_cast<long>(transient), static_cast<double>(periods), static_cast<double>(instead), &context.stop};
+  if (time > 0.0) wish.periods = time / chosen.model.forcing_period();
+  const double length = wish.periods > 0.0 ? wish.periods : wish.instead;
+  const System system =
+      affordable_system(chosen, {static_cast<double>(transient) + length, time > 0.0 ? "--time" : "--periods"});
+  return find_span(chosen.definition, chosen.overrides, system, start, wish);
+}
+
+std::vector<Wanted> parse_wanted(const std::string& argument, const std::string& text, const std::vector<Quantity>& all) {
+  std::vector<Wanted> wanted;
+  try {
+    for (const std::string& word : split(text, ',')) {
+      const auto parts = split(word, ':');
+      if (parts.size() > 2 || parts[0].empty()) throw InputError(in_quotes(word) + " is not of the form Q or Q:STAT");
+      wanted.push_back({find_quantity(all, parts[0]), parts.size() == 2 ? parts[1] : ""});
+      if (parts.size() == 2) check_statistic(wanted.back().quantity, parts[1]);
+    }
+  } catch (const InputError& error) {
+    throw InputError(argument + ": " + error.message());
+  }
+  return wanted;
+}
+
+}  // namespace slapstick::app

@@ -1,0 +1,47 @@
+#pragma once
+/// What is measured over: the cycle that a motion settles on, or the motion itself for a time.
+///
+///     const auto span = find_span(definition, {}, system, definition.start(), {});
+///     const Measured found = measure(*span, {find_quantity(quantities(definition), "F_stop")});
+///
+/// Threads: a Span belongs to one thread at a time. Cost: the transient, and what `orbit::settle` takes for a cycle.
+/// Source: docs/measure.md.
+#include <memory>
+#include <optional>
+
+#include "slapstick/quantity/measure.hpp"
+#include "slapstick/quantity/spectrum.hpp"
+
+namespace slapstick {
+
+struct SpanWish {
+  long transient = 500;   ///< forcing periods that are left out first
+  double periods = 0.0;   ///< length of the motion in forcing periods; 0: the cycle ..
+  double instead = 1000;  ///< .. or where there is none so many periods
+  const std::atomic<bool>* stop = nullptr;
+};
+
+struct Span {
+  std::shared_ptr<const orbit::Problem> problem;  ///< of the cycle ..
+  std::optional<orbit::Solution> cycle;           ///< .. or none: then the motion
+  std::optional<Motion> motion;                   ///< after the transient
+  Instant end;                                    ///< of the motion
+
+  /// Of the motion, in forcing periods.
+  [[nodiscard]] double periods() const { return end.since(motion->time()); }
+};
+
+/// @param system  of the definition with these overrides
+/// @returns nothing if it was stopped
+/// @throws InputError, NumericalError as orbit::settle and Motion::advance
+[[nodiscard]] std::optional<Span> find_span(const ModelDefinition& definition, const Overrides& overrides,
+                                            const System& system, const State& start, const SpanWish& wish);
+
+/// Of the cycle or of the motion. @throws as the measures of these
+[[nodiscard]] Measured measure(const Span& span, const std::vector<Quantity>& of, const std::atomic<bool>* stop = nullptr);
+
+/// The density of the motion of a span, in as many stretches as fit.
+/// @throws InputError if none fits, and as density of a motion
+[[nodiscard]] DensitySpectrum density(const Span& span, const Quantity& of, DensityOptions options);
+
+}  // namespace slapstick

@@ -1,0 +1,63 @@
+/// Names the parts of a model that can feed energy.
+#include "slapstick/model/energy_sources.hpp"
+
+#include <algorithm>
+
+#include "base/text.hpp"
+
+namespace slapstick {
+namespace {
+
+/// force * velocity < 0 somewhere: at a corner, at velocity 0, or far out.
+bool feeds(const Characteristic& over_velocity) {
+  const auto& corners = over_velocity.corners;
+  const bool far = over_velocity.slope_below < 0.0 || over_velocity.slope_above < 0.0;
+  const bool at_corner = std::any_of(corners.begin(), corners.end(),
+                                     [](const Characteristic::Corner& corner) { return corner.force * corner.at < 0.0; });
+  double at_zero = corners.front().force + over_velocity.slope_below * (0.0 - corners.front().at);
+  if (corners.back().at <= 0.0) at_zero = corners.back().force - over_velocity.slope_above * corners.back().at;
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    const Characteristic::Corner &from = corners[i - 1], &to = corners[i];
+    if (from.at <= 0.0 && to.at > 0.0)
+      at_zero = from.force - (to.force - from.force) / (to.at - from.at) * from.at;
+  }
+  return far || at_corner || at_zero != 0.0;
+}
+
+bool feeds_in_a_zone(const Characteristic& zones) {
+  return zones.slope_below < 0.0 ||
+         std::any_of(zones.corners.begin(), zones.corners.end(),
+                     [](const Characteristic::Corner& corner) { return corner.force < 0.0; });
+}
+
+/// Is the normal force that of other coordinates than those on which the friction acts?
+bool couples(const FrictionContact& contact, const Model& model) {
+  if (!contact.normal) return false;
+  if (!contact.normal->terms.empty() || contact.normal->compliant_stop < 0) return true;
+  const CompliantStop& stop = model.compliant_stops[static_cast<std::size_t>(contact.normal->compliant_stop)];
+  return !((stop.a == contact.a && stop.b == contact.b) || (stop.a == contact.b && stop.b == contact.a));
+}
+
+}  // namespace
+
+std::vector<std::string> energy_sources(const Model& model) {
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < model.dampers.size(); ++i)
+    if (model.dampers[i].coefficient < 0.0) all.push_back("damper " + std::to_string(i + 1));
+  for (const Characteristic& one_of : model.characteristics) {
+    const bool source = one_of.over == Characteristic::Over::velocity ? feeds(one_of)
+                        : one_of.over == Characteristic::Over::zones  ? feeds_in_a_zone(one_of)
+                                                                      : false;
+    if (source) all.push_back("characteristic " + in_quotes(one_of.name));
+  }
+  for (const FrictionContact& contact : model.frictions)
+    if (couples(contact, model)) all.push_back("friction " + in_quotes(contact.name));
+  for (int i = 0; i < model.size() && !model.damping.empty(); ++i)
+    if (model.damping[static_cast<std::size_t>(i * (model.size() + 1))] < 0.0) {
+      all.emplace_back("matrix damping");
+      break;
+    }
+  return all;
+}
+
+}  // namespace slapstick

@@ -1,0 +1,162 @@
+/// Integrates quantities along a motion, and finds their least and greatest values.
+#include "slapstick/quantity/measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "flow/compiled_system.hpp"
+#include "quantity/leg_trace.hpp"
+#include "quantity/quadrature.hpp"
+#include "quantity/tracer.hpp"
+#include "slapstick/base/error.hpp"
+
+namespace slapstick {
+namespace quantity {
+namespace {
+
+/// A sum of many terms with what its roundings left out. Source: Neumaier (1974).
+struct LongSum {
+  double sum = 0.0, rest = 0.0;
+  void add(double term) {
+    const double next = sum + term;
+    rest += std::abs(sum) >= std::abs(term) ? (sum - next) + term : (term - next) + sum;
+    sum = next;
+  }
+  [[nodiscard]] double value() const { return sum + rest; }
+};
+
+/// Sums of a quantity.
+struct Sums {
+  LongSum integral, square;
+  double least = INFINITY, greatest = -INFINITY, least_at = 0.0, greatest_at = 0.0;
+
+  void note(double value, double at) {
+    if (value < least) least = value, least_at = at;
+    if (value > greatest) greatest = value, greatest_at = at;
+  }
+};
+
+void add_step(const Polynomial& f, double begin, double length, Sums& sums) {
+  sums.integral.add(length * f.integral());
+  double square = 0.0;
+  const auto values = at_nodes(f);
+  for (std::size_t k = 0; k < nodes; ++k) square += gauss().weight[k] * values[k] * values[k];
+  sums.square.add(length * square);
+  const double around = f.size(1);
+  if (f.a[0] - around >= sums.least && f.a[0] + around <= sums.greatest) return;
+  event::possible_extremes(f, [&](double x, double value) { sums.note(value, begin + x * length); });
+}
+
+class Statistician : public Listener {
+ public:
+  Statistician(const Model& model, const std::vector<Quantity>& of)
+      : of_(of), sums_(of.size()), found_{0.0, std::vector<Statistics>(of.size()), {}, true} {
+    for (const Stop& stop : model.stops) found_.stops.push_back({stop.name, {}, {}, {}});
+  }
+
+  void step(const Step& step) override {
+    for (std::size_t k = 0; k < of_.size(); ++k)
+      if (!of_[k].at_impacts()) add_step(step.values[k], step.begin, step.length, sums_[k]);
+  }
+
+  void blow(const Blow& blow) override {
+    for (std::size_t k = 0; k < of_.size(); ++k) {
+      if (blow.impulses[k] == 0.0) continue;
+      found_.of[k].impulse += blow.impulses[k];
+      ++found_.of[k].impulses;
+    }
+    for (const Struck& one : blow.impacts) {
+      StopStatistics& stop = found_.stops[static_cast<std::size_t>(one.stop)];
+      add(one.w, blow.time, stop.w);
+      add(one.impulse, blow.time, stop.impulse);
+      add(one.loss, blow.time, stop.loss);
+      for (std::size_t k = 0; k < of_.size(); ++k) add_impact(of_[k].kind, one, blow.time, found_.of[k]);
+    }
+  }
+
+  [[nodiscard]] Measured result(double duration, bool complete) {
+    found_.duration = duration;
+    found_.complete = complete;
+    for (std::size_t k = 0; k < of_.size(); ++k) {
+      Statistics& one = found_.of[k];
+      if (of_[k].at_impacts()) {
+        finish(one);
+        continue;
+      }
+      one.mean = (sums_[k].integral.value() + one.impulse) / duration;
+      one.rms = std::sqrt(sums_[k].square.value() / duration);
+      one.least = sums_[k].least;
+      one.greatest = sums_[k].greatest;
+      one.least_at = sums_[k].least_at;
+      one.greatest_at = sums_[k].greatest_at;
+    }
+    for (StopStatistics& stop : found_.stops)
+      for (Statistics* one : {&stop.w, &stop.impulse, &stop.loss}) finish(*one);
+    return std::move(found_);
+  }
+
+ private:
+  /// least_at and greatest_at are kept up while values come.
+  static void add(double value, double at, Statistics& into) {
+    if (std::isnan(value)) return;
+    if (into.values.empty() || value < into.least) into.least = value, into.least_at = at;
+    if (into.values.empty() || value > into.greatest) into.greatest = value, into.greatest_at = at;
+    into.values.push_back(value);
+  }
+
+  static void add_impact(Quantity::Kind kind, const Struck& one, double at, Statistics& into) {
+    using Kind = Quantity::Kind;
+    if (kind == Kind::speed) add(one.w, at, into);
+    if (kind == Kind::impulse) add(one.impulse, at, into);
+    if (kind == Kind::loss) add(one.loss, at, into);
+    if (kind == Kind::flight) add(one.flight, at, into);
+    if (kind == Kind::sliding) add(one.sliding, at, into);
+  }
+
+  static void finish(Statistics& one) {
+    double sum = 0.0, square = 0.0;
+    for (const double value : one.values) sum += value, square += value * value;
+    one.impulse = sum;
+    one.impulses = static_cast<long>(one.values.size());
+    const auto count = static_cast<double>(one.values.size());
+    one.mean = sum / count;  // NaN if there are none
+    one.rms = std::sqrt(square / count);
+    if (one.values.empty()) one.least = one.greatest = std::numeric_limits<double>::quiet_NaN();
+    std::sort(one.values.begin(), one.values.end());
+  }
+
+  const std::vector<Quantity>& of_;
+  std::vector<Sums> sums_;
+  Measured found_;
+};
+
+}  // namespace
+}  // namespace quantity
+
+Measured measure(Motion motion, Instant end, const std::vector<Quantity>& of, const std::atomic<bool>* stop) {
+  if (end <= motion.time()) throw InputError("measure: the end is not later than the start");
+  const Instant start = motion.time();
+  const System system = motion.system();
+  quantity::Statistician listener(system.model(), of);
+  quantity::Tracer tracer(system.model(), system.compiled().frame(), system.period(), of, listener);
+  const bool complete = quantity::trace(motion, end, tracer, stop);
+  return listener.result(motion.time().since(start) * system.period(), complete);
+}
+
+Measured measure(const orbit::Problem& problem, const orbit::Orbit& orbit, const std::vector<Quantity>& of) {
+  const quantity::Cycle cycle(problem, orbit);
+  quantity::Statistician listener(cycle.model(), of);
+  quantity::Tracer tracer(cycle.model(), cycle.frame(), cycle.period(), of, listener);
+  cycle.trace(tracer);
+  Measured found = listener.result(cycle.duration(), true);
+  const auto in_cycle = [&](Statistics& one) {
+    for (double* at : {&one.least_at, &one.greatest_at}) *at -= found.duration * std::floor(*at / found.duration);
+  };
+  for (Statistics& one : found.of) in_cycle(one);
+  for (StopStatistics& stop : found.stops)
+    for (Statistics* one : {&stop.w, &stop.impulse, &stop.loss}) in_cycle(*one);
+  return found;
+}
+
+}  // namespace slapstick

@@ -1,0 +1,196 @@
+/// Names the quantities of a model, with units and meanings.
+#include <algorithm>
+#include <array>
+
+#include "base/nearest.hpp"
+#include "base/text.hpp"
+#include "slapstick/base/error.hpp"
+#include "slapstick/quantity/quantity.hpp"
+
+namespace slapstick {
+namespace {
+
+using Kind = Quantity::Kind;
+
+/// Gathers quantities; a name that is taken already is left out.
+class List {
+ public:
+  explicit List(const Model& model) : model_(model) {}
+
+  void coordinates();
+  void contacts();
+  void whole();
+  void impacts();
+  [[nodiscard]] std::vector<Quantity> take() { return std::move(all_); }
+
+ private:
+  void add(Kind kind, int index, const std::string& name, const std::string& meaning) {
+    const auto same = [&](const Quantity& known) { return known.name == name; };
+    if (std::none_of(all_.begin(), all_.end(), same)) all_.push_back({kind, index, -1, 0.0, name, "", meaning});
+  }
+  void contact(int number, const std::string& name, const std::string& what, bool gap);
+
+  const Model& model_;
+  std::vector<Quantity> all_;
+};
+
+void List::coordinates() {
+  const std::vector<std::string> names = state_names(model_);
+  for (int i = 0; i < model_.size(); ++i) {
+    const std::string &x = names[2 * static_cast<std::size_t>(i)], &v = names[2 * static_cast<std::size_t>(i) + 1];
+    add(Kind::displacement, i, x, "displacement of " + x);
+    add(Kind::velocity, i, v, "velocity of " + x);
+    add(Kind::acceleration, i, "a" + v.substr(1), "acceleration of " + x + "; impacts are impulses in it");
+  }
+}
+
+void List::contact(int number, const std::string& name, const std::string& what, bool gap) {
+  if (gap) add(Kind::gap, number, "gap_" + name, "gap of " + what);
+  add(Kind::relative, number, "w_" + name, "relative velocity of " + what);
+}
+
+void List::contacts() {
+  int number = 0;
+  for (const Stop& stop : model_.stops) {
+    const std::string what = "stop " + stop.name;
+    contact(number, stop.name, what, true);
+    add(Kind::force, number, "F_" + stop.name, "press of " + what + ": 0 when open, impulses at impacts");
+    add(Kind::power, number, "power_" + stop.name, "power that " + what + " takes: impulses at impacts");
+    ++number;
+  }
+  for (const FrictionContact& friction : model_.frictions) {
+    const std::string what = "friction contact " + friction.name;
+    contact(number, friction.name, what, false);
+    add(Kind::force, number, "F_" + friction.name, "force of " + what + ": friction in slip, the holding force in stick");
+    add(Kind::power, number, "power_" + friction.name, "power that " + what + " dissipates");
+    ++number;
+  }
+  for (const CompliantStop& stop : model_.compliant_stops) {
+    const std::string what = "compliant stop " + stop.name;
+    contact(number, stop.name, what, true);
+    add(Kind::force, number, "F_" + stop.name, "press of " + what + ": 0 when it does not act");
+    add(Kind::power, number, "power_" + stop.name, "power that " + what + " dissipates");
+    ++number;
+  }
+  for (const Characteristic& one_of : model_.characteristics) {
+    const std::string what = "characteristic " + one_of.name;
+    contact(number, one_of.name, what, false);
+    add(Kind::force, number, "F_" + one_of.name, "force of " + what);
+    if (one_of.over != Characteristic::Over::displacement)
+      add(Kind::power, number, "power_" + one_of.name, "power that " + what + " dissipates");
+    ++number;
+  }
+}
+
+void List::whole() {
+  add(Kind::kinetic, -1, "kinetic_energy", "kinetic energy of all masses");
+  add(Kind::potential, -1, "potential_energy", "energy in springs, compliant stops and characteristics");
+  add(Kind::input, -1, "power_in", "power that forces and belts bring");
+  if (!model_.dampers.empty() || !model_.damping.empty())
+    add(Kind::damping, -1, "power_damping", "power that dampers and the damping matrix dissipate");
+}
+
+void List::impacts() {
+  if (model_.stops.empty()) return;
+  add(Kind::speed, -1, "w", "at impacts of all stops: speed just before");
+  add(Kind::impulse, -1, "impulse", "at impacts of all stops: impulse of the stop");
+  add(Kind::loss, -1, "energy_lost", "at impacts of all stops: energy lost");
+  add(Kind::flight, -1, "flight", "at impacts: time since the impact before, in forcing periods");
+  add(Kind::sliding, -1, "sliding", "at impacts: time of slip since the impact before, in forcing periods");
+}
+
+/// The unit of a quantity where lengths are `length` and times `time`; the units of forces are known of SI units only.
+std::string unit_of(const Quantity& quantity, const std::string& length, const std::string& time) {
+  const bool si = length == "m" && time == "s";
+  const auto over_time = [&](const char* power) { return length.empty() || time.empty() ? "" : length + "/" + time + power; };
+  switch (quantity.kind) {
+    case Kind::displacement:
+    case Kind::gap:
+      return length;
+    case Kind::velocity:
+    case Kind::relative:
+    case Kind::speed:
+      return over_time("");
+    case Kind::acceleration:
+      return over_time("^2");
+    case Kind::force:
+      return si ? "N" : "";
+    case Kind::power:
+    case Kind::damping:
+    case Kind::input:
+      return si ? "W" : "";
+    case Kind::kinetic:
+    case Kind::potential:
+    case Kind::loss:
+      return si ? "J" : "";
+    case Kind::impulse:
+      return si ? "N s" : "";
+    case Kind::flight:
+    case Kind::sliding:
+    case Kind::parameter:
+      return "";
+  }
+  return "";
+}
+
+/// The unit of all coordinates, if they have one.
+std::string common(const std::vector<std::string>& units) {
+  const bool one = !units.empty() && std::all_of(units.begin(), units.end(), [&](const auto& unit) { return unit == units[0]; });
+  return one ? units.front() : "";
+}
+
+const Quantity* known(const std::vector<Quantity>& all, const std::string& name) {
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Quantity& one) { return one.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+bool has_difference(Kind kind) { return kind <= Kind::force; }
+
+}  // namespace
+
+std::string_view name(Quantity::Kind kind) {
+  constexpr std::array<std::string_view, 17> words = {
+      "displacement", "velocity", "acceleration", "gap",    "velocity", "force",  "power",  "power",    "power",
+      "energy",       "energy",   "impact",       "impact", "impact",   "impact", "impact", "parameter"};
+  return words[static_cast<std::size_t>(kind)];
+}
+
+std::vector<Quantity> quantities(const Model& model) {
+  List list(model);
+  list.coordinates();
+  list.contacts();
+  list.whole();
+  list.impacts();
+  return list.take();
+}
+
+std::vector<Quantity> quantities(const ModelDefinition& definition, const Overrides& overrides) {
+  std::vector<Quantity> all = quantities(definition.build(overrides));
+  const StatedUnits stated = definition.stated_units();
+  for (Quantity& one : all) {
+    const bool own = one.kind <= Kind::acceleration;
+    one.unit = unit_of(one, own ? stated.coordinates[static_cast<std::size_t>(one.index)] : common(stated.coordinates),
+                       stated.time);
+  }
+  const auto values = definition.values(overrides);
+  for (const Parameter& parameter : definition.parameters())
+    if (known(all, parameter.name) == nullptr)
+      all.push_back({Kind::parameter, -1, -1, values.at(parameter.name), parameter.name, parameter.unit, parameter.description});
+  return all;
+}
+
+Quantity find_quantity(const std::vector<Quantity>& all, const std::string& name) {
+  if (const Quantity* const one = known(all, name)) return *one;
+  for (std::size_t dash = name.find('-'); dash != std::string::npos; dash = name.find('-', dash + 1)) {
+    const Quantity *const a = known(all, name.substr(0, dash)), *const b = known(all, name.substr(dash + 1));
+    if (a == nullptr || b == nullptr) continue;
+    if (a->kind != b->kind || !has_difference(a->kind))
+      throw InputError(in_quotes(name) + ": a difference is of two displacements, velocities, accelerations, gaps or forces");
+    return {a->kind, a->index, b->index, 0.0, name, a->unit == b->unit ? a->unit : "", a->meaning + ", minus " + b->meaning};
+  }
+  std::vector<std::string> names;
+  for (const Quantity& one : all) names.push_back(one.name);
+  throw InputError("no quantity " + in_quotes(name) + suggestion(name, names) + " ('slapstick quantities' lists them)");
+}
+
+}  // namespace slapstick

@@ -1,0 +1,60 @@
+/// Bands of octaves and thirds, and the weighting A.
+#include <algorithm>
+#include <cmath>
+
+#include "slapstick/base/error.hpp"
+#include "slapstick/quantity/spectrum.hpp"
+
+namespace slapstick {
+namespace {
+
+/// Centres 1000 G^(x / parts) Hz, G = 10^(3/10): octaves, and thirds of them. Edges half a band to either side.
+std::vector<Band> bands(double lowest, double highest, int parts) {
+  if (parts != 1 && parts != 3) throw InputError("octaves: parts are 1 or 3");
+  std::vector<Band> all;
+  if (!(lowest > 0.0 && highest > lowest)) return all;
+  const double G = std::pow(10.0, 0.3), half = std::pow(G, 0.5 / parts);
+  const auto place = [&](double hertz) { return parts * std::log(hertz / 1000.0) / std::log(G); };
+  for (double x = std::floor(place(lowest) + 0.5); x <= std::floor(place(highest) + 0.5); ++x) {
+    const double centre = 1000.0 * std::pow(G, x / parts);
+    all.push_back({centre, centre / half, centre * half, 0.0});
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<Band> octaves(const LineSpectrum& of, int parts, double unit_of_time) {
+  if (of.lines.size() < 2) return {};
+  std::vector<Band> all = bands(of.lines[1].frequency / unit_of_time, of.lines.back().frequency / unit_of_time, parts);
+  for (const SpectralLine& line : of.lines) {
+    const double hertz = line.frequency / unit_of_time;
+    for (Band& band : all)
+      if (hertz >= band.from && hertz < band.to) band.mean_square += 2.0 * std::norm(line.c);
+  }
+  return all;
+}
+
+/// A point stands for the frequencies that are nearest to it.
+std::vector<Band> octaves(const DensitySpectrum& of, int parts, double unit_of_time) {
+  if (of.frequency.size() < 2) return {};
+  const double half = 0.5 * (of.frequency[1] - of.frequency[0]) / unit_of_time;
+  std::vector<Band> all = bands(of.frequency.front() / unit_of_time, of.frequency.back() / unit_of_time, parts);
+  for (std::size_t k = 0; k < of.frequency.size(); ++k) {
+    const double hertz = of.frequency[k] / unit_of_time;
+    for (Band& band : all) {
+      const double width = std::min(band.to, hertz + half) - std::max(band.from, hertz - half);
+      if (width > 0.0) band.mean_square += width * unit_of_time * of.density[k];
+    }
+  }
+  return all;
+}
+
+double a_weighting(double hertz) {
+  constexpr double f1 = 20.598997, f2 = 107.65265, f3 = 737.86223, f4 = 12194.217;
+  const double f = hertz * hertz;
+  const double gain = f4 * f4 * f * f / ((f + f1 * f1) * std::sqrt((f + f2 * f2) * (f + f3 * f3)) * (f + f4 * f4));
+  return 20.0 * std::log10(gain) + 1.9997;
+}
+
+}  // namespace slapstick

@@ -1,0 +1,159 @@
+/// Fourier integrals of a quantity along a cycle, and along overlapping stretches of a motion.
+#include "slapstick/quantity/spectrum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/phase.hpp"
+#include "base/text.hpp"
+#include "flow/compiled_system.hpp"
+#include "quantity/leg_trace.hpp"
+#include "quantity/quadrature.hpp"
+#include "quantity/tracer.hpp"
+#include "slapstick/base/error.hpp"
+
+namespace slapstick {
+namespace quantity {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Integrals of f(t) exp(-2 pi i k t / T), k = 0 .. count - 1.
+class Fourier : public Listener {
+ public:
+  Fourier(double T, std::size_t count) : T_(T), sums_(count) {}
+
+  void step(const Step& step) override {
+    const Polynomial& f = step.values[0];
+    if (f.size() == 0.0) return;
+    const double turns = static_cast<double>(sums_.size()) * step.length / T_;
+    const double parts = std::max(1.0, std::ceil(turns / most_turns));
+    for (double part = 0.0; part < parts; ++part)
+      for (std::size_t k = 0; k < nodes; ++k) {
+        const double x = (part + gauss().x[k]) / parts, weight = gauss().weight[k] * step.length / parts, value = f.at(x);
+        add(weight * value, step.begin + x * step.length);
+        square_ += weight * value * value;
+      }
+  }
+
+  void blow(const Blow& blow) override {
+    if (blow.impulses[0] == 0.0) return;
+    add(blow.impulses[0], blow.time);
+    ++impulses_;
+  }
+
+  [[nodiscard]] std::vector<Complex> take() {
+    std::vector<Complex> sums(sums_.size());
+    std::swap(sums, sums_);
+    return sums;
+  }
+  [[nodiscard]] double square() const { return square_; }
+  [[nodiscard]] long impulses() const { return impulses_; }
+
+ private:
+  static constexpr double most_turns = 1.5;  ///< in a quadrature: 10 of the 14 that are exact to rounding
+  static constexpr std::size_t powers = 32;  ///< that are multiplied up before the phase is computed anew
+
+  void add(double weight, double t) {
+    const double turn = t / T_ - std::floor(t / T_);
+    const Complex z = phase(turn);
+    for (std::size_t first = 0; first < sums_.size(); first += powers) {
+      Complex p = weight * phase(static_cast<double>(first) * turn);
+      const std::size_t last = std::min(first + powers, sums_.size());
+      for (std::size_t k = first; k < last; ++k) {
+        sums_[k] += p;
+        p = {p.real() * z.real() - p.imag() * z.imag(), p.real() * z.imag() + p.imag() * z.real()};
+      }
+    }
+  }
+
+  static Complex phase(double turns) {
+    const auto [cosine, sine] = of_turns(turns - std::floor(turns));
+    return {cosine, -sine};
+  }
+
+  double T_;
+  std::vector<Complex> sums_;
+  double square_ = 0.0;
+  long impulses_ = 0;
+};
+
+void check(const Quantity& of, double highest_order) {
+  if (of.at_impacts()) throw InputError("spectrum: " + in_quotes(of.name) + " is a quantity at impacts, not of time");
+  if (!(highest_order > 0.0)) throw InputError("spectrum: the highest order " + shown(highest_order) + " is not positive");
+}
+
+/// The part p of the distribution chi^2 over its degrees of freedom, by Wilson and Hilferty (1931); z: that of the
+/// normal one.
+double chi_square_part(double freedom, double z) {
+  const double spread = 2.0 / (9.0 * freedom);
+  return std::pow(1.0 - spread + z * std::sqrt(spread), 3);
+}
+
+/// Of the average over K stretches with the window of Hann, each half in the next one: neighbours correlate by (1/6)^2.
+double degrees_of_freedom(double K) { return 2.0 * K / (1.0 + 2.0 * (K - 1.0) / K / 36.0); }
+
+/// |X|^2 of the window of Hann, from the integrals without a window: X_k / 2 - X_{k-1} / 4 - X_{k+1} / 4.
+double windowed(const std::vector<Complex>& first, const std::vector<Complex>& second, std::size_t k) {
+  const auto X = [&](std::size_t i) { return i % 2 == 0 ? first[i] + second[i] : first[i] - second[i]; };
+  return std::norm(0.5 * X(k) - 0.25 * (X(k - 1) + X(k + 1)));
+}
+
+}  // namespace
+}  // namespace quantity
+
+LineSpectrum spectrum(const orbit::Problem& problem, const orbit::Orbit& orbit, const Quantity& of, double highest_order) {
+  quantity::check(of, highest_order);
+  const quantity::Cycle cycle(problem, orbit);
+  const double T = cycle.duration(), n = orbit.shape.n > 0 ? orbit.shape.n : 1.0;
+  quantity::Fourier fourier(T, static_cast<std::size_t>(std::floor(highest_order * n)) + 1);
+  const std::vector<Quantity> one = {of};
+  quantity::Tracer tracer(cycle.model(), cycle.frame(), cycle.period(), one, fourier);
+  cycle.trace(tracer);
+  LineSpectrum found{T, {}, fourier.square() / T, 0.0, fourier.impulses()};
+  for (const auto& sum : fourier.take()) {
+    const auto k = static_cast<double>(found.lines.size());
+    found.lines.push_back({k / n, k / T, sum / T});
+    found.mean_square_of_lines += (k > 0.0 ? 2.0 : 1.0) * std::norm(sum / T);
+  }
+  return found;
+}
+
+DensitySpectrum density(Motion motion, const Quantity& of, const DensityOptions& options) {
+  quantity::check(of, options.highest_order);
+  const System system = motion.system();
+  const double half = 0.5 * options.stretch, T = options.stretch * system.period();
+  const double per_order = system.model().forced() ? options.stretch : T;  // points
+  const auto count = static_cast<std::size_t>(std::floor(options.highest_order * per_order)) + 1;
+  if (count < 3) throw InputError("spectrum: a stretch is too short for the highest order");
+  quantity::Fourier fourier(T, count + 1);
+  const std::vector<Quantity> one = {of};
+  quantity::Tracer tracer(system.model(), system.compiled().frame(), system.period(), one, fourier);
+  std::vector<double> sums(count, 0.0);
+  std::vector<std::complex<double>> before;
+  const Instant start = motion.time();
+  int stretches = 0;
+  for (int i = 1; i <= options.stretches + 1; ++i) {
+    if (!quantity::trace(motion, start.plus(i * half), tracer, options.stop)) break;
+    std::vector<std::complex<double>> now = fourier.take();
+    for (std::size_t k = 2; k < count && i > 1; ++k) sums[k] += quantity::windowed(before, now, k);
+    stretches += i > 1 ? 1 : 0;
+    before = std::move(now);
+  }
+  DensitySpectrum found;
+  found.complete = stretches == options.stretches;
+  found.stretches = stretches;
+  found.resolution = 1.5 / T;
+  found.degrees_of_freedom = quantity::degrees_of_freedom(stretches);
+  found.low = 1.0 / quantity::chi_square_part(found.degrees_of_freedom, 1.959963984540054);
+  found.high = 1.0 / quantity::chi_square_part(found.degrees_of_freedom, -1.959963984540054);
+  for (std::size_t k = 2; k < count; ++k) {
+    found.order.push_back(static_cast<double>(k) / per_order);
+    found.frequency.push_back(static_cast<double>(k) / T);
+    found.density.push_back(2.0 * sums[k] / (0.375 * T * stretches));  // integral of the window's square: 3/8 T
+  }
+  return found;
+}
+
+}  // namespace slapstick

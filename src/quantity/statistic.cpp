@@ -1,0 +1,69 @@
+/// Statistics by name.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/nearest.hpp"
+#include "base/text.hpp"
+#include "slapstick/base/error.hpp"
+#include "slapstick/quantity/measure.hpp"
+
+namespace slapstick {
+namespace {
+
+const std::vector<std::string>& names() {
+  static const std::vector<std::string> all = {"mean",   "rms",          "min",   "max",     "min_at",
+                                               "max_at", "peak_to_peak", "crest", "impulse", "number"};
+  return all;
+}
+
+/// The part in [0, 1] of "q05" .. "q95", or -1.
+double part_of(const std::string& name) {
+  const bool digits = name.size() == 3 && name[0] == 'q' && std::all_of(name.begin() + 1, name.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return digits ? ((name[1] - '0') * 10 + (name[2] - '0')) / 100.0 : -1.0;
+}
+
+}  // namespace
+
+double Statistics::crest() const { return std::max(std::abs(least), std::abs(greatest)) / rms; }
+
+double Statistics::quantile(double q) const {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const double place = std::ceil(q * static_cast<double>(values.size())) - 1.0;
+  return values[static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(values.size() - 1)))];
+}
+
+void check_statistic(const Quantity& quantity, const std::string& name) {
+  if (std::find(names().begin(), names().end(), name) != names().end()) return;
+  if (part_of(name) >= 0.0) {
+    if (quantity.at_impacts()) return;
+    throw InputError(in_quotes(quantity.name + ":" + name) + ": quantiles are of quantities at impacts");
+  }
+  throw InputError("no statistic " + in_quotes(name) + suggestion(name, names()));
+}
+
+double statistic(const Statistics& of, const std::string& name) {
+  if (name == "mean") return of.mean;
+  if (name == "rms") return of.rms;
+  if (name == "min") return of.least;
+  if (name == "max") return of.greatest;
+  if (name == "min_at") return of.least_at;
+  if (name == "max_at") return of.greatest_at;
+  if (name == "peak_to_peak") return of.peak_to_peak();
+  if (name == "crest") return of.crest();
+  if (name == "impulse") return of.impulse;
+  if (name == "number") return static_cast<double>(of.impulses);
+  if (part_of(name) >= 0.0) return of.quantile(part_of(name));
+  throw InputError("no statistic " + in_quotes(name) + suggestion(name, names()));
+}
+
+std::vector<std::string> usual_statistics(const Quantity& quantity) {
+  if (quantity.kind == Quantity::Kind::parameter) return {"mean"};
+  if (quantity.at_impacts()) return {"number", "mean", "rms", "min", "q05", "q25", "q50", "q75", "q95", "max"};
+  std::vector<std::string> all = {"mean", "rms", "min", "min_at", "max", "max_at", "peak_to_peak", "crest"};
+  using Kind = Quantity::Kind;
+  if (quantity.kind == Kind::acceleration || quantity.kind == Kind::force || quantity.kind == Kind::power) all.emplace_back("impulse");
+  return all;
+}
+
+}  // namespace slapstick

@@ -1,0 +1,64 @@
+/// Hands the pieces of a Motion to a tracer.
+#include <map>
+
+#include "flow/engine.hpp"
+#include "quantity/tracer.hpp"
+#include "slapstick/flow/stage.hpp"
+
+namespace slapstick::quantity {
+namespace {
+
+class Follower {
+ public:
+  Follower(Motion& motion, Tracer& tracer)
+      : motion_(motion), tracer_(tracer), origin_(motion.time()), segments_(motion.counters().segments) {}
+
+  /// After a call of advance.
+  void look(bool event) {
+    if (motion_.counters().segments != segments_) piece(event && motion_.event().kind == EventKind::chatter);
+    if (!event) return;
+    const Event& last = motion_.event();
+    if (last.kind == EventKind::impact) tracer_.impact(last.contact, last.w);
+    if (last.kind == EventKind::chatter) tracer_.begin_flight(last.time.since(origin_) * motion_.system().period());
+  }
+
+ private:
+  /// The impacts that a chatter's limit stands for come before its segment, others after theirs.
+  void piece(bool chatter) {
+    segments_ = motion_.counters().segments;
+    const Motion::Segment segment = motion_.segment();
+    const flow::CompiledSystem& system = motion_.system().compiled();
+    auto& outline = outlines_[segment.mode];
+    if (outline == nullptr) outline = system.outline(segment.mode);
+    if (chatter) tracer_.strike(std::uint32_t{1} << static_cast<unsigned>(motion_.event().contact));
+    tracer_.piece(outline, system.mode(segment.mode).window(), motion_.engine().extended_at_start().data(),
+                  segment.start.since(origin_) * system.period(), segment.duration);
+    for (const Motion::Strike& strike : motion_.strikes()) tracer_.strike(strike.stops);
+  }
+
+  Motion& motion_;
+  Tracer& tracer_;
+  Instant origin_;
+  long segments_;
+  std::map<ModeId, std::shared_ptr<const mode::Outline>> outlines_;
+};
+
+}  // namespace
+
+bool trace(Motion& motion, Instant end, Tracer& tracer, const std::atomic<bool>* stop) {
+  Follower follower(motion, tracer);
+  Instant stage = motion.time();
+  do {
+    stage = next_stage(motion.system(), stage, end);
+    while (motion.advance(stage) == Outcome::event) {
+      follower.look(true);
+      if (stopped(stop)) return false;
+    }
+    follower.look(false);
+    if (stopped(stop)) return false;
+  } while (stage < end);
+  tracer.finish(motion.engine().extended().data());
+  return true;
+}
+
+}  // namespace slapstick::quantity

@@ -1,0 +1,166 @@
+/// Follows a motion beside a cycle, and looks for cycles beside a cycle.
+#include "section/attraction.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/dense.hpp"
+#include "slapstick/base/error.hpp"
+#include "slapstick/flow/stage.hpp"
+
+namespace slapstick::section {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXcd;
+using Eigen::VectorXd;
+
+constexpr double there = 1e-10;  ///< of the motion's size: as near as a return is recognised
+
+/// |w . (x - x*)| for the left eigenvector of the leading multiplier, of norm 1 over |x_i| <= scale_i.
+class Amplitude {
+ public:
+  Amplitude(const flow::Translations& translations, const FixedPoint& cycle, const VectorXd& scale)
+      : translations_(translations), at_(translations.numbers(cycle.x)) {
+    const dense::Eigenpairs left = dense::eigenpairs(cycle.jacobian.transpose());
+    Index leading = 0;
+    if (left.values.size() > 0) left.values.cwiseAbs().maxCoeff(&leading);
+    w_ = left.vectors.col(leading);
+    w_ /= w_.cwiseAbs().dot(translations.numbers(scale));
+  }
+  [[nodiscard]] double operator()(const VectorXd& x) const {
+    const VectorXd away = translations_.numbers(x) - at_;
+    return std::abs((w_.transpose() * away.cast<std::complex<double>>())(0));
+  }
+
+ private:
+  const flow::Translations& translations_;
+  VectorXd at_;
+  VectorXcd w_;
+};
+
+constexpr double longest_trial = 256.0;  ///< forcing periods
+
+/// As many as the slowest multiplier needs to halve an amplitude, but no more than a trial may last. An even number: a
+/// motion that alternates beside the cycle is farther away on one side than on the other.
+long cycles_of_stage(double slowest, int n) {
+  const double halving = slowest > 0.5 ? std::ceil(std::log(0.5) / std::log(slowest)) : 1.0;
+  return 2 * static_cast<long>(std::max(1.0, std::min(std::ceil(halving / 2.0), std::floor(longest_trial / n / 2.0))));
+}
+
+/// A motion beside a cycle, from stage to stage.
+class Trial {
+ public:
+  Trial(const flow::Translations& translations, Motion motion, const FixedPoint& cycle, int n, const VectorXd& scale,
+        Stop stop)
+      : translations_(translations),
+        motion_(std::move(motion)),
+        cycle_(cycle),
+        scale_(scale),
+        stop_(stop),
+        amplitude_(translations, cycle, scale),
+        slowest_(std::abs(cycle.multipliers.front())),
+        cycles_(cycles_of_stage(slowest_, n)),
+        periods_(cycles_ * n) {
+    look();
+  }
+
+  [[nodiscard]] double distance() const { return distance_; }
+  [[nodiscard]] long periods() const { return periods_; }
+
+  /// Follows the motion for one stage. Has it lost what a motion loses that is drawn to the cycle?
+  bool loses() {
+    constexpr double share = 0.5;             // of the linear loss, see attraction.hpp
+    constexpr double linear = 1e-2;           // farther away the loss must be near the linear one, from both sides
+    constexpr double above_rounding = 1e-13;  // a loss below is that of some hundred roundings
+    const double away = distance_, first = size_;
+    if (!run_to(motion_, {motion_.time().period + periods_, 0.0}, stop_, [] {})) return false;
+    look();
+    // what is left is of faster directions, which fall by themselves
+    if (first <= there) return distance_ <= 0.8 * away;
+    const double lost = first - size_;
+    const double expected = first * (1.0 - std::pow(slowest_, static_cast<double>(cycles_)));
+    const bool turns = cycle_.multipliers.front().imag() != 0.0;
+    return lost >= share * expected && lost > above_rounding && (!turns || away <= linear || lost * share <= expected);
+  }
+
+ private:
+  void look() {
+    VectorXd x = flow::contact_state(motion_);
+    translations_.take_out(x);
+    distance_ = section::distance(x, cycle_.x, scale_);
+    size_ = amplitude_(x);
+  }
+
+  const flow::Translations& translations_;
+  Motion motion_;
+  const FixedPoint& cycle_;
+  const VectorXd& scale_;
+  Stop stop_;
+  Amplitude amplitude_;
+  double slowest_;
+  long cycles_, periods_;
+  double distance_ = 0.0, size_ = 0.0;  ///< from the cycle; along the slowest direction
+};
+
+}  // namespace
+
+Attraction attraction(const flow::Translations& translations, Motion motion, const FixedPoint& cycle, int n,
+                      const VectorXd& scale, Stop stop) {
+  constexpr double beside = 0.05;  // of the motion's size: a motion farther away may do anything yet
+  if (cycle.multipliers.empty()) return {true, 0.0};
+  Trial trial(translations, std::move(motion), cycle, n, scale, stop);
+  for (double left = longest_trial; left > 0.0; left -= static_cast<double>(trial.periods())) {
+    const bool loses = trial.loses();
+    if (trial.distance() <= there) return {true, trial.distance()};
+    if (!loses) return {false, trial.distance()};
+  }
+  return {trial.distance() <= beside, trial.distance()};
+}
+
+namespace {
+
+/// The part of a residual that moves of no null direction can mend is left; the rest is mended in the least move.
+VectorXd least_move(const dense::SingularVectors& by, Index nulls, const VectorXd& residual) {
+  const Index regular = by.values.size() - nulls;
+  return by.right.leftCols(regular) *
+         (by.left.leftCols(regular).transpose() * residual).cwiseQuotient(by.values.head(regular));
+}
+
+}  // namespace
+
+int family(const flow::Translations& translations, const VectorXd& x, int n, const VectorXd& scale, Stop stop) {
+  constexpr double null = 1e-6;    // a double multiplier 1, as of a conservative model, is known to half the digits
+  constexpr double aside = 1e-3;   // of the motion's size
+  constexpr double closed = 1e-9;  // a fold leaves a residual of the order of aside^2
+  const VectorXd sizes = translations.numbers(scale);
+  const auto residual = [&](const VectorXd& numbers) {
+    const VectorXd at = translations.representative(numbers);
+    const VectorXd image = return_map(translations, at, n, stop).image;
+    return VectorXd((translations.numbers(image) - numbers).cwiseQuotient(sizes));
+  };
+  const VectorXd here = translations.numbers(x);
+  const MatrixXd jacobian = return_map(translations, x, n, stop).jacobian;
+  const MatrixXd scaled = sizes.cwiseInverse().asDiagonal() *
+                          (jacobian - MatrixXd::Identity(here.size(), here.size())) * sizes.asDiagonal();
+  const dense::SingularVectors by = dense::singular_vectors(scaled);
+  const Index nulls = (by.values.array() < null).count();
+  int dimensions = 0;
+  for (Index k = here.size() - nulls; k < here.size(); ++k) {
+    const auto has_member = [&](double move) {
+      VectorXd y = move * by.right.col(k);
+      try {
+        for (int step = 0; step < 2; ++step) y -= least_move(by, nulls, residual(here + y.cwiseProduct(sizes)));
+        return residual(here + y.cwiseProduct(sizes)).cwiseAbs().maxCoeff() < closed;
+      } catch (const InputError&) {  // behind a stop
+      } catch (const NumericalError&) {
+      }
+      return false;
+    };
+    if (has_member(aside) && has_member(-aside)) ++dimensions;
+  }
+  return stopped(stop) ? 0 : dimensions;
+}
+
+}  // namespace slapstick::section

@@ -1,0 +1,36 @@
+#pragma once
+/// Is a motion drawn to a cycle? Decided by the rate at which the motion approaches, not by how near it has come:
+/// beside a multiplier -1 + 1e-9 a motion comes no nearer for a million periods, and still has that cycle ahead.
+///
+/// Let x* be a fixed point of the map of one cycle, J its Jacobian there, and w the left eigenvector of the multiplier
+/// mu of largest modulus. In the linear part of the map the amplitude a_k = |w . (x_k - x*)| falls by |mu| each cycle,
+/// however other directions fall. After M cycles a motion that is drawn has lost
+///     a_0 - a_M = a_0 (1 - |mu|^M) (1 + O(a_0^2 / (1 - |mu|)));
+/// beside an orbit that repels and bounds the basin the loss is smaller and changes its sign there, on an invariant
+/// curve it is zero. So half of the linear loss is asked for. Round a cycle with complex multipliers a curve may lie
+/// between the motion and the cycle: farther away than 1e-2 of its size the motion may lose no more than twice as much.
+/// One such loss may be chance: a chaotic motion comes nearer now and then. So stage after stage is asked for, each
+/// until the amplitude should have halved, up to 256 periods in all or until the motion is there; and at the end it
+/// must be beside the cycle, within a twentieth of its size.
+#include "section/return_map.hpp"
+
+namespace slapstick::section {
+
+struct Attraction {
+  bool drawn = false;
+  double distance = 0.0;  ///< of the motion from the cycle at the end of the trial, relative to its size
+};
+
+/// @param motion  at phase 0; a copy is followed, for 256 periods and one stage at most
+/// @param n  forcing periods of the cycle
+/// @param scale  size of the motion, as of section::distance
+[[nodiscard]] Attraction attraction(const flow::Translations& translations, Motion motion, const FixedPoint& cycle,
+                                    int n, const Eigen::VectorXd& scale, Stop stop);
+
+/// Of how many dimensions is the continuum of cycles that x is a member of? Counted are the directions to whose both
+/// sides there are other fixed points, 1e-3 of the motion's size away; beside a fold there are none.
+/// @param n  forcing periods of the cycle. Cost: two maps, and six for each multiplier 1
+[[nodiscard]] int family(const flow::Translations& translations, const Eigen::VectorXd& x, int n,
+                         const Eigen::VectorXd& scale, Stop stop);
+
+}  // namespace slapstick::section

@@ -1,0 +1,200 @@
+/// Laws of stops, dampers that act in an interval, and friction laid as a polyline, against closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "runs.hpp"
+#include "slapstick/attractor/classify.hpp"
+#include "slapstick/base/error.hpp"
+#include "slapstick/flow/tangent.hpp"
+#include "slapstick/io/model_file.hpp"
+
+namespace slapstick::testing {
+namespace {
+
+ModelDefinition one_mass(const std::string& parts) {
+  return ModelDefinition::parse("name = 'm'\nomega = 1\n[[coordinate]]\nname = 'x'\nmass = 1\n" + parts, "f.toml");
+}
+
+std::string bumper(const std::string& more) {
+  return "[[compliant_stop]]\nname = 'wall'\nbetween = ['x', 'ground']\nclearance = 0\nstiffness = 100\n" + more + "\n";
+}
+
+/// delta'' = -2 k delta until c delta' = k delta, then a damped spring until its force is zero, then free.
+struct BoundedImpact {
+  explicit BoundedImpact(double k, double c, double v) {
+    const double w = std::sqrt(2.0 * k);
+    first = std::atan(c * w / k) / w;
+    const double depth = v / w * std::sin(w * first), speed = v * std::cos(w * first), a = c / 2.0;
+    const double turn = std::sqrt(k - a * a);
+    const double by_sine = k * (speed + a * depth) - c * (k * depth + a * speed);
+    second = std::atan2(-(k * depth + c * speed) * turn, by_sine) / turn;
+    if (second < 0.0) second += std::numbers::pi / turn;
+    const double decay = std::exp(-a * second), cosine = std::cos(turn * second), sine = std::sin(turn * second);
+    let_go = decay * (depth * cosine + (speed + a * depth) / turn * sine);
+    rebound = decay * (speed * cosine - (k * depth + a * speed) / turn * sine);
+  }
+  double first, second, let_go, rebound;
+};
+
+TEST(ContactLaw, ABoundedDampingForceSetsInWithoutAJump) {
+  const System system(one_mass(bumper("damping = 6\nlaw = 'bounded'")).build());
+  const BoundedImpact impact(100.0, 6.0, 2.0);
+  Motion motion(system, {-1.0, 2.0});
+  const std::vector<Event> events = run(motion, 2.0);
+  ASSERT_EQ(kinds(events), "engage corner disengage separate");
+  EXPECT_NEAR(seconds(events[1], motion), 0.5 + impact.first, 1e-15);
+  EXPECT_NEAR(seconds(events[2], motion), 0.5 + impact.first + impact.second, 1e-14);
+  EXPECT_NEAR(seconds(events[3], motion), 0.5 + impact.first + impact.second - impact.let_go / impact.rebound, 1e-14);
+  EXPECT_NEAR(motion.state()[1], impact.rebound, 1e-14);
+}
+
+/// The force never jumps and never pulls, and the energy falls.
+TEST(ContactLaw, ABoundedStopIsGentlerThanOneThatOnlyLetsGo) {
+  double speeds[3];
+  int k = 0;
+  for (const char* law : {"lets_go", "bounded", "pulls"}) {
+    const System system(one_mass(bumper("damping = 6\nlaw = '" + std::string(law) + "'")).build());
+    Motion motion(system, {-1.0, 2.0});
+    run(motion, 2.0);
+    speeds[k++] = -motion.state()[1];
+  }
+  EXPECT_LT(speeds[2], speeds[0]);
+  EXPECT_LT(speeds[0], speeds[1]);
+  EXPECT_LT(speeds[1], 2.0);
+}
+
+TEST(ContactLaw, TheWordsMeanWhatTheFlagMeant) {
+  for (const auto& [flag, law] : {std::pair("pulls = false", "lets_go"), std::pair("pulls = true", "pulls")}) {
+    const System first(one_mass(bumper("damping = 6\n" + std::string(flag))).build());
+    const System second(one_mass(bumper("damping = 6\nlaw = '" + std::string(law) + "'")).build());
+    Motion a(first, {-1.0, 2.0}), b(second, {-1.0, 2.0});
+    run(a, 2.0), run(b, 2.0);
+    EXPECT_EQ(a.state(), b.state());
+  }
+}
+
+std::string ball(const std::string& law) {
+  return "[[force]]\non = 'x'\namplitude = -10\nharmonic = 0\n[[stop]]\nname = 'floor'\nbetween = ['ground', 'x']\n"
+         "clearance = 0\n" + law + "\n";
+}
+
+/// Each bounce by the restitution of its own speed; below the lowest corner the bounces end at a geometric limit.
+TEST(ContactLaw, RestitutionFallsWithTheSpeed) {
+  const System system(one_mass(ball("restitution_over_speed = [[1, 0.9], [3, 0.5], [5, 0.4]]")).build());
+  Motion motion(system, {0.8, 0.0});  // 4 at the floor
+  double v = 4.0, t = 0.4;
+  const std::vector<Event> events = run(motion, 20.0);
+  for (std::size_t i = 0; v > 0.95; ++i) {
+    ASSERT_EQ(events[i].kind, EventKind::impact);
+    EXPECT_NEAR(events[i].w, v, 1e-14);
+    EXPECT_NEAR(seconds(events[i], motion), t, 1e-14);
+    v *= v > 3.0 ? 0.5 - 0.05 * (v - 3.0) : v > 1.0 ? 0.9 - 0.2 * (v - 1.0) : 0.9;
+    t += v / 5.0;
+  }
+  t += v / 5.0 * 0.9 / (1.0 - 0.9);
+  const auto chatter = std::find_if(events.begin(), events.end(), [](auto& e) { return e.kind == EventKind::chatter; });
+  ASSERT_NE(chatter, events.end());
+  EXPECT_NEAR(seconds(*chatter, motion), t, 1e-13);
+}
+
+/// d v+ / d v- = -(r + r' v): two neighbours after a bounce.
+TEST(ContactLaw, ATangentSeesTheSlopeOfTheRestitution) {
+  const Model model = one_mass("[[spring]]\nbetween = ['x', 'ground']\nstiffness = 1\n[[force]]\non = 'x'\namplitude = 1\n"
+                               "[[stop]]\nname = 'wall'\nbetween = ['x', 'ground']\nclearance = 0.2\n"
+                               "restitution_over_speed = [[0.2, 0.9], [3, 0.3]]\n").build();
+  const System system(model);
+  const State start = {0.0, 1.5};
+  const double time = 1.0, step = 1e-6;
+  const auto end = [&](const State& from) {
+    Motion motion(system, from);
+    run(motion, time);
+    return motion.state();
+  };
+  TangentMotion motion(system, start, Eigen::MatrixXd::Identity(2, 2));
+  while (motion.advance(Instant{}.plus(time / model.forcing_period())) == Outcome::event) {}
+  for (int j = 0; j < 2; ++j) {
+    State above = start, below = start;
+    above[j] += step, below[j] -= step;
+    const State a = end(above), b = end(below);
+    for (int i = 0; i < 2; ++i) EXPECT_NEAR(motion.tangents()(i, j), (a[i] - b[i]) / (2.0 * step), 1e-8) << i << j;
+  }
+}
+
+/// v = v0 - c x in the interval, whatever the time: a mass that passes, and one that stays there.
+TEST(ContactLaw, ADamperThatActsInAnInterval) {
+  const System system(one_mass("[[damper]]\nname = 'grease'\nbetween = ['x', 'ground']\ncoefficient = 2\nwithin = [1, 2]\n").build());
+  Motion passes(system, {0.0, 5.0});
+  const std::vector<Event> events = run(passes, 3.0);
+  ASSERT_EQ(kinds(events), "corner corner");
+  EXPECT_NEAR(seconds(events[1], passes), 0.2 + std::log(5.0 / 3.0) / 2.0, 1e-15);
+  EXPECT_NEAR(passes.state()[1], 3.0, 1e-14);
+  Motion stays(system, {0.0, 1.0});
+  EXPECT_EQ(kinds(run(stays, 50.0)), "corner");
+  EXPECT_NEAR(stays.state()[0], 1.5, 1e-14);
+}
+
+/// The multipliers' product is exp(-integral of the damping): an edge shears, and changes no area.
+TEST(ContactLaw, AnEdgeOfAZoneShearsTangents) {
+  const ModelDefinition model = one_mass(
+      "[[spring]]\nbetween = ['x', 'ground']\nstiffness = 4\n[[force]]\non = 'x'\namplitude = 3\n"
+      "[[damper]]\nbetween = ['x', 'ground']\ncoefficient = 0.9\nwithin = [-0.3, 0.5]\ncoefficient_outside = 0.1\n");
+  const System system(model.build());
+  const Classification found = classify(system, {0.5, 0.0});
+  ASSERT_EQ(found.attractor, Attractor::periodic);
+  Motion motion(system, found.state);
+  double within = 0.0, last = 0.0;
+  bool inside = found.state[0] > -0.3 && found.state[0] < 0.5;
+  const double period = 2.0 * std::numbers::pi * found.n;
+  for (const Event& event : run(motion, period)) {
+    ASSERT_EQ(event.kind, EventKind::corner);
+    const double now = seconds(event, motion);
+    within += inside ? now - last : 0.0;
+    inside = !inside;
+    last = now;
+  }
+  within += inside ? period - last : 0.0;
+  ASSERT_EQ(found.multipliers.size(), 2U);
+  const double product = std::real(found.multipliers[0] * found.multipliers[1]);
+  EXPECT_NEAR(std::log(product), -0.9 * within - 0.1 * (period - within), 1e-9);
+}
+
+/// Error of the laid polyline: the least that so many corners allow is about (f_s - f_k) / (1 + sqrt 2 K)^2.
+TEST(ContactLaw, AStribeckLawIsLaidWithItsStatedError) {
+  for (const int corners : {1, 2, 5, 20, 40}) {
+    const Model model = one_mass("[[friction]]\nname = 'f'\nbetween = ['x', 'ground']\nstribeck = { static = 3, kinetic = 1, "
+                                 "speed = 0.5, corners = " + std::to_string(corners) + " }\n").build();
+    ASSERT_EQ(model.characteristics.size(), 1U);
+    EXPECT_EQ(model.frictions[0].static_friction, 3.0);
+    const auto& points = model.characteristics[0].corners;
+    ASSERT_EQ(points.size(), 2U * corners);
+    double worst = 0.0;
+    std::size_t i = corners;  // the first corner above 0
+    double v0 = 0.0, f0 = 0.0;
+    for (; i < points.size(); ++i) {
+      for (int k = 0; k <= 200; ++k) {
+        const double v = v0 + (points[i].at - v0) * k / 200.0, chord = f0 + (points[i].force - f0) * k / 200.0;
+        worst = std::max(worst, std::abs(3.0 + chord - (1.0 + 2.0 * std::exp(-v / 0.5))));
+      }
+      v0 = points[i].at, f0 = points[i].force;
+    }
+    worst = std::max(worst, 3.0 + f0 - 1.0);  // far out
+    const double stated = 2.0 / std::pow(1.0 + std::sqrt(2.0) * corners, 2);
+    EXPECT_LT(worst, 1.03 * stated) << corners;
+    EXPECT_GT(worst, 0.97 * stated) << corners;
+  }
+}
+
+TEST(ContactLaw, ADamperFeedsEnergyOnlyWhereItsWordIsGiven) {
+  const std::string damper = "[[damper]]\nbetween = ['x', 'ground']\ncoefficient = -0.5\n";
+  EXPECT_THROW((void)one_mass(damper), InputError);
+  EXPECT_THROW((void)one_mass(damper + "within = [0, 1]\n"), InputError);
+  const System system(one_mass(damper + "feeds = true\n").build());
+  Motion motion(system, {0.0, 1.0});
+  run(motion, 2.0);
+  EXPECT_NEAR(motion.state()[1], std::exp(1.0), 1e-14);
+}
+
+}  // namespace
+}  // namespace slapstick::testing

@@ -1,0 +1,102 @@
+/// Several events at one instant: each has the state just before it, and not that before the first of them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "oracle/models.hpp"
+#include "slapstick/flow/motion.hpp"
+
+namespace slapstick {
+namespace {
+
+struct Step {
+  Event event;
+  State before;
+};
+
+/// The events of the first instant that has any.
+std::vector<Step> first_instant(const Model& model, const State& start) {
+  const System system(model);
+  Motion motion(system, start);
+  std::vector<Step> steps;
+  while (motion.advance({1, 0.0}) == Outcome::event &&
+         (steps.empty() || motion.event().time == steps.front().event.time))
+    steps.push_back({motion.event(), {motion.before().begin(), motion.before().end()}});
+  return steps;
+}
+
+/// Equal balls in a row that touch.
+Model row(int count, double restitution, ImpactLaw law) {
+  Model m;
+  for (int i = 0; i < count; ++i) m.coordinates.push_back({"x" + std::to_string(i), 1.0});
+  for (int i = 0; i + 1 < count; ++i) m.stops.push_back({"s" + std::to_string(i), i, i + 1, 0.0, restitution});
+  m.impact_law = law;
+  return m;
+}
+
+double closing(const Model& model, const Step& step) {
+  const Stop& stop = model.stops[step.event.contact];
+  return step.before[2 * stop.a + 1] - step.before[2 * stop.b + 1];
+}
+
+/// Equal balls exchange their velocities, so all numbers are exact: the blow runs through the row.
+TEST(OneInstant, BlowThatRunsThroughARowFindsTheNextBallAtItsSpeed) {
+  const Model model = row(4, 1.0, ImpactLaw::sequence);
+  for (const double first : {0.0, -0.5}) {  // at the start, and after a flight
+    const std::vector<Step> steps = first_instant(model, {first, 1.0, 0, 0, 0, 0, 0, 0});
+    ASSERT_GE(steps.size(), 4U) << first;
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(steps[i].event.contact, i);
+      EXPECT_EQ(steps[i].event.kind, EventKind::impact);
+      for (int ball = 0; ball < 4; ++ball)
+        EXPECT_EQ(steps[i].before[2 * ball + 1], ball == i ? 1.0 : 0.0) << first << " " << i;
+    }
+    EXPECT_EQ(steps[3].event.kind, EventKind::stick);  // of balls that touch and stay
+    EXPECT_EQ(steps[3].before[7], 1.0);
+  }
+}
+
+TEST(OneInstant, SpeedOfEveryImpactOfACradleIsThatOfItsState) {
+  const Model model = row(12, 1.0, ImpactLaw::sequence);
+  State start(24, 0.0);
+  for (int i = 0; i < 6; ++i) start[2 * i] = -0.5, start[2 * i + 1] = 1.0;
+  const std::vector<Step> steps = first_instant(model, start);
+  EXPECT_EQ(steps.size(), 36U);  // six balls pass six others
+  for (const Step& step : steps) EXPECT_EQ(closing(model, step), step.event.w);
+}
+
+TEST(OneInstant, ImpactsTogetherAreOneBlowAndShareTheStateBefore) {
+  Model model;  // a heavy ball falls between two others
+  model.coordinates = {{"left", 1.0}, {"centre", 2.0}, {"right", 1.0}};
+  model.stops = {{"l", 1, 0, 0.5, 0.5}, {"r", 1, 2, 0.5, 0.5}};
+  model.impact_law = ImpactLaw::moreau;
+  const std::vector<Step> steps = first_instant(model, {0, 0, 0, 1.0, 0, 0});
+  ASSERT_EQ(steps.size(), 2U);
+  for (const Step& step : steps) EXPECT_EQ(closing(model, step), step.event.w);
+  EXPECT_EQ(steps[0].before, steps[1].before);
+}
+
+TEST(OneInstant, RestAfterAPlasticImpactBeginsAtRest) {
+  const std::vector<Step> steps = first_instant(oracle::ball(0.0), {0.125, 0.0});
+  ASSERT_EQ(steps.size(), 2U);
+  EXPECT_EQ(steps[0].event.kind, EventKind::impact);
+  EXPECT_NEAR(steps[0].before[1], -0.5, 1e-15);
+  EXPECT_EQ(steps[1].event.kind, EventKind::stick);
+  EXPECT_EQ(steps[1].before, (State{0.0, 0.0}));
+}
+
+TEST(OneInstant, ACopyAmongTheEventsGoesOnWithTheirStates) {
+  const Model model = row(3, 1.0, ImpactLaw::sequence);
+  const System system(model);
+  Motion motion(system, {-0.5, 1.0, 0, 0, 0, 0});
+  ASSERT_EQ(motion.advance({1, 0.0}), Outcome::event);
+  Motion copy = motion;
+  EXPECT_EQ(copy.before()[1], 1.0);
+  ASSERT_EQ(copy.advance({1, 0.0}), Outcome::event);
+  EXPECT_EQ(copy.before()[3], 1.0);
+  EXPECT_EQ(motion.before()[1], 1.0);
+  EXPECT_EQ(motion.before()[3], 0.0);
+}
+
+}  // namespace
+}  // namespace slapstick

@@ -1,0 +1,108 @@
+/// Statistics: against closed forms, and by two routes.
+#include "slapstick/quantity/measure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "settled.hpp"
+#include "slapstick/base/error.hpp"
+#include "slapstick/section/sampled_motion.hpp"
+
+namespace slapstick::test {
+namespace {
+
+/// x'' + 2 zeta x' + x = cos(omega t), free of contact: x = A cos(omega t - lag). The orbit's state is known to the
+/// rounding of terms of size 1, the force over the stiffness.
+TEST(Measure, OfALinearOscillatorAreThoseOfACosine) {
+  for (const double omega : {0.05, 1.0, 6.0}) {
+    const SettledCycle cycle(load_model("impact-oscillator"), {{"clearance", 100.0}, {"omega", omega}});
+    const double zeta = 0.1, A = 1.0 / std::hypot(1.0 - omega * omega, 2.0 * zeta * omega);
+    const Measured found = measure(*cycle.problem, cycle.solution.orbit,
+                                   {cycle.named("x"), cycle.named("a"), cycle.named("kinetic_energy"), cycle.named("power_in")});
+    EXPECT_NEAR(found.of[0].rms, A / std::numbers::sqrt2, 1e-12 * A) << omega;
+    EXPECT_NEAR(found.of[0].crest(), std::numbers::sqrt2, 1e-12 * std::max(1.0, 1.0 / A)) << omega;
+    EXPECT_NEAR(found.of[0].mean, 0.0, 1e-12 * std::max(1.0, A)) << omega;
+    EXPECT_NEAR(found.of[1].greatest, A * omega * omega, 1e-11 * A * std::max(1.0, omega * omega)) << omega;
+    EXPECT_NEAR(found.of[2].mean, 0.25 * A * A * omega * omega, 1e-11 * A * A * std::max(1.0, omega * omega)) << omega;
+    EXPECT_NEAR(found.of[3].mean, zeta * omega * omega * A * A, 1e-11) << omega;
+    const double lag = std::atan2(2.0 * zeta * omega, 1.0 - omega * omega) / omega;
+    EXPECT_NEAR(std::remainder(found.of[0].greatest_at - lag, found.duration), 0.0, 1e-6 * found.duration) << omega;
+  }
+}
+
+/// The certified simulator from phase 0, and the legs of the orbit's equations.
+TEST(Measure, OfACycleIsTheSameByTheMotionAndByTheLegs) {
+  for (const char* name : {"vibro-impact", "two-sided-rattle", "stick-slip-impact", "gear-pair", "impact-absorber"}) {
+    const SettledCycle cycle(load_model(name));
+    std::vector<Quantity> of;
+    for (const Quantity& one : cycle.all)
+      if (!one.at_impacts() && (cycle.solution.drift.empty() || one.kind != Quantity::Kind::displacement)) of.push_back(one);
+    const Measured legs = measure(*cycle.problem, cycle.solution.orbit, of), motion = measure(cycle.motion(), cycle.end(), of);
+    for (std::size_t k = 0; k < of.size(); ++k) {
+      const double size = std::max(legs.of[k].rms, 1e-3);
+      EXPECT_NEAR(motion.of[k].mean, legs.of[k].mean, 1e-8 * size) << name << " " << of[k].name;
+      EXPECT_NEAR(motion.of[k].rms, legs.of[k].rms, 1e-8 * size) << name << " " << of[k].name;
+      EXPECT_NEAR(motion.of[k].greatest, legs.of[k].greatest, 1e-7 * size) << name << " " << of[k].name;
+      EXPECT_NEAR(motion.of[k].least, legs.of[k].least, 1e-7 * size) << name << " " << of[k].name;
+      EXPECT_NEAR(motion.of[k].impulse, legs.of[k].impulse, 1e-7 * size) << name << " " << of[k].name;
+    }
+    for (std::size_t stop = 0; stop < legs.stops.size(); ++stop)
+      EXPECT_TRUE(cycle.solution.chatter || motion.stops[stop].w.impulses == legs.stops[stop].w.impulses) << name;
+  }
+}
+
+/// Means of dense samples come nearer with the square of their distance, to the same number.
+TEST(Measure, SamplesConvergeToIt) {
+  const SettledCycle cycle(load_model("vibro-impact"), {{"omega", 2.9}});
+  const Measured exact = measure(cycle.motion(), cycle.end(), {cycle.named("x1"), cycle.named("v2")});
+  const auto error = [&](int samples) {
+    SampledMotion sampled(cycle.motion(), samples);
+    double square = 0.0;
+    long count = 0;
+    for (auto item = sampled.next(cycle.end()); item != SampledMotion::Item::end; item = sampled.next(cycle.end()))
+      if (item == SampledMotion::Item::sample) square += sampled.sample().state[0] * sampled.sample().state[0], ++count;
+    return std::abs(std::sqrt(square / static_cast<double>(count)) - exact.of[0].rms);
+  };
+  EXPECT_LT(error(20000), 1e-4 * exact.of[0].rms);
+}
+
+/// A ball dropped from h with g: flights of 2 v / g, the n-th impact at speed r^n sqrt(2 g h).
+TEST(Measure, CountsTheImpactsOfABallOneByOne) {
+  const ModelDefinition ball = load_model("bouncing-ball");
+  const auto all = quantities(ball);
+  const System system(ball.build());
+  const double v = std::sqrt(2.0 * 9.81), first = v / 9.81;
+  const Measured found = measure(Motion(system, ball.start()), Instant{}.plus(first * (1.0 + 2.0 * 0.8) + 0.1),
+                                 {find_quantity(all, "w"), find_quantity(all, "flight"), find_quantity(all, "F_floor")});
+  ASSERT_EQ(found.of[0].impulses, 2);
+  EXPECT_NEAR(found.of[0].greatest, v, 1e-13 * v);
+  EXPECT_NEAR(found.of[0].least, 0.8 * v, 1e-13 * v);
+  EXPECT_NEAR(found.of[0].quantile(0.5), 0.8 * v, 1e-13 * v);
+  ASSERT_EQ(found.of[1].impulses, 1);  // the first impact ends no flight
+  EXPECT_NEAR(found.of[1].mean, 2.0 * 0.8 * v / 9.81, 1e-12);
+  EXPECT_NEAR(found.of[2].impulse, 1.8 * (v + 0.8 * v), 1e-12 * v);
+  EXPECT_EQ(found.of[2].greatest, 0.0);
+}
+
+/// After its complete chatter the ball lies there: the press is its weight, and all its momentum and energy went into the floor.
+TEST(Measure, AChatterTakesAllMomentumAndEnergy) {
+  const ModelDefinition ball = load_model("bouncing-ball");
+  const auto all = quantities(ball);
+  const System system(ball.build());
+  const double T = 10.0, g = 9.81;
+  const Measured found = measure(Motion(system, ball.start()), Instant{}.plus(T), {find_quantity(all, "F_floor"), find_quantity(all, "power_floor")});
+  EXPECT_NEAR(found.of[0].mean, g, 1e-12 * g);  // momentum: 0 at both ends
+  EXPECT_NEAR(found.of[0].greatest, g, 1e-12 * g);
+  EXPECT_NEAR(found.of[1].mean * T, g, 1e-9 * g);  // energy: m g h
+}
+
+TEST(Measure, RefusesAnEndThatIsNotLater) {
+  const ModelDefinition ball = load_model("bouncing-ball");
+  const System system(ball.build());
+  EXPECT_THROW(static_cast<void>(measure(Motion(system, ball.start()), Instant{}, {})), InputError);
+}
+
+}  // namespace
+}  // namespace slapstick::test

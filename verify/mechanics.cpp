@@ -1,0 +1,160 @@
+/// Builds the equations of motion of a model in contact coordinates.
+#include "mechanics.hpp"
+
+#include <algorithm>
+
+#include "mode_builder.hpp"
+
+namespace verify {
+
+Mechanics::Mechanics(const Model& model, long line) : model_(model), line_(line), period_(1.0) {
+  for (const Force& force : model.forces)
+    if (force.harmonic > 0) harmonics_.push_back(force.harmonic);
+  std::sort(harmonics_.begin(), harmonics_.end());
+  harmonics_.erase(std::unique(harmonics_.begin(), harmonics_.end()), harmonics_.end());
+  if (!harmonics_.empty()) period_ = times(Ball::pi(), 2) / Ball(model.omega);
+  place_contacts();
+  invert();
+  set_free();
+}
+
+namespace {
+
+double same_pair(const Pair& a, const Pair& b) {
+  if (a.a == b.a && a.b == b.b) return 1.0;
+  return a.a == b.b && a.b == b.a ? -1.0 : 0.0;
+}
+
+}  // namespace
+
+double Mechanics::parallel(std::size_t i, std::size_t j) const {
+  return same_pair(model_.numbers[i].pair, model_.numbers[j].pair);
+}
+
+/// The number of a contact: of its pair, with this shift (if it matters) and drift.
+Place Mechanics::find(const Pair& pair, const double* shift, double drift, const std::string& name) const {
+  for (std::size_t i = 0; i < d(); ++i) {
+    const Number& number = model_.numbers[i];
+    const double sign = same_pair(number.pair, pair);
+    if (sign != 0.0 && (shift == nullptr || number.shift == sign * *shift) && number.drift == sign * drift)
+      return {i, sign};
+  }
+  throw Unreadable(line_, "there is no number of contact " + name);
+}
+
+void Mechanics::place_contacts() {
+  for (const Stop& stop : model_.stops) stops_.push_back(find(stop.pair, &stop.clearance, 0.0, stop.name));
+  for (const Friction& friction : model_.frictions)
+    frictions_.push_back(find(friction.pair, nullptr, friction.belt_speed, friction.name));
+  for (const Compliant& stop : model_.compliant)
+    compliant_.push_back(find(stop.pair, &stop.clearance, 0.0, stop.name));
+}
+
+Balls Mechanics::pair_row(const Pair& pair) const {
+  Balls row(n());
+  if (pair.a != ground) row[static_cast<std::size_t>(pair.a)] = Ball(1.0);
+  if (pair.b != ground) row[static_cast<std::size_t>(pair.b)] = Ball(-1.0);
+  return row;
+}
+
+Matrix Mechanics::matrix_of(const Table& table, const std::vector<Element>& elements) const {
+  Matrix K = zero_matrix(n(), n());
+  for (std::size_t i = 0; i < table.size(); ++i)
+    for (std::size_t j = 0; j < n(); ++j) K[i][j] = Ball(table[i][j]);
+  for (const Element& element : elements) {
+    const Balls row = pair_row(element.pair);
+    for (std::size_t i = 0; i < n(); ++i) add(K[i], Ball(element.coefficient) * row[i], row);
+  }
+  return K;
+}
+
+void Mechanics::invert() {
+  Matrix M = matrix_of(model_.mass, {});
+  for (std::size_t i = 0; i < n(); ++i) M[i][i] += Ball(model_.masses[i]);
+  const auto inverse = inverse_definite(M);
+  if (!inverse) throw Unreadable(line_, "the masses are not positive definite");
+  mass_inverse_ = *inverse;
+  for (const Number& number : model_.numbers) W_.push_back(pair_row(number.pair));
+  Matrix one = zero_matrix(n(), n());
+  for (std::size_t i = 0; i < n(); ++i) one[i][i] = Ball(1.0);
+  const auto from_first = solve(Matrix(W_.begin(), W_.begin() + model_.n), std::move(one));
+  if (!from_first) throw Unreadable(line_, "the first numbers depend on each other");
+  W_inverse_ = *from_first;
+  dependence_ = product(W_, W_inverse_);
+  inertia_ = product(product(W_, mass_inverse_), transposed(W_));
+}
+
+/// A row over X of the displacement, or velocity, of a pair: q = W^-1 (p + shift), q' = W^-1 (u + drift).
+Balls Mechanics::over_state(const Pair& pair, bool velocity) const {
+  const Balls row = product({pair_row(pair)}, W_inverse_).front();
+  Balls over(size());
+  for (std::size_t j = 0; j < n(); ++j) {
+    const Number& number = model_.numbers[j];
+    over[(velocity ? d() : 0) + j] = row[j];
+    over.back().add_product(row[j], Ball(velocity ? number.drift : number.shift));
+  }
+  return over;
+}
+
+/// free = W M^-1 (F - C q' - K q), rows over X.
+void Mechanics::set_free() {
+  const Matrix K = matrix_of(model_.stiffness, model_.springs), C = matrix_of(model_.damping, model_.dampers);
+  Matrix displacement, velocity;
+  for (int i = 0; i < model_.n; ++i) {
+    displacement.push_back(over_state({i, ground}, false));
+    velocity.push_back(over_state({i, ground}, true));
+  }
+  Matrix load = zero_matrix(n(), size());
+  for (std::size_t i = 0; i < n(); ++i)
+    for (std::size_t j = 0; j < n(); ++j) {
+      add(load[i], -K[i][j], displacement[j]);
+      add(load[i], -C[i][j], velocity[j]);
+    }
+  for (const Force& force : model_.forces) {
+    Balls& row = load[static_cast<std::size_t>(force.coordinate)];
+    if (force.harmonic == 0) {
+      row.back() += Ball(force.amplitude);
+      continue;
+    }
+    // a sin(j theta + phase) = a sin(phase) cos(j theta) + a cos(phase) sin(j theta)
+    const auto k = std::find(harmonics_.begin(), harmonics_.end(), force.harmonic) - harmonics_.begin();
+    const std::size_t cosine = 2 * d() + 2 * static_cast<std::size_t>(k);
+    Ball c, s;
+    cos_sin(c, s, Ball(force.phase));
+    row[cosine].add_product(Ball(force.amplitude), s);
+    row[cosine + 1].add_product(Ball(force.amplitude), c);
+  }
+  free_ = product(W_, product(mass_inverse_, load));
+}
+
+Balls Mechanics::extended(const std::vector<double>& p, const std::vector<double>& u, double fraction) const {
+  Balls X(p.begin(), p.end());
+  X.insert(X.end(), u.begin(), u.end());
+  for (const int j : harmonics_) {
+    Ball c, s;
+    cos_sin_pi(c, s, Ball(2.0 * j) * Ball(fraction));
+    X.push_back(c);
+    X.push_back(s);
+  }
+  X.emplace_back(1.0);
+  return X;
+}
+
+Balls Mechanics::contact_numbers(const std::vector<double>& q, const std::vector<double>& v) const {
+  Balls p, u;
+  const Balls x(q.begin(), q.end()), rate(v.begin(), v.end());
+  for (std::size_t i = 0; i < d(); ++i) {
+    p.push_back(dot(W_[i], x) - Ball(model_.numbers[i].shift));
+    u.push_back(dot(W_[i], rate) - Ball(model_.numbers[i].drift));
+  }
+  p.insert(p.end(), u.begin(), u.end());
+  return p;
+}
+
+const Mode& Mechanics::mode(const ContactStates& states) {
+  std::unique_ptr<Mode>& mode = modes_[states];
+  if (!mode) mode = std::make_unique<Mode>(ModeBuilder(*this, states).build());
+  return *mode;
+}
+
+}  // namespace verify

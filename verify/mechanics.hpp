@@ -1,0 +1,87 @@
+#pragma once
+/// The mechanics of a model in balls: from its exact numbers to the equations of motion in contact coordinates.
+///
+///     M q'' = F(t) - C q' - K q + contact forces,     p = W q - shift,  u = W q' - drift,
+///
+/// the rows of W the pairs of the certificate's numbers, the first n of them independent. The extended state is
+/// X = (p, u, cos j theta, sin j theta for each harmonic j, 1), so that p' = u + drift, u' = free X + W M^-1 (forces).
+/// Nothing of the library is used: docs/certificate.md says what the numbers mean.
+#include <map>
+#include <memory>
+#include <string>
+
+#include "certificate.hpp"
+#include "linear.hpp"
+
+namespace verify {
+
+/// A contact in contact coordinates: its displacement is sign p_own, its velocity sign u_own.
+struct Place {
+  std::size_t own = 0;
+  double sign = 1.0;
+};
+
+/// The row over X that must not be negative while a mode lasts, by the laws.
+struct Condition {
+  enum class Kind { gap, slip, stick, press, beyond, apart, pushes, pulls, corner };
+  Kind kind;
+  std::size_t contact;  ///< among those of its sort; one of those that hold a pair together
+  std::string name;     ///< for messages
+  Balls row;
+};
+
+/// The linear system X' = A X of a combination of contact states.
+struct Mode {
+  Matrix A;
+  std::vector<Condition> conditions;
+  std::vector<bool> held;  ///< by number: its velocity does not change
+  bool redundant = false;  ///< contacts that hold depend on each other: their forces are one choice of many
+};
+
+class Mechanics {
+ public:
+  /// @throws Unreadable where masses, numbers and contacts do not fit together
+  Mechanics(const Model& model, long line);
+
+  [[nodiscard]] const Model& model() const { return model_; }
+  [[nodiscard]] std::size_t n() const { return static_cast<std::size_t>(model_.n); }
+  [[nodiscard]] std::size_t d() const { return model_.numbers.size(); }
+  [[nodiscard]] std::size_t size() const { return 2 * d() + 2 * harmonics_.size() + 1; }
+  [[nodiscard]] const Ball& period() const { return period_; }
+  [[nodiscard]] const Place& stop(std::size_t k) const { return stops_[k]; }
+  [[nodiscard]] const Place& friction(std::size_t k) const { return frictions_[k]; }
+  [[nodiscard]] const Place& compliant(std::size_t k) const { return compliant_[k]; }
+  /// W M^-1 W^T.
+  [[nodiscard]] const Matrix& inertia() const { return inertia_; }
+  /// The first n numbers that number i >= n follows from: its row of W is this row of coefficients times theirs.
+  [[nodiscard]] const Matrix& dependence() const { return dependence_; }
+  /// +1 or -1 if the numbers are of one pair, else 0.
+  [[nodiscard]] double parallel(std::size_t i, std::size_t j) const;
+
+  /// X at a phase, phases exact.
+  [[nodiscard]] Balls extended(const std::vector<double>& p, const std::vector<double>& u, double fraction) const;
+  /// p and u of a state in the model's coordinates.
+  [[nodiscard]] Balls contact_numbers(const std::vector<double>& q, const std::vector<double>& v) const;
+  [[nodiscard]] const Mode& mode(const ContactStates& states);
+
+ private:
+  friend class ModeBuilder;
+
+  [[nodiscard]] Place find(const Pair& pair, const double* shift, double drift, const std::string& name) const;
+  void place_contacts();
+  void invert();
+  void set_free();
+  [[nodiscard]] Balls pair_row(const Pair& pair) const;
+  [[nodiscard]] Matrix matrix_of(const Table& table, const std::vector<Element>& elements) const;
+  [[nodiscard]] Balls over_state(const Pair& pair, bool velocity) const;
+
+  const Model& model_;
+  long line_;
+  std::vector<int> harmonics_;
+  Ball period_;
+  std::vector<Place> stops_, frictions_, compliant_;
+  Matrix mass_inverse_, W_, W_inverse_, inertia_, dependence_, free_;
+  std::map<ContactStates, std::unique_ptr<Mode>> modes_;
+};
+
+}  // namespace verify

@@ -39,9 +39,21 @@ void add_stops(Model& model, Random& random) {
     const auto [a, b] = any_pair(random, model.size());
     const double gap = random.one_in(3) ? 0.0 : random.uniform(0.0, 0.5), r = random.one_in(4) ? 0.0 : random.uniform(0.2, 0.9);
     model.stops.push_back({name("stop", model.stops.size()), a, b, gap, r});
+    if (random.one_in(4)) model.stops.back().corners = {{random.uniform(0.05, 0.3), r}, {random.uniform(0.4, 1.5), r * random.uniform(0.4, 1.0)}};
     if (k == 3) model.stops.push_back({name("stop", model.stops.size()), b, a, random.uniform(0.1, 0.5), r});
   }
   model.impact_law = random.one_in(3) ? ImpactLaw::sequence : ImpactLaw::moreau;
+}
+
+/// Of a state's numbers, and of a compliant stop where there is one.
+NormalForce normal_force(const Model& model, Random& random) {
+  NormalForce normal;
+  normal.constant = random.uniform(-0.2, 1.0);
+  for (int k = random.below(3); k > 0; --k)
+    normal.terms.push_back({random.below(model.size()), random.uniform(-0.5, 0.5), random.uniform(-0.1, 0.1)});
+  const int springs = static_cast<int>(model.compliant_stops.size());
+  if (springs > 0 && random.one_in(2)) normal.compliant_stop = random.below(springs);
+  return normal;
 }
 
 void add_frictions(Model& model, Random& random) {
@@ -51,6 +63,7 @@ void add_frictions(Model& model, Random& random) {
     const double kinetic = random.uniform(0.0, 0.6), more = random.one_in(2) ? 1.0 : random.uniform(1.0, 1.6);
     const double belt = random.one_in(4) ? random.uniform(-0.4, 0.4) : 0.0;
     model.frictions.push_back({name("friction", model.frictions.size()), pair.a, pair.b, belt, kinetic * more, kinetic});
+    if (random.one_in(4)) model.frictions.back().normal = normal_force(model, random);
   }
 }
 
@@ -58,19 +71,23 @@ void add_compliant(Model& model, Random& random) {
   for (int k = random.below(3); k > 0; --k) {
     const auto [a, b] = any_pair(random, model.size());
     const double damping = random.one_in(3) ? 0.0 : random.uniform(0.0, 1.0);
+    const bool pulls = random.one_in(3), bounded = !pulls && random.one_in(2);
     model.compliant_stops.push_back({name("compliant", model.compliant_stops.size()), a, b, random.uniform(0.0, 0.5),
-                                     random.decades(0.0, 1.5), damping, random.one_in(3)});
+                                     random.decades(0.0, 1.5), damping, pulls, bounded});
   }
 }
 
 void add_polylines(Model& model, Random& random) {
   for (int k = random.below(3); k > 0; --k) {
     const auto [a, b] = any_pair(random, model.size());
-    const auto over = random.one_in(2) ? Characteristic::Over::displacement : Characteristic::Over::velocity;
+    const auto over = random.one_in(3)   ? Characteristic::Over::zones
+                      : random.one_in(2) ? Characteristic::Over::displacement
+                                         : Characteristic::Over::velocity;
     Characteristic bent{name("polyline", model.characteristics.size()), a, b, over, {}, random.uniform(-0.3, 2.0), random.uniform(-0.3, 2.0)};
     double at = random.uniform(-0.5, 0.0);
     for (int corners = 1 + random.below(3); corners > 0; --corners, at += random.uniform(0.1, 0.5))
-      bent.corners.push_back({at, random.uniform(-0.3, 0.3)});
+      bent.corners.push_back({at, over == Characteristic::Over::zones ? random.uniform(0.0, 0.5) : random.uniform(-0.3, 0.3)});
+    if (over == Characteristic::Over::zones) bent.slope_below = bent.slope_above = random.uniform(0.0, 0.5);
     model.characteristics.push_back(bent);
   }
 }
@@ -96,8 +113,8 @@ MixedMachine draw(Random& random) {
   add_springs(model, random);
   add_forces(model, random);
   add_stops(model, random);
-  add_frictions(model, random);
   add_compliant(model, random);
+  add_frictions(model, random);
   add_polylines(model, random);
   if (random.one_in(4)) {
     model.mass = matrix(model.size(), random);

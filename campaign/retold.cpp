@@ -2,6 +2,7 @@
 #include "retold.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <sstream>
@@ -31,6 +32,7 @@ struct Told {
   verify::Start start;
   verify::Done done;
   std::vector<verify::Segment> segments;
+  std::string impossible;  ///< what is said that no motion can have: an event that is none, an impact without speed
 };
 
 Told read(const std::string& text) {
@@ -38,7 +40,12 @@ Told read(const std::string& text) {
   verify::Reader reader(in);
   Told told;
   bool cut = false;
-  for (verify::Segment segment; reader.next(segment);) {
+  verify::Segment before;
+  for (verify::Segment segment; reader.next(segment); before = segment) {
+    const bool none = before.end == verify::EndKind::event && before.duration == 0.0 && before.blows.empty();
+    if (none && segment.number > 0 && before.states == segment.states) told.impossible = "an event that changes nothing";
+    for (const verify::Impact& impact : segment.impacts)
+      if (!(impact.w > 0.0)) told.impossible = "an impact without speed";
     if (!cut || told.segments.empty()) {
       told.segments.push_back(segment);
     } else {
@@ -72,14 +79,24 @@ Model model_of(const verify::Model& told) {
   for (const verify::Force& f : told.forces) model.forces.push_back({f.coordinate, f.harmonic, f.amplitude, f.phase});
   int k = 0;
   const auto name = [&k](const char* of) { return of + std::to_string(k++); };
-  for (const verify::Stop& s : told.stops)
+  for (const verify::Stop& s : told.stops) {
     model.stops.push_back({name("stop"), s.pair.a, s.pair.b, s.clearance, s.restitution});
-  for (const verify::Friction& f : told.frictions)
+    for (const auto& [speed, restitution] : s.corners) model.stops.back().corners.push_back({speed, restitution});
+  }
+  for (const verify::Friction& f : told.frictions) {
     model.frictions.push_back({name("friction"), f.pair.a, f.pair.b, f.belt_speed, f.static_limit, f.kinetic});
+    if (!f.normal) continue;
+    NormalForce& normal = model.frictions.back().normal.emplace();
+    normal.constant = f.normal->constant;
+    normal.compliant_stop = f.normal->compliant;
+    for (const auto& [i, stiffness, damping] : f.normal->terms) normal.terms.push_back({i, stiffness, damping});
+  }
   for (const verify::Compliant& s : told.compliant)
-    model.compliant_stops.push_back({name("compliant"), s.pair.a, s.pair.b, s.clearance, s.stiffness, s.damping, s.pulls});
+    model.compliant_stops.push_back({name("compliant"), s.pair.a, s.pair.b, s.clearance, s.stiffness, s.damping,
+                                     s.law == verify::Compliant::Law::pulls, s.law == verify::Compliant::Law::bounded});
   for (const verify::Polyline& p : told.polylines) {
-    const auto over = p.over_velocity ? Characteristic::Over::velocity : Characteristic::Over::displacement;
+    constexpr std::array overs = {Characteristic::Over::displacement, Characteristic::Over::velocity, Characteristic::Over::zones};
+    const auto over = overs[static_cast<std::size_t>(p.over)];
     model.characteristics.push_back({name("polyline"), p.pair.a, p.pair.b, over, {}, p.slope_below, p.slope_above});
     for (const auto& [at, force] : p.corners) model.characteristics.back().corners.push_back({at, force});
   }
@@ -221,6 +238,7 @@ void call_rest_stick(Told& told) {
 }
 
 std::string compared(Told told, Told truth) {
+  if (!told.impossible.empty()) return told.impossible;
   const double scale = scale_of(truth), allowed = same * scale;
   leave_out_nothing(told, scale);
   leave_out_nothing(truth, scale);

@@ -36,6 +36,8 @@ class Ball {
   /// A ball that contains the greater of the two.
   friend Ball greater(Ball a, const Ball& b) { return arb_max(a.x_, a.x_, b.x_, bits), a; }
   friend Ball power(Ball a, ulong n) { return arb_pow_ui(a.x_, a.x_, n, bits), a; }
+  /// A ball that contains both.
+  friend Ball united(Ball a, const Ball& b) { return arb_union(a.x_, a.x_, b.x_, bits), a; }
   /// The ball a, widened by the numbers up to |e|.
   friend Ball widen(Ball a, const Ball& e) { return arb_add_error(a.x_, e.x_), a; }
   friend Ball times(Ball a, ulong n) { return arb_mul_ui(a.x_, a.x_, n, bits), a; }

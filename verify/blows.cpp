@@ -5,6 +5,7 @@
 /// has impulses at independent stops only. At one stop it is Newton's law, v+ = -r v.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "bodies.hpp"
 #include "check.hpp"
@@ -23,6 +24,36 @@ constexpr std::size_t most_dependent = 16;
 
 Ball Checker::approach(int stop) const {
   return Ball(m_.stop(static_cast<std::size_t>(stop)).sign) * last_->X[u(stop)];
+}
+
+/// r v of an approach at v: r is that of the model below the first corner, then a polyline, then constant. A ball that
+/// straddles corners gets what belongs to each piece that it touches.
+Ball Checker::rebound(int stop, const Ball& v) const {
+  const Stop& of = m_.model().stops[static_cast<std::size_t>(stop)];
+  const auto& corners = of.corners;
+  std::optional<Ball> hull;
+  for (std::size_t k = 0; k <= corners.size(); ++k) {
+    if ((k > 0 && v < Ball(corners[k - 1].at)) || (k < corners.size() && v > Ball(corners[k].at))) continue;
+    Ball r(k == 0 ? of.restitution : corners[k - 1].force);
+    if (k > 0 && k < corners.size()) {
+      const Corner &from = corners[k - 1], &to = corners[k];
+      r += (Ball(to.force) - Ball(from.force)) / (Ball(to.at) - Ball(from.at)) * (v - Ball(from.at));
+    }
+    hull = hull ? united(*hull, r) : r;
+  }
+  return (hull ? *hull : Ball(of.restitution)) * v;
+}
+
+/// 1 + |d(r v)/dv| near v, at least 2: how a rounding of v grows.
+double Checker::steepness(int stop, double v) const {
+  const auto& corners = m_.model().stops[static_cast<std::size_t>(stop)].corners;
+  double most = 2.0;
+  for (std::size_t k = 1; k < corners.size(); ++k) {
+    const Corner &from = corners[k - 1], &to = corners[k];
+    const double slope = std::abs((to.force - from.force) / (to.at - from.at)), margin = 1e-6 * to.at;
+    if (v > from.at - margin && v < to.at + margin) most = std::max(most, 2.0 + slope * v);
+  }
+  return most;
 }
 
 double Checker::speed_rounding(int stop) const { return allowance(u(stop)); }
@@ -121,8 +152,9 @@ void Checker::law(const Blow& blow, const Balls& before) {
   for (std::size_t k = 0; k < last_->touches.size(); ++k) {
     const int stop = static_cast<int>(k);
     if (!last_->touches[k]) continue;
-    const Ball v = Ball(m_.stop(k).sign) * before[u(stop)], r(m_.model().stops[k].restitution);
-    if (!(approach(stop) + r * v <= Ball(4.0 * speed_rounding(stop))))
+    const Ball v = Ball(m_.stop(k).sign) * before[u(stop)];
+    const double allowed = 2.0 * steepness(stop, v.near()) * speed_rounding(stop);
+    if (!(approach(stop) + rebound(stop, v) <= Ball(allowed)))
       refuse_(blow.line, "Moreau's law: stop " + name(stop) + " touches, and gets no impulse that it needs");
   }
 }
@@ -147,8 +179,7 @@ Balls Checker::impulses(const std::vector<int>& stops, bool to_rest) const {
       const Place& b = m_.stop(static_cast<std::size_t>(j));
       D.back().push_back(Ball(a.sign * b.sign) * m_.inertia()[a.own][b.own]);
     }
-    const double r = to_rest ? 0.0 : m_.model().stops[static_cast<std::size_t>(i)].restitution;
-    rates.push_back({(Ball(1.0) + Ball(r)) * approach(i)});
+    rates.push_back({to_rest ? approach(i) : approach(i) + rebound(i, approach(i))});
   }
   const auto solution = solve(std::move(D), std::move(rates));
   Balls P;
@@ -162,10 +193,12 @@ Balls Checker::impulses(const std::vector<int>& stops, bool to_rest) const {
 void Checker::apply(const std::vector<int>& stops, const Balls& P) {
   const std::vector<double> before = last_->size;
   double off = 0.0;
+  std::vector<double> grown;
+  for (const int k : stops) grown.push_back(steepness(k, approach(k).near()));
   for (std::size_t i = 0; i < stops.size(); ++i) {
     const Place& place = m_.stop(static_cast<std::size_t>(stops[i]));
     const bool again = last_->struck[static_cast<std::size_t>(stops[i])];
-    const double speed = again ? 0.0 : 2.0 * before[m_.d() + place.own] / m_.inertia()[place.own][place.own].near();
+    const double speed = again ? 0.0 : grown[i] * before[m_.d() + place.own] / m_.inertia()[place.own][place.own].near();
     last_->struck[static_cast<std::size_t>(stops[i])] = true;
     for (std::size_t j = 0; j < m_.d(); ++j) {
       const Ball& inertia = m_.inertia()[j][place.own];

@@ -108,7 +108,7 @@ void Reader::finish_line() {
 
 void Reader::read_head() {
   expect("slapstick-certificate");
-  count(2, 2);
+  count(3, 3);
   finish_line(), advance(), expect("model");
   model_.name = rest_of_line();
   advance(), expect("size");
@@ -131,6 +131,7 @@ void Reader::read_head() {
   read_stops();
   read_frictions();
   read_compliant();
+  read_normals();
   read_polylines();
   read_numbers();
   read_start();
@@ -170,11 +171,25 @@ void Reader::read_forces() {
   }
 }
 
+/// A count, and so many pairs of numbers, the first ones ascending.
+std::vector<Corner> Reader::corners(long least) {
+  std::vector<Corner> all;
+  for (long n = count(least, most_corners); n > 0; --n) {
+    const double place = real();
+    if (!all.empty() && !(place > all.back().at)) fail("corners do not ascend");
+    all.push_back({place, real()});
+  }
+  return all;
+}
+
 void Reader::read_stops() {
   for (; at("stop"); advance()) {
     const Pair of = pair();
-    Stop stop{of, real(), real_from(0.0), rest_of_line()};
-    if (!(stop.restitution <= 1.0)) fail("the restitution is not in [0, 1]");
+    Stop stop{of, real(), real_from(0.0), corners(0), rest_of_line()};
+    bool possible = stop.restitution <= 1.0;
+    for (const Corner& corner : stop.corners)
+      possible = possible && corner.at >= 0.0 && corner.force >= 0.0 && corner.force <= 1.0;
+    if (!possible) fail("the restitution is not in [0, 1]");
     model_.stops.push_back(stop);
   }
 }
@@ -191,25 +206,38 @@ void Reader::read_frictions() {
 void Reader::read_compliant() {
   for (; at("compliant"); advance()) {
     const Pair of = pair();
-    Compliant stop{of, real(), real_from(0.0), real_from(0.0), count(0, 1) == 1, rest_of_line()};
+    Compliant stop{of, real(), real_from(0.0), real_from(0.0), Compliant::Law(count(0, 2)), rest_of_line()};
     if (!(stop.stiffness > 0.0)) fail("the stiffness is not positive");
     model_.compliant.push_back(stop);
   }
 }
 
+void Reader::read_normals() {
+  for (int least = 0; at("normal"); finish_line(), advance()) {
+    const int of = static_cast<int>(count(least, static_cast<long>(model_.frictions.size()) - 1));
+    least = of + 1;
+    const double constant = real();
+    Normal normal{constant, static_cast<int>(count(-1, static_cast<long>(model_.compliant.size()) - 1)), {}};
+    for (long n = count(0, most_corners); n > 0; --n) {
+      const int coordinate = static_cast<int>(count(0, model_.n - 1));
+      const double stiffness = real();
+      normal.terms.push_back({coordinate, stiffness, real()});
+    }
+    model_.frictions[static_cast<std::size_t>(of)].normal = normal;
+  }
+}
+
 void Reader::read_polylines() {
+  using Over = Polyline::Over;
   for (; at("polyline"); advance()) {
-    Polyline line{pair(), false, 0.0, 0.0, {}, {}};
+    Polyline line{pair(), Over::displacement, 0.0, 0.0, {}, {}};
     const std::string over = word();
-    if (over != "displacement" && over != "velocity") fail("there is no polyline over `" + over.substr(0, 40) + "`");
-    line.over_velocity = over == "velocity";
+    if (over != "displacement" && over != "velocity" && over != "zones")
+      fail("there is no polyline over `" + over.substr(0, 40) + "`");
+    line.over = over == "zones" ? Over::zones : over == "velocity" ? Over::velocity : Over::displacement;
     line.slope_below = real();
     line.slope_above = real();
-    for (long n = count(1, most_corners); n > 0; --n) {
-      const double place = real();
-      if (!line.corners.empty() && !(place > line.corners.back().at)) fail("corners do not ascend");
-      line.corners.push_back({place, real()});
-    }
+    line.corners = corners(1);
     line.name = rest_of_line();
     model_.polylines.push_back(line);
   }
@@ -247,12 +275,18 @@ ContactStates Reader::contact_states() {
     fail("`" + text.substr(0, 40) + "` is no state of this contact");
   };
   for (std::size_t i = 0; i < model_.stops.size(); ++i) states.closed.push_back(choose({"open", "closed"}) == 1);
-  for (std::size_t i = 0; i < model_.frictions.size(); ++i)
-    states.slip.push_back(choose({"slip-", "stick", "slip+"}) - 1);
+  for (const Friction& friction : model_.frictions) {
+    states.slip.push_back(choose({"slip-", "stick", "slip+", "unloaded"}) - 1);
+    if (!friction.normal && states.slip.back() == ContactStates::unloaded)
+      fail("friction contact " + friction.name + " has no normal force, and is never unloaded");
+  }
+  using Spring = ContactStates::Spring;
   for (const Compliant& stop : model_.compliant) {
-    states.compliant.push_back(ContactStates::Spring(choose({"off", "on", "detached"})));
-    if (stop.pulls && states.compliant.back() == ContactStates::Spring::detached)
+    const Spring state = states.compliant.emplace_back(Spring(choose({"off", "on", "detached", "bounded"})));
+    if (state == Spring::detached && stop.law == Compliant::Law::pulls)
       fail("compliant stop " + stop.name + " pulls, and is never detached");
+    if (state == Spring::bounded && stop.law != Compliant::Law::bounded)
+      fail("compliant stop " + stop.name + " has no bound");
   }
   for (const Polyline& line : model_.polylines)
     states.pieces.push_back(static_cast<int>(count(0, static_cast<long>(line.corners.size()))));

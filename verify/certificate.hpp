@@ -2,6 +2,7 @@
 /// A certificate (docs/certificate.md) as it is read: the model, then segment by segment. Only the text is judged here:
 /// words, numbers, indices, order of records.
 #include <istream>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -30,32 +31,49 @@ struct Force {
   double amplitude, phase;
 };
 
+struct Corner {
+  double at, force;  ///< of restitution over speed: the speed and the restitution there
+};
+
 struct Stop {
   Pair pair;
-  double clearance, restitution;
+  double clearance, restitution;  ///< the restitution below the first corner
+  std::vector<Corner> corners;
   std::string name;
+};
+
+/// constant + sum (stiffness x_i + damping v_i) + the force of a compliant stop.
+struct Normal {
+  struct Term {
+    int coordinate;
+    double stiffness, damping;
+  };
+  double constant;
+  int compliant;  ///< or -1
+  std::vector<Term> terms;
 };
 
 struct Friction {
   Pair pair;
-  double belt_speed, static_limit, kinetic;
+  double belt_speed, static_limit, kinetic;  ///< with a normal force: coefficients
   std::string name;
+  std::optional<Normal> normal = {};
 };
 
 struct Compliant {
   Pair pair;
   double clearance, stiffness, damping;
-  bool pulls;
+  enum class Law { pushes, pulls, bounded };
+  Law law;
   std::string name;
-};
-
-struct Corner {
-  double at, force;
+  /// Lets go where its force would pull.
+  [[nodiscard]] bool lets_go() const { return law != Law::pulls && damping > 0.0; }
 };
 
 struct Polyline {
   Pair pair;
-  bool over_velocity;
+  enum class Over { displacement, velocity, zones };
+  Over over;
   double slope_below, slope_above;
   std::vector<Corner> corners;
   std::string name;
@@ -96,8 +114,10 @@ struct Clock {
 /// The state of every contact, in the order stops, friction contacts, compliant stops, polylines.
 struct ContactStates {
   std::vector<bool> closed;
-  std::vector<int> slip;                  ///< -1, 0 (stick), 1
-  enum class Spring { off, on, detached };
+  static constexpr int unloaded = 2;
+  std::vector<int> slip;                  ///< -1, 0 (stick), 1, or unloaded
+  [[nodiscard]] bool slips(std::size_t friction) const { return slip[friction] == 1 || slip[friction] == -1; }
+  enum class Spring { off, on, detached, bounded };
   std::vector<Spring> compliant;
   std::vector<int> pieces;
   auto operator<=>(const ContactStates&) const = default;
@@ -178,6 +198,8 @@ class Reader {
   void read_stops();
   void read_frictions();
   void read_compliant();
+  void read_normals();
+  std::vector<Corner> corners(long least);
   void read_polylines();
   void read_numbers();
   void read_start();

@@ -270,7 +270,8 @@ ContactStates Checker::with_pair(const Segment& segment, int direction) const {
   for (std::size_t i = 0; i < states.slip.size(); ++i) {
     const Place& friction = m_.friction(i);
     const double same = m_.parallel(friction.own, place.own) * place.sign * friction.sign;
-    if (same != 0.0 && m_.model().numbers[friction.own].drift == 0.0)
+    const bool loaded = states.slip[i] != ContactStates::unloaded;
+    if (loaded && same != 0.0 && m_.model().numbers[friction.own].drift == 0.0)
       states.slip[i] = same > 0.0 ? -direction : direction;
   }
   return states;

@@ -93,6 +93,8 @@ class Checker {
   [[nodiscard]] Balls impulses(const std::vector<int>& stops, bool to_rest) const;
   void apply(const std::vector<int>& stops, const Balls& impulses);
   [[nodiscard]] Ball approach(int stop) const;
+  [[nodiscard]] Ball rebound(int stop, const Ball& v) const;
+  [[nodiscard]] double steepness(int stop, double v) const;
   [[nodiscard]] double speed_rounding(int stop) const;
 
   // choice.cpp

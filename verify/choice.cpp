@@ -5,6 +5,7 @@
 /// from stuck and closed. A mode that differs in as many contacts, and moves otherwise, makes the choice one of
 /// several.
 #include <algorithm>
+#include <array>
 
 #include "check.hpp"
 
@@ -16,16 +17,21 @@ constexpr long most_tried = 729;
 /// Contacts at rest, and the states that each may take, the preferred one first.
 struct Candidates {
   std::vector<std::size_t> stops, frictions;
+  std::vector<int> offered;  ///< states of each friction contact: 3, or 4 with a normal force
 
   [[nodiscard]] long count() const {
     long product = 1;
     for (std::size_t i = 0; i < stops.size() && product <= most_tried; ++i) product *= 2;
-    for (std::size_t i = 0; i < frictions.size() && product <= most_tried; ++i) product *= 3;
+    for (std::size_t i = 0; i < frictions.size() && product <= most_tried; ++i) product *= offered[i];
     return product;
   }
   [[nodiscard]] ContactStates combination(ContactStates states, long k) const {
     for (const std::size_t i : stops) states.closed[i] = k % 2 == 0, k /= 2;
-    for (const std::size_t i : frictions) states.slip[i] = static_cast<int>(k % 3 == 2 ? -1 : k % 3), k /= 3;
+    constexpr std::array order = {0, 1, -1, ContactStates::unloaded};
+    for (std::size_t j = 0; j < frictions.size(); ++j) {
+      states.slip[frictions[j]] = order[static_cast<std::size_t>(k % offered[j])];
+      k /= offered[j];
+    }
     return states;
   }
   [[nodiscard]] long changes(const ContactStates& states) const {
@@ -80,6 +86,7 @@ void Checker::choice(const Segment& segment) {
     const std::size_t own = m_.friction(i).own;
     if (!near_zero(segment, m_.d() + own)) continue;
     candidates.frictions.push_back(i);
+    candidates.offered.push_back(model.frictions[i].normal ? 4 : 3);
     u[own] = 0.0;
     several = several || model.frictions[i].kinetic < model.frictions[i].static_limit;
   }

@@ -72,6 +72,9 @@ void Limit::set_quiet_part() {
 double Limit::check(const std::vector<double>& sizes) {
   if (!(v_ > Ball(0.0))) return refuse("the pair does not leave the stop"), 0.0;
   if (!enclose()) return refuse("no box is found that the state does not leave before the limit"), 0.0;
+  const auto& corners = m_.model().stops[stop_].corners;
+  if (!corners.empty() && !(v_ * greater(Ball(1.0), back_.most / rise_.least) < Ball(corners.front().at)))
+    return refuse("impacts may be faster than where the restitution begins to change"), 0.0;
   other_stops();
   conditions(modes_.rise, "away from");
   conditions(modes_.back, "back to");

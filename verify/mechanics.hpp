@@ -23,7 +23,7 @@ struct Place {
 
 /// The row over X that must not be negative while a mode lasts, by the laws.
 struct Condition {
-  enum class Kind { gap, slip, stick, press, beyond, apart, pushes, pulls, corner };
+  enum class Kind { gap, slip, stick, press, beyond, apart, pushes, pulls, bound, load, unloaded, corner };
   Kind kind;
   std::size_t contact;  ///< among those of its sort; one of those that hold a pair together
   std::string name;     ///< for messages

@@ -1,6 +1,8 @@
 /// Builds the linear system of a combination of contact states, and its conditions.
 #include "mode_builder.hpp"
 
+#include <algorithm>
+
 #include "bodies.hpp"
 
 namespace verify {
@@ -31,6 +33,7 @@ Mode ModeBuilder::build() {
   motion_conditions();
   compliant_conditions();
   force_conditions();
+  load_conditions();
   corners();
   return std::move(mode_);
 }
@@ -47,11 +50,23 @@ void ModeBuilder::push(std::size_t number, const Ball& factor, const Balls& forc
 }
 
 void ModeBuilder::slipping() {
-  const Balls one = unit(m_.size() - 1, 1.0);
   for (std::size_t i = 0; i < states_.slip.size(); ++i) {
     const double kinetic = m_.model().frictions[i].kinetic;
-    if (states_.slip[i] != 0) push(m_.friction(i).own, Ball(states_.slip[i] * m_.friction(i).sign * kinetic), one);
+    if (states_.slips(i)) push(m_.friction(i).own, Ball(states_.slip[i] * m_.friction(i).sign * kinetic), load_of(i));
   }
+}
+
+/// The normal force of a friction contact: 1 where the model gives forces instead of coefficients.
+Balls ModeBuilder::load_of(std::size_t friction) const {
+  const auto& normal = m_.model().frictions[friction].normal;
+  if (!normal) return unit(m_.size() - 1, 1.0);
+  Balls row = unit(m_.size() - 1, normal->constant);
+  for (const Normal::Term& term : normal->terms) {
+    add(row, Ball(term.stiffness), m_.over_state({term.coordinate, ground}, false));
+    add(row, Ball(term.damping), m_.over_state({term.coordinate, ground}, true));
+  }
+  if (normal->compliant >= 0) add(row, Ball(1.0), acting_force_of(static_cast<std::size_t>(normal->compliant)));
+  return row;
 }
 
 /// stiffness delta + damping delta'.
@@ -64,7 +79,32 @@ Balls ModeBuilder::force_of(std::size_t compliant) const {
   return row;
 }
 
+/// stiffness delta - damping delta': what the spring's force is more than the damper's.
+Balls ModeBuilder::excess_of_spring(std::size_t compliant) const {
+  Balls row = force_of(compliant);
+  const std::size_t rate = m_.d() + m_.compliant(compliant).own;
+  row[rate] = -row[rate];
+  return row;
+}
+
+Balls ModeBuilder::acting_force_of(std::size_t compliant) const {
+  const ContactStates::Spring state = states_.compliant[compliant];
+  if (state == ContactStates::Spring::on) return force_of(compliant);
+  Balls row(m_.size());
+  if (state == ContactStates::Spring::bounded) {  // 2 stiffness delta
+    add(row, Ball(1.0), force_of(compliant));
+    add(row, Ball(1.0), excess_of_spring(compliant));
+  }
+  return row;
+}
+
 Balls ModeBuilder::force_of_piece(const Polyline& line, int piece) const {
+  if (line.over == Polyline::Over::zones) {
+    const double coefficient = piece == 0 ? line.slope_below : line.corners[static_cast<std::size_t>(piece) - 1].force;
+    Balls row(m_.size());
+    add(row, Ball(coefficient), m_.over_state(line.pair, true));
+    return row;
+  }
   const auto k = static_cast<std::size_t>(piece > 0 ? piece - 1 : 0);
   const Corner& from = line.corners[k];
   Ball slope(piece == 0 ? line.slope_below : line.slope_above);
@@ -73,15 +113,14 @@ Balls ModeBuilder::force_of_piece(const Polyline& line, int piece) const {
     slope = (Ball(to.force) - Ball(from.force)) / (Ball(to.at) - Ball(from.at));
   }
   Balls row(m_.size());
-  add(row, slope, m_.over_state(line.pair, line.over_velocity));
+  add(row, slope, m_.over_state(line.pair, line.over == Polyline::Over::velocity));
   row.back() += Ball(from.force) - slope * Ball(from.at);
   return row;
 }
 
 void ModeBuilder::springs() {
   for (std::size_t i = 0; i < states_.compliant.size(); ++i)
-    if (states_.compliant[i] == ContactStates::Spring::on)
-      push(m_.compliant(i).own, Ball(m_.compliant(i).sign), force_of(i));
+    push(m_.compliant(i).own, Ball(m_.compliant(i).sign), acting_force_of(i));
   for (std::size_t i = 0; i < states_.pieces.size(); ++i) {
     const Polyline& line = m_.model().polylines[i];
     const Balls force = force_of_piece(line, states_.pieces[i]);
@@ -158,12 +197,13 @@ void ModeBuilder::motion_conditions() {
       demand(Condition::Kind::gap, i, "gap of stop " + m_.model().stops[i].name,
              unit(m_.stop(i).own, -m_.stop(i).sign));
   for (std::size_t i = 0; i < states_.slip.size(); ++i)
-    if (states_.slip[i] != 0)
+    if (states_.slips(i))
       demand(Condition::Kind::slip, i, "slip of friction contact " + m_.model().frictions[i].name,
              unit(m_.d() + m_.friction(i).own, states_.slip[i] * m_.friction(i).sign));
 }
 
-/// Off: not beyond the gap. On: beyond it, and pushing unless it may pull. Detached: beyond it, its force would pull.
+/// Off: not beyond the gap. On: beyond it, and pushing unless it may pull, damped by no more than the spring's force if
+/// that is the bound. Bounded: the damping force would be more. Detached: beyond the gap, its force would pull.
 void ModeBuilder::compliant_conditions() {
   for (std::size_t i = 0; i < states_.compliant.size(); ++i) {
     const Place& place = m_.compliant(i);
@@ -174,13 +214,17 @@ void ModeBuilder::compliant_conditions() {
       continue;
     }
     demand(Condition::Kind::beyond, i, "depth" + name, unit(place.own, place.sign));
-    Balls force = force_of(i);
+    Balls force = force_of(i), excess = excess_of_spring(i);
+    const bool bounded = states_.compliant[i] == ContactStates::Spring::bounded;
     if (states_.compliant[i] == ContactStates::Spring::detached) {
       for (Ball& x : force) x = -x;
       demand(Condition::Kind::pulls, i, "missing pull" + name, std::move(force));
-    } else if (!stop.pulls && stop.damping > 0.0) {
-      demand(Condition::Kind::pushes, i, "push" + name, std::move(force));
+      continue;
     }
+    if (!bounded && stop.lets_go()) demand(Condition::Kind::pushes, i, "push" + name, std::move(force));
+    for (Ball& x : excess) x = bounded ? -x : x;
+    if (bounded || (stop.law == Compliant::Law::bounded && stop.lets_go()))
+      demand(Condition::Kind::bound, i, "bound" + name, std::move(excess));
   }
 }
 
@@ -191,26 +235,39 @@ void ModeBuilder::force_conditions() {
     bool above = true, below = true;  // is the force along the number limited above, below?
     for (const std::size_t i : pair.stops)
       (m_.stop(i).sign * m_.parallel(m_.stop(i).own, pair.number) > 0.0 ? above : below) = false;
-    Ball limit;
-    for (const std::size_t i : pair.frictions) limit += Ball(m_.model().frictions[i].static_limit);
+    Balls limit(m_.size());
+    for (const std::size_t i : pair.frictions) add(limit, Ball(m_.model().frictions[i].static_limit), load_of(i));
     const bool pressed = !pair.stops.empty();
     const std::string name = pressed ? "push of stop " + m_.model().stops[pair.stops.front()].name
                                      : "hold of friction contact " + m_.model().frictions[pair.frictions.front()].name;
     for (const double side : {1.0, -1.0}) {
       if (!(side > 0.0 ? below : above)) continue;
-      Balls row(m_.size());
+      Balls row = limit;
       add(row, Ball(side), force_[k]);
-      row.back() += limit;
       demand(pressed ? Condition::Kind::press : Condition::Kind::stick,
              pressed ? pair.stops.front() : pair.frictions.front(), name, std::move(row));
     }
   }
 }
 
+/// Friction with a normal force N acts where N >= 0, and is unloaded where -N >= 0, or where nothing ever presses.
+void ModeBuilder::load_conditions() {
+  for (std::size_t i = 0; i < states_.slip.size(); ++i) {
+    const Friction& friction = m_.model().frictions[i];
+    if (!friction.normal) continue;
+    const bool loaded = states_.slip[i] != ContactStates::unloaded;
+    Balls load = load_of(i);
+    if (std::all_of(load.begin(), load.end(), [](const Ball& x) { return x.is_zero(); })) load.back() = Ball(-1.0);
+    for (Ball& x : load) x = loaded ? x : -x;
+    demand(loaded ? Condition::Kind::load : Condition::Kind::unloaded, i,
+           (loaded ? "load of friction contact " : "missing load of friction contact ") + friction.name, std::move(load));
+  }
+}
+
 void ModeBuilder::corners() {
   for (std::size_t i = 0; i < states_.pieces.size(); ++i) {
     const Polyline& line = m_.model().polylines[i];
-    const Balls value = m_.over_state(line.pair, line.over_velocity);
+    const Balls value = m_.over_state(line.pair, line.over == Polyline::Over::velocity);
     const auto piece = static_cast<std::size_t>(states_.pieces[i]);
     const auto away = [&](double sign, double corner) {
       Balls row(m_.size());

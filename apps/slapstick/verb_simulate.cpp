@@ -210,6 +210,7 @@ int simulate(const Options& options, bool by_time, const Context& context) {
   roles.add_plot(options.plot);
   const Instant end = end_of(options, by_time, chosen.model);
   const RelativeMotion pair(chosen.model, shown_contact(chosen.model, options.stop.choice(chosen.model)));
+  if (!options.certify.empty()) certify::demand_stated(chosen.model);
   System system = affordable_system(chosen, {end.since({}), by_time ? "--time" : "--periods"});
   Run run(options, chosen, std::move(system), start, end, pair);
   const bool complete = run(context) && run.certify(start, context);

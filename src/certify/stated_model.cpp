@@ -9,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "slapstick/base/error.hpp"
+#include "slapstick/certify/certificate.hpp"
 
 namespace slapstick::certify {
 
@@ -48,7 +49,10 @@ std::string stated(const Force& force) {
 
 std::string stated(const Stop& stop) {
   const auto& [name, a, b, clearance, restitution, corners] = stop;
-  return line("stop" + number(a) + number(b) + hex(clearance) + hex(restitution) + called(name));
+  std::string text = "stop" + number(a) + number(b) + hex(clearance) + hex(restitution);
+  text += number(static_cast<long>(corners.size()));
+  for (const auto& [speed, there] : corners) text += hex(speed) + hex(there);
+  return line(text + called(name));
 }
 
 std::string stated(const FrictionContact& friction) {
@@ -57,16 +61,26 @@ std::string stated(const FrictionContact& friction) {
               called(name));
 }
 
+std::string stated(int friction, const NormalForce& normal) {
+  const auto& [constant, terms, compliant_stop] = normal;
+  std::string text = "normal" + number(friction) + hex(constant) + number(compliant_stop);
+  text += number(static_cast<long>(terms.size()));
+  for (const auto& [coordinate, stiffness, damping] : terms) text += number(coordinate) + hex(stiffness) + hex(damping);
+  return line(text);
+}
+
 std::string stated(const CompliantStop& stop) {
   const auto& [name, a, b, clearance, stiffness, damping, pulls, bounded] = stop;
   return line("compliant" + number(a) + number(b) + hex(clearance) + hex(stiffness) + hex(damping) +
-              number(pulls ? 1 : 0) + called(name));
+              number(pulls ? 1 : bounded ? 2 : 0) + called(name));
 }
 
 std::string stated(const Characteristic& bent) {
   const auto& [name, a, b, over, corners, slope_below, slope_above] = bent;
   std::string text = "polyline" + number(a) + number(b);
-  text += over == Characteristic::Over::displacement ? " displacement" : " velocity";
+  text += over == Characteristic::Over::displacement ? " displacement"
+          : over == Characteristic::Over::velocity   ? " velocity"
+                                                     : " zones";
   text += hex(slope_below) + hex(slope_above) + number(static_cast<long>(corners.size()));
   for (const auto& [at, force] : corners) text += hex(at) + hex(force);
   return line(text + called(name));
@@ -74,16 +88,26 @@ std::string stated(const Characteristic& bent) {
 
 }  // namespace
 
+/// The limits of the verifier's reader.
 std::string not_stated(const Model& model) {
+  constexpr int most_coordinates = 400, most_harmonic = 1'000'000;
+  constexpr std::size_t most_corners = 1000;
+  if (model.size() > most_coordinates) return "more than 400 coordinates";
+  for (const Force& force : model.forces)
+    if (force.harmonic > most_harmonic) return "forces of a harmonic beyond 1000000";
   for (const Characteristic& bent : model.characteristics)
-    if (bent.over == Characteristic::Over::zones) return "dampers that act in an interval (" + in_quotes(bent.name) + ")";
-  for (const FrictionContact& contact : model.frictions)
-    if (contact.normal) return "friction whose normal force depends on the state (" + in_quotes(contact.name) + ")";
-  for (const CompliantStop& stop : model.compliant_stops)
-    if (stop.bounded) return "compliant stops with a bounded damping force (" + in_quotes(stop.name) + ")";
+    if (bent.corners.size() > most_corners) return "more than 1000 corners (" + in_quotes(bent.name) + ")";
   for (const Stop& stop : model.stops)
-    if (!stop.corners.empty()) return "restitution that depends on the impact speed (" + in_quotes(stop.name) + ")";
+    if (stop.corners.size() > most_corners) return "more than 1000 corners (" + in_quotes(stop.name) + ")";
+  for (const FrictionContact& contact : model.frictions)
+    if (contact.normal && contact.normal->terms.size() > most_corners)
+      return "a normal force of more than 1000 terms (" + in_quotes(contact.name) + ")";
   return "";
+}
+
+void demand_stated(const Model& model) {
+  if (const std::string what = not_stated(model); !what.empty())
+    throw InputError("model " + in_quotes(model.name) + ": certificates do not hold " + what);
 }
 
 namespace {
@@ -118,12 +142,11 @@ std::string pair_of(const mode::Frame& frame, int i) {
 }  // namespace
 
 std::string stated_model(const flow::CompiledSystem& system) {
-  if (const std::string what = not_stated(system.model()); !what.empty())
-    throw InputError("model " + in_quotes(system.model().name) + ": certificates do not hold " + what + " yet");
+  demand_stated(system.model());
   const auto& [name, coordinates, springs, dampers, forces, frictions, stops, compliant_stops, characteristics, mass,
                damping, stiffness, impact_law, omega] = system.model();
   const mode::Frame& frame = system.frame();
-  std::string text = line("slapstick-certificate 2") + line("model" + called(name)) + line("size" + number(frame.n));
+  std::string text = line("slapstick-certificate 3") + line("model" + called(name)) + line("size" + number(frame.n));
   text += line("omega" + hex(omega));
   text += line(std::string("law ") + (impact_law == ImpactLaw::sequence ? "sequence" : "moreau"));
   int k = 0;
@@ -131,6 +154,11 @@ std::string stated_model(const flow::CompiledSystem& system) {
     text += line("coordinate" + number(k++) + hex(own_mass) + called(coordinate));
   text += matrix("mass", mass, frame.n) + matrix("damping", damping, frame.n) + matrix("stiffness", stiffness, frame.n);
   text += all(springs) + all(dampers) + all(forces) + all(stops) + all(frictions) + all(compliant_stops);
+  int friction = 0;
+  for (const FrictionContact& contact : frictions) {
+    if (contact.normal) text += stated(friction, *contact.normal);
+    ++friction;
+  }
   text += all(characteristics);
   for (int i = 0; i < frame.d; ++i)
     text += line("number" + pair_of(frame, i) + hex(frame.shift[i]) + hex(frame.drift[i]));
@@ -143,9 +171,13 @@ std::string stated_contacts(const mode::ContactStates& states) {
   for (const mode::FrictionState friction : states.frictions)
     text += friction == mode::FrictionState::stick        ? " stick"
             : friction == mode::FrictionState::slip_plus ? " slip+"
+            : friction == mode::FrictionState::unloaded  ? " unloaded"
                                                          : " slip-";
   for (const mode::CompliantState stop : states.compliant)
-    text += stop == mode::CompliantState::off ? " off" : stop == mode::CompliantState::on ? " on" : " detached";
+    text += stop == mode::CompliantState::off        ? " off"
+            : stop == mode::CompliantState::on       ? " on"
+            : stop == mode::CompliantState::detached ? " detached"
+                                                     : " bounded";
   for (const int piece : states.pieces) text += number(piece);
   return text;
 }

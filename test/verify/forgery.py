@@ -12,7 +12,8 @@ from motions import line
 
 PROGRAM = sys.argv[1]
 ALL = [motions.ball, motions.dead_ball, motions.chatter, motions.rubbing, motions.oscillator, motions.released, motions.cradle,
-       lambda: motions.cradle('sequence'), motions.bumper, motions.kink, motions.loop]
+       lambda: motions.cradle('sequence'), motions.bumper, motions.kink, motions.loop, motions.zone, motions.bounded,
+       motions.two_restitutions, motions.lifted, motions.pressed_by_a_spring]
 
 
 def check(lines):

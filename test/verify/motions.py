@@ -19,8 +19,10 @@ def line(*words):
 
 
 def head(name, masses, parts, numbers, omega=0.0, law='moreau'):
-    """The model: `parts` are the records between coordinates and numbers, as tuples."""
-    lines = ['slapstick-certificate 2', line('model', name), line('size', len(masses)), line('omega', omega), line('law', law)]
+    """The model: `parts` are the records between coordinates and numbers, as tuples; stops whose restitution is constant without their count of
+    corners, 0."""
+    parts = [part[:5] + (0,) + part[5:] if part[0] == 'stop' and isinstance(part[5], str) else part for part in parts]
+    lines = ['slapstick-certificate 3', line('model', name), line('size', len(masses)), line('omega', omega), line('law', law)]
     lines += [line('coordinate', i, mass, f'x{i + 1}') for i, mass in enumerate(masses)]
     return lines + [line(*part) for part in parts] + [line('number', *each) for each in numbers]
 
@@ -188,3 +190,57 @@ def loop():
     lines += [line('start', 0, 0.0, 0.0, 0.5, 0.0, 0.5, 0.0, 0.5)]
     lines += segment(0, (0, 0.0), 1.0, ['stick'] * 3, [0.0] * 4, [0.0, 0.0, 0.5, 0.0], CUT)
     return lines + done(1, (1, 0.0), [0.0, 0.0, 0.5, 0.0], [0.0, 0.0, 0.5, 0.0])
+
+
+def zone():
+    """A body at speed 1 comes to a damper of coefficient 1 that acts beyond x = 1/2: there its speed is exp(-s)."""
+    lines = head('zone', [1.0], [('polyline', 0, -1, 'zones', 0.0, 0.0, 1, 0.5, 1.0, 'zone')], [(0, -1, 0.0, 0.0)])
+    lines += [line('start', 0, 0.0, 0.0, 1.0)]
+    lines += segment(0, (0, 0.0), 0.5, [0], [0.0], [1.0], EVENT)
+    lines += segment(1, (0, 0.5), 1.0, [1], [0.5], [1.0], CUT)
+    return lines + done(2, (1, 0.5), [1.5 - math.exp(-1.0)], [math.exp(-1.0)])
+
+
+def bounded():
+    """A ball at speed 1 enters a spring of stiffness 1 with a damper of 4, bounded by the spring's force: it feels 2 delta, until 4 delta' = delta.
+    Then spring and damper act: delta'' = -4 delta' - delta."""
+    lines = head('bounded', [1.0], [('compliant', 0, -1, 0.5, 1.0, 4.0, 2, 'pad')], [(0, -1, 0.5, 0.0)])
+    w, a, b = math.sqrt(2.0), -2.0 + math.sqrt(3.0), -2.0 - math.sqrt(3.0)
+    s = math.atan(4.0 * w) / w
+    p, u = math.sin(w * s) / w, math.cos(w * s)
+    A, B = (u - b * p) / (a - b), (u - a * p) / (b - a)
+    lines += [line('start', 0, 0.0, 0.0, 1.0)]
+    lines += segment(0, (0, 0.0), 0.5, ['off'], [-0.5], [1.0], EVENT)
+    lines += segment(1, (0, 0.5), s, ['bounded'], [0.0], [1.0], EVENT)
+    at = 0.5 + s
+    lines += segment(2, (int(at), at - int(at)), 0.125, ['on'], [p], [u], CUT)
+    end = [A * math.exp(a / 8) + B * math.exp(b / 8), a * A * math.exp(a / 8) + b * B * math.exp(b / 8)]
+    at += 0.125
+    return lines + done(3, (int(at), at - int(at)), end[:1], end[1:])
+
+
+def two_restitutions():
+    """A ball whose restitution is 1/2 up to a speed of 1/2, and falls to 1/4 at 3/2: 3/8 at the first impact, whose speed is 1, then 1/2."""
+    parts = [('force', 0, 0, 1.0, 0.0), ('stop', 0, -1, 0.0, 0.5, 2, 0.5, 0.5, 1.5, 0.25, 'floor')]
+    lines = head('two restitutions', [1.0], parts, [(0, -1, 0.0, 0.0)]) + [line('start', 0, 0.0, -0.5, 0.0)]
+    lines += segment(0, (0, 0.0), 1.0, ['open'], [-0.5], [0.0], EVENT, ('blow', 0), ('impact', 0, 1.0))
+    lines += segment(1, (1, 0.0), 0.75, ['open'], [0.0], [-0.375], EVENT, ('blow', 0), ('impact', 0, 0.375))
+    lines += segment(2, (1, 0.75), 0.25, ['open'], [0.0], [-0.1875], CUT)
+    return lines + done(3, (2, 0.0), [-0.015625], [0.0625])
+
+
+def lifted():
+    """A block that slides is pressed by 1 - y, y the path of a body at speed 1: after one unit of time nothing presses it any more."""
+    parts = [('friction', 0, -1, 0.0, 0.5, 0.5, 'sole'), ('normal', 0, 1.0, -1, 1, 1, -1.0, 0.0)]
+    lines = head('lifted', [1.0, 1.0], parts, [(0, -1, 0.0, 0.0), (1, -1, 0.0, 0.0)]) + [line('start', 0, 0.0, 0.0, 1.0, 0.0, 1.0)]
+    lines += segment(0, (0, 0.0), 1.0, ['slip+'], [0.0, 0.0], [1.0, 1.0], EVENT)
+    lines += segment(1, (1, 0.0), 1.0, ['unloaded'], [5.0 / 6.0, 1.0], [0.75, 1.0], CUT)
+    return lines + done(2, (2, 0.0), [5.0 / 6.0 + 0.75, 2.0], [0.75, 1.0])
+
+
+def pressed_by_a_spring():
+    """A block at rest, pulled by 1/4, under a spring of force 1 that a second body, at rest too, leans against: held by static friction of 1/2."""
+    parts = [('force', 0, 0, 0.25, 0.0), ('force', 1, 0, 1.0, 0.0), ('friction', 0, -1, 0.0, 0.5, 0.5, 'sole'), ('compliant', 1, -1, 0.0, 2.0, 0.0, 0, 'pad'),
+             ('normal', 0, 0.0, 0, 0)]
+    lines = head('pressed', [1.0, 1.0], parts, [(1, -1, 0.0, 0.0), (0, -1, 0.0, 0.0)]) + [line('start', 0, 0.0, 0.0, 0.0, 0.5, 0.0)]
+    return lines + segment(0, (0, 0.0), 1.0, ['stick', 'on'], [0.5, 0.0], [0.0, 0.0], CUT) + done(1, (1, 0.0), [0.5, 0.0], [0.0, 0.0])

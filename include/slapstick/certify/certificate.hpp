@@ -20,6 +20,9 @@ struct Tally {
   long unproved = 0;  ///< pile-ups: rest after impacts without end at one instant, which is assumed and not proved
 };
 
+/// Refuses a model that certificates cannot hold, before anything is computed. @throws InputError saying what it has
+void demand_stated(const Model& model);
+
 /// Follows a motion of its own from `start` at phase 0. What was moved from may only be destroyed.
 class Certificate {
  public:

@@ -25,6 +25,8 @@ def test_every_line_is_needed():
     for motion in ALL:
         lines = motion()
         for n, text in enumerate(lines):
+            if motion is motions.pressed_by_a_spring and text.startswith('force 0 '):
+                continue  # static friction holds the block without that pull as well
             assert check(lines[:n] + lines[n + 1:])[0] != 0, text
 
 
@@ -66,7 +68,7 @@ def test_model_that_is_none():
 
 def test_garbage():
     unreadable(b'\x00\xff' * 5000, 'line 1')
-    unreadable(['slapstick-certificate 1'] + motions.ball()[1:], 'line 1: 1 is not in the range 2 .. 2')
+    unreadable(['slapstick-certificate 2'] + motions.ball()[1:], 'line 1: 2 is not in the range 3 .. 3')
     for n, text in enumerate(motions.ball()):
         lines = motions.ball()
         lines[n] = 'nonsense' + text

@@ -21,9 +21,10 @@ def test_damper_in_a_zone():
 
 def test_damper_that_is_bounded():
     proved(motions.bounded())
-    refused(forged(motions.bounded(), 'segment', {5: 'on'}, 1), 'bound of compliant stop pad: fails at once')
+    refused(forged(motions.bounded(), 'segment', {5: 'on'}, 1), 'bound of compliant stop pad: fails at the start')
     refused(forged(motions.bounded(), 'segment', {5: 'bounded'}, 2), 'bound of compliant stop pad: fails at once')
-    refused(forged(motions.bounded(), 'compliant', {5: 3.9}), 'nothing ends the segment')
+    refused(forged(motions.bounded(), 'compliant', {5: 3.9}), 'segment 1, bound of compliant stop pad: fails at s = 0.98')
+    refused(forged(motions.bounded(), 'compliant', {5: 4.1}), 'nothing ends the segment')
     unreadable(forged(motions.bounded(), 'compliant', {6: 0}), 'compliant stop pad has no bound')
     unreadable(forged(motions.bounded(), 'compliant', {6: 3}), '3 is not in the range 0 .. 2')
 
@@ -49,11 +50,11 @@ def test_friction_that_is_lifted():
 
 def test_friction_under_a_spring():
     proved(motions.pressed_by_a_spring())
-    refused(forged(motions.pressed_by_a_spring(), 'friction', {4: 0.2, 5: 0.2}), 'hold of friction contact sole: fails at the start')
+    refused(forged(motions.pressed_by_a_spring(), 'friction', {4: 0.06, 5: 0.06}), 'hold of friction contact sole: fails at the start')
     refused(forged(motions.pressed_by_a_spring(), 'segment', {6: 'off'}), 'gap of compliant stop pad: fails at the start')
     # Nothing presses: the block is not held, and says so.
     refused(forged(motions.pressed_by_a_spring(), 'normal', {3: -1}), 'load of friction contact sole: fails at the start')
-    slides = forged(motions.pressed_by_a_spring(), 'friction', {5: 0.125})
+    slides = forged(motions.pressed_by_a_spring(), 'friction', {5: 0.03125})
     proved(slides)
     refused(forged(forged(forged(slides, 'segment', {5: 'slip+'}), 'done', {5: 0.0625}), 'done', {7: 0.125}), 'contacts slip or open that could stick')
 

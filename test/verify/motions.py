@@ -239,8 +239,8 @@ def lifted():
 
 
 def pressed_by_a_spring():
-    """A block at rest, pulled by 1/4, under a spring of force 1 that a second body, at rest too, leans against: held by static friction of 1/2."""
-    parts = [('force', 0, 0, 0.25, 0.0), ('force', 1, 0, 1.0, 0.0), ('friction', 0, -1, 0.0, 0.5, 0.5, 'sole'), ('compliant', 1, -1, 0.0, 2.0, 0.0, 0, 'pad'),
+    """A block at rest, pulled by 1/4, under a spring of force 4 that a second body, at rest too, leans against: held by a static coefficient of 1/8."""
+    parts = [('force', 0, 0, 0.25, 0.0), ('force', 1, 0, 4.0, 0.0), ('friction', 0, -1, 0.0, 0.125, 0.125, 'sole'), ('compliant', 1, -1, 0.0, 8.0, 0.0, 0, 'pad'),
              ('normal', 0, 0.0, 0, 0)]
     lines = head('pressed', [1.0, 1.0], parts, [(1, -1, 0.0, 0.0), (0, -1, 0.0, 0.0)]) + [line('start', 0, 0.0, 0.0, 0.0, 0.5, 0.0)]
     return lines + segment(0, (0, 0.0), 1.0, ['stick', 'on'], [0.5, 0.0], [0.0, 0.0], CUT) + done(1, (1, 0.0), [0.5, 0.0], [0.0, 0.0])

@@ -192,11 +192,11 @@ Balls Checker::impulses(const std::vector<int>& stops, bool to_rest) const {
 /// their midpoints are gone on with, by a jump that is counted.
 void Checker::apply(const std::vector<int>& stops, const Balls& P) {
   const std::vector<double> before = last_->size;
-  double off = 0.0;
   std::vector<double> grown;
   for (const int k : stops) grown.push_back(steepness(k, approach(k).near()));
   for (std::size_t i = 0; i < stops.size(); ++i) {
     const Place& place = m_.stop(static_cast<std::size_t>(stops[i]));
+    double off = 0.0;
     const bool again = last_->struck[static_cast<std::size_t>(stops[i])];
     const double speed = again ? 0.0 : grown[i] * before[m_.d() + place.own] / m_.inertia()[place.own][place.own].near();
     last_->struck[static_cast<std::size_t>(stops[i])] = true;
@@ -206,8 +206,8 @@ void Checker::apply(const std::vector<int>& stops, const Balls& P) {
       last_->size[m_.d() + j] += std::abs(inertia.near()) * (std::abs(P[i].near()) + speed);
     }
     jumps_.raise_by_impulse(place.own, P[i].near());
+    jumps_.widen(place.own, off);
   }
-  jumps_.widen(off);
 }
 
 void Checker::bring_to_rest(const Blow& blow) {

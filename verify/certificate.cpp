@@ -190,6 +190,8 @@ void Reader::read_stops() {
     for (const Corner& corner : stop.corners)
       possible = possible && corner.at >= 0.0 && corner.force >= 0.0 && corner.force <= 1.0;
     if (!possible) fail("the restitution is not in [0, 1]");
+    if (!stop.corners.empty() && stop.corners.front().force != stop.restitution)
+      fail("the restitution is not that of the first corner");
     model_.stops.push_back(stop);
   }
 }

@@ -35,7 +35,7 @@ void Checker::segment(const Segment& segment) {
                 refuse_);
   flight.fly();
   ends(segment, flight, mode);
-  jumps_.raise(flight.coordinates);
+  jumps_.raise(flight.coordinates, flight.size);
   auto departure = std::make_unique<Departure>(Departure{segment, std::move(flight.X), std::move(flight.size)});
   blur(*departure, mode.flow);
   if (segment.end == EndKind::chatter) chatter(segment, departure->size);
@@ -92,7 +92,7 @@ void Checker::done(const Done& done) {
   if (!last_->segment.blows.empty() && last_->segment.blows.back().kind == Blow::Kind::chatter)
     refuse_(done.line, "the run ends before the limit of a chatter");
   dependence(done.line, m_.extended(done.p, done.u, 0.0), last_->size);
-  jumps_.check(done.line, refuse_);
+  tally_.open.still = jumps_.check(done.line, refuse_);
   tally_.displacement = {jumps_.largest(false), jumps_.sum(false)};
   tally_.velocity = {jumps_.largest(true), jumps_.sum(true)};
   if (!(tally_.clock.sum <= most_of_clock))

@@ -16,7 +16,8 @@ struct Open {
   long pile_ups = 0;   ///< impacts without end at one instant, ended by assumption
   long undecided = 0;  ///< signs that rounding decides: touches, impacts without speed
   long choices = 0;    ///< starts at which another mode is as lawful
-  [[nodiscard]] bool none() const { return pile_ups + undecided + choices == 0; }
+  long still = 0;      ///< coordinates that rounding alone moves: zero, but for that of their contact numbers
+  [[nodiscard]] bool none() const { return pile_ups + undecided + choices + still == 0; }
 };
 
 /// The largest, and all together, in units of what the coordinate is added up from.
@@ -98,6 +99,8 @@ class Checker {
   [[nodiscard]] double speed_rounding(int stop) const;
 
   // choice.cpp
+  struct Candidates;
+  [[nodiscard]] Candidates at_rest(const Segment& segment) const;
   void choice(const Segment& segment);
   [[nodiscard]] bool near_zero(const Segment& segment, std::size_t i) const;
 

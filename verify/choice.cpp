@@ -14,9 +14,32 @@ namespace {
 
 constexpr long most_tried = 729;
 
+/// Certainly lawful from X on: every condition rises, but for those that stay zero.
+bool fits(const FlownMode& mode, const Balls& X) {
+  const std::vector<double> sizes = mode.flow.sizes_of(X);
+  const Expansion about(mode.flow, X, Ball(0.0), Order::rest + 8);
+  for (std::size_t i = 0; i < mode.flow.rows.size(); ++i) {
+    const Order order = order_at(mode.flow, i, about.of(mode.flow.rows[i]), sizes);
+    if (!order.rises || !order.certain) return false;
+  }
+  return true;
+}
+
+bool moves_otherwise(const FlownMode& a, const FlownMode& b, const Balls& X) {
+  const Balls one = a.flow.rate(X), other = b.flow.rate(X);
+  const std::vector<double> size = a.flow.apply_sizes(a.flow.sizes_of(X));
+  for (std::size_t i = 0; i < one.size(); ++i)
+    if (abs(one[i] - other[i]) > Ball(rounding * size[i])) return true;
+  return false;
+}
+
+}  // namespace
+
 /// Contacts at rest, and the states that each may take, the preferred one first.
-struct Candidates {
+struct Checker::Candidates {
   std::vector<std::size_t> stops, frictions;
+  std::vector<std::size_t> off;  ///< of the stops: with a gap that is no more than rounding, and that the motion leads to
+  bool several = false;          ///< static friction is greater than kinetic somewhere
   std::vector<int> offered;  ///< states of each friction contact: 3, or 4 with a normal force
 
   [[nodiscard]] long count() const {
@@ -40,28 +63,10 @@ struct Candidates {
     for (const std::size_t i : frictions) n += states.slip[i] == 0 ? 0 : 1;
     return n;
   }
-};
-
-/// Certainly lawful from X on: every condition rises, but for those that stay zero.
-bool fits(const FlownMode& mode, const Balls& X) {
-  const std::vector<double> sizes = mode.flow.sizes_of(X);
-  const Expansion about(mode.flow, X, Ball(0.0), Order::rest + 8);
-  for (std::size_t i = 0; i < mode.flow.rows.size(); ++i) {
-    const Order order = order_at(mode.flow, i, about.of(mode.flow.rows[i]), sizes);
-    if (!order.rises || !order.certain) return false;
+  [[nodiscard]] bool closes_gap(const ContactStates& states) const {
+    return std::any_of(off.begin(), off.end(), [&](std::size_t i) { return states.closed[i]; });
   }
-  return true;
-}
-
-bool moves_otherwise(const FlownMode& a, const FlownMode& b, const Balls& X) {
-  const Balls one = a.flow.rate(X), other = b.flow.rate(X);
-  const std::vector<double> size = a.flow.apply_sizes(a.flow.sizes_of(X));
-  for (std::size_t i = 0; i < one.size(); ++i)
-    if (abs(one[i] - other[i]) > Ball(rounding * size[i])) return true;
-  return false;
-}
-
-}  // namespace
+};
 
 /// Number i of the state is zero, but for rounding.
 bool Checker::near_zero(const Segment& segment, std::size_t i) const {
@@ -69,30 +74,39 @@ bool Checker::near_zero(const Segment& segment, std::size_t i) const {
   return x == 0.0 || (last_ != nullptr && std::abs(x) <= allowance(i));
 }
 
-/// Who writes the last bit of a state does not choose by it: what rounding explains counts as rest, and is zero in the
-/// modes that are tried.
-void Checker::choice(const Segment& segment) {
+/// A gap that is not zero, and certainly is open at the end of the flight before, is one of the motion.
+Checker::Candidates Checker::at_rest(const Segment& segment) const {
   const Model& model = m_.model();
   Candidates candidates;
-  bool several = false;
-  std::vector<double> p = segment.p, u = segment.u;
   for (std::size_t i = 0; i < model.stops.size(); ++i) {
     const std::size_t own = m_.stop(i).own;
     if (!near_zero(segment, own) || !near_zero(segment, m_.d() + own)) continue;
     candidates.stops.push_back(i);
-    p[own] = u[own] = 0.0;
+    const Ball sign(-m_.stop(i).sign);
+    if (last_ != nullptr && sign * Ball(segment.p[own]) > Ball(0.0) && sign * last_->X[own] > Ball(0.0))
+      candidates.off.push_back(i);
   }
   for (std::size_t i = 0; i < model.frictions.size(); ++i) {
-    const std::size_t own = m_.friction(i).own;
-    if (!near_zero(segment, m_.d() + own)) continue;
+    if (!near_zero(segment, m_.d() + m_.friction(i).own)) continue;
     candidates.frictions.push_back(i);
     candidates.offered.push_back(model.frictions[i].normal ? 4 : 3);
-    u[own] = 0.0;
-    several = several || model.frictions[i].kinetic < model.frictions[i].static_limit;
+    candidates.several = candidates.several || model.frictions[i].kinetic < model.frictions[i].static_limit;
   }
-  if (!several) return;
+  return candidates;
+}
+
+/// Who writes the last bit of a state does not choose by it: what rounding explains counts as rest, and is zero in the
+/// modes that are tried. Of a stop whose gap the motion leads to, and rounding would explain, the choice is counted.
+void Checker::choice(const Segment& segment) {
+  const Candidates candidates = at_rest(segment);
+  if (!candidates.several) return;
   if (candidates.count() > most_tried) return void(++tally_.open.choices);
-  const Balls X = m_.extended(p, u, segment.start.fraction);
+  std::vector<double> p = segment.p, u = segment.u;
+  for (const std::size_t i : candidates.stops) p[m_.stop(i).own] = u[m_.stop(i).own] = 0.0;
+  for (const std::size_t i : candidates.frictions) u[m_.friction(i).own] = 0.0;
+  const Balls closed = m_.extended(p, u, segment.start.fraction);
+  for (const std::size_t i : candidates.off) p[m_.stop(i).own] = segment.p[m_.stop(i).own];
+  const Balls open = m_.extended(p, u, segment.start.fraction);
   const FlownMode& chosen = flown(segment.states);
   const long changes = candidates.changes(segment.states);
   bool another = false;
@@ -100,8 +114,10 @@ void Checker::choice(const Segment& segment) {
     const ContactStates states = candidates.combination(segment.states, k);
     if (states == segment.states || candidates.changes(states) > changes) continue;
     const FlownMode& mode = flown(states);
+    const bool closes = candidates.closes_gap(states);
+    const Balls& X = closes ? closed : open;
     if (!fits(mode, X) || !moves_otherwise(chosen, mode, X)) continue;
-    if (candidates.changes(states) < changes)
+    if (!closes && candidates.changes(states) < changes)
       return refuse_(segment.line, "contacts slip or open that could stick or stay closed");
     another = true;
   }

@@ -12,7 +12,7 @@ constexpr double most_in_sum = 0x1p-24;
 }  // namespace
 
 Jumps::Jumps(const Mechanics& mechanics)
-    : m_(mechanics), largest_(2 * mechanics.n(), 0.0), sum_(largest_), scale_(largest_) {}
+    : m_(mechanics), largest_(2 * mechanics.n(), 0.0), sum_(largest_), scale_(largest_), reach_(largest_) {}
 
 void Jumps::add(const Balls& p, const Balls& u) {
   for (std::size_t i = 0; i < 2 * m_.n(); ++i) {
@@ -23,8 +23,14 @@ void Jumps::add(const Balls& p, const Balls& u) {
   }
 }
 
-void Jumps::raise(const std::vector<double>& sizes) {
-  for (std::size_t i = 0; i < scale_.size(); ++i) scale_[i] = std::max(scale_[i], sizes[i]);
+void Jumps::raise(const std::vector<double>& sizes, const std::vector<double>& of_numbers) {
+  for (std::size_t i = 0; i < scale_.size(); ++i) {
+    scale_[i] = std::max(scale_[i], sizes[i]);
+    double reach = 0.0;
+    for (std::size_t j = 0; j < m_.n(); ++j)
+      reach += std::abs(m_.to_coordinates()[i % m_.n()][j].near()) * of_numbers[(i < m_.n() ? 0 : m_.d()) + j];
+    reach_[i] = std::max(reach_[i], reach);
+  }
 }
 
 void Jumps::raise_by_impulse(std::size_t number, double P) {
@@ -32,9 +38,12 @@ void Jumps::raise_by_impulse(std::size_t number, double P) {
     scale_[m_.n() + i] = std::max(scale_[m_.n() + i], std::abs(m_.impulse_effect(i, number).near() * P));
 }
 
-void Jumps::widen(double off) {
-  for (std::size_t i = m_.n(); i < sum_.size(); ++i) sum_[i] += static_cast<double>(m_.n()) * off;
+void Jumps::widen(std::size_t number, double off) {
+  for (std::size_t i = 0; i < m_.n(); ++i)
+    if (!m_.impulse_effect(i, number).is_zero()) sum_[m_.n() + i] += static_cast<double>(m_.n()) * off;
 }
+
+bool Jumps::still(std::size_t i) const { return scale_[i] <= rounding * reach_[i]; }
 
 double Jumps::relative(const std::vector<double>& jumps, std::size_t i) const {
   return jumps[i] == 0.0 ? 0.0 : jumps[i] / scale_[i];
@@ -42,12 +51,17 @@ double Jumps::relative(const std::vector<double>& jumps, std::size_t i) const {
 
 double Jumps::worst(const std::vector<double>& jumps, bool of_velocities) const {
   double most = 0.0;
-  for (std::size_t i = 0; i < m_.n(); ++i) most = std::max(most, relative(jumps, i + (of_velocities ? m_.n() : 0)));
+  for (std::size_t i = 0; i < m_.n(); ++i) if (const std::size_t k = i + (of_velocities ? m_.n() : 0); !still(k)) most = std::max(most, relative(jumps, k));
   return most;
 }
 
-void Jumps::check(long line, const Refuse& refuse) const {
+long Jumps::check(long line, const Refuse& refuse) const {
+  std::vector<bool> moved(m_.n());
   for (std::size_t i = 0; i < scale_.size(); ++i) {
+    if (still(i)) {
+      moved[i % m_.n()] = moved[i % m_.n()] || relative(largest_, i) > rounding || relative(sum_, i) > most_in_sum;
+      continue;
+    }
     const std::string what = (i < m_.n() ? "coordinate " : "velocity ") + std::to_string(i % m_.n());
     if (!(relative(largest_, i) <= rounding))
       refuse(line, what + " jumps by " + digits(largest_[i]) + ", more than 2^-40 of what it is added up from, " +
@@ -56,6 +70,7 @@ void Jumps::check(long line, const Refuse& refuse) const {
       refuse(line, "all jumps of " + what + " together are " + digits(relative(sum_, i)) +
                        " of what it is added up from, more than 2^-24");
   }
+  return std::count(moved.begin(), moved.end(), true);
 }
 
 }  // namespace verify

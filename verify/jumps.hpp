@@ -13,24 +13,28 @@ class Jumps {
   explicit Jumps(const Mechanics& mechanics);
   /// @param by  of the first n contact numbers, and of their velocities
   void add(const Balls& p, const Balls& u);
-  /// What the coordinates are added up from is at least this.
-  void raise(const std::vector<double>& sizes);
+  /// What the coordinates are added up from is at least this, and so is what contact numbers are.
+  void raise(const std::vector<double>& sizes, const std::vector<double>& of_numbers);
   /// An impulse P at a number.
   void raise_by_impulse(std::size_t number, double P);
-  /// Numbers were rounded by so much without a word of the file.
-  void widen(double off);
-  void check(long line, const Refuse& refuse) const;
+  /// Velocities that an impulse at the number changes were rounded by so much without a word of the file.
+  void widen(std::size_t number, double off);
+  /// @returns how many coordinates rounding alone moves: all that they do along the run is no more than the rounding of
+  ///          their contact numbers, so that their own sizes say nothing of jumps
+  [[nodiscard]] long check(long line, const Refuse& refuse) const;
 
   /// The worst coordinate's largest jump, and all of the worst one's together, in units of its sizes.
   [[nodiscard]] double largest(bool of_velocities) const { return worst(largest_, of_velocities); }
   [[nodiscard]] double sum(bool of_velocities) const { return worst(sum_, of_velocities); }
 
  private:
+  [[nodiscard]] bool still(std::size_t i) const;
   [[nodiscard]] double relative(const std::vector<double>& jumps, std::size_t i) const;
   [[nodiscard]] double worst(const std::vector<double>& jumps, bool of_velocities) const;
 
   const Mechanics& m_;
   std::vector<double> largest_, sum_, scale_;
+  std::vector<double> reach_;  ///< sizes of the contact numbers that tell the coordinate
 };
 
 }  // namespace verify

@@ -52,6 +52,7 @@ std::string sentence(const Verdict& verdict) {
   add(open.pile_ups, "pile-up", "");
   add(open.undecided, "undecided sign", "");
   add(open.choices, "choice", " among lawful modes");
+  add(open.still, "coordinate", " that rounding alone moves");
   return "proved" + text;
 }
 
@@ -66,6 +67,7 @@ std::string report(const Verdict& verdict) {
   text += line("pile-ups         %ld (rest after impacts without end at one instant: assumed)\n", t.open.pile_ups);
   text += line("undecided signs  %ld (rounding decides whether there is an event)\n", t.open.undecided);
   text += line("choices          %ld (the laws allow another motion from there too)\n", t.open.choices);
+  text += line("still            %ld (coordinates that rounding alone moves)\n", t.open.still);
   text += line("bands            %.2g periods the longest in which a condition is no more than rounding, %ld beyond 2^-30\n",
                t.flight.band, t.flight.flats);
   text += jumps_of("displacements", t.displacement) + jumps_of("velocities", t.velocity);

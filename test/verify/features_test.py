@@ -32,9 +32,10 @@ def test_damper_that_is_bounded():
 def test_restitution_over_speed():
     text = proved(motions.two_restitutions())
     assert 'largest jump     0 of what rounding is allowed' in text, text
-    for k, other in ((7, 0.49), (9, 0.26), (8, 1.4), (6, 0.6)):
-        refused(forged(motions.two_restitutions(), 'stop', {k: other}), 'segment 1, number 1 of the state')
-    refused(forged(motions.two_restitutions(), 'stop', {4: 0.49}), 'segment 2, number 1 of the state')
+    for other in ({4: 0.49, 7: 0.49}, {9: 0.26}, {8: 1.4}, {6: 0.6}):
+        refused(forged(motions.two_restitutions(), 'stop', other), 'segment 1, number 1 of the state')
+    refused(forged(motions.two_restitutions(), 'stop', {4: 0.49, 7: 0.49}), 'segment 2, number 1 of the state')
+    unreadable(forged(motions.two_restitutions(), 'stop', {4: 0.49}), 'the restitution is not that of the first corner')
     unreadable(forged(motions.two_restitutions(), 'stop', {9: 1.5}), 'the restitution is not in [0, 1]')
     unreadable(forged(motions.two_restitutions(), 'stop', {8: 0.5}), 'corners do not ascend')
 

@@ -100,7 +100,8 @@ class Checker {
 
   // choice.cpp
   struct Candidates;
-  [[nodiscard]] Candidates at_rest(const Segment& segment) const;
+  [[nodiscard]] Candidates those_at_rest(const Segment& segment) const;
+  [[nodiscard]] bool led_to(const Segment& segment, std::size_t i) const;
   void choice(const Segment& segment);
   [[nodiscard]] bool near_zero(const Segment& segment, std::size_t i) const;
 

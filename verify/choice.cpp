@@ -38,7 +38,7 @@ bool moves_otherwise(const FlownMode& a, const FlownMode& b, const Balls& X) {
 /// Contacts at rest, and the states that each may take, the preferred one first.
 struct Checker::Candidates {
   std::vector<std::size_t> stops, frictions;
-  std::vector<std::size_t> off;  ///< of the stops: with a gap that is no more than rounding, and that the motion leads to
+  std::vector<std::size_t> off_stops, off_frictions;  ///< those whose state is not zero, and that the motion leads to
   bool several = false;          ///< static friction is greater than kinetic somewhere
   std::vector<int> offered;  ///< states of each friction contact: 3, or 4 with a normal force
 
@@ -63,8 +63,12 @@ struct Checker::Candidates {
     for (const std::size_t i : frictions) n += states.slip[i] == 0 ? 0 : 1;
     return n;
   }
-  [[nodiscard]] bool closes_gap(const ContactStates& states) const {
-    return std::any_of(off.begin(), off.end(), [&](std::size_t i) { return states.closed[i]; });
+  /// One that is not at rest is said to be so, or to move otherwise.
+  [[nodiscard]] bool by_rounding(const ContactStates& states, const ContactStates& stated) const {
+    const auto stop = [&](std::size_t i) { return states.closed[i] != stated.closed[i]; };
+    const auto friction = [&](std::size_t i) { return states.slip[i] != stated.slip[i]; };
+    return std::any_of(off_stops.begin(), off_stops.end(), stop) ||
+           std::any_of(off_frictions.begin(), off_frictions.end(), friction);
   }
 };
 
@@ -74,21 +78,26 @@ bool Checker::near_zero(const Segment& segment, std::size_t i) const {
   return x == 0.0 || (last_ != nullptr && std::abs(x) <= allowance(i));
 }
 
-/// A gap that is not zero, and certainly is open at the end of the flight before, is one of the motion.
-Checker::Candidates Checker::at_rest(const Segment& segment) const {
+/// Number i of the state is not zero, and has the sign that flight and impacts have led to.
+bool Checker::led_to(const Segment& segment, std::size_t i) const {
+  const double x = i < m_.d() ? segment.p[i] : segment.u[i - m_.d()];
+  return last_ != nullptr && Ball(x) * last_->X[i] > Ball(0.0);
+}
+
+Checker::Candidates Checker::those_at_rest(const Segment& segment) const {
   const Model& model = m_.model();
   Candidates candidates;
   for (std::size_t i = 0; i < model.stops.size(); ++i) {
     const std::size_t own = m_.stop(i).own;
     if (!near_zero(segment, own) || !near_zero(segment, m_.d() + own)) continue;
     candidates.stops.push_back(i);
-    const Ball sign(-m_.stop(i).sign);
-    if (last_ != nullptr && sign * Ball(segment.p[own]) > Ball(0.0) && sign * last_->X[own] > Ball(0.0))
-      candidates.off.push_back(i);
+    if (led_to(segment, own) || led_to(segment, m_.d() + own)) candidates.off_stops.push_back(i);
   }
   for (std::size_t i = 0; i < model.frictions.size(); ++i) {
-    if (!near_zero(segment, m_.d() + m_.friction(i).own)) continue;
+    const std::size_t own = m_.d() + m_.friction(i).own;
+    if (!near_zero(segment, own)) continue;
     candidates.frictions.push_back(i);
+    if (led_to(segment, own)) candidates.off_frictions.push_back(i);
     candidates.offered.push_back(model.frictions[i].normal ? 4 : 3);
     candidates.several = candidates.several || model.frictions[i].kinetic < model.frictions[i].static_limit;
   }
@@ -96,17 +105,22 @@ Checker::Candidates Checker::at_rest(const Segment& segment) const {
 }
 
 /// Who writes the last bit of a state does not choose by it: what rounding explains counts as rest, and is zero in the
-/// modes that are tried. Of a stop whose gap the motion leads to, and rounding would explain, the choice is counted.
+/// modes that are tried. What rounding explains too, but the motion leads to, as in a chatter that ends, is a choice that
+/// is counted.
 void Checker::choice(const Segment& segment) {
-  const Candidates candidates = at_rest(segment);
+  const Candidates candidates = those_at_rest(segment);
   if (!candidates.several) return;
   if (candidates.count() > most_tried) return void(++tally_.open.choices);
   std::vector<double> p = segment.p, u = segment.u;
   for (const std::size_t i : candidates.stops) p[m_.stop(i).own] = u[m_.stop(i).own] = 0.0;
   for (const std::size_t i : candidates.frictions) u[m_.friction(i).own] = 0.0;
-  const Balls closed = m_.extended(p, u, segment.start.fraction);
-  for (const std::size_t i : candidates.off) p[m_.stop(i).own] = segment.p[m_.stop(i).own];
-  const Balls open = m_.extended(p, u, segment.start.fraction);
+  const Balls at_rest = m_.extended(p, u, segment.start.fraction);
+  for (const std::size_t i : candidates.off_frictions) u[m_.friction(i).own] = segment.u[m_.friction(i).own];
+  for (const std::size_t i : candidates.off_stops) {
+    p[m_.stop(i).own] = segment.p[m_.stop(i).own];
+    u[m_.stop(i).own] = segment.u[m_.stop(i).own];
+  }
+  const Balls moving = m_.extended(p, u, segment.start.fraction);
   const FlownMode& chosen = flown(segment.states);
   const long changes = candidates.changes(segment.states);
   bool another = false;
@@ -114,10 +128,10 @@ void Checker::choice(const Segment& segment) {
     const ContactStates states = candidates.combination(segment.states, k);
     if (states == segment.states || candidates.changes(states) > changes) continue;
     const FlownMode& mode = flown(states);
-    const bool closes = candidates.closes_gap(states);
-    const Balls& X = closes ? closed : open;
+    const bool by_rounding = candidates.by_rounding(states, segment.states);
+    const Balls& X = by_rounding ? at_rest : moving;
     if (!fits(mode, X) || !moves_otherwise(chosen, mode, X)) continue;
-    if (!closes && candidates.changes(states) < changes)
+    if (!by_rounding && candidates.changes(states) < changes)
       return refuse_(segment.line, "contacts slip or open that could stick or stay closed");
     another = true;
   }

@@ -105,8 +105,8 @@ Checker::Candidates Checker::those_at_rest(const Segment& segment) const {
 }
 
 /// Who writes the last bit of a state does not choose by it: what rounding explains counts as rest, and is zero in the
-/// modes that are tried. What rounding explains too, but the motion leads to, as in a chatter that ends, is a choice that
-/// is counted.
+/// modes that are tried. What rounding explains too, but the motion leads to, as in a chatter that ends, is a choice
+/// that is counted.
 void Checker::choice(const Segment& segment) {
   const Candidates candidates = those_at_rest(segment);
   if (!candidates.several) return;

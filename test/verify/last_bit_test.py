@@ -45,6 +45,17 @@ def test_choice_of_a_velocity_that_is_nearly_zero():
             'contacts slip or open that could stick or stay closed')
 
 
+def test_chatter_whose_flights_are_no_more_than_rounding():
+    """A flight of 2^-20 under a ceiling, back from its lowest point: with that gap at zero the body might stay, stuck and closed."""
+    t, numbers = 2.0 ** -21, [(0, -1, 0.0, 0.0), (-1, 0, 2.0, 0.0)]
+    parts = [('force', 0, 0, 1.0, 0.0), ('stop', 0, -1, 0.0, 0.5, 'ceiling'), ('stop', -1, 0, 2.0, 0.5, 'floor'), ('friction', 0, -1, 0.0, 0.5, 0.25, 'wall')]
+    lines = head('flight', [1.0], parts, numbers) + [line('start', 0, 0.0, 0.0, -1.25 * t)]
+    both = lambda x, v: ([x, -x - 2.0], [v, -v])
+    lines += segment(0, (0, 0.0), t, ['open', 'open', 'slip-'], *both(0.0, -1.25 * t), EVENT)
+    lines += segment(1, (0, t), t / 2, ['open', 'open', 'slip+'], *both(-0.625 * t * t, 0.0), CUT)
+    proved_but_for(lines + done(2, (0, 1.5 * t), *both(-0.53125 * t * t, 0.375 * t)), '1 choice among lawful modes')
+
+
 # Touches and impacts.
 
 def test_touch_at_a_cut():
@@ -143,6 +154,21 @@ def test_numbers_of_contacts_that_are_never_reached():
     lines = [text.replace(' open', ' open slip-') if text.startswith('segment') else text for text in lines]
     refused(lines, 'coordinate 0 jumps by', 'more than 2^-40')
     refused(lines, 'velocity 0 jumps by')
+
+
+def test_coordinate_that_rounding_alone_moves():
+    """A body rests at zero, where its contact number is -1/2: of its last bit nothing is said, and the verdict tells."""
+    lines = head('still', [1.0], [('spring', 0, -1, 1.0), ('stop', 0, -1, 0.5, 0.5, 'far')], [(0, -1, 0.5, 0.0)]) + [line('start', 0, 0.0, 0.0, 0.0)]
+    lines += segment(0, (0, 0.0), 1.0, ['open'], [-0.5], [0.0], CUT)
+    for off, what in ((0.0, None), (2.0 ** -54, '1 coordinate that rounding alone moves'), (2.0 ** -36, 'from where it must be')):
+        p, u = -0.5 + off * math.cos(1.0), -off * math.sin(1.0)
+        moved = lines + segment(1, (1, 0.0), 1.0, ['open'], [-0.5 + off], [0.0], CUT) + done(2, (2, 0.0), [p], [u])
+        if off == 0.0:
+            proved(moved)
+        elif off < 2.0 ** -40:
+            proved_but_for(moved, what)
+        else:
+            refused(moved, what)
 
 
 def test_allowances_of_a_body_that_is_not_coupled():

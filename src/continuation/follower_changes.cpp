@@ -220,13 +220,13 @@ bool Follower::stays_in_one_mode(const Orbit& orbit) const {
 
 /// The branch ends where its events change: its passage says why. @returns false
 bool Follower::end_at(const PathPoint& at, SpecialPoint special) {
-  if (special.passage == Passage::unknown && comes_to_rest(special)) special.passage = Passage::equilibrium;
-  if (special.passage == Passage::unknown && stays_in_one_mode(special.solution.orbit))
-    special.passage = Passage::family;
   if (special.passage == Passage::unknown && at_end(special.value, structure * range_, at)) {
     end(BranchEnd::Kind::range);
     return false;
   }
+  if (special.passage == Passage::unknown && comes_to_rest(special)) special.passage = Passage::equilibrium;
+  if (special.passage == Passage::unknown && stays_in_one_mode(special.solution.orbit))
+    special.passage = Passage::family;
   branch_.up.failed = special.passage == Passage::unknown;
   branch_.special.push_back(std::move(special));
   end(BranchEnd::Kind::special);

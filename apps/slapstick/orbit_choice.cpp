@@ -14,6 +14,12 @@ std::string spelled(std::string_view option) { return "--" + std::string(option 
 }  // namespace
 
 void OrbitOptions::declare(Arguments& arguments) {
+  declare_choice(arguments);
+  arguments.count("--transient", transient, 0, 1'000'000'000,
+                  "forcing periods to leave out before the first try (500)");
+}
+
+void OrbitOptions::declare_choice(Arguments& arguments) {
   arguments.text("--orbit", orbit, "N-P",
                  "forcing periods and impacts per cycle, e.g. 1-1 or 2-inf; 1-1-I without stick, 1-1-II with; N alone "
                  "for any impacts (what the motion settles on)");
@@ -21,8 +27,6 @@ void OrbitOptions::declare(Arguments& arguments) {
   arguments.flag("--unstable", unstable, "an unstable orbit");
   arguments.flag("--symmetric", symmetric, "an orbit that is its own image half a forcing period later");
   arguments.flag("--nearest", nearest, "of the orbits that a search finds, the nearest to --state");
-  arguments.count("--transient", transient, 0, 1'000'000'000,
-                  "forcing periods to leave out before the first try (500)");
   arguments.count("--starts", starts, 1, 1'000'000, "motions that a search looks through, however long it takes (64)");
   arguments.number("--seconds", seconds, "S", "end the search after this time (10; with --starts no limit)");
   arguments.count("--seed", seed, 0, 4'000'000'000, "of the starts of a search (1)");

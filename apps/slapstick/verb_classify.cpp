@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "io/json.hpp"
+#include "measured_json.hpp"
 #include "model_options.hpp"
 #include "output.hpp"
 #include "progress.hpp"
@@ -16,7 +17,7 @@ namespace {
 struct Options {
   ModelOptions model;
   StopOptions stops;
-  std::string out;
+  std::string of, out;
   long long transient = 500, most_periods = 20'000, most_n = 64, exponent_periods = 4000, quick = 0;
   bool progress = false;
 };
@@ -107,6 +108,20 @@ Json result_json(const Classification& found, const Options& options, const Chos
   return json;
 }
 
+/// --of: over the cycle, or where there is none over 1000 periods of the attractor. @returns false if it was stopped
+bool add_values(const std::vector<Wanted>& wanted, const Classification& found, const ChosenModel& chosen,
+                const System& system, const Context& context, Json& json) {
+  SpanWish wish;
+  wish.transient = 0;
+  wish.stop = &context.stop;
+  const auto span = find_span(chosen.definition, chosen.overrides, system, found.state, wish);
+  if (!span) return false;
+  const Measured measured = measure(*span, quantities_of(wanted), &context.stop);
+  json.set("over", span_json(*span).set("time", measured.duration)).set("values", values_json(wanted, measured));
+  json.set("units", units_json(wanted));
+  return measured.complete;
+}
+
 void declare(Arguments& arguments, Options* options) {
   options->model.declare(arguments);
   options->model.declare_state(arguments);
@@ -119,6 +134,7 @@ void declare(Arguments& arguments, Options* options) {
                   "look at so many periods only, half of them transient: a cycle that Newton's method confirms, or "
                   "undecided");
   options->stops.declare(arguments, "count and list the impacts of this stop only; may be repeated (all)");
+  declare_of(arguments, options->of);
   arguments.text("--out", options->out, "FILE", "write the JSON there instead of to standard output");
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
@@ -144,6 +160,7 @@ Action add_classify(Arguments& arguments) {
     const ChosenModel chosen = options->model.load();
     const StopChoice stops = options->stops.choice(chosen.model);
     const State start = options->model.start(chosen);
+    const std::vector<Wanted> wanted = parse_of(options->of, chosen);
     constexpr double least_search = 10.0;  // periods
     const System system =
         affordable_system(chosen, {static_cast<double>(options->transient) + least_search, "--transient"});
@@ -160,7 +177,9 @@ Action add_classify(Arguments& arguments) {
                                      ? classify_quickly(system, start, static_cast<int>(options->quick), how)
                                      : classify(system, start, how);
     if (found.interrupted) return interrupted;
-    out.write(result_json(found, *options, chosen).dump() + "\n");
+    Json json = result_json(found, *options, chosen);
+    if (!wanted.empty() && !add_values(wanted, found, chosen, system, context, json)) return interrupted;
+    out.write(json.dump() + "\n");
     out.commit();
     return done;
   };

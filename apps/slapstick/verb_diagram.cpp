@@ -14,6 +14,7 @@
 #include "base/text.hpp"
 #include "slapstick/sweep/diagram.hpp"
 #include "stop_options.hpp"
+#include "values_diagram.hpp"
 #include "verb.hpp"
 #include "work.hpp"
 
@@ -25,7 +26,7 @@ using sweep::Direction;
 struct Options {
   ModelOptions model;
   StopOptions stops;
-  std::string sweep, direction = "up", start = "carry", y, out, plot;
+  std::string sweep, direction = "up", start = "carry", y, at, out, plot;
   long long transient = 500, impacts = 200, most_periods = 5000, periods = 100, threads = 0;
   bool progress = false;
 };
@@ -42,10 +43,6 @@ void check_size(const Options& options, const Sweep& sweep) {
   constexpr double most = 1e8;
   const double rows = static_cast<double>(sweep.count) * static_cast<double>(options.impacts) *
                       (options.direction == "both" ? 2.0 : 1.0);
-  constexpr int most_values = 10'000'000;
-  if (sweep.count > most_values)
-    throw InputError("--sweep: " + std::to_string(sweep.count) + " values, more than the " +
-                     std::to_string(most_values) + " that one run keeps; sweep it in parts");
   if (rows > most)
     throw InputError("--sweep with --impacts " + std::to_string(options.impacts) + " may give " + shown(rows) +
                      " rows, more than the " + shown(most) + " that one run keeps; sweep it in parts");
@@ -78,7 +75,7 @@ sweep::DiagramProblem problem_of(const Options& options, const ChosenModel& chos
   problem.start_at = [&options, &chosen, sweep](double value) {
     return options.model.start(chosen, {{sweep.name, value}});
   };
-  if (options.y.empty()) problem.stops = options.stops.choice(chosen.model);
+  if (options.y.empty() || !are_statistics(options.y)) problem.stops = options.stops.choice(chosen.model);
   problem.measured_periods = static_cast<int>(options.periods);
   problem.from = sweep.from;
   problem.to = sweep.to;
@@ -167,7 +164,7 @@ void report(const sweep::Diagram& diagram, const Sweep& sweep, const std::string
   for (const sweep::DiagramPoint& point : diagram.points) {
     if (!point.note.empty() && notes++ == 0) note = &point;
     if (!point.failure.empty() && failures++ == 0) failure = &point;
-    if (!point.done || !point.failure.empty() || point.impacts.size() > 0 || of_measures) continue;
+    if (!point.done || !point.failure.empty() || point.impacts.size() > 0 || !point.values.empty() || of_measures) continue;
     if (without == nullptr) without = &point;
     ++empty[point.direction == Direction::up ? 0 : 1];
   }
@@ -188,6 +185,13 @@ void report(const sweep::Diagram& diagram, const Sweep& sweep, const std::string
                          ", first " + at(*failure) + ": " + failure->failure);
 }
 
+sweep::Diagram run(sweep::DiagramProblem& problem, const Options& options, const Context& context) {
+  Progress progress("values", problem.count * (problem.direction == Direction::both ? 2.0 : 1.0), options.progress);
+  problem.progress = [&](int count, int) { progress.update(count); };
+  problem.cancel = &context.stop;
+  return sweep::run_diagram(problem);
+}
+
 /// --y: statistics instead of impacts.
 int measured(const Options& options, const ChosenModel& chosen, const Sweep& sweep, const Context& context) {
   const MeasuredDiagram about(chosen, options.y, sweep);
@@ -195,18 +199,28 @@ int measured(const Options& options, const ChosenModel& chosen, const Sweep& swe
   TableOutput table(options.out, about.columns());
   sweep::DiagramProblem problem = problem_of(options, chosen, sweep);
   problem.of = about.of();
-  sweep::Diagram result;
-  {
-    Progress progress("values", sweep.count * (problem.direction == Direction::both ? 2.0 : 1.0), options.progress);
-    problem.progress = [&](int count, int) { progress.update(count); };
-    problem.cancel = &context.stop;
-    result = sweep::run_diagram(problem);
-  }
+  const sweep::Diagram result = run(problem, options, context);
   about.write(result, table);
   const auto some = [](const sweep::DiagramPoint& point) { return !point.of.empty(); };
   const int status = plot.write_or_say(about.figure(result), ranges::none_of(result.points, some),
                                        result.complete ? done : interrupted);
   report(result, sweep, "", true);
+  return status;
+}
+
+/// --y without a statistic: values at instants.
+int values(const Options& options, const ChosenModel& chosen, const Sweep& sweep, const Context& context) {
+  const ValuesDiagram about(chosen, options.y, options.at, sweep);
+  const Plot plot(options.plot);
+  TableOutput table(options.out, about.columns());
+  sweep::DiagramProblem problem = problem_of(options, chosen, sweep);
+  about.complete(problem);
+  const sweep::Diagram result = run(problem, options, context);
+  about.write(result, table);
+  const auto some = [](const sweep::DiagramPoint& point) { return !point.values.empty(); };
+  const int status = plot.write_or_say(about.figure(result), ranges::none_of(result.points, some),
+                                       result.complete ? done : interrupted);
+  report(result, sweep, about.noun());
   return status;
 }
 
@@ -219,7 +233,8 @@ int diagram(const Options& options, const Context& context) {
   roles.add("MODEL", options.model.source);
   roles.add("--out", options.out);
   roles.add_plot(options.plot);
-  if (!options.y.empty()) return measured(options, chosen, sweep, context);
+  if (!options.y.empty())
+    return are_statistics(options.y) ? measured(options, chosen, sweep, context) : values(options, chosen, sweep, context);
   const Plot plot(options.plot);
   std::vector<std::string> columns{sweep.name, "direction", "w", "flight", "sliding", "phase"};
   for (const std::string& name : state_names(chosen.model)) columns.push_back(name);
@@ -227,13 +242,7 @@ int diagram(const Options& options, const Context& context) {
   TableOutput table(options.out, columns);
 
   sweep::DiagramProblem problem = problem_of(options, chosen, sweep);
-  sweep::Diagram result;
-  {
-    Progress progress("values", sweep.count * (problem.direction == Direction::both ? 2.0 : 1.0), options.progress);
-    problem.progress = [&](int count, int) { progress.update(count); };
-    problem.cancel = &context.stop;
-    result = sweep::run_diagram(problem);
-  }
+  const sweep::Diagram result = run(problem, options, context);
   write_table(table, result, chosen.model);
   bool any = false;
   for (const sweep::DiagramPoint& point : result.points) any = any || point.impacts.size() > 0;
@@ -241,6 +250,20 @@ int diagram(const Options& options, const Context& context) {
       plot.write_or_say(picture(result, sweep, chosen, problem), !any, result.complete ? done : interrupted);
   report(result, sweep, contact_noun(chosen.model, problem.stops));
   return status;
+}
+
+/// Options that have no meaning together.
+void check_words(const Options& options, const Arguments& arguments) {
+  if (!arguments.given("--sweep")) throw InputError("--sweep NAME=A:B:COUNT is required");
+  const bool statistics = !options.y.empty() && are_statistics(options.y);
+  for (const char* name : {"--impacts", "--most-periods", "--stop", "--at"})
+    if (statistics && arguments.given(name))
+      throw InputError(std::string(name) + ": it is for values at instants, and --y asks for statistics over --periods");
+  if (!statistics && arguments.given("--periods"))
+    throw InputError("--periods: it is for statistics of --y, and none is given");
+  if (options.y.empty() && arguments.given("--at")) throw InputError("--at: it is for --y, which is not given");
+  if (options.start == "reset" && options.direction == "both")
+    throw InputError("--direction both: with --start reset, up and down are the same; choose one, or --start carry");
 }
 
 }  // namespace
@@ -261,8 +284,12 @@ Action add_diagram(Arguments& arguments) {
   arguments.count("--most-periods", options->most_periods, 1, 1'000'000'000,
                   "end a recording here if impacts are rare (5000)");
   arguments.count("--threads", options->threads, 0, 1024, "0: all cores; the result is the same for any number (0)");
-  arguments.text("--y", options->y, "Q:STAT,..",
-                 "instead of impacts statistics of quantities over --periods, as `measure` gives them");
+  arguments.text("--y", options->y, "Q[:STAT],..",
+                 "instead of impacts statistics of quantities over --periods, as `measure` gives them; without STAT "
+                 "values at the instants of --at");
+  arguments.text("--at", options->at, "impact|period|EVENT",
+                 "of --y without STAT: before every impact, at phase 0 of every period, or before every event as stick "
+                 "or stick:belt (impact; without stops period)");
   arguments.count("--periods", options->periods, 1, 1'000'000'000, "of --y: forcing periods that are measured (100)");
   options->stops.declare(arguments, "record the impacts of this stop only; may be repeated (all)");
   arguments.text("--out", options->out, "F.csv", "write the impacts there instead of to standard output");
@@ -279,14 +306,7 @@ Action add_diagram(Arguments& arguments) {
       "Example:\n  slapstick diagram vibro-impact --sweep omega=4:6:1000 --direction both --plot diagram.png --out "
       "impacts.csv");
   return [options, &arguments](const Context& context) {
-    if (!arguments.given("--sweep")) throw InputError("--sweep NAME=A:B:COUNT is required");
-    for (const char* name : {"--impacts", "--most-periods", "--stop"})
-      if (!options->y.empty() && arguments.given(name))
-        throw InputError(std::string(name) + ": it is for impacts, and --y measures quantities");
-    if (options->y.empty() && arguments.given("--periods"))
-      throw InputError("--periods: it is for --y, which is not given");
-    if (options->start == "reset" && options->direction == "both")
-      throw InputError("--direction both: with --start reset, up and down are the same; choose one, or --start carry");
+    check_words(*options, arguments);
     return diagram(*options, context);
   };
 }

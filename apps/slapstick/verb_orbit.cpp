@@ -1,6 +1,7 @@
 /// slapstick orbit MODEL
 #include <algorithm>
 
+#include "measured_json.hpp"
 #include "orbit_choice.hpp"
 #include "orbit_options.hpp"
 #include "output.hpp"
@@ -15,12 +16,13 @@ namespace {
 struct Options {
   ModelOptions model;
   OrbitOptions orbit;
-  std::string out;
+  std::string of, out;
   bool all = false, progress = false;
   long long most_n = 0, most_p = -1;  ///< as given; without --all they have no meaning
 };
 
-Json whole_json(const orbit::Problem& problem, const orbit::Solution& solution, const System& system) {
+Json whole_json(const orbit::Problem& problem, const orbit::Solution& solution, const System& system,
+                const std::vector<Wanted>& wanted) {
   Json json = point_json(problem, solution, system.model());
   json.set("sticks", solution.sticks).set("reversals", solution.reversals).set("chatters", solution.chatters);
   if (system.model().forced()) json.set("symmetric", orbit::symmetric(problem, solution.orbit));
@@ -28,6 +30,7 @@ Json whole_json(const orbit::Problem& problem, const orbit::Solution& solution, 
   json.set("extremes", extremes_json(problem, solution, system.model()));
   json.set("energy", energy_json(orbit::energy(problem, solution.orbit), system.model()));
   json.set("margins", margins_json(orbit::margins(problem, solution.orbit), system));
+  if (!wanted.empty()) json.set("values", values_json(wanted, problem, solution.orbit)).set("units", units_json(wanted));
   return json;
 }
 
@@ -39,7 +42,7 @@ Json head_json(const ChosenModel& chosen) {
 
 /// --all: every orbit that a search finds, as far as it is admitted.
 void search_all(const Options& options, const orbit::Problem& problem, const System& system, const State& start,
-                const std::atomic<bool>& stop, Json& json) {
+                const std::vector<Wanted>& wanted, const std::atomic<bool>& stop, Json& json) {
   orbit::SearchOptions search = orbit::search_options(options.orbit.wish(), &stop);
   search.most_n = static_cast<int>(std::max(1LL, options.most_n));
   Progress progress("motions", static_cast<double>(search.starts), options.progress);
@@ -49,7 +52,7 @@ void search_all(const Options& options, const orbit::Problem& problem, const Sys
   Json list = Json::list();
   for (const orbit::Solution& found : result.orbits)
     if (choice.admits(problem, found) && (options.most_p < 0 || found.impacts <= options.most_p))
-      list.push(whole_json(problem, found, system));
+      list.push(whole_json(problem, found, system, wanted));
   json.set("orbits", std::move(list)).set("search", report_json(result.report));
   json.set("note", "found from " + tried(result.report, options.orbit) + "; a search is no proof of completeness");
 }
@@ -73,15 +76,16 @@ int run(const Options& options, const Context& context) {
   const ChosenModel chosen = options.model.load();
   const State start = options.model.start(chosen);
   check(options, chosen);
+  const std::vector<Wanted> wanted = parse_of(options.of, chosen);
   const System system = affordable_system(chosen, {static_cast<double>(options.orbit.transient) + 1.0, "--transient"});
   const auto problem = orbit::pose(chosen.definition.family({}, chosen.overrides), {});
   Json json = head_json(chosen);
   if (options.all) {
-    search_all(options, *problem, system, start, context.stop, json);
+    search_all(options, *problem, system, start, wanted, context.stop, json);
   } else {
     const orbit::Chosen found = find_orbit(*problem, system, start, options.orbit, context.stop);
     json.set("converged", true);
-    const Json whole = whole_json(*problem, *found.orbit, system);
+    const Json whole = whole_json(*problem, *found.orbit, system, wanted);
     for (const auto& [key, value] : std::get<Json::Object>(whole.value())) json.set(key, value);
     json.set("settles", found.settles);
     if (found.search) json.set("search", report_json(*found.search));
@@ -102,6 +106,7 @@ Action add_orbit(Arguments& arguments) {
   arguments.flag("--all", options->all, "list every orbit that a search finds, instead of one");
   arguments.count("--max-n", options->most_n, 1, 64, "with --all: most forcing periods per cycle (1)");
   arguments.count("--max-p", options->most_p, 0, 1'000'000, "with --all: most impacts per cycle");
+  declare_of(arguments, options->of);
   arguments.text("--out", options->out, "FILE", "write the JSON there instead of to standard output");
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(

@@ -14,7 +14,7 @@
 namespace slapstick::app {
 namespace {
 
-std::vector<std::string> columns(const std::string& section, const Model& model) {
+std::vector<std::string> columns(const std::string& section, const Model& model, const std::vector<Quantity>& of) {
   const bool impacts = section == "impact", strobe = section == "stroboscopic";
   auto names = impacts  ? std::vector<std::string>{"time", "phase", "w", "flight", "sliding"}
                : strobe ? std::vector<std::string>{"time", "phase"}
@@ -22,6 +22,7 @@ std::vector<std::string> columns(const std::string& section, const Model& model)
   for (const std::string& name : state_names(model)) names.push_back(name);
   if (strobe) names.emplace_back("mode");
   if (section == "event" || (impacts && several_stops(model))) names.emplace_back("contact");
+  for (const Quantity& one : of) names.push_back(one.name);
   return names;
 }
 
@@ -77,12 +78,13 @@ int poincare(const PoincareOptions& options, const Context& context) {
   const System system = affordable_system(chosen, {periods, strobe ? "--transient or --points" : "--transient"});
   const Plot plot(options.plot);
   const EventChoice events = options.section == "event" ? event_choice(options.event, system) : EventChoice{};
-  TableOutput table(options.out, columns(options.section, chosen.model));
+  PointQuantities of(options.of, chosen, system);
+  TableOutput table(options.out, columns(options.section, chosen.model, of.of()));
   const AxisUnits units(chosen.definition, chosen.model);
   Motion motion(system, start);
-  Found found = strobe                       ? strobe_points(options, stops, std::move(motion), table, units, context)
-                : options.section == "event" ? event_points(options, events, std::move(motion), table, units, context)
-                                             : impact_points(options, stops, std::move(motion), table, units, context);
+  Found found = strobe                       ? strobe_points(options, stops, std::move(motion), table, units, of, context)
+                : options.section == "event" ? event_points(options, events, std::move(motion), table, units, of, context)
+                                             : impact_points(options, stops, std::move(motion), table, units, of, context);
   if (found.points > 0) table.commit();
   return plot.write_or_say(picture(std::move(found.panel)), found.points == 0, found.whole ? done : interrupted);
 }
@@ -103,6 +105,8 @@ Action add_poincare(Arguments& arguments) {
   arguments.count("--points", options->points, 1, 1'000'000'000, "points to record (1000)");
   arguments.count("--most-periods", options->most_periods, 1, 1'000'000'000,
                   "end here if points are rare (1000000, and after 10000 without a point)");
+  arguments.text("--of", options->of, "Q,..",
+                 "quantities as further columns; two or more are the axes of the picture ('slapstick quantities MODEL')");
   options->stops.declare(arguments, "points are the impacts of this stop only; may be repeated (all)");
   arguments.text("--out", options->out, "F.csv", "write the points there instead of to standard output");
   arguments.text("--plot", options->plot, "F.png",

@@ -12,11 +12,14 @@
 #include "physical.hpp"
 #include "progress.hpp"
 #include "retrace.hpp"
+#include "span_options.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/flow/stage.hpp"
 #include "slapstick/io/observer.hpp"
+#include "slapstick/quantity/reader.hpp"
 #include "slapstick/section/sampled_motion.hpp"
 #include "stop_options.hpp"
+#include "until.hpp"
 #include "verb.hpp"
 #include "work.hpp"
 
@@ -33,7 +36,7 @@ struct Options {
   double time = 0.0;
   long long samples = 100;
   StopOptions stop;
-  std::string events, trajectory, certify, plot, out;
+  std::string events, trajectory, columns, until, certify, plot, out;
   bool physical = false, progress = false;
 };
 
@@ -49,15 +52,17 @@ class Run {
         plot_(options.plot),
         picture_(std::move(pair), {chosen.definition, chosen.model}, system_.model().forced()),
         observer_(chosen.definition.observer(chosen.overrides)),
+        reader_(system_, functions_of_time("--columns", options.columns, chosen)),
         units_(chosen, options.physical) {
     if (!options.certify.empty()) certified_.emplace(options.certify);
     if (!options.events.empty()) events_.emplace(options.events, units_.event_columns());
-    if (!options.trajectory.empty()) trajectory_.emplace(options.trajectory, units_.trajectory_columns());
+    if (!options.trajectory.empty()) trajectory_.emplace(options.trajectory, columns());
     const int wanted = trajectory_ ? static_cast<int>(options.samples) : plot_samples;
     if (plot_.wanted()) stride_ = (plot_samples + wanted - 1) / wanted;
     const int samples = trajectory_ || plot_.wanted() ? wanted * stride_ : 0;
     plot_from_ = end.period >= plotted_periods ? Instant{end.period - plotted_periods, end.fraction} : Instant{};
     motion_.emplace(Motion(system_, start), samples, trajectory_ ? Instant{} : plot_from_);
+    if (!options.until.empty()) until_.emplace(options.until, system_);
     if (plot_.wanted()) retrace_.emplace(motion_->motion(), plotted_periods);
   }
 
@@ -69,7 +74,7 @@ class Run {
     do {
       stage = next_stage(system_, stage, end_);
       for (auto item = motion_->next(stage); item != SampledMotion::Item::end; item = motion_->next(stage)) {
-        if (item == SampledMotion::Item::event) note_event();
+        if (item == SampledMotion::Item::event && note_event()) return true;
         if (item == SampledMotion::Item::sample) note_sample();
         if (++steps % 1024 == 0) progress.update(motion_->motion().time().since({}));
         if (context.stop.load(std::memory_order_relaxed)) return false;
@@ -94,11 +99,20 @@ class Run {
     result_.write(summary(complete, chosen, start).dump() + "\n");
     result_.commit();
     if (plot_.wanted() && picture_.empty()) retrace();
-    return plot_.write_or_say(picture_.figure(), picture_.empty(), complete ? done : interrupted);
+    const int status = plot_.write_or_say(picture_.figure(), picture_.empty(), complete ? done : interrupted);
+    if (until_ && complete) until_->demand_met(end_.since({}));
+    return status;
   }
 
  private:
-  void note_event() {
+  [[nodiscard]] std::vector<std::string> columns() const {
+    std::vector<std::string> all = units_.trajectory_columns();
+    for (const Quantity& one : reader_.of()) all.push_back(one.name);
+    return all;
+  }
+
+  /// @returns whether the run ends here
+  bool note_event() {
     const Motion& motion = motion_->motion();
     const Event& event = motion.event();
     ++kinds_[static_cast<std::size_t>(event.kind)];
@@ -111,6 +125,9 @@ class Run {
     }
     if (retrace_) retrace_->mark(motion);
     if (plot_.wanted() && event.time >= plot_from_) picture_.add_event(motion);
+    if (!until_ || !until_->ends(event)) return false;
+    end_ = event.time;
+    return true;
   }
 
   void note_sample() {
@@ -118,7 +135,8 @@ class Run {
     if (trajectory_ && samples_ % stride_ == 0) {
       const double time = sample.time.seconds(system_.period());
       trajectory_->number(units_.time(time)).numbers(units_.state(sample.state)).word(system_.mode_name(sample.mode));
-      trajectory_->numbers(units_.observables(observer_.read(time, sample.state))).end_row();
+      trajectory_->numbers(units_.observables(observer_.read(time, sample.state)));
+      trajectory_->numbers(reader_.within(motion_->motion(), sample.within)).end_row();
     }
     if (plot_.wanted() && sample.time >= plot_from_) picture_.add_sample(sample.time, sample.state);
     ++samples_;
@@ -168,6 +186,7 @@ class Run {
     json.set("model", chosen.model.name).set("parameters", std::move(parameters)).set("period", system_.period());
     json.set("complete", complete).set("start", state_json(start)).set("end", std::move(end));
     json.set("events", std::move(events)).set("work", std::move(work));
+    if (until_) json.set("until", until_->json());
     if (certified_) json.set("certificate", certified_->summary());
     return json;
   }
@@ -179,9 +198,11 @@ class Run {
   Plot plot_;
   MotionPlot picture_;
   Observer observer_;
+  Reader reader_;
   TableUnits units_;
   std::optional<TableOutput> events_, trajectory_;
   std::optional<CertifiedRun> certified_;
+  std::optional<Until> until_;
   std::optional<SampledMotion> motion_;
   std::optional<Retrace> retrace_;
   std::array<long, event_kinds> kinds_{};
@@ -228,6 +249,10 @@ Action add_simulate(Arguments& arguments) {
                  "every event: time, kind, contact, w, and the state just before");
   arguments.text("--trajectory", options->trajectory, "F.csv",
                  "samples: time, state, mode, and the model's observables");
+  arguments.text("--columns", options->columns, "Q,..",
+                 "quantities as further columns of --trajectory ('slapstick quantities MODEL' lists them)");
+  arguments.text("--until", options->until, "EVENT[:K]",
+                 "end at the K-th event of this kind (1), as stick or impact:wall; --periods or --time is the limit");
   arguments.text("--certify", options->certify, "F.txt",
                  "the run with its model, for slapstick-verify to prove (docs/certificate.md)");
   arguments.count("--samples", options->samples, 1, 1'000'000, "samples of --trajectory per forcing period (100)");
@@ -250,6 +275,10 @@ Action add_simulate(Arguments& arguments) {
   return [options, &arguments](const Context& context) {
     if (arguments.given("--time") && arguments.given("--periods"))
       throw InputError("--time and --periods both give the length: choose one");
+    if (!options->columns.empty() && options->trajectory.empty())
+      throw InputError("--columns: they are columns of --trajectory, which is not given");
+    if (!options->columns.empty() && options->physical)
+      throw InputError("--columns: quantities are in the model's numbers; leave --physical away");
     if (options->physical && options->events.empty() && options->trajectory.empty())
       throw InputError("--physical: it is for --events and --trajectory, and neither is given");
     if (!options->stop.names.empty() && options->plot.empty())

@@ -39,6 +39,7 @@
 #include "slapstick/orbit/special_point.hpp"
 #include "slapstick/quantity/measure.hpp"
 #include "slapstick/quantity/quantity.hpp"
+#include "slapstick/quantity/reader.hpp"
 #include "slapstick/quantity/span.hpp"
 #include "slapstick/quantity/spectrum.hpp"
 #include "slapstick/section/event_section.hpp"

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core, _progress
 from ._model import Model, Start, Values, given_to, model_of, numbers, rows_of, start_of, stops_of
 from ._progress import Progress
+from ._quantity import Measured, measure
 from ._result import Floats, Given, Interrupted, Result
 from ._tables import html_table, state_columns, words
 
@@ -107,6 +108,17 @@ class Attractor(Result):
     @cached_property
     def impacts(self) -> Impacts:
         return Impacts(self._core, self.model.state_names)
+
+    def measure(self, of: str | Sequence[str]) -> Measured:
+        """Statistics of quantities on the attractor: over its cycle, or where there is none over 1000 periods.
+
+        of: "Q[:STAT],.." or a list of such words, as of `slapstick.measure`.
+
+        >>> import slapstick
+        >>> round(slapstick.classify("shaken-table").measure("F_table:mean")["F_table:mean"], 9)
+        1.0
+        """
+        return measure(self.model, of, transient=0, start=self.state, parameters=self._values)
 
     failure = Given[str]("Of one among many: why there is no class; else ''.")
 

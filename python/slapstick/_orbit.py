@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +14,7 @@ from . import _core, _progress
 from ._model import Model, Start, Values, given_to, model_of, numbers, start_of
 from ._motion import Motion, simulate
 from ._progress import Progress
+from ._quantity import Measured, measured_orbit
 from ._result import Floats, Given, Interrupted, Result
 from ._tables import categorical, state_columns, words
 
@@ -108,6 +110,19 @@ class Orbit(Result):
     margins = Given[list[tuple[str, str, float]]](
         "How near the cycle comes to a change of its events: what is measured, of which contact, the least value."
     )
+
+    def measure(self, of: str | Sequence[str]) -> Measured:
+        """Statistics of quantities over the cycle, exact but for rounding, also where the orbit is unstable.
+
+        of: "Q[:STAT],.." or a list of such words, as of `slapstick.measure`.
+
+        Raises InputError for an unknown quantity or statistic (the nearest is named).
+
+        >>> import slapstick
+        >>> slapstick.orbit("vibro-impact", "1-1", omega=2.9).measure("w:number")["w:number"]
+        1.0
+        """
+        return measured_orbit(self._core, self.model, self._values, of, self.options)
 
     def motion(self, *, samples: int = 200) -> Motion:
         """One cycle as `simulate` gives it. Of an unstable orbit rounding grows by its multipliers."""

@@ -58,11 +58,15 @@ void Engine::begin_segment() {
   strikes_.clear();
 }
 
+std::span<const double> Engine::extended_of_event() const {
+  const std::size_t size = X_.span().size();
+  if (shown_ == 0 || pending_.empty()) return X_before_.span();
+  return {later_before_.data() + static_cast<std::size_t>(shown_ - 1) * size, size};
+}
+
 std::span<const double> Engine::before() const {
   const IeeeArithmetic ieee;
-  const bool later = shown_ > 0 && !pending_.empty();
-  const std::size_t skipped = later ? static_cast<std::size_t>(shown_ - 1) * X_.span().size() : 0;
-  system_->frame().leave(later ? later_before_.data() + skipped : X_before_.data(), before_.data());
+  system_->frame().leave(extended_of_event().data(), before_.data());
   return before_;
 }
 

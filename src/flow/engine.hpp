@@ -18,6 +18,8 @@ class Engine : public Flight {
 
   [[nodiscard]] const Event& event() const { return pending_.empty() ? last_ : pending_[shown_]; }
   [[nodiscard]] std::span<const double> before() const;
+  /// The extended state just before `event()`, from which `before()` is taken.
+  [[nodiscard]] std::span<const double> extended_of_event() const;
   /// The extended state just before the first event of the last instant that had one.
   [[nodiscard]] std::span<const double> extended_before() const { return X_before_.span(); }
 

@@ -49,6 +49,11 @@ void Flight::state(std::span<double> out) const {
 
 void Flight::sample(double s, std::span<double> out) const {
   const IeeeArithmetic ieee;
+  system_->frame().leave(state_within(s).data(), out.data());
+}
+
+std::span<const double> Flight::state_within(double s) const {
+  const IeeeArithmetic ieee;
   const mode::Mode& mode = system_->mode(segment_mode_);
   const int m = system_->frame().size();
   double* X = sample_.data();
@@ -63,7 +68,7 @@ void Flight::sample(double s, std::span<double> out) const {
     std::copy_n(reinterpret_cast<const double*>(sample_out_.data()), m, X);
   }
   mode.state_at(s / mode.window(), X, at);
-  system_->frame().leave(at, out.data());
+  return {at, 2 * static_cast<std::size_t>(system_->frame().d)};
 }
 
 /// From the state now, in the mode just selected; `orders_` and `magnitude_` are those of this state.

@@ -28,6 +28,7 @@ class List {
     const auto same = [&](const Quantity& known) { return known.name == name; };
     if (std::none_of(all_.begin(), all_.end(), same)) all_.push_back({kind, index, -1, 0.0, name, "", meaning});
   }
+  void of_stop(int contact, const std::string& name, bool rigid);
   void contact(int number, const std::string& name, const std::string& what, bool gap);
 
   const Model& model_;
@@ -91,12 +92,27 @@ void List::whole() {
 }
 
 void List::impacts() {
-  if (model_.stops.empty()) return;
+  const bool rigid = !model_.stops.empty();
+  if (!rigid && model_.compliant_stops.empty()) return;
   add(Kind::speed, -1, "w", "at impacts of all stops: speed just before");
-  add(Kind::impulse, -1, "impulse", "at impacts of all stops: impulse of the stop");
-  add(Kind::loss, -1, "energy_lost", "at impacts of all stops: energy lost");
+  if (rigid) add(Kind::impulse, -1, "impulse", "at impacts of all rigid stops: impulse of the stop");
+  if (rigid) add(Kind::loss, -1, "energy_lost", "at impacts of all rigid stops: energy lost");
   add(Kind::flight, -1, "flight", "at impacts: time since the impact before, in forcing periods");
   add(Kind::sliding, -1, "sliding", "at impacts: time of slip since the impact before, in forcing periods");
+  for (std::size_t i = 0; i < model_.stops.size(); ++i) of_stop(static_cast<int>(i), model_.stops[i].name, true);
+  const auto first = model_.stops.size() + model_.frictions.size();
+  for (std::size_t i = 0; i < model_.compliant_stops.size(); ++i)
+    of_stop(static_cast<int>(first + i), model_.compliant_stops[i].name, false);
+}
+
+/// The same of one stop. `w_NAME` is its relative velocity at any time, so the speed of its impacts is `speed_NAME`.
+void List::of_stop(int contact, const std::string& name, bool rigid) {
+  const std::string at = rigid ? "at impacts of " + name + ": " : "when " + name + " is met: ";
+  add(Kind::speed, contact, "speed_" + name, at + "speed just before");
+  if (rigid) add(Kind::impulse, contact, "impulse_" + name, at + "impulse");
+  if (rigid) add(Kind::loss, contact, "energy_lost_" + name, at + "energy lost");
+  add(Kind::flight, contact, "flight_" + name, at + "time since the one before, in forcing periods");
+  add(Kind::sliding, contact, "sliding_" + name, at + "time of slip since the one before, in forcing periods");
 }
 
 /// The unit of a quantity where lengths are `length` and times `time`; the units of forces are known of SI units only.

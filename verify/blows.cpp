@@ -15,7 +15,7 @@ namespace {
 /// Impacts this much slower than the fastest of their instant, or so many, may be called a pile-up.
 constexpr double slow = 0x1p-20;
 constexpr long many_blows = 5000;
-/// Segments this short, in periods, are at one instant.
+/// Segments this short, in periods and in radians of their mode, are at one instant.
 constexpr double no_time = 0x1p-44;
 constexpr std::size_t most_dependent = 16;
 
@@ -25,11 +25,13 @@ Ball Checker::approach(int stop) const {
   return Ball(m_.stop(static_cast<std::size_t>(stop)).sign) * last_->X[u(stop)];
 }
 
-double Checker::speed_rounding(int stop) const { return rounding * (last_->size[u(stop)] + size_of_others(u(stop))); }
+double Checker::speed_rounding(int stop) const { return allowance(u(stop)); }
 
 void Checker::blows() {
   const Segment& segment = last_->segment;
-  if (segment.duration > no_time * period_) instant_ = Instant{};
+  if (segment.duration > no_time * period_ || segment.duration * flown(segment.states).flow.nu > no_time ||
+      instant_.fastest.empty())
+    instant_ = {std::vector<double>(m_.model().stops.size(), 0.0)};
   std::vector<bool> found(segment.impacts.size());
   for (const Blow& each : segment.blows) {
     for (const int k : each.stops)
@@ -58,9 +60,11 @@ void Checker::blow(const Blow& blow, std::vector<bool>& found) {
 /// One of its stops approaches; each that does is reported.
 void Checker::report(const Blow& blow, std::vector<bool>& found) {
   bool certain = false, possible = false;
+  long unsure = 0;
   for (const int k : blow.stops) {
     const Ball w = approach(k), allowed(speed_rounding(k));
-    instant_.fastest = std::max(instant_.fastest, w.near());
+    double& fastest = instant_.fastest[static_cast<std::size_t>(k)];
+    fastest = std::max(fastest, w.near());
     certain = certain || w > Ball(0.0);
     possible = possible || !(w < -allowed);
     bool reported = false;
@@ -69,11 +73,13 @@ void Checker::report(const Blow& blow, std::vector<bool>& found) {
       if (found[i] || impact.stop != k || !(abs(w - Ball(impact.w)) <= allowed)) continue;
       reported = found[i] = true;
       ++tally_.impacts;
+      if (!(impact.w > 0.0)) refuse_(impact.line, "an impact at " + name(k) + " that does not approach");
+      else if (!(w > Ball(0.0))) ++unsure;
     }
     if (!reported && w > allowed) refuse_(blow.line, "the impact at " + name(k) + " with w = " + digits(w.near()) + " is not listed");
   }
   if (!certain && !possible) refuse_(blow.line, "no stop of this blow approaches");
-  else if (!certain) ++tally_.open.undecided;
+  else tally_.open.undecided += !certain && unsure == 0 ? 1 : unsure;
 }
 
 void Checker::impact(const Blow& blow, std::vector<bool>& found) {
@@ -155,6 +161,7 @@ Balls Checker::impulses(const std::vector<int>& stops, bool to_rest) const {
 /// their midpoints are gone on with, by a jump that is counted.
 void Checker::apply(const std::vector<int>& stops, const Balls& P) {
   const std::vector<double> before = last_->size;
+  double off = 0.0;
   for (std::size_t i = 0; i < stops.size(); ++i) {
     const Place& place = m_.stop(static_cast<std::size_t>(stops[i]));
     const bool again = last_->struck[static_cast<std::size_t>(stops[i])];
@@ -162,10 +169,12 @@ void Checker::apply(const std::vector<int>& stops, const Balls& P) {
     last_->struck[static_cast<std::size_t>(stops[i])] = true;
     for (std::size_t j = 0; j < m_.d(); ++j) {
       const Ball& inertia = m_.inertia()[j][place.own];
-      last_->X[m_.d() + j] = (last_->X[m_.d() + j] - P[i] * Ball(place.sign) * inertia).middle(tally_.velocity.sum);
+      last_->X[m_.d() + j] = (last_->X[m_.d() + j] - P[i] * Ball(place.sign) * inertia).middle(off);
       last_->size[m_.d() + j] += std::abs(inertia.near()) * (std::abs(P[i].near()) + speed);
     }
+    jumps_.raise_by_impulse(place.own, P[i].near());
   }
+  jumps_.widen(off);
 }
 
 void Checker::bring_to_rest(const Blow& blow) {
@@ -178,17 +187,35 @@ void Checker::bring_to_rest(const Blow& blow) {
   apply(forest, P);
 }
 
-/// Only of stops that have become slow by the impacts of this instant, one of which would be struck again. That they
-/// come to rest is an assumption.
+/// The fastest impact of this instant at these stops, or at those that impacts of this instant join to them: 0 if there
+/// was none.
+double Checker::fastest_near(const Blow& blow) const {
+  std::vector<std::size_t> joined(blow.stops.begin(), blow.stops.end());
+  double fastest = 0.0;
+  for (std::size_t k = 0; k < joined.size(); ++k) {
+    fastest = std::max(fastest, instant_.fastest[joined[k]]);
+    for (std::size_t s = 0; s < instant_.fastest.size(); ++s) {
+      const bool acts = instant_.fastest[s] > 0.0 && !m_.inertia()[m_.stop(joined[k]).own][m_.stop(s).own].is_zero();
+      if (acts && std::find(joined.begin(), joined.end(), s) == joined.end()) joined.push_back(s);
+    }
+  }
+  return fastest;
+}
+
+/// Only of stops that have become slow by impacts of this instant, of their own or of stops that act on them. One of
+/// them would be struck again. That they come to rest is an assumption.
 void Checker::pile_up(const Blow& blow) {
   ++tally_.open.pile_ups;
   bool approaches = false;
   for (const int k : blow.stops) {
     const Ball v = approach(k);
+    const double fastest = fastest_near({blow.line, blow.kind, {k}});
     approaches = approaches || v > Ball(-speed_rounding(k));
-    if (instant_.blows < many_blows && !(abs(v) <= Ball(slow * instant_.fastest)))
+    if (fastest == 0.0)
+      refuse_(blow.line, "stop " + name(k) + " comes to rest, and no impact of the instant was at it or acts on it");
+    else if (instant_.blows < many_blows && !(abs(v) <= Ball(slow * fastest)))
       refuse_(blow.line, "stop " + name(k) + " with w = " + digits(v.near()) + " is not slow beside the fastest impact of the instant, " +
-                             digits(instant_.fastest));
+                             digits(fastest));
   }
   if (!approaches) refuse_(blow.line, "no stop of this pile-up approaches");
   bring_to_rest(blow);

@@ -49,6 +49,8 @@ std::string Reader::word() {
 std::string Reader::rest_of_line() {
   std::string text = word();
   while (next_word_ < words_.size()) text += " " + word();
+  if (std::any_of(text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }))
+    fail("a name has characters that are not printable ASCII");
   return text;
 }
 

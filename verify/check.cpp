@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bodies.hpp"
-
 namespace verify {
 namespace {
 
 constexpr double clock_rounding = 0x1p-48, flight_rounding = 0x1p-50;
 constexpr double start_of_run = 0x1p-48;  ///< of W q - shift, in units of its terms
-constexpr double most_in_sum = 0x1p-24;   ///< all jumps of a run together, in units of the greatest number
+constexpr double most_of_clock = 0x1p-24;  ///< all jumps of the clock together, in periods
 
 }  // namespace
 
@@ -21,14 +19,8 @@ Checker::Checker(const Model& model, const Start& start, const Refuse& refuse)
         refuse(line, "segment " + std::to_string(tally_.segments) + ", " + what);
       }),
       start_(start),
-      period_(m_.period().near()) {
-  for (std::size_t i = 0; i < m_.d(); ++i) {
-    Bodies bodies(model.n);
-    for (std::size_t j = 0; j < m_.d(); ++j)
-      if (j != i) bodies.join(model.numbers[j].pair);
-    follows_.push_back(bodies.joined(model.numbers[i].pair));
-  }
-}
+      period_(m_.period().near()),
+      jumps_(m_) {}
 
 const FlownMode& Checker::flown(const ContactStates& states) {
   std::unique_ptr<FlownMode>& mode = flown_[states];
@@ -43,10 +35,7 @@ void Checker::segment(const Segment& segment) {
                 refuse_);
   flight.fly();
   ends(segment, flight, mode);
-  for (std::size_t i = 0; i < 2 * m_.d(); ++i) {
-    Jumps& jumps = i < m_.d() ? tally_.displacement : tally_.velocity;
-    jumps.scale = std::max(jumps.scale, flight.greatest[i]);
-  }
+  jumps_.raise(flight.coordinates);
   auto departure = std::make_unique<Departure>(Departure{segment, std::move(flight.X), std::move(flight.size)});
   blur(*departure, mode.flow);
   if (segment.end == EndKind::chatter) chatter(segment, departure->size);
@@ -56,31 +45,45 @@ void Checker::segment(const Segment& segment) {
 
 void Checker::begin(const Segment& segment) {
   if (last_ == nullptr) {
-    const Balls X = m_.contact_numbers(start_.q, start_.v);
-    const double scale = [&] {
-      double most = 0.0;
-      for (const Number& number : m_.model().numbers) most = std::max({most, std::abs(number.shift), std::abs(number.drift)});
-      for (const double x : start_.q) most = std::max(most, std::abs(x));
-      for (const double x : start_.v) most = std::max(most, std::abs(x));
-      return most;
-    }();
-    for (std::size_t i = 0; i < 2 * m_.d(); ++i) {
-      const double stated = i < m_.d() ? segment.p[i] : segment.u[i - m_.d()];
-      jump(segment.line, i, X[i] - Ball(stated), start_of_run * scale);
-    }
-    if (segment.start.period != start_.at.period || segment.start.fraction != start_.at.fraction)
-      refuse_(segment.line, "the run does not begin at its start");
+    start(segment);
   } else {
     cut_ = last_->segment.end == EndKind::cut;
     if (!last_->segment.blows.empty() && last_->segment.blows.back().kind == Blow::Kind::chatter &&
         segment.chatter != last_->segment.blows.back().stops.front())
       refuse_(last_->segment.blows.back().line, "a stop is brought to rest by a chatter that nothing proves");
-    if (cut_ && last_->segment.states != segment.states) refuse_(segment.line, "the mode has changed at `end cut`");
+    const bool same_mode = last_->segment.states == segment.states;
+    if (cut_ && !same_mode) refuse_(segment.line, "the mode has changed at `end cut`");
+    if (!cut_ && same_mode && last_->segment.duration == 0.0 && last_->segment.blows.empty())
+      refuse_(segment.line, "an event that lasts no time has changed nothing");
     arrive(segment.line, segment.start, segment.p, segment.u);
+    unanswered(segment);
   }
   dependence(segment.line, m_.extended(segment.p, segment.u, 0.0), last_ ? last_->size : std::vector<double>());
   rest(segment);
-  if (segment.duration > 0.0 && !cut_) choice(segment);
+  choice_due_ = choice_due_ || !cut_;
+  if (segment.duration > 0.0 && choice_due_) choice(segment);
+  choice_due_ = choice_due_ && segment.duration == 0.0;
+}
+
+void Checker::start(const Segment& segment) {
+  const Balls X = m_.contact_numbers(start_.q, start_.v);
+  const auto size = [&](std::size_t i) {
+    const Number& number = m_.model().numbers[i % m_.d()];
+    const std::vector<double>& x = i < m_.d() ? start_.q : start_.v;
+    double sum = std::abs(i < m_.d() ? number.shift : number.drift);
+    for (const int body : {number.pair.a, number.pair.b})
+      if (body != ground) sum += std::abs(x[static_cast<std::size_t>(body)]);
+    return sum;
+  };
+  for (std::size_t i = 0; i < 2 * m_.d(); ++i) {
+    const double stated = i < m_.d() ? segment.p[i] : segment.u[i - m_.d()];
+    double loop = 0.0;
+    for (const std::size_t j : m_.loop(i % m_.d())) loop += size(j + (i < m_.d() ? 0 : m_.d()));
+    jump(segment.line, i, X[i] - Ball(stated), start_of_run * loop);
+  }
+  coordinates_jump(segment.p, segment.u, X);
+  if (segment.start.period != start_.at.period || segment.start.fraction != start_.at.fraction)
+    refuse_(segment.line, "the run does not begin at its start");
 }
 
 void Checker::done(const Done& done) {
@@ -88,10 +91,12 @@ void Checker::done(const Done& done) {
   arrive(done.line, done.at, done.p, done.u);
   if (!last_->segment.blows.empty() && last_->segment.blows.back().kind == Blow::Kind::chatter)
     refuse_(done.line, "the run ends before the limit of a chatter");
-  for (const Jumps* jumps : {&tally_.displacement, &tally_.velocity})
-    if (!(jumps->relative(jumps->sum) <= most_in_sum))
-      refuse_(done.line, "all jumps together are " + digits(jumps->relative(jumps->sum)) +
-                             " of the greatest number, more than 2^-24");
+  dependence(done.line, m_.extended(done.p, done.u, 0.0), last_->size);
+  jumps_.check(done.line, refuse_);
+  tally_.displacement = {jumps_.largest(false), jumps_.sum(false)};
+  tally_.velocity = {jumps_.largest(true), jumps_.sum(true)};
+  if (!(tally_.clock.sum <= most_of_clock))
+    refuse_(done.line, "all jumps of the clock together are " + digits(tally_.clock.sum) + " periods, more than 2^-24");
 }
 
 /// What happens at the end of the segment before leads to this state.
@@ -108,18 +113,28 @@ void Checker::clock(long line, const Clock& at) {
   const Ball shown = Ball(static_cast<double>(at.period - before.start.period)) + Ball(at.fraction) -
                      Ball(before.start.fraction);
   const Ball off = abs(shown - flown);
-  tally_.clock = std::max(tally_.clock, off.near());
+  tally_.clock.largest = std::max(tally_.clock.largest, off.highest());
+  tally_.clock.sum += off.highest();
+  if (before.duration == 0.0 && (at.period != before.start.period || at.fraction != before.start.fraction))
+    return refuse_(line, "the clock has moved in a segment that lasts no time");
   if (!(off <= Ball(clock_rounding) + Ball(flight_rounding) * flown))
     refuse_(line, "begins " + digits((shown - flown).near()) + " periods from where the one before has ended");
 }
 
-/// Stops whose gap is exactly zero in the state that follows touch.
+/// Stops whose gap is exactly zero in the state that follows touch. One that is no more than rounding, and not called
+/// zero, may touch too: a closed stop does.
 void Checker::land(const std::vector<double>& next) {
+  const Segment& before = last_->segment;
   for (std::size_t k = 0; k < m_.model().stops.size(); ++k) {
     const int stop = static_cast<int>(k);
-    const bool near = abs(last_->X[p(stop)]) <= Ball(rounding * (last_->size[p(stop)] + size_of_others(p(stop))));
+    const bool near = abs(last_->X[p(stop)]) <= Ball(allowance(p(stop)));
     last_->touches.push_back(near && next[p(stop)] == 0.0);
     last_->struck.push_back(false);
+    if (!near || next[p(stop)] == 0.0) continue;
+    if (before.states.closed[k])
+      refuse_(before.end_line, "stop " + name(stop) + " was closed, and does not touch in the state that follows");
+    else if (!before.blows.empty() && !(Ball(-m_.stop(k).sign) * last_->X[p(stop)] > Ball(0.0)))
+      ++tally_.open.undecided;
   }
 }
 
@@ -133,9 +148,6 @@ void Checker::blur(Departure& end, const Flow& flow) const {
 
 void Checker::jump(long line, std::size_t i, const Ball& by, double allowed) {
   const double size = abs(by).highest();
-  Jumps& jumps = i < m_.d() ? tally_.displacement : tally_.velocity;
-  jumps.largest = std::max(jumps.largest, size);
-  jumps.sum += size;
   if (size > 0.0) tally_.of_allowed = std::max(tally_.of_allowed, size / allowed);
   if (!(size <= allowed))
     refuse_(line, "number " + std::to_string(i) + " of the state is " + digits(by.near()) +
@@ -145,8 +157,18 @@ void Checker::jump(long line, std::size_t i, const Ball& by, double allowed) {
 void Checker::continuity(long line, const std::vector<double>& p, const std::vector<double>& u) {
   for (std::size_t i = 0; i < 2 * m_.d(); ++i) {
     const double stated = i < m_.d() ? p[i] : u[i - m_.d()];
-    jump(line, i, Ball(stated) - last_->X[i], rounding * (last_->size[i] + size_of_others(i)));
+    jump(line, i, Ball(stated) - last_->X[i], allowance(i));
   }
+  coordinates_jump(p, u, last_->X);
+}
+
+void Checker::coordinates_jump(const std::vector<double>& p, const std::vector<double>& u, const Balls& X) {
+  Balls by_p, by_u;
+  for (std::size_t i = 0; i < m_.n(); ++i) {
+    by_p.push_back(Ball(p[i]) - X[i]);
+    by_u.push_back(Ball(u[i]) - X[m_.d() + i]);
+  }
+  jumps_.add(by_p, by_u);
 }
 
 /// Numbers that are combinations of others agree with them.
@@ -172,12 +194,11 @@ void Checker::dependence(long line, const Balls& X, const std::vector<double>& s
   }
 }
 
-/// What a number that follows from others is made of: all such numbers of its kind.
-double Checker::size_of_others(std::size_t i) const {
-  const std::size_t d = follows_.size(), block = i - i % d;
+/// What a number is made of: numbers that follow from each other have to agree.
+double Checker::size_of_loop(std::size_t i) const {
+  const std::size_t block = i < m_.d() ? 0 : m_.d();
   double sum = 0.0;
-  for (std::size_t j = 0; j < d && follows_[i - block]; ++j)
-    if (follows_[j]) sum += last_->size[block + j];
+  for (const std::size_t j : m_.loop(i - block)) sum += last_->size[block + j];
   return sum;
 }
 
@@ -194,26 +215,49 @@ void Checker::rest(const Segment& segment) {
               "friction contact " + m_.model().frictions[k].name + " is not at rest where it is said to stick");
 }
 
-/// An event is the zero of a condition. Whether it is one, or a touch, is asked behind the end.
+/// An event is the zero of a condition. Whether it is one, or a touch, is asked behind the end: of every condition that
+/// is zero there, however the segment ends. What lasts no time is no event by itself, and its mode none that was there.
 void Checker::ends(const Segment& segment, const Flight& flight, const FlownMode& mode) {
-  if (segment.end == EndKind::cut) {
-    if (!segment.blows.empty()) refuse_(segment.end_line, "something happens at `end cut`");
-    return;
-  }
-  if (segment.end != EndKind::event) return;
-  ++tally_.events;
-  if (flight.zeros.empty()) {
-    if (!flight.failed()) refuse_(segment.end_line, "nothing ends the segment: no condition of its mode is zero");
-    return;
-  }
-  if (segment.duration == 0.0) return;
-  for (double ahead = 0x1p-50; ahead <= instant; ahead *= 2.0) {
+  fallen_.clear();
+  const bool event = segment.end == EndKind::event;
+  if (segment.end == EndKind::cut && !segment.blows.empty()) refuse_(segment.end_line, "something happens at `end cut`");
+  if (event && (segment.duration > 0.0 || !segment.blows.empty())) ++tally_.events;
+  if (event && flight.zeros.empty() && !flight.failed())
+    refuse_(segment.end_line, "nothing ends the segment: no condition of its mode is zero");
+  if (!event && segment.duration == 0.0) return;
+  std::vector<std::size_t> open = flight.zeros;
+  for (double ahead = 0x1p-50; event && ahead <= instant && !open.empty(); ahead *= 2.0) {
     const Ball t(ahead * period_);
     const Expansion behind(mode.flow, flight.X, t);
-    for (const std::size_t i : flight.zeros)
-      if (behind.of(mode.flow.rows[i]).value(0, t) < Ball(0.0)) return;
+    const auto falls = [&](std::size_t i) { return behind.of(mode.flow.rows[i]).value(0, t) < Ball(0.0); };
+    std::copy_if(open.begin(), open.end(), std::back_inserter(fallen_), falls);
+    open.erase(std::remove_if(open.begin(), open.end(), falls), open.end());
   }
-  ++tally_.flight.touches;
+  const Balls rate = mode.flow.rate(flight.X);
+  const auto leaves = [&](std::size_t i) {  // it has come from zero, and is on its way
+    const Balls& row = mode.flow.rows[i];
+    const bool positive = segment.duration == 0.0 || dot(row, flight.X) > Ball(0.0);
+    return positive && !flight.in_band(i) && dot(row, rate) > Ball(0.0);
+  };
+  const auto touches = open.size() - static_cast<std::size_t>(std::count_if(open.begin(), open.end(), leaves));
+  const bool none_falls = event && fallen_.empty() && !flight.zeros.empty();
+  tally_.flight.touches += touches > 0 ? static_cast<long>(touches) : none_falls ? 1 : 0;
+}
+
+/// A condition that has fallen at the event, and is one of the next mode too, came back by a jump: nothing was done
+/// about it. Impacts do something about gaps and velocities.
+void Checker::unanswered(const Segment& next) {
+  if (fallen_.empty() || !last_->segment.blows.empty()) return;
+  const Mode &before = flown(last_->segment.states).mode, &after = flown(next.states).mode;
+  for (const std::size_t i : fallen_) {
+    const Condition& one = before.conditions[i];
+    const auto same = [&](const Condition& other) {
+      bool equal = one.kind == other.kind && one.contact == other.contact;
+      for (std::size_t k = 0; equal && k < one.row.size(); ++k) equal = one.row[k].near() == other.row[k].near();
+      return equal;
+    };
+    tally_.open.undecided += std::any_of(after.conditions.begin(), after.conditions.end(), same) ? 1 : 0;
+  }
 }
 
 /// The states of the closed segment, but the stop open and friction on its own pair slipping: 1 away from the stop, -1

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "flight.hpp"
+#include "jumps.hpp"
 #include "limit.hpp"
 
 namespace verify {
@@ -18,19 +19,18 @@ struct Open {
   [[nodiscard]] bool none() const { return pile_ups + undecided + choices == 0; }
 };
 
-/// Largest and sum, in units of the greatest number of the kind in the run.
-struct Jumps {
-  double largest = 0.0, sum = 0.0, scale = 0.0;
-  [[nodiscard]] double relative(double x) const { return x == 0.0 ? 0.0 : x / scale; }
+/// The largest, and all together, in units of what the coordinate is added up from.
+struct JumpTally {
+  double largest = 0.0, sum = 0.0;
 };
 
 struct Tally {
   FlightTally flight;
   Open open;
   long segments = 0, events = 0, impacts = 0, chatters = 0;
-  Jumps displacement, velocity;
+  JumpTally displacement, velocity;
   double of_allowed = 0.0;   ///< the greatest jump in units of what it may be
-  double clock = 0.0;        ///< the greatest jump of the clock, in periods
+  JumpTally clock;           ///< jumps of the clock, in periods
   double limit_error = 0.0;  ///< of the limits of chatter, in periods
 };
 
@@ -56,7 +56,7 @@ class Checker {
   };
   /// Impacts of one instant.
   struct Instant {
-    double fastest = 0.0;
+    std::vector<double> fastest;  ///< by stop; 0 for one that was not struck
     long blows = 0;
   };
 
@@ -70,8 +70,12 @@ class Checker {
   void jump(long line, std::size_t i, const Ball& by, double allowed);
   void rest(const Segment& segment);
   void blur(Departure& end, const Flow& flow) const;
-  [[nodiscard]] double size_of_others(std::size_t i) const;
+  [[nodiscard]] double size_of_loop(std::size_t i) const;
+  [[nodiscard]] double allowance(std::size_t i) const { return rounding * size_of_loop(i); }
+  void coordinates_jump(const std::vector<double>& p, const std::vector<double>& u, const Balls& X);
+  void start(const Segment& segment);
   void ends(const Segment& segment, const Flight& flight, const FlownMode& mode);
+  void unanswered(const Segment& next);
   void chatter(const Segment& segment, const std::vector<double>& sizes);
   [[nodiscard]] ContactStates with_pair(const Segment& segment, int direction) const;
 
@@ -84,6 +88,7 @@ class Checker {
   void bring_to_rest(const Blow& blow);
   void pile_up(const Blow& blow);
   void report(const Blow& blow, std::vector<bool>& found);
+  [[nodiscard]] double fastest_near(const Blow& blow) const;
   [[nodiscard]] bool strike(const Blow& blow, const std::vector<int>& stops);
   [[nodiscard]] Balls impulses(const std::vector<int>& stops, bool to_rest) const;
   void apply(const std::vector<int>& stops, const Balls& impulses);
@@ -92,6 +97,7 @@ class Checker {
 
   // choice.cpp
   void choice(const Segment& segment);
+  [[nodiscard]] bool near_zero(const Segment& segment, std::size_t i) const;
 
   [[nodiscard]] std::size_t p(int stop) const { return m_.stop(static_cast<std::size_t>(stop)).own; }
   [[nodiscard]] std::size_t u(int stop) const { return m_.d() + p(stop); }
@@ -103,10 +109,12 @@ class Checker {
   Refuse refuse_;  ///< names the segment
   const Start& start_;
   double period_;
-  std::vector<bool> follows_;  ///< by number: it is a combination of others
   std::map<ContactStates, std::unique_ptr<FlownMode>> flown_;
   std::unique_ptr<Departure> last_;
-  bool cut_ = false;  ///< the segment goes on where the one before was cut
+  bool cut_ = false;         ///< the segment goes on where the one before was cut
+  std::vector<std::size_t> fallen_;  ///< conditions that are zero at the end of the last segment, and fall
+  bool choice_due_ = false;  ///< no segment that lasts has been flown in the mode since it was chosen
+  Jumps jumps_;
   Instant instant_;
   Tally tally_;
 };

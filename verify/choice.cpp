@@ -57,20 +57,35 @@ bool moves_otherwise(const FlownMode& a, const FlownMode& b, const Balls& X) {
 
 }  // namespace
 
+/// Number i of the state is zero, but for rounding.
+bool Checker::near_zero(const Segment& segment, std::size_t i) const {
+  const double x = i < m_.d() ? segment.p[i] : segment.u[i - m_.d()];
+  return x == 0.0 || (last_ != nullptr && std::abs(x) <= allowance(i));
+}
+
+/// Who writes the last bit of a state does not choose by it: what rounding explains counts as rest, and is zero in the
+/// modes that are tried.
 void Checker::choice(const Segment& segment) {
   const Model& model = m_.model();
   Candidates candidates;
   bool several = false;
-  for (std::size_t i = 0; i < model.stops.size(); ++i)
-    if (segment.p[m_.stop(i).own] == 0.0 && segment.u[m_.stop(i).own] == 0.0) candidates.stops.push_back(i);
+  std::vector<double> p = segment.p, u = segment.u;
+  for (std::size_t i = 0; i < model.stops.size(); ++i) {
+    const std::size_t own = m_.stop(i).own;
+    if (!near_zero(segment, own) || !near_zero(segment, m_.d() + own)) continue;
+    candidates.stops.push_back(i);
+    p[own] = u[own] = 0.0;
+  }
   for (std::size_t i = 0; i < model.frictions.size(); ++i) {
-    if (segment.u[m_.friction(i).own] != 0.0) continue;
+    const std::size_t own = m_.friction(i).own;
+    if (!near_zero(segment, m_.d() + own)) continue;
     candidates.frictions.push_back(i);
+    u[own] = 0.0;
     several = several || model.frictions[i].kinetic < model.frictions[i].static_limit;
   }
   if (!several) return;
   if (candidates.count() > most_tried) return void(++tally_.open.choices);
-  const Balls X = m_.extended(segment.p, segment.u, segment.start.fraction);
+  const Balls X = m_.extended(p, u, segment.start.fraction);
   const FlownMode& chosen = flown(segment.states);
   const long changes = candidates.changes(segment.states);
   bool another = false;

@@ -32,7 +32,11 @@ std::string digits(double x) {
   return text.data();
 }
 
-FlownMode::FlownMode(const Mechanics& mechanics, const Mode& of) : mode(of), flow(of.A, rows_of(of), 2 * mechanics.d()) {}
+FlownMode::FlownMode(const Mechanics& of_model, const Mode& of)
+    : mechanics(of_model),
+      mode(of),
+      flow(of.A, rows_of(of), 2 * of_model.d()),
+      in_coordinates(of_model.in_coordinates(of.A), {}, 2 * of_model.n()) {}
 
 Order order_at(const Flow& flow, std::size_t condition, const Series& h, const std::vector<double>& sizes) {
   std::vector<double> term = sizes;
@@ -61,7 +65,7 @@ Flight::Flight(const FlownMode& flown, const Segment& segment, Balls state, doub
                const Refuse& refuse)
     : X(std::move(state)),
       size(flown.flow.sizes_of(X)),
-      greatest(size),
+      coordinates(2 * flown.mechanics.n(), 0.0),
       flown_(flown),
       segment_(segment),
       period_(period),
@@ -89,7 +93,6 @@ void Flight::fly() {
     if (k == 0) start(about);
     piece(about, from, to, k == 0);
     X = about.at(Ball(to) - Ball(from));
-    for (std::size_t i = 0; i < X.size(); ++i) greatest[i] = std::max(greatest[i], std::abs(X[i].near()));
     from = to;
   }
   end();
@@ -113,8 +116,7 @@ void Flight::start(const Expansion& about) {
 void Flight::piece(const Expansion& about, double from, double to, bool first) {
   const Flow& flow = flown_.flow;
   const double L = length(from, to);
-  const std::vector<double> sizes = flow.carry_sizes(flow.sizes_of(X), L);
-  for (std::size_t i = 0; i < size.size(); ++i) size[i] = std::max(size[i], sizes[i]);
+  grow_sizes(L);
   for (std::size_t i = 0; i < proofs_.size() && !failed_; ++i) {
     const double allowed = rounding * flow.size_of(i, size);
     const ulong drop = first ? drops_[i] : 0;
@@ -126,6 +128,14 @@ void Flight::piece(const Expansion& about, double from, double to, bool first) {
       refuse(i, "does not stay zero: it is up to " + digits(most.near()) + ", rounding explains " + digits(allowed));
     }
   }
+}
+
+void Flight::grow_sizes(double L) {
+  const Flow &flow = flown_.flow, &own = flown_.in_coordinates;
+  const std::vector<double> sizes = flow.carry_sizes(flow.sizes_of(X), L);
+  for (std::size_t i = 0; i < size.size(); ++i) size[i] = std::max(size[i], sizes[i]);
+  const std::vector<double> of_own = own.carry_sizes(own.sizes_of(flown_.mechanics.in_coordinates(X)), L);
+  for (std::size_t i = 0; i < coordinates.size(); ++i) coordinates[i] = std::max(coordinates[i], of_own[i]);
 }
 
 /// From the piece's start to its end, step by step.

@@ -26,8 +26,10 @@ inline constexpr double instant = 0x1p-30;         ///< events within it, in per
 
 /// A mode with what its conditions are flown by.
 struct FlownMode {
+  const Mechanics& mechanics;
   const Mode& mode;
   Flow flow;
+  Flow in_coordinates;  ///< of (q, q', phases, 1)
   FlownMode(const Mechanics& mechanics, const Mode& mode);
 };
 
@@ -53,11 +55,13 @@ class Flight {
          const Refuse& refuse);
   void fly();
   [[nodiscard]] bool failed() const { return failed_; }
+  /// At the end the condition has not been certainly positive since it last was no more than rounding.
+  [[nodiscard]] bool in_band(std::size_t condition) const { return proofs_[condition].in_band; }
 
   Balls X;                         ///< at the end
   std::vector<double> size;        ///< of what X was added up from: the most along the segment
-  std::vector<double> greatest;    ///< |X| where it was looked at
-  std::vector<std::size_t> zeros;  ///< conditions that are zero at the end, but for rounding
+  std::vector<double> coordinates;  ///< the same of q and q'
+  std::vector<std::size_t> zeros;   ///< conditions that are zero at the end, but for rounding
 
  private:
   /// How far a condition has been proved.
@@ -79,6 +83,7 @@ class Flight {
   void walk(const Piece& piece);
   double through_band(const Piece& piece, double t);
   void leave_band(Proof& proof, double at);
+  void grow_sizes(double L);
   void end();
   void refuse(std::size_t condition, const std::string& what) const;
 

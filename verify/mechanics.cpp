@@ -7,17 +7,6 @@
 
 namespace verify {
 
-Mechanics::Mechanics(const Model& model, long line) : model_(model), line_(line), period_(1.0) {
-  for (const Force& force : model.forces)
-    if (force.harmonic > 0) harmonics_.push_back(force.harmonic);
-  std::sort(harmonics_.begin(), harmonics_.end());
-  harmonics_.erase(std::unique(harmonics_.begin(), harmonics_.end()), harmonics_.end());
-  if (!harmonics_.empty()) period_ = times(Ball::pi(), 2) / Ball(model.omega);
-  place_contacts();
-  invert();
-  set_free();
-}
-
 namespace {
 
 double same_pair(const Pair& a, const Pair& b) {
@@ -25,7 +14,40 @@ double same_pair(const Pair& a, const Pair& b) {
   return a.a == b.b && a.b == b.a ? -1.0 : 0.0;
 }
 
+/// A number is of a contact, with its constants, or of a coordinate alone. Any other could only hide what coordinates
+/// do: rounding is measured by the sizes of numbers.
+bool is_needed(const Model& model, const Number& number) {
+  const auto is = [&](const Pair& pair, double shift, double drift) {
+    const double sign = same_pair(number.pair, pair);
+    return sign != 0.0 && number.shift == sign * shift && number.drift == sign * drift;
+  };
+  const auto is_gap = [&](const auto& stop) { return is(stop.pair, stop.clearance, 0.0); };
+  if (number.pair.b == ground && number.shift == 0.0 && number.drift == 0.0) return true;
+  return std::any_of(model.stops.begin(), model.stops.end(), is_gap) ||
+         std::any_of(model.compliant.begin(), model.compliant.end(), is_gap) ||
+         std::any_of(model.frictions.begin(), model.frictions.end(),
+                     [&](const Friction& friction) { return is(friction.pair, 0.0, friction.belt_speed); });
+}
+
+std::string words_of(const Number& number) {
+  return std::to_string(number.pair.a) + " " + std::to_string(number.pair.b);
+}
+
 }  // namespace
+
+Mechanics::Mechanics(const Model& model, long line) : model_(model), line_(line), period_(1.0) {
+  for (const Force& force : model.forces)
+    if (force.harmonic > 0) harmonics_.push_back(force.harmonic);
+  std::sort(harmonics_.begin(), harmonics_.end());
+  harmonics_.erase(std::unique(harmonics_.begin(), harmonics_.end()), harmonics_.end());
+  if (!harmonics_.empty()) period_ = times(Ball::pi(), 2) / Ball(model.omega);
+  place_contacts();
+  for (const Number& number : model.numbers)
+    if (!is_needed(model, number)) throw Unreadable(line_, "no contact and no coordinate has the number of " + words_of(number));
+  invert();
+  find_loops();
+  set_free();
+}
 
 double Mechanics::parallel(std::size_t i, std::size_t j) const {
   return same_pair(model_.numbers[i].pair, model_.numbers[j].pair);
@@ -82,6 +104,57 @@ void Mechanics::invert() {
   W_inverse_ = *from_first;
   dependence_ = product(W_, W_inverse_);
   inertia_ = product(product(W_, mass_inverse_), transposed(W_));
+}
+
+/// A number i >= n closes a loop of the first n that it follows from; loops with a number in common are one.
+void Mechanics::find_loops() {
+  std::vector<std::size_t> of(d());
+  for (std::size_t i = 0; i < d(); ++i) of[i] = i;
+  for (std::size_t i = n(); i < d(); ++i)
+    for (std::size_t j = 0; j < n(); ++j) {
+      if (dependence_[i][j].is_zero()) continue;
+      const std::size_t one = of[i], other = of[j];
+      for (std::size_t& k : of) k = k == other ? one : k;
+    }
+  loops_.resize(d());
+  for (std::size_t i = 0; i < d(); ++i)
+    for (std::size_t j = 0; j < d(); ++j)
+      if (of[i] == of[j]) loops_[i].push_back(j);
+}
+
+Balls Mechanics::in_coordinates(const Balls& X) const {
+  Balls z;
+  for (const bool velocity : {false, true}) {
+    Balls numbers;
+    for (std::size_t j = 0; j < n(); ++j) {
+      const Number& number = model_.numbers[j];
+      numbers.push_back(X[(velocity ? d() : 0) + j] + Ball(velocity ? number.drift : number.shift));
+    }
+    for (const Balls& row : W_inverse_) z.push_back(dot(row, numbers));
+  }
+  z.insert(z.end(), X.begin() + 2 * static_cast<std::ptrdiff_t>(d()), X.end());
+  return z;
+}
+
+/// With X = T z: q'' = W^-1 (the first n rows of u') T z.
+Matrix Mechanics::in_coordinates(const Matrix& A) const {
+  const std::size_t phases = size() - 2 * d(), m = 2 * n() + phases;
+  Matrix T = zero_matrix(size(), m), of_z = zero_matrix(m, m);
+  for (std::size_t j = 0; j < d(); ++j) {
+    for (std::size_t i = 0; i < n(); ++i) T[j][i] = T[d() + j][n() + i] = W_[j][i];
+    T[j].back() = Ball(-model_.numbers[j].shift);
+    T[d() + j].back() = Ball(-model_.numbers[j].drift);
+  }
+  for (std::size_t k = 0; k < phases; ++k) T[2 * d() + k][2 * n() + k] = Ball(1.0);
+  const auto first = A.begin() + static_cast<std::ptrdiff_t>(d());
+  const Matrix rates = product(W_inverse_, product(Matrix(first, first + model_.n), T));
+  for (std::size_t i = 0; i < n(); ++i) {
+    of_z[i][n() + i] = Ball(1.0);
+    of_z[n() + i] = rates[i];
+  }
+  for (std::size_t k = 0; k < phases; ++k)
+    for (std::size_t l = 0; l < phases; ++l) of_z[2 * n() + k][2 * n() + l] = A[2 * d() + k][2 * d() + l];
+  return of_z;
 }
 
 /// A row over X of the displacement, or velocity, of a pair: q = W^-1 (p + shift), q' = W^-1 (u + drift).

@@ -58,6 +58,18 @@ class Mechanics {
   /// +1 or -1 if the numbers are of one pair, else 0.
   [[nodiscard]] double parallel(std::size_t i, std::size_t j) const;
 
+  /// q = this (p + shift), q' = this (u + drift), of the first n numbers.
+  [[nodiscard]] const Matrix& to_coordinates() const { return W_inverse_; }
+  /// (q, q', phases, 1) of X, and the system that it obeys where X' = A X.
+  [[nodiscard]] Balls in_coordinates(const Balls& X) const;
+  [[nodiscard]] Matrix in_coordinates(const Matrix& A) const;
+  /// What a unit impulse that pushes a number up does to a coordinate's velocity.
+  [[nodiscard]] Ball impulse_effect(std::size_t coordinate, std::size_t number) const {
+    return dot(mass_inverse_[coordinate], W_[number]);
+  }
+  /// Numbers of one loop of pairs, this one among them: they follow from each other. Alone if there is no loop.
+  [[nodiscard]] const std::vector<std::size_t>& loop(std::size_t number) const { return loops_[number]; }
+
   /// X at a phase, phases exact.
   [[nodiscard]] Balls extended(const std::vector<double>& p, const std::vector<double>& u, double fraction) const;
   /// p and u of a state in the model's coordinates.
@@ -69,6 +81,7 @@ class Mechanics {
 
   [[nodiscard]] Place find(const Pair& pair, const double* shift, double drift, const std::string& name) const;
   void place_contacts();
+  void find_loops();
   void invert();
   void set_free();
   [[nodiscard]] Balls pair_row(const Pair& pair) const;
@@ -79,6 +92,7 @@ class Mechanics {
   long line_;
   std::vector<int> harmonics_;
   Ball period_;
+  std::vector<std::vector<std::size_t>> loops_;
   std::vector<Place> stops_, frictions_, compliant_;
   Matrix mass_inverse_, W_, W_inverse_, inertia_, dependence_, free_;
   std::map<ContactStates, std::unique_ptr<Mode>> modes_;

@@ -36,9 +36,8 @@ std::string line(const char* form, Numbers... numbers) {
 
 std::string instant_of(const Clock& clock) { return line("%.17g", static_cast<double>(clock.period) + clock.fraction); }
 
-std::string jumps_of(const char* name, const Jumps& jumps) {
-  return line("%-17s%.2g the largest, %.2g all together, in units of the greatest\n", name,
-              jumps.relative(jumps.largest), jumps.relative(jumps.sum));
+std::string jumps_of(const char* name, const JumpTally& jumps) {
+  return line("%-17s%.2g the largest, %.2g all together, of the coordinate's sizes\n", name, jumps.largest, jumps.sum);
 }
 
 }  // namespace
@@ -70,7 +69,8 @@ std::string report(const Verdict& verdict) {
   text += line("bands            %.2g periods the longest in which a condition is no more than rounding, %ld beyond 2^-30\n",
                t.flight.band, t.flight.flats);
   text += jumps_of("displacements", t.displacement) + jumps_of("velocities", t.velocity);
-  text += line("largest jump     %.2g of what rounding is allowed, %.2g periods of the clock\n", t.of_allowed, t.clock);
+  text += line("largest jump     %.2g of what rounding is allowed, %.2g periods of the clock (%.2g all together)\n",
+               t.of_allowed, t.clock.largest, t.clock.sum);
   return text;
 }
 

@@ -27,7 +27,7 @@ std::string line(const std::string& text) { return text + "\n"; }
 /// A name as the last words of a record: for people, and judged by nobody.
 std::string called(std::string name) {
   for (char& c : name)
-    if (static_cast<unsigned char>(c) <= ' ') c = '_';
+    if (!(c > ' ' && c <= '~')) c = '_';
   return " " + (name.empty() ? "_" : name);
 }
 

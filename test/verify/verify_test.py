@@ -17,7 +17,7 @@ def test_closed_forms_are_proved():
 
 def test_exact_motions_have_no_jump():
     for motion in (motions.ball, motions.dead_ball, motions.chatter, motions.rubbing, motions.cradle, motions.loop):
-        assert 'largest jump     0 of what rounding is allowed, 0 periods' in proved(motion()), motion
+        assert 'largest jump     0 of what rounding is allowed, 0 periods of the clock (0 all together)' in proved(motion()), motion
 
 
 def test_the_report_counts_what_was_there():
@@ -34,7 +34,7 @@ def test_run_without_restitution_under_a_header_with_it():
     i = find(dead, 'impact')
     for word in ('pile-up', 'chatter'):
         hidden = dead[:i - 1] + [line(word, 0)] + dead[i + 1:]
-        reason = 'is not slow beside the fastest impact' if word == 'pile-up' else 'brought to rest by a chatter that nothing proves'
+        reason = 'no impact of the instant was at it' if word == 'pile-up' else 'brought to rest by a chatter that nothing proves'
         refused(hidden, reason)
 
 
@@ -47,7 +47,8 @@ def test_blows_that_are_written_three_times():
 
 def test_contact_that_is_left_out_of_the_model():
     wall = without(motions.oscillator(), 'stop')
-    unreadable(wall, '`open` is too much here')
+    unreadable(wall, 'no contact and no coordinate has the number of 0 -1')
+    unreadable(forged(wall, 'number', {3: 0.0}), '`open` is too much here')
     lines = forged(motions.oscillator(), 'stop', {3: 0.75})
     unreadable(lines, 'there is no number of contact wall')
     refused(forged(lines, 'number', {3: 0.75}), 'segment 0, number 0 of the state is')
@@ -166,7 +167,7 @@ def test_pile_up_that_is_no_assumption_but_a_lie():
     lines = motions.ball()
     i = find(lines, 'blow', 1)
     rest = lines[:i] + ['pile-up 0'] + lines[i + 2:]
-    refused(forged(rest, 'state', {2: 0.0}, 2), 'is not slow beside the fastest impact')
+    refused(forged(rest, 'state', {2: 0.0}, 2), 'comes to rest, and no impact of the instant was at it or acts on it')
 
 
 def test_impacts_without_end_are_proved_but_for_the_pile_up():

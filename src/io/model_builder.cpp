@@ -132,8 +132,8 @@ void ModelBuilder::add_bends(Model& model, const Part& part, Characteristic::Ove
 void ModelBuilder::add_zones(Model& model, const Part& part, const Dual& inside) {
   const Dual from = dual(part.within[0], where("within") + ": from"), to = dual(part.within[1], where("within") + ": to");
   if (!(from.value < to.value))
-    throw InputError(definition_.place(part.within[0].line), where("within") + ": " + shown(from.value) +
-                                                                 " is not below " + shown(to.value));
+    throw InputError(definition_.place(part.within[0].line), where("within") + ": " + shown(to.value) +
+                                                                 " is not above the " + shown(from.value) + " before it");
   const Dual outside = field(part, "coefficient_outside");
   if (!part.flag("feeds"))
     for (const auto& [key, value] : {std::pair("coefficient", inside), std::pair("coefficient_outside", outside)})

@@ -15,6 +15,7 @@
 #include "io/definition.hpp"
 #include "io/dual.hpp"
 #include "slapstick/base/error.hpp"
+#include "slapstick/io/model_file.hpp"
 
 namespace slapstick {
 
@@ -39,6 +40,9 @@ class ModelBuilder {
   [[nodiscard]] Model rate() { return assembled(); }
   /// @throws InputError with the file's line
   [[nodiscard]] State start(const Model& model) const;
+
+  /// @throws InputError with the file's line
+  [[nodiscard]] std::vector<LaidLaw> laid_laws();
 
   /// The displacement of the k-th [[base]] at a time (after `model`).
   [[nodiscard]] double base(std::size_t k, double omega, double time) const;

@@ -257,7 +257,7 @@ class PartReader {
           part.harmonics = harmonics(*value, place);
           break;
         case Holds::points:
-          part.points = points(*value, place);
+          part.points = points(*value, place, key == "restitution_over_speed" ? "[speed, restitution]" : "[x, force]");
           break;
         case Holds::interval:
           part.within = interval(*value, place);
@@ -275,17 +275,17 @@ class PartReader {
     }
   }
 
-  std::vector<Point> points(const TomlNode& list, const std::string& where) const {
+  std::vector<Point> points(const TomlNode& list, const std::string& where, const std::string& pair) const {
     constexpr std::size_t most = 100;
     tree_.expect(list, TomlNode::Kind::list, where);
     if (list.items.size() < 2 || list.items.size() > most)
-      tree_.fail(list.line, where, "expected 2 to 100 points [x, force], found " + std::to_string(list.items.size()));
+      tree_.fail(list.line, where, "expected 2 to 100 points " + pair + ", found " + std::to_string(list.items.size()));
     std::vector<Point> points;
     for (const auto& item : list.items) {
       const auto each = where + ": point " + std::to_string(points.size() + 1);
       tree_.expect(item, TomlNode::Kind::list, each);
       if (item.items.size() != 2)
-        tree_.fail(item.line, each, "expected [x, force], found " + std::to_string(item.items.size()) + " numbers");
+        tree_.fail(item.line, each, "expected " + pair + ", found " + std::to_string(item.items.size()) + " numbers");
       points.push_back({tree_.scalar(item.items[0], each + ": x"), tree_.scalar(item.items[1], each + ": force")});
     }
     return points;

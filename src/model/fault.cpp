@@ -185,6 +185,8 @@ Found check_compliant_stop(const CompliantStop& stop, int index, const Model& mo
   check_name(check, stop.name, used);
   check.ends(stop.a, stop.b, model);
   check.sized("clearance", stop.clearance);
+  if (stop.stiffness == 0.0)
+    check.fail("stiffness", "stiffness = 0 is not positive; a damper alone beyond a gap is a damper that acts within an interval");
   check.positive("stiffness", stop.stiffness);
   check.not_negative("damping", stop.damping);
   if (stop.bounded && stop.pulls) check.fail("law", "a stop whose damping force is bounded does not pull");

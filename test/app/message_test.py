@@ -180,6 +180,24 @@ def test_check_names_what_can_feed_energy():
     says(refused(2, 'check', write('p.toml', HEAD + COORDINATE % 1 + damper)), "p.toml:7: damper 1: coefficient = -1 is negative")
     assert '"damper 1"' in good('check', write('p.toml', HEAD + COORDINATE % 1 + damper + 'feeds = true\n'))
     assert '"feeds_energy": []' in good('check', 'vibro-impact')
+    two = HEAD + COORDINATE % 1 + (COORDINATE % 1).replace('"x"', '"y"')
+    coupled = '[matrix]\n%s = [[1, 2], [2, 1]]\n'  # least eigenvalue -1, no negative number
+    ground = '[[%s]]\nbetween = ["%s", "ground"]\n%s = %g\n'
+    for key, kind, number, found in (('damping', 'damper', 'coefficient', 'feeds_energy'), ('stiffness', 'spring', 'stiffness', 'falling_forces')):
+        def told(each):
+            return json.loads(good('check', write('p.toml', two + coupled % key + ''.join(ground % (kind, end, number, each) for end in 'xy'))))
+        assert told(0.99)[found] == ['matrix ' + key] and told(1)[found] == [], key
+    bent = '[[spring]]\nname = "dome"\nbetween = ["x", "ground"]\ncharacteristic = [[-1, 0], [0, 1], [1, 0]]\n'
+    assert json.loads(good('check', write('p.toml', HEAD + COORDINATE % 1 + bent)))['falling_forces'] == ["characteristic 'dome'"]
+
+
+def test_check_tells_by_how_much_a_laid_law_is_off():
+    dry = '[[friction]]\nname = "pad"\nbetween = ["x", "ground"]\nstribeck = { static = 3, kinetic = 1, speed = 0.5, corners = %d }\n%s'
+    for corners in (1, 7, 40):
+        for load, factor in (('', 1), ('normal_force = { constant = 5 }\n', 5)):
+            error = json.loads(good('check', write('p.toml', HEAD + COORDINATE % 1 + dry % (corners, load))))['laid_errors']['pad']
+            assert 0.97 < error / (factor * 2 / (1 + math.sqrt(2) * corners) ** 2) < 1.03, (corners, error)
+    assert json.loads(good('check', 'vibro-impact'))['laid_errors'] == {}
 
 
 main({name: case for name, case in globals().items() if name.startswith('test_')})

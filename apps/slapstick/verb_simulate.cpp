@@ -12,12 +12,13 @@
 #include "physical.hpp"
 #include "progress.hpp"
 #include "retrace.hpp"
-#include "span_options.hpp"
+#include "run_up.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/flow/stage.hpp"
 #include "slapstick/io/observer.hpp"
 #include "slapstick/quantity/reader.hpp"
 #include "slapstick/section/sampled_motion.hpp"
+#include "span_options.hpp"
 #include "stop_options.hpp"
 #include "until.hpp"
 #include "verb.hpp"
@@ -37,6 +38,7 @@ struct Options {
   long long samples = 100;
   StopOptions stop;
   std::string events, trajectory, columns, until, certify, plot, out;
+  RunUpRange climb;
   bool physical = false, progress = false;
 };
 
@@ -116,6 +118,7 @@ class Run {
     const Motion& motion = motion_->motion();
     const Event& event = motion.event();
     ++kinds_[static_cast<std::size_t>(event.kind)];
+    if (event.kind == EventKind::knot) return;  // the signal's own: no table and no picture has it
     if (events_) {
       events_->number(units_.time(event.time.seconds(system_.period())))
           .word(name(event.kind))
@@ -173,7 +176,8 @@ class Run {
                loaded = ranges::any_of(model.frictions, [](const FrictionContact& one) { return one.normal.has_value(); });
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
       const auto event = static_cast<EventKind>(kind);
-      const bool possible = event == EventKind::corner  ? bent
+      const bool possible = event == EventKind::knot    ? !model.signals.empty()
+                            : event == EventKind::corner ? bent
                             : event > EventKind::corner ? loaded
                                                         : event < EventKind::engage || compliant;
       if (possible) events.set(name(event), kinds_[kind]);
@@ -229,6 +233,9 @@ int simulate(const Options& options, bool by_time, const Context& context) {
   roles.add("--trajectory", options.trajectory);
   roles.add("--certify", options.certify);
   roles.add_plot(options.plot);
+  if (!options.climb.sweep.empty())
+    return run_up(options.climb, {options.events, options.trajectory, options.out, options.samples, options.progress},
+                  chosen, start, context);
   const Instant end = end_of(options, by_time, chosen.model);
   const RelativeMotion pair(chosen.model, shown_contact(chosen.model, options.stop.choice(chosen.model)));
   System system = affordable_system(chosen, {end.since({}), by_time ? "--time" : "--periods"});
@@ -245,6 +252,10 @@ Action add_simulate(Arguments& arguments) {
   options->model.declare_state(arguments);
   arguments.count("--periods", options->periods, 0, most_periods, "length in forcing periods (100)");
   arguments.number("--time", options->time, "T", "length in the model's unit of time, instead of --periods");
+  arguments.text("--sweep", options->climb.sweep, "NAME=A:B",
+                 "run-up: the parameter goes from A to B over --over periods, in steps of --hold");
+  arguments.count("--over", options->climb.over, 2, most_periods, "forcing periods of the run-up");
+  arguments.count("--hold", options->climb.hold, 1, most_periods, "forcing periods at each value of it (1)");
   arguments.text("--events", options->events, "F.csv",
                  "every event: time, kind, contact, w, and the state just before");
   arguments.text("--trajectory", options->trajectory, "F.csv",
@@ -279,6 +290,11 @@ Action add_simulate(Arguments& arguments) {
       throw InputError("--columns: they are columns of --trajectory, which is not given");
     if (!options->columns.empty() && options->physical)
       throw InputError("--columns: quantities are in the model's numbers; leave --physical away");
+    if (options->climb.sweep.empty() != !arguments.given("--over"))
+      throw InputError("--sweep and --over belong together: what changes, and over how many periods");
+    for (const char* other : {"--periods", "--time", "--certify", "--plot", "--physical", "--columns", "--until"})
+      if (!options->climb.sweep.empty() && arguments.given(other))
+        throw InputError(std::string(other) + ": a run-up (--sweep) does not have it");
     if (options->physical && options->events.empty() && options->trajectory.empty())
       throw InputError("--physical: it is for --events and --trajectory, and neither is given");
     if (!options->stop.names.empty() && options->plot.empty())

@@ -23,6 +23,7 @@
 #include "slapstick/continuation/sentences.hpp"
 #include "slapstick/flow/motion.hpp"
 #include "slapstick/flow/natural_modes.hpp"
+#include "slapstick/flow/run_up.hpp"
 #include "slapstick/flow/stage.hpp"
 #include "slapstick/flow/system.hpp"
 #include "slapstick/flow/tangent.hpp"

@@ -130,6 +130,7 @@ Classification classify(const System& system, const State& state, const Classify
     throw InputError("model '" + system.model().name +
                      "' has no periodic forcing: n-p classes count forcing periods; "
                      "`poincare --section event` shows its returns");
+  demand_period(system.model());
   Classification result;
   section::Settling settling(system, state,
                              {.most_periods = options.most_periods,

@@ -42,7 +42,7 @@ std::string stated(const Damper& damper) {
 }
 
 std::string stated(const Force& force) {
-  const auto& [coordinate, harmonic, amplitude, phase] = force;
+  const auto& [coordinate, harmonic, amplitude, phase, frequency, signal, rate] = force;
   return line("force" + number(coordinate) + number(harmonic) + hex(amplitude) + hex(phase));
 }
 
@@ -83,6 +83,10 @@ std::string not_stated(const Model& model) {
     if (stop.bounded) return "compliant stops with a bounded damping force (" + in_quotes(stop.name) + ")";
   for (const Stop& stop : model.stops)
     if (!stop.corners.empty()) return "restitution that depends on the impact speed (" + in_quotes(stop.name) + ")";
+  for (const Force& force : model.forces) {
+    if (force.frequency != 0.0) return "forces with a frequency of their own";
+    if (force.signal >= 0) return "signals (" + in_quotes(model.signals[static_cast<std::size_t>(force.signal)].name) + ")";
+  }
   return "";
 }
 
@@ -120,8 +124,8 @@ std::string pair_of(const mode::Frame& frame, int i) {
 std::string stated_model(const flow::CompiledSystem& system) {
   if (const std::string what = not_stated(system.model()); !what.empty())
     throw InputError("model " + in_quotes(system.model().name) + ": certificates do not hold " + what + " yet");
-  const auto& [name, coordinates, springs, dampers, forces, frictions, stops, compliant_stops, characteristics, mass,
-               damping, stiffness, impact_law, omega] = system.model();
+  const auto& [name, coordinates, springs, dampers, forces, frictions, stops, compliant_stops, characteristics, signals,
+               mass, damping, stiffness, impact_law, omega] = system.model();
   const mode::Frame& frame = system.frame();
   std::string text = line("slapstick-certificate 2") + line("model" + called(name)) + line("size" + number(frame.n));
   text += line("omega" + hex(omega));

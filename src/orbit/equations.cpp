@@ -47,7 +47,9 @@ Problem::Problem(Family family, const std::vector<double>& values)
       values_(values),
       base_(std::make_shared<const System>(family_.model(values))),
       translations_(*base_),
-      least_sizes_(VectorXd::Zero(numbers())) {}
+      least_sizes_(VectorXd::Zero(numbers())) {
+  demand_period(base_->model());
+}
 
 Index Problem::numbers() const { return 2 * base_->compiled().frame().n - translations_.count(); }
 Index Problem::unknowns(std::size_t legs) const { return numbers() + static_cast<Index>(legs) + 1 + parameters(); }

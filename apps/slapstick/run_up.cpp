@@ -114,6 +114,22 @@ Json state_json(const Motion& motion) {
 
 }  // namespace
 
+void RunUpRange::declare(Arguments& arguments) {
+  constexpr long long most = 1'000'000'000;
+  arguments.text("--sweep", sweep, "NAME=A:B",
+                 "run-up: the parameter goes from A to B over --over periods, in steps of --hold");
+  arguments.count("--over", over, 2, most, "forcing periods of the run-up");
+  arguments.count("--hold", hold, 1, most, "forcing periods at each value of it (1)");
+}
+
+void RunUpRange::check(const Arguments& arguments) const {
+  if (sweep.empty() != !arguments.given("--over"))
+    throw InputError("--sweep and --over belong together: what changes, and over how many periods");
+  for (const char* other : {"--periods", "--time", "--certify", "--plot", "--physical", "--columns", "--until"})
+    if (!sweep.empty() && arguments.given(other))
+      throw InputError(std::string(other) + ": a run-up (--sweep) does not have it");
+}
+
 int run_up(const RunUpRange& range, const RunUpFiles& files, const ChosenModel& chosen, const State& start,
            const Context& context) {
   const Climb climb = parse(range, chosen);

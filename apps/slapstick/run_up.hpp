@@ -14,8 +14,12 @@ struct RunUpFiles {
 };
 
 struct RunUpRange {
-  std::string sweep;          ///< NAME=A:B
+  std::string sweep;             ///< NAME=A:B
   long long over = 0, hold = 1;  ///< forcing periods, of the run and of each value
+
+  void declare(Arguments& arguments);
+  /// @throws InputError for options that a run-up does not have
+  void check(const Arguments& arguments) const;
 };
 
 /// Tables as those of `simulate`, with a column for the parameter behind the time.

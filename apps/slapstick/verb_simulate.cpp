@@ -118,7 +118,7 @@ class Run {
     const Motion& motion = motion_->motion();
     const Event& event = motion.event();
     ++kinds_[static_cast<std::size_t>(event.kind)];
-    if (event.kind == EventKind::knot) return;  // the signal's own: no table and no picture has it
+    if (event.kind == EventKind::knot) return false;  // the signal's own: no table and no picture has it
     if (events_) {
       events_->number(units_.time(event.time.seconds(system_.period())))
           .word(name(event.kind))
@@ -244,6 +244,22 @@ int simulate(const Options& options, bool by_time, const Context& context) {
   return run.write(complete, chosen, start);
 }
 
+/// @throws InputError for options that do not go together
+void check(const Options& options, const Arguments& arguments) {
+  if (arguments.given("--time") && arguments.given("--periods"))
+    throw InputError("--time and --periods both give the length: choose one");
+  if (!options.columns.empty() && options.trajectory.empty())
+    throw InputError("--columns: they are columns of --trajectory, which is not given");
+  if (!options.columns.empty() && options.physical)
+    throw InputError("--columns: quantities are in the model's numbers; leave --physical away");
+  options.climb.check(arguments);
+  if (options.physical && options.events.empty() && options.trajectory.empty())
+    throw InputError("--physical: it is for --events and --trajectory, and neither is given");
+  if (!options.stop.names.empty() && options.plot.empty())
+    throw InputError("--stop: it is for the picture of --plot, which is not given");
+  if (options.stop.names.size() > 1) throw InputError("--stop is given more than once: the picture shows one pair");
+}
+
 }  // namespace
 
 Action add_simulate(Arguments& arguments) {
@@ -252,10 +268,7 @@ Action add_simulate(Arguments& arguments) {
   options->model.declare_state(arguments);
   arguments.count("--periods", options->periods, 0, most_periods, "length in forcing periods (100)");
   arguments.number("--time", options->time, "T", "length in the model's unit of time, instead of --periods");
-  arguments.text("--sweep", options->climb.sweep, "NAME=A:B",
-                 "run-up: the parameter goes from A to B over --over periods, in steps of --hold");
-  arguments.count("--over", options->climb.over, 2, most_periods, "forcing periods of the run-up");
-  arguments.count("--hold", options->climb.hold, 1, most_periods, "forcing periods at each value of it (1)");
+  options->climb.declare(arguments);
   arguments.text("--events", options->events, "F.csv",
                  "every event: time, kind, contact, w, and the state just before");
   arguments.text("--trajectory", options->trajectory, "F.csv",
@@ -284,22 +297,7 @@ Action add_simulate(Arguments& arguments) {
       "model without forcing has a "
       "period of 1.");
   return [options, &arguments](const Context& context) {
-    if (arguments.given("--time") && arguments.given("--periods"))
-      throw InputError("--time and --periods both give the length: choose one");
-    if (!options->columns.empty() && options->trajectory.empty())
-      throw InputError("--columns: they are columns of --trajectory, which is not given");
-    if (!options->columns.empty() && options->physical)
-      throw InputError("--columns: quantities are in the model's numbers; leave --physical away");
-    if (options->climb.sweep.empty() != !arguments.given("--over"))
-      throw InputError("--sweep and --over belong together: what changes, and over how many periods");
-    for (const char* other : {"--periods", "--time", "--certify", "--plot", "--physical", "--columns", "--until"})
-      if (!options->climb.sweep.empty() && arguments.given(other))
-        throw InputError(std::string(other) + ": a run-up (--sweep) does not have it");
-    if (options->physical && options->events.empty() && options->trajectory.empty())
-      throw InputError("--physical: it is for --events and --trajectory, and neither is given");
-    if (!options->stop.names.empty() && options->plot.empty())
-      throw InputError("--stop: it is for the picture of --plot, which is not given");
-    if (options->stop.names.size() > 1) throw InputError("--stop is given more than once: the picture shows one pair");
+    check(*options, arguments);
     return simulate(*options, arguments.given("--time"), context);
   };
 }

@@ -1,8 +1,8 @@
 #pragma once
 /// Jumps of the model's own coordinates and velocities, from one segment to the next.
 ///
-/// A contact number x_a - x_b - shift may be far greater than the coordinate that it tells: then its rounding would
-/// hide that the coordinate has moved. So each coordinate's jumps are measured by the sizes of what that coordinate alone is
+/// A contact number x_a - x_b - shift may be far greater than the coordinate that it tells: its rounding would hide
+/// that the coordinate has moved. So each coordinate's jumps are measured by the sizes of what that coordinate alone is
 /// added up from: exp(|A| t) |(q, v, phases, 1)| along the segments, and impulses.
 #include "flight.hpp"
 

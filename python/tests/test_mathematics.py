@@ -53,6 +53,12 @@ def test_a_branch_through_an_orbit_passes_through_the_orbit():
     assert np.allclose(branch.y[:, at], orbit.state, atol=1e-13)
 
 
+def test_laws_of_contact_give_back_what_their_closed_forms_say():
+    for start, back in ((1.0, -np.sqrt(8 / 20)), (-1.0, 0.47435857876378)):  # two stiffnesses; a bounded bumper
+        motion = slapstick.simulate("buffers", time=2, samples=0, start={"x": 0, "v": start}, amplitude=0, stiffness=0)
+        assert motion.state[1] == pytest.approx(back, rel=1e-13)
+
+
 def test_a_start_on_the_attractor_needs_no_transient():
     found = slapstick.classify("vibro-impact", omega=2.2)
     again = slapstick.simulate("vibro-impact", periods=1, samples=0, start=found.state, omega=2.2)

@@ -26,6 +26,8 @@ def assert_same_table(table, printed):
         ("vibro-impact", {"omega": 0.552}, 12),
         ("gear-pair", {}, 30),
         ("belt", {}, 40),
+        ("buffers", {}, 30),
+        ("mode-coupling-brake", {}, 40),
     ],
 )
 def test_simulate_has_the_events_and_samples_of_the_program(program, tmp_path, model, values, periods):

@@ -25,7 +25,7 @@ Json whole_json(const orbit::Problem& problem, const orbit::Solution& solution, 
                 const std::vector<Wanted>& wanted) {
   Json json = point_json(problem, solution, system.model());
   json.set("sticks", solution.sticks).set("reversals", solution.reversals).set("chatters", solution.chatters);
-  if (system.model().forced()) json.set("symmetric", orbit::symmetric(problem, solution.orbit));
+  json.set("symmetric", orbit::symmetric(problem, solution.orbit));
   json.set("events", events_json(problem, solution, system)).set("impacts", impacts_json(problem, solution, system));
   json.set("extremes", extremes_json(problem, solution, system.model()));
   json.set("energy", energy_json(orbit::energy(problem, solution.orbit), system.model()));
@@ -57,15 +57,12 @@ void search_all(const Options& options, const orbit::Problem& problem, const Sys
   json.set("note", "found from " + tried(result.report, options.orbit) + "; a search is no proof of completeness");
 }
 
-void check(const Options& options, const ChosenModel& chosen) {
+void check(const Options& options) {
   if (options.all && !options.orbit.orbit.empty())
     throw InputError("--all lists every orbit; --orbit has no meaning with it");
   if (options.all && options.orbit.nearest)
     throw InputError("--all lists every orbit; --nearest has no meaning with it");
   if (!options.all && (options.most_n > 0 || options.most_p >= 0)) throw InputError("--max-n and --max-p need --all");
-  if (options.all && !chosen.model.forced())
-    throw InputError("--all: model '" + chosen.model.name +
-                     "' has no forcing, so there are no n-period orbits to search for");
 }
 
 int run(const Options& options, const Context& context) {
@@ -75,7 +72,7 @@ int run(const Options& options, const Context& context) {
   Output out(options.out);
   const ChosenModel chosen = options.model.load();
   const State start = options.model.start(chosen);
-  check(options, chosen);
+  check(options);
   const std::vector<Wanted> wanted = parse_of(options.of, chosen);
   const System system = affordable_system(chosen, {static_cast<double>(options.orbit.transient) + 1.0, "--transient"});
   const auto problem = orbit::pose(chosen.definition.family({}, chosen.overrides), {});
@@ -104,13 +101,14 @@ Action add_orbit(Arguments& arguments) {
   options->model.declare_state(arguments);
   options->orbit.declare(arguments);
   arguments.flag("--all", options->all, "list every orbit that a search finds, instead of one");
-  arguments.count("--max-n", options->most_n, 1, 64, "with --all: most forcing periods per cycle (1)");
+  arguments.count("--max-n", options->most_n, 1, 64, "with --all: most forcing periods, or returns, per cycle (1)");
   arguments.count("--max-p", options->most_p, 0, 1'000'000, "with --all: most impacts per cycle");
   declare_of(arguments, options->of);
   arguments.text("--out", options->out, "FILE", "write the JSON there instead of to standard output");
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
       "A periodic orbit, stable or not, by Newton's method on the closed form of its legs, checked by a simulation.\n"
+      "Of a motion without a drive N counts returns: how often the rarest of its events happens in a cycle.\n"
       "Without --orbit: the one that the motion settles on. A search that finds nothing is no proof that there is "
       "nothing.\n"
       "  slapstick orbit vibro-impact --set omega=2.9 --orbit 1-1");

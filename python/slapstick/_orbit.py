@@ -62,8 +62,8 @@ class OrbitEvents:
 class Orbit(Result):
     """A periodic orbit.
 
-    label: '1-1-II'; n: forcing periods in a cycle (0 without forcing); p: impacts in a cycle, inf with complete
-    chatter.
+    label: '1-1-II', or 'free-1-II' where nothing drives the motion; n: forcing periods in a cycle, or how often the
+    rarest event of a free one happens in it; p: impacts in a cycle, inf with complete chatter.
     multipliers: of the return map, complex, largest first; stable: all are inside the unit circle.
     state: at phase 0, shape (2 n,); cycle: the period of the orbit in the model's unit of time.
     is_motion: the simulator does the same; if not, why. t and y: samples of one cycle, as of `simulate`.
@@ -74,7 +74,7 @@ class Orbit(Result):
         self._core = core
 
     label = Given[str]("'1-1-II', '2-inf-II'.")
-    n = Given[int]("Forcing periods in a cycle; 0 without forcing.")
+    n = Given[int]("Forcing periods in a cycle; where nothing drives it, how often its rarest event happens.")
 
     @property
     def p(self) -> float:
@@ -188,9 +188,9 @@ def orbit(
 ) -> Orbit:
     """A periodic orbit, stable or not, by Newton's method; the simulator verifies it.
 
-    orbit: 'N-P', 'N-P-I' or 'N-P-II': forcing periods, impacts ('inf' with complete chatter), with stick or without;
-    '': what the motion settles on. stable, symmetric: conditions; nearest: of those that a search finds, the nearest
-    to the start. transient: forcing periods before the first try. A search looks through `starts` motions (64), or
+    orbit: 'N-P', 'N-P-I' or 'N-P-II': forcing periods (returns, where nothing drives the motion: 'free-P-I' takes any
+    number), impacts ('inf' with complete chatter), with stick or without; '': what the motion settles on. stable, symmetric: conditions; nearest: of those that a search finds, the nearest
+    to the start. transient: forcing periods or returns before the first try. A search looks through `starts` motions (64), or
     ends after `seconds` (10; none if starts is given); seed: of its starts.
 
     Raises NumericalError if there is none, saying what was tried and found instead.
@@ -225,7 +225,7 @@ def orbits(
     parameters: Values | None = None,
     **values: float,
 ) -> list[Orbit]:
-    """Every orbit of up to `most_n` forcing periods that a search finds; options as of `orbit`.
+    """Every orbit of up to `most_n` forcing periods, or returns of a free motion, that a search finds; options as of `orbit`.
 
     A search is no proof of completeness.
     """

@@ -69,6 +69,7 @@ class ImpactPoints {
     found_.panel.x_label = model.forced() ? "phase of the forcing / 2π" : with_unit(w, unit);
     found_.panel.y_label = with_unit(model.forced() ? w : w + " after it", unit);
     found_.panel.points = clouds_.points();
+    found_.map = !model.forced();
     return std::move(found_);
   }
 
@@ -193,6 +194,7 @@ Found event_points(const PoincareOptions& options, const EventChoice& events, Mo
     ++found.points;
     progress.update(static_cast<double>(found.points));
   }
+  found.map = true;
   const std::string in =
       " in " + std::to_string(section.motion().time().period - options.transient) + " periods after the transient";
   if (found.whole && found.points == 0)

@@ -72,6 +72,7 @@ class ImpactPoints {
     found_.panel.y_label = with_unit(model.forced() ? w : w + " after it", unit);
     of_.label(found_.panel);
     found_.panel.points = clouds_.points();
+    found_.map = !model.forced();
     return std::move(found_);
   }
 
@@ -214,6 +215,7 @@ Found event_points(const PoincareOptions& options, const EventChoice& events, Mo
     ++found.points;
     progress.update(static_cast<double>(found.points));
   }
+  found.map = true;
   const std::string in =
       " in " + std::to_string(section.motion().time().period - options.transient) + " periods after the transient";
   if (found.whole && found.points == 0)

@@ -14,7 +14,7 @@ namespace slapstick::app {
 struct PoincareOptions {
   ModelOptions model;
   StopOptions stops;
-  std::string section = "impact", event, of, out, plot;
+  std::string section = "impact", event, of, out, plot, plot_size;
   double phase = 0.0;
   long long transient = 500, points = 1000, most_periods = 1'000'000, patience = 10'000;
   bool progress = false;
@@ -24,6 +24,7 @@ struct PoincareOptions {
 struct Found {
   long long points = 0;
   bool whole = true;  ///< false: stopped before its end
+  bool map = false;  ///< the picture is a return map
   figure::Panel panel;
 };
 

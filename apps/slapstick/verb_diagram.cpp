@@ -5,6 +5,7 @@
 #include "axis_units.hpp"
 #include "base/ranges.hpp"
 #include "contact_clouds.hpp"
+#include "fine_dots.hpp"
 #include "model_options.hpp"
 #include "output.hpp"
 #include "measured_diagram.hpp"
@@ -26,7 +27,7 @@ using sweep::Direction;
 struct Options {
   ModelOptions model;
   StopOptions stops;
-  std::string sweep, direction = "up", start = "carry", y, at, out, plot;
+  std::string sweep, direction = "up", start = "carry", y, at, out, plot, plot_size;
   long long transient = 500, impacts = 200, most_periods = 5000, periods = 100, threads = 0;
   bool progress = false;
 };
@@ -105,32 +106,21 @@ void write_table(TableOutput& table, const sweep::Diagram& diagram, const Model&
   if (ranges::any_of(diagram.points, [](const auto& point) { return point.failure.empty(); })) table.commit();
 }
 
-/// Both directions: a colour each. One: a colour for each stop.
+/// A cloud for each stop and direction, with points. Of two directions the first is thicker: where both agree it shows
+/// as a rim around the second.
 std::vector<figure::Points> clouds(const sweep::Diagram& diagram, const Model& model,
                                    const sweep::DiagramProblem& problem, bool flight) {
-  figure::Points up{.label = "up", .colour = figure::colours::dark_blue};
-  figure::Points down{.label = "down", .colour = figure::colours::vermillion};
-  down.diameter_mm = 0.25, up.diameter_mm = 0.5;  // where both directions agree, up shows as a rim around down
-  ContactClouds stops(model, problem.stops, ContactClouds::Overlap::rims);
-  const bool both = problem.direction == Direction::both;
+  DirectedClouds all(model, problem.stops, problem.direction == Direction::both);
   for (const sweep::DiagramPoint& point : diagram.points) {
-    figure::Points& cloud = point.direction == Direction::up ? up : down;
     for (std::size_t i = 0; i < point.impacts.size(); ++i) {
       const auto row = point.impacts[i];
-      const double y = flight ? row.flight : row.w;
-      if (!both) {
-        stops.add(row.contact, point.parameter, y);
-        continue;
-      }
-      cloud.x.push_back(point.parameter);
-      cloud.y.push_back(y);
+      all.add(row.contact, point.direction == Direction::up, point.parameter, flight ? row.flight : row.w);
     }
   }
-  if (!both) return stops.points();
-  std::vector<figure::Points> filled;
-  for (auto& cloud : {up, down})
-    if (!cloud.x.empty()) filled.push_back(cloud);
-  return filled;
+  std::vector<figure::Points> points = all.points();
+  constexpr double largest_mm = 0.5;
+  make_dots_fine(points, largest_mm);
+  return points;
 }
 
 figure::Figure picture(const sweep::Diagram& diagram, const Sweep& sweep, const ChosenModel& chosen,
@@ -195,8 +185,8 @@ sweep::Diagram run(sweep::DiagramProblem& problem, const Options& options, const
 /// --y: statistics instead of impacts.
 int measured(const Options& options, const ChosenModel& chosen, const Sweep& sweep, const Context& context) {
   const MeasuredDiagram about(chosen, options.y, sweep);
-  const Plot plot(options.plot);
-  TableOutput table(options.out, about.columns());
+  const Plot plot(options.plot, options.plot_size);
+  TableOutput table(options.out, about.columns(), table_facts(chosen, sweep.name));
   sweep::DiagramProblem problem = problem_of(options, chosen, sweep);
   problem.of = about.of();
   const sweep::Diagram result = run(problem, options, context);
@@ -235,11 +225,11 @@ int diagram(const Options& options, const Context& context) {
   roles.add_plot(options.plot);
   if (!options.y.empty())
     return are_statistics(options.y) ? measured(options, chosen, sweep, context) : values(options, chosen, sweep, context);
-  const Plot plot(options.plot);
+  const Plot plot(options.plot, options.plot_size);
   std::vector<std::string> columns{sweep.name, "direction", "w", "flight", "sliding", "phase"};
   for (const std::string& name : state_names(chosen.model)) columns.push_back(name);
   if (several_stops(chosen.model)) columns.emplace_back("contact");
-  TableOutput table(options.out, columns);
+  TableOutput table(options.out, columns, table_facts(chosen, sweep.name));
 
   sweep::DiagramProblem problem = problem_of(options, chosen, sweep);
   const sweep::Diagram result = run(problem, options, context);
@@ -292,9 +282,10 @@ Action add_diagram(Arguments& arguments) {
                  "or stick:belt (impact; without stops period)");
   arguments.count("--periods", options->periods, 1, 1'000'000'000, "of --y: forcing periods that are measured (100)");
   options->stops.declare(arguments, "record the impacts of this stop only; may be repeated (all)");
-  arguments.text("--out", options->out, "F.csv", "write the impacts there instead of to standard output");
+  arguments.text("--out", options->out, "F.csv", "write the impacts there (.csv, .npz or .h5) instead of to standard output");
   arguments.text("--plot", options->plot, "F.png",
                  "diagrams of w and flight: .png, .pdf or .svg; its data and script lie beside it");
+  declare_plot_size(arguments, options->plot_size);
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
       "Columns: the parameter, direction, w, flight, sliding, phase and the state just before each impact, with "

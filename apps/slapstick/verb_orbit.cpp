@@ -1,12 +1,16 @@
 /// slapstick orbit MODEL
 #include <algorithm>
+#include <cstdio>
+#include <optional>
 
 #include "measured_json.hpp"
+#include "motion_plot.hpp"
 #include "orbit_choice.hpp"
 #include "orbit_options.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "slapstick/base/error.hpp"
+#include "stop_options.hpp"
 #include "verb.hpp"
 #include "work.hpp"
 
@@ -16,7 +20,7 @@ namespace {
 struct Options {
   ModelOptions model;
   OrbitOptions orbit;
-  std::string of, out;
+  std::string of, out, plot, plot_size, show;
   bool all = false, progress = false;
   long long most_n = 0, most_p = -1;  ///< as given; without --all they have no meaning
 };
@@ -60,16 +64,52 @@ void search_all(const Options& options, const orbit::Problem& problem, const Sys
 void check(const Options& options) {
   if (options.all && !options.orbit.orbit.empty())
     throw InputError("--all lists every orbit; --orbit has no meaning with it");
+  if (options.all && !options.plot.empty())
+    throw InputError("--all lists every orbit; --plot draws one: name it by --orbit");
+  if (!options.show.empty() && options.plot.empty())
+    throw InputError("--show: it is for the picture of --plot, which is not given");
   if (options.all && options.orbit.nearest)
     throw InputError("--all lists every orbit; --nearest has no meaning with it");
   if (!options.all && (options.most_n > 0 || options.most_p >= 0)) throw InputError("--max-n and --max-p need --all");
+}
+
+/// The cycle as a motion from the orbit's state on: in one cycle an unstable one is not yet lost.
+figure::Figure cycle_figure(const Options& options, const orbit::Problem& problem, const orbit::Solution& solution,
+                            const System& system, const ChosenModel& chosen) {
+  const RelativeMotion pair(chosen.model, shown_contact(chosen.model, StopOptions{}.choice(chosen.model)));
+  MotionRecord record(system, options.show.empty() ? shown_pair(pair, chosen)
+                                                   : shown_by_name(options.show, all_contacts(chosen.model), chosen));
+  const int n = solution.orbit.shape.n;
+  const Instant end = n > 0 ? Instant{n, 0.0} : Instant{}.plus(solution.cycle / system.period());
+  record.keep({}, end);
+  Motion motion(system, orbit::at_phase_zero(problem, solution.orbit));
+  for (Outcome outcome = Outcome::event; outcome == Outcome::event;) {
+    outcome = motion.advance(end);
+    record.add_segment(motion);
+    if (outcome == Outcome::event) record.add_event(motion);
+  }
+  return motion_figure(record);
+}
+
+int draw(const Plot& plot, const Options& options, const orbit::Problem& problem, const orbit::Solution& solution,
+         const System& system, const ChosenModel& chosen) {
+  if (!plot.wanted()) return done;
+  if (!solution.is_motion) {
+    std::fprintf(stderr, "slapstick: --plot: the orbit is no motion (%s), so its picture is not made\n",
+                 solution.why.c_str());
+    return nothing_to_draw;
+  }
+  plot.write(cycle_figure(options, problem, solution, system, chosen));
+  return done;
 }
 
 int run(const Options& options, const Context& context) {
   FileRoles roles;
   roles.add("MODEL", options.model.source);
   roles.add("--out", options.out);
+  roles.add_plot(options.plot);
   Output out(options.out);
+  const Plot plot(options.plot, options.plot_size);
   const ChosenModel chosen = options.model.load();
   const State start = options.model.start(chosen);
   check(options);
@@ -77,6 +117,7 @@ int run(const Options& options, const Context& context) {
   const System system = affordable_system(chosen, {static_cast<double>(options.orbit.transient) + 1.0, "--transient"});
   const auto problem = orbit::pose(chosen.definition.family({}, chosen.overrides), {});
   Json json = head_json(chosen);
+  std::optional<orbit::Solution> drawn;
   if (options.all) {
     search_all(options, *problem, system, start, wanted, context.stop, json);
   } else {
@@ -86,11 +127,12 @@ int run(const Options& options, const Context& context) {
     for (const auto& [key, value] : std::get<Json::Object>(whole.value())) json.set(key, value);
     json.set("settles", found.settles);
     if (found.search) json.set("search", report_json(*found.search));
+    drawn = *found.orbit;
   }
   if (context.stop.load()) return interrupted;
   out.write(json.dump() + "\n");
   out.commit();
-  return done;
+  return drawn ? draw(plot, options, *problem, *drawn, system, chosen) : done;
 }
 
 }  // namespace
@@ -105,6 +147,9 @@ Action add_orbit(Arguments& arguments) {
   arguments.count("--max-p", options->most_p, 0, 1'000'000, "with --all: most impacts per cycle");
   declare_of(arguments, options->of);
   arguments.text("--out", options->out, "FILE", "write the JSON there instead of to standard output");
+  arguments.text("--plot", options->plot, "F.png", "picture of the cycle: .png, .pdf or .svg, as of `simulate`");
+  declare_plot_size(arguments, options->plot_size);
+  arguments.text("--show", options->show, "Q,X:Y,..", "panels of the picture, as of `simulate`");
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
       "A periodic orbit, stable or not, by Newton's method on the closed form of its legs, checked by a simulation.\n"

@@ -172,6 +172,18 @@ double mapped(Mapped quantity, const RelativeMotion& relative, const EventPoint&
   return quantity == Mapped::w ? point.w : point.return_time;
 }
 
+/// The axes of the return map of a kind of event.
+figure::Panel map_axes(std::string_view kind, Mapped quantity, const RelativeMotion& relative, const AxisUnits& units) {
+  const std::string label = quantity == Mapped::displacement ? relative.displacement
+                            : quantity == Mapped::w          ? "w"
+                                                             : "return time";
+  const std::string unit = quantity == Mapped::displacement ? units.displacement(relative.a, relative.b)
+                           : quantity == Mapped::w          ? units.velocity(relative.a, relative.b)
+                                                            : units.time();
+  const std::string at = label + " at " + axis_text(std::string(kind));
+  return {.x_label = with_unit(at + " k", unit), .y_label = with_unit(at + " k + 1", unit)};
+}
+
 /// The picture is the return map: each point against the next.
 Found event_points(const PoincareOptions& options, const EventChoice& events, Motion motion, TableOutput& table,
                    const AxisUnits& units, PointQuantities& of, const Context& context) {
@@ -179,15 +191,7 @@ Found event_points(const PoincareOptions& options, const EventChoice& events, Mo
   const Model& model = system.model();
   const RelativeMotion relative(model, mapped_contact(events, model));
   const Mapped quantity = mapped_quantity(events, model);
-  const std::string kind(name(events.kind));
-  const std::string label = quantity == Mapped::displacement ? relative.displacement
-                            : quantity == Mapped::w          ? "w"
-                                                             : "return time";
-  const std::string unit = quantity == Mapped::displacement ? units.displacement(relative.a, relative.b)
-                           : quantity == Mapped::w          ? units.velocity(relative.a, relative.b)
-                                                            : units.time();
-  Found found{.panel = {.x_label = with_unit(label + " at " + axis_text(kind) + " k", unit),
-                        .y_label = with_unit(label + " at " + axis_text(kind) + " k + 1", unit)}};
+  Found found{.panel = map_axes(name(events.kind), quantity, relative, units)};
   of.label(found.panel);
   figure::Points cloud;
   Progress progress("points", static_cast<double>(options.points), options.progress);
@@ -215,7 +219,7 @@ Found event_points(const PoincareOptions& options, const EventChoice& events, Mo
     ++found.points;
     progress.update(static_cast<double>(found.points));
   }
-  found.map = true;
+  found.map = !of.are_axes();
   const std::string in =
       " in " + std::to_string(section.motion().time().period - options.transient) + " periods after the transient";
   if (found.whole && found.points == 0)

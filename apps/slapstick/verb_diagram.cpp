@@ -201,8 +201,8 @@ int measured(const Options& options, const ChosenModel& chosen, const Sweep& swe
 /// --y without a statistic: values at instants.
 int values(const Options& options, const ChosenModel& chosen, const Sweep& sweep, const Context& context) {
   const ValuesDiagram about(chosen, options.y, options.at, sweep);
-  const Plot plot(options.plot);
-  TableOutput table(options.out, about.columns());
+  const Plot plot(options.plot, options.plot_size);
+  TableOutput table(options.out, about.columns(), table_facts(chosen, sweep.name));
   sweep::DiagramProblem problem = problem_of(options, chosen, sweep);
   about.complete(problem);
   const sweep::Diagram result = run(problem, options, context);

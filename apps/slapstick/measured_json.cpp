@@ -1,6 +1,7 @@
 /// Writes statistics as JSON.
 #include "measured_json.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace slapstick::app {
@@ -30,7 +31,23 @@ Json units_json(const std::vector<Wanted>& wanted) {
   return units;
 }
 
-Json impact_statistics_json(const Measured& found) {
+Json histogram_json(const Statistics& of, int bins) {
+  std::vector<double> edges;
+  Json counts = Json::list();
+  const auto begin = of.values.begin(), end = of.values.end();
+  if (of.values.empty()) bins = 0;
+  if (bins > 0 && of.values.front() == of.values.back()) bins = 1;
+  for (int i = 0; i <= bins && bins > 0; ++i)
+    edges.push_back(i == bins ? of.values.back() : of.values.front() + (of.values.back() - of.values.front()) * i / bins);
+  for (int i = 0; i < bins; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const auto to = i + 1 == bins ? end : std::lower_bound(begin, end, edges[at + 1]);
+    counts.push(static_cast<long>(to - std::lower_bound(begin, end, edges[at])));
+  }
+  return Json::object().set("edges", Json::list(edges)).set("counts", std::move(counts));
+}
+
+Json impact_statistics_json(const Measured& found, int bins) {
   Json stops = Json::object();
   for (const StopStatistics& stop : found.stops) {
     Json one = Json::object();
@@ -40,6 +57,7 @@ Json impact_statistics_json(const Measured& found) {
       if (stop.compliant && of != &stop.w) continue;
       Json values = Json::object();
       for (const char* name : {"mean", "rms", "min", "q05", "q25", "q50", "q75", "q95", "max"}) values.set(name, statistic(*of, name));
+      if (bins > 0) values.set("histogram", histogram_json(*of, bins));
       one.set(key, std::move(values));
     }
     stops.set(stop.stop, std::move(one));

@@ -20,6 +20,11 @@ namespace slapstick::app {
 [[nodiscard]] Json units_json(const std::vector<Wanted>& wanted);
 
 /// Of every stop the number of impacts, their rate, and statistics of speed, impulse and energy.
-[[nodiscard]] Json impact_statistics_json(const Measured& found);
+/// @param bins  of their histograms; 0: none
+[[nodiscard]] Json impact_statistics_json(const Measured& found, int bins);
+
+/// {"edges": [..], "counts": [..]}: `bins` equal bins from the least value to the greatest; each has its lower edge,
+/// the last one both. One bin if all values are equal.
+[[nodiscard]] Json histogram_json(const Statistics& of, int bins);
 
 }  // namespace slapstick::app

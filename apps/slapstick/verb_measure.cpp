@@ -9,7 +9,7 @@ namespace {
 
 constexpr long long periods_without_cycle = 1000;
 
-int run(const SpanOptions& options, const Context& context) {
+int run(const SpanOptions& options, long long bins, const Context& context) {
   FileRoles roles;
   roles.add("MODEL", options.model.source);
   roles.add("--out", options.out);
@@ -20,33 +20,36 @@ int run(const SpanOptions& options, const Context& context) {
   const auto span = options.span(chosen, periods_without_cycle, context);
   if (!span) return interrupted;
   const Measured found = measure(*span, quantities_of(wanted), &context.stop);
-  if (!found.complete) return interrupted;
+  if (!(found.duration > 0.0)) return interrupted;  // Ctrl-C before anything was measured
   Json json = Json::object(), parameters = Json::object();
   for (const auto& [name, value] : chosen.definition.values(chosen.overrides)) parameters.set(name, value);
   json.set("model", chosen.model.name).set("parameters", std::move(parameters));
+  json.set("complete", found.complete);
   json.set("over", span_json(*span).set("time", found.duration)).set("values", values_json(wanted, found));
   json.set("units", units_json(wanted));
-  if (!found.stops.empty()) json.set("impacts", impact_statistics_json(found));
+  if (!found.stops.empty()) json.set("impacts", impact_statistics_json(found, static_cast<int>(bins)));
   out.write(json.dump() + "\n");
   out.commit();
-  return done;
+  return found.complete ? done : interrupted;
 }
 
 }  // namespace
 
 Action add_measure(Arguments& arguments) {
   auto options = std::make_shared<SpanOptions>();
+  auto bins = std::make_shared<long long>(0);
   options->declare(arguments);
   arguments.text("--of", options->of, "Q[:STAT],..",
                  "quantities, and of each one statistic or all: mean, rms, min, max, min_at, max_at, peak_to_peak, "
                  "crest, impulse, number");
+  arguments.count("--bins", *bins, 1, 100'000, "histograms of the impacts of every stop, with so many bins (none)");
   arguments.footer(
       "Statistics without sampling: integrals and extremes of the closed forms. Over the cycle that the motion settles "
       "on,\n"
       "or over --periods after the transient (1000 where there is no cycle). 'slapstick quantities MODEL' lists names.\n"
       "With --orbit, --stable, --unstable, --symmetric or --nearest over the periodic orbit that they say, as of `orbit`.\n"
       "  slapstick measure vibro-impact --set omega=2.9 --of F_stop:mean,a1,power_in:mean");
-  return [options](const Context& context) { return run(*options, context); };
+  return [options, bins](const Context& context) { return run(*options, *bins, context); };
 }
 
 }  // namespace slapstick::app

@@ -80,7 +80,7 @@ Json density_json(const DensitySpectrum& found, double stretch) {
 struct Found {
   Json json;
   figure::Figure figure;
-  bool complete = true;
+  bool complete = true, any = true;  ///< any: of an interrupted density, a stretch at least
 };
 
 Found analyse(const Options& options, const ChosenModel& chosen, const Span& span, const Quantity& of, const Context& context) {
@@ -98,6 +98,7 @@ Found analyse(const Options& options, const ChosenModel& chosen, const Span& spa
     const DensitySpectrum density = slapstick::density(span, of, {options.stretch, 1, highest, &context.stop});
     if (parts > 0) bands = octaves(density, parts, unit_of_time(chosen));
     found.complete = density.complete;
+    found.any = density.stretches > 0;
     found.json = density_json(density, options.stretch);
     found.figure = density_figure(density, labels);
   }
@@ -133,15 +134,15 @@ int run(const Options& options, const Context& context) {
   const auto span = options.span.span(chosen, 2048, context);
   if (!span) return interrupted;
   const Found found = analyse(options, chosen, *span, of, context);
-  if (!found.complete) return interrupted;
+  if (!found.any) return interrupted;
   Json json = Json::object(), parameters = Json::object();
   for (const auto& [name, value] : chosen.definition.values(chosen.overrides)) parameters.set(name, value);
   json.set("model", chosen.model.name).set("parameters", std::move(parameters)).set("of", of.name).set("unit", of.unit);
-  json.set("over", span_json(*span));
+  json.set("over", span_json(*span)).set("complete", found.complete);
   for (const auto& [key, value] : std::get<Json::Object>(found.json.value())) json.set(key, value);
   out.write(json.dump() + "\n");
   out.commit();
-  return plot.write_or_say(found.figure, found.figure.panels[0].lines.empty(), done);
+  return plot.write_or_say(found.figure, found.figure.panels[0].lines.empty(), found.complete ? done : interrupted);
 }
 
 }  // namespace

@@ -194,4 +194,18 @@ def test_bands_say_whether_they_are_whole_and_what_they_add_up_to():
     assert 'choose one' in refused(2, *words, '--orders', '50', '--to', '4000')
 
 
+def test_histograms_count_every_impact_once():
+    found = numbers('measure', 'vibro-impact', '--set', 'omega=6.69', '--periods', '300', '--of', 'w', '--bins', '12')
+    assert found['complete'] is True
+    stop = found['impacts']['stop']
+    for name in ('w', 'impulse', 'energy_lost'):
+        edges, counts = stop[name]['histogram']['edges'], stop[name]['histogram']['counts']
+        assert len(edges) == 13 and len(counts) == 12 and sum(counts) == stop['number'] > 100
+        assert edges[0] == stop[name]['min'] and edges[-1] == stop[name]['max'] and counts[0] > 0 and counts[-1] > 0
+    # half of the impacts lie below the median
+    below = sum(count for edge, count in zip(stop['w']['histogram']['edges'][1:], stop['w']['histogram']['counts']) if edge <= stop['w']['q50'])
+    assert 0 < below <= stop['number'] / 2
+    assert 'histogram' not in numbers('measure', 'shaken-table', '--of', 'w')['impacts']['table']['w']
+
+
 main({name: case for name, case in globals().items() if name.startswith('test_')})

@@ -79,6 +79,7 @@ struct PhysicalUnits {
 struct StatedUnits {
   std::vector<std::string> coordinates;
   std::string time;  ///< of a velocity: that of its coordinate over this
+  std::string mass;  ///< of a force: mass length / time^2; only with a time
 };
 
 /// Values given by name, as by `--set`. A parameter's own value wins over its group's.

@@ -284,6 +284,9 @@ FixedPoint Settling::once_round(FixedPoint found, int& n) const {
 std::optional<Cycle> Settling::drawn_to(int n, const VectorXd& start) const {
   auto found = fixed_point(*map_, start, n, scale_, options_.stop);
   if (!found || !found->stable()) return std::nullopt;
+  // On a free family the one multiplier that is left is 1 but for rounding, on either side: `member` judges.
+  if (free_ && !found->multipliers.empty() && std::abs(found->multipliers.front()) >= 1.0 - known_to)
+    return std::nullopt;
   const Attraction seen = attraction(*map_, motion_, *found, n, scale_, options_.stop);
   if (!seen.drawn) return std::nullopt;
   found = once_round(std::move(*found), n);

@@ -117,7 +117,7 @@ Claim coexisting(const Evidence& evidence) {
   claim.explanation =
       "Found by carrying the state up, down, and by starting from rest at each frequency; what none of the three "
       "reaches is not seen. "
-      "In Figs. 2, 6 and 8 they show as blue (up) beside red (down).";
+      "In Figs. 2, 6 and 8 they show as blue (up) beside orange (down).";
   return claim;
 }
 

@@ -133,8 +133,8 @@ void fig2(Study& study) {
       "Both readings of t_f: time between impacts, the time of sliding in it, and what is left: the time in stick.";
   picture.height_cm = 17.0;
   picture.panels = {panel(found, flight, "(a)", "flight {/:Italic ω t}_f / 2π", true),
-                    panel(found, sliding, "(b)", "of it sliding", false),
-                    panel(found, resting, "(c)", "of it in stick", false)};
+                    panel(found, sliding, "(b)", "part in slip", false),
+                    panel(found, resting, "(c)", "part in stick", false)};
   picture.panels[0].legend = figure::Legend::bottom_right;
   study.add({"fig2-sliding", picture});
 }
@@ -154,6 +154,7 @@ void fig6(Study& study) {
     write_impacts(study.file(std::string("fig6") + "abc"[i] + "-impacts.csv"), found);
     picture.panels.push_back(panel(found, paper_velocity, tags[i], i == 0 ? velocity_label : "", i == 0));
   }
+  picture.panels.front().legend = figure::Legend::below;  // three entries are wider than a third of the page
   study.add({"fig6", picture});
 }
 

@@ -165,6 +165,7 @@ figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const B
   if (axes.y) panel.y_label = axes.y_label;
   panel.legend = figure::Legend::below;
   panel.x_range = figure::Range{axes.range.from, axes.range.to};
+  if (axes.y_range) panel.y_range = figure::Range{axes.y_range->from, axes.y_range->to};
   if (!beneath.cloud.x.empty()) panel.points.push_back(beneath.cloud);
   std::vector<std::size_t> first_line;  // of each branch
   std::vector<SpecialPlace> specials;

@@ -4,6 +4,7 @@
 /// below. Where a branch has no impacts it is drawn at speed 0; if nothing has impacts, the first coordinate at the
 /// events is drawn. Axes have units where the model's file states them.
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,11 @@ namespace slapstick::app {
 
 struct BranchAxes {
   std::string x_label;
-  ParameterRange range;      ///< asked for
+  ParameterRange range;      ///< that is shown
   std::string speed, place;  ///< units of the impact speeds, and of the first coordinate; empty: not stated
   std::string y_label = {};  ///< of `y`
   std::function<double(const orbit::Solution&)> y = {};  ///< what is drawn instead, if there is one
+  std::optional<ParameterRange> y_range = {};            ///< that is shown; none: all
 };
 
 [[nodiscard]] figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const BranchAxes& axes,

@@ -41,4 +41,30 @@ std::vector<figure::Points> ContactClouds::points() const {
   return filled;
 }
 
+void ContactClouds::direct(bool up) {
+  constexpr double thick_mm = 0.5, thin_mm = 0.25;
+  constexpr std::array up_palette{colours::dark_blue, colours::green, colours::orange, colours::black};
+  constexpr std::array down_palette{colours::vermillion, colours::purple, colours::sky_blue, colours::grey};
+  for (std::size_t i = 0; i < clouds_.size(); ++i) {
+    figure::Points& cloud = clouds_[i];
+    cloud.colour = (up ? up_palette : down_palette)[i % up_palette.size()];
+    cloud.diameter_mm = up ? thick_mm : thin_mm;
+    cloud.label += (cloud.label.empty() ? "" : " ") + std::string(up ? "up" : "down");
+  }
+}
+
+DirectedClouds::DirectedClouds(const Model& model, const StopChoice& choice, bool both)
+    : up_(model, choice, ContactClouds::Overlap::rims), down_(up_), both_(both) {
+  if (!both) return;
+  up_.direct(true);
+  down_.direct(false);
+}
+
+std::vector<figure::Points> DirectedClouds::points() const {
+  std::vector<figure::Points> all = up_.points();
+  if (both_)
+    for (const figure::Points& cloud : down_.points()) all.push_back(cloud);
+  return all;
+}
+
 }  // namespace slapstick::app

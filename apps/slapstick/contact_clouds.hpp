@@ -16,10 +16,25 @@ class ContactClouds {
   void add(int contact, double x, double y);
   /// Those that have points.
   [[nodiscard]] std::vector<figure::Points> points() const;
+  /// Of one direction of a sweep: named, smaller and in other colours for the way down.
+  void direct(bool up);
 
  private:
   std::vector<int> stops_;
   std::vector<figure::Points> clouds_;
+};
+
+/// The same for a sweep: of two directions each stop has a colour for each.
+class DirectedClouds {
+ public:
+  DirectedClouds(const Model& model, const StopChoice& choice, bool both);
+
+  void add(int contact, bool up, double x, double y) { (up || !both_ ? up_ : down_).add(contact, x, y); }
+  [[nodiscard]] std::vector<figure::Points> points() const;
+
+ private:
+  ContactClouds up_, down_;
+  bool both_;
 };
 
 }  // namespace slapstick::app

@@ -6,6 +6,7 @@
 
 #include "axis_text.hpp"
 #include "base/ranges.hpp"
+#include "branch_colours.hpp"
 #include "free_labels.hpp"
 
 namespace slapstick::app {
@@ -87,13 +88,26 @@ void add_met(figure::Panel& panel, const std::vector<const orbit::CurveEvent*>& 
 
 }  // namespace
 
-figure::Figure curve_figure(const orbit::Curve& curve, const ModelDefinition& definition,
-                            const std::vector<std::string>& names, const std::string& type) {
+figure::Figure curve_figure(const std::vector<NamedCurve>& curves, const ModelDefinition& definition,
+                            const std::vector<std::string>& names) {
   figure::Panel panel{.x_label = parameter_axis(definition, names[0]), .y_label = parameter_axis(definition, names[1])};
-  Motions motions(curve);
-  motions.line.label = type;
-  panel.lines.push_back(std::move(motions.line));
-  add_met(panel, motions.met);
+  std::vector<const orbit::CurveEvent*> met;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    Motions motions(curves[i].curve);
+    motions.line.label = curves[i].type;
+    motions.line.colour = curves.size() > 1 ? branch_colour(i) : figure::colours::black;
+    motions.line.width_pt = 1.0;
+    panel.lines.push_back(std::move(motions.line));
+    met.insert(met.end(), motions.met.begin(), motions.met.end());
+  }
+  double low = INFINITY, high = -INFINITY;
+  for (const figure::Line& line : panel.lines)
+    for (const double x : line.x)
+      if (std::isfinite(x)) low = std::min(low, x), high = std::max(high, x);
+  constexpr double margin = 0.04;  // so that no curve lies on the frame
+  if (high - low > 1e-6 * std::max(std::abs(low), std::abs(high)))
+    panel.x_range = figure::Range{low - margin * (high - low), high + margin * (high - low)};
+  add_met(panel, met);
   figure::Figure figure;
   figure.panels.push_back(std::move(panel));
   return figure;

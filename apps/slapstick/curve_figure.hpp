@@ -9,9 +9,13 @@
 
 namespace slapstick::app {
 
+struct NamedCurve {
+  std::string type;  ///< of the point that is followed
+  const orbit::Curve& curve;
+};
+
 /// @param names  of the two parameters
-/// @param type   of the point that is followed
-[[nodiscard]] figure::Figure curve_figure(const orbit::Curve& curve, const ModelDefinition& definition,
-                                          const std::vector<std::string>& names, const std::string& type);
+[[nodiscard]] figure::Figure curve_figure(const std::vector<NamedCurve>& curves, const ModelDefinition& definition,
+                                          const std::vector<std::string>& names);
 
 }  // namespace slapstick::app

@@ -52,18 +52,18 @@ Kinds possible(const EventChoice& events, const Model& model) {
 
 }  // namespace
 
-EventChoice event_choice(const std::string& text, const System& system) {
+EventChoice event_choice(const std::string& text, const System& system, const std::string& argument) {
   EventChoice events;
   try {
     events = parse_event_choice(text, system);
   } catch (const InputError& error) {
-    throw InputError("--event: " + std::string(error.what()));
+    throw InputError(argument + ": " + std::string(error.what()));
   }
   const Kinds kinds = possible(events, system.model());
   if (holds(kinds, events.kind)) return events;
   std::string known;
   for (const EventKind kind : kinds) known += (known.empty() ? "" : ", ") + std::string(name(kind));
-  throw InputError("--event: " +
+  throw InputError(argument + ": " +
                    (events.contact ? "contact " + in_quotes(system.contact_name(*events.contact))
                                    : "model " + in_quotes(system.model().name)) +
                    " cannot have " + in_quotes(std::string(name(events.kind))) +

@@ -8,7 +8,8 @@ namespace slapstick::app {
 
 /// Reads "stick", "release:belt". @throws InputError naming the argument, also of a kind that the contact, or every
 /// contact of the model, cannot have
-[[nodiscard]] EventChoice event_choice(const std::string& text, const System& system);
+[[nodiscard]] EventChoice event_choice(const std::string& text, const System& system,
+                                       const std::string& argument = "--event");
 
 /// What the return map of these events is drawn in. At a stop the displacement is its clearance, always.
 enum class Mapped {

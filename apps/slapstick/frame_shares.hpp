@@ -24,6 +24,7 @@ class FrameShares {
     for (const figure::Points& points : panel.points) add(points.x, points.y);
     for (const figure::Line& line : panel.lines) add(line.x, line.y);
     if (panel.x_range) x_ = {panel.x_range->min, panel.x_range->max};
+    if (panel.y_range) y_ = {panel.y_range->min, panel.y_range->max};
   }
   [[nodiscard]] PlaceOnPaper cm(double x, double y) const { return {width_cm * x_.share(x), height_cm * y_.share(y)}; }
 

@@ -161,7 +161,7 @@ void add_names(figure::Panel& panel, const std::vector<NamedPlace>& places) {
     const auto best = ranges::max_element(about, {}, room_for_text);
     panel.lines.push_back({.x = {place.x, best->x}, .y = {place.y, best->y}, .width_pt = 0.3});
     panel.marks.push_back({.x = best->x, .y = best->y, .label = place.name, .colour = figure::colours::black});
-    for (const double off : {-half_cm, 0.0, half_cm}) others.add({best->at.x + off, best->at.y});
+    for (const double part : {-1.0, -0.5, 0.0, 0.5, 1.0}) others.add({best->at.x + part * half_cm, best->at.y});
   }
 }
 

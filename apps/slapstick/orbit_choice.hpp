@@ -18,6 +18,9 @@ struct OrbitOptions {
   double seconds = 0.0;       ///< --seconds; 0: ten, or with --starts no limit
 
   void declare(Arguments& arguments);
+  void declare_choice(Arguments& arguments);  ///< the same without --transient
+  /// Does an option say which orbit is meant?
+  [[nodiscard]] bool any() const { return !orbit.empty() || stable || unstable || symmetric || nearest; }
   /// What the library is asked for. @throws InputError for options that exclude one another
   [[nodiscard]] orbit::OrbitWish wish() const;
 };

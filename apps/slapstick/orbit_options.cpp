@@ -51,7 +51,8 @@ Json solution_json(const orbit::Solution& solution) {
   for (const auto& multiplier : solution.multipliers)
     multipliers.push(Json::list(std::vector<double>{multiplier.real(), multiplier.imag()}));
   json.set("class", solution.label);
-  if (solution.orbit.shape.n > 0) json.set("n", solution.orbit.shape.n);
+  const orbit::Itinerary& shape = solution.orbit.shape;
+  json.set("n", shape.n > 0 ? shape.n : orbit::returns(shape));
   json.set("p", solution.chatter ? Json("inf") : Json(solution.impacts)).set("sticking", solution.sticking);
   if (!solution.isolated()) json.set("family", solution.family);
   json.set("stable", solution.stable()).set("period", solution.cycle).set("multipliers", std::move(multipliers));

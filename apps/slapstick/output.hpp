@@ -9,6 +9,7 @@
 
 #include "figure/figure.hpp"
 #include "io/atomic_file.hpp"
+#include "table_facts.hpp"
 
 namespace slapstick::app {
 
@@ -29,11 +30,15 @@ class Output {
   std::optional<AtomicFile> file_;
 };
 
-/// A CSV table of numbers and names on an Output. Names are model names or fixed words: they need no quotes. The header
-/// goes out with the first row or with `commit`: a table that is given up leaves nothing on standard output.
+/// A table of numbers and names on an Output: as .npz or .h5 where the path ends so, else as CSV. Names are model names
+/// or fixed words: in CSV they need no quotes. The header of CSV goes out with the first row or with `commit`: a table
+/// that is given up leaves nothing on standard output. The other formats are written by `commit`, and until then take 8
+/// bytes a number and 1 a name.
 class TableOutput {
  public:
-  TableOutput(const std::string& path, const std::vector<std::string>& columns);
+  /// @param facts  what formats say that have a place for it; CSV has none
+  /// @throws InputError for the ending of another format, StorageError if it cannot be written
+  TableOutput(const std::string& path, const std::vector<std::string>& columns, const TableFacts& facts = {});
   TableOutput& number(double value);
   TableOutput& word(std::string_view text);
   TableOutput& numbers(std::span<const double> values);
@@ -45,26 +50,38 @@ class TableOutput {
 
   Output output_;
   std::string header_, row_;
+  std::optional<ColumnTable> columns_;
+  bool hdf5_ = false;
 };
+
+/// Whether a path ends as a table's file does that is no CSV.
+[[nodiscard]] bool is_column_file(const std::string& path);
 
 /// --plot F.png: the picture, with its script and data beside it.
 class Plot {
  public:
-  /// @param path empty: no plot. @throws InputError unless it ends in .png, .pdf or .svg; StorageError if it cannot be
-  /// written
-  explicit Plot(const std::string& path);
+  /// @param path empty: no plot
+  /// @param size "", "85mm" or "85x60mm" (also cm, in): the picture's width, and its height
+  /// @throws InputError unless the path ends in .png, .pdf, .svg, .tex or .py, and for a size that is none;
+  /// StorageError if it cannot be written
+  explicit Plot(const std::string& path, const std::string& size = {});
   [[nodiscard]] bool wanted() const { return !stem_.empty(); }
   /// @throws StorageError
-  void write(const figure::Figure& figure) const;
+  void write(figure::Figure figure) const;
   /// The same, or a line on standard error if the figure is empty. `status`: the exit status so far.
   /// @returns the exit status: `nothing_to_draw` for a picture that was wanted and is not made, if nothing worse
   /// happened
-  [[nodiscard]] int write_or_say(const figure::Figure& figure, bool empty, int status) const;
+  [[nodiscard]] int write_or_say(figure::Figure figure, bool empty, int status) const;
 
  private:
   std::filesystem::path stem_;
+  std::string beside_;
   figure::Formats formats_;
+  std::optional<double> width_cm_, height_cm_;
 };
+
+/// --plot-size
+void declare_plot_size(Arguments& arguments, std::string& target);
 
 /// Refuses a command line on which two roles name one file. Empty paths are ignored.
 class FileRoles {

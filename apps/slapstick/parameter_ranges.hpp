@@ -14,7 +14,9 @@ struct Sweep {
   double from = 0.0, to = 0.0;
   int count = 0;
 };
-/// Reads "NAME=A:B:COUNT", A < B, COUNT at least 2. @throws InputError naming --sweep
+/// The most values of a sweep: all of them are kept until the end.
+inline constexpr int most_values = 10'000'000;
+/// Reads "NAME=A:B:COUNT", A < B, COUNT from 2 to `most_values`. @throws InputError naming --sweep
 [[nodiscard]] Sweep parse_sweep(const std::string& text);
 
 /// Reads "A,B": two different names. @throws InputError naming --params

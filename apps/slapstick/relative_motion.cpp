@@ -7,6 +7,7 @@
 #include "axis_text.hpp"
 
 namespace slapstick::app {
+
 std::pair<int, int> sides_of(
     const Model& model,
     int contact) {  // stops first, then friction contacts, then compliant stops, then characteristics
@@ -20,6 +21,17 @@ std::pair<int, int> sides_of(
   return of(model.characteristics.at(index - model.compliant_stops.size()));
 }
 
+std::vector<double> limits_of(const Model& model, int a, int b) {
+  std::vector<double> limits;
+  const auto note = [&](const auto& stop) {
+    if (stop.a == a && stop.b == b) limits.push_back(stop.clearance);
+    if (stop.a == b && stop.b == a) limits.push_back(-stop.clearance);
+  };
+  for (const auto& stop : model.stops) note(stop);
+  for (const auto& stop : model.compliant_stops) note(stop);
+  return limits;
+}
+
 RelativeMotion::RelativeMotion(const Model& model, int contact) {
   if (contact >= 0) std::tie(a, b) = sides_of(model, contact);
   if (a == ground) std::swap(a, b);
@@ -29,12 +41,7 @@ RelativeMotion::RelativeMotion(const Model& model, int contact) {
   };
   displacement = name(a, 0) + (b == ground ? "" : " \u2212 " + name(b, 0));
   velocity = name(a, 1) + (b == ground ? "" : " \u2212 " + name(b, 1));
-  const auto note = [&](const auto& stop) {
-    if (stop.a == a && stop.b == b) limits.push_back(stop.clearance);
-    if (stop.a == b && stop.b == a) limits.push_back(-stop.clearance);
-  };
-  for (const auto& stop : model.stops) note(stop);
-  for (const auto& stop : model.compliant_stops) note(stop);
+  limits = limits_of(model, a, b);
 }
 
 }  // namespace slapstick::app

@@ -11,6 +11,9 @@ namespace slapstick::app {
 /// The two sides of a contact, as System::contact_name counts.
 [[nodiscard]] std::pair<int, int> sides_of(const Model& model, int contact);
 
+/// The displacements x_a - x_b at which a stop, rigid or compliant, of this pair touches.
+[[nodiscard]] std::vector<double> limits_of(const Model& model, int a, int b);
+
 /// A contact with the ground shows the coordinate itself.
 struct RelativeMotion {
   /// @param contact  as System::contact_name counts; -1: the model has no contact, the first coordinate is shown

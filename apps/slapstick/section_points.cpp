@@ -11,6 +11,7 @@
 #include "event_options.hpp"
 #include "progress.hpp"
 #include "relative_motion.hpp"
+#include "span_options.hpp"
 #include "slapstick/base/error.hpp"
 #include "section/creep_watch.hpp"
 #include "section/run_impacts.hpp"
@@ -34,8 +35,9 @@ void say_creep(const CreepWatch& watch, const Model& model) {
 class ImpactPoints {
  public:
   ImpactPoints(const PoincareOptions& options, const System& system, const StopChoice& stops, TableOutput& table,
-               const AxisUnits& units)
+               const AxisUnits& units, PointQuantities& of)
       : options_(options),
+        of_(of),
         system_(system),
         table_(table),
         units_(units),
@@ -54,7 +56,7 @@ class ImpactPoints {
       end = std::min(last, Instant{now.period + options_.patience, now.fraction});
       const long long before = found_.points;
       found_.whole = run_impacts(section, end, &context.stop, [&](const SectionPoint& point) {
-        note(point);
+        note(point, section.motion());
         now = point.time;
         progress.update(static_cast<double>(found_.points));
         return found_.points < options_.points;
@@ -68,19 +70,23 @@ class ImpactPoints {
     const std::string unit = units_.speed(chosen_stops(model, stops_));
     found_.panel.x_label = model.forced() ? "phase of the forcing / 2π" : with_unit(w, unit);
     found_.panel.y_label = with_unit(model.forced() ? w : w + " after it", unit);
+    of_.label(found_.panel);
     found_.panel.points = clouds_.points();
+    found_.map = !model.forced();
     return std::move(found_);
   }
 
  private:
-  void note(const SectionPoint& point) {
+  void note(const SectionPoint& point, const Motion& motion) {
     table_.number(point.time.seconds(system_.period())).number(point.phase).number(point.w);
     table_.number(point.flight).number(point.sliding).numbers(point.state);
     if (several_stops(system_.model())) table_.word(stop_name(system_.model(), point.contact));
-    table_.end_row();
+    const std::vector<double>& values = of_.before(motion);
+    table_.numbers(values).end_row();
     ++found_.points;
     watch_.add(point.state);
     if (options_.plot.empty()) return;
+    if (of_.are_axes()) return clouds_.add(point.contact, values[0], values[1]);
     if (system_.model().forced()) return clouds_.add(point.contact, point.phase, point.w);
     if (!std::isnan(w_before_)) clouds_.add(point.contact, w_before_, point.w);  // without a phase: the return map
     w_before_ = point.w;
@@ -99,6 +105,7 @@ class ImpactPoints {
   }
 
   const PoincareOptions& options_;
+  PointQuantities& of_;
   const System& system_;
   TableOutput& table_;
   const AxisUnits& units_;
@@ -111,18 +118,29 @@ class ImpactPoints {
 
 }  // namespace
 
+PointQuantities::PointQuantities(const std::string& of, const ChosenModel& chosen, const System& system)
+    : reader_(system, functions_of_time("--of", of, chosen)) {}
+
+void PointQuantities::label(figure::Panel& panel) const {
+  if (!are_axes()) return;
+  panel.x_label = with_unit(axis_text(of()[0].name), of()[0].unit);
+  panel.y_label = with_unit(axis_text(of()[1].name), of()[1].unit);
+  panel.marks.clear();
+}
+
 Found impact_points(const PoincareOptions& options, const StopChoice& stops, Motion motion, TableOutput& table,
-                    const AxisUnits& units, const Context& context) {
-  return ImpactPoints(options, motion.system(), stops, table, units)(std::move(motion), context);
+                    const AxisUnits& units, PointQuantities& of, const Context& context) {
+  return ImpactPoints(options, motion.system(), stops, table, units, of)(std::move(motion), context);
 }
 
 Found strobe_points(const PoincareOptions& options, const StopChoice& stops, Motion motion, TableOutput& table,
-                    const AxisUnits& units, const Context& context) {
+                    const AxisUnits& units, PointQuantities& of, const Context& context) {
   const System& system = motion.system();
   const RelativeMotion relative(system.model(), shown_contact(system.model(), stops));
   Found found{.panel = {.x_label = with_unit(relative.displacement, units.displacement(relative.a, relative.b)),
                         .y_label = with_unit(relative.velocity, units.velocity(relative.a, relative.b))}};
   for (const double limit : relative.limits) found.panel.marks.push_back({.x = limit});
+  of.label(found.panel);
   figure::Points cloud;
   Progress progress("points", static_cast<double>(options.points), options.progress);
   StroboscopicSection section(std::move(motion), options.phase);
@@ -133,12 +151,13 @@ Found strobe_points(const PoincareOptions& options, const StopChoice& stops, Mot
     if (!found.whole) break;
     if (i < options.transient) continue;
     table.number(point.time.seconds(system.period())).number(point.time.fraction);
-    table.numbers(point.state).word(system.mode_name(point.mode)).end_row();
+    const std::vector<double>& values = of.now(section.motion());
+    table.numbers(point.state).word(system.mode_name(point.mode)).numbers(values).end_row();
     ++found.points;
     watch.add(point.state);
     if (!options.plot.empty()) {
-      cloud.x.push_back(relative.y(point.state));
-      cloud.y.push_back(relative.w(point.state));
+      cloud.x.push_back(of.are_axes() ? values[0] : relative.y(point.state));
+      cloud.y.push_back(of.are_axes() ? values[1] : relative.w(point.state));
     }
     progress.update(static_cast<double>(found.points));
   }
@@ -153,22 +172,27 @@ double mapped(Mapped quantity, const RelativeMotion& relative, const EventPoint&
   return quantity == Mapped::w ? point.w : point.return_time;
 }
 
-/// The picture is the return map: each point against the next.
-Found event_points(const PoincareOptions& options, const EventChoice& events, Motion motion, TableOutput& table,
-                   const AxisUnits& units, const Context& context) {
-  const System& system = motion.system();
-  const Model& model = system.model();
-  const RelativeMotion relative(model, mapped_contact(events, model));
-  const Mapped quantity = mapped_quantity(events, model);
-  const std::string kind(name(events.kind));
+/// The axes of the return map of a kind of event.
+figure::Panel map_axes(std::string_view kind, Mapped quantity, const RelativeMotion& relative, const AxisUnits& units) {
   const std::string label = quantity == Mapped::displacement ? relative.displacement
                             : quantity == Mapped::w          ? "w"
                                                              : "return time";
   const std::string unit = quantity == Mapped::displacement ? units.displacement(relative.a, relative.b)
                            : quantity == Mapped::w          ? units.velocity(relative.a, relative.b)
                                                             : units.time();
-  Found found{.panel = {.x_label = with_unit(label + " at " + axis_text(kind) + " k", unit),
-                        .y_label = with_unit(label + " at " + axis_text(kind) + " k + 1", unit)}};
+  const std::string at = label + " at " + axis_text(std::string(kind));
+  return {.x_label = with_unit(at + " k", unit), .y_label = with_unit(at + " k + 1", unit)};
+}
+
+/// The picture is the return map: each point against the next.
+Found event_points(const PoincareOptions& options, const EventChoice& events, Motion motion, TableOutput& table,
+                   const AxisUnits& units, PointQuantities& of, const Context& context) {
+  const System& system = motion.system();
+  const Model& model = system.model();
+  const RelativeMotion relative(model, mapped_contact(events, model));
+  const Mapped quantity = mapped_quantity(events, model);
+  Found found{.panel = map_axes(name(events.kind), quantity, relative, units)};
+  of.label(found.panel);
   figure::Points cloud;
   Progress progress("points", static_cast<double>(options.points), options.progress);
   found.whole = run_to(motion, {options.transient, 0.0}, &context.stop, [] {});
@@ -183,8 +207,10 @@ Found event_points(const PoincareOptions& options, const EventChoice& events, Mo
       break;
     }
     table.number(point.time.seconds(system.period())).number(point.return_time).number(point.w);
-    table.numbers(point.state).word(system.contact_name(point.contact)).end_row();
-    const double now_mapped = mapped(quantity, relative, point);
+    const std::vector<double>& values = of.before(section.motion());
+    table.numbers(point.state).word(system.contact_name(point.contact)).numbers(values).end_row();
+    const double now_mapped = of.are_axes() ? values[1] : mapped(quantity, relative, point);
+    if (of.are_axes()) before = values[0];
     if (!options.plot.empty() && !std::isnan(before)) {
       cloud.x.push_back(before);
       cloud.y.push_back(now_mapped);
@@ -193,6 +219,7 @@ Found event_points(const PoincareOptions& options, const EventChoice& events, Mo
     ++found.points;
     progress.update(static_cast<double>(found.points));
   }
+  found.map = !of.are_axes();
   const std::string in =
       " in " + std::to_string(section.motion().time().period - options.transient) + " periods after the transient";
   if (found.whole && found.points == 0)

@@ -23,12 +23,15 @@ void SpanOptions::declare(Arguments& arguments) {
   arguments.count("--transient", transient, 0, 1'000'000'000, "forcing periods to leave out first (500)");
   arguments.count("--periods", periods, 1, 1'000'000'000, "measure over so many forcing periods instead of a cycle");
   arguments.number("--time", time, "T", "the same by a time in the model's unit");
+  orbit.declare_choice(arguments);
   arguments.text("--out", out, "FILE", "write there instead of to standard output");
 }
 
 void SpanOptions::check() const {
   if (periods > 0 && time != 0.0) throw InputError("--time and --periods both give the length: choose one");
   if (time < 0.0) throw InputError("--time: " + shown(time) + " is negative");
+  if (orbit.any() && (periods > 0 || time > 0.0))
+    throw InputError(std::string(time > 0.0 ? "--time" : "--periods") + ": a periodic orbit is measured over its own cycle");
   if (of.empty()) throw InputError("--of is needed: the name of a quantity ('slapstick quantities MODEL' lists them)");
 }
 
@@ -37,9 +40,16 @@ std::optional<Span> SpanOptions::span(const ChosenModel& chosen, long long inste
   SpanWish wish{static_cast<long>(transient), static_cast<double>(periods), static_cast<double>(instead), &context.stop};
   if (time > 0.0) wish.periods = time / chosen.model.forcing_period();
   const double length = wish.periods > 0.0 ? wish.periods : wish.instead;
+  if (orbit.any()) wish.periods = 1.0;  // not measured
   const System system =
       affordable_system(chosen, {static_cast<double>(transient) + length, time > 0.0 ? "--time" : "--periods"});
-  return find_span(chosen.definition, chosen.overrides, system, start, wish);
+  if (!orbit.any()) return find_span(chosen.definition, chosen.overrides, system, start, wish);
+  OrbitOptions meant = orbit;
+  meant.transient = transient;
+  Span span;
+  span.problem = orbit::pose(chosen.definition.family({}, chosen.overrides), {});
+  span.cycle = std::move(find_orbit(*span.problem, system, start, meant, context.stop).orbit);
+  return span;
 }
 
 std::vector<Wanted> parse_wanted(const std::string& argument, const std::string& text, const std::vector<Quantity>& all) {
@@ -55,6 +65,26 @@ std::vector<Wanted> parse_wanted(const std::string& argument, const std::string&
     throw InputError(argument + ": " + error.message());
   }
   return wanted;
+}
+
+std::vector<Quantity> functions_of_time(const std::string& argument, const std::string& text, const ChosenModel& chosen) {
+  std::vector<Quantity> of;
+  if (text.empty()) return of;
+  for (const Wanted& one : parse_wanted(argument, text, quantities(chosen.definition, chosen.overrides))) {
+    const std::string& name = one.quantity.name;
+    if (!one.statistic.empty()) throw InputError(argument + ": " + in_quotes(name + ":" + one.statistic) + ": values are wanted, not statistics");
+    if (one.quantity.at_impacts()) throw InputError(argument + ": " + in_quotes(name) + " is a quantity at impacts: no function of time");
+    of.push_back(one.quantity);
+  }
+  return of;
+}
+
+void declare_of(Arguments& arguments, std::string& of) {
+  arguments.text("--of", of, "Q[:STAT],..", "statistics of quantities over the cycle, as `measure` gives them");
+}
+
+std::vector<Wanted> parse_of(const std::string& of, const ChosenModel& chosen) {
+  return of.empty() ? std::vector<Wanted>{} : parse_wanted("--of", of, quantities(chosen.definition, chosen.overrides));
 }
 
 }  // namespace slapstick::app

@@ -1,12 +1,13 @@
 #pragma once
-/// Over what `measure` and `spectrum` take a quantity: the cycle that the motion settles on, or a time after a
-/// transient.
+/// Over what `measure` and `spectrum` take a quantity: the cycle that the motion settles on, a periodic orbit that the
+/// options of orbit_choice.hpp say, or a time after a transient.
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "io/json.hpp"
 #include "model_options.hpp"
+#include "orbit_choice.hpp"
 #include "slapstick/quantity/span.hpp"
 #include "verb.hpp"
 
@@ -17,6 +18,7 @@ namespace slapstick::app {
 
 struct SpanOptions {
   ModelOptions model;
+  OrbitOptions orbit;
   std::string of;  ///< --of
   long long transient = 500, periods = 0;
   double time = 0.0;
@@ -24,10 +26,12 @@ struct SpanOptions {
   bool progress = false;
 
   void declare(Arguments& arguments);
-  /// @throws InputError for --periods and --time together
+  /// @throws InputError for two lengths, or a length and an orbit
   void check() const;
-  /// Without --periods and --time the cycle, or where there is none `instead` periods.
-  /// @returns nothing if it was stopped. @throws InputError, NumericalError as orbit::settle and Motion::advance
+  /// The orbit that is meant; without one and without --periods and --time the cycle, or where there is none `instead`
+  /// periods.
+  /// @returns nothing if it was stopped. @throws InputError, NumericalError as orbit::find_orbit, orbit::settle and
+  /// Motion::advance
   [[nodiscard]] std::optional<Span> span(const ChosenModel& chosen, long long instead, const Context& context) const;
 };
 
@@ -40,5 +44,13 @@ struct Wanted {
 /// Reads "Q[:STAT],..". @throws InputError naming the argument
 [[nodiscard]] std::vector<Wanted> parse_wanted(const std::string& argument, const std::string& text,
                                                const std::vector<Quantity>& all);
+
+/// Reads "Q,..": quantities that have a value at every instant; "" is none. @throws InputError naming the argument
+[[nodiscard]] std::vector<Quantity> functions_of_time(const std::string& argument, const std::string& text,
+                                                      const ChosenModel& chosen);
+
+/// --of of a verb that may go without, and what it says. @throws InputError naming --of
+void declare_of(Arguments& arguments, std::string& of);
+[[nodiscard]] std::vector<Wanted> parse_of(const std::string& of, const ChosenModel& chosen);
 
 }  // namespace slapstick::app

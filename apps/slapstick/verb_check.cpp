@@ -57,11 +57,15 @@ Action add_check(Arguments& arguments) {
         .set("compliant_stops", chosen.model.compliant_stops.size())
         .set("frictions", chosen.model.frictions.size())
         .set("characteristics", chosen.model.characteristics.size());
-    Json feeds = Json::list();
+    Json feeds = Json::list(), falls = Json::list(), laid = Json::object();
     for (const std::string& part : energy_sources(chosen.model)) feeds.push(part);
+    for (const std::string& part : falling_forces(chosen.model)) falls.push(part);
+    for (const LaidLaw& law : chosen.definition.laid_laws(chosen.overrides)) laid.set(law.friction, law.largest_error);
     result.set("period", chosen.model.forcing_period())
         .set("forced", chosen.model.forced())
         .set("feeds_energy", std::move(feeds))
+        .set("falling_forces", std::move(falls))
+        .set("laid_errors", std::move(laid))
         .set("parameters", std::move(parameters))
         .set("units", units(chosen))
         .set("natural_modes", natural(system, start));

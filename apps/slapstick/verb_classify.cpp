@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "io/json.hpp"
+#include "measured_json.hpp"
 #include "model_options.hpp"
 #include "output.hpp"
 #include "progress.hpp"
@@ -16,7 +17,7 @@ namespace {
 struct Options {
   ModelOptions model;
   StopOptions stops;
-  std::string out;
+  std::string of, out;
   long long transient = 500, most_periods = 20'000, most_n = 64, exponent_periods = 4000, quick = 0;
   bool progress = false;
 };
@@ -44,13 +45,17 @@ Json impacts_json(const std::vector<CycleImpact>& impacts, const Model& model) {
   return list;
 }
 
+Json complex_json(const std::vector<std::complex<double>>& numbers) {
+  Json list = Json::list();
+  for (const auto& number : numbers) list.push(Json::list(std::vector<double>{number.real(), number.imag()}));
+  return list;
+}
+
 Json cycle_json(const Classification& found, Json json, const Model& model) {
   json.set("n", found.n);
   json.set("p", found.chatter == Chatter::complete ? Json("inf") : Json(found.p));
-  Json multipliers = Json::list();
-  for (const auto& multiplier : found.multipliers)
-    multipliers.push(Json::list(std::vector<double>{multiplier.real(), multiplier.imag()}));
-  json.set("sticking_fraction", found.sticking_fraction).set("multipliers", std::move(multipliers));
+  if (found.label.starts_with("free")) json.set("period", found.period);
+  json.set("sticking_fraction", found.sticking_fraction).set("multipliers", complex_json(found.multipliers));
   json.set("return_distance", found.return_distance)
       .set("approach", found.approach)
       .set("impacts", impacts_json(found.impacts, model));
@@ -58,6 +63,11 @@ Json cycle_json(const Classification& found, Json json, const Model& model) {
 }
 
 bool is_cycle(const Classification& found) { return found.n > 0; }
+
+/// At rest, or on a closed curve of the linear motion about a state of rest: known by eigenvalues.
+bool is_at_rest(const Classification& found) {
+  return found.attractor == Attractor::equilibrium || !found.eigenvalues.empty();
+}
 
 /// What is missing for a class, and the option that would decide.
 std::string missing(const Classification& found, const Options& options) {
@@ -78,6 +88,8 @@ std::string missing(const Classification& found, const Options& options) {
       return "the motion repeats itself, but not within the longest cycle that was sought" + decides;
     case Doubt::exponent:
       return "exponent, averages and rotation number do not agree on a kind: a longer run tells" + decides;
+    case Doubt::no_return:
+      return "the motion has no more events and comes to no rest: it grows, or goes away for ever";
   }
   return {};
 }
@@ -92,9 +104,12 @@ Json result_json(const Classification& found, const Options& options, const Chos
   json.set("sticking", found.sticking).set("chatter", std::string(name(found.chatter)));
   if (is_cycle(found)) json = cycle_json(found, std::move(json), chosen.model);
   if (found.family > 0) json.set("family", found.family);
-  const bool averaged = is_cycle(found) || options.quick == 0;
-  if (averaged) json.set("exponent", found.exponent);
-  if (averaged && !is_cycle(found)) json.set("exponent_error", found.exponent_error).set("birkhoff_digits", found.digits);
+  if (is_at_rest(found)) json.set("eigenvalues", complex_json(found.eigenvalues)).set("approach", found.approach);
+  const bool averaged =
+      !is_cycle(found) && !is_at_rest(found) && options.quick == 0 && found.doubt != Doubt::no_return;
+  const bool rest_rate = is_at_rest(found) && (found.sticking || !found.eigenvalues.empty());
+  if (averaged || is_cycle(found) || rest_rate) json.set("exponent", found.exponent);
+  if (averaged) json.set("exponent_error", found.exponent_error).set("birkhoff_digits", found.digits);
   if (found.curves > 0)
     json.set("rotation", found.rotation).set("rotation_digits", found.rotation_digits).set("curves", found.curves);
   if (found.doubt != Doubt::none) json.set("doubt", std::string(name(found.doubt))).set("missing", missing(found, options));
@@ -107,23 +122,39 @@ Json result_json(const Classification& found, const Options& options, const Chos
   return json;
 }
 
+/// --of: over the cycle, or where there is none over 1000 periods of the attractor. @returns false if it was stopped
+bool add_values(const std::vector<Wanted>& wanted, const Classification& found, const ChosenModel& chosen,
+                const System& system, const Context& context, Json& json) {
+  SpanWish wish;
+  wish.transient = 0;
+  wish.stop = &context.stop;
+  const auto span = find_span(chosen.definition, chosen.overrides, system, found.state, wish);
+  if (!span) return false;
+  const Measured measured = measure(*span, quantities_of(wanted), &context.stop);
+  json.set("over", span_json(*span).set("time", measured.duration)).set("values", values_json(wanted, measured));
+  json.set("units", units_json(wanted));
+  return measured.complete;
+}
+
 void declare(Arguments& arguments, Options* options) {
   options->model.declare(arguments);
   options->model.declare_state(arguments);
-  arguments.count("--transient", options->transient, 0, 1'000'000'000, "forcing periods to leave out first (500)");
+  arguments.count("--transient", options->transient, 0, 1'000'000'000, "forcing periods to leave out first (500); of a motion without a drive its returns");
   arguments.count("--most-periods", options->most_periods, 10, 1'000'000'000, "search for a cycle this long (20000)");
-  arguments.count("--most-n", options->most_n, 1, 4096, "longest cycle sought, in forcing periods (64)");
+  arguments.count("--most-n", options->most_n, 1, 4096, "longest cycle sought, in forcing periods or returns (64)");
   arguments.count("--exponent-periods", options->exponent_periods, 400, 100'000'000,
                   "length of the run from which exponent, averages and rotation number are taken (4000)");
   arguments.count("--quick", options->quick, 20, 1'000'000'000,
                   "look at so many periods only, half of them transient: a cycle that Newton's method confirms, or "
                   "undecided");
   options->stops.declare(arguments, "count and list the impacts of this stop only; may be repeated (all)");
+  declare_of(arguments, options->of);
   arguments.text("--out", options->out, "FILE", "write the JSON there instead of to standard output");
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
       "The class n-p-I or n-p-II: n forcing periods, p impacts (inf with complete chatter), II if the blocks stick.\n"
       "A compliant stop counts by its engagements.\n"
+      "Without a drive a motion comes to rest (equilibrium), or to a cycle free-p-I or free-p-II; periods are returns.\n"
       "A motion without a cycle is quasi-periodic, chaotic or undecided; docs/classify.md says how that is decided.\n"
       "  slapstick classify vibro-impact --set omega=1.5");
 }
@@ -144,6 +175,7 @@ Action add_classify(Arguments& arguments) {
     const ChosenModel chosen = options->model.load();
     const StopChoice stops = options->stops.choice(chosen.model);
     const State start = options->model.start(chosen);
+    const std::vector<Wanted> wanted = parse_of(options->of, chosen);
     constexpr double least_search = 10.0;  // periods
     const System system =
         affordable_system(chosen, {static_cast<double>(options->transient) + least_search, "--transient"});
@@ -160,7 +192,9 @@ Action add_classify(Arguments& arguments) {
                                      ? classify_quickly(system, start, static_cast<int>(options->quick), how)
                                      : classify(system, start, how);
     if (found.interrupted) return interrupted;
-    out.write(result_json(found, *options, chosen).dump() + "\n");
+    Json json = result_json(found, *options, chosen);
+    if (!wanted.empty() && !add_values(wanted, found, chosen, system, context, json)) return interrupted;
+    out.write(json.dump() + "\n");
     out.commit();
     return done;
   };

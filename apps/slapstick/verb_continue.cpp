@@ -13,6 +13,7 @@
 #include "measured_diagram.hpp"
 #include "orbit_choice.hpp"
 #include "orbit_options.hpp"
+#include "orbit_tables.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "settled_motions.hpp"
@@ -28,7 +29,7 @@ namespace {
 struct Options {
   ModelOptions model;
   OrbitOptions orbit;
-  std::string parameter, range, y, out, plot;
+  std::string parameter, range, y, out, plot, plot_size, plot_range;
   std::vector<std::string> sensitivity;
   long long points = 2000, branches = 1, diagram = 0;
   double step = 0.01;
@@ -153,6 +154,8 @@ Json branch_json(const Described& with, const Whole& whole) {
 void check(const Options& options, const ChosenModel& chosen) {
   if (!(options.step > 0.0 && options.step <= 0.2))
     throw InputError("--step: " + shown(options.step) + " is outside (0, 0.2]");
+  if (!options.plot_range.empty() && options.plot.empty())
+    throw InputError("--plot-range: it is for the picture of --plot, which is not given");
   if (options.diagram == 1) throw InputError("--diagram: a range has two ends; 1 is too few values");
   if (!options.y.empty() && options.table) throw InputError("--y: the JSON has its values, and --table asks for none");
   if (!options.y.empty() && options.diagram > 0)
@@ -197,6 +200,24 @@ void write(Output& out, const std::vector<orbit::Branch>& branches, const Lineag
   out.commit();
 }
 
+/// What --y asks for, as columns.
+MoreColumns more_columns(const orbit::Problem& problem, const std::vector<Wanted>& wanted) {
+  MoreColumns more;
+  std::vector<Quantity> of;
+  for (const Wanted& one : wanted) {
+    more.names.push_back(one.quantity.name + ":" + one.statistic);
+    of.push_back(one.quantity);
+  }
+  if (wanted.empty()) return more;
+  more.values = [&problem, wanted, of](const orbit::Solution& solution) {
+    const Measured found = measure(problem, solution.orbit, of);
+    std::vector<double> values;
+    for (std::size_t k = 0; k < wanted.size(); ++k) values.push_back(statistic(found.of[k], wanted[k].statistic));
+    return values;
+  };
+  return more;
+}
+
 /// The picture, over the motions that settle if --diagram asks for them.
 void draw(const Plot& plot, const std::vector<orbit::Branch>& branches, const ChosenModel& chosen,
           const orbit::Problem& problem, const Options& options, const std::atomic<bool>& stop) {
@@ -218,6 +239,11 @@ void draw(const Plot& plot, const std::vector<orbit::Branch>& branches, const Ch
   const AxisUnits units(chosen.definition, chosen.model);
   BranchAxes axes{parameter_axis(chosen.definition, options.parameter), range,
                   units.speed(stop_contacts(chosen.model)), units.displacement(0, ground)};
+  if (!options.plot_range.empty()) {
+    const std::size_t comma = options.plot_range.find(',');
+    axes.range = parse_range("--plot-range", options.plot_range.substr(0, comma));
+    if (comma != std::string::npos) axes.y_range = parse_range("--plot-range", options.plot_range.substr(comma + 1));
+  }
   if (!options.y.empty()) {
     const Wanted shown = parse_statistics("--y", options.y, chosen).front();
     axes.y_label = statistic_axis(shown);
@@ -233,8 +259,10 @@ int run(const Options& options, const Context& context) {
   roles.add("MODEL", options.model.source);
   roles.add("--out", options.out);
   roles.add_plot(options.plot);
-  Output out(options.out);
-  const Plot plot(options.plot);
+  const bool file = is_table_file(options.out) && !options.table;
+  if (file) const AtomicFile writable(options.out);  // goes away without a trace
+  Output out(file ? "" : options.out);
+  const Plot plot(options.plot, options.plot_size);
   const ChosenModel chosen = options.model.load();
   const ParameterRange range = parse_range("--range", options.range);
   const double value = value_inside(chosen, "--param", options.parameter, range);
@@ -250,7 +278,10 @@ int run(const Options& options, const Context& context) {
   how.progress = [&](double, long points) { progress.update(static_cast<double>(points)); };
   std::vector<orbit::Branch> branches = {orbit::follow(*problem, first.orbit, how)};
   const Lineage lineage = follow_born(*problem, branches, static_cast<std::size_t>(options.branches), how);
-  write(out, branches, lineage, chosen, {*problem, system, std::move(wanted)}, options);
+  if (file)
+    write_branches(options.out, branches, options.parameter, *problem, chosen, more_columns(*problem, wanted));
+  else
+    write(out, branches, lineage, chosen, {*problem, system, std::move(wanted)}, options);
   if (plot.wanted()) draw(plot, branches, chosen, *problem, options, context.stop);
   if (context.stop.load()) return interrupted;
   const auto failed = ranges::find_if(branches, &orbit::Branch::failed);
@@ -284,7 +315,11 @@ Action add_continue(Arguments& arguments) {
   arguments.text("--plot", options->plot, "F.png", "draw impact speeds along the branches (.png, .pdf or .svg)");
   arguments.count("--diagram", options->diagram, 0, 100'000,
                   "with --plot: draw the motions that settle at so many values beneath, as `diagram` finds them (0)");
-  arguments.text("--out", options->out, "FILE", "write the result there instead of to standard output");
+  arguments.text("--out", options->out, "FILE",
+                 "write the result there, or the orbits as a table (.csv, .npz, .h5), instead of to standard output");
+  declare_plot_size(arguments, options->plot_size);
+  arguments.text("--plot-range", options->plot_range, "A:B[,C:D]",
+                 "of the picture: the parameter, and the height (all that --range says, and all that there is)");
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
       "Special points: LP fold, PD period doubling, NS torus, BP branches cross, GR a stop is grazed, SL stick gained "

@@ -5,6 +5,7 @@
 #include "axis_units.hpp"
 #include "base/ranges.hpp"
 #include "contact_clouds.hpp"
+#include "fine_dots.hpp"
 #include "model_options.hpp"
 #include "output.hpp"
 #include "measured_diagram.hpp"
@@ -14,6 +15,7 @@
 #include "base/text.hpp"
 #include "slapstick/sweep/diagram.hpp"
 #include "stop_options.hpp"
+#include "values_diagram.hpp"
 #include "verb.hpp"
 #include "work.hpp"
 
@@ -25,7 +27,7 @@ using sweep::Direction;
 struct Options {
   ModelOptions model;
   StopOptions stops;
-  std::string sweep, direction = "up", start = "carry", y, out, plot;
+  std::string sweep, direction = "up", start = "carry", y, at, out, plot, plot_size;
   long long transient = 500, impacts = 200, most_periods = 5000, periods = 100, threads = 0;
   bool progress = false;
 };
@@ -42,10 +44,6 @@ void check_size(const Options& options, const Sweep& sweep) {
   constexpr double most = 1e8;
   const double rows = static_cast<double>(sweep.count) * static_cast<double>(options.impacts) *
                       (options.direction == "both" ? 2.0 : 1.0);
-  constexpr int most_values = 10'000'000;
-  if (sweep.count > most_values)
-    throw InputError("--sweep: " + std::to_string(sweep.count) + " values, more than the " +
-                     std::to_string(most_values) + " that one run keeps; sweep it in parts");
   if (rows > most)
     throw InputError("--sweep with --impacts " + std::to_string(options.impacts) + " may give " + shown(rows) +
                      " rows, more than the " + shown(most) + " that one run keeps; sweep it in parts");
@@ -78,7 +76,7 @@ sweep::DiagramProblem problem_of(const Options& options, const ChosenModel& chos
   problem.start_at = [&options, &chosen, sweep](double value) {
     return options.model.start(chosen, {{sweep.name, value}});
   };
-  if (options.y.empty()) problem.stops = options.stops.choice(chosen.model);
+  if (options.y.empty() || !are_statistics(options.y)) problem.stops = options.stops.choice(chosen.model);
   problem.measured_periods = static_cast<int>(options.periods);
   problem.from = sweep.from;
   problem.to = sweep.to;
@@ -108,32 +106,21 @@ void write_table(TableOutput& table, const sweep::Diagram& diagram, const Model&
   if (ranges::any_of(diagram.points, [](const auto& point) { return point.failure.empty(); })) table.commit();
 }
 
-/// Both directions: a colour each. One: a colour for each stop.
+/// A cloud for each stop and direction, with points. Of two directions the first is thicker: where both agree it shows
+/// as a rim around the second.
 std::vector<figure::Points> clouds(const sweep::Diagram& diagram, const Model& model,
                                    const sweep::DiagramProblem& problem, bool flight) {
-  figure::Points up{.label = "up", .colour = figure::colours::dark_blue};
-  figure::Points down{.label = "down", .colour = figure::colours::vermillion};
-  down.diameter_mm = 0.25, up.diameter_mm = 0.5;  // where both directions agree, up shows as a rim around down
-  ContactClouds stops(model, problem.stops, ContactClouds::Overlap::rims);
-  const bool both = problem.direction == Direction::both;
+  DirectedClouds all(model, problem.stops, problem.direction == Direction::both);
   for (const sweep::DiagramPoint& point : diagram.points) {
-    figure::Points& cloud = point.direction == Direction::up ? up : down;
     for (std::size_t i = 0; i < point.impacts.size(); ++i) {
       const auto row = point.impacts[i];
-      const double y = flight ? row.flight : row.w;
-      if (!both) {
-        stops.add(row.contact, point.parameter, y);
-        continue;
-      }
-      cloud.x.push_back(point.parameter);
-      cloud.y.push_back(y);
+      all.add(row.contact, point.direction == Direction::up, point.parameter, flight ? row.flight : row.w);
     }
   }
-  if (!both) return stops.points();
-  std::vector<figure::Points> filled;
-  for (auto& cloud : {up, down})
-    if (!cloud.x.empty()) filled.push_back(cloud);
-  return filled;
+  std::vector<figure::Points> points = all.points();
+  constexpr double largest_mm = 0.5;
+  make_dots_fine(points, largest_mm);
+  return points;
 }
 
 figure::Figure picture(const sweep::Diagram& diagram, const Sweep& sweep, const ChosenModel& chosen,
@@ -167,7 +154,7 @@ void report(const sweep::Diagram& diagram, const Sweep& sweep, const std::string
   for (const sweep::DiagramPoint& point : diagram.points) {
     if (!point.note.empty() && notes++ == 0) note = &point;
     if (!point.failure.empty() && failures++ == 0) failure = &point;
-    if (!point.done || !point.failure.empty() || point.impacts.size() > 0 || of_measures) continue;
+    if (!point.done || !point.failure.empty() || point.impacts.size() > 0 || !point.values.empty() || of_measures) continue;
     if (without == nullptr) without = &point;
     ++empty[point.direction == Direction::up ? 0 : 1];
   }
@@ -188,25 +175,42 @@ void report(const sweep::Diagram& diagram, const Sweep& sweep, const std::string
                          ", first " + at(*failure) + ": " + failure->failure);
 }
 
+sweep::Diagram run(sweep::DiagramProblem& problem, const Options& options, const Context& context) {
+  Progress progress("values", problem.count * (problem.direction == Direction::both ? 2.0 : 1.0), options.progress);
+  problem.progress = [&](int count, int) { progress.update(count); };
+  problem.cancel = &context.stop;
+  return sweep::run_diagram(problem);
+}
+
 /// --y: statistics instead of impacts.
 int measured(const Options& options, const ChosenModel& chosen, const Sweep& sweep, const Context& context) {
   const MeasuredDiagram about(chosen, options.y, sweep);
-  const Plot plot(options.plot);
-  TableOutput table(options.out, about.columns());
+  const Plot plot(options.plot, options.plot_size);
+  TableOutput table(options.out, about.columns(), table_facts(chosen, sweep.name));
   sweep::DiagramProblem problem = problem_of(options, chosen, sweep);
   problem.of = about.of();
-  sweep::Diagram result;
-  {
-    Progress progress("values", sweep.count * (problem.direction == Direction::both ? 2.0 : 1.0), options.progress);
-    problem.progress = [&](int count, int) { progress.update(count); };
-    problem.cancel = &context.stop;
-    result = sweep::run_diagram(problem);
-  }
+  const sweep::Diagram result = run(problem, options, context);
   about.write(result, table);
   const auto some = [](const sweep::DiagramPoint& point) { return !point.of.empty(); };
   const int status = plot.write_or_say(about.figure(result), ranges::none_of(result.points, some),
                                        result.complete ? done : interrupted);
   report(result, sweep, "", true);
+  return status;
+}
+
+/// --y without a statistic: values at instants.
+int values(const Options& options, const ChosenModel& chosen, const Sweep& sweep, const Context& context) {
+  const ValuesDiagram about(chosen, options.y, options.at, sweep);
+  const Plot plot(options.plot, options.plot_size);
+  TableOutput table(options.out, about.columns(), table_facts(chosen, sweep.name));
+  sweep::DiagramProblem problem = problem_of(options, chosen, sweep);
+  about.complete(problem);
+  const sweep::Diagram result = run(problem, options, context);
+  about.write(result, table);
+  const auto some = [](const sweep::DiagramPoint& point) { return !point.values.empty(); };
+  const int status = plot.write_or_say(about.figure(result), ranges::none_of(result.points, some),
+                                       result.complete ? done : interrupted);
+  report(result, sweep, about.noun());
   return status;
 }
 
@@ -219,21 +223,16 @@ int diagram(const Options& options, const Context& context) {
   roles.add("MODEL", options.model.source);
   roles.add("--out", options.out);
   roles.add_plot(options.plot);
-  if (!options.y.empty()) return measured(options, chosen, sweep, context);
-  const Plot plot(options.plot);
+  if (!options.y.empty())
+    return are_statistics(options.y) ? measured(options, chosen, sweep, context) : values(options, chosen, sweep, context);
+  const Plot plot(options.plot, options.plot_size);
   std::vector<std::string> columns{sweep.name, "direction", "w", "flight", "sliding", "phase"};
   for (const std::string& name : state_names(chosen.model)) columns.push_back(name);
   if (several_stops(chosen.model)) columns.emplace_back("contact");
-  TableOutput table(options.out, columns);
+  TableOutput table(options.out, columns, table_facts(chosen, sweep.name));
 
   sweep::DiagramProblem problem = problem_of(options, chosen, sweep);
-  sweep::Diagram result;
-  {
-    Progress progress("values", sweep.count * (problem.direction == Direction::both ? 2.0 : 1.0), options.progress);
-    problem.progress = [&](int count, int) { progress.update(count); };
-    problem.cancel = &context.stop;
-    result = sweep::run_diagram(problem);
-  }
+  const sweep::Diagram result = run(problem, options, context);
   write_table(table, result, chosen.model);
   bool any = false;
   for (const sweep::DiagramPoint& point : result.points) any = any || point.impacts.size() > 0;
@@ -241,6 +240,20 @@ int diagram(const Options& options, const Context& context) {
       plot.write_or_say(picture(result, sweep, chosen, problem), !any, result.complete ? done : interrupted);
   report(result, sweep, contact_noun(chosen.model, problem.stops));
   return status;
+}
+
+/// Options that have no meaning together.
+void check_words(const Options& options, const Arguments& arguments) {
+  if (!arguments.given("--sweep")) throw InputError("--sweep NAME=A:B:COUNT is required");
+  const bool statistics = !options.y.empty() && are_statistics(options.y);
+  for (const char* name : {"--impacts", "--most-periods", "--stop", "--at"})
+    if (statistics && arguments.given(name))
+      throw InputError(std::string(name) + ": it is for values at instants, and --y asks for statistics over --periods");
+  if (!statistics && arguments.given("--periods"))
+    throw InputError("--periods: it is for statistics of --y, and none is given");
+  if (options.y.empty() && arguments.given("--at")) throw InputError("--at: it is for --y, which is not given");
+  if (options.start == "reset" && options.direction == "both")
+    throw InputError("--direction both: with --start reset, up and down are the same; choose one, or --start carry");
 }
 
 }  // namespace
@@ -261,13 +274,18 @@ Action add_diagram(Arguments& arguments) {
   arguments.count("--most-periods", options->most_periods, 1, 1'000'000'000,
                   "end a recording here if impacts are rare (5000)");
   arguments.count("--threads", options->threads, 0, 1024, "0: all cores; the result is the same for any number (0)");
-  arguments.text("--y", options->y, "Q:STAT,..",
-                 "instead of impacts statistics of quantities over --periods, as `measure` gives them");
+  arguments.text("--y", options->y, "Q[:STAT],..",
+                 "instead of impacts statistics of quantities over --periods, as `measure` gives them; without STAT "
+                 "values at the instants of --at");
+  arguments.text("--at", options->at, "impact|period|EVENT",
+                 "of --y without STAT: before every impact, at phase 0 of every period, or before every event as stick "
+                 "or stick:belt (impact; without stops period)");
   arguments.count("--periods", options->periods, 1, 1'000'000'000, "of --y: forcing periods that are measured (100)");
   options->stops.declare(arguments, "record the impacts of this stop only; may be repeated (all)");
-  arguments.text("--out", options->out, "F.csv", "write the impacts there instead of to standard output");
+  arguments.text("--out", options->out, "F.csv", "write the impacts there (.csv, .npz or .h5) instead of to standard output");
   arguments.text("--plot", options->plot, "F.png",
                  "diagrams of w and flight: .png, .pdf or .svg; its data and script lie beside it");
+  declare_plot_size(arguments, options->plot_size);
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
       "Columns: the parameter, direction, w, flight, sliding, phase and the state just before each impact, with "
@@ -279,14 +297,7 @@ Action add_diagram(Arguments& arguments) {
       "Example:\n  slapstick diagram vibro-impact --sweep omega=4:6:1000 --direction both --plot diagram.png --out "
       "impacts.csv");
   return [options, &arguments](const Context& context) {
-    if (!arguments.given("--sweep")) throw InputError("--sweep NAME=A:B:COUNT is required");
-    for (const char* name : {"--impacts", "--most-periods", "--stop"})
-      if (!options->y.empty() && arguments.given(name))
-        throw InputError(std::string(name) + ": it is for impacts, and --y measures quantities");
-    if (options->y.empty() && arguments.given("--periods"))
-      throw InputError("--periods: it is for --y, which is not given");
-    if (options->start == "reset" && options->direction == "both")
-      throw InputError("--direction both: with --start reset, up and down are the same; choose one, or --start carry");
+    check_words(*options, arguments);
     return diagram(*options, context);
   };
 }

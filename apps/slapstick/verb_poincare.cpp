@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "event_options.hpp"
+#include "fine_dots.hpp"
 #include "model_options.hpp"
 #include "output.hpp"
 #include "section_points.hpp"
@@ -14,7 +15,7 @@
 namespace slapstick::app {
 namespace {
 
-std::vector<std::string> columns(const std::string& section, const Model& model) {
+std::vector<std::string> columns(const std::string& section, const Model& model, const std::vector<Quantity>& of) {
   const bool impacts = section == "impact", strobe = section == "stroboscopic";
   auto names = impacts  ? std::vector<std::string>{"time", "phase", "w", "flight", "sliding"}
                : strobe ? std::vector<std::string>{"time", "phase"}
@@ -22,6 +23,7 @@ std::vector<std::string> columns(const std::string& section, const Model& model)
   for (const std::string& name : state_names(model)) names.push_back(name);
   if (strobe) names.emplace_back("mode");
   if (section == "event" || (impacts && several_stops(model))) names.emplace_back("contact");
+  for (const Quantity& one : of) names.push_back(one.name);
   return names;
 }
 
@@ -39,11 +41,29 @@ std::optional<figure::Range> x_reach(const std::vector<figure::Points>& clouds) 
   return figure::Range{low - margin, high + margin};
 }
 
+/// A return map has equal axes and the diagonal, on which a point comes back to itself.
+void make_map(figure::Panel& panel, figure::Figure& figure) {
+  double low = INFINITY, high = -INFINITY;
+  for (const figure::Points& cloud : panel.points)
+    for (std::size_t i = 0; i < cloud.x.size(); ++i) {
+      low = std::min({low, cloud.x[i], cloud.y[i]});
+      high = std::max({high, cloud.x[i], cloud.y[i]});
+    }
+  const double margin = 0.04 * (high - low);
+  if (!(margin > 4e-8 * std::max(std::abs(low), std::abs(high)))) return;
+  panel.x_range = panel.y_range = figure::Range{low - margin, high + margin};
+  panel.lines.push_back({.x = {low - margin, high + margin}, .y = {low - margin, high + margin},
+                         .colour = figure::colours::grey, .dash = figure::Dash::dashed, .width_pt = 0.5});
+  figure.width_cm = 9.5;
+}
+
 /// The picture of the points.
-figure::Figure picture(figure::Panel panel) {
-  const auto reach = x_reach(panel.points);
-  if (reach) panel.x_range = reach;
+figure::Figure picture(Found found) {
+  figure::Panel panel = std::move(found.panel);
+  make_dots_fine(panel.points);
   figure::Figure figure{.width_cm = 12, .height_cm = 9};
+  if (const auto reach = x_reach(panel.points)) panel.x_range = reach;
+  if (found.map) make_map(panel, figure);
   figure.panels.push_back(std::move(panel));
   return figure;
 }
@@ -75,16 +95,17 @@ int poincare(const PoincareOptions& options, const Context& context) {
   const bool strobe = options.section == "stroboscopic";
   const double periods = static_cast<double>(options.transient + (strobe ? options.points : 1));
   const System system = affordable_system(chosen, {periods, strobe ? "--transient or --points" : "--transient"});
-  const Plot plot(options.plot);
+  const Plot plot(options.plot, options.plot_size);
   const EventChoice events = options.section == "event" ? event_choice(options.event, system) : EventChoice{};
-  TableOutput table(options.out, columns(options.section, chosen.model));
+  PointQuantities of(options.of, chosen, system);
+  TableOutput table(options.out, columns(options.section, chosen.model, of.of()), table_facts(chosen));
   const AxisUnits units(chosen.definition, chosen.model);
   Motion motion(system, start);
-  Found found = strobe                       ? strobe_points(options, stops, std::move(motion), table, units, context)
-                : options.section == "event" ? event_points(options, events, std::move(motion), table, units, context)
-                                             : impact_points(options, stops, std::move(motion), table, units, context);
+  Found found = strobe                       ? strobe_points(options, stops, std::move(motion), table, units, of, context)
+                : options.section == "event" ? event_points(options, events, std::move(motion), table, units, of, context)
+                                             : impact_points(options, stops, std::move(motion), table, units, of, context);
   if (found.points > 0) table.commit();
-  return plot.write_or_say(picture(std::move(found.panel)), found.points == 0, found.whole ? done : interrupted);
+  return plot.write_or_say(found.points > 0 ? picture(found) : figure::Figure{}, found.points == 0, found.whole ? done : interrupted);
 }
 
 }  // namespace
@@ -103,10 +124,13 @@ Action add_poincare(Arguments& arguments) {
   arguments.count("--points", options->points, 1, 1'000'000'000, "points to record (1000)");
   arguments.count("--most-periods", options->most_periods, 1, 1'000'000'000,
                   "end here if points are rare (1000000, and after 10000 without a point)");
+  arguments.text("--of", options->of, "Q,..",
+                 "quantities as further columns; two or more are the axes of the picture ('slapstick quantities MODEL')");
   options->stops.declare(arguments, "points are the impacts of this stop only; may be repeated (all)");
-  arguments.text("--out", options->out, "F.csv", "write the points there instead of to standard output");
+  arguments.text("--out", options->out, "F.csv", "write the points there (.csv, .npz or .h5) instead of to standard output");
   arguments.text("--plot", options->plot, "F.png",
                  "picture of the points: .png, .pdf or .svg; its data and script lie beside it");
+  declare_plot_size(arguments, options->plot_size);
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
       "Columns: time, phase, w, flight, sliding and the state just before each impact, with several stops also "

@@ -9,14 +9,19 @@
 #include "model_options.hpp"
 #include "motion_plot.hpp"
 #include "output.hpp"
+#include "parameter_ranges.hpp"
 #include "physical.hpp"
 #include "progress.hpp"
 #include "retrace.hpp"
+#include "run_up.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/flow/stage.hpp"
 #include "slapstick/io/observer.hpp"
+#include "slapstick/quantity/reader.hpp"
 #include "slapstick/section/sampled_motion.hpp"
+#include "span_options.hpp"
 #include "stop_options.hpp"
+#include "until.hpp"
 #include "verb.hpp"
 #include "work.hpp"
 
@@ -24,8 +29,8 @@ namespace slapstick::app {
 namespace {
 
 constexpr long long most_periods = 1'000'000'000'000;
-constexpr int plot_samples = 1000;  // per period, at least
 constexpr int plotted_periods = 20;
+constexpr double most_plotted_periods = 100'000;
 
 struct Options {
   ModelOptions model;
@@ -33,7 +38,8 @@ struct Options {
   double time = 0.0;
   long long samples = 100;
   StopOptions stop;
-  std::string events, trajectory, certify, plot, out;
+  std::string events, trajectory, columns, until, certify, plot, plot_size, show, window, out;
+  RunUpRange climb;
   bool physical = false, progress = false;
 };
 
@@ -41,23 +47,22 @@ struct Options {
 class Run {
  public:
   Run(const Options& options, const ChosenModel& chosen, System system, const State& start, Instant end,
-      RelativeMotion pair)
+      ShownMotion shown, std::pair<Instant, Instant> window)
       : system_(std::move(system)),
         options_(options),
         end_(end),
         result_(options.out),
-        plot_(options.plot),
-        picture_(std::move(pair), {chosen.definition, chosen.model}, system_.model().forced()),
+        plot_(options.plot, options.plot_size),
+        picture_(system_, std::move(shown)),
         observer_(chosen.definition.observer(chosen.overrides)),
+        reader_(system_, functions_of_time("--columns", options.columns, chosen)),
         units_(chosen, options.physical) {
     if (!options.certify.empty()) certified_.emplace(options.certify);
-    if (!options.events.empty()) events_.emplace(options.events, units_.event_columns());
-    if (!options.trajectory.empty()) trajectory_.emplace(options.trajectory, units_.trajectory_columns());
-    const int wanted = trajectory_ ? static_cast<int>(options.samples) : plot_samples;
-    if (plot_.wanted()) stride_ = (plot_samples + wanted - 1) / wanted;
-    const int samples = trajectory_ || plot_.wanted() ? wanted * stride_ : 0;
-    plot_from_ = end.period >= plotted_periods ? Instant{end.period - plotted_periods, end.fraction} : Instant{};
-    motion_.emplace(Motion(system_, start), samples, trajectory_ ? Instant{} : plot_from_);
+    if (!options.events.empty()) events_.emplace(options.events, units_.event_columns(), table_facts(chosen));
+    if (!options.trajectory.empty()) trajectory_.emplace(options.trajectory, columns(), table_facts(chosen));
+    picture_.keep(window.first, window.second);
+    motion_.emplace(Motion(system_, start), trajectory_ ? static_cast<int>(options.samples) : 0);
+    if (!options.until.empty()) until_.emplace(options.until, system_);
     if (plot_.wanted()) retrace_.emplace(motion_->motion(), plotted_periods);
   }
 
@@ -69,11 +74,12 @@ class Run {
     do {
       stage = next_stage(system_, stage, end_);
       for (auto item = motion_->next(stage); item != SampledMotion::Item::end; item = motion_->next(stage)) {
-        if (item == SampledMotion::Item::event) note_event();
+        if (item == SampledMotion::Item::event && note_event()) return true;
         if (item == SampledMotion::Item::sample) note_sample();
         if (++steps % 1024 == 0) progress.update(motion_->motion().time().since({}));
         if (context.stop.load(std::memory_order_relaxed)) return false;
       }
+      if (plot_.wanted()) picture_.add_segment(motion_->motion());
       if (retrace_) retrace_->mark(motion_->motion());
       progress.update(stage.since({}));
       if (context.stop.load(std::memory_order_relaxed)) return stage == end_;
@@ -94,14 +100,28 @@ class Run {
     result_.write(summary(complete, chosen, start).dump() + "\n");
     result_.commit();
     if (plot_.wanted() && picture_.empty()) retrace();
-    return plot_.write_or_say(picture_.figure(), picture_.empty(), complete ? done : interrupted);
+    const int status = plot_.write_or_say(picture_.empty() ? figure::Figure{} : motion_figure(picture_),
+                                          picture_.empty(), complete ? done : interrupted);
+    if (until_ && complete) until_->demand_met(end_.since({}));
+    return status;
   }
 
  private:
-  void note_event() {
+  [[nodiscard]] std::vector<std::string> columns() const {
+    std::vector<std::string> all = units_.trajectory_columns();
+    for (const Quantity& one : reader_.of()) all.push_back(one.name);
+    return all;
+  }
+
+  /// @returns whether the run ends here
+  bool note_event() {
     const Motion& motion = motion_->motion();
     const Event& event = motion.event();
     ++kinds_[static_cast<std::size_t>(event.kind)];
+    if (event.kind == EventKind::knot) {  // the signal's own: no table has it
+      if (plot_.wanted()) picture_.add_segment(motion);
+      return false;
+    }
     if (events_) {
       events_->number(units_.time(event.time.seconds(system_.period())))
           .word(name(event.kind))
@@ -110,18 +130,21 @@ class Run {
       events_->numbers(units_.state(motion.before())).end_row();
     }
     if (retrace_) retrace_->mark(motion);
-    if (plot_.wanted() && event.time >= plot_from_) picture_.add_event(motion);
+    if (plot_.wanted()) {
+      picture_.add_segment(motion);
+      picture_.add_event(motion);
+    }
+    if (!until_ || !until_->ends(event)) return false;
+    end_ = event.time;
+    return true;
   }
 
   void note_sample() {
     const SampledMotion::Sample& sample = motion_->sample();
-    if (trajectory_ && samples_ % stride_ == 0) {
-      const double time = sample.time.seconds(system_.period());
-      trajectory_->number(units_.time(time)).numbers(units_.state(sample.state)).word(system_.mode_name(sample.mode));
-      trajectory_->numbers(units_.observables(observer_.read(time, sample.state))).end_row();
-    }
-    if (plot_.wanted() && sample.time >= plot_from_) picture_.add_sample(sample.time, sample.state);
-    ++samples_;
+    const double time = sample.time.seconds(system_.period());
+    trajectory_->number(units_.time(time)).numbers(units_.state(sample.state)).word(system_.mode_name(sample.mode));
+    trajectory_->numbers(units_.observables(observer_.read(time, sample.state)));
+    trajectory_->numbers(reader_.within(motion_->motion(), sample.within)).end_row();
   }
 
   /// The picture of a run that was ended before the part that it was to show: the last periods that there are.
@@ -129,12 +152,12 @@ class Run {
     const Instant end = motion_->motion().time();
     const Motion& from = retrace_->from();
     const double behind = end.since(from.time());
-    SampledMotion last(from, plot_samples, from.time().plus(std::max(0.0, behind - plotted_periods)));
-    for (auto item = last.next(end); item != SampledMotion::Item::end; item = last.next(end)) {
-      if (item == SampledMotion::Item::sample) picture_.add_sample(last.sample().time, last.sample().state);
-      if (item == SampledMotion::Item::event &&
-          last.motion().event().time.since(from.time()) > behind - plotted_periods)
-        picture_.add_event(last.motion());
+    picture_.keep(from.time().plus(std::max(0.0, behind - plotted_periods)), end);
+    Motion last(from);
+    for (Outcome outcome = Outcome::event; outcome == Outcome::event;) {
+      outcome = last.advance(end);
+      picture_.add_segment(last);
+      if (outcome == Outcome::event) picture_.add_event(last);
     }
   }
 
@@ -155,7 +178,8 @@ class Run {
                loaded = ranges::any_of(model.frictions, [](const FrictionContact& one) { return one.normal.has_value(); });
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
       const auto event = static_cast<EventKind>(kind);
-      const bool possible = event == EventKind::corner  ? bent
+      const bool possible = event == EventKind::knot    ? !model.signals.empty()
+                            : event == EventKind::corner ? bent
                             : event > EventKind::corner ? loaded
                                                         : event < EventKind::engage || compliant;
       if (possible) events.set(name(event), kinds_[kind]);
@@ -168,25 +192,26 @@ class Run {
     json.set("model", chosen.model.name).set("parameters", std::move(parameters)).set("period", system_.period());
     json.set("complete", complete).set("start", state_json(start)).set("end", std::move(end));
     json.set("events", std::move(events)).set("work", std::move(work));
+    if (until_) json.set("until", until_->json());
     if (certified_) json.set("certificate", certified_->summary());
     return json;
   }
 
   System system_;
   const Options& options_;
-  Instant end_, plot_from_;
+  Instant end_;
   Output result_;
   Plot plot_;
-  MotionPlot picture_;
+  MotionRecord picture_;
   Observer observer_;
+  Reader reader_;
   TableUnits units_;
   std::optional<TableOutput> events_, trajectory_;
   std::optional<CertifiedRun> certified_;
+  std::optional<Until> until_;
   std::optional<SampledMotion> motion_;
   std::optional<Retrace> retrace_;
   std::array<long, event_kinds> kinds_{};
-  long samples_ = 0;
-  int stride_ = 1;
 };
 
 Instant end_of(const Options& options, bool by_time, const Model& model) {
@@ -196,6 +221,24 @@ Instant end_of(const Options& options, bool by_time, const Model& model) {
     throw InputError("--time: " + shown(options.time) + " is outside [0, " + shown(static_cast<double>(most_periods)) +
                      " forcing periods]");
   return Instant{}.plus(periods);
+}
+
+/// What the picture shows of the time. @throws InputError naming --window
+std::pair<Instant, Instant> window_of(const Options& options, Instant end) {
+  const double length = end.since({});
+  if (options.window.empty()) return {end.period >= plotted_periods ? Instant{end.period - plotted_periods, end.fraction} : Instant{}, end};
+  const ParameterRange window = parse_range("--window", options.window);
+  if (!(window.from >= 0.0 && window.from < length))
+    throw InputError("--window: the run has the periods 0 to " + shown(length) + ", and " + shown(window.from) + " is none of them");
+  if (window.to - window.from > most_plotted_periods)
+    throw InputError("--window: " + shown(window.to - window.from) + " periods are more than a picture shows (" + shown(most_plotted_periods) + ")");
+  return {Instant{}.plus(window.from), std::min(end, Instant{}.plus(window.to))};
+}
+
+ShownMotion shown_motion(const Options& options, const ChosenModel& chosen) {
+  const RelativeMotion pair(chosen.model, shown_contact(chosen.model, options.stop.choice(chosen.model)));
+  if (options.show.empty()) return shown_pair(pair, chosen);
+  return shown_by_name(options.show, options.stop.names.empty() ? all_contacts(chosen.model) : contacts_of(pair, chosen.model), chosen);
 }
 
 int simulate(const Options& options, bool by_time, const Context& context) {
@@ -208,13 +251,34 @@ int simulate(const Options& options, bool by_time, const Context& context) {
   roles.add("--trajectory", options.trajectory);
   roles.add("--certify", options.certify);
   roles.add_plot(options.plot);
+  if (!options.climb.sweep.empty())
+    return run_up(options.climb, {options.events, options.trajectory, options.out, options.samples, options.progress},
+                  chosen, start, context);
   const Instant end = end_of(options, by_time, chosen.model);
-  const RelativeMotion pair(chosen.model, shown_contact(chosen.model, options.stop.choice(chosen.model)));
+  ShownMotion shown = shown_motion(options, chosen);
+  const auto window = window_of(options, end);
   if (!options.certify.empty()) certify::demand_stated(chosen.model);
   System system = affordable_system(chosen, {end.since({}), by_time ? "--time" : "--periods"});
-  Run run(options, chosen, std::move(system), start, end, pair);
+  Run run(options, chosen, std::move(system), start, end, std::move(shown), window);
   const bool complete = run(context) && run.certify(start, context);
   return run.write(complete, chosen, start);
+}
+
+/// @throws InputError for options that do not go together
+void check(const Options& options, const Arguments& arguments) {
+  if (arguments.given("--time") && arguments.given("--periods"))
+    throw InputError("--time and --periods both give the length: choose one");
+  if (!options.columns.empty() && options.trajectory.empty())
+    throw InputError("--columns: they are columns of --trajectory, which is not given");
+  if (!options.columns.empty() && options.physical)
+    throw InputError("--columns: quantities are in the model's numbers; leave --physical away");
+  options.climb.check(arguments);
+  if (options.physical && options.events.empty() && options.trajectory.empty())
+    throw InputError("--physical: it is for --events and --trajectory, and neither is given");
+  for (const char* name : {"--stop", "--window", "--show"})
+    if (arguments.given(name) && options.plot.empty())
+      throw InputError(std::string(name) + ": it is for the picture of --plot, which is not given");
+  if (options.stop.names.size() > 1) throw InputError("--stop is given more than once: the picture shows one pair");
 }
 
 }  // namespace
@@ -225,15 +289,24 @@ Action add_simulate(Arguments& arguments) {
   options->model.declare_state(arguments);
   arguments.count("--periods", options->periods, 0, most_periods, "length in forcing periods (100)");
   arguments.number("--time", options->time, "T", "length in the model's unit of time, instead of --periods");
+  options->climb.declare(arguments);
   arguments.text("--events", options->events, "F.csv",
-                 "every event: time, kind, contact, w, and the state just before");
+                 "every event: time, kind, contact, w, and the state just before; .csv, .npz or .h5");
   arguments.text("--trajectory", options->trajectory, "F.csv",
-                 "samples: time, state, mode, and the model's observables");
+                 "samples: time, state, mode, and the model's observables; .csv, .npz or .h5");
+  arguments.text("--columns", options->columns, "Q,..",
+                 "quantities as further columns of --trajectory ('slapstick quantities MODEL' lists them)");
+  arguments.text("--until", options->until, "EVENT[:K]",
+                 "end at the K-th event of this kind (1), as stick or impact:wall; --periods or --time is the limit");
   arguments.text("--certify", options->certify, "F.txt",
                  "the run with its model, for slapstick-verify to prove (docs/certificate.md)");
   arguments.count("--samples", options->samples, 1, 1'000'000, "samples of --trajectory per forcing period (100)");
   arguments.text("--plot", options->plot, "F.png",
                  "picture of the last 20 periods: .png, .pdf or .svg; its data and script lie beside it");
+  declare_plot_size(arguments, options->plot_size);
+  arguments.text("--window", options->window, "A:B", "the periods that the picture shows (the last 20)");
+  arguments.text("--show", options->show, "Q,X:Y,..",
+                 "its panels: Q over time, Y over X; displacements, velocities and gaps (those of the stop's pair)");
   options->stop.declare(arguments, "the stop whose pair the picture shows (the first one)");
   arguments.text("--out", options->out, "F.json", "write the summary there instead of to standard output");
   arguments.flag("--physical", options->physical,
@@ -249,13 +322,7 @@ Action add_simulate(Arguments& arguments) {
       "model without forcing has a "
       "period of 1.");
   return [options, &arguments](const Context& context) {
-    if (arguments.given("--time") && arguments.given("--periods"))
-      throw InputError("--time and --periods both give the length: choose one");
-    if (options->physical && options->events.empty() && options->trajectory.empty())
-      throw InputError("--physical: it is for --events and --trajectory, and neither is given");
-    if (!options->stop.names.empty() && options->plot.empty())
-      throw InputError("--stop: it is for the picture of --plot, which is not given");
-    if (options->stop.names.size() > 1) throw InputError("--stop is given more than once: the picture shows one pair");
+    check(*options, arguments);
     return simulate(*options, arguments.given("--time"), context);
   };
 }

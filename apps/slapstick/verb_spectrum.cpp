@@ -12,7 +12,7 @@ namespace {
 
 struct Options {
   SpanOptions span;
-  double highest_order = 20.0, stretch = 64.0, reference = 1.0;
+  double highest_order = 20.0, highest = 0.0, stretch = 64.0, reference = 1.0;
   std::string octaves = "none", scale = "db", plot;
   bool weighted = false;
 };
@@ -31,10 +31,24 @@ Json bands_json(const std::vector<Band>& bands, const Options& options) {
   for (const Band& band : bands) {
     Json one = Json::object();
     one.set("centre", band.centre).set("from", band.from).set("to", band.to).set("rms", std::sqrt(band.mean_square));
-    one.set("level", level(band, options.reference, options.weighted));
+    one.set("level", level(band, options.reference, options.weighted)).set("whole", band.whole);
     list.push(std::move(one));
   }
   return list;
+}
+
+/// The level of all bands together: what lies below the highest frequency of the spectrum.
+double total_level(const std::vector<Band>& bands, const Options& options) {
+  double sum = 0.0;
+  for (const Band& band : bands) sum += std::pow(10.0, 0.1 * level(band, options.reference, options.weighted));
+  return 10.0 * std::log10(sum);
+}
+
+/// --to as an order: of a cycle without forcing in multiples of its own frequency.
+double highest_order(const Options& options, const ChosenModel& chosen, const Span& span) {
+  if (options.highest == 0.0) return options.highest_order;
+  const bool own = span.cycle && !chosen.model.forced();
+  return options.highest * unit_of_time(chosen) * (own ? span.cycle->cycle : chosen.model.forcing_period());
 }
 
 Json lines_json(const LineSpectrum& found) {
@@ -66,28 +80,30 @@ Json density_json(const DensitySpectrum& found, double stretch) {
 struct Found {
   Json json;
   figure::Figure figure;
-  bool complete = true;
+  bool complete = true, any = true;  ///< any: of an interrupted density, a stretch at least
 };
 
 Found analyse(const Options& options, const ChosenModel& chosen, const Span& span, const Quantity& of, const Context& context) {
   const SpectrumLabels labels{of.name, of.unit, options.scale == "db", options.reference, chosen.model.forced()};
   const int parts = options.octaves == "none" ? 0 : options.octaves == "1" ? 1 : 3;
+  const double highest = highest_order(options, chosen, span);
   Found found;
   std::vector<Band> bands;
   if (span.cycle) {
-    const LineSpectrum lines = spectrum(*span.problem, span.cycle->orbit, of, options.highest_order);
+    const LineSpectrum lines = spectrum(*span.problem, span.cycle->orbit, of, highest);
     if (parts > 0) bands = octaves(lines, parts, unit_of_time(chosen));
     found.json = lines_json(lines);
     found.figure = lines_figure(lines, labels);
   } else {
-    const DensitySpectrum density = slapstick::density(span, of, {options.stretch, 1, options.highest_order, &context.stop});
+    const DensitySpectrum density = slapstick::density(span, of, {options.stretch, 1, highest, &context.stop});
     if (parts > 0) bands = octaves(density, parts, unit_of_time(chosen));
     found.complete = density.complete;
+    found.any = density.stretches > 0;
     found.json = density_json(density, options.stretch);
     found.figure = density_figure(density, labels);
   }
   if (parts > 0) {
-    found.json.set("bands", bands_json(bands, options));
+    found.json.set("bands", bands_json(bands, options)).set("total_level", total_level(bands, options));
     found.figure = bands_figure(bands, labels, options.weighted);
   }
   return found;
@@ -96,6 +112,7 @@ Found analyse(const Options& options, const ChosenModel& chosen, const Span& spa
 void check(const Options& options) {
   options.span.check();
   if (!(options.highest_order > 0.0)) throw InputError("--orders: " + shown(options.highest_order) + " is not positive");
+  if (!(options.highest >= 0.0)) throw InputError("--to: " + shown(options.highest) + " is negative");
   if (!(options.stretch > 0.0)) throw InputError("--stretch: " + shown(options.stretch) + " is not positive");
   if (!(options.reference > 0.0)) throw InputError("--reference: " + shown(options.reference) + " is not positive");
   if (options.weighted && options.octaves == "none") throw InputError("--a-weighting: it is for the levels of --octaves, which is not given");
@@ -117,15 +134,15 @@ int run(const Options& options, const Context& context) {
   const auto span = options.span.span(chosen, 2048, context);
   if (!span) return interrupted;
   const Found found = analyse(options, chosen, *span, of, context);
-  if (!found.complete) return interrupted;
+  if (!found.any) return interrupted;
   Json json = Json::object(), parameters = Json::object();
   for (const auto& [name, value] : chosen.definition.values(chosen.overrides)) parameters.set(name, value);
   json.set("model", chosen.model.name).set("parameters", std::move(parameters)).set("of", of.name).set("unit", of.unit);
-  json.set("over", span_json(*span));
+  json.set("over", span_json(*span)).set("complete", found.complete);
   for (const auto& [key, value] : std::get<Json::Object>(found.json.value())) json.set(key, value);
   out.write(json.dump() + "\n");
   out.commit();
-  return plot.write_or_say(found.figure, found.figure.panels[0].lines.empty(), done);
+  return plot.write_or_say(found.figure, found.figure.panels[0].lines.empty(), found.complete ? done : interrupted);
 }
 
 }  // namespace
@@ -135,6 +152,8 @@ Action add_spectrum(Arguments& arguments) {
   options->span.declare(arguments);
   arguments.text("--of", options->span.of, "Q", "the quantity ('slapstick quantities MODEL' lists them)");
   arguments.number("--orders", options->highest_order, "N", "highest order, in multiples of the forcing (20)");
+  arguments.number("--to", options->highest, "HZ",
+                   "the same as a frequency, in Hz (where the file states no unit of time, cycles per unit of time)");
   arguments.number("--stretch", options->stretch, "P", "of a density: forcing periods in a stretch (64)");
   arguments.choice("--octaves", options->octaves, {"none", "1", "3"}, "mean squares in bands of an octave or a third of it");
   arguments.flag("--a-weighting", options->weighted, "weight the levels of --octaves by A (IEC 61672)");
@@ -145,7 +164,11 @@ Action add_spectrum(Arguments& arguments) {
       "Fourier lines of the cycle that the motion settles on, as exact integrals, impulses of impacts included.\n"
       "With --periods, or where there is no cycle (then 2048 of them): a power density, by Welch's method.\n"
       "  slapstick spectrum vibro-impact --set omega=2.9 --of a1 --plot a1.png");
-  return [options](const Context& context) { return run(*options, context); };
+  return [options, &arguments](const Context& context) {
+    if (arguments.given("--to") && arguments.given("--orders"))
+      throw InputError("--to and --orders both give the highest frequency: choose one");
+    return run(*options, context);
+  };
 }
 
 }  // namespace slapstick::app

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core, _progress
 from ._model import Model, Start, Values, given_to, model_of, numbers, rows_of, start_of, stops_of
 from ._progress import Progress
+from ._quantity import Measured, measure
 from ._result import Floats, Given, Interrupted, Result
 from ._tables import html_table, state_columns, words
 
@@ -49,11 +50,13 @@ class Impacts:
 class Attractor(Result):
     """What a motion is after its transient.
 
-    label: '1-1-II', '1-inf-II', 'quasi-periodic', 'chaotic', 'one of a family', 'undecided'.
-    attractor: 'periodic', 'quasi-periodic', 'chaotic', 'one of a family', 'undecided'.
+    label: '1-1-II', '1-inf-II', 'free-0-II', 'quasi-periodic', 'chaotic', 'one of a family', 'equilibrium', 'undecided'.
+    attractor: 'periodic', 'quasi-periodic', 'chaotic', 'one of a family', 'equilibrium', 'undecided'.
     Periodic: n forcing periods and p impacts in a cycle (p is inf with complete chatter), multipliers of the
     n-period map (complex, largest first), impacts. state: on the attractor at phase 0, shape (2 n,).
     exponent: the largest Lyapunov exponent for each forcing period.
+    A motion that nothing drives is free: it may come to rest (equilibrium, with eigenvalues per unit of time); n counts
+    how often the rarest event of a cycle happens in it, cycle is its period, and exponents are per unit of time.
     """
 
     def __init__(
@@ -63,8 +66,9 @@ class Attractor(Result):
         self._core = found
 
     label = Given[str]("'1-1-II', '1-inf-II', also of one of a family; 'quasi-periodic', 'chaotic', 'undecided'.")
-    attractor = Given[str]("'periodic', 'quasi-periodic', 'chaotic', 'one of a family' or 'undecided'.")
-    n = Given[int]("Forcing periods in a cycle; 0 if there is none.")
+    attractor = Given[str]("'periodic', 'quasi-periodic', 'chaotic', 'one of a family', 'equilibrium' or 'undecided'.")
+    n = Given[int]("Forcing periods in a cycle, or of a free motion its rarest events; 0 if there is none.")
+    cycle = Given[float]("The period of the cycle in the model's unit of time; 0 if there is none.")
 
     @property
     def p(self) -> float:
@@ -75,6 +79,9 @@ class Attractor(Result):
     chatter = Given[str]("'none', 'incomplete' or 'complete'.")
     multipliers = Given[NDArray[np.complex128]](
         "Of the n-period map, complex, largest first, shape (k,); empty without a cycle."
+    )
+    eigenvalues = Given[NDArray[np.complex128]](
+        "Equilibrium: of the linear motion about it, per unit of time, largest real part first, shape (k,); else empty."
     )
     return_distance = Given[float](
         "How far the state is from its image after n periods, relative to the size of the motion."
@@ -98,7 +105,7 @@ class Attractor(Result):
     curves = Given[int]("Quasi-periodic: closed curves that the stroboscopic points lie on in turn.")
     family = Given[int]("Of a cycle: dimensions of the continuum of cycles that it is a member of; 0 if none.")
     doubt = Given[str](
-        "Why there is no class: 'not confirmed', 'approach', 'long cycle' or 'exponent'; 'none' if there is one."
+        "Why there is no class: 'not confirmed', 'approach', 'long cycle', 'exponent', 'no return'; 'none' if there is one."
     )
     option_that_decides = Given[str]("The option of `classify` that would decide; '' if there is a class.")
     periods_used = Given[int]("Forcing periods that the motion was followed.")
@@ -107,6 +114,17 @@ class Attractor(Result):
     @cached_property
     def impacts(self) -> Impacts:
         return Impacts(self._core, self.model.state_names)
+
+    def measure(self, of: str | Sequence[str]) -> Measured:
+        """Statistics of quantities on the attractor: over its cycle, or where there is none over 1000 periods.
+
+        of: "Q[:STAT],.." or a list of such words, as of `slapstick.measure`.
+
+        >>> import slapstick
+        >>> round(slapstick.classify("shaken-table").measure("F_table:mean")["F_table:mean"], 9)
+        1.0
+        """
+        return measure(self.model, of, transient=0, start=self.state, parameters=self._values)
 
     failure = Given[str]("Of one among many: why there is no class; else ''.")
 
@@ -241,9 +259,9 @@ def classify(
     parameters: Values | None = None,
     **values: Any,
 ) -> Attractor | Attractors:
-    """What the motion is after its transient: n-p-I, n-p-II, quasi-periodic or chaotic.
+    """What the motion is after its transient: n-p-I, n-p-II, quasi-periodic, chaotic, or at rest.
 
-    transient: forcing periods that are left out; most_periods: a cycle is sought so long; most_n: the longest cycle.
+    transient: forcing periods (returns of a free motion) that are left out; most_periods: a cycle is sought so long; most_n: the longest cycle.
     exponent_periods: length of the run from which exponent, averages and rotation number are taken. quick: look at so
     many periods only, half of them transient; a cycle that Newton's method confirms is named, else 'undecided'.
     stops: whose impacts are counted and listed (all). start: as of `simulate`.
@@ -251,13 +269,15 @@ def classify(
     ends, the result is an `Attractors` with k entries, computed on all cores (`threads`). An entry that fails says why
     in its `failure`, and is a RuntimeWarning.
 
-    Raises InputError for a value out of range or a model without forcing, NumericalError if the motion cannot go on.
+    Raises InputError for a value out of range, NumericalError if the motion cannot go on.
 
     >>> import slapstick
     >>> slapstick.classify("vibro-impact", omega=1.5).label
     '1-1-II'
     >>> slapstick.classify("vibro-impact", omega=[1.5, 2.2, 9]).label.tolist()
     ['1-1-II', '1-1-I', '5-1-I']
+    >>> slapstick.classify("belt").label
+    'free-0-II'
     """
     chosen = model_of(model)
     given = given_to(classify, chosen, values, parameters)

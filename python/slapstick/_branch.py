@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -16,6 +16,7 @@ from ._followed import Followed, finished
 from ._model import Model, Start, Values, given_to, model_of, numbers, start_of
 from ._orbit import Orbit, wish_of
 from ._progress import Progress
+from ._quantity import Measured, statistics_of
 from ._result import Floats, Given, GivenTruths, axes
 from ._special import SpecialPoint
 from ._tables import html_table
@@ -48,6 +49,19 @@ class Branch(Followed):
 
     y = Given[Floats]("States at phase 0, in the model's units, shape (2 n, k).", name="state")
 
+    def measure(self, of: str | Sequence[str]) -> dict[str, Floats]:
+        """Statistics over the cycle of each orbit, stable or not: "Q:STAT" to a column of shape (k,).
+
+        of: "Q[:STAT],.." or a list of such words, as of `slapstick.measure`.
+        """
+        rows: list[Measured] = [self[i].measure(of) for i in range(len(self))]
+        return {name: np.array([row[name] for row in rows]) for name in (rows[0] if rows else ())}
+
+    @cached_property
+    def measured(self) -> dict[str, Floats]:
+        """What `y` of `continuation` asked for, as of `measure`; empty if it was not given."""
+        return self.measure(self.options["y"]) if self.options.get("y") else {}
+
     @cached_property
     def multipliers(self) -> list[NDArray[np.complex128]]:
         return [np.array(point, dtype=np.complex128) for point in self._core.multipliers]
@@ -63,7 +77,8 @@ class Branch(Followed):
         import pandas as pd
 
         names = {self.parameter: self.value, "class": self.label, "period": self.cycle, "stable": self.stable}
-        return pd.DataFrame(names | {"is_motion": self.is_motion} | dict(zip(self.model.state_names, self.y)))
+        names |= {"is_motion": self.is_motion} | dict(zip(self.model.state_names, self.y))
+        return pd.DataFrame(names | self.measured)
 
     def to_xarray(self) -> Any:
         """A Dataset over `point` with the same columns."""
@@ -134,6 +149,7 @@ def continuation(
     step: float = 0.01,
     points: int = 2000,
     same_events: bool = False,
+    y: str | Sequence[str] = (),
     stable: bool | None = None,
     symmetric: bool | None = None,
     nearest: bool = False,
@@ -151,7 +167,7 @@ def continuation(
     between: the range of the parameter; left out, the range that the model gives. The first orbit is sought at the
     parameter's present value (`omega=2.2`), as by `slapstick.orbit`, whose options these are.
     step: the longest step, as a part of the range; points: most points each way; same_events: the branch ends where
-    the sequence of events changes.
+    the sequence of events changes. y: "Q:STAT,..", statistics of the cycle of each orbit (`Branch.measured`).
 
     Raises InputError for a range that the value is outside of, NumericalError if there is no first orbit. A branch
     whose end is not understood is a RuntimeWarning.
@@ -168,7 +184,9 @@ def continuation(
     wish = wish_of(options)
     begin, end = range_of(chosen, parameter, between)
     options |= {"parameter": parameter, "between": (begin, end), "step": step, "points": points}
-    options |= {"same_events": same_events}
+    options |= {"same_events": same_events, "y": y}
+    if y:
+        statistics_of(y, chosen, fixed)
     arguments = (chosen._core, fixed, parameter, begin, end, start_of(start), wish, step, points, same_events)
     core = _progress.run(_core.continuation, arguments, "points at most", 2 * points, progress)
     return finished(Branch(core, chosen, fixed, options), "continuation", 3)

@@ -15,6 +15,7 @@ from . import _core, _progress
 from ._core import InputError
 from ._model import Model, Start, Values, given_to, model_of, numbers, start_of, stops_of, sweep_of
 from ._progress import Progress
+from ._quantity import statistics_of
 from ._result import Floats, Given, GivenWords, Interrupted, Result, axes
 from ._tables import categorical, state_columns, words
 
@@ -27,6 +28,9 @@ class Diagram(Result):
     parameter: its name; value: its value; w: relative velocity just before the impact; flight and sliding: time
     since the impact before, and the part of it in slip, in forcing periods; phase: of the forcing, in [0, 1).
     direction: 'up' or 'down', as the state was carried; contact: the stop; y: the state just before, shape (2 n, k).
+
+    With statistics of quantities in place of impacts the columns are empty but for value and direction, with a row for
+    each value that did not fail, and `measured["F_stop:rms"]` is a column of these rows.
     """
 
     def __init__(
@@ -35,8 +39,15 @@ class Diagram(Result):
         super().__init__(model, values, options)
         self._core, self.parameter = core, parameter
         self._free = (parameter,)
+        words_of: list[str] = options.get("measured", [])
+        #: "Q:STAT" to its column, shape (k,); empty of a diagram of impacts.
+        self.measured: dict[str, Floats] = {word: core.measured(k) for k, word in enumerate(words_of)}
 
-    value = Given[Floats]("Of the parameter, shape (k,).", name="parameter")
+    @cached_property
+    def value(self) -> Floats:
+        """Of the parameter, shape (k,)."""
+        return self._core.measured_at if self.measured else self._core.parameter
+
     w = Given[Floats]("Relative velocity just before the impact, in the model's unit of speed, shape (k,).")
     flight = Given[Floats]("Time since the impact before, in forcing periods, shape (k,).")
     sliding = Given[Floats]("The part of it in slip, in forcing periods, shape (k,).")
@@ -45,8 +56,14 @@ class Diagram(Result):
 
     @cached_property
     def direction(self) -> NDArray[np.str_]:
-        column: NDArray[np.str_] = words(("up", "down"), self._core.direction_codes)
+        column: NDArray[np.str_] = words(("up", "down"), self._direction_codes)
         return column
+
+    @property
+    def _direction_codes(self) -> NDArray[np.int32]:
+        core = self._core
+        codes: NDArray[np.int32] = core.measured_direction_codes if self.measured else core.direction_codes
+        return codes
 
     contact = GivenWords("The stop that is hit, shape (k,).")
     failures = Given[list[tuple[float, str]]]("Values of the parameter that failed, and why.")
@@ -54,42 +71,51 @@ class Diagram(Result):
     complete = Given[bool]("False after Ctrl-C.")
 
     def __len__(self) -> int:
-        return len(self.w)
+        return len(self.value)
 
     def _columns(self) -> dict[str, Any]:
+        if self.measured:
+            return {self.parameter: self.value, **self.measured}
         names = {self.parameter: self.value, "w": self.w, "flight": self.flight, "sliding": self.sliding}
         return names | {"phase": self.phase} | state_columns(self.model.state_names, self.y)
 
     def to_pandas(self) -> Any:
-        """A DataFrame with the columns of `slapstick diagram`, and the contact."""
+        """A DataFrame with the columns of `slapstick diagram`; of impacts also the contact."""
         import pandas as pd
 
         core = self._core
         table = pd.DataFrame(self._columns())
-        table.insert(1, "direction", categorical(("up", "down"), core.direction_codes))
-        table["contact"] = categorical(core.contact_names, core.contact_codes)
+        table.insert(1, "direction", categorical(("up", "down"), self._direction_codes))
+        if not self.measured:
+            table["contact"] = categorical(core.contact_names, core.contact_codes)
         return table
 
     def to_xarray(self) -> Any:
-        """A Dataset over `impact` with the same columns."""
+        """A Dataset over `impact`, of measured quantities over `row`, with the same columns."""
         import xarray as xr
 
-        columns = self._columns() | {"direction": self.direction, "contact": self.contact}
+        columns = self._columns() | {"direction": self.direction}
+        if not self.measured:
+            columns |= {"contact": self.contact}
         about = {"model": self.model.name, "version": self.version}
-        return xr.Dataset({name: ("impact", column) for name, column in columns.items()}, attrs=about)
+        along = "row" if self.measured else "impact"
+        return xr.Dataset({name: (along, column) for name, column in columns.items()}, attrs=about)
 
-    def plot(self, ax: Any = None, y: str = "w") -> Any:
-        """Draws `y` ('w', 'flight', 'sliding' or 'phase') of every impact over the parameter. Returns the axes."""
+    def plot(self, ax: Any = None, y: str = "") -> Any:
+        """Draws `y` over the parameter: 'w' (the default), 'flight', 'sliding' or 'phase' of every impact, or a "Q:STAT" of
+        `measured` (the first). Returns the axes."""
         ax = axes(ax)
-        column = getattr(self, y)
+        y = y or next(iter(self.measured), "w")
+        column = self.measured[y] if self.measured else getattr(self, y)
         for code, colour, size in ((0, "#0072b2", 0.7), (1, "#d55e00", 0.35)):
-            of = self._core.direction_codes == code
+            of = self._direction_codes == code
             if of.any():
                 label = ("up", "down")[code]
-                style = {"markersize": size, "markeredgewidth": 0, "rasterized": True}
+                size = 4 * size if self.measured else size
+                style = {"markersize": size, "markeredgewidth": 0, "rasterized": not self.measured}
                 ax.plot(self.value[of], column[of], "o", color=colour, label=label, **style)
         ax.set_xlabel(self.parameter)
-        ax.set_ylabel(LABELS[y])
+        ax.set_ylabel(LABELS.get(y, y))
         ax.margins(x=0)
         if len(ax.lines) > 1:
             ax.legend(
@@ -99,7 +125,8 @@ class Diagram(Result):
 
     def _facts(self) -> list[tuple[str, str]]:
         values = self._core.values
-        facts = [("values", f"{len(values)} of {self.parameter}"), ("impacts", str(len(self)))]
+        what = ("measured", ", ".join(self.measured)) if self.measured else ("impacts", str(len(self)))
+        facts = [("values", f"{len(values)} of {self.parameter}"), what]
         return facts + ([("failed", str(len(self.failures)))] if self.failures else [])
 
 
@@ -112,6 +139,8 @@ def diagram(
     impacts: int = 200,
     most_periods: int = 5000,
     stops: str | Sequence[str] = (),
+    y: str | Sequence[str] = (),
+    periods: int = 100,
     start: Start = None,
     threads: int = 0,
     progress: Progress = None,
@@ -124,7 +153,9 @@ def diagram(
     the values themselves, increasing.
     direction: 'up', 'down' or 'both', in which the state is carried; carry: False begins each value at the start.
     transient: forcing periods before the impacts of a value are recorded; impacts: how many; most_periods: the
-    recording ends here if they are rare. stops: whose impacts (all). threads: 0 for all; the result is the same.
+    recording ends here if they are rare. stops: whose impacts (all).
+    y: "Q:STAT,.." or a list of such words: statistics over `periods` in place of impacts, as of `slapstick.measure`;
+    then a model needs no stop. threads: 0 for all; the result is the same.
 
     Raises InputError for what can be known to be wrong before the work. A value that fails is left out, stands in
     `failures`, and is a RuntimeWarning.
@@ -141,16 +172,22 @@ def diagram(
     if not carry and direction == "both":
         raise InputError("direction: with carry=False, up and down are the same; choose one, or carry=True")
     options: dict[str, Any] = {"direction": direction, "carry": carry, "transient": transient, "impacts": impacts}
-    options |= {"most_periods": most_periods, "stops": stops, "start": start}
+    options |= {"most_periods": most_periods, "stops": stops, "start": start, "y": y, "periods": periods}
+    options["measured"], measured = measure_of(y, chosen, fixed | {name: grid[0]}, periods)
     arguments = (chosen._core, fixed, name, grid, start_of(start), direction, "carry" if carry else "reset")
-    arguments_too = (transient, impacts, most_periods, stops_of(stops), threads)
+    arguments_too = (transient, impacts, most_periods, stops_of(stops), threads, measured)
     total = len(grid) * (2 if direction == "both" else 1)
     core = _progress.run(_core.diagram, (*arguments, *arguments_too), "values", total, progress)
-    found = Diagram(core, name, chosen, fixed, options)
-    if not core.complete:
-        raise Interrupted(found)
-    report(found, total)
-    return found
+    return reported(Diagram(core, name, chosen, fixed, options), total)
+
+
+def measure_of(
+    y: str | Sequence[str], chosen: Model, values: dict[str, float], periods: int
+) -> tuple[list[str], _core.DiagramMeasure]:
+    """The words of `y`, and what the extension is given."""
+    wanted = statistics_of(y, chosen, values) if y else []
+    words_of = [f"{quantity.name}:{statistic}" for quantity, statistic in wanted]
+    return words_of, _core.DiagramMeasure([quantity for quantity, _ in wanted], [word for _, word in wanted], periods)
 
 
 def swept(given: Values) -> tuple[str, list[float]]:
@@ -167,8 +204,10 @@ def swept(given: Values) -> tuple[str, list[float]]:
     return name, grid.tolist()
 
 
-def report(found: Diagram, total: int) -> None:
+def reported(found: Diagram, total: int) -> Diagram:
     """Says what the columns cannot."""
+    if not found.complete:
+        raise Interrupted(found)
     for rows, words_of in (
         (found.failures, f"{len(found.failures)} of {total} values failed"),
         (found.notes, f"{len(found.notes)} values"),
@@ -177,3 +216,4 @@ def report(found: Diagram, total: int) -> None:
         if rows:
             value, text = rows[0]
             warnings.warn(f"{words_of}, first {found.parameter} = {value:g}: {text}", RuntimeWarning, stacklevel=3)
+    return found

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +14,7 @@ from . import _core, _progress
 from ._model import Model, Start, Values, given_to, model_of, numbers, start_of
 from ._motion import Motion, simulate
 from ._progress import Progress
+from ._quantity import Measured, measured_orbit
 from ._result import Floats, Given, Interrupted, Result
 from ._tables import categorical, state_columns, words
 
@@ -60,8 +62,8 @@ class OrbitEvents:
 class Orbit(Result):
     """A periodic orbit.
 
-    label: '1-1-II'; n: forcing periods in a cycle (0 without forcing); p: impacts in a cycle, inf with complete
-    chatter.
+    label: '1-1-II', or 'free-1-II' where nothing drives the motion; n: forcing periods in a cycle, or how often the
+    rarest event of a free one happens in it; p: impacts in a cycle, inf with complete chatter.
     multipliers: of the return map, complex, largest first; stable: all are inside the unit circle.
     state: at phase 0, shape (2 n,); cycle: the period of the orbit in the model's unit of time.
     is_motion: the simulator does the same; if not, why. t and y: samples of one cycle, as of `simulate`.
@@ -72,7 +74,7 @@ class Orbit(Result):
         self._core = core
 
     label = Given[str]("'1-1-II', '2-inf-II'.")
-    n = Given[int]("Forcing periods in a cycle; 0 without forcing.")
+    n = Given[int]("Forcing periods in a cycle; where nothing drives it, how often its rarest event happens.")
 
     @property
     def p(self) -> float:
@@ -108,6 +110,19 @@ class Orbit(Result):
     margins = Given[list[tuple[str, str, float]]](
         "How near the cycle comes to a change of its events: what is measured, of which contact, the least value."
     )
+
+    def measure(self, of: str | Sequence[str]) -> Measured:
+        """Statistics of quantities over the cycle, exact but for rounding, also where the orbit is unstable.
+
+        of: "Q[:STAT],.." or a list of such words, as of `slapstick.measure`.
+
+        Raises InputError for an unknown quantity or statistic (the nearest is named).
+
+        >>> import slapstick
+        >>> slapstick.orbit("vibro-impact", "1-1", omega=2.9).measure("w:number")["w:number"]
+        1.0
+        """
+        return measured_orbit(self._core, self.model, self._values, of, self.options)
 
     def motion(self, *, samples: int = 200) -> Motion:
         """One cycle as `simulate` gives it. Of an unstable orbit rounding grows by its multipliers."""
@@ -173,9 +188,9 @@ def orbit(
 ) -> Orbit:
     """A periodic orbit, stable or not, by Newton's method; the simulator verifies it.
 
-    orbit: 'N-P', 'N-P-I' or 'N-P-II': forcing periods, impacts ('inf' with complete chatter), with stick or without;
-    '': what the motion settles on. stable, symmetric: conditions; nearest: of those that a search finds, the nearest
-    to the start. transient: forcing periods before the first try. A search looks through `starts` motions (64), or
+    orbit: 'N-P', 'N-P-I' or 'N-P-II': forcing periods (returns, where nothing drives the motion: 'free-P-I' takes any
+    number), impacts ('inf' with complete chatter), with stick or without; '': what the motion settles on. stable, symmetric: conditions; nearest: of those that a search finds, the nearest
+    to the start. transient: forcing periods or returns before the first try. A search looks through `starts` motions (64), or
     ends after `seconds` (10; none if starts is given); seed: of its starts.
 
     Raises NumericalError if there is none, saying what was tried and found instead.
@@ -210,7 +225,7 @@ def orbits(
     parameters: Values | None = None,
     **values: float,
 ) -> list[Orbit]:
-    """Every orbit of up to `most_n` forcing periods that a search finds; options as of `orbit`.
+    """Every orbit of up to `most_n` forcing periods, or returns of a free motion, that a search finds; options as of `orbit`.
 
     A search is no proof of completeness.
     """

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from . import _core, _progress
-from ._core import Quantity, StopImpacts
+from ._core import InputError, Quantity, StopImpacts
 from ._model import Model, Start, Values, given_to, model_of, numbers, start_of
 from ._progress import Progress
 from ._result import Floats, Given, Result, axes
@@ -83,6 +83,15 @@ def wanted_of(
     return [(_core.find_quantity(known, name), statistic) for name, _, statistic in pairs]
 
 
+def statistics_of(of: str | Sequence[str], chosen: Model, values: dict[str, float]) -> list[tuple[Quantity, str]]:
+    """The same, each with a statistic."""
+    wanted = wanted_of(of, chosen, values)
+    for quantity, name in wanted:
+        if not name:
+            raise InputError(f"y: '{quantity.name}' needs a statistic, as '{quantity.name}:rms'")
+    return wanted
+
+
 def measure(
     model: Model | str | os.PathLike[str],
     of: str | Sequence[str],
@@ -116,6 +125,15 @@ def measure(
     call = (chosen._core, fixed, start_of(start), names, transient, float(periods))
     found = _progress.run(_core.measure, call, "periods", transient, progress)
     return Measured(found, wanted, chosen, fixed, options)
+
+
+def measured_orbit(
+    core: _core.Orbit, model: Model, values: dict[str, float], of: str | Sequence[str], options: dict[str, Any]
+) -> Measured:
+    """Statistics over the cycle of an orbit: what `Orbit.measure` gives."""
+    wanted = wanted_of(of, model, values)
+    found = _core.measure_orbit(core, [quantity.name for quantity, _ in wanted])
+    return Measured(found, wanted, model, values, options | {"of": of})
 
 
 class Spectrum(Result):

@@ -116,6 +116,8 @@ void bind_attractor(nb::module_& module) {
       .def_prop_ro("p", [](const C& self) { return self.found.p; })
       .def_prop_ro("sticking", [](const C& self) { return self.found.sticking; })
       .def_prop_ro("chatter", [](const C& self) { return word(self.found.chatter); })
+      .def_prop_ro("cycle", [](const C& self) { return self.found.period; })
+      .def_prop_ro("eigenvalues", [](C& self) { return column(self.found.eigenvalues); })
       .def_prop_ro("multipliers", [](C& self) { return column(self.found.multipliers); })
       .def_prop_ro("return_distance", [](const C& self) { return self.found.return_distance; })
       .def_prop_ro("approach", [](const C& self) { return self.found.approach; })

@@ -9,6 +9,7 @@
 #include "chosen.hpp"
 #include "names.hpp"
 #include "slapstick/base/error.hpp"
+#include "slapstick/quantity/measure.hpp"
 #include "slapstick/sweep/diagram.hpp"
 #include "watch.hpp"
 
@@ -25,7 +26,26 @@ struct Diagram {
   std::vector<double> values;           ///< of the parameter, at each point that is done
   std::vector<std::string> directions;  ///< of each
   std::vector<std::tuple<double, std::string>> failures, notes, empty;
+  /// Of measured quantities: the values that did not fail, the direction of each (0: up), and a column for each
+  /// statistic.
+  std::vector<double> measured_at;
+  std::vector<std::int32_t> measured_direction;
+  std::vector<std::vector<double>> measured;
 };
+
+/// What is measured in place of impacts: quantities, and of each a statistic.
+struct Measure {
+  std::vector<Quantity> of;
+  std::vector<std::string> statistics;
+  int periods = 0;
+};
+
+void add_measured(Diagram& into, const sweep::DiagramPoint& point, double value, const Measure& measure) {
+  if (point.of.empty()) return;
+  into.measured_at.push_back(value);
+  into.measured_direction.push_back(point.direction == sweep::Direction::up ? 0 : 1);
+  for (std::size_t k = 0; k < measure.of.size(); ++k) into.measured[k].push_back(statistic(point.of[k], measure.statistics[k]));
+}
 
 void add_rows(Diagram& into, const sweep::DiagramPoint& point, double value, std::int32_t index) {
   for (std::size_t i = 0; i < point.impacts.size(); ++i) {
@@ -44,17 +64,18 @@ void add_rows(Diagram& into, const sweep::DiagramPoint& point, double value, std
 
 /// What the sweep gave, value by value. @param value_of  of a point's place in the sweep
 template <class ValueOf>
-void add_points(Diagram& into, const sweep::Diagram& found, const ValueOf& value_of) {
+void add_points(Diagram& into, const sweep::Diagram& found, const Measure& measure, const ValueOf& value_of) {
   for (const sweep::DiagramPoint& point : found.points) {
     if (!point.done) continue;
     const double value = value_of(point.parameter);
     const std::string direction = point.direction == sweep::Direction::up ? "up" : "down";
     add_rows(into, point, value, static_cast<std::int32_t>(into.values.size()));
+    add_measured(into, point, value, measure);
     into.values.push_back(value);
     into.directions.push_back(direction);
     if (!point.failure.empty()) into.failures.emplace_back(value, point.failure);
     if (!point.note.empty()) into.notes.emplace_back(value, point.note);
-    if (point.failure.empty() && point.impacts.size() == 0) into.empty.emplace_back(value, direction);
+    if (point.failure.empty() && point.impacts.size() == 0 && measure.of.empty()) into.empty.emplace_back(value, direction);
   }
 }
 
@@ -108,10 +129,10 @@ class Sweep {
   }
 
   /// What can be known to be wrong before the work. @returns the model at the first value
-  [[nodiscard]] Model check() const {
+  [[nodiscard]] Model check(bool impacts) const {
     for (const double end : {problem_end(), 0.0}) static_cast<void>(start_of(definition_, at(end), start_));
     Model model = build(definition_, at(0.0));
-    if (stop_contacts(model).empty())
+    if (impacts && stop_contacts(model).empty())
       throw InputError("model '" + model.name + "' has no stop, so a diagram has no impacts to show");
     return model;
   }
@@ -135,12 +156,16 @@ std::unique_ptr<Diagram> diagram(const ModelDefinition& definition, const Overri
                                  const std::vector<double>& values, const std::optional<Start>& start,
                                  const std::string& direction, const std::string& rule, int transient, int impacts,
                                  int most_periods, const std::vector<std::string>& stops, int threads,
-                                 nb::object progress) {
+                                 const Measure& measure, nb::object progress) {
   auto into = std::make_unique<Diagram>();
+  into->measured.resize(measure.of.size());
+  for (std::size_t k = 0; k < measure.of.size(); ++k) check_statistic(measure.of[k], measure.statistics[k]);
   const Sweep sweep(definition, fixed, name, values, start);
-  const Model model = sweep.check();
+  const Model model = sweep.check(measure.of.empty());
   sweep::DiagramProblem problem = sweep.problem({direction, rule, transient, impacts, most_periods, stops, threads});
   problem.stops = StopChoice(model, stops);
+  problem.of = measure.of;
+  problem.measured_periods = measure.periods;
   Watch watch(std::move(progress));
   problem.cancel = watch.cancel();
   problem.progress = [&](int done, int) { watch.note(done); };
@@ -148,7 +173,7 @@ std::unique_ptr<Diagram> diagram(const ModelDefinition& definition, const Overri
     const sweep::Diagram found = sweep::run_diagram(problem);
     into->width = 2 * static_cast<std::size_t>(model.size());
     into->contact.names = contact_names(model);
-    add_points(*into, found, [&](double place) { return sweep.value(place); });
+    add_points(*into, found, measure, [&](double place) { return sweep.value(place); });
   });
   into->complete = watch.finish(true);
   return into;
@@ -173,9 +198,19 @@ void bind_diagram(nb::module_& module) {
       .def_ro("failures", &Diagram::failures)
       .def_ro("notes", &Diagram::notes)
       .def_ro("empty", &Diagram::empty)
+      .def_prop_ro("measured_at", [](Diagram& self) { return column(self.measured_at); })
+      .def_prop_ro("measured_direction_codes", [](Diagram& self) { return column(self.measured_direction); })
+      .def("measured", [](Diagram& self, std::size_t k) { return column(self.measured.at(k)); }, "k"_a)
       .def_ro("complete", &Diagram::complete);
+  nb::class_<Measure>(module, "DiagramMeasure", "Statistics that a diagram shows in place of impacts.")
+      .def(
+          "__init__",
+          [](Measure* self, std::vector<Quantity> of, std::vector<std::string> statistics, int periods) {
+            new (self) Measure{std::move(of), std::move(statistics), periods};
+          },
+          "of"_a, "statistics"_a, "periods"_a);
   module.def("diagram", &diagram, "definition"_a, "fixed"_a, "name"_a, "values"_a, "start"_a.none(), "direction"_a,
-             "rule"_a, "transient"_a, "impacts"_a, "most_periods"_a, "stops"_a, "threads"_a, "progress"_a.none());
+             "rule"_a, "transient"_a, "impacts"_a, "most_periods"_a, "stops"_a, "threads"_a, "measure"_a, "progress"_a.none());
   module.def("sweep_value", &sweep::sweep_value, "begin"_a, "end"_a, "count"_a, "place"_a);
 }
 

@@ -69,6 +69,7 @@ class Recorder {
  private:
   void note(const Motion& motion) {
     const Event& event = motion.event();
+    if (event.kind == EventKind::knot) return;  // the signal says where they are
     Events& events = run_.events;
     events.t.push_back(event.time.seconds(system_.period()));
     events.period.push_back(event.time.period);

@@ -161,7 +161,10 @@ void bind_orbit(nb::module_& module) {
   nb::class_<O>(module, "Orbit", "A periodic orbit.")
       .def_prop_ro("values", &O::values)
       .def_prop_ro("label", [](const O& self) { return self.solution.label; })
-      .def_prop_ro("n", [](const O& self) { return self.solution.orbit.shape.n; })
+      .def_prop_ro("n", [](const O& self) {
+                     const orbit::Itinerary& shape = self.solution.orbit.shape;
+                     return shape.n > 0 ? shape.n : orbit::returns(shape);
+                   })
       .def_prop_ro("impacts", [](const O& self) { return self.solution.impacts; })
       .def_prop_ro("chatter", [](const O& self) { return self.solution.chatter; })
       .def_prop_ro("sticking", [](const O& self) { return self.solution.sticking; })

@@ -5,6 +5,7 @@
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "chosen.hpp"
+#include "orbits.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/quantity/span.hpp"
 #include "watch.hpp"
@@ -43,6 +44,11 @@ std::vector<Quantity> named(const ModelDefinition& definition, const Overrides& 
   return of;
 }
 
+void add_stops(Measures& measures) {
+  for (const StopStatistics& stop : measures.found.stops)
+    measures.stops.push_back({stop.stop, stop.w.values, stop.impulse.values, stop.loss.values});
+}
+
 std::unique_ptr<Measures> measures(const ModelDefinition& definition, const Overrides& values,
                                    const std::optional<Start>& start, const std::vector<std::string>& of, long transient,
                                    double periods, nb::object progress) {
@@ -58,8 +64,16 @@ std::unique_ptr<Measures> measures(const ModelDefinition& definition, const Over
     complete = result->found.complete;
   });
   watch.finish(complete);
-  for (StopStatistics& stop : result->found.stops)
-    result->stops.push_back({stop.stop, stop.w.values, stop.impulse.values, stop.loss.values});
+  add_stops(*result);
+  return result;
+}
+
+/// The same of the cycle of an orbit, stable or not.
+std::unique_ptr<Measures> measures_of_orbit(const FoundOrbit& orbit, const std::vector<std::string>& of) {
+  auto result = std::make_unique<Measures>();
+  result->found = measure(*orbit.setting->problem, orbit.solution.orbit, named(orbit.setting->definition, orbit.values(), of));
+  result->label = orbit.solution.label;
+  add_stops(*result);
   return result;
 }
 
@@ -138,6 +152,7 @@ void bind_measures(nb::module_& module) {
       .def("statistic", &statistic_of, "k"_a, "quantity"_a, "name"_a);
   module.def("measure", &measures, "definition"_a, "values"_a, "start"_a.none(), "of"_a, "transient"_a, "periods"_a,
              "progress"_a.none());
+  module.def("measure_orbit", &measures_of_orbit, "orbit"_a, "of"_a);
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ def test_an_orbit_that_is_no_orbit_is_refused():
         (lambda: slapstick.continuation("vibro-impact", "omega", orbit="1-1"), "no finite range"),
         (lambda: slapstick.continuation("vibro-impact", "omega", (3, 4), omega=2.2), "is outside 3 to 4"),
         (lambda: slapstick.continuation("vibro-impact", "omega", (2, 4), step=0.5), "step"),
-        (lambda: slapstick.classify("belt"), "forcing"),
+        (lambda: slapstick.orbit("vibro-impact", "free-1"), "is driven"),
     ],
 )
 def test_a_call_that_makes_no_sense_is_an_input_error(call, text):

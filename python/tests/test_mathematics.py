@@ -13,6 +13,21 @@ def test_impacts_of_a_bouncing_ball_are_a_geometric_series():
     assert np.allclose(w, w[0] * r ** np.arange(12), rtol=1e-14)
 
 
+def test_stick_slip_on_a_belt_has_the_period_of_its_closed_form():
+    D, speed = 0.5, 0.3
+    period = 2 * np.pi - 2 * np.arctan(D / speed) + 2 * D / speed
+    found = slapstick.classify("belt", belt_speed=speed)
+    assert (found.label, found.n) == ("free-0-II", 1)
+    assert np.isclose(found.cycle, period, rtol=1e-12)
+    assert np.isclose(slapstick.orbit("belt", "1-0-II", belt_speed=speed).cycle, period, rtol=1e-12)
+
+
+def test_steady_sliding_is_a_rest_with_the_eigenvalues_of_its_slope():
+    found = slapstick.classify("falling-friction", damping_ratio=0.3)
+    assert found.attractor == "equilibrium"
+    assert np.isclose(found.eigenvalues[0].real, -0.1, rtol=1e-12)
+
+
 def test_multipliers_are_those_of_differences_of_the_return_map():
     orbit = slapstick.orbit("vibro-impact", "1-1", omega=2.9, stable=False)
     step = 1e-6
@@ -51,6 +66,12 @@ def test_a_branch_through_an_orbit_passes_through_the_orbit():
     at = int(np.argmin(abs(branch.value - 2.7)))
     assert branch.value[at] == 2.7
     assert np.allclose(branch.y[:, at], orbit.state, atol=1e-13)
+
+
+def test_laws_of_contact_give_back_what_their_closed_forms_say():
+    for start, back in ((1.0, -np.sqrt(8 / 20)), (-1.0, 0.47435857876378)):  # two stiffnesses; a bounded bumper
+        motion = slapstick.simulate("buffers", time=2, samples=0, start={"x": 0, "v": start}, amplitude=0, stiffness=0)
+        assert motion.state[1] == pytest.approx(back, rel=1e-13)
 
 
 def test_a_start_on_the_attractor_needs_no_transient():

@@ -26,6 +26,8 @@ def assert_same_table(table, printed):
         ("vibro-impact", {"omega": 0.552}, 12),
         ("gear-pair", {}, 30),
         ("belt", {}, 40),
+        ("buffers", {}, 30),
+        ("mode-coupling-brake", {}, 40),
     ],
 )
 def test_simulate_has_the_events_and_samples_of_the_program(program, tmp_path, model, values, periods):
@@ -207,3 +209,38 @@ def test_spectrum_has_every_line_of_the_program(program, periods):
     for name in rows[0]:
         assert getattr(found, name).tolist() == [row[name] for row in rows]
     assert found.of_cycle == (printed["kind"] == "lines")
+
+
+def test_orbit_and_attractor_measure_what_the_program_does(program):
+    of = "a1:rms,F_stop:mean,w:number"
+    words = ("--set", "omega=2.9", "--of", of)
+    printed = program.json("orbit", "vibro-impact", "--orbit", "1-1", "--unstable", *words)
+    orbit = slapstick.orbit("vibro-impact", "1-1", stable=False, omega=2.9)
+    assert dict(orbit.measure(of)) == printed["values"]
+    printed = program.json("classify", "vibro-impact", *words)
+    assert dict(slapstick.classify("vibro-impact", omega=2.9).measure(of)) == printed["values"]
+
+
+def test_diagram_of_statistics_has_every_number_of_the_program(program):
+    y = "F_friction:rms,x:peak_to_peak"
+    words = ("--sweep", "omega=0.5:1.5:5", "--direction", "both", "--y", y, "--periods", 50, "--transient", 100)
+    columns = program.table(program("diagram", "coulomb-oscillator", *words).stdout)
+    found = slapstick.diagram("coulomb-oscillator", omega=(0.5, 1.5, 5), direction="both", y=y, periods=50, transient=100)
+    assert found.value.tolist() == columns["omega"].tolist()
+    assert found.direction.tolist() == columns["direction"].tolist()
+    assert list(found.measured) == y.split(",")
+    for name, column in found.measured.items():
+        assert column.tolist() == columns[name].tolist()
+    assert list(found.to_pandas().columns) == ["omega", "direction", *y.split(",")]
+    with pytest.raises(slapstick.InputError, match="needs a statistic"):
+        slapstick.diagram("coulomb-oscillator", omega=(0.5, 1.5, 5), y="x")
+
+
+def test_branch_of_statistics_has_every_number_of_the_program(program):
+    words = ("--set", "omega=2.7", "--orbit", "1-1", "--param", "omega", "--range", "2.6:2.9", "--y", "F_stop:mean,a1:rms")
+    printed = program.json("continue", "vibro-impact", *words)
+    branch = slapstick.continuation("vibro-impact", "omega", (2.6, 2.9), orbit="1-1", y="F_stop:mean,a1:rms", omega=2.7)
+    for name, column in branch.measured.items():
+        assert column.tolist() == [point["values"][name] for point in printed["points"]]
+    assert set(branch.measured) == {"F_stop:mean", "a1:rms"}
+    assert {"F_stop:mean", "a1:rms"} <= set(branch.to_pandas().columns)

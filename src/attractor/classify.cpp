@@ -5,23 +5,25 @@
 
 #include "attractor/exponent.hpp"
 #include "base/ranges.hpp"
+#include "section/rest.hpp"
 #include "section/settling.hpp"
-#include "slapstick/base/error.hpp"
+#include "flow/contact_state.hpp"
 
 namespace slapstick {
 
 std::string_view name(Attractor attractor) {
-  constexpr std::string_view names[] = {"periodic", "quasi-periodic", "chaotic", "one of a family", "undecided"};
+  constexpr std::string_view names[] = {"periodic", "quasi-periodic", "chaotic", "one of a family", "undecided",
+                                        "equilibrium"};
   return names[static_cast<int>(attractor)];
 }
 
 std::string_view name(Doubt doubt) {
-  constexpr std::string_view names[] = {"none", "not confirmed", "approach", "long cycle", "exponent"};
+  constexpr std::string_view names[] = {"none", "not confirmed", "approach", "long cycle", "exponent", "no return"};
   return names[static_cast<int>(doubt)];
 }
 
 std::string_view option_that_decides(Doubt doubt) {
-  constexpr std::string_view options[] = {"", "full", "transient", "most_n", "exponent_periods"};
+  constexpr std::string_view options[] = {"", "full", "transient", "most_n", "exponent_periods", ""};
   return options[static_cast<int>(doubt)];
 }
 
@@ -40,12 +42,12 @@ void record(const section::Settling& settling, const section::Cycle& cycle, cons
   result.family = cycle.family;
   result.doubt = Doubt::none;
   result.approach = cycle.approach;
-  attractor::record_cycle(system, settling.at_home(flow::user_state(system, cycle.x)), cycle.n, options.stops,
-                          options.cancel, result);
+  attractor::record_cycle(system, settling.at_home(flow::user_state(system, cycle.x)), cycle.duration,
+                          options.stops, options.cancel, result);
   result.return_distance = cycle.return_distance;
   result.multipliers = cycle.multipliers;
   result.drift = settling.drift(cycle.advance);
-  if (!cycle.multipliers.empty()) result.exponent = std::log(std::abs(cycle.multipliers.front())) / cycle.n;
+  if (!cycle.multipliers.empty()) result.exponent = std::log(std::abs(cycle.multipliers.front())) / cycle.duration;
 }
 
 /// ln N / N: the exponent that a tangent shows which grows no faster than the time, as on every curve of a family.
@@ -66,9 +68,9 @@ struct Finding {
   Doubt doubt;
 };
 
-/// @param periods  of the run
-Finding finding(const attractor::RunFigures& run, int periods, bool approaching, const ClassifyOptions& options) {
-  const double nothing = growth_without_exponent(periods), uncertain = 3.0 * run.exponent_error;
+/// @param returns  of the run
+Finding finding(const attractor::RunFigures& run, int returns, bool approaching, const ClassifyOptions& options) {
+  const double nothing = growth_without_exponent(returns), uncertain = 3.0 * run.exponent_error;
   const bool smooth = run.digits >= options.curve_digits;
   if (run.exponent - uncertain > nothing) {
     if (!smooth) return {Attractor::chaotic, Doubt::none};
@@ -84,8 +86,8 @@ Finding finding(const attractor::RunFigures& run, int periods, bool approaching,
 }
 
 void record(const attractor::RunFigures& run, const Finding& found, const System& system, Classification& result) {
-  result.exponent = run.exponent;
-  result.exponent_error = run.exponent_error;
+  result.exponent = run.exponent / run.mean_return;
+  result.exponent_error = run.exponent_error / run.mean_return;
   result.digits = run.digits;
   result.sticking = run.events.sticks > 0 || run.events.chatters > 0;
   result.chatter = run.events.chatters > 0 ? Chatter::complete : run.burst ? Chatter::incomplete : Chatter::none;
@@ -104,32 +106,59 @@ void record(const attractor::RunFigures& run, const Finding& found, const System
 
 namespace {
 
+Classification undecided(Doubt doubt, const section::Settling& settling) {
+  Classification result;
+  result.doubt = doubt;
+  result.label = name(result.attractor);
+  result.state = settling.at_home(settling.state());
+  return result;
+}
+
 /// What a motion is that comes to no cycle, by exponent, averages and rotation number of a further run.
 Classification without_cycle(const section::Settling& settling, const System& system, const ClassifyOptions& options) {
   Classification result;
-  if (options.exponent_periods == 0) {
-    result.doubt = Doubt::not_confirmed;
+  if (options.exponent_periods == 0) return undecided(Doubt::not_confirmed, settling);
+  const int returns = options.exponent_periods;
+  const auto run = attractor::run_figures(settling.map(), settling.state(), returns, options.stops, options.cancel);
+  if (settling.cancelled()) return result;
+  if (run.ended) return undecided(Doubt::approach, settling);
+  record(run, finding(run, returns, settling.still_approaching(), options), system, result);
+  result.state = settling.at_home(run.state);
+  result.drift = settling.drift(run.advance / run.mean_return);
+  return result;
+}
+
+/// What a motion is that has no more events: at rest, or on its way there; round a state of rest; or away for ever.
+Classification without_events(const section::Settling& settling, const System& system, const ClassifyOptions& options) {
+  if (const auto& border = settling.shrinks_to()) {
+    Classification result;
+    result.attractor = Attractor::equilibrium;
     result.label = name(result.attractor);
-    result.state = settling.at_home(settling.state());
+    result.approach = settling.distance_from(*border);
+    result.state = settling.at_home(flow::user_state(system, *border));
     return result;
   }
-  const int periods = options.exponent_periods;
-  const auto run =
-      attractor::run_figures(settling.translations(), settling.state(), periods, options.stops, options.cancel);
-  if (settling.cancelled()) return result;
-  record(run, finding(run, periods, settling.still_approaching(), options), system, result);
-  result.state = settling.at_home(run.state);
-  result.drift = settling.drift(run.advance);
+  const auto found = section::rest(settling.translations(), settling.motion(), options.cancel);
+  if (!found || !(found->drawn || found->neutral)) return undecided(Doubt::no_return, settling);
+  Classification result;
+  result.attractor = found->drawn ? Attractor::equilibrium : Attractor::family;
+  result.label = name(result.attractor);
+  result.eigenvalues = found->eigenvalues;
+  result.family = found->family;
+  result.sticking = found->held;
+  result.sticking_fraction = found->held ? 1.0 : 0.0;
+  result.approach = found->approach;
+  const double largest = found->eigenvalues.empty() ? -INFINITY : found->eigenvalues.front().real();
+  result.exponent = found->family > 0 ? 0.0 : largest * system.period();
+  result.drift = settling.drift(found->advance);
+  result.state = found->drawn ? settling.at_home(flow::user_state(system, found->x)) : settling.at_home(settling.state());
   return result;
 }
 
 }  // namespace
 
 Classification classify(const System& system, const State& state, const ClassifyOptions& options) {
-  if (!system.model().forced())
-    throw InputError("model '" + system.model().name +
-                     "' has no periodic forcing: n-p classes count forcing periods; "
-                     "`poincare --section event` shows its returns");
+  demand_period(system.model());
   Classification result;
   section::Settling settling(system, state,
                              {.most_periods = options.most_periods,
@@ -145,7 +174,7 @@ Classification classify(const System& system, const State& state, const Classify
   if (cycle)
     record(settling, *cycle, options, result);
   else if (!settling.cancelled())
-    result = without_cycle(settling, system, options);
+    result = settling.ended() ? without_events(settling, system, options) : without_cycle(settling, system, options);
   result.periods_used = settling.periods();
   result.interrupted = settling.cancelled();
   return result;

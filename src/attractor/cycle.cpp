@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
 
 #include "flow/compiled_system.hpp"
 
@@ -20,10 +22,10 @@ bool has_burst(const std::vector<double>& times, const std::vector<double>& spee
 
 namespace {
 
-/// "1-1-II", "2-inf-II".
-std::string cycle_label(const Classification& c) {
+/// "1-1-II", "2-inf-II", "free-0-II".
+std::string cycle_label(const Classification& c, bool driven) {
   const std::string p = c.chatter == Chatter::complete ? "inf" : std::to_string(c.p);
-  return std::to_string(c.n) + "-" + p + (c.sticking ? "-II" : "-I");
+  return (driven ? std::to_string(c.n) : "free") + "-" + p + (c.sticking ? "-II" : "-I");
 }
 
 bool holds_still(const Motion& motion, ModeId mode) {
@@ -37,14 +39,40 @@ bool holds_still(const Motion& motion, ModeId mode) {
   return false;
 }
 
+/// How often each kind of change of mode happens; as orbit::returns counts the legs of an orbit.
+class Changes {
+ public:
+  explicit Changes(const Motion& motion) : segments_(motion.counters().segments) {}
+
+  /// After each event.
+  void note(const Motion& motion) {
+    const Event& event = motion.event();
+    const bool same_instant = motion.counters().segments == segments_;
+    segments_ = motion.counters().segments;
+    const bool changes = event.kind == EventKind::chatter || motion.segment().mode != motion.mode_id();
+    if (same_instant || event.kind == EventKind::graze || (!changes && motion.strikes().empty())) return;
+    ++counts_[{motion.segment().mode, event.kind, event.contact}];
+  }
+  [[nodiscard]] int of_the_rarest() const {
+    int least = 0;
+    for (const auto& [kind, count] : counts_) least = least == 0 ? count : std::min(least, count);
+    return least;
+  }
+
+ private:
+  long segments_;
+  std::map<std::tuple<ModeId, EventKind, int>, int> counts_;
+};
+
 }  // namespace
 
-void record_cycle(const System& system, const State& state, int n, const StopChoice& stops, Stop stop,
+void record_cycle(const System& system, const State& state, double duration, const StopChoice& stops, Stop stop,
                   Classification& out) {
   Motion motion(system, state);
   std::vector<double> times, speeds;
   double still = 0.0;
-  out.n = n;
+  Changes changes(motion);
+  const bool driven = section::driven(system);
   out.state = state;
   out.impacts.clear();
   out.chatter = Chatter::none;
@@ -60,24 +88,28 @@ void record_cycle(const System& system, const State& state, int n, const StopCho
     times.push_back(motion.event().time.since({}));
     speeds.push_back(motion.event().w);
   };
-  run_to(motion, {n, 0.0}, stop, [&] {
+  run_to(motion, Instant{}.plus(duration), stop, [&] {
     const Event& event = motion.event();
     spend(event.time);
+    changes.note(motion);
     if (event.kind == EventKind::chatter && stops.holds(event.contact)) out.chatter = Chatter::complete;
     if (!stops.is_point(event)) return;
     const std::span<const double> before = motion.before();
-    out.impacts.push_back({event.time.fraction, event.w, event.contact, State(before.begin(), before.end())});
+    const double phase = driven ? event.time.fraction : event.time.since({}) / duration;
+    out.impacts.push_back({phase, event.w, event.contact, State(before.begin(), before.end())});
     note_impact();
   });
   spend(motion.time());
-  run_to(motion, {2 * n, 0.0}, stop, [&] {  // a second cycle: a burst may run across its start
+  run_to(motion, Instant{}.plus(2.0 * duration), stop, [&] {  // a second cycle: a burst may run across its start
     if (stops.is_point(motion.event())) note_impact();
   });
+  out.n = driven ? static_cast<int>(duration) : changes.of_the_rarest();
+  out.period = duration * system.period();
   out.p = static_cast<long>(out.impacts.size());
-  out.sticking_fraction = still / n;
+  out.sticking_fraction = still / duration;
   out.sticking = still > 0.0;
   if (out.chatter == Chatter::none && has_burst(times, speeds)) out.chatter = Chatter::incomplete;
-  out.label = cycle_label(out);
+  out.label = cycle_label(out, driven);
 }
 
 }  // namespace slapstick::attractor

@@ -10,9 +10,9 @@ namespace slapstick::attractor {
 using flow::contact_state, flow::user_state;
 using section::distance, section::PeriodEvents, section::Stop;
 
-/// Runs `n` periods from `state` and fills in what the cycle holds: impacts and chatter of the chosen stops, stick,
-/// label.
-void record_cycle(const System& system, const State& state, int n, const StopChoice& stops, Stop stop,
+/// Runs so many periods from `state` and fills in what the cycle holds: n, impacts and chatter of the chosen stops,
+/// stick, label.
+void record_cycle(const System& system, const State& state, double duration, const StopChoice& stops, Stop stop,
                   Classification& out);
 
 /// Chatter of a sequence of impacts: incomplete if at least four in a row come ever slower and ever sooner.

@@ -7,19 +7,21 @@
 namespace slapstick::attractor {
 
 struct RunFigures {
-  double exponent = 0.0, exponent_error = 0.0;  ///< per forcing period; -infinity if every tangent dies out (stick)
+  double exponent = 0.0, exponent_error = 0.0;  ///< per return; -infinity if every tangent dies out (stick)
   double digits = 0.0;      ///< agreement of the weighted Birkhoff averages of two halves, decimal digits
-  Rotation rotation;        ///< of the stroboscopic points
+  Rotation rotation;        ///< of the points of the section
   PeriodEvents events;      ///< chatters: of the chosen stops
   State state;              ///< at the end; its class is represented as in Translations
-  Eigen::VectorXd advance;  ///< mean along each translation, per forcing period
+  Eigen::VectorXd advance;  ///< mean along each translation, per return
+  double mean_return = 1.0;  ///< in periods
+  bool ended = false;        ///< the motion did not return any more: nothing else is meant but `state`
   bool burst = false;       ///< an incomplete chatter of the chosen stops
   double sticking_fraction = 0.0;
 };
 
-/// Follows the motion and one tangent, both modulo the translations, for `periods`; the exponent's error is the
-/// standard error of 20 batch means.
-RunFigures run_figures(const flow::Translations& translations, const State& state, int periods, const StopChoice& stops,
+/// Follows the motion and one tangent, both modulo the translations, for so many returns; the exponent's error is the
+/// standard error of 20 batch means. The tangent's part along a free motion is taken out.
+RunFigures run_figures(const section::ReturnMap& map, const State& state, int returns, const StopChoice& stops,
                        Stop stop);
 
 /// Digits to which the weighted Birkhoff averages (weight exp(-1/(t(1-t)))) of the two halves of a sequence agree,

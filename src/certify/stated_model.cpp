@@ -43,7 +43,7 @@ std::string stated(const Damper& damper) {
 }
 
 std::string stated(const Force& force) {
-  const auto& [coordinate, harmonic, amplitude, phase] = force;
+  const auto& [coordinate, harmonic, amplitude, phase, frequency, signal, rate] = force;
   return line("force" + number(coordinate) + number(harmonic) + hex(amplitude) + hex(phase));
 }
 
@@ -102,6 +102,10 @@ std::string not_stated(const Model& model) {
   for (const FrictionContact& contact : model.frictions)
     if (contact.normal && contact.normal->terms.size() > most_corners)
       return "a normal force of more than 1000 terms (" + in_quotes(contact.name) + ")";
+  for (const Force& force : model.forces) {
+    if (force.frequency != 0.0) return "forces with a frequency of their own";
+    if (force.signal >= 0) return "signals (" + in_quotes(model.signals[static_cast<std::size_t>(force.signal)].name) + ")";
+  }
   return "";
 }
 
@@ -143,8 +147,8 @@ std::string pair_of(const mode::Frame& frame, int i) {
 
 std::string stated_model(const flow::CompiledSystem& system) {
   demand_stated(system.model());
-  const auto& [name, coordinates, springs, dampers, forces, frictions, stops, compliant_stops, characteristics, mass,
-               damping, stiffness, impact_law, omega] = system.model();
+  const auto& [name, coordinates, springs, dampers, forces, frictions, stops, compliant_stops, characteristics, signals,
+               mass, damping, stiffness, impact_law, omega] = system.model();
   const mode::Frame& frame = system.frame();
   std::string text = line("slapstick-certificate 3") + line("model" + called(name)) + line("size" + number(frame.n));
   text += line("omega" + hex(omega));

@@ -124,6 +124,32 @@ struct Shrunk {
   }
 };
 
+/// Takes over the state of the contact that a crossing is about.
+void take_state(mode::ContactStates& states, const mode::ContactStates& from, const Leg& crossing) {
+  const auto at = static_cast<std::size_t>(crossing.contact);
+  if (mode::of_corner(crossing.kind)) states.pieces[at] = from.pieces[at];
+  if (mode::of_load(crossing.kind)) states.frictions[at] = from.frictions[at];
+  if (mode::of_bound(crossing.kind)) states.compliant[at] = from.compliant[at];
+}
+
+/// A line is crossed at the end of the first leg and crossed back at the end of the last of those that are gone: both crossings are no more, what
+/// lies between them stays. @returns false if it is not so
+bool uncross(Shrunk& turned) {
+  std::vector<Leg>& legs = turned.orbit.shape.legs;
+  const Leg first = legs[0];
+  const std::size_t run = turned.run(), next = (run + 1) % legs.size();
+  if (run < 2 || !mode::of_crossing(first.kind) || !mode::of_crossing(legs[run].kind) || legs[run].kind == first.kind ||
+      legs[run].contact != first.contact)
+    return false;
+  mode::ContactStates as_before = legs[next].states;
+  take_state(as_before, first.states, first);
+  if (!(as_before == legs[next].states)) return false;
+  for (std::size_t i = 1; i <= run; ++i) take_state(legs[i].states, first.states, first);
+  turned.leave_out(0, 1);
+  turned.leave_out(static_cast<std::ptrdiff_t>(run) - 1, 1);
+  return true;
+}
+
 /// One event in place of the two, the ends of the first leg and of the last of those behind it that are gone. @returns false if none is known
 bool unite(Shrunk& turned, bool impacts_stay) {
   Leg& first = turned.orbit.shape.legs[0];
@@ -142,6 +168,7 @@ bool unite(Shrunk& turned, bool impacts_stay) {
     turned.leave_out(0, count + 1);
     return true;
   }
+  if (!first_strikes && !last_strikes && uncross(turned)) return true;
   if (!last_strikes && !stops) return false;
   last.states = first.states;
   turned.leave_out(0, count);
@@ -149,7 +176,7 @@ bool unite(Shrunk& turned, bool impacts_stay) {
 }
 
 /// Legs that have shrunk to nothing. Between two of one mode: those are one leg. Between two stops of one velocity: the second is the first's. Between
-/// another event and an impact, of which a speed is left: the impact is all.
+/// another event and an impact, of which a speed is left: the impact is all. Between two crossings of one line: what lies between them.
 std::vector<Orbit> merged(const ModeSet& set, const Orbit& before, const Orbit& orbit, bool impacts_stay) {
   Shrunk all{orbit, {}};
   for (std::size_t i = 0; i < orbit.legs(); ++i) all.gone.push_back(vanishes(before, orbit, i));

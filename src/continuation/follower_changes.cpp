@@ -199,7 +199,7 @@ bool Follower::pass(PathPoint& at, Change change) {
 /// state of rest there has a size in proportion to the distance of the two, and ends as they meet.
 bool Follower::comes_to_rest(const SpecialPoint& special) const {
   constexpr double small = 1e-4;  // of the point before; a place known to 1e-9 of a step leaves less
-  if (problem_.base().model().forced() || branch_.points.empty()) return false;
+  if (special.solution.orbit.shape.n > 0 || branch_.points.empty()) return false;
   return Extent(problem_, special.solution.orbit).velocity() <=
          small * Extent(problem_, branch_.points.back().orbit).velocity();
 }
@@ -208,7 +208,7 @@ bool Follower::comes_to_rest(const SpecialPoint& special) const {
 /// is one of a family: all that lie about the state of rest like it, nearer or farther.
 bool Follower::stays_in_one_mode(const Orbit& orbit) const {
   constexpr double gone = 1e-4;  // of the cycle: a leg at a graze that is known to 1e-9 of a step is shorter
-  if (problem_.base().model().forced()) return false;
+  if (orbit.shape.n > 0) return false;
   std::size_t longest = 0;
   for (std::size_t i = 0; i < orbit.legs(); ++i)
     if (orbit.duration(i) > orbit.duration(longest)) longest = i;
@@ -220,13 +220,13 @@ bool Follower::stays_in_one_mode(const Orbit& orbit) const {
 
 /// The branch ends where its events change: its passage says why. @returns false
 bool Follower::end_at(const PathPoint& at, SpecialPoint special) {
-  if (special.passage == Passage::unknown && comes_to_rest(special)) special.passage = Passage::equilibrium;
-  if (special.passage == Passage::unknown && stays_in_one_mode(special.solution.orbit))
-    special.passage = Passage::family;
   if (special.passage == Passage::unknown && at_end(special.value, structure * range_, at)) {
     end(BranchEnd::Kind::range);
     return false;
   }
+  if (special.passage == Passage::unknown && comes_to_rest(special)) special.passage = Passage::equilibrium;
+  if (special.passage == Passage::unknown && stays_in_one_mode(special.solution.orbit))
+    special.passage = Passage::family;
   branch_.up.failed = special.passage == Passage::unknown;
   branch_.special.push_back(std::move(special));
   end(BranchEnd::Kind::special);

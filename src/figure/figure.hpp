@@ -62,6 +62,12 @@ struct Line {
   double width_pt = 0.8;
 };
 
+/// The colour that a shaded span of this colour has on paper: for its entry in a legend.
+constexpr Colour tint(Colour colour) {
+  const auto pale = [](int ink) { return static_cast<std::uint8_t>(255 - 22 * (255 - ink) / 100); };
+  return {pale(colour.red), pale(colour.green), pale(colour.blue)};
+}
+
 /// An annotation in data coordinates. Which of the three positions are given decides what it is:
 /// x alone: a vertical line; x and x_end: a shaded span; y alone: a horizontal line; x and y: the label at that point.
 /// Labels of vertical lines and spans stand above the frame, in as many rows as they need not to touch.
@@ -104,7 +110,8 @@ struct Panel {
   std::vector<Mark> marks{};
   std::vector<Key> keys{};
   Legend legend = Legend::automatic;
-  double height_share = 1;  ///< frame height relative to the other rows; a row takes its largest
+  double height_share = 1;   ///< frame height relative to the other rows; a row takes its largest
+  bool joins_below = false;  ///< one x range with the panel beneath it, numbered and named there only
 };
 
 /// Panels row by row, left to right. 8.5 cm is one journal column, 17.5 cm two.
@@ -114,7 +121,7 @@ struct Figure {
   double width_cm = 8.5;
   /// default: 5.6 cm per row with an x axis of its own, 3.8 cm for a row that shares it, and what legends below take
   std::optional<double> height_cm{};
-  bool share_x = false;   ///< panels of a column have one x range, numbered and named under the lowest only
+  bool share_x = false;   ///< every panel joins the one beneath it
   std::string caption{};  ///< a comment in the script; a journal sets captions in its own type
   std::string font = "DejaVu Sans";
   double font_pt = 8;
@@ -123,15 +130,18 @@ struct Figure {
       raster_dpi{};  ///< of density images; default: png_dpi, or twice that if there is a point for every pixel
 };
 
+/// `tex`: a picture for LaTeX (\input{stem.tex}), its lines in stem.pdf, its text set by LaTeX. `py`: a script for
+/// matplotlib that reads the same data; it needs no gnuplot.
 struct Formats {
-  bool png = true, pdf = true, svg = false;
+  bool png = true, pdf = true, svg = false, tex = false, py = false;
+  [[nodiscard]] bool of_gnuplot() const { return png || pdf || svg || tex; }
 };
 
 /// What was written. Paths of formats that were not asked for are empty.
 struct Files {
   std::filesystem::path script, data;
   std::vector<std::filesystem::path> rasters;  ///< one per panel with a rastered series: stem-raster<panel>.png
-  std::filesystem::path png, pdf, svg;
+  std::filesystem::path png, pdf, svg, tex, py;
 };
 
 /// Values beyond this count as not finite (gnuplot's own arithmetic on ranges would overflow).
@@ -154,6 +164,9 @@ void demand_gnuplot();
 /// @throws StorageError  folder missing or not writable; gnuplot missing ("gnuplot not found: install gnuplot-nox") or
 /// failing Cost, PNG and PDF at 8.5 cm: 0.1 to 0.2 s for curves, 0.35 to 0.6 s with 500 000 points (one 2.5 GHz Xeon
 /// core, shared; gnuplot takes nearly all of it). Twice the raster_dpi: 1 s and more.
-Files write(const Figure& figure, const std::filesystem::path& stem, Formats formats = {});
+///
+/// @param beside  the name of the script, the data and the images without ending; "": the stem's
+Files write(const Figure& figure, const std::filesystem::path& stem, Formats formats = {},
+            const std::string& beside = {});
 
 }  // namespace slapstick::figure

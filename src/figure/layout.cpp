@@ -44,19 +44,23 @@ void add_x(Extent& extent, const Panel& panel) {
   for (const auto& line : panel.lines) extent.add(line.x, panel.log_x);
 }
 
+/// Does it leave its x axis to the panel beneath it?
+bool joins_below(const Figure& figure, const Grid& grid, std::size_t panel) {
+  return (figure.share_x || figure.panels[panel].joins_below) && !is_lowest(figure, grid, panel);
+}
+
+/// The range of a panel, or of those in one column that it is joined to.
 Range x_range(const Figure& figure, const Grid& grid, std::size_t index) {
-  const Panel& panel = figure.panels[index];
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  std::size_t first = index;
+  while (first >= columns && joins_below(figure, grid, first - columns)) first -= columns;
   Extent extent;
-  if (!figure.share_x) {
-    if (panel.x_range) return *panel.x_range;
-    add_x(extent, panel);
-  } else {
-    for (std::size_t i = grid.column(index); i < figure.panels.size(); i += grid.columns) {
-      if (figure.panels[i].x_range) return *figure.panels[i].x_range;
-      add_x(extent, figure.panels[i]);
-    }
+  for (std::size_t i = first;; i += columns) {
+    if (figure.panels[i].x_range) return *figure.panels[i].x_range;
+    add_x(extent, figure.panels[i]);
+    if (!joins_below(figure, grid, i)) break;
   }
-  return padded(extent, extent.one_way ? 0.0 : padding, panel.log_x);
+  return padded(extent, extent.one_way ? 0.0 : padding, figure.panels[index].log_x);
 }
 
 Range y_range(const Panel& panel) {
@@ -186,11 +190,14 @@ void choose_x_axes(const Figure& figure, const Grid& grid, Layout& layout) {
 
 double default_height(const Figure& figure, const Grid& grid, const Layout& layout) {
   std::vector<int> legend_rows(grid.rows, 0);
-  for (std::size_t i = 0; i < figure.panels.size(); ++i)
-    legend_rows[grid.row(i)] = std::max(legend_rows[grid.row(i)], layout.panels[i].legend_rows);
+  std::vector<double> heights(grid.rows, shared_row_height_cm);
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    const int row = grid.row(i);
+    legend_rows[row] = std::max(legend_rows[row], layout.panels[i].legend_rows);
+    if (!joins_below(figure, grid, i)) heights[row] = row_height_cm;
+  }
   const double legends = std::accumulate(legend_rows.begin(), legend_rows.end(), 0) * spacing::row * layout.em_cm;
-  return legends +
-         (figure.share_x ? row_height_cm + (grid.rows - 1) * shared_row_height_cm : grid.rows * row_height_cm);
+  return legends + std::accumulate(heights.begin(), heights.end(), 0.0);
 }
 
 }  // namespace
@@ -221,7 +228,7 @@ Layout lay_out(const Figure& figure) {
     place_columns(figure, grid, layout);
   }
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
-    layout.panels[i].x_numbers = !figure.share_x || is_lowest(figure, grid, i);
+    layout.panels[i].x_numbers = !joins_below(figure, grid, i);
     place_mark_labels(figure.panels[i], layout.panels[i], layout.em_cm, layout.width_cm);
   }
   place_rows(figure, grid, layout);  // twice: a legend may claim a row

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/ranges.hpp"
+#include "latex.hpp"
 #include "style.hpp"
 #include "text.hpp"
 
@@ -22,7 +23,7 @@ std::string comment(const std::string& text) {
 class PanelScript {
  public:
   PanelScript(const Figure& figure, const Layout& layout, const Table& table, const std::string& name,
-              std::size_t index)
+              std::size_t index, bool latex)
       : panel_(figure.panels[index]),
         at_(layout.panels[index]),
         whole_(layout),
@@ -30,6 +31,7 @@ class PanelScript {
         name_(name),
         index_(index),
         font_pt_(figure.font_pt),
+        latex_(latex),
         small_font_(fixed(figure.font_pt * spacing::legend_font, 2)) {}
 
   std::string text() {
@@ -62,7 +64,7 @@ class PanelScript {
   void axis(const std::string& name, const Axis& axis, bool numbers) {
     if (axis.log) line("set logscale " + name);
     line("set " + name + "range [" + number(axis.range.min) + ":" + number(axis.range.max) + "]");
-    line("set format " + name + " " + quote(numbers ? axis.format : ""));
+    line("set format " + name + " " + quote(!numbers ? "" : latex_ ? latex_format(axis.format) : axis.format));
     std::string ticks = "autofreq";
     if (!axis.ticks.empty()) {
       ticks.clear();
@@ -239,6 +241,7 @@ class PanelScript {
   const std::string& name_;
   std::size_t index_;
   double font_pt_;
+  bool latex_;
   std::string small_font_, out_;
 };
 
@@ -263,6 +266,9 @@ std::string terminals(const Figure& figure, const Layout& layout, Formats format
   if (formats.pdf)
     out += "  if (format eq 'pdf') { set terminal pdfcairo size " + fixed(layout.width_cm, 3) + "cm," +
            fixed(layout.height_cm, 3) + "cm" + font + scaled(0.75, 2, pdf_dashes, 1) + " }\n";
+  if (formats.tex)
+    out += "  if (format eq 'tex') { set terminal cairolatex pdf size " + fixed(layout.width_cm, 3) + "cm," +
+           fixed(layout.height_cm, 3) + "cm font ',8' linewidth 2 dashlength " + fixed(pdf_dashes, 1) + " pointscale 1 }\n";
   if (formats.svg)
     out += "  if (format eq 'svg') { set terminal svg size " + pixels(96) + font +
            " fontscale 1.3333 linewidth 1.3333 }\n";
@@ -272,7 +278,8 @@ std::string terminals(const Figure& figure, const Layout& layout, Formats format
 std::string format_list(Formats formats) {
   std::string out;
   for (const auto& [wanted, name] :
-       {std::pair{formats.png, "png"}, std::pair{formats.pdf, "pdf"}, std::pair{formats.svg, "svg"}})
+       {std::pair{formats.png, "png"}, std::pair{formats.pdf, "pdf"}, std::pair{formats.svg, "svg"},
+        std::pair{formats.tex, "tex"}})
     if (wanted) out += (out.empty() ? "" : " ") + std::string(name);
   return out;
 }
@@ -286,18 +293,18 @@ std::string raster_name(const std::string& name, std::size_t panel) {
 }
 
 std::string script(const Figure& figure, const Layout& layout, const Table& table, const std::string& name,
-                   Formats formats) {
+                   const std::string& picture, Formats formats) {
   std::string out =
       comment("Written by slapstick. Change it at will and redraw with gnuplot 5.4 or later, in this folder:");
   out += comment("  gnuplot " + name + ".gp");
   if (!figure.caption.empty()) out += comment("\n" + figure.caption);
-  out += "reset\nset encoding utf8\nset minussign\nset datafile separator comma\n";
+  out += std::string("reset\nset encoding utf8\n") + (formats.tex ? "" : "set minussign\n") + "set datafile separator comma\n";
   out += "do for [format in " + quote(format_list(formats)) + "] {\n" + terminals(figure, layout, formats);
-  out += "  set output " + quote_file(name + ".") + " . format\n";
+  out += "  set output " + quote_file(picture + ".") + " . format\n";
   out += "  set border 15 lw 0.5 front; set tics front in scale 0.8, 0.4 mirror; unset x2tics; unset y2tics\n";
   out += "  set style textbox opaque fillcolor rgb '#40ffffff' noborder margins 1, 0.8\n";
   out += "  set multiplot\n";
-  for (std::size_t i = 0; i < figure.panels.size(); ++i) out += PanelScript(figure, layout, table, name, i).text();
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) out += PanelScript(figure, layout, table, name, i, formats.tex).text();
   return out + "\n  unset multiplot\n  unset output\n}\n";
 }
 

@@ -7,9 +7,10 @@
 
 namespace slapstick::figure {
 
-/// @param name  file name stem; the script reads and writes ./name-plot.csv, ./name-raster<panel>.png, ./name.png, ...
+/// @param name     of the script and what it reads: ./name-plot.csv, ./name-raster<panel>.png
+/// @param picture  of what it writes: ./picture.png, ..
 std::string script(const Figure& figure, const Layout& layout, const Table& table, const std::string& name,
-                   Formats formats);
+                   const std::string& picture, Formats formats);
 
 /// File name of the table of lines and discs. Not name.csv: that is where a user's own table of the same study lies.
 std::string table_name(const std::string& name);

@@ -8,7 +8,9 @@
 
 #include "base/ranges.hpp"
 #include "gnuplot.hpp"
+#include "latex.hpp"
 #include "layout.hpp"
+#include "matplotlib.hpp"
 #include "script.hpp"
 #include "slapstick/base/error.hpp"
 #include "figure/figure.hpp"
@@ -85,7 +87,8 @@ void check_panel(const Panel& panel, const std::string& where) {
 void check_figure(const Figure& figure, const Formats& formats) {
   check(!figure.panels.empty(), "no panels");
   check(figure.columns >= 1, "columns must be at least 1");
-  check(formats.png || formats.pdf || formats.svg, "no format asked for");
+  check(formats.of_gnuplot() || formats.py, "no format asked for");
+  check(!formats.tex || !(formats.png || formats.pdf || formats.svg), "a picture for LaTeX is drawn by itself");
   check(figure.width_cm > 0 && figure.width_cm <= 100, "width_cm must be in (0, 100]");
   check(!figure.height_cm || (*figure.height_cm > 0 && *figure.height_cm <= 100), "height_cm must be in (0, 100]");
   check(figure.font_pt >= 3 && figure.font_pt <= 40, "font_pt must be in [3, 40]");
@@ -126,14 +129,19 @@ void move_into_place(const Scratch& scratch, const fs::path& folder, const std::
   if (error) throw StorageError("cannot write " + target.string() + ": " + error.message());
 }
 
-}  // namespace
-
-Files write(const Figure& figure, const fs::path& stem, Formats formats) {
-  check_figure(figure, formats);
-  const std::string name = stem.filename().string();
+void check_name(const std::string& name, const fs::path& stem) {
   check(!name.empty() && name != "." && name != "..", "the stem '" + stem.string() + "' names no file");
   check(std::none_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }),
         "the stem holds a control character");
+}
+
+}  // namespace
+
+Files write(const Figure& figure, const fs::path& stem, Formats formats, const std::string& beside) {
+  check_figure(figure, formats);
+  const std::string picture = stem.filename().string(), name = beside.empty() ? picture : beside;
+  check_name(picture, stem);
+  check_name(name, stem);
   const fs::path folder = stem.has_parent_path() ? stem.parent_path() : fs::path(".");
   const Layout layout = lay_out(figure);
   const Table table = tabulate(figure, layout);
@@ -148,21 +156,27 @@ Files write(const Figure& figure, const fs::path& stem, Formats formats) {
     if (layout.panels[i].raster) save(raster_name(name, i), draw_raster(figure.panels[i], layout.panels[i]));
   const std::size_t raster_count = names.size();
   if (!table.series.empty()) save(table_name(name), to_csv(table));
-  save(name + ".gp", script(figure, layout, table, name, formats));
-  run_gnuplot(scratch.path(), name + ".gp");
+  if (formats.py) save(picture + ".py", matplotlib_script(figure, layout, table, name, picture));
+  if (formats.of_gnuplot()) {
+    save(name + ".gp", script(formats.tex ? translated(figure, Dialect::latex) : figure, layout, table, name, picture, formats));
+    run_gnuplot(scratch.path(), name + ".gp");
+  }
   for (const auto& [wanted, ending] :
-       {std::pair{formats.png, ".png"}, std::pair{formats.pdf, ".pdf"}, std::pair{formats.svg, ".svg"}})
-    if (wanted) names.push_back(name + ending);
+       {std::pair{formats.png, ".png"}, std::pair{formats.pdf || formats.tex, ".pdf"}, std::pair{formats.svg, ".svg"},
+        std::pair{formats.tex, ".tex"}})
+    if (wanted) names.push_back(picture + ending);
 
   check_movable(scratch, folder, names);
   for (const auto& file : names) move_into_place(scratch, folder, file);
-  const auto path = [&](bool exists, const char* ending) { return exists ? folder / (name + ending) : fs::path(); };
-  Files files{.script = path(true, ".gp"),
-              .data = path(!table.series.empty(), "-plot.csv"),
+  const auto path = [&](bool exists, const char* ending) { return exists ? folder / (picture + ending) : fs::path(); };
+  Files files{.script = path(formats.of_gnuplot(), ".gp").empty() ? fs::path() : folder / (name + ".gp"),
+              .data = table.series.empty() ? fs::path() : folder / table_name(name),
               .rasters = {},
               .png = path(formats.png, ".png"),
-              .pdf = path(formats.pdf, ".pdf"),
-              .svg = path(formats.svg, ".svg")};
+              .pdf = path(formats.pdf || formats.tex, ".pdf"),
+              .svg = path(formats.svg, ".svg"),
+              .tex = path(formats.tex, ".tex"),
+              .py = path(formats.py, ".py")};
   for (std::size_t i = 0; i < raster_count; ++i) files.rasters.push_back(folder / names[i]);
   return files;
 }

@@ -92,6 +92,14 @@ void magnitude_product(const CompiledSystem& system, const mode::Mode& here, con
     out[c] = rate * v[c + 1];
     out[c + 1] = rate * v[c];
   }
+  for (std::size_t k = 0; k < frame.tones.size(); ++k) {
+    out[frame.tone(k)] = frame.tones[k].frequency * v[frame.tone(k) + 1];
+    out[frame.tone(k) + 1] = frame.tones[k].frequency * v[frame.tone(k)];
+  }
+  for (std::size_t k = 0; k < frame.signals.size(); ++k) {
+    out[frame.signal(k)] = v[frame.signal(k) + 1] / frame.period;
+    out[frame.signal(k) + 1] = 0.0;
+  }
   out[frame.one()] = 0.0;
 }
 

@@ -32,24 +32,26 @@ Model checked(Model model) {
 /// The fastest rate of a mode: the largest modulus of an eigenvalue of its free motion, or its highest forcing
 /// frequency. Velocities are measured in a unit that makes the entries of the matrix comparable, otherwise a stiff
 /// spring would cost the solver its digits.
-double fastest_rate(const mode::Mode& mode, int n) {  // n: displacements
+double fastest_rate(const mode::Mode& mode, const mode::Frame& frame) {
+  const int n = frame.d;
   mode::Matrix A = mode.system().topLeftCorner(2 * n, 2 * n);
   const double unit = std::sqrt(A.bottomLeftCorner(n, n).cwiseAbs().maxCoeff());
   if (unit > 0.0) {
     A.topRightCorner(n, n) *= unit;
     A.bottomLeftCorner(n, n) /= unit;
   }
-  const auto oscillators = mode.size() - 2 * n;
-  const double forcing = mode.system().bottomRightCorner(oscillators, oscillators).cwiseAbs().maxCoeff();
+  const auto oscillators = frame.signal(0) - 2 * n;
+  const double forcing =
+      oscillators == 0 ? 0.0 : mode.system().block(2 * n, 2 * n, oscillators, oscillators).cwiseAbs().maxCoeff();
   return std::max(std::sqrt(dense::eigenvalues(A).cwiseAbs2().maxCoeff()), forcing);
 }
 
 /// A window is never much longer than the shortest time scale of its mode: the tail of its series would not be
 /// negligible. One that is tells that numbers overflowed when it was computed.
 /// @returns the window length @throws InputError
-double checked_window(const Model& model, const mode::Mode& mode, int displacements) {
+double checked_window(const Model& model, const mode::Mode& mode, const mode::Frame& frame) {
   constexpr double longest = 16.0;  // times the fastest rate; without overflow it stays below 5
-  const double rate = fastest_rate(mode, displacements), window = mode.window();
+  const double rate = fastest_rate(mode, frame), window = mode.window();
   if (!(std::isfinite(rate) && window > 0.0 && window * rate <= longest))
     throw InputError("model '" + model.name +
                      "' has time scales too far apart for double precision (its fastest rate is " + shown(rate) +
@@ -113,7 +115,7 @@ CompiledSystem::CompiledSystem(Model model, SystemOptions options)
 mode::Mode CompiledSystem::build(ModeId id) const {
   const IeeeArithmetic ieee;
   mode::Mode built(model_, frame_, states(id), options_.longest_window);
-  (void)checked_window(model_, built, frame_.d);
+  (void)checked_window(model_, built, frame_);
   return built;
 }
 
@@ -183,7 +185,11 @@ std::string CompiledSystem::contact_name(int contact) const {
   if (contact < frictions) return model_.frictions[contact].name;
   contact -= frictions;
   const auto compliant = static_cast<int>(model_.compliant_stops.size());
-  return contact < compliant ? model_.compliant_stops[contact].name : model_.characteristics[contact - compliant].name;
+  if (contact < compliant) return model_.compliant_stops[contact].name;
+  contact -= compliant;
+  const auto characteristics = static_cast<int>(model_.characteristics.size());
+  return contact < characteristics ? model_.characteristics[contact].name
+                                   : model_.signals[contact - characteristics].name;
 }
 
 }  // namespace slapstick::flow

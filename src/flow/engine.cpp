@@ -27,7 +27,8 @@ Engine::Engine(const CompiledSystem& system, const State& state, Instant start, 
   budget_period_ = now_.period;
 
   frame.enter(state.data(), X_.data());
-  frame.set_phase(now_.fraction, X_.data());
+  frame.set_clock(now_, X_.data());
+  knot_ = frame.next_knot(now_);
   X_before_ = X_;
   keep_segment_start();
   this->start();
@@ -58,11 +59,15 @@ void Engine::begin_segment() {
   strikes_.clear();
 }
 
+std::span<const double> Engine::extended_of_event() const {
+  const std::size_t size = X_.span().size();
+  if (shown_ == 0 || pending_.empty()) return X_before_.span();
+  return {later_before_.data() + static_cast<std::size_t>(shown_ - 1) * size, size};
+}
+
 std::span<const double> Engine::before() const {
   const IeeeArithmetic ieee;
-  const bool later = shown_ > 0 && !pending_.empty();
-  const std::size_t skipped = later ? static_cast<std::size_t>(shown_ - 1) * X_.span().size() : 0;
-  system_->frame().leave(later ? later_before_.data() + skipped : X_before_.data(), before_.data());
+  system_->frame().leave(extended_of_event().data(), before_.data());
   return before_;
 }
 
@@ -90,20 +95,40 @@ Outcome Engine::advance(Instant end) {
   }
   if (end <= now_) return Outcome::reached_end;
   const IeeeArithmetic ieee;
-  const double limit = end.since(place_.start) * system_->period();
+  const Instant stage = std::min(end, knot_);
+  const double limit = stage.since(place_.start) * system_->period();
   if (!pending_.empty()) last_ = pending_[shown_];
   pending_.clear();
   later_before_.clear();
   shown_ = 0;
   if (chatter_stop_ >= 0 && !place_.moved && end_chatter(limit)) return Outcome::event;
   begin_segment();
-  if (const auto found = fly(end)) {
+  if (const auto found = fly(stage)) {
     handle(found->guard, found->kind == event::RootKind::graze);
     return Outcome::event;
   }
+  if (stage == knot_) {
+    pass_knot();
+    return Outcome::event;
+  }
   now_ = end;
-  system_->frame().set_phase(now_.fraction, X_.data());
+  system_->frame().set_clock(now_, X_.data());
   return Outcome::reached_end;
+}
+
+/// The slope of a signal jumps. Its value does not, but a damper's force at a moving base may: the next mode is asked
+/// for.
+void Engine::pass_knot() {
+  if (now_ < knot_) at_instant_ = {};
+  now_ = knot_;
+  const mode::Frame& frame = system_->frame();
+  frame.set_clock(now_, X_.data());
+  knot_ = frame.next_knot(now_);
+  X_before_ = X_;
+  const int first = stops() + frictions() + compliants() + static_cast<int>(system_->model().characteristics.size());
+  for (std::size_t k = 0; k < frame.signals.size(); ++k)
+    if (frame.signals[k].has_knot(now_)) report(EventKind::knot, first + static_cast<int>(k), 0.0);
+  settle(Cause::force);
 }
 
 }  // namespace slapstick::flow

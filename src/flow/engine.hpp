@@ -18,6 +18,8 @@ class Engine : public Flight {
 
   [[nodiscard]] const Event& event() const { return pending_.empty() ? last_ : pending_[shown_]; }
   [[nodiscard]] std::span<const double> before() const;
+  /// The extended state just before `event()`, from which `before()` is taken.
+  [[nodiscard]] std::span<const double> extended_of_event() const;
   /// The extended state just before the first event of the last instant that had one.
   [[nodiscard]] std::span<const double> extended_before() const { return X_before_.span(); }
 
@@ -33,6 +35,7 @@ class Engine : public Flight {
   enum class Cause { impact, graze, reversal, force, compliant /* and characteristic */ };
 
   void start();
+  void pass_knot();
   void begin_segment();
   void handle(int guard, bool graze);
   void rest(const mode::ContactRow& contact);
@@ -68,6 +71,7 @@ class Engine : public Flight {
   [[nodiscard]] int compliants() const { return static_cast<int>(system_->model().compliant_stops.size()); }
 
   MotionOptions options_;
+  Instant knot_ = mode::SignalTable::never;  ///< the next one of a signal
   int chatter_stop_ = -1;  ///< the stop just hit, whose chatter may be complete
   Extended X_before_;
   std::vector<double> scratch_;   ///< of the proof of a chatter

@@ -310,7 +310,7 @@ bool Engine::end_chatter(double limit) {
   place_.start = impact;
   const double H = here_->window();
   look(begun / H);
-  frame.set_phase(now_.fraction, X_.data());
+  frame.set_clock(now_, X_.data());
   begin_segment();
   arrive(chatter.duration / H);
   X_before_ = X_;
@@ -357,6 +357,7 @@ void Engine::report(EventKind kind, int contact, double w, const Extended& befor
   pending_.push_back(Event{kind, contact, now_, w, 0.0});
   ++counters_.events;
   counters_.grazes += kind == EventKind::graze;
+  if (kind == EventKind::knot) return;  // the signal says how many there are
   if (++at_instant_.events > most_events_at_one_instant) fail_pile_up();
   if (now_.period != budget_period_) {
     budget_period_ = now_.period;

@@ -38,8 +38,7 @@ Flight::Flight(const CompiledSystem& system, Instant start)
   lingers_.assign(guards, false);
   sample_.assign(2 * X_.span().size(), 0.0);
   sample_out_.resize(X_.span().size() / 8);
-  const mode::Frame& frame = system.frame();
-  std::fill_n(phase_floor_.data() + 2 * frame.d, 2 * frame.harmonics.size(), 1.0);
+  system.frame().set_clock_sizes(phase_floor_.data());
 }
 
 void Flight::state(std::span<double> out) const {
@@ -48,6 +47,11 @@ void Flight::state(std::span<double> out) const {
 }
 
 void Flight::sample(double s, std::span<double> out) const {
+  const IeeeArithmetic ieee;
+  system_->frame().leave(state_within(s).data(), out.data());
+}
+
+std::span<const double> Flight::state_within(double s) const {
   const IeeeArithmetic ieee;
   const mode::Mode& mode = system_->mode(segment_mode_);
   const int m = system_->frame().size();
@@ -63,7 +67,7 @@ void Flight::sample(double s, std::span<double> out) const {
     std::copy_n(reinterpret_cast<const double*>(sample_out_.data()), m, X);
   }
   mode.state_at(s / mode.window(), X, at);
-  system_->frame().leave(at, out.data());
+  return {at, 2 * static_cast<std::size_t>(system_->frame().d)};
 }
 
 /// From the state now, in the mode just selected; `orders_` and `magnitude_` are those of this state.
@@ -257,7 +261,7 @@ void Flight::move_start(double x, Extended& X) {
   const mode::Mode& mode = *here_;
   segment_begun_ -= place_.elapsed(mode.window()) + x * mode.window();
   place_ = {.start = instant(x), .moved = true};
-  system_->frame().set_phase(place_.start.fraction, X.data());
+  system_->frame().set_clock(place_.start, X.data());
 }
 
 /// x of the present window on the clock.
@@ -288,7 +292,7 @@ void Flight::stand(double x) {
     now_ = at;
     at_instant_ = {};
   }
-  system_->frame().set_phase(now_.fraction, X_.data());
+  system_->frame().set_clock(now_, X_.data());
 }
 
 /// |X|, what rounding is measured by. The phase is known to the clock's rounding only, also where a sine vanishes:

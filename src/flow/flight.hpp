@@ -44,6 +44,8 @@ class Flight {
   void state(std::span<double> out) const;
   [[nodiscard]] Motion::Segment segment() const { return {segment_start_, segment_mode_, segment_duration_}; }
   void sample(double s, std::span<double> out) const;
+  /// p and u, the first 2 d numbers of the extended state, at time s of the last segment. Valid until the next call.
+  [[nodiscard]] std::span<const double> state_within(double s) const;
   /// The windows that all calls of `sample` have stepped over.
   [[nodiscard]] long sampled_windows() const { return sampled_windows_; }
   /// The extended state now, and at the start of the last segment.

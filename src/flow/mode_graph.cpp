@@ -17,9 +17,9 @@ constexpr double no_underflow = 0x1p-900;
 constexpr int most_contacts = System::most_contacts;
 
 /// What one contact offers, as digits of a mode id (stop: open 0, closed 1; friction: slip- 0, stick 1, slip+ 2,
-/// unloaded 3; compliant: off 0, on 1, detached 2, bounded 3).
+/// unloaded 3; compliant: off 0, on 1, detached 2, bounded 3; characteristic: its piece, up to 200).
 struct Candidates {
-  std::array<std::int8_t, 4> digit;
+  std::array<std::int16_t, 4> digit;
   std::int8_t count;
 };
 
@@ -64,9 +64,9 @@ Candidates piece_candidates(const CompiledSystem& system, int i, const double* X
         mode::Mode::noise_factor_of(static_cast<int>(row.size())) * (size + std::abs(corners[corner].at));
     return std::abs(value - corners[corner].at) <= 2.0 * rest_factor * noise;
   };
-  const auto digit = static_cast<std::int8_t>(piece);
-  if (piece < corners.size() && near(piece)) return {{digit, static_cast<std::int8_t>(digit + 1)}, 2};
-  if (piece > 0 && near(piece - 1)) return {{digit, static_cast<std::int8_t>(digit - 1)}, 2};
+  const auto digit = static_cast<std::int16_t>(piece);
+  if (piece < corners.size() && near(piece)) return {{digit, static_cast<std::int16_t>(digit + 1)}, 2};
+  if (piece > 0 && near(piece - 1)) return {{digit, static_cast<std::int16_t>(digit - 1)}, 2};
   return {{digit}, 1};
 }
 

@@ -8,7 +8,7 @@ namespace slapstick {
 std::string_view name(EventKind kind) {
   constexpr std::string_view names[event_kinds] = {"impact",  "slip+",  "slip-",     "stick",    "release", "graze",
                                                    "chatter", "engage", "disengage", "separate", "corner",
-                                                   "unload",  "load"};
+                                                   "unload",  "load",   "knot"};
   return names[static_cast<int>(kind)];
 }
 

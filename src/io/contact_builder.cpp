@@ -1,4 +1,5 @@
 /// Builds the contacts of a Model: friction with its laws and normal forces, stops, compliant stops.
+#include <algorithm>
 #include <cmath>
 
 #include "base/elementary.hpp"
@@ -46,6 +47,28 @@ Law ModelBuilder::stribeck(const Part& part) const {
   if (!(low.value >= 0.0)) refuse("kinetic", low, " is negative");
   if (!(high.value >= low.value)) refuse("kinetic", low, " exceeds static = " + shown(high.value));
   return exponential(static_cast<int>(corners.value), high - low, low, speed);
+}
+
+/// The chord from v0 to v1 is farthest above offset + height exp(-v / speed) where the slopes agree, and the tail is
+/// off by the last point.
+std::vector<LaidLaw> ModelBuilder::laid_laws() {
+  std::vector<LaidLaw> all;
+  each("friction", [&](const Part& part) {
+    if (part.stribeck.empty()) return;
+    const Law law = stribeck(part);
+    const auto number = [&](const char* key) { return dual(part.stribeck.find(key)->second, where("stribeck") + ": " + key).value; };
+    const double speed = number("speed"), offset = number("kinetic"), height = number("static") - offset;
+    const double load = part.load.empty() ? 1.0 : dual(part.load.front().second, where("normal_force: constant")).value;
+    double most = law.back().second.value - offset;
+    for (std::size_t i = 1; i < law.size() && height > 0.0; ++i) {
+      const double v0 = law[i - 1].first.value, f0 = law[i - 1].second.value;
+      const double slope = (law[i].second.value - f0) / (law[i].first.value - v0);
+      const double v = -speed * fixed::ln(-slope * speed / height);
+      most = std::max(most, f0 + slope * (v - v0) - (offset - slope * speed));
+    }
+    all.push_back({part.name, load * most});
+  });
+  return all;
 }
 
 /// The force of slip over the speed: points, or one that holds for all speeds.
@@ -131,8 +154,16 @@ Stop ModelBuilder::stop(const Part& part) const {
     stop.restitution = written(part, "restitution");
     return stop;
   }
-  for (const auto& [speed, restitution] : points(part, "restitution_over_speed"))
+  for (const auto& [speed, restitution] : points(part, "restitution_over_speed")) {
+    const Point& point = part.points[stop.corners.size()];
+    const std::string place = where("restitution_over_speed") + ": point " + std::to_string(stop.corners.size() + 1);
+    if (!(speed.value > 0.0))
+      throw InputError(definition_.place(point.at.line), place + ": speed = " + shown(speed.value) + " is not positive");
+    if (!(restitution.value >= 0.0 && restitution.value <= 1.0))
+      throw InputError(definition_.place(point.force.line),
+                       place + ": restitution = " + shown(restitution.value) + " is outside [0, 1]");
     stop.corners.push_back({written(speed), written(restitution)});
+  }
   stop.restitution = stop.corners.front().restitution;
   return stop;
 }

@@ -20,8 +20,9 @@ struct Scalar {
 
 /// What a key of a [[part]] holds: a Scalar, a Scalar whose expression may name states as well, true or false, one line
 /// of text, a list of tables with fields of their own, a list of points [x, force], a list of two Scalars, a word of
-/// `contact_laws`, a table of `stribeck_keys`, or a table of `constant`, states and a `compliant_stop`.
-enum class Holds { number, observed, flag, text, harmonics, points, interval, contact_law, stribeck, load };
+/// `contact_laws`, a table of `stribeck_keys`, a table of `constant`, states and a `compliant_stop`, or a table of
+/// `band_keys`.
+enum class Holds { number, observed, flag, text, harmonics, points, interval, contact_law, stribeck, load, band };
 
 struct FieldRule {
   std::string_view key;
@@ -57,9 +58,11 @@ struct Part {
   std::map<std::string, bool, std::less<>> flags;
   std::map<std::string, std::string, std::less<>> texts;
   std::vector<Part> harmonics;
-  std::vector<Point> points;  ///< of its characteristic, or of its restitution
+  std::vector<Point> points;  ///< of its characteristic, of its restitution, or of a signal ..
+  std::vector<std::pair<double, double>> samples;  ///< .. whose file has many
   std::vector<Scalar> within;
   std::map<std::string, Scalar, std::less<>> stribeck;     // by stribeck_keys()
+  std::map<std::string, Scalar, std::less<>> band;         // by band_keys()
   std::vector<std::pair<std::string, Scalar>> load;        // of a normal force, in the file's order
   std::string load_stop;                                   // the compliant stop whose force it is
   int line = 0;
@@ -134,8 +137,9 @@ struct Definition {
 [[nodiscard]] const std::vector<std::string>& quantity_keys();
 [[nodiscard]] const PartRule& harmonic_rule();
 
-/// The keys of a `stribeck` table, and the words of `law` of a compliant stop.
+/// The keys of a `stribeck` table, of a `band`, and the words of `law` of a compliant stop.
 [[nodiscard]] const std::vector<std::string>& stribeck_keys();
+[[nodiscard]] const std::vector<std::string>& band_keys();
 [[nodiscard]] const std::vector<std::string>& contact_laws();
 /// The words of `impact_law`, in the order of the enumeration.
 [[nodiscard]] const std::vector<std::string>& impact_laws();

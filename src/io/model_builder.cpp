@@ -132,8 +132,8 @@ void ModelBuilder::add_bends(Model& model, const Part& part, Characteristic::Ove
 void ModelBuilder::add_zones(Model& model, const Part& part, const Dual& inside) {
   const Dual from = dual(part.within[0], where("within") + ": from"), to = dual(part.within[1], where("within") + ": to");
   if (!(from.value < to.value))
-    throw InputError(definition_.place(part.within[0].line), where("within") + ": " + shown(from.value) +
-                                                                 " is not below " + shown(to.value));
+    throw InputError(definition_.place(part.within[0].line), where("within") + ": " + shown(to.value) +
+                                                                 " is not above the " + shown(from.value) + " before it");
   const Dual outside = field(part, "coefficient_outside");
   if (!part.flag("feeds"))
     for (const auto& [key, value] : {std::pair("coefficient", inside), std::pair("coefficient_outside", outside)})
@@ -174,13 +174,22 @@ void ModelBuilder::add_motion(Model& model, const Part& part, const Dual& streng
 void ModelBuilder::push(Model& model, int coordinate, int base, const Dual& strength, int order) {
   if (!is_base(base)) return;
   for (const Term& term : bases_[static_cast<std::size_t>(base_end(base))]) {
-    if (order > 0 && term.harmonic == 0) continue;  // a constant displacement has no velocity
-    const Dual frequency = order > 0 ? Dual{static_cast<double>(term.harmonic)} * omega_ : Dual{1.0};
+    origins_["force"].push_back({kind_, index_});
+    if (term.signal >= 0) {
+      model.forces.push_back({coordinate, 0, written(strength * term.amplitude), 0.0, 0.0, term.signal, order == 1});
+      continue;
+    }
+    const bool own = term.frequency.value != 0.0;
+    if (order > 0 && term.harmonic == 0 && !own) {  // a constant displacement has no velocity
+      origins_["force"].pop_back();
+      continue;
+    }
+    const Dual turning = own ? term.frequency : Dual{static_cast<double>(term.harmonic)} * omega_;
+    const Dual frequency = order > 0 ? turning : Dual{1.0};
     const Dual phase = order == 1 ? term.phase + Dual{std::numbers::pi / 2} : term.phase;
     const Dual size = order == 2 ? -(strength * term.amplitude * (frequency * frequency))
                                  : strength * frequency * term.amplitude;
-    model.forces.push_back({coordinate, term.harmonic, written(size), written(phase)});
-    origins_["force"].push_back({kind_, index_});
+    model.forces.push_back({coordinate, term.harmonic, written(size), written(phase), written(term.frequency)});
   }
 }
 
@@ -203,14 +212,6 @@ void ModelBuilder::add_inertia(Model& model) {
   });
 }
 
-double ModelBuilder::base(std::size_t k, double omega, double time) const {
-  double sum = 0.0;
-  for (const Term& term : bases_[k])
-    sum +=
-        term.amplitude.value * (term.harmonic == 0 ? 1.0 : fixed::sin(term.harmonic * omega * time + term.phase.value));
-  return sum;
-}
-
 void ModelBuilder::add_matrices(Model& model) const {
   const auto n = static_cast<std::size_t>(model.size());
   for (const auto& [key, matrix] : definition_.matrices) {
@@ -228,19 +229,9 @@ Model ModelBuilder::assembled() {
   if (definition_.omega) omega_ = dual(*definition_.omega, "omega");
   model.omega = written(omega_);
   each("coordinate", [&](const Part& part) { model.coordinates.push_back({part.name, written(part, "mass")}); });
-  each("base", [&](const Part& part) {
-    auto& terms = bases_.emplace_back();
-    for (const auto& term : part.harmonics) {
-      const auto place = where("harmonics ") + std::to_string(terms.size() + 1) + ": ";
-      terms.push_back({at(term, "amplitude", {}, place + "amplitude"), harmonic(term, place + "harmonic"),
-                       at(term, "phase", {}, place + "phase")});
-    }
-  });
-  each("force", [&](const Part& part) {
-    origins_["force"].push_back({kind_, index_});
-    model.forces.push_back(
-        {part.a, harmonic(part, where("harmonic")), written(part, "amplitude"), written(part, "phase")});
-  });
+  add_signals(model);
+  add_bases();
+  add_forces(model);
   add_links(model);
   add_inertia(model);
   add_contacts(model);

@@ -15,6 +15,7 @@
 #include "io/definition.hpp"
 #include "io/dual.hpp"
 #include "slapstick/base/error.hpp"
+#include "slapstick/io/model_file.hpp"
 
 namespace slapstick {
 
@@ -40,6 +41,9 @@ class ModelBuilder {
   /// @throws InputError with the file's line
   [[nodiscard]] State start(const Model& model) const;
 
+  /// @throws InputError with the file's line
+  [[nodiscard]] std::vector<LaidLaw> laid_laws();
+
   /// The displacement of the k-th [[base]] at a time (after `model`).
   [[nodiscard]] double base(std::size_t k, double omega, double time) const;
 
@@ -57,11 +61,14 @@ class ModelBuilder {
     std::vector<std::pair<Dual, Dual>> corners;
     Dual below, above;
   };
-  /// One term of a prescribed motion: amplitude sin(harmonic omega t + phase).
+  /// One term of a prescribed motion: amplitude sin(harmonic omega t + phase), or with a frequency of its own, or a
+  /// signal.
   struct Term {
     Dual amplitude;
     int harmonic = 1;
     Dual phase;
+    Dual frequency = {};
+    int signal = -1;
   };
 
   /// Calls `add(part)` for every part of a kind; kind_ and index_ say which one it is, for messages.
@@ -96,6 +103,12 @@ class ModelBuilder {
   [[nodiscard]] double written(const Part& part, std::string_view key) const { return written(field(part, key)); }
   [[nodiscard]] Model assembled();
   [[nodiscard]] int harmonic(const Part& part, const std::string& place) const;
+  void add_signals(Model& model);
+  void add_bases();
+  void add_forces(Model& model);
+  [[nodiscard]] Term term(const Part& part, const std::string& place) const;
+  [[nodiscard]] std::vector<Term> band(const Part& part) const;
+  [[nodiscard]] int signal(const Part& part) const;
   void add_links(Model& model);
   /// The force that the motion of the surroundings passes on through a spring (`order` 0) or a damper (1).
   void add_motion(Model& model, const Part& part, const Dual& strength, int order);
@@ -123,6 +136,7 @@ class ModelBuilder {
   std::string_view kind_;
   std::size_t index_ = 0;
   std::vector<std::vector<Term>> bases_;
+  std::vector<Signal> signals_;
   std::map<std::string, std::vector<Origin>, std::less<>> origins_;  // by Fault::part
 };
 

@@ -204,6 +204,11 @@ State ModelDefinition::start(const Overrides& overrides) const {
   return builder.start(builder.model());
 }
 
+std::vector<LaidLaw> ModelDefinition::laid_laws(const Overrides& overrides) const {
+  const Valued valued(*definition_, overrides);
+  return ModelBuilder(*definition_, valued.values, &valued.numbers).laid_laws();
+}
+
 std::optional<PhysicalUnits> ModelDefinition::physical(const Overrides& overrides) const {
   return physical_units(*definition_, all_values(*definition_, resolve(*definition_, overrides)));
 }

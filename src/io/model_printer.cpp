@@ -135,6 +135,8 @@ class Printer {
         line(field.key, "[" + scalar_text(part.within[0]) + ", " + scalar_text(part.within[1]) + "]");
       if (field.holds == Holds::stribeck && !part.stribeck.empty())
         line(field.key, table_text({part.stribeck.begin(), part.stribeck.end()}, ""));
+      if (field.holds == Holds::band && !part.band.empty())
+        line(field.key, table_text({part.band.begin(), part.band.end()}, ""));
       if (field.holds == Holds::load && (!part.load.empty() || !part.load_stop.empty()))
         line(field.key, table_text(part.load, part.load_stop));
       const auto flag = part.flags.find(field.key);

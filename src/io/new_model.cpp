@@ -67,6 +67,47 @@ amplitude = "amplitude"
 harmonic = 1
 phase = "pi / 2"
 
+# A force of another frequency than omega; the motion then has no period.
+#[[force]]
+#on = "x1"
+#amplitude = 0.1
+#frequency = "2 ^ 0.5"
+
+# A force that follows a signal: points [time, value] and straight lines between them, or the columns of a file.
+#[[signal]]
+#name = "push"
+#points = [[0, 0], [1, 0.5], [4, 0]]
+#repeats = true
+# file = "push.csv"          # in place of points
+# column = "force"
+
+#[[force]]
+#on = "x2"
+#signal = "push"
+#amplitude = 2
+
+# A random force: harmonics 5 to 20 of omega with phases from a seed. lines: so many of them, evenly spread.
+#[[force]]
+#on = "x2"
+#band = { from = 5, to = 20, lines = 8, rms = 0.1, seed = 1 }
+
+# Springs and dampers may stand on a base that moves by a signal or by a band.
+#[[base]]
+#name = "road"
+#signal = "push"
+
+#[[spring]]
+#between = ["x2", "road"]
+#stiffness = 1
+
+#[[base]]
+#name = "rumble"
+#band = { from = 3, to = 9, rms = 0.01 }
+
+#[[damper]]
+#between = ["x2", "rumble"]
+#coefficient = 0.1
+
 # A moving base, which springs and dampers may name, and contacts of coordinates that are measured from it.
 #[[base]]
 #name = "shaker"

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/nearest.hpp"
+#include "io/field_values.hpp"
 #include "io/matrix_reader.hpp"
 #include "model/fault.hpp"
 
@@ -110,6 +111,11 @@ class PartReader {
         tree_.fail(part.line, "coordinate " + in_quotes(part.name) + ": base",
                    "unknown base " + in_quotes(text->second) + suggestion(text->second, bases_));
       part.b = base_end(static_cast<int>(base - bases_.begin()));
+      if (definition_.of("base")[static_cast<std::size_t>(base - bases_.begin())].texts.contains("signal"))
+        tree_.fail(part.line, "coordinate " + in_quotes(part.name) + ": base",
+                   "base " + in_quotes(text->second) +
+                       " moves by a signal, whose speed jumps at every point: springs and dampers may stand on it, no "
+                       "coordinate can be measured from it, and no stop can move with it");
     }
   }
 
@@ -199,12 +205,25 @@ class PartReader {
     if (rule.ends == Ends::between)
       demand_one_home(part, node.find("between")->line, where + ": between", "the gap or the sliding");
     read_fields(node, rule, where, part);
+    if (rule.kind == "signal") read_signal(tree_, node, where, definition_.source, part);
+    check_signal_name(node, where);
     for (const char* key : {"characteristic", "within"})
       if (const auto* bent = node.find(key); bent != nullptr)
         demand_one_home(part, bent->line, where + ": " + key, "the corners");
     if (node.find("clearance_lower") != nullptr && !part.flag("two_sided"))
       tree_.fail(node.find("clearance_lower")->line, where + ": clearance_lower", "it needs two_sided = true");
     return part;
+  }
+
+  /// The signal that a force or a base names.
+  void check_signal_name(const TomlNode& node, const std::string& where) const {
+    const auto* named = node.find("signal");
+    if (named == nullptr) return;
+    std::vector<std::string> known;
+    for (const auto& signal : definition_.of("signal")) known.push_back(signal.name);
+    if (std::find(known.begin(), known.end(), named->text) == known.end())
+      tree_.fail(named->line, where + ": signal",
+                 "unknown signal " + in_quotes(named->text) + suggestion(named->text, known));
   }
 
   static bool has(const TomlNode& node, std::string_view key) { return node.find(std::string(key)) != nullptr; }
@@ -240,72 +259,50 @@ class PartReader {
         tree_.fail(value->line, place,
                    "it belongs to a " + in_quotes(std::string(field.needs.substr(0, field.needs.find('|')))) +
                        ", and there is none");
-      switch (field.holds) {
-        case Holds::number:
-          part.fields[key] = tree_.scalar(*value, place);
-          break;
-        case Holds::observed:
-          part.fields[key] = tree_.scalar(*value, place, "name", observed_);
-          break;
-        case Holds::flag:
-          part.flags[key] = tree_.flag(*value, place);
-          break;
-        case Holds::text:
-          part.texts[key] = tree_.text(node, key.c_str(), where);
-          break;
-        case Holds::harmonics:
-          part.harmonics = harmonics(*value, place);
-          break;
-        case Holds::points:
-          part.points = points(*value, place);
-          break;
-        case Holds::interval:
-          part.within = interval(*value, place);
-          break;
-        case Holds::contact_law:
-          part.texts[key] = contact_laws()[tree_.word(*value, place, contact_laws())];
-          break;
-        case Holds::stribeck:
-          part.stribeck = stribeck(*value, place);
-          break;
-        case Holds::load:
-          read_load(*value, place, part);
-          break;
-      }
+      read_value(node, rule, field, *value, where, part);
     }
   }
 
-  std::vector<Point> points(const TomlNode& list, const std::string& where) const {
-    constexpr std::size_t most = 100;
-    tree_.expect(list, TomlNode::Kind::list, where);
-    if (list.items.size() < 2 || list.items.size() > most)
-      tree_.fail(list.line, where, "expected 2 to 100 points [x, force], found " + std::to_string(list.items.size()));
-    std::vector<Point> points;
-    for (const auto& item : list.items) {
-      const auto each = where + ": point " + std::to_string(points.size() + 1);
-      tree_.expect(item, TomlNode::Kind::list, each);
-      if (item.items.size() != 2)
-        tree_.fail(item.line, each, "expected [x, force], found " + std::to_string(item.items.size()) + " numbers");
-      points.push_back({tree_.scalar(item.items[0], each + ": x"), tree_.scalar(item.items[1], each + ": force")});
+  void read_value(const TomlNode& node, const PartRule& rule, const FieldRule& field, const TomlNode& value,
+                  const std::string& where, Part& part) const {
+    const std::string key(field.key), place = where + ": " + key;
+    switch (field.holds) {
+      case Holds::number:
+        part.fields[key] = tree_.scalar(value, place);
+        break;
+      case Holds::observed:
+        part.fields[key] = tree_.scalar(value, place, "name", observed_);
+        break;
+      case Holds::flag:
+        part.flags[key] = tree_.flag(value, place);
+        break;
+      case Holds::text:
+        part.texts[key] = tree_.text(node, key.c_str(), where);
+        break;
+      case Holds::harmonics:
+        part.harmonics = harmonics(value, place);
+        break;
+      case Holds::points:
+        part.points = read_points(tree_, value, place, key == "restitution_over_speed" ? "[speed, restitution]"
+                                                        : rule.kind == "signal"          ? "[time, value]"
+                                                                                         : "[x, force]");
+        break;
+      case Holds::interval:
+        part.within = read_interval(tree_, value, place);
+        break;
+      case Holds::contact_law:
+        part.texts[key] = contact_laws()[tree_.word(value, place, contact_laws())];
+        break;
+      case Holds::stribeck:
+        part.stribeck = read_stribeck(tree_, value, place);
+        break;
+      case Holds::band:
+        part.band = read_band(tree_, value, place);
+        break;
+      case Holds::load:
+        read_load(value, place, part);
+        break;
     }
-    return points;
-  }
-
-  std::vector<Scalar> interval(const TomlNode& list, const std::string& where) const {
-    tree_.expect(list, TomlNode::Kind::list, where);
-    if (list.items.size() != 2)
-      tree_.fail(list.line, where, "expected [from, to], found " + std::to_string(list.items.size()) + " numbers");
-    return {tree_.scalar(list.items[0], where + ": from"), tree_.scalar(list.items[1], where + ": to")};
-  }
-
-  std::map<std::string, Scalar, std::less<>> stribeck(const TomlNode& table, const std::string& where) const {
-    tree_.expect(table, TomlNode::Kind::table, where);
-    tree_.check_keys(table, where, stribeck_keys());
-    std::map<std::string, Scalar, std::less<>> numbers;
-    for (const auto& [key, node] : table.entries) numbers[key] = tree_.scalar(node, where + ": " + key);
-    for (const char* key : {"static", "kinetic", "speed"})
-      if (!numbers.contains(key)) tree_.fail(table.line, where, in_quotes(key) + " is missing");
-    return numbers;
   }
 
   /// The stops of a file, which come after its friction contacts, are looked up in the tree.

@@ -4,12 +4,23 @@
 
 namespace slapstick {
 
-const std::vector<PartRule>& part_rules() {
-  static const FieldRule below{"slope_below", false, Holds::number, {}, "characteristic"},
+namespace {
+
+/// Bodies and what links them.
+std::vector<PartRule> bodies() {
+  const FieldRule below{"slope_below", false, Holds::number, {}, "characteristic"},
       above{"slope_above", false, Holds::number, {}, "characteristic"};
-  static const std::vector<PartRule> rules = {
+  return {
       {"coordinate", true, Ends::none, {{"mass"}, {"unit", false, Holds::text}, {"base", false, Holds::text}}},
-      {"base", true, Ends::none, {{"harmonics", true, Holds::harmonics}}},
+      {"signal", true, Ends::none,
+       {{"points", true, Holds::points},
+        {"file", false, Holds::text, "points"},
+        {"column", false, Holds::text, {}, "file"},
+        {"repeats", false, Holds::flag}}},
+      {"base", true, Ends::none,
+       {{"harmonics", true, Holds::harmonics},
+        {"band", false, Holds::band, "harmonics"},
+        {"signal", false, Holds::text, "harmonics|band"}}},
       {"spring", false, Ends::moving,
        {{"stiffness", true},
         {"characteristic", false, Holds::points, "stiffness"},
@@ -25,7 +36,19 @@ const std::vector<PartRule>& part_rules() {
         below,
         above,
         {"name", false, Holds::text, {}, "characteristic|within"}}},
-      {"force", false, Ends::on, {{"amplitude", true}, {"harmonic"}, {"phase"}}},
+  };
+}
+
+/// Forces, contacts, and what is looked at.
+std::vector<PartRule> loads() {
+  return {
+      {"force", false, Ends::on,
+       {{"amplitude", true},
+        {"harmonic"},
+        {"phase"},
+        {"frequency", false, Holds::number, "harmonic"},
+        {"signal", false, Holds::text, "harmonic|phase|frequency"},
+        {"band", false, Holds::band, "amplitude|harmonic|phase|frequency|signal"}}},
       {"friction", true, Ends::between,
        {{"static", true},
         {"kinetic"},
@@ -50,11 +73,25 @@ const std::vector<PartRule>& part_rules() {
         {"law", false, Holds::contact_law, "pulls"}}},
       {"observable", true, Ends::none, {{"value", true, Holds::observed}, {"unit", false, Holds::text}}},
   };
+}
+
+}  // namespace
+
+const std::vector<PartRule>& part_rules() {
+  static const std::vector<PartRule> rules = [] {
+    std::vector<PartRule> all = bodies();
+    for (PartRule& rule : loads()) all.push_back(std::move(rule));
+    return all;
+  }();
   return rules;
 }
 
 const PartRule& harmonic_rule() {
-  static const PartRule rule = {"harmonic", false, Ends::none, {{"amplitude", true}, {"harmonic"}, {"phase"}}};
+  static const PartRule rule = {"harmonic", false, Ends::none,
+                                {{"amplitude", true},
+                                 {"harmonic"},
+                                 {"phase"},
+                                 {"frequency", false, Holds::number, "harmonic"}}};
   return rule;
 }
 
@@ -99,6 +136,11 @@ const std::vector<std::string>& quantity_keys() {
 
 const std::vector<std::string>& stribeck_keys() {
   static const std::vector<std::string> keys = {"static", "kinetic", "speed", "corners"};
+  return keys;
+}
+
+const std::vector<std::string>& band_keys() {
+  static const std::vector<std::string> keys = {"from", "to", "lines", "rms", "seed"};
   return keys;
 }
 

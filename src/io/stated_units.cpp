@@ -72,10 +72,10 @@ bool changes_with_time(const ModelDefinition& definition) {
   return any;
 }
 
-/// The only unit of time with which all these are products of one unit of length, one of time and one of mass; empty if
-/// there is none, or several.
-std::string common_time(const std::vector<Unit>& units) {
-  std::set<std::string> found;
+/// The only units of time and of mass with which all these are products of one unit of length, one of time and one of
+/// mass; empty where there is none, or several.
+std::pair<std::string, std::string> common_system(const std::vector<Unit>& units) {
+  std::set<std::string> found, found_masses;
   for (const char* length : lengths)
     for (const char* time : times)
       for (const char* mass : masses) {
@@ -86,9 +86,10 @@ std::string common_time(const std::vector<Unit>& units) {
           for (std::size_t i = 0; i < 3; ++i) product *= fixed::power(one[i], unit.powers[i]);
           all = all && std::abs(unit.factor / product - 1.0) < 1e-12;
         }
-        if (all) found.insert(time);
+        if (all) found.insert(time), found_masses.insert(mass);
       }
-  return found.size() == 1 ? *found.begin() : "";
+  const auto only = [](const std::set<std::string>& one) { return one.size() == 1 ? *one.begin() : std::string(); };
+  return {only(found), only(found_masses)};
 }
 
 }  // namespace
@@ -106,10 +107,10 @@ StatedUnits ModelDefinition::stated_units() const {
   for (const Parameter& parameter : parameters())
     if (!parameter.unit.empty() && parse_unit(parameter.unit).powers != Unit{}.powers)
       units.push_back(parse_unit(parameter.unit));
-  const std::string time = common_time(units);
+  const auto [time, mass] = common_system(units);
   if (time.empty()) return stated;
   try {
-    if (changes_with_time(*this)) stated.time = time;
+    if (changes_with_time(*this)) stated.time = time, stated.mass = mass;
   } catch (const InputError&) {  // a kink: it has no rate
   }
   return stated;

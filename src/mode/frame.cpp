@@ -1,7 +1,9 @@
 /// Chooses contact coordinates, and moves states into and out of them.
 #include "mode/frame.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/dense.hpp"
 #include "base/elementary.hpp"
@@ -78,6 +80,12 @@ Frame::Frame(const Model& model) : n(model.size()) {
       harmonics.push_back(force.harmonic);
   }
   ranges::sort(harmonics);
+  period = model.forcing_period();
+  for (const Force& force : model.forces) {
+    if (force.frequency != 0.0 && ranges::find(tones, force.frequency, &Tone::frequency) == tones.end())
+      tones.push_back({force.frequency, force.frequency * period / (2.0 * std::numbers::pi)});
+  }
+  for (const Signal& of : model.signals) signals.emplace_back(of, period);
   choose_displacements(model);
   set_dynamics(model);
   set_characteristics(model);
@@ -121,16 +129,7 @@ void Frame::choose_displacements(const Model& model) {
 void Frame::set_dynamics(const Model& model) {
   const Matrix K = stiffness_matrix(model), C = damping_matrix(model), M_inverse = inverse_mass(model);
   Matrix load = Matrix::Zero(n, size());
-  for (const Force& force : model.forces) {
-    if (force.harmonic == 0) {
-      load(force.coordinate, one()) += force.amplitude;
-      continue;
-    }
-    const auto k = ranges::find(harmonics, force.harmonic) - harmonics.begin();
-    // sin(j theta + phase) = sin(phase) cos(j theta) + cos(phase) sin(j theta)
-    load(force.coordinate, 2 * d + 2 * k) += force.amplitude * fixed::sin(force.phase);
-    load(force.coordinate, 2 * d + 2 * k + 1) += force.amplitude * fixed::cos(force.phase);
-  }
+  for (const Force& force : model.forces) load.row(force.coordinate) += drive_row(force);
 
   // q'' = M^{-1} (load X - C q' - K q),  q = W^{-1} (p + shift),  q' = W^{-1} (u + drift),  u' = W q''
   mass_inverse = W * M_inverse * W.transpose();
@@ -224,6 +223,24 @@ RowVector Frame::force_row(const Model& model, int i, int piece) const {
   return row;
 }
 
+RowVector Frame::drive_row(const Force& force) const {
+  RowVector row = RowVector::Zero(size());
+  if (force.signal >= 0) {
+    const int value = signal(static_cast<std::size_t>(force.signal));
+    row[force.rate ? value + 1 : value] = force.rate ? force.amplitude / period : force.amplitude;
+  } else if (force.frequency == 0.0 && force.harmonic == 0) {
+    row[one()] = force.amplitude;
+  } else {
+    const auto k = ranges::find(harmonics, force.harmonic) - harmonics.begin();
+    const auto t = ranges::find(tones, force.frequency, &Tone::frequency) - tones.begin();
+    const auto c = force.frequency == 0.0 ? 2 * d + 2 * k : tone(static_cast<std::size_t>(t));
+    // sin(j theta + phase) = sin(phase) cos(j theta) + cos(phase) sin(j theta)
+    row[c] = force.amplitude * fixed::sin(force.phase);
+    row[c + 1] = force.amplitude * fixed::cos(force.phase);
+  }
+  return row;
+}
+
 Matrix Frame::kinematics(double omega) const {
   Matrix A = Matrix::Zero(size(), size());
   for (int i = 0; i < d; ++i) {
@@ -235,6 +252,11 @@ Matrix Frame::kinematics(double omega) const {
     A(c, c + 1) = -harmonics[k] * omega;
     A(c + 1, c) = harmonics[k] * omega;
   }
+  for (std::size_t k = 0; k < tones.size(); ++k) {
+    A(tone(k), tone(k) + 1) = -tones[k].frequency;
+    A(tone(k) + 1, tone(k)) = tones[k].frequency;
+  }
+  for (std::size_t k = 0; k < signals.size(); ++k) A(signal(k), signal(k) + 1) = 1.0 / period;
   return A;
 }
 
@@ -262,6 +284,31 @@ void Frame::set_phase(double fraction, double* X) const {
     X[2 * d + 2 * k + 1] = sine;
   }
   X[one()] = 1.0;
+}
+
+void Frame::set_clock(Instant t, double* X) const {
+  set_phase(t.fraction, X);
+  for (std::size_t k = 0; k < tones.size(); ++k) {
+    const auto [cosine, sine] = of_turns(tones[k].at(t));
+    X[tone(k)] = cosine;
+    X[tone(k) + 1] = sine;
+  }
+  for (std::size_t k = 0; k < signals.size(); ++k) {
+    const auto [value, slope] = signals[k].at(t);
+    X[signal(k)] = value;
+    X[signal(k) + 1] = slope;
+  }
+}
+
+void Frame::set_clock_sizes(double* sizes) const {
+  for (int c = 2 * d; c < signal(0); ++c) sizes[c] = 1.0;
+  for (std::size_t k = 0; k < signals.size(); ++k) sizes[signal(k)] = signals[k].steepest();
+}
+
+Instant Frame::next_knot(Instant t) const {
+  Instant next = SignalTable::never;
+  for (const SignalTable& of : signals) next = std::min(next, of.next(t));
+  return next;
 }
 
 void Frame::match_velocities(int i, double* X) const {

@@ -11,12 +11,14 @@
 /// W has d >= n rows: a contact whose row depends on earlier ones (the second side of a two-sided stop, a loop of contacts) has a number of
 /// its own all the same. The first n rows are independent; the others follow from them, but for rounding (see `refresh`).
 ///
-/// Extended state X in R^m, m = 2 d + 2 h + 1, h = number of distinct harmonics of the forcing:
+/// Extended state X in R^m, m = 2 d + 2 h + 1, h = number of distinct harmonics of the forcing, tones and signals:
 ///     X = (p_1..p_d, u_1..u_d, cos j_1 theta, sin j_1 theta, .., 1),   theta = omega t.
+/// Tones and signals (mode/drive.hpp) follow behind the harmonics.
 /// In every mode X' = A X.
 #include <Eigen/Core>
 #include <vector>
 
+#include "mode/drive.hpp"
 #include "slapstick/model/model.hpp"
 
 namespace slapstick::mode {
@@ -53,6 +55,9 @@ struct Frame {
   int n = 0;                   ///< coordinates of the model
   int d = 0;                   ///< displacements stored, the first n independent
   std::vector<int> harmonics;  ///< distinct harmonics j > 0, ascending
+  std::vector<Tone> tones;     ///< distinct frequencies that are no harmonics
+  std::vector<SignalTable> signals;
+  double period = 1.0;         ///< of the clock
   Matrix W;                    ///< d x n
   Matrix W_inverse;            ///< of its first n rows
   Matrix dependence;           ///< d x n: W = dependence * (first n rows of W)
@@ -70,7 +75,10 @@ struct Frame {
   /// zero shall not be taken for one that is certainly negative.
   static void drop_rounding(Matrix& matrix, const Matrix& size);
 
-  [[nodiscard]] int size() const { return 2 * d + 2 * static_cast<int>(harmonics.size()) + 1; }
+  [[nodiscard]] int size() const { return signal(signals.size()) + 1; }
+  /// Columns of the first number of a tone and of a signal.
+  [[nodiscard]] int tone(std::size_t k) const { return 2 * d + 2 * static_cast<int>(harmonics.size() + k); }
+  [[nodiscard]] int signal(std::size_t k) const { return tone(tones.size() + k); }
   [[nodiscard]] int u(int i) const { return d + i; }
   [[nodiscard]] int one() const { return size() - 1; }
 
@@ -92,7 +100,9 @@ struct Frame {
     return displaced ? characteristics[i].displacement : characteristics[i].velocity;
   }
   [[nodiscard]] RowVector force_row(const Model& model, int i, int piece) const;
-  /// The rows p' = u + drift and the forcing oscillators of A; the rows u' are left zero.
+  /// Row over X of a force.
+  [[nodiscard]] RowVector drive_row(const Force& force) const;
+  /// The rows p' = u + drift, the forcing oscillators and the signals of A; the rows u' are left zero.
   [[nodiscard]] Matrix kinematics(double omega) const;
 
   /// Writes p and u of a user's state (x_1, v_1, x_2, v_2, ..) into X. A gap of at most four roundings of its coordinates is zero.
@@ -106,6 +116,12 @@ struct Frame {
   void refresh(double* X) const;
   /// Writes cos, sin of the harmonics at phase `fraction` (periods) and the constant 1 into X. Fixed operations (base/phase.hpp).
   void set_phase(double fraction, double* X) const;
+  /// The same and all that moves by the clock: tones and signals.
+  void set_clock(Instant t, double* X) const;
+  /// Bounds, by columns from 2 d on, of what is known no better than the clock: 1 of a phase, a slope of a signal.
+  void set_clock_sizes(double* sizes) const;
+  /// The first instant after t at which the slope of a signal jumps, or SignalTable::never.
+  [[nodiscard]] Instant next_knot(Instant t) const;
   /// Writes the user's state (x_1, v_1, ..) of X; from the first n displacements and velocities.
   void leave(const double* X, double* state) const { leave(X, X + d, state); }
   void leave(const double* p, const double* velocity, double* state) const;

@@ -32,6 +32,13 @@ Matrix Mode::flow_over_window(const Series& series, std::size_t first_coordinate
     const double cosine = fixed::cos(angle), sine = fixed::sin(angle);
     flow.block<2, 2>(c, c) << cosine, -sine, sine, cosine;
   }
+  for (std::size_t k = 0; k < frame.tones.size(); ++k) {
+    const double angle = frame.tones[k].frequency * window_;
+    const double cosine = fixed::cos(angle), sine = fixed::sin(angle);
+    flow.block<2, 2>(frame.tone(k), frame.tone(k)) << cosine, -sine, sine, cosine;
+  }
+  for (std::size_t k = 0; k < frame.signals.size(); ++k)
+    flow(frame.signal(k), frame.signal(k) + 1) = window_ / frame.period;
   return flow;
 }
 

@@ -126,7 +126,16 @@ void Builder::arm_guards() {
   for (std::size_t i = 0; i < out_.states.pieces.size(); ++i) arm_corners(static_cast<int>(i));
 }
 
+/// Is N the force of a compliant stop alone, and that stop's own end the end of N? Not of one that pulls: its force is
+/// negative before it leaves.
+bool ends_with_stop(const Model& model, const NormalForce& normal) {
+  if (normal.compliant_stop < 0 || !normal.terms.empty() || normal.constant != 0.0) return false;
+  const CompliantStop& stop = model.compliant_stops[static_cast<std::size_t>(normal.compliant_stop)];
+  return !stop.pulls || stop.damping == 0.0;
+}
+
 /// A contact that nothing presses is unloaded. In stick the limits +-f_s N of a contact alone on its pair say that N > 0.
+/// Where a stop alone presses its own guard says so: two guards of one zero would be a tie that rounding decides.
 void Builder::arm_load(int friction) {
   const FrictionState state = out_.states.frictions[friction];
   RowVector load = load_row(model_, frame_, out_.states, friction);
@@ -134,6 +143,7 @@ void Builder::arm_load(int friction) {
   if (!pressed) load[frame_.one()] = -1.0;
   if (state == FrictionState::unloaded) return out_.guards.push_back({GuardKind::unloaded, friction, -load});
   if (state == FrictionState::stick && pressed && alone(held_, friction)) return;
+  if (pressed && ends_with_stop(model_, *model_.frictions[friction].normal)) return;
   out_.guards.push_back({GuardKind::load, friction, load});
 }
 

@@ -43,7 +43,8 @@ TermSum::TermSum(const Eigen::MatrixXd& system, int d)
     : d_(d), blocks_((d + 7) / 8), phases_(static_cast<int>(system.rows()) - 2 * d), order_(cuthill_mckee(system, d)) {
   const auto one = system.cols() - 1;
   for (const int i : order_) drift_.push_back(system(i, one));
-  for (auto k = 2 * static_cast<Eigen::Index>(d); k < one; k += 2) frequencies_.push_back(system(k + 1, k));
+  for (auto k = 2 * static_cast<Eigen::Index>(d); k < one; k += 2)
+    turns_.emplace_back(system(k, k + 1), system(k + 1, k));
   for (int block = 0; block < blocks_; ++block) store_block(system, block);
 }
 
@@ -83,11 +84,11 @@ void TermSum::accelerate(double factor, const double* term, event::Lane8* out) c
   }
 }
 
-/// The forcing: (cos, sin)' = frequency (-sin, cos), 1' = 0.
+/// The forcing: (cos, sin)' = frequency (-sin, cos), (value, slope)' = (slope / T, 0), 1' = 0.
 void TermSum::turn(double factor, const double* phase, double* out) const {
-  for (std::size_t k = 0; k < frequencies_.size(); ++k) {
-    out[2 * k] = -factor * frequencies_[k] * phase[2 * k + 1];
-    out[2 * k + 1] = factor * frequencies_[k] * phase[2 * k];
+  for (std::size_t k = 0; k < turns_.size(); ++k) {
+    out[2 * k] = factor * turns_[k].first * phase[2 * k + 1];
+    out[2 * k + 1] = factor * turns_[k].second * phase[2 * k];
   }
   out[phases_ - 1] = 0.0;
 }

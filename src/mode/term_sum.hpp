@@ -5,6 +5,7 @@
 /// in an order in which those that act on each other are near (Cuthill and McKee 1969), and a is kept by diagonals in blocks of eight rows, each
 /// with the diagonals that are not zero there. A chain costs three vector operations per eight coordinates and term so, a full matrix O(n^2).
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "event/kernels.hpp"
@@ -32,7 +33,8 @@ class TermSum {
   const event::Kernels* kernels_ = &event::kernels();
   int d_ = 0, blocks_ = 0, phases_ = 0;
   std::vector<int> order_;  ///< the displacement at each place
-  std::vector<double> drift_, frequencies_;
+  std::vector<double> drift_;
+  std::vector<std::pair<double, double>> turns_;  ///< of the pairs of the forcing: entries of A beside the diagonal
   std::vector<int> diagonals_end_, columns_end_;  ///< of each block of rows; the next one's diagonals follow
   event::PlacedRows diagonals_;                   ///< times the eight numbers of a term from `place` on
   event::PlacedRows columns_;                     ///< times the number of the forcing at `place`

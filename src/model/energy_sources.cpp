@@ -1,8 +1,9 @@
-/// Names the parts of a model that can feed energy.
+/// Names the parts of a model that can feed energy, and those whose force falls.
 #include "slapstick/model/energy_sources.hpp"
 
 #include <algorithm>
 
+#include "base/dense.hpp"
 #include "base/text.hpp"
 
 namespace slapstick {
@@ -38,6 +39,36 @@ bool couples(const FrictionContact& contact, const Model& model) {
   return !((stop.a == contact.a && stop.b == contact.b) || (stop.a == contact.b && stop.b == contact.a));
 }
 
+/// The symmetric matrix of parts k (v_a - v_b), on top of a matrix by rows or none.
+template <class Parts>
+Eigen::MatrixXd assembled(const SymmetricMatrix& rows, const Parts& parts, double Parts::value_type::*number, int n) {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
+  for (int i = 0; i < n && !rows.empty(); ++i)
+    for (int j = 0; j < n; ++j) sum(i, j) = rows[static_cast<std::size_t>(i * n + j)];
+  for (const auto& part : parts) {
+    Eigen::VectorXd along = Eigen::VectorXd::Zero(n);
+    if (part.a != ground) along[part.a] += 1.0;
+    if (part.b != ground) along[part.b] -= 1.0;
+    sum += part.*number * along * along.transpose();
+  }
+  return sum;
+}
+
+/// Is the form x^T A x negative somewhere, by more than rounding?
+bool indefinite(const Eigen::MatrixXd& A) {
+  constexpr double rounding = 1e-12;  // of the largest eigenvalue
+  const Eigen::VectorXd values = dense::eigenvalues(A).real();
+  return values.minCoeff() < -rounding * values.cwiseAbs().maxCoeff();
+}
+
+/// Does a force fall somewhere as the displacement grows?
+bool falls(const Characteristic& bent) {
+  if (bent.over != Characteristic::Over::displacement) return false;
+  bool some = bent.slope_below < 0.0 || bent.slope_above < 0.0;
+  for (std::size_t i = 1; i < bent.corners.size(); ++i) some = some || bent.corners[i].force < bent.corners[i - 1].force;
+  return some;
+}
+
 }  // namespace
 
 std::vector<std::string> energy_sources(const Model& model) {
@@ -52,11 +83,19 @@ std::vector<std::string> energy_sources(const Model& model) {
   }
   for (const FrictionContact& contact : model.frictions)
     if (couples(contact, model)) all.push_back("friction " + in_quotes(contact.name));
-  for (int i = 0; i < model.size() && !model.damping.empty(); ++i)
-    if (model.damping[static_cast<std::size_t>(i * (model.size() + 1))] < 0.0) {
-      all.emplace_back("matrix damping");
-      break;
-    }
+  if (!model.damping.empty() && indefinite(assembled(model.damping, model.dampers, &Damper::coefficient, model.size())))
+    all.emplace_back("matrix damping");
+  return all;
+}
+
+std::vector<std::string> falling_forces(const Model& model) {
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < model.springs.size(); ++i)
+    if (model.springs[i].stiffness < 0.0) all.push_back("spring " + std::to_string(i + 1));
+  for (const Characteristic& one_of : model.characteristics)
+    if (falls(one_of)) all.push_back("characteristic " + in_quotes(one_of.name));
+  if (!model.stiffness.empty() && indefinite(assembled(model.stiffness, model.springs, &Spring::stiffness, model.size())))
+    all.emplace_back("matrix stiffness");
   return all;
 }
 

@@ -126,6 +126,31 @@ Found check_force(const Force& force, int index, const Model& model) {
   if (force.harmonic < 0) check.fail("harmonic", "harmonic = " + std::to_string(force.harmonic) + " is negative");
   check.sized("amplitude", force.amplitude);
   check.finite("phase", force.phase);
+  if (force.frequency != 0.0) check.positive("frequency", force.frequency);
+  const bool timed = force.frequency != 0.0 || force.signal >= 0;
+  if (timed && force.harmonic != 0) check.fail("harmonic", "a force with a frequency or a signal has harmonic 0");
+  if (force.frequency != 0.0 && force.signal >= 0) check.fail("signal", "a force has a frequency or a signal, not both");
+  if (force.signal >= static_cast<int>(model.signals.size()))
+    check.fail("signal", "there is no signal " + std::to_string(force.signal));
+  return check.result();
+}
+
+Found check_signal(const Signal& signal, int index, std::set<std::string>& used) {
+  Check check("signal", index);
+  check_name(check, signal.name, used);
+  const auto& knots = signal.knots;
+  if (knots.size() < 2) check.fail("points", "it has fewer than two points");
+  for (std::size_t i = 0; i < knots.size(); ++i) {
+    const std::string point = "point " + std::to_string(i + 1);
+    check.sized((point + ": time").c_str(), knots[i].time);
+    check.sized((point + ": value").c_str(), knots[i].value);
+    if (i > 0 && !(knots[i].time > knots[i - 1].time))
+      check.fail("points", point + ": time " + shown(knots[i].time) + " is not above " + shown(knots[i - 1].time) +
+                               " of the point before");
+  }
+  if (signal.repeats && knots.size() > 1 && knots.back().value != knots.front().value)
+    check.fail("repeats", "the last value, " + shown(knots.back().value) + ", is not the first one, " +
+                              shown(knots.front().value) + ": a signal that repeats would jump");
   return check.result();
 }
 
@@ -185,6 +210,8 @@ Found check_compliant_stop(const CompliantStop& stop, int index, const Model& mo
   check_name(check, stop.name, used);
   check.ends(stop.a, stop.b, model);
   check.sized("clearance", stop.clearance);
+  if (stop.stiffness == 0.0)
+    check.fail("stiffness", "stiffness = 0 is not positive; a damper alone beyond a gap is a damper that acts within an interval");
   check.positive("stiffness", stop.stiffness);
   check.not_negative("damping", stop.damping);
   if (stop.bounded && stop.pulls) check.fail("law", "a stop whose damping force is bounded does not pull");
@@ -272,6 +299,7 @@ std::string part_name(const Fault& fault, const Model& model) {
   if (fault.part == "stop") return model.stops[i].name;
   if (fault.part == "compliant_stop") return model.compliant_stops[i].name;
   if (fault.part == "characteristic") return model.characteristics[i].name;
+  if (fault.part == "signal") return model.signals[i].name;
   return "";
 }
 
@@ -297,6 +325,7 @@ std::optional<Fault> first_fault(const Model& model) {
   if (!fault) fault = first_matrix_fault(model);
   look(model.springs, [&](const auto& part, int i) { return check_spring(part, i, model); });
   look(model.dampers, [&](const auto& part, int i) { return check_damper(part, i, model); });
+  look(model.signals, [&](const auto& part, int i) { return check_signal(part, i, contacts); });
   look(model.forces, [&](const auto& part, int i) { return check_force(part, i, model); });
   look(model.frictions, [&](const auto& part, int i) { return check_friction(part, i, model, contacts); });
   look(model.stops, [&](const auto& part, int i) { return check_stop(part, i, model, contacts); });

@@ -13,6 +13,11 @@ bool Model::forced() const {
   return std::any_of(forces.begin(), forces.end(), [](const Force& force) { return force.harmonic > 0; });
 }
 
+bool Model::periodic() const {
+  return std::none_of(forces.begin(), forces.end(),
+                      [](const Force& force) { return force.frequency != 0.0 || force.signal >= 0; });
+}
+
 double Model::forcing_period() const { return forced() ? 2.0 * std::numbers::pi / omega : 1.0; }
 
 std::string velocity_name(const std::string& coordinate) {
@@ -63,6 +68,15 @@ Rebound rebound(const Stop& stop, double speed) {
   const double slope = (to.restitution - from.restitution) / (to.speed - from.speed);
   const double r = from.restitution + slope * (speed - from.speed);
   return {r, r + slope * speed};
+}
+
+void demand_period(const Model& model) {
+  if (model.periodic()) return;
+  const bool signal = std::any_of(model.forces.begin(), model.forces.end(),
+                                  [](const Force& force) { return force.signal >= 0; });
+  throw InputError("model '" + model.name + "' has " + (signal ? "a signal" : "a frequency beside its forcing") +
+                   ": its motion never repeats, so it has no cycles and no classes; simulate, poincare, diagram, "
+                   "lyapunov, measure and spectrum with --periods are for such models");
 }
 
 void validate(const Model& model) {

@@ -27,10 +27,24 @@ VectorXd representative(const Problem& problem, const State& state) {
   return x;
 }
 
+/// Contact states of an orbit at equal parts of its legs, modulo translations.
+std::vector<VectorXd> along(const Problem& problem, const Orbit& orbit) {
+  constexpr int looks = 64;
+  const ModeSet set(constant_family(problem.family().model(orbit.values)), {});
+  std::vector<VectorXd> states;
+  for (std::size_t leg = 0; leg < orbit.legs(); ++leg)
+    for (int k = 0; k < looks; ++k) {
+      states.push_back(contact_state(set, state_within(set, orbit, leg, orbit.duration(leg) * k / looks)));
+      problem.translations().take_out(states.back());
+    }
+  return states;
+}
+
 }  // namespace
 
 bool OrbitChoice::admits(const Problem& problem, const Solution& solution) const {
-  if (n && solution.orbit.shape.n != *n) return false;
+  const Itinerary& shape = solution.orbit.shape;
+  if (n && (shape.n > 0 ? shape.n : returns(shape)) != *n) return false;
   if (chatter && solution.chatter != *chatter) return false;
   if (p && (solution.chatter || solution.impacts != *p)) return false;
   if (sticking && solution.sticking != *sticking) return false;
@@ -41,15 +55,19 @@ bool OrbitChoice::admits(const Problem& problem, const Solution& solution) const
 bool OrbitChoice::none() const { return !n && !p && !chatter && !sticking && !stable && !symmetric && !nearest; }
 
 double distance(const Problem& problem, const Orbit& orbit, const State& state) {
-  if (orbit.shape.n == 0) throw InputError("distance: an orbit without forcing has no state at phase 0");
   const mode::Frame& frame = problem.base().compiled().frame();
-  const double omega = 2.0 * std::numbers::pi / problem.base().period();
+  const double cycle = orbit.shape.n > 0 ? 1.0 : orbit.t.back() - orbit.t.front();
+  const double omega = 2.0 * std::numbers::pi / (cycle * problem.base().period());
   const Eigen::MatrixXd mass =
       dense::inverse_definite(frame.mass_inverse.topLeftCorner(frame.n, frame.n));  // W^-T M W^-1
   const VectorXd from = representative(problem, state);
+  std::vector<VectorXd> states;
+  for (int period = 0; period < orbit.shape.n; ++period)
+    states.push_back(representative(problem, at_phase_zero(problem, orbit, period)));
+  if (orbit.shape.n == 0) states = along(problem, orbit);
   double least = INFINITY;
-  for (int period = 0; period < orbit.shape.n; ++period) {
-    const VectorXd away = representative(problem, at_phase_zero(problem, orbit, period)) - from;
+  for (const VectorXd& state_of_orbit : states) {
+    const VectorXd away = state_of_orbit - from;
     const VectorXd dp = omega * away.head(frame.n), du = away.tail(frame.n);
     least = std::min(least, std::sqrt(dp.dot(mass * dp) + du.dot(mass * du)));
   }
@@ -57,7 +75,7 @@ double distance(const Problem& problem, const Orbit& orbit, const State& state) 
 }
 
 bool symmetric(const Problem& problem, const Orbit& orbit) {
-  return apart_from_image(problem, orbit, orbit) < same_orbit;
+  return apart_from_own_image(problem, orbit) < same_orbit;
 }
 
 namespace {
@@ -80,8 +98,10 @@ std::size_t wanted(const Problem& problem, const OrbitChoice& choice, const std:
 void choose_among(const Problem& problem, const OrbitChoice& choice, std::vector<Solution> found, Chosen& result) {
   const std::optional<Solution>& settled = result.settled.orbit;
   if (settled) {
+    KnownOrbits free(problem);
+    if (settled->orbit.shape.n == 0) free.add(settled->orbit);
     std::erase_if(found, [&](const Solution& one) {
-      return apart(problem, settled->orbit, one.orbit) < same_orbit ||
+      return free.has(one.orbit) || apart(problem, settled->orbit, one.orbit) < same_orbit ||
              (one.family > 0 && settled->family > 0 && in_one_family(problem, settled->orbit, one.orbit));
     });
     found.insert(found.begin(), *settled);
@@ -103,7 +123,7 @@ Chosen choose(const Problem& problem, const System& system, const State& state, 
   result.settled = settle(problem, system, state, settling);
   const std::optional<Solution>& settled = result.settled.orbit;
   const bool admitted = settled && choice.admits(problem, *settled) && !choice.nearest;
-  if (admitted || choice.none() || !system.model().forced() || stopped(settling.stop)) {
+  if (admitted || choice.none() || stopped(settling.stop)) {
     choose_among(problem, choice, {}, result);
     return result;
   }

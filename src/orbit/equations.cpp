@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/dense.hpp"
+#include "section/settling.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::orbit {
@@ -40,6 +41,17 @@ MatrixXd classes(const Problem& problem, const MatrixXd& columns) {
 
 bool forced(const Orbit& orbit) { return orbit.shape.n > 0; }
 
+/// Does no parameter drive the model, where it is not driven? A derivative that there is none of may be anything.
+bool stays_free(const Family& family, const std::vector<double>& values) {
+  try {
+    for (std::size_t which = 0; which < family.names.size(); ++which)
+      if (section::driven(family.rate(values, which))) return false;
+  } catch (const InputError&) {
+    return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Problem::Problem(Family family, const std::vector<double>& values)
@@ -47,7 +59,10 @@ Problem::Problem(Family family, const std::vector<double>& values)
       values_(values),
       base_(std::make_shared<const System>(family_.model(values))),
       translations_(*base_),
-      least_sizes_(VectorXd::Zero(numbers())) {}
+      least_sizes_(VectorXd::Zero(numbers())),
+      free_(!section::driven(*base_) && (!base_->model().forced() || stays_free(family_, values))) {
+  demand_period(base_->model());
+}
 
 Index Problem::numbers() const { return 2 * base_->compiled().frame().n - translations_.count(); }
 Index Problem::unknowns(std::size_t legs) const { return numbers() + static_cast<Index>(legs) + 1 + parameters(); }

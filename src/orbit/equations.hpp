@@ -29,6 +29,9 @@ class Problem {
   [[nodiscard]] const System& base() const { return *base_; }
   [[nodiscard]] const flow::Translations& translations() const { return translations_; }
   [[nodiscard]] Eigen::Index parameters() const { return static_cast<Eigen::Index>(family_.names.size()); }
+  /// Are its motions free: none of the forces has a harmonic with an amplitude, and no parameter gives it one? Only then
+  /// cycles have a period of their own (Itinerary::n = 0).
+  [[nodiscard]] bool free() const { return free_; }
   /// What arclength measures states by where an orbit is smaller than this: one that shrinks to nothing is left behind in steps of some length.
   [[nodiscard]] const Eigen::VectorXd& least_sizes() const { return least_sizes_; }
   /// .. and the first parameter where its value is smaller: the range that it is followed over. It may pass zero.
@@ -50,6 +53,7 @@ class Problem {
   flow::Translations translations_;
   Eigen::VectorXd least_sizes_;  ///< of the numbers; zero until they are set
   double least_value_ = 0.0;
+  bool free_;
 };
 
 struct Linearised {

@@ -6,13 +6,14 @@
 #include "base/decimal.hpp"
 #include "base/ranges.hpp"
 #include "base/text.hpp"
+#include "orbit/equations.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::orbit {
 namespace {
 
 constexpr double default_seconds = 10.0;
-constexpr int longest_unnamed = 4;  ///< forcing periods of an orbit whose N is not given
+constexpr int longest_unnamed = 4;  ///< forcing periods or returns of an orbit whose N is not given
 
 double seconds_of(const OrbitWish& wish) {
   if (wish.seconds > 0.0) return wish.seconds;
@@ -29,14 +30,14 @@ int part_of(const OrbitWish& wish, const std::string& part, long long least, lon
   if (read_decimal(part, number) == std::errc() && number >= least && number <= most) return static_cast<int>(number);
   throw InputError(spelling("orbit") + ": " + in_quotes(wish.orbit) +
                    " is not of the form N-P, N-P-I or N-P-II, as 1-1, 2-inf or 1-1-II, with N in [1, 1000] and P in "
-                   "[0, 100000]");
+                   "[0, 100000]; without a drive also free-P-I");
 }
 
 void read_class(const OrbitWish& wish, const Spelling& spelling, OrbitChoice& choice) {
   const std::vector<std::string> parts = split(wish.orbit, '-');
   if (parts.size() > 3 || (parts.size() == 3 && parts[2] != "I" && parts[2] != "II"))
     static_cast<void>(part_of(wish, "", 0, 0, spelling));
-  choice.n = part_of(wish, parts[0], 1, 1000, spelling);
+  if (parts[0] != "free" || parts.size() == 1) choice.n = part_of(wish, parts[0], 1, 1000, spelling);
   if (parts.size() == 1) return;
   if (parts[1] == "inf")
     choice.chatter = true;
@@ -53,19 +54,22 @@ std::string called(const OrbitWish& wish) {
 }
 
 /// What became of the motion from the start.
-std::string settled_on(const Settled& settled, const Spelling& spelling) {
+std::string settled_on(const Settled& settled, bool free, const Spelling& spelling) {
+  const std::string period = free ? "return" : "period";
   switch (settled.end) {
     case SettleEnd::orbit:
       return "the motion settles on " + (settled.orbit ? settled.orbit->label : "another");
     case SettleEnd::no_orbit:
-      return "the motion settles on a cycle of " + count(settled.n, "period") + " whose equations are not solved";
+      return "the motion settles on a cycle of " + count(settled.n, period) + " whose equations are not solved";
     case SettleEnd::time:
       return "the time was over before the motion had settled (" + spelling("seconds") + ")";
+    case SettleEnd::rest:
+      return "the motion has no more events: it comes to rest, or goes away for ever (classify says which)";
     case SettleEnd::no_cycle:
     case SettleEnd::stopped:
       break;
   }
-  return "the motion does not settle on a cycle within " + count(settled.periods, "period") + " (" +
+  return "the motion does not settle on a cycle within " + count(settled.periods, period) + " (" +
          spelling("transient") + ")";
 }
 
@@ -80,11 +84,10 @@ std::string labels(const std::vector<Solution>& orbits) {
   return list;
 }
 
-[[noreturn]] void refuse(const Chosen& chosen, const OrbitWish& wish, bool forced, const Spelling& spelling) {
-  const std::string none = "no " + called(wish) + ": " + settled_on(chosen.settled, spelling);
+[[noreturn]] void refuse(const Chosen& chosen, const OrbitWish& wish, bool free, const Spelling& spelling) {
+  const std::string none = "no " + called(wish) + ": " + settled_on(chosen.settled, free, spelling);
   if (!chosen.search)
-    throw NumericalError(
-        none + (forced ? "; " + spelling("orbit") + " or " + spelling("unstable") + " searches for others" : ""));
+    throw NumericalError(none + "; " + spelling("orbit") + " or " + spelling("unstable") + " searches for others");
   const std::string found = labels(chosen.others);
   throw NumericalError(none + "; a search tried " + tried(*chosen.search, wish, spelling) +
                        (found.empty() ? "" : " (found: " + found + ")") + "; more " + spelling("starts") + " or " +
@@ -121,17 +124,13 @@ SearchOptions search_options(const OrbitWish& wish, const std::atomic<bool>* sto
 Chosen find_orbit(const Problem& problem, const System& system, const State& start, const OrbitWish& wish,
                   const std::atomic<bool>* stop, const Spelling& spelling) {
   const OrbitChoice choice = choice_of(wish, start, spelling);
-  const bool forced = system.model().forced();
-  if (!forced && !choice.none())
-    throw InputError((choice.n ? spelling("orbit")
-                               : spelling("unstable") + ", " + spelling("symmetric") + ", " + spelling("nearest")) +
-                     ": model " + in_quotes(system.model().name) +
-                     " has no forcing, so its cycles have no number of forcing periods and no phase; what the motion "
-                     "settles on is found without");
+  if (!problem.free() && wish.orbit.starts_with("free"))
+    throw InputError(spelling("orbit") + ": model " + in_quotes(system.model().name) +
+                     " is driven, so its cycles have whole numbers of forcing periods: N-P-I");
   const SearchOptions search = search_options(wish, stop);
   Chosen chosen = choose(problem, system, start, choice,
                          {.transient = wish.transient, .stop = stop, .until = search.until}, search);
-  if (!chosen.orbit) refuse(chosen, wish, forced, spelling);
+  if (!chosen.orbit) refuse(chosen, wish, problem.free(), spelling);
   return chosen;
 }
 

@@ -29,6 +29,20 @@ void rotate(Orbit& orbit, std::size_t first) {
   std::rotate(legs.begin(), legs.begin() + static_cast<std::ptrdiff_t>(first), legs.end());
 }
 
+int returns(const Itinerary& shape) {
+  const auto alike = [](const Leg& a, const Leg& b) {
+    return a.states == b.states && a.event == b.event && a.event_contact == b.event_contact;
+  };
+  std::ptrdiff_t rarest = 0;
+  for (const Leg& leg : shape.legs) {
+    if (leg.ending == Ending::cut) continue;
+    const auto count =
+        std::count_if(shape.legs.begin(), shape.legs.end(), [&](const Leg& other) { return alike(leg, other); });
+    rarest = rarest == 0 ? count : std::min(rarest, count);
+  }
+  return static_cast<int>(rarest);
+}
+
 std::string describe(const Itinerary& shape, const System& system) {
   std::string text;
   for (const Leg& leg : shape.legs) {

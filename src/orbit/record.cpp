@@ -66,8 +66,6 @@ std::optional<Seen> next_event(Motion& motion, std::int64_t zero, Instant end, b
   return std::nullopt;
 }
 
-namespace {
-
 Orbit orbit_of(const std::vector<Seen>& events, std::size_t k, int n) {
   Orbit orbit;
   orbit.shape.n = n;
@@ -80,6 +78,8 @@ Orbit orbit_of(const std::vector<Seen>& events, std::size_t k, int n) {
   for (double& t : orbit.t) t -= whole;
   return orbit;
 }
+
+namespace {
 
 /// The linear response: one leg from phase 0 to phase 0.
 Orbit without_events(const Motion& motion, int n) {

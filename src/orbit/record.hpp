@@ -21,6 +21,9 @@ struct Seen {
 [[nodiscard]] std::optional<Seen> next_event(Motion& motion, std::int64_t zero, Instant end, bool& touched,
                                              const std::atomic<bool>* stop);
 
+/// The orbit of n periods (0: of a free motion) from the first of these events to number k. Its equations need not be met.
+[[nodiscard]] Orbit orbit_of(const std::vector<Seen>& events, std::size_t k, int n);
+
 /// An orbit of the shape that a motion has from its first event on: over the n periods after it, up to the same event in the same modes nearest to
 /// n periods later (n = 0: up to the event nearest in state, within 400 events). Its equations need not be met.
 /// @returns empty if there is no such event, or the motion grazes; an orbit with one leg if there are no events within n periods

@@ -144,6 +144,18 @@ double apart_from_image(const Problem& problem, const Orbit& a, const Orbit& b) 
   return std::min(half_later(1.0), half_later(-1.0));
 }
 
+double apart_from_own_image(const Problem& problem, const Orbit& orbit) {
+  if (orbit.shape.n > 0) return apart_from_image(problem, orbit, orbit);
+  const States states(problem, orbit);
+  const double half = 0.5 * (orbit.t.back() - orbit.t.front());
+  std::vector<VectorXd> now, later;
+  for (const double t : instants(orbit)) {
+    now.push_back(states.at(t));
+    later.push_back(states.at(t + half));
+  }
+  return now.empty() ? INFINITY : misfit(now, later, 1.0, problem.base().compiled().frame().n);
+}
+
 bool images_begin(const Problem& problem, const Orbit& before, const Orbit& crossing) {
   constexpr double symmetric = 1e-4, rounding = 1e-6;  // at a crossing states are known to 1e-5
   const double left = apart_from_image(problem, crossing, crossing);

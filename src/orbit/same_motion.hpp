@@ -22,6 +22,9 @@ namespace slapstick::orbit {
 /// `apart` of the first orbit and the image of the second, for the c that fits.
 [[nodiscard]] double apart_from_image(const Problem& problem, const Orbit& a, const Orbit& b);
 
+/// .. of an orbit and its own image; of a free motion its mirror image half a cycle later.
+[[nodiscard]] double apart_from_own_image(const Problem& problem, const Orbit& orbit);
+
 /// Does a branch of asymmetric orbits cross one of symmetric orbits? Behind the crossing it has the mirror images of its own.
 [[nodiscard]] bool images_begin(const Problem& problem, const Orbit& before, const Orbit& crossing);
 

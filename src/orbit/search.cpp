@@ -1,6 +1,7 @@
 /// The search for orbits: near returns of many motions, each refined by Newton's method.
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 
 #include "base/ranges.hpp"
@@ -10,8 +11,10 @@
 #include "orbit/known_orbits.hpp"
 #include "orbit/record.hpp"
 #include "orbit/starts.hpp"
+#include "section/flights.hpp"
 #include "section/return_map.hpp"
 #include "slapstick/base/error.hpp"
+#include "slapstick/flow/natural_modes.hpp"
 #include "slapstick/orbit/search.hpp"
 
 namespace slapstick::orbit {
@@ -56,6 +59,8 @@ class Hunt {
   /// @param size   of displacements and velocities
   /// @param nearby  the motion's start itself is a guess
   void run(Motion motion, const VectorXd& size, bool nearby);
+  /// The same of a free motion: from event to event.
+  void run_free(Motion motion, const VectorXd& size);
 
   [[nodiscard]] bool over() const {
     return enough_ || stopped(options_.stop) || (options_.until && std::chrono::steady_clock::now() >= *options_.until);
@@ -69,6 +74,7 @@ class Hunt {
 
  private:
   bool try_return(const Motion& from, int n);
+  bool try_returns(const std::vector<Seen>& events, const VectorXd& size, std::vector<Patience>& patience);
   bool refine_all(Orbit guess);
   bool add(const Orbit& orbit);
 
@@ -104,6 +110,61 @@ void Hunt::run(Motion motion, const VectorXd& size, bool nearby) {
     }
     if (k < options_.periods) run_to(motion, {k + 1, phase}, options_.stop, [] {});
   }
+}
+
+namespace {
+
+constexpr std::size_t most_legs = 64;  ///< of a free cycle that is looked for
+
+/// What the states at the events range over, one number for displacements and one for velocities, no less than `size`.
+VectorXd sizes_of(const std::vector<Seen>& events, VectorXd size) {
+  VectorXd low = events.front().x, high = low;
+  for (const Seen& event : events) {
+    low = low.cwiseMin(event.x);
+    high = high.cwiseMax(event.x);
+  }
+  const auto n = size.size() / 2;
+  size.head(n) = size.head(n).cwiseMax((high - low).head(n).maxCoeff());
+  size.tail(n) = size.tail(n).cwiseMax((high - low).tail(n).maxCoeff());
+  return size;
+}
+
+}  // namespace
+
+void Hunt::run_free(Motion motion, const VectorXd& size) {
+  std::vector<Seen> events;
+  std::vector<Patience> patience(most_legs + 1);
+  const Instant end = motion.time().plus(section::patience(system_));
+  bool touched = false;
+  for (int k = 0; k < 2 * options_.periods && !over(); ++k) {
+    auto seen = next_event(motion, 0, end, touched, options_.stop);
+    if (!seen) return;
+    problem_.translations().take_out(seen->x);
+    events.push_back(std::move(*seen));
+    if (try_returns(events, sizes_of(events, size), patience)) return;
+  }
+}
+
+/// From the last event back to earlier ones of the same kind. @returns whether the motion has become periodic
+bool Hunt::try_returns(const std::vector<Seen>& events, const VectorXd& size, std::vector<Patience>& patience) {
+  const std::size_t last = events.size() - 1;
+  for (std::size_t legs = 1; legs <= std::min(last, most_legs) && !over(); ++legs) {
+    const Seen& before = events[last - legs];
+    if (!(before.leg == events[last].leg)) continue;
+    const double returned = section::distance(events[last].x, before.x, size);
+    if (!(returned <= near_return)) continue;
+    const std::vector<Seen> cycle(events.end() - static_cast<std::ptrdiff_t>(legs) - 1, events.end());
+    const Orbit guess = orbit_of(cycle, legs, 0);
+    if (const int n = returns(guess.shape); n < least_n_ || n > most_n_) continue;
+    const bool periodic = returned <= same_state;
+    Patience& turn = patience[legs];
+    if (static_cast<int>(last) >= turn.next || periodic) {
+      ++report.returns;
+      turn.note(static_cast<int>(last), refine_all(guess));
+    }
+    if (periodic) return true;
+  }
+  return false;
 }
 
 bool Hunt::try_return(const Motion& from, int n) {
@@ -163,18 +224,35 @@ Motion random_start(const System& system, const Starts& starts, std::mt19937& ra
   return Motion(system, flow::user_state(system, starts.draw(random, spread)), Instant{}.plus(phase));
 }
 
+/// Somewhere near the mean, or far away: what a free motion is like at first may be next to rest.
+Motion free_start(const System& system, const Starts& starts, std::mt19937& random, double spread) {
+  const double wider = std::exp2(std::uniform_real_distribution<double>(-3.0, 3.0)(random));
+  return Motion(system, flow::user_state(system, starts.draw(random, wider * spread)));
+}
+
+/// What stands for a period of a free motion, in periods of the clock: that of its slowest oscillation without contact.
+std::optional<double> free_unit(const Problem& problem, const System& system, const State& state) {
+  if (!problem.free()) return std::nullopt;
+  for (const NaturalMode& mode : natural_modes(system, state))
+    if (mode.oscillates()) return 2.0 * std::numbers::pi / (mode.frequency * system.period());
+  return 1.0;
+}
+
 }  // namespace
 
 SearchResult search(const Problem& problem, const System& system, const State& state, const SearchOptions& options) {
   Hunt hunt(problem, system, options);
   std::mt19937 random(options.seed);
   const Motion first(system, state);
-  const Starts starts(problem.translations(), first, options.stop);
+  const Starts starts(problem.translations(), first, options.stop, free_unit(problem, system, state));
   SearchReport& report = hunt.report;
   while (report.motions < options.starts && !hunt.over()) {
     try {
       const bool nearby = report.motions == 0;
-      hunt.run(nearby ? first : random_start(system, starts, random, options.spread), starts.sizes(), nearby);
+      if (problem.free())
+        hunt.run_free(nearby ? first : free_start(system, starts, random, options.spread), starts.sizes());
+      else
+        hunt.run(nearby ? first : random_start(system, starts, random, options.spread), starts.sizes(), nearby);
     } catch (const InputError&) {  // an overlap by rounding
       ++report.broken_off;
     } catch (const NumericalError&) {
@@ -185,7 +263,8 @@ SearchResult search(const Problem& problem, const System& system, const State& s
   }
   if (hunt.over()) report.end = hunt.end();
   ranges::stable_sort(hunt.found, {}, [](const Solution& s) {
-    return std::pair(s.orbit.shape.n, s.chatter ? std::numeric_limits<long>::max() : s.impacts);
+    const Itinerary& shape = s.orbit.shape;
+    return std::pair(shape.n > 0 ? shape.n : returns(shape), s.chatter ? std::numeric_limits<long>::max() : s.impacts);
   });
   return {std::move(hunt.found), report};
 }

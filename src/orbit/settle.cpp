@@ -1,5 +1,4 @@
-/// The orbit that a motion settles on: the cycle of its stroboscopic map, or the one that it nearly closes, solved and
-/// verified.
+/// The orbit that a motion settles on: the cycle of its return map, or the one that it nearly closes, solved and verified.
 #include <cmath>
 
 #include "flow/contact_state.hpp"
@@ -37,14 +36,20 @@ std::optional<Solution> orbit_of_cycle(const Problem& problem, const section::Se
                                        const section::Cycle& cycle, const SettleOptions& options) {
   const System& system = settling.translations().system();
   Motion motion(system, settling.at_home(flow::user_state(system, cycle.x)));
-  if (!run_to(motion, {cycle.n, 0.0}, options.stop, [] {})) return std::nullopt;
-  return orbit_from(problem, motion, cycle.n, settled_within, options.stop);
+  if (!run_to(motion, Instant{}.plus(cycle.duration), options.stop, [] {})) return std::nullopt;
+  return orbit_from(problem, motion, problem.free() ? 0 : cycle.n, settled_within, options.stop);
 }
 
-Settled settle_forced(const Problem& problem, const System& system, const State& state, const SettleOptions& options) {
+}  // namespace
+
+Settled settle(const Problem& problem, const System& system, const State& state, const SettleOptions& options) {
   section::Settling settling(
       system, state,
-      {.most_periods = options.most_periods, .most_n = options.most_n, .stop = options.stop, .until = options.until});
+      {.most_periods = options.most_periods,
+       .most_n = options.most_n,
+       .by_clock = !problem.free(),
+       .stop = options.stop,
+       .until = options.until});
   settling.discard(options.transient);
   Settled result;
   std::optional<section::Cycle> cycle;
@@ -56,20 +61,8 @@ Settled settle_forced(const Problem& problem, const System& system, const State&
     result.end = result.orbit ? SettleEnd::orbit : SettleEnd::no_orbit;
   } else if (settling.out_of_time()) {
     result.end = SettleEnd::time;
-  }
-  return result;
-}
-
-}  // namespace
-
-Settled settle(const Problem& problem, const System& system, const State& state, const SettleOptions& options) {
-  Settled result;
-  if (system.model().forced()) {
-    result = settle_forced(problem, system, state, options);
-  } else {
-    result.orbit = orbit_near(problem, Motion(system, state), options.transient, 0, options.stop);
-    result.end = result.orbit ? SettleEnd::orbit : SettleEnd::no_cycle;
-    result.periods = options.transient;
+  } else if (settling.ended()) {
+    result.end = SettleEnd::rest;
   }
   if (stopped(options.stop)) result.end = SettleEnd::stopped;
   return result;
@@ -77,9 +70,8 @@ Settled settle(const Problem& problem, const System& system, const State& state,
 
 std::optional<Solution> orbit_near(const Problem& problem, Motion motion, long transient, int n,
                                    const std::atomic<bool>* stop) {
-  const System& system = motion.system();
   if (!run_to(motion, {motion.time().period + transient, 0.0}, stop, [] {})) return std::nullopt;
-  if (n != 0 || !system.model().forced()) return orbit_from(problem, motion, n, settled_within, stop);
+  if (n != 0 || problem.free()) return orbit_from(problem, motion, n, settled_within, stop);
   // Newton's method on many periods is dear: it is tried where the motion has come nearer to its start than ever.
   constexpr int longest_cycle = 64;
   constexpr double returned = 0.02, nearer = 0.5;

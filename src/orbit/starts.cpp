@@ -18,9 +18,9 @@ using Eigen::VectorXd;
 
 /// What the forcing, with no contact and no spring, would move each number of a contact state by: a (T / 2 pi)^2 and a
 /// T / 2 pi.
-VectorXd forced_sizes(const System& system) {
+VectorXd forced_sizes(const System& system, double unit) {
   const mode::Frame& frame = system.compiled().frame();
-  const double time = system.period() / (2.0 * std::numbers::pi);
+  const double time = unit * system.period() / (2.0 * std::numbers::pi);
   const Index constant_and_harmonics = frame.size() - 2 * frame.d;
   VectorXd sizes(2 * frame.n);
   for (Index i = 0; i < frame.n; ++i) {
@@ -44,16 +44,19 @@ void fill(Eigen::Ref<VectorXd> ranges, const VectorXd& forced) {
 
 }  // namespace
 
-Starts::Starts(const flow::Translations& translations, Motion motion, const std::atomic<bool>* stop)
+Starts::Starts(const flow::Translations& translations, Motion motion, const std::atomic<bool>* stop,
+               std::optional<double> unit)
     : translations_(translations),
       low_(VectorXd::Constant(2 * translations.system().compiled().frame().n, INFINITY)),
       high_(-low_),
-      sum_(VectorXd::Zero(low_.size())) {
+      sum_(VectorXd::Zero(low_.size())),
+      unit_(unit.value_or(1.0)) {
   constexpr int periods = 20, looks = 16;
   see(motion);
   try {
     for (int k = 1; k <= periods * looks && !stopped(stop); ++k) {
-      const Instant next{motion.time().period + (k % looks == 0 ? 1 : 0), static_cast<double>(k % looks) / looks};
+      Instant next{motion.time().period + (k % looks == 0 ? 1 : 0), static_cast<double>(k % looks) / looks};
+      if (unit) next = motion.time().plus(*unit / looks);
       run_to(motion, next, stop, [&] { see(motion); });
       see(motion);
     }
@@ -74,7 +77,7 @@ void Starts::see(const Motion& motion) {
 void Starts::set_sizes() {
   const Index n = translations_.system().compiled().frame().n;
   ranges_ = high_ - low_;
-  const VectorXd forced = forced_sizes(translations_.system());
+  const VectorXd forced = forced_sizes(translations_.system(), unit_);
   fill(ranges_.head(n), forced.head(n));
   fill(ranges_.tail(n), forced.tail(n));
   sizes_ = ranges_;

@@ -101,15 +101,7 @@ Formula Formulas::damping() const {
 Formula Formulas::input(const std::vector<bool>& above) const {
   Formula formula{none()};
   for (const Force& of : model_.forces) {
-    RowVector size = none();
-    if (of.harmonic == 0) {
-      size = of.amplitude * one();
-    } else {
-      const auto k = ranges::find(frame_.harmonics, of.harmonic) - frame_.harmonics.begin();
-      size[2 * frame_.d + 2 * k] = of.amplitude * fixed::sin(of.phase);
-      size[2 * frame_.d + 2 * k + 1] = of.amplitude * fixed::cos(of.phase);
-    }
-    formula.products.emplace_back(size, velocity(of.coordinate));
+    formula.products.emplace_back(frame_.drive_row(of), velocity(of.coordinate));
   }
   for (int i = 0; i < frictions(); ++i)
     if (const double belt = model_.frictions[static_cast<std::size_t>(i)].belt_speed; belt != 0.0)

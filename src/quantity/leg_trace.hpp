@@ -14,7 +14,7 @@ class Cycle {
   [[nodiscard]] const mode::Frame& frame() const { return set_.frame(); }
   [[nodiscard]] double period() const { return set_.period(); }
   [[nodiscard]] double duration() const { return (orbit_.t.back() - orbit_.t.front()) * period(); }
-  /// From an impact to the same one a cycle later, so that no flight is cut. Times count from the first phase 0 after
+  /// From an impact to the same one a cycle later. Times count from the first phase 0 after
   /// event 0 (orbit::at_phase_zero), and may be negative.
   /// @throws NumericalError if a leg is too long for the rates of its mode
   void trace(Tracer& tracer) const;
@@ -22,7 +22,10 @@ class Cycle {
  private:
   [[nodiscard]] std::size_t first_leg() const;
   [[nodiscard]] Vector start(std::size_t leg, double t) const;
-  void strike(const orbit::Leg& leg, std::size_t i, Tracer& tracer) const;
+  [[nodiscard]] const orbit::Leg& leg(std::size_t i) const { return orbit_.shape.legs[i]; }
+  [[nodiscard]] double begin(std::size_t k, std::size_t first) const;
+  [[nodiscard]] std::vector<std::pair<int, double>> met(std::size_t i) const;
+  void begin_flights(std::size_t first, Tracer& tracer) const;
 
   const orbit::Orbit& orbit_;
   orbit::ModeSet set_;

@@ -53,6 +53,9 @@ class Statistician : public Listener {
   Statistician(const Model& model, const std::vector<Quantity>& of)
       : of_(of), sums_(of.size()), found_{0.0, std::vector<Statistics>(of.size()), {}, true} {
     for (const Stop& stop : model.stops) found_.stops.push_back({stop.name, {}, {}, {}});
+    for (const CompliantStop& stop : model.compliant_stops) found_.stops.push_back({stop.name, {}, {}, {}, true});
+    rigid_ = static_cast<int>(model.stops.size());
+    between_ = static_cast<int>(model.frictions.size());
   }
 
   void step(const Step& step) override {
@@ -67,11 +70,11 @@ class Statistician : public Listener {
       ++found_.of[k].impulses;
     }
     for (const Struck& one : blow.impacts) {
-      StopStatistics& stop = found_.stops[static_cast<std::size_t>(one.stop)];
+      StopStatistics& stop = found_.stops[static_cast<std::size_t>(one.contact < rigid_ ? one.contact : one.contact - between_)];
       add(one.w, blow.time, stop.w);
       add(one.impulse, blow.time, stop.impulse);
       add(one.loss, blow.time, stop.loss);
-      for (std::size_t k = 0; k < of_.size(); ++k) add_impact(of_[k].kind, one, blow.time, found_.of[k]);
+      for (std::size_t k = 0; k < of_.size(); ++k) add_impact(of_[k], one, blow.time, found_.of[k]);
     }
   }
 
@@ -105,13 +108,8 @@ class Statistician : public Listener {
     into.values.push_back(value);
   }
 
-  static void add_impact(Quantity::Kind kind, const Struck& one, double at, Statistics& into) {
-    using Kind = Quantity::Kind;
-    if (kind == Kind::speed) add(one.w, at, into);
-    if (kind == Kind::impulse) add(one.impulse, at, into);
-    if (kind == Kind::loss) add(one.loss, at, into);
-    if (kind == Kind::flight) add(one.flight, at, into);
-    if (kind == Kind::sliding) add(one.sliding, at, into);
+  static void add_impact(const Quantity& quantity, const Struck& one, double at, Statistics& into) {
+    if (quantity.at_impacts()) add(value_at(quantity, one), at, into);
   }
 
   static void finish(Statistics& one) {
@@ -129,6 +127,7 @@ class Statistician : public Listener {
   const std::vector<Quantity>& of_;
   std::vector<Sums> sums_;
   Measured found_;
+  int rigid_ = 0, between_ = 0;  ///< stops, and the friction contacts that are numbered behind them
 };
 
 }  // namespace

@@ -1,9 +1,11 @@
 /// Names the quantities of a model, with units and meanings.
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "base/nearest.hpp"
 #include "base/text.hpp"
+#include "io/unit.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/quantity/quantity.hpp"
 
@@ -12,7 +14,17 @@ namespace {
 
 using Kind = Quantity::Kind;
 
-/// Gathers quantities; a name that is taken already is left out.
+/// The name, or where another quantity has it already NAME_2: nothing is left out, and the list shows both.
+std::string free_name(const std::vector<Quantity>& all, const std::string& name) {
+  const auto taken = [&](const std::string& wanted) {
+    return std::any_of(all.begin(), all.end(), [&](const Quantity& one) { return one.name == wanted; });
+  };
+  std::string free = name;
+  for (int k = 2; taken(free); ++k) free = name + "_" + std::to_string(k);
+  return free;
+}
+
+/// Gathers quantities.
 class List {
  public:
   explicit List(const Model& model) : model_(model) {}
@@ -25,9 +37,9 @@ class List {
 
  private:
   void add(Kind kind, int index, const std::string& name, const std::string& meaning) {
-    const auto same = [&](const Quantity& known) { return known.name == name; };
-    if (std::none_of(all_.begin(), all_.end(), same)) all_.push_back({kind, index, -1, 0.0, name, "", meaning});
+    all_.push_back({kind, index, -1, 0.0, free_name(all_, name), "", meaning});
   }
+  void of_stop(int contact, const std::string& name, bool rigid);
   void contact(int number, const std::string& name, const std::string& what, bool gap);
 
   const Model& model_;
@@ -91,18 +103,44 @@ void List::whole() {
 }
 
 void List::impacts() {
-  if (model_.stops.empty()) return;
+  const bool rigid = !model_.stops.empty();
+  if (!rigid && model_.compliant_stops.empty()) return;
   add(Kind::speed, -1, "w", "at impacts of all stops: speed just before");
-  add(Kind::impulse, -1, "impulse", "at impacts of all stops: impulse of the stop");
-  add(Kind::loss, -1, "energy_lost", "at impacts of all stops: energy lost");
+  if (rigid) add(Kind::impulse, -1, "impulse", "at impacts of all rigid stops: impulse of the stop");
+  if (rigid) add(Kind::loss, -1, "energy_lost", "at impacts of all rigid stops: energy lost");
   add(Kind::flight, -1, "flight", "at impacts: time since the impact before, in forcing periods");
   add(Kind::sliding, -1, "sliding", "at impacts: time of slip since the impact before, in forcing periods");
+  for (std::size_t i = 0; i < model_.stops.size(); ++i) of_stop(static_cast<int>(i), model_.stops[i].name, true);
+  const auto first = model_.stops.size() + model_.frictions.size();
+  for (std::size_t i = 0; i < model_.compliant_stops.size(); ++i)
+    of_stop(static_cast<int>(first + i), model_.compliant_stops[i].name, false);
 }
 
-/// The unit of a quantity where lengths are `length` and times `time`; the units of forces are known of SI units only.
-std::string unit_of(const Quantity& quantity, const std::string& length, const std::string& time) {
-  const bool si = length == "m" && time == "s";
+/// The same of one stop. `w_NAME` is its relative velocity at any time, so the speed of its impacts is `speed_NAME`.
+void List::of_stop(int contact, const std::string& name, bool rigid) {
+  const std::string at = rigid ? "at impacts of " + name + ": " : "when " + name + " is met: ";
+  add(Kind::speed, contact, "speed_" + name, at + "speed just before");
+  if (rigid) add(Kind::impulse, contact, "impulse_" + name, at + "impulse");
+  if (rigid) add(Kind::loss, contact, "energy_lost_" + name, at + "energy lost");
+  add(Kind::flight, contact, "flight_" + name, at + "time since the one before, in forcing periods");
+  add(Kind::sliding, contact, "sliding_" + name, at + "time of slip since the one before, in forcing periods");
+}
+
+/// mass length^a / time^b, by its name where it has one: N, mJ, kW.
+std::string composed(const StatedUnits& stated, const std::string& length, int a, int b) {
+  if (stated.mass.empty() || stated.time.empty() || length.empty()) return "";
+  const std::string over = length + (a == 2 ? "^2/" : "/") + stated.time + "^" + std::to_string(b);
+  const Unit whole = parse_unit(stated.mass + " " + over);
+  for (const char* name : {"N", "mN", "kN", "MN", "J", "mJ", "kJ", "W", "kW"})
+    if (const Unit known = parse_unit(name); known.powers == whole.powers && std::abs(known.factor / whole.factor - 1.0) < 1e-12) return name;
+  return stated.mass + " " + over;
+}
+
+/// The unit of a quantity where lengths are `length`; those of forces and energies as far as the file states a mass.
+std::string unit_of(const Quantity& quantity, const std::string& length, const StatedUnits& stated) {
+  const std::string& time = stated.time;
   const auto over_time = [&](const char* power) { return length.empty() || time.empty() ? "" : length + "/" + time + power; };
+  const std::string force = composed(stated, length, 1, 2);
   switch (quantity.kind) {
     case Kind::displacement:
     case Kind::gap:
@@ -114,17 +152,17 @@ std::string unit_of(const Quantity& quantity, const std::string& length, const s
     case Kind::acceleration:
       return over_time("^2");
     case Kind::force:
-      return si ? "N" : "";
+      return force;
     case Kind::power:
     case Kind::damping:
     case Kind::input:
-      return si ? "W" : "";
+      return composed(stated, length, 2, 3);
     case Kind::kinetic:
     case Kind::potential:
     case Kind::loss:
-      return si ? "J" : "";
+      return composed(stated, length, 2, 2);
     case Kind::impulse:
-      return si ? "N s" : "";
+      return force.empty() ? "" : force + " " + time;
     case Kind::flight:
     case Kind::sliding:
     case Kind::parameter:
@@ -170,12 +208,11 @@ std::vector<Quantity> quantities(const ModelDefinition& definition, const Overri
   for (Quantity& one : all) {
     const bool own = one.kind <= Kind::acceleration;
     one.unit = unit_of(one, own ? stated.coordinates[static_cast<std::size_t>(one.index)] : common(stated.coordinates),
-                       stated.time);
+                       stated);
   }
   const auto values = definition.values(overrides);
   for (const Parameter& parameter : definition.parameters())
-    if (known(all, parameter.name) == nullptr)
-      all.push_back({Kind::parameter, -1, -1, values.at(parameter.name), parameter.name, parameter.unit, parameter.description});
+    all.push_back({Kind::parameter, -1, -1, values.at(parameter.name), free_name(all, parameter.name), parameter.unit, parameter.description});
   return all;
 }
 

@@ -17,7 +17,7 @@ std::vector<Band> bands(double lowest, double highest, int parts) {
   const auto place = [&](double hertz) { return parts * std::log(hertz / 1000.0) / std::log(G); };
   for (double x = std::floor(place(lowest) + 0.5); x <= std::floor(place(highest) + 0.5); ++x) {
     const double centre = 1000.0 * std::pow(G, x / parts);
-    all.push_back({centre, centre / half, centre * half, 0.0});
+    all.push_back({centre, centre / half, centre * half, 0.0, true});
   }
   return all;
 }
@@ -32,6 +32,8 @@ std::vector<Band> octaves(const LineSpectrum& of, int parts, double unit_of_time
     for (Band& band : all)
       if (hertz >= band.from && hertz < band.to) band.mean_square += 2.0 * std::norm(line.c);
   }
+  const double next = of.lines.back().frequency + of.lines[1].frequency;  // the first line that is left out
+  for (Band& band : all) band.whole = next / unit_of_time >= band.to;
   return all;
 }
 
@@ -47,6 +49,8 @@ std::vector<Band> octaves(const DensitySpectrum& of, int parts, double unit_of_t
       if (width > 0.0) band.mean_square += width * unit_of_time * of.density[k];
     }
   }
+  for (Band& band : all)
+    band.whole = of.frequency.front() / unit_of_time - half <= band.from && of.frequency.back() / unit_of_time + half >= band.to;
   return all;
 }
 

@@ -13,7 +13,7 @@ namespace slapstick {
 std::optional<Span> find_span(const ModelDefinition& definition, const Overrides& overrides, const System& system,
                               const State& start, const SpanWish& wish) {
   Span span;
-  if (wish.periods == 0.0) {
+  if (wish.periods == 0.0 && system.model().periodic()) {
     span.problem = orbit::pose(definition.family({}, overrides), {});
     orbit::SettleOptions settling;
     settling.transient = wish.transient;

@@ -19,7 +19,7 @@ class Follower {
     if (!event) return;
     const Event& last = motion_.event();
     if (last.kind == EventKind::impact) tracer_.impact(last.contact, last.w);
-    if (last.kind == EventKind::chatter) tracer_.begin_flight(last.time.since(origin_) * motion_.system().period());
+    if (last.kind == EventKind::chatter) tracer_.begin_flight(last.contact, last.time.since(origin_) * motion_.system().period());
   }
 
  private:
@@ -57,7 +57,7 @@ bool trace(Motion& motion, Instant end, Tracer& tracer, const std::atomic<bool>*
     follower.look(false);
     if (stopped(stop)) return false;
   } while (stage < end);
-  tracer.finish(motion.engine().extended().data());
+  tracer.finish(motion.engine().extended().data(), *motion.system().compiled().outline(motion.mode_id()));
   return true;
 }
 

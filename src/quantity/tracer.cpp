@@ -116,7 +116,8 @@ Tracer::Expansion::Branch& Tracer::Expansion::branch(const std::vector<bool>& ab
 
 Tracer::Tracer(const Model& model, const mode::Frame& frame, double period, const std::vector<Quantity>& of,
                Listener& listener)
-    : model_(model), frame_(frame), period_(period), of_(of), listener_(listener), values_(of.size()) {}
+    : model_(model), frame_(frame), period_(period), of_(of), listener_(listener), values_(of.size()),
+      marks_(model.stops.size() + model.frictions.size() + model.compliant_stops.size() + 1) {}
 
 Tracer::~Tracer() = default;
 
@@ -154,7 +155,7 @@ void Tracer::piece(const std::shared_ptr<const mode::Outline>& outline, double l
   }
   end_ = end;
   const auto slips = [](mode::FrictionState state) { return state != mode::FrictionState::stick; };
-  if (std::any_of(next_->states.frictions.begin(), next_->states.frictions.end(), slips)) sliding_ += duration;
+  if (std::any_of(next_->states.frictions.begin(), next_->states.frictions.end(), slips)) slid_ += duration;
   last_ = next_;
 }
 
@@ -213,20 +214,48 @@ void Tracer::move(const Expansion& mode, double length) {
   }
 }
 
+double value_at(const Quantity& quantity, const Struck& impact) {
+  using Kind = Quantity::Kind;
+  const bool one_stop = quantity.index >= 0;
+  const Since& since = one_stop ? impact.own : impact.any;
+  if (one_stop && quantity.index != impact.contact) return std::numeric_limits<double>::quiet_NaN();
+  if (quantity.kind == Kind::speed) return impact.w;
+  if (quantity.kind == Kind::impulse) return impact.impulse;
+  if (quantity.kind == Kind::loss) return impact.loss;
+  if (quantity.kind == Kind::flight) return since.flight;
+  return quantity.kind == Kind::sliding ? since.sliding : std::numeric_limits<double>::quiet_NaN();
+}
+
 void Tracer::impact(int stop, double w) {
   if (last_ == nullptr) return;
   strike(std::uint32_t{1} << static_cast<unsigned>(stop));
-  const double unknown = std::numeric_limits<double>::quiet_NaN();
-  const double flight = last_impact_ ? (end_ - *last_impact_) / period_ : unknown;
-  const auto known = std::find_if(impacts_.begin(), impacts_.end(), [&](const Struck& one) { return one.stop == stop; });
-  if (known == impacts_.end()) impacts_.push_back({stop, w, 0.0, 0.0, flight, last_impact_ ? sliding_ / period_ : unknown});
-  last_impact_ = end_;
-  sliding_ = 0.0;
+  const auto known = std::find_if(impacts_.begin(), impacts_.end(), [&](const Struck& one) { return one.contact == stop; });
+  if (known == impacts_.end()) impacts_.push_back(meet(stop, w));
 }
 
-void Tracer::finish(const double* X) {
+void Tracer::begin_flight(int contact, double time, double slid) {
+  const Mark mark{time, slid_ - slid};
+  marks_[static_cast<std::size_t>(contact)] = mark;
+  if (!marks_.back() || time >= marks_.back()->time) marks_.back() = mark;
+}
+
+/// @param contact  -1: any
+Since Tracer::since(int contact) const {
+  const auto& mark = contact < 0 ? marks_.back() : marks_[static_cast<std::size_t>(contact)];
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  return mark ? Since{(end_ - mark->time) / period_, (slid_ - mark->slid) / period_} : Since{unknown, unknown};
+}
+
+/// An impact here and now: it ends a flight and begins one.
+Struck Tracer::meet(int contact, double w) {
+  const Struck met{contact, w, 0.0, 0.0, since(-1), since(contact)};
+  begin_flight(contact, end_);
+  return met;
+}
+
+void Tracer::finish(const double* X, const mode::Outline& next) {
   if (last_ == nullptr) return;
-  next_ = nullptr;
+  next_ = &next;
   tell_blow(X);
 }
 
@@ -235,9 +264,12 @@ void Tracer::tell_blow(const double* X) {
   Blow blow{end_, std::vector<double>(of_.size(), 0.0), {}};
   const bool struck = struck_ != 0;
   if (struck) blow_of_stops(X, blow);
-  if (next_ != nullptr && last_->states.compliant != next_->states.compliant) let_go(*next_, blow);
+  if (last_->states.compliant != next_->states.compliant) {
+    let_go(*next_, blow);
+    engage(*next_, blow);
+  }
   const bool any = std::any_of(blow.impulses.begin(), blow.impulses.end(), [](double one) { return one != 0.0; });
-  if (struck || any) listener_.blow(blow);
+  if (struck || any || !blow.impacts.empty()) listener_.blow(blow);
   struck_ = 0;
   impacts_.clear();
 }
@@ -262,7 +294,7 @@ void Tracer::blow_of_stops(const double* X, Blow& blow) {
   const Vector P = -mode::least_norm_inverse(D) * jump, loss = 0.5 * P.cwiseProduct(sum);
   share(stops, P, loss, Eigen::Map<const Vector>(X, frame_.size()) - X_, blow);
   for (Struck& impact : impacts_) {
-    const auto i = static_cast<Eigen::Index>(std::find(stops.begin(), stops.end(), impact.stop) - stops.begin());
+    const auto i = static_cast<Eigen::Index>(std::find(stops.begin(), stops.end(), impact.contact) - stops.begin());
     impact.impulse = P[i];
     impact.loss = loss[i];
   }
@@ -297,6 +329,19 @@ void Tracer::let_go(const mode::Outline& next, Blow& blow) const {
     const double sense = detached(next) - detached(*last_);
     const double delta = X_[frame_.compliant[at].own];
     blow.impulses[k] += sense * 0.5 * model_.compliant_stops[at].stiffness * delta * delta;
+  }
+}
+
+/// A compliant stop that is met from its free side, as section/stop_choice.hpp counts them.
+void Tracer::engage(const mode::Outline& next, Blow& blow) {
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  const int first = static_cast<int>(model_.stops.size() + model_.frictions.size());
+  for (std::size_t i = 0; i < model_.compliant_stops.size(); ++i) {
+    const bool met = last_->states.compliant[i] == mode::CompliantState::off && next.states.compliant[i] != mode::CompliantState::off;
+    const double w = met ? frame_.velocity_row(frame_.compliant[i]).dot(X_) : 0.0;
+    if (!(w > 0.0)) continue;
+    blow.impacts.push_back(meet(first + static_cast<int>(i), w));
+    blow.impacts.back().impulse = blow.impacts.back().loss = unknown;
   }
 }
 

@@ -26,12 +26,17 @@ struct Step {
   const std::vector<Polynomial>& values;
 };
 
-/// A stop that was struck.
+/// A time since an impact and the part of it in slip, forcing periods; NaN where there was none.
+struct Since {
+  double flight = 0.0, sliding = 0.0;
+};
+
+/// A stop that was struck, or a compliant one that was met from its free side.
 struct Struck {
-  int stop = 0;
-  double w = 0.0;                ///< just before
-  double impulse = 0.0, loss = 0.0;
-  double flight = 0.0, sliding = 0.0;  ///< forcing periods; NaN for the first impact
+  int contact = 0;                    ///< System::contact_name
+  double w = 0.0;                     ///< just before
+  double impulse = 0.0, loss = 0.0;   ///< NaN of a compliant stop: both take time
+  Since any, own;                     ///< since an impact of any stop, and of this one
 };
 
 struct Blow {
@@ -39,6 +44,9 @@ struct Blow {
   std::vector<double> impulses;  ///< of every quantity
   std::vector<Struck> impacts;   ///< none: the tail of a chatter, or a compliant stop that lets go
 };
+
+/// What a quantity at impacts is at one; NaN if it is not about this stop.
+[[nodiscard]] double value_at(const Quantity& quantity, const Struck& impact);
 
 class Listener {
  public:
@@ -66,13 +74,11 @@ class Tracer {
   void strike(std::uint32_t stops) { struck_ |= stops; }
   /// .. and this one was hit. Ignored before the first piece.
   void impact(int stop, double w);
-  /// Flights count from here: an impact before the first piece, or the end of a chatter.
-  void begin_flight(double time) {
-    last_impact_ = time;
-    sliding_ = 0.0;
-  }
-  /// X after the last piece, and what was struck there.
-  void finish(const double* X);
+  /// Flights of a stop count from here: an impact before the first piece, or the end of a chatter.
+  /// @param slid  how long friction has slipped since then
+  void begin_flight(int contact, double time, double slid = 0.0);
+  /// X after the last piece, what was struck there, and the mode that follows.
+  void finish(const double* X, const mode::Outline& next);
 
  private:
   struct Expansion;
@@ -85,6 +91,9 @@ class Tracer {
   void share(const std::vector<int>& stops, const Vector& P, const Vector& loss, const Vector& change, Blow& blow) const;
   void blow_of_stops(const double* X, Blow& blow);
   void let_go(const mode::Outline& next, Blow& blow) const;
+  void engage(const mode::Outline& next, Blow& blow);
+  [[nodiscard]] Since since(int contact) const;
+  [[nodiscard]] Struck meet(int contact, double w);
 
   const Model& model_;
   const mode::Frame& frame_;
@@ -100,8 +109,12 @@ class Tracer {
   Vector next_X_, coefficients_;
   std::vector<bool> above_;
   std::vector<Polynomial> rows_, values_;
-  double end_ = 0.0, sliding_ = 0.0;
-  std::optional<double> last_impact_;
+  /// An impact, and how long friction had slipped until then.
+  struct Mark {
+    double time = 0.0, slid = 0.0;
+  };
+  double end_ = 0.0, slid_ = 0.0;
+  std::vector<std::optional<Mark>> marks_;  ///< the last one of each contact, and of any behind them
 };
 
 /// Follows a motion to `end`. What happens at its present instant is not told, what happens at `end` is.

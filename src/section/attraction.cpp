@@ -40,7 +40,7 @@ class Amplitude {
   VectorXcd w_;
 };
 
-constexpr double longest_trial = 256.0;  ///< forcing periods
+constexpr double longest_trial = 256.0;  ///< points of the section
 
 /// As many as the slowest multiplier needs to halve an amplitude, but no more than a trial may last. An even number: a
 /// motion that alternates beside the cycle is farther away on one side than on the other.
@@ -52,14 +52,13 @@ long cycles_of_stage(double slowest, int n) {
 /// A motion beside a cycle, from stage to stage.
 class Trial {
  public:
-  Trial(const flow::Translations& translations, Motion motion, const FixedPoint& cycle, int n, const VectorXd& scale,
-        Stop stop)
-      : translations_(translations),
+  Trial(const ReturnMap& map, Motion motion, const FixedPoint& cycle, int n, const VectorXd& scale, Stop stop)
+      : map_(map),
         motion_(std::move(motion)),
         cycle_(cycle),
         scale_(scale),
         stop_(stop),
-        amplitude_(translations, cycle, scale),
+        amplitude_(map.translations(), cycle, scale),
         slowest_(std::abs(cycle.multipliers.front())),
         cycles_(cycles_of_stage(slowest_, n)),
         periods_(cycles_ * n) {
@@ -75,7 +74,7 @@ class Trial {
     constexpr double linear = 1e-2;           // farther away the loss must be near the linear one, from both sides
     constexpr double above_rounding = 1e-13;  // a loss below is that of some hundred roundings
     const double away = distance_, first = size_;
-    if (!run_to(motion_, {motion_.time().period + periods_, 0.0}, stop_, [] {})) return false;
+    if (!map_.run(motion_, periods_, stop_)) return false;
     look();
     // what is left is of faster directions, which fall by themselves
     if (first <= there) return distance_ <= 0.8 * away;
@@ -88,12 +87,12 @@ class Trial {
  private:
   void look() {
     VectorXd x = flow::contact_state(motion_);
-    translations_.take_out(x);
+    map_.translations().take_out(x);
     distance_ = section::distance(x, cycle_.x, scale_);
     size_ = amplitude_(x);
   }
 
-  const flow::Translations& translations_;
+  const ReturnMap& map_;
   Motion motion_;
   const FixedPoint& cycle_;
   const VectorXd& scale_;
@@ -106,11 +105,11 @@ class Trial {
 
 }  // namespace
 
-Attraction attraction(const flow::Translations& translations, Motion motion, const FixedPoint& cycle, int n,
-                      const VectorXd& scale, Stop stop) {
+Attraction attraction(const ReturnMap& map, Motion motion, const FixedPoint& cycle, int n, const VectorXd& scale,
+                      Stop stop) {
   constexpr double beside = 0.05;  // of the motion's size: a motion farther away may do anything yet
   if (cycle.multipliers.empty()) return {true, 0.0};
-  Trial trial(translations, std::move(motion), cycle, n, scale, stop);
+  Trial trial(map, std::move(motion), cycle, n, scale, stop);
   for (double left = longest_trial; left > 0.0; left -= static_cast<double>(trial.periods())) {
     const bool loses = trial.loses();
     if (trial.distance() <= there) return {true, trial.distance()};
@@ -130,18 +129,19 @@ VectorXd least_move(const dense::SingularVectors& by, Index nulls, const VectorX
 
 }  // namespace
 
-int family(const flow::Translations& translations, const VectorXd& x, int n, const VectorXd& scale, Stop stop) {
+int family(const ReturnMap& map, const VectorXd& x, int n, const VectorXd& scale, Stop stop) {
+  const flow::Translations& translations = map.translations();
   constexpr double null = 1e-6;    // a double multiplier 1, as of a conservative model, is known to half the digits
   constexpr double aside = 1e-3;   // of the motion's size
   constexpr double closed = 1e-9;  // a fold leaves a residual of the order of aside^2
   const VectorXd sizes = translations.numbers(scale);
   const auto residual = [&](const VectorXd& numbers) {
     const VectorXd at = translations.representative(numbers);
-    const VectorXd image = return_map(translations, at, n, stop).image;
+    const VectorXd image = map.value(at, n, stop).image;
     return VectorXd((translations.numbers(image) - numbers).cwiseQuotient(sizes));
   };
   const VectorXd here = translations.numbers(x);
-  const MatrixXd jacobian = return_map(translations, x, n, stop).jacobian;
+  const MatrixXd jacobian = map.value(x, n, stop).jacobian;
   const MatrixXd scaled = sizes.cwiseInverse().asDiagonal() *
                           (jacobian - MatrixXd::Identity(here.size(), here.size())) * sizes.asDiagonal();
   const dense::SingularVectors by = dense::singular_vectors(scaled);

@@ -10,8 +10,8 @@
 /// curve it is zero. So half of the linear loss is asked for. Round a cycle with complex multipliers a curve may lie
 /// between the motion and the cycle: farther away than 1e-2 of its size the motion may lose no more than twice as much.
 /// One such loss may be chance: a chaotic motion comes nearer now and then. So stage after stage is asked for, each
-/// until the amplitude should have halved, up to 256 periods in all or until the motion is there; and at the end it
-/// must be beside the cycle, within a twentieth of its size.
+/// until the amplitude should have halved, up to 256 periods (points of the section) in all or until the motion is
+/// there; and at the end it must be beside the cycle, within a twentieth of its size.
 #include "section/return_map.hpp"
 
 namespace slapstick::section {
@@ -21,16 +21,16 @@ struct Attraction {
   double distance = 0.0;  ///< of the motion from the cycle at the end of the trial, relative to its size
 };
 
-/// @param motion  at phase 0; a copy is followed, for 256 periods and one stage at most
-/// @param n  forcing periods of the cycle
+/// @param motion  at a point of the section; a copy is followed, for 256 points and one stage at most
+/// @param n  points of the section in the cycle: of a driven motion forcing periods
 /// @param scale  size of the motion, as of section::distance
-[[nodiscard]] Attraction attraction(const flow::Translations& translations, Motion motion, const FixedPoint& cycle,
-                                    int n, const Eigen::VectorXd& scale, Stop stop);
+[[nodiscard]] Attraction attraction(const ReturnMap& map, Motion motion, const FixedPoint& cycle, int n,
+                                    const Eigen::VectorXd& scale, Stop stop);
 
 /// Of how many dimensions is the continuum of cycles that x is a member of? Counted are the directions to whose both
 /// sides there are other fixed points, 1e-3 of the motion's size away; beside a fold there are none.
-/// @param n  forcing periods of the cycle. Cost: two maps, and six for each multiplier 1
-[[nodiscard]] int family(const flow::Translations& translations, const Eigen::VectorXd& x, int n,
-                         const Eigen::VectorXd& scale, Stop stop);
+/// @param n  as of attraction. Cost: two maps, and six for each multiplier 1
+[[nodiscard]] int family(const ReturnMap& map, const Eigen::VectorXd& x, int n, const Eigen::VectorXd& scale,
+                         Stop stop);
 
 }  // namespace slapstick::section

@@ -71,6 +71,7 @@ void ImpactSection::note(const Event& event) {
     case EventKind::corner:
     case EventKind::unload:
     case EventKind::load:
+    case EventKind::knot:
       break;
     case EventKind::chatter:
       ++between_.chatters;

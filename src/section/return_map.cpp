@@ -1,4 +1,4 @@
-/// Computes the n-period map with its Jacobian, and its fixed points.
+/// Computes the stroboscopic map with its Jacobian, and fixed points of maps.
 #include "section/return_map.hpp"
 
 #include <algorithm>
@@ -16,18 +16,49 @@ double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen:
   return ((a - b).array().abs() / scale.array()).maxCoeff();
 }
 
-MapValue return_map(const Translations& translations, const Eigen::VectorXd& x, int n, Stop stop) {
+bool ReturnMap::run(Motion& motion, long n, Stop stop) const {
+  for (long k = 0; k < n; ++k) {
+    const std::optional<Instant> point = next(motion, stop);
+    if (!point || !run_to(motion, *point, stop, [] {})) return false;
+  }
+  return true;
+}
+
+std::vector<std::complex<double>> ReturnMap::multipliers(const Eigen::MatrixXd& jacobian) const {
+  return multipliers_of(jacobian);
+}
+
+std::optional<Instant> Stroboscopic::next(const Motion& motion, Stop) const {
+  return Instant{motion.time().period + 1, 0.0};
+}
+
+bool Stroboscopic::run(Motion& motion, long n, Stop stop) const {
+  return run_to(motion, {motion.time().period + n, 0.0}, stop, [] {});
+}
+
+MapValue Stroboscopic::value(const Eigen::VectorXd& x, int n, Stop stop) const {
   const Eigen::Index size = x.size();
-  TangentMotion motion(translations.system(), user_state(translations.system(), x),
+  TangentMotion motion(translations().system(), user_state(translations().system(), x),
                        Eigen::MatrixXd::Identity(size, size));
   run_to(motion, {n, 0.0}, stop, [] {});
-  MapValue value{contact_state(motion.motion()), translations.quotient(motion.tangents()), {}};
-  value.advance = translations.take_out(value.image);
+  MapValue value{contact_state(motion.motion()), translations().quotient(motion.tangents()), {}, static_cast<double>(n)};
+  value.advance = translations().take_out(value.image);
   return value;
 }
 
-std::optional<FixedPoint> fixed_point(const Translations& translations, Eigen::VectorXd x, int n,
-                                      const Eigen::VectorXd& scale, Stop stop) {
+namespace {
+
+FixedPoint on_section(const ReturnMap& map, const Eigen::VectorXd& x, const MapValue& value, int n, Stop stop) {
+  const Eigen::VectorXd point = map.on_section(x, stop);
+  const Eigen::MatrixXd jacobian = point == x ? value.jacobian : map.value(point, n, stop).jacobian;
+  return {point, jacobian, map.multipliers(jacobian)};
+}
+
+}  // namespace
+
+std::optional<FixedPoint> fixed_point(const ReturnMap& map, Eigen::VectorXd x, int n, const Eigen::VectorXd& scale,
+                                      Stop stop) {
+  const Translations& translations = map.translations();
   const Eigen::Index numbers = x.size() - translations.count();
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(numbers, numbers);
   constexpr int most_steps = 40, most_idle = 4;
@@ -36,10 +67,10 @@ std::optional<FixedPoint> fixed_point(const Translations& translations, Eigen::V
   int idling = 0;
   try {
     for (int step = 0; step < most_steps && idling < most_idle; ++step) {
-      const MapValue value = return_map(translations, x, n, stop);
+      const MapValue value = map.value(x, n, stop);
       if (stopped(stop)) return {};
       const bool arrived = distance(value.image, x, scale) < 1e-11;
-      if (arrived) return FixedPoint{x, value.jacobian, multipliers_of(value.jacobian)};
+      if (arrived) return on_section(map, x, value, n, stop);
       const Eigen::VectorXd residual = x - value.image;
       const Eigen::VectorXd correction =
           translations.representative(dense::solve(value.jacobian - identity, translations.numbers(residual)));

@@ -44,8 +44,8 @@ void SampledMotion::read_sample() {
   sample_.time = due_;
   const Motion::Segment segment = motion_.segment();
   sample_.mode = segment.duration > 0.0 ? segment.mode : motion_.mode_id();
-  motion_.sample(std::clamp(due_.since(segment.start) * motion_.system().period(), 0.0, segment.duration),
-                 sample_.state);
+  sample_.within = std::clamp(due_.since(segment.start) * motion_.system().period(), 0.0, segment.duration);
+  motion_.sample(sample_.within, sample_.state);
 }
 
 }  // namespace slapstick

@@ -1,12 +1,14 @@
-/// The search for a return of the stroboscopic state: what a motion settles on.
+/// The search for a return of the state to its section: what a motion settles on.
 #include "section/settling.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "base/ranges.hpp"
 #include "flow/compiled_system.hpp"
 #include "section/attraction.hpp"
+#include "section/flight_section.hpp"
 #include "slapstick/flow/stage.hpp"
 #include "slapstick/section/stop_choice.hpp"
 
@@ -22,9 +24,8 @@ constexpr int shortest_round = 500;
 
 }  // namespace
 
-PeriodEvents run_one_period(Motion& motion, Stop stop) {
+PeriodEvents run_counting(Motion& motion, Instant end, Stop stop) {
   PeriodEvents count;
-  const Instant end{motion.time().period + 1, 0.0};
   run_to(motion, end, stop, [&] {
     const EventKind kind = motion.event().kind;
     count.impacts += StopChoice().is_point(motion.event());
@@ -34,28 +35,57 @@ PeriodEvents run_one_period(Motion& motion, Stop stop) {
   return count;
 }
 
+bool driven(const Model& model) {
+  return ranges::any_of(model.forces, [](const Force& force) { return force.harmonic > 0 && force.amplitude != 0.0; });
+}
+
 Settling::Settling(const System& system, const State& state, const SettlingOptions& options)
     : system_(system),
       options_(options),
-      translations_(system),
+      map_(std::make_unique<Stroboscopic>(system)),
       motion_(system, state),
-      home_(translations_.take_out(motion_)),
+      home_(translations().take_out(motion_)),
       scale_(VectorXd::Constant(2 * system.compiled().frame().n, 1e-300)),
-      round_(std::max(shortest_round, 4 * options.most_n)) {}
+      omega_(2.0 * std::numbers::pi / system.period()),
+      round_(std::max(shortest_round, 4 * options.most_n)),
+      free_(!options.by_clock && !driven(system)) {
+  choose_section();
+}
+
+/// Of a free motion: that of the flights that it keeps having. With few events left it is run to the last of them.
+void Settling::choose_section() {
+  if (!free_) return;
+  const auto kind = choose_flights(motion_, options_.stop);
+  if (cancelled()) return;
+  if (kind) {
+    map_ = std::make_unique<FlightSection>(system_, *kind);
+    return;
+  }
+  ended_ = true;
+  while (next_change(motion_, options_.stop)) ++periods_;
+}
 
 bool Settling::out_of_time() const { return options_.until && std::chrono::steady_clock::now() >= *options_.until; }
 bool Settling::cancelled() const { return stopped(options_.stop) || out_of_time(); }
 
 void Settling::discard(long periods) {
+  if (ended_ || periods == 0) return;
   for (long k = 0; k < periods && !cancelled(); ++k) {
-    run_period(motion_);
+    if (!run_period()) break;
     report();
   }
+  choose_section();
 }
 
-PeriodEvents Settling::run_period(Motion& motion) const {
-  const PeriodEvents events = run_one_period(motion, options_.stop);
-  translations_.take_out(motion);
+/// To the next return; a free motion may have none, as one that comes to rest or to other flights.
+std::optional<PeriodEvents> Settling::run_period() {
+  const Instant begin = motion_.time();
+  const std::optional<Instant> end = map_->next(motion_, options_.stop);
+  if (!end) return std::nullopt;
+  const PeriodEvents events = run_counting(motion_, *end, options_.stop);
+  translations().take_out(motion_);
+  ++periods_;
+  if (free_) omega_ = 2.0 * std::numbers::pi / (system_.period() * end->since(begin));
   return events;
 }
 
@@ -63,9 +93,24 @@ std::optional<Cycle> Settling::next_round() {
   const int periods = std::min(round_, options_.most_periods - done_);
   auto cycle = run(periods);
   if (cancelled()) return std::nullopt;
+  if (cycle && free_ && is_a_point(*cycle)) {
+    shrinks_to_ = cycle->x;
+    ended_ = true;
+    return std::nullopt;
+  }
   if (!cycle) done_ += periods;
   round_ *= 4;
   return cycle;
+}
+
+/// A fixed point of the map of a free motion may be a state of rest.
+bool Settling::is_a_point(const Cycle& cycle) const {
+  constexpr double nothing = 1e-7;  // of the motion's size; fixed points are known to 1e-11 of it
+  Motion motion(system_, flow::user_state(system_, cycle.x));
+  run_to(motion, Instant{}.plus(0.25 * cycle.duration / cycle.n), options_.stop, [] {});
+  VectorXd x = flow::contact_state(motion);
+  translations().take_out(x);
+  return distance(x, cycle.x, scale_) <= nothing;
 }
 
 /// The largest of the last returns after n periods.
@@ -90,8 +135,10 @@ void Settling::note_approach(int k, int periods) {
   approaching_ = widest_return(nearest) < 0.5 * earlier_[static_cast<std::size_t>(nearest) - 1];
 }
 
-void Settling::note_period() {
-  events_.push_back(run_period(motion_));
+bool Settling::note_period() {
+  const std::optional<PeriodEvents> events = run_period();
+  if (!events) return false;
+  events_.push_back(*events);
   report();
   states_.push_back(flow::contact_state(motion_));
   note_size(states_.back());
@@ -101,6 +148,7 @@ void Settling::note_period() {
     states_.erase(states_.begin(), states_.begin() + removed);
     events_.erase(events_.begin(), events_.begin() + removed);
   }
+  return true;
 }
 
 void Settling::note_size(const VectorXd& x) {
@@ -109,19 +157,21 @@ void Settling::note_size(const VectorXd& x) {
   scale_.head(n) = scale_.head(n).cwiseMax(position);
   scale_.tail(n) = scale_.tail(n).cwiseMax(speed);
   // A velocity (or a displacement) that happens to vanish at phase 0 says nothing about the size of the motion.
-  const double omega = 2.0 * std::numbers::pi / system_.period(), least = 1e-3;
-  scale_.head(n) = scale_.head(n).cwiseMax(least * scale_.tail(n) / omega);
-  scale_.tail(n) = scale_.tail(n).cwiseMax(least * scale_.head(n) * omega);
+  const double least = 1e-3;
+  scale_.head(n) = scale_.head(n).cwiseMax(least * scale_.tail(n) / omega_);
+  scale_.tail(n) = scale_.tail(n).cwiseMax(least * scale_.head(n) * omega_);
 }
 
 /// With translations a displacement is zero at every return by definition: what the motion is like in between says how
 /// large it is.
 void Settling::look_between() {
-  if (translations_.count() == 0) return;
+  if (translations().count() == 0) return;
   constexpr int looks = 16;
   Motion trial = motion_;
+  const Instant begin = motion_.time();
+  const double period = map_->next(motion_, options_.stop).value_or(begin.plus(1.0)).since(begin);
   for (int k = 1; k < looks; ++k) {
-    const Instant next{motion_.time().period, static_cast<double>(k) / looks};
+    const Instant next = begin.plus(period * static_cast<double>(k) / looks);
     if (!run_to(trial, next, options_.stop, [] {})) return;
     note_size(flow::contact_state(trial));
   }
@@ -136,11 +186,20 @@ bool Settling::same_events(long n) const {
 }
 
 std::vector<double> Settling::drift(const VectorXd& advance) const {
-  std::vector<double> by_coordinate = translations_.by_coordinate(advance);
+  std::vector<double> by_coordinate = translations().by_coordinate(advance);
   for (double& length : by_coordinate) {
     if (std::abs(length) <= options_.tolerance * scale_[0]) length = 0.0;
   }
   return by_coordinate;
+}
+
+/// The motion has no more flights of the section's kind: it begins anew with others, or has ended.
+void Settling::lose_section() {
+  if (cancelled()) return;
+  choose_section();
+  states_.clear();
+  events_.clear();
+  earlier_.clear();
 }
 
 std::optional<Cycle> Settling::run(int periods) {
@@ -148,7 +207,10 @@ std::optional<Cycle> Settling::run(int periods) {
   constexpr long first_turn = 8;
   long next_newton = first_turn, next_return = 0;
   for (int k = 0; k < periods && !cancelled(); ++k) {
-    note_period();
+    if (!note_period()) {
+      lose_section();
+      break;
+    }
     if (cancelled()) break;
     const auto later = k + first_turn + k / 4;  // what failed is tried again so seldom that the motion costs more
     const bool newton_turn = k >= next_newton;
@@ -210,7 +272,7 @@ FixedPoint Settling::once_round(FixedPoint found, int& n) const {
   constexpr double same = 1e-5;  // of the motion's size: rounding over 1 - |lambda| where the cycle is barely stable
   for (int length = 1; length < n; ++length) {
     if (n % length != 0) continue;
-    auto shorter = fixed_point(translations_, found.x, length, scale_, options_.stop);
+    auto shorter = fixed_point(*map_, found.x, length, scale_, options_.stop);
     if (!shorter || !shorter->stable() || distance(shorter->x, found.x, scale_) > same) continue;
     n = length;
     return std::move(*shorter);
@@ -220,13 +282,17 @@ FixedPoint Settling::once_round(FixedPoint found, int& n) const {
 
 /// A stable fixed point of the n-period map that the motion is drawn to.
 std::optional<Cycle> Settling::drawn_to(int n, const VectorXd& start) const {
-  auto found = fixed_point(translations_, start, n, scale_, options_.stop);
+  auto found = fixed_point(*map_, start, n, scale_, options_.stop);
   if (!found || !found->stable()) return std::nullopt;
-  const Attraction seen = attraction(translations_, motion_, *found, n, scale_, options_.stop);
+  // On a free family the one multiplier that is left is 1 but for rounding, on either side: `member` judges.
+  if (free_ && !found->multipliers.empty() && std::abs(found->multipliers.front()) >= 1.0 - known_to)
+    return std::nullopt;
+  const Attraction seen = attraction(*map_, motion_, *found, n, scale_, options_.stop);
   if (!seen.drawn) return std::nullopt;
   found = once_round(std::move(*found), n);
-  const MapValue map = return_map(translations_, found->x, n, options_.stop);
-  return Cycle{found->x, n, found->multipliers, map.advance, distance(map.image, found->x, scale_), seen.distance};
+  const MapValue map = map_->value(found->x, n, options_.stop);
+  const double missed = distance(map.image, found->x, scale_);
+  return Cycle{found->x, n, map.duration, found->multipliers, map.advance, missed, seen.distance};
 }
 
 /// The cycle that the motion is on, if that is one of a family, where Newton's method has no single point to go to, or
@@ -234,15 +300,16 @@ std::optional<Cycle> Settling::drawn_to(int n, const VectorXd& start) const {
 std::optional<Cycle> Settling::member(int n) const {
   for (int length = 1; length <= n; ++length) {
     if (n % length != 0 || returned(length) > options_.tolerance) continue;
-    const int dimensions = family(translations_, back(0), length, scale_, options_.stop);
-    const MapValue map = return_map(translations_, back(0), length, options_.stop);
-    auto multipliers = flow::multipliers_of(map.jacobian);
+    const int dimensions = family(*map_, back(0), length, scale_, options_.stop);
+    const MapValue map = map_->value(back(0), length, options_.stop);
+    auto multipliers = map_->multipliers(map.jacobian);
     const double largest = multipliers.empty() ? 0.0 : std::abs(multipliers.front());
     const bool neutral = largest >= 1.0 - known_to;
     if ((dimensions == 0 && !neutral) || largest > 1.0 + repelling) continue;
-    return Cycle{
-        back(0),    length, std::move(multipliers), map.advance, distance(map.image, back(0), scale_), returned(length),
-        dimensions, true};
+    const double missed = distance(map.image, back(0), scale_);
+    return Cycle{back(0),     length, map.duration,     std::move(multipliers),
+                 map.advance, missed, returned(length), dimensions,
+                 true};
   }
   return std::nullopt;
 }

@@ -9,6 +9,7 @@
 #include "slapstick/base/error.hpp"
 #include "base/floating_point.hpp"
 #include "section/run_impacts.hpp"
+#include "slapstick/quantity/reader.hpp"
 
 namespace slapstick::sweep {
 namespace {
@@ -25,6 +26,7 @@ bool attempt(DiagramPoint& point, const Body& body) {
     point.failure = error.what();
   }
   point.impacts = {};
+  point.values = {};
   point.done = true;
   return false;
 }
@@ -72,7 +74,8 @@ std::optional<Settled> settle(const DiagramProblem& problem, const Carried& carr
   bool interrupted = false;
   const bool good = attempt(point, [&] {
     auto system = std::make_shared<const System>(problem.model_at(point.parameter));
-    if (problem.of.empty() && stop_contacts(system->model()).empty())
+    const bool impacts = problem.of.empty() && (problem.values_of.empty() || problem.read_at == ReadAt::impacts);
+    if (impacts && stop_contacts(system->model()).empty())
       throw InputError("model '" + system->model().name + "' has no stop, so there are no impacts to record");
     ImpactSection section(start_motion(problem, carried, *system, point), problem.stops);
     const Instant end = after(section, problem.transient_periods);
@@ -89,6 +92,37 @@ Carried carry_on(const Settled& settled) {
   return {motion.state(), motion.time().fraction};
 }
 
+namespace {
+
+/// Rows of quantities at instants, until there are enough or the time is over. @returns false if it was stopped
+bool read_values(const DiagramProblem& problem, const Settled& settled, std::vector<double>& rows) {
+  Motion motion = settled.section.motion();
+  Reader reader(*settled.system, problem.values_of);
+  const auto wanted = static_cast<std::size_t>(problem.impacts) * problem.values_of.size();
+  const Instant begin = motion.time(), end{begin.period + problem.most_periods, begin.fraction};
+  const auto add = [&](const std::vector<double>& row) {
+    rows.insert(rows.end(), row.begin(), row.end());
+    return rows.size() < wanted;
+  };
+  if (problem.read_at == ReadAt::impacts) {
+    ImpactSection section(std::move(motion), problem.stops);
+    return run_impacts(section, end, problem.cancel, [&](const SectionPoint&) { return add(reader.before(section.motion())); });
+  }
+  if (problem.read_at == ReadAt::periods) {
+    do {
+      if (!run_to(motion, {motion.time().period + 1, 0.0}, problem.cancel, [] {})) return false;
+    } while (add(reader.now(motion)) && motion.time() < end);
+    return true;
+  }
+  EventSection section(std::move(motion), problem.event);
+  EventPoint event;
+  while (section.next(end, event, problem.cancel))
+    if (!add(reader.before(section.motion()))) return true;
+  return !cancelled(problem);
+}
+
+}  // namespace
+
 void record(const DiagramProblem& problem, Settled settled, DiagramPoint& point) {
   const IeeeArithmetic ieee;
   bool interrupted = false;
@@ -101,6 +135,10 @@ void record(const DiagramProblem& problem, Settled settled, DiagramPoint& point)
       if (!interrupted) point.of = std::move(found.of);
       return;
     }
+    if (!problem.values_of.empty()) {
+      interrupted = !read_values(problem, settled, point.values);
+      return;
+    }
     const Instant end = after(section, problem.most_periods);
     interrupted = !run_impacts(section, end, problem.cancel, [&](const SectionPoint& impact) {
       if (!std::isnan(impact.flight))
@@ -110,7 +148,7 @@ void record(const DiagramProblem& problem, Settled settled, DiagramPoint& point)
     if (interrupted) return;
     point.periods = section.motion().time().since(begin);
   });
-  if (interrupted) point.impacts = {};
+  if (interrupted) point.impacts = {}, point.values = {};
   point.done = !good || !interrupted;
 }
 

@@ -1,4 +1,4 @@
-/// Prints a hash of ten motions, and compares it with the one that stands in the repository: the same bits on every machine.
+/// Prints a hash of twelve motions, and compares it with the one that stands in the repository: the same bits on every machine.
 ///
 ///     test_bits [FILE]     one line a motion; exit status 1 if FILE says something else, or the motions are not what they are meant to be
 ///
@@ -90,7 +90,7 @@ Summary summary_of(const Run& run) {
   return summary;
 }
 
-/// Periodic, sticking, chaotic and chattering motions.
+/// Periodic, sticking, chaotic and chattering motions; the last two have polylines, a bounded stop, a normal force and restitution over the speed.
 std::vector<Run> runs() {
   return {{"vibro-impact", {{"omega", 0.552}}, 2400},
           {"vibro-impact", {{"omega", 4.65}}, 300},
@@ -101,7 +101,9 @@ std::vector<Run> runs() {
           {"spool", {}, 300},
           {"two-blocks-on-belt", {}, 500},
           {"stick-slip-impact", {}, 500},
-          {"chain", {}, 300}};
+          {"chain", {}, 300},
+          {"drill-string", {}, 300},
+          {"buffers", {}, 300}};
 }
 
 std::string line(const Run& run, const Summary& summary) {

@@ -59,11 +59,29 @@ TEST(LawAgreement, OfTheModelsOfTheOrbits) {
 }
 
 TEST(LawAgreement, OfTheLibrary) {
-  for (const char* name : {"pressed-block", "drill-string", "falling-friction"}) {
+  for (const char* name : {"pressed-block", "drill-string", "falling-friction", "mode-coupling-brake"}) {
     const ModelDefinition definition = load_model(name);
     const Agreement found = agree(definition.build(), definition.start());
     EXPECT_GE(found.periods, 10) << name;
     EXPECT_LT(found.worst, 200.0) << name;
+  }
+}
+
+/// A stop of two stiffnesses, and a block that is measured from the belt that is shaken under it.
+TEST(LawAgreement, OfStopsOfTwoStiffnessesAndOfBeltsThatAreShaken) {
+  const std::string mass = "name = 'm'\nomega = 1.3\n[[coordinate]]\nname = 'x'\nmass = 1\n",
+                    spring = "[[spring]]\nbetween = ['x', 'ground']\nstiffness = 1\n[[damper]]\nbetween = ['x', 'ground']\ncoefficient = 0.1\n";
+  const std::string models[] = {
+      mass + spring + "[[force]]\non = 'x'\namplitude = 2\n[[compliant_stop]]\nname = 'wall'\nbetween = ['x', 'ground']\nclearance = 0.4\n"
+                      "stiffness = 30\nunloading_stiffness = 18\n",
+      mass + "base = 'belt'\n[[base]]\nname = 'belt'\nharmonics = [{ amplitude = 0.6 }, { amplitude = 0.1, harmonic = 3, phase = 1 }]\n" + spring +
+          "[[friction]]\nname = 'dry'\nbetween = ['x', 'belt']\nstatic = 0.5\nkinetic = 0.3\nbelt_speed = 0.4\n"
+          "[[compliant_stop]]\nname = 'wall'\nbetween = ['x', 'belt']\nclearance = 0.2\nstiffness = 20\ndamping = 3\nlaw = 'bounded'\n"};
+  for (const std::string& text : models) {
+    const Agreement found = agree(ModelDefinition::parse(text, "f.toml").build(), {0.1, 0.3});
+    EXPECT_EQ(found.periods, periods) << text;
+    EXPECT_GT(found.changes, 60) << text;
+    EXPECT_LT(found.worst, 200.0) << text;
   }
 }
 

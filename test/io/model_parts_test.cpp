@@ -90,7 +90,7 @@ TEST(CompliantStop, refusals) {
     return refusal(two + "[[compliant_stop]]\nname = 'b'\n" + between + "clearance = 0\n" + keys);
   };
   EXPECT_EQ(stop(""), at(next) + "compliant_stop 'b': 'stiffness' is missing");
-  EXPECT_EQ(stop("stiffness = 0\n"), at(next + 4) + "compliant_stop 'b': stiffness = 0 is not positive");
+  EXPECT_EQ(stop("stiffness = 0\n"), at(next + 4) + "compliant_stop 'b': stiffness = 0 is not positive; a damper alone beyond a gap is a damper that acts within an interval");
   EXPECT_EQ(stop("stiffness = 1\ndamping = -1\n"), at(next + 5) + "compliant_stop 'b': damping = -1 is negative");
   EXPECT_EQ(stop("stiffness = 1\npulls = 'no'\n"),
             at(next + 5) + "compliant_stop 'b': pulls: expected true or false, found a string");

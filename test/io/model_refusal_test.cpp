@@ -64,6 +64,61 @@ TEST(ModelFile, friction_over_the_speed_begins_at_rest) {
             "f.toml:11: friction 'dry': characteristic: it stands in place of 'kinetic': give one of the two");
 }
 
+TEST(ModelFile, an_interval_of_a_damper_has_an_inside) {
+  const std::string damper = good + "[[damper]]\nbetween = ['x1', 'ground']\ncoefficient = 1\n", here = "f.toml:9: damper 1: ";
+  EXPECT_EQ(refusal(damper + "within = [0, 'm']\n"), "accepted");
+  EXPECT_EQ(refusal(damper + "within = [1, 0]\n"), here + "within: 0 is not above the 1 before it");
+  EXPECT_EQ(refusal(damper + "within = [2, 'm']\n"), here + "within: 2 is not above the 2 before it");
+  EXPECT_EQ(refusal(damper + "within = [1]\n"), here + "within: expected [from, to], found 1 numbers");
+  EXPECT_EQ(refusal(damper + "within = 1\n"), here + "within: expected a list, found a number");
+  EXPECT_EQ(refusal(damper + "within = [0, 'n']\n"), here + "within: to: expression 'n': unknown parameter 'n'; known: m");
+  EXPECT_EQ(refusal(damper + "coefficient_outside = 1\n"), here + "coefficient_outside: it belongs to a 'within', and there is none");
+  EXPECT_EQ(refusal(damper + "characteristic = [[0, 0], [1, 1], [2, 0]]\n"),
+            here + "characteristic: it stands in place of 'coefficient': give one of the two");
+}
+
+TEST(ModelFile, a_stribeck_law_falls_to_a_friction_that_there_is) {
+  const std::string friction = good + "[[friction]]\nname = 'f'\nbetween = ['x1', 'ground']\n", here = "f.toml:9: friction 'f': stribeck: ";
+  EXPECT_EQ(refusal(friction + "stribeck = { static = 'm', kinetic = 1, speed = 0.5 }\n"), "accepted");
+  const std::pair<const char*, const char*> cases[] = {
+      {"static = 1, kinetic = 'm', speed = 0.5", "kinetic = 2 exceeds static = 1"},
+      {"static = 2, kinetic = -1, speed = 0.5", "kinetic = -1 is negative"},
+      {"static = 2, kinetic = 1", "'speed' is missing"},
+      {"static = 2, kinetic = 1, speed = 0", "speed = 0 is not positive"},
+      {"static = 2, kinetic = 1, sped = 1", "unknown key 'sped'; did you mean 'speed'?"},
+      {"static = 2, kinetic = 1, speed = 1, corners = 0", "corners = 0 is not a fixed whole number in [1, 100]"},
+      {"static = 2, kinetic = 1, speed = 1, corners = 101", "corners = 101 is not a fixed whole number in [1, 100]"},
+      {"static = 2, kinetic = 1, speed = 1, corners = 2.5", "corners = 2.5 is not a fixed whole number in [1, 100]"}};
+  for (const auto& [law, why] : cases) EXPECT_EQ(refusal(friction + "stribeck = { " + law + " }\n"), here + why);
+  EXPECT_EQ(refusal(friction + "static = 2\nstribeck = { static = 2, kinetic = 1, speed = 0.5 }\n"),
+            "f.toml:10: friction 'f': stribeck: it stands in place of 'static': give one of the two");
+}
+
+TEST(ModelFile, laws_of_stops_name_the_number_that_is_none) {
+  const std::string soft = good + "[[compliant_stop]]\nname = 'c'\nbetween = ['x1', 'ground']\nclearance = 0\nstiffness = 4\n";
+  EXPECT_EQ(refusal(soft + "unloading_stiffness = 'm'\n"), "accepted");
+  for (const char* value : {"5", "0", "-1"})
+    EXPECT_EQ(refusal(soft + "unloading_stiffness = " + value + "\n"),
+              "f.toml:11: compliant_stop 'c': unloading_stiffness = " + std::string(value) +
+                  " is outside (0, stiffness]: beyond, each contact would feed energy");
+  EXPECT_EQ(refusal(soft + "damping = 1\nunloading_stiffness = 2\n"),
+            "f.toml:12: compliant_stop 'c': unloading_stiffness: it stands in place of 'damping': give one of the two");
+  EXPECT_EQ(refusal(soft + "law = 'bound'\n"), "f.toml:11: compliant_stop 'c': law: unknown word 'bound'; did you mean 'bounded'?");
+  EXPECT_EQ(refusal(soft + "law = 'bounded'\npulls = true\n"),
+            "f.toml:11: compliant_stop 'c': law: it stands in place of 'pulls': give one of the two");
+  const std::string rigid = good + "[[stop]]\nname = 's'\nbetween = ['x1', 'ground']\nclearance = 0\n", key = "restitution_over_speed";
+  const std::pair<const char*, const char*> cases[] = {
+      {"[[0, 0.5], ['m', 0.4]]", "point 1: speed = 0 is not positive"},
+      {"[[1, 0.5], [1, 0.4]]", "point 2: 1 is not above the 1 of the point before"},
+      {"[[1, 0.5], [2, 'm']]", "point 2: restitution = 2 is outside [0, 1]"},
+      {"[[1, 0.5]]", "expected 2 to 100 points [speed, restitution], found 1"},
+      {"[[1, 0.5], [2]]", "point 2: expected [speed, restitution], found 1 numbers"}};
+  for (const auto& [points, why] : cases)
+    EXPECT_EQ(refusal(rigid + key + " = " + points + "\n"), "f.toml:10: stop 's': " + key + ": " + why);
+  EXPECT_EQ(refusal(rigid + "restitution = 0.3\n" + key + " = [[1, 0.5], [2, 0.4]]\n"),
+            "f.toml:11: stop 's': " + key + ": it stands in place of 'restitution': give one of the two");
+}
+
 TEST(ModelFile, values_out_of_range_name_parameter_value_and_range) {
   EXPECT_EQ(refusal(good, {{"m", 0}}), "parameter 'm' = 0 is outside (0, 9)");
   EXPECT_EQ(refusal(good, {{"m", 9}}), "parameter 'm' = 9 is outside (0, 9)");

@@ -85,6 +85,7 @@ std::string type_of(Holds holds, std::string_view key) {
       return R"("string")";
     case Holds::stribeck:
     case Holds::load:
+    case Holds::band:
       return R"("object")";
     case Holds::interval:
     case Holds::harmonics:

@@ -16,8 +16,7 @@ struct Residual {
 Residual residual(const Entry& entry, const Eigen::VectorXd& x, double p) {
   const Entry& critical = entry.at("critical");
   const Setup setup(entry, {{critical.at("parameter").get<std::string>(), p}});
-  const auto map =
-      section::return_map(flow::Translations(setup.system), x, critical.at("n").get<int>(), nullptr);
+  const auto map = section::Stroboscopic(setup.system).value(x, critical.at("n").get<int>(), nullptr);
   const Eigen::Index size = x.size();
   Values values = setup.values;
   values["trace"] = map.jacobian.trace();

@@ -33,13 +33,12 @@ Motion on_orbit(const Setup& setup, Motion motion, int n, Values& values) {
   const Instant end{motion.time().period + 1, 0.0};
   while (motion.advance(end) == Outcome::event) {
   }
-  const flow::Translations translations(setup.system);
+  const section::Stroboscopic periods(setup.system);
   Eigen::VectorXd guess = flow::contact_state(motion);
-  translations.take_out(guess);
-  const auto found =
-      section::fixed_point(translations, guess, n, Eigen::VectorXd::Constant(guess.size(), 1.0), nullptr);
+  periods.translations().take_out(guess);
+  const auto found = section::fixed_point(periods, guess, n, Eigen::VectorXd::Constant(guess.size(), 1.0), nullptr);
   if (!found) throw std::runtime_error("Newton's method finds no cycle");
-  const auto map = section::return_map(translations, found->x, n, nullptr);
+  const auto map = periods.value(found->x, n, nullptr);
   values["multiplier"] = std::abs(found->multipliers.at(0));
   values["multiplier2"] = std::abs(found->multipliers.at(1));
   values["trace"] = map.jacobian.trace();

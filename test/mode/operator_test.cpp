@@ -213,6 +213,33 @@ TEST(WindowOperators, OfRandomSystemsStayWithinTheirNoiseInEveryMode) {
   EXPECT_GE(mean, 0.01) << "the noise bound is empty";
 }
 
+/// Polylines over displacement and velocity, a normal force of the state and of a bounded stop: every guard that laws of force have.
+TEST(WindowOperators, OfEveryLawOfForceStayWithinTheirNoise) {
+  using Over = Characteristic::Over;
+  std::mt19937_64 random(13);
+  double guard = 0.0;
+  for (int k = 0; k < 6; ++k) {
+    Model model = random_model(random, 2);
+    model.compliant_stops = {{"bumper", 1, ground, 0.1, 20.0, 1.5, false, true}};
+    model.characteristics = {{"bent", 0, ground, Over::displacement, {{-0.3, -0.1}, {0.2, 0.4}}, 0.5, 3.0},
+                             {"valve", 1, 0, Over::velocity, {{0.0, 0.1}, {0.7, -0.2}}, 0.1, 0.6},
+                             {"grease", 0, ground, Over::zones, {{-0.1, 0.8}, {0.3, 0.2}}, 0.1, 0.0}};
+    model.frictions[0].normal = NormalForce{0.4, {{0, 0.7, -0.1}}, 0};
+    for (const FrictionState friction : {FrictionState::slip_minus, FrictionState::stick, FrictionState::unloaded})
+      for (const CompliantState bumper :
+           {CompliantState::off, CompliantState::on, CompliantState::detached, CompliantState::bounded})
+        for (int piece = 0; piece < 3; ++piece) {
+          Check check(model, {{StopState::open}, {friction}, {bumper}, {piece, (piece + k) % 3, 2 - piece}},
+                      static_cast<std::uint64_t>(k));
+          check.random_starts(2);
+          expect_bounded(check, "model " + std::to_string(k) + ", piece " + std::to_string(piece));
+          guard = std::max(guard, check.guard_error);
+        }
+  }
+  std::printf("laws of force: guards %.3f of their noise\n", guard);
+  EXPECT_GE(guard, 0.05) << "the noise bound is empty";
+}
+
 /// One family k = 1 .. 52; the error must not grow along it.
 TEST(WindowOperators, OfLargeSystemsWhichSumTermsInsteadOfStoringRows) {
   std::mt19937_64 random(12);

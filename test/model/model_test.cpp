@@ -142,7 +142,7 @@ TEST(Model, refusals_of_compliant_stops_and_matrices) {
        "stop 'back': clearance = 0 leaves no room opposite stop 'stop' with clearance = 0: their sum must be positive"},
       {[](Model& m) { m.compliant_stops[0].name = "stop"; }, "compliant_stop 'stop': name 'stop' is used twice"},
       {[](Model& m) { m.compliant_stops[0].stiffness = 0.0; },
-       "compliant_stop 'bumper': stiffness = 0 is not positive"},
+       "compliant_stop 'bumper': stiffness = 0 is not positive; a damper alone beyond a gap is a damper that acts within an interval"},
       {[](Model& m) { m.compliant_stops[0].damping = -1.0; }, "compliant_stop 'bumper': damping = -1 is negative"},
       {[](Model& m) { m.compliant_stops[0].b = 1; }, "compliant_stop 'bumper': both ends are 'x2'"},
       {[](Model& m) {

@@ -37,8 +37,8 @@ void LawOracle::Row::add(const Row& other, const Real& factor) {
 }
 
 LawOracle::LawOracle(const Model& model, const Vector& state) : model_(model) {
-  if (model.frictions.size() > 1 || !model.mass.empty() || !model.damping.empty() || !model.stiffness.empty())
-    throw std::invalid_argument("law oracle: one friction contact, no matrices");
+  if (model.frictions.size() > 1 || !model.mass.empty())
+    throw std::invalid_argument("law oracle: one friction contact, no mass matrix");
   for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
     inverse_mass_.push_back(1 / Real(model.coordinates[i].mass));
     x_.push_back(state[2 * i]), v_.push_back(state[2 * i + 1]);
@@ -48,6 +48,8 @@ LawOracle::LawOracle(const Model& model, const Vector& state) : model_(model) {
   for (const Real& m : inverse_mass_) lightest = std::max(lightest, m);
   for (const Spring& s : model.springs) stiffness += std::abs(s.stiffness);
   for (const Damper& d : model.dampers) damping += std::abs(d.coefficient);
+  for (const double k : model.stiffness) stiffness += std::abs(k);
+  for (const double c : model.damping) damping += std::abs(c);
   for (const CompliantStop& s : model.compliant_stops) stiffness += 2 * s.stiffness, damping += s.damping;
   for (const Characteristic& c : model.characteristics)
     for (std::size_t p = 0; p <= c.corners.size(); ++p) {
@@ -183,6 +185,14 @@ std::vector<LawOracle::Element> LawOracle::elements(const Cell& cell) const {
   std::vector<Element> all;
   for (const Spring& e : model_.springs) all.push_back({e.a, e.b, pair(e.a, e.b, false, Real(e.stiffness))});
   for (const Damper& e : model_.dampers) all.push_back({e.a, e.b, pair(e.a, e.b, true, Real(e.coefficient))});
+  for (std::size_t i = 0; i < x_.size() && !(model_.stiffness.empty() && model_.damping.empty()); ++i) {
+    Row row = empty();
+    for (std::size_t j = 0; j < x_.size(); ++j) {
+      if (!model_.stiffness.empty()) row.k[j] = Real(model_.stiffness[i * x_.size() + j]);
+      if (!model_.damping.empty()) row.c[j] = Real(model_.damping[i * x_.size() + j]);
+    }
+    all.push_back({static_cast<int>(i), ground, row});
+  }
   for (std::size_t i = 0; i < cell.compliant.size(); ++i)
     all.push_back({model_.compliant_stops[i].a, model_.compliant_stops[i].b, compliant_row(i, cell.compliant[i])});
   for (std::size_t i = 0; i < cell.pieces.size(); ++i)
@@ -292,7 +302,10 @@ std::vector<LawOracle::Guard> LawOracle::guards(const Series& series) const {
     const int state = cell_.frictions[i];
     const Row row = load_row(i, cell_);
     const Polynomial load = along(row, series);
-    if (f.normal && !row.zero && state != 0) all.push_back({times(load, Real(state == 2 ? -1 : 1)), {Said::Of::load, i, state == 2 ? 0 : 1}});
+    // The force of a stop alone ends with the stop: two polynomials of one zero would be two events at an instant.
+    const bool of_stop = f.normal && f.normal->compliant_stop >= 0 && f.normal->terms.empty() && f.normal->constant == 0.0 &&
+                         !model_.compliant_stops[static_cast<std::size_t>(f.normal->compliant_stop)].pulls;
+    if (f.normal && !row.zero && state != 0 && !of_stop) all.push_back({times(load, Real(state == 2 ? -1 : 1)), {Said::Of::load, i, state == 2 ? 0 : 1}});
     if (state == 2) continue;
     Row w = pair(f.a, f.b, true, Real(1));
     w.constant = -Real(f.belt_speed);

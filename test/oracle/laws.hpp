@@ -5,7 +5,7 @@
 /// The state of each contact is read from positions and velocities, whatever happened before. While the states stay the motion is
 /// expanded in Taylor series; what keeps them is a polynomial per step, whose first zero is isolated.
 ///
-/// Limits: one friction contact, any stops with restitution > 0 that do not come to rest, one event at an instant. Nothing may touch a
+/// Limits: one friction contact, no mass matrix, any stops with restitution > 0 that do not come to rest, one event at an instant. Nothing may touch a
 /// limit without crossing it.
 #include <string>
 

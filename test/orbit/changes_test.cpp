@@ -62,6 +62,23 @@ TEST(Change, OfACompliantStopIsPassed) {
   EXPECT_EQ(attractor("bilinear-oscillator", {}, "clearance", touches[0] + 1e-3), "2-3-I");
 }
 
+/// The displacement turns, a corner of the valve, while it is beyond a corner of the mount or an edge of the hydraulic stop. Where it reaches that no
+/// more the two crossings are gone and the turn stays, on the unstable part of the branch too, where no motion shows it. The greatest displacement
+/// of the orbits beside says where that is.
+TEST(Change, OfATurnBetweenTwoCrossingsIsPassed) {
+  const orbit::Branch branch = branch_of("bump-stop", {}, "omega", 0.6, {.from = 0.6, .to = 2.0});
+  EXPECT_EQ(branch.up.kind, orbit::BranchEnd::Kind::range) << ended(branch);
+  EXPECT_EQ(values(branch, SpecialType::LP).size(), 2U) << ended(branch);
+  int left = 0;
+  for (const orbit::SpecialPoint& point : branch.special) {
+    if (point.type != SpecialType::GR) continue;
+    EXPECT_EQ(point.passage, Passage::persistence) << point.value;
+    const auto events = [&](std::size_t at) { return branch.points.at(at).orbit.legs(); };
+    left += events(point.after) > events(std::min(point.after + 1, branch.points.size() - 1));
+  }
+  EXPECT_GE(left, 2);
+}
+
 /// Both bounces of a ball on a shaken table, the one that is caught rising and the one that is not, have one impact speed: they differ in phase only.
 TEST(Branch, WithTheSameStatesAtAnotherPhaseIsAnotherOne) {
   const orbit::Branch branch =

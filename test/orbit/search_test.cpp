@@ -223,10 +223,9 @@ TEST(Continuum, OfABallWithoutLossIsAFamily) {
 }
 
 /// Without loss and force every amplitude and every phase is a cycle of two periods of omega = 1, the oscillator's own
-/// being pi + pi / 3 at every amplitude: a family of two dimensions. `classify` names the cycle, so `orbit` finds it.
+/// being pi + pi / 3 at every amplitude. A family over the amplitude keeps the clock: its continuum has two dimensions.
 TEST(Continuum, OfAConservativeOscillatorHasAmplitudeAndPhase) {
-  const Posed posed("bilinear-oscillator", {{"amplitude", 0.0}, {"damping_ratio", 0.0}}, {}, {});
-  EXPECT_EQ(classify(posed.system, {-0.7, 0.1}).label, "2-3-I");
+  const Posed posed("bilinear-oscillator", {{"damping_ratio", 0.0}}, {"amplitude"}, {0.0});
   const orbit::Settled found = orbit::settle(*posed.problem, posed.system, {-0.7, 0.1});
   ASSERT_TRUE(found.orbit);
   EXPECT_EQ(found.orbit->label, "2-3-I");
@@ -234,6 +233,23 @@ TEST(Continuum, OfAConservativeOscillatorHasAmplitudeAndPhase) {
   const State state = orbit::at_phase_zero(*posed.problem, found.orbit->orbit);
   EXPECT_NEAR(state[0], -0.7, 1e-9);
   EXPECT_NEAR(state[1], 0.1, 1e-9);
+}
+
+/// Without it the motion is free: phases are no dimension, and the period is the oscillator's own.
+TEST(Continuum, OfAFreeConservativeOscillatorHasAnAmplitude) {
+  const Posed posed("bilinear-oscillator", {{"amplitude", 0.0}, {"damping_ratio", 0.0}}, {}, {});
+  const Classification named = classify(posed.system, {-0.7, 0.1});
+  EXPECT_EQ(named.label, "free-1-I");
+  EXPECT_EQ(named.attractor, Attractor::family);
+  EXPECT_EQ(named.family, 1);
+  const orbit::Settled found = orbit::settle(*posed.problem, posed.system, {-0.7, 0.1});
+  ASSERT_TRUE(found.orbit);
+  EXPECT_EQ(found.orbit->label, "free-1-I");
+  EXPECT_EQ(found.orbit->family, 1);
+  for (const double period : {named.period, found.orbit->cycle})
+    EXPECT_NEAR(period, 4.0 / 3.0 * std::numbers::pi, 1e-9);
+  const auto events = orbit::events(*posed.problem, found.orbit->orbit);
+  for (const auto& event : events) EXPECT_NEAR(std::abs(event.w), std::hypot(0.7, 0.1), 1e-9);  // the energy of the start
 }
 
 /// At a fold, and where a symmetry breaks, a multiplier is 1 and the equations are singular: there is one orbit all the

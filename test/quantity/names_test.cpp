@@ -53,5 +53,33 @@ TEST(Quantities, HaveTheUnitsOfTheFile) {
   EXPECT_EQ(find_quantity(all, "gravity").unit, "m/s^2");
 }
 
+/// A ball on a floor, with a parameter that has the name of the speed at impacts.
+std::string ball(const std::string& length, const std::string& mass, const std::string& weight) {
+  return "name = \"ball\"\n[parameters]\nw = { value = 3, unit = \"" + weight + "\" }\nm = { value = 2, unit = \"" + mass +
+         "\" }\nk = { value = 5, unit = \"" + weight + "/" + length + "\" }\n[[coordinate]]\nname = \"x\"\nmass = \"m\"\nunit = \"" + length +
+         "\"\n[[force]]\non = \"x\"\nharmonic = 0\namplitude = \"-w\"\n[[spring]]\nbetween = [\"x\", \"ground\"]\nstiffness = \"k\"\n"
+         "[[stop]]\nname = \"floor\"\nbetween = [\"ground\", \"x\"]\nclearance = 0\nrestitution = 0.5\n[start]\nx = 1\n";
+}
+
+TEST(Quantities, ThatShareANameAreBothThere) {
+  const auto all = quantities(ModelDefinition::parse(ball("m", "kg", "N"), "ball"));
+  EXPECT_TRUE(find_quantity(all, "w").at_impacts());
+  EXPECT_EQ(find_quantity(all, "w_2").value, 3.0);
+  std::set<std::string> names;
+  for (const Quantity& one : all) EXPECT_TRUE(names.insert(one.name).second) << one.name;
+}
+
+TEST(Quantities, HaveTheUnitsOfTheFilesOwnSystem) {
+  const auto unit = [](const std::vector<Quantity>& all, const char* name) { return find_quantity(all, name).unit; };
+  const auto si = quantities(ModelDefinition::parse(ball("m", "kg", "N"), "ball"));
+  EXPECT_EQ(unit(si, "F_floor") + "," + unit(si, "kinetic_energy") + "," + unit(si, "power_in") + "," + unit(si, "impulse"), "N,J,W,N s");
+  const auto small = quantities(ModelDefinition::parse(ball("mm", "t", "N"), "ball"));
+  EXPECT_EQ(unit(small, "F_floor") + "," + unit(small, "kinetic_energy"), "N,mJ");
+  const auto odd = quantities(ModelDefinition::parse(ball("mm", "g", "g mm/ms^2"), "ball"));
+  EXPECT_EQ(unit(odd, "F_floor") + "," + unit(odd, "kinetic_energy"), "N,mJ");
+  const auto bare = quantities(ModelDefinition::parse(ball("1", "1", "1"), "ball"));
+  EXPECT_EQ(unit(bare, "F_floor"), "");
+}
+
 }  // namespace
 }  // namespace slapstick::test

@@ -132,6 +132,24 @@ TEST(Octaves, LoseNoPower) {
   EXPECT_NEAR(a_weighting(10000.0), -2.5, 0.06);
 }
 
+/// A band is whole if more lines leave it as it is; the one that the highest order cuts grows.
+TEST(Octaves, TellWhichBandsAreCut) {
+  const SettledCycle cycle(load_model("shaken-table"));
+  const Quantity v = cycle.named("v");
+  const auto few = octaves(spectrum(*cycle.problem, cycle.solution.orbit, v, 70.0), 3);
+  const auto many = octaves(spectrum(*cycle.problem, cycle.solution.orbit, v, 300.0), 3);
+  int cut = 0;
+  for (std::size_t k = 0; k < few.size(); ++k) {
+    if (few[k].whole) {
+      EXPECT_EQ(few[k].mean_square, many[k].mean_square) << few[k].centre;
+      continue;
+    }
+    ++cut;
+    EXPECT_LT(few[k].mean_square, 0.999 * many[k].mean_square) << few[k].centre;
+  }
+  EXPECT_EQ(cut, 1);
+}
+
 TEST(Spectrum, RefusesQuantitiesAtImpacts) {
   const SettledCycle cycle(load_model("shaken-table"));
   EXPECT_THROW(static_cast<void>(spectrum(*cycle.problem, cycle.solution.orbit, cycle.named("w"), 5.0)), InputError);

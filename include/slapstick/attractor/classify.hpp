@@ -1,5 +1,9 @@
 #pragma once
-/// What a motion is after its transient: n-p-I / n-p-II, periodic, quasi-periodic or chaotic.
+/// What a motion is after its transient: n-p-I / n-p-II, periodic, quasi-periodic, chaotic, or a state of rest.
+///
+/// A motion that no harmonic force drives is *free*: it has no phase, and may come to rest. Its "periods" are then
+/// returns to a section that its own events make (docs/classify.md, section 4), its class is "free-p-I" or "free-p-II",
+/// and the multiplier 1 along the motion is left out.
 ///
 /// States are compared modulo the rigid translations that the model does not notice: a drill that advances by the same
 /// amount every blow is periodic, with a `drift`. The multiplier 1 of every such translation is left out.
@@ -29,8 +33,9 @@
 
 namespace slapstick {
 
-/// family: a cycle of a continuum of cycles, or a motion on a curve that nothing draws it to.
-enum class Attractor { periodic, quasi_periodic, chaotic, family, undecided };
+/// family: a cycle of a continuum of cycles, or a motion on a curve that nothing draws it to. equilibrium: a state of
+/// rest of a free motion, modulo translations.
+enum class Attractor { periodic, quasi_periodic, chaotic, family, undecided, equilibrium };
 enum class Chatter { none, incomplete, complete };
 
 /// Why a motion has no class.
@@ -39,11 +44,12 @@ enum class Doubt {
   not_confirmed,  ///< classify_quickly: Newton's method confirmed no cycle; classify decides
   approach,       ///< the motion still closes in on something: a longer transient or search
   long_cycle,     ///< a negative exponent or a fractional rotation number: a cycle longer than most_n
-  exponent        ///< exponent, averages and rotation number do not agree: a longer exponent run
+  exponent,       ///< exponent, averages and rotation number do not agree: a longer exponent run
+  no_return       ///< a free motion has no more events, and comes to no rest: it grows or goes away for ever
 };
 
-/// "periodic", "quasi-periodic", "chaotic", "one of a family", "undecided"; "none", "incomplete", "complete"; "not
-/// confirmed", "approach", "long cycle", "exponent".
+/// "periodic", "quasi-periodic", "chaotic", "one of a family", "undecided", "equilibrium"; "none", "incomplete",
+/// "complete"; "not confirmed", "approach", "long cycle", "exponent", "no return".
 std::string_view name(Attractor attractor);
 std::string_view name(Chatter chatter);
 std::string_view name(Doubt doubt);
@@ -51,6 +57,7 @@ std::string_view name(Doubt doubt);
 /// itself; or nothing.
 std::string_view option_that_decides(Doubt doubt);
 
+/// Of a free motion all periods are returns.
 struct ClassifyOptions {
   int transient_periods = 500;
   int most_periods = 20'000;    ///< search for a return this long before the motion is taken as not periodic
@@ -70,7 +77,7 @@ struct ClassifyOptions {
 
 /// One impact of the cycle.
 struct CycleImpact {
-  double phase = 0.0;  ///< fraction of a period
+  double phase = 0.0;  ///< fraction of a period; of a free motion of its cycle
   double w = 0.0;
   int contact = 0;  ///< the stop that is hit: System::contact_name
   State state;      ///< just before, user's coordinates
@@ -78,22 +85,28 @@ struct CycleImpact {
 
 struct Classification {
   Attractor attractor = Attractor::undecided;
-  int n = 0;              ///< periodic: forcing periods per cycle
+  /// Periodic: forcing periods per cycle; of a free motion how often the rarest of its events happens in a cycle.
+  int n = 0;
+  double period = 0.0;    ///< periodic: of the cycle, in units of time
   long p = 0;             ///< periodic: impacts per cycle; meaningless with complete chatter (then infinite)
   bool sticking = false;  ///< a stick phase in the cycle (or in the recorded motion)
   Chatter chatter = Chatter::none;
   std::string label;  ///< "1-1-II", "1-inf-II", also of one of a family; "quasi-periodic", "chaotic", ..
-  int family = 0;     ///< of a cycle: dimensions of the continuum of cycles that it is a member of
+  int family = 0;     ///< dimensions of the continuum of cycles, or states of rest, that it is a member of
   Doubt doubt = Doubt::none;
 
   std::vector<std::complex<double>> multipliers;  ///< periodic: of the n-period map, largest first
+  /// Equilibrium: of the linear motion about it, per unit of time, largest real part first; without the `family`
+  /// zeros of states of rest beside it.
+  std::vector<std::complex<double>> eigenvalues;
   double return_distance = 0.0;  ///< periodic: how far the recorded state is from its image after n periods, relative
   double approach = 0.0;         ///< periodic: how far the motion still was from the cycle when it was recognised
   std::vector<CycleImpact> impacts;  ///< periodic: the impacts of one cycle
   double sticking_fraction = 0.0;    ///< share of time in stick (and on the closed stop)
 
-  double exponent = 0.0,
-         exponent_error = 0.0;  ///< largest Lyapunov exponent per period; multipliers give it if periodic
+  /// Largest Lyapunov exponent per period (without a clock per unit of time), but for that along a free motion; the
+  /// multipliers give it if periodic, the eigenvalues at rest.
+  double exponent = 0.0, exponent_error = 0.0;
   double digits = 0.0;          ///< agreement of the two weighted Birkhoff averages
   /// Quasi-periodic: turns of a closed curve in `curves` periods, in (0, 0.5] (orientation is not told), and the digits
   /// to which two halves agree.
@@ -105,12 +118,11 @@ struct Classification {
   /// per cycle if periodic, else on average per forcing period. Zero if that is below `tolerance`; empty if there is no
   /// such translation.
   std::vector<double> drift;
-  State state;  ///< on the attractor, at phase 0 of a period: a start that needs no transient
+  State state;  ///< on the attractor, at phase 0 of a period or anywhere without a drive: needs no transient
 };
 
 /// Classifies the motion that starts at `state` at phase 0.
-/// @throws InputError for a model without forcing (no stroboscopic map) or a state that the stops forbid;
-/// NumericalError as Motion::advance
+/// @throws InputError for a state that the stops forbid; NumericalError as Motion::advance
 Classification classify(const System& system, const State& state, const ClassifyOptions& options = {});
 
 /// The same within so many periods, half of them transient: names a cycle if Newton's method confirms it there, else

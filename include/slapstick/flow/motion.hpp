@@ -49,18 +49,19 @@ enum class EventKind : std::uint8_t {
   separate,    ///< a compliant stop that had let go beyond its gap is back at it
   corner,      ///< a characteristic, or the force of a bounded compliant stop, passes a corner; w is that of the pair
   unload,      ///< the normal force of a friction contact has come to zero
-  load         ///< .. and becomes positive again
+  load,        ///< .. and becomes positive again
+  knot         ///< the slope of a signal jumps
 };
 
-inline constexpr std::size_t event_kinds = 13;
+inline constexpr std::size_t event_kinds = 14;
 
 /// "impact", "slip+", "slip-", "stick", "release", "graze", "chatter", "engage", "disengage", "separate", "corner",
-/// "unload", "load".
+/// "unload", "load", "knot".
 std::string_view name(EventKind kind);
 
 struct Event {
   EventKind kind = EventKind::impact;
-  int contact = 0;  ///< stops, friction contacts, compliant stops, characteristics; System::contact_name
+  int contact = 0;  ///< stops, friction contacts, compliant stops, characteristics, signals; System::contact_name
   Instant time;
   double w = 0.0;      ///< relative velocity of the contact's pair just before, v_a - v_b - belt speed
   double error = 0.0;  ///< chatter: bound on the error of `time`, in time units; else 0

@@ -79,6 +79,7 @@ struct PhysicalUnits {
 struct StatedUnits {
   std::vector<std::string> coordinates;
   std::string time;  ///< of a velocity: that of its coordinate over this
+  std::string mass;  ///< of a force: mass length / time^2; only with a time
 };
 
 /// Values given by name, as by `--set`. A parameter's own value wins over its group's.
@@ -86,6 +87,12 @@ using Overrides = std::map<std::string, double>;
 
 struct Definition;  // the file's content
 class Observer;     // slapstick/io/observer.hpp
+
+/// A polyline that is laid along a curve: of which friction contact, and the largest error of its force.
+struct LaidLaw {
+  std::string friction;
+  double largest_error = 0.0;
+};
 
 /// A model file that has been read and checked with its default values. Immutable, cheap to copy, safe to share between
 /// threads.
@@ -134,6 +141,9 @@ class ModelDefinition {
 
   /// The default initial state (2n numbers), checked against the stops. @throws InputError
   [[nodiscard]] State start(const Overrides& overrides = {}) const;
+
+  /// Of each friction contact with a `stribeck` law. @throws InputError as `build`
+  [[nodiscard]] std::vector<LaidLaw> laid_laws(const Overrides& overrides = {}) const;
 
   /// What computes the observables along a motion. @throws InputError as `build`
   [[nodiscard]] Observer observer(const Overrides& overrides = {}) const;

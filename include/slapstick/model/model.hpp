@@ -37,11 +37,28 @@ struct Damper {
 };
 
 /// amplitude * sin(harmonic * omega * t + phase) on one coordinate; harmonic 0 is a constant force of size `amplitude`.
+/// With a frequency of its own it is amplitude * sin(frequency * t + phase) instead, and with a signal amplitude times
+/// that signal, or times its rate of change. The harmonic is 0 then.
 struct Force {
   int coordinate = 0;
   int harmonic = 1;
   double amplitude = 0.0;
   double phase = 0.0;
+  double frequency = 0.0;  ///< rad per unit of time; 0: none
+  int signal = -1;         ///< index of a signal, or -1
+  bool rate = false;       ///< its rate of change
+};
+
+/// A function of time that is given by points and straight lines between them, as a measurement is. Before the first
+/// and after the last point it stays as it is there; one that repeats goes on in rounds, and its last value is its
+/// first.
+struct Signal {
+  struct Knot {
+    double time = 0.0, value = 0.0;
+  };
+  std::string name;
+  std::vector<Knot> knots;  ///< at least two, `time` ascending
+  bool repeats = false;
 };
 
 /// A normal force that is linear in the state: constant + sum (stiffness x_i + damping v_i) + the force of a compliant
@@ -141,6 +158,7 @@ struct Model {
   std::vector<Stop> stops;
   std::vector<CompliantStop> compliant_stops;
   std::vector<Characteristic> characteristics;
+  std::vector<Signal> signals;
   SymmetricMatrix mass, damping, stiffness;  ///< added to what coordinates, dampers and springs give
   ImpactLaw impact_law = ImpactLaw::moreau;
   double omega = 0.0;  ///< forcing frequency; 0 only if no force has a harmonic > 0
@@ -150,6 +168,8 @@ struct Model {
   [[nodiscard]] double forcing_period() const;
   /// True if some force has a harmonic > 0: only then are there stroboscopic maps and n-p classes.
   [[nodiscard]] bool forced() const;
+  /// False if a force has a frequency of its own, or a signal: then no motion comes back after whole periods.
+  [[nodiscard]] bool periodic() const;
 };
 
 /// A state in the user's coordinates, interleaved: x_1, v_1, x_2, v_2, ... (2n numbers), as in tables and `--state`.
@@ -165,6 +185,9 @@ using State = std::vector<double>;
 /// double.
 /// @throws InputError naming the field, e.g. "stop 'gap': restitution = 1.2 is outside [0, 1]".
 void validate(const Model& model);
+
+/// @throws InputError for a model that is not periodic, with what can be asked of such a model instead
+void demand_period(const Model& model);
 
 /// Checks a start: 2n finite numbers of at most 1e50, and no stop violated.
 /// @throws InputError naming the coordinate or stop.

@@ -15,10 +15,11 @@ namespace slapstick::orbit {
 
 /// Which orbit is meant.
 struct OrbitWish {
-  std::string orbit = {};  ///< "1-1", "2-inf", "1-1-II", "3" or "": N-P-I, `inf` for a complete chatter, II with stick
+  std::string orbit = {};  ///< "1-1", "2-inf", "1-1-II", "3" or "": N-P-I, `inf` for a complete chatter, II with stick;
+                           ///< "free-1-II" with any N of a free motion
   std::optional<bool> stable = {}, symmetric = {};
   bool nearest = false;    ///< to the start, of those that a search finds
-  long transient = 500;    ///< forcing periods before the first try
+  long transient = 500;    ///< forcing periods, or returns of a free motion, before the first try
   int starts = 0;          ///< motions that a search looks through; 0: SearchOptions::starts, as far as time allows
   double seconds = 0.0;    ///< a search ends then; 0: after 10, or with `starts` never
   std::uint32_t seed = 1;  ///< of the starts
@@ -35,7 +36,7 @@ using Spelling = std::function<std::string(std::string_view option)>;
 [[nodiscard]] SearchOptions search_options(const OrbitWish& wish, const std::atomic<bool>* stop);
 
 /// Chosen::orbit is there.
-/// @throws InputError as choice_of, and for conditions on an orbit without forcing; NumericalError saying what was
+/// @throws InputError as choice_of, and for "free" where there is a drive; NumericalError saying what was
 /// tried and found instead
 [[nodiscard]] Chosen find_orbit(const Problem& problem, const System& system, const State& start, const OrbitWish& wish,
                                 const std::atomic<bool>* stop, const Spelling& spelling);

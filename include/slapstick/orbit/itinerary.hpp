@@ -36,8 +36,12 @@ struct Leg {
 
 struct Itinerary {
   std::vector<Leg> legs;
-  int n = 0;  ///< forcing periods per cycle; 0 for a model without forcing, whose period is unknown
+  int n = 0;  ///< forcing periods per cycle; 0 of a free motion, whose period is unknown
 };
+
+/// How often the rarest of its events happens in a cycle: what N counts for a free motion, which has no forcing
+/// periods. Events are told apart by their kind, their contact and the mode before them. 0 without events.
+[[nodiscard]] int returns(const Itinerary& shape);
 
 /// A periodic orbit, or an approximation to one. A *contact state* is the first n of p and of u (flow/tangent.hpp).
 struct Orbit {

@@ -18,12 +18,13 @@ using Deadline = std::chrono::steady_clock::time_point;
 
 /// Conditions on an orbit; those that are left empty admit any.
 struct OrbitChoice {
-  std::optional<int> n;          ///< forcing periods per cycle
+  std::optional<int> n;          ///< forcing periods per cycle; of a free motion `returns`
   std::optional<long> p;         ///< impacts per cycle, and no complete chatter
   std::optional<bool> chatter;   ///< complete: p is infinite
   std::optional<bool> sticking;  ///< class n-p-II, or n-p-I
   std::optional<bool> stable;
-  std::optional<bool> symmetric;  ///< its own mirror image, or its own half a period later (src/orbit/same_motion.hpp)
+  /// Its own mirror image, or its own, half a period later (of a free motion half a cycle; src/orbit/same_motion.hpp).
+  std::optional<bool> symmetric;
   std::optional<State>
       nearest;  ///< an order: of the orbits that are found, the one with the least `distance` from this
 
@@ -36,16 +37,17 @@ struct OrbitChoice {
 /// How far an orbit is from a state, at the nearest of its instants of phase 0 and modulo translations, in the norm of
 /// kinetic energy:
 ///     |(dx, dv)|^2 = omega^2 dx^T M dx + dv^T M dv
-/// @throws InputError without forcing
+/// Of a free motion at the nearest of 64 instants of each leg; omega is then that of the cycle.
 [[nodiscard]] double distance(const Problem& problem, const Orbit& orbit, const State& state);
 
-/// Is an orbit its own image half a forcing period later, mirrored or not? False without forcing.
+/// Is an orbit its own image half a forcing period later, mirrored or not? Of a free motion half a cycle later,
+/// mirrored.
 [[nodiscard]] bool symmetric(const Problem& problem, const Orbit& orbit);
 
 struct SettleOptions {
-  long transient = 500;       ///< forcing periods (time, without forcing) that are left out first
+  long transient = 500;       ///< forcing periods (returns of a free motion) that are left out first
   int most_periods = 20'000;  ///< .. and how many are then looked through for a return, as `classify` does
-  int most_n = 64;            ///< longest cycle, forcing periods
+  int most_n = 64;            ///< longest cycle, forcing periods or returns
   const std::atomic<bool>* stop = nullptr;
   std::optional<Deadline> until = {};
 };
@@ -53,6 +55,7 @@ struct SettleOptions {
 enum class SettleEnd : std::uint8_t {
   orbit,     ///< an orbit is found
   no_cycle,  ///< the motion does not come back to itself
+  rest,      ///< .. because a free motion has no more events
   no_orbit,  ///< it settles on a cycle whose equations were not solved, or that the simulator does not confirm
   time,
   stopped
@@ -66,8 +69,7 @@ struct Settled {
 };
 
 /// The orbit that the motion from `state` settles on: the cycle that `classify` names (both ask section::Settling),
-/// solved and verified. One of a family stays the member that it is. Without forcing: the cycle that the motion nearly
-/// closes after the transient.
+/// solved and verified. One of a family stays the member that it is.
 /// @throws InputError if the state is none of the model; NumericalError as Motion::advance
 [[nodiscard]] Settled settle(const Problem& problem, const System& system, const State& state,
                              const SettleOptions& options = {});
@@ -79,12 +81,14 @@ struct Settled {
                                                  const std::atomic<bool>* stop = nullptr);
 
 struct SearchOptions {
-  int most_n = 1;                  ///< forcing periods per cycle, all up to this; ignored without forcing
+  int most_n = 1;                  ///< forcing periods per cycle, all up to this; of free motions `returns`
   std::optional<int> only_n = {};  ///< .. or this only
   int starts = 64;                 ///< motions that are looked through for near returns
-  int periods = 200;               ///< length of each
+  int periods = 200;               ///< length of each; of free motions events, twice as many
   std::uint32_t seed = 1;
-  double spread = 1.0;  ///< starts are about this many times the ranges of the first motion around its mean
+  /// Starts are about this many times the ranges of the first motion around its mean; of free motions up to eight times
+  /// more or less, because they may have come to rest.
+  double spread = 1.0;
   const std::atomic<bool>* stop = nullptr;
   std::optional<Deadline> until = {};
   std::function<void(int starts)> progress = {};
@@ -133,8 +137,8 @@ struct Chosen {
   std::vector<Solution> others;        ///< found, but not chosen
 };
 
-/// The orbit that is meant: the one that the motion settles on if it is admitted; else, of a forced model, what a
-/// search finds first. With `nearest` the search goes to its end, and the least distance wins.
+/// The orbit that is meant: the one that the motion settles on if it is admitted; else what a search finds first. With
+/// `nearest` the search goes to its end, and the least distance wins.
 [[nodiscard]] Chosen choose(const Problem& problem, const System& system, const State& state, const OrbitChoice& choice,
                             const SettleOptions& settling = {}, SearchOptions searching = {});
 

@@ -34,10 +34,11 @@ struct Statistics {
   friend bool operator==(const Statistics&, const Statistics&) = default;
 };
 
-/// The impacts of one stop.
+/// The impacts of one stop: the rigid ones, then the compliant ones.
 struct StopStatistics {
   std::string stop;
-  Statistics w, impulse, loss;
+  Statistics w, impulse, loss;  ///< the last two are empty of a compliant stop ..
+  bool compliant = false;       ///< .. whose impacts are its engagements (section/stop_choice.hpp)
 };
 
 struct Measured {

@@ -31,7 +31,7 @@ struct Quantity {
     input,         ///< power that forces and belts bring
     kinetic,       ///< energy
     potential,     ///< energy of springs, compliant stops and characteristics; forces have none
-    speed,         ///< at impacts: w just before
+    speed,         ///< at impacts and engagements: w just before; of one stop where `index` is its number, as the next
     impulse,       ///< at impacts: of the stop
     loss,          ///< at impacts: energy lost
     flight,        ///< at impacts: time since the impact before, in forcing periods (SectionPoint::flight)

@@ -66,6 +66,7 @@ struct DensitySpectrum {
 struct Band {
   double centre = 0.0, from = 0.0, to = 0.0;  ///< Hz
   double mean_square = 0.0;
+  bool whole = true;  ///< the spectrum has all of the band: not so of one that the highest or lowest frequency cuts
 };
 
 /// Mean squares in the bands that begin within what the spectrum has. Frequencies are per `unit_of_time` seconds.

@@ -19,12 +19,17 @@
 #include <vector>
 
 #include "slapstick/quantity/measure.hpp"
+#include "slapstick/section/event_section.hpp"
 #include "slapstick/section/stop_choice.hpp"
 
 namespace slapstick::sweep {
 
 enum class Direction { up, down, both };
 enum class StartRule { carry, reset };
+
+/// At which instants quantities are read (quantity/reader.hpp): just before impacts, at phase 0 of every forcing period
+/// (without forcing at every unit of time), or just before events.
+enum class ReadAt { impacts, periods, events };
 
 struct DiagramProblem {
   std::function<Model(double)> model_at;  ///< called from several threads at once
@@ -40,6 +45,11 @@ struct DiagramProblem {
   /// Measured over `measured_periods` after the transient, in place of the impacts; then a model needs no stop.
   std::vector<Quantity> of = {};
   int measured_periods = 100;
+  /// Read at instants, in place of the impacts' own table: `impacts` rows at each value. A model needs no stop, but for
+  /// `ReadAt::impacts`.
+  std::vector<Quantity> values_of = {};
+  ReadAt read_at = ReadAt::impacts;
+  EventChoice event = {};  ///< of ReadAt::events
   int threads = 0;  ///< 0: all
   /// Called after every value with the numbers done and to do; from any of the threads, but never two at once.
   std::function<void(int done, int total)> progress;
@@ -79,6 +89,7 @@ struct DiagramPoint {
   bool done = false;                    ///< false only if the sweep was cancelled before
   ImpactTable impacts;                  ///< empty if there are none, or after a failure
   std::vector<Statistics> of;           ///< of each of DiagramProblem::of; empty after a failure
+  std::vector<double> values;           ///< row by row, of each of DiagramProblem::values_of; empty after a failure
   double periods = 0.0;                 ///< length of the recording
   std::string failure;                  ///< one line, what the NumericalError or InputError said; else empty
   std::string note;                     ///< e.g. that the carried state does not fit this model; else empty

@@ -1,0 +1,129 @@
+/// Writes tables as HDF5 files, in memory: the file itself appears whole or not at all.
+#include "hdf5_table.hpp"
+
+#include <algorithm>
+
+#include "slapstick/base/error.hpp"
+
+#ifdef SLAPSTICK_HDF5
+#include <hdf5.h>
+#endif
+
+namespace slapstick::app {
+
+#ifndef SLAPSTICK_HDF5
+
+bool has_hdf5() { return false; }
+std::string hdf5_file(const ColumnTable&) { throw StorageError("this program was built without HDF5"); }
+
+#else
+
+namespace {
+
+/// What the library gives a number for, until it is closed.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
+    if (id < 0) throw StorageError("HDF5 does not succeed");
+  }
+  ~Handle() { close_(id_); }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): as the library's functions take it
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+void demand(herr_t status) {
+  if (status < 0) throw StorageError("HDF5 does not succeed");
+}
+
+/// Texts of one length in bytes, as UTF-8.
+void add_texts(hid_t to, const char* name, const std::vector<std::string>& texts, bool several) {
+  std::size_t longest = 1;
+  for (const std::string& text : texts) longest = std::max(longest, text.size());
+  std::string data;
+  for (std::string text : texts) {
+    text.resize(longest, '\0');
+    data += text;
+  }
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  demand(H5Tset_size(type, longest));
+  demand(H5Tset_cset(type, H5T_CSET_UTF8));
+  demand(H5Tset_strpad(type, H5T_STR_NULLPAD));
+  const hsize_t count = texts.size();
+  const Handle space(several ? H5Screate_simple(1, &count, nullptr) : H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle attribute(H5Acreate2(to, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  if (!texts.empty()) demand(H5Awrite(attribute, type, data.data()));
+}
+
+void add_number(hid_t to, const std::string& name, double value) {
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle attribute(H5Acreate2(to, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  demand(H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value));
+}
+
+/// A packed dataset that no time is noted of, so that the bytes depend on the table only.
+void add_column(hid_t file, const Column& column, hid_t stored, hid_t given, const void* data, std::size_t rows,
+                const std::vector<std::string>* names) {
+  constexpr hsize_t chunk = 1U << 16U;
+  constexpr unsigned effort = 4;
+  const Handle how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  demand(H5Pset_obj_track_times(how, false));
+  if (rows > 0) {
+    const hsize_t piece = std::min<hsize_t>(rows, chunk);
+    demand(H5Pset_chunk(how, 1, &piece));
+    demand(H5Pset_shuffle(how));
+    if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) demand(H5Pset_deflate(how, effort));
+  }
+  const hsize_t size = rows;
+  const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+  const Handle set(H5Dcreate2(file, column.name.c_str(), stored, space, H5P_DEFAULT, how, H5P_DEFAULT), H5Dclose);
+  if (rows > 0) demand(H5Dwrite(set, given, H5S_ALL, H5S_ALL, H5P_DEFAULT, data));
+  if (!column.unit.empty()) add_texts(set, "units", {column.unit}, false);
+  if (names != nullptr) add_texts(set, "names", *names, true);
+}
+
+void add_column(hid_t file, const Column& column) {
+  if (const auto* words = std::get_if<Words>(&column.cells)) {
+    if (words->small())
+      return add_column(file, column, H5T_STD_U8LE, H5T_NATIVE_UINT8, words->small_codes().data(), words->size(),
+                        &words->names());
+    return add_column(file, column, H5T_STD_U32LE, H5T_NATIVE_UINT32, words->large_codes().data(), words->size(),
+                      &words->names());
+  }
+  const auto* numbers = std::get_if<std::vector<double>>(&column.cells);
+  add_column(file, column, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, numbers != nullptr ? numbers->data() : nullptr,
+             numbers != nullptr ? numbers->size() : 0, nullptr);
+}
+
+}  // namespace
+
+bool has_hdf5() { return true; }
+
+std::string hdf5_file(const ColumnTable& table) {
+  demand(H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr));
+  constexpr std::size_t growth = 1U << 20U;
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  demand(H5Pset_fapl_core(access, growth, false));
+  const Handle file(H5Fcreate("table.h5", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
+  for (const Column& column : table.columns()) add_column(file, column);
+  for (const Attribute& attribute : table.attributes()) {
+    if (const auto* text = std::get_if<std::string>(&attribute.value))
+      add_texts(file, attribute.name.c_str(), {*text}, false);
+    else
+      add_number(file, attribute.name, std::get<double>(attribute.value));
+  }
+  demand(H5Fflush(file, H5F_SCOPE_GLOBAL));
+  const ssize_t size = H5Fget_file_image(file, nullptr, 0);
+  if (size < 0) throw StorageError("HDF5 does not succeed");
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  if (H5Fget_file_image(file, bytes.data(), bytes.size()) != size) throw StorageError("HDF5 does not succeed");
+  return bytes;
+}
+
+#endif
+
+}  // namespace slapstick::app

@@ -1,0 +1,56 @@
+#pragma once
+/// What moves by the clock beside the harmonics of omega: tones of other frequencies, and signals.
+///
+/// In X a tone is a pair (cos, sin) that turns with its own frequency, and a signal a pair (value, slope) with
+/// value' = slope / T, slope' = 0, T the period of the clock. A signal's slope jumps at its knots only, so that between
+/// two knots X' = A X. Both are set by the clock, so neither drifts.
+#include <vector>
+
+#include "slapstick/base/clock.hpp"
+#include "slapstick/model/model.hpp"
+
+namespace slapstick::mode {
+
+struct Tone {
+  double frequency = 0.0;  ///< rad per unit of time
+  double turns = 0.0;      ///< in a period of the clock
+
+  /// Turns since t = 0, but for whole ones. Error: some 2^-53 of a turn at any instant.
+  [[nodiscard]] double at(Instant t) const;
+};
+
+/// A Signal by the clock.
+class SignalTable {
+ public:
+  struct Value {
+    double value = 0.0, slope = 0.0;  ///< slope per period of the clock; at a knot that behind the knot
+  };
+
+  SignalTable(const Signal& signal, double period);
+
+  [[nodiscard]] Value at(Instant t) const;
+  /// The first knot after t, or `never`.
+  [[nodiscard]] Instant next(Instant t) const;
+  /// Is there a knot at t?
+  [[nodiscard]] bool has_knot(Instant t) const;
+  /// The largest |slope|.
+  [[nodiscard]] double steepest() const;
+
+  static constexpr Instant never{INT64_MAX, 0.0};
+
+ private:
+  struct Place {
+    std::int64_t round = 0;  ///< of a signal that repeats
+    std::size_t piece = 0;   ///< begins at this knot; `outside` before the first and after the last knot
+  };
+  static constexpr std::size_t outside = SIZE_MAX;
+
+  [[nodiscard]] Place place(Instant t) const;
+  [[nodiscard]] Instant knot(std::int64_t round, std::size_t i) const;
+
+  std::vector<Instant> knots_;
+  std::vector<double> values_, slopes_;
+  double length_ = 0.0;  ///< of a round, in periods; 0: once
+};
+
+}  // namespace slapstick::mode

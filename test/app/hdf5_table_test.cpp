@@ -1,0 +1,100 @@
+/// Tables as HDF5, read back by the HDF5 library from the bytes of the file.
+#include "slapstick/hdf5_table.hpp"
+
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <cmath>
+
+namespace slapstick::app {
+namespace {
+
+ColumnTable some_table(int rows) {
+  ColumnTable table({"time [s]", "kind", "w"}, {{"model", "box"}, {"parameter_omega", 1.5}});
+  table.unit("w", "m/s");
+  for (int i = 0; i < rows; ++i) {
+    table.number(0.1 * i);
+    table.word(i % 3 == 0 ? "stick" : "impact");
+    table.number(i == 1 ? std::nan("") : -i / 3.0);
+    table.end_row();
+  }
+  return table;
+}
+
+/// A file that is open in memory.
+class Opened {
+ public:
+  explicit Opened(std::string bytes) : access_(H5Pcreate(H5P_FILE_ACCESS)) {
+    H5Pset_fapl_core(access_, 1024, false);
+    H5Pset_file_image(access_, bytes.data(), bytes.size());
+    file_ = H5Fopen("image.h5", H5F_ACC_RDONLY, access_);
+  }
+  ~Opened() {
+    H5Fclose(file_);
+    H5Pclose(access_);
+  }
+  Opened(const Opened&) = delete;
+  Opened& operator=(const Opened&) = delete;
+
+  template <class Number>
+  std::vector<Number> numbers(const char* name, hid_t type) const {
+    const hid_t set = H5Dopen2(file_, name, H5P_DEFAULT), space = H5Dget_space(set);
+    std::vector<Number> read(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+    if (!read.empty()) EXPECT_GE(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, read.data()), 0);
+    H5Sclose(space);
+    H5Dclose(set);
+    return read;
+  }
+  /// Texts of an attribute of a dataset, or of the file, one after another with their padding.
+  std::string text(const char* object, const char* name) const {
+    const hid_t attribute = H5Aopen_by_name(file_, object, name, H5P_DEFAULT, H5P_DEFAULT), type = H5Aget_type(attribute);
+    std::string read(H5Aget_storage_size(attribute), '?');
+    EXPECT_GE(H5Aread(attribute, type, read.data()), 0);
+    H5Tclose(type);
+    H5Aclose(attribute);
+    return read;
+  }
+  double number(const char* name) const {
+    const hid_t attribute = H5Aopen(file_, name, H5P_DEFAULT);
+    double value = 0.0;
+    EXPECT_GE(H5Aread(attribute, H5T_NATIVE_DOUBLE, &value), 0);
+    H5Aclose(attribute);
+    return value;
+  }
+
+ private:
+  hid_t access_, file_;
+};
+
+TEST(Hdf5Table, numbers_words_units_and_attributes_come_back) {
+  constexpr int rows = 100'000;  // more than one chunk
+  const std::string bytes = hdf5_file(some_table(rows));
+  const Opened file(bytes);
+  const auto time = file.numbers<double>("time", H5T_NATIVE_DOUBLE), w = file.numbers<double>("w", H5T_NATIVE_DOUBLE);
+  const auto kind = file.numbers<int>("kind", H5T_NATIVE_INT);
+  ASSERT_EQ(time.size(), rows);
+  for (int i = 0; i < rows; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    ASSERT_EQ(time[at], 0.1 * i);
+    ASSERT_EQ(kind[at], i % 3 == 0 ? 0 : 1);
+    if (i == 1)
+      ASSERT_TRUE(std::isnan(w[at]));
+    else
+      ASSERT_EQ(w[at], -i / 3.0);
+  }
+  EXPECT_EQ(file.text("kind", "names"), std::string("stick\0impact", 12));
+  EXPECT_EQ(file.text("time", "units"), "s");
+  EXPECT_EQ(file.text("w", "units"), "m/s");
+  EXPECT_EQ(file.text(".", "model"), "box");
+  EXPECT_EQ(file.number("parameter_omega"), 1.5);
+  EXPECT_LT(bytes.size(), rows * 17U) << "words take a byte";
+  EXPECT_EQ(bytes, hdf5_file(some_table(rows))) << "the bytes depend on the table only";
+}
+
+TEST(Hdf5Table, a_table_without_rows_is_a_file) {
+  const Opened file(hdf5_file(some_table(0)));
+  EXPECT_TRUE(file.numbers<double>("time", H5T_NATIVE_DOUBLE).empty());
+}
+
+}  // namespace
+}  // namespace slapstick::app

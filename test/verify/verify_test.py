@@ -155,6 +155,16 @@ def test_moreaus_law():
     refused(inelastic, 'segment 1, number')
 
 
+def test_impulse_that_pulls():
+    """Two bodies at walls of their own, one on its way off: a blow at both turns it back, and obeys the law but for the sign of its impulse."""
+    parts = [('stop', 0, -1, 0.0, 0.5, 'a'), ('stop', 1, -1, 0.0, 0.5, 'b')]
+    lines = motions.head('two', [1.0, 1.0], parts, [(0, -1, 0.0, 0.0), (1, -1, 0.0, 0.0)]) + [line('start', 0, 0.0, 0.0, 1.0, 0.0, -0.5)]
+    at = lambda *blows: motions.segment(0, (0, 0.0), 0.0, ['open', 'open'], [0.0, 0.0], [1.0, -0.5], motions.EVENT, *blows)
+    off = lambda v: motions.segment(1, (0, 0.0), 1.0, ['open', 'open'], [0.0, 0.0], [-0.5, v], motions.CUT) + motions.done(2, (1, 0.0), [-0.5, v], [-0.5, v])
+    proved(lines + at(('blow', 0), ('impact', 0, 1.0)) + off(-0.5))
+    refused(lines + at(('blow', 0, 1), ('blow', 1), ('impact', 0, 1.0), ('impact', 1, 0.25)) + off(-0.125), 'an impulse of this blow pulls')
+
+
 def test_order_of_impacts_in_sequence():
     lines = motions.cradle('sequence')
     i = find(lines, 'blow')

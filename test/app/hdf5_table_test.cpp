@@ -40,7 +40,9 @@ class Opened {
   std::vector<Number> numbers(const char* name, hid_t type) const {
     const hid_t set = H5Dopen2(file_, name, H5P_DEFAULT), space = H5Dget_space(set);
     std::vector<Number> read(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
-    if (!read.empty()) EXPECT_GE(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, read.data()), 0);
+    if (!read.empty()) {
+      EXPECT_GE(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, read.data()), 0);
+    }
     H5Sclose(space);
     H5Dclose(set);
     return read;

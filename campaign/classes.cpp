@@ -192,13 +192,19 @@ class Judge {
     return nearest <= drawn * size ? "" : "the motion is " + shown(nearest / size) + " away after 5000 more periods";
   }
 
+  static bool oracle_knows(const Model& model) {
+    return model.stops.size() <= 1 && model.frictions.size() <= 1 && model.compliant_stops.empty() &&
+           model.characteristics.empty() &&
+           std::ranges::none_of(model.frictions, [](const FrictionContact& one) { return one.normal.has_value(); }) &&
+           std::ranges::all_of(model.stops, [](const Stop& stop) { return stop.corners.empty(); });
+  }
+
   /// 50 digits by a program of its own: the cycle closes, with as many impacts.
   std::string against_return(const Classification& found, Tally& tally) const {
     constexpr int longest = 4;
     constexpr double closes = 1e-7;
     const Model& model = system_.model();
-    if (model.stops.size() > 1 || model.frictions.size() > 1 || !model.compliant_stops.empty() || found.n > longest ||
-        found.chatter == Chatter::complete || !found.drift.empty())
+    if (!oracle_knows(model) || found.n > longest || found.chatter == Chatter::complete || !found.drift.empty())
       return {};
     ++tally.by_oracle;
     oracle::Oracle oracle(model, found.state);

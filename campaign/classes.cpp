@@ -36,13 +36,13 @@ struct Counts {
 
 struct Tally {
   long cases = 0, failed = 0, wrong = 0, contradictions = 0, cycles = 0, curves = 0, chaotic = 0, families = 0,
-       by_oracle = 0, transients = 0;
+       by_oracle = 0, transients = 0, longer = 0;
   Counts away, beside, close;  ///< of special points: none; 1e-3 to 1e-6; nearer
   std::vector<std::string> notes;
   void add(const Tally& o) {
     cases += o.cases, failed += o.failed, wrong += o.wrong, contradictions += o.contradictions;
     cycles += o.cycles, curves += o.curves, chaotic += o.chaotic, families += o.families, by_oracle += o.by_oracle;
-    transients += o.transients;
+    transients += o.transients, longer += o.longer;
     away.add(o.away), beside.add(o.beside), close.add(o.close);
     notes.insert(notes.end(), o.notes.begin(), o.notes.end());
   }
@@ -246,11 +246,17 @@ class Judge {
 
 void examine(const Question& question, const Options& options, Tally& tally) {
   const Judge judge(question, options);
-  const Classification found = classify(judge.system(), question.start, {.cancel = options.stop});
+  constexpr int longest_cycle = 1024;
+  Classification found = classify(judge.system(), question.start, {.cancel = options.stop});
   const Classification quick =
       classify_quickly(judge.system(), question.start, quick_periods, {.cancel = options.stop});
   if (options.stopped()) return;
-  const bool undecided = found.attractor == Attractor::undecided;
+  bool undecided = found.attractor == Attractor::undecided;
+  if (undecided && found.doubt == Doubt::long_cycle) {  // the answer names the option that decides
+    found = classify(judge.system(), question.start, {.most_n = longest_cycle, .cancel = options.stop});
+    undecided = found.attractor == Attractor::undecided;
+    ++tally.longer;
+  }
   Counts& counts = question.beside == 0.0 ? tally.away : question.beside > 1e-6 ? tally.beside : tally.close;
   counts.add({1, undecided ? 1 : 0});
   tally.cycles += found.attractor == Attractor::periodic;
@@ -313,7 +319,7 @@ Report run_classes(const Options& options) {
   report.figures.set("cases", all.cases).set("no_model_or_motion", all.failed).set("wrong", all.wrong);
   report.figures.set("quick_contradicts_full", all.contradictions).set("checked_by_50_digits", all.by_oracle);
   report.figures.set("cycles", all.cycles).set("quasi_periodic", all.curves).set("chaotic", all.chaotic);
-  report.figures.set("chaotic_transients_that_ended", all.transients);
+  report.figures.set("chaotic_transients_that_ended", all.transients).set("cycles_longer_than_64_periods", all.longer);
   report.figures.set("one_of_a_family", all.families).set("away", counted(all.away));
   report.figures.set("beside_1e-3_to_1e-6", counted(all.beside)).set("beside_1e-6_to_1e-9", counted(all.close));
   Json notes = Json::list();

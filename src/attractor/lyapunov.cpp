@@ -40,7 +40,8 @@ class Contraction {
     segments_seen_ = motion.counters().segments;
     const Motion::Segment& segment = motion.segment();
     const mode::Matrix& A = system_.compiled().mode(segment.mode).system();
-    const double rate = A.diagonal().segment(frame_.d, frame_.n).sum();
+    // Dependent velocities follow from the first n: u = dependence u_n, but for a constant.
+    const double rate = A.block(frame_.d, frame_.d, frame_.n, frame_.d).cwiseProduct(frame_.dependence.transpose()).sum();
     const mode::Mode& mode = system_.compiled().mode(segment.mode);
     windows_ = std::ceil(segment.duration / mode.window());
     sum_ = sum_ + rate * segment.duration;

@@ -291,7 +291,7 @@ def test_a_search_that_finds_nothing_ends_in_time_and_says_what_it_tried():
 def test_what_cannot_be_is_refused_by_name():
     says(refused(2, 'orbit', *PAPER, '--orbit', '1:1'), '--orbit', '1:1')
     says(refused(2, 'orbit', *PAPER, '--orbit', '0-1'), '--orbit')
-    says(refused(2, 'orbit', 'belt', '--orbit', '1-1'), '--orbit', 'no forcing')
+    says(refused(3, 'orbit', 'belt', '--orbit', '1-1', '--starts', '4'), 'no 1-1 orbit', 'free-0-II')
     says(refused(2, 'continue', *PAPER, '--param', 'omgea', '--range', '2:3'), 'omgea')
     says(refused(2, 'continue', *PAPER, '--param', 'omega', '--range', '3:4'), '--range', '2.7')
     says(refused(2, 'continue', *PAPER, '--param', 'omega', '--range', '3'), '--range', 'A:B')
@@ -302,7 +302,7 @@ def test_what_cannot_be_is_refused_by_name():
     says(refused(3, 'orbit', *PAPER, '--orbit', '1-7', '--starts', '2'), '1-7')
     says(refused(2, 'orbit', *PAPER, '--orbit', '1-1-III'), '--orbit', '1-1-III')
     says(refused(2, 'orbit', *PAPER, '--stable', '--unstable'), '--stable', '--unstable')
-    says(refused(2, 'orbit', 'belt', '--unstable'), 'no forcing')
+    says(refused(3, 'orbit', 'belt', '--unstable', '--starts', '4'), 'no unstable periodic orbit', 'free-0-II')
     says(refused(2, 'orbit', *PAPER, '--seconds', '-1'), '--seconds')
 
 

@@ -22,7 +22,6 @@ def test_event_sections_refuse_what_they_cannot_be():
     says(refused(2, 'poincare', 'vibro-impact', '--event', 'stick'), '--event belongs to --section event')
     says(refused(2, 'poincare', 'belt', '--section', 'event', '--event', 'stick', '--stop', 'x'), '--stop')
     says(refused(3, 'poincare', 'belt', '--section', 'event', '--event', 'graze'), 'no such event in 10000 periods')
-    says(refused(2, 'classify', 'belt'), 'poincare --section event')
 
 
 def test_a_kind_that_no_contact_can_have_is_refused_with_those_that_it_can():

@@ -17,7 +17,7 @@ constexpr long most_tried = 729;
 /// Certainly lawful from X on: every condition rises, but for those that stay zero.
 bool fits(const FlownMode& mode, const Balls& X) {
   const std::vector<double> sizes = mode.flow.sizes_of(X);
-  const Expansion about(mode.flow, X, Ball(0.0), Order::rest + 8);
+  const Expansion about(mode.flow, X, Ball(0.0), terms_at_start(X));
   for (std::size_t i = 0; i < mode.flow.rows.size(); ++i) {
     const Order order = order_at(mode.flow, i, about.of(mode.flow.rows[i]), sizes);
     if (!order.rises || !order.certain) return false;

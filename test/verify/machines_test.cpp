@@ -45,5 +45,21 @@ TEST(CertificateOfManyContacts, IsProvedWithItsChatterLimitsWhateverTheMachine) 
   EXPECT_GT(impacts, 1000);
 }
 
+/// Masses 1 in a row with springs 1, a load on the first and a stop at the last: the stop's conditions start with zeros of order 2 (masses - 1).
+TEST(CertificateOfAChain, IsProvedHoweverHighTheOrderOfItsFirstZero) {
+  for (const int masses : {2, 5, 6, 9, 12}) {
+    for (const double load : {-1.0, 1.0}) {
+      test::Machine machine;
+      for (int i = 0; i < masses; ++i) machine.model.coordinates.push_back({"x" + std::to_string(i + 1), 1.0});
+      for (int i = 0; i < masses; ++i) machine.model.springs.push_back({i, i == 0 ? ground : i - 1, 1.0});
+      machine.model.forces = {{0, 0, load, 0.0}};
+      machine.model.stops = {{"stop", masses - 1, ground, 0.0, 0.5}};
+      machine.start.assign(2 * static_cast<std::size_t>(masses), 0.0);
+      const Checked checked = verdict_on(machine);
+      EXPECT_EQ(checked.verdict.refusals, 0) << masses << " masses, load " << load << ": " << checked.first;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace slapstick

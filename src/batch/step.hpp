@@ -1,0 +1,303 @@
+#pragma once
+/// One step of all lanes: a flight, then cuts, jumps and the modes that may follow. No lane waits for another.
+#include "batch/flight.hpp"
+
+namespace slapstick::batch {
+namespace {
+
+/// An impact slower than this, in units of the state's speeds, may be one of a complete chatter: Motion proves its limit.
+constexpr double slow_impact = 0x1p-20;
+/// A window that has been halved so often is in doubt.
+constexpr double most_halvings = 6.0;
+/// No window is shorter, in units of the mode's.
+constexpr double least_scale = 0x1p-40;
+
+template <int width, int n>
+class Step : Flight<width, n> {
+  using Base = Flight<width, n>;
+  using Real = typename Base::Real;
+  using Mask = typename Base::Mask;
+  using Base::all, Base::at_, Base::block_, Base::doubtful_, Base::fraction_, Base::halve_, Base::impact_, Base::occupied_, Base::p_, Base::period_,
+      Base::reached_, Base::slots_, Base::u_, Base::window_, Base::winner_, Base::word, Base::x_;
+
+ public:
+  __attribute__((always_inline)) explicit Step(Block& block) : Base(block) {}
+
+  /// @returns true if a lane needs the caller
+  __attribute__((always_inline)) bool run() {
+    Base::fly();
+    block_.events = block_.cuts = block_.doubtful = block_.wanting = 0;
+    const Real tries = choose(halve_, load<Real>(block_.tries) + 1.0, Real{});
+    doubtful_ = doubtful_ | (halve_ & less(all(most_halvings - 0.5), tries));
+    halve_ = halve_ & ~doubtful_;
+    moved_ = occupied_ & ~halve_ & ~doubtful_;
+    reached_ = reached_ & moved_;
+    look_at_cuts();
+    happen();
+    keep(tries);
+    return (block_.events | block_.cuts | block_.doubtful | block_.wanting) != 0;
+  }
+
+  /// Chooses the modes of lanes that start. @returns true if a lane needs the caller
+  __attribute__((always_inline)) bool begin() {
+    from_bits(occupied_, block_.occupied);
+    for (int i = 0; i < n; ++i) {
+      p_[i] = load<Real>(block_.p[i]);
+      u_[i] = load<Real>(block_.u[i]);
+    }
+    fraction_ = load<Real>(block_.fraction);
+    for (unsigned left = block_.starting; left != 0; left &= left - 1) action_[__builtin_ctz(left)] = &block_.start[__builtin_ctz(left)];
+    block_.events = block_.cuts = block_.wanting = 0;
+    block_.doubtful = follow(block_.starting);
+    for (unsigned left = block_.starting & ~(block_.doubtful | block_.wanting); left != 0; left &= left - 1)
+      block_.mode[__builtin_ctz(left)] = next_[__builtin_ctz(left)];
+    block_.starting = block_.wanting;
+    return (block_.doubtful | block_.wanting) != 0;
+  }
+
+ private:
+  static inline __attribute__((always_inline)) Mask of(unsigned lanes) {
+    Mask mask;
+    from_bits(mask, lanes);
+    return mask;
+  }
+
+  /// A lane whose cut lies before what it has reached is shown there, and stays at its window's start: a cut changes nothing.
+  __attribute__((always_inline)) void look_at_cuts() {
+    const Real period = load<Real>(block_.cut_period), fraction = load<Real>(block_.cut_fraction);
+    const Mask cut = moved_ & (less(period, period_) | (equal(period, period_) & less(fraction, fraction_)));
+    block_.cuts = bits(cut);
+    if (block_.cuts == 0) return;
+    const Real since = (period - load<Real>(block_.period)) + (fraction - load<Real>(block_.fraction));
+    const Real x = smaller(larger(since / (word(Layout::window_periods) * window_.scale), Real{}), x_), inverse = 1.0 / window_.H;
+    for (int i = 0; i < n; ++i) {
+      store<Real>(block_.at_p[i], value_at(window_.p[i], x));
+      store<Real>(block_.at_u[i], value_at(window_.u[i], x) * inverse);
+    }
+    moved_ = moved_ & ~cut;
+    reached_ = reached_ & ~cut;
+  }
+
+  /// Jumps of all lanes at an event, then their modes.
+  __attribute__((always_inline)) void happen() {
+    unsigned lanes = bits(reached_);
+    tried_ = 0;
+    if (lanes == 0) return;
+    find_actions(lanes);
+    if ((lanes & block_.watched) != 0)
+      for (int i = 0; i < n; ++i) {
+        store<Real>(block_.at_p[i], choose(reached_, p_[i], load<Real>(block_.at_p[i])));
+        store<Real>(block_.at_u[i], choose(reached_, u_[i], load<Real>(block_.at_u[i])));
+      }
+    speed_ = Real{};
+    unsigned refused = untouched(lanes);
+    for (unsigned left = lanes; left != 0;) {
+      const Action& action = *action_[__builtin_ctz(left)];
+      unsigned same = 0;
+      for (unsigned more = left; more != 0; more &= more - 1) {
+        const Action& other = *action_[__builtin_ctz(more)];
+        if (other.jump == action.jump && other.own == action.own && other.sign == action.sign && other.stop == action.stop)
+          same |= 1U << __builtin_ctz(more);
+      }
+      left &= ~same;
+      refused |= jump(action, same);
+    }
+    refused |= follow(lanes & ~refused);
+    doubtful_ = doubtful_ | of(refused);
+  }
+
+  __attribute__((always_inline)) void find_actions(unsigned lanes) {
+    alignas(64) double winner[most_lanes];
+    store<Real>(winner, winner_);
+    Mask upper = occupied_ & ~occupied_;
+    for (int s = 0; s < at_.slots; ++s) upper = upper | (equal(winner_, all(s)) & less(Real{}, slots_[s].side));
+    const unsigned high = bits(upper), by_gap = bits(impact_);
+    for (unsigned left = lanes; left != 0; left &= left - 1) {
+      const int l = __builtin_ctz(left), s = static_cast<int>(winner[l]);
+      const int side = (by_gap >> l & 1U) != 0 ? at_gap : (high >> l & 1U) != 0 ? at_upper : at_lower;
+      action_[l] = &block_.action[(block_.mode[l] * at_.slots + s) * sides + side];
+      block_.event_mode[l] = block_.mode[l];
+      block_.event_slot[l] = s;
+      block_.event_side[l] = side;
+    }
+  }
+
+  /// Lanes in which an open stop that no slot watches is in contact: one that rests there, and that any event may close.
+  __attribute__((always_inline)) unsigned untouched(unsigned lanes) const {
+    unsigned refused = 0;
+    for (int i = 0; i < n; ++i)
+      for (unsigned zero = bits(equal(p_[i], Real{})) & lanes; zero != 0; zero &= zero - 1) {
+        const int l = __builtin_ctz(zero);
+        if ((block_.open[block_.mode[l]] >> i & 1U) != 0) refused |= 1U << l;
+      }
+    return refused;
+  }
+
+  /// @returns the lanes that Motion is asked for
+  __attribute__((always_inline)) unsigned jump(const Action& action, unsigned lanes) {
+    const Mask mine = of(lanes);
+    for (int i = 0; i < n; ++i) {
+      if (i != action.own) continue;
+      const Real w = u_[i] * static_cast<double>(action.sign);
+      switch (action.jump) {
+        case Jump::none:
+          break;
+        case Jump::leave_it:
+          return lanes;
+        case Jump::rest:
+          u_[i] = choose(mine, Real{}, u_[i]);
+          break;
+        case Jump::land:
+          speed_ = choose(mine, w, speed_);
+          p_[i] = choose(mine, Real{}, p_[i]);
+          break;
+        case Jump::let_off:
+          speed_ = choose(mine, w, speed_);
+          u_[i] = choose(mine, load<Real>(block_.let_off[action.stop]) * p_[i], u_[i]);
+          break;
+        case Jump::impact:
+          return strike(action, i, w, mine);
+      }
+    }
+    return action.jump == Jump::leave_it ? lanes : 0;
+  }
+
+  __attribute__((always_inline)) unsigned strike(const Action& action, int own, const Real& w, const Mask& mine) {
+    speed_ = choose(mine, w, speed_);
+    for (int j = 0; j < n; ++j)
+      u_[j] = choose(mine,
+                     j == own ? -(load<Real>(block_.restitution[action.stop]) * w) * static_cast<double>(action.sign)
+                              : u_[j] + load<Real>(block_.impulse[action.stop][j]) * w,
+                     u_[j]);
+    p_[own] = choose(mine, Real{}, p_[own]);
+    struck_ = struck_ | mine;
+    return bits(mine & ~less(window_.size * slow_impact, w * word(Layout::inverse_speed)));
+  }
+
+  /// The first mode of each lane's candidates that nothing refuses. @returns the lanes that have none
+  __attribute__((always_inline)) unsigned follow(unsigned lanes) {
+    unsigned refused = 0;
+    start_streams();
+    for (int c = 0; lanes != 0; ++c) {
+      for (unsigned left = lanes; left != 0; left &= left - 1) {
+        const int l = __builtin_ctz(left);
+        const unsigned bit = 1U << l;
+        if (c >= action_[l]->candidates) {
+          refused |= bit;
+          lanes &= ~bit;
+          continue;
+        }
+        const int mode = action_[l]->candidate[c];
+        if (block_.ready[mode * most_lanes + l] == 0) {
+          block_.wanting |= bit;
+          lanes &= ~bit;
+          continue;
+        }
+        next_[l] = mode;
+      }
+      if (lanes == 0) break;
+      take_words(lanes, next_);
+      tried_ |= lanes;
+      lanes &= ~bits(fits());
+    }
+    return refused;
+  }
+
+  /// Makes each lane's words those of its mode.
+  __attribute__((always_inline)) void take_words(unsigned lanes, const int (&modes)[most_lanes]) {
+    const int size = at_.size();
+    while (lanes != 0) {
+      const int mode = modes[__builtin_ctz(lanes)];
+      unsigned same = 0;
+      for (unsigned left = lanes; left != 0; left &= left - 1)
+        if (modes[__builtin_ctz(left)] == mode) same |= left & -left;
+      lanes &= ~same;
+      const Mask mine = of(same);
+      const Block::Row* const from = block_.all + static_cast<long>(mode) * size;
+      for (int w = 0; w < size; ++w) store<Real>(block_.active[w], choose(mine, load<Real>(from[w]), load<Real>(block_.active[w])));
+    }
+  }
+
+  __attribute__((always_inline)) void start_streams() {
+    for (int k = 0; k < at_.k; ++k) {
+      Real sine, cosine;
+      sine_cosine(fraction_ * static_cast<double>(block_.harmonic[k]), sine, cosine);
+      stream_[k] = block_.cosine[k] != 0 ? cosine : sine;
+    }
+  }
+
+  /// row . (p, scaled velocities, f, 1)
+  __attribute__((always_inline)) Real product(int row, const Real (&velocity)[n]) const {
+    Real sum = word(row + 2 * n + at_.k);
+    for (int i = 0; i < n; ++i) sum = sum + word(row + i) * p_[i] + word(row + n + i) * velocity[i];
+    for (int k = 0; k < at_.k; ++k) sum = sum + word(row + 2 * n + k) * stream_[k];
+    return sum;
+  }
+
+  /// True of lanes whose mode no slot refuses: by its value, or by its rate (bend) where a number that it consists of (and its rate) is exactly zero.
+  /// The next window says whether what is near zero rises.
+  __attribute__((always_inline)) Mask fits() const {
+    Real velocity[n], acceleration[n];
+    const Real H = word(Layout::window), inverse_speed = word(Layout::inverse_speed);
+    Real size = word(Layout::least_size);
+    for (int i = 0; i < n; ++i) {
+      velocity[i] = u_[i] * H;
+      size = larger(size, larger(magnitude(p_[i]), magnitude(u_[i]) * inverse_speed));
+    }
+    for (int i = 0; i < n; ++i) acceleration[i] = product(at_.row(i), velocity);
+    Mask refused = occupied_ & ~occupied_;
+    for (int s = 0; s < at_.slots; ++s) {
+      const Real norm = word(at_.slot_number(s, Layout::norm)), start_norm = word(at_.slot_number(s, Layout::start_norm));
+      const Real lower = word(at_.slot_number(s, Layout::lower)), upper = word(at_.slot_number(s, Layout::upper));
+      const Real value = product(at_.slot(s), velocity), margin = smaller(upper - value, value + lower);
+      const Real noise = start_norm * size * (24.0 * step_rounding), rate_noise = norm * size * (24.0 * longest_window * step_rounding);
+      Real rate = Real{}, bend = Real{};
+      for (int i = 0; i < n; ++i) {
+        const Real over_p = word(at_.slot(s) + i);
+        rate = rate + over_p * (velocity[i] + word(at_.drift(i))) + word(at_.slot(s) + n + i) * acceleration[i];
+        bend = bend + over_p * acceleration[i];
+      }
+      const Mask there = less(Real{}, norm), zero = equal(start_norm, Real{}) & equal(value, Real{});
+      const Mask falls = less(margin, -noise) | (zero & less(rate, -rate_noise)) | (zero & equal(rate, Real{}) & less(bend, -rate_noise));
+      refused = refused | (there & falls);
+    }
+    return ~refused;
+  }
+
+  /// Stores what has moved.
+  __attribute__((always_inline)) void keep(const Real& tries) {
+    const unsigned stay = bits(doubtful_) | block_.wanting;
+    block_.doubtful = bits(doubtful_);
+    block_.wanting &= ~block_.doubtful;
+    if ((stay & tried_) != 0) take_words(stay & tried_, block_.mode);
+    const Mask go = moved_ & ~of(stay), ended = reached_ & go, hit = struck_ & ended;
+    for (int i = 0; i < n; ++i) {
+      store<Real>(block_.p[i], choose(go, p_[i], load<Real>(block_.p[i])));
+      store<Real>(block_.u[i], choose(go, u_[i], load<Real>(block_.u[i])));
+    }
+    store<Real>(block_.fraction, choose(go, fraction_, load<Real>(block_.fraction)));
+    store<Real>(block_.period, choose(go, period_, load<Real>(block_.period)));
+    const Real grown = smaller(all(1.0), larger(window_.scale * choose(ended, x_ * 4.0, all(2.0)), all(least_scale)));
+    store<Real>(block_.scale, choose(go, grown, choose(halve_, window_.scale * 0.5, window_.scale)));
+    store<Real>(block_.tries, choose(halve_, tries, choose(go, Real{}, load<Real>(block_.tries))));
+    store<Real>(block_.impacts, choose(hit, load<Real>(block_.impacts) + 1.0, load<Real>(block_.impacts)));
+    store<Real>(block_.speeds, choose(hit, load<Real>(block_.speeds) + speed_, load<Real>(block_.speeds)));
+    const unsigned events = bits(ended);
+    for (unsigned left = events; left != 0; left &= left - 1) block_.mode[__builtin_ctz(left)] = next_[__builtin_ctz(left)];
+    block_.events = events & block_.watched;
+    if (block_.events != 0) store<Real>(block_.event_speed, speed_);
+    ++block_.steps;
+    block_.lane_steps += __builtin_popcount(block_.occupied);
+    block_.lane_events += __builtin_popcount(events);
+    block_.halved += __builtin_popcount(bits(halve_));
+  }
+
+  Mask moved_, struck_ = of(0);
+  Real speed_ = Real{}, stream_[most_streams];
+  const Action* action_[most_lanes];
+  int next_[most_lanes];
+  unsigned tried_ = 0;
+};
+
+}  // namespace
+}  // namespace slapstick::batch

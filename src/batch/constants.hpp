@@ -10,6 +10,8 @@ namespace {
 
 inline constexpr int terms = 32;  ///< Taylor coefficients of a window
 
+inline constexpr int most_economized = 20;  ///< of these the first are economised
+
 /// A window's length times the rate of its mode: longest_window^32 / 32! < 2^-55, so that what the series leaves out, at most
 /// 1 / (1 - longest_window / 33) times that, is below 2^-54 of the norm.
 inline constexpr double longest_window = 3.875;

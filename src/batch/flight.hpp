@@ -32,7 +32,9 @@ class Flight {
     place_ = end_ = all(1.0);
     winner_ = all(-1.0);
     halve_ = doubtful_ = occupied_ & ~occupied_;
-    for (int s = 0; s < at_.slots; ++s) {
+    used_ = at_.slots;
+    while (used_ > 1 && !any(less(Real{}, word(at_.slot_number(used_ - 1, Layout::norm))) & occupied_)) --used_;
+    for (int s = 0; s < used_; ++s) {
       slots_[s].make(block_, window_, s);
       end_ = choose(slots_[s].there, smaller(end_, slots_[s].end), end_);
       halve_ = halve_ | (slots_[s].undecided & slots_[s].there);
@@ -40,7 +42,7 @@ class Flight {
     }
     doubtful_ = doubtful_ & occupied_;
     place_ = end_;
-    for (int s = 0; s < at_.slots; ++s) {
+    for (int s = 0; s < used_; ++s) {
       const Mask sooner = slots_[s].hit & less(slots_[s].root, place_);
       place_ = choose(sooner, slots_[s].root, place_);
       winner_ = choose(sooner, all(s), winner_);
@@ -52,7 +54,7 @@ class Flight {
   __attribute__((always_inline)) void first_gap() {
     impact_ = occupied_ & ~occupied_;
     gap_noise_ = all(1.0) * (window_.scale * longest_window + 4.0) * (window_.scale * growth + 1.0) * step_rounding * window_.size * 8.0;
-    for (int s = 0; s < at_.slots; ++s) {
+    for (int s = 0; s < used_; ++s) {
       const Mask linked = less(all(0.5), word(at_.slot_number(s, Layout::linked))) & occupied_ & ~halve_ & ~doubtful_;
       if (!any(linked)) continue;
       const Real gap = gap_at(s, place_);
@@ -65,8 +67,9 @@ class Flight {
   }
 
   __attribute__((always_inline)) Real gap_at(int s, const Real& x) const {
-    Real gap = Real{};
-    for (int i = 0; i < n; ++i) gap = gap + word(at_.gap(s) + i) * value_at(window_.p[i], x);
+    Real gap = Real{}, p[n];
+    values_at<n>(window_.p, x, p);
+    for (int i = 0; i < n; ++i) gap = gap + word(at_.gap(s) + i) * p[i];
     return gap;
   }
 
@@ -77,10 +80,7 @@ class Flight {
       before = before + word(at_.gap(s) + i) * window_.p[i][0];
       slope = slope + word(at_.gap(s) + i) * window_.p[i][1];
     }
-    const Real D = place_, change = gap - before, m0 = slope * D;
-    Real m1 = Real{};
-    for (int i = 0; i < n; ++i) m1 = m1 + word(at_.gap(s) + i) * value_at(window_.u[i], D);
-    m1 = m1 * D;
+    const Real D = place_, change = gap - before, m0 = slope * D, m1 = -(slots_[s].about(D) * window_.H * D);  // the slot is minus the gap's rate
     const Real c2 = 3.0 * change - (m0 + m0 + m1), c3 = m0 + m1 - (change + change);
     Real t = -before / change;
     for (int k = 0; k < 3; ++k) {
@@ -104,7 +104,8 @@ class Flight {
     Mask open = reached_;
     Jet<Real> jet{all(1.0), all(1.0), Real{}};
     for (int k = 0; k < 8 && any(open); ++k) {
-      const Jet<Real> now = jet_at(h, x);
+      Jet<Real> now;
+      jet_at(h, x, now);
       jet = {choose(open, now.value, jet.value), choose(open, now.slope, jet.slope), choose(open, now.half_bend, jet.half_bend)};
       const Real move = now.value * now.slope / (now.slope * now.slope - now.value * now.half_bend);
       x = choose(open, x - move, x);
@@ -124,15 +125,16 @@ class Flight {
 
   /// The series, positive at the start, whose zero is the event; with the errors of its hull and its rounding.
   __attribute__((always_inline)) void gather(Real (&h)[terms], Real& error, Real& noise, Real& size) const {
-    for (int m = 0; m < terms; ++m) h[m] = Real{};
-    for (int s = 0; s < at_.slots; ++s) {
+    bool begun = false;
+    for (int s = 0; s < used_; ++s) {
       const auto& slot = slots_[s];
       const Mask mine = equal(winner_, all(s)) & reached_;
       if (!any(mine)) continue;
       const Mask by_gap = mine & impact_, by_slot = mine & ~impact_;
-      const Real side = -slot.side;
-      for (int m = 0; m < terms; ++m) h[m] = choose(by_slot, side * slot.series[m], h[m]);
-      h[0] = choose(by_slot, h[0] + slot.limit, h[0]);
+      const Real side = choose(by_slot, -slot.side, Real{});
+      for (int m = 0; m < terms; ++m) h[m] = begun ? h[m] + side * slot.series[m] : side * slot.series[m];
+      begun = true;
+      h[0] = h[0] + choose(by_slot, slot.limit, Real{});
       error = choose(by_slot, slot.error, error);
       noise = choose(by_slot, slot.noise, noise);
       size = choose(by_slot, slot.size, size);
@@ -140,18 +142,15 @@ class Flight {
       error = choose(by_gap, gap_noise_, error);
       size = choose(by_gap, window_.size, size);
       Real row[n];
-      for (int i = 0; i < n; ++i) row[i] = word(at_.gap(s) + i);
-      for (int m = 0; m < terms; ++m) {
-        Real gap = Real{};
-        for (int i = 0; i < n; ++i) gap = gap + row[i] * window_.p[i][m];
-        h[m] = choose(by_gap, gap, h[m]);
-      }
+      for (int i = 0; i < n; ++i) row[i] = choose(by_gap, word(at_.gap(s) + i), Real{});
+      for (int m = 0; m < terms; ++m)
+        for (int i = 0; i < n; ++i) h[m] = h[m] + row[i] * window_.p[i][m];
     }
   }
 
   __attribute__((always_inline)) Real above_winner(const Real& x) const {
     Real above = all(1.0);
-    for (int s = 0; s < at_.slots; ++s) {
+    for (int s = 0; s < used_; ++s) {
       const Mask mine = equal(winner_, all(s)) & reached_ & ~impact_;
       if (any(mine)) above = choose(mine, slots_[s].above(x), above);
     }
@@ -161,11 +160,13 @@ class Flight {
   /// The state at x_, and what else must not have happened up to there: other slots at their limits, gaps that fall with slots.
   __attribute__((always_inline)) void arrive() {
     const Real inverse = 1.0 / window_.H;
+    Real state[2 * n];
+    values_at<2 * n>(window_.p, x_, state);
     for (int i = 0; i < n; ++i) {
-      p_[i] = value_at(window_.p[i], x_);
-      u_[i] = value_at(window_.u[i], x_) * inverse;
+      p_[i] = state[i];
+      u_[i] = state[n + i] * inverse;
     }
-    for (int s = 0; s < at_.slots; ++s) {
+    for (int s = 0; s < used_; ++s) {
       const Mask winner = equal(winner_, all(s)) & reached_;
       const Mask other = slots_[s].hit & ~(winner & ~impact_);
       if (any(other)) halve_ = halve_ | (other & ~less(Real{}, slots_[s].above(x_)));
@@ -187,6 +188,7 @@ class Flight {
   const Layout& at_;
   Window<width, n> window_;
   SlotWindow<width> slots_[most_slots];
+  int used_ = 0;  ///< slots that some lane has
   Mask occupied_, halve_, doubtful_, reached_, impact_;
   Real place_, end_, winner_, guess_ = Real{}, gap_noise_, x_;
   Real p_[n], u_[n], fraction_, period_;

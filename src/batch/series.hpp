@@ -34,16 +34,23 @@ SLAPSTICK_INLINE void sine_cosine(const Real& t, Real& sine, Real& cosine) {
   cosine = choose(one | two, -b, b);
 }
 
-/// The value of sum_m a_m x^m in even and odd parts.
-template <class Real>
-SLAPSTICK_INLINE Real value_at(const Real* a, const Real& x) {
+/// The values of `count` series sum_m a_m x^m at one place, in even and odd parts, side by side: each waits for itself only.
+/// A function of its own: gcc 12 would keep what two calls load in memory beside where it is.
+template <int count, class Real>
+static __attribute__((noinline)) void values_at(const Real (*a)[terms], const Real& x, Real (&value)[count]) {
   const Real z = x * x;
-  Real even = a[terms - 2], odd = a[terms - 1];
-  for (int m = terms - 3; m > 0; m -= 2) {
-    odd = odd * z + a[m];
-    even = even * z + a[m - 1];
+  Real even[count], odd[count];
+  for (int i = 0; i < count; ++i) {
+    even[i] = a[i][terms - 2];
+    odd[i] = a[i][terms - 1];
   }
-  return odd * x + even;
+#pragma GCC unroll 16
+  for (int m = terms - 3; m > 0; m -= 2)
+    for (int i = 0; i < count; ++i) {
+      odd[i] = odd[i] * z + a[i][m];
+      even[i] = even[i] * z + a[i][m - 1];
+    }
+  for (int i = 0; i < count; ++i) value[i] = odd[i] * x + even[i];
 }
 
 /// Value, first and half the second derivative: with p = e(z) + x o(z), z = x^2,
@@ -53,7 +60,7 @@ struct Jet {
   Real value, slope, half_bend;
 };
 template <class Real>
-SLAPSTICK_INLINE Jet<Real> jet_at(const Real* a, const Real& x) {
+static __attribute__((noinline)) void jet_at(const Real* a, const Real& x, Jet<Real>& jet) {
   const Real z = x * x;
   Real e = a[terms - 2], o = a[terms - 1], e1 = Real{}, o1 = Real{}, e2 = Real{}, o2 = Real{};
   for (int m = terms - 3; m > 0; m -= 2) {
@@ -64,7 +71,7 @@ SLAPSTICK_INLINE Jet<Real> jet_at(const Real* a, const Real& x) {
     o = o * z + a[m];
     e = e * z + a[m - 1];
   }
-  return {o * x + e, (x + x) * (x * o1 + e1) + o, e1 + 3.0 * x * o1 + 4.0 * z * (x * o2 + e2)};
+  jet = {o * x + e, (x + x) * (x * o1 + e1) + o, e1 + 3.0 * x * o1 + 4.0 * z * (x * o2 + e2)};
 }
 
 /// Derivatives in x of all numbers at the start, divided by m!: y^(m+1) from y^(m) by the mode's rows.
@@ -73,14 +80,14 @@ struct Window {
   using Real = typename Lanes<width>::Real;
   using Mask = typename Lanes<width>::Mask;
 
-  Real p[n][terms], u[n][terms];  ///< of p and of scale H u
+  Real p[2 * n][terms];        ///< of p, then of scale H u
   Real stream[most_streams][terms];
   Real scale, H;  ///< H times scale
   Real size;      ///< the norm of the state
 
   static inline __attribute__((always_inline)) Real word(const Block& block, int i) { return load<Real>(block.active[i]); }
 
-  __attribute__((always_inline)) void make(const Block& block) {
+  __attribute__((noinline)) void make(const Block& block) {
     const Layout& at = block.layout;
     scale = load<Real>(block.scale);
     H = word(block, Layout::window) * scale;
@@ -103,10 +110,6 @@ struct Window {
   __attribute__((always_inline)) void make_streams(const Block& block, Real (*force)[terms]) {
     const Layout& at = block.layout;
     const Real phase = load<Real>(block.fraction), square = scale * scale;
-    for (int i = 0; i < n; ++i) {
-      for (int m = 1; m < terms; ++m) force[i][m] = Real{};
-      force[i][0] = word(block, at.row(i) + at.row_size() - 1) * square;
-    }
     for (int s = 0; s < at.k; ++s) {
       Real sine, cosine;
       sine_cosine(phase * static_cast<double>(block.harmonic[s]), sine, cosine);
@@ -119,12 +122,17 @@ struct Window {
         stream[s][m] = even * tables.inverse_factorial[m];
         stream[s][m + 1] = odd * tables.inverse_factorial[m + 1];
         for (int i = 0; i < n; ++i) {
-          force[i][m] = force[i][m] + share[i] * even;
-          force[i][m + 1] = force[i][m + 1] + share[i] * odd;
+          force[i][m] = s == 0 ? share[i] * even : force[i][m] + share[i] * even;
+          force[i][m + 1] = s == 0 ? share[i] * odd : force[i][m + 1] + share[i] * odd;
         }
         even = even * bend;
         odd = odd * bend;
       }
+    }
+    for (int i = 0; i < n; ++i) {
+      if (at.k == 0)
+        for (int m = 0; m < terms; ++m) force[i][m] = Real{};
+      force[i][0] = force[i][0] + word(block, at.row(i) + at.row_size() - 1) * square;
     }
   }
 
@@ -140,7 +148,7 @@ struct Window {
       Real a[n];
       for (int i = 0; i < n; ++i) {
         p[i][m] = dp[i] * tables.inverse_factorial[m];
-        u[i][m] = du[i] * tables.inverse_factorial[m];
+        p[n + i][m] = du[i] * tables.inverse_factorial[m];
         Real still = force[i][m], moving = C[i][0] * du[0];
         for (int j = 0; j < n; ++j) still = still + K[i][j] * dp[j];
         for (int j = 1; j < n; ++j) moving = moving + C[i][j] * du[j];

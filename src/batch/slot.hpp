@@ -20,7 +20,7 @@ struct SlotWindow {
   Real end, root;          ///< of the part of the window that is decided; about where the hull vanishes
 
   template <int n>
-  __attribute__((always_inline)) void make(const Block& block, const Window<width, n>& window, int s) {
+  __attribute__((noinline)) void make(const Block& block, const Window<width, n>& window, int s) {
     const Layout& at = block.layout;
     const auto word = [&](int which) { return load<Real>(block.active[at.slot_number(s, which)]); };
     lower = word(Layout::lower);
@@ -32,6 +32,13 @@ struct SlotWindow {
     make_hull();
     decide();
     find_root();
+  }
+
+  /// About the slot's value v at x.
+  __attribute__((always_inline)) Real about(const Real& x) const {
+    Real value = P[7];
+    for (int j = 6; j >= 0; --j) value = value * x + P[j];
+    return value * choose(first, choose(second, x * x, x), Real{} + 1.0);
   }
 
   /// The lower polynomial limit - side P - error at x.
@@ -52,10 +59,10 @@ struct SlotWindow {
       over_u[i] = load<Real>(block.active[row + n + i]) * inverse_scale;
     }
     for (int m = 0; m < terms; ++m) {
-      Real still = over_p[0] * window.p[0][m], moving = over_u[0] * window.u[0][m];
+      Real still = over_p[0] * window.p[0][m], moving = over_u[0] * window.p[n][m];
       for (int i = 1; i < n; ++i) {
         still = still + over_p[i] * window.p[i][m];
-        moving = moving + over_u[i] * window.u[i][m];
+        moving = moving + over_u[i] * window.p[n + i][m];
       }
       series[m] = still + moving;
     }
@@ -86,12 +93,13 @@ struct SlotWindow {
     for (int m = 0; m < terms; ++m) series[m] = choose(second, series[m + 2], choose(first, series[m + 1], series[m]));
   }
 
-  /// g = P + sum of what economization leaves: |x^m - p_m| <= tables.error[m].
+  /// g = P + sum of what economization leaves: |x^m - p_m| <= tables.error[m]. The last powers, which add little, are left out whole: |x^m| <= 1.
   __attribute__((always_inline)) void make_hull() {
     for (int j = 0; j < 8; ++j) P[j] = series[j];
     error = Real{};
     Real p0 = P[0], p1 = P[1], p2 = P[2], p3 = P[3], p4 = P[4], p5 = P[5], p6 = P[6], p7 = P[7];
-    for (int m = 8; m < terms; ++m) {
+    for (int m = most_economized; m < terms; ++m) error = error + magnitude(series[m]);
+    for (int m = 8; m < most_economized; ++m) {
       const Real a = series[m];
       const double* const e = tables.economized[m];
       p0 = p0 + a * e[0];

@@ -70,9 +70,11 @@ class Step : Flight<width, n> {
     if (block_.cuts == 0) return;
     const Real since = (period - load<Real>(block_.period)) + (fraction - load<Real>(block_.fraction));
     const Real x = smaller(larger(since / (word(Layout::window_periods) * window_.scale), Real{}), x_), inverse = 1.0 / window_.H;
+    Real state[2 * n];
+    values_at<2 * n>(window_.p, x, state);
     for (int i = 0; i < n; ++i) {
-      store<Real>(block_.at_p[i], value_at(window_.p[i], x));
-      store<Real>(block_.at_u[i], value_at(window_.u[i], x) * inverse);
+      store<Real>(block_.at_p[i], state[i]);
+      store<Real>(block_.at_u[i], state[n + i] * inverse);
     }
     moved_ = moved_ & ~cut;
     reached_ = reached_ & ~cut;
@@ -110,7 +112,7 @@ class Step : Flight<width, n> {
     alignas(64) double winner[most_lanes];
     store<Real>(winner, winner_);
     Mask upper = occupied_ & ~occupied_;
-    for (int s = 0; s < at_.slots; ++s) upper = upper | (equal(winner_, all(s)) & less(Real{}, slots_[s].side));
+    for (int s = 0; s < Base::used_; ++s) upper = upper | (equal(winner_, all(s)) & less(Real{}, slots_[s].side));
     const unsigned high = bits(upper), by_gap = bits(impact_);
     for (unsigned left = lanes; left != 0; left &= left - 1) {
       const int l = __builtin_ctz(left), s = static_cast<int>(winner[l]);
@@ -277,7 +279,7 @@ class Step : Flight<width, n> {
     }
     store<Real>(block_.fraction, choose(go, fraction_, load<Real>(block_.fraction)));
     store<Real>(block_.period, choose(go, period_, load<Real>(block_.period)));
-    const Real grown = smaller(all(1.0), larger(window_.scale * choose(ended, x_ * 4.0, all(2.0)), all(least_scale)));
+    const Real grown = smaller(all(1.0), larger(window_.scale * choose(ended, x_ * 32.0, all(16.0)), all(least_scale)));
     store<Real>(block_.scale, choose(go, grown, choose(halve_, window_.scale * 0.5, window_.scale)));
     store<Real>(block_.tries, choose(halve_, tries, choose(go, Real{}, load<Real>(block_.tries))));
     store<Real>(block_.impacts, choose(hit, load<Real>(block_.impacts) + 1.0, load<Real>(block_.impacts)));

@@ -15,7 +15,8 @@ struct Layout {
   static constexpr int window_periods = 1; ///< the same in forcing periods
   static constexpr int inverse_speed = 2;  ///< the norm of a state is the largest of |p_i|, |u_i| times this, ..
   static constexpr int least_size = 3;     ///< .. and this, for streams and the constant
-  static constexpr int rates = 4;          ///< of the streams: j omega H
+  static constexpr int chatter = 4;        ///< an impact that leaves slower than this times the norm may begin a complete chatter that a Motion proves
+  static constexpr int rates = 5;          ///< of the streams: j omega H
   [[nodiscard, gnu::always_inline]] constexpr int drift(int i) const { return rates + k + i; }  ///< times H
   /// u_i': n of K, n of C, k of F, R.
   [[nodiscard, gnu::always_inline]] constexpr int row(int i) const { return drift(n) + i * row_size(); }

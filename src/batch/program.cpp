@@ -6,6 +6,8 @@
 
 #include "batch/constants.hpp"
 #include "batch/shape.hpp"
+#include "flow/chatter.hpp"
+#include "slapstick/flow/motion.hpp"
 
 namespace slapstick::batch {
 namespace {
@@ -107,6 +109,7 @@ bool make_words(const Model& model, const mode::Frame& frame, Shape& shape, int 
   words[Layout::window_periods] = H / frame.period;
   words[Layout::inverse_speed] = (1.0 + 0x1p-40) / norm.speed;
   words[Layout::least_size] = norm.least;
+  words[Layout::chatter] = 2.0 * flow::fastest_chatter(MotionOptions{}.chatter_tolerance * frame.period * frame.period) * norm.rate * norm.rate;
   for (int s = 0; s < at.k; ++s) {
     const double rate = shape.harmonic[static_cast<std::size_t>(s)] * model.omega * H;
     words[Layout::rates + s] = rate;

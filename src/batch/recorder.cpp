@@ -2,24 +2,8 @@
 #include "batch/recorder.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace slapstick::batch {
-namespace {
-
-/// An engine goes on with a chatter until its impacts are faster than this, in units of the largest velocity.
-constexpr double still_slow = 0x1p-17;
-
-bool slow(const flow::Engine& engine, const Event& event) {
-  if (event.kind != EventKind::impact) return false;
-  const int d = engine.system().frame().d;
-  double fastest = 0.0;
-  for (int i = 0; i < d; ++i) fastest = std::max(fastest, std::abs(engine.extended()[static_cast<std::size_t>(d + i)]));
-  return event.w < still_slow * fastest;
-}
-
-}  // namespace
-
 Instant Recorder::next() const {
   const int points = std::max(plan_->points, 1);
   const int periods = plan_->transient_periods + (passed_ == 0 ? 0 : plan_->periods - points + passed_ - 1);
@@ -56,7 +40,7 @@ bool follow(flow::Engine& engine, Recorder& recorder, bool to_the_end) {
     ++recorder.run.motion_events;
     if (event.kind == EventKind::impact) recorder.count(event.w);
     if (recorder.wants_events()) recorder.run.events.push_back(event);
-    if (!to_the_end && !engine.tells_more() && !slow(engine, event)) return false;
+    if (!to_the_end && !engine.tells_more() && !engine.may_chatter()) return false;
   }
 }
 

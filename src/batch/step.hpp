@@ -5,8 +5,6 @@
 namespace slapstick::batch {
 namespace {
 
-/// An impact slower than this, in units of the state's speeds, may be one of a complete chatter: Motion proves its limit.
-constexpr double slow_impact = 0x1p-20;
 /// A window that has been halved so often is in doubt.
 constexpr double most_halvings = 6.0;
 /// No window is shorter, in units of the mode's.
@@ -173,7 +171,7 @@ class Step : Flight<width, n> {
                      u_[j]);
     p_[own] = choose(mine, Real{}, p_[own]);
     struck_ = struck_ | mine;
-    return bits(mine & ~less(window_.size * slow_impact, w * word(Layout::inverse_speed)));
+    return bits(mine & ~less(window_.size * word(Layout::chatter), load<Real>(block_.restitution[action.stop]) * w));
   }
 
   /// The first mode of each lane's candidates that nothing refuses. @returns the lanes that have none

@@ -21,6 +21,7 @@
 /// The same series with the smallest and largest accelerations encloses the limit time.
 ///
 /// Source: docs/certainty.md; Nordmark and Piiroinen (2009), Budd and Dux (1994).
+#include <cmath>
 #include <span>
 
 #include "flow/compiled_system.hpp"
@@ -32,6 +33,12 @@ struct ChatterLimit {
   double duration = 0.0;  ///< time from the impact to the limit
   double error = 0.0;     ///< bound on the error of `duration`
 };
+
+/// No chatter is proven whose first flight begins faster than this times the acceleration R: the error of the limit is about duration^2 / period.
+[[nodiscard]] inline double fastest_chatter(double tolerance) { return 100.0 * std::sqrt(tolerance); }
+
+/// Whether `prove_chatter` looks any further than at the speed.
+[[nodiscard]] bool slow_enough(const CompiledSystem& system, const mode::Mode& here, int stop, const double* X, double tolerance);
 
 /// @param here the mode of the flight that begins at X
 /// @param X extended state just after an impact of `stop` (gap = 0, separating).

@@ -19,6 +19,8 @@ class Engine : public Flight {
   Outcome advance(Instant end);
   /// Goes on from another state, as if made anew there.
   void restart(std::span<const double> coordinates, Instant start);
+  /// Whether the impact that was last may be followed by a complete chatter: the next call looks for a proof.
+  [[nodiscard]] bool may_chatter() const;
   /// Whether the next call of `advance` tells another event of this instant.
   [[nodiscard]] bool tells_more() const { return shown_ + 1 < static_cast<int>(pending_.size()); }
 

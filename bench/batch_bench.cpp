@@ -25,7 +25,7 @@ void print(const char* what, double seconds, const slapstick::sweep::Batch& batc
   std::uint64_t hash = 1469598103934665603ULL;
   double impacts = 0.0, lane_events = 0.0, motion_events = 0.0;
   std::size_t failed = 0;
-  for (const slapstick::Run& run : batch.runs) {
+  for (const slapstick::BatchRun& run : batch.runs) {
     std::uint64_t bits = 0;
     std::memcpy(&bits, &run.speeds, 8);
     hash = (hash ^ bits) * 1099511628211ULL;
@@ -69,7 +69,7 @@ int main(int arguments, char** values) {
   const sweep::Batch batch = sweep::run_batch(problem);
   const double seconds = cpu() - begun;
   print(what.c_str(), seconds, batch, static_cast<double>(problem.count) * problem.plan.periods);
-  for (const Run& run : batch.runs)
+  for (const BatchRun& run : batch.runs)
     if (!run.failure.empty()) {
       std::printf("%s\n", run.failure.c_str());
       break;

@@ -9,7 +9,7 @@ namespace slapstick::batch {
 
 class Recorder {
  public:
-  Recorder(const RunPlan& plan, Instant begin) : plan_(&plan), begin_(begin) {}
+  Recorder(const BatchPlan& plan, Instant begin) : plan_(&plan), begin_(begin), passed_(plan.transient_periods == 0 ? 1 : 0) {}
 
   /// The next instant to look at: the recording's start, a period before the first point, the points.
   [[nodiscard]] Instant next() const;
@@ -25,12 +25,12 @@ class Recorder {
   }
 
   double impacts = 0.0, speeds = 0.0;  ///< since the recording began, or the run
-  Run run;
+  BatchRun run;
 
  private:
-  const RunPlan* plan_;
+  const BatchPlan* plan_;
   Instant begin_;
-  int passed_ = 0;  ///< instants that have been looked at
+  int passed_;  ///< instants that have been looked at: a recording without a transient has begun
   double impacts_before_ = 0.0;  ///< at the one before
 };
 

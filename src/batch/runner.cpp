@@ -13,7 +13,7 @@ namespace slapstick::batch {
 
 /// A run that has begun.
 struct Runner::Entry {
-  Entry(std::size_t index_, const RunPlan& plan, Model model_) : index(index_), model(std::move(model_)), recorder(plan, {}), frame(model) {}
+  Entry(std::size_t index_, const BatchPlan& plan, Model model_) : index(index_), model(std::move(model_)), recorder(plan, {}), frame(model) {}
 
   std::size_t index;
   Model model;
@@ -60,7 +60,7 @@ void Runner::run() {
 /// The next run that lanes can carry; those that they cannot, and those that fail at once, are done on the way.
 std::unique_ptr<Runner::Entry> Runner::next_entry() {
   while (const std::optional<std::size_t> index = queue_.next()) {
-    Run failed;
+    BatchRun failed;
     try {
       Model model = queue_.model_at(*index);
       const State state = queue_.start_at(*index);
@@ -174,7 +174,7 @@ void Runner::look(int l) {
 
 void Runner::finish(int l) {
   const std::size_t index = entry_[l]->index;
-  Run run = std::move(entry_[l]->recorder.run);
+  BatchRun run = std::move(entry_[l]->recorder.run);
   entry_[l].reset();
   const unsigned others = ~(1U << l);
   block_->occupied &= others;

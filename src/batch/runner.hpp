@@ -17,8 +17,8 @@ struct Queue {
   std::function<std::optional<std::size_t>()> next;  ///< the index of the next run
   std::function<Model(std::size_t)> model_at;
   std::function<State(std::size_t)> start_at;
-  std::function<void(std::size_t, Run&&)> take;      ///< called once for each index, in no order
-  RunPlan plan;
+  std::function<void(std::size_t, BatchRun&&)> take;      ///< called once for each index, in no order
+  BatchPlan plan;
   const std::atomic<bool>* cancel = nullptr;
 };
 

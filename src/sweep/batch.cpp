@@ -13,7 +13,7 @@ namespace slapstick::sweep {
 namespace {
 
 void check(const BatchProblem& problem) {
-  const RunPlan& plan = problem.plan;
+  const BatchPlan& plan = problem.plan;
   if (!problem.model_at || !problem.start_at) throw InputError("a batch needs model_at and start_at");
   if (plan.transient_periods < 0) throw InputError("transient_periods = " + std::to_string(plan.transient_periods) + " is negative");
   if (plan.periods < 1) throw InputError("periods = " + std::to_string(plan.periods) + " is not at least 1");
@@ -37,7 +37,7 @@ Batch run_batch(const BatchProblem& problem) {
         return index < problem.count ? std::optional(index) : std::nullopt;
       },
       problem.model_at, problem.start_at,
-      problem.take ? problem.take : [&](std::size_t i, Run&& run) { batch.runs[i] = std::move(run); }, problem.plan, problem.cancel};
+      problem.take ? problem.take : [&](std::size_t i, BatchRun&& run) { batch.runs[i] = std::move(run); }, problem.plan, problem.cancel};
   const auto cores = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U));
   const int threads = problem.threads > 0 ? problem.threads : cores;
   for_each_index(threads, threads, [&](int) {

@@ -12,7 +12,7 @@
 namespace slapstick {
 
 /// What is recorded of a run.
-struct RunPlan {
+struct BatchPlan {
   int transient_periods = 0;  ///< before the recording, >= 0
   int periods = 1;            ///< of the recording, >= 1
   int points = 0;             ///< stroboscopic points: the states at the ends of the last so many periods of the recording, <= periods
@@ -20,11 +20,11 @@ struct RunPlan {
 };
 
 /// What a run has recorded.
-struct Run {
+struct BatchRun {
   long impacts = 0;        ///< in the recording
   double speeds = 0.0;     ///< the sum of their speeds
   State end;               ///< the state at the end, 2 n numbers
-  std::vector<double> points;         ///< RunPlan::points rows of 2 n numbers, the last one `end`
+  std::vector<double> points;         ///< BatchPlan::points rows of 2 n numbers, the last one `end`
   std::vector<long> point_impacts;    ///< impacts in the period before each point
   std::vector<Event> events;          ///< if they were asked for, in order
   long lane_events = 0;    ///< work: events that the lanes decided, from the start on ..

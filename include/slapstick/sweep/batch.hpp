@@ -29,16 +29,16 @@ struct BatchProblem {
   std::size_t count = 0;
   std::function<Model(std::size_t)> model_at;  ///< of a run; called from several threads at once
   std::function<State(std::size_t)> start_at;  ///< likewise, 2 n numbers; the start's instant is phase 0 of period 0
-  RunPlan plan;
+  BatchPlan plan;
   int threads = 0;  ///< 0: all
   int lanes = 0;    ///< 1, 4 or 8; 0: as many as the processor has
   /// If set, it is given each run as soon as it ends, from any of the threads, in no order; `Batch::runs` stays empty then.
-  std::function<void(std::size_t, Run&&)> take;
+  std::function<void(std::size_t, BatchRun&&)> take;
   const std::atomic<bool>* cancel = nullptr;  ///< set it and the batch returns soon with the runs that are done
 };
 
 struct Batch {
-  std::vector<Run> runs;
+  std::vector<BatchRun> runs;
   std::string kernel;     ///< that of the lanes: "scalar", "sse4", "avx2", "avx512"
   int lanes = 1;          ///< its width
   long steps = 0;         ///< work: steps of all lanes together ..

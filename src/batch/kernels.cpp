@@ -51,7 +51,9 @@ const Kernel& kernel(int width) {
     if (!name.empty() && name != one->name) continue;
     if (best == nullptr || width == 0 || one->width <= width) best = one;
   }
-  if (best == nullptr) throw InputError("SLAPSTICK_TARGET is " + in_quotes(name) + "; this processor has no such kernel");
+  std::string there;
+  for (const Kernel* one : available()) there += (there.empty() ? "" : ", ") + std::string(one->name);
+  if (best == nullptr) throw InputError("SLAPSTICK_TARGET is " + in_quotes(name) + "; this program has, on this processor, " + there);
   return *best;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// One step of all lanes: a flight, then cuts, jumps and the modes that may follow. No lane waits for another.
-#include "batch/flight.hpp"
+#include "batch/follow.hpp"
 
 namespace slapstick::batch {
 namespace {
@@ -11,12 +11,12 @@ constexpr double most_halvings = 6.0;
 constexpr double least_scale = 0x1p-40;
 
 template <int width, int n>
-class Step : Flight<width, n> {
-  using Base = Flight<width, n>;
+class Step : Follow<width, n> {
+  using Base = Follow<width, n>;
   using Real = typename Base::Real;
   using Mask = typename Base::Mask;
-  using Base::all, Base::at_, Base::block_, Base::doubtful_, Base::fraction_, Base::halve_, Base::impact_, Base::occupied_, Base::p_, Base::period_,
-      Base::reached_, Base::slots_, Base::u_, Base::window_, Base::winner_, Base::word, Base::x_;
+  using Base::action_, Base::all, Base::at_, Base::block_, Base::doubtful_, Base::fraction_, Base::halve_, Base::follow, Base::impact_, Base::next_, Base::occupied_, Base::of, Base::p_, Base::period_,
+      Base::reached_, Base::slots_, Base::take_words, Base::tried_, Base::u_, Base::window_, Base::winner_, Base::word, Base::x_;
 
  public:
   __attribute__((always_inline)) explicit Step(Block& block) : Base(block) {}
@@ -54,12 +54,6 @@ class Step : Flight<width, n> {
   }
 
  private:
-  static inline __attribute__((always_inline)) Mask of(unsigned lanes) {
-    Mask mask;
-    from_bits(mask, lanes);
-    return mask;
-  }
-
   /// A lane whose cut lies before what it has reached is shown there, and stays at its window's start: a cut changes nothing.
   __attribute__((always_inline)) void look_at_cuts() {
     const Real period = load<Real>(block_.cut_period), fraction = load<Real>(block_.cut_fraction);
@@ -174,96 +168,6 @@ class Step : Flight<width, n> {
     return bits(mine & ~less(window_.size * word(Layout::chatter), load<Real>(block_.restitution[action.stop]) * w));
   }
 
-  /// The first mode of each lane's candidates that nothing refuses. @returns the lanes that have none
-  __attribute__((always_inline)) unsigned follow(unsigned lanes) {
-    unsigned refused = 0;
-    start_streams();
-    for (int c = 0; lanes != 0; ++c) {
-      for (unsigned left = lanes; left != 0; left &= left - 1) {
-        const int l = __builtin_ctz(left);
-        const unsigned bit = 1U << l;
-        if (c >= action_[l]->candidates) {
-          refused |= bit;
-          lanes &= ~bit;
-          continue;
-        }
-        const int mode = action_[l]->candidate[c];
-        if (block_.ready[mode * most_lanes + l] == 0) {
-          block_.wanting |= bit;
-          lanes &= ~bit;
-          continue;
-        }
-        next_[l] = mode;
-      }
-      if (lanes == 0) break;
-      take_words(lanes, next_);
-      tried_ |= lanes;
-      lanes &= ~bits(fits());
-    }
-    return refused;
-  }
-
-  /// Makes each lane's words those of its mode.
-  __attribute__((always_inline)) void take_words(unsigned lanes, const int (&modes)[most_lanes]) {
-    const int size = at_.size();
-    while (lanes != 0) {
-      const int mode = modes[__builtin_ctz(lanes)];
-      unsigned same = 0;
-      for (unsigned left = lanes; left != 0; left &= left - 1)
-        if (modes[__builtin_ctz(left)] == mode) same |= left & -left;
-      lanes &= ~same;
-      const Mask mine = of(same);
-      const Block::Row* const from = block_.all + static_cast<long>(mode) * size;
-      for (int w = 0; w < size; ++w) store<Real>(block_.active[w], choose(mine, load<Real>(from[w]), load<Real>(block_.active[w])));
-    }
-  }
-
-  __attribute__((always_inline)) void start_streams() {
-    for (int k = 0; k < at_.k; ++k) {
-      Real sine, cosine;
-      sine_cosine(fraction_ * static_cast<double>(block_.harmonic[k]), sine, cosine);
-      stream_[k] = block_.cosine[k] != 0 ? cosine : sine;
-    }
-  }
-
-  /// row . (p, scaled velocities, f, 1)
-  __attribute__((always_inline)) Real product(int row, const Real (&velocity)[n]) const {
-    Real sum = word(row + 2 * n + at_.k);
-    for (int i = 0; i < n; ++i) sum = sum + word(row + i) * p_[i] + word(row + n + i) * velocity[i];
-    for (int k = 0; k < at_.k; ++k) sum = sum + word(row + 2 * n + k) * stream_[k];
-    return sum;
-  }
-
-  /// True of lanes whose mode no slot refuses: by its value, or by its rate (bend) where a number that it consists of (and its rate) is exactly zero.
-  /// The next window says whether what is near zero rises.
-  __attribute__((always_inline)) Mask fits() const {
-    Real velocity[n], acceleration[n];
-    const Real H = word(Layout::window), inverse_speed = word(Layout::inverse_speed);
-    Real size = word(Layout::least_size);
-    for (int i = 0; i < n; ++i) {
-      velocity[i] = u_[i] * H;
-      size = larger(size, larger(magnitude(p_[i]), magnitude(u_[i]) * inverse_speed));
-    }
-    for (int i = 0; i < n; ++i) acceleration[i] = product(at_.row(i), velocity);
-    Mask refused = occupied_ & ~occupied_;
-    for (int s = 0; s < at_.slots; ++s) {
-      const Real norm = word(at_.slot_number(s, Layout::norm)), start_norm = word(at_.slot_number(s, Layout::start_norm));
-      const Real lower = word(at_.slot_number(s, Layout::lower)), upper = word(at_.slot_number(s, Layout::upper));
-      const Real value = product(at_.slot(s), velocity), margin = smaller(upper - value, value + lower);
-      const Real noise = start_norm * size * (24.0 * step_rounding), rate_noise = norm * size * (24.0 * longest_window * step_rounding);
-      Real rate = Real{}, bend = Real{};
-      for (int i = 0; i < n; ++i) {
-        const Real over_p = word(at_.slot(s) + i);
-        rate = rate + over_p * (velocity[i] + word(at_.drift(i))) + word(at_.slot(s) + n + i) * acceleration[i];
-        bend = bend + over_p * acceleration[i];
-      }
-      const Mask there = less(Real{}, norm), zero = equal(start_norm, Real{}) & equal(value, Real{});
-      const Mask falls = less(margin, -noise) | (zero & less(rate, -rate_noise)) | (zero & equal(rate, Real{}) & less(bend, -rate_noise));
-      refused = refused | (there & falls);
-    }
-    return ~refused;
-  }
-
   /// Stores what has moved.
   __attribute__((always_inline)) void keep(const Real& tries) {
     const unsigned stay = bits(doubtful_) | block_.wanting;
@@ -293,10 +197,7 @@ class Step : Flight<width, n> {
   }
 
   Mask moved_, struck_ = of(0);
-  Real speed_ = Real{}, stream_[most_streams];
-  const Action* action_[most_lanes];
-  int next_[most_lanes];
-  unsigned tried_ = 0;
+  Real speed_ = Real{};
 };
 
 }  // namespace

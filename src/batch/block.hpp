@@ -1,6 +1,6 @@
 #pragma once
-/// The state of up to eight lanes, as a kernel sees it: plain arrays [number][lane]. Kernels of all widths share the layout; one of width w uses the
-/// first w lanes.
+/// The state of up to eight lanes, as a kernel sees it: plain arrays [number][lane]. Kernels of all widths share the
+/// layout; one of width w uses the first w lanes.
 #include <cstdint>
 
 #include "batch/layout.hpp"
@@ -19,6 +19,7 @@ struct alignas(64) Block {
   alignas(64) Row tries;                     ///< how often the window has been halved from the same start
   alignas(64) Row cut_period, cut_fraction;  ///< the next instant to look at
   alignas(64) Row impacts, speeds;           ///< number of impacts, and the sum of their speeds
+  alignas(64) Row seen;          ///< events of a lane's run that the lane has decided
   int mode[most_lanes];
 
   // Words
@@ -37,12 +38,13 @@ struct alignas(64) Block {
   unsigned starting;  ///< those of them that have no mode yet: `start` says which it may be
   Action start[most_lanes];
   unsigned watched;   ///< lanes whose events are to be seen one by one
-  unsigned events, cuts, doubtful, wanting;  ///< lanes with an event, at a cut, in doubt, and in want of the words of modes
+  unsigned events, cuts, doubtful, wanting;  ///< lanes with an event, at a cut, in doubt, and in want of the words
+                                             ///< of modes
   alignas(64) Row at_p[most_coordinates], at_u[most_coordinates];  ///< at the cut; or just before the event
   alignas(64) Row event_speed;
   int event_mode[most_lanes], event_slot[most_lanes], event_side[most_lanes];  ///< what has ended, and how
   // Work done
-  long steps, lane_steps, lane_events, halved;
+  long steps, lane_steps, halved;
 };
 
 /// A kernel: one text (step.hpp) for each instruction set.

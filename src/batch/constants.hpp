@@ -1,6 +1,6 @@
 #pragma once
-/// Numbers of the batch kernels that no model changes: the series' length, the window it carries, economised powers, bounds of rounding.
-/// docs/certainty.md, section 11, derives them.
+/// Numbers of the batch kernels that no model changes: the series' length, the window it carries, economised powers,
+/// bounds of rounding. docs/certainty.md, section 11, derives them.
 #include <array>
 
 #include "base/double_double.hpp"
@@ -12,20 +12,23 @@ inline constexpr int terms = 32;  ///< Taylor coefficients of a window
 
 inline constexpr int most_economized = 20;  ///< of these the first are economised
 
-/// A window's length times the rate of its mode: longest_window^32 / 32! < 2^-55, so that what the series leaves out, at most
-/// 1 / (1 - longest_window / 33) times that, is below 2^-54 of the norm.
+/// A window's length times the rate of its mode: longest_window^32 / 32! < 2^-55, so that what the series leaves
+/// out, at most 1 / (1 - longest_window / 33) times that, is below 2^-54 of the norm.
 inline constexpr double longest_window = 3.875;
 /// More than (exp(longest_window) - 1) times a fraction of the window: by convexity exp(z h) <= 1 + h (exp(z) - 1).
 inline constexpr double growth = 47.2;
 
 inline constexpr double unit = 0x1p-53;
-/// Of a step of the recurrence of derivatives: products of up to 2 n + k + 1 = 13 words, each with three roundings of its own, in units of the norm.
+/// Of a step of the recurrence of derivatives: products of up to 2 n + k + 1 = 13 words, each with three roundings
+/// of its own, in units of the norm.
 inline constexpr double step_rounding = 20.0 * unit;
 inline constexpr double dropped = 0x1p-54;
-/// Of the Bernstein coefficients, their halvings and values, in units of the sum of the sizes of the polynomial's coefficients.
+/// Of the Bernstein coefficients, their halvings and values, in units of the sum of the sizes of the polynomial's
+/// coefficients.
 inline constexpr double hull_rounding = 0x1.4p-47;
 
-/// 1/n!, the powers x^n modulo the Chebyshev polynomial of degree 8 (event/hull.hpp), the error of that on [0, 1], and 1/C(7, n).
+/// 1/n!, the powers x^n modulo the Chebyshev polynomial of degree 8 (event/hull.hpp), the error of that on [0, 1],
+/// and 1/C(7, n).
 struct Tables {
   double inverse_factorial[terms + 1] = {};
   double economized[terms][8] = {};

@@ -1,5 +1,6 @@
 #pragma once
-/// The flight part of a step, for all lanes: window, slots, the first of their zeros, the state there. What happens at it is events.hpp's.
+/// The flight part of a step, for all lanes: window, slots, the first of their zeros, the state there. What happens
+/// at it is events.hpp's.
 #include "batch/slot.hpp"
 
 namespace slapstick::batch {
@@ -13,7 +14,8 @@ class Flight {
 
   __attribute__((always_inline)) explicit Flight(Block& block) : block_(block), at_(block.layout) {}
 
-  /// Afterwards x_ is where each lane has come to: `reached_` an event, or the end of what its window shows. Lanes of `halve_` and `doubtful_` stay.
+  /// Afterwards x_ is where each lane has come to: `reached_` an event, or the end of what its window shows. Lanes
+  /// of `halve_` and `doubtful_` stay.
   __attribute__((always_inline)) void fly() {
     from_bits(occupied_, block_.occupied);
     window_.make(block_);
@@ -73,14 +75,16 @@ class Flight {
     return gap;
   }
 
-  /// About where: the cubic through both ends with the slope at the start, and none at the end where the slot ends too.
+  /// About where: the cubic through both ends with the slope at the start, and none at the end where the slot ends
+  /// too.
   __attribute__((always_inline)) void close(int s, const Mask& closed, const Real& gap) {
     Real before = Real{}, slope = Real{};
     for (int i = 0; i < n; ++i) {
       before = before + word(at_.gap(s) + i) * window_.p[i][0];
       slope = slope + word(at_.gap(s) + i) * window_.p[i][1];
     }
-    const Real D = place_, change = gap - before, m0 = slope * D, m1 = -(slots_[s].about(D) * window_.H * D);  // the slot is minus the gap's rate
+    // the slot is minus the gap's rate
+    const Real D = place_, change = gap - before, m0 = slope * D, m1 = -(slots_[s].about(D) * window_.H * D);
     const Real c2 = 3.0 * change - (m0 + m0 + m1), c3 = m0 + m1 - (change + change);
     Real t = -before / change;
     for (int k = 0; k < 3; ++k) {
@@ -157,7 +161,8 @@ class Flight {
     return above;
   }
 
-  /// The state at x_, and what else must not have happened up to there: other slots at their limits, gaps that fall with slots.
+  /// The state at x_, and what else must not have happened up to there: other slots at their limits, gaps that fall
+  /// with slots.
   __attribute__((always_inline)) void arrive() {
     const Real inverse = 1.0 / window_.H;
     Real state[2 * n];

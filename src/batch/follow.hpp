@@ -93,8 +93,9 @@ class Follow : public Flight<width, n> {
     Mask falls, unsure;
   };
 
-  /// A slot refuses a mode by its value; by its rate where the value is zero within rounding (exactly, for a single number); by its bend where that
-  /// is zero too. A velocity that is zero, as its rate is within rounding, is left to the next window: that looks at its bend.
+  /// A slot refuses a mode by its value; by its rate where the value is zero within rounding (exactly, for a single
+  /// number); by its bend where that is zero too. A velocity that is zero, as its rate is within rounding, is left
+  /// to the next window: that looks at its bend.
   __attribute__((always_inline)) Verdict judge() const {
     Real velocity[n], acceleration[n];
     const Real H = word(Layout::window), inverse_speed = word(Layout::inverse_speed);

@@ -1,8 +1,9 @@
 #pragma once
 /// Numbers of several trajectories side by side: one, four or eight doubles that every operation treats alike.
 ///
-/// All widths compute each lane by the same operations in the same order, so a lane's bits do not depend on the width, on its neighbours or on the
-/// instruction set. Sources compiled for different instruction sets include this: all functions are static and inlined (event/window.hpp says why).
+/// All widths compute each lane by the same operations in the same order, so a lane's bits do not depend on the
+/// width, on its neighbours or on the instruction set. Sources compiled for different instruction sets include this:
+/// all functions are static and inlined (event/window.hpp says why).
 #if defined(__SSE2__)
 #include <immintrin.h>
 #endif

@@ -1,5 +1,6 @@
 #pragma once
-/// Where the numbers of a flat program are, and what ends a mode. No more than a kernel includes: plain types, every function inlined.
+/// Where the numbers of a flat program are, and what ends a mode. No more than a kernel includes: plain types, every
+/// function inlined.
 #include <cstdint>
 
 namespace slapstick::batch {
@@ -15,13 +16,15 @@ struct Layout {
   static constexpr int window_periods = 1; ///< the same in forcing periods
   static constexpr int inverse_speed = 2;  ///< the norm of a state is the largest of |p_i|, |u_i| times this, ..
   static constexpr int least_size = 3;     ///< .. and this, for streams and the constant
-  static constexpr int chatter = 4;        ///< an impact that leaves slower than this times the norm may begin a complete chatter that a Motion proves
+  static constexpr int chatter = 4;        ///< an impact that leaves slower than this times the norm may begin a
+                                           ///< complete chatter that a Motion proves
   static constexpr int rates = 5;          ///< of the streams: j omega H
   [[nodiscard, gnu::always_inline]] constexpr int drift(int i) const { return rates + k + i; }  ///< times H
   /// u_i': n of K, n of C, k of F, R.
   [[nodiscard, gnu::always_inline]] constexpr int row(int i) const { return drift(n) + i * row_size(); }
   [[nodiscard, gnu::always_inline]] constexpr int row_size() const { return 2 * n + k + 1; }
-  /// n over p, n over u, k over f, the constant; then what `Slot...` name, then the gap that falls with the slot: n over p.
+  /// n over p, n over u, k over f, the constant; then what `Slot...` name, then the gap that falls with the slot: n
+  /// over p.
   [[nodiscard, gnu::always_inline]] constexpr int slot(int s) const { return row(n) + s * slot_size(); }
   [[nodiscard, gnu::always_inline]] constexpr int slot_size() const { return row_size() + slot_numbers + n; }
   [[nodiscard, gnu::always_inline]] constexpr int slot_number(int s, int which) const { return slot(s) + row_size() + which; }

@@ -12,7 +12,8 @@
 namespace slapstick::batch {
 namespace {
 
-/// The norm of the states of a mode: the largest of |p_i|, |u_i| / speed and `least`, which streams and the constant count as. |A X| <= rate |X|.
+/// The norm of the states of a mode: the largest of |p_i|, |u_i| / speed and `least`, which streams and the constant
+/// count as. |A X| <= rate |X|.
 struct Norm {
   double speed = 1.0, least = 1.0, rate = 1.0;
 };
@@ -27,8 +28,9 @@ RowSizes sizes_of(const mode::RowVector& row, int n) {
   return {sizes.head(n).sum(), sizes.segment(n, n).sum(), sizes.tail(row.size() - 2 * n).sum()};
 }
 
-/// With speed = rate - drift / least:  |p'| <= |u| + drift <= rate |X|, and |u_i'| <= (p + u speed + f / least) |X| <= speed^2 |X|, where
-/// least >= f / (speed^2 - p - u speed). A tenth more than the rate without forces leaves room for those.
+/// With speed = rate - drift / least:  |p'| <= |u| + drift <= rate |X|, and |u_i'| <= (p + u speed + f / least) |X|
+/// <= speed^2 |X|, where least >= f / (speed^2 - p - u speed). A tenth more than the rate without forces leaves room
+/// for those.
 Norm norm_of(const mode::Matrix& system, const mode::Frame& frame, double fastest_stream) {
   double slowest = 0.5 / frame.period, drift = 0.0;
   std::vector<RowSizes> rows;

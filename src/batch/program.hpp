@@ -1,13 +1,15 @@
 #pragma once
-/// The flat program of a model: all that a kernel needs to know of the model, as plain arrays. No pointers, no virtual calls; what a lane, a processor
-/// with wider vectors or another machine runs is this and nothing else.
+/// The flat program of a model: all that a kernel needs to know of the model, as plain arrays. No pointers, no
+/// virtual calls; what a lane, a processor with wider vectors or another machine runs is this and nothing else.
 ///
-/// A program has two parts. The *shape* is what all parameter values share: the modes, what ends each mode, what may follow. The *words* are
-/// numbers: of every mode a row of `Layout::size` doubles, and a few of the model. A kernel keeps the words of a lane's present mode at hand.
+/// A program has two parts. The *shape* is what all parameter values share: the modes, what ends each mode, what may
+/// follow. The *words* are numbers: of every mode a row of `Layout::size` doubles, and a few of the model. A kernel
+/// keeps the words of a lane's present mode at hand.
 ///
-/// In a mode p' = u + drift and u' = K p + C u + F f + R, f the *streams*: sin(j theta) and cos(j theta), those that some force needs. A *slot* is a
-/// row v over (p, u, f, 1) that must stay between two limits, -lower < v < upper: a gap, a relative velocity, the two limits of a holding force.
-/// Words are scaled to the mode's window H: K H^2, C H, F H^2, R H^2, rows over u by 1/H.
+/// In a mode p' = u + drift and u' = K p + C u + F f + R, f the *streams*: sin(j theta) and cos(j theta), those that
+/// some force needs. A *slot* is a row v over (p, u, f, 1) that must stay between two limits, -lower < v < upper: a
+/// gap, a relative velocity, the two limits of a holding force. Words are scaled to the mode's window H: K H^2, C H,
+/// F H^2, R H^2, rows over u by 1/H.
 ///
 /// Source: docs/certainty.md, section 11, for the window, the norm and the bounds.
 #include <cstdint>
@@ -49,12 +51,13 @@ struct Shape {
 struct ModelWords {
   double period = 1.0;
   double restitution[most_contacts] = {};                 ///< of each stop
-  double impulse[most_contacts][most_coordinates] = {};   ///< of each stop: -(1 + r) times u's change per unit of velocity
+  double impulse[most_contacts][most_coordinates] = {};   ///< of each stop: -(1 + r) times u's change per unit of
+                                                          ///< velocity
   double let_off[most_contacts] = {};                     ///< of each compliant stop: -stiffness / damping
 };
 
-/// True if lanes can run the model: at most four coordinates and contacts, no loads, characteristics, bounded compliant stops, tones or signals,
-/// constant restitutions above zero, contacts that do not depend on each other.
+/// True if lanes can run the model: at most four coordinates and contacts, no loads, characteristics, bounded
+/// compliant stops, tones or signals, constant restitutions above zero, contacts that do not depend on each other.
 [[nodiscard]] bool fits_lanes(const Model& model, const mode::Frame& frame);
 
 /// The shape of a model for which `fits_lanes`. Modes are added by `add_mode` as they are met.

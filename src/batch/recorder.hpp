@@ -34,7 +34,8 @@ class Recorder {
   double impacts_before_ = 0.0;  ///< at the one before
 };
 
-/// Carries a run on by its engine: to its end, or over one event. An impact that may begin a complete chatter is followed by the next event.
+/// Carries a run on by its engine: to its end, or over one event. An impact that may begin a complete chatter is
+/// followed by the next event.
 /// @returns true if the run is at its end
 bool follow(flow::Engine& engine, Recorder& recorder, bool to_the_end);
 

@@ -74,6 +74,10 @@ std::unique_ptr<Runner::Entry> Runner::next_entry() {
         entry->frame.enter(state.data(), entry->X.data());
         return entry;
       }
+      if (queue_.wanted == Queue::Wanted::those_of_lanes) {
+        queue_.take(*index, {});
+        continue;
+      }
       const flow::CompiledSystem system(entry->model, {});
       flow::Engine engine(system, state, {}, {});
       follow(engine, recorder, true);
@@ -128,7 +132,7 @@ void Runner::start(int l) {
     for (int i = 0; i < most_coordinates; ++i) block_->impulse[s][i][l] = words.impulse[s][i];
   }
   for (int m = 0; m < shape_->modes; ++m) ready_[static_cast<std::size_t>(m * most_lanes + l)] = 0;
-  block_->fraction[l] = block_->period[l] = block_->tries[l] = block_->impacts[l] = block_->speeds[l] = 0.0;
+  block_->seen[l] = block_->fraction[l] = block_->period[l] = block_->tries[l] = block_->impacts[l] = block_->speeds[l] = 0.0;
   block_->scale[l] = 1.0;
   block_->mode[l] = 0;
   block_->start[l] = start_action(entry.model, entry.frame, *shape_, entry.X.data(), entry.X.data() + n);
@@ -175,6 +179,7 @@ void Runner::look(int l) {
 void Runner::finish(int l) {
   const std::size_t index = entry_[l]->index;
   BatchRun run = std::move(entry_[l]->recorder.run);
+  run.lane_events = static_cast<long>(block_->seen[l]);
   entry_[l].reset();
   const unsigned others = ~(1U << l);
   block_->occupied &= others;
@@ -221,8 +226,8 @@ void Runner::ask_engine(int l, bool to_the_end) {
   finish(l);
 }
 
-/// Puts the engine where the lane is. A lane that is in doubt at once after an engine's event goes on with the same engine: that knows more of
-/// what has happened than the state says.
+/// Puts the engine where the lane is. A lane that is in doubt at once after an engine's event goes on with the same
+/// engine: that knows more of what has happened than the state says.
 void Runner::put_engine(int l) {
   Entry& entry = *entry_[l];
   const int n = entry.frame.n;

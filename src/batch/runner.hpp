@@ -1,5 +1,6 @@
 #pragma once
-/// Trajectories in the lanes of one thread: fills lanes from a queue, hands back what they record, asks an engine what a lane cannot decide.
+/// Trajectories in the lanes of one thread: fills lanes from a queue, hands back what they record, asks an engine
+/// what a lane cannot decide.
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -19,6 +20,8 @@ struct Queue {
   std::function<State(std::size_t)> start_at;
   std::function<void(std::size_t, BatchRun&&)> take;      ///< called once for each index, in no order
   BatchPlan plan;
+  enum class Wanted { all, those_of_lanes } wanted = Wanted::all;  ///< whether runs that no lane can carry are left
+                                                                   ///< out, undone
   const std::atomic<bool>* cancel = nullptr;
 };
 
@@ -27,7 +30,8 @@ struct Work {
   long steps = 0, lane_steps = 0, halved = 0;
 };
 
-/// A run whose model lanes can run shares the lanes with others of the same shape; one of another shape waits until the lanes are empty.
+/// A run whose model lanes can run shares the lanes with others of the same shape; one of another shape waits until
+/// the lanes are empty.
 class Runner {
  public:
   Runner(Queue queue, const Kernel& kernel);

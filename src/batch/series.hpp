@@ -1,5 +1,6 @@
 #pragma once
-/// The window of every lane as power series in x = s / (scale H): displacements, velocities, streams, and the rows of the slots.
+/// The window of every lane as power series in x = s / (scale H): displacements, velocities, streams, and the rows
+/// of the slots.
 #include "batch/block.hpp"
 #include "batch/constants.hpp"
 #include "batch/lane_type.hpp"
@@ -34,8 +35,8 @@ SLAPSTICK_INLINE void sine_cosine(const Real& t, Real& sine, Real& cosine) {
   cosine = choose(one | two, -b, b);
 }
 
-/// The values of `count` series sum_m a_m x^m at one place, in even and odd parts, side by side: each waits for itself only.
-/// A function of its own: gcc 12 would keep what two calls load in memory beside where it is.
+/// The values of `count` series sum_m a_m x^m at one place, in even and odd parts, side by side: each waits for
+/// itself only. A function of its own: gcc 12 would keep what two calls load in memory beside where it is.
 template <int count, class Real>
 static __attribute__((noinline)) void values_at(const Real (*a)[terms], const Real& x, Real (&value)[count]) {
   const Real z = x * x;

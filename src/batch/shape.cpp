@@ -31,8 +31,8 @@ void add(const Shape& shape, const std::vector<int>& digits, Action& action) {
   if (action.candidates < most_candidates) action.candidate[action.candidates++] = static_cast<std::int16_t>(id);
 }
 
-/// What every contact offers after an event, in the order of a mode's digits: that of flow/mode_graph.cpp where the state's zeros are those that the
-/// mode and the event make.
+/// What every contact offers after an event, in the order of a mode's digits: that of flow/mode_graph.cpp where the
+/// state's zeros are those that the mode and the event make.
 class Offers {
  public:
   explicit Offers(std::vector<Offer> offers) : offers_(std::move(offers)) {}

@@ -1,5 +1,6 @@
 #pragma once
-/// A slot in a window: is it clear of both limits, and if not, where does it first come to one? The hull of event/hull.hpp for all lanes at once.
+/// A slot in a window: is it clear of both limits, and if not, where does it first come to one? The hull of
+/// event/hull.hpp for all lanes at once.
 #include "batch/series.hpp"
 
 namespace slapstick::batch {
@@ -74,7 +75,8 @@ struct SlotWindow {
     series[terms] = series[terms + 1] = Real{};
   }
 
-  /// The first of value, slope and bend at the start that is more than eight times its noise decides; it must be positive.
+  /// The first of value, slope and bend at the start that is more than eight times its noise decides; it must be
+  /// positive.
   __attribute__((always_inline)) void find_orders(const Real& scale, const Real& start_size) {
     const Real z = scale * longest_window, spread = (z + 4.0) * (scale * growth + 1.0);
     const Real noise_0 = start_size * (8.0 * 3.0 * step_rounding), noise_1 = size * z * (8.0 * 3.0 * step_rounding),
@@ -93,7 +95,8 @@ struct SlotWindow {
     for (int m = 0; m < terms; ++m) series[m] = choose(second, series[m + 2], choose(first, series[m + 1], series[m]));
   }
 
-  /// g = P + sum of what economization leaves: |x^m - p_m| <= tables.error[m]. The last powers, which add little, are left out whole: |x^m| <= 1.
+  /// g = P + sum of what economization leaves: |x^m - p_m| <= tables.error[m]. The last powers, which add little,
+  /// are left out whole: |x^m| <= 1.
   __attribute__((always_inline)) void make_hull() {
     for (int j = 0; j < 8; ++j) P[j] = series[j];
     error = Real{};
@@ -118,8 +121,9 @@ struct SlotWindow {
     error = (error + sum * hull_rounding + noise * 8.0) * (1.0 + 0x1p-40);
   }
 
-  /// Signs of the Bernstein coefficients b_j against both limits: none beyond, the slot is clear; one change of sign at one limit, that has one zero.
-  /// Anything else is undecided, and then the left half is looked at, up to four times.
+  /// Signs of the Bernstein coefficients b_j against both limits: none beyond, the slot is clear; one change of sign
+  /// at one limit, that has one zero. Anything else is undecided, and then the left half is looked at, up to four
+  /// times.
   __attribute__((always_inline)) void decide() {
     constexpr int most_halvings = 4;
     Real b[8];

@@ -54,7 +54,8 @@ class Step : Follow<width, n> {
   }
 
  private:
-  /// A lane whose cut lies before what it has reached is shown there, and stays at its window's start: a cut changes nothing.
+  /// A lane whose cut lies before what it has reached is shown there, and stays at its window's start: a cut changes
+  /// nothing.
   __attribute__((always_inline)) void look_at_cuts() {
     const Real period = load<Real>(block_.cut_period), fraction = load<Real>(block_.cut_fraction);
     const Mask cut = moved_ & (less(period, period_) | (equal(period, period_) & less(fraction, fraction_)));
@@ -116,7 +117,8 @@ class Step : Follow<width, n> {
     }
   }
 
-  /// Lanes in which an open stop that no slot watches is in contact: one that rests there, and that any event may close.
+  /// Lanes in which an open stop that no slot watches is in contact: one that rests there, and that any event may
+  /// close.
   __attribute__((always_inline)) unsigned untouched(unsigned lanes) const {
     unsigned refused = 0;
     for (int i = 0; i < n; ++i)
@@ -186,13 +188,13 @@ class Step : Follow<width, n> {
     store<Real>(block_.tries, choose(halve_, tries, choose(go, Real{}, load<Real>(block_.tries))));
     store<Real>(block_.impacts, choose(hit, load<Real>(block_.impacts) + 1.0, load<Real>(block_.impacts)));
     store<Real>(block_.speeds, choose(hit, load<Real>(block_.speeds) + speed_, load<Real>(block_.speeds)));
+    store<Real>(block_.seen, choose(ended, load<Real>(block_.seen) + 1.0, load<Real>(block_.seen)));
     const unsigned events = bits(ended);
     for (unsigned left = events; left != 0; left &= left - 1) block_.mode[__builtin_ctz(left)] = next_[__builtin_ctz(left)];
     block_.events = events & block_.watched;
     if (block_.events != 0) store<Real>(block_.event_speed, speed_);
     ++block_.steps;
     block_.lane_steps += __builtin_popcount(block_.occupied);
-    block_.lane_events += __builtin_popcount(events);
     block_.halved += __builtin_popcount(bits(halve_));
   }
 

@@ -37,7 +37,7 @@ Batch run_batch(const BatchProblem& problem) {
         return index < problem.count ? std::optional(index) : std::nullopt;
       },
       problem.model_at, problem.start_at,
-      problem.take ? problem.take : [&](std::size_t i, BatchRun&& run) { batch.runs[i] = std::move(run); }, problem.plan, problem.cancel};
+      problem.take ? problem.take : [&](std::size_t i, BatchRun&& run) { batch.runs[i] = std::move(run); }, problem.plan, batch::Queue::Wanted::all, problem.cancel};
   const auto cores = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U));
   const int threads = problem.threads > 0 ? problem.threads : cores;
   for_each_index(threads, threads, [&](int) {

@@ -1,8 +1,8 @@
 #pragma once
 /// What a batch does with each of its trajectories, and what it hands back (sweep/batch.hpp runs them).
 ///
-/// A run starts at the problem's start, passes a transient, and is then recorded. Its length is counted in forcing periods (units of time without
-/// forcing) from the start's instant.
+/// A run starts at the problem's start, passes a transient, and is then recorded. Its length is counted in forcing
+/// periods (units of time without forcing) from the start's instant.
 /// Plain data: no errors, no cost.
 #include <string>
 #include <vector>
@@ -15,7 +15,8 @@ namespace slapstick {
 struct BatchPlan {
   int transient_periods = 0;  ///< before the recording, >= 0
   int periods = 1;            ///< of the recording, >= 1
-  int points = 0;             ///< stroboscopic points: the states at the ends of the last so many periods of the recording, <= periods
+  int points = 0;             ///< stroboscopic points: the states at the ends of the last so many periods of the
+                              ///< recording, <= periods
   bool events = false;        ///< every event of the recording, one by one
 };
 
@@ -28,7 +29,8 @@ struct BatchRun {
   std::vector<long> point_impacts;    ///< impacts in the period before each point
   std::vector<Event> events;          ///< if they were asked for, in order
   long lane_events = 0;    ///< work: events that the lanes decided, from the start on ..
-  long motion_events = 0;  ///< .. and events that a Motion decided: those in doubt, or all of a model that no lane can run
+  long motion_events = 0;  ///< .. and events that a Motion decided: those in doubt, or all of a model that no lane
+                           ///< can run
   bool in_lanes = false;   ///< whether lanes can run the model
   bool done = false;       ///< false if the run failed, or the batch was stopped before
   std::string failure;     ///< one line, what the NumericalError or InputError said; else empty

@@ -1,5 +1,6 @@
 #pragma once
-/// Many trajectories at once: every start, every parameter value is a run, and up to eight runs share the registers of a core.
+/// Many trajectories at once: every start, every parameter value is a run, and up to eight runs share the registers
+/// of a core.
 ///
 ///     sweep::BatchProblem problem;
 ///     problem.count = starts.size();
@@ -8,13 +9,15 @@
 ///     problem.plan = {.transient_periods = 200, .periods = 100, .points = 10};
 ///     const sweep::Batch batch = sweep::run_batch(problem);       // batch.runs[i].impacts, .points, .end
 ///
-/// Lanes run models of up to four coordinates and four contacts: stops with a constant restitution above zero, friction contacts, compliant stops
-/// that are not bounded; harmonic forces; contacts that do not depend on each other. What a lane cannot decide for certain (a tie, a graze, a complete
-/// chatter) a Motion decides, event by event. Any other model runs on a Motion from its start, by the same call.
+/// Lanes run models of up to four coordinates and four contacts: stops with a constant restitution above zero,
+/// friction contacts, compliant stops that are not bounded; harmonic forces; contacts that do not depend on each
+/// other. What a lane cannot decide for certain (a tie, a graze, a complete chatter) a Motion decides, event by
+/// event. Any other model runs on a Motion from its start, by the same call.
 ///
-/// The bits of a run depend on its model and start alone: not on the number of lanes, on what runs beside it, on the order, on threads or on the
-/// processor. They are not those of a Motion: both kernels round differently, so that a chaotic motion parts from a Motion's after some periods.
-/// Source: docs/performance.md; docs/certainty.md, section 11, for what is proven.
+/// The bits of a run depend on its model and start alone: not on the number of lanes, on what runs beside it, on the
+/// order, on threads or on the processor. They are not those of a Motion: both kernels round differently, so that a
+/// chaotic motion parts from a Motion's after some periods. Source: docs/performance.md; docs/certainty.md, section
+/// 11, for what is proven.
 #include <atomic>
 #include <cstddef>
 #include <functional>
@@ -32,7 +35,8 @@ struct BatchProblem {
   BatchPlan plan;
   int threads = 0;  ///< 0: all
   int lanes = 0;    ///< 1, 4 or 8; 0: as many as the processor has
-  /// If set, it is given each run as soon as it ends, from any of the threads, in no order; `Batch::runs` stays empty then.
+  /// If set, it is given each run as soon as it ends, from any of the threads, in no order; `Batch::runs` stays
+  /// empty then.
   std::function<void(std::size_t, BatchRun&&)> take;
   const std::atomic<bool>* cancel = nullptr;  ///< set it and the batch returns soon with the runs that are done
 };
@@ -49,7 +53,8 @@ struct Batch {
 
 /// Runs the batch. A run that fails says why and ends no other.
 /// @throws InputError for a meaningless problem, naming the field
-/// Cost: some tenths of a microsecond a period and run for the paper's system; some microseconds for each run's model.
+/// Cost: some tenths of a microsecond a period and run for the paper's system; some microseconds for each run's
+/// model.
 [[nodiscard]] Batch run_batch(const BatchProblem& problem);
 
 }  // namespace slapstick::sweep

@@ -76,7 +76,7 @@ Model model_of(const verify::Model& told) {
     model.coordinates.push_back({"x" + std::to_string(i + 1), told.masses[i]});
   for (const auto& [pair, k] : told.springs) model.springs.push_back({pair.a, pair.b, k});
   for (const auto& [pair, c] : told.dampers) model.dampers.push_back({pair.a, pair.b, c});
-  for (const verify::Force& f : told.forces) model.forces.push_back({f.coordinate, f.harmonic, f.amplitude, f.phase});
+  for (const verify::Force& f : told.forces) model.forces.push_back({f.coordinate, f.harmonic, f.amplitude, f.phase, f.frequency});
   int k = 0;
   const auto name = [&k](const char* of) { return of + std::to_string(k++); };
   for (const verify::Stop& s : told.stops) {
@@ -169,7 +169,10 @@ double apart(const verify::Model& one, const At& a, const verify::Model& other, 
 /// The engine's runs start at phase 0: forces are later by the phase of the start.
 void begin_at_zero(Told& told) {
   const verify::Clock from = told.start.at;
-  for (verify::Force& force : told.model.forces) force.phase += force.harmonic * 2.0 * std::acos(-1.0) * from.fraction;
+  const double turn = 2.0 * std::acos(-1.0), period = told.model.forced() ? turn / told.model.omega : 1.0;
+  const double t = (static_cast<double>(from.period) + from.fraction) * period;
+  for (verify::Force& force : told.model.forces)
+    force.phase += force.harmonic * turn * from.fraction + force.frequency * t;
   const auto earlier = [from](verify::Clock& at) {
     at.period -= from.period;
     at.fraction -= from.fraction;

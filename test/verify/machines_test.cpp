@@ -5,6 +5,8 @@
 
 #include "property/machine.hpp"
 #include "slapstick/certify/certificate.hpp"
+#include "slapstick/flow/motion.hpp"
+#include "slapstick/io/model_file.hpp"
 #include "verdict.hpp"
 
 namespace slapstick {
@@ -58,6 +60,25 @@ TEST(CertificateOfAChain, IsProvedHoweverHighTheOrderOfItsFirstZero) {
       const Checked checked = verdict_on(machine);
       EXPECT_EQ(checked.verdict.refusals, 0) << masses << " masses, load " << load << ": " << checked.first;
     }
+  }
+}
+
+/// What docs/certificate.md says of the size of certificates.
+TEST(SizeOfACertificate, PerEventStaysAsItIsTold) {
+  for (const auto& [name, most] : {std::pair{"vibro-impact", 179.0}, {"spool", 167.0}}) {
+    const ModelDefinition definition = load_model(name);
+    test::Machine machine;
+    machine.model = definition.build();
+    machine.start = definition.start();
+    const System system(machine.model);
+    long bytes = 0;
+    certify::Certificate certificate(system, machine.start, [&](const std::string& lines) { bytes += static_cast<long>(lines.size()); });
+    certificate.run(Instant{}.plus(2000.0), [](Instant) { return true; });
+    certificate.finish();
+    Motion motion(system, machine.start);
+    long events = 0;
+    while (motion.advance(Instant{}.plus(2000.0)) == Outcome::event) ++events;
+    EXPECT_NEAR(static_cast<double>(bytes) / static_cast<double>(events), most, 4.0) << name;
   }
 }
 

@@ -35,9 +35,10 @@ void print(const char* what, double seconds, const slapstick::sweep::Batch& batc
     failed += run.failure.empty() ? 0 : 1;
   }
   std::printf("%s: %s, %d lanes, %zu runs, %.4f us a period, %.1f ns a lane step, %.3f lane steps, %.4f halved, %.5f doubtful events, "
-              "%.4f impacts a period, %.0f%% of the lanes full, %zu failed, hash %016lx\n",
+              "of %.3f, %.4f impacts a period, %.0f%% of the lanes full, %zu failed, hash %016lx\n",
               what, batch.kernel.c_str(), batch.lanes, batch.runs.size(), 1e6 * seconds / periods, 1e9 * seconds / static_cast<double>(batch.lane_steps),
-              static_cast<double>(batch.lane_steps) / periods, static_cast<double>(batch.halved) / periods, motion_events / periods, impacts / periods,
+              static_cast<double>(batch.lane_steps) / periods, static_cast<double>(batch.halved) / periods, motion_events / periods,
+              (lane_events + motion_events) / periods, impacts / periods,
               100.0 * static_cast<double>(batch.lane_steps) / static_cast<double>(batch.steps) / batch.lanes, failed, hash);
 }
 

@@ -24,14 +24,16 @@ struct alignas(64) Block {
 
   // Words
   alignas(64) Row restitution[most_contacts], let_off[most_contacts], impulse[most_contacts][most_coordinates];
-  Row* active;          ///< [word]: of each lane's mode
+  Row* active;  ///< [word]: of each lane's mode. Those of slots that no lane's mode has are zero
+  int filled;   ///< slots that some lane's mode may have
   const Row* all;       ///< [mode][word]
   const std::uint8_t* ready;  ///< [mode][lane]: whether those words have been made
   Layout layout;
-  const int* harmonic;          ///< Shape::harmonic, cosine, action, open
+  const int* harmonic;          ///< Shape::harmonic, cosine, action, open, slots
   const std::uint8_t* cosine;
   const Action* action;
   const std::uint8_t* open;
+  const std::uint8_t* slots;
 
   // What a call of the kernel leaves
   unsigned occupied;  ///< lanes that have a trajectory

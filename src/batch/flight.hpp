@@ -34,8 +34,8 @@ class Flight {
     place_ = end_ = all(1.0);
     winner_ = all(-1.0);
     halve_ = doubtful_ = occupied_ & ~occupied_;
-    used_ = at_.slots;
-    while (used_ > 1 && !any(less(Real{}, word(at_.slot_number(used_ - 1, Layout::norm))) & occupied_)) --used_;
+    used_ = block_.filled;
+    while (used_ > 0 && !any(less(Real{}, word(at_.slot_number(used_ - 1, Layout::norm))) & occupied_)) --used_;
     for (int s = 0; s < used_; ++s) {
       slots_[s].make(block_, window_, s);
       end_ = choose(slots_[s].there, smaller(end_, slots_[s].end), end_);

@@ -58,6 +58,11 @@ class Follow : public Flight<width, n> {
   /// Makes each lane's words those of its mode.
   __attribute__((always_inline)) void take_words(unsigned lanes, const int (&modes)[most_lanes]) {
     const int size = at_.size();
+    for (unsigned left = lanes; left != 0; left &= left - 1) {
+      const int slots = block_.slots[modes[__builtin_ctz(left)]];
+      block_.filled = slots > block_.filled ? slots : block_.filled;
+    }
+    const int last = at_.slot(block_.filled);
     while (lanes != 0) {
       const int mode = modes[__builtin_ctz(lanes)];
       unsigned same = 0;
@@ -66,7 +71,7 @@ class Follow : public Flight<width, n> {
       lanes &= ~same;
       const Mask mine = of(same);
       const Block::Row* const from = block_.all + static_cast<long>(mode) * size;
-      for (int w = 0; w < size; ++w) store<Real>(block_.active[w], choose(mine, load<Real>(from[w]), load<Real>(block_.active[w])));
+      for (int w = 0; w < last; ++w) store<Real>(block_.active[w], choose(mine, load<Real>(from[w]), load<Real>(block_.active[w])));
     }
   }
 
@@ -106,7 +111,7 @@ class Follow : public Flight<width, n> {
     }
     for (int i = 0; i < n; ++i) acceleration[i] = product(at_.row(i), velocity);
     Verdict verdict{occupied_ & ~occupied_, occupied_ & ~occupied_};
-    for (int s = 0; s < at_.slots; ++s) {
+    for (int s = 0; s < block_.filled; ++s) {
       const Real norm = word(at_.slot_number(s, Layout::norm));
       if (any(less(Real{}, norm) & occupied_)) judge_slot(s, norm, size, velocity, acceleration, verdict);
     }

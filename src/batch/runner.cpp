@@ -116,6 +116,8 @@ void Runner::make_room(const Entry& entry) {
   block_->cosine = shape_->cosine.data();
   block_->action = shape_->action.data();
   block_->open = shape_->open.data();
+  block_->slots = shape_->slots.data();
+  block_->filled = 0;
 }
 
 void Runner::start(int l) {
@@ -268,6 +270,7 @@ void Runner::to_lane(int l) {
     return finish(l);
   }
   block_->mode[l] = mode;
+  block_->filled = std::max(block_->filled, static_cast<int>(shape_->slots[static_cast<std::size_t>(mode)]));
   const Block::Row* const rows = all_->at(static_cast<std::size_t>(mode) * words_.size());
   for (std::size_t w = 0; w < words_.size(); ++w) block_->active[w][l] = rows[w][l];
   set_cut(l);

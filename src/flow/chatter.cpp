@@ -247,9 +247,9 @@ bool coupled_to_others(const CompiledSystem& system, int stop, const double* X) 
 }  // namespace
 
 bool slow_enough(const CompiledSystem& system, const mode::Mode& here, int stop, const double* X, double tolerance) {
-  const double v = -approach_velocity(system, stop, X);
+  const double away = -approach_velocity(system, stop, X);
   const double R = press(system, here, stop, X) + friction_on(system, stop, X, nullptr).steady;
-  return v > 0.0 && v < fastest_chatter(tolerance * system.period()) * R;
+  return away > 0.0 && away < fastest_chatter(tolerance * system.period()) * R;
 }
 
 ChatterLimit prove_chatter(const CompiledSystem& system, const mode::Mode& here, int stop, const double* X,

@@ -149,13 +149,19 @@ class Step : Follow<width, n> {
           break;
         case Jump::let_off:
           speed_ = choose(mine, w, speed_);
-          u_[i] = choose(mine, load<Real>(block_.let_off[action.stop]) * p_[i], u_[i]);
+          let_off(i, load<Real>(block_.let_off[action.stop]) * p_[i], mine);
           break;
         case Jump::impact:
           return strike(action, i, w, mine);
       }
     }
     return action.jump == Jump::leave_it ? lanes : 0;
+  }
+
+  /// Makes the force exactly zero, where that is no more than rounding (Engine::let_off).
+  __attribute__((always_inline)) void let_off(int own, const Real& exact, const Mask& mine) {
+    const Mask far = less(magnitude(u_[own]) * 0x1p-40, magnitude(exact - u_[own]));
+    u_[own] = choose(mine & ~far, exact, u_[own]);
   }
 
   __attribute__((always_inline)) unsigned strike(const Action& action, int own, const Real& w, const Mask& mine) {

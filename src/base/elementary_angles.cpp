@@ -114,6 +114,12 @@ double cos(double x) {
   return sine({r.quadrant + 1, r.angle}).hi;
 }
 
+CosineSineOf cosine_sine(double x) {
+  if (x == 0.0 || !std::isfinite(x)) return {x == 0.0 ? 1.0 : no_angle, x == 0.0 ? x : no_angle};
+  const Reduced r = reduced(x);
+  return {sine({r.quadrant + 1, r.angle}).hi, sine(r).hi};
+}
+
 double tan(double x) {
   if (x == 0.0 || !std::isfinite(x)) return x == 0.0 ? x : no_angle;
   const Reduced r = reduced(x);

@@ -6,6 +6,7 @@
 /// linker might take for another target's.
 #include <vector>
 
+#include "event/expansion.hpp"
 #include "event/first_root.hpp"
 
 namespace slapstick::event {
@@ -32,6 +33,15 @@ struct Kernels {
   /// out = factor (sum of rows times the eight numbers from their place on + sum of columns times the number at their place).
   void (*spread)(const Placed* rows, const Placed* rows_end, const Placed* columns, const Placed* columns_end, double factor, const double* x,
                  Lane8* out);
+  /// The hulls of the columns of a guard's Taylor rows, x^order divided out: m Bernstein coefficients and bounds each.
+  void (*enclose)(const HullRows& rows, const Lane8* taylor, int order, int m, Lane8* bernstein, Lane8* bounds);
+
+  // Of an Expansion, once the first row of `high` is filled in:
+  void (*expand)(const Expansion& e);  ///< all terms, their bounds and peaks
+  /// The largest of what the terms n >= 24 add to a row by a column, over a quarter of u times its scale, for r = `ratio`; grows like r^24.
+  double (*excess)(const Expansion& e, const double* weights, double ratio);
+  void (*enclose_tails)(const Expansion& e, const double* weights, double ratio);
+  void (*finish)(const Expansion& e, const Weights& weights);  ///< T_n, n < 24, and the values and slopes at the window's end
 };
 
 /// The kernels that run: those of the environment's SLAPSTICK_TARGET, otherwise the widest that this processor has.
@@ -42,6 +52,10 @@ const Kernels& kernels();
 #if defined(SLAPSTICK_KERNEL)
 namespace SLAPSTICK_KERNEL {
 Root first_root(const GuardWindow& guard, double x_end, long& evaluations);
+void expand(const Expansion& e);
+double excess(const Expansion& e, const double* weights, double ratio);
+void enclose_tails(const Expansion& e, const double* weights, double ratio);
+void finish(const Expansion& e, const Weights& weights);
 }
 #endif
 

@@ -107,12 +107,33 @@ void spread(const Placed* rows, const Placed* rows_end, const Placed* columns, c
   *out = factor * (even + odd);
 }
 
+/// Sums over n in one order.
+void enclose(const HullRows& rows, const Lane8* taylor, int order, int m, Lane8* bernstein, Lane8* bounds) {
+  const auto* const hull = reinterpret_cast<const Part*>(rows.bernstein);
+  const auto* const error = reinterpret_cast<const Part*>(rows.bounds);
+  for (int i = 0; i < m; ++i) {
+    double a[terms];
+    for (int n = 0; n < terms; ++n) a[n] = reinterpret_cast<const double*>(taylor + (n / 8) * m + i)[n % 8];
+    for (int part = 0; part < parts; ++part) {
+      Part sum{}, bound{};
+      for (int n = order; n < terms; ++n) {
+        const int at = (n - order) * parts + part;
+        sum += hull[at] * a[n];
+        bound += error[at] * (a[n] < 0.0 ? -a[n] : a[n]);
+      }
+      reinterpret_cast<Part*>(bernstein + i)[part] = sum;
+      reinterpret_cast<Part*>(bounds + i)[part] = bound;
+    }
+  }
+}
+
 }  // namespace
 
 namespace SLAPSTICK_KERNEL {
 extern const Kernels table;
 constinit const Kernels table = {
-    SLAPSTICK_TEXT(SLAPSTICK_KERNEL), first_root, multiply, product_above, evaluate, gather, spread};
+    SLAPSTICK_TEXT(SLAPSTICK_KERNEL), first_root, multiply, product_above, evaluate, gather, spread, enclose,
+    expand, excess, enclose_tails, finish};
 }  // namespace SLAPSTICK_KERNEL
 
 }  // namespace slapstick::event

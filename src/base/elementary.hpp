@@ -23,7 +23,7 @@ double cube_root(double x);
 
 double sin(double x);
 double cos(double x);
-/// Both, for little more than one.
+/// Both, for the price of one.
 struct CosineSineOf {
   double cosine, sine;
 };

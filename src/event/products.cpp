@@ -107,23 +107,36 @@ void spread(const Placed* rows, const Placed* rows_end, const Placed* columns, c
   *out = factor * (even + odd);
 }
 
-/// Sums over n in one order.
-void enclose(const HullRows& rows, const Lane8* taylor, int order, int m, Lane8* bernstein, Lane8* bounds) {
+/// Of `count` columns from the first on, which share the loads of the rows. Sums over n in one order.
+template <int count>
+inline void enclose_columns(const HullRows& rows, const Lane8* taylor, int order, int m, Lane8* bernstein, Lane8* bounds) {
   const auto* const hull = reinterpret_cast<const Part*>(rows.bernstein);
   const auto* const error = reinterpret_cast<const Part*>(rows.bounds);
-  for (int i = 0; i < m; ++i) {
-    double a[terms];
-    for (int n = 0; n < terms; ++n) a[n] = reinterpret_cast<const double*>(taylor + (n / 8) * m + i)[n % 8];
-    for (int part = 0; part < parts; ++part) {
-      Part sum{}, bound{};
-      for (int n = order; n < terms; ++n) {
-        const int at = (n - order) * parts + part;
-        sum += hull[at] * a[n];
-        bound += error[at] * (a[n] < 0.0 ? -a[n] : a[n]);
+  for (int part = 0; part < parts; ++part) {
+    Part sum[count]{}, bound[count]{};
+    for (int n = order; n < terms; ++n) {
+      const Part h = hull[(n - order) * parts + part], e = error[(n - order) * parts + part];
+      const auto* const term = reinterpret_cast<const double*>(taylor + (n / 8) * m) + n % 8;
+#pragma GCC unroll 4
+      for (int k = 0; k < count; ++k) {
+        const double a = term[8 * k];
+        sum[k] += h * a;
+        bound[k] += e * (a < 0.0 ? -a : a);
       }
-      reinterpret_cast<Part*>(bernstein + i)[part] = sum;
-      reinterpret_cast<Part*>(bounds + i)[part] = bound;
     }
+    for (int k = 0; k < count; ++k) {
+      reinterpret_cast<Part*>(bernstein + k)[part] = sum[k];
+      reinterpret_cast<Part*>(bounds + k)[part] = bound[k];
+    }
+  }
+}
+
+/// In fours; of a rest the four that end with it once more.
+void enclose(const HullRows& rows, const Lane8* taylor, int order, int m, Lane8* bernstein, Lane8* bounds) {
+  for (int i = 0; i < m && m < 4; ++i) enclose_columns<1>(rows, taylor + i, order, m, bernstein + i, bounds + i);
+  for (int from = 0; from < m && m >= 4; from += 4) {
+    const int i = from + 4 <= m ? from : m - 4;
+    enclose_columns<4>(rows, taylor + i, order, m, bernstein + i, bounds + i);
   }
 }
 

@@ -91,17 +91,22 @@ class Negligible {
     return length <= longest_;
   }
 
-  /// Brackets the longest window between two that are near each other: the excess grows like length^24.
+  /// Brackets the longest window between two that are near each other. The excess grows about like length^24: its 24th root, and from the second
+  /// step on how that has grown (a secant of the logarithms).
   void approach(double length) {
+    double slope = 1.0, before = 0.0;
     for (int k = 0; k < 4; ++k) {
       const double over = excess(length);
-      if (!(over > 0x1p-200 && over < 0x1p200)) return;
-      const double change = std::sqrt(std::sqrt(std::sqrt(fixed::cube_root(over))));
-      length /= change;
-      if (std::abs(change - 1.0) < 0x1p-12) break;
+      if (!(over > 0x1p-100 && over < 0x1p100)) return;
+      const double root = std::sqrt(std::sqrt(std::sqrt(fixed::cube_root(over)))), log = 2.0 * (root - 1.0) / (root + 1.0);
+      if (k > 0 && std::abs(before) < 0.5) slope = std::clamp(slope * (1.0 - log / before), 0.5, 2.0);
+      before = log;
+      const double half = 0.5 * log / slope;
+      length *= (1.0 - half) / (1.0 + half);
+      if (std::abs(log) < 0x1p-6 && k > 0) break;
     }
-    (void)excess(length * (1.0 - 0x1p-12));
-    (void)excess(length * (1.0 + 0x1p-12));
+    (void)excess(length * (1.0 - 0x1p-13));
+    (void)excess(length * (1.0 + 0x1p-13));
   }
 
  private:
@@ -192,7 +197,7 @@ void Series::lay_out(const Outline& outline, int displacements) {
 /// By bisection in units of the reference length.
 void Series::find_window(double period, double longest_window) {
   Negligible negligible(all_, reference_ / unit_);
-  negligible.approach(1.5);
+  negligible.approach(2.0);
   double low = 0.25, high = 4.0;
   for (int k = 0; k < 40 && !negligible(low); ++k) low *= 0.25;
   if (negligible(high)) low = high;

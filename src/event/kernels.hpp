@@ -24,6 +24,10 @@ struct Kernels {
   Root (*first_root)(const GuardWindow& guard, double x_end, long& evaluations);
   /// out[b] = sum_i data[b m + i] x[i], b < blocks, i < m.
   void (*multiply)(const Lane8* data, int blocks, int m, const double* x, Lane8* out);
+  /// From window to window: out = step x as by `multiply`, magnitude = max(|out|, floor), largest = max(largest, |out|), or of |x| and |out| where a
+  /// flight is `fresh`. All of `blocks` lanes. `sizes`: the sums of magnitude and of largest.
+  void (*pass)(const Lane8* step, int blocks, int m, const Lane8* x, const Lane8* floor, bool fresh, Lane8* out, Lane8* magnitude, Lane8* largest,
+               double* sizes);
   /// Is every lane of sum_i data[i] x[i] above the bound?
   bool (*all_above)(const Lane8* data, int m, const double* x, double bound);
   /// Of d rows of 24 Taylor coefficients each (3 m groups): their values and derivatives at x.

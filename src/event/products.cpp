@@ -69,6 +69,19 @@ inline void product(const Lane8* rows, int blocks, int m, const double* x, Lane8
 
 void multiply(const Lane8* data, int blocks, int m, const double* x, Lane8* out) { product(data, blocks, m, x, out); }
 
+void pass(const Lane8* step, int blocks, int m, const Lane8* x, const Lane8* floor, bool fresh, Lane8* out, Lane8* size, Lane8* largest,
+          double* sizes) {
+  product(step, blocks, m, reinterpret_cast<const double*>(x), out);
+  Lane8 all{}, most{};
+  for (int b = 0; b < blocks; ++b) {
+    const Lane8 now = magnitude(out[b]);
+    all += size[b] = larger(now, floor[b]);
+    most += largest[b] = larger(fresh ? magnitude(x[b]) : largest[b], now);
+  }
+  sizes[0] = sum(all);
+  sizes[1] = sum(most);
+}
+
 bool product_above(const Lane8* data, int m, const double* x, double bound) {
   Lane8 sum;
   product(data, 1, m, x, &sum);
@@ -145,7 +158,7 @@ void enclose(const HullRows& rows, const Lane8* taylor, int order, int m, Lane8*
 namespace SLAPSTICK_KERNEL {
 extern const Kernels table;
 constinit const Kernels table = {
-    SLAPSTICK_TEXT(SLAPSTICK_KERNEL), first_root, multiply, product_above, evaluate, gather, spread, enclose,
+    SLAPSTICK_TEXT(SLAPSTICK_KERNEL), first_root, multiply, pass, product_above, evaluate, gather, spread, enclose,
     expand, excess, enclose_tails, finish};
 }  // namespace SLAPSTICK_KERNEL
 

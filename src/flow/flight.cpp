@@ -2,6 +2,7 @@
 #include "flow/flight.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -174,12 +175,18 @@ void Flight::enclose(int guard, event::Hull& out) const {
 /// a force that just holds. The last two are judged by their derivatives again.
 void Flight::next_window() {
   const mode::Mode& mode = *here_;
-  mode.step(X_window_.data(), X_next_.lanes().data());
-  origin_.pass(mode.window(), X_window_.lanes(), X_next_.lanes());
+  const bool fresh = origin_.leave(X_window_.lanes());
+  std::array<double, 2> sizes{};
+  mode.pass(X_window_.lanes().data(), phase_floor_.lanes().data(), fresh, X_next_.lanes().data(), magnitude_.lanes().data(),
+            origin_.largest_lanes().data(), sizes.data());
+  size_ = sizes[0];
+  origin_.arrive(sizes[1]);
   std::swap(X_window_, X_next_);
   ++counters_.windows;
-  if (++place_.windows == windows_per_start) move_start(0.0, X_window_);
-  note_magnitude(X_window_);
+  if (++place_.windows == windows_per_start) {
+    move_start(0.0, X_window_);
+    note_magnitude(X_window_);
+  }
   for (int g = 0; g < mode.guard_count(); ++g) {
     const bool unclear = orders_[g] == never || lingers_[g];
     orders_[g] = unclear ? start_order(mode, g, X_window_.data(), magnitude_.data()) : 0;

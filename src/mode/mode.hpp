@@ -39,6 +39,11 @@ class Mode {
 
   /// One step over a whole window: exp(A window()) X.
   void step(const double* X, event::Lane8* out) const;
+  /// The same, with what its rounding is measured by (event::Kernels::pass).
+  void pass(const event::Lane8* X, const event::Lane8* floor, bool fresh, event::Lane8* out, event::Lane8* magnitude, event::Lane8* largest,
+            double* sizes) const {
+    kernels_->pass(step_, state_blocks_, m_, X, floor, fresh, out, magnitude, largest, sizes);
+  }
   /// The rounding of a guard at the start is within this times Guard::size.
   [[nodiscard]] double noise_factor() const { return noise_factor_; }
   /// Of every mode with m numbers.

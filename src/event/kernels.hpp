@@ -28,6 +28,10 @@ struct Kernels {
   /// flight is `fresh`. All of `blocks` lanes. `sizes`: the sums of magnitude and of largest.
   void (*pass)(const Lane8* step, int blocks, int m, const Lane8* x, const Lane8* floor, bool fresh, Lane8* out, Lane8* magnitude, Lane8* largest,
                double* sizes);
+  /// magnitude = max(|x|, floor), of `blocks` lanes. @returns its sum
+  double (*magnitudes)(const Lane8* x, const Lane8* floor, int blocks, Lane8* magnitude);
+  /// A guard's hull: bernstein = sum_i rows[i] x[i], bounds = sum_i errors[i] magnitude[i]. @returns whether it is above its error and `more`
+  bool (*hull)(const Lane8* rows, const Lane8* errors, int m, const double* x, const double* magnitude, double more, Hull* out);
   /// Is every lane of sum_i data[i] x[i] above the bound?
   bool (*all_above)(const Lane8* data, int m, const double* x, double bound);
   /// Of d rows of 24 Taylor coefficients each (3 m groups): their values and derivatives at x.

@@ -82,6 +82,18 @@ void pass(const Lane8* step, int blocks, int m, const Lane8* x, const Lane8* flo
   sizes[1] = sum(most);
 }
 
+double magnitudes(const Lane8* x, const Lane8* floor, int blocks, Lane8* size) {
+  Lane8 all{};
+  for (int b = 0; b < blocks; ++b) all += size[b] = larger(magnitude(x[b]), floor[b]);
+  return sum(all);
+}
+
+bool hull(const Lane8* rows, const Lane8* errors, int m, const double* x, const double* size, double more, Hull* out) {
+  product(rows, 1, m, x, &out->bernstein);
+  product(errors, 1, m, size, &out->bounds);
+  return all_above(out->bernstein, out->bounds[hull_error] + more);
+}
+
 bool product_above(const Lane8* data, int m, const double* x, double bound) {
   Lane8 sum;
   product(data, 1, m, x, &sum);
@@ -158,7 +170,7 @@ void enclose(const HullRows& rows, const Lane8* taylor, int order, int m, Lane8*
 namespace SLAPSTICK_KERNEL {
 extern const Kernels table;
 constinit const Kernels table = {
-    SLAPSTICK_TEXT(SLAPSTICK_KERNEL), first_root, multiply, pass, product_above, evaluate, gather, spread, enclose,
+    SLAPSTICK_TEXT(SLAPSTICK_KERNEL), first_root, multiply, pass, magnitudes, hull, product_above, evaluate, gather, spread, enclose,
     expand, excess, enclose_tails, finish};
 }  // namespace SLAPSTICK_KERNEL
 

@@ -192,6 +192,7 @@ class Choice {
   void add(const Candidates& candidates, int base, bool crosses = false) {
     if (candidates.count > 1) (crosses ? crossed_[crossed_count_++] : several_[several_count_++]) = count_;
     offered_[count_] = candidates;
+    choice_[count_] = 0;
     stride_[count_++] = next_stride_;
     next_stride_ *= base;
   }
@@ -236,7 +237,7 @@ class Choice {
   std::array<int, most_contacts> crossed_;  ///< contacts at a line that is being crossed
   int several_count_ = 0, changes_ = 0, crossed_count_ = 0;
   std::array<ModeId, most_contacts> stride_;
-  std::array<int, most_contacts> choice_{};
+  std::array<int, most_contacts> choice_;
   ModeId next_stride_ = 1;
   int count_ = 0;
 };

@@ -166,11 +166,21 @@ bool Mode::excludes(int g, int order, const double* X, double size, double more)
   return event::all_above(bernstein, bound);
 }
 
-void Mode::enclose(int g, int order, const double* X, const double* magnitude, event::Hull& out) const {
-  if (order >= stored_orders) return enclose_rare(g, order, X, magnitude, out);
+bool Mode::enclose(int g, int order, const double* X, const double* magnitude, event::Hull& out, double more) const {
+  if (order >= stored_orders) {
+    enclose_rare(g, order, X, magnitude, out);
+    return event::all_above(out.bernstein, out.bounds[event::hull_error] + more);
+  }
   const auto at = static_cast<std::ptrdiff_t>(g * stored_orders + order) * m_;
-  kernels_->multiply(hulls_ + at, 1, m_, X, &out.bernstein);
-  kernels_->multiply(hull_bounds_ + at, 1, m_, magnitude, &out.bounds);
+  return kernels_->hull(hulls_ + at, hull_bounds_ + at, m_, X, magnitude, more, &out);
+}
+
+void Mode::bounds(int g, int order, const double* X, const double* magnitude, event::Lane8& out) const {
+  if (order < stored_orders)
+    return kernels_->multiply(hull_bounds_ + static_cast<std::ptrdiff_t>(g * stored_orders + order) * m_, 1, m_, magnitude, &out);
+  event::Hull hull;
+  enclose_rare(g, order, X, magnitude, hull);
+  out = hull.bounds;
 }
 
 /// The hull from the guard's Taylor coefficients and the sums of the sizes of their parts.

@@ -53,8 +53,10 @@ class Mode {
   /// A quick look at a guard: true only if it is excluded, also where its noise is `more` than X's own. size: sum of |X|. The bounds are replaced
   /// by the largest of all columns, and of a large mode the columns of the hull that are small by theirs.
   [[nodiscard]] bool excludes(int g, int order, const double* X, double size, double more) const;
-  /// Guard g from its zero of order `order` at the window's start on: its hull (magnitude = |X|) ..
-  void enclose(int g, int order, const double* X, const double* magnitude, event::Hull& out) const;
+  /// Guard g from its zero of order `order` at the window's start on: its hull (magnitude = |X|), and whether it is above its error and `more` ..
+  bool enclose(int g, int order, const double* X, const double* magnitude, event::Hull& out, double more = 0.0) const;
+  /// .. the bounds alone, for another magnitude ..
+  void bounds(int g, int order, const double* X, const double* magnitude, event::Lane8& out) const;
   /// .. and its Taylor coefficients a_order, a_{order+1}, ...
   void taylor(int g, int order, const double* X, event::Coefficients& out) const;
   /// The first eight Taylor coefficients of guard g and a bound on the rounding error of each.

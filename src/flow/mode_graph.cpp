@@ -27,16 +27,16 @@ struct Candidates {
   std::int8_t count;
 };
 
-Candidates friction_candidates(double w, bool can_unload) {
-  const auto count = [&](int loaded) { return static_cast<std::int8_t>(loaded + (can_unload ? 1 : 0)); };
-  if (w > 0.0) return {{2, 3}, count(1)};
-  if (w < 0.0) return {{0, 3}, count(1)};
-  return {{1, 2, 0, 3}, count(3)};
+/// In tables: a copy of what was just written in parts would wait for the parts.
+const Candidates& friction_candidates(double w, bool can_unload) {
+  static constexpr Candidates forward[] = {{{2}, 1}, {{2, 3}, 2}}, backward[] = {{{0}, 1}, {{0, 3}, 2}},
+                              resting[] = {{{1, 2, 0}, 3}, {{1, 2, 0, 3}, 4}};
+  return (w > 0.0 ? forward : w < 0.0 ? backward : resting)[can_unload ? 1 : 0];
 }
 
-Candidates stop_candidates(double gap, double approach) {
-  if (gap == 0.0 && approach == 0.0) return {{1, 0}, 2};
-  return {{0}, 1};
+const Candidates& stop_candidates(double gap, double approach) {
+  static constexpr Candidates open = {{0}, 1}, touching = {{1, 0}, 2};
+  return gap == 0.0 && approach == 0.0 ? touching : open;
 }
 
 Candidates compliant_candidates(double depth, const CompliantStop& stop) {

@@ -78,7 +78,7 @@ constexpr std::array<DoubleDouble, 15> alternating_terms(int first) {
 }
 constexpr auto cosine_terms = alternating_terms(0), sine_terms = alternating_terms(1);
 
-/// Sums of their products with r^(2k), |r| <= 0.79: below 2^-113 from k = 13 on. Side by side, since each waits for itself.
+/// Sums of their products with r^(2k), |r| <= 0.79: below 2^-113 from k = 13 on. Side by side: each waits for itself.
 struct Alternating {
   DoubleDouble cosine = cosine_terms.back(), sine = sine_terms.back();
   explicit Alternating(DoubleDouble r) {

@@ -193,8 +193,8 @@ double excess(const Expansion& e, const double* weights, double ratio) {
       const Part* const dropped = part_of(e.dropped + static_cast<std::ptrdiff_t>(group) * (all_terms - terms) * e.m, part);
       const Part* const peaks = part_of(e.peaks + static_cast<std::ptrdiff_t>(group) * (terms + 1) * blocks, part);
       const Part* const scales = part_of(e.scales + group * blocks, part);
-      const auto [nu, last] = rest_of(e, scales, peaks + terms * blocks * parts, ratio, weights[all_terms - 1]);
-      const Part none{}, unbounded = none + INFINITY;
+      const Rest of_rest = rest_of(e, scales, peaks + terms * blocks * parts, ratio, weights[all_terms - 1]);
+      const Part none{}, unbounded = none + INFINITY, nu = of_rest.nu, last = of_rest.last;
       const Part share = last > 0.0 ? (nu < 1.0 * all_terms ? last * (nu / all_terms) / (1.0 - nu / (all_terms + 1)) : unbounded) : none;
       for (int b = 0; b < blocks; ++b) {
         const Part scale = scales[b * parts];
@@ -204,8 +204,8 @@ double excess(const Expansion& e, const double* weights, double ratio) {
           for (int n = terms; n < all_terms; ++n) sum += weights[n] * dropped[((n - terms) * e.m + i) * parts];
           most = larger_of(most, sum);
         }
-        const Part over = most / (0.25 * unit_roundoff * scale), rest = share * (4.0 / unit_roundoff);
-        worst = larger_of(worst, scale > 0.0 ? over + rest : (most > 0.0 ? unbounded : none));
+        const Part over = most / (0.25 * unit_roundoff * scale), beyond = share * (4.0 / unit_roundoff);
+        worst = larger_of(worst, scale > 0.0 ? over + beyond : (most > 0.0 ? unbounded : none));
       }
     }
   return greatest_of(worst);
@@ -220,8 +220,8 @@ void enclose_tails(const Expansion& e, const double* weights, double ratio) {
       const Part* const peaks = part_of(e.peaks + static_cast<std::ptrdiff_t>(group) * (terms + 1) * blocks, part);
       const Part* const scales = part_of(e.scales + group * blocks, part);
       Part* const tails = part_of(e.tails + static_cast<std::ptrdiff_t>(group) * 3 * e.m, part);
-      const auto [nu, last] = rest_of(e, scales, peaks + terms * blocks * parts, ratio, weights[all_terms - 1]);
-      const Part none{}, unbounded = none + INFINITY, left = nu / (1.0 - nu / all_terms);
+      const Rest of_rest = rest_of(e, scales, peaks + terms * blocks * parts, ratio, weights[all_terms - 1]);
+      const Part none{}, unbounded = none + INFINITY, nu = of_rest.nu, last = of_rest.last, left = nu / (1.0 - nu / all_terms);
       const auto bounded = [&](const Part& x) { return last > 0.0 ? (nu < 1.0 * all_terms ? last * x : unbounded) : none; };
       const Part value = bounded((nu / all_terms) / (1.0 - nu / (all_terms + 1))), slope = bounded(left),
                  curvature = bounded(nu * (all_terms - 1.0) + nu * left);

@@ -49,8 +49,8 @@ double forcing_rate(const mode::Mode& mode, const mode::Frame& frame) {
 }
 
 /// A window is never much longer than the shortest time scale of its mode: the tail of its series would not be
-/// negligible. One that is tells that numbers overflowed when it was computed. The fastest rate is the largest modulus of
-/// an eigenvalue, which the largest row sum bounds.
+/// negligible. One that is tells that numbers overflowed when it was computed. The fastest rate is the largest modulus
+/// of an eigenvalue, which the largest row sum bounds.
 /// @returns the window length @throws InputError
 double checked_window(const Model& model, const mode::Mode& mode, const mode::Frame& frame) {
   constexpr double longest = 16.0;  // times the fastest rate; without overflow it stays below 5

@@ -160,7 +160,7 @@ double Flight::flown_noise(int guard) const {
 }
 
 /// The hull of a guard in the present window, with what earlier windows' rounding adds to its noise, and whether it
-/// excludes a zero. Into a named place: gcc 12 aligns the unnamed result of a call less than the kernels' vectors ask for.
+/// excludes a zero. Into a named place: gcc 12 aligns the unnamed result of a call less than kernels' vectors ask for.
 bool Flight::enclose(int guard, event::Hull& out) const {
   if (here_->enclose(guard, orders_[guard], X_window_.data(), magnitude_.data(), out, flown_noise(guard))) return true;
   if (!origin_.stale()) return false;

@@ -22,7 +22,7 @@ class FlightOrigin {
   }
   /// A part of a window of this duration has been flown, between these states. When the count is high, it begins anew.
   void pass(double duration, const event::Lanes& from, const event::Lanes& to);
-  /// A whole window is flown from this state. Is `largest()` to begin anew? It is then for the caller to bring up to date.
+  /// A whole window is flown from this state. Is `largest()` to begin anew? The caller brings it up to date.
   bool leave(const event::Lanes& from) {
     if (windows_ == 0) note(from);
     return staleness_ == 0.0;

@@ -119,6 +119,7 @@ bool may_fit(const mode::Outline& outline, const double* X, const double* magnit
 /// The rounding of A^n X, that of A's entries among it, is no more than n (m + 2) u S^n |X|, S = Mode::system_size.
 int far_order(const mode::Mode& mode, const mode::Guard& h, const double* X, const double* magnitude) {
   const int m = mode.size();
+  if (m <= leading_orders) return never;
   const mode::Matrix& A = mode.system();
   mode::Vector term = Eigen::Map<const mode::Vector>(X, m), size = Eigen::Map<const mode::Vector>(magnitude, m);
   for (int n = 0; n < std::min(m, static_cast<int>(never)); ++n) {

@@ -5,7 +5,7 @@
 
 Two workers run in turn, one run each at a time: `bench_worker` (slapstick, Boost.odeint, CVODE) and bench/heyoka_peer.py. A round measures
 slapstick right before every other contender; a ratio is that of the two, so that a machine whose speed drifts shifts both. Printed and written are the
-median of the rounds and the quartiles. Times are CPU time, without compilation. The files: `<machine>-ratios.csv` and `<machine>-scaling.csv`.
+median of the rounds and the quartiles. Times are CPU time, without compilation; `wall_us` is the clock's. The files: `<machine>-ratios.csv` and `<machine>-scaling.csv`.
 """
 import argparse
 import csv
@@ -104,9 +104,11 @@ def scaling_rows(worker, rounds, short):
                    events=answers[0]['events'] / periods, windows=answers[0]['windows'] / periods)
     count = 1
     while count <= (os.cpu_count() or 1):
-        values = [1e6 * a['wall'] / (a['trajectories'] * 20000) for a in (worker.run('threads', count, '2.2', 20000) for _ in range(rounds))]
-        low, middle, high = spread(values)
-        yield dict(what='motions side by side, a period', coordinates=2, contacts=2, threads=count, us=middle, us_low=low, us_high=high)
+        answers = [worker.run('threads', count, '2.2', 20000) for _ in range(rounds)]
+        of = lambda key: [1e6 * a[key] / (a['trajectories'] * 20000) for a in answers]
+        low, middle, high = spread(of('cpu'))
+        yield dict(what='motions side by side, a period', coordinates=2, contacts=2, threads=count, us=middle, us_low=low, us_high=high,
+                   wall_us=spread(of('wall'))[1])
         count *= 2
 
 

@@ -25,8 +25,8 @@ bool fits(const FlownMode& mode, const Balls& X) {
   return true;
 }
 
-/// By any derivative: where slip begins as its force comes to the limit, the first ones are those of rest. Two motions of m
-/// numbers whose first 2 m derivatives agree are one.
+/// By any derivative: where slip begins as its force comes to the limit, the first ones are those of rest. Two motions
+/// of m numbers whose first 2 m derivatives agree are one.
 bool moves_otherwise(const FlownMode& a, const FlownMode& b, const Balls& X) {
   Balls one = X, other = X;
   std::vector<double> size = a.flow.sizes_of(X);

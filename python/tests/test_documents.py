@@ -1,19 +1,26 @@
-"""What the documents show is what happens: the page docs/python.md, the package's README and the notebook."""
+"""What the documents show is what happens: the pages of the guide, the READMEs and the notebook."""
 
 import ast
 import contextlib
 import io
 import re
+import sys
 
 import pytest
 import slapstick
 from conftest import ROOT
 
-BLOCK = re.compile(r"```(\w*)\n(.*?)```", re.DOTALL)
+BLOCK = re.compile(r"^```(\w*)\n(.*?)^```", re.DOTALL | re.MULTILINE)
+sys.path.insert(0, str(ROOT / "test/library"))
+PAGES = [str(path.relative_to(ROOT)) for path in sorted(ROOT.glob("docs/**/*.md")) if "\n```python\n" in path.read_text()]
 
 
-@pytest.mark.parametrize("path", ["README.md", "docs/python.md", "python/README.md"])
-def test_programs_of_a_page_print_what_stands_below_them(path):
+@pytest.mark.parametrize("path", ["README.md", "python/README.md", *PAGES])
+def test_programs_of_a_page_print_what_stands_below_them(path, tmp_path, monkeypatch):
+    import printed
+
+    printed.write_files((ROOT / path).read_text(), tmp_path)
+    monkeypatch.chdir(tmp_path)
     blocks = BLOCK.findall((ROOT / path).read_text())
     variables, ran = {}, 0
     for (kind, text), (next_kind, next_text) in zip(blocks, [*blocks[1:], ("", "")]):
@@ -29,7 +36,7 @@ def test_programs_of_a_page_print_what_stands_below_them(path):
 
 
 def test_the_page_names_every_call():
-    page = (ROOT / "docs/python.md").read_text()
+    page = (ROOT / "docs/reference/python.md").read_text()
     calls = [name for name in slapstick.__all__ if not name.startswith("_") and name[0].islower()]
     assert [name for name in calls if f"`{name}`" not in page] == []
 

@@ -41,7 +41,8 @@ html_title = f"slapstick {release}"
 html_css_files = ["guide.css"]
 html_show_sourcelink = False
 html_copy_source = False
-copybutton_prompt_text = "$ "
+copybutton_prompt_text = r"\$ |> "
+copybutton_prompt_is_regexp = True
 copybutton_only_copy_prompt_lines = True
 
 breathe_projects = {"slapstick": os.environ["SLAPSTICK_DOCS_XML"]}

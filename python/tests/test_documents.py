@@ -3,14 +3,12 @@
 import ast
 import contextlib
 import io
-import re
 import sys
 
 import pytest
 import slapstick
 from conftest import ROOT
 
-BLOCK = re.compile(r"^```(\w*)\n(.*?)^```", re.DOTALL | re.MULTILINE)
 sys.path.insert(0, str(ROOT / "test/library"))
 PAGES = [str(path.relative_to(ROOT)) for path in sorted(ROOT.glob("docs/**/*.md")) if "\n```python\n" in path.read_text()]
 
@@ -19,20 +17,23 @@ PAGES = [str(path.relative_to(ROOT)) for path in sorted(ROOT.glob("docs/**/*.md"
 def test_programs_of_a_page_print_what_stands_below_them(path, tmp_path, monkeypatch):
     import printed
 
-    printed.write_files((ROOT / path).read_text(), tmp_path)
+    text = (ROOT / path).read_text()
+    printed.write_files(text, tmp_path)
     monkeypatch.chdir(tmp_path)
-    blocks = BLOCK.findall((ROOT / path).read_text())
+    monkeypatch.syspath_prepend(str(tmp_path))
+    blocks = [(kind, "\n".join(lines)) for kind, lines, _ in printed.fences(text) if kind is not None or "".join(lines).strip()]
     variables, ran = {}, 0
-    for (kind, text), (next_kind, next_text) in zip(blocks, [*blocks[1:], ("", "")]):
+    for (kind, program), (next_kind, shown) in zip(blocks, [*blocks[1:], ("", "")]):
         if kind != "python":
             continue
-        printed = io.StringIO()
-        with contextlib.redirect_stdout(printed):
-            exec(compile(text, path, "exec"), variables)
+        output = io.StringIO()
+        with contextlib.redirect_stdout(output):
+            exec(compile(program, path, "exec"), variables)
         ran += 1
-        if next_kind == "" and next_text:
-            assert printed.getvalue().rstrip("\n") == next_text.rstrip("\n")
+        if next_kind == "" and shown:
+            assert output.getvalue().rstrip("\n") == shown.rstrip("\n")
     assert ran > 0
+    assert [name for name in printed.pictures(text)[1] if not (tmp_path / name).exists()] == []
 
 
 def test_the_page_names_every_call():

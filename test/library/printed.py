@@ -1,7 +1,6 @@
 """A page does what it prints: every `$ command` is run, its output compared with the lines below it.
 
-Commands stand in ```console blocks or are indented by four columns; a line that ends with a backslash goes on in the next one. Of an indented
-line `slapstick ..` without a `$` only the exit status is looked at. A block of a page below a line that ends with "`NAME.toml`:" is that file. `<!-- files: FOLDER -->` names a folder of the repository whose files are there.
+Commands stand in ```console blocks or are indented by four columns; a line that begins with "> " goes on with a command. Of an indented line `slapstick ..` without a `$` only the exit status is looked at. A block of a page below a line that ends with "`NAME.toml`:" is that file. `<!-- files: FOLDER -->` names a folder of the repository whose files are there.
 Numbers may differ in the tenth digit, words may not. Only what Debian's python3-minimal has is used.
 """
 import os
@@ -31,10 +30,10 @@ def fences(text):
 
 def commands(lines, indent):
     """[command, printed lines] of lines that begin with `indent` and "$ "."""
-    found, open_line = [], False
+    found = []
     for line in lines:
-        if open_line:
-            found[-1][0] += '\n' + line[len(indent):]
+        if line.startswith(indent + '> ') and found and found[-1] is not None and found[-1][1] == []:
+            found[-1][0] += '\n' + line[len(indent) + 2:]
         elif line.startswith(indent + '$ '):
             found.append([line[len(indent) + 2:], []])
         elif line.startswith(indent + 'slapstick ') and not re.search(r'VERB|MODEL', line) and (not found or found[-1] is None):
@@ -43,7 +42,6 @@ def commands(lines, indent):
             found[-1][1].append(line[len(indent):])
         elif found and found[-1] is not None:
             found.append(None)
-        open_line = bool(found) and found[-1] is not None and found[-1][1] == [] and found[-1][0].endswith('\\')
     return [block for block in found if block is not None]
 
 
@@ -67,6 +65,13 @@ def write_files(text, folder):
         if kind in ('toml', 'csv') and shown:
             with open(os.path.join(folder, shown[1]), 'w', encoding='utf-8') as file:
                 file.write('\n'.join(lines) + '\n')
+
+
+def pictures(text):
+    """(names of the page's pictures, those of them that its Python draws: their name, or it without the ending, stands there in quotes)."""
+    names = re.findall(r'!\[[^\]]*\]\((?:\.\./)?images/([\w-]+\.png)\)', text)
+    program = '\n'.join('\n'.join(lines) for kind, lines, _ in fences(text) if kind == 'python')
+    return names, [name for name in names if f'"{name}"' in program or f'"{name[:-4]}"' in program]
 
 
 def number(word):

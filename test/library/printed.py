@@ -82,7 +82,7 @@ def number(word):
 
 
 def same(printed, now):
-    words, other = re.split('[ ,]+', printed), re.split('[ ,]+', now)
+    words, other = re.split('[ ,]+', printed.rstrip()), re.split('[ ,]+', now.rstrip())
     if len(words) != len(other):
         return False
     for a, b in zip(words, other):

@@ -13,7 +13,7 @@ CASES = [
     ('two on a line', {'README.md': 'First. Second.\n'}, 'README.md:1: a second sentence on the line'),
     ('a journal', {'README.md': 'Shaw and Holmes, J. Sound Vib. 90 (1983), Fig. 2 of N. Hoffmann.\n'}, None),
     ('an item of a list', {'README.md': '1. First.\n2. Second.\n'}, None),
-    ('a hard turn', {'README.md': 'All but one.\n'}, 'README.md:1: "all but"'),
+    ('a hard turn', {'README.md': 'We saw all but one.\n'}, 'README.md:1: "all but"'),
     ('code', {'README.md': f'```sh\n{LONG}and more. Two.\n```\n\n    {LONG}and more. Two.\n'}, None),
     ('a message', {'README.md': 'A.\n', 'apps/a.cpp': 'fail("there is none, or says so");\n'}, 'apps/a.cpp:1: message with "is none"'),
     ('a comment', {'README.md': 'A.\n', 'src/a.cpp': '// there is none\n'}, None),

@@ -1,6 +1,6 @@
 #pragma once
 /// Numbers of the batch kernels that no model changes: the series' length, the window it carries, economised powers,
-/// bounds of rounding. docs/certainty.md, section 11, derives them.
+/// bounds of rounding. docs/developers/proofs.md, section 11, derives them.
 #include <array>
 
 #include "base/double_double.hpp"

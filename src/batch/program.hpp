@@ -11,7 +11,7 @@
 /// gap, a relative velocity, the two limits of a holding force. Words are scaled to the mode's window H: K H^2, C H,
 /// F H^2, R H^2, rows over u by 1/H.
 ///
-/// Source: docs/certainty.md, section 11, for the window, the norm and the bounds.
+/// Source: docs/developers/proofs.md, section 11, for the window, the norm and the bounds.
 #include <cstdint>
 #include <vector>
 

@@ -16,8 +16,8 @@
 ///
 /// The bits of a run depend on its model and start alone: not on the number of lanes, on what runs beside it, on the
 /// order, on threads or on the processor. They are not those of a Motion: both kernels round differently, so that a
-/// chaotic motion parts from a Motion's after some periods. Source: docs/performance.md; docs/certainty.md, section
-/// 11, for what is proven.
+/// chaotic motion parts from a Motion's after some periods. Source: docs/developers/performance.md;
+/// docs/developers/proofs.md, section 11, for what is proven.
 #include <atomic>
 #include <cstddef>
 #include <functional>

@@ -15,7 +15,7 @@ class Series;
 
 /// Dense operators on X = (p, u, cos, sin, .., 1), all for the window length `window`, x = s / window in [0, 1].
 ///
-/// Written once at set-up in double-doubles from A; see docs/certainty.md for the remainder and rounding bounds.
+/// Written once at set-up in double-doubles from A; see docs/developers/proofs.md for the remainder and rounding bounds.
 /// Storage is in blocks of eight rows: element (row 8 b + lane, column i) of an operator is data[b * m + i][lane].
 class Mode {
  public:

@@ -10,7 +10,7 @@
 /// characteristics.
 ///
 /// Threads: all functions are const and safe to call at once, also while modes are compiled.
-/// Source: docs/architecture.md, sections 2 and 3; docs/certainty.md for the operators' error bounds.
+/// Source: docs/developers/architecture.md, sections 2 and 3; docs/developers/proofs.md for error bounds.
 #include <limits>
 #include <memory>
 #include <string>

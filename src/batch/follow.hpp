@@ -93,16 +93,25 @@ class Follow : public Flight<width, n> {
     return sum;
   }
 
+  /// Its derivative along the motion, per window.
+  __attribute__((always_inline)) Real rate_of(int row, const Real (&velocity)[n], const Real (&acceleration)[n]) const {
+    Real sum = Real{};
+    for (int i = 0; i < n; ++i) sum = sum + word(row + i) * (velocity[i] + word(at_.drift(i))) + word(row + n + i) * acceleration[i];
+    for (int k = 0; k < at_.k; ++k) sum = sum + word(row + 2 * n + k) * stream_rate_[k] * word(Layout::rates + k);
+    return sum;
+  }
+
   /// Of lanes whose mode may not start, and of those that rounding decides.
   struct Verdict {
     Mask falls, unsure;
   };
 
   /// A slot refuses a mode by its value; by its rate where the value is zero within rounding (exactly, for a single
-  /// number); by its bend where that is zero too. A velocity that is zero, as its rate is within rounding, is left
-  /// to the next window: that looks at its bend.
+  /// number); by its bend where that is zero too. A velocity is a single number: where a force comes to its limit the
+  /// velocity and its rate are zero, and its bend says whether slip begins that way. Where the bend is no more than
+  /// rounding either, an engine decides.
   __attribute__((always_inline)) Verdict judge() const {
-    Real velocity[n], acceleration[n];
+    Real velocity[n], acceleration[n], jerk[n];
     const Real H = word(Layout::window), inverse_speed = word(Layout::inverse_speed);
     Real size = word(Layout::least_size);
     for (int i = 0; i < n; ++i) {
@@ -110,33 +119,38 @@ class Follow : public Flight<width, n> {
       size = larger(size, larger(magnitude(p_[i]), magnitude(u_[i]) * inverse_speed));
     }
     for (int i = 0; i < n; ++i) acceleration[i] = product(at_.row(i), velocity);
+    for (int i = 0; i < n; ++i) jerk[i] = rate_of(at_.row(i), velocity, acceleration);
     Verdict verdict{occupied_ & ~occupied_, occupied_ & ~occupied_};
     for (int s = 0; s < block_.filled; ++s) {
       const Real norm = word(at_.slot_number(s, Layout::norm));
-      if (any(less(Real{}, norm) & occupied_)) judge_slot(s, norm, size, velocity, acceleration, verdict);
+      if (any(less(Real{}, norm) & occupied_)) judge_slot(s, norm, size, velocity, acceleration, jerk, verdict);
     }
     return verdict;
   }
 
   __attribute__((always_inline)) void judge_slot(int s, const Real& norm, const Real& size, const Real (&velocity)[n], const Real (&acceleration)[n],
-                                                 Verdict& verdict) const {
+                                                 const Real (&jerk)[n], Verdict& verdict) const {
     const Real start_norm = word(at_.slot_number(s, Layout::start_norm));
     const Real lower = word(at_.slot_number(s, Layout::lower)), upper = word(at_.slot_number(s, Layout::upper));
     const Real value = product(at_.slot(s), velocity), margin = smaller(upper - value, value + lower);
-    const Real noise = start_norm * size * (24.0 * step_rounding), rate_noise = norm * size * (24.0 * longest_window * step_rounding);
-    Real rate = Real{}, bend = Real{};
+    const Real noise = start_norm * size * (24.0 * step_rounding), rate_noise = norm * size * (24.0 * longest_window * step_rounding), turn_noise = longest_window * rate_noise;
+    Real rate = rate_of(at_.slot(s), velocity, acceleration), bend = Real{}, turn = Real{}, turning = Real{};
     for (int i = 0; i < n; ++i) {
-      const Real over_p = word(at_.slot(s) + i);
-      rate = rate + over_p * (velocity[i] + word(at_.drift(i))) + word(at_.slot(s) + n + i) * acceleration[i];
-      bend = bend + over_p * acceleration[i];
+      bend = bend + word(at_.slot(s) + i) * acceleration[i];
+      turn = turn + word(at_.slot(s) + n + i) * jerk[i];
+      turning = turning + magnitude(word(at_.slot(s) + n + i));
     }
-    for (int k = 0; k < at_.k; ++k) rate = rate + word(at_.slot(s) + 2 * n + k) * stream_rate_[k] * word(Layout::rates + k);
-    rate = choose(less(upper - value, value + lower), -rate, rate);
+    const Mask upwards = less(upper - value, value + lower);
+    rate = choose(upwards, -rate, rate);
+    turn = choose(upwards, -turn, turn);
     const Mask there = less(Real{}, norm), single = equal(start_norm, Real{});
     const Mask zero = ~less(noise, margin) & ~less(margin, -noise), drops = less(rate, -rate_noise);
     const Mask flat = zero & single & equal(rate, Real{}), sinks = less(bend, -rate_noise);
-    verdict.falls = verdict.falls | (there & (less(margin, -noise) | (zero & drops) | (flat & sinks)));
-    verdict.unsure = verdict.unsure | (there & zero & ~single & ~drops & ~less(rate_noise, rate));
+    const Mask level = zero & ~drops & ~less(rate_noise, rate);  // the rate is rounding
+    const Mask velocity_only = single & less(Real{}, turning);
+    const Mask turns_down = level & velocity_only & less(turn, -turn_noise), turns_up = level & velocity_only & less(turn_noise, turn);
+    verdict.falls = verdict.falls | (there & (less(margin, -noise) | (zero & drops) | (flat & sinks) | turns_down));
+    verdict.unsure = verdict.unsure | (there & level & (~single | (velocity_only & ~turns_down & ~turns_up)));
   }
 
   const Action* action_[most_lanes];  ///< what has ended each lane's mode

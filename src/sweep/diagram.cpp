@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
+#include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <optional>
@@ -70,13 +71,21 @@ class Run {
     point.direction = direction;
   }
 
+  /// Transients in the lanes of a batch, as many points to a task as keep the lanes full and all threads busy.
   void run_each() {
-    for (std::size_t i = 0; i < diagram_.points.size(); ++i)
-      spawn([this, i] {
-        if (settle_point(i, {})) record_point(i);
-      });
+    constexpr std::size_t most_together = 64;
+    const std::size_t together = std::clamp(diagram_.points.size() / 32, std::size_t{1}, most_together);
+    for (std::size_t begin = 0; begin < diagram_.points.size(); begin += together)
+      spawn([this, begin, end = std::min(begin + together, diagram_.points.size())] { run_together(begin, end); });
     tasks_.wait();
     fork_join::join();
+  }
+
+  void run_together(std::size_t begin, std::size_t end) {
+    std::vector<Carried> begun(end - begin);
+    run_in_lanes(problem_, {diagram_.points.data() + begin, end - begin}, begun);
+    for (std::size_t i = begin; i < end; ++i)
+      if (settle_point(i, begun[i - begin])) record_point(i);
   }
 
   void run_chains() {

@@ -49,4 +49,5 @@
 #include "slapstick/section/stop_choice.hpp"
 #include "slapstick/section/stroboscopic_section.hpp"
 #include "slapstick/sweep/diagram.hpp"
+#include "slapstick/sweep/map.hpp"
 #include "slapstick/sweep/parallel.hpp"

@@ -203,6 +203,7 @@ double default_height(const Figure& figure, const Grid& grid, const Layout& layo
 }  // namespace
 
 bool wants_raster(const Panel& panel) {
+  if (panel.cells) return true;
   std::size_t free = 0;
   for (const Points& points : panel.points) {
     if (points.drawing == Drawing::raster) return true;

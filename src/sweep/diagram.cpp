@@ -1,9 +1,5 @@
-/// Runs a diagram: chains of transients, and recordings on the thread pool.
+/// Runs a diagram: which values are a chain, and what each does before and after it hands on.
 #include "slapstick/sweep/diagram.hpp"
-
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-#include <tbb/task_group.h>
 
 #include <cmath>
 #include <mutex>
@@ -12,7 +8,7 @@
 #include "slapstick/base/error.hpp"
 #include "base/text.hpp"
 #include "sweep/diagram_point.hpp"
-#include "sweep/fork_join.hpp"
+#include "sweep/executor.hpp"
 
 namespace slapstick::sweep {
 namespace {
@@ -42,7 +38,7 @@ void check(const DiagramProblem& problem) {
          "with start = reset, up and down are the same: choose one of them, or start = carry");
 }
 
-/// One sweep while it runs: the results, and the tasks that fill them.
+/// One sweep while it runs.
 class Run {
  public:
   explicit Run(const DiagramProblem& problem) : problem_(problem) {
@@ -52,13 +48,16 @@ class Run {
       for (int i = problem.count - 1; i >= 0; --i) add_point(i, Direction::down);
   }
 
+  /// With `carry` a direction is a chain, with `reset` each value is one.
   Diagram operator()() {
-    settled_.resize(diagram_.points.size());
-    if (problem_.start == StartRule::carry) {
-      run_chains();
-    } else {
-      run_each();
-    }
+    const bool carry = problem_.start == StartRule::carry;
+    const int all = static_cast<int>(diagram_.points.size()), length = carry ? problem_.count : 1;
+    diagram_.complete = run_chains(
+        {.chains = all / length, .length = length}, problem_.threads,
+        [&](const Cell& cell, const Starts& start, const HandOn& hand_on) {
+          run_point(static_cast<std::size_t>(cell.chain * length + cell.step), start, hand_on);
+        },
+        problem_.cancel);
     for (const DiagramPoint& point : diagram_.points) diagram_.complete = diagram_.complete && point.done;
     return std::move(diagram_);
   }
@@ -70,66 +69,15 @@ class Run {
     point.direction = direction;
   }
 
-  void run_each() {
-    for (std::size_t i = 0; i < diagram_.points.size(); ++i)
-      spawn([this, i] {
-        if (settle_point(i, {})) record_point(i);
-      });
-    tasks_.wait();
-    fork_join::join();
-  }
-
-  void run_chains() {
-    const auto chain = static_cast<std::size_t>(problem_.count);
-    for (std::size_t begin = 0; begin < diagram_.points.size(); begin += chain)
-      spawn([this, begin, chain] { run_chain(begin, begin + chain); });
-    tasks_.wait();
-    fork_join::join();
-  }
-
-  /// A task whose captures are plain numbers and pointers.
-  template <class Body>
-  void spawn(const Body& body) {
-    auto task = tasks_.defer([body] {
-      fork_join::enter();
-      body();
-      fork_join::leave();
-    });
-    fork_join::fork();  // what the task needs is written by now
-    tasks_.run(std::move(task));
-  }
-
-  /// Transients one after the other, recordings for whoever is free. When too many wait, because the others are busy or
-  /// there are none, the chain records itself: a waiting recording holds a System.
-  void run_chain(std::size_t begin, std::size_t end) {
-    Carried carried;
-    for (std::size_t i = begin; i < end && !cancelled(problem_); ++i) {
-      if (!settle_point(i, carried)) continue;
-      carried = carry_on(*settled_[i]);
-      if (waiting_ < most_waiting) {
-        ++waiting_;
-        spawn([this, i] {
-          --waiting_;
-          record_point(i);
-        });
-      } else {
-        record_point(i);
-      }
-    }
-  }
-
-  bool settle_point(std::size_t i, const Carried& carried) {
-    if (cancelled(problem_)) return false;
+  /// The next value begins where this one's transient ends; after a failure where this one began.
+  void run_point(std::size_t i, const Starts& start, const HandOn& hand_on) {
     DiagramPoint& point = diagram_.points[i];
-    settled_[i] = settle(problem_, carried, point);
-    if (!settled_[i] && point.done) report();
-    return settled_[i].has_value();
-  }
-
-  void record_point(std::size_t i) {
-    if (!cancelled(problem_)) record(problem_, std::move(*settled_[i]), diagram_.points[i]);
-    settled_[i].reset();
-    if (diagram_.points[i].done) report();
+    std::optional<Settled> settled = settle(problem_, start.empty() ? Carried{} : start.front(), point);
+    if (settled) {
+      hand_on({carry_on(*settled)});
+      if (!cancelled(problem_)) record(problem_, std::move(*settled), point);
+    }
+    if (point.done) report();
   }
 
   void report() {
@@ -140,10 +88,6 @@ class Run {
 
   const DiagramProblem& problem_;
   Diagram diagram_;
-  std::vector<std::optional<Settled>> settled_;  // between a point's transient and its recording
-  static constexpr int most_waiting = 32;
-  std::atomic<int> waiting_{0};  // recordings that no thread has begun
-  tbb::task_group tasks_;
   std::mutex progress_;
   int done_ = 0;
 };
@@ -157,12 +101,7 @@ double sweep_value(double from, double to, int count, int i) {
 
 Diagram run_diagram(const DiagramProblem& problem) {
   check(problem);
-  std::optional<tbb::global_control> more_than_there_are_cores;
-  if (problem.threads > 0)
-    more_than_there_are_cores.emplace(tbb::global_control::max_allowed_parallelism,
-                                      static_cast<std::size_t>(problem.threads));
-  tbb::task_arena arena(problem.threads > 0 ? problem.threads : tbb::task_arena::automatic);
-  return arena.execute([&] { return Run(problem)(); });
+  return Run(problem)();
 }
 
 }  // namespace slapstick::sweep

@@ -1,0 +1,86 @@
+/// slapstick map MODEL --x NAME=A:B:COUNT --y NAME=A:B:COUNT
+#include <cstdio>
+
+#include "base/ranges.hpp"
+#include "base/text.hpp"
+#include "chart_figure.hpp"
+#include "map_options.hpp"
+#include "map_table.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+#include "slapstick/base/error.hpp"
+#include "verb.hpp"
+
+namespace slapstick::app {
+namespace {
+
+struct Options {
+  MapOptions map;
+  std::string out, plot, plot_size, show;
+  bool progress = false;
+};
+
+/// Says on standard error what a table cannot. @throws NumericalError if every pixel failed
+void report(const MapWish& wish, const sweep::Map& map) {
+  const auto known = static_cast<long>(map.findings.size()), all = sweep::pixel_count(wish.problem);
+  if (!map.complete && wish.problem.start != sweep::MapStart::random)
+    std::fprintf(stderr, "slapstick: stopped after %ld of %ld pixels; these are written\n", known, all);
+  if (!map.complete && wish.problem.start == sweep::MapStart::random)
+    std::fprintf(stderr, "slapstick: stopped before the end; what is complete is written\n");
+  if (map.failures.empty()) return;
+  const auto& [place, why] = *map.failures.begin();
+  const sweep::Finding first{.pixel = place.second};
+  const std::string text = std::to_string(map.failures.size()) + " of " + std::to_string(all) + " pixels failed, first " +
+                           wish.x.name + " = " + shown(map.x_of(first)) + ", " + wish.y.name + " = " +
+                           shown(map.y_of(first)) + ": " + why;
+  if (ranges::none_of(map.findings, [](const sweep::Finding& found) { return !found.failed; })) throw NumericalError(text);
+  std::fprintf(stderr, "slapstick: %s\n", text.c_str());
+}
+
+sweep::Map run(MapWish& wish, const Options& options, const Context& context) {
+  Progress progress("pixels", static_cast<double>(sweep::pixel_count(wish.problem)), options.progress);
+  wish.problem.progress = [&](long done, long) { progress.update(static_cast<double>(done)); };
+  wish.problem.cancel = &context.stop;
+  return sweep::run_map(wish.problem);
+}
+
+int map(const Options& options, const Context& context) {
+  FileRoles roles;
+  roles.add("MODEL", options.map.model.source);
+  roles.add("--out", options.out);
+  roles.add_plot(options.plot);
+  const std::unique_ptr<MapWish> wish = map_wish(options.map);
+  const std::vector<std::string> shown = shown_columns(*wish, options.show);
+  const Plot plot(options.plot, options.plot_size);
+  TableOutput table(options.out, map_columns(*wish), map_facts(*wish));
+  const sweep::Map found = run(*wish, options, context);
+  write_map(*wish, found, table);
+  const int status = plot.write_or_say(chart_figure(*wish, found, shown), found.findings.empty(),
+                                       found.complete ? done : interrupted);
+  report(*wish, found);
+  return status;
+}
+
+}  // namespace
+
+Action add_map(Arguments& arguments) {
+  auto options = std::make_shared<Options>();
+  options->map.declare(arguments);
+  arguments.text("--out", options->out, "F.csv", "write the table there (.csv, .npz or .h5) instead of to standard output");
+  arguments.text("--plot", options->plot, "F.png", "draw the chart (.png, .pdf, .svg, .tex or .py)");
+  declare_plot_size(arguments, options->plot_size);
+  arguments.text("--show", options->show, "class,..",
+                 "what the panels of the picture are: class, exponent, multiplier, n, p, attractors, Q:STAT of --of "
+                 "(class and those of --of)");
+  arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
+  arguments.footer(
+      "A chart over two parameters: at every pixel the class n-p-I or n-p-II, the kind of attractor, exponent and "
+      "multiplier.\n"
+      "  slapstick map vibro-impact --x omega=1:6:200 --y friction=0.05:0.3:120 --plot chart.png --out chart.csv");
+  return [options, &arguments](const Context& context) {
+    options->map.check_words(arguments);
+    return map(*options, context);
+  };
+}
+
+}  // namespace slapstick::app

@@ -174,12 +174,16 @@ void draw_scale(const std::vector<double>& values, Cells& cells, figure::Panel& 
   for (const double value : values)
     cells.codes.push_back(std::isfinite(value) ? static_cast<std::uint8_t>(std::lround(share(value) * (shades - 1)))
                                                : Cells::clear);
+  const auto text = [&](double value, const char* form) {
+    char words[48];
+    std::snprintf(words, sizeof words, form, std::abs(value) < 1e-9 * (range.max - range.min) ? 0.0 : value);
+    panel.keys.push_back(swatch(words, scale_colour(share(value))));
+  };
+  if (finite.empty()) return panel.keys.push_back(swatch("none", undecided_colour));
   const double step = round_step(range.max - range.min);
-  for (double tick = std::ceil(range.min / step) * step; tick <= range.max + 1e-9 * step; tick += step) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", std::abs(tick) < 1e-9 * step ? 0.0 : tick);
-    panel.keys.push_back(swatch(text, scale_colour(share(tick))));
-  }
+  text(range.min, "\u2264 %.3g");
+  for (double tick = std::floor(range.min / step + 1.2) * step; tick < range.max - 0.2 * step; tick += step) text(tick, "%.6g");
+  text(range.max, "\u2265 %.3g");
   if (finite.size() < values.size()) panel.keys.push_back(swatch("none", undecided_colour));
 }
 
@@ -240,6 +244,7 @@ figure::Figure chart_figure(const MapWish& wish, const sweep::Map& map, const st
   const bool several = figure.panels.size() > 1;
   figure.columns = several ? 2 : 1;
   figure.width_cm = several ? 17.5 : 12.0;
+  figure.row_cm = several ? 7.0 : 8.5;
   return figure;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 /// What `map` is asked for: the two parameters, the level, the starts, the quantities.
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct MapOptions {
   void declare(Arguments& arguments);
   /// Options that have no meaning together. @throws InputError naming one
   void check_words(const Arguments& arguments) const;
+  /// The words that say what is computed, one way of many: without MODEL, --set, --threads and --shard.
+  [[nodiscard]] std::vector<std::string> words() const;
 };
 
 /// The wish with its model: what every part of `map` works on.
@@ -34,5 +37,7 @@ struct MapWish {
 /// Reads and checks what can be known to be wrong before hours of work.
 /// @throws InputError naming the argument
 [[nodiscard]] std::unique_ptr<MapWish> map_wish(const MapOptions& options);
+/// The same of a model that was read before; MODEL is not looked at.
+[[nodiscard]] std::unique_ptr<MapWish> map_wish(const MapOptions& options, ChosenModel chosen);
 
 }  // namespace slapstick::app

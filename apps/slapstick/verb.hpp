@@ -45,6 +45,7 @@ Action add_map(Arguments& arguments);
 Action add_quantities(Arguments& arguments);
 Action add_measure(Arguments& arguments);
 Action add_spectrum(Arguments& arguments);
+Action add_store(Arguments& arguments);
 Action add_reproduce(Arguments& arguments);
 
 }  // namespace slapstick::app

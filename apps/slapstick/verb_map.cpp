@@ -5,10 +5,12 @@
 #include "base/text.hpp"
 #include "chart_figure.hpp"
 #include "map_options.hpp"
+#include "map_store.hpp"
 #include "map_table.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "slapstick/base/error.hpp"
+#include "store_info.hpp"
 #include "verb.hpp"
 
 namespace slapstick::app {
@@ -16,8 +18,8 @@ namespace {
 
 struct Options {
   MapOptions map;
-  std::string out, plot, plot_size, show;
-  bool progress = false;
+  std::string out, plot, plot_size, show, store;
+  bool resume = false, progress = false;
 };
 
 /// Says on standard error what a table cannot. @throws NumericalError if every pixel failed
@@ -37,24 +39,54 @@ void report(const MapWish& wish, const sweep::Map& map) {
   std::fprintf(stderr, "slapstick: %s\n", text.c_str());
 }
 
-sweep::Map run(MapWish& wish, const Options& options, const Context& context) {
-  Progress progress("pixels", static_cast<double>(sweep::pixel_count(wish.problem)), options.progress);
+/// @returns whether it is complete
+bool run(MapWish& wish, const Options& options, const Context& context) {
+  Progress progress("pixels", static_cast<double>(sweep::pixel_count(wish.problem)) / wish.problem.shards, options.progress);
   wish.problem.progress = [&](long done, long) { progress.update(static_cast<double>(done)); };
   wish.problem.cancel = &context.stop;
-  return sweep::run_map(wish.problem);
+  return sweep::run_tiles(wish.problem);
+}
+
+sweep::Map gathered(MapWish& wish, const Options& options, const Context& context) {
+  if (options.store.empty()) {
+    sweep::MapBuilder builder(wish.problem);
+    wish.problem.finished = [&](std::span<const sweep::Pixel> pixels) {
+      for (const sweep::Pixel& pixel : pixels) builder.add(pixel);
+    };
+    const bool complete = run(wish, options, context);
+    return builder.take(complete);
+  }
+  const MapStore store(Store::to_write(options.store, map_facts_of(options.map, wish), options.resume), wish.problem);
+  const bool complete = run(wish, options, context);
+  sweep::Map map = read_map(store.store(), wish);
+  map.complete = complete;
+  return map;
+}
+
+/// With a store and no other output: what the store then holds.
+int only_store(MapWish& wish, const Options& options, const Context& context) {
+  const MapStore store(Store::to_write(options.store, map_facts_of(options.map, wish), options.resume), wish.problem);
+  const bool complete = run(wish, options, context);
+  if (!complete) std::fprintf(stderr, "slapstick: stopped before the end; %s has what is complete, and --resume goes on\n", options.store.c_str());
+  Output out("");
+  out.write(store_info(store.store()).dump() + "\n");
+  out.commit();
+  return complete ? done : interrupted;
 }
 
 int map(const Options& options, const Context& context) {
   FileRoles roles;
   roles.add("MODEL", options.map.model.source);
   roles.add("--out", options.out);
+  roles.add("--store", options.store);
   roles.add_plot(options.plot);
   const std::unique_ptr<MapWish> wish = map_wish(options.map);
   const std::vector<std::string> shown = shown_columns(*wish, options.show);
+  if (!options.store.empty() && options.out.empty() && options.plot.empty()) return only_store(*wish, options, context);
   const Plot plot(options.plot, options.plot_size);
   TableOutput table(options.out, map_columns(*wish), map_facts(*wish));
-  const sweep::Map found = run(*wish, options, context);
-  write_map(*wish, found, table);
+  const sweep::Map found = gathered(*wish, options, context);
+  if (options.store.empty() || !options.out.empty()) write_map(*wish, found, table);
   const int status = plot.write_or_say(chart_figure(*wish, found, shown), found.findings.empty(),
                                        found.complete ? done : interrupted);
   report(*wish, found);
@@ -72,6 +104,8 @@ Action add_map(Arguments& arguments) {
   arguments.text("--show", options->show, "class,..",
                  "what the panels of the picture are: class, exponent, multiplier, n, p, attractors, Q:STAT of --of "
                  "(class and those of --of)");
+  arguments.text("--store", options->store, "F.db", "write each pixel there as it is finished");
+  arguments.flag("--resume", options->resume, "of --store: compute only what is not there yet");
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
       "A chart over two parameters: at every pixel the class n-p-I or n-p-II, the kind of attractor, exponent and "
@@ -79,6 +113,8 @@ Action add_map(Arguments& arguments) {
       "  slapstick map vibro-impact --x omega=1:6:200 --y friction=0.05:0.3:120 --plot chart.png --out chart.csv");
   return [options, &arguments](const Context& context) {
     options->map.check_words(arguments);
+    for (const char* name : {"--resume", "--shard"})
+      if (options->store.empty() && arguments.given(name)) throw InputError(std::string(name) + ": it needs --store F.db");
     return map(*options, context);
   };
 }

@@ -21,6 +21,7 @@ const std::vector<Verb>& verbs() {
       {"quantities", "what can be measured on a model: names, units, meanings", add_quantities},
       {"measure", "statistics of forces, accelerations, energies and impacts, exact", add_measure},
       {"spectrum", "Fourier lines of a cycle, or the power density of a motion, impulses included", add_spectrum},
+      {"store", "what is in the store of a long run; join stores; write tables and pictures of them", add_store},
       {"reproduce", "every figure and claim of the paper, into a folder", add_reproduce},
   };
   return all;

@@ -130,8 +130,9 @@ struct Figure {
   std::vector<Panel> panels{};
   int columns = 1;
   double width_cm = 8.5;
-  /// default: 5.6 cm per row with an x axis of its own, 3.8 cm for a row that shares it, and what legends below take
+  /// default: `row_cm` per row with an x axis of its own, 3.8 cm for a row that shares it, and what legends below take
   std::optional<double> height_cm{};
+  double row_cm = 5.6;
   bool share_x = false;   ///< every panel joins the one beneath it
   std::string caption{};  ///< a comment in the script; a journal sets captions in its own type
   std::string font = "DejaVu Sans";

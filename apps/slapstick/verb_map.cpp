@@ -10,6 +10,7 @@
 #include "output.hpp"
 #include "progress.hpp"
 #include "slapstick/base/error.hpp"
+#include "slurm_script.hpp"
 #include "store_info.hpp"
 #include "verb.hpp"
 
@@ -19,6 +20,7 @@ namespace {
 struct Options {
   MapOptions map;
   std::string out, plot, plot_size, show, store;
+  long long slurm = 0;
   bool resume = false, progress = false;
 };
 
@@ -74,7 +76,23 @@ int only_store(MapWish& wish, const Options& options, const Context& context) {
   return complete ? done : interrupted;
 }
 
+/// The script instead of the map.
+int print_script(const Options& options) {
+  const std::unique_ptr<MapWish> wish = map_wish(options.map);
+  static_cast<void>(shown_columns(*wish, options.show));
+  Output out("");
+  out.write(slurm_script(options.map, {.tasks = static_cast<int>(options.slurm),
+                                       .store = options.store,
+                                       .out = options.out,
+                                       .plot = options.plot,
+                                       .plot_size = options.plot_size,
+                                       .show = options.show}));
+  out.commit();
+  return done;
+}
+
 int map(const Options& options, const Context& context) {
+  if (options.slurm > 0) return print_script(options);
   FileRoles roles;
   roles.add("MODEL", options.map.model.source);
   roles.add("--out", options.out);
@@ -106,6 +124,8 @@ Action add_map(Arguments& arguments) {
                  "(class and those of --of)");
   arguments.text("--store", options->store, "F.db", "write each pixel there as it is finished");
   arguments.flag("--resume", options->resume, "of --store: compute only what is not there yet");
+  arguments.count("--slurm", options->slurm, 1, 100'000,
+                  "print a script for `sbatch` that computes the map into --store in so many tasks");
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
       "A chart over two parameters: at every pixel the class n-p-I or n-p-II, the kind of attractor, exponent and "
@@ -113,7 +133,9 @@ Action add_map(Arguments& arguments) {
       "  slapstick map vibro-impact --x omega=1:6:200 --y friction=0.05:0.3:120 --plot chart.png --out chart.csv");
   return [options, &arguments](const Context& context) {
     options->map.check_words(arguments);
-    for (const char* name : {"--resume", "--shard"})
+    for (const char* other : {"--shard", "--resume", "--threads"})
+      if (options->slurm > 0 && arguments.given(other)) throw InputError(std::string(other) + ": the script of --slurm has its own");
+    for (const char* name : {"--resume", "--shard", "--slurm"})
       if (options->store.empty() && arguments.given(name)) throw InputError(std::string(name) + ": it needs --store F.db");
     return map(*options, context);
   };

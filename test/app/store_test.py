@@ -175,5 +175,32 @@ def test_an_export_is_what_the_run_itself_would_have_written():
         assert a.read() == b.read()
 
 
+def test_the_script_of_a_cluster_does_the_whole_also_where_a_task_is_killed():
+    """Each task as Slurm would run it, without Slurm; `./dev cluster` has the real one."""
+    os.mkdir("it's here")
+    script = good(*CHART, '--slurm', '3', '--store', "it's here/chart.db", '--out', 'chart.csv')
+    with open('chart.sh', 'w', encoding='utf-8') as file:
+        file.write(script)
+    says(script, '#SBATCH --array=1-3', '#SBATCH --requeue', "it'\\''s here")
+    task = lambda number, **options: subprocess.Popen(['bash', 'chart.sh', number], stderr=subprocess.PIPE, **options)  # noqa: E731
+    assert task('3').wait(60) == 0
+    ended = task('1', start_new_session=True)
+    time.sleep(0.3)
+    os.killpg(ended.pid, signal.SIGKILL)
+    ended.communicate()
+    stopped = task('1')
+    time.sleep(0.3)
+    stopped.terminate()
+    assert stopped.wait(20) in (0, 130, 143)
+    assert not os.path.exists("it's here/chart.db")
+    both = [task('1'), task('2')]
+    assert [one.wait(60) for one in both] == [0, 0]
+    assert hash_of(good('store', 'info', "it's here/chart.db")) == hash_of(good(*CHART, '--store', 'b.db'))
+    assert read('chart.csv') == good('store', 'export', 'b.db')
+    says(refused(2, *CHART, '--slurm', '3'), '--slurm', '--store')
+    says(refused(2, *CHART, '--slurm', '3', '--store', 'c.db', '--shard', '1/2'), '--shard')
+    says(refused(2, *CHART, '--slurm', '0', '--store', 'c.db'), '--slurm')
+
+
 if __name__ == '__main__':
     main(globals())

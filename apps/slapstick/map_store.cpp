@@ -50,19 +50,24 @@ std::string joined(const std::vector<std::string>& words) {
 
 }  // namespace
 
-StoreFacts map_facts_of(const MapOptions& options, const MapWish& wish) {
-  const sweep::MapProblem& problem = wish.problem;
-  return {{"verb", "map"},
+StoreFacts run_facts(const std::string& verb, const ChosenModel& chosen, const std::vector<std::string>& options, long cells,
+                     int shard, int shards) {
+  return {{"verb", verb},
           {"version", SLAPSTICK_VERSION},
           {"kernel", kernel},
-          {"model", wish.chosen.definition.to_toml(wish.chosen.overrides)},
-          {"options", joined(options.words())},
-          {"shard", std::to_string(problem.shard + 1) + "/" + std::to_string(problem.shards)},
-          {"cells", std::to_string(sweep::pixel_count(problem))}};
+          {"model", chosen.definition.to_toml(chosen.overrides)},
+          {"options", joined(options)},
+          {"shard", std::to_string(shard + 1) + "/" + std::to_string(shards)},
+          {"cells", std::to_string(cells)}};
+}
+
+StoreFacts map_facts_of(const MapOptions& options, const MapWish& wish) {
+  const sweep::MapProblem& problem = wish.problem;
+  return run_facts("map", wish.chosen, options.words(), sweep::pixel_count(problem), problem.shard, problem.shards);
 }
 
 std::unique_ptr<MapWish> wish_of(const Store& store) {
-  if (store.fact("verb") != "map") throw StorageError("the store is of " + in_quotes(store.fact("verb")) + ", not of a map");
+  if (store.fact("verb") != "map") throw InputError("store export: the store is of " + in_quotes(store.fact("verb")) + ", not of a map; the verb itself with --store, --resume and --out writes its table");
   MapOptions options;
   Arguments arguments("map", "");
   options.declare(arguments);

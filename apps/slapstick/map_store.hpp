@@ -11,6 +11,10 @@ namespace slapstick::app {
 /// What a store says of the map that it holds. Two runs with equal facts compute the same cells.
 [[nodiscard]] StoreFacts map_facts_of(const MapOptions& options, const MapWish& wish);
 
+/// What any run says of itself. @param options  words that say what is computed, besides the model and its values
+[[nodiscard]] StoreFacts run_facts(const std::string& verb, const ChosenModel& chosen, const std::vector<std::string>& options,
+                                   long cells, int shard = 0, int shards = 1);
+
 /// The map that a store is of: its model, options and problem. @throws StorageError if it is of another verb or version
 [[nodiscard]] std::unique_ptr<MapWish> wish_of(const Store& store);
 

@@ -72,18 +72,27 @@ class Run {
   /// The next value begins where this one's transient ends; after a failure where this one began.
   void run_point(std::size_t i, const Starts& start, const HandOn& hand_on) {
     DiagramPoint& point = diagram_.points[i];
-    std::optional<Settled> settled = settle(problem_, start.empty() ? Carried{} : start.front(), point);
+    if (const DiagramPoint* known = problem_.known ? problem_.known(i) : nullptr) {
+      point = *known;
+      hand_on({{point.carried, point.carried_phase}});
+      return report(i, true);
+    }
+    const Carried begin = start.empty() ? Carried{} : start.front();
+    std::optional<Settled> settled = settle(problem_, begin, point);
+    const Carried next = settled ? carry_on(*settled) : begin;
+    point.carried = next.state;
+    point.carried_phase = next.fraction;
     if (settled) {
-      hand_on({carry_on(*settled)});
+      hand_on({next});
       if (!cancelled(problem_)) record(problem_, std::move(*settled), point);
     }
-    if (point.done) report();
+    if (point.done) report(i, false);
   }
 
-  void report() {
-    if (!problem_.progress) return;
+  void report(std::size_t i, bool known) {
     const std::lock_guard lock(progress_);
-    problem_.progress(++done_, static_cast<int>(diagram_.points.size()));
+    if (problem_.finished && !known) problem_.finished(i, diagram_.points[i]);
+    if (problem_.progress) problem_.progress(++done_, static_cast<int>(diagram_.points.size()));
   }
 
   const DiagramProblem& problem_;

@@ -117,6 +117,21 @@ def test_a_store_is_not_mixed_with_another_run():
     says(refused(2, 'store', 'look', 'a.db'), 'info, merge, export')
 
 
+def test_a_killed_diagram_resumes_with_its_bytes():
+    """Impacts, statistics and values at instants; the state is carried, so that a wrong start shows."""
+    diagram = ('diagram', 'vibro-impact', '--sweep', 'omega=0.6:7:300', '--direction', 'both', '--transient', '200', '--impacts', '40')
+    for more in ((), ('--y', 'w:q95,x1:rms'), ('--y', 'x1,v1', '--at', 'period')):
+        words = diagram if not more or '--at' in more else diagram[:-2]
+        whole = good(*words, *more)
+        for delay in (0.15, 0.3, 0.45):
+            killed((*words, *more, '--store', 'a.db', '--resume'), delay)
+        assert good(*words, *more, '--store', 'a.db', '--resume') == whole
+        assert good(*words, *more, '--store', 'a.db', '--resume', '--threads', '1') == whole
+        says(refused(2, *words, *more, '--store', 'a.db', '--resume', '--set', 'restitution=0.7'), 'model', '0.7')
+        os.remove('a.db')
+    says(refused(2, *diagram, '--resume'), '--resume', '--store')
+
+
 def test_a_second_writer_is_refused_and_a_reader_is_not():
     process = subprocess.Popen([PROGRAM, *CHART, '--level', 'full', '--store', 'a.db'], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     for _ in range(200):

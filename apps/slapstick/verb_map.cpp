@@ -3,6 +3,7 @@
 
 #include "base/ranges.hpp"
 #include "base/text.hpp"
+#include "chart_curves.hpp"
 #include "chart_figure.hpp"
 #include "map_options.hpp"
 #include "map_store.hpp"
@@ -20,7 +21,7 @@ namespace {
 struct Options {
   MapOptions map;
   std::string out, plot, plot_size, show, store;
-  long long slurm = 0;
+  long long slurm = 0, curves = 0;
   bool resume = false, progress = false;
 };
 
@@ -105,7 +106,13 @@ int map(const Options& options, const Context& context) {
   TableOutput table(options.out, map_columns(*wish), map_facts(*wish));
   const sweep::Map found = gathered(*wish, options, context);
   if (options.store.empty() || !options.out.empty()) write_map(*wish, found, table);
-  const int status = plot.write_or_say(chart_figure(*wish, found, shown), found.findings.empty(),
+  figure::Figure picture = chart_figure(*wish, found, shown);
+  if (options.curves > 0 && !context.stop) {
+    const ChartCurves curves = find_curves(*wish, found, static_cast<int>(options.curves), context.stop);
+    draw_curves(curves, picture);
+    report_curves(curves);
+  }
+  const int status = plot.write_or_say(std::move(picture), found.findings.empty(),
                                        found.complete ? done : interrupted);
   report(*wish, found);
   return status;
@@ -122,6 +129,8 @@ Action add_map(Arguments& arguments) {
   arguments.text("--show", options->show, "class,..",
                  "what the panels of the picture are: class, exponent, multiplier, n, p, attractors, Q:STAT of --of "
                  "(class and those of --of)");
+  arguments.count("--curves", options->curves, 0, 1000,
+                  "of --plot: lay so many bifurcation curves over the chart, found from its own boundaries (0)");
   arguments.text("--store", options->store, "F.db", "write each pixel there as it is finished");
   arguments.flag("--resume", options->resume, "of --store: compute only what is not there yet");
   arguments.count("--slurm", options->slurm, 1, 100'000,
@@ -133,6 +142,8 @@ Action add_map(Arguments& arguments) {
       "  slapstick map vibro-impact --x omega=1:6:200 --y friction=0.05:0.3:120 --plot chart.png --out chart.csv");
   return [options, &arguments](const Context& context) {
     options->map.check_words(arguments);
+    if (options->curves > 0 && (options->plot.empty() || options->map.start != "reset" || options->slurm > 0))
+      throw InputError("--curves: it needs --plot and --start reset, and is not for --slurm");
     for (const char* other : {"--shard", "--resume", "--threads"})
       if (options->slurm > 0 && arguments.given(other)) throw InputError(std::string(other) + ": the script of --slurm has its own");
     for (const char* name : {"--resume", "--shard", "--slurm"})

@@ -193,10 +193,10 @@ def merged(parts: Sequence[dict[str, Any]]) -> dict[str, Any]:
     columns = {name: np.concatenate([part[name] for part in parts]) for name in plain}
     measured = {name: np.concatenate([part["measured"][name] for part in parts]) for name in first["measured"]}
     order = np.lexsort((columns["pixel"], columns["direction"] == "down"))
-    columns = {name: column[order] for name, column in columns.items()}
-    columns |= {"measured": {name: column[order] for name, column in measured.items()}}
+    whole: dict[str, Any] = {name: column[order] for name, column in columns.items()}
+    whole |= {"measured": {name: column[order] for name, column in measured.items()}}
     failures = sorted(failure for part in parts for failure in part["failures"])
-    return columns | {"failures": failures, "complete": all(part["complete"] for part in parts)}
+    return whole | {"failures": failures, "complete": all(part["complete"] for part in parts)}
 
 
 def map(  # noqa: A001 (the verb is called so)
@@ -226,15 +226,13 @@ def map(  # noqa: A001 (the verb is called so)
 ) -> Map:
     """A chart over two parameters: what the motion is at every pixel, on all cores.
 
-    x, y: (NAME, A, B, COUNT), both ends included. level: 'quick', a cycle that Newton's method confirms within `periods`
-    or undecided; 'full', as `slapstick.classify` with transient, most_periods and exponent_periods.
-    carry: a pixel begins where its neighbour in the row ended up, in `direction` 'up', 'down' or 'both'.
-    starts: so many random states at every pixel, drawn by `seed`; every attractor that is found is a row.
+    x, y: (NAME, A, B, COUNT), both ends included. level: 'quick', a cycle that Newton's method confirms in `periods`,
+    or undecided; 'full', as `slapstick.classify`. carry: a pixel begins where its neighbour in the row ended up, in
+    `direction` 'up', 'down' or 'both'. starts: so many random states at every pixel; every attractor is a row.
     of: "Q:STAT,..": statistics over the cycle, or where there is none over `measured_periods`.
     shard: (I, N): only every N-th tile, beginning with the I-th. threads: 0 for all; the result is the same.
 
-    Raises InputError for what can be known to be wrong before the work. A pixel that fails has the label 'failed',
-    stands in `failures`, and is a RuntimeWarning.
+    Raises InputError before the work. A pixel that fails is labelled 'failed', in `failures`, and a RuntimeWarning.
 
     >>> import slapstick
     >>> chart = slapstick.map("vibro-impact", ("omega", 1.5, 2.5, 3), ("friction", 0.1, 0.2, 2))
@@ -243,12 +241,12 @@ def map(  # noqa: A001 (the verb is called so)
     """
     chosen = model_of(model)
     fixed = numbers(given_to(map, chosen, values, parameters))
-    options: dict[str, Any] = {"x": axis_of("x", x), "y": axis_of("y", y), "level": level, "carry": carry}
-    options |= {"direction": direction, "starts": starts, "seed": seed, "periods": periods, "transient": transient}
-    options |= {"most_periods": most_periods, "most_n": most_n, "exponent_periods": exponent_periods, "of": of}
-    options |= {"measured_periods": measured_periods, "stops": stops, "start": start, "shard": shard}
+    options: dict[str, Any] = {"x": axis_of("x", x), "y": axis_of("y", y), "measured_periods": measured_periods}
+    options |= dict(level=level, carry=carry, direction=direction, starts=starts, seed=seed, periods=periods, of=of)
+    options |= dict(most_periods=most_periods, most_n=most_n, exponent_periods=exponent_periods, stops=stops)
+    options |= dict(transient=transient, shard=shard, start=start)
     wish, measured = wish_of(options, chosen, fixed, threads)
-    total = options["x"][3] * options["y"][3] * (2 if direction == "both" else 1) // shard[1]
+    total = x[3] * y[3] * (2 if direction == "both" else 1) // shard[1]
     core = _progress.run(_core.map, (chosen._core, fixed, start_of(start), wish), "pixels", total, progress)
     return reported(Map(columns_of(core, measured), chosen, fixed, options))
 

@@ -55,8 +55,8 @@ struct Range {
   double min = 0, max = 1;  ///< min < max; both > 0 on a logarithmic axis
 };
 
-/// A chart: cells of equal size in data coordinates, each in one of up to 255 colours. It is drawn beneath all else; the
-/// clouds of its panel are then discs.
+/// A chart: cells of equal size in data coordinates, each in one of up to 255 colours. It is drawn beneath all else;
+/// the clouds of its panel are then discs.
 struct Cells {
   Range x{}, y{};  ///< the rectangle that the cells fill, edge to edge
   int columns = 0, rows = 0;

@@ -6,11 +6,12 @@
 /// hand on before it ends (a diagram does so after the transient, and then records): the next cell then begins on
 /// another thread.
 ///
-///     run_chains({.chains = rows, .length = columns}, threads, [&](const Cell& cell, const Starts& start, const HandOn& hand_on) {
+///     const auto body = [&](const Cell& cell, const Starts& start, const HandOn& hand_on) {
 ///       Result& mine = results[cell.chain * columns + cell.step];
 ///       mine = compute(start);
 ///       hand_on({mine.state});
-///     });
+///     };
+///     run_chains({.chains = rows, .length = columns}, threads, body);
 ///
 /// What a cell gives depends on its number and its start only, never on threads, so results that are kept under the
 /// cell's number have the same bits for any number of threads. The executor knows neither results nor files.
@@ -49,7 +50,8 @@ using Body = std::function<void(const Cell&, const Starts&, const HandOn&)>;
 /// @param threads  0: all
 /// @param cancel  when set, no further cell is begun; those that run are finished
 /// @returns true if every cell was run
-/// @throws InputError for a negative number; what a body throws (the first that is noticed), after the others have ended
+/// @throws InputError for a negative number; what a body throws (the first that is noticed), after the others have
+/// ended
 bool run_chains(const Chains& chains, int threads, const Body& body, const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace slapstick::sweep

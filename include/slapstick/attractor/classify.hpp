@@ -121,7 +121,8 @@ struct Classification {
   State state;  ///< on the attractor, at phase 0 of a period or anywhere without a drive: needs no transient
 };
 
-/// The label of a motion: of a cycle (n > 0) "1-1-II", "2-inf-I", without a drive "free-1-I"; else the attractor's name.
+/// The label of a motion: of a cycle (n > 0) "1-1-II", "2-inf-I", without a drive "free-1-I"; else the attractor's
+/// name.
 std::string class_label(Attractor attractor, int n, long p, bool sticking, Chatter chatter, bool driven);
 
 /// Classifies the motion that starts at `state` at phase 0.

@@ -1,6 +1,6 @@
 #pragma once
-/// Two-parameter charts: what the motion is at every pixel of a grid of two parameters, on all cores, with the same bits
-/// on any number.
+/// Two-parameter charts: what the motion is at every pixel of a grid of two parameters, on all cores, with the same
+/// bits on any number.
 ///
 ///     sweep::MapProblem problem;
 ///     problem.model_at = [&](double omega, double friction) { return definition.build({{"omega", omega}, ..}); };
@@ -15,7 +15,8 @@
 ///   reset   every pixel begins at the problem's own start;
 ///   carry   a pixel begins where its neighbour in the row ended up, going up or down through x; up and down together
 ///           show coexisting attractors;
-///   random  several starts at every pixel, and every attractor that is found: the first start is the problem's own, the
+///   random  several starts at every pixel, and every attractor that is found: the first start is the problem's own,
+///   the
 ///           others are random admissible states about it, which depend on the pixel's model and the seed only.
 ///
 /// A pixel depends on its own start only and is kept under its number: nothing depends on threads, on shards or on what

@@ -171,6 +171,16 @@ def test_coordinate_that_rounding_alone_moves():
             refused(moved, what)
 
 
+def test_coordinate_beside_a_far_stop():
+    """A body stands at -1/2, its contact number at -1024.5: the rounding of that number is counted, four times as much is refused."""
+    lines = head('far', [1.0], [('stop', 0, -1, 1024.0, 0.5, 'far')], [(0, -1, 1024.0, 0.0)]) + [line('start', 0, 0.0, -0.5, 0.0)]
+    lines += segment(0, (0, 0.0), 1.0, ['open'], [-1024.5], [0.0], CUT)
+    moved = lambda off: lines + segment(1, (1, 0.0), 1.0, ['open'], [-1024.5 + off], [0.0], CUT) + done(2, (2, 0.0), [-1024.5 + off], [0.0])
+    proved(moved(2.0 ** -42))
+    proved_but_for(moved(2.0 ** -40), '1 coordinate that rounding alone moves')
+    refused(moved(2.0 ** -38), 'coordinate 0 jumps by')
+
+
 def test_allowances_of_a_body_that_is_not_coupled():
     """A far body with two numbers of its own explains nothing about another that has two."""
     far = 2.0 ** 44

@@ -107,6 +107,34 @@ std::optional<orbit::SpecialPoint> special_between(const MapWish& wish, const Pi
   return nearest;
 }
 
+/// The points before which a curve meets another change of events, in order: between two of them all are motions, or none.
+std::vector<std::size_t> changes_on(const orbit::Curve& curve) {
+  std::vector<std::size_t> places{0, curve.points.size()};
+  for (const orbit::CurveEvent& event : curve.met)
+    if (ranges::any_of(event.met, [](const orbit::Meeting& one) { return one.kind == orbit::Meeting::Kind::margin; }))
+      places.push_back(std::min(event.after + 1, curve.points.size()));
+  ranges::sort(places);
+  return places;
+}
+
+/// Its motions. Where a margin is zero all along, as at a graze of an impact of no speed, single points may fail the
+/// check by rounding: of each piece the majority counts.
+void keep_motions(const orbit::Curve& curve, std::size_t first_parameter, ChartCurve& found) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<std::size_t> places = changes_on(curve);
+  for (std::size_t k = 0; k + 1 < places.size(); ++k) {
+    const auto begin = curve.points.begin() + static_cast<std::ptrdiff_t>(places[k]);
+    const auto end = curve.points.begin() + static_cast<std::ptrdiff_t>(places[k + 1]);
+    const auto motions = std::count_if(begin, end, [](const orbit::CurvePoint& point) { return point.solution.is_motion; });
+    if (2 * motions <= end - begin) continue;
+    if (!found.x.empty()) found.x.push_back(none), found.y.push_back(none);
+    for (auto point = begin; point != end; ++point) {
+      found.x.push_back(point->values[first_parameter]);
+      found.y.push_back(point->values[1 - first_parameter]);
+    }
+  }
+}
+
 /// The curve of a special point over the chart, its motions only.
 ChartCurve curve_of(const MapWish& wish, const orbit::SpecialPoint& special, const Order& order, bool across,
                     const std::atomic<bool>& stop) {
@@ -115,15 +143,8 @@ ChartCurve curve_of(const MapWish& wish, const orbit::SpecialPoint& special, con
   orbit::CurveOptions how{.from = order.first->from, .to = order.first->to, .second_from = order.second->from, .second_to = order.second->to};
   how.most_points = 400;
   how.stop = &stop;
-  const orbit::Curve curve = orbit::locus(*problem, special, how);
   ChartCurve found{.type = special.type};
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  for (const orbit::CurvePoint& point : curve.points) {
-    const bool motion = point.solution.is_motion;
-    if (!motion && (found.x.empty() || std::isnan(found.x.back()))) continue;
-    found.x.push_back(motion ? point.values[across ? 0 : 1] : none);
-    found.y.push_back(motion ? point.values[across ? 1 : 0] : none);
-  }
+  keep_motions(orbit::locus(*problem, special, how), across ? 0 : 1, found);
   return found;
 }
 
@@ -224,8 +245,8 @@ ChartCurves find_curves(const MapWish& wish, const sweep::Map& map, int most, co
     std::optional<ChartCurve> curve;
     for (const double share : {0.5, 0.25, 0.75}) {
       curve = curve_at(wish, pixels, edges[places[static_cast<std::size_t>(share * static_cast<double>(places.size()))]], stop);
-      if (curve) explain(*curve, pixels, edges);
-      if (curve && curve->edges > 0) break;
+      if (curve) compare_sides(*curve, pixels);
+      if (curve && curve->differ > curve->alike) break;  // else it is hidden where it runs, or is not this boundary
       ++found.without;
       curve.reset();
     }
@@ -233,7 +254,8 @@ ChartCurves find_curves(const MapWish& wish, const sweep::Map& map, int most, co
       given_up.insert(pair);
       continue;
     }
-    compare_sides(*curve, pixels);
+    explain(*curve, pixels, edges);
+    if (curve->edges == 0) given_up.insert(pair);
     found.curves.push_back(std::move(*curve));
   }
   found.explained = ranges::count_if(edges, [](const Edge& edge) { return edge.explained; });

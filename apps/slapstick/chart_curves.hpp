@@ -3,8 +3,8 @@
 ///
 /// An edge is a pair of neighbouring pixels of different classes. The classes with most edges that no curve explains go
 /// first. At one of their edges the cycle of one pixel is followed towards the other; the special point between the two
-/// pixels is followed in both parameters. An edge is explained by a curve that passes within a pixel of it. What is
-/// left is counted.
+/// pixels is followed in both parameters. A curve is kept if the pixels on its two sides differ along most of it. An
+/// edge is explained by a curve that passes within a pixel of it. What is left is counted.
 #include <atomic>
 #include <string>
 #include <vector>
@@ -28,7 +28,7 @@ struct ChartCurves {
   std::vector<ChartCurve> curves;
   long edges = 0;      ///< of the whole map, with a cycle on one side at least
   long explained = 0;  ///< by some curve
-  long without = 0;    ///< edges tried at which no curve was found
+  long without = 0;    ///< edges tried at which no curve was found, or none that is kept
   bool stopped = false;
 };
 

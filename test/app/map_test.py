@@ -8,7 +8,7 @@ import os
 import re
 import signal
 
-from program import good, main, read, refused, says, signalled, table
+from program import good, main, read, refused, run, says, signalled, table
 
 PAPER = ('map', 'vibro-impact', '--x', 'omega=1.2:3:5', '--y', 'friction=0.1:0.3:3')
 
@@ -58,6 +58,21 @@ def test_the_picture_is_there_with_its_shares():
         assert os.path.exists('a-raster%s.png' % panel), os.listdir('.')
 
 
+def test_the_curve_behind_a_boundary_is_where_the_linear_oscillator_grazes():
+    """Without impacts the amplitude is 1 / sqrt((1 - omega^2)^2 + (2 zeta omega)^2): there the stop is touched."""
+    done = run('map', 'impact-oscillator', '--set', 'damping_ratio=0.8', '--x', 'omega=0.5:1.5:24', '--y', 'clearance=0.3:1:18', '--out', 'a.csv', '--plot', 'a.png', '--curves', '1')
+    assert done.status == 0, done.err
+    found = re.search('GR between .* and .*: ([0-9]+) boundary edges; .* differ at ([0-9]+) places and are alike at ([0-9]+)', done.err)
+    edges, differ, alike = (int(number) for number in found.groups())
+    assert edges > 30 and differ > 20 and alike <= differ // 10, done.err
+    points = [line.split(',')[:2] for line in read('a-plot.csv').splitlines()[1:]]
+    points = [(float(x), float(y)) for x, y in points if x not in ('', 'NaN')]
+    assert len(points) > 20
+    for omega, clearance in points:
+        amplitude = 1 / math.hypot(1 - omega ** 2, 2 * 0.8 * omega)
+        assert abs(clearance - amplitude) < 1e-9 * amplitude, (omega, clearance, amplitude)
+
+
 def test_bad_input_is_named():
     says(refused(2, 'map', 'vibro-impact', '--x', 'omega=1:2:3'), '--y')
     says(refused(2, *PAPER[:4], '--y', 'omega=1:2:3'), '--y', "'omega'")
@@ -74,6 +89,7 @@ def test_bad_input_is_named():
     says(refused(2, *PAPER, '--of', 'x1:rsm'), '--of')
     says(refused(2, *PAPER, '--show', 'clas'), '--show', "'class'")
     says(refused(2, *PAPER, '--seed', '2'), '--seed')
+    says(refused(2, *PAPER, '--curves', '2'), '--curves', '--plot')
     says(refused(2, 'map', 'vibro-impact', '--x', 'omega=1:2:100000', '--y', 'friction=0.1:0.2:100000'), 'pixels')
     says(refused(2, *PAPER, '--out', 'a.mat'), 'a.mat')
     assert os.listdir('.') == []

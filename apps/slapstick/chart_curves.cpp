@@ -107,7 +107,8 @@ std::optional<orbit::SpecialPoint> special_between(const MapWish& wish, const Pi
   return nearest;
 }
 
-/// The points before which a curve meets another change of events, in order: between two of them all are motions, or none.
+/// The points before which a curve meets another change of events, in order: between two of them all are motions, or
+/// none.
 std::vector<std::size_t> changes_on(const orbit::Curve& curve) {
   std::vector<std::size_t> places{0, curve.points.size()};
   for (const orbit::CurveEvent& event : curve.met)

@@ -164,7 +164,8 @@ figure::Range scale_range(std::vector<double> values) {
   return range;
 }
 
-void draw_scale(const std::vector<double>& values, Cells& cells, figure::Panel& panel) {
+/// @param whole  the values are whole numbers, and so are those of the legend
+void draw_scale(const std::vector<double>& values, bool whole, Cells& cells, figure::Panel& panel) {
   constexpr int shades = 200;
   std::vector<double> finite;
   ranges::copy_if(values, std::back_inserter(finite), [](double value) { return std::isfinite(value); });
@@ -180,7 +181,7 @@ void draw_scale(const std::vector<double>& values, Cells& cells, figure::Panel& 
     panel.keys.push_back(swatch(words, scale_colour(share(value))));
   };
   if (finite.empty()) return panel.keys.push_back(swatch("none", undecided_colour));
-  const double step = round_step(range.max - range.min);
+  const double step = std::max(round_step(range.max - range.min), whole ? 1.0 : 0.0);
   text(range.min, "\u2264 %.3g");
   for (double tick = std::floor(range.min / step + 1.2) * step; tick < range.max - 0.2 * step; tick += step) text(tick, "%.6g");
   text(range.max, "\u2265 %.3g");
@@ -236,7 +237,7 @@ figure::Figure chart_figure(const MapWish& wish, const sweep::Map& map, const st
         draw_classes(colours, pixels, cells, panel);
       else
         for (const Shown& pixel : pixels) values.push_back(value_of(wish, map, pixel, column));
-      if (column != "class") draw_scale(values, cells, panel);
+      if (column != "class") draw_scale(values, column == "n" || column == "p" || column == "attractors", cells, panel);
       panel.cells = std::move(cells);
       figure.panels.push_back(std::move(panel));
     }

@@ -46,7 +46,7 @@ class Reader {
 
  private:
   [[noreturn]] void fail() const {
-    throw StorageError("the store's cell " + std::to_string(cell_.number) + " is none of this diagram");
+    throw StorageError("the store's cell " + std::to_string(cell_.number) + " does not belong to this diagram");
   }
   const StoredCell& cell_;
   std::size_t at_ = 0;
@@ -116,7 +116,7 @@ DiagramStore::DiagramStore(Store store, sweep::DiagramProblem& problem) : store_
   };
   store_.for_each([&](const StoredCell& cell) {
     if (cell.number < 0 || cell.number >= static_cast<std::int64_t>(known_.size()))
-      throw StorageError("the store's cell " + std::to_string(cell.number) + " is none of this diagram");
+      throw StorageError("the store's cell " + std::to_string(cell.number) + " does not belong to this diagram");
     const auto place = static_cast<std::size_t>(cell.number);
     const auto [i, down] = value(place);
     known_[place] = point_of(cell);

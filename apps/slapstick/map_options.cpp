@@ -81,7 +81,7 @@ void read_start(const MapOptions& options, sweep::MapProblem& problem) {
     problem.start = sweep::MapStart::carry;
   } else if (options.start != "reset") {
     if (options.start.find_first_not_of("0123456789") != std::string::npos || options.start.empty())
-      throw InputError("--start: " + in_quotes(options.start) + " is none of reset, carry and a number");
+      throw InputError("--start: " + in_quotes(options.start) + " must be reset, carry or a number");
     problem.start = sweep::MapStart::random;
     problem.starts = static_cast<int>(parse_integer("--start", options.start, 2, 100'000));
   }

@@ -93,7 +93,7 @@ sweep::Pixel pixel_of(const StoredCell& cell, const sweep::MapProblem& problem) 
   const std::int64_t layer = static_cast<std::int64_t>(problem.x.count) * problem.y.count;
   const std::size_t width = fixed + problem.of.size();
   if (cell.number < 0 || cell.number >= sweep::pixel_count(problem) || cell.numbers.size() % width != 0)
-    throw StorageError("the store's cell " + std::to_string(cell.number) + " is none of this map");
+    throw StorageError("the store's cell " + std::to_string(cell.number) + " does not belong to this map");
   sweep::Pixel pixel;
   pixel.number = static_cast<std::int32_t>(cell.number % layer);
   const bool down = cell.number >= layer || problem.direction == Direction::down;

@@ -130,11 +130,11 @@ Action add_map(Arguments& arguments) {
                  "what the panels of the picture are: class, exponent, multiplier, n, p, attractors, Q:STAT of --of "
                  "(class and those of --of)");
   arguments.count("--curves", options->curves, 0, 1000,
-                  "of --plot: lay so many bifurcation curves over the chart, found from its own boundaries (0)");
+                  "of --plot: lay up to N bifurcation curves over the chart, found from its own boundaries (0)");
   arguments.text("--store", options->store, "F.db", "write each pixel there as it is finished");
   arguments.flag("--resume", options->resume, "of --store: compute only what is not there yet");
   arguments.count("--slurm", options->slurm, 1, 100'000,
-                  "print a script for `sbatch` that computes the map into --store in so many tasks");
+                  "print a script for `sbatch` that computes the map into --store in N tasks");
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
       "A chart over two parameters: at every pixel the class n-p-I or n-p-II, the kind of attractor, exponent and "

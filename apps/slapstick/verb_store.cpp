@@ -110,7 +110,7 @@ Action add_store(Arguments& arguments) {
     if (options->action == "info") return info(*options);
     if (options->action == "merge") return merge(*options, context);
     if (options->action == "export") return write_out(*options);
-    throw InputError("store: " + in_quotes(options->action) + " is none of info, merge, export");
+    throw InputError("store: " + in_quotes(options->action) + " must be info, merge or export");
   };
 }
 

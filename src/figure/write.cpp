@@ -72,7 +72,7 @@ void check_cells(const Panel& panel, const std::string& where) {
         where + ": cells need a code each");
   check(ranges::all_of(cells.codes, [&](std::uint8_t code) { return code == Cells::clear || code < cells.colours.size(); }) &&
             cells.colours.size() <= Cells::clear,
-        where + ": a cell's code is none of the colours");
+        where + ": a cell has a code without a colour");
   check(ranges::none_of(panel.points, in_raster), where + ": points over cells must be discs");
 }
 

@@ -45,6 +45,20 @@ def test_choice_of_a_velocity_that_is_nearly_zero():
             'contacts slip or open that could stick or stay closed')
 
 
+def test_choice_of_a_slip_that_begins_at_its_limit():
+    """Two contacts bear 0.9 at rest and 0.8 in slip, under a load 1.2 sin t. Slip from 0.8 on begins without acceleration, and is not lawful before 0.9."""
+    parts = [('tone', 0, 1.0, 1.2, 0.0), ('friction', 0, -1, 0.0, 0.6, 0.5, 'one'), ('friction', 0, -1, 0.0, 0.3, 0.3, 'other')]
+    lines = head('two', [1.0], parts, [(0, -1, 0.0, 0.0)]) + [line('start', 0, 0.0, 0.0, 0.0)]
+    def slips_from(load, *states):
+        t, end = math.asin(load / 1.2), 0.95
+        p = 1.2 * (math.cos(t) * (end - t) - math.sin(end) + math.sin(t)) - 0.4 * (end - t) ** 2
+        u = 1.2 * (math.cos(t) - math.cos(end)) - 0.8 * (end - t)
+        slip = segment(1, (0, t), end - t, ['slip+', 'slip+'], [0.0], [0.0], CUT)
+        return lines + segment(0, (0, 0.0), t, states, [0.0], [0.0], EVENT) + slip + done(2, (0, end), [p], [u])
+    proved(slips_from(0.9, 'stick', 'stick'))
+    refused(slips_from(0.8, 'slip+', 'stick'), 'contacts slip or open that could stick or stay closed')
+
+
 def test_chatter_whose_flights_are_no_more_than_rounding():
     """A flight of 2^-20 under a ceiling, back from its lowest point: with that gap at zero the body might stay, stuck and closed."""
     t, numbers = 2.0 ** -21, [(0, -1, 0.0, 0.0), (-1, 0, 2.0, 0.0)]

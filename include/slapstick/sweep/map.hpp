@@ -21,7 +21,7 @@
 ///
 /// A pixel depends on its own start only and is kept under its number: nothing depends on threads, on shards or on what
 /// was known before. Cost: a System (0.3 ms for the paper's) and the periods, at about a microsecond each, a pixel.
-/// Source: docs/map.md.
+/// Source: docs/howto/charts.md.
 #include <atomic>
 #include <complex>
 #include <cstdint>

@@ -1,6 +1,7 @@
 /// Runs a diagram: which values are a chain, and what each does before and after it hands on.
 #include "slapstick/sweep/diagram.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <optional>
@@ -48,16 +49,9 @@ class Run {
       for (int i = problem.count - 1; i >= 0; --i) add_point(i, Direction::down);
   }
 
-  /// With `carry` a direction is a chain, with `reset` each value is one.
+  /// With `carry` a direction is a chain, with `reset` some values together are one cell.
   Diagram operator()() {
-    const bool carry = problem_.start == StartRule::carry;
-    const int all = static_cast<int>(diagram_.points.size()), length = carry ? problem_.count : 1;
-    diagram_.complete = run_chains(
-        {.chains = all / length, .length = length}, problem_.threads,
-        [&](const Cell& cell, const Starts& start, const HandOn& hand_on) {
-          run_point(static_cast<std::size_t>(cell.chain * length + cell.step), start, hand_on);
-        },
-        problem_.cancel);
+    diagram_.complete = carries() ? run_carried() : run_each();
     for (const DiagramPoint& point : diagram_.points) diagram_.complete = diagram_.complete && point.done;
     return std::move(diagram_);
   }
@@ -69,19 +63,46 @@ class Run {
     point.direction = direction;
   }
 
+  [[nodiscard]] bool carries() const { return problem_.start == StartRule::carry; }
+
+  bool run_carried() {
+    const int length = problem_.count, chains = static_cast<int>(diagram_.points.size()) / length;
+    const auto body = [&](const Cell& cell, const Starts& start, const HandOn& hand_on) {
+      run_point(static_cast<std::size_t>(cell.chain * length + cell.step), start.empty() ? Carried{} : start.front(), hand_on);
+    };
+    return run_chains({.chains = chains, .length = length}, problem_.threads, body, problem_.cancel);
+  }
+
+  /// Transients in the lanes of a batch, as many points to a cell as keep the lanes full and all threads busy.
+  bool run_each() {
+    constexpr std::size_t most_together = 64;
+    const std::size_t all = diagram_.points.size(), together = std::clamp(all / 32, std::size_t{1}, most_together);
+    const auto body = [&](const Cell& cell, const Starts&, const HandOn&) {
+      const std::size_t begin = static_cast<std::size_t>(cell.chain) * together;
+      run_together(begin, std::min(begin + together, all));
+    };
+    return run_chains({.chains = static_cast<int>((all + together - 1) / together)}, problem_.threads, body, problem_.cancel);
+  }
+
+  void run_together(std::size_t begin, std::size_t end) {
+    std::vector<Carried> begun(end - begin);
+    bool fresh = true;  // lanes and motions have the same bits: where some points are known, the others go one by one
+    for (std::size_t i = begin; i < end; ++i) fresh = fresh && !(problem_.known && problem_.known(i) != nullptr);
+    if (fresh) run_in_lanes(problem_, {diagram_.points.data() + begin, end - begin}, begun);
+    for (std::size_t i = begin; i < end; ++i) run_point(i, begun[i - begin], [](const Starts&) {});
+  }
+
   /// The next value begins where this one's transient ends; after a failure where this one began.
-  void run_point(std::size_t i, const Starts& start, const HandOn& hand_on) {
+  void run_point(std::size_t i, const Carried& begin, const HandOn& hand_on) {
     DiagramPoint& point = diagram_.points[i];
     if (const DiagramPoint* known = problem_.known ? problem_.known(i) : nullptr) {
       point = *known;
       hand_on({{point.carried, point.carried_phase}});
       return report(i, true);
     }
-    const Carried begin = start.empty() ? Carried{} : start.front();
     std::optional<Settled> settled = settle(problem_, begin, point);
     const Carried next = settled ? carry_on(*settled) : begin;
-    point.carried = next.state;
-    point.carried_phase = next.fraction;
+    if (carries()) point.carried = next.state, point.carried_phase = next.fraction;
     if (settled) {
       hand_on({next});
       if (!cancelled(problem_)) record(problem_, std::move(*settled), point);

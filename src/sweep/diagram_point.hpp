@@ -20,6 +20,11 @@ struct Settled {
 /// @returns nothing after a failure, which is written into `point`, or when cancelled
 std::optional<Settled> settle(const DiagramProblem& problem, const Carried& carried, DiagramPoint& point);
 
+/// The transients of points that begin at the problem's own start, in the lanes of a batch, up to the last few
+/// periods: these show the impact before the first that is recorded. Points that no lane can run, or that fail
+/// there, are left as they are.
+void run_in_lanes(const DiagramProblem& problem, std::span<const DiagramPoint> points, std::span<Carried> begun);
+
 /// Where the next value of a chain may start.
 Carried carry_on(const Settled& settled);
 

@@ -27,6 +27,7 @@ namespace slapstick::sweep {
 struct Carried {
   State state;            ///< user's coordinates; empty: none, begin anew
   double fraction = 0.0;  ///< phase of the forcing
+  int periods = 0;        ///< of a transient that have passed already
   friend bool operator==(const Carried&, const Carried&) = default;
 };
 

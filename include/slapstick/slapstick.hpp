@@ -51,4 +51,5 @@
 #include "slapstick/section/stroboscopic_section.hpp"
 #include "slapstick/sweep/batch.hpp"
 #include "slapstick/sweep/diagram.hpp"
+#include "slapstick/sweep/map.hpp"
 #include "slapstick/sweep/parallel.hpp"

@@ -18,6 +18,7 @@ from ._core import version as __version__
 from ._diagram import Diagram, diagram
 from ._locus import Locus, Meeting, locus
 from ._lyapunov import Exponents, lyapunov
+from ._map import Map, map  # noqa: A004 (the verb is called so)
 from ._model import Model, Parameters, load, models, new
 from ._motion import Events, Motion, simulate
 from ._orbit import Orbit, OrbitEvents, orbit, orbits
@@ -37,6 +38,7 @@ __all__ = [
     "InputError",
     "Interrupted",
     "Locus",
+    "Map",
     "Meeting",
     "Measured",
     "Model",
@@ -60,6 +62,7 @@ __all__ = [
     "load",
     "locus",
     "lyapunov",
+    "map",
     "measure",
     "models",
     "new",

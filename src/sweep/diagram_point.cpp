@@ -172,6 +172,15 @@ void record(const DiagramProblem& problem, Settled settled, DiagramPoint& point)
   point.done = !good || !interrupted;
 }
 
+ImpactTable ImpactTable::of(std::vector<double> numbers, std::size_t row_width) {
+  if (row_width == 0 ? !numbers.empty() : row_width <= fixed || numbers.size() % row_width != 0)
+    throw InputError("ImpactTable: the numbers are no rows of " + std::to_string(row_width));
+  ImpactTable table;
+  table.numbers_ = std::move(numbers);
+  table.width_ = row_width;
+  return table;
+}
+
 void ImpactTable::add(const Row& row) {
   if (width_ == 0) width_ = fixed + row.state.size();
   if (width_ != fixed + row.state.size()) throw std::logic_error("ImpactTable: states of different length");

@@ -5,15 +5,9 @@
 
 #include "slapstick/section/impact_section.hpp"
 #include "slapstick/sweep/diagram.hpp"
+#include "sweep/executor.hpp"
 
 namespace slapstick::sweep {
-
-/// A start that a chain hands from value to value.
-struct Carried {
-  State state;            ///< user's coordinates; empty: none yet
-  double fraction = 0.0;  ///< phase of the forcing
-  int periods = 0;        ///< of the transient that have passed already
-};
 
 /// A motion after its transient; the System lives as long as the motion needs it.
 struct Settled {

@@ -65,16 +65,19 @@ class Statistician : public Listener {
 
   void blow(const Blow& blow) override {
     for (std::size_t k = 0; k < of_.size(); ++k) {
-      if (blow.impulses[k] == 0.0) continue;
-      found_.of[k].impulse += blow.impulses[k];
+      const double impulse = blow.impulses[k].value;
+      if (impulse == 0.0) continue;
+      found_.of[k].impulse += impulse;
       ++found_.of[k].impulses;
     }
     for (const Struck& one : blow.impacts) {
       StopStatistics& stop = found_.stops[static_cast<std::size_t>(one.contact < rigid_ ? one.contact : one.contact - between_)];
-      add(one.w, blow.time, stop.w);
-      add(one.impulse, blow.time, stop.impulse);
-      add(one.loss, blow.time, stop.loss);
-      for (std::size_t k = 0; k < of_.size(); ++k) add_impact(of_[k], one, blow.time, found_.of[k]);
+      const double time = blow.time.value;
+      add(one.w.value, time, stop.w);
+      add(one.impulse.value, time, stop.impulse);
+      add(one.loss.value, time, stop.loss);
+      for (std::size_t k = 0; k < of_.size(); ++k)
+        if (of_[k].at_impacts()) add(value_at(of_[k], one).value, time, found_.of[k]);
     }
   }
 
@@ -108,10 +111,6 @@ class Statistician : public Listener {
     into.values.push_back(value);
   }
 
-  static void add_impact(const Quantity& quantity, const Struck& one, double at, Statistics& into) {
-    if (quantity.at_impacts()) add(value_at(quantity, one), at, into);
-  }
-
   static void finish(Statistics& one) {
     double sum = 0.0, square = 0.0;
     for (const double value : one.values) sum += value, square += value * value;
@@ -138,7 +137,7 @@ Measured measure(Motion motion, Instant end, const std::vector<Quantity>& of, co
   const Instant start = motion.time();
   const System system = motion.system();
   quantity::Statistician listener(system.model(), of);
-  quantity::Tracer tracer(system.model(), system.compiled().frame(), system.period(), of, listener);
+  quantity::Tracer tracer(system.model(), system.compiled().frame(), {system.period(), 0.0}, of, listener);
   const bool complete = quantity::trace(motion, end, tracer, stop);
   return listener.result(motion.time().since(start) * system.period(), complete);
 }
@@ -148,7 +147,7 @@ Measured measure(const orbit::Problem& problem, const orbit::Orbit& orbit, const
   quantity::Statistician listener(cycle.model(), of);
   quantity::Tracer tracer(cycle.model(), cycle.frame(), cycle.period(), of, listener);
   cycle.trace(tracer);
-  Measured found = listener.result(cycle.duration(), true);
+  Measured found = listener.result(cycle.duration().value, true);
   const auto in_cycle = [&](Statistics& one) {
     for (double* at : {&one.least_at, &one.greatest_at}) *at -= found.duration * std::floor(*at / found.duration);
   };

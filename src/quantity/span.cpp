@@ -33,6 +33,15 @@ Measured measure(const Span& span, const std::vector<Quantity>& of, const std::a
   return span.cycle ? measure(*span.problem, span.cycle->orbit, of) : measure(*span.motion, span.end, of, stop);
 }
 
+std::vector<Measured> measure_rates(const ModelDefinition& definition, const Overrides& overrides,
+                                    const std::vector<std::string>& parameters, orbit::Orbit cycle,
+                                    const std::vector<Quantity>& of) {
+  cycle.values.clear();
+  for (const std::string& name : parameters) cycle.values.push_back(definition.present_value(name, overrides));
+  const auto problem = orbit::pose(definition.family(parameters, overrides), cycle.values);
+  return measure_rates(*problem, cycle, of);
+}
+
 DensitySpectrum density(const Span& span, const Quantity& of, DensityOptions options) {
   options.stretches = static_cast<int>(std::floor(2.0 * span.periods() / options.stretch)) - 1;
   if (options.stretches < 1)

@@ -38,8 +38,8 @@ class Fourier : public Listener {
   }
 
   void blow(const Blow& blow) override {
-    if (blow.impulses[0] == 0.0) return;
-    add(blow.impulses[0], blow.time);
+    if (blow.impulses[0].value == 0.0) return;
+    add(blow.impulses[0].value, blow.time.value);
     ++impulses_;
   }
 
@@ -106,7 +106,7 @@ double windowed(const std::vector<Complex>& first, const std::vector<Complex>& s
 LineSpectrum spectrum(const orbit::Problem& problem, const orbit::Orbit& orbit, const Quantity& of, double highest_order) {
   quantity::check(of, highest_order);
   const quantity::Cycle cycle(problem, orbit);
-  const double T = cycle.duration(), n = orbit.shape.n > 0 ? orbit.shape.n : 1.0;
+  const double T = cycle.duration().value, n = orbit.shape.n > 0 ? orbit.shape.n : 1.0;
   quantity::Fourier fourier(T, static_cast<std::size_t>(std::floor(highest_order * n)) + 1);
   const std::vector<Quantity> one = {of};
   quantity::Tracer tracer(cycle.model(), cycle.frame(), cycle.period(), one, fourier);
@@ -129,7 +129,7 @@ DensitySpectrum density(Motion motion, const Quantity& of, const DensityOptions&
   if (count < 3) throw InputError("spectrum: a stretch is too short for the highest order");
   quantity::Fourier fourier(T, count + 1);
   const std::vector<Quantity> one = {of};
-  quantity::Tracer tracer(system.model(), system.compiled().frame(), system.period(), one, fourier);
+  quantity::Tracer tracer(system.model(), system.compiled().frame(), {system.period(), 0.0}, one, fourier);
   std::vector<double> sums(count, 0.0);
   std::vector<std::complex<double>> before;
   const Instant start = motion.time();

@@ -33,6 +33,16 @@ double Statistics::quantile(double q) const {
   return values[static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(values.size() - 1)))];
 }
 
+/// Mean, rms, least, greatest, their instants, impulses and values are linear in what they are derivatives of; the two
+/// others are not.
+double statistic_rate(const Statistics& of, const Statistics& rate, const std::string& name) {
+  if (name != "crest" && name != "number") return statistic(rate, name);
+  if (name == "number") return 0.0;
+  const bool below = std::abs(of.least) > std::abs(of.greatest);
+  const double largest = below ? -rate.least : of.greatest < 0.0 ? -rate.greatest : rate.greatest;
+  return (largest - of.crest() * rate.rms) / of.rms;
+}
+
 void check_statistic(const Quantity& quantity, const std::string& name) {
   if (std::find(names().begin(), names().end(), name) != names().end()) return;
   if (part_of(name) >= 0.0) {

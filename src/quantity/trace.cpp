@@ -19,7 +19,7 @@ class Follower {
     if (!event) return;
     const Event& last = motion_.event();
     if (last.kind == EventKind::impact) tracer_.impact(last.contact, last.w);
-    if (last.kind == EventKind::chatter) tracer_.begin_flight(last.contact, last.time.since(origin_) * motion_.system().period());
+    if (last.kind == EventKind::chatter) tracer_.begin_flight(last.contact, Number{last.time.since(origin_) * motion_.system().period(), 0.0});
   }
 
  private:

@@ -68,4 +68,18 @@ void check_statistic(const Quantity& quantity, const std::string& name);
 /// @throws NumericalError if a leg is too long for the rates of its mode
 [[nodiscard]] Measured measure(const orbit::Problem& problem, const orbit::Orbit& orbit, const std::vector<Quantity>& of);
 
+/// The derivatives of `measure` of the cycle by each parameter of the problem's family, the others as they are: every
+/// number is that number's derivative, of `values` in the same order; counts are 0. Exact but for rounding, by the
+/// implicit function theorem on the orbit's equations, as long as the orbit keeps its events. Instants of extremes that
+/// are flat to second order, and numbers that do not exist, are NaN.
+/// Cost: for each parameter some times that of `measure`.
+/// @throws NumericalError as measure, and where the orbit has no derivative: at a fold, or as one of a family;
+/// InputError for a parameter among the quantities, and as Family::rate
+[[nodiscard]] std::vector<Measured> measure_rates(const orbit::Problem& problem, const orbit::Orbit& orbit,
+                                                  const std::vector<Quantity>& of);
+
+/// The derivative of `statistic(of, name)`, `rate` the derivatives of `of`.
+/// @throws InputError as statistic
+[[nodiscard]] double statistic_rate(const Statistics& of, const Statistics& rate, const std::string& name);
+
 }  // namespace slapstick

@@ -40,6 +40,12 @@ struct Span {
 /// Of the cycle or of the motion. @throws as the measures of these
 [[nodiscard]] Measured measure(const Span& span, const std::vector<Quantity>& of, const std::atomic<bool>* stop = nullptr);
 
+/// measure_rates of a cycle of a model by parameters or groups, at their present values.
+/// @throws InputError for an unknown name, or a group whose members differ; as measure_rates
+[[nodiscard]] std::vector<Measured> measure_rates(const ModelDefinition& definition, const Overrides& overrides,
+                                                  const std::vector<std::string>& parameters, orbit::Orbit cycle,
+                                                  const std::vector<Quantity>& of);
+
 /// The density of the motion of a span, in as many stretches as fit.
 /// @throws InputError if none fits, and as density of a motion
 [[nodiscard]] DensitySpectrum density(const Span& span, const Quantity& of, DensityOptions options);

@@ -63,8 +63,8 @@ Settled settle(const Problem& problem, const System& system, const State& state,
     result.end = SettleEnd::time;
   } else if (problem.free() && !settling.ended() && !settling.cancelled()) {
     // Where events come so often that no section is met alike, the legs of the motion itself may close.
-    const State state = settling.at_home(settling.state());
-    result.orbit = orbit_from(problem, Motion(system, state), 0, settled_within, options.stop);
+    const State home = settling.at_home(settling.state());
+    result.orbit = orbit_from(problem, Motion(system, home), 0, settled_within, options.stop);
     result.end = result.orbit ? SettleEnd::orbit : SettleEnd::no_cycle;
   } else if (settling.ended()) {
     result.end = SettleEnd::rest;

@@ -27,9 +27,10 @@ int run(const Options& all, const Context& context) {
   const ChosenModel chosen = options.model.load();
   const std::vector<Wanted> wanted = parse_wanted("--of", options.of, quantities(chosen.definition, chosen.overrides));
   Output out(options.out);
-  const auto span = options.span(chosen, periods_without_cycle, context);
+  Progress progress("periods", options.whole(chosen, periods_without_cycle), options.progress);
+  const auto span = options.span(chosen, periods_without_cycle, context, &progress);
   if (!span) return interrupted;
-  const Measured found = measure(*span, quantities_of(wanted), &context.stop);
+  const Measured found = measure(*span, quantities_of(wanted), &context.stop, [&](double now) { progress.update(now); });
   if (!(found.duration > 0.0)) return interrupted;  // Ctrl-C before anything was measured
   if (!all.sensitivity.empty() && !span->cycle)
     throw InputError("--sensitivity: it is of a cycle, and the motion settles on none: choose an orbit, as by --orbit 1-1");

@@ -22,7 +22,7 @@ std::optional<Span> span_of(const ModelDefinition& definition, const Overrides& 
                             const std::optional<Start>& start, const Wish& wish, const std::atomic<bool>* cancel) {
   const System system(build(definition, values));
   return find_span(definition, values, system, start_of(definition, values, start),
-                   {wish.transient, wish.periods, wish.instead, cancel});
+                   {wish.transient, wish.periods, wish.instead, cancel, {}});
 }
 
 /// The columns of a stop's impacts, in order of size.
@@ -127,7 +127,7 @@ std::unique_ptr<Spectra> spectra(const ModelDefinition& definition, const Overri
       result->label = span->cycle->label;
       result->lines = spectrum(*span->problem, span->cycle->orbit, wanted[0], orders);
     } else {
-      result->points = density(*span, wanted[0], {stretch, 1, orders, watch.cancel()});
+      result->points = density(*span, wanted[0], {stretch, 1, orders, watch.cancel(), {}});
     }
     complete = result->points.complete;
   });

@@ -66,7 +66,45 @@ Row Formulas::relative(int contact) const {
   if (contact < frictions()) return still(frame_.velocity_row(frame_.frictions[static_cast<std::size_t>(contact)]));
   contact -= frictions();
   if (contact < compliants()) return still(frame_.velocity_row(frame_.compliant[static_cast<std::size_t>(contact)]));
-  return moved(frame_.characteristics[static_cast<std::size_t>(contact - compliants())].velocity);
+  contact -= compliants();
+  if (contact < bends()) return moved(frame_.characteristics[static_cast<std::size_t>(contact)].velocity);
+  return link_speed(contact - bends());
+}
+
+/// strength (x_a - x_b), or of the velocities, between ends that bases may move (BaseMotion).
+template <class Link>
+Row Formulas::link_force(const Link& link, Number strength, bool velocities) const {
+  Row row = strength * difference(link.a, link.b, velocities);
+  const bool of_a = link.a != ground;
+  for (int i = link.motion.first; i < link.motion.first + link.motion.count; ++i) {
+    if (model_.forces[static_cast<std::size_t>(i)].coordinate != (of_a ? link.a : link.b)) continue;
+    if (of_a)
+      row -= drive(i);
+    else
+      row += drive(i);
+  }
+  return row;
+}
+
+Row Formulas::spring_force(int i) const {
+  return link_force(model_.springs[static_cast<std::size_t>(i)], number(&Model::springs, i, &Spring::stiffness), false);
+}
+
+Row Formulas::damper_force(int i) const {
+  return link_force(model_.dampers[static_cast<std::size_t>(i)], number(&Model::dampers, i, &Damper::coefficient), true);
+}
+
+/// v_a - v_b of a spring or damper; of a damper on a base that moves F / coefficient.
+Row Formulas::link_speed(int i) const {
+  if (i < springs()) {
+    const Spring& spring = model_.springs[static_cast<std::size_t>(i)];
+    return difference(spring.a, spring.b, true);
+  }
+  const Damper& damper = model_.dampers[static_cast<std::size_t>(i - springs())];
+  if (damper.motion.none()) return difference(damper.a, damper.b, true);
+  const Number coefficient = number(&Model::dampers, i - springs(), &Damper::coefficient);
+  if (coefficient.value == 0.0) return none();
+  return Number{1.0, 0.0} / coefficient * damper_force(i - springs());
 }
 
 Row Formulas::gap(int contact) const {
@@ -139,7 +177,10 @@ Row Formulas::force(int contact, const std::vector<bool>& above) const {
     return {mode::compliant_row(model_, frame_, contact, state),
             rates_ ? mode::compliant_row(rates_->model, frame_, contact, state) : zero()};
   }
-  return bend_force(contact - compliants());
+  contact -= compliants();
+  if (contact < bends()) return bend_force(contact);
+  contact -= bends();
+  return contact < springs() ? spring_force(contact) : damper_force(contact - springs());
 }
 
 /// F w; of a compliant stop damping w^2, or as much as its spring's where that bounds it; of a stop nothing between

@@ -112,14 +112,18 @@ Formula Formulas::damping() const {
   return formula;
 }
 
+/// A force of the model.
+Row Formulas::drive(int i) const {
+  const auto at = static_cast<std::size_t>(i);
+  const Force& force = model_.forces[at];
+  return {frame_.drive_row(force), rates_ ? mode::drive_rate(frame_, force, rates_->model.forces[at]) : zero()};
+}
+
 /// Forces times the velocities that they act on, and the belts: of the force F of a contact -F belt_speed.
 Formula Formulas::input(const std::vector<bool>& above) const {
   Formula formula{none()};
-  for (std::size_t i = 0; i < model_.forces.size(); ++i) {
-    const Force& force = model_.forces[i];
-    const Row row{frame_.drive_row(force), rates_ ? mode::drive_rate(frame_, force, rates_->model.forces[i]) : zero()};
-    formula.products.emplace_back(row, velocity(force.coordinate));
-  }
+  for (std::size_t i = 0; i < model_.forces.size(); ++i)
+    formula.products.emplace_back(drive(static_cast<int>(i)), velocity(model_.forces[i].coordinate));
   for (int i = 0; i < frictions(); ++i) {
     const Number belt = number(&Model::frictions, i, &FrictionContact::belt_speed);
     if (belt.value != 0.0 || belt.rate != 0.0) formula.linear -= belt * force(stops() + i, above);

@@ -67,6 +67,12 @@ class Formulas {
   [[nodiscard]] Row held_stop(int stop, const std::vector<bool>& above) const;
   [[nodiscard]] Row held_friction(int friction, const std::vector<bool>& above) const;
   [[nodiscard]] Row bend_force(int characteristic) const;
+  [[nodiscard]] Row drive(int force) const;
+  template <class Link>
+  [[nodiscard]] Row link_force(const Link& link, Number strength, bool velocities) const;
+  [[nodiscard]] Row spring_force(int spring) const;
+  [[nodiscard]] Row damper_force(int damper) const;
+  [[nodiscard]] Row link_speed(int link) const;
   [[nodiscard]] double beyond(std::size_t pair, const std::vector<bool>& above) const;
   [[nodiscard]] double sense(const mode::HeldPair& pair, const mode::ContactRow& contact) const;
   [[nodiscard]] Row difference(int a, int b, bool velocities) const;
@@ -82,6 +88,7 @@ class Formulas {
   [[nodiscard]] int frictions() const { return static_cast<int>(model_.frictions.size()); }
   [[nodiscard]] int compliants() const { return static_cast<int>(model_.compliant_stops.size()); }
   [[nodiscard]] int bends() const { return static_cast<int>(model_.characteristics.size()); }
+  [[nodiscard]] int springs() const { return static_cast<int>(model_.springs.size()); }
 
   const Model& model_;
   const mode::Frame& frame_;

@@ -132,13 +132,14 @@ class Statistician : public Listener {
 }  // namespace
 }  // namespace quantity
 
-Measured measure(Motion motion, Instant end, const std::vector<Quantity>& of, const std::atomic<bool>* stop) {
+Measured measure(Motion motion, Instant end, const std::vector<Quantity>& of, const std::atomic<bool>* stop,
+                 const std::function<void(double periods)>& progress) {
   if (end <= motion.time()) throw InputError("measure: the end is not later than the start");
   const Instant start = motion.time();
   const System system = motion.system();
   quantity::Statistician listener(system.model(), of);
   quantity::Tracer tracer(system.model(), system.compiled().frame(), {system.period(), 0.0}, of, listener);
-  const bool complete = quantity::trace(motion, end, tracer, stop);
+  const bool complete = quantity::trace(motion, end, tracer, stop, progress);
   return listener.result(motion.time().since(start) * system.period(), complete);
 }
 

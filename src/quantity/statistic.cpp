@@ -1,5 +1,6 @@
 /// Statistics by name.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -12,8 +13,12 @@ namespace slapstick {
 namespace {
 
 const std::vector<std::string>& names() {
-  static const std::vector<std::string> all = {"mean",   "rms",          "min",   "max",     "min_at",
-                                               "max_at", "peak_to_peak", "crest", "impulse", "number"};
+  static const std::vector<std::string> all = [] {
+    std::vector<std::string> made;
+    for (const StatisticRule& rule : statistic_rules())
+      if (rule.name[0] != 'q') made.emplace_back(rule.name);
+    return made;
+  }();
   return all;
 }
 
@@ -24,6 +29,23 @@ double part_of(const std::string& name) {
 }
 
 }  // namespace
+
+std::span<const StatisticRule> statistic_rules() {
+  static constexpr std::array rules = {
+      StatisticRule{"mean", "integral over the time by the time, impulses included"},
+      StatisticRule{"rms", "root of the mean square between impacts"},
+      StatisticRule{"min", "least value"},
+      StatisticRule{"max", "greatest value"},
+      StatisticRule{"min_at", "instant of the least value, from phase 0 on"},
+      StatisticRule{"max_at", "instant of the greatest value, from phase 0 on"},
+      StatisticRule{"peak_to_peak", "max - min"},
+      StatisticRule{"crest", "largest absolute value over rms"},
+      StatisticRule{"impulse", "sum of the impulses"},
+      StatisticRule{"number", "how many impulses there are"},
+      StatisticRule{"q05 .. q95", "of quantities at impacts: quantiles, the part in percent"},
+  };
+  return rules;
+}
 
 double Statistics::crest() const { return std::max(std::abs(least), std::abs(greatest)) / rms; }
 

@@ -45,7 +45,8 @@ class Follower {
 
 }  // namespace
 
-bool trace(Motion& motion, Instant end, Tracer& tracer, const std::atomic<bool>* stop) {
+bool trace(Motion& motion, Instant end, Tracer& tracer, const std::atomic<bool>* stop,
+           const std::function<void(double periods)>& progress) {
   Follower follower(motion, tracer);
   Instant stage = motion.time();
   do {
@@ -55,6 +56,7 @@ bool trace(Motion& motion, Instant end, Tracer& tracer, const std::atomic<bool>*
       if (stopped(stop)) return false;
     }
     follower.look(false);
+    if (progress) progress(motion.time().since({}));
     if (stopped(stop)) return false;
   } while (stage < end);
   tracer.finish(motion.engine().extended().data(), *motion.system().compiled().outline(motion.mode_id()));

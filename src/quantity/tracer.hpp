@@ -9,6 +9,7 @@
 ///
 /// Of a cycle it can carry the derivative by a parameter, Y = dX/dp at a fixed time s of the piece: Y' = A Y + A_p X.
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -102,7 +103,9 @@ class Tracer {
 
 /// Follows a motion to `end`. What happens at its present instant is not told, what happens at `end` is.
 /// @param stop  null: cannot be stopped. @returns false if it was
+/// @param progress  if there is one, called now and then with the motion's time in periods
 /// @throws NumericalError as Motion::advance
-bool trace(Motion& motion, Instant end, Tracer& tracer, const std::atomic<bool>* stop);
+bool trace(Motion& motion, Instant end, Tracer& tracer, const std::atomic<bool>* stop,
+           const std::function<void(double periods)>& progress = {});
 
 }  // namespace slapstick::quantity

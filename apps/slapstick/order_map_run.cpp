@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "axis_text.hpp"
-#include "axis_units.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "slapstick/base/error.hpp"
@@ -16,12 +15,6 @@ namespace {
 constexpr std::size_t most_lines = 60;    ///< in a picture: of more values every so many-th is drawn
 constexpr double shown_decibels = 60.0;   ///< below the largest level
 constexpr double lines_high = 4.0;        ///< the largest level stands so many lines high
-
-std::string unit_of(const std::string& name, const ChosenModel& chosen) {
-  for (const Parameter& parameter : chosen.definition.parameters())
-    if (parameter.name == name) return parameter.unit;
-  return "";
-}
 
 /// Heights in [0, 1] of all amplitudes: of the largest one, or of a level.
 std::vector<double> heights(const OrderMap& map, bool decibels) {
@@ -89,7 +82,7 @@ int order_map_run(const OrderMapWish& wish, const ChosenModel& chosen, const Sta
                                  {wish.highest_order, static_cast<long>(wish.settle), &context.stop,
                                   [&](long steps) { progress.update(static_cast<double>(steps)); }});
   write(map, table);
-  const figure::Figure picture = waterfall_figure(map, labels, with_unit(axis_text(climb.name), unit_of(climb.name, chosen)));
+  const figure::Figure picture = waterfall_figure(map, labels, parameter_axis(chosen.definition, climb.name));
   return plot.write_or_say(picture, picture.panels[0].lines.empty(), map.complete ? done : interrupted);
 }
 

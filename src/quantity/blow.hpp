@@ -52,6 +52,10 @@ class Blows {
   /// The trace has come to an instant; friction slipped on the way so long.
   void go_on(Number time, Number slid);
   void forget() { struck_ = 0; }
+  /// Can there be a blow between these modes? If not, no state is needed.
+  [[nodiscard]] bool may_come(const mode::Outline& last, const mode::Outline& next) const {
+    return struck_ != 0 || !impacts_.empty() || last.states.compliant != next.states.compliant;
+  }
 
   /// What lies between the end of one piece and the start of the next; nothing if nothing happens.
   [[nodiscard]] std::optional<Blow> between(const mode::Outline& last, const Moving& before, const mode::Outline& next,

@@ -45,6 +45,8 @@ void add_step(const Polynomial& f, double begin, double length, Sums& sums) {
   sums.square.add(length * square);
   const double around = f.size(1);
   if (f.a[0] - around >= sums.least && f.a[0] + around <= sums.greatest) return;
+  const event::Bernstein hull(f);
+  if (hull.least() >= sums.least && hull.most() <= sums.greatest) return;
   event::possible_extremes(f, [&](double x, double value) { sums.note(value, begin + x * length); });
 }
 

@@ -174,7 +174,9 @@ void Tracer::piece(const std::shared_ptr<const mode::Outline>& outline, double l
   const double end = begin + duration, begin_rate = rates != nullptr ? rates->begin : 0.0,
                end_rate = rates != nullptr ? rates->duration : 0.0;
   double from_rate = 0.0;
+  behind_ = nullptr;
   for (double left = duration; left > 0.0;) {
+    catch_up();
     Number length{std::min(left, mode.longest), 0.0};
     if (left <= mode.longest) length.rate = end_rate;
     if (!mode.formulas.kinks().empty())
@@ -219,10 +221,14 @@ Number Tracer::to_first_kink(const Expansion& mode, double length) {
 void Tracer::step(Expansion& mode, double length, const Step& place) {
   evaluate(mode, length);
   listener_.step(place);
-  if (rates_ != nullptr)
-    move_rates(mode, length);
-  else
-    move(mode, length);
+  if (rates_ != nullptr) return move_rates(mode, length);
+  behind_ = &mode;
+  behind_by_ = length;
+}
+
+void Tracer::catch_up() {
+  if (behind_ != nullptr) move(*behind_, behind_by_);
+  behind_ = nullptr;
 }
 
 /// Taylor's terms over a step of length `longest`, of X and of Y.
@@ -291,7 +297,7 @@ void Tracer::move_rates(const Expansion& mode, double length) {
 }
 
 void Tracer::impact(int stop, double w) {
-  if (last_ != nullptr) blows_.impact(stop, w, at_);
+  if (last_ != nullptr) blows_.impact(stop, w, at_);  // of X its derivative alone, which is never behind
 }
 
 void Tracer::finish(const double* X, const mode::Outline& next, const double* X_rate) {
@@ -300,6 +306,8 @@ void Tracer::finish(const double* X, const mode::Outline& next, const double* X_
 
 /// What lies between the end of the last piece and X.
 void Tracer::tell_blow(const mode::Outline& next, const double* X, const double* X_rate) {
+  if (!blows_.may_come(*last_, next)) return blows_.forget();
+  catch_up();
   Moving after{Eigen::Map<const Vector>(X, frame_.size()), {}};
   if (X_rate != nullptr) after.by = Eigen::Map<const Vector>(X_rate, frame_.size());
   if (const auto blow = blows_.between(*last_, at_, next, after)) listener_.blow(*blow);

@@ -81,6 +81,7 @@ class Tracer {
   void evaluate(Expansion& mode, double length);
   void expand(const Expansion& mode);
   void move(const Expansion& mode, double length);
+  void catch_up();
   void move_rates(const Expansion& mode, double length);
   [[nodiscard]] Number to_first_kink(const Expansion& mode, double length);
   void tell_blow(const mode::Outline& next, const double* X, const double* X_rate);
@@ -93,7 +94,9 @@ class Tracer {
   Blows blows_;
   std::vector<std::unique_ptr<Expansion>> modes_;
   const mode::Outline* last_ = nullptr;  ///< of the last piece
-  Moving at_;                            ///< where the trace stands
+  Moving at_;                            ///< where the trace stands, but for what it is behind
+  const Expansion* behind_ = nullptr;    ///< X has still to go on in this mode ..
+  double behind_by_ = 0.0;               ///< .. so long: most pieces end where nobody asks for it
   Moving next_;
   Vector coefficients_, rate_coefficients_;
   Matrix terms_, rate_terms_;  ///< of exp(A h) X and of Y, a column each

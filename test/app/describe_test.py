@@ -34,12 +34,13 @@ def test_every_verb_of_the_help_is_described_and_every_option_is_in_its_help():
 
 def test_words_and_bounds_that_are_described_are_those_that_are_taken():
     for verb in described()['verbs']:
+        model = ['vibro-impact'] if verb['arguments'] and verb['arguments'][0]['kind'] == 'positional' else []
         for argument in verb['arguments']:
             if argument['kind'] == 'choice':
-                assert 'none of its words' in refused(2, verb['name'], 'vibro-impact', argument['name'], 'no-such-word')
-            if argument['kind'] == 'count' and verb['name'] != 'describe':
-                beyond = str(argument['most'] + 1)
-                assert f"[{argument['least']}, {argument['most']}]" in refused(2, verb['name'], 'vibro-impact', argument['name'], beyond)
+                assert 'none of its words' in refused(2, verb['name'], *model, argument['name'], 'no-such-word')
+            if argument['kind'] == 'count':
+                line = refused(2, verb['name'], *model, argument['name'], str(argument['most'] + 1))
+                assert f"[{argument['least']}, {argument['most']}]" in line, (verb['name'], line)
 
 
 def test_quantities_of_a_model_follow_the_rules_that_are_described():

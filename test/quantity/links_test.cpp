@@ -66,7 +66,7 @@ TEST(Links, TogetherAreTheForceOnTheMass) {
 
 TEST(Links, ANameOfTwoPartsIsRefused) {
   std::string text = on_base;
-  text.replace(text.find("oil"), 3, "coil");
+  text.replace(text.find("\"oil\""), 5, "\"coil\"");
   EXPECT_THROW((void)ModelDefinition::parse(text, "mount"), InputError);
   text = on_base;
   text.replace(text.find("oil\""), 4, "o i l\"");

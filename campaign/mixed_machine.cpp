@@ -32,6 +32,8 @@ void add_springs(Model& model, Random& random) {
 void add_forces(Model& model, Random& random) {
   for (const int harmonic : {0, 1, 1 + random.below(3)})
     model.forces.push_back({random.below(model.size()), harmonic, random.uniform(-1.5, 1.5), random.uniform(0.0, 6.0)});
+  if (random.one_in(3))
+    model.forces.push_back({random.below(model.size()), 0, random.uniform(-0.7, 0.7), random.uniform(0.0, 6.0), random.decades(-0.5, 0.8)});
 }
 
 void add_stops(Model& model, Random& random) {

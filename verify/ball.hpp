@@ -54,15 +54,19 @@ class Ball {
   [[nodiscard]] double near() const { return arf_get_d(arb_midref(x_), ARF_RND_NEAR); }
 
   /// Doubles that no number of the ball is above, or below.
+  [[nodiscard]] double radius() const {
+    Ball r;
+    arb_get_rad_arb(r.x_, x_);
+    return r.highest();
+  }
   [[nodiscard]] double highest() const { return bound(arb_get_ubound_arf, ARF_RND_CEIL); }
   [[nodiscard]] double lowest() const { return bound(arb_get_lbound_arf, ARF_RND_FLOOR); }
 
   /// The midpoint alone; `off` is raised by what the ball was wide.
   [[nodiscard]] Ball middle(double& off) const {
-    Ball m, radius;
+    Ball m;
     arb_get_mid_arb(m.x_, x_);
-    arb_get_rad_arb(radius.x_, x_);
-    off += radius.highest();
+    off += radius();
     return m;
   }
 

@@ -169,6 +169,13 @@ void Reader::read_forces() {
     Force force{static_cast<int>(count(0, model_.n - 1)), static_cast<int>(count(0, most_harmonic)), real(), real()};
     model_.forces.push_back(force);
   }
+  for (; at("tone"); finish_line(), advance()) {
+    const int coordinate = static_cast<int>(count(0, model_.n - 1));
+    const double frequency = real();
+    if (!(frequency > 0.0)) fail("the frequency of a tone must be positive");
+    const double amplitude = real(), phase = real();
+    model_.forces.push_back({coordinate, 0, amplitude, phase, frequency});
+  }
 }
 
 /// A count, and so many pairs of numbers, the first ones ascending.

@@ -26,9 +26,10 @@ struct Element {
   double coefficient;  ///< stiffness of a spring, coefficient of a damper
 };
 
+/// amplitude sin(harmonic omega t + phase), or amplitude sin(frequency t + phase) where the frequency is not 0.
 struct Force {
   int coordinate, harmonic;
-  double amplitude, phase;
+  double amplitude, phase, frequency = 0.0;
 };
 
 struct Corner {

@@ -31,7 +31,7 @@ const FlownMode& Checker::flown(const ContactStates& states) {
 void Checker::segment(const Segment& segment) {
   begin(segment);
   const FlownMode& mode = flown(segment.states);
-  Flight flight(mode, segment, m_.extended(segment.p, segment.u, segment.start.fraction), period_, tally_.flight,
+  Flight flight(mode, segment, m_.extended(segment.p, segment.u, segment.start), period_, tally_.flight,
                 refuse_);
   flight.fly();
   ends(segment, flight, mode);
@@ -58,7 +58,7 @@ void Checker::begin(const Segment& segment) {
     arrive(segment.line, segment.start, segment.p, segment.u);
     unanswered(segment);
   }
-  dependence(segment.line, m_.extended(segment.p, segment.u, 0.0), last_ ? last_->size : std::vector<double>());
+  dependence(segment.line, m_.extended(segment.p, segment.u, {}), last_ ? last_->size : std::vector<double>());
   rest(segment);
   choice_due_ = choice_due_ || !cut_;
   if (segment.duration > 0.0 && choice_due_) choice(segment);
@@ -91,7 +91,7 @@ void Checker::done(const Done& done) {
   arrive(done.line, done.at, done.p, done.u);
   if (!last_->segment.blows.empty() && last_->segment.blows.back().kind == Blow::Kind::chatter)
     refuse_(done.line, "the run ends before the limit of a chatter");
-  dependence(done.line, m_.extended(done.p, done.u, 0.0), last_->size);
+  dependence(done.line, m_.extended(done.p, done.u, {}), last_->size);
   tally_.open.still = jumps_.check(done.line, refuse_);
   tally_.displacement = {jumps_.largest(false), jumps_.sum(false)};
   tally_.velocity = {jumps_.largest(true), jumps_.sum(true)};
@@ -290,7 +290,7 @@ void Checker::chatter(const Segment& segment, const std::vector<double>& sizes) 
     return refuse_(segment.end_line, "stop " + name(segment.chatter) + " is not at rest at the limit of its chatter");
   const Limit::Modes modes{flown(with_pair(segment, 1)), flown(with_pair(segment, -1)), flown(with_pair(segment, 0)),
                            flown(segment.states)};
-  Limit limit(m_, segment, modes, m_.extended(segment.p, segment.u, segment.start.fraction), -last_->rests_from,
+  Limit limit(m_, segment, modes, m_.extended(segment.p, segment.u, segment.start), -last_->rests_from,
               refuse_);
   tally_.limit_error = std::max(tally_.limit_error, limit.check(sizes) / period_);
 }

@@ -17,7 +17,7 @@ constexpr long most_tried = 729;
 /// Certainly lawful from X on: every condition rises, but for those that stay zero.
 bool fits(const FlownMode& mode, const Balls& X) {
   const std::vector<double> sizes = mode.flow.sizes_of(X);
-  const Expansion about(mode.flow, X, Ball(0.0), Order::rest + 8);
+  const Expansion about(mode.flow, X, Ball(0.0), terms_at_start(X));
   for (std::size_t i = 0; i < mode.flow.rows.size(); ++i) {
     const Order order = order_at(mode.flow, i, about.of(mode.flow.rows[i]), sizes);
     if (!order.rises || !order.certain) return false;
@@ -114,13 +114,13 @@ void Checker::choice(const Segment& segment) {
   std::vector<double> p = segment.p, u = segment.u;
   for (const std::size_t i : candidates.stops) p[m_.stop(i).own] = u[m_.stop(i).own] = 0.0;
   for (const std::size_t i : candidates.frictions) u[m_.friction(i).own] = 0.0;
-  const Balls at_rest = m_.extended(p, u, segment.start.fraction);
+  const Balls at_rest = m_.extended(p, u, segment.start);
   for (const std::size_t i : candidates.off_frictions) u[m_.friction(i).own] = segment.u[m_.friction(i).own];
   for (const std::size_t i : candidates.off_stops) {
     p[m_.stop(i).own] = segment.p[m_.stop(i).own];
     u[m_.stop(i).own] = segment.u[m_.stop(i).own];
   }
-  const Balls moving = m_.extended(p, u, segment.start.fraction);
+  const Balls moving = m_.extended(p, u, segment.start);
   const FlownMode& chosen = flown(segment.states);
   const long changes = candidates.changes(segment.states);
   bool another = false;

@@ -42,22 +42,24 @@ Order order_at(const Flow& flow, std::size_t condition, const Series& h, const s
   std::vector<double> term = sizes;
   double factorial = 1.0;
   Order found;
-  int rose = Order::rest;  // a derivative before that is certainly positive, if only by rounding
-  for (found.order = 0; found.order < Order::rest; ++found.order) {
+  const int most = static_cast<int>(sizes.size());
+  int rose = most;  // a derivative before that is certainly positive, if only by rounding
+  for (found.order = 0; found.order < most; ++found.order) {
     const auto n = static_cast<std::size_t>(found.order);
     if (n > 0) factorial *= static_cast<double>(n);
     const double allowed = start_rounding * flow.size_of(condition, term) / factorial;
     if (h.b[n] > Ball(allowed)) return found;
     if (h.b[n] < Ball(-allowed)) {
       found.value = h.b[n].near() * factorial;
-      found.rises = rose < Order::rest;
+      found.rises = rose < most;
       found.certain = !found.rises;
       if (found.rises) found.order = rose;
       return found;
     }
-    if (rose == Order::rest && h.b[n] > Ball(0.0)) rose = found.order;
+    if (rose == most && h.b[n] > Ball(0.0)) rose = found.order;
     term = flow.apply_sizes(term);
   }
+  found.rests = true;
   return found;
 }
 
@@ -89,7 +91,7 @@ void Flight::fly() {
   double from = 0.0;
   for (long k = 0; k < pieces; ++k) {
     const double to = k + 1 == pieces ? T : T * (static_cast<double>(k + 1) / static_cast<double>(pieces));
-    const Expansion about(flow, X, Ball(length(from, to)), Order::rest + 8);
+    const Expansion about(flow, X, Ball(length(from, to)), terms_at_start(X));
     if (k == 0) start(about);
     piece(about, from, to, k == 0);
     X = about.at(Ball(to) - Ball(from));
@@ -102,7 +104,7 @@ void Flight::fly() {
 void Flight::start(const Expansion& about) {
   for (std::size_t i = 0; i < proofs_.size(); ++i) {
     const Order order = order_at(flown_.flow, i, about.of(flown_.flow.rows[i]), flown_.flow.sizes_of(X));
-    proofs_[i].rests = order.order == Order::rest;
+    proofs_[i].rests = order.rests;
     drops_[i] = proofs_[i].rests ? 0 : static_cast<ulong>(order.order);
     ++(proofs_[i].rests ? tally_.rests : tally_.conditions);
     if (order.rises || segment_.duration == 0.0) continue;  // what lasts no time obeys any law

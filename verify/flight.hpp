@@ -7,6 +7,7 @@
 /// not.
 /// Where a condition is no more than rounding the parabola leads nowhere. Such a *band* is allowed at the segment's end
 /// (there the condition ends it) and, counted as a touch, where the condition is positive again behind it.
+#include <algorithm>
 #include <functional>
 #include <string>
 
@@ -34,15 +35,18 @@ struct FlownMode {
 };
 
 /// The order of a condition's zero at X: the first derivative that is no rounding.
+/// If as many derivatives vanish as a state has numbers, all do (Cayley and Hamilton): the condition rests.
 struct Order {
-  static constexpr int rest = 8;  ///< all derivatives below are rounding
   int order = 0;
+  bool rests = false;
   bool rises = true;  ///< it is positive; else it is negative, and `value` says what
   bool certain = true;  ///< false: one before is positive, if only by rounding, and is `order`
   double value = 0.0;
 };
-/// @param terms  at least 9 of them
+/// @param h  with `terms_at_start` terms at least
 [[nodiscard]] Order order_at(const Flow& flow, std::size_t condition, const Series& h, const std::vector<double>& sizes);
+
+[[nodiscard]] inline std::size_t terms_at_start(const Balls& X) { return std::max<std::size_t>(X.size(), 8) + 8; }
 
 struct FlightTally {
   long conditions = 0, rests = 0, touches = 0, flats = 0;

@@ -8,9 +8,11 @@ namespace verify {
 
 namespace {
 
+/// An entry that is zero but for the balls' own rounding is as large as what makes its radius no more than rounding.
 std::vector<double> magnitudes(const Balls& row) {
+  constexpr double above_rounding = 0x1p+48;
   std::vector<double> sizes;
-  for (const Ball& x : row) sizes.push_back(abs(x).highest());
+  for (const Ball& x : row) sizes.push_back(abs(x).highest() + above_rounding * x.radius());
   return sizes;
 }
 

@@ -9,6 +9,9 @@ namespace {
 
 constexpr double most_in_sum = 0x1p-24;
 
+/// A number that is stored is rounded by 2^-53 of it; a coordinate is made of up to some of them.
+constexpr double stored_rounding = 0x1p-50;
+
 }  // namespace
 
 Jumps::Jumps(const Mechanics& mechanics)
@@ -43,7 +46,14 @@ void Jumps::widen(std::size_t number, double off) {
     if (!m_.impulse_effect(i, number).is_zero()) sum_[m_.n() + i] += static_cast<double>(m_.n()) * off;
 }
 
-bool Jumps::still(std::size_t i) const { return scale_[i] <= rounding * reach_[i]; }
+bool Jumps::within_own(std::size_t i) const {
+  return relative(largest_, i) <= rounding && relative(sum_, i) <= most_in_sum;
+}
+
+bool Jumps::by_rounding(std::size_t i) const {
+  const bool still = scale_[i] <= rounding * reach_[i];
+  return still || (largest_[i] <= stored_rounding * reach_[i] && relative(sum_, i) <= most_in_sum);
+}
 
 double Jumps::relative(const std::vector<double>& jumps, std::size_t i) const {
   return jumps[i] == 0.0 ? 0.0 : jumps[i] / scale_[i];
@@ -51,22 +61,26 @@ double Jumps::relative(const std::vector<double>& jumps, std::size_t i) const {
 
 double Jumps::worst(const std::vector<double>& jumps, bool of_velocities) const {
   double most = 0.0;
-  for (std::size_t i = 0; i < m_.n(); ++i) if (const std::size_t k = i + (of_velocities ? m_.n() : 0); !still(k)) most = std::max(most, relative(jumps, k));
+  for (std::size_t i = 0; i < m_.n(); ++i) {
+    const std::size_t k = i + (of_velocities ? m_.n() : 0);
+    if (within_own(k) || !by_rounding(k)) most = std::max(most, relative(jumps, k));
+  }
   return most;
 }
 
 long Jumps::check(long line, const Refuse& refuse) const {
   std::vector<bool> moved(m_.n());
   for (std::size_t i = 0; i < scale_.size(); ++i) {
-    if (still(i)) {
-      moved[i % m_.n()] = moved[i % m_.n()] || relative(largest_, i) > rounding || relative(sum_, i) > most_in_sum;
+    if (within_own(i)) continue;
+    if (by_rounding(i)) {
+      moved[i % m_.n()] = true;
       continue;
     }
     const std::string what = (i < m_.n() ? "coordinate " : "velocity ") + std::to_string(i % m_.n());
     if (!(relative(largest_, i) <= rounding))
       refuse(line, what + " jumps by " + digits(largest_[i]) + ", more than 2^-40 of what it is added up from, " +
                        digits(scale_[i]));
-    if (!(relative(sum_, i) <= most_in_sum))
+    else
       refuse(line, "all jumps of " + what + " together are " + digits(relative(sum_, i)) +
                        " of what it is added up from, more than 2^-24");
   }

@@ -19,8 +19,8 @@ class Jumps {
   void raise_by_impulse(std::size_t number, double P);
   /// Velocities that an impulse at the number changes were rounded by so much without a word of the file.
   void widen(std::size_t number, double off);
-  /// @returns how many coordinates rounding alone moves: all that they do along the run is no more than the rounding of
-  ///          their contact numbers, so that their own sizes say nothing of jumps
+  /// @returns how many coordinates have jumps that are too large for their own sizes, and no more than the rounding of
+  ///          the contact numbers that tell them: a coordinate beside a clearance that is far greater than it
   [[nodiscard]] long check(long line, const Refuse& refuse) const;
 
   /// The worst coordinate's largest jump, and all of the worst one's together, in units of its sizes.
@@ -28,7 +28,8 @@ class Jumps {
   [[nodiscard]] double sum(bool of_velocities) const { return worst(sum_, of_velocities); }
 
  private:
-  [[nodiscard]] bool still(std::size_t i) const;
+  [[nodiscard]] bool within_own(std::size_t i) const;
+  [[nodiscard]] bool by_rounding(std::size_t i) const;
   [[nodiscard]] double relative(const std::vector<double>& jumps, std::size_t i) const;
   [[nodiscard]] double worst(const std::vector<double>& jumps, bool of_velocities) const;
 

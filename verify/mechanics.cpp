@@ -29,6 +29,12 @@ bool is_needed(const Model& model, const Number& number) {
                      [&](const Friction& friction) { return is(friction.pair, 0.0, friction.belt_speed); });
 }
 
+template <class T>
+void keep_each_once(std::vector<T>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
 std::string words_of(const Number& number) {
   return std::to_string(number.pair.a) + " " + std::to_string(number.pair.b);
 }
@@ -36,10 +42,12 @@ std::string words_of(const Number& number) {
 }  // namespace
 
 Mechanics::Mechanics(const Model& model, long line) : model_(model), line_(line), period_(1.0) {
-  for (const Force& force : model.forces)
+  for (const Force& force : model.forces) {
     if (force.harmonic > 0) harmonics_.push_back(force.harmonic);
-  std::sort(harmonics_.begin(), harmonics_.end());
-  harmonics_.erase(std::unique(harmonics_.begin(), harmonics_.end()), harmonics_.end());
+    if (force.frequency > 0.0) tones_.push_back(force.frequency);
+  }
+  keep_each_once(harmonics_);
+  keep_each_once(tones_);
   if (!harmonics_.empty()) period_ = times(Ball::pi(), 2) / Ball(model.omega);
   place_contacts();
   for (const Number& number : model.numbers)
@@ -185,13 +193,12 @@ void Mechanics::set_free() {
     }
   for (const Force& force : model_.forces) {
     Balls& row = load[static_cast<std::size_t>(force.coordinate)];
-    if (force.harmonic == 0) {
+    if (force.harmonic == 0 && force.frequency == 0.0) {
       row.back() += Ball(force.amplitude);
       continue;
     }
     // a sin(j theta + phase) = a sin(phase) cos(j theta) + a cos(phase) sin(j theta)
-    const auto k = std::find(harmonics_.begin(), harmonics_.end(), force.harmonic) - harmonics_.begin();
-    const std::size_t cosine = 2 * d() + 2 * static_cast<std::size_t>(k);
+    const std::size_t cosine = cosine_of(force);
     Ball c, s;
     cos_sin(c, s, Ball(force.phase));
     row[cosine].add_product(Ball(force.amplitude), s);
@@ -200,12 +207,29 @@ void Mechanics::set_free() {
   free_ = product(W_, product(mass_inverse_, load));
 }
 
-Balls Mechanics::extended(const std::vector<double>& p, const std::vector<double>& u, double fraction) const {
+/// The number of X that is cos(j theta), or cos(w t), of a force; the sine is the next.
+std::size_t Mechanics::cosine_of(const Force& force) const {
+  const auto place = [](const auto& numbers, auto number) {
+    return static_cast<std::size_t>(std::find(numbers.begin(), numbers.end(), number) - numbers.begin());
+  };
+  const std::size_t k =
+      force.harmonic > 0 ? place(harmonics_, force.harmonic) : harmonics_.size() + place(tones_, force.frequency);
+  return 2 * d() + 2 * k;
+}
+
+Balls Mechanics::extended(const std::vector<double>& p, const std::vector<double>& u, const Clock& at) const {
   Balls X(p.begin(), p.end());
   X.insert(X.end(), u.begin(), u.end());
   for (const int j : harmonics_) {
     Ball c, s;
-    cos_sin_pi(c, s, Ball(2.0 * j) * Ball(fraction));
+    cos_sin_pi(c, s, Ball(2.0 * j) * Ball(at.fraction));
+    X.push_back(c);
+    X.push_back(s);
+  }
+  const Ball t = (Ball(static_cast<double>(at.period)) + Ball(at.fraction)) * period_;
+  for (const double frequency : tones_) {
+    Ball c, s;
+    cos_sin(c, s, Ball(frequency) * t);
     X.push_back(c);
     X.push_back(s);
   }

@@ -4,7 +4,8 @@
 ///     M q'' = F(t) - C q' - K q + contact forces,     p = W q - shift,  u = W q' - drift,
 ///
 /// the rows of W the pairs of the certificate's numbers, the first n of them independent. The extended state is
-/// X = (p, u, cos j theta, sin j theta for each harmonic j, 1), so that p' = u + drift, u' = free X + W M^-1 (forces).
+/// X = (p, u, cos j theta, sin j theta for each harmonic j,
+/// cos w t, sin w t for each tone w, 1), so that p' = u + drift, u' = free X + W M^-1 (forces).
 /// Nothing of the library is used: docs/certificate.md says what the numbers mean.
 #include <map>
 #include <memory>
@@ -46,7 +47,7 @@ class Mechanics {
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] std::size_t n() const { return static_cast<std::size_t>(model_.n); }
   [[nodiscard]] std::size_t d() const { return model_.numbers.size(); }
-  [[nodiscard]] std::size_t size() const { return 2 * d() + 2 * harmonics_.size() + 1; }
+  [[nodiscard]] std::size_t size() const { return 2 * d() + 2 * (harmonics_.size() + tones_.size()) + 1; }
   [[nodiscard]] const Ball& period() const { return period_; }
   [[nodiscard]] const Place& stop(std::size_t k) const { return stops_[k]; }
   [[nodiscard]] const Place& friction(std::size_t k) const { return frictions_[k]; }
@@ -70,8 +71,8 @@ class Mechanics {
   /// Numbers of one loop of pairs, this one among them: they follow from each other. Alone if there is no loop.
   [[nodiscard]] const std::vector<std::size_t>& loop(std::size_t number) const { return loops_[number]; }
 
-  /// X at a phase, phases exact.
-  [[nodiscard]] Balls extended(const std::vector<double>& p, const std::vector<double>& u, double fraction) const;
+  /// X at an instant, phases exact.
+  [[nodiscard]] Balls extended(const std::vector<double>& p, const std::vector<double>& u, const Clock& at) const;
   /// p and u of a state in the model's coordinates.
   [[nodiscard]] Balls contact_numbers(const std::vector<double>& q, const std::vector<double>& v) const;
   [[nodiscard]] const Mode& mode(const ContactStates& states);
@@ -84,6 +85,7 @@ class Mechanics {
   void find_loops();
   void invert();
   void set_free();
+  [[nodiscard]] std::size_t cosine_of(const Force& force) const;
   [[nodiscard]] Balls pair_row(const Pair& pair) const;
   [[nodiscard]] Matrix matrix_of(const Table& table, const std::vector<Element>& elements) const;
   [[nodiscard]] Balls over_state(const Pair& pair, bool velocity) const;
@@ -91,6 +93,7 @@ class Mechanics {
   const Model& model_;
   long line_;
   std::vector<int> harmonics_;
+  std::vector<double> tones_;  ///< frequencies beside omega
   Ball period_;
   std::vector<std::vector<std::size_t>> loops_;
   std::vector<Place> stops_, frictions_, compliant_;

@@ -25,10 +25,13 @@ Mode ModeBuilder::build() {
     mode_.held.push_back(bodies.joined(m_.model().numbers[i].pair));
     if (!mode_.held[i]) mode_.A[d + i] = acceleration_[i];
   }
-  for (std::size_t k = 0; k < m_.harmonics_.size(); ++k) {
+  std::vector<Ball> frequencies;
+  for (const int j : m_.harmonics_) frequencies.push_back(Ball(static_cast<double>(j)) * Ball(m_.model().omega));
+  for (const double frequency : m_.tones_) frequencies.emplace_back(frequency);
+  for (std::size_t k = 0; k < frequencies.size(); ++k) {
     const std::size_t c = 2 * d + 2 * k;
-    mode_.A[c][c + 1] = Ball(-static_cast<double>(m_.harmonics_[k])) * Ball(m_.model().omega);
-    mode_.A[c + 1][c] = Ball(static_cast<double>(m_.harmonics_[k])) * Ball(m_.model().omega);
+    mode_.A[c][c + 1] = -frequencies[k];
+    mode_.A[c + 1][c] = frequencies[k];
   }
   motion_conditions();
   compliant_conditions();

@@ -4,6 +4,7 @@
 /// certificates say it, or refuse it.
 #include "certify/stated_model.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -44,6 +45,7 @@ std::string stated(const Damper& damper) {
 
 std::string stated(const Force& force) {
   const auto& [coordinate, harmonic, amplitude, phase, frequency, signal, rate] = force;
+  if (frequency != 0.0) return line("tone" + number(coordinate) + hex(frequency) + hex(amplitude) + hex(phase));
   return line("force" + number(coordinate) + number(harmonic) + hex(amplitude) + hex(phase));
 }
 
@@ -103,7 +105,6 @@ std::string not_stated(const Model& model) {
     if (contact.normal && contact.normal->terms.size() > most_corners)
       return "a normal force of more than 1000 terms (" + in_quotes(contact.name) + ")";
   for (const Force& force : model.forces) {
-    if (force.frequency != 0.0) return "forces with a frequency of their own";
     if (force.signal >= 0) return "signals (" + in_quotes(model.signals[static_cast<std::size_t>(force.signal)].name) + ")";
   }
   return "";
@@ -121,6 +122,12 @@ std::string all(const std::vector<Part>& parts) {
   std::string text;
   for (const Part& part : parts) text += stated(part);
   return text;
+}
+
+/// Tones behind the forces of harmonics.
+std::string all_forces(std::vector<Force> forces) {
+  std::stable_partition(forces.begin(), forces.end(), [](const Force& force) { return force.frequency == 0.0; });
+  return all(forces);
 }
 
 std::string matrix(const char* word, const SymmetricMatrix& entries, int n) {
@@ -157,7 +164,7 @@ std::string stated_model(const flow::CompiledSystem& system) {
   for (const auto& [coordinate, own_mass] : coordinates)
     text += line("coordinate" + number(k++) + hex(own_mass) + called(coordinate));
   text += matrix("mass", mass, frame.n) + matrix("damping", damping, frame.n) + matrix("stiffness", stiffness, frame.n);
-  text += all(springs) + all(dampers) + all(forces) + all(stops) + all(frictions) + all(compliant_stops);
+  text += all(springs) + all(dampers) + all_forces(forces) + all(stops) + all(frictions) + all(compliant_stops);
   int friction = 0;
   for (const FrictionContact& contact : frictions) {
     if (contact.normal) text += stated(friction, *contact.normal);

@@ -1,6 +1,7 @@
 /// Chooses the mode that may start at a state, by the order of each guard's zero there.
 #include "flow/mode_graph.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -13,6 +14,9 @@ constexpr double rest_factor = 8.0;
 
 /// A number that is far above the smallest ones, times any window.
 constexpr double no_underflow = 0x1p-900;
+
+/// Those that Mode::leading gives. Higher ones are looked at only where these vanish.
+constexpr int leading_orders = 8;
 
 constexpr int most_contacts = System::most_contacts;
 
@@ -109,6 +113,27 @@ bool may_fit(const mode::Outline& outline, const double* X, const double* magnit
   }
 }
 
+/// The order of guard h where its leading coefficients vanish. A force that acts at one end of a chain of k masses
+/// reaches a stop at the other end in the derivative of order 2 (k - 1).
+/// If the first m derivatives c . A^n X of a mode with m numbers vanish, all do (Cayley and Hamilton).
+/// The rounding of A^n X, that of A's entries among it, is no more than n (m + 2) u S^n |X|, S = Mode::system_size.
+int far_order(const mode::Mode& mode, const mode::Guard& h, const double* X, const double* magnitude) {
+  const int m = mode.size();
+  const mode::Matrix& A = mode.system();
+  mode::Vector term = Eigen::Map<const mode::Vector>(X, m), size = Eigen::Map<const mode::Vector>(magnitude, m);
+  for (int n = 0; n < std::min(m, static_cast<int>(never)); ++n) {
+    if (n >= leading_orders) {
+      const double value = h.row.dot(term);
+      const double noise = rest_factor * (n + 1) * mode.noise_factor() * h.row.cwiseAbs().dot(size);
+      if (value > noise) return n;
+      if (value < -noise) return negative;
+    }
+    term = A * term;
+    size = mode.system_size() * size;
+  }
+  return never;
+}
+
 }  // namespace
 
 int start_order(const mode::Mode& mode, int guard, const double* X, const double* magnitude, int known) {
@@ -123,11 +148,11 @@ int start_order(const mode::Mode& mode, int guard, const double* X, const double
   }
   event::Lane8 a, noise;
   mode.leading(guard, X, magnitude, a, noise);
-  for (int n = known; n < never; ++n) {
+  for (int n = known; n < leading_orders; ++n) {
     if (a[n] > rest_factor * noise[n]) return n;
     if (a[n] < -rest_factor * noise[n]) return negative;
   }
-  return never;
+  return far_order(mode, h, X, magnitude);
 }
 
 double sliding_velocity(const CompiledSystem& system, int contact, const double* X) {

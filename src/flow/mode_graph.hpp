@@ -37,9 +37,9 @@
 namespace slapstick::flow {
 
 /// Order of the zero of a guard at a state: 0 if h > 0; p if the first p derivatives vanish (within `rest_factor` times
-/// their rounding bound) and the next is positive; `never` if all that are looked at vanish; `negative` if h starts
-/// downwards.
-inline constexpr int never = 8;
+/// their rounding bound) and the next is positive; `never` if all below `never` vanish: a window's series says no more
+/// of h than that it is zero; `negative` if h starts downwards.
+inline constexpr int never = event::terms;
 inline constexpr int negative = -1;
 /// @param known derivatives below this order are known to vanish, whatever their stored values say (after a graze: 2).
 int start_order(const mode::Mode& mode, int guard, const double* X, const double* magnitude, int known = 0);

@@ -25,6 +25,7 @@ class Mode {
   [[nodiscard]] const ContactStates& states() const { return outline_.states; }
   [[nodiscard]] const std::vector<Guard>& guards() const { return outline_.guards; }
   [[nodiscard]] const Matrix& system() const { return outline_.system; }  ///< X' = system() X
+  [[nodiscard]] const Matrix& system_size() const { return outline_.system_size; }  ///< see Outline
   [[nodiscard]] bool steady(int i) const { return outline_.steady[i]; }   ///< u_i is held
   [[nodiscard]] double window() const { return window_; }                 ///< window length in time
   /// The same in forcing periods; at most 24 bits, so that the clock can count windows without loss.

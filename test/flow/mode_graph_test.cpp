@@ -112,5 +112,63 @@ TEST(Stick, OrSlipUnderASpringThatExceedsFrictionByRoundings) {
   }
 }
 
+/// Masses 1 in a row, springs 1 between neighbours and from the first to ground; a load on the first, a stop at the last.
+Model chain(int masses, double load) {
+  Model m;
+  for (int i = 0; i < masses; ++i) m.coordinates.push_back({"x" + std::to_string(i + 1), 1.0});
+  for (int i = 0; i < masses; ++i) m.springs.push_back({i, i == 0 ? ground : i - 1, 1.0});
+  m.forces = {{0, 0, load, 0.0}};
+  m.stops = {{"stop", masses - 1, ground, 0.0, 0.5}};
+  return m;
+}
+
+/// The last mass of the free chain from rest: sum_n (-K)^n f t^(2n+2) / (2n+2)!; its first term has n = masses - 1.
+double end_of_free_chain(int masses, double load, double t) {
+  std::vector<double> v(static_cast<std::size_t>(masses), 0.0);
+  v[0] = load;
+  double power = 0.5 * t * t, sum = 0.0;
+  for (int n = 0; n < 60; ++n) {
+    sum += v.back() * power;
+    std::vector<double> next(v.size());
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      next[i] = (i + 1 < v.size() ? v[i + 1] - v[i] : 0.0) - v[i] + (i > 0 ? v[i - 1] : 0.0);
+    }
+    v = next;
+    power *= t * t / ((2.0 * n + 3.0) * (2.0 * n + 4.0));
+  }
+  return sum;
+}
+
+/// A pull at the first mass of k reaches the stop at the last in the derivative of order 2 (k - 1) of its force.
+TEST(Stop, LetsGoAtOnceOfAPullThatComesAlongAChain) {  // was: held for a window where 2 (k - 1) > 7
+  for (int masses = 2; masses <= 10; ++masses) {
+    const System system(chain(masses, -1.0));
+    Motion motion(system, State(2 * static_cast<std::size_t>(masses), 0.0));
+    testing::run(motion, 0.3);
+    const double exact = end_of_free_chain(masses, -1.0, 0.3);
+    EXPECT_NEAR(motion.state()[2 * static_cast<std::size_t>(masses) - 2], exact, 1e-12 * std::abs(exact) + 1e-32) << masses;  // 1e-32: dropped terms
+  }
+}
+
+/// Of more masses the series of a window says nothing of the stop: it is zero to the last bit of its sizes.
+TEST(Stop, LetsGoOfAPullFromAfarByNoMoreThanRoundingTooLate) {
+  for (int masses = 11; masses <= 20; ++masses) {
+    const System system(chain(masses, -1.0));
+    Motion motion(system, State(2 * static_cast<std::size_t>(masses), 0.0));
+    testing::run(motion, 6.0);
+    const double exact = end_of_free_chain(masses, -1.0, 6.0);
+    EXPECT_NEAR(motion.state()[2 * static_cast<std::size_t>(masses) - 2], exact, 1e-13) << masses << " masses";
+  }
+}
+
+TEST(Stop, HoldsAgainstAPushThatComesAlongAChain) {
+  for (int masses = 2; masses <= 12; ++masses) {
+    const System system(chain(masses, 1.0));
+    Motion motion(system, State(2 * static_cast<std::size_t>(masses), 0.0));
+    EXPECT_EQ(testing::run(motion, 0.5).size(), 0u) << masses;
+    EXPECT_EQ(motion.state()[2 * static_cast<std::size_t>(masses) - 2], 0.0) << masses;
+  }
+}
+
 }  // namespace
 }  // namespace slapstick

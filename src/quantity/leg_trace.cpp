@@ -59,7 +59,8 @@ void Cycle::piece(std::size_t i, Number begin, Tracer& tracer) const {
   // the set keeps it
   const std::shared_ptr<const mode::Outline> outline(std::shared_ptr<const void>(), &mode.outline);
   const Moving from = start(i);
-  const double longest = std::min(0.5 * mode.longest_step, this->duration().value);  // where all sticks nothing has a rate
+  // where all sticks nothing has a rate
+  const double longest = std::min(0.5 * mode.longest_step, this->duration().value);
   if (rate_ == nullptr) return tracer.piece(outline, longest, from.X.data(), begin.value, duration.value);
   const PieceRates rates{mode.rates[parameter_], from.by.data(), begin.rate, duration.rate};
   tracer.piece(outline, longest, from.X.data(), begin.value, duration.value, &rates);

@@ -50,8 +50,8 @@ void fourier_transform(std::vector<Complex>& x) {
       }
 }
 
-/// With s = points / (2 lines) the Gaussian leaves out exp(-half^2 / width), and its images add exp(-pi^2 width (1 - 1/s))
-/// to the last line. The width makes both exp(-pi half sqrt(1 - 1/s)), 4e-16 for s = 2.
+/// With s = points / (2 lines) the Gaussian leaves out exp(-half^2 / width), and its images add exp(-pi^2 width
+/// (1 - 1/s)) to the last line. The width makes both exp(-pi half sqrt(1 - 1/s)), 4e-16 for s = 2.
 LineSums::LineSums(double T, std::size_t count) : T_(T), count_(count) {
   if (count <= few) {
     lines_.resize(count);

@@ -1,10 +1,10 @@
 #pragma once
 /// Sums S_k = sum_j c_j exp(-2 pi i k t_j / T), k = 0 .. count - 1, over real c_j at any instants t_j.
 ///
-/// A few lines are summed one by one. Many lines are summed on a grid: every term is spread over 2 * half points of it by
-/// a Gaussian, the grid is transformed by one FFT, and each line is divided by the transform of the Gaussian. The grid has
-/// four points for each line, so that what the Gaussian leaves out and what its images add is below 1e-13 sum |c_j|, as
-/// rounding is. Cost: some 30 ns a term for any number of lines, and an FFT for each call of `take`.
+/// A few lines are summed one by one. Many lines are summed on a grid: every term is spread over 2 * half points of it
+/// by a Gaussian, the grid is transformed by one FFT, and each line is divided by the transform of the Gaussian. The
+/// grid has four points for each line, so that what the Gaussian leaves out and what its images add is below 1e-13 sum
+/// |c_j|, as rounding is. Cost: some 30 ns a term for any number of lines, and an FFT for each call of `take`.
 /// Source: Dutt and Rokhlin (1993); Greengard and Lee (2004) for the Gaussian. Threads: one at a time.
 #include <complex>
 #include <cstddef>

@@ -29,8 +29,8 @@ struct Sums {
   }
 };
 
-/// An extreme at x of a step: in the step its value moves as q at fixed time, and its instant by -q_tp / q_tt. At an end
-/// with a slope both move with the end.
+/// An extreme at x of a step: in the step its value moves as q at fixed time, and its instant by -q_tp / q_tt. At an
+/// end with a slope both move with the end.
 Place extreme(const Polynomial& f, const Polynomial& rate, const Step& step, double x) {
   constexpr double flat = 1e-9;
   const Polynomial slope = f.slope();

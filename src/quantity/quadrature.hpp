@@ -1,6 +1,7 @@
 #pragma once
 /// Gauss's quadratures on [0, 1] with n = 16 and n = 32 nodes: exact to degree 2 n - 1. Of a function that is a sum of
-/// exp(mu x) they are exact to rounding for |mu| <= 14 and 50: the error is below |mu|^(2 n + 1) (n!)^4 / ((2 n + 1) ((2 n)!)^3).
+/// exp(mu x) they are exact to rounding for |mu| <= 14 and 50: the error is below |mu|^(2 n + 1) (n!)^4 / ((2 n + 1)
+/// ((2 n)!)^3).
 #include <array>
 #include <cmath>
 #include <numbers>

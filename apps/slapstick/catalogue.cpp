@@ -81,7 +81,8 @@ std::string catalogue_markdown() {
       "# All options\n\nThis page is `slapstick describe --markdown`: the program writes it from what its verbs declare.\n"
       "[command_line.md](command_line.md) explains the verbs, [measure.md](measure.md) the quantities.\n";
   for (const VerbFacts& verb : catalogue()) {
-    text += "\n## " + verb.name + "\n\n" + verb.summary + "\n\n| | |\n|---|---|\n";
+    text += "\n## " + verb.name + "\n\n" + verb.summary + "\n";
+    if (!verb.arguments.empty()) text += "\n| | |\n|---|---|\n";
     for (const ArgumentFact& fact : verb.arguments)
       text += row(fact.name + (fact.value.empty() ? "" : " " + fact.value), fact.help);
   }

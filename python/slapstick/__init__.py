@@ -21,6 +21,7 @@ from ._lyapunov import Exponents, lyapunov
 from ._model import Model, Parameters, load, models, new
 from ._motion import Events, Motion, simulate
 from ._orbit import Orbit, OrbitEvents, orbit, orbits
+from ._order_map import OrderMap, order_map
 from ._quantity import Measured, Spectrum, measure, quantities, spectrum
 from ._result import Interrupted, Result
 from ._section import Section, poincare
@@ -44,6 +45,7 @@ __all__ = [
     "NumericalError",
     "Orbit",
     "OrbitEvents",
+    "OrderMap",
     "Parameter",
     "Parameters",
     "Quantity",
@@ -65,6 +67,7 @@ __all__ = [
     "new",
     "orbit",
     "orbits",
+    "order_map",
     "poincare",
     "quantities",
     "simulate",

@@ -10,10 +10,10 @@ from conftest import ROOT
 
 def test_derivatives_are_those_of_differences():
     of, h = "x1:rms,x1:max,w:mean,impulse:mean,F_stop:mean,x1:crest", 1e-5
-    found = slapstick.measure("vibro-impact", of, sensitivity="friction,omega", omega=2.9)
+    found = slapstick.measure("vibro-impact", of, sensitivity="friction,omega", omega=2.6)
     assert found.jacobian.shape == (6, 2) and list(found.sensitivity) == ["friction", "omega"]
     for j, name in enumerate(found.sensitivity):
-        at = {"friction": 0.15, "omega": 2.9}
+        at = {"friction": 0.15, "omega": 2.6}
 
         def values(by, at=at, name=name):
             return np.array(list(slapstick.measure("vibro-impact", of, parameters=at | {name: at[name] + by}).values()))
@@ -22,7 +22,7 @@ def test_derivatives_are_those_of_differences():
 
 
 def test_derivatives_of_an_unstable_orbit_and_those_that_are_refused():
-    orbit = slapstick.orbit("vibro-impact", "1-1", omega=2.8, unstable=True)
+    orbit = slapstick.orbit("vibro-impact", "1-1", omega=2.9, stable=False)
     assert np.isfinite(orbit.measure("x1:rms", sensitivity=["restitution"]).jacobian).all()
     with pytest.raises(slapstick.InputError, match="sensitivity: .*restitutoin.*restitution"):
         orbit.measure("x1:rms", sensitivity="restitutoin")

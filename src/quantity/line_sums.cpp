@@ -12,7 +12,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr std::size_t few = 48;          ///< lines that are summed one by one
+constexpr std::size_t few = 12;          ///< lines that are summed one by one
 constexpr std::ptrdiff_t half = 16;      ///< points of the grid on either side of a term
 constexpr std::size_t points_of_line = 4;  ///< of the grid, at least
 

@@ -1,7 +1,7 @@
 #pragma once
 /// All that the program takes: the verbs with their arguments, as the verbs declare them.
 ///
-/// Nothing is listed a second time: help, the page docs/options.md, completion and `describe` walk this.
+/// Nothing is listed a second time: help, the page docs/reference/options.md, completion and `describe` walk this.
 #include <string>
 #include <vector>
 
@@ -17,7 +17,7 @@ struct VerbFacts {
 /// In the order of `verbs`.
 [[nodiscard]] std::vector<VerbFacts> catalogue();
 
-/// Verbs with their arguments, quantities, statistics and models, as JSON and as the page docs/options.md.
+/// Verbs with their arguments, quantities, statistics and models, as JSON and as the page docs/reference/options.md.
 [[nodiscard]] std::string catalogue_json();
 [[nodiscard]] std::string catalogue_markdown();
 

@@ -21,7 +21,7 @@ void SpanOptions::declare(Arguments& arguments) {
   model.declare(arguments);
   model.declare_state(arguments);
   arguments.count("--transient", transient, 0, 1'000'000'000, "forcing periods to leave out first (500)");
-  arguments.count("--periods", periods, 1, 1'000'000'000, "measure over so many forcing periods instead of a cycle");
+  arguments.count("--periods", periods, 1, 1'000'000'000, "measure over N forcing periods instead of a cycle");
   arguments.number("--time", time, "T", "the same by a time in the model's unit");
   orbit.declare_choice(arguments);
   arguments.text("--out", out, "FILE", "write there instead of to standard output");

@@ -145,7 +145,7 @@ void declare(Arguments& arguments, Options* options) {
   arguments.count("--exponent-periods", options->exponent_periods, 400, 100'000'000,
                   "length of the run from which exponent, averages and rotation number are taken (4000)");
   arguments.count("--quick", options->quick, 20, 1'000'000'000,
-                  "look at so many periods only, half of them transient: a cycle that Newton's method confirms, or "
+                  "look at N periods only, half of them transient: a cycle that Newton's method confirms, or "
                   "undecided");
   options->stops.declare(arguments, "count and list the impacts of this stop only; may be repeated (all)");
   declare_of(arguments, options->of);
@@ -155,7 +155,7 @@ void declare(Arguments& arguments, Options* options) {
       "The class n-p-I or n-p-II: n forcing periods, p impacts (inf with complete chatter), II if the blocks stick.\n"
       "A compliant stop counts by its engagements.\n"
       "Without a drive a motion comes to rest (equilibrium), or to a cycle free-p-I or free-p-II; periods are returns.\n"
-      "A motion without a cycle is quasi-periodic, chaotic or undecided; docs/classify.md says how that is decided.\n"
+      "A motion without a cycle is quasi-periodic, chaotic or undecided; docs/explanation/classify.md says how that is decided.\n"
       "  slapstick classify vibro-impact --set omega=1.5");
 }
 

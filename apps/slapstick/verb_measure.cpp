@@ -57,7 +57,7 @@ Action add_measure(Arguments& arguments) {
   arguments.text("--of", options->span.of, "Q[:STAT],..",
                  "quantities, and of each one statistic or all: mean, rms, min, max, min_at, max_at, peak_to_peak, "
                  "crest, impulse, number");
-  arguments.count("--bins", options->bins, 1, 100'000, "histograms of the impacts of every stop, with so many bins (none)");
+  arguments.count("--bins", options->bins, 1, 100'000, "histograms of the impacts of every stop, with N bins (none)");
   declare_sensitivity(arguments, options->sensitivity);
   arguments.footer(
       "Statistics without sampling: integrals and extremes of the closed forms. Over the cycle that the motion settles "

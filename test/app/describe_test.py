@@ -17,7 +17,7 @@ def described():
 
 
 def test_the_page_of_all_options_is_what_the_program_writes():
-    assert read(os.path.join(ROOT, 'docs', 'options.md')) == good('describe', '--markdown')
+    assert read(os.path.join(ROOT, 'docs', 'reference', 'options.md')) == good('describe', '--markdown')
 
 
 def test_every_verb_of_the_help_is_described_and_every_option_is_in_its_help():

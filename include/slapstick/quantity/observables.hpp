@@ -5,7 +5,7 @@
 ///     while (sampled.next(end) == SampledMotion::Item::sample) use(observables.within(motion, sample));
 ///
 /// Forces and accelerations are those of the mode that the instant is in, as Reader says.
-/// Cost: some hundred nanoseconds an instant and expression. Threads: one at a time. Source: docs/measure.md.
+/// Cost: some hundred nanoseconds an instant and expression. Threads: one at a time. Source: docs/reference/measure.md.
 #include "slapstick/io/observer.hpp"
 #include "slapstick/quantity/reader.hpp"
 #include "slapstick/section/sampled_motion.hpp"

@@ -11,7 +11,7 @@
 /// is an exact integral, impulses included. Orders are multiples of 1 / (periods that are measured). Where the motion
 /// has settled on a cycle of n periods, n a divisor of these, c is the cycle's line (quantity/spectrum.hpp). What
 /// happens on the way from the last value to this one leaks into the neighbours of a line.
-/// Cost: as spectrum, and a System for each value. Threads: as a Motion's. Source: docs/measure.md.
+/// Cost: as spectrum, and a System for each value. Threads: as a Motion's. Source: docs/reference/measure.md.
 #include <atomic>
 #include <functional>
 #include <vector>

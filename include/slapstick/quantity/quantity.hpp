@@ -4,7 +4,7 @@
 ///     const auto all = quantities(definition);
 ///     const Quantity press = find_quantity(all, "F_wall");
 ///
-/// Plain data; values may be shared between threads. Cost: microseconds. Source: docs/measure.md.
+/// Plain data; values may be shared between threads. Cost: microseconds. Source: docs/reference/measure.md.
 #include <vector>
 
 #include "slapstick/io/model_file.hpp"

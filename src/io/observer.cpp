@@ -26,7 +26,8 @@ bool names_quantity(const Definition& definition, const std::string& name) {
   return std::any_of(rules.begin(), rules.end(), [&](const QuantityRule& rule) {
     const std::size_t at = rule.name.find("NAME");
     if (at == std::string_view::npos) return name == rule.name;
-    return at > 0 && rule.of != QuantityRule::Of::coordinate && name.size() > at && name.starts_with(rule.name.substr(0, at));
+    const bool known = rule.of == QuantityRule::Of::coordinate || rule.kind == Quantity::Kind::gap;  // all are observed
+    return at > 0 && !known && name.size() > at && name.starts_with(rule.name.substr(0, at));
   });
 }
 

@@ -5,9 +5,21 @@
 /// of the user becomes an InputError that names the argument.
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace slapstick::app {
+
+/// What a verb declares of one argument: help, documents and completion come from these.
+struct ArgumentFact {
+  enum class Kind { positional, text, repeated, number, count, choice, flag };
+  Kind kind = Kind::text;
+  std::string name, value, help;        ///< "--out", "FILE"; the value is empty of a flag
+  std::vector<std::string> words = {};  ///< of a choice
+  long long least = 0, most = 0;        ///< of a count
+};
+/// "positional", "text", "repeated", "number", "count", "choice", "flag".
+[[nodiscard]] std::string_view name(ArgumentFact::Kind kind);
 
 class Arguments {
  public:
@@ -40,6 +52,9 @@ class Arguments {
   /// True if the user gave this option (after `parse`).
   [[nodiscard]] bool given(const std::string& name) const;
   [[nodiscard]] std::string help() const;
+  /// All that was declared, in order, and the text of `footer`.
+  [[nodiscard]] const std::vector<ArgumentFact>& facts() const;
+  [[nodiscard]] const std::string& notes() const;
 
   /// Reads the words after the verb. @returns false if help was asked for. @throws InputError of one line
   [[nodiscard]] bool parse(std::vector<std::string> words);

@@ -47,5 +47,7 @@ Action add_measure(Arguments& arguments);
 Action add_spectrum(Arguments& arguments);
 Action add_store(Arguments& arguments);
 Action add_reproduce(Arguments& arguments);
+Action add_describe(Arguments& arguments);
+Action add_completion(Arguments& arguments);
 
 }  // namespace slapstick::app

@@ -22,6 +22,7 @@ from ._map import Map, map  # noqa: A004 (the verb is called so)
 from ._model import Model, Parameters, load, models, new
 from ._motion import Events, Motion, simulate
 from ._orbit import Orbit, OrbitEvents, orbit, orbits
+from ._order_map import OrderMap, order_map
 from ._quantity import Measured, Spectrum, measure, quantities, spectrum
 from ._result import Interrupted, Result
 from ._section import Section, poincare
@@ -46,6 +47,7 @@ __all__ = [
     "NumericalError",
     "Orbit",
     "OrbitEvents",
+    "OrderMap",
     "Parameter",
     "Parameters",
     "Quantity",
@@ -68,6 +70,7 @@ __all__ = [
     "new",
     "orbit",
     "orbits",
+    "order_map",
     "poincare",
     "quantities",
     "simulate",

@@ -31,5 +31,6 @@ NB_MODULE(_core, module) {
   bind_locus(module);
   bind_map(module);
   bind_quantity(module);
+  bind_order_map(module);
   bind_certificate(module);
 }

@@ -50,6 +50,10 @@ void Arguments::positional(const std::string& name, std::string& target, const s
   parser_->app.add_option(name, target, help)->required()->type_name("");
 }
 
+void Arguments::optional_positional(const std::string& name, std::string& target, const std::string& help) {
+  parser_->app.add_option(name, target, help)->type_name("");
+}
+
 void Arguments::text(const std::string& name, std::string& target, const std::string& value, const std::string& help) {
   parser_->app.add_option(name, target, help)->type_name(value);
   parser_->names.push_back(name);

@@ -18,6 +18,8 @@ class Arguments {
 
   /// A required argument without a dash: "MODEL".
   void positional(const std::string& name, std::string& target, const std::string& help);
+  /// One that may be left out: `target` stays as it is.
+  void optional_positional(const std::string& name, std::string& target, const std::string& help);
   /// `--name VALUE` with any text. `value` is what the help calls it: "FILE".
   void text(const std::string& name, std::string& target, const std::string& value, const std::string& help);
   /// The same, and may be repeated.

@@ -45,5 +45,6 @@ Action add_quantities(Arguments& arguments);
 Action add_measure(Arguments& arguments);
 Action add_spectrum(Arguments& arguments);
 Action add_reproduce(Arguments& arguments);
+Action add_explore(Arguments& arguments);  // where the HTTP library is
 
 }  // namespace slapstick::app

@@ -21,6 +21,9 @@ const std::vector<Verb>& verbs() {
       {"measure", "statistics of forces, accelerations, energies and impacts, exact", add_measure},
       {"spectrum", "Fourier lines of a cycle, or the power density of a motion, impulses included", add_spectrum},
       {"reproduce", "every figure and claim of the paper, into a folder", add_reproduce},
+#ifdef SLAPSTICK_HTTP
+      {"explore", "the explorer in the browser, served to this machine", add_explore},
+#endif
   };
   return all;
 }

@@ -8,8 +8,6 @@
 namespace slapstick::web {
 
 ChartJob::ChartJob(const Choice& choice, const ChartWish& wish) : choice_(choice), wish_(wish), next_(wish.first) {
-  choice.definition.check_range(wish.x, choice.set, wish.x_from, wish.x_to);
-  choice.definition.check_range(wish.y, choice.set, wish.y_from, wish.y_to);
   width_ = 6;
 }
 

@@ -26,7 +26,6 @@ double column(const sweep::ImpactTable::Row& row, const std::string& shown) {
 }  // namespace
 
 DiagramJob::DiagramJob(const Choice& choice, const DiagramWish& wish) : wish_(wish) {
-  choice.definition.check_range(wish.parameter, choice.set, wish.from, wish.to);
   const auto at = [choice, name = wish.parameter](double value) { return Overrides{{name, value}}; };
   problem_.model_at = [choice, at](double value) { return choice.model(at(value)); };
   problem_.start_at = [choice, at](double value) { return choice.start_at(at(value)); };

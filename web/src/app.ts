@@ -20,6 +20,32 @@ import { MotionWindow } from "./window.ts";
 /** After a change the quick views follow at once, the long ones when the person rests, in milliseconds. */
 const rest = 220;
 
+/** What the settings leave open, by the model. */
+function fill(draft: Settings, card: ModelCard): void {
+  const { motion, section, diagram, chart } = draft;
+  const known = (name: string, other: string): string => (card.state.includes(name) ? name : other);
+  const at = instantsOf(card)[0]?.value ?? "impacts";
+  motion.x = known(motion.x, card.state[0] ?? "");
+  motion.y = known(motion.y, card.state[1] ?? "");
+  section.at ||= at;
+  const ofImpacts = section.at === "impacts";
+  if (!section.x) section.x = ofImpacts && card.forced ? "phase" : card.state[0] ?? "";
+  if (!section.y) section.y = ofImpacts ? "w" : card.state[1] ?? "";
+  const first = card.parameters.find(({ name }) => name === "omega") ?? card.parameters[0];
+  if (!diagram.parameter && first) {
+    const [from, to] = sliderRange(first.value, Number(first.min), Number(first.max));
+    Object.assign(diagram, { parameter: first.name, from: first.minOpen && from === first.min ? to / 100 : from, to });
+  }
+  diagram.at ||= at;
+  diagram.shown ||= diagram.at === "impacts" ? "w" : card.state[0] ?? "";
+  if (!chart.x) Object.assign(chart, { x: diagram.parameter, xFrom: diagram.from, xTo: diagram.to });
+  const second = card.parameters.find(({ name, expression }) => name !== chart.x && !expression);
+  if (!chart.y && second) {
+    const [yFrom, yTo] = sliderRange(second.value, Number(second.min), Number(second.max));
+    Object.assign(chart, { y: second.name, yFrom: second.minOpen && yFrom === second.min ? yTo / 100 : yFrom, yTo });
+  }
+}
+
 export interface Listeners {
   settings(settings: Settings, card: ModelCard): void;
   classified(text: string, detail: string): void;
@@ -49,13 +75,15 @@ export class App {
   private restTimer = 0;
   private asked = 0;
   private lastState: number[] = [];
+  /** What the present model opens with. */
+  private base: Settings = settingsOf("");
   /** A drag goes on from where the motion is. */
   carryOn = false;
   private drawnFor = { section: "", spectrum: "", chart: "", diagram: "", class: "" };
 
   constructor(first: Settings, private readonly listeners: Listeners) {
     this.history = new History(first);
-    this.player = new Player(() => this.frame(), () => this.lanes.motion.ask({ verb: "goOn" }, this.hearing(true)), () => this.showWindow());
+    this.player = new Player(() => this.frame(), () => this.goOn(), () => this.showWindow());
     this.mechanism = new MechanismView(this.player, (state, over) => this.start(state, over));
     this.motion = new MotionViews(this.player, (axis, name) => this.change("phase", (draft) => { draft.motion[axis] = name; }));
     this.section = new SectionView(this.lanes.section, (edit) => this.change("section", (draft) => edit(draft.section)));
@@ -93,7 +121,7 @@ export class App {
   }
 
   async address(): Promise<string> {
-    return toHash(this.history.now);
+    return toHash(this.history.now, this.base);
   }
 
   async openAddress(hash: string): Promise<boolean> {
@@ -151,7 +179,7 @@ export class App {
     announce("following the orbit through the parameter …");
     this.lanes.branch.question<Branch>({ verb: "branch", model: this.model(), wish: { parameter, from, to, shown, at } }).then((branch) => {
       this.diagram.showBranch(branch);
-      announce(`branch of ${branch.points[0]?.label ?? "the orbit"}: ${branch.special.length} special points. ${branch.ended}`);
+      announce(`${branch.points.length} orbits and ${branch.special.length} special points. ${branch.ended}`);
     }, (error: EngineError) => announce(error.message));
   }
 
@@ -174,9 +202,19 @@ export class App {
     this.mechanism.draw();
   }
 
+  /** The next window; not while a new motion is on its way, which this request would cancel. */
+  private goOn(): void {
+    if (!this.lanes.motion.isBusy) this.lanes.motion.ask({ verb: "goOn" }, this.hearing(true));
+  }
+
   /** Nothing is being computed: for tests. */
   get idle(): boolean {
     return this.restTimer === 0 && !this.diagram.busy && Object.values(this.lanes).every((lane) => !lane.isBusy);
+  }
+
+  /** A motion is being computed: for tests. */
+  get movesOn(): boolean {
+    return this.lanes.motion.isBusy;
   }
 
   private model(): Model {
@@ -204,7 +242,9 @@ export class App {
       const card = await this.lanes.card.question<ModelCard>({ verb: "card", model: { ...this.model(), start: [] } });
       if (this.history.now.source !== settings.source) return;
       this.card = card;
-      this.fill(card);
+      this.base = settingsOf(isText(settings.source) ? "" : settings.source);
+      fill(this.base, card);
+      fill(this.history.now, card);
       this.player.window = undefined;
       this.player.time = 0;
       this.mechanism.show(card);
@@ -215,32 +255,6 @@ export class App {
       this.later();
     } catch (error) {
       this.listeners.failed((error as EngineError).message ?? String(error));
-    }
-  }
-
-  /** What the settings leave open, by the model. */
-  private fill(card: ModelCard): void {
-    const draft = this.history.now, { motion, section, diagram, chart } = draft;
-    const known = (name: string, other: string): string => (card.state.includes(name) ? name : other);
-    const at = instantsOf(card)[0]?.value ?? "impacts";
-    motion.x = known(motion.x, card.state[0] ?? "");
-    motion.y = known(motion.y, card.state[1] ?? "");
-    section.at ||= at;
-    const ofImpacts = section.at === "impacts";
-    if (!section.x) section.x = ofImpacts && card.forced ? "phase" : card.state[0] ?? "";
-    if (!section.y) section.y = ofImpacts ? "w" : card.state[1] ?? "";
-    const first = card.parameters.find(({ name }) => name === "omega") ?? card.parameters[0];
-    if (!diagram.parameter && first) {
-      const [from, to] = sliderRange(first.value, Number(first.min), Number(first.max));
-      Object.assign(diagram, { parameter: first.name, from: first.minOpen && from === first.min ? to / 100 : from, to });
-    }
-    diagram.at ||= at;
-    diagram.shown ||= diagram.at === "impacts" ? "w" : card.state[0] ?? "";
-    if (!chart.x) Object.assign(chart, { x: diagram.parameter, xFrom: diagram.from, xTo: diagram.to });
-    const second = card.parameters.find(({ name, expression }) => name !== chart.x && !expression);
-    if (!chart.y && second) {
-      const [yFrom, yTo] = sliderRange(second.value, Number(second.min), Number(second.max));
-      Object.assign(chart, { y: second.name, yFrom: second.minOpen && yFrom === second.min ? yTo / 100 : yFrom, yTo });
     }
   }
 
@@ -284,6 +298,7 @@ export class App {
         requestAnimationFrame(() => this.redraws.push(performance.now() - this.asked));
       },
       done: (failure: string) => {
+        if (!next && this.player.playing) this.goOn();
         this.listeners.failed(failure);
         this.parameters.blame("");
       },

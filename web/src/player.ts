@@ -38,7 +38,6 @@ export class Player {
     this.elapsed = 0;
     this.time = Math.min(share * window.periods, window.periods);
     this.lit.clear();
-    if (this.playing) this.wants();
     this.frame();
   }
 

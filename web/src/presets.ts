@@ -40,7 +40,7 @@ const presets: Record<string, Preset> = {
   "falling-friction": { over: ["belt_speed", 0.05, 2], shown: ["x", "release"], section: ["release", "x", "v"], window: [200, 25] },
   "two-blocks-on-belt": { over: ["coupling", 0.2, 3], shown: ["x1", "release"], section: ["release", "x1", "x2"], window: [500, 60] },
   "pressed-block": { over: ["belt_speed", 0.05, 1], shown: ["x", "release"], section: ["release", "x", "v"], window: [50, 40] },
-  "mode-coupling-brake": { over: ["friction", 0.3, 0.8], shown: ["x", "unload"], section: ["unload", "x", "y"], window: [40, 12] },
+  "mode-coupling-brake": { over: ["friction", 0.3, 0.8], shown: ["x", "impacts"], section: ["impacts", "x", "v"], window: [40, 12] },
   "drill-string": { over: ["drive_speed", 2, 16], shown: ["end", "release"], section: ["release", "top", "v_top"], window: [100, 25], phase: ["end", "v_end"] },
   "bouncing-ball": { over: ["restitution", 0.3, 0.95], window: [0, 5], ends: true },
   "colliding-blocks": { over: ["mass_2", 1, 100], window: [0, 12], ends: true },

@@ -85,10 +85,12 @@ async function squeezed(bytes: Uint8Array<ArrayBuffer>, stream: CompressionStrea
   return new Uint8Array(await read);
 }
 
-/** The part of an address behind `#`: readable for a built-in model, packed for a text. */
-export async function toHash(settings: Settings): Promise<string> {
+/**
+ * The part of an address behind `#`: readable for a built-in model, packed for a text.
+ * @param base  what the model opens with: only what differs is written
+ */
+export async function toHash(settings: Settings, base: Settings): Promise<string> {
   const { source, set, ...others } = settings;
-  const base = settingsOf(isText(source) ? "" : source);
   const words: string[] = [];
   if (isText(source)) {
     const packed = await squeezed(new TextEncoder().encode(source), new CompressionStream("deflate-raw"));

@@ -236,7 +236,7 @@ class Drawing {
       if (part.belt !== 0) this.belt(home, room, y, part.belt, shift);
     } else {
       const owner = this.at[part.a === body ? part.b : part.a] ?? 0, toward = Math.sign(owner - x);
-      const swing = Math.min(half + 26, Math.abs(owner - x) - half);
+      const swing = Math.min(half + 26, Math.abs(owner - x) - half, toward > 0 ? x - 4 : this.stage.width - x - 4);
       pen.rect(Math.min(x - toward * swing, owner), y, Math.abs(owner - x) + swing, 8, colours.body);
       pen.line([x - toward * swing, y, owner - toward * half, y, NaN, NaN, x - toward * swing, y, x - toward * swing, y + 8, owner, y + 8, owner, middle + bodyHeight / 2], { colour: colours.edge, width: 2 });
     }

@@ -105,14 +105,18 @@ export function drawLayer(pen: Pen, frame: Frame, layer: Layer, palette: Palette
         else pen.rect(x, frame.top + frame.height - 5 * (rows - row), width, 4, layer.colour(palette), layer.opacity);
       });
       break;
-    case "marks":
+    case "marks": {
+      const texts: [number, number][] = [];
       layer.x.forEach((value, i) => {
         const x = toX(frame, value), y = layer.shape === "tick" ? frame.top + 8 : toY(frame, layer.y[i] as number);
         drawMark(pen, layer.shape, x, y, layer.colour(palette), palette.ground);
         const text = layer.texts[i];
-        if (text && layer.shape === "diamond") pen.text(x, y - 9, text, { colour: layer.colour(palette), size: 11, anchor: "middle", baseline: "bottom", weight: 600 });
+        if (!text || layer.shape !== "diamond" || texts.some(([u, v]) => Math.abs(u - x) < 24 && Math.abs(v - y) < 14)) return;
+        texts.push([x, y]);
+        pen.text(x, y - 9, text, { colour: layer.colour(palette), size: 11, anchor: "middle", baseline: "bottom", weight: 600 });
       });
       break;
+    }
     case "stems":
       for (let i = 0; i < layer.x.length; ++i) {
         const x = toX(frame, layer.x[i] as number);

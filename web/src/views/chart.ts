@@ -143,7 +143,12 @@ export class ChartView {
     }));
   }
 
-  private classAt(x: number, y: number): string {
+  /** How many pixels are known. */
+  known(): number {
+    return this.classes.filter((name) => name !== "").length;
+  }
+
+  classAt(x: number, y: number): string {
     const wish = this.wish;
     if (!wish) return "";
     const column = Math.round(((x - wish.xFrom) / (wish.xTo - wish.xFrom)) * (wish.size - 1));

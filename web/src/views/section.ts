@@ -20,6 +20,13 @@ export function instantsOf(card: ModelCard): { value: string; text: string }[] {
   return list;
 }
 
+/** Do the points come back to a few? */
+function isFew(x: Numbers, y: Numbers): boolean {
+  const seen = new Set<string>();
+  for (let i = 0; i < x.length && seen.size <= 40; ++i) seen.add(`${x.at(i).toPrecision(6)} ${y.at(i).toPrecision(6)}`);
+  return seen.size <= 40;
+}
+
 export class SectionView {
   readonly plot = new Plot({ name: "Poincare section", xLabel: "", yLabel: "" });
   readonly choices = document.createElement("span");
@@ -30,7 +37,7 @@ export class SectionView {
     const { at, x, y, points } = settings.section;
     const names = at === "impacts" ? ["phase", "w", "flight", ...card.state] : card.state;
     this.show(card, settings, names);
-    const layer: Layer = { kind: "dots", name: "section", x: new Numbers(), y: new Numbers(), colour: (colours) => colours.series[0] as string, size: 2.2, opacity: 0.75 };
+    const layer: Extract<Layer, { kind: "dots" }> = { kind: "dots", name: "section", x: new Numbers(), y: new Numbers(), colour: (colours) => colours.series[0] as string, size: 2, opacity: 0.75 };
     const column = (name: string): number => (fixed.includes(name) ? fixed.indexOf(name) : 4 + card.state.indexOf(name));
     const [cx, cy] = [column(x), column(y)];
     this.plot.xLabel = x === "phase" ? "phase of the impact / period" : x;
@@ -51,6 +58,7 @@ export class SectionView {
       },
       done: (failure) => {
         if (layer.x.length === 0) this.plot.note = failure || "no point of this section was found";
+        if (isFew(layer.x, layer.y)) layer.size = 6;  // a cycle: points that all can be seen
         this.plot.redraw();
       },
       error: (error) => {

@@ -22,6 +22,7 @@ export class SpectrumView {
       this.plot.note = "";
       this.plot.xLabel = card.forced ? "frequency / forcing frequency" : kind === "lines" ? "frequency / frequency of the cycle" : "frequency";
       this.plot.yLabel = kind === "lines" ? `amplitude of ${quantity}` : `log10 of the power density of ${quantity}`;
+      if (!height.some((one) => Number.isFinite(one))) this.plot.note = "the engine has no number for this spectrum";
       const name = kind === "lines" ? `line of the cycle ${label}` : "density";
       if (kind === "lines") this.plot.set([{ kind: "stems", name, x: order, y: height, colour: (colours) => colours.series[0] as string }]);
       else this.plot.set([{ kind: "line", name, x: order, y: height.map((one) => (one > 0 ? Math.log10(one) : NaN)), colour: (colours) => colours.series[0] as string }]);

@@ -44,7 +44,8 @@ std::string text_of(const std::string& path) {
 
 int run(const Options& options, const Context& context) {
   (void)load_model(options.model);  // what is wrong with it is said before a browser opens
-  const bool built_in = ranges::find(builtin_models(), options.model) != builtin_models().end();
+  const std::vector<std::string> names = builtin_models();
+  const bool built_in = ranges::find(names, options.model) != names.end();
   Served served{page_folder(options.page), nullptr};
   if (!built_in) served.model = [path = options.model] { return text_of(path); };
   serve_page(served, static_cast<int>(options.port), context.stop, [&](const std::string& address) {

@@ -56,30 +56,35 @@ test("every view shows the paper's motion, and nothing is fetched from elsewhere
 test("a drag never blocks the page, and ends with the motion of its last value", async () => {
   const { page, faults } = await explorer(browser, server.url, "#model=vibro-impact", { until: moving });
   const slider = page.locator("#parameter-omega");
-  const waits = await slider.evaluate(async (input) => {
-    const gaps = [];
-    let last = performance.now(), going = true;
-    const beat = () => {
-      gaps.push(performance.now() - last);
-      last = performance.now();
-      if (going) setTimeout(beat, 0);
+  const [still, waits] = await slider.evaluate(async (input) => {
+    const beats = async (body) => {
+      const gaps = [];
+      let last = performance.now(), going = true;
+      const beat = () => {
+        gaps.push(performance.now() - last);
+        last = performance.now();
+        if (going) setTimeout(beat, 0);
+      };
+      beat();
+      for (let i = 0; i < 120; ++i) {
+        body(i);
+        await new Promise((resolve) => setTimeout(resolve, 8));
+      }
+      going = false;
+      return gaps.sort((a, b) => a - b)[Math.floor(gaps.length * 0.9)];
     };
-    beat();
-    for (let i = 0; i < 120; ++i) {  // low frequencies too: their periods take ten times as long
+    const idle_ = await beats(() => undefined);
+    return [idle_, await beats((i) => {  // low frequencies too: their periods take ten times as long
       input.value = String(20 + 7 * i);
       input.dispatchEvent(new Event("input", { bubbles: true }));
-      await new Promise((resolve) => setTimeout(resolve, 8));
-    }
-    going = false;
-    return gaps.sort((a, b) => a - b);
+    })];
   });
   await page.waitForFunction(() => !window.explorer.movesOn);
   const dragged = await motionOf(page), omega = await page.evaluate(() => window.explorer.history.now.set.omega);
   const fresh = await explorer(browser, server.url, `#model=vibro-impact&omega=${omega}`, { until: moving });
   assert.deepEqual(dragged, await motionOf(fresh.page));
-  // Other programs may take the processor for a while; a page that waits for its engine stands still at every move.
-  const most = waits[Math.floor(waits.length * 0.9)];
-  assert.ok(waits.length > 120 && most < 100, `${waits.length} beats, nine of ten within ${most} ms`);
+  // Drawing takes time, and other programs may take the processor; a page that waits for its engine stands still at every move.
+  assert.ok(waits < 60 + 5 * still, `nine of ten beats within ${waits} ms, at rest within ${still} ms`);
   await page.keyboard.press("Control+z");
   assert.equal(await page.evaluate(() => window.explorer.history.now.set.omega), undefined, "a drag is one step of undo");
   await page.keyboard.press("Control+y");

@@ -1,5 +1,5 @@
 #pragma once
-/// The mode logic of docs/mode_graph.md over any solver: the part of a peer that is not the solver.
+/// The mode logic of docs/explanation/mode_graph.md over any solver: the part of a peer that is not the solver.
 ///
 /// A `Solver` is a `Step` (event_search.hpp) that also offers start(mode, state, time), advance() (one accepted step),
 /// begin_time(), evaluations(). One solver start per phase; the solver itself carries its step length over an event.

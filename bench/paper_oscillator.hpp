@@ -2,7 +2,7 @@
 /// The paper's oscillator with its numbers as compile-time constants, the fairest form for a peer.
 ///
 /// Relative coordinates: y = x1 - x2, w = v1 - v2 = y', so that the gap and the relative velocity are state components
-/// and an event test subtracts nothing. Source: NOTATION.md (eqs. 2, 5, 6, 7 of the paper).
+/// and an event test subtracts nothing. Source: docs/reference/notation.md (eqs. 2, 5, 6, 7 of the paper).
 
 #include <array>
 #include <cmath>

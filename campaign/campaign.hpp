@@ -1,5 +1,5 @@
 #pragma once
-/// The campaigns: long random examinations of the engine, each with targets that it meets or not (docs/campaigns.md).
+/// The campaigns: long random examinations of the engine, each with targets (docs/developers/campaigns.md).
 #include <atomic>
 #include <cstdint>
 #include <vector>

@@ -25,7 +25,7 @@ extern "C" void on_signal(int signal) {
 }
 
 std::string overview() {
-  std::string text = "Campaigns (docs/campaigns.md); NAME --help says more:\n\n";
+  std::string text = "Campaigns (docs/developers/campaigns.md); NAME --help says more:\n\n";
   for (const Campaign& c : campaigns()) {
     char line[200];
     std::snprintf(line, sizeof line, "  %-10s %s (%g %s)\n", c.name, c.summary, static_cast<double>(c.count), c.unit);

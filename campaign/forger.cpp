@@ -1,4 +1,4 @@
-/// Forges certificates by their text (docs/certificate.md).
+/// Forges certificates by their text (docs/reference/certificate.md).
 #include "forger.hpp"
 
 #include <sstream>

@@ -1,4 +1,4 @@
-/// Finds and alters records of certificates (docs/certificate.md).
+/// Finds and alters records of certificates (docs/reference/certificate.md).
 #include "forging.hpp"
 
 #include <array>

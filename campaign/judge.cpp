@@ -19,8 +19,8 @@ using slapstick::EventKind;
 using slapstick::Motion;
 using slapstick::Outcome;
 
-/// What a value of a guard can be wrong by, in units of its scale, and how deep a graze may be: docs/certainty.md,
-/// section 3, for Taylor terms that add up to e^2 times the guard.
+/// What a value of a guard can be wrong by, in units of its scale, and how deep a graze may be: section 3 of
+/// docs/developers/proofs.md, for Taylor terms that add up to e^2 times the guard.
 constexpr double noise = 0x1p-46, graze_depth = 0x1p-42;
 
 /// How a segment ended.

@@ -75,7 +75,7 @@ Model model_of(const verify::Model& told) {
   for (std::size_t i = 0; i < told.masses.size(); ++i)
     model.coordinates.push_back({"x" + std::to_string(i + 1), told.masses[i]});
   for (const auto& [pair, k] : told.springs) model.springs.push_back({pair.a, pair.b, k});
-  for (const auto& [pair, c] : told.dampers) model.dampers.push_back({pair.a, pair.b, c});
+  for (const auto& [pair, c] : told.dampers) model.dampers.push_back({pair.a, pair.b, c, c < 0.0});
   for (const verify::Force& f : told.forces) model.forces.push_back({f.coordinate, f.harmonic, f.amplitude, f.phase, f.frequency});
   int k = 0;
   const auto name = [&k](const char* of) { return of + std::to_string(k++); };

@@ -195,8 +195,8 @@ void Reader::read_stops() {
     Stop stop{of, real(), real_from(0.0), corners(0), rest_of_line()};
     bool possible = stop.restitution <= 1.0;
     for (const Corner& corner : stop.corners)
-      possible = possible && corner.at >= 0.0 && corner.force >= 0.0 && corner.force <= 1.0;
-    if (!possible) fail("the restitution is not in [0, 1]");
+      possible = possible && corner.at > 0.0 && corner.force >= 0.0 && corner.force <= 1.0;
+    if (!possible) fail("the restitution is not in [0, 1], or a corner is not at a positive speed");
     if (!stop.corners.empty() && stop.corners.front().force != stop.restitution)
       fail("the restitution is not that of the first corner");
     model_.stops.push_back(stop);

@@ -1,6 +1,6 @@
 #pragma once
-/// A certificate (docs/certificate.md) as it is read: the model, then segment by segment. Only the text is judged here:
-/// words, numbers, indices, order of records.
+/// A certificate (docs/reference/certificate.md) as it is read: the model, then segment by segment. Only the text is
+/// judged here: words, numbers, indices, order of records.
 #include <istream>
 #include <optional>
 #include <stdexcept>

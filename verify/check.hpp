@@ -1,7 +1,7 @@
 #pragma once
-/// The rules of docs/certificate.md that lead from segment to segment: clock, continuity, rest, impulses, the choice of
-/// the mode. What happens at the end of a segment is judged with the start of the next one, whose state says which
-/// stops touch.
+/// The rules of docs/reference/certificate.md that lead from segment to segment: clock, continuity, rest, impulses, the
+/// choice of the mode. What happens at the end of a segment is judged with the start of the next one, whose state says
+/// which stops touch.
 #include <map>
 #include <memory>
 

@@ -25,11 +25,18 @@ bool fits(const FlownMode& mode, const Balls& X) {
   return true;
 }
 
+/// By any derivative: where slip begins as its force comes to the limit, the first ones are those of rest. Two motions
+/// of m numbers whose first 2 m derivatives agree are one.
 bool moves_otherwise(const FlownMode& a, const FlownMode& b, const Balls& X) {
-  const Balls one = a.flow.rate(X), other = b.flow.rate(X);
-  const std::vector<double> size = a.flow.apply_sizes(a.flow.sizes_of(X));
-  for (std::size_t i = 0; i < one.size(); ++i)
-    if (abs(one[i] - other[i]) > Ball(rounding * size[i])) return true;
+  Balls one = X, other = X;
+  std::vector<double> size = a.flow.sizes_of(X);
+  for (std::size_t n = 0; n < 2 * X.size(); ++n) {
+    one = a.flow.rate(one);
+    other = b.flow.rate(other);
+    size = a.flow.apply_sizes(size);
+    for (std::size_t i = 0; i < one.size(); ++i)
+      if (abs(one[i] - other[i]) > Ball(rounding * size[i])) return true;
+  }
   return false;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// The limit of a complete chatter: that infinitely many impacts follow, when they end, and in which state
-/// (docs/certainty.md, section 8).
+/// (docs/developers/proofs.md, section 8).
 ///
 /// S is the state at rest on the stop, v the speed at which the pair leaves it, w the pair's velocity towards the stop.
 /// An impact changes velocities by b dw, b the column of the inertia that belongs to the stop, divided by its own

@@ -1,4 +1,4 @@
-/// slapstick-verify: checks a certificate (docs/certificate.md) in ball arithmetic, and shares no code with slapstick.
+/// slapstick-verify: checks a certificate (docs/reference/certificate.md) in ball arithmetic, sharing no code.
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -15,7 +15,7 @@ constexpr char usage[] =
     "slapstick-verify FILE    checks a certificate that `slapstick simulate --certify FILE` has written; `-` reads it "
     "from standard input\n\n"
     "The motion is checked against the model in the file, in ball arithmetic of 256 bits; the rules are in "
-    "docs/certificate.md.\n"
+    "docs/reference/certificate.md.\n"
     "Standard output gets one line for each claim that does not hold (the first 20) and a report.\n"
     "Exit status: 0 proved, 1 not proved, 2 unreadable or incomplete, 3 proved but for what the last line names.\n";
 

@@ -6,7 +6,7 @@
 /// the rows of W the pairs of the certificate's numbers, the first n of them independent. The extended state is
 /// X = (p, u, cos j theta, sin j theta for each harmonic j,
 /// cos w t, sin w t for each tone w, 1), so that p' = u + drift, u' = free X + W M^-1 (forces).
-/// Nothing of the library is used: docs/certificate.md says what the numbers mean.
+/// Nothing of the library is used: docs/reference/certificate.md says what the numbers mean.
 #include <map>
 #include <memory>
 #include <string>

@@ -39,7 +39,7 @@ std::string short_number(double value) {
   return text.data();
 }
 
-/// As docs/continuation.md calls it.
+/// As docs/explanation/continuation.md calls it.
 std::string coefficient_name(orbit::SpecialType type) {
   return type == orbit::SpecialType::LP ? "a" : type == orbit::SpecialType::PD ? "c" : "l1";
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// --certify F: the run again, written down as a certificate (docs/certificate.md).
+/// --certify F: the run again, written down as a certificate (docs/reference/certificate.md).
 #include <string>
 
 #include "output.hpp"

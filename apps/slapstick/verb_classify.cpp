@@ -155,7 +155,7 @@ void declare(Arguments& arguments, Options* options) {
       "The class n-p-I or n-p-II: n forcing periods, p impacts (inf with complete chatter), II if the blocks stick.\n"
       "A compliant stop counts by its engagements.\n"
       "Without a drive a motion comes to rest (equilibrium), or to a cycle free-p-I or free-p-II; periods are returns.\n"
-      "A motion without a cycle is quasi-periodic, chaotic or undecided; docs/classify.md says how that is decided.\n"
+      "A motion without a cycle is quasi-periodic, chaotic or undecided; docs/explanation/classify.md says how that is decided.\n"
       "  slapstick classify vibro-impact --set omega=1.5");
 }
 

@@ -324,7 +324,7 @@ Action add_continue(Arguments& arguments) {
   arguments.footer(
       "Special points: LP fold, PD period doubling, NS torus, BP branches cross, GR a stop is grazed, SL stick gained "
       "or lost,\n"
-      "CH complete chatter begins or ends, CO two events meet. docs/continuation.md says how they are found.\n"
+      "CH complete chatter begins or ends, CO two events meet. docs/explanation/continuation.md says how they are found.\n"
       "  slapstick continue vibro-impact --set omega=2.2 --orbit 1-1 --param omega --range 1:4 --table");
   return [options](const Context& context) { return run(*options, context); };
 }

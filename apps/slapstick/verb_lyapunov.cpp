@@ -176,7 +176,7 @@ Action add_lyapunov(Arguments& arguments) {
   arguments.footer(
       "All Lyapunov exponents, largest first, per unit of time and, if forced, per forcing period; -inf where stick, "
       "a\n"
-      "closed stop or complete chatter forgets a direction. docs/lyapunov.md says how, and what checks the numbers.\n"
+      "closed stop or complete chatter forgets a direction. docs/explanation/lyapunov.md says how, and what checks the numbers.\n"
       "  slapstick lyapunov vibro-impact --set omega=6.69");
   return [options, &arguments](const Context& context) {
     FileRoles roles;

@@ -37,7 +37,7 @@ Action add_quantities(Arguments& arguments) {
   options->model.declare(arguments);
   arguments.text("--out", options->out, "FILE", "write the JSON there instead of to standard output");
   arguments.footer(
-      "What `measure` and `spectrum` can measure on a model: names, units and meanings. docs/measure.md defines them.\n"
+      "What `measure` and `spectrum` can measure on a model: names, units and meanings. docs/reference/measure.md defines them.\n"
       "  slapstick quantities vibro-impact");
   return [options](const Context&) { return run(*options); };
 }

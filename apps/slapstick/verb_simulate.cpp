@@ -299,7 +299,7 @@ Action add_simulate(Arguments& arguments) {
   arguments.text("--until", options->until, "EVENT[:K]",
                  "end at the K-th event of this kind (1), as stick or impact:wall; --periods or --time is the limit");
   arguments.text("--certify", options->certify, "F.txt",
-                 "the run with its model, for slapstick-verify to prove (docs/certificate.md)");
+                 "the run with its model, for slapstick-verify to prove (docs/reference/certificate.md)");
   arguments.count("--samples", options->samples, 1, 1'000'000, "samples of --trajectory per forcing period (100)");
   arguments.text("--plot", options->plot, "F.png",
                  "picture of the last 20 periods: .png, .pdf or .svg; its data and script lie beside it");

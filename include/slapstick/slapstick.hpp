@@ -1,6 +1,6 @@
 #pragma once
-/// Every public header of slapstick. docs/library.md shows five tasks; each header says what it holds, what it costs
-/// and what it throws.
+/// Every public header of slapstick. docs/reference/library.md shows five tasks; each header says what it holds,
+/// what it costs and what it throws.
 ///
 ///   model         what a machine is, as plain data; model files (io)
 ///   mode          contact states

@@ -19,7 +19,7 @@ class SpecialPoint:
 
     type: LP fold, PD period doubling, NS torus, BP branches cross, GR a stop is grazed, SL stick is gained or lost, CH
     a complete chatter begins or ends, CO two events meet. value: of the parameter; error: how well it is known.
-    what, outcome: in words. occurrence, passage, sliding, jump, verdict: the same as data (docs/command_line.md).
+    what, outcome: in words. occurrence, passage, sliding, jump, verdict: the same as data (docs/reference/command_line.md).
     rotation: of an NS; coefficient: of the normal form, or None. orbit: the orbit there.
     """
 

@@ -1,35 +1,43 @@
-"""What the documents show is what happens: the page docs/python.md, the package's README and the notebook."""
+"""What the documents show is what happens: the pages of the guide, the READMEs and the notebook."""
 
 import ast
 import contextlib
 import io
-import re
+import sys
 
 import pytest
 import slapstick
 from conftest import ROOT
 
-BLOCK = re.compile(r"```(\w*)\n(.*?)```", re.DOTALL)
+sys.path.insert(0, str(ROOT / "test/library"))
+PAGES = [str(path.relative_to(ROOT)) for path in sorted(ROOT.glob("docs/**/*.md")) if "\n```python\n" in path.read_text()]
 
 
-@pytest.mark.parametrize("path", ["README.md", "docs/python.md", "python/README.md"])
-def test_programs_of_a_page_print_what_stands_below_them(path):
-    blocks = BLOCK.findall((ROOT / path).read_text())
+@pytest.mark.parametrize("path", ["README.md", "python/README.md", *PAGES])
+def test_programs_of_a_page_print_what_stands_below_them(path, tmp_path, monkeypatch):
+    import printed
+
+    text = (ROOT / path).read_text()
+    printed.write_files(text, tmp_path)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(str(tmp_path))
+    blocks = [(kind, "\n".join(lines)) for kind, lines, _ in printed.fences(text) if kind is not None or "".join(lines).strip()]
     variables, ran = {}, 0
-    for (kind, text), (next_kind, next_text) in zip(blocks, [*blocks[1:], ("", "")]):
+    for (kind, program), (next_kind, shown) in zip(blocks, [*blocks[1:], ("", "")]):
         if kind != "python":
             continue
-        printed = io.StringIO()
-        with contextlib.redirect_stdout(printed):
-            exec(compile(text, path, "exec"), variables)
+        output = io.StringIO()
+        with contextlib.redirect_stdout(output):
+            exec(compile(program, path, "exec"), variables)
         ran += 1
-        if next_kind == "" and next_text:
-            assert printed.getvalue().rstrip("\n") == next_text.rstrip("\n")
+        if next_kind == "" and shown:
+            assert output.getvalue().rstrip("\n") == shown.rstrip("\n")
     assert ran > 0
+    assert [name for name in printed.pictures(text)[1] if not (tmp_path / name).exists()] == []
 
 
 def test_the_page_names_every_call():
-    page = (ROOT / "docs/python.md").read_text()
+    page = (ROOT / "docs/reference/python.md").read_text()
     calls = [name for name in slapstick.__all__ if not name.startswith("_") and name[0].islower()]
     assert [name for name in calls if f"`{name}`" not in page] == []
 

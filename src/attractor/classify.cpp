@@ -1,4 +1,4 @@
-/// Classifies motions: searches for a return, then judges by exponent and averages (docs/classify.md).
+/// Classifies motions: searches for a return, then judges by exponent and averages (docs/explanation/classify.md).
 #include "slapstick/attractor/classify.hpp"
 
 #include <cmath>

@@ -23,6 +23,11 @@ double cube_root(double x);
 
 double sin(double x);
 double cos(double x);
+/// Both, for the price of one.
+struct CosineSineOf {
+  double cosine, sine;
+};
+CosineSineOf cosine_sine(double x);
 double tan(double x);
 double asin(double x);
 double acos(double x);

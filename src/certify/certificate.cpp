@@ -1,4 +1,4 @@
-/// Writes certificates: the lines of docs/certificate.md, segment by segment.
+/// Writes certificates: the lines of docs/reference/certificate.md, segment by segment.
 #include "slapstick/certify/certificate.hpp"
 
 #include <utility>

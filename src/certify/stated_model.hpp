@@ -6,7 +6,7 @@
 
 namespace slapstick::certify {
 
-/// " 0x1.8p+0": a double to the last bit, as docs/certificate.md wants it.
+/// " 0x1.8p+0": a double to the last bit, as docs/reference/certificate.md wants it.
 [[nodiscard]] std::string hex(double x);
 /// " 7".
 [[nodiscard]] std::string number(long long k);

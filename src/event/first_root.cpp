@@ -155,7 +155,7 @@ Curvature Search::near_start() const {
 }
 
 /// Of the terms as they are computed, and of what they lack: rounding up to n = 23, and dropped terms, whose sums of n (n - 1) (n - 2) |T_n| are
-/// at most 40 times those of n (n - 1) |T_n| (docs/certainty.md, section 3).
+/// at most 40 times those of n (n - 1) |T_n| (docs/developers/proofs.md, section 3).
 double Search::third() {
   if (third_ < 0.0)
     third_ = weighted_size(guard_.taylor, [](int n) { return n * (n - 1.0) * (n - 2.0); }) +

@@ -9,7 +9,7 @@
 ///   - g'' <= M: the same from above proves that g falls through zero;
 ///   - where g cannot be told from its rounding error, the kernel walks on in steps too short for g to leave that band unseen, until
 ///     g is certainly below it (a crossing) or above it again (a graze).
-/// The reasoning is written out in docs/certainty.md.
+/// The reasoning is written out in docs/developers/proofs.md.
 #include "event/hull.hpp"
 
 namespace slapstick::event {

@@ -69,10 +69,21 @@ struct Table {
   }
 };
 
+const Table& table_of_powers() {
+  static const Table table;
+  return table;
+}
+
 }  // namespace
 
+HullRows hull_rows(double noise_factor, Lane8* bounds) {
+  const Table& table = table_of_powers();
+  for (int n = 0; n < most_terms; ++n) bounds[n] = table.truncation[n] + noise_factor * table.rounding[n];
+  return {table.bernstein.data(), bounds};
+}
+
 Hull enclose(const double* a, const double* size, int count, double noise_factor) {
-  static const Table table;
+  const Table& table = table_of_powers();
   Lane8 bernstein{}, truncation{}, rounding{};
   for (int n = 0; n < count; ++n) {
     bernstein += table.bernstein[n] * a[n];

@@ -8,6 +8,7 @@
 ///     |(x^n - p_n)'|  <= (q' + 128 q) / 2^15                                 |T'|  <= 128
 ///     |(x^n - p_n)''| <= (q'' + 256 q' + 5376 q) / 2^15                      |T''| <= 5376.
 /// A window of the flow spans about two radians of its fastest sinusoid; its hull then lies within 1e-6 of the guard.
+
 #include "event/window.hpp"
 
 namespace slapstick::event {
@@ -35,6 +36,15 @@ inline constexpr int most_terms = 40;  ///< of a series that is given to `enclos
 /// The hull of sum_{n<count} a_n x^n, count <= most_terms, where a_n is known to `noise_factor` size[n], size[n] >= |a_n| and
 /// noise_factor >= 16 u. Cost: four vector operations per term.
 Hull enclose(const double* a, const double* size, int count, double noise_factor);
+
+/// What a unit of a_n adds to the hull, and to its bounds, n < most_terms.
+struct HullRows {
+  const Lane8* bernstein;
+  const Lane8* bounds;
+};
+
+/// The rows for a noise_factor. `bounds`: storage for most_terms rows, to be kept as long as they are used.
+HullRows hull_rows(double noise_factor, Lane8* bounds);
 
 /// The bounds for a state that carries another rounding beside its own: `more` times that of the bounds b.
 static inline void add_noise(Hull& hull, const Lane8& b, double more) {

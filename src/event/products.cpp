@@ -69,6 +69,31 @@ inline void product(const Lane8* rows, int blocks, int m, const double* x, Lane8
 
 void multiply(const Lane8* data, int blocks, int m, const double* x, Lane8* out) { product(data, blocks, m, x, out); }
 
+void pass(const Lane8* step, int blocks, int m, const Lane8* x, const Lane8* floor, bool fresh, Lane8* out, Lane8* size, Lane8* largest,
+          double* sizes) {
+  product(step, blocks, m, reinterpret_cast<const double*>(x), out);
+  Lane8 all{}, most{};
+  for (int b = 0; b < blocks; ++b) {
+    const Lane8 now = magnitude(out[b]);
+    all += size[b] = larger(now, floor[b]);
+    most += largest[b] = larger(fresh ? magnitude(x[b]) : largest[b], now);
+  }
+  sizes[0] = sum(all);
+  sizes[1] = sum(most);
+}
+
+double magnitudes(const Lane8* x, const Lane8* floor, int blocks, Lane8* size) {
+  Lane8 all{};
+  for (int b = 0; b < blocks; ++b) all += size[b] = larger(magnitude(x[b]), floor[b]);
+  return sum(all);
+}
+
+bool hull(const Lane8* rows, const Lane8* errors, int m, const double* x, const double* size, double more, Hull* out) {
+  product(rows, 1, m, x, &out->bernstein);
+  product(errors, 1, m, size, &out->bounds);
+  return all_above(out->bernstein, out->bounds[hull_error] + more);
+}
+
 bool product_above(const Lane8* data, int m, const double* x, double bound) {
   Lane8 sum;
   product(data, 1, m, x, &sum);
@@ -107,12 +132,46 @@ void spread(const Placed* rows, const Placed* rows_end, const Placed* columns, c
   *out = factor * (even + odd);
 }
 
+/// Of `count` columns from the first on, which share the loads of the rows. Sums over n in one order.
+template <int count>
+inline void enclose_columns(const HullRows& rows, const Lane8* taylor, int order, int m, Lane8* bernstein, Lane8* bounds) {
+  const auto* const hull = reinterpret_cast<const Part*>(rows.bernstein);
+  const auto* const error = reinterpret_cast<const Part*>(rows.bounds);
+  for (int part = 0; part < parts; ++part) {
+    Part sum[count]{}, bound[count]{};
+    for (int n = order; n < terms; ++n) {
+      const Part h = hull[(n - order) * parts + part], e = error[(n - order) * parts + part];
+      const auto* const term = reinterpret_cast<const double*>(taylor + (n / 8) * m) + n % 8;
+#pragma GCC unroll 4
+      for (int k = 0; k < count; ++k) {
+        const double a = term[8 * k];
+        sum[k] += h * a;
+        bound[k] += e * (a < 0.0 ? -a : a);
+      }
+    }
+    for (int k = 0; k < count; ++k) {
+      reinterpret_cast<Part*>(bernstein + k)[part] = sum[k];
+      reinterpret_cast<Part*>(bounds + k)[part] = bound[k];
+    }
+  }
+}
+
+/// In fours; of a rest the four that end with it once more.
+void enclose(const HullRows& rows, const Lane8* taylor, int order, int m, Lane8* bernstein, Lane8* bounds) {
+  for (int i = 0; i < m && m < 4; ++i) enclose_columns<1>(rows, taylor + i, order, m, bernstein + i, bounds + i);
+  for (int from = 0; from < m && m >= 4; from += 4) {
+    const int i = from + 4 <= m ? from : m - 4;
+    enclose_columns<4>(rows, taylor + i, order, m, bernstein + i, bounds + i);
+  }
+}
+
 }  // namespace
 
 namespace SLAPSTICK_KERNEL {
 extern const Kernels table;
 constinit const Kernels table = {
-    SLAPSTICK_TEXT(SLAPSTICK_KERNEL), first_root, multiply, product_above, evaluate, gather, spread};
+    SLAPSTICK_TEXT(SLAPSTICK_KERNEL), first_root, multiply, pass, magnitudes, hull, product_above, evaluate, gather, spread, enclose,
+    expand, excess, enclose_tails, finish};
 }  // namespace SLAPSTICK_KERNEL
 
 }  // namespace slapstick::event

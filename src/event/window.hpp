@@ -126,7 +126,7 @@ struct Powers {
   }
 };
 
-/// sum_n a_n x^n; rounding error at most 8 u sum_n |a_n| x^n (see docs/certainty.md).
+/// sum_n a_n x^n; rounding error at most 8 u sum_n |a_n| x^n (see docs/developers/proofs.md).
 static inline double value(const Coefficients& a, const Powers& p) {
   const Lane8 nested = a[0] + p.x8 * (a[1] + p.x8 * a[2]);
   return sum(nested * p.low);

@@ -20,7 +20,7 @@
 /// compliant, that could be reached or left within Delta: the second side of a narrow clearance.
 /// The same series with the smallest and largest accelerations encloses the limit time.
 ///
-/// Source: docs/certainty.md; Nordmark and Piiroinen (2009), Budd and Dux (1994).
+/// Source: docs/developers/proofs.md; Nordmark and Piiroinen (2009), Budd and Dux (1994).
 #include <span>
 
 #include "flow/compiled_system.hpp"

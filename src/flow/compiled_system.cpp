@@ -29,30 +29,37 @@ Model checked(Model model) {
   return model;
 }
 
-/// The fastest rate of a mode: the largest modulus of an eigenvalue of its free motion, or its highest forcing
-/// frequency. Velocities are measured in a unit that makes the entries of the matrix comparable, otherwise a stiff
-/// spring would cost the solver its digits.
-double fastest_rate(const mode::Mode& mode, const mode::Frame& frame) {
-  const int n = frame.d;
-  mode::Matrix A = mode.system().topLeftCorner(2 * n, 2 * n);
-  const double unit = std::sqrt(A.bottomLeftCorner(n, n).cwiseAbs().maxCoeff());
+/// The free motion of a mode, velocities in a unit that makes the entries of the matrix comparable: otherwise a stiff
+/// spring would cost the eigenvalue solver its digits.
+mode::Matrix balanced(const mode::Mode& mode, int d) {
+  mode::Matrix A = mode.system().topLeftCorner(2 * d, 2 * d);
+  const double unit = std::sqrt(A.bottomLeftCorner(d, d).cwiseAbs().maxCoeff());
   if (unit > 0.0) {
-    A.topRightCorner(n, n) *= unit;
-    A.bottomLeftCorner(n, n) /= unit;
+    A.topRightCorner(d, d) *= unit;
+    A.bottomLeftCorner(d, d) /= unit;
   }
-  const auto oscillators = frame.signal(0) - 2 * n;
-  const double forcing =
-      oscillators == 0 ? 0.0 : mode.system().block(2 * n, 2 * n, oscillators, oscillators).cwiseAbs().maxCoeff();
-  return std::max(std::sqrt(dense::eigenvalues(A).cwiseAbs2().maxCoeff()), forcing);
+  return A;
+}
+
+/// The highest forcing frequency.
+double forcing_rate(const mode::Mode& mode, const mode::Frame& frame) {
+  const auto oscillators = frame.signal(0) - 2 * frame.d;
+  return oscillators == 0 ? 0.0
+                          : mode.system().block(2 * frame.d, 2 * frame.d, oscillators, oscillators).cwiseAbs().maxCoeff();
 }
 
 /// A window is never much longer than the shortest time scale of its mode: the tail of its series would not be
-/// negligible. One that is tells that numbers overflowed when it was computed.
+/// negligible. One that is tells that numbers overflowed when it was computed. The fastest rate is the largest modulus
+/// of an eigenvalue, which the largest row sum bounds.
 /// @returns the window length @throws InputError
 double checked_window(const Model& model, const mode::Mode& mode, const mode::Frame& frame) {
   constexpr double longest = 16.0;  // times the fastest rate; without overflow it stays below 5
-  const double rate = fastest_rate(mode, frame), window = mode.window();
-  if (!(std::isfinite(rate) && window > 0.0 && window * rate <= longest))
+  const mode::Matrix A = balanced(mode, frame.d);
+  const double forcing = forcing_rate(mode, frame), window = mode.window();
+  const auto fits = [&](double rate) { return std::isfinite(rate) && window > 0.0 && window * rate <= longest; };
+  if (fits(std::max(A.cwiseAbs().rowwise().sum().maxCoeff(), forcing))) return window;
+  const double rate = std::max(std::sqrt(dense::eigenvalues(A).cwiseAbs2().maxCoeff()), forcing);
+  if (!fits(rate))
     throw InputError("model '" + model.name +
                      "' has time scales too far apart for double precision (its fastest rate is " + shown(rate) +
                      "); bring masses, stiffnesses, damping and omega closer together");
@@ -65,9 +72,6 @@ constexpr double most_windows_per_period = 0x1p48;
 constexpr ModeId most_modes = ModeId{1} << 62;
 
 ModeId pieces(const Characteristic& characteristic) { return static_cast<ModeId>(characteristic.corners.size()) + 1; }
-
-/// A model with so few modes has them built at once.
-constexpr ModeId built_at_once = 8;
 
 /// In periods: a flight counts its windows as a number of the clock, whose steps this is far above.
 constexpr double shortest_cap = 0x1p-20;
@@ -99,7 +103,6 @@ CompiledSystem::CompiledSystem(Model model, SystemOptions options)
                      " windows of its fastest motion in a forcing period, more than the clock can tell apart; raise "
                      "omega or slow the "
                      "model down");
-  for (ModeId id = 0; id < mode_count_ && mode_count_ <= built_at_once; ++id) (void)mode(id);
   for (const mode::ContactRow& stop : frame_.stops) {
     impulses_.emplace_back(stop.sign * frame_.mass_inverse.col(stop.own) / frame_.mass_inverse(stop.own, stop.own));
     presses_.emplace_back(stop.sign * frame_.free.row(stop.own));

@@ -21,6 +21,8 @@ class CompiledSystem {
   [[nodiscard]] double windows_per_period() const { return windows_per_period_; }
 
   [[nodiscard]] ModeId mode_count() const { return mode_count_; }
+  /// Of so few a mode is built when a state first asks for it, fit or not; of more, an outline is asked before.
+  [[nodiscard]] bool few_modes() const { return mode_count_ <= 8; }
   /// Safe to call from several threads. @throws InputError about time scales
   [[nodiscard]] const mode::Mode& mode(ModeId id) const {
     const mode::Mode* known = modes_->find(id);

@@ -2,6 +2,7 @@
 #include "flow/flight.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -139,8 +140,7 @@ Flight::Found Flight::first_event_in_window(double x_end) {
     if (found.x == 0.0 || orders_[g] == never || (falling >= 0 && mode.guards()[g].falls_with == falling)) continue;
     if (mode.excludes(g, orders_[g], X_window_.data(), size_, flown_noise(g))) continue;
     event::GuardWindow window;
-    enclose(g, window.hull);
-    if (event::excluded(window.hull)) continue;
+    if (enclose(g, window.hull)) continue;
     mode.taylor(g, orders_[g], X_window_.data(), window.taylor);
     const event::Root root = event::first_root(window, found.x, counters_.evaluations);
     if (root.kind == event::RootKind::restart)
@@ -159,27 +159,33 @@ double Flight::flown_noise(int guard) const {
   return origin_.stale() ? 8.0 * origin_.staleness() * origin_.size() * here_->coarse_noise(guard) : 0.0;
 }
 
-/// The hull of a guard in the present window, with what earlier windows' rounding adds to its noise.
-/// Into a named place: gcc 12 aligns the unnamed result of a call less than the kernels' vectors ask for.
-void Flight::enclose(int guard, event::Hull& out) const {
-  here_->enclose(guard, orders_[guard], X_window_.data(), magnitude_.data(), out);
-  const double lowest = out.bounds[event::hull_error] + flown_noise(guard);
-  if (!origin_.stale() || event::all_above(out.bernstein, lowest)) return;
-  event::Hull flown;
-  here_->enclose(guard, orders_[guard], X_window_.data(), origin_.largest(), flown);
-  event::add_noise(out, flown.bounds, origin_.staleness());
+/// The hull of a guard in the present window, with what earlier windows' rounding adds to its noise, and whether it
+/// excludes a zero. Into a named place: gcc 12 aligns the unnamed result of a call less than kernels' vectors ask for.
+bool Flight::enclose(int guard, event::Hull& out) const {
+  if (here_->enclose(guard, orders_[guard], X_window_.data(), magnitude_.data(), out, flown_noise(guard))) return true;
+  if (!origin_.stale()) return false;
+  event::Lane8 flown;
+  here_->bounds(guard, orders_[guard], X_window_.data(), origin_.largest(), flown);
+  event::add_noise(out, flown, origin_.staleness());
+  return event::excluded(out);
 }
 
 /// No event in this window: every guard is clear of its noise at its end, or lingers in it, or has been zero so far, as
 /// a force that just holds. The last two are judged by their derivatives again.
 void Flight::next_window() {
   const mode::Mode& mode = *here_;
-  mode.step(X_window_.data(), X_next_.lanes().data());
-  origin_.pass(mode.window(), X_window_.lanes(), X_next_.lanes());
+  const bool fresh = origin_.leave(X_window_.lanes());
+  std::array<double, 2> sizes{};
+  mode.pass(X_window_.lanes().data(), phase_floor_.lanes().data(), fresh, X_next_.lanes().data(), magnitude_.lanes().data(),
+            origin_.largest_lanes().data(), sizes.data());
+  size_ = sizes[0];
+  origin_.arrive(sizes[1]);
   std::swap(X_window_, X_next_);
   ++counters_.windows;
-  if (++place_.windows == windows_per_start) move_start(0.0, X_window_);
-  note_magnitude(X_window_);
+  if (++place_.windows == windows_per_start) {
+    move_start(0.0, X_window_);
+    note_magnitude(X_window_);
+  }
   for (int g = 0; g < mode.guard_count(); ++g) {
     const bool unclear = orders_[g] == never || lingers_[g];
     orders_[g] = unclear ? start_order(mode, g, X_window_.data(), magnitude_.data()) : 0;
@@ -217,7 +223,7 @@ bool Flight::within_noise(int guard, double x) const {
                                                          : depth(*system_, h.contact, X_.data());
   if (std::abs(value) > 0x1p-30 * size_) return false;
   event::Hull hull;
-  enclose(guard, hull);
+  (void)enclose(guard, hull);
   const double noise =
       hull.bounds[event::noise_0] + x * (hull.bounds[event::noise_1] + x * hull.bounds[event::noise_2]);
   double lift = 1.0;  // x^order
@@ -298,10 +304,8 @@ void Flight::stand(double x) {
 /// |X|, what rounding is measured by. The phase is known to the clock's rounding only, also where a sine vanishes:
 /// those count as one.
 void Flight::note_magnitude(Extended& X) {
-  event::Lane8 total{};
-  for (std::size_t b = 0; b < X.lanes().size(); ++b)
-    total += magnitude_.lanes()[b] = event::larger(event::magnitude(X.lanes()[b]), phase_floor_.lanes()[b]);
-  size_ = event::sum(total);
+  size_ = event::kernels().magnitudes(X.lanes().data(), phase_floor_.lanes().data(), static_cast<int>(X.lanes().size()),
+                                      magnitude_.lanes().data());
 }
 
 }  // namespace slapstick::flow

@@ -111,7 +111,7 @@ class Flight {
   void next_window();
   void restart_window(double x);
   void sharpen_window();
-  void enclose(int guard, event::Hull& out) const;
+  bool enclose(int guard, event::Hull& out) const;
   [[nodiscard]] double flown_noise(int guard) const;
   void move_start(double x, Extended& X);
   [[nodiscard]] Instant instant(double x) const;

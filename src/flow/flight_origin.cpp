@@ -33,8 +33,7 @@ Wide step(const mode::Matrix& A, DoubleDouble s, const Wide& X) {
 
 void FlightOrigin::pass(double duration, const event::Lanes& from, const event::Lanes& to) {
   if (windows_ == 0) {
-    X_ = from;
-    elapsed_ = {};
+    note(from);
     if (staleness_ == 0.0) ranges::transform(from, largest_.begin(), event::magnitude);
   }
   event::Lane8 total{};
@@ -42,16 +41,16 @@ void FlightOrigin::pass(double duration, const event::Lanes& from, const event::
     total += largest_[b] = event::larger(largest_[b], event::magnitude(to[b]));
   size_ = event::sum(total);
   elapsed_ = elapsed_ + duration;
-  staleness_ = ++windows_;
-  if (windows_ >= most_windows) begin();
+  count();
 }
 
 void FlightOrigin::carry(const mode::Mode& mode, double* X) {
   const auto* origin = reinterpret_cast<const double*>(X_.data());
   Wide state(origin, origin + m_);
+  const DoubleDouble elapsed = elapsed_ + two_product(whole_, mode.window());
   const double rate = mode.system().cwiseAbs().rowwise().sum().maxCoeff();
-  const double count = std::max(1.0, std::ceil(elapsed_.hi * std::min(0.25 * rate, 1.0 / mode.window())));
-  for (double k = 0; k < count; ++k) state = step(mode.system(), elapsed_ / count, state);
+  const double count = std::max(1.0, std::ceil(elapsed.hi * std::min(0.25 * rate, 1.0 / mode.window())));
+  for (double k = 0; k < count; ++k) state = step(mode.system(), elapsed / count, state);
   ranges::transform(state, X, [](DoubleDouble x) { return x.hi; });
   windows_ = 0;  // X is the origin now
   staleness_ = carried;

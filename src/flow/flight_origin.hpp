@@ -20,9 +20,19 @@ class FlightOrigin {
     windows_ = 0;
     staleness_ = 0.0;
   }
-  /// A window, or part of one, of this duration has been flown, between these states. When the count is high, it begins
-  /// anew.
+  /// A part of a window of this duration has been flown, between these states. When the count is high, it begins anew.
   void pass(double duration, const event::Lanes& from, const event::Lanes& to);
+  /// A whole window is flown from this state. Is `largest()` to begin anew? The caller brings it up to date.
+  bool leave(const event::Lanes& from) {
+    if (windows_ == 0) note(from);
+    return staleness_ == 0.0;
+  }
+  /// .. and has been; `size`: the sum of `largest()`.
+  void arrive(double size) {
+    size_ = size;
+    ++whole_;
+    count();
+  }
   /// Carries the origin to now and writes its state into X, rounded once. Cost: some microseconds per period of the
   /// fastest motion.
   void carry(const mode::Mode& mode, double* X);
@@ -34,18 +44,30 @@ class FlightOrigin {
   /// How much, in units of what one window's operators lose of `largest()`, the greatest |X| of the flight.
   [[nodiscard]] double staleness() const { return staleness_; }
   [[nodiscard]] const double* largest() const { return reinterpret_cast<const double*>(largest_.data()); }
+  [[nodiscard]] event::Lanes& largest_lanes() { return largest_; }
   /// The sum of those.
   [[nodiscard]] double size() const { return size_; }
 
  private:
+  void note(const event::Lanes& from) {
+    for (std::size_t b = 0; b < X_.size(); ++b) X_[b] = from[b];
+    elapsed_ = {};
+    whole_ = 0;
+  }
+  void count() {
+    staleness_ = ++windows_;
+    if (windows_ >= most_windows) begin();
+  }
+
   static constexpr int most_windows = 4096;
   static constexpr double carried = 0x1p-12;  ///< far more than double-doubles lose, in that unit
 
   int m_;
   event::Lanes X_, largest_;
   double size_ = 0.0, staleness_ = 0.0;
-  DoubleDouble elapsed_;
-  int windows_ = 0;
+  DoubleDouble elapsed_;  ///< in parts of windows ..
+  int whole_ = 0;         ///< .. and whole ones
+  int windows_ = 0;       ///< both
 };
 
 }  // namespace slapstick::flow

@@ -27,16 +27,16 @@ struct Candidates {
   std::int8_t count;
 };
 
-Candidates friction_candidates(double w, bool can_unload) {
-  const auto count = [&](int loaded) { return static_cast<std::int8_t>(loaded + (can_unload ? 1 : 0)); };
-  if (w > 0.0) return {{2, 3}, count(1)};
-  if (w < 0.0) return {{0, 3}, count(1)};
-  return {{1, 2, 0, 3}, count(3)};
+/// In tables: a copy of what was just written in parts would wait for the parts.
+const Candidates& friction_candidates(double w, bool can_unload) {
+  static constexpr Candidates forward[] = {{{2}, 1}, {{2, 3}, 2}}, backward[] = {{{0}, 1}, {{0, 3}, 2}},
+                              resting[] = {{{1, 2, 0}, 3}, {{1, 2, 0, 3}, 4}};
+  return (w > 0.0 ? forward : w < 0.0 ? backward : resting)[can_unload ? 1 : 0];
 }
 
-Candidates stop_candidates(double gap, double approach) {
-  if (gap == 0.0 && approach == 0.0) return {{1, 0}, 2};
-  return {{0}, 1};
+const Candidates& stop_candidates(double gap, double approach) {
+  static constexpr Candidates open = {{0}, 1}, touching = {{1, 0}, 2};
+  return gap == 0.0 && approach == 0.0 ? touching : open;
 }
 
 Candidates compliant_candidates(double depth, const CompliantStop& stop) {
@@ -119,6 +119,7 @@ bool may_fit(const mode::Outline& outline, const double* X, const double* magnit
 /// The rounding of A^n X, that of A's entries among it, is no more than n (m + 2) u S^n |X|, S = Mode::system_size.
 int far_order(const mode::Mode& mode, const mode::Guard& h, const double* X, const double* magnitude) {
   const int m = mode.size();
+  if (m <= leading_orders) return never;
   const mode::Matrix& A = mode.system();
   mode::Vector term = Eigen::Map<const mode::Vector>(X, m), size = Eigen::Map<const mode::Vector>(magnitude, m);
   for (int n = 0; n < std::min(m, static_cast<int>(never)); ++n) {
@@ -217,6 +218,7 @@ class Choice {
   void add(const Candidates& candidates, int base, bool crosses = false) {
     if (candidates.count > 1) (crosses ? crossed_[crossed_count_++] : several_[several_count_++]) = count_;
     offered_[count_] = candidates;
+    choice_[count_] = 0;
     stride_[count_++] = next_stride_;
     next_stride_ *= base;
   }
@@ -261,7 +263,7 @@ class Choice {
   std::array<int, most_contacts> crossed_;  ///< contacts at a line that is being crossed
   int several_count_ = 0, changes_ = 0, crossed_count_ = 0;
   std::array<ModeId, most_contacts> stride_;
-  std::array<int, most_contacts> choice_{};
+  std::array<int, most_contacts> choice_;
   ModeId next_stride_ = 1;
   int count_ = 0;
 };
@@ -295,7 +297,7 @@ ModeId select_mode(const CompiledSystem& system, const double* X, const double* 
   do {
     const ModeId id = choice.id();
     const mode::Mode* known = system.known_mode(id);
-    if (known == nullptr && !choice.only_one() && !may_fit(*system.outline(id), X, magnitude)) continue;
+    if (known == nullptr && !system.few_modes() && !choice.only_one() && !may_fit(*system.outline(id), X, magnitude)) continue;
     if (fits(known != nullptr ? *known : system.mode(id), X, magnitude, orders)) return id;
   } while (choice.next());
   return -1;

@@ -20,9 +20,9 @@
 ///   | charact. | at a corner                 | the pieces on both sides             |
 ///
 /// and a combination *fits* if every guard it arms is positive at once: h > 0, or h = 0 with a positive first non-zero
-/// derivative (h = 0 for good also fits). For the paper's system this is its table (docs/mode_graph.md): after w = 0,
-/// stick if |f0| <= f_s, else slip with s = sgn f0; on the closed stop the only guard is f0 + f_s, so release needs
-/// f0 < -f_s however large f0 grows.
+/// derivative (h = 0 for good too). For the paper's system this is the table of docs/explanation/mode_graph.md: after
+/// w = 0, stick if |f0| <= f_s, else slip with s = sgn f0; on the closed stop the only guard is f0 + f_s, so release
+/// needs f0 < -f_s however large f0 grows.
 ///
 /// With several contacts at rest this is the complementarity problem of rigid-body dynamics (Pfeiffer and Glocker 1996,
 /// chapter 5), solved by going through the combinations: first those in which one contact differs from what it prefers,

@@ -9,7 +9,7 @@ namespace {
 /// What is switched off has no blank after '#': take the '#' away to switch it on. test/io/new_model_test.cpp switches
 /// all of it on.
 constexpr std::string_view page =
-    R"toml(# A model for slapstick. docs/model_file.md explains every key; `slapstick check @NAME@.toml` checks this file.
+    R"toml(# A model for slapstick. docs/reference/model_file.md explains every key; `slapstick check @NAME@.toml` checks this file.
 # Lines like "#notes = ..." are switched off: remove the '#' to use them.
 name = "@NAME@"
 summary = "A mass on a spring, shaken by a force; it rubs on the ground and hits a wall"

@@ -7,7 +7,7 @@
 
 namespace slapstick {
 
-/// Checks that no unit is missing, unknown or mixed with others; docs/model_file.md has the rules. @throws InputError
+/// Checks that no unit is missing, unknown or mixed with others; see docs/reference/model_file.md. @throws InputError
 void check_units(const Definition& definition);
 
 /// The unit of these powers of length, time and mass, as a product of those of [scale]: "mm/s^2".

@@ -66,7 +66,7 @@ std::string hint(const std::string& name) {
     all += (all.empty() ? "; known: " : " ") + names.back();
   }
   const std::string best = name.size() > 2 ? nearest(name, names) : "";
-  return best.empty() ? all : "; did you mean " + in_quotes(best) + "? (docs/model_file.md lists them)";
+  return best.empty() ? all : "; did you mean " + in_quotes(best) + "? (docs/reference/model_file.md lists them)";
 }
 
 Unit named_unit(const std::string& name) {

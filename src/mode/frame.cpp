@@ -235,8 +235,9 @@ RowVector Frame::drive_row(const Force& force) const {
     const auto t = ranges::find(tones, force.frequency, &Tone::frequency) - tones.begin();
     const auto c = force.frequency == 0.0 ? 2 * d + 2 * k : tone(static_cast<std::size_t>(t));
     // sin(j theta + phase) = sin(phase) cos(j theta) + cos(phase) sin(j theta)
-    row[c] = force.amplitude * fixed::sin(force.phase);
-    row[c + 1] = force.amplitude * fixed::cos(force.phase);
+    const auto [cosine, sine] = fixed::cosine_sine(force.phase);
+    row[c] = force.amplitude * sine;
+    row[c + 1] = force.amplitude * cosine;
   }
   return row;
 }

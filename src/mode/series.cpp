@@ -1,4 +1,4 @@
-/// Computes the exponential series of a mode in double-doubles.
+/// Finds the window of a mode, and expands its rows over it.
 #include "mode/series.hpp"
 
 #include <algorithm>
@@ -6,18 +6,33 @@
 #include <cmath>
 
 #include "base/dense.hpp"
+#include "base/double_double.hpp"
+#include "base/elementary.hpp"
 
 namespace slapstick::mode {
 namespace {
 
+/// The spectral radius of A: of its motion without forcing, and the frequencies of what turns. Signals are nilpotent, and nothing acts on either.
+double spectral_radius(const Matrix& A, int d) {
+  double radius = std::sqrt(dense::eigenvalues(A.topLeftCorner(2 * d, 2 * d)).cwiseAbs2().maxCoeff());
+  for (Eigen::Index c = 2 * d; c + 1 < A.rows(); ++c) radius = std::max(radius, std::sqrt(std::abs(A(c, c + 1) * A(c + 1, c))));
+  return radius;
+}
+
 /// 1 / spectral radius, or 1 if A is nilpotent (rigid bodies: the series ends by itself). Only eight bits are kept: the rounding of
 /// an eigenvalue solver, which differs for a mirrored model, shall not reach the results.
-double reference_length(const Matrix& A) {
-  const double radius = std::sqrt(dense::eigenvalues(A).cwiseAbs2().maxCoeff());
+double reference_length(const Matrix& A, int d) {
+  const double radius = spectral_radius(A, d);
   if (!(radius > 1e-8 * A.cwiseAbs().maxCoeff() && radius > 0.0)) return 1.0;
   int exponent = 0;
   const double mantissa = std::frexp(1.0 / radius, &exponent);
   return std::ldexp(std::floor(256.0 * mantissa) / 256.0, exponent);
+}
+
+double power_of_two_in(double x) {
+  int exponent = 0;
+  (void)std::frexp(x, &exponent);
+  return std::ldexp(0.5, exponent);
 }
 
 /// The greatest number with 24 bits up to x.
@@ -27,175 +42,182 @@ double few_bits(double x) {
   return std::ldexp(std::floor(0x1p24 * mantissa), exponent - 24);
 }
 
-}  // namespace
-
-Series::Series(const Matrix& A, const Matrix& size, const std::vector<RowVector>& rows, int displacements,
-               double period, double longest_window)
-    : m_(A.rows()), d_(displacements), A_(static_cast<std::size_t>(m_)), reference_(reference_length(A)) {
-  for (Eigen::Index k = 0; k < m_; ++k) {
-    for (Eigen::Index i = 0; i < m_; ++i)
-      if (A(k, i) != 0.0)
-        A_[k].push_back(
-            {static_cast<std::size_t>(i), A(k, i), std::abs(A(k, i)) * reference_, size(k, i) * reference_});
-  }
-  for (const RowVector& row : rows) expand(row);
-  // Bisection on the window length in units of the reference length; the tail grows with it.
-  double low = 0.25, high = 4.0;
-  for (int k = 0; k < 40 && !tail_is_negligible(low); ++k) low *= 0.25;
-  if (tail_is_negligible(high)) low = high;
-  for (int k = 0; k < 12 && low < high; ++k) {
-    const double middle = std::sqrt(low * high);
-    (tail_is_negligible(middle) ? low : high) = middle;
-  }
-  set_window(low, period, longest_window);
-}
-
-/// The terms of one row, their sizes and errors, for a window of the reference length.
-void Series::expand(const RowVector& row) {
-  auto& terms = scaled_.emplace_back();
-  Matrix& size = sizes_.emplace_back(Matrix::Zero(all_terms, m_));
-  Matrix& error = errors_.emplace_back(Matrix::Zero(all_terms, m_));
-  terms.emplace_back(row.begin(), row.end());
-  size.row(0) = row.cwiseAbs();
-  for (int n = 1; n < all_terms; ++n) {
-    LongRow next(static_cast<std::size_t>(m_));
-    for (Eigen::Index k = 0; k < m_; ++k) {
-      const DoubleDouble factor = terms.back()[k] * reference_ / n;
-      const double before = error(n - 1, k) / n, fresh = event::unit_roundoff * size(n - 1, k) / n;
-      if (factor.hi == 0.0 && before == 0.0) continue;
-      for (const Entry& entry : A_[k]) {
-        next[entry.column] += factor * entry.value;
-        error(n, static_cast<Eigen::Index>(entry.column)) += before * entry.magnitude + fresh * entry.size;
-      }
-    }
-    for (Eigen::Index i = 0; i < m_; ++i) size(n, i) = std::abs(next[i].hi);
-    terms.push_back(std::move(next));
-  }
-}
-
-/// By columns, the largest of the kept terms.
-RowVector Series::largest(std::size_t r, double ratio) const {
-  RowVector out = RowVector::Zero(m_);
-  double power = 1.0;
-  for (int n = 0; n < event::terms; ++n, power *= ratio) out = out.cwiseMax(power * sizes_[r].row(n));
-  return out;
-}
-
-/// By rows and columns: the largest kept term in the column's block, of the row itself or of the displacements, the latter times what the row
-/// has of them. A part of the model far from a guard reaches it in a late term only, which no window could be measured by.
-std::vector<RowVector> Series::scales(double ratio) const {
-  const std::array<std::pair<Eigen::Index, Eigen::Index>, 4> blocks = {
-      {{0, d_}, {d_, d_}, {2 * d_, m_ - 1 - 2 * d_}, {m_ - 1, 1}}};
-  std::vector<RowVector> all;
-  RowVector common = RowVector::Zero(4);
-  for (std::size_t r = 0; r < sizes_.size(); ++r) {
-    const RowVector own = largest(r, ratio);
-    RowVector by_block = RowVector::Zero(4);
-    for (int b = 0; b < 4; ++b) {
-      const auto [begin, count] = blocks[b];
-      if (count > 0) by_block[b] = own.segment(begin, count).maxCoeff();
-    }
-    if (r + static_cast<std::size_t>(d_) >= sizes_.size()) common = common.cwiseMax(by_block);
-    all.push_back(by_block);
-  }
-  for (RowVector& by_block : all) {
-    double share = 0.0;
-    for (int b = 0; b < 4; ++b)
-      if (common[b] > 0.0) share = std::max(share, by_block[b] / common[b]);
-    RowVector scale(m_);
-    for (int b = 0; b < 4; ++b)
-      scale.segment(blocks[b].first, blocks[b].second).setConstant(std::max(by_block[b], share * common[b]));
-    by_block = scale;
+/// 2^e_1 .. 2^e_n / n!, e_n = floor(log2 n).
+constexpr std::array<DoubleDouble, event::all_terms> factors = [] {
+  std::array<DoubleDouble, event::all_terms> all{};
+  all[0] = 1.0;
+  for (int n = 1; n < event::all_terms; ++n) {
+    double power = 1.0;
+    while (2.0 * power <= n) power *= 2.0;
+    all[n] = all[n - 1] * power / n;
   }
   return all;
+}();
+
+/// w_n for r = ratio, to a relative 40 u.
+using Rough = std::array<double, event::all_terms>;
+Rough rough_weights(double ratio) {
+  Rough power{1.0, ratio}, weights{};
+  for (int n = 2; n < event::all_terms; ++n) power[n] = power[n / 2] * power[n - n / 2];
+  for (int n = 0; n < event::all_terms; ++n) weights[n] = power[n] * factors[n].hi;
+  return weights;
 }
 
-/// The norm of A in which a row t counts max_i |t_i| / scale_i.
-double Series::norm(const RowVector& scale) const {
-  RowVector sum = RowVector::Zero(m_);
-  for (Eigen::Index k = 0; k < m_; ++k)
-    for (const Entry& entry : A_[k]) sum[static_cast<Eigen::Index>(entry.column)] += scale[k] * entry.magnitude;
-  double norm = 0.0;
-  for (Eigen::Index i = 0; i < m_; ++i)
-    if (sum[i] > 0.0) norm = std::max(norm, scale[i] > 0.0 ? sum[i] / scale[i] : INFINITY);
-  return norm;
-}
-
-/// By columns, the sums over the dropped terms: n < 40 as they are, the others by their norm, |T_{39+k}| <= |T_39| nu^k 39! / (39 + k)!, so that
-///     sum |T_n|          <= |T_39| nu / 40 / (1 - nu / 41),
-///     sum n |T_n|        <= |T_39| nu / (1 - nu / 40),
-///     sum n (n-1) |T_n|  <= |T_39| nu (39 + nu / (1 - nu / 40)).
-Tail<RowVector> Series::tail(std::size_t r, const RowVector& scale, double ratio) const {
-  Tail<RowVector> sum{RowVector::Zero(m_), RowVector::Zero(m_), RowVector::Zero(m_)};
-  double power = 1.0;
-  for (int n = 0; n < event::terms; ++n) power *= ratio;
-  for (int n = event::terms; n < all_terms; ++n, power *= ratio) {
-    const RowVector term = power * sizes_[r].row(n);
-    sum.value += term;
-    sum.slope += n * term;
-    sum.curvature += n * (n - 1.0) * term;
+/// The same in double-doubles; those of the terms that are dropped in doubles.
+event::Weights exact_weights(DoubleDouble ratio) {
+  event::Weights weights;
+  std::array<DoubleDouble, event::terms> power{1.0, ratio};
+  for (int n = 2; n < event::terms; ++n) power[n] = power[n / 2] * power[n - n / 2];
+  for (int n = 0; n < event::terms; ++n) {
+    const DoubleDouble weight = power[n] * factors[n], halves = split(weight.hi);
+    weights.high[n] = weight.hi;
+    weights.low[n] = weight.lo;
+    weights.upper[n] = halves.hi;
+    weights.lower[n] = halves.lo;
   }
-  double last = 0.0;
-  for (Eigen::Index i = 0; i < m_; ++i)
-    if (scale[i] > 0.0) last = std::max(last, power / ratio * sizes_[r](all_terms - 1, i) / scale[i]);
-  const double nu = ratio * norm(scale);
-  if (last == 0.0) return sum;
-  if (!(nu < all_terms)) {
-    const RowVector none = RowVector::Constant(m_, INFINITY);
-    return {none, none, none};
-  }
-  const double left = nu / (1.0 - nu / all_terms);
-  sum.value += last * (nu / all_terms) / (1.0 - nu / (all_terms + 1)) * scale;
-  sum.slope += last * left * scale;
-  sum.curvature += last * (nu * (all_terms - 1.0) + nu * left) * scale;
-  return sum;
+  const Rough rough = rough_weights(ratio.hi);
+  std::copy(rough.begin() + event::terms, rough.end(), weights.high + event::terms);
+  return weights;
 }
 
-bool Series::tail_is_negligible(double ratio) const {
-  const std::vector<RowVector> all = scales(ratio);
-  for (std::size_t r = 0; r < all.size(); ++r) {
-    if ((tail(r, all[r], ratio).value.array() > 0.25 * event::unit_roundoff * all[r].array()).any()) return false;
+/// Is what a window drops negligible? The longer the window, the more it drops: what is known of one is known of others.
+class Negligible {
+ public:
+  /// @param ratio  r of a window of the reference length
+  Negligible(const event::Expansion& all, double ratio) : all_(all), ratio_(ratio) {}
+
+  bool operator()(double length) {
+    if (length > longest_ && length < shortest_) (void)excess(length);
+    return length <= longest_;
   }
-  return true;
+
+  /// Brackets the longest window between two that are near each other. The excess grows about like length^24: its 24th root, and from the second
+  /// step on how that has grown (a secant of the logarithms).
+  void approach(double length) {
+    double slope = 1.0, before = 0.0;
+    for (int k = 0; k < 4; ++k) {
+      const double over = excess(length);
+      if (!(over > 0x1p-100 && over < 0x1p100)) return;
+      const double root = std::sqrt(std::sqrt(std::sqrt(fixed::cube_root(over)))), log = 2.0 * (root - 1.0) / (root + 1.0);
+      if (k > 0 && std::abs(before) < 0.5) slope = std::clamp(slope * (1.0 - log / before), 0.5, 2.0);
+      before = log;
+      const double half = 0.5 * log / slope;
+      length *= (1.0 - half) / (1.0 + half);
+      if (std::abs(log) < 0x1p-6 && k > 0) break;
+    }
+    (void)excess(length * (1.0 - 0x1p-13));
+    (void)excess(length * (1.0 + 0x1p-13));
+  }
+
+ private:
+  double excess(double length) {
+    const double over = event::kernels().excess(all_, rough_weights(length * ratio_).data(), length * ratio_);
+    if (over <= 1.0)
+      longest_ = std::max(longest_, length);
+    else
+      shortest_ = std::min(shortest_, length);
+    return over;
+  }
+
+  const event::Expansion& all_;
+  double ratio_, longest_ = 0.0, shortest_ = INFINITY;
+};
+
+}  // namespace
+
+Series::Series(const Outline& outline, int displacements, double period, double longest_window)
+    : reference_(reference_length(outline.system, displacements)), unit_(power_of_two_in(reference_)) {
+  gather(outline);
+  lay_out(outline, displacements);
+  event::kernels().expand(all_);
+  find_window(period, longest_window);
+  weights_ = exact_weights(two_product(window_in_periods_, period) * (1.0 / unit_));
+  event::kernels().enclose_tails(all_, weights_.high, weights_.high[1]);
+  event::kernels().finish(all_, weights_);
 }
 
-void Series::set_window(double low, double period, double longest_window) {
+/// The entries of A by columns, times the unit.
+void Series::gather(const Outline& outline) {
+  const Matrix& A = outline.system;
+  all_.m = static_cast<int>(A.rows());
+  column_ends_.reserve(static_cast<std::size_t>(all_.m) + 1);
+  entries_.reserve(static_cast<std::size_t>((A.array() != 0.0).count()));
+  column_ends_.push_back(0);
+  for (int i = 0; i < all_.m; ++i) {
+    for (int k = 0; k < all_.m; ++k) {
+      if (A(k, i) == 0.0) continue;
+      const double value = A(k, i) * unit_;
+      const DoubleDouble halves = split(value);
+      entries_.push_back({k, value, halves.hi, halves.lo, outline.system_size(k, i) * unit_});
+    }
+    column_ends_.push_back(static_cast<int>(entries_.size()));
+  }
+  all_.column_ends = column_ends_.data();
+  all_.entries = entries_.data();
+}
+
+/// The arrays, and the rows to expand.
+void Series::lay_out(const Outline& outline, int displacements) {
+  const int m = all_.m, guards = static_cast<int>(outline.guards.size()), rows = guards + displacements;
+  const auto groups = static_cast<std::ptrdiff_t>((rows + 3) / 4);
+  all_.groups = static_cast<int>(groups);
+  std::copy_n(std::array{0, displacements, 2 * displacements, m - 1, m}.data(), event::blocks + 1, all_.block_ends);
+  constexpr int tables = 2 * event::all_terms + event::error_terms + 3 + 4;
+  constexpr int small = (event::terms + 1) * event::blocks + event::blocks + 1;
+  event::LaneBlockBuilder block(static_cast<std::size_t>(4 * (groups * (tables * m + small) + 3 * m)));
+  const auto take = [&](std::ptrdiff_t count) { return block.take<event::Lane4>(count); };
+  all_.high = take(groups * event::all_terms * m);
+  all_.low = take(groups * event::terms * m);
+  all_.dropped = take(groups * (event::all_terms - event::terms) * m);
+  all_.errors = take(groups * event::error_terms * m);
+  all_.tails = take(groups * 3 * m);
+  all_.ends = take(groups * 4 * m);
+  all_.peaks = take(groups * (event::terms + 1) * event::blocks);
+  all_.scales = take(groups * event::blocks);
+  all_.displacements = take(groups);
+  all_.scratch = take(2 * m);
+  all_.reach = block.take<double>(event::blocks * m);
+  lanes_ = block.release();
+
+  std::fill_n(all_.reach, event::blocks * m, 0.0);
+  for (int i = 0; i < m; ++i)
+    for (int at = column_ends_[i]; at < column_ends_[i + 1]; ++at) {
+      int from = 0;
+      while (entries_[at].row >= all_.block_ends[from + 1]) ++from;
+      all_.reach[from * m + i] += std::abs(entries_[at].value);
+    }
+  for (int r = 0; r < 4 * all_.groups; ++r) {
+    auto* const row = reinterpret_cast<double*>(all_.high + static_cast<std::ptrdiff_t>(r / 4) * event::all_terms * m) + r % 4;
+    for (int i = 0; i < m; ++i)
+      row[4 * i] = r < guards ? outline.guards[r].row[i] : i == r - guards && r < rows ? 1.0 : 0.0;
+    reinterpret_cast<double*>(all_.displacements)[r] = r >= guards && r < rows ? 1.0 : 0.0;
+  }
+}
+
+/// By bisection in units of the reference length.
+void Series::find_window(double period, double longest_window) {
+  Negligible negligible(all_, reference_ / unit_);
+  negligible.approach(2.0);
+  double low = 0.25, high = 4.0;
+  for (int k = 0; k < 40 && !negligible(low); ++k) low *= 0.25;
+  if (negligible(high)) low = high;
+  for (int k = 0; k < 12 && low < high; ++k) {
+    const double middle = std::sqrt(low * high);
+    (negligible(middle) ? low : high) = middle;
+  }
   window_in_periods_ = few_bits(std::min(low * reference_ / period, longest_window));
   window_ = window_in_periods_ * period;
-  const DoubleDouble ratio = two_product(window_in_periods_, period) / reference_;
-  const std::vector<RowVector> all = scales(ratio.hi);
-  for (std::size_t r = 0; r < all.size(); ++r) {
-    tails_.push_back(tail(r, all[r], ratio.hi));
-    DoubleDouble power = 1.0;
-    for (int n = 0; n < all_terms; ++n, power *= ratio) {
-      for (DoubleDouble& term : scaled_[r][n]) term *= power;
-      errors_[r].row(n) *= power.hi;
-    }
-  }
 }
 
-double Series::error(std::size_t r, int n, int i) const { return errors_[r](n, i); }
-
-double Series::taylor(std::size_t r, int n, int i) const { return scaled_[r][n][i].hi; }
-
-RowVector Series::end_value(std::size_t r) const {
-  RowVector out(m_);
-  for (Eigen::Index i = 0; i < m_; ++i) {
-    DoubleDouble sum;
-    for (int n = all_terms - 1; n >= 0; --n) sum += scaled_[r][n][i];
-    out[i] = sum.hi;
-  }
-  return out;
+Tail Series::tail(int r, int i) const {
+  constexpr double up = 1.0 + 0x1p-40;  // more than the rounding of weights and sums
+  return {up * at(all_.tails, 3, r, 0, i), up * at(all_.tails, 3, r, 1, i), up * at(all_.tails, 3, r, 2, i)};
 }
 
-RowVector Series::end_slope(std::size_t r) const {
-  RowVector out(m_);
-  for (Eigen::Index i = 0; i < m_; ++i) {
-    DoubleDouble sum;
-    for (int n = all_terms - 1; n > 0; --n) sum += scaled_[r][n][i] * n;
-    out[i] = (sum / window_).hi;
-  }
-  return out;
+double Series::end_value(int r, int i) const { return at(all_.ends, 4, r, 0, i) + at(all_.ends, 4, r, 1, i); }
+
+double Series::end_slope(int r, int i) const {
+  return (two_sum(at(all_.ends, 4, r, 2, i), at(all_.ends, 4, r, 3, i)) / window_).hi;
 }
 
 }  // namespace slapstick::mode

@@ -6,8 +6,8 @@
 /// chosen at the start and again after the transient; "periods" are then its returns. A free motion that has no more
 /// events has `ended`: section/rest.hpp says where.
 ///
-/// Both `classify` and the search for orbits ask this class, so that what one names the other finds. docs/classify.md,
-/// section 1, says how it decides.
+/// Both `classify` and the search for orbits ask this class, so that what one names the other finds.
+/// docs/explanation/classify.md, section 1, says how it decides.
 #include <chrono>
 #include <functional>
 #include <memory>

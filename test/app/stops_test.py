@@ -156,7 +156,7 @@ def test_a_picture_is_about_the_chosen_stop():
 
 
 def test_the_documented_contact_force_is_the_one_that_acts():
-    """docs/model_file.md: the force of a compliant stop as an observable. Momentum is the integral of the forces."""
+    """docs/reference/model_file.md: the force of a compliant stop as an observable. Momentum is the integral of the forces."""
     with open('pad.toml', 'w', encoding='utf-8') as file:
         file.write('name = "pad"\nomega = 3\n[[coordinate]]\nname = "x"\nmass = 1\n[[force]]\non = "x"\namplitude = 1\nharmonic = 0\n'
                    '[[force]]\non = "x"\namplitude = 6\n[[compliant_stop]]\nname = "pad"\nbetween = ["x", "ground"]\nclearance = 0.1\nstiffness = 9\n'

@@ -1,5 +1,5 @@
 #pragma once
-/// The paper's system as plain data, from eq. (2); symbols as in NOTATION.md.
+/// The paper's system as plain data, from eq. (2); symbols as in docs/reference/notation.md.
 #include "slapstick/flow/system.hpp"
 
 namespace slapstick::test {

@@ -1,4 +1,4 @@
-/// Counts every allocation of the test program. In a file of its own, or GCC inlines one half of the pair and warns of the other.
+/// Counts every allocation of the test program by operator new. In a file of its own, or GCC inlines one half of the pair and warns of the other.
 #include <cstdlib>
 #include <new>
 
@@ -11,3 +11,13 @@ void* operator new(std::size_t size) {
 }
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+/// Those of lanes.
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  ++allocations;
+  const auto unit = static_cast<std::size_t>(alignment);
+  if (void* memory = std::aligned_alloc(unit, (size + unit - 1) / unit * unit)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }

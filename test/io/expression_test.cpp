@@ -24,7 +24,7 @@ std::string refusal(const std::string& text, std::map<std::string, double> value
   return "accepted";
 }
 
-/// The list of docs/model_file.md.
+/// The list of docs/reference/model_file.md.
 TEST(Expression, precedence_and_functions_are_as_documented) {
   for (const auto& [text, value] : std::vector<std::pair<const char*, double>>{{"-2^2", -4},
                                                                                {"2^3^2", 512},

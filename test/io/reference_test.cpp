@@ -1,4 +1,4 @@
-/// docs/model_file.md names every key of the format, and its worked example is a model.
+/// docs/reference/model_file.md names every key of the format, and its worked example is a model.
 #include <gtest/gtest.h>
 
 #include <fstream>

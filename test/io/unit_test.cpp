@@ -51,7 +51,7 @@ TEST(Unit, refusals) {
   for (const char* unit : {"furlong", "ks"})  // the second is too short to guess
     EXPECT_TRUE(
         unit_refusal(unit).starts_with("unknown unit '" + std::string(unit) + "'; known: m km cm mm um nm in ft"));
-  EXPECT_EQ(unit_refusal("kNN"), "unknown unit 'kNN'; did you mean 'kN'? (docs/model_file.md lists them)");
+  EXPECT_EQ(unit_refusal("kNN"), "unknown unit 'kNN'; did you mean 'kN'? (docs/reference/model_file.md lists them)");
   EXPECT_EQ(unit_refusal("m^x"), "unit 'm^x': a power is a whole number in [-9, 9]");
   EXPECT_EQ(unit_refusal("m^"), "unit 'm^': a power is a whole number in [-9, 9]");
   EXPECT_EQ(unit_refusal("m^99999999999999999999"),

@@ -20,6 +20,7 @@ def main():
         assert part in text, (PAGE, 'has no', part)
     assert os.path.getsize(os.path.join(os.path.dirname(PAGE), 'images', name + '.png')) > 1000
     with tempfile.TemporaryDirectory() as folder:
+        assert any(lines for _, lines in printed.blocks(text)), (PAGE, 'shows no number')
         printed.check(PROGRAM, text, folder)
         assert os.path.getsize(os.path.join(folder, name + '.png')) > 1000
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <random>
 #include <set>
@@ -104,6 +105,53 @@ double largest_share(const Mode& mode) {
   return largest;
 }
 
+/// Sums of |c A^n H^n / n!| over n >= 24, and the largest term n < 24 of every block, of a row c.
+struct Row {
+  std::vector<double> dropped;
+  std::array<double, 4> scale{};
+};
+Row row_over(const Mode& mode, const RowVector& c, int d, double window) {
+  const int m = mode.size();
+  Row row{std::vector<double>(static_cast<std::size_t>(m), 0.0)};
+  RowVector term = c;
+  for (int n = 0; n < 120; ++n) {
+    for (int i = 0; i < m; ++i) {
+      const double size = std::abs(term[i]);
+      double& scale = row.scale[static_cast<std::size_t>(i == m - 1 ? 3 : i >= 2 * d ? 2 : i / d)];
+      if (n < event::terms)
+        scale = std::max(scale, size);
+      else
+        row.dropped[static_cast<std::size_t>(i)] += size;
+    }
+    term = term * mode.system() * (window / (n + 1));
+  }
+  return row;
+}
+
+/// What a window of this length drops, over what it may: the rule of docs/certainty.md, section 2, by a recursion of its own.
+double excess(const Mode& mode, int d, double window) {
+  const int m = mode.size();
+  std::vector<Row> rows;
+  for (const Guard& guard : mode.guards()) rows.push_back(row_over(mode, guard.row, d, window));
+  std::array<double, 4> common{};
+  for (int i = 0; i < d; ++i) {
+    rows.push_back(row_over(mode, RowVector::Unit(m, i), d, window));
+    for (std::size_t b = 0; b < 4; ++b) common[b] = std::max(common[b], rows.back().scale[b]);
+  }
+  double most = 0.0;
+  for (const Row& row : rows) {
+    double share = 0.0;
+    for (std::size_t b = 0; b < 4; ++b)
+      if (common[b] > 0.0) share = std::max(share, row.scale[b] / common[b]);
+    for (int i = 0; i < m; ++i) {
+      const auto b = static_cast<std::size_t>(i == m - 1 ? 3 : i >= 2 * d ? 2 : i / d);
+      const double scale = std::max(row.scale[b], share * common[b]);
+      if (scale > 0.0) most = std::max(most, row.dropped[static_cast<std::size_t>(i)] / (0.25 * event::unit_roundoff * scale));
+    }
+  }
+  return most;
+}
+
 /// The built-in models, and those that have every law of force.
 std::vector<std::string> models() {
   std::vector<std::string> all = builtin_models();
@@ -130,6 +178,23 @@ TEST(DroppedTerms, OfSlopesAndCurvaturesAreWithinTheirBounds) {
     EXPECT_TRUE(!bends || largest > 0.5) << name << ": the bounds are empty";
   }
   EXPECT_EQ(kinds.size(), static_cast<std::size_t>(GuardKind::beyond) + 1) << "a kind of guard is in no model";
+}
+
+/// Longer, and it would drop too much; shorter, and every motion pays for more windows.
+TEST(Window, IsAsLongAsWhatItDropsAllows) {
+  int bounded = 0;
+  for (const char* name : {"vibro-impact", "two-blocks-on-belt", "drill-string", "stick-slip-impact", "spool"}) {
+    const Model model = load_model(name).build();
+    const Frame frame(model);
+    for (const ContactStates& states : all_states(model)) {
+      const Mode mode(model, frame, states);
+      EXPECT_LE(excess(mode, frame.d, mode.window()), 1.0 + 1e-9) << name;
+      const double longer = excess(mode, frame.d, 1.002 * mode.window());  // a step of its bisection is 0.07 %
+      EXPECT_TRUE(longer > 1.0 || longer == 0.0) << name << ' ' << longer;  // 0: its series ends by itself
+      bounded += longer > 1.0;
+    }
+  }
+  EXPECT_GT(bounded, 20);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 /// Reference solution of a Model in 50 digits, for tests only. It shares no code and no method with the engine.
 ///
 /// In a mode the motion is expanded in Taylor series (remainder below 1e-54 per step); each guard is a polynomial per step whose first
-/// zero is isolated and refined. Semantics: docs/mode_graph.md.
+/// zero is isolated and refined. Semantics: docs/explanation/mode_graph.md.
 ///
 /// Limits: one stop and one friction contact. Event times are good to about 1e-45 times the sensitivity of the motion; a guard is taken as
 /// zero, and a contact as a graze, when it comes within 1e-30 of the size of the guard's variation in that segment.

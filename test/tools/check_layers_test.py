@@ -5,14 +5,14 @@ import sys
 import trees
 
 CHECK = sys.argv[1]
-with open(os.path.join(os.path.dirname(CHECK), '../docs/architecture.md'), encoding='utf-8') as file:
+with open(os.path.join(os.path.dirname(CHECK), '../docs/developers/architecture.md'), encoding='utf-8') as file:
     DOCUMENT = file.read()
 
 
 def tree(path, line, **extra):
-    """A tree with `line` in the file `path`; `document` replaces docs/architecture.md."""
+    """A tree with `line` in the file `path`; `document` replaces docs/developers/architecture.md."""
     files = {
-        'docs/architecture.md': extra.get('document', DOCUMENT),
+        'docs/developers/architecture.md': extra.get('document', DOCUMENT),
         'include/slapstick/model/model.hpp': '#pragma once\n#include <vector>\n',
         'src/flow/private.hpp': '#pragma once\n',
         'src/sweep/private.hpp': '#pragma once\n',
@@ -62,7 +62,7 @@ CASES = [
     ('the document says otherwise', tree('src/flow/motion.cpp', '', document=DOCUMENT.replace('| base, io |', '| base |')),
      "'figure' may include ['base'], but tools/check_layers says ['base', 'io']"),
     ('the document has no table', tree('src/flow/motion.cpp', '', document='nothing here\n'), "folder 'flow' is only in tools/check_layers"),
-    ('nothing to check', {'docs/architecture.md': DOCUMENT}, 'no C++ file'),
+    ('nothing to check', {'docs/developers/architecture.md': DOCUMENT}, 'no C++ file'),
 ]
 
 sys.exit(trees.run(CHECK, CASES))

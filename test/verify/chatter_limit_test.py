@@ -1,4 +1,4 @@
-"""The limit of a complete chatter is proved where it is one, and refused wherever one of its conditions is forged (docs/certainty.md, section 8).
+"""The limit of a complete chatter is proved where it is one, and refused wherever one of its conditions is forged (docs/developers/proofs.md, section 8).
 
     chatter_limit_test.py PROGRAM test_NAME [SLAPSTICK]
 """

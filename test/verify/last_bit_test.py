@@ -45,6 +45,20 @@ def test_choice_of_a_velocity_that_is_nearly_zero():
             'contacts slip or open that could stick or stay closed')
 
 
+def test_choice_of_a_slip_that_begins_at_its_limit():
+    """Two contacts bear 0.9 at rest and 0.8 in slip, under a load 1.2 sin t. Slip from 0.8 on begins without acceleration, and is not lawful before 0.9."""
+    parts = [('tone', 0, 1.0, 1.2, 0.0), ('friction', 0, -1, 0.0, 0.6, 0.5, 'one'), ('friction', 0, -1, 0.0, 0.3, 0.3, 'other')]
+    lines = head('two', [1.0], parts, [(0, -1, 0.0, 0.0)]) + [line('start', 0, 0.0, 0.0, 0.0)]
+    def slips_from(load, *states):
+        t, end = math.asin(load / 1.2), 0.95
+        p = 1.2 * (math.cos(t) * (end - t) - math.sin(end) + math.sin(t)) - 0.4 * (end - t) ** 2
+        u = 1.2 * (math.cos(t) - math.cos(end)) - 0.8 * (end - t)
+        slip = segment(1, (0, t), end - t, ['slip+', 'slip+'], [0.0], [0.0], CUT)
+        return lines + segment(0, (0, 0.0), t, states, [0.0], [0.0], EVENT) + slip + done(2, (0, end), [p], [u])
+    proved(slips_from(0.9, 'stick', 'stick'))
+    refused(slips_from(0.8, 'slip+', 'stick'), 'contacts slip or open that could stick or stay closed')
+
+
 def test_chatter_whose_flights_are_no_more_than_rounding():
     """A flight of 2^-20 under a ceiling, back from its lowest point: with that gap at zero the body might stay, stuck and closed."""
     t, numbers = 2.0 ** -21, [(0, -1, 0.0, 0.0), (-1, 0, 2.0, 0.0)]
@@ -169,6 +183,16 @@ def test_coordinate_that_rounding_alone_moves():
             proved_but_for(moved, what)
         else:
             refused(moved, what)
+
+
+def test_coordinate_beside_a_far_stop():
+    """A body stands at -1/2, its contact number at -1024.5: the rounding of that number is counted, four times as much is refused."""
+    lines = head('far', [1.0], [('stop', 0, -1, 1024.0, 0.5, 'far')], [(0, -1, 1024.0, 0.0)]) + [line('start', 0, 0.0, -0.5, 0.0)]
+    lines += segment(0, (0, 0.0), 1.0, ['open'], [-1024.5], [0.0], CUT)
+    moved = lambda off: lines + segment(1, (1, 0.0), 1.0, ['open'], [-1024.5 + off], [0.0], CUT) + done(2, (2, 0.0), [-1024.5 + off], [0.0])
+    proved(moved(2.0 ** -42))
+    proved_but_for(moved(2.0 ** -40), '1 coordinate that rounding alone moves')
+    refused(moved(2.0 ** -38), 'coordinate 0 jumps by')
 
 
 def test_allowances_of_a_body_that_is_not_coupled():

@@ -63,7 +63,7 @@ TEST(CertificateOfAChain, IsProvedHoweverHighTheOrderOfItsFirstZero) {
   }
 }
 
-/// What docs/certificate.md says of the size of certificates.
+/// What docs/reference/certificate.md says of the size of certificates.
 TEST(SizeOfACertificate, PerEventStaysAsItIsTold) {
   for (const auto& [name, most] : {std::pair{"vibro-impact", 179.0}, {"spool", 167.0}}) {
     const ModelDefinition definition = load_model(name);

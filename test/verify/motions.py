@@ -1,4 +1,4 @@
-"""Certificates of motions whose closed form is known, written by hand (docs/certificate.md).
+"""Certificates of motions whose closed form is known, written by hand (docs/reference/certificate.md).
 
 A certificate is a list of lines. All numbers of most of them are exact, so that the verifier must find every jump zero.
 """

@@ -2,13 +2,13 @@
 /// What a motion is after its transient: n-p-I / n-p-II, periodic, quasi-periodic, chaotic, or a state of rest.
 ///
 /// A motion that no harmonic force drives is *free*: it has no phase, and may come to rest. Its "periods" are then
-/// returns to a section that its own events make (docs/classify.md, section 4), its class is "free-p-I" or "free-p-II",
-/// and the multiplier 1 along the motion is left out.
+/// returns to a section that its own events make (docs/explanation/classify.md, section 4), its class is "free-p-I"
+/// or "free-p-II", and the multiplier 1 along the motion is left out.
 ///
 /// States are compared modulo the rigid translations that the model does not notice: a drill that advances by the same
 /// amount every blow is periodic, with a `drift`. The multiplier 1 of every such translation is left out.
 ///
-/// How it decides (docs/classify.md):
+/// How it decides (docs/explanation/classify.md):
 ///  1. *Periodic.* Where the stroboscopic state nearly returns after n periods, Newton's method on the map of n periods
 ///     and of its divisors (exact Jacobian through all events) looks for a cycle, the shortest first. A cycle counts if
 ///     its multipliers are inside the unit circle and the motion loses distance at their rate. No return counts
@@ -21,8 +21,8 @@
 ///  3. Neither: *undecided*, with what is missing (`Doubt`) and the option that would decide.
 ///
 /// Cost: the transient and the search take about a microsecond a period for the paper's system; the exponent adds a
-/// tangent vector to the motion. Threads: safe to call at once, one System for all. Source: docs/classify.md; Das et
-/// al. (2017) for the averages.
+/// tangent vector to the motion. Threads: safe to call at once, one System for all. Source:
+/// docs/explanation/classify.md; Das et al. (2017) for the averages.
 #include <atomic>
 #include <complex>
 #include <functional>
@@ -114,9 +114,9 @@ struct Classification {
   int curves = 0;  ///< that the stroboscopic points lie on in turn
   long periods_used = 0;
   bool interrupted = false;  ///< by `cancel`: nothing else is meant
-  /// How far the motion moves along the translations that the model does not notice (docs/classify.md), by coordinate:
-  /// per cycle if periodic, else on average per forcing period. Zero if that is below `tolerance`; empty if there is no
-  /// such translation.
+  /// How far the motion moves along the translations that the model does not notice (docs/explanation/classify.md), by
+  /// coordinate: per cycle if periodic, else on average per forcing period. Zero if that is below `tolerance`; empty if
+  /// there is no such translation.
   std::vector<double> drift;
   State state;  ///< on the attractor, at phase 0 of a period or anywhere without a drive: needs no transient
 };

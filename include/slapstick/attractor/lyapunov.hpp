@@ -14,7 +14,7 @@
 /// S the saltation matrix. Both sides are computed, by QR and by traces and determinants.
 ///
 /// Cost: some 2n tangent vectors beside the motion and a QR at every event. Threads: safe to call at once, one System
-/// for all. Source: docs/lyapunov.md; Mueller (1995) for jumps of the flow.
+/// for all. Source: docs/explanation/lyapunov.md; Mueller (1995) for jumps of the flow.
 #include <atomic>
 #include <functional>
 #include <vector>

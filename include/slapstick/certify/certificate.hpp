@@ -2,10 +2,10 @@
 /// A run written down as a certificate: the model in exact numbers, the start, every segment with its contacts and its
 /// state, what happened at its end, and the end of the run.
 ///
-/// docs/certificate.md has the format. The program `slapstick-verify` checks it against the model, by mechanics and
-/// arithmetic of its own: it shares no code with the library. Proofs are the verifier's: nothing here claims one.
+/// docs/reference/certificate.md has the format. The program `slapstick-verify` checks it against the model, by
+/// mechanics and arithmetic of its own: it shares no code with the library. Nothing here claims a proof.
 ///
-/// Threads: one Certificate belongs to one thread at a time. Source: docs/certificate.md.
+/// Threads: one Certificate belongs to one thread at a time. Source: docs/reference/certificate.md.
 #include <functional>
 #include <memory>
 #include <string>

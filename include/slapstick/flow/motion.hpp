@@ -10,18 +10,18 @@
 ///
 ///   x-  state just before the event (what Event::before shows)
 ///   x*  the event's own condition made exact: gap = 0, w = 0 or (compliant stops) force = 0 in the stored state
-///   x+  after the impact law; then the contact forces decide the next mode (docs/mode_graph.md)
+///   x+  after the impact law; then the contact forces decide the next mode (docs/explanation/mode_graph.md)
 ///
 /// Several contacts can have their events at one instant: whatever is within its rounding bound of zero there is made
 /// zero too.
 ///
 /// An impact keeps momentum and turns w into -r w; friction gives no impulse. A touch whose depth cannot be told from
 /// zero is a `graze`: no impulse, contact at rest, the next mode by the forces. Infinitely many impacts in finite time
-/// are reported as one `chatter` event at their limit, once that is proven (docs/certainty.md).
+/// are reported as one `chatter` event at their limit, once that is proven (docs/developers/proofs.md).
 ///
 /// Shapes: a state has 2 n numbers (x_1, v_1, x_2, v_2, ..) in the model's units; instants count forcing periods.
 /// Threads: one Motion belongs to one thread at a time; copies are independent.
-/// Source: docs/certainty.md (events), docs/mode_graph.md (next modes); Moreau (1988), Glocker (2001) for impacts.
+/// Source: docs/developers/proofs.md, docs/explanation/mode_graph.md; Moreau (1988), Glocker (2001) for impacts.
 #include <cstdint>
 #include <memory>
 #include <span>

@@ -7,7 +7,7 @@
 ///
 /// The phase is continuous, because every step has whole periods; so is the state. A coordinate that is measured from a
 /// base keeps its velocity relative to the base.
-/// Cost: a System for every step. Threads: as a Motion's. Source: docs/command_line.md, "Run-up".
+/// Cost: a System for every step. Threads: as a Motion's. Source: docs/reference/command_line.md, "Run-up".
 #include <functional>
 #include <optional>
 

@@ -4,13 +4,13 @@
 /// A *mode* is a combination of contact states (mode/contact_states.hpp); in it the model is a linear system, for which
 /// a System keeps the operators of one *window*, a short time in which every guard is a polynomial. Modes are compiled
 /// when they are first met, and kept: of the 2^s 3^f combinations of s stops and f friction contacts a motion meets a
-/// handful. Those of a model with up to eight are compiled at once, so that its motions allocate nothing.
+/// handful. A new System has one: it costs about ten microseconds, and so does every mode, for two coordinates.
 ///
 /// Contacts have one numbering: stops first, then friction contacts, then compliant stops, then
 /// characteristics.
 ///
 /// Threads: all functions are const and safe to call at once, also while modes are compiled.
-/// Source: docs/architecture.md, sections 2 and 3; docs/certainty.md for the operators' error bounds.
+/// Source: docs/developers/architecture.md, sections 2 and 3; docs/developers/proofs.md for error bounds.
 #include <limits>
 #include <memory>
 #include <string>

@@ -9,8 +9,8 @@
 ///
 /// Shapes: vectors are in *contact coordinates*, the first n of p and of u, 2 n long, at fixed time (phase). p = W
 /// q - shift, u = p' - drift: the displacements of the stops and friction contacts, completed by original coordinates
-/// (docs/architecture.md, section 2). Threads: as Motion. Errors: as Motion.
-/// Source: NOTATION.md; Leine and Nijmeijer (2004), chapter 7.
+/// (docs/developers/architecture.md, section 2). Threads: as Motion. Errors: as Motion.
+/// Source: docs/reference/notation.md; Leine and Nijmeijer (2004), chapter 7.
 #include <Eigen/Core>
 #include <memory>
 

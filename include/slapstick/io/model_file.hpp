@@ -1,6 +1,6 @@
 #pragma once
-/// Model files: a Model with named parameters, ranges and expressions, as a page of TOML. `docs/model_file.md` is the
-/// reference.
+/// Model files: a Model with named parameters, ranges and expressions, as a page of TOML. The reference is
+/// `docs/reference/model_file.md`.
 ///
 ///     name = "impact"
 ///     omega = "omega"

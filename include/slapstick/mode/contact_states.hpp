@@ -6,7 +6,7 @@
 /// event.
 ///
 /// Plain data: no errors, no cost; values may be shared between threads as any other.
-/// Source: docs/mode_graph.md; Leine and Nijmeijer (2004), chapter 6.
+/// Source: docs/explanation/mode_graph.md; Leine and Nijmeijer (2004), chapter 6.
 #include <cstdint>
 #include <string_view>
 #include <vector>

@@ -5,7 +5,7 @@
 ///
 /// M, C, K: the coordinates' masses, the dampers and the springs, plus the model's own matrices.
 /// Nothing here assumes a number of coordinates or contacts. Units are the user's; the paper's system is dimensionless.
-/// Plain data: no function but `validate` throws. Source: NOTATION.md; Glocker (2001) for contacts and impacts.
+/// Plain data: no function but `validate` throws. Source: docs/reference/notation.md; Glocker (2001) for contacts.
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -5,7 +5,7 @@
 /// A `Problem` is the equations of a family's orbits; it is const, and threads may share it. Orbits are data. States
 /// that a user wants come from `at_phase_zero` and `events`. Newton's method costs the linearised flow of every leg a
 /// step, a verification a new System and one cycle of a Motion.
-/// Source: docs/architecture.md, section 9; Leine and Nijmeijer (2004) for multipliers through events.
+/// Source: docs/developers/architecture.md, section 9; Leine and Nijmeijer (2004) for multipliers through events.
 #include <algorithm>
 #include <complex>
 #include <functional>

@@ -40,7 +40,7 @@ enum class Occurrence : std::uint8_t {
 };
 [[nodiscard]] std::string_view name(Occurrence occurrence);
 
-/// Which margin: a smooth function that is positive for a motion (docs/architecture.md, section 9).
+/// Which margin: a smooth function that is positive for a motion (docs/developers/architecture.md, section 9).
 struct UsedMargin {
   enum class Kind : std::uint8_t {
     least,     ///< the least value of a guard along a leg
@@ -100,7 +100,7 @@ struct Jump {
 };
 [[nodiscard]] std::string_view name(Jump::Kind kind);
 
-/// The first coefficient beyond the linear terms: LP a, PD c, NS l1 (docs/continuation.md has formulas and units).
+/// The first coefficient beyond the linear terms: LP a, PD c, NS l1 (docs/explanation/continuation.md).
 struct NormalForm {
   enum class Verdict : std::uint8_t {
     none,            ///< not asked for

@@ -5,7 +5,7 @@
 /// at the roots of their derivatives. An impulse counts in the mean, which is the integral over the time. It has no
 /// finite square and no greatest value: rms, least and greatest are those between impacts.
 /// Threads: as the Motion's. Cost: some hundred nanoseconds a step and quantity, about two steps a window.
-/// Source: docs/measure.md; Golub and Welsch (1969) for the quadrature.
+/// Source: docs/reference/measure.md; Golub and Welsch (1969) for the quadrature.
 #include <array>
 #include <atomic>
 #include <optional>

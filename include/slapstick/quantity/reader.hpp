@@ -4,11 +4,11 @@
 ///     Reader reader(system, {find_quantity(all, "F_stop"), find_quantity(all, "a1")});
 ///     while (motion.advance(end) == Outcome::event) use(reader.before(motion));
 ///
-/// A value is that of the formulas of docs/measure.md at the state, with no step of its own: forces and accelerations
-/// are those of the mode on one side of the instant. A quantity at impacts has a value at an impact or engagement only,
-/// and there w alone; impulses and flights belong to `measure`. Where it has none the value is NaN.
+/// A value is that of the formulas of docs/reference/measure.md at the state, with no step of its own: forces and
+/// accelerations are those of the mode on one side of the instant. A quantity at impacts has a value at an impact or
+/// engagement only, and there w alone; impulses and flights belong to `measure`. Where it has none the value is NaN.
 /// Cost: some hundred nanoseconds an instant, and some microseconds for each mode that is met. Threads: one at a time.
-/// Source: docs/measure.md.
+/// Source: docs/reference/measure.md.
 #include <memory>
 #include <vector>
 

@@ -5,7 +5,7 @@
 ///     const Measured found = measure(*span, {find_quantity(quantities(definition), "F_stop")});
 ///
 /// Threads: a Span belongs to one thread at a time. Cost: the transient, and what `orbit::settle` takes for a cycle.
-/// Source: docs/measure.md.
+/// Source: docs/reference/measure.md.
 #include <memory>
 #include <optional>
 
@@ -33,7 +33,7 @@ struct Span {
 
 /// @param system  of the definition with these overrides
 /// @returns nothing if it was stopped
-/// @throws InputError, NumericalError as orbit::settle and Motion::advance
+/// @throws InputError and NumericalError as orbit::settle and Motion::advance do
 [[nodiscard]] std::optional<Span> find_span(const ModelDefinition& definition, const Overrides& overrides,
                                             const System& system, const State& start, const SpanWish& wish);
 

@@ -7,8 +7,8 @@
 ///
 /// Each integral is a Gauss quadrature that is exact to rounding. There is no aliasing and no window for a cycle.
 /// Cost: a step of the motion takes about 30 ns a line or point. Threads: as the Motion's.
-/// Source: docs/measure.md; Welch (1967) for averages over overlapping stretches; IEC 61260-1 for octaves, IEC 61672-1
-/// for the weighting A.
+/// Source: docs/reference/measure.md; Welch (1967) for averages over overlapping stretches; IEC 61260-1 for octaves,
+/// IEC 61672-1 for the weighting A.
 #include <atomic>
 #include <complex>
 #include <vector>

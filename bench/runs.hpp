@@ -1,0 +1,30 @@
+#pragma once
+/// What the worker can measure: each run answers with its CPU time and what it counted.
+#include <ctime>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace slapstick::bench {
+
+/// In the order in which they are printed.
+using Answer = std::vector<std::pair<std::string, double>>;
+using Words = std::vector<std::string>;
+
+/// CPU time of this process, or of all its threads, in seconds.
+inline double cpu_time() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// OMEGA PERIODS REPEATS: the paper's oscillator from x1 = -0.5, else 0. `cpu` is the mean of the repeats.
+Answer run_slapstick(const Words& words);
+/// OMEGA REPEATS: a new parameter value, up to a `System`, and with the modes that 50 periods meet.
+Answer run_system(const Words& words);
+/// COORDINATES CONTACTS PERIODS REPEATS: a chain of masses, every odd contact a stop, every even one friction, after 200 periods.
+Answer run_chain(const Words& words);
+/// THREADS OMEGA PERIODS: a motion on each thread, of one System. `wall` beside `cpu`.
+Answer run_threads(const Words& words);
+
+}  // namespace slapstick::bench

@@ -1,0 +1,23 @@
+"""tools/check_english must find a sentence that is too long, two on a line and a turn of phrase that is hard to read, and only such."""
+import sys
+
+import trees
+
+LONG = 'One two three four five six seven eight nine ten ' * 3
+CASES = [
+    ('short sentences', {'README.md': '# A title. With two parts\n\nOne sentence.\nAnother one, with `code. Code` and 1.5 of it.\n'}, None),
+    ('a long sentence', {'README.md': f'{LONG}and more.\n'}, 'README.md:1: 32 words'),
+    ('a long sentence over three lines', {'docs/a.md': 'First.\n' + LONG.replace('ten ', 'ten\n') + 'and more.\n'}, 'docs/a.md:1: 32 words'),
+    ('a list of parts', {'README.md': f'{LONG[:100]}: {LONG[:100]}; {LONG[:100]}.\n'}, None),
+    ('a long cell', {'README.md': f'| a | {LONG}and more |\n'}, 'README.md:1: 32 words'),
+    ('two on a line', {'README.md': 'First. Second.\n'}, 'README.md:1: a second sentence on the line'),
+    ('a journal', {'README.md': 'Shaw and Holmes, J. Sound Vib. 90 (1983), Fig. 2 of N. Hoffmann.\n'}, None),
+    ('an item of a list', {'README.md': '1. First.\n2. Second.\n'}, None),
+    ('a hard turn', {'README.md': 'We saw all but one.\n'}, 'README.md:1: "all but"'),
+    ('code', {'README.md': f'```sh\n{LONG}and more. Two.\n```\n\n    {LONG}and more. Two.\n'}, None),
+    ('a message', {'README.md': 'A.\n', 'apps/a.cpp': 'fail("there is none, or says so");\n'}, 'apps/a.cpp:1: message with "is none"'),
+    ('a comment', {'README.md': 'A.\n', 'src/a.cpp': '// there is none\n'}, None),
+    ('no page', {'src/a.cpp': ''}, 'check_english: no page'),
+]
+
+sys.exit(trees.run(sys.argv[1], CASES))

@@ -4,7 +4,8 @@ import { createServer } from "node:http";
 import { extname, join } from "node:path";
 import { chromium } from "playwright-core";
 
-export const folder = process.env.EXPLORER_PAGE;
+/** The built page. */
+export const folder = process.env.EXPLORER_PAGE ?? new URL("../../build/web", import.meta.url).pathname;
 const types = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".json": "application/json", ".svg": "image/svg+xml" };
 
 /** Serves the page as the plainest server would: .wasm has no type of its own. */

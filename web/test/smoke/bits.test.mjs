@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import test from "node:test";
-import { launch, open, serve } from "../browser.mjs";
+import { folder, launch, open, serve } from "../browser.mjs";
 
 const root = new URL("../../..", import.meta.url).pathname;
 const stored = readFileSync(join(root, "test/bits/bits.txt"), "utf8").trim().split("\n");
@@ -12,7 +12,7 @@ test("under node twelve motions have the program's bits", async () => {
   globalThis.self = globalThis;  // the module is made for workers
   globalThis.location = { href: "file:///" };
   const { default: create } = await import(join(root, "build-wasm/engine.mjs"));
-  const engine = await create({ wasmBinary: readFileSync(join(process.env.EXPLORER_PAGE, "engine.wasm")) });
+  const engine = await create({ wasmBinary: readFileSync(join(folder, "engine.wasm")) });
   assert.deepEqual(JSON.parse(new engine.Session().bits()).lines, stored);
 });
 

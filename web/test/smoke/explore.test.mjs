@@ -7,10 +7,10 @@ import { connect } from "node:net";
 import { networkInterfaces, tmpdir } from "node:os";
 import { join } from "node:path";
 import test from "node:test";
-import { explorer, launch } from "../browser.mjs";
+import { explorer, folder, launch } from "../browser.mjs";
 
 const program = process.env.SLAPSTICK, place = mkdtempSync(join(tmpdir(), "explore-")), page = join(place, "page");
-cpSync(process.env.EXPLORER_PAGE, page, { recursive: true });
+cpSync(folder, page, { recursive: true });
 writeFileSync(join(place, "secret.txt"), "secret");
 symlinkSync("../secret.txt", join(page, "link.txt"));
 

@@ -34,11 +34,11 @@ test("every built-in model is shown: a mechanism, a motion, a class, a diagram",
 
 test("stories go from the first step to the last", async () => {
   const { page, faults } = await explorer(browser, server.url, "#model=vibro-impact");
-  const keys = await page.getByLabel("guided story").locator("option").evaluateAll((options) => options.map(({ value }) => value).filter(Boolean));
+  const keys = await page.getByRole("combobox", { name: "guided story" }).locator("option").evaluateAll((options) => options.map(({ value }) => value).filter(Boolean));
   assert.equal(keys.length, 6);
   for (const key of keys) {
-    await page.getByLabel("guided story").selectOption("");
-    await page.getByLabel("guided story").selectOption(key);
+    await page.getByRole("combobox", { name: "guided story" }).selectOption("");
+    await page.getByRole("combobox", { name: "guided story" }).selectOption(key);
     for (;;) {
       await idle(page);
       assert.equal(await page.locator("#failure").innerText({ timeout: 1000 }).catch(() => ""), "", key);

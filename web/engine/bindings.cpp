@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "analysis.hpp"
-#include "base/decimal.hpp"
 #include "bits/report.hpp"
 #include "card.hpp"
 #include "chart_job.hpp"
@@ -142,11 +141,6 @@ class Session {
   void go_on() {
     if (auto* const motion = dynamic_cast<MotionJob*>(job_.get())) motion->go_on();
   }
-  val state() const {
-    const auto* const motion = dynamic_cast<const MotionJob*>(job_.get());
-    return motion == nullptr ? val::array() : val::array(motion->state());
-  }
-  void end() { job_.reset(); }
 
  private:
   template <class Any, class Wish>
@@ -162,13 +156,9 @@ class Session {
   std::unique_ptr<Job> job_;
 };
 
-/// 17 significant digits, as the command line writes and reads them.
-std::string digits(double value) { return shortest_decimal(value); }
-
 }  // namespace
 
 EMSCRIPTEN_BINDINGS(slapstick) {
-  emscripten::function("digits", &digits);
   emscripten::class_<Session>("Session")
       .constructor<>()
       .function("card", &Session::card)
@@ -189,9 +179,7 @@ EMSCRIPTEN_BINDINGS(slapstick) {
       .function("width", &Session::width)
       .function("eventWidth", &Session::event_width)
       .function("failure", &Session::failure)
-      .function("goOn", &Session::go_on)
-      .function("state", &Session::state)
-      .function("end", &Session::end);
+      .function("goOn", &Session::go_on);
 }
 
 }  // namespace slapstick::web

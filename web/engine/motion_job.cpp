@@ -25,8 +25,6 @@ void MotionJob::go_on() {
   done_ = false;
 }
 
-State MotionJob::state() const { return window_ ? window_->motion().state() : transient_->state(); }
-
 bool MotionJob::work(const Deadline& deadline) {
   if (transient_) {
     if (!run_until(*transient_, begin_, deadline, [] {})) return false;

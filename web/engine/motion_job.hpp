@@ -29,7 +29,6 @@ class MotionJob : public Job {
 
   /// The next window, from where the last one ended; `advance` then computes it.
   void go_on();
-  [[nodiscard]] State state() const;  ///< where the motion stands
 
  protected:
   bool work(const Deadline& deadline) override;

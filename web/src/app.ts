@@ -375,7 +375,7 @@ export class App {
 
   private classify(model: Model): void {
     this.listeners.classified("…", "being classified");
-    this.lanes.class.question<Classification>({ verb: "classify", model, periods: 4000 }).then((found) => {
+    this.lanes.class.question<Classification>({ verb: "classify", model, periods: 8000 }).then((found) => {
       const parts = [found.attractor];
       if (found.attractor === "periodic" && found.n > 0 && this.card?.forced) parts.push(`${found.n} forcing period${found.n > 1 ? "s" : ""}`, found.chatter === "complete" ? "complete chatter" : `${found.p} impact${found.p === 1 ? "" : "s"}`);
       if (found.sticking) parts.push("with stick");

@@ -23,13 +23,10 @@ declare module "slapstick-engine" {
     eventWidth(): number;
     failure(): string;
     goOn(): void;
-    state(): number[];
-    end(): void;
   }
 
   export interface Engine {
     Session: new () => Session;
-    digits(value: number): string;
   }
 
   export interface Options {

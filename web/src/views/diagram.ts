@@ -23,7 +23,6 @@ export class DiagramView {
   private readonly lanes = { up: new Lane(), down: new Lane() };
   private sweeps: Sweep[] = [];
   private branch: Branch | undefined;
-  private shownKey = "";
   private settings: Settings["diagram"] | undefined;
 
   /** @param go  a click: the parameter's value, and the state of the attractor there */
@@ -39,7 +38,6 @@ export class DiagramView {
     const wish = settings.diagram;
     this.settings = wish;
     this.branch = undefined;
-    this.shownKey = JSON.stringify([model.source, wish, model.set]);
     const meaning = card.parameters.find(({ name }) => name === wish.parameter);
     this.plot.xLabel = `${symbol(wish.parameter)}${meaning?.meaning ? `  ${meaning.meaning.split(";")[0] ?? ""}` : ""}${meaning?.unit ? `  (${meaning.unit})` : ""}`;
     this.plot.yLabel = wish.shown === "w" ? "impact speed w" : wish.shown === "flight" ? "flight / period" : `${wish.shown} ${wish.at === "periods" ? "once a period" : `at ${wish.at}`}`;
@@ -118,10 +116,6 @@ export class DiagramView {
 
   get hasBranch(): boolean {
     return this.branch !== undefined;
-  }
-
-  get key(): string {
-    return this.shownKey;
   }
 
   get busy(): boolean {

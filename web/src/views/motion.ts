@@ -33,7 +33,6 @@ export class MotionViews {
   readonly time: Plot;
   readonly phase: Plot;
   readonly phaseChoices = document.createElement("span");
-  private card: ModelCard | undefined;
 
   constructor(private readonly player: Player, private readonly choose: (axis: "x" | "y", name: string) => void) {
     this.time = new Plot({
@@ -44,7 +43,6 @@ export class MotionViews {
   }
 
   show(window: MotionWindow, card: ModelCard, x: string, y: string): void {
-    this.card = card;
     const names = card.mechanism.coordinates.slice(0, 6).map(({ name }) => name);
     const unit = card.mechanism.coordinates[0]?.unit;
     this.time.xLabel = card.forced ? "time / forcing period" : "time";
@@ -88,9 +86,5 @@ export class MotionViews {
       choice("vertical axis of the phase portrait", names, y, (name) => this.choose("y", name)), " over ",
       choice("horizontal axis of the phase portrait", names, x, (name) => this.choose("x", name)),
     );
-  }
-
-  get model(): ModelCard | undefined {
-    return this.card;
   }
 }

@@ -89,7 +89,7 @@ double peak() {
   constexpr long rounds = 2'000'000;
   double best = 0.0;
   for (int trial = 0; trial < 5; ++trial) {
-    event::Lane8 x[chains];
+    event::Lane8 x[chains] = {};
     for (int k = 0; k < chains; ++k)
       for (int lane = 0; lane < 8; ++lane) x[k][lane] = 1.0 + 0.01 * k + 0.001 * lane;
     const double begun = cpu_time();

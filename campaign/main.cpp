@@ -16,6 +16,7 @@ const std::vector<Campaign>& campaigns() {
       {"branches", "branches followed from three starts each have the same special points", "cases", 300, run_branches},
       {"classes", "what classify says, also right beside special points, against orbits and 50 digits", "cases", 10'000,
        run_classes},
+      {"lanes", "runs of a batch have the events of a motion", "runs", 100'000, run_lanes},
       {"families", "error near resonance and near defective matrices", "starts", 1'000, run_families},
   };
   return all;

@@ -27,6 +27,7 @@ extensions = [
 ]
 exclude_patterns = ["_sphinx", "README.md"]
 default_role = "literal"  # of docstrings: `name` is code
+toc_object_entries = False  # every page would copy thousands of declarations
 
 myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 4

@@ -145,7 +145,7 @@ void fig_bounds(Study& study, const Branches& branches) {
   for (std::size_t b = 0; b < branches.bounds.size(); ++b) {
     figure::Line line{.label = branches.bounds[b].label,
                       .colour = palette[b / 2],
-                      .dash = b % 2 == 0 ? figure::Dash::dashed : figure::Dash::solid,
+                      .dash = b % 2 == 0 ? figure::Dash::dash_dotted : figure::Dash::solid,
                       .width_pt = 1.2};
     for (const orbit::CurvePoint& point : branches.bounds[b].curve.points) {
       line.x.push_back(point.solution.is_motion ? point.values[0]

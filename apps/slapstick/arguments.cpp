@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -19,6 +20,8 @@ namespace slapstick::app {
 struct Arguments::Parser {
   CLI::App app;
   std::vector<std::string> names;                  // of the options, with dashes
+  std::vector<ArgumentFact> facts;
+  std::string notes;
   std::vector<std::function<void()>> conversions;  // texts into numbers, after parsing
 };
 
@@ -48,6 +51,11 @@ Arguments::~Arguments() = default;
 
 void Arguments::positional(const std::string& name, std::string& target, const std::string& help) {
   parser_->app.add_option(name, target, help)->required()->type_name("");
+  parser_->facts.push_back({ArgumentFact::Kind::positional, name, "", help});
+}
+
+void Arguments::positionals(const std::string& name, std::vector<std::string>& target, const std::string& help) {
+  parser_->app.add_option(name, target, help)->type_name("");
 }
 
 void Arguments::optional_positional(const std::string& name, std::string& target, const std::string& help) {
@@ -57,17 +65,20 @@ void Arguments::optional_positional(const std::string& name, std::string& target
 void Arguments::text(const std::string& name, std::string& target, const std::string& value, const std::string& help) {
   parser_->app.add_option(name, target, help)->type_name(value);
   parser_->names.push_back(name);
+  parser_->facts.push_back({ArgumentFact::Kind::text, name, value, help});
 }
 
 void Arguments::repeated(const std::string& name, std::vector<std::string>& target, const std::string& value,
                          const std::string& help) {
   parser_->app.add_option(name, target, help)->type_name(value)->allow_extra_args(false);
   parser_->names.push_back(name);
+  parser_->facts.push_back({ArgumentFact::Kind::repeated, name, value, help});
 }
 
 void Arguments::number(const std::string& name, double& target, const std::string& value, const std::string& help) {
   auto words = std::make_shared<std::string>();
   text(name, *words, value, help);
+  parser_->facts.back().kind = ArgumentFact::Kind::number;
   parser_->conversions.emplace_back([this, name, words, &target] {
     if (given(name)) target = parse_number(name, *words);
   });
@@ -77,6 +88,10 @@ void Arguments::count(const std::string& name, long long& target, long long leas
                       const std::string& help) {
   auto words = std::make_shared<std::string>();
   text(name, *words, "N", help);
+  ArgumentFact& fact = parser_->facts.back();
+  fact.kind = ArgumentFact::Kind::count;
+  fact.least = least;
+  fact.most = most;
   parser_->conversions.emplace_back([this, name, words, least, most, &target] {
     if (given(name)) target = parse_integer(name, *words, least, most);
   });
@@ -87,6 +102,8 @@ void Arguments::choice(const std::string& name, std::string& target, const std::
   std::string list;
   for (const auto& word : words) list += (list.empty() ? "" : "|") + word;
   text(name, target, list, help);
+  parser_->facts.back().kind = ArgumentFact::Kind::choice;
+  parser_->facts.back().words = words;
   parser_->conversions.emplace_back([name, words, &target] {
     if (std::find(words.begin(), words.end(), target) == words.end())
       throw InputError(name + ": " + in_quotes(target) + " is none of its words" + suggestion(target, words));
@@ -96,9 +113,21 @@ void Arguments::choice(const std::string& name, std::string& target, const std::
 void Arguments::flag(const std::string& name, bool& target, const std::string& help) {
   parser_->app.add_flag(name, target, help);
   parser_->names.push_back(name);
+  parser_->facts.push_back({ArgumentFact::Kind::flag, name, "", help});
 }
 
-void Arguments::footer(const std::string& text) { parser_->app.footer("\n" + text); }
+void Arguments::footer(const std::string& text) {
+  parser_->notes = text;
+  parser_->app.footer("\n" + text);
+}
+
+const std::vector<ArgumentFact>& Arguments::facts() const { return parser_->facts; }
+const std::string& Arguments::notes() const { return parser_->notes; }
+
+std::string_view name(ArgumentFact::Kind kind) {
+  constexpr std::array<std::string_view, 7> words = {"positional", "text", "repeated", "number", "count", "choice", "flag"};
+  return words[static_cast<std::size_t>(kind)];
+}
 
 bool Arguments::given(const std::string& name) const { return parser_->app.get_option(name)->count() > 0; }
 

@@ -5,9 +5,21 @@
 /// of the user becomes an InputError that names the argument.
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace slapstick::app {
+
+/// What a verb declares of one argument: help, documents and completion come from these.
+struct ArgumentFact {
+  enum class Kind { positional, text, repeated, number, count, choice, flag };
+  Kind kind = Kind::text;
+  std::string name, value, help;        ///< "--out", "FILE"; the value is empty of a flag
+  std::vector<std::string> words = {};  ///< of a choice
+  long long least = 0, most = 0;        ///< of a count
+};
+/// "positional", "text", "repeated", "number", "count", "choice", "flag".
+[[nodiscard]] std::string_view name(ArgumentFact::Kind kind);
 
 class Arguments {
  public:
@@ -20,6 +32,8 @@ class Arguments {
   void positional(const std::string& name, std::string& target, const std::string& help);
   /// One that may be left out: `target` stays as it is.
   void optional_positional(const std::string& name, std::string& target, const std::string& help);
+  /// Any number of arguments without a dash: "FILE..".
+  void positionals(const std::string& name, std::vector<std::string>& target, const std::string& help);
   /// `--name VALUE` with any text. `value` is what the help calls it: "FILE".
   void text(const std::string& name, std::string& target, const std::string& value, const std::string& help);
   /// The same, and may be repeated.
@@ -40,6 +54,9 @@ class Arguments {
   /// True if the user gave this option (after `parse`).
   [[nodiscard]] bool given(const std::string& name) const;
   [[nodiscard]] std::string help() const;
+  /// All that was declared, in order, and the text of `footer`.
+  [[nodiscard]] const std::vector<ArgumentFact>& facts() const;
+  [[nodiscard]] const std::string& notes() const;
 
   /// Reads the words after the verb. @returns false if help was asked for. @throws InputError of one line
   [[nodiscard]] bool parse(std::vector<std::string> words);

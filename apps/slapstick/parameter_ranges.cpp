@@ -9,14 +9,14 @@
 
 namespace slapstick::app {
 
-Sweep parse_sweep(const std::string& text) {
-  const auto [name, range] = name_and_text("--sweep", text, "NAME=A:B:COUNT");
+Sweep parse_sweep(const std::string& text, const std::string& argument) {
+  const auto [name, range] = name_and_text(argument, text, "NAME=A:B:COUNT");
   const auto parts = split(range, ':');
-  if (parts.size() != 3) throw InputError("--sweep: " + in_quotes(text) + " is not of the form NAME=A:B:COUNT");
-  Sweep sweep{name, parse_number("--sweep A", parts[0]), parse_number("--sweep B", parts[1]),
-              static_cast<int>(parse_integer("--sweep COUNT", parts[2], 2, most_values))};
+  if (parts.size() != 3) throw InputError(argument + ": " + in_quotes(text) + " is not of the form NAME=A:B:COUNT");
+  Sweep sweep{name, parse_number(argument + " A", parts[0]), parse_number(argument + " B", parts[1]),
+              static_cast<int>(parse_integer(argument + " COUNT", parts[2], 2, most_values))};
   if (!(sweep.from < sweep.to))
-    throw InputError("--sweep: A = " + shown(sweep.from) + " is not below B = " + shown(sweep.to) +
+    throw InputError(argument + ": A = " + shown(sweep.from) + " is not below B = " + shown(sweep.to) +
                      " (A:B is the range, from its lower to its upper end)");
   return sweep;
 }

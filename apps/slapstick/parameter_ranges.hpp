@@ -16,8 +16,8 @@ struct Sweep {
 };
 /// The most values of a sweep: all of them are kept until the end.
 inline constexpr int most_values = 10'000'000;
-/// Reads "NAME=A:B:COUNT", A < B, COUNT from 2 to `most_values`. @throws InputError naming --sweep
-[[nodiscard]] Sweep parse_sweep(const std::string& text);
+/// Reads "NAME=A:B:COUNT", A < B, COUNT from 2 to `most_values`. @throws InputError naming the argument
+[[nodiscard]] Sweep parse_sweep(const std::string& text, const std::string& argument = "--sweep");
 
 /// Reads "A,B": two different names. @throws InputError naming --params
 [[nodiscard]] std::vector<std::string> two_parameters(const std::string& text);

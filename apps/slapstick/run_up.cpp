@@ -16,31 +16,6 @@
 namespace slapstick::app {
 namespace {
 
-struct Climb {
-  std::string name;
-  RunUpOptions options;
-};
-
-Climb parse(const RunUpRange& range, const ChosenModel& chosen) {
-  const auto [name, text] = name_and_text("--sweep", range.sweep, "NAME=A:B");
-  const auto parts = split(text, ':');
-  if (parts.size() != 2) throw InputError("--sweep: " + in_quotes(range.sweep) + " is not of the form NAME=A:B");
-  Climb climb{name, {parse_number("--sweep A", parts[0]), parse_number("--sweep B", parts[1]), 0, range.hold}};
-  if (climb.options.from == climb.options.to) throw InputError("--sweep: both ends are " + parts[0]);
-  climb.options.steps = range.over / range.hold;
-  if (climb.options.steps < 2 || range.over % range.hold != 0)
-    throw InputError("--over: " + std::to_string(range.over) + " periods are not two or more steps of --hold " +
-                     std::to_string(range.hold));
-  for (const double value : {climb.options.from, climb.options.to}) {
-    (void)blaming({{name, value}}, [&](const Overrides& sets) {
-      Overrides all = chosen.overrides;
-      for (const auto& [key, number] : sets) all[key] = number;
-      return chosen.definition.build(all);
-    });
-  }
-  return climb;
-}
-
 /// The tables and the counts of a run-up.
 class Tables {
  public:
@@ -122,26 +97,47 @@ void RunUpRange::declare(Arguments& arguments) {
   arguments.count("--hold", hold, 1, most, "forcing periods at each value of it (1)");
 }
 
-void RunUpRange::check(const Arguments& arguments) const {
+Climb RunUpRange::climb(const ChosenModel& chosen) const {
+  const auto [name, text] = name_and_text("--sweep", sweep, "NAME=A:B");
+  const auto parts = split(text, ':');
+  if (parts.size() != 2) throw InputError("--sweep: " + in_quotes(sweep) + " is not of the form NAME=A:B");
+  Climb climb{name, {parse_number("--sweep A", parts[0]), parse_number("--sweep B", parts[1]), 0, hold}};
+  if (climb.options.from == climb.options.to) throw InputError("--sweep: both ends are " + parts[0]);
+  climb.options.steps = over / hold;
+  if (climb.options.steps < 2 || over % hold != 0)
+    throw InputError("--over: " + std::to_string(over) + " periods are not two or more steps of --hold " + std::to_string(hold));
+  for (const double value : {climb.options.from, climb.options.to}) {
+    (void)blaming({{name, value}}, [&](const Overrides& sets) {
+      Overrides all = chosen.overrides;
+      for (const auto& [key, number] : sets) all[key] = number;
+      return chosen.definition.build(all);
+    });
+  }
+  return climb;
+}
+
+RunUp run_of(const Climb& climb, const ChosenModel& chosen, const State& start) {
+  return {[&climb, &chosen](double value) {
+            Overrides values = chosen.overrides;
+            values[climb.name] = value;
+            return chosen.definition.build(values);
+          },
+          climb.options, start};
+}
+
+void RunUpRange::check(const Arguments& arguments, const std::vector<std::string>& others) const {
   if (sweep.empty() != !arguments.given("--over"))
     throw InputError("--sweep and --over belong together: what changes, and over how many periods");
-  for (const char* other : {"--periods", "--time", "--certify", "--plot", "--physical", "--columns", "--until"})
-    if (!sweep.empty() && arguments.given(other))
-      throw InputError(std::string(other) + ": a run-up (--sweep) does not have it");
+  for (const std::string& other : others)
+    if (!sweep.empty() && arguments.given(other)) throw InputError(other + ": a run-up (--sweep) does not have it");
 }
 
 int run_up(const RunUpRange& range, const RunUpFiles& files, const ChosenModel& chosen, const State& start,
            const Context& context) {
-  const Climb climb = parse(range, chosen);
+  const Climb climb = range.climb(chosen);
   Output out(files.out);
   Tables tables(files, chosen.model, climb.name);
-  RunUp run(
-      [&](double value) {
-        Overrides values = chosen.overrides;
-        values[climb.name] = value;
-        return chosen.definition.build(values);
-      },
-      climb.options, start);
+  RunUp run = run_of(climb, chosen, start);
   Progress progress("periods", static_cast<double>(range.over), files.progress);
   bool complete = true;
   long long periods = 0;

@@ -1,8 +1,10 @@
 #pragma once
-/// `simulate --sweep NAME=A:B --over PERIODS`: a run during which a parameter climbs or falls.
+/// `--sweep NAME=A:B --over PERIODS` of `simulate` and `spectrum`: a run during which a parameter climbs or falls.
 #include <string>
+#include <vector>
 
 #include "model_options.hpp"
+#include "slapstick/flow/run_up.hpp"
 #include "verb.hpp"
 
 namespace slapstick::app {
@@ -13,14 +15,24 @@ struct RunUpFiles {
   bool progress = false;
 };
 
+struct Climb {
+  std::string name;  ///< of the parameter or group
+  RunUpOptions options;
+};
+
 struct RunUpRange {
   std::string sweep;             ///< NAME=A:B
   long long over = 0, hold = 1;  ///< forcing periods, of the run and of each value
 
   void declare(Arguments& arguments);
-  /// @throws InputError for options that a run-up does not have
-  void check(const Arguments& arguments) const;
+  /// @param others  options that a run-up does not have
+  /// @throws InputError if one of them is given, or --over without --sweep
+  void check(const Arguments& arguments, const std::vector<std::string>& others) const;
+  /// @throws InputError naming the argument
+  [[nodiscard]] Climb climb(const ChosenModel& chosen) const;
 };
+
+[[nodiscard]] RunUp run_of(const Climb& climb, const ChosenModel& chosen, const State& start);
 
 /// Tables as those of `simulate`, with a column for the parameter behind the time.
 /// @returns the exit status @throws InputError naming the argument, NumericalError as Motion::advance

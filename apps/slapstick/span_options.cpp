@@ -21,10 +21,11 @@ void SpanOptions::declare(Arguments& arguments) {
   model.declare(arguments);
   model.declare_state(arguments);
   arguments.count("--transient", transient, 0, 1'000'000'000, "forcing periods to leave out first (500)");
-  arguments.count("--periods", periods, 1, 1'000'000'000, "measure over so many forcing periods instead of a cycle");
+  arguments.count("--periods", periods, 1, 1'000'000'000, "measure over N forcing periods instead of a cycle");
   arguments.number("--time", time, "T", "the same by a time in the model's unit");
   orbit.declare_choice(arguments);
   arguments.text("--out", out, "FILE", "write there instead of to standard output");
+  arguments.flag("--progress", progress, "show progress even if standard error is not a terminal");
 }
 
 void SpanOptions::check() const {
@@ -35,9 +36,16 @@ void SpanOptions::check() const {
   if (of.empty()) throw InputError("--of is needed: the name of a quantity ('slapstick quantities MODEL' lists them)");
 }
 
-std::optional<Span> SpanOptions::span(const ChosenModel& chosen, long long instead, const Context& context) const {
+double SpanOptions::whole(const ChosenModel& chosen, long long instead) const {
+  const double length = time > 0.0 ? time / chosen.model.forcing_period() : static_cast<double>(periods > 0 ? periods : instead);
+  return static_cast<double>(transient) + length;
+}
+
+std::optional<Span> SpanOptions::span(const ChosenModel& chosen, long long instead, const Context& context,
+                                      Progress* bar) const {
   const State start = model.start(chosen);
-  SpanWish wish{static_cast<long>(transient), static_cast<double>(periods), static_cast<double>(instead), &context.stop};
+  SpanWish wish{static_cast<long>(transient), static_cast<double>(periods), static_cast<double>(instead), &context.stop, {}};
+  if (bar != nullptr) wish.progress = [bar](double now) { bar->update(now); };
   if (time > 0.0) wish.periods = time / chosen.model.forcing_period();
   const double length = wish.periods > 0.0 ? wish.periods : wish.instead;
   if (orbit.any()) wish.periods = 1.0;  // not measured

@@ -8,6 +8,7 @@
 #include "io/json.hpp"
 #include "model_options.hpp"
 #include "orbit_choice.hpp"
+#include "progress.hpp"
 #include "slapstick/quantity/span.hpp"
 #include "verb.hpp"
 
@@ -32,7 +33,10 @@ struct SpanOptions {
   /// periods.
   /// @returns nothing if it was stopped. @throws InputError, NumericalError as orbit::find_orbit, orbit::settle and
   /// Motion::advance
-  [[nodiscard]] std::optional<Span> span(const ChosenModel& chosen, long long instead, const Context& context) const;
+  [[nodiscard]] std::optional<Span> span(const ChosenModel& chosen, long long instead, const Context& context,
+                                         Progress* bar = nullptr) const;
+  /// A bar over the transient and `length` periods; of a cycle the second part is not seen.
+  [[nodiscard]] double whole(const ChosenModel& chosen, long long instead) const;
 };
 
 /// A name of --of and its statistic, "" if there is none.

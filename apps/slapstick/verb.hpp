@@ -41,10 +41,14 @@ Action add_continue(Arguments& arguments);
 Action add_curve(Arguments& arguments);
 Action add_poincare(Arguments& arguments);
 Action add_diagram(Arguments& arguments);
+Action add_map(Arguments& arguments);
 Action add_quantities(Arguments& arguments);
 Action add_measure(Arguments& arguments);
 Action add_spectrum(Arguments& arguments);
+Action add_store(Arguments& arguments);
 Action add_reproduce(Arguments& arguments);
+Action add_describe(Arguments& arguments);
+Action add_completion(Arguments& arguments);
 Action add_explore(Arguments& arguments);  // where the HTTP library is
 
 }  // namespace slapstick::app

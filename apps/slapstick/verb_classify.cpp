@@ -145,7 +145,7 @@ void declare(Arguments& arguments, Options* options) {
   arguments.count("--exponent-periods", options->exponent_periods, 400, 100'000'000,
                   "length of the run from which exponent, averages and rotation number are taken (4000)");
   arguments.count("--quick", options->quick, 20, 1'000'000'000,
-                  "look at so many periods only, half of them transient: a cycle that Newton's method confirms, or "
+                  "look at N periods only, half of them transient: a cycle that Newton's method confirms, or "
                   "undecided");
   options->stops.declare(arguments, "count and list the impacts of this stop only; may be repeated (all)");
   declare_of(arguments, options->of);

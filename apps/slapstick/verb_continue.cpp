@@ -303,7 +303,7 @@ Action add_continue(Arguments& arguments) {
   arguments.number("--step", options->step, "S", "longest step along the branch, as a part of the range (0.01)");
   arguments.count("--points", options->points, 1, 1'000'000, "most points each way (2000)");
   arguments.count("--branches", options->branches, 1, 100,
-                  "follow the branches that are born at special points too, up to so many in all (1)");
+                  "follow the branches that are born at special points too, up to N in all (1)");
   arguments.flag("--same-events", options->stay, "end the branch where its sequence of events changes");
   arguments.repeated("--sensitivity", options->sensitivity, "NAME",
                      "give d param / d NAME of each special point; may be repeated");
@@ -314,7 +314,7 @@ Action add_continue(Arguments& arguments) {
                  "statistics of every orbit's cycle, as `measure` gives them; --plot draws the first");
   arguments.text("--plot", options->plot, "F.png", "draw impact speeds along the branches (.png, .pdf or .svg)");
   arguments.count("--diagram", options->diagram, 0, 100'000,
-                  "with --plot: draw the motions that settle at so many values beneath, as `diagram` finds them (0)");
+                  "with --plot: draw the motions that settle at N values beneath, as `diagram` finds them (0)");
   arguments.text("--out", options->out, "FILE",
                  "write the result there, or the orbits as a table (.csv, .npz, .h5), instead of to standard output");
   declare_plot_size(arguments, options->plot_size);

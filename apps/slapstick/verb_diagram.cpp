@@ -5,6 +5,7 @@
 #include "axis_units.hpp"
 #include "base/ranges.hpp"
 #include "contact_clouds.hpp"
+#include "diagram_store.hpp"
 #include "fine_dots.hpp"
 #include "model_options.hpp"
 #include "output.hpp"
@@ -13,6 +14,7 @@
 #include "progress.hpp"
 #include "slapstick/base/error.hpp"
 #include "base/text.hpp"
+#include "io/table.hpp"
 #include "slapstick/sweep/diagram.hpp"
 #include "stop_options.hpp"
 #include "values_diagram.hpp"
@@ -27,9 +29,20 @@ using sweep::Direction;
 struct Options {
   ModelOptions model;
   StopOptions stops;
-  std::string sweep, direction = "up", start = "carry", y, at, out, plot, plot_size;
+  std::string sweep, direction = "up", start = "carry", y, at, out, plot, plot_size, store;
   long long transient = 500, impacts = 200, most_periods = 5000, periods = 100, threads = 0;
-  bool progress = false;
+  bool resume = false, progress = false;
+
+  /// What is computed, one way of many: without MODEL, --set and --threads.
+  [[nodiscard]] std::vector<std::string> words() const {
+    const Sweep of = parse_sweep(sweep);
+    std::vector<std::string> all{"--sweep", of.name + "=" + number_text(of.from) + ":" + number_text(of.to) + ":" + std::to_string(of.count),
+                                 "--direction", direction, "--start", start, "--y", y, "--at", at, "--state", model.state};
+    for (const auto& [name, value] : {std::pair{"--transient", transient}, {"--impacts", impacts}, {"--most-periods", most_periods}, {"--periods", periods}})
+      all.insert(all.end(), {name, std::to_string(value)});
+    for (const std::string& stop : stops.names) all.insert(all.end(), {"--stop", stop});
+    return all;
+  }
 };
 
 /// The model at one value; the same function for the check at both ends and for the sweep.
@@ -175,7 +188,12 @@ void report(const sweep::Diagram& diagram, const Sweep& sweep, const std::string
                          ", first " + at(*failure) + ": " + failure->failure);
 }
 
-sweep::Diagram run(sweep::DiagramProblem& problem, const Options& options, const Context& context) {
+sweep::Diagram run(sweep::DiagramProblem& problem, const Options& options, const ChosenModel& chosen, const Context& context) {
+  std::optional<DiagramStore> store;
+  if (!options.store.empty()) {
+    const StoreFacts facts = run_facts("diagram", chosen, options.words(), problem.count * (problem.direction == Direction::both ? 2 : 1));
+    store.emplace(Store::to_write(options.store, facts, options.resume), problem);
+  }
   Progress progress("values", problem.count * (problem.direction == Direction::both ? 2.0 : 1.0), options.progress);
   problem.progress = [&](int count, int) { progress.update(count); };
   problem.cancel = &context.stop;
@@ -189,7 +207,7 @@ int measured(const Options& options, const ChosenModel& chosen, const Sweep& swe
   TableOutput table(options.out, about.columns(), table_facts(chosen, sweep.name));
   sweep::DiagramProblem problem = problem_of(options, chosen, sweep);
   problem.of = about.of();
-  const sweep::Diagram result = run(problem, options, context);
+  const sweep::Diagram result = run(problem, options, chosen, context);
   about.write(result, table);
   const auto some = [](const sweep::DiagramPoint& point) { return !point.of.empty(); };
   const int status = plot.write_or_say(about.figure(result), ranges::none_of(result.points, some),
@@ -205,7 +223,7 @@ int values(const Options& options, const ChosenModel& chosen, const Sweep& sweep
   TableOutput table(options.out, about.columns(), table_facts(chosen, sweep.name));
   sweep::DiagramProblem problem = problem_of(options, chosen, sweep);
   about.complete(problem);
-  const sweep::Diagram result = run(problem, options, context);
+  const sweep::Diagram result = run(problem, options, chosen, context);
   about.write(result, table);
   const auto some = [](const sweep::DiagramPoint& point) { return !point.values.empty(); };
   const int status = plot.write_or_say(about.figure(result), ranges::none_of(result.points, some),
@@ -222,6 +240,7 @@ int diagram(const Options& options, const Context& context) {
   FileRoles roles;
   roles.add("MODEL", options.model.source);
   roles.add("--out", options.out);
+  roles.add("--store", options.store);
   roles.add_plot(options.plot);
   if (!options.y.empty())
     return are_statistics(options.y) ? measured(options, chosen, sweep, context) : values(options, chosen, sweep, context);
@@ -232,7 +251,7 @@ int diagram(const Options& options, const Context& context) {
   TableOutput table(options.out, columns, table_facts(chosen, sweep.name));
 
   sweep::DiagramProblem problem = problem_of(options, chosen, sweep);
-  const sweep::Diagram result = run(problem, options, context);
+  const sweep::Diagram result = run(problem, options, chosen, context);
   write_table(table, result, chosen.model);
   bool any = false;
   for (const sweep::DiagramPoint& point : result.points) any = any || point.impacts.size() > 0;
@@ -252,6 +271,7 @@ void check_words(const Options& options, const Arguments& arguments) {
   if (!statistics && arguments.given("--periods"))
     throw InputError("--periods: it is for statistics of --y, and none is given");
   if (options.y.empty() && arguments.given("--at")) throw InputError("--at: it is for --y, which is not given");
+  if (options.store.empty() && options.resume) throw InputError("--resume: it needs --store F.db");
   if (options.start == "reset" && options.direction == "both")
     throw InputError("--direction both: with --start reset, up and down are the same; choose one, or --start carry");
 }
@@ -282,6 +302,8 @@ Action add_diagram(Arguments& arguments) {
                  "or stick:belt (impact; without stops period)");
   arguments.count("--periods", options->periods, 1, 1'000'000'000, "of --y: forcing periods that are measured (100)");
   options->stops.declare(arguments, "record the impacts of this stop only; may be repeated (all)");
+  arguments.text("--store", options->store, "F.db", "write each value there as it is finished");
+  arguments.flag("--resume", options->resume, "of --store: compute only what is not there yet");
   arguments.text("--out", options->out, "F.csv", "write the impacts there (.csv, .npz or .h5) instead of to standard output");
   arguments.text("--plot", options->plot, "F.png",
                  "diagrams of w and flight: .png, .pdf or .svg; its data and script lie beside it");

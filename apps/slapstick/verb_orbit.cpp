@@ -21,12 +21,20 @@ struct Options {
   ModelOptions model;
   OrbitOptions orbit;
   std::string of, out, plot, plot_size, show;
+  std::vector<std::string> sensitivity;
   bool all = false, progress = false;
   long long most_n = 0, most_p = -1;  ///< as given; without --all they have no meaning
 };
 
+/// The statistics that are wanted of each orbit.
+struct Asked {
+  const ChosenModel& chosen;
+  std::vector<Wanted> wanted;
+  std::vector<std::string> sensitivity;
+};
+
 Json whole_json(const orbit::Problem& problem, const orbit::Solution& solution, const System& system,
-                const std::vector<Wanted>& wanted) {
+                const Asked& asked) {
   Json json = point_json(problem, solution, system.model());
   json.set("sticks", solution.sticks).set("reversals", solution.reversals).set("chatters", solution.chatters);
   json.set("symmetric", orbit::symmetric(problem, solution.orbit));
@@ -34,8 +42,12 @@ Json whole_json(const orbit::Problem& problem, const orbit::Solution& solution, 
   json.set("extremes", extremes_json(problem, solution, system.model()));
   json.set("energy", energy_json(orbit::energy(problem, solution.orbit), system.model()));
   json.set("margins", margins_json(orbit::margins(problem, solution.orbit), system));
-  if (!wanted.empty()) json.set("values", values_json(wanted, problem, solution.orbit)).set("units", units_json(wanted));
-  return json;
+  if (asked.wanted.empty()) return json;
+  const Measured found = measure(problem, solution.orbit, quantities_of(asked.wanted));
+  json.set("values", values_json(asked.wanted, found)).set("units", units_json(asked.wanted));
+  if (asked.sensitivity.empty()) return json;
+  const Sensitivity rates = sensitivity_of(asked.sensitivity, asked.chosen, solution.orbit, asked.wanted);
+  return json.set("sensitivity", sensitivity_json(asked.wanted, found, rates));
 }
 
 Json head_json(const ChosenModel& chosen) {
@@ -46,7 +58,7 @@ Json head_json(const ChosenModel& chosen) {
 
 /// --all: every orbit that a search finds, as far as it is admitted.
 void search_all(const Options& options, const orbit::Problem& problem, const System& system, const State& start,
-                const std::vector<Wanted>& wanted, const std::atomic<bool>& stop, Json& json) {
+                const Asked& asked, const std::atomic<bool>& stop, Json& json) {
   orbit::SearchOptions search = orbit::search_options(options.orbit.wish(), &stop);
   search.most_n = static_cast<int>(std::max(1LL, options.most_n));
   Progress progress("motions", static_cast<double>(search.starts), options.progress);
@@ -56,7 +68,7 @@ void search_all(const Options& options, const orbit::Problem& problem, const Sys
   Json list = Json::list();
   for (const orbit::Solution& found : result.orbits)
     if (choice.admits(problem, found) && (options.most_p < 0 || found.impacts <= options.most_p))
-      list.push(whole_json(problem, found, system, wanted));
+      list.push(whole_json(problem, found, system, asked));
   json.set("orbits", std::move(list)).set("search", report_json(result.report));
   json.set("note", "found from " + tried(result.report, options.orbit) + "; a search is no proof of completeness");
 }
@@ -70,6 +82,8 @@ void check(const Options& options) {
     throw InputError("--show: it is for the picture of --plot, which is not given");
   if (options.all && options.orbit.nearest)
     throw InputError("--all lists every orbit; --nearest has no meaning with it");
+  if (!options.sensitivity.empty() && options.of.empty())
+    throw InputError("--sensitivity: it is of the statistics of --of, which is not given");
   if (!options.all && (options.most_n > 0 || options.most_p >= 0)) throw InputError("--max-n and --max-p need --all");
 }
 
@@ -113,17 +127,17 @@ int run(const Options& options, const Context& context) {
   const ChosenModel chosen = options.model.load();
   const State start = options.model.start(chosen);
   check(options);
-  const std::vector<Wanted> wanted = parse_of(options.of, chosen);
+  const Asked asked{chosen, parse_of(options.of, chosen), options.sensitivity};
   const System system = affordable_system(chosen, {static_cast<double>(options.orbit.transient) + 1.0, "--transient"});
   const auto problem = orbit::pose(chosen.definition.family({}, chosen.overrides), {});
   Json json = head_json(chosen);
   std::optional<orbit::Solution> drawn;
   if (options.all) {
-    search_all(options, *problem, system, start, wanted, context.stop, json);
+    search_all(options, *problem, system, start, asked, context.stop, json);
   } else {
     const orbit::Chosen found = find_orbit(*problem, system, start, options.orbit, context.stop);
     json.set("converged", true);
-    const Json whole = whole_json(*problem, *found.orbit, system, wanted);
+    const Json whole = whole_json(*problem, *found.orbit, system, asked);
     for (const auto& [key, value] : std::get<Json::Object>(whole.value())) json.set(key, value);
     json.set("settles", found.settles);
     if (found.search) json.set("search", report_json(*found.search));
@@ -146,6 +160,7 @@ Action add_orbit(Arguments& arguments) {
   arguments.count("--max-n", options->most_n, 1, 64, "with --all: most forcing periods, or returns, per cycle (1)");
   arguments.count("--max-p", options->most_p, 0, 1'000'000, "with --all: most impacts per cycle");
   declare_of(arguments, options->of);
+  declare_sensitivity(arguments, options->sensitivity);
   arguments.text("--out", options->out, "FILE", "write the JSON there instead of to standard output");
   arguments.text("--plot", options->plot, "F.png", "picture of the cycle: .png, .pdf or .svg, as of `simulate`");
   declare_plot_size(arguments, options->plot_size);

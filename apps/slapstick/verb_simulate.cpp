@@ -16,7 +16,7 @@
 #include "run_up.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/flow/stage.hpp"
-#include "slapstick/io/observer.hpp"
+#include "slapstick/quantity/observables.hpp"
 #include "slapstick/quantity/reader.hpp"
 #include "slapstick/section/sampled_motion.hpp"
 #include "span_options.hpp"
@@ -54,7 +54,7 @@ class Run {
         result_(options.out),
         plot_(options.plot, options.plot_size),
         picture_(system_, std::move(shown)),
-        observer_(chosen.definition.observer(chosen.overrides)),
+        observables_(system_, chosen.definition.observer(chosen.overrides)),
         reader_(system_, functions_of_time("--columns", options.columns, chosen)),
         units_(chosen, options.physical) {
     if (!options.certify.empty()) certified_.emplace(options.certify);
@@ -143,7 +143,7 @@ class Run {
     const SampledMotion::Sample& sample = motion_->sample();
     const double time = sample.time.seconds(system_.period());
     trajectory_->number(units_.time(time)).numbers(units_.state(sample.state)).word(system_.mode_name(sample.mode));
-    trajectory_->numbers(units_.observables(observer_.read(time, sample.state)));
+    trajectory_->numbers(units_.observables(observables_.within(motion_->motion(), sample)));
     trajectory_->numbers(reader_.within(motion_->motion(), sample.within)).end_row();
   }
 
@@ -203,7 +203,7 @@ class Run {
   Output result_;
   Plot plot_;
   MotionRecord picture_;
-  Observer observer_;
+  Observables observables_;
   Reader reader_;
   TableUnits units_;
   std::optional<TableOutput> events_, trajectory_;
@@ -272,7 +272,7 @@ void check(const Options& options, const Arguments& arguments) {
     throw InputError("--columns: they are columns of --trajectory, which is not given");
   if (!options.columns.empty() && options.physical)
     throw InputError("--columns: quantities are in the model's numbers; leave --physical away");
-  options.climb.check(arguments);
+  options.climb.check(arguments, {"--periods", "--time", "--certify", "--plot", "--physical", "--columns", "--until"});
   if (options.physical && options.events.empty() && options.trajectory.empty())
     throw InputError("--physical: it is for --events and --trajectory, and neither is given");
   for (const char* name : {"--stop", "--window", "--show"})

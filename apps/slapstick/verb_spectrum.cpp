@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/text.hpp"
+#include "order_map_run.hpp"
 #include "output.hpp"
 #include "slapstick/base/error.hpp"
 #include "span_options.hpp"
@@ -13,7 +14,9 @@ namespace {
 struct Options {
   SpanOptions span;
   double highest_order = 20.0, highest = 0.0, stretch = 64.0, reference = 1.0;
-  std::string octaves = "none", scale = "db", plot;
+  std::string octaves = "none", scale = "db", plot, plot_size;
+  RunUpRange climb;
+  long long settle = 0;
   bool weighted = false;
 };
 
@@ -83,7 +86,8 @@ struct Found {
   bool complete = true, any = true;  ///< any: of an interrupted density, a stretch at least
 };
 
-Found analyse(const Options& options, const ChosenModel& chosen, const Span& span, const Quantity& of, const Context& context) {
+Found analyse(const Options& options, const ChosenModel& chosen, const Span& span, const Quantity& of, const Context& context,
+              Progress& progress) {
   const SpectrumLabels labels{of.name, of.unit, options.scale == "db", options.reference, chosen.model.forced()};
   const int parts = options.octaves == "none" ? 0 : options.octaves == "1" ? 1 : 3;
   const double highest = highest_order(options, chosen, span);
@@ -95,7 +99,7 @@ Found analyse(const Options& options, const ChosenModel& chosen, const Span& spa
     found.json = lines_json(lines);
     found.figure = lines_figure(lines, labels);
   } else {
-    const DensitySpectrum density = slapstick::density(span, of, {options.stretch, 1, highest, &context.stop});
+    const DensitySpectrum density = slapstick::density(span, of, {options.stretch, 1, highest, &context.stop, [&](double now) { progress.update(now); }});
     if (parts > 0) bands = octaves(density, parts, unit_of_time(chosen));
     found.complete = density.complete;
     found.any = density.stretches > 0;
@@ -129,11 +133,18 @@ int run(const Options& options, const Context& context) {
   if (wanted.size() != 1 || !wanted[0].statistic.empty()) throw InputError("--of: a spectrum is of one quantity");
   const Quantity& of = wanted[0].quantity;
   if (of.at_impacts()) throw InputError("--of: " + in_quotes(of.name) + " is a quantity at impacts: no function of time");
+  if (!options.climb.sweep.empty()) {
+    const SpectrumLabels labels{of.name, of.unit, options.scale == "db", options.reference, chosen.model.forced()};
+    return order_map_run({options.climb, options.settle, options.highest_order, options.span.out, options.plot,
+                          options.plot_size, options.span.progress},
+                         chosen, options.span.model.start(chosen), of, labels, context);
+  }
   Output out(options.span.out);
-  const Plot plot(options.plot);
-  const auto span = options.span.span(chosen, 2048, context);
+  const Plot plot(options.plot, options.plot_size);
+  Progress progress("periods", options.span.whole(chosen, 2048), options.span.progress);
+  const auto span = options.span.span(chosen, 2048, context, &progress);
   if (!span) return interrupted;
-  const Found found = analyse(options, chosen, *span, of, context);
+  const Found found = analyse(options, chosen, *span, of, context, progress);
   if (!found.any) return interrupted;
   Json json = Json::object(), parameters = Json::object();
   for (const auto& [name, value] : chosen.definition.values(chosen.overrides)) parameters.set(name, value);
@@ -159,14 +170,23 @@ Action add_spectrum(Arguments& arguments) {
   arguments.flag("--a-weighting", options->weighted, "weight the levels of --octaves by A (IEC 61672)");
   arguments.choice("--scale", options->scale, {"db", "linear"}, "of the picture (db)");
   arguments.number("--reference", options->reference, "R", "0 dB, in the quantity's unit (1)");
+  options->climb.declare(arguments);
+  arguments.count("--settle", options->settle, 0, 1'000'000'000, "of a run-up: periods at each value that are not measured (0)");
   arguments.text("--plot", options->plot, "F.png", "picture: .png, .pdf or .svg; its data and script lie beside it");
+  declare_plot_size(arguments, options->plot_size);
   arguments.footer(
       "Fourier lines of the cycle that the motion settles on, as exact integrals, impulses of impacts included.\n"
       "With --periods, or where there is no cycle (then 2048 of them): a power density, by Welch's method.\n"
-      "  slapstick spectrum vibro-impact --set omega=2.9 --of a1 --plot a1.png");
+      "With --sweep: the lines at each value of a run-up, as a table of order, frequency and amplitude, and a waterfall.\n"
+      "  slapstick spectrum vibro-impact --set omega=2.9 --of a1 --plot a1.png\n"
+      "  slapstick spectrum vibro-impact --sweep omega=2:4 --over 800 --hold 20 --of a1 --out map.csv --plot map.png");
   return [options, &arguments](const Context& context) {
     if (arguments.given("--to") && arguments.given("--orders"))
       throw InputError("--to and --orders both give the highest frequency: choose one");
+    options->climb.check(arguments, {"--periods", "--time", "--transient", "--orbit", "--stable", "--unstable",
+                                     "--symmetric", "--nearest", "--stretch", "--octaves", "--a-weighting", "--to"});
+    if (options->climb.sweep.empty() && arguments.given("--settle"))
+      throw InputError("--settle: it is of a run-up, and --sweep is not given");
     return run(*options, context);
   };
 }

@@ -17,10 +17,14 @@ const std::vector<Verb>& verbs() {
       {"curve", "the locus of a bifurcation of `continue` in two parameters", add_curve},
       {"poincare", "points of a section: at every impact, or once per forcing period", add_poincare},
       {"diagram", "bifurcation diagram over a parameter, on all cores", add_diagram},
+      {"map", "two-parameter chart: class, attractor, exponent and quantities at every pixel", add_map},
       {"quantities", "what can be measured on a model: names, units, meanings", add_quantities},
       {"measure", "statistics of forces, accelerations, energies and impacts, exact", add_measure},
       {"spectrum", "Fourier lines of a cycle, or the power density of a motion, impulses included", add_spectrum},
+      {"store", "what is in the store of a long run; join stores; write tables and pictures of them", add_store},
       {"reproduce", "every figure and claim of the paper, into a folder", add_reproduce},
+      {"describe", "all verbs and options, quantities and statistics: as JSON, or as the page of the documents", add_describe},
+      {"completion", "the script by which a shell completes verbs, options, models and names", add_completion},
 #ifdef SLAPSTICK_HTTP
       {"explore", "the explorer in the browser, served to this machine", add_explore},
 #endif

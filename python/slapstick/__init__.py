@@ -18,9 +18,11 @@ from ._core import version as __version__
 from ._diagram import Diagram, diagram
 from ._locus import Locus, Meeting, locus
 from ._lyapunov import Exponents, lyapunov
+from ._map import Map, map  # noqa: A004 (the verb is called so)
 from ._model import Model, Parameters, load, models, new
 from ._motion import Events, Motion, simulate
 from ._orbit import Orbit, OrbitEvents, orbit, orbits
+from ._order_map import OrderMap, order_map
 from ._quantity import Measured, Spectrum, measure, quantities, spectrum
 from ._result import Interrupted, Result
 from ._section import Section, poincare
@@ -37,6 +39,7 @@ __all__ = [
     "InputError",
     "Interrupted",
     "Locus",
+    "Map",
     "Meeting",
     "Measured",
     "Model",
@@ -44,6 +47,7 @@ __all__ = [
     "NumericalError",
     "Orbit",
     "OrbitEvents",
+    "OrderMap",
     "Parameter",
     "Parameters",
     "Quantity",
@@ -60,11 +64,13 @@ __all__ = [
     "load",
     "locus",
     "lyapunov",
+    "map",
     "measure",
     "models",
     "new",
     "orbit",
     "orbits",
+    "order_map",
     "poincare",
     "quantities",
     "simulate",

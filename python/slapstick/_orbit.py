@@ -111,10 +111,11 @@ class Orbit(Result):
         "How near the cycle comes to a change of its events: what is measured, of which contact, the least value."
     )
 
-    def measure(self, of: str | Sequence[str]) -> Measured:
+    def measure(self, of: str | Sequence[str], *, sensitivity: str | Sequence[str] = ()) -> Measured:
         """Statistics of quantities over the cycle, exact but for rounding, also where the orbit is unstable.
 
-        of: "Q[:STAT],.." or a list of such words, as of `slapstick.measure`.
+        of: "Q[:STAT],.." or a list of such words, as of `slapstick.measure`; sensitivity: parameters that derivatives
+        are by, likewise.
 
         Raises InputError for an unknown quantity or statistic (the nearest is named).
 
@@ -122,7 +123,7 @@ class Orbit(Result):
         >>> slapstick.orbit("vibro-impact", "1-1", omega=2.9).measure("w:number")["w:number"]
         1.0
         """
-        return measured_orbit(self._core, self.model, self._values, of, self.options)
+        return measured_orbit(self._core, self.model, self._values, of, sensitivity, self.options)
 
     def motion(self, *, samples: int = 200) -> Motion:
         """One cycle as `simulate` gives it. Of an unstable orbit rounding grows by its multipliers."""

@@ -33,6 +33,7 @@ class Measured(Result, Mapping[str, float]):
 
     label: the class of the cycle that was measured, or "" for a time; duration: in the model's unit of time.
     impacts: by the name of the stop, each with the arrays w, impulse and energy_lost, shape (number,), by size.
+    With `sensitivity`: the exact derivatives of all numbers by parameters, and their matrix `jacobian`.
     """
 
     def __init__(
@@ -45,16 +46,27 @@ class Measured(Result, Mapping[str, float]):
     ) -> None:
         super().__init__(model, values, options)
         self._core = found
-        self._numbers = {
-            f"{quantity.name}:{name}": found.statistic(k, quantity, name)
+        places = [
+            (k, quantity, name)
             for k, (quantity, one) in enumerate(wanted)
             for name in ([one] if one else _core.usual_statistics(quantity))
+        ]
+        self._numbers = {f"{quantity.name}:{name}": found.statistic(k, quantity, name) for k, quantity, name in places}
+        self.sensitivity: dict[str, dict[str, float]] = {
+            parameter: {f"{quantity.name}:{name}": found.rate(j, k, name) for k, quantity, name in places}
+            for j, parameter in enumerate(options.get("sensitivity", []))
         }
 
     _core: _core.Measures
 
     duration = Given[float]("Of the cycle, or of the motion that was measured.")
     label = Given[str]("The class of the cycle; '' if a motion was measured.")
+
+    @property
+    def jacobian(self) -> Floats:
+        """The derivatives of all numbers by all parameters of `sensitivity`: shape (numbers, parameters)."""
+        columns = [list(rates.values()) for rates in self.sensitivity.values()]
+        return np.array(columns, dtype=np.float64).reshape(len(columns), len(self)).T
 
     @property
     def impacts(self) -> dict[str, StopImpacts]:
@@ -83,6 +95,11 @@ def wanted_of(
     return [(_core.find_quantity(known, name), statistic) for name, _, statistic in pairs]
 
 
+def words_of(names: str | Sequence[str]) -> list[str]:
+    """ "a,b" or a list of words."""
+    return [word for word in names.split(",") if word] if isinstance(names, str) else list(names)
+
+
 def statistics_of(of: str | Sequence[str], chosen: Model, values: dict[str, float]) -> list[tuple[Quantity, str]]:
     """The same, each with a statistic."""
     wanted = wanted_of(of, chosen, values)
@@ -97,6 +114,7 @@ def measure(
     of: str | Sequence[str],
     *,
     periods: float = 0,
+    sensitivity: str | Sequence[str] = (),
     transient: int = 500,
     start: Start = None,
     progress: Progress = None,
@@ -109,31 +127,42 @@ def measure(
     impulse or number, of quantities at impacts also q05 .. q95. Without one: all that are usual. Where there is no cycle
     1000 periods are measured. transient: forcing periods that are left out first.
 
+    sensitivity: names of parameters or groups; the result then has the exact derivative of every number by each, of a
+    cycle as long as it keeps its events.
+
     Raises InputError for an unknown quantity or statistic (the nearest is named), NumericalError if the motion cannot
-    go on.
+    go on, or the cycle has no derivative.
 
     >>> import slapstick
     >>> found = slapstick.measure("shaken-table", "impulse:mean,F_table:mean")
     >>> found.label, round(found["F_table:mean"], 9)
     ('1-1-I', 1.0)
+    >>> slapstick.measure("shaken-table", "F_table:mean", sensitivity="gravity").jacobian.round(9).tolist()
+    [[1.0]]
     """
     chosen = model_of(model)
     fixed = numbers(given_to(measure, chosen, values, parameters))
-    options = {"of": of, "periods": periods, "transient": transient, "start": start}
+    by = words_of(sensitivity)
+    options = {"of": of, "periods": periods, "sensitivity": by, "transient": transient, "start": start}
     wanted = wanted_of(of, chosen, fixed)
     names = [quantity.name for quantity, _ in wanted]
-    call = (chosen._core, fixed, start_of(start), names, transient, float(periods))
+    call = (chosen._core, fixed, start_of(start), names, by, transient, float(periods))
     found = _progress.run(_core.measure, call, "periods", transient, progress)
     return Measured(found, wanted, chosen, fixed, options)
 
 
 def measured_orbit(
-    core: _core.Orbit, model: Model, values: dict[str, float], of: str | Sequence[str], options: dict[str, Any]
+    core: _core.Orbit,
+    model: Model,
+    values: dict[str, float],
+    of: str | Sequence[str],
+    sensitivity: str | Sequence[str],
+    options: dict[str, Any],
 ) -> Measured:
     """Statistics over the cycle of an orbit: what `Orbit.measure` gives."""
     wanted = wanted_of(of, model, values)
-    found = _core.measure_orbit(core, [quantity.name for quantity, _ in wanted])
-    return Measured(found, wanted, model, values, options | {"of": of})
+    found = _core.measure_orbit(core, [quantity.name for quantity, _ in wanted], words_of(sensitivity))
+    return Measured(found, wanted, model, values, options | {"of": of, "sensitivity": words_of(sensitivity)})
 
 
 class Spectrum(Result):

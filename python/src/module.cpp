@@ -29,6 +29,8 @@ NB_MODULE(_core, module) {
   bind_orbit(module);
   bind_branch(module);
   bind_locus(module);
+  bind_map(module);
   bind_quantity(module);
+  bind_order_map(module);
   bind_certificate(module);
 }

@@ -7,7 +7,7 @@
 #include "names.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/flow/stage.hpp"
-#include "slapstick/io/observer.hpp"
+#include "slapstick/quantity/observables.hpp"
 #include "slapstick/section/sampled_motion.hpp"
 #include "watch.hpp"
 
@@ -51,7 +51,7 @@ class Stopwatch {
 class Recorder {
  public:
   Recorder(Run& run, const System& system, Observer observer)
-      : run_(run), system_(system), observer_(std::move(observer)) {}
+      : run_(run), system_(system), observables_(system, std::move(observer)) {}
 
   void run(SampledMotion& motion, Instant end, Watch& watch) {
     Instant stage;
@@ -59,7 +59,7 @@ class Recorder {
       stage = next_stage(system_, stage, end);
       for (auto item = motion.next(stage); item != SampledMotion::Item::end; item = motion.next(stage)) {
         if (item == SampledMotion::Item::event) note(motion.motion());
-        if (item == SampledMotion::Item::sample) note(motion.sample());
+        if (item == SampledMotion::Item::sample) note(motion.motion(), motion.sample());
         if (!watch.go_on(motion.motion().time().since({}))) return;
       }
       if (!watch.go_on_now(stage.since({}))) return;
@@ -81,19 +81,19 @@ class Recorder {
     events.before.insert(events.before.end(), before.begin(), before.end());
   }
 
-  void note(const SampledMotion::Sample& sample) {
+  void note(const Motion& motion, const SampledMotion::Sample& sample) {
     const double time = sample.time.seconds(system_.period());
     run_.t.push_back(time);
     run_.y.insert(run_.y.end(), sample.state.begin(), sample.state.end());
     run_.mode.add(system_, sample.mode);
     if (run_.observed == 0) return;
-    const std::vector<double>& seen = observer_.read(time, sample.state);
+    const std::vector<double>& seen = observables_.within(motion, sample);
     run_.observables.insert(run_.observables.end(), seen.begin(), seen.end());
   }
 
   Run& run_;
   const System& system_;
-  Observer observer_;
+  Observables observables_;
 };
 
 /// The end of a run of so many periods, or of so much time. @throws InputError

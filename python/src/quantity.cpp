@@ -22,7 +22,7 @@ std::optional<Span> span_of(const ModelDefinition& definition, const Overrides& 
                             const std::optional<Start>& start, const Wish& wish, const std::atomic<bool>* cancel) {
   const System system(build(definition, values));
   return find_span(definition, values, system, start_of(definition, values, start),
-                   {wish.transient, wish.periods, wish.instead, cancel});
+                   {wish.transient, wish.periods, wish.instead, cancel, {}});
 }
 
 /// The columns of a stop's impacts, in order of size.
@@ -33,6 +33,7 @@ struct StopColumns {
 
 struct Measures {
   Measured found;
+  std::vector<Measured> rates;  ///< by each parameter that was asked for
   std::vector<StopColumns> stops;
   std::string label;  ///< of the cycle, or ""
 };
@@ -49,9 +50,23 @@ void add_stops(Measures& measures) {
     measures.stops.push_back({stop.stop, stop.w.values, stop.impulse.values, stop.loss.values});
 }
 
+/// Derivatives of a cycle's statistics. @param cycle  null: there is none
+std::vector<Measured> rates_of(const ModelDefinition& definition, const Overrides& values, const std::vector<std::string>& by,
+                               const orbit::Orbit* cycle, const std::vector<Quantity>& of) {
+  if (by.empty()) return {};
+  if (cycle == nullptr)
+    throw InputError("sensitivity: it is of a cycle, and here a motion is measured: choose an orbit, as by orbit(..).measure");
+  try {
+    return measure_rates(definition, values, by, *cycle, of);
+  } catch (const InputError& error) {
+    throw InputError("sensitivity: " + error.message());
+  }
+}
+
 std::unique_ptr<Measures> measures(const ModelDefinition& definition, const Overrides& values,
-                                   const std::optional<Start>& start, const std::vector<std::string>& of, long transient,
-                                   double periods, nb::object progress) {
+                                   const std::optional<Start>& start, const std::vector<std::string>& of,
+                                   const std::vector<std::string>& by, long transient, double periods,
+                                   nb::object progress) {
   auto result = std::make_unique<Measures>();
   const std::vector<Quantity> wanted = named(definition, values, of);
   Watch watch(std::move(progress));
@@ -61,6 +76,7 @@ std::unique_ptr<Measures> measures(const ModelDefinition& definition, const Over
     if (!span) return;
     if (span->cycle) result->label = span->cycle->label;
     result->found = measure(*span, wanted, watch.cancel());
+    result->rates = rates_of(definition, values, by, span->cycle ? &span->cycle->orbit : nullptr, wanted);
     complete = result->found.complete;
   });
   watch.finish(complete);
@@ -69,9 +85,12 @@ std::unique_ptr<Measures> measures(const ModelDefinition& definition, const Over
 }
 
 /// The same of the cycle of an orbit, stable or not.
-std::unique_ptr<Measures> measures_of_orbit(const FoundOrbit& orbit, const std::vector<std::string>& of) {
+std::unique_ptr<Measures> measures_of_orbit(const FoundOrbit& orbit, const std::vector<std::string>& of,
+                                            const std::vector<std::string>& by) {
   auto result = std::make_unique<Measures>();
-  result->found = measure(*orbit.setting->problem, orbit.solution.orbit, named(orbit.setting->definition, orbit.values(), of));
+  const std::vector<Quantity> wanted = named(orbit.setting->definition, orbit.values(), of);
+  result->found = measure(*orbit.setting->problem, orbit.solution.orbit, wanted);
+  result->rates = rates_of(orbit.setting->definition, orbit.values(), by, &orbit.solution.orbit, wanted);
   result->label = orbit.solution.label;
   add_stops(*result);
   return result;
@@ -80,6 +99,10 @@ std::unique_ptr<Measures> measures_of_orbit(const FoundOrbit& orbit, const std::
 double statistic_of(const Measures& self, std::size_t k, const Quantity& quantity, const std::string& name) {
   check_statistic(quantity, name);
   return statistic(self.found.of.at(k), name);
+}
+
+double rate_of(const Measures& self, std::size_t parameter, std::size_t k, const std::string& name) {
+  return statistic_rate(self.found.of.at(k), self.rates.at(parameter).of.at(k), name);
 }
 
 /// Lines or a density, as columns.
@@ -104,7 +127,7 @@ std::unique_ptr<Spectra> spectra(const ModelDefinition& definition, const Overri
       result->label = span->cycle->label;
       result->lines = spectrum(*span->problem, span->cycle->orbit, wanted[0], orders);
     } else {
-      result->points = density(*span, wanted[0], {stretch, 1, orders, watch.cancel()});
+      result->points = density(*span, wanted[0], {stretch, 1, orders, watch.cancel(), {}});
     }
     complete = result->points.complete;
   });
@@ -149,10 +172,11 @@ void bind_measures(nb::module_& module) {
       .def_prop_ro("duration", [](const Measures& self) { return self.found.duration; })
       .def_ro("label", &Measures::label)
       .def_ro("stops", &Measures::stops, nb::rv_policy::reference_internal)
-      .def("statistic", &statistic_of, "k"_a, "quantity"_a, "name"_a);
-  module.def("measure", &measures, "definition"_a, "values"_a, "start"_a.none(), "of"_a, "transient"_a, "periods"_a,
-             "progress"_a.none());
-  module.def("measure_orbit", &measures_of_orbit, "orbit"_a, "of"_a);
+      .def("statistic", &statistic_of, "k"_a, "quantity"_a, "name"_a)
+      .def("rate", &rate_of, "parameter"_a, "k"_a, "name"_a);
+  module.def("measure", &measures, "definition"_a, "values"_a, "start"_a.none(), "of"_a, "sensitivity"_a, "transient"_a,
+             "periods"_a, "progress"_a.none());
+  module.def("measure_orbit", &measures_of_orbit, "orbit"_a, "of"_a, "sensitivity"_a);
 }
 
 }  // namespace

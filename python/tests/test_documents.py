@@ -3,6 +3,7 @@
 import ast
 import contextlib
 import io
+import subprocess
 import sys
 
 import pytest
@@ -66,3 +67,16 @@ def test_the_notebook_draws_the_main_figure_and_the_branch_in_ten_lines():
     rows, values, special = ast.literal_eval(outputs[-1]["text"])
     assert values == 1200 and rows > 200_000
     assert ["PD", 2.84596] in special
+
+
+@pytest.mark.parametrize("page", ["first_motion", "attractors", "unstable_orbit", "curve"])
+def test_notebooks_of_the_tutorial_are_its_pages_and_run(page, tmp_path):
+    import nbclient
+    import nbformat
+
+    subprocess.run([sys.executable, "-B", ROOT / "tools/make_notebooks", tmp_path], check=True)
+    kept = ROOT / f"python/notebooks/{page}.ipynb"
+    assert kept.read_text() == (tmp_path / kept.name).read_text()
+    notebook = nbformat.read(kept, as_version=4)
+    nbclient.NotebookClient(notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": str(tmp_path)}}).execute()
+    assert any(cell.get("outputs") for cell in notebook.cells)

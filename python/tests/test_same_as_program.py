@@ -244,3 +244,22 @@ def test_branch_of_statistics_has_every_number_of_the_program(program):
         assert column.tolist() == [point["values"][name] for point in printed["points"]]
     assert set(branch.measured) == {"F_stop:mean", "a1:rms"}
     assert {"F_stop:mean", "a1:rms"} <= set(branch.to_pandas().columns)
+
+
+def test_order_map_has_the_table_of_the_program(program):
+    words = ("--sweep", "omega=2:3", "--over", 40, "--hold", 8, "--settle", 3, "--of", "a1", "--orders", 4)
+    printed = program.table(program("spectrum", "vibro-impact", *words).stdout)
+    found = slapstick.order_map("vibro-impact", "a1", "omega", (2, 3), over=40, hold=8, settle=3, orders=4)
+    for column, name in (
+        (np.repeat(found.value, found.order.size), "omega"),
+        (np.repeat(found.time, found.order.size), "time"),
+        (found.frequency.T.ravel(), "frequency"),
+        (found.amplitude.T.ravel(), "amplitude"),
+    ):
+        assert same(column, printed[name]), name
+
+
+def test_derivatives_of_statistics_are_those_of_the_program(program):
+    words = ("--set", "omega=2.6", "--of", "x1:rms,w:mean", "--sensitivity", "friction")
+    printed = program.json("measure", "vibro-impact", *words)["sensitivity"]["friction"]["values"]
+    assert slapstick.measure("vibro-impact", "x1:rms,w:mean", sensitivity="friction", omega=2.6).sensitivity["friction"] == printed

@@ -32,6 +32,12 @@ std::string_view name(Chatter chatter) {
   return names[static_cast<int>(chatter)];
 }
 
+std::string class_label(Attractor attractor, int n, long p, bool sticking, Chatter chatter, bool driven) {
+  if (n == 0) return std::string(name(attractor));
+  const std::string impacts = chatter == Chatter::complete ? "inf" : std::to_string(p);
+  return (driven ? std::to_string(n) : "free") + "-" + impacts + (sticking ? "-II" : "-I");
+}
+
 namespace {
 
 /// What the cycle holds.

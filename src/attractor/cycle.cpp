@@ -22,12 +22,6 @@ bool has_burst(const std::vector<double>& times, const std::vector<double>& spee
 
 namespace {
 
-/// "1-1-II", "2-inf-II", "free-0-II".
-std::string cycle_label(const Classification& c, bool driven) {
-  const std::string p = c.chatter == Chatter::complete ? "inf" : std::to_string(c.p);
-  return (driven ? std::to_string(c.n) : "free") + "-" + p + (c.sticking ? "-II" : "-I");
-}
-
 bool holds_still(const Motion& motion, ModeId mode) {
   const mode::ContactStates& states = motion.system().compiled().mode(mode).states();
   for (mode::FrictionState s : states.frictions) {
@@ -109,7 +103,7 @@ void record_cycle(const System& system, const State& state, double duration, con
   out.sticking_fraction = still / duration;
   out.sticking = still > 0.0;
   if (out.chatter == Chatter::none && has_burst(times, speeds)) out.chatter = Chatter::incomplete;
-  out.label = cycle_label(out, driven);
+  out.label = class_label(out.attractor, out.n, out.p, out.sticking, out.chatter, driven);
 }
 
 }  // namespace slapstick::attractor

@@ -34,12 +34,12 @@ std::string called(std::string name) {
 }
 
 std::string stated(const Spring& spring) {
-  const auto& [a, b, stiffness] = spring;
+  const auto& [a, b, stiffness, name, motion] = spring;  // the last two are for tables
   return line("spring" + number(a) + number(b) + hex(stiffness));
 }
 
 std::string stated(const Damper& damper) {
-  const auto& [a, b, coefficient, feeds] = damper;
+  const auto& [a, b, coefficient, feeds, name, motion] = damper;  // the last two are for tables
   return line("damper" + number(a) + number(b) + hex(coefficient));
 }
 

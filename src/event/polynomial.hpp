@@ -46,19 +46,22 @@ struct Polynomial {
 /// The coefficients in Bernstein's basis of some degree.
 class Bernstein {
  public:
-  /// b_i = sum_{j <= i} C(i, j) / C(n, j) a_j
+  /// b_i = sum_{j <= i} C(i, j) / C(n, j) a_j: the sums by Pascal's triangle
   explicit Bernstein(const Polynomial& f) : degree_(f.degree) {
-    for (int i = 0; i <= degree_; ++i) {
-      double weight = 1.0;  // C(i, j) / C(n, j)
-      for (int j = 0; j <= i; ++j) {
-        b_[static_cast<std::size_t>(i)] += weight * f.a[static_cast<std::size_t>(j)];
-        weight *= static_cast<double>(i - j) / (degree_ - j > 0 ? degree_ - j : 1);
-      }
+    double choices = 1.0;  // C(n, j)
+    for (int j = 0; j <= degree_; ++j) {
+      b_[static_cast<std::size_t>(j)] = f.a[static_cast<std::size_t>(j)] / choices;
+      choices *= static_cast<double>(degree_ - j) / (j + 1);
     }
+    for (int row = 1; row <= degree_; ++row)
+      for (int i = degree_; i >= row; --i) b_[static_cast<std::size_t>(i)] += b_[static_cast<std::size_t>(i) - 1];
   }
 
   [[nodiscard]] double front() const { return b_[0]; }
   [[nodiscard]] double back() const { return b_[static_cast<std::size_t>(degree_)]; }
+  /// The polynomial is between these.
+  [[nodiscard]] double least() const { return *std::min_element(b_.begin(), b_.begin() + degree_ + 1); }
+  [[nodiscard]] double most() const { return *std::max_element(b_.begin(), b_.begin() + degree_ + 1); }
   [[nodiscard]] double largest() const {
     double most = 0.0;
     for (int i = 0; i <= degree_; ++i) most = std::max(most, std::abs(b_[static_cast<std::size_t>(i)]));

@@ -51,6 +51,20 @@ struct Points {
   bool over_lines = false;  ///< drawn after the lines, which cover the other points; only with `discs`
 };
 
+struct Range {
+  double min = 0, max = 1;  ///< min < max; both > 0 on a logarithmic axis
+};
+
+/// A chart: cells of equal size in data coordinates, each in one of up to 255 colours. It is drawn beneath all else;
+/// the clouds of its panel are then discs.
+struct Cells {
+  Range x{}, y{};  ///< the rectangle that the cells fill, edge to edge
+  int columns = 0, rows = 0;
+  std::vector<std::uint8_t> codes{};  ///< colours[code], row by row from the lowest y; `clear`: paper
+  std::vector<Colour> colours{};
+  static constexpr std::uint8_t clear = 255;
+};
+
 enum class Dash { solid, dashed, dotted, dash_dotted };
 
 /// A polyline through (x[i], y[i]), in the order given; a NaN breaks it.
@@ -78,10 +92,6 @@ struct Mark {
   Colour colour = colours::grey;
 };
 
-struct Range {
-  double min = 0, max = 1;  ///< min < max; both > 0 on a logarithmic axis
-};
-
 /// An entry of the legend for what several series share, a style or a marker; it comes before those of the series.
 struct Key {
   std::string label{};
@@ -105,6 +115,7 @@ struct Panel {
   std::string title{};  ///< above the frame; journals prefer none
   std::optional<Range> x_range{}, y_range{};
   bool log_x = false, log_y = false;
+  std::optional<Cells> cells{};  ///< on linear axes
   std::vector<Points> points{};
   std::vector<Line> lines{};  ///< drawn over the points
   std::vector<Mark> marks{};
@@ -119,8 +130,9 @@ struct Figure {
   std::vector<Panel> panels{};
   int columns = 1;
   double width_cm = 8.5;
-  /// default: 5.6 cm per row with an x axis of its own, 3.8 cm for a row that shares it, and what legends below take
+  /// default: `row_cm` per row with an x axis of its own, 3.8 cm for a row that shares it, and what legends below take
   std::optional<double> height_cm{};
+  double row_cm = 5.6;
   bool share_x = false;   ///< every panel joins the one beneath it
   std::string caption{};  ///< a comment in the script; a journal sets captions in its own type
   std::string font = "DejaVu Sans";

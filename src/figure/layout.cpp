@@ -13,7 +13,7 @@
 namespace slapstick::figure {
 namespace {
 
-constexpr double row_height_cm = 5.6, shared_row_height_cm = 3.8;
+constexpr double shared_row_height_cm = 3.8;
 constexpr double padding = 0.04;        // of an automatic range
 constexpr double least_frame_cm = 1.0;  // below this no axis is legible
 
@@ -194,7 +194,7 @@ double default_height(const Figure& figure, const Grid& grid, const Layout& layo
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     const int row = grid.row(i);
     legend_rows[row] = std::max(legend_rows[row], layout.panels[i].legend_rows);
-    if (!joins_below(figure, grid, i)) heights[row] = row_height_cm;
+    if (!joins_below(figure, grid, i)) heights[row] = figure.row_cm;
   }
   const double legends = std::accumulate(legend_rows.begin(), legend_rows.end(), 0) * spacing::row * layout.em_cm;
   return legends + std::accumulate(heights.begin(), heights.end(), 0.0);
@@ -203,6 +203,7 @@ double default_height(const Figure& figure, const Grid& grid, const Layout& layo
 }  // namespace
 
 bool wants_raster(const Panel& panel) {
+  if (panel.cells) return true;
   std::size_t free = 0;
   for (const Points& points : panel.points) {
     if (points.drawing == Drawing::raster) return true;

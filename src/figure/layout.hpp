@@ -68,7 +68,7 @@ inline constexpr double after_sample = 0.5, between_keys = 1.2;
 /// Rows of text above the frame: the title (or a lone tag), the legend if it stands there, mark labels.
 int rows_above(const Panel& panel, const PanelLayout& layout);
 
-/// Are its points drawn as an image?
+/// Are its cells or its points drawn as an image?
 bool wants_raster(const Panel& panel);
 /// Whether a series is part of the image of such a panel.
 inline bool in_raster(const Points& points) { return points.drawing != Drawing::discs; }

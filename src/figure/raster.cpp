@@ -150,4 +150,27 @@ Raster blend(const std::vector<Counts>& series, const std::vector<Colour>& colou
   return raster;
 }
 
+Raster picture_of(const Cells& cells, const Window& window, int width, int height) {
+  Raster raster{width, height, {}, {}};
+  raster.inks.push_back({});  // clear paper
+  for (const Colour& colour : cells.colours) raster.inks.push_back({colour, 255});
+  raster.pixels.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
+  const auto place = [](const Range& shown, double share, const Range& of, int count) {
+    const double at = shown.min + share * (shown.max - shown.min);
+    const double cell = std::floor((at - of.min) / (of.max - of.min) * count);
+    return cell >= 0.0 && cell < count ? static_cast<int>(cell) : -1;
+  };
+  std::vector<int> columns;
+  for (int i = 0; i < width; ++i) columns.push_back(place(window.x, (i + 0.5) / width, cells.x, cells.columns));
+  for (int j = 0; j < height; ++j) {
+    const int row = place(window.y, (height - j - 0.5) / height, cells.y, cells.rows);
+    for (int i = 0; i < width && row >= 0; ++i) {
+      if (columns[static_cast<std::size_t>(i)] < 0) continue;
+      const std::uint8_t code = cells.codes[static_cast<std::size_t>(row) * cells.columns + columns[static_cast<std::size_t>(i)]];
+      if (code != Cells::clear) raster.pixels[static_cast<std::size_t>(j) * width + i] = static_cast<std::uint8_t>(code + 1);
+    }
+  }
+  return raster;
+}
+
 }  // namespace slapstick::figure

@@ -64,6 +64,18 @@ void check_range(const std::optional<Range>& range, bool log, const std::string&
   check(!log || range->min > 0, where + " range must be positive on a logarithmic axis");
 }
 
+void check_cells(const Panel& panel, const std::string& where) {
+  const Cells& cells = *panel.cells;
+  check(!panel.log_x && !panel.log_y, where + ": cells need linear axes");
+  check(cells.columns > 0 && cells.rows > 0 &&
+            cells.codes.size() == static_cast<std::size_t>(cells.columns) * static_cast<std::size_t>(cells.rows),
+        where + ": cells need a code each");
+  check(ranges::all_of(cells.codes, [&](std::uint8_t code) { return code == Cells::clear || code < cells.colours.size(); }) &&
+            cells.colours.size() <= Cells::clear,
+        where + ": a cell has a code without a colour");
+  check(ranges::none_of(panel.points, in_raster), where + ": points over cells must be discs");
+}
+
 void check_panel(const Panel& panel, const std::string& where) {
   const auto lengths = [&](const auto& series, const std::string& kind, std::size_t index) {
     const std::string name =
@@ -72,6 +84,7 @@ void check_panel(const Panel& panel, const std::string& where) {
           name + ": x has " + std::to_string(series.x.size()) + " values, y has " + std::to_string(series.y.size()));
   };
   for (std::size_t i = 0; i < panel.points.size(); ++i) lengths(panel.points[i], "points", i);
+  if (panel.cells) check_cells(panel, where);
   for (std::size_t i = 0; i < panel.lines.size(); ++i) lengths(panel.lines[i], "line", i);
   check(ranges::count_if(panel.points, in_raster) <= static_cast<std::ptrdiff_t>(largest_series_count) ||
             !std::any_of(panel.points.begin(), panel.points.end(),
@@ -101,6 +114,7 @@ void check_figure(const Figure& figure, const Formats& formats) {
 
 std::string draw_raster(const Panel& panel, const PanelLayout& at) {
   const Window window{at.x.range, at.y.range, at.x.log, at.y.log};
+  if (panel.cells) return encode_png(picture_of(*panel.cells, window, at.raster_width, at.raster_height));
   std::vector<Counts> counts;
   std::vector<Colour> colours;
   for (const Points& points : panel.points) {

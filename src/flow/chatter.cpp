@@ -246,13 +246,17 @@ bool coupled_to_others(const CompiledSystem& system, int stop, const double* X) 
 
 }  // namespace
 
+bool slow_enough(const CompiledSystem& system, const mode::Mode& here, int stop, const double* X, double tolerance) {
+  const double away = -approach_velocity(system, stop, X);
+  const double R = press(system, here, stop, X) + friction_on(system, stop, X, nullptr).steady;
+  return away > 0.0 && away < fastest_chatter(tolerance * system.period()) * R;
+}
+
 ChatterLimit prove_chatter(const CompiledSystem& system, const mode::Mode& here, int stop, const double* X,
                            double tolerance, std::span<double> scratch) {
   const double v = -approach_velocity(system, stop, X);
   const Friction friction = friction_on(system, stop, X, nullptr);
-  const double R = press(system, here, stop, X) + friction.steady;
-  // The error of the limit is about (duration^2 / period): too early to be worth a proof?
-  if (!(v > 0.0) || !(v < 100.0 * std::sqrt(tolerance * system.period()) * R)) return {};
+  if (!slow_enough(system, here, stop, X, tolerance)) return {};
   if (coupled_to_others(system, stop, X)) return {};
   const auto& corners = system.model().stops[stop].corners;  // below the first the restitution is constant
   if (!corners.empty() && v > system.model().stops[stop].restitution * corners.front().speed) return {};

@@ -4,16 +4,17 @@
 /// Just after an impact of a stop let the pair separate with speed v and let y be its displacement beyond the stop
 /// (y <= 0). In flight
 ///     y'' = R(X) + phi   while it rises (w < 0),      y'' = R(X) - phi   while it returns (w > 0),
-/// with R = row . free X the acceleration without friction (R > 0 presses onto the stop) and phi = f_k g M^{-1} g^T if
-/// a friction contact acts on the same pair. A contact that slips all the while, on a belt or on another pair, adds a
-/// constant to R; proven like the rest. Over a window of length D every component of X stays within a bound Delta of
-/// its start: Delta is verified as
+/// with R = row . free X the acceleration without friction (R > 0 presses onto the stop) and phi = f_k g M^{-1} g^T
+/// if a friction contact acts on the same pair. A contact that slips all the while, on a belt or on another pair,
+/// adds a constant to R; proven like the rest. Over a window of length D every component of X stays within a bound
+/// Delta of its start: Delta is verified as
 ///     D (|A| |X| + f + |A| Delta) + J <= Delta,   J = total of the impulses still to come,
 /// which bounds R within R_0 +- delta. With a_rise in R_0 + phi +- delta and a_return in R_0 - phi +- delta,
-/// consecutive speeds shrink by at least rho = r sqrt(a_return_max / a_rise_min), and all flights together last at most
+/// consecutive speeds shrink by at least rho = r sqrt(a_return_max / a_rise_min), and all flights together last at
+/// most
 ///     T <= v (1/a_rise + 1/sqrt(a_rise a_return))_max / (1 - rho).
-/// If rho < 1, T <= D and friction cannot hold the pair off the stop (R_0 - delta > static friction), chatter is proven
-/// complete.
+/// If rho < 1, T <= D and friction cannot hold the pair off the stop (R_0 - delta > static friction), chatter is
+/// proven complete.
 /// |A| is the greater of that without contact forces and that of the mode of the flight, so that compliant and
 /// closed stops elsewhere are in it. A
 /// closed or compliant stop that acts on the pair itself refuses the proof, and so does any other stop, rigid or
@@ -21,6 +22,7 @@
 /// The same series with the smallest and largest accelerations encloses the limit time.
 ///
 /// Source: docs/developers/proofs.md; Nordmark and Piiroinen (2009), Budd and Dux (1994).
+#include <cmath>
 #include <span>
 
 #include "flow/compiled_system.hpp"
@@ -33,11 +35,19 @@ struct ChatterLimit {
   double error = 0.0;     ///< bound on the error of `duration`
 };
 
+/// No chatter is proven whose first flight begins faster than this times the acceleration R: the error of the limit
+/// is about duration^2 / period.
+[[nodiscard]] inline double fastest_chatter(double tolerance) { return 100.0 * std::sqrt(tolerance); }
+
+/// Whether `prove_chatter` looks any further than at the speed.
+[[nodiscard]] bool slow_enough(const CompiledSystem& system, const mode::Mode& here, int stop, const double* X, double tolerance);
+
 /// @param here the mode of the flight that begins at X
 /// @param X extended state just after an impact of `stop` (gap = 0, separating).
 /// @param tolerance largest acceptable error of the limit time, in time units.
 /// @param scratch at least 4 m doubles.
-/// @returns proven = false if chatter is not complete, or not provable from this impact on, or its limit not yet known
+/// @returns proven = false if chatter is not complete, or not provable from this impact on, or its limit not yet
+/// known
 ///          to `tolerance`: the caller goes on bounce by bounce and asks again. Cost: one row product when the chatter
 ///          is still too high to be summed, else four products with |A|.
 ChatterLimit prove_chatter(const CompiledSystem& system, const mode::Mode& here, int stop, const double* X, double tolerance,

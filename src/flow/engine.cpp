@@ -14,8 +14,25 @@ Engine::Engine(const CompiledSystem& system, const State& state, Instant start, 
     : Flight(system, start), options_(options), X_before_(X_) {
   const IeeeArithmetic ieee;
   validate(system.model(), state);
+  reserve();
   const mode::Frame& frame = system.frame();
-  const int guards = system.most_guards();
+  frame.enter(state.data(), X_.data());
+  frame.set_clock(now_, X_.data());
+  knot_ = frame.next_knot(now_);
+  X_before_ = X_;
+  keep_segment_start();
+  this->start();
+  shown_ = -1;
+}
+
+Engine::Engine(const CompiledSystem& system, std::span<const double> coordinates, Instant start, MotionOptions options)
+    : Flight(system, start), options_(options), X_before_(X_) {
+  reserve();
+  restart(coordinates, start);
+}
+
+void Engine::reserve() {
+  const int guards = system_->most_guards();
   touching_.reserve(stops());
   pending_.reserve(64 + 4 * guards);
   later_before_.reserve(16 * X_.span().size());
@@ -23,12 +40,22 @@ Engine::Engine(const CompiledSystem& system, const State& state, Instant start, 
   strikes_.reserve(64);
   scratch_.assign(4 * X_.span().size(), 0.0);
   tail_orders_.assign(guards, 0);
-  before_.assign(2 * static_cast<std::size_t>(frame.n), 0.0);
+  before_.assign(2 * static_cast<std::size_t>(system_->frame().n), 0.0);
   budget_period_ = now_.period;
+}
 
-  frame.enter(state.data(), X_.data());
-  frame.set_clock(now_, X_.data());
-  knot_ = frame.next_knot(now_);
+void Engine::restart(std::span<const double> coordinates, Instant start) {
+  const IeeeArithmetic ieee;
+  now_ = start;
+  at_instant_ = {};
+  pending_.clear();
+  later_before_.clear();
+  chatter_stop_ = -1;
+  budget_period_ = now_.period;
+  budget_events_ = 0;
+  std::copy(coordinates.begin(), coordinates.end(), X_.data());
+  system_->frame().set_clock(now_, X_.data());
+  knot_ = system_->frame().next_knot(now_);
   X_before_ = X_;
   keep_segment_start();
   this->start();

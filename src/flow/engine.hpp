@@ -13,8 +13,16 @@ namespace slapstick::flow {
 class Engine : public Flight {
  public:
   Engine(const CompiledSystem& system, const State& state, Instant start, MotionOptions options);
+  /// From displacements and velocities in contact coordinates (2 d numbers), as they are stored.
+  Engine(const CompiledSystem& system, std::span<const double> coordinates, Instant start, MotionOptions options);
 
   Outcome advance(Instant end);
+  /// Goes on from another state, as if made anew there.
+  void restart(std::span<const double> coordinates, Instant start);
+  /// Whether the impact that was last may be followed by a complete chatter: the next call looks for a proof.
+  [[nodiscard]] bool may_chatter() const;
+  /// Whether the next call of `advance` tells another event of this instant.
+  [[nodiscard]] bool tells_more() const { return shown_ + 1 < static_cast<int>(pending_.size()); }
 
   [[nodiscard]] const Event& event() const { return pending_.empty() ? last_ : pending_[shown_]; }
   [[nodiscard]] std::span<const double> before() const;
@@ -34,6 +42,7 @@ class Engine : public Flight {
  private:
   enum class Cause { impact, graze, reversal, force, compliant /* and characteristic */ };
 
+  void reserve();
   void start();
   void pass_knot();
   void begin_segment();

@@ -320,6 +320,11 @@ bool Engine::end_chatter(double limit) {
   return true;
 }
 
+bool Engine::may_chatter() const {
+  return chatter_stop_ >= 0 &&
+         slow_enough(*system_, *here_, chatter_stop_, X_.data(), options_.chatter_tolerance * system_->period());
+}
+
 /// True if no other contact has its event between the last impact and the limit of a chatter, which is flown with the
 /// stop closed. Friction that the impacts shake is not asked: the proof of the chatter allows it any force.
 bool Engine::tail_is_quiet(int stop, double duration) {

@@ -112,6 +112,7 @@ struct Definition {
   std::map<std::string, ScaleEntry, std::less<>> scale;         // by scale_keys()
   std::vector<ParameterEntry> ones;                   // the same as parameters that no one sets: scale_length, ..
   std::vector<std::pair<std::string, Scalar>> start;  // by state name, in the file's order
+  std::vector<std::string> observed;                  // what observables may name besides quantities
   std::vector<Parameter> shown_parameters;            // the same, as the public interface gives them
   std::vector<Group> shown_groups;
   std::vector<Observable> shown_observables;

@@ -75,16 +75,19 @@ void ModelBuilder::add_links(Model& model) {
     if (!part.points.empty()) return add_bends(model, part, Characteristic::Over::displacement);
     origins_["spring"].push_back({kind_, index_});
     const Dual stiffness = field(part, "stiffness");
-    model.springs.push_back({end(part.a), end(part.b), written(stiffness)});
-    add_motion(model, part, stiffness, 0);
+    const auto name = part.texts.find("name");
+    model.springs.push_back({end(part.a), end(part.b), written(stiffness), name != part.texts.end() ? name->second : ""});
+    model.springs.back().motion = add_motion(model, part, stiffness, 0);
   });
   each("damper", [&](const Part& part) {
     if (!part.points.empty()) return add_bends(model, part, Characteristic::Over::velocity);
     const Dual coefficient = field(part, "coefficient");
     if (!part.within.empty()) return add_zones(model, part, coefficient);
     origins_["damper"].push_back({kind_, index_});
-    model.dampers.push_back({end(part.a), end(part.b), written(coefficient), part.flag("feeds")});
-    add_motion(model, part, coefficient, 1);
+    const auto name = part.texts.find("name");
+    model.dampers.push_back({end(part.a), end(part.b), written(coefficient), part.flag("feeds"),
+                             name != part.texts.end() ? name->second : ""});
+    model.dampers.back().motion = add_motion(model, part, coefficient, 1);
   });
 }
 
@@ -159,13 +162,15 @@ void ModelBuilder::stand_still(Model& model) {
 }
 
 /// Between two ends the surroundings move apart by x_base of one less x_base of the other.
-void ModelBuilder::add_motion(Model& model, const Part& part, const Dual& strength, int order) {
-  if (home(part.a) == home(part.b)) return;
+BaseMotion ModelBuilder::add_motion(Model& model, const Part& part, const Dual& strength, int order) {
+  const int first = static_cast<int>(model.forces.size());
+  if (home(part.a) == home(part.b)) return {};
   for (const auto& [coordinate, other] : {std::pair{part.a, part.b}, std::pair{part.b, part.a}}) {
     if (coordinate < 0) continue;
     push(model, coordinate, home(other), strength, order);
     push(model, coordinate, home(coordinate), -strength, order);
   }
+  return {first, static_cast<int>(model.forces.size()) - first};
 }
 
 /// x_base   = sum amplitude sin(harmonic omega t + phase)

@@ -111,7 +111,7 @@ class ModelBuilder {
   [[nodiscard]] int signal(const Part& part) const;
   void add_links(Model& model);
   /// The force that the motion of the surroundings passes on through a spring (`order` 0) or a damper (1).
-  void add_motion(Model& model, const Part& part, const Dual& strength, int order);
+  BaseMotion add_motion(Model& model, const Part& part, const Dual& strength, int order);
   /// `strength` times the derivative of a base's motion of this order, as forces on a coordinate.
   void push(Model& model, int coordinate, int base, const Dual& strength, int order);
   /// What a coordinate that is measured from a base feels of its motion: -M x_base'', and of the matrices

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/ranges.hpp"
+#include "io/observed.hpp"
 #include "io/definition.hpp"
 #include "io/model_numbers.hpp"
 #include "io/scale.hpp"
@@ -176,6 +177,7 @@ ModelDefinition ModelDefinition::parse(std::string_view text, const std::string&
   for (const auto& part : definition->of("observable")) definition->shown_observables.push_back(shown_observable(part));
   ModelDefinition model{std::move(definition)};
   (void)model.start();  // also builds
+  (void)observed_quantities(*model.definition_, model.build());
   (void)model.physical();
   return model;
 }

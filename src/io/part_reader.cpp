@@ -1,4 +1,5 @@
 /// Reads the parts of a model file by the table of part rules.
+#include "io/observed.hpp"
 #include "io/part_reader.hpp"
 
 #include <algorithm>
@@ -135,21 +136,21 @@ class PartReader {
                    "\" in [[coordinate]]");
   }
 
-  /// What an observable may name: parameters, the state, bases, the gaps of stops, and time.
+  /// What an observable may name besides quantities: parameters, the state, bases, the gaps of stops, and time.
   void gather_observed() {
-    observed_ = tree_.parameters();
-    for (const auto* names : {&states_, &bases_}) observed_.insert(observed_.end(), names->begin(), names->end());
+    definition_.observed = tree_.parameters();
+    for (const auto* names : {&states_, &bases_}) definition_.observed.insert(definition_.observed.end(), names->begin(), names->end());
     for (const char* kind : {"stop", "compliant_stop"})
       for (const auto& part : definition_.of(kind)) {
-        if (part.flag("two_sided")) observed_.push_back(gap_name(part.name + "_lower"));
-        observed_.push_back(gap_name(part.flag("two_sided") ? part.name + "_upper" : part.name));
+        if (part.flag("two_sided")) definition_.observed.push_back(gap_name(part.name + "_lower"));
+        definition_.observed.push_back(gap_name(part.flag("two_sided") ? part.name + "_upper" : part.name));
       }
-    observed_.emplace_back("time");
+    definition_.observed.emplace_back("time");
   }
 
   /// An observable is a column beside the state, and must not be taken for something else.
   void check_observables(const std::vector<Part>& parts) const {
-    auto used = observed_;
+    auto used = definition_.observed;
     for (const auto& part : parts) {
       const std::string where = "observable " + in_quotes(part.name);
       tree_.check_new_name(part.name, part.line, "observable");
@@ -271,7 +272,7 @@ class PartReader {
         part.fields[key] = tree_.scalar(value, place);
         break;
       case Holds::observed:
-        part.fields[key] = tree_.scalar(value, place, "name", observed_);
+        part.fields[key] = tree_.scalar(value, place, "name", observable_names(definition_, value.text));
         break;
       case Holds::flag:
         part.flags[key] = tree_.flag(value, place);
@@ -385,7 +386,6 @@ class PartReader {
   Definition& definition_;
   std::vector<std::string> coordinates_, bases_;  // names by index
   std::vector<std::string> states_;               // names of displacements and velocities
-  std::vector<std::string> observed_;             // what observables may name
 };
 
 }  // namespace

@@ -26,7 +26,7 @@ std::vector<PartRule> bodies() {
         {"characteristic", false, Holds::points, "stiffness"},
         below,
         above,
-        {"name", false, Holds::text, {}, "characteristic"}}},
+        {"name", false, Holds::text}}},
       {"damper", false, Ends::moving,
        {{"coefficient", true},
         {"feeds", false, Holds::flag, {}, "coefficient"},
@@ -35,7 +35,7 @@ std::vector<PartRule> bodies() {
         {"characteristic", false, Holds::points, "coefficient"},
         below,
         above,
-        {"name", false, Holds::text, {}, "characteristic|within"}}},
+        {"name", false, Holds::text}}},
   };
 }
 

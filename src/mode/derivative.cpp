@@ -40,21 +40,10 @@ class SharedRates {
   const char *shared_, *quantities_;
 };
 
-/// Of `load` in Frame, amplitude (sin(phase) cos(j theta) + cos(phase) sin(j theta)).
 Matrix load_rate(const Model& model, const Model& rate, const Frame& frame) {
   Matrix load = Matrix::Zero(frame.n, frame.size());
-  for (std::size_t i = 0; i < model.forces.size(); ++i) {
-    const Force &force = model.forces[i], &change = rate.forces[i];
-    if (force.harmonic == 0) {
-      load(force.coordinate, frame.one()) += change.amplitude;
-      continue;
-    }
-    const auto k = ranges::find(frame.harmonics, force.harmonic) - frame.harmonics.begin();
-    const double sine = fixed::sin(force.phase), cosine = fixed::cos(force.phase),
-                 turn = force.amplitude * change.phase;
-    load(force.coordinate, 2 * frame.d + 2 * k) += change.amplitude * sine + turn * cosine;
-    load(force.coordinate, 2 * frame.d + 2 * k + 1) += change.amplitude * cosine - turn * sine;
-  }
+  for (std::size_t i = 0; i < model.forces.size(); ++i)
+    load.row(model.forces[i].coordinate) += drive_rate(frame, model.forces[i], rate.forces[i]);
   return load;
 }
 
@@ -74,6 +63,7 @@ class Differentiator {
 
   [[nodiscard]] Matrix system();
   [[nodiscard]] std::vector<RowVector> guards() const;
+  [[nodiscard]] const Matrix& holding() const { return holding_rate_; }
 
  private:
   void push_away(const ContactRow& contact, const RowVector& force, const RowVector& force_rate);
@@ -236,6 +226,20 @@ RowVector Differentiator::compliant_rate(const Guard& guard) const {
 
 }  // namespace
 
+/// Of amplitude (sin(phase) cos(j theta) + cos(phase) sin(j theta)).
+RowVector drive_rate(const Frame& frame, const Force& force, const Force& rate) {
+  RowVector row = RowVector::Zero(frame.size());
+  if (force.harmonic == 0) {
+    row[frame.one()] = rate.amplitude;
+    return row;
+  }
+  const auto k = ranges::find(frame.harmonics, force.harmonic) - frame.harmonics.begin();
+  const double sine = fixed::sin(force.phase), cosine = fixed::cos(force.phase), turn = force.amplitude * rate.phase;
+  row[2 * frame.d + 2 * k] = rate.amplitude * sine + turn * cosine;
+  row[2 * frame.d + 2 * k + 1] = rate.amplitude * cosine - turn * sine;
+  return row;
+}
+
 FrameDerivative::FrameDerivative(const Model& model, const Model& rate, const Frame& frame)
     : shift(Vector::Zero(frame.d)), drift(Vector::Zero(frame.d)), omega(rate.omega) {
   SharedRates shifts(shift, "displacement", "clearances"), drifts(drift, "velocity", "belt speeds");
@@ -271,6 +275,7 @@ OutlineDerivative::OutlineDerivative(const Model& model, const Model& rate, cons
   Differentiator differentiator(model, rate, frame, change, outline);
   system = differentiator.system();
   guards = differentiator.guards();
+  holding = differentiator.holding();
 }
 
 }  // namespace slapstick::mode

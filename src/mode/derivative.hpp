@@ -33,6 +33,10 @@ struct OutlineDerivative {
 
   Matrix system;
   std::vector<RowVector> guards;
+  Matrix holding;  ///< of Outline::holding
 };
+
+/// Row over X of a force that is constant or a harmonic: the derivative of Frame::drive_row.
+[[nodiscard]] RowVector drive_rate(const Frame& frame, const Force& force, const Force& rate);
 
 }  // namespace slapstick::mode

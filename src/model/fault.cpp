@@ -102,15 +102,17 @@ Found check_coordinate(const Coordinate& coordinate, int index, bool massive, st
   return check.result();
 }
 
-Found check_spring(const Spring& spring, int index, const Model& model) {
+Found check_spring(const Spring& spring, int index, const Model& model, std::set<std::string>& used) {
   Check check("spring", index);
+  if (!spring.name.empty()) check_name(check, spring.name, used);
   check.ends(spring.a, spring.b, model);
   check.sized("stiffness", spring.stiffness);
   return check.result();
 }
 
-Found check_damper(const Damper& damper, int index, const Model& model) {
+Found check_damper(const Damper& damper, int index, const Model& model, std::set<std::string>& used) {
   Check check("damper", index);
+  if (!damper.name.empty()) check_name(check, damper.name, used);
   check.ends(damper.a, damper.b, model);
   check.sized("coefficient", damper.coefficient);
   if (damper.coefficient < 0.0 && !damper.feeds)
@@ -323,8 +325,8 @@ std::optional<Fault> first_fault(const Model& model) {
   };
   look(model.coordinates, [&](const auto& part, int i) { return check_coordinate(part, i, massive, states); });
   if (!fault) fault = first_matrix_fault(model);
-  look(model.springs, [&](const auto& part, int i) { return check_spring(part, i, model); });
-  look(model.dampers, [&](const auto& part, int i) { return check_damper(part, i, model); });
+  look(model.springs, [&](const auto& part, int i) { return check_spring(part, i, model, contacts); });
+  look(model.dampers, [&](const auto& part, int i) { return check_damper(part, i, model, contacts); });
   look(model.signals, [&](const auto& part, int i) { return check_signal(part, i, contacts); });
   look(model.forces, [&](const auto& part, int i) { return check_force(part, i, model); });
   look(model.frictions, [&](const auto& part, int i) { return check_friction(part, i, model, contacts); });

@@ -144,27 +144,54 @@ Jet guard_jet(const ModeRates& mode, const Leg& leg, const Jet& X) {
   return h;
 }
 
-/// h = s - v q: the series of all flights that follow a separation at speed v (flow/chatter.hpp). The tail is so short that the change of q over
-/// it, of the size of v, is left out of the derivatives.
+/// A number and its derivatives, the columns of a jet.
+using NumberJet = RowVectorXd;
+
+/// q of rise, fall and the restitution r: 1 / v times the length of the series of flights.
+///
+///     q = g / D,   g = 1 / rise + 1 / sqrt(rise fall),   D = 1 - rho,   rho = r sqrt(fall / rise)
+NumberJet flights_jet(const NumberJet& rise, const NumberJet& fall, const NumberJet& r) {
+  const double up = rise[0], down = fall[0], both = std::sqrt(up * down), rho = r[0] * std::sqrt(down / up);
+  const double g = 1.0 / up + 1.0 / both, D = 1.0 - rho;
+  const RowVectorXd g_rate = -(1.0 / (up * up) + 0.5 / (up * both)) * rise - 0.5 / (down * both) * fall;
+  const RowVectorXd rho_rate = std::sqrt(down / up) * r + 0.5 * rho * (fall / down - rise / up);
+  NumberJet q = g_rate / D + g / (D * D) * rho_rate;
+  q[0] = g / D;
+  return q;
+}
+
+/// h = s - v q: the series of all flights that follow a separation at speed v (flow/chatter.hpp).
 Jet chatter_jet(const ModeSet& set, int stop, const Jet& X, double t_begin, double t_end) {
   const mode::Frame& frame = set.frame();
   const mode::ContactRow& own = frame.stops[stop];
-  double phi = 0.0, R = own.sign * frame.free.row(own.own).dot(X.value());
+  const auto rate = [&](std::size_t p) -> const Model& { return set.rate(p); };
+  NumberJet R = own.sign * frame.free.row(own.own) * X.all, phi = NumberJet::Zero(X.all.cols()), r = phi;
+  const Index first = X.all.cols() - X.parameters;  // of the parameters
+  for (Index p = 0; p < X.parameters; ++p)
+    R[first + p] += own.sign * set.frame_rate(static_cast<std::size_t>(p)).free.row(own.own).dot(X.value());
   for (std::size_t i = 0; i < frame.frictions.size(); ++i) {
     const mode::ContactRow& contact = frame.frictions[i];
-    const double w = contact.sign * X.value()[frame.u(contact.own)],
-                 kinetic = set.model().frictions[i].kinetic_friction;
-    const double effect = own.sign * contact.sign * frame.mass_inverse(own.own, contact.own);
+    const double w = contact.sign * X.value()[frame.u(contact.own)], sense = own.sign * contact.sign;
+    NumberJet effect = NumberJet::Zero(X.all.cols());  // kinetic friction times what it does to the pair
+    const double per_force = sense * frame.mass_inverse(own.own, contact.own), kinetic = set.model().frictions[i].kinetic_friction;
+    effect[0] = kinetic * per_force;
+    for (Index p = 0; p < X.parameters; ++p) {
+      const auto which = static_cast<std::size_t>(p);
+      effect[first + p] = rate(which).frictions[i].kinetic_friction * per_force +
+                          kinetic * sense * set.frame_rate(which).mass_inverse(own.own, contact.own);
+    }
     if (frame.parallel(own.own, contact.own) != 0)
-      phi += std::abs(effect) * kinetic;
+      phi += std::copysign(1.0, per_force) * effect;
     else if (w != 0.0)
-      R -= std::copysign(kinetic, w) * effect;
+      R -= std::copysign(1.0, w) * effect;
   }
-  const double r = set.model().stops[stop].restitution;
-  const double rise = R + phi, fall = R - phi, rho = r * std::sqrt(fall / rise);
-  const double q = (1.0 / rise + 1.0 / std::sqrt(rise * fall)) / (1.0 - rho);
+  r[0] = set.model().stops[stop].restitution;
+  for (Index p = 0; p < X.parameters; ++p) r[first + p] = rate(static_cast<std::size_t>(p)).stops[stop].restitution;
+  const NumberJet q = flights_jet(R + phi, R - phi, r);
   Jet h(1, X.states, X.parameters);
-  h.all = q * own.sign * X.all.row(frame.u(own.own));  // separating: the pair's velocity towards the stop is -v
+  const RowVectorXd v = own.sign * X.all.row(frame.u(own.own));  // separating: the pair's velocity towards the stop is -v
+  h.all = q[0] * v + v[0] * q;
+  h.all(0, 0) = q[0] * v[0];
   h.all(0, 0) += (t_end - t_begin) * set.period();
   h.by_begin()[0] -= set.period();
   h.by_end()[0] += set.period();

@@ -10,30 +10,42 @@ namespace slapstick::quantity {
 
 using Kind = Quantity::Kind;
 
+/// A row over q and q' where q = W^{-1} (p + shift) and q' = W^{-1} (u + drift).
+Row Formulas::moved(RowVector row) const {
+  Row made = still(std::move(row));
+  if (rates_)
+    made.rate[frame_.one()] = made.value.head(frame_.n).dot(rates_->frame.shift.head(frame_.n)) +
+                              made.value.segment(frame_.d, frame_.n).dot(rates_->frame.drift.head(frame_.n));
+  return made;
+}
+
 /// x = W^{-1} (p + shift)
-RowVector Formulas::displacement(int coordinate) const {
-  RowVector row = none();
+Row Formulas::displacement(int coordinate) const {
+  RowVector row = zero();
   row.head(frame_.n) = frame_.W_inverse.row(coordinate);
   row[frame_.one()] = frame_.W_inverse.row(coordinate).dot(frame_.shift.head(frame_.n));
-  return row;
+  return moved(std::move(row));
 }
 
 /// v = W^{-1} (u + drift)
-RowVector Formulas::velocity(int coordinate) const {
-  RowVector row = none();
+Row Formulas::velocity(int coordinate) const {
+  RowVector row = zero();
   row.segment(frame_.d, frame_.n) = frame_.W_inverse.row(coordinate);
   row[frame_.one()] = frame_.W_inverse.row(coordinate).dot(frame_.drift.head(frame_.n));
-  return row;
+  return moved(std::move(row));
 }
 
 /// a = W^{-1} u', u' = A X
-RowVector Formulas::acceleration(int coordinate) const {
-  return frame_.W_inverse.row(coordinate) * outline_.system.middleRows(frame_.d, frame_.n);
+Row Formulas::acceleration(int coordinate) const {
+  const auto row_of = [&](const Matrix& system) {
+    return RowVector(frame_.W_inverse.row(coordinate) * system.middleRows(frame_.d, frame_.n));
+  };
+  return {row_of(outline_.system), rates_ ? row_of(rates_->outline->system) : zero()};
 }
 
 /// x_a - x_b, or v_a - v_b
-RowVector Formulas::difference(int a, int b, bool velocities) const {
-  RowVector row = none();
+Row Formulas::difference(int a, int b, bool velocities) const {
+  Row row = none();
   if (a != ground) row += velocities ? velocity(a) : displacement(a);
   if (b != ground) row -= velocities ? velocity(b) : displacement(b);
   return row;
@@ -84,40 +96,61 @@ Formula Formulas::single(const Quantity& quantity, int index, const std::vector<
 /// sum c (v_a - v_b)^2 + v^T C v
 Formula Formulas::damping() const {
   Formula formula{none()};
-  for (const Damper& damper : model_.dampers) {
-    const RowVector rate = difference(damper.a, damper.b, true);
-    formula.products.emplace_back(damper.coefficient * rate, rate);
+  for (int i = 0; i < static_cast<int>(model_.dampers.size()); ++i) {
+    const Damper& damper = model_.dampers[static_cast<std::size_t>(i)];
+    const Row rate = difference(damper.a, damper.b, true);
+    formula.products.emplace_back(number(&Model::dampers, i, &Damper::coefficient) * rate, rate);
   }
   for (int i = 0; i < frame_.n && !model_.damping.empty(); ++i) {
-    RowVector force = none();
-    for (int j = 0; j < frame_.n; ++j)
-      force += model_.damping[static_cast<std::size_t>(i * frame_.n + j)] * velocity(j);
+    Row force = none();
+    for (int j = 0; j < frame_.n; ++j) {
+      const auto at = static_cast<std::size_t>(i * frame_.n + j);
+      force += Number{model_.damping[at], rates_ ? rates_->model.damping[at] : 0.0} * velocity(j);
+    }
     formula.products.emplace_back(velocity(i), force);
   }
   return formula;
 }
 
+/// A force of the model.
+Row Formulas::drive(int i) const {
+  const auto at = static_cast<std::size_t>(i);
+  const Force& force = model_.forces[at];
+  return {frame_.drive_row(force), rates_ ? mode::drive_rate(frame_, force, rates_->model.forces[at]) : zero()};
+}
+
 /// Forces times the velocities that they act on, and the belts: of the force F of a contact -F belt_speed.
 Formula Formulas::input(const std::vector<bool>& above) const {
   Formula formula{none()};
-  for (const Force& of : model_.forces) {
-    formula.products.emplace_back(frame_.drive_row(of), velocity(of.coordinate));
+  for (std::size_t i = 0; i < model_.forces.size(); ++i)
+    formula.products.emplace_back(drive(static_cast<int>(i)), velocity(model_.forces[i].coordinate));
+  for (int i = 0; i < frictions(); ++i) {
+    const Number belt = number(&Model::frictions, i, &FrictionContact::belt_speed);
+    if (belt.value != 0.0 || belt.rate != 0.0) formula.linear -= belt * force(stops() + i, above);
   }
-  for (int i = 0; i < frictions(); ++i)
-    if (const double belt = model_.frictions[static_cast<std::size_t>(i)].belt_speed; belt != 0.0)
-      formula.linear -= belt * force(stops() + i, above);
   return formula;
 }
+
+namespace {
+
+/// A product's factors z / 2 and M z, for all coordinates.
+template <class RowOf>
+void add_quadratic(const Matrix& M, const Matrix* rate, const Row& none, const RowOf& row_of, Formula& formula) {
+  for (Eigen::Index i = 0; i < M.rows(); ++i) {
+    Row other = none;
+    for (Eigen::Index j = 0; j < M.rows(); ++j)
+      other += Number{M(i, j), rate != nullptr ? (*rate)(i, j) : 0.0} * row_of(static_cast<int>(j));
+    formula.products.emplace_back(0.5 * row_of(static_cast<int>(i)), other);
+  }
+}
+
+}  // namespace
 
 /// v^T M v / 2
 Formula Formulas::kinetic() const {
   Formula formula{none()};
-  const Matrix M = mode::mass_matrix(model_);
-  for (int i = 0; i < frame_.n; ++i) {
-    RowVector momentum = none();
-    for (int j = 0; j < frame_.n; ++j) momentum += M(i, j) * velocity(j);
-    formula.products.emplace_back(0.5 * velocity(i), momentum);
-  }
+  const Matrix rate = rates_ ? mode::mass_matrix(rates_->model) : Matrix();
+  add_quadratic(mode::mass_matrix(model_), rates_ ? &rate : nullptr, none(), [&](int i) { return velocity(i); }, formula);
   return formula;
 }
 
@@ -125,47 +158,51 @@ Formula Formulas::kinetic() const {
 /// displacements
 Formula Formulas::potential() const {
   Formula formula{none()};
-  const Matrix K = mode::stiffness_matrix(model_);
-  for (int i = 0; i < frame_.n; ++i) {
-    RowVector force = none();
-    for (int j = 0; j < frame_.n; ++j) force += K(i, j) * displacement(j);
-    formula.products.emplace_back(0.5 * displacement(i), force);
-  }
+  const Matrix rate = rates_ ? mode::stiffness_matrix(rates_->model) : Matrix();
+  add_quadratic(mode::stiffness_matrix(model_), rates_ ? &rate : nullptr, none(), [&](int i) { return displacement(i); }, formula);
   for (int i = 0; i < compliants(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     const mode::CompliantState state = outline_.states.compliant[at];
     if (state != mode::CompliantState::on && state != mode::CompliantState::bounded) continue;
-    const RowVector gap = frame_.gap_row(frame_.compliant[at]);
-    formula.products.emplace_back(0.5 * model_.compliant_stops[at].stiffness * gap, gap);
+    const Row gap = still(frame_.gap_row(frame_.compliant[at]));
+    formula.products.emplace_back(0.5 * number(&Model::compliant_stops, i, &CompliantStop::stiffness) * gap, gap);
   }
-  for (int i = 0; i < static_cast<int>(model_.characteristics.size()); ++i) add_bend(i, formula);
+  for (int i = 0; i < bends(); ++i) add_bend(i, formula);
   return formula;
 }
 
-/// slope x^2 / 2 + offset x + c of the piece in force: continuous at the corners, zero at x = 0.
-void Formulas::add_bend(int i, Formula& energy) const {
-  const Characteristic& bend = model_.characteristics[static_cast<std::size_t>(i)];
-  if (bend.over != Characteristic::Over::displacement) return;
-  const auto within = [&](int piece, double x) {
-    const mode::Piece line = mode::piece_of(bend, piece);
-    return (0.5 * line.slope * x + line.offset) * x;
+/// c of slope x^2 / 2 + offset x + c in a piece: continuous at the corners, zero at x = 0.
+Number Formulas::energy_offset(int i, int here) const {
+  const auto index = static_cast<std::size_t>(i);
+  const Characteristic& bend = model_.characteristics[index];
+  const auto within = [&](int piece, Number x) {
+    const mode::Piece line = mode::piece_of(bend, piece),
+                      rate = rates_ ? mode::piece_rate(bend, rates_->model.characteristics[index], piece) : mode::Piece{};
+    return (Number{0.5 * line.slope, 0.5 * rate.slope} * x + Number{line.offset, rate.offset}) * x;
   };
-  const int here = outline_.states.pieces[static_cast<std::size_t>(i)];
+  const auto corner = [&](int k) {
+    const auto at = static_cast<std::size_t>(k);
+    return Number{bend.corners[at].at, rates_ ? rates_->model.characteristics[index].corners[at].at : 0.0};
+  };
   int zero = 0;  // the piece of x = 0
-  while (zero < static_cast<int>(bend.corners.size()) && bend.corners[static_cast<std::size_t>(zero)].at < 0.0) ++zero;
-  double c = 0.0;
-  for (int k = zero; k < here; ++k) {
-    const double at = bend.corners[static_cast<std::size_t>(k)].at;
-    c += within(k, at) - within(k + 1, at);
-  }
-  for (int k = zero; k > here; --k) {
-    const double at = bend.corners[static_cast<std::size_t>(k) - 1].at;
-    c += within(k, at) - within(k - 1, at);
-  }
-  const mode::Piece line = mode::piece_of(bend, here);
-  const RowVector x = difference(bend.a, bend.b, false);
-  energy.products.emplace_back(0.5 * line.slope * x, x);
-  energy.linear += line.offset * x + c * one();
+  while (zero < static_cast<int>(bend.corners.size()) && corner(zero).value < 0.0) ++zero;
+  Number c;
+  for (int k = zero; k < here; ++k) c += within(k, corner(k)) - within(k + 1, corner(k));
+  for (int k = zero; k > here; --k) c += within(k, corner(k - 1)) - within(k - 1, corner(k - 1));
+  return c;
+}
+
+void Formulas::add_bend(int i, Formula& energy) const {
+  const auto index = static_cast<std::size_t>(i);
+  const Characteristic& bend = model_.characteristics[index];
+  if (bend.over != Characteristic::Over::displacement) return;
+  const int here = outline_.states.pieces[index];
+  const mode::Piece line = mode::piece_of(bend, here),
+                    rate = rates_ ? mode::piece_rate(bend, rates_->model.characteristics[index], here) : mode::Piece{};
+  const Row x = difference(bend.a, bend.b, false);
+  energy.products.emplace_back(Number{0.5 * line.slope, 0.5 * rate.slope} * x, x);
+  energy.linear += Number{line.offset, rate.offset} * x;
+  energy.linear += energy_offset(i, here) * one();
 }
 
 }  // namespace slapstick::quantity

@@ -6,39 +6,38 @@
 /// Where a closed stop and sticking friction hold one pair, only the sum f0 of their forces is determined. The split is
 /// the one with the least press: friction bears f0 up to its static limit, the stop what is beyond it. So a force has a
 /// kink where f0 passes the limit, which is no event: `kinks` are the rows whose zeros those are, and `sides` says on
-/// which side of its kinks each pair is.
+/// which side of its kinks each pair is. Rows have their derivatives by a parameter beside them.
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "mode/held.hpp"
 #include "mode/outline.hpp"
+#include "quantity/varied.hpp"
 #include "slapstick/quantity/quantity.hpp"
 
 namespace slapstick::quantity {
 
-using mode::Matrix;
-using mode::RowVector;
-using mode::Vector;
-
 struct Formula {
-  RowVector linear;
-  std::vector<std::pair<RowVector, RowVector>> products = {};
+  Row linear;
+  std::vector<std::pair<Row, Row>> products = {};
 };
 
 /// What the quantities of a mode are made of. Refers to its arguments.
 class Formulas {
  public:
-  Formulas(const Model& model, const mode::Frame& frame, const mode::Outline& outline);
+  /// @param rates  of the parameter that derivatives are by, with its outline; null: derivatives are zero
+  Formulas(const Model& model, const mode::Frame& frame, const mode::Outline& outline, const Rates* rates = nullptr);
 
   /// The rows whose zeros are kinks; `sides` from their values at an X (Kink order).
-  [[nodiscard]] const std::vector<RowVector>& kinks() const { return kinks_; }
+  [[nodiscard]] const std::vector<Row>& kinks() const { return kinks_; }
   /// @param above  of each kink, whether its row is positive
   [[nodiscard]] Formula of(const Quantity& quantity, const std::vector<bool>& above) const;
 
   /// Row over X of a coordinate's displacement and velocity, of a contact's velocity.
-  [[nodiscard]] RowVector displacement(int coordinate) const;
-  [[nodiscard]] RowVector velocity(int coordinate) const;
-  [[nodiscard]] RowVector relative(int contact) const;
+  [[nodiscard]] Row displacement(int coordinate) const;
+  [[nodiscard]] Row velocity(int coordinate) const;
+  [[nodiscard]] Row relative(int contact) const;
 
  private:
   struct Kink {
@@ -46,34 +45,58 @@ class Formulas {
     double side;  ///< f0 beyond the limit on this side
   };
 
-  [[nodiscard]] RowVector none() const { return RowVector::Zero(frame_.size()); }
-  [[nodiscard]] RowVector one() const { return RowVector::Unit(frame_.size(), frame_.one()); }
+  [[nodiscard]] RowVector zero() const { return RowVector::Zero(frame_.size()); }
+  [[nodiscard]] Row none() const { return still(zero()); }
+  [[nodiscard]] Row one() const { return still(RowVector::Unit(frame_.size(), frame_.one())); }
+  [[nodiscard]] Row still(RowVector row) const { return {std::move(row), zero()}; }
+  [[nodiscard]] Row moved(RowVector row) const;
+  /// A number of a part of the model, and its derivative.
+  template <class Part>
+  [[nodiscard]] Number number(const std::vector<Part> Model::*parts, int i, double Part::*member) const {
+    const auto at = static_cast<std::size_t>(i);
+    return {(model_.*parts)[at].*member, rates_ ? (rates_->model.*parts)[at].*member : 0.0};
+  }
+  [[nodiscard]] Row load(int friction) const;
+  [[nodiscard]] Row limit(const mode::HeldPair& pair) const;
+  [[nodiscard]] Row holding(std::size_t pair) const;
+  [[nodiscard]] Number shared_friction(const mode::HeldPair& pair) const;
   [[nodiscard]] Formula single(const Quantity& quantity, int index, const std::vector<bool>& above) const;
-  [[nodiscard]] RowVector acceleration(int coordinate) const;
-  [[nodiscard]] RowVector gap(int contact) const;
-  [[nodiscard]] RowVector force(int contact, const std::vector<bool>& above) const;
-  [[nodiscard]] RowVector held_stop(int stop, const std::vector<bool>& above) const;
-  [[nodiscard]] RowVector held_friction(int friction, const std::vector<bool>& above) const;
+  [[nodiscard]] Row acceleration(int coordinate) const;
+  [[nodiscard]] Row gap(int contact) const;
+  [[nodiscard]] Row force(int contact, const std::vector<bool>& above) const;
+  [[nodiscard]] Row held_stop(int stop, const std::vector<bool>& above) const;
+  [[nodiscard]] Row held_friction(int friction, const std::vector<bool>& above) const;
+  [[nodiscard]] Row bend_force(int characteristic) const;
+  [[nodiscard]] Row drive(int force) const;
+  template <class Link>
+  [[nodiscard]] Row link_force(const Link& link, Number strength, bool velocities) const;
+  [[nodiscard]] Row spring_force(int spring) const;
+  [[nodiscard]] Row damper_force(int damper) const;
+  [[nodiscard]] Row link_speed(int link) const;
   [[nodiscard]] double beyond(std::size_t pair, const std::vector<bool>& above) const;
   [[nodiscard]] double sense(const mode::HeldPair& pair, const mode::ContactRow& contact) const;
-  [[nodiscard]] RowVector difference(int a, int b, bool velocities) const;
+  [[nodiscard]] Row difference(int a, int b, bool velocities) const;
   [[nodiscard]] Formula power(int contact, const std::vector<bool>& above) const;
   [[nodiscard]] Formula damping() const;
   [[nodiscard]] Formula input(const std::vector<bool>& above) const;
   [[nodiscard]] Formula kinetic() const;
   [[nodiscard]] Formula potential() const;
+  [[nodiscard]] Number energy_offset(int characteristic, int piece) const;
   void add_bend(int characteristic, Formula& energy) const;
 
   [[nodiscard]] int stops() const { return static_cast<int>(model_.stops.size()); }
   [[nodiscard]] int frictions() const { return static_cast<int>(model_.frictions.size()); }
   [[nodiscard]] int compliants() const { return static_cast<int>(model_.compliant_stops.size()); }
+  [[nodiscard]] int bends() const { return static_cast<int>(model_.characteristics.size()); }
+  [[nodiscard]] int springs() const { return static_cast<int>(model_.springs.size()); }
 
   const Model& model_;
   const mode::Frame& frame_;
   const mode::Outline& outline_;
+  std::optional<Rates> rates_;
   std::vector<mode::HeldPair> held_;
   std::vector<Kink> kink_of_;
-  std::vector<RowVector> kinks_;
+  std::vector<Row> kinks_;
 };
 
 }  // namespace slapstick::quantity

@@ -23,7 +23,11 @@ bool slips(const orbit::Leg& leg) {
 }  // namespace
 
 Cycle::Cycle(const orbit::Problem& problem, const orbit::Orbit& orbit)
-    : orbit_(orbit), set_(constant_family(problem.family().model(orbit.values)), {}) {}
+    : orbit_(orbit),
+      set_(std::make_shared<orbit::ModeSet>(constant_family(problem.family().model(orbit.values)), std::vector<double>{})) {}
+
+Cycle::Cycle(std::shared_ptr<const orbit::ModeSet> set, const orbit::Orbit& orbit, const orbit::OrbitRate& rate, std::size_t parameter)
+    : orbit_(orbit), set_(std::move(set)), rate_(&rate), parameter_(parameter) {}
 
 /// The one after an impact, or after the end of a chatter.
 std::size_t Cycle::first_leg() const {
@@ -33,14 +37,33 @@ std::size_t Cycle::first_leg() const {
   return 0;
 }
 
-Vector Cycle::start(std::size_t leg, double t) const {
-  return orbit::leg_start(set_, orbit_.shape.legs[leg], orbit_.x[leg], t).value();
+/// X at the start of a leg. Its derivative: x, the instant and the model's numbers move together.
+Moving Cycle::start(std::size_t i) const {
+  const orbit::Jet X = orbit::leg_start(*set_, leg(i), orbit_.x[i], orbit_.t[i]);
+  if (rate_ == nullptr) return {X.value(), {}};
+  return {X.value(), X.by_state() * rate_->x[i] + X.by_begin() * rate_->t[i] +
+                         X.by_parameter().col(static_cast<Eigen::Index>(parameter_))};
 }
 
 /// Time at which leg i begins, in a trace that begins with leg `first`.
-double Cycle::begin(std::size_t i, std::size_t first) const {
-  const double whole = orbit_.t.back() - orbit_.t.front(), zero = std::ceil(orbit_.t.front());
-  return (orbit_.t[i] - zero + (i < first ? whole : 0.0)) * period();
+Number Cycle::begin(std::size_t i, std::size_t first) const {
+  const Number zero{std::ceil(orbit_.t.front()), 0.0};
+  return (instant(i) - zero + (i < first ? instant(orbit_.legs()) - instant(0) : Number{})) * period();
+}
+
+void Cycle::piece(std::size_t i, Number begin, Tracer& tracer) const {
+  const orbit::ModeRates& mode = set_->mode(leg(i).states);
+  const Number duration = lasts(i);
+  if (!(duration.value <= most_steps * mode.longest_step))
+    throw NumericalError("orbit: a leg is too long for the rates of its mode");
+  // the set keeps it
+  const std::shared_ptr<const mode::Outline> outline(std::shared_ptr<const void>(), &mode.outline);
+  const Moving from = start(i);
+  // where all sticks nothing has a rate
+  const double longest = std::min(0.5 * mode.longest_step, this->duration().value);
+  if (rate_ == nullptr) return tracer.piece(outline, longest, from.X.data(), begin.value, duration.value);
+  const PieceRates rates{mode.rates[parameter_], from.by.data(), begin.rate, duration.rate};
+  tracer.piece(outline, longest, from.X.data(), begin.value, duration.value, &rates);
 }
 
 void Cycle::trace(Tracer& tracer) const {
@@ -48,20 +71,16 @@ void Cycle::trace(Tracer& tracer) const {
   begin_flights(first, tracer);
   for (std::size_t k = 0; k < legs; ++k) {
     const std::size_t i = (first + k) % legs;
-    const orbit::Leg& leg = this->leg(i);
-    const orbit::ModeRates& mode = set_.mode(leg.states);
-    const double begin = this->begin(i, first), duration = orbit_.duration(i) * period();
-    if (!(duration <= most_steps * mode.longest_step)) throw NumericalError("orbit: a leg is too long for the rates of its mode");
-    if (sums_impacts(leg)) tracer.strike(std::uint32_t{1} << static_cast<unsigned>(leg.contact));
-    // the set keeps it
-    const std::shared_ptr<const mode::Outline> outline(std::shared_ptr<const void>(), &mode.outline);
-    tracer.piece(outline, 0.5 * mode.longest_step, start(i, orbit_.t[i]).data(), begin, duration);
-    for (const Motion::Strike& strike : leg.strikes) tracer.strike(strike.stops);
+    const Number begin = this->begin(i, first);
+    if (sums_impacts(leg(i))) tracer.strike(std::uint32_t{1} << static_cast<unsigned>(leg(i).contact));
+    piece(i, begin, tracer);
+    for (const Motion::Strike& strike : leg(i).strikes) tracer.strike(strike.stops);
     for (const auto& [contact, w] : met(i))
       if (contact < static_cast<int>(model().stops.size())) tracer.impact(contact, w);
-    if (leg.ending == orbit::Ending::chatter) tracer.begin_flight(leg.contact, begin + duration);
+    if (leg(i).ending == orbit::Ending::chatter) tracer.begin_flight(leg(i).contact, begin + lasts(i));
   }
-  tracer.finish(start(first, orbit_.t[first]).data(), set_.mode(leg(first).states).outline);
+  const Moving again = start(first);
+  tracer.finish(again.X.data(), set_->mode(leg(first).states).outline, rate_ != nullptr ? again.by.data() : nullptr);
 }
 
 /// The stops that are hit at the end of a leg and the compliant ones that are met, with their velocities.
@@ -69,7 +88,7 @@ std::vector<std::pair<int, double>> Cycle::met(std::size_t i) const {
   std::vector<std::pair<int, double>> all;
   const orbit::Leg &before = leg(i), &after = leg((i + 1) % orbit_.legs());
   if (before.strikes.empty() && before.states.compliant == after.states.compliant) return all;
-  const Vector X = orbit::state_within(set_, orbit_, i, orbit_.duration(i));
+  const Vector X = orbit::state_within(*set_, orbit_, i, orbit_.duration(i));
   const auto add = [&](std::size_t contact, const mode::ContactRow& row) {
     if (const double w = frame().velocity_row(row).dot(X); w > 0.0) all.emplace_back(static_cast<int>(contact), w);
   };
@@ -87,14 +106,14 @@ std::vector<std::pair<int, double>> Cycle::met(std::size_t i) const {
 void Cycle::begin_flights(std::size_t first, Tracer& tracer) const {
   struct Mark {
     int contact;
-    double time, slid;
+    Number time, slid;
   };
   std::vector<Mark> marks;
-  double slid = 0.0;
+  Number slid;
   for (std::size_t k = 0; k < orbit_.legs(); ++k) {
     const std::size_t i = (first + k) % orbit_.legs();
-    const double duration = orbit_.duration(i) * period(), end = begin(i, first) + duration;
-    if (slips(leg(i))) slid += duration;
+    const Number end = begin(i, first) + lasts(i);
+    if (slips(leg(i))) slid += lasts(i);
     for (const auto& [contact, w] : met(i)) marks.push_back({contact, end, slid});
     if (leg(i).ending == orbit::Ending::chatter) marks.push_back({leg(i).contact, end, slid});
   }

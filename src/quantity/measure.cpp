@@ -45,6 +45,8 @@ void add_step(const Polynomial& f, double begin, double length, Sums& sums) {
   sums.square.add(length * square);
   const double around = f.size(1);
   if (f.a[0] - around >= sums.least && f.a[0] + around <= sums.greatest) return;
+  const event::Bernstein hull(f);
+  if (hull.least() >= sums.least && hull.most() <= sums.greatest) return;
   event::possible_extremes(f, [&](double x, double value) { sums.note(value, begin + x * length); });
 }
 
@@ -65,16 +67,19 @@ class Statistician : public Listener {
 
   void blow(const Blow& blow) override {
     for (std::size_t k = 0; k < of_.size(); ++k) {
-      if (blow.impulses[k] == 0.0) continue;
-      found_.of[k].impulse += blow.impulses[k];
+      const double impulse = blow.impulses[k].value;
+      if (impulse == 0.0) continue;
+      found_.of[k].impulse += impulse;
       ++found_.of[k].impulses;
     }
     for (const Struck& one : blow.impacts) {
       StopStatistics& stop = found_.stops[static_cast<std::size_t>(one.contact < rigid_ ? one.contact : one.contact - between_)];
-      add(one.w, blow.time, stop.w);
-      add(one.impulse, blow.time, stop.impulse);
-      add(one.loss, blow.time, stop.loss);
-      for (std::size_t k = 0; k < of_.size(); ++k) add_impact(of_[k], one, blow.time, found_.of[k]);
+      const double time = blow.time.value;
+      add(one.w.value, time, stop.w);
+      add(one.impulse.value, time, stop.impulse);
+      add(one.loss.value, time, stop.loss);
+      for (std::size_t k = 0; k < of_.size(); ++k)
+        if (of_[k].at_impacts()) add(value_at(of_[k], one).value, time, found_.of[k]);
     }
   }
 
@@ -108,10 +113,6 @@ class Statistician : public Listener {
     into.values.push_back(value);
   }
 
-  static void add_impact(const Quantity& quantity, const Struck& one, double at, Statistics& into) {
-    if (quantity.at_impacts()) add(value_at(quantity, one), at, into);
-  }
-
   static void finish(Statistics& one) {
     double sum = 0.0, square = 0.0;
     for (const double value : one.values) sum += value, square += value * value;
@@ -133,13 +134,14 @@ class Statistician : public Listener {
 }  // namespace
 }  // namespace quantity
 
-Measured measure(Motion motion, Instant end, const std::vector<Quantity>& of, const std::atomic<bool>* stop) {
+Measured measure(Motion motion, Instant end, const std::vector<Quantity>& of, const std::atomic<bool>* stop,
+                 const std::function<void(double periods)>& progress) {
   if (end <= motion.time()) throw InputError("measure: the end is not later than the start");
   const Instant start = motion.time();
   const System system = motion.system();
   quantity::Statistician listener(system.model(), of);
-  quantity::Tracer tracer(system.model(), system.compiled().frame(), system.period(), of, listener);
-  const bool complete = quantity::trace(motion, end, tracer, stop);
+  quantity::Tracer tracer(system.model(), system.compiled().frame(), {system.period(), 0.0}, of, listener);
+  const bool complete = quantity::trace(motion, end, tracer, stop, progress);
   return listener.result(motion.time().since(start) * system.period(), complete);
 }
 
@@ -148,7 +150,7 @@ Measured measure(const orbit::Problem& problem, const orbit::Orbit& orbit, const
   quantity::Statistician listener(cycle.model(), of);
   quantity::Tracer tracer(cycle.model(), cycle.frame(), cycle.period(), of, listener);
   cycle.trace(tracer);
-  Measured found = listener.result(cycle.duration(), true);
+  Measured found = listener.result(cycle.duration().value, true);
   const auto in_cycle = [&](Statistics& one) {
     for (double* at : {&one.least_at, &one.greatest_at}) *at -= found.duration * std::floor(*at / found.duration);
   };

@@ -38,7 +38,7 @@ struct Reader::Parts {
 
   const std::vector<Formula>& formulas(Mode& in) {
     above.clear();
-    for (const mode::RowVector& row : in.formulas.kinks()) above.push_back(row.dot(X) > 0.0);
+    for (const quantity::Row& row : in.formulas.kinks()) above.push_back(row.value.dot(X) > 0.0);
     auto& known = in.known[above];
     if (known.empty())
       for (const Quantity& one : of) known.push_back(in.formulas.of(one, above));
@@ -50,8 +50,8 @@ struct Reader::Parts {
     const IeeeArithmetic ieee;
     const std::vector<Formula>& all = formulas(mode(id));
     for (std::size_t k = 0; k < of.size(); ++k) {
-      values[k] = of[k].at_impacts() ? speed(of[k], event) : all[k].linear.dot(X);
-      for (const auto& [left, right] : all[k].products) values[k] += left.dot(X) * right.dot(X);
+      values[k] = of[k].at_impacts() ? speed(of[k], event) : all[k].linear.value.dot(X);
+      for (const auto& [left, right] : all[k].products) values[k] += left.value.dot(X) * right.value.dot(X);
     }
     return values;
   }

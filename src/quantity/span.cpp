@@ -24,13 +24,26 @@ std::optional<Span> find_span(const ModelDefinition& definition, const Overrides
     if (span.cycle) return span;
   }
   span.motion.emplace(system, start);
-  if (!run_to(*span.motion, Instant{wish.transient, 0.0}, wish.stop, [] {})) return std::nullopt;
+  if (!run_to(*span.motion, Instant{wish.transient, 0.0}, wish.stop, [&] {
+        if (wish.progress) wish.progress(span.motion->time().since({}));
+      }))
+    return std::nullopt;
   span.end = span.motion->time().plus(wish.periods > 0.0 ? wish.periods : wish.instead);
   return span;
 }
 
-Measured measure(const Span& span, const std::vector<Quantity>& of, const std::atomic<bool>* stop) {
-  return span.cycle ? measure(*span.problem, span.cycle->orbit, of) : measure(*span.motion, span.end, of, stop);
+Measured measure(const Span& span, const std::vector<Quantity>& of, const std::atomic<bool>* stop,
+                 const std::function<void(double periods)>& progress) {
+  return span.cycle ? measure(*span.problem, span.cycle->orbit, of) : measure(*span.motion, span.end, of, stop, progress);
+}
+
+std::vector<Measured> measure_rates(const ModelDefinition& definition, const Overrides& overrides,
+                                    const std::vector<std::string>& parameters, orbit::Orbit cycle,
+                                    const std::vector<Quantity>& of) {
+  cycle.values.clear();
+  for (const std::string& name : parameters) cycle.values.push_back(definition.present_value(name, overrides));
+  const auto problem = orbit::pose(definition.family(parameters, overrides), cycle.values);
+  return measure_rates(*problem, cycle, of);
 }
 
 DensitySpectrum density(const Span& span, const Quantity& of, DensityOptions options) {

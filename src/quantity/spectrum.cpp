@@ -3,81 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "base/phase.hpp"
 #include "base/text.hpp"
 #include "flow/compiled_system.hpp"
+#include "quantity/fourier.hpp"
 #include "quantity/leg_trace.hpp"
-#include "quantity/quadrature.hpp"
 #include "quantity/tracer.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick {
 namespace quantity {
 namespace {
-
-using Complex = std::complex<double>;
-
-/// Integrals of f(t) exp(-2 pi i k t / T), k = 0 .. count - 1.
-class Fourier : public Listener {
- public:
-  Fourier(double T, std::size_t count) : T_(T), sums_(count) {}
-
-  void step(const Step& step) override {
-    const Polynomial& f = step.values[0];
-    if (f.size() == 0.0) return;
-    const double turns = static_cast<double>(sums_.size()) * step.length / T_;
-    const double parts = std::max(1.0, std::ceil(turns / most_turns));
-    for (double part = 0.0; part < parts; ++part)
-      for (std::size_t k = 0; k < nodes; ++k) {
-        const double x = (part + gauss().x[k]) / parts, weight = gauss().weight[k] * step.length / parts, value = f.at(x);
-        add(weight * value, step.begin + x * step.length);
-        square_ += weight * value * value;
-      }
-  }
-
-  void blow(const Blow& blow) override {
-    if (blow.impulses[0] == 0.0) return;
-    add(blow.impulses[0], blow.time);
-    ++impulses_;
-  }
-
-  [[nodiscard]] std::vector<Complex> take() {
-    std::vector<Complex> sums(sums_.size());
-    std::swap(sums, sums_);
-    return sums;
-  }
-  [[nodiscard]] double square() const { return square_; }
-  [[nodiscard]] long impulses() const { return impulses_; }
-
- private:
-  static constexpr double most_turns = 1.5;  ///< in a quadrature: 10 of the 14 that are exact to rounding
-  static constexpr std::size_t powers = 32;  ///< that are multiplied up before the phase is computed anew
-
-  void add(double weight, double t) {
-    const double turn = t / T_ - std::floor(t / T_);
-    const Complex z = phase(turn);
-    for (std::size_t first = 0; first < sums_.size(); first += powers) {
-      Complex p = weight * phase(static_cast<double>(first) * turn);
-      const std::size_t last = std::min(first + powers, sums_.size());
-      for (std::size_t k = first; k < last; ++k) {
-        sums_[k] += p;
-        p = {p.real() * z.real() - p.imag() * z.imag(), p.real() * z.imag() + p.imag() * z.real()};
-      }
-    }
-  }
-
-  static Complex phase(double turns) {
-    const auto [cosine, sine] = of_turns(turns - std::floor(turns));
-    return {cosine, -sine};
-  }
-
-  double T_;
-  std::vector<Complex> sums_;
-  double square_ = 0.0;
-  long impulses_ = 0;
-};
 
 void check(const Quantity& of, double highest_order) {
   if (of.at_impacts()) throw InputError("spectrum: " + in_quotes(of.name) + " is a quantity at impacts, not of time");
@@ -95,7 +31,7 @@ double chi_square_part(double freedom, double z) {
 double degrees_of_freedom(double K) { return 2.0 * K / (1.0 + 2.0 * (K - 1.0) / K / 36.0); }
 
 /// |X|^2 of the window of Hann, from the integrals without a window: X_k / 2 - X_{k-1} / 4 - X_{k+1} / 4.
-double windowed(const std::vector<Complex>& first, const std::vector<Complex>& second, std::size_t k) {
+double windowed(const std::vector<std::complex<double>>& first, const std::vector<std::complex<double>>& second, std::size_t k) {
   const auto X = [&](std::size_t i) { return i % 2 == 0 ? first[i] + second[i] : first[i] - second[i]; };
   return std::norm(0.5 * X(k) - 0.25 * (X(k - 1) + X(k + 1)));
 }
@@ -106,7 +42,7 @@ double windowed(const std::vector<Complex>& first, const std::vector<Complex>& s
 LineSpectrum spectrum(const orbit::Problem& problem, const orbit::Orbit& orbit, const Quantity& of, double highest_order) {
   quantity::check(of, highest_order);
   const quantity::Cycle cycle(problem, orbit);
-  const double T = cycle.duration(), n = orbit.shape.n > 0 ? orbit.shape.n : 1.0;
+  const double T = cycle.duration().value, n = orbit.shape.n > 0 ? orbit.shape.n : 1.0;
   quantity::Fourier fourier(T, static_cast<std::size_t>(std::floor(highest_order * n)) + 1);
   const std::vector<Quantity> one = {of};
   quantity::Tracer tracer(cycle.model(), cycle.frame(), cycle.period(), one, fourier);
@@ -129,13 +65,13 @@ DensitySpectrum density(Motion motion, const Quantity& of, const DensityOptions&
   if (count < 3) throw InputError("spectrum: a stretch is too short for the highest order");
   quantity::Fourier fourier(T, count + 1);
   const std::vector<Quantity> one = {of};
-  quantity::Tracer tracer(system.model(), system.compiled().frame(), system.period(), one, fourier);
+  quantity::Tracer tracer(system.model(), system.compiled().frame(), {system.period(), 0.0}, one, fourier);
   std::vector<double> sums(count, 0.0);
   std::vector<std::complex<double>> before;
   const Instant start = motion.time();
   int stretches = 0;
   for (int i = 1; i <= options.stretches + 1; ++i) {
-    if (!quantity::trace(motion, start.plus(i * half), tracer, options.stop)) break;
+    if (!quantity::trace(motion, start.plus(i * half), tracer, options.stop, options.progress)) break;
     std::vector<std::complex<double>> now = fourier.take();
     for (std::size_t k = 2; k < count && i > 1; ++k) sums[k] += quantity::windowed(before, now, k);
     stretches += i > 1 ? 1 : 0;

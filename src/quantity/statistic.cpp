@@ -1,5 +1,6 @@
 /// Statistics by name.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -12,8 +13,12 @@ namespace slapstick {
 namespace {
 
 const std::vector<std::string>& names() {
-  static const std::vector<std::string> all = {"mean",   "rms",          "min",   "max",     "min_at",
-                                               "max_at", "peak_to_peak", "crest", "impulse", "number"};
+  static const std::vector<std::string> all = [] {
+    std::vector<std::string> made;
+    for (const StatisticRule& rule : statistic_rules())
+      if (rule.name[0] != 'q') made.emplace_back(rule.name);
+    return made;
+  }();
   return all;
 }
 
@@ -25,12 +30,39 @@ double part_of(const std::string& name) {
 
 }  // namespace
 
+std::span<const StatisticRule> statistic_rules() {
+  static constexpr std::array rules = {
+      StatisticRule{"mean", "integral over the time by the time, impulses included"},
+      StatisticRule{"rms", "root of the mean square between impacts"},
+      StatisticRule{"min", "least value"},
+      StatisticRule{"max", "greatest value"},
+      StatisticRule{"min_at", "instant of the least value, from phase 0 on"},
+      StatisticRule{"max_at", "instant of the greatest value, from phase 0 on"},
+      StatisticRule{"peak_to_peak", "max - min"},
+      StatisticRule{"crest", "largest absolute value over rms"},
+      StatisticRule{"impulse", "sum of the impulses"},
+      StatisticRule{"number", "how many impulses there are"},
+      StatisticRule{"q05 .. q95", "of quantities at impacts: quantiles, the part in percent"},
+  };
+  return rules;
+}
+
 double Statistics::crest() const { return std::max(std::abs(least), std::abs(greatest)) / rms; }
 
 double Statistics::quantile(double q) const {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   const double place = std::ceil(q * static_cast<double>(values.size())) - 1.0;
   return values[static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(values.size() - 1)))];
+}
+
+/// Mean, rms, least, greatest, their instants, impulses and values are linear in what they are derivatives of; the two
+/// others are not.
+double statistic_rate(const Statistics& of, const Statistics& rate, const std::string& name) {
+  if (name != "crest" && name != "number") return statistic(rate, name);
+  if (name == "number") return 0.0;
+  const bool below = std::abs(of.least) > std::abs(of.greatest);
+  const double largest = below ? -rate.least : of.greatest < 0.0 ? -rate.greatest : rate.greatest;
+  return (largest - of.crest() * rate.rms) / of.rms;
 }
 
 void check_statistic(const Quantity& quantity, const std::string& name) {

@@ -19,7 +19,7 @@ class Follower {
     if (!event) return;
     const Event& last = motion_.event();
     if (last.kind == EventKind::impact) tracer_.impact(last.contact, last.w);
-    if (last.kind == EventKind::chatter) tracer_.begin_flight(last.contact, last.time.since(origin_) * motion_.system().period());
+    if (last.kind == EventKind::chatter) tracer_.begin_flight(last.contact, Number{last.time.since(origin_) * motion_.system().period(), 0.0});
   }
 
  private:
@@ -45,7 +45,8 @@ class Follower {
 
 }  // namespace
 
-bool trace(Motion& motion, Instant end, Tracer& tracer, const std::atomic<bool>* stop) {
+bool trace(Motion& motion, Instant end, Tracer& tracer, const std::atomic<bool>* stop,
+           const std::function<void(double periods)>& progress) {
   Follower follower(motion, tracer);
   Instant stage = motion.time();
   do {
@@ -55,6 +56,7 @@ bool trace(Motion& motion, Instant end, Tracer& tracer, const std::atomic<bool>*
       if (stopped(stop)) return false;
     }
     follower.look(false);
+    if (progress) progress(motion.time().since({}));
     if (stopped(stop)) return false;
   } while (stage < end);
   tracer.finish(motion.engine().extended().data(), *motion.system().compiled().outline(motion.mode_id()));

@@ -1,9 +1,9 @@
-/// Cuts pieces of a motion into steps, and finds the impulses between them.
+/// Cuts pieces of a motion into steps, and writes quantities as polynomials on them.
 #include "quantity/tracer.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 namespace slapstick::quantity {
 
@@ -46,37 +46,61 @@ void scale_rows(const Vector& coefficients, double ratio, std::vector<Polynomial
   }
 }
 
+/// A quantity of its rows.
+void combine(const Term& term, const std::vector<Polynomial>& rows, Polynomial& value) {
+  value.degree = 0;
+  value.a[0] = 0.0;
+  if (term.linear) {
+    const Polynomial& row = rows[*term.linear];
+    value.degree = row.degree;
+    std::copy_n(row.a.begin(), row.degree + 1, value.a.begin());
+  }
+  for (const auto& [a, b] : term.products) add_product(rows[a], rows[b], value);
+}
+
+/// Its derivative: (a b)' = a' b + a b'.
+void combine_rates(const Term& term, const std::vector<Polynomial>& rows, const std::vector<Polynomial>& rates, Polynomial& value) {
+  combine({{}, term.linear}, rates, value);
+  for (const auto& [a, b] : term.products) {
+    add_product(rates[a], rows[b], value);
+    add_product(rows[a], rates[b], value);
+  }
+}
+
 }  // namespace
 
 /// The Taylor polynomials of a mode's rows on steps of length `longest`: coefficients = taylor X, row by row.
 struct Tracer::Expansion {
-  Expansion(const Model& model, const mode::Frame& frame, std::shared_ptr<const mode::Outline> of, double step)
-      : kept(std::move(of)), outline(*kept), formulas(model, frame, *kept), longest(step) {}
+  Expansion(const Model& model, const mode::Frame& frame, std::shared_ptr<const mode::Outline> of, double step,
+            const Rates* rates)
+      : kept(std::move(of)), outline(*kept), formulas(model, frame, *kept, rates), longest(step),
+        rate(rates != nullptr ? rates->outline : nullptr) {}
 
   /// The quantities where the kinks' rows have these signs; null: not yet known
   struct Branch {
     std::vector<bool> above;
     std::vector<Term> terms;
+    std::vector<Row> rows;
     Matrix taylor;
-    std::size_t rows = 0;
   };
 
   Branch& branch(const std::vector<bool>& above, const std::vector<Quantity>& quantities);
-  [[nodiscard]] Matrix taylor_of(const std::vector<RowVector>& rows) const;
+  [[nodiscard]] Matrix taylor_of(const std::vector<Row>& rows) const;
 
   std::shared_ptr<const mode::Outline> kept;
   const mode::Outline& outline;
   Formulas formulas;
   double longest;
+  const mode::OutlineDerivative* rate;
   Matrix kinks, flow;
   std::vector<Branch> branches;
 };
 
 /// Rows c A^j h^j / j!, j = 0 .. 23, one block for each c.
-Matrix Tracer::Expansion::taylor_of(const std::vector<RowVector>& rows) const {
+Matrix Tracer::Expansion::taylor_of(const std::vector<Row>& rows) const {
   Matrix all(static_cast<Eigen::Index>(rows.size()) * (degree + 1), outline.system.rows());
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    RowVector term = rows[r];
+    RowVector term = rows[r].value;
     for (int j = 0; j <= degree; ++j) {
       all.row(static_cast<Eigen::Index>(r) * (degree + 1) + j) = term;
       term = (longest / (j + 1)) * (term * outline.system);
@@ -90,41 +114,44 @@ Tracer::Expansion::Branch& Tracer::Expansion::branch(const std::vector<bool>& ab
     if (known.above == above) return known;
   Branch made;
   made.above = above;
-  std::vector<RowVector> rows;
-  const auto place = [&](const RowVector& row) {
-    const auto found = std::find(rows.begin(), rows.end(), row);
-    if (found != rows.end()) return static_cast<std::size_t>(found - rows.begin());
-    rows.push_back(row);
-    return rows.size() - 1;
+  const auto place = [&](const Row& row) {
+    const auto same = [&](const Row& one) { return one.value == row.value && one.rate == row.rate; };
+    const auto found = std::find_if(made.rows.begin(), made.rows.end(), same);
+    if (found != made.rows.end()) return static_cast<std::size_t>(found - made.rows.begin());
+    made.rows.push_back(row);
+    return made.rows.size() - 1;
   };
+  const auto nothing = [](const Row& row) { return row.value.isZero(0.0) && row.rate.isZero(0.0); };
   for (const Quantity& quantity : quantities) {
     const Formula formula = formulas.of(quantity, above);
     Term term;
-    if (!formula.linear.isZero(0.0)) term.linear = place(formula.linear);
+    if (!nothing(formula.linear)) term.linear = place(formula.linear);
     for (const auto& [left, right] : formula.products) {
-      if (left.isZero(0.0) || right.isZero(0.0)) continue;
+      if (nothing(left) || nothing(right)) continue;
       const std::size_t a = place(left), b = place(right);
       term.products.emplace_back(a, b);
     }
     made.terms.push_back(std::move(term));
   }
-  made.rows = rows.size();
-  made.taylor = taylor_of(rows);
+  made.taylor = taylor_of(made.rows);
   branches.push_back(std::move(made));
   return branches.back();
 }
 
-Tracer::Tracer(const Model& model, const mode::Frame& frame, double period, const std::vector<Quantity>& of,
-               Listener& listener)
-    : model_(model), frame_(frame), period_(period), of_(of), listener_(listener), values_(of.size()),
-      marks_(model.stops.size() + model.frictions.size() + model.compliant_stops.size() + 1) {}
+Tracer::Tracer(const Model& model, const mode::Frame& frame, Number period, const std::vector<Quantity>& of,
+               Listener& listener, const Rates* rates)
+    : model_(model), frame_(frame), of_(of), listener_(listener), rates_(rates),
+      blows_(model, frame, period, of, rates), values_(of.size()), value_rates_(rates != nullptr ? of.size() : 0) {}
 
 Tracer::~Tracer() = default;
 
-Tracer::Expansion& Tracer::expansion(const std::shared_ptr<const mode::Outline>& outline, double longest) {
+Tracer::Expansion& Tracer::expansion(const std::shared_ptr<const mode::Outline>& outline, double longest,
+                                     const PieceRates* rates) {
   for (const auto& known : modes_)
     if (known->kept == outline || known->outline.states == outline->states) return *known;
-  auto made = std::make_unique<Expansion>(model_, frame_, outline, longest);
+  std::optional<Rates> of_mode;
+  if (rates != nullptr) of_mode.emplace(Rates{rates_->model, rates_->frame, &rates->outline});
+  auto made = std::make_unique<Expansion>(model_, frame_, outline, longest, of_mode ? &*of_mode : nullptr);
   made->kinks = made->taylor_of(made->formulas.kinks());
   const auto m = outline->system.rows();
   Matrix term = Matrix::Identity(m, m);
@@ -138,211 +165,152 @@ Tracer::Expansion& Tracer::expansion(const std::shared_ptr<const mode::Outline>&
 }
 
 void Tracer::piece(const std::shared_ptr<const mode::Outline>& outline, double longest, const double* X, double begin,
-                   double duration) {
-  next_ = outline.get();
-  if (last_ != nullptr) tell_blow(X);
-  struck_ = 0;
-  Expansion& mode = expansion(outline, longest);
-  X_ = Eigen::Map<const Vector>(X, frame_.size());
-  const double end = begin + duration;
-  end_ = begin;
+                   double duration, const PieceRates* rates) {
+  if (last_ != nullptr) tell_blow(*outline, X, rates != nullptr ? rates->X : nullptr);
+  blows_.forget();
+  Expansion& mode = expansion(outline, longest, rates);
+  at_.X = Eigen::Map<const Vector>(X, frame_.size());
+  if (rates != nullptr) at_.by = Eigen::Map<const Vector>(rates->X, frame_.size());
+  const double end = begin + duration, begin_rate = rates != nullptr ? rates->begin : 0.0,
+               end_rate = rates != nullptr ? rates->duration : 0.0;
+  double from_rate = 0.0;
+  behind_ = nullptr;
   for (double left = duration; left > 0.0;) {
-    double length = std::min(left, mode.longest);
-    if (!mode.formulas.kinks().empty()) length = to_first_kink(mode, length);
-    step(mode, length);
-    left -= length;
-    end_ = end - left;
+    catch_up();
+    Number length{std::min(left, mode.longest), 0.0};
+    if (left <= mode.longest) length.rate = end_rate;
+    if (!mode.formulas.kinks().empty())
+      if (const Number kink = to_first_kink(mode, length.value); kink.value < length.value) length = kink;
+    step(mode, length.value, {end - left, length.value, values_, value_rates_, begin_rate, from_rate, length.rate});
+    from_rate = length.rate;
+    left -= length.value;
   }
-  end_ = end;
+  if (rates != nullptr) at_.by += end_rate * (outline->system * at_.X);
   const auto slips = [](mode::FrictionState state) { return state != mode::FrictionState::stick; };
-  if (std::any_of(next_->states.frictions.begin(), next_->states.frictions.end(), slips)) slid_ += duration;
-  last_ = next_;
+  const auto& frictions = outline->states.frictions;
+  const bool slipped = std::any_of(frictions.begin(), frictions.end(), slips);
+  blows_.go_on({end, begin_rate + end_rate}, slipped ? Number{duration, end_rate} : Number{});
+  last_ = outline.get();
 }
 
-/// At most `length`: the step ends where a kink's row passes zero.
-double Tracer::to_first_kink(const Expansion& mode, double length) const {
+/// At most `length`: the step ends where a kink's row passes zero. The place moves by -k_p / k' with the parameter.
+Number Tracer::to_first_kink(const Expansion& mode, double length) {
   std::vector<Polynomial> rows;
-  scale_rows(mode.kinks * X_, length / mode.longest, rows);
+  scale_rows(mode.kinks * at_.X, length / mode.longest, rows);
   double first = 1.0;
-  for (const Polynomial& row : rows) {
+  std::size_t which = rows.size();
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Polynomial& row = rows[k];
     const double rounding = 0x1p-45 * row.size();
     if (std::abs(row.a[0]) > row.size(1)) continue;
     event::possible_zeros(row, event::Bernstein(row), 0.0, 1.0, 0x1p-53 * row.size(), [&](double x) {
-      if (x > 0x1p-20 && x < first && std::abs(row.at(x)) <= rounding) first = x;
+      if (x > 0x1p-20 && x < first && std::abs(row.at(x)) <= rounding) first = x, which = k;
     });
   }
-  return first * length;
+  if (which == rows.size() || rates_ == nullptr) return {first * length, 0.0};
+  const Moving here = at_;
+  move_rates(mode, first * length);
+  const Row& row = mode.formulas.kinks()[which];
+  const Number now = row.at(at_.X, at_.by);
+  const double slope = row.value.dot(mode.outline.system * at_.X);
+  at_ = here;
+  return {first * length, -now.rate / slope};
 }
 
-void Tracer::step(Expansion& mode, double length) {
+/// One step of the trace, and on to its end.
+void Tracer::step(Expansion& mode, double length, const Step& place) {
+  evaluate(mode, length);
+  listener_.step(place);
+  if (rates_ != nullptr) return move_rates(mode, length);
+  behind_ = &mode;
+  behind_by_ = length;
+}
+
+void Tracer::catch_up() {
+  if (behind_ != nullptr) move(*behind_, behind_by_);
+  behind_ = nullptr;
+}
+
+/// Taylor's terms over a step of length `longest`, of X and of Y.
+void Tracer::expand(const Expansion& mode) {
+  const Eigen::Index m = at_.X.size();
+  terms_.resize(m, degree + 1);
+  rate_terms_.resize(m, degree + 1);
+  terms_.col(0) = at_.X;
+  rate_terms_.col(0) = at_.by;
+  for (int j = 1; j <= degree; ++j) {
+    const double part = mode.longest / j;
+    terms_.col(j) = part * (mode.outline.system * terms_.col(j - 1));
+    rate_terms_.col(j) = part * (mode.outline.system * rate_terms_.col(j - 1) + mode.rate->system * terms_.col(j - 1));
+  }
+}
+
+/// `values_` and `value_rates_` on the next step.
+void Tracer::evaluate(Expansion& mode, double length) {
   const double ratio = length / mode.longest;
   above_.clear();
   if (!mode.formulas.kinks().empty()) {
-    scale_rows(mode.kinks * X_, ratio, rows_);
+    scale_rows(mode.kinks * at_.X, ratio, rows_);
     for (const Polynomial& row : rows_) above_.push_back(row.at(0.5) > 0.0);
   }
   const Expansion::Branch& branch = mode.branch(above_, of_);
-  coefficients_.noalias() = branch.taylor * X_;
+  coefficients_.noalias() = branch.taylor * at_.X;
   scale_rows(coefficients_, ratio, rows_);
-  for (std::size_t k = 0; k < of_.size(); ++k) {
-    const Term& term = branch.terms[k];
-    values_[k].degree = 0;
-    values_[k].a[0] = 0.0;
-    if (term.linear) {
-      const Polynomial& row = rows_[*term.linear];
-      values_[k].degree = row.degree;
-      std::copy_n(row.a.begin(), row.degree + 1, values_[k].a.begin());
-    }
-    for (const auto& [a, b] : term.products) add_product(rows_[a], rows_[b], values_[k]);
-  }
-  listener_.step({end_, length, values_});
-  move(mode, length);
+  for (std::size_t k = 0; k < of_.size(); ++k) combine(branch.terms[k], rows_, values_[k]);
+  if (rates_ == nullptr) return;
+  expand(mode);
+  rate_coefficients_.resize(coefficients_.size());
+  for (std::size_t r = 0; r < branch.rows.size(); ++r)
+    rate_coefficients_.segment(static_cast<Eigen::Index>(r) * (degree + 1), degree + 1) =
+        (branch.rows[r].rate * terms_ + branch.rows[r].value * rate_terms_).transpose();
+  scale_rows(rate_coefficients_, ratio, row_rates_);
+  for (std::size_t k = 0; k < of_.size(); ++k) combine_rates(branch.terms[k], rows_, row_rates_, value_rates_[k]);
 }
 
-/// X_ goes on by exp(A length).
+/// X goes on by exp(A length).
 void Tracer::move(const Expansion& mode, double length) {
   if (length == mode.longest) {
-    next_X_.noalias() = mode.flow * X_;
-    X_.swap(next_X_);
+    next_.X.noalias() = mode.flow * at_.X;
+    at_.X.swap(next_.X);
     return;
   }
-  Vector term = X_;
+  Vector term = at_.X;
   for (int j = 1; j <= degree; ++j) {
-    next_X_.noalias() = mode.outline.system * term;
-    term = (length / j) * next_X_;
-    X_ += term;
+    next_.X.noalias() = mode.outline.system * term;
+    term = (length / j) * next_.X;
+    at_.X += term;
   }
 }
 
-double value_at(const Quantity& quantity, const Struck& impact) {
-  using Kind = Quantity::Kind;
-  const bool one_stop = quantity.index >= 0;
-  const Since& since = one_stop ? impact.own : impact.any;
-  if (one_stop && quantity.index != impact.contact) return std::numeric_limits<double>::quiet_NaN();
-  if (quantity.kind == Kind::speed) return impact.w;
-  if (quantity.kind == Kind::impulse) return impact.impulse;
-  if (quantity.kind == Kind::loss) return impact.loss;
-  if (quantity.kind == Kind::flight) return since.flight;
-  return quantity.kind == Kind::sliding ? since.sliding : std::numeric_limits<double>::quiet_NaN();
+/// X and Y go on.
+void Tracer::move_rates(const Expansion& mode, double length) {
+  Moving term = at_;
+  for (int j = 1; j <= degree; ++j) {
+    next_.by.noalias() = mode.outline.system * term.by;
+    next_.by += mode.rate->system * term.X;
+    next_.X.noalias() = mode.outline.system * term.X;
+    term.X = (length / j) * next_.X;
+    term.by = (length / j) * next_.by;
+    at_.X += term.X;
+    at_.by += term.by;
+  }
 }
 
 void Tracer::impact(int stop, double w) {
-  if (last_ == nullptr) return;
-  strike(std::uint32_t{1} << static_cast<unsigned>(stop));
-  const auto known = std::find_if(impacts_.begin(), impacts_.end(), [&](const Struck& one) { return one.contact == stop; });
-  if (known == impacts_.end()) impacts_.push_back(meet(stop, w));
+  if (last_ != nullptr) blows_.impact(stop, w, at_);  // of X its derivative alone, which is never behind
 }
 
-void Tracer::begin_flight(int contact, double time, double slid) {
-  const Mark mark{time, slid_ - slid};
-  marks_[static_cast<std::size_t>(contact)] = mark;
-  if (!marks_.back() || time >= marks_.back()->time) marks_.back() = mark;
-}
-
-/// @param contact  -1: any
-Since Tracer::since(int contact) const {
-  const auto& mark = contact < 0 ? marks_.back() : marks_[static_cast<std::size_t>(contact)];
-  const double unknown = std::numeric_limits<double>::quiet_NaN();
-  return mark ? Since{(end_ - mark->time) / period_, (slid_ - mark->slid) / period_} : Since{unknown, unknown};
-}
-
-/// An impact here and now: it ends a flight and begins one.
-Struck Tracer::meet(int contact, double w) {
-  const Struck met{contact, w, 0.0, 0.0, since(-1), since(contact)};
-  begin_flight(contact, end_);
-  return met;
-}
-
-void Tracer::finish(const double* X, const mode::Outline& next) {
-  if (last_ == nullptr) return;
-  next_ = &next;
-  tell_blow(X);
+void Tracer::finish(const double* X, const mode::Outline& next, const double* X_rate) {
+  if (last_ != nullptr) tell_blow(next, X, X_rate);
 }
 
 /// What lies between the end of the last piece and X.
-void Tracer::tell_blow(const double* X) {
-  Blow blow{end_, std::vector<double>(of_.size(), 0.0), {}};
-  const bool struck = struck_ != 0;
-  if (struck) blow_of_stops(X, blow);
-  if (last_->states.compliant != next_->states.compliant) {
-    let_go(*next_, blow);
-    engage(*next_, blow);
-  }
-  const bool any = std::any_of(blow.impulses.begin(), blow.impulses.end(), [](double one) { return one != 0.0; });
-  if (struck || any || !blow.impacts.empty()) listener_.blow(blow);
-  struck_ = 0;
-  impacts_.clear();
-}
-
-/// M dv = -sum_i g_i P_i over the stops that were struck: in contact coordinates dw_i = -sum_j D_ij P_j. Each takes P_i
-/// (w_i- + w_i+) / 2.
-void Tracer::blow_of_stops(const double* X, Blow& blow) {
-  std::vector<int> stops;
-  for (int i = 0; i < static_cast<int>(model_.stops.size()); ++i)
-    if ((struck_ >> static_cast<unsigned>(i) & 1U) != 0) stops.push_back(i);
-  const auto count = static_cast<Eigen::Index>(stops.size());
-  const auto row = [&](Eigen::Index i) { return frame_.stops[static_cast<std::size_t>(stops[static_cast<std::size_t>(i)])]; };
-  Matrix D(count, count);
-  Vector jump(count), sum(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const auto u = static_cast<Eigen::Index>(frame_.u(row(i).own));
-    jump[i] = row(i).sign * (X[u] - X_[u]);
-    sum[i] = row(i).sign * (X[u] + X_[u]);
-    for (Eigen::Index j = 0; j < count; ++j)
-      D(i, j) = row(i).sign * row(j).sign * frame_.mass_inverse(row(i).own, row(j).own);
-  }
-  const Vector P = -mode::least_norm_inverse(D) * jump, loss = 0.5 * P.cwiseProduct(sum);
-  share(stops, P, loss, Eigen::Map<const Vector>(X, frame_.size()) - X_, blow);
-  for (Struck& impact : impacts_) {
-    const auto i = static_cast<Eigen::Index>(std::find(stops.begin(), stops.end(), impact.contact) - stops.begin());
-    impact.impulse = P[i];
-    impact.loss = loss[i];
-  }
-  blow.impacts = impacts_;
-}
-
-/// The impulses of all quantities.
-void Tracer::share(const std::vector<int>& stops, const Vector& P, const Vector& loss, const Vector& change, Blow& blow) const {
-  const Formulas formulas(model_, frame_, *last_);
-  const auto of_one = [&](Quantity::Kind kind, int index) {
-    if (kind == Quantity::Kind::acceleration)
-      return formulas.velocity(index).segment(frame_.d, frame_.n).dot(change.segment(frame_.d, frame_.n));
-    const auto i = std::find(stops.begin(), stops.end(), index) - stops.begin();
-    if (i == P.size()) return 0.0;
-    if (kind == Quantity::Kind::force) return P[i];
-    return kind == Quantity::Kind::power ? loss[i] : 0.0;
-  };
-  for (std::size_t k = 0; k < of_.size(); ++k)
-    blow.impulses[k] = of_one(of_[k].kind, of_[k].index) - (of_[k].minus >= 0 ? of_one(of_[k].kind, of_[k].minus) : 0.0);
-}
-
-/// A compliant stop that lets go beyond its gap takes the energy of its spring; one that pushes again brings it back.
-void Tracer::let_go(const mode::Outline& next, Blow& blow) const {
-  for (std::size_t k = 0; k < of_.size(); ++k) {
-    if (of_[k].kind != Quantity::Kind::power) continue;
-    const int compliant = of_[k].index - static_cast<int>(model_.stops.size() + model_.frictions.size());
-    if (compliant < 0 || compliant >= static_cast<int>(model_.compliant_stops.size())) continue;
-    const auto at = static_cast<std::size_t>(compliant);
-    const auto detached = [&](const mode::Outline& mode) {
-      return mode.states.compliant[at] == mode::CompliantState::detached ? 1.0 : 0.0;
-    };
-    const double sense = detached(next) - detached(*last_);
-    const double delta = X_[frame_.compliant[at].own];
-    blow.impulses[k] += sense * 0.5 * model_.compliant_stops[at].stiffness * delta * delta;
-  }
-}
-
-/// A compliant stop that is met from its free side, as section/stop_choice.hpp counts them.
-void Tracer::engage(const mode::Outline& next, Blow& blow) {
-  const double unknown = std::numeric_limits<double>::quiet_NaN();
-  const int first = static_cast<int>(model_.stops.size() + model_.frictions.size());
-  for (std::size_t i = 0; i < model_.compliant_stops.size(); ++i) {
-    const bool met = last_->states.compliant[i] == mode::CompliantState::off && next.states.compliant[i] != mode::CompliantState::off;
-    const double w = met ? frame_.velocity_row(frame_.compliant[i]).dot(X_) : 0.0;
-    if (!(w > 0.0)) continue;
-    blow.impacts.push_back(meet(first + static_cast<int>(i), w));
-    blow.impacts.back().impulse = blow.impacts.back().loss = unknown;
-  }
+void Tracer::tell_blow(const mode::Outline& next, const double* X, const double* X_rate) {
+  if (!blows_.may_come(*last_, next)) return blows_.forget();
+  catch_up();
+  Moving after{Eigen::Map<const Vector>(X, frame_.size()), {}};
+  if (X_rate != nullptr) after.by = Eigen::Map<const Vector>(X_rate, frame_.size());
+  if (const auto blow = blows_.between(*last_, at_, next, after)) listener_.blow(*blow);
 }
 
 }  // namespace slapstick::quantity

@@ -6,14 +6,15 @@
 /// but for rounding, as the windows of a Mode are. A *blow* is an instant at which velocities jump. The tracer sees
 /// pieces in order of time, from wherever they come: a Motion (`trace`), or the legs of an orbit. So jumps are those
 /// between the end of a piece and the start of the next one, and all impulses are what momentum asks for.
+///
+/// Of a cycle it can carry the derivative by a parameter, Y = dX/dp at a fixed time s of the piece: Y' = A Y + A_p X.
 #include <atomic>
-#include <cstdint>
+#include <functional>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "event/polynomial.hpp"
-#include "quantity/formula.hpp"
+#include "quantity/blow.hpp"
 #include "slapstick/flow/motion.hpp"
 
 namespace slapstick::quantity {
@@ -24,29 +25,11 @@ using event::Polynomial;
 struct Step {
   double begin = 0.0, length = 0.0;  ///< time units from the start of the trace
   const std::vector<Polynomial>& values;
+  /// Their derivatives at fixed time of the piece; empty without a parameter. The piece begins and the step's ends move
+  /// by these: an end that is a mere cut by zero.
+  const std::vector<Polynomial>& rates;
+  double piece_rate = 0.0, from_rate = 0.0, to_rate = 0.0;
 };
-
-/// A time since an impact and the part of it in slip, forcing periods; NaN where there was none.
-struct Since {
-  double flight = 0.0, sliding = 0.0;
-};
-
-/// A stop that was struck, or a compliant one that was met from its free side.
-struct Struck {
-  int contact = 0;                    ///< System::contact_name
-  double w = 0.0;                     ///< just before
-  double impulse = 0.0, loss = 0.0;   ///< NaN of a compliant stop: both take time
-  Since any, own;                     ///< since an impact of any stop, and of this one
-};
-
-struct Blow {
-  double time = 0.0;
-  std::vector<double> impulses;  ///< of every quantity
-  std::vector<Struck> impacts;   ///< none: the tail of a chatter, or a compliant stop that lets go
-};
-
-/// What a quantity at impacts is at one; NaN if it is not about this stop.
-[[nodiscard]] double value_at(const Quantity& quantity, const Struck& impact);
 
 class Listener {
  public:
@@ -58,68 +41,74 @@ class Listener {
   virtual void blow(const Blow& blow) = 0;
 };
 
+/// The derivatives of a piece: of its mode, of X at its start, where that moves too, and of its times.
+struct PieceRates {
+  const mode::OutlineDerivative& outline;
+  const double* X;
+  double begin = 0.0, duration = 0.0;
+};
+
 class Tracer {
  public:
   /// Refers to its arguments. @param period  what flights are measured in
-  Tracer(const Model& model, const mode::Frame& frame, double period, const std::vector<Quantity>& of, Listener& listener);
+  /// @param rates  of the model by the parameter; null: no derivatives
+  Tracer(const Model& model, const mode::Frame& frame, Number period, const std::vector<Quantity>& of,
+         Listener& listener, const Rates* rates = nullptr);
   ~Tracer();
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
 
   /// The motion in one mode, from X at time `begin` on. The blow before it is told first.
   /// @param longest  time over which the Taylor polynomial of degree 23 is exact but for rounding
-  void piece(const std::shared_ptr<const mode::Outline>& mode, double longest, const double* X, double begin, double duration);
+  void piece(const std::shared_ptr<const mode::Outline>& mode, double longest, const double* X, double begin,
+             double duration, const PieceRates* rates = nullptr);
   /// At the end of the last piece, or (of a chatter) at the start of the next one: these stops, bit by bit, get an
   /// impulse ..
-  void strike(std::uint32_t stops) { struck_ |= stops; }
+  void strike(std::uint32_t stops) { blows_.strike(stops); }
   /// .. and this one was hit. Ignored before the first piece.
   void impact(int stop, double w);
   /// Flights of a stop count from here: an impact before the first piece, or the end of a chatter.
   /// @param slid  how long friction has slipped since then
-  void begin_flight(int contact, double time, double slid = 0.0);
+  void begin_flight(int contact, Number time, Number slid = {}) { blows_.begin_flight(contact, time, slid); }
   /// X after the last piece, what was struck there, and the mode that follows.
-  void finish(const double* X, const mode::Outline& next);
+  void finish(const double* X, const mode::Outline& next, const double* X_rate = nullptr);
 
  private:
   struct Expansion;
 
-  Expansion& expansion(const std::shared_ptr<const mode::Outline>& outline, double longest);
-  void step(Expansion& mode, double length);
+  Expansion& expansion(const std::shared_ptr<const mode::Outline>& outline, double longest, const PieceRates* rates);
+  void step(Expansion& mode, double length, const Step& place);
+  void evaluate(Expansion& mode, double length);
+  void expand(const Expansion& mode);
   void move(const Expansion& mode, double length);
-  [[nodiscard]] double to_first_kink(const Expansion& mode, double length) const;
-  void tell_blow(const double* X);
-  void share(const std::vector<int>& stops, const Vector& P, const Vector& loss, const Vector& change, Blow& blow) const;
-  void blow_of_stops(const double* X, Blow& blow);
-  void let_go(const mode::Outline& next, Blow& blow) const;
-  void engage(const mode::Outline& next, Blow& blow);
-  [[nodiscard]] Since since(int contact) const;
-  [[nodiscard]] Struck meet(int contact, double w);
+  void catch_up();
+  void move_rates(const Expansion& mode, double length);
+  [[nodiscard]] Number to_first_kink(const Expansion& mode, double length);
+  void tell_blow(const mode::Outline& next, const double* X, const double* X_rate);
 
   const Model& model_;
   const mode::Frame& frame_;
-  double period_;
   const std::vector<Quantity>& of_;
   Listener& listener_;
+  const Rates* rates_;
+  Blows blows_;
   std::vector<std::unique_ptr<Expansion>> modes_;
   const mode::Outline* last_ = nullptr;  ///< of the last piece
-  const mode::Outline* next_ = nullptr;  ///< of the piece that begins
-  std::uint32_t struck_ = 0;
-  std::vector<Struck> impacts_;
-  Vector X_;  ///< where the trace stands
-  Vector next_X_, coefficients_;
+  Moving at_;                            ///< where the trace stands, but for what it is behind
+  const Expansion* behind_ = nullptr;    ///< X has still to go on in this mode ..
+  double behind_by_ = 0.0;               ///< .. so long: most pieces end where nobody asks for it
+  Moving next_;
+  Vector coefficients_, rate_coefficients_;
+  Matrix terms_, rate_terms_;  ///< of exp(A h) X and of Y, a column each
   std::vector<bool> above_;
-  std::vector<Polynomial> rows_, values_;
-  /// An impact, and how long friction had slipped until then.
-  struct Mark {
-    double time = 0.0, slid = 0.0;
-  };
-  double end_ = 0.0, slid_ = 0.0;
-  std::vector<std::optional<Mark>> marks_;  ///< the last one of each contact, and of any behind them
+  std::vector<Polynomial> rows_, row_rates_, values_, value_rates_;
 };
 
 /// Follows a motion to `end`. What happens at its present instant is not told, what happens at `end` is.
 /// @param stop  null: cannot be stopped. @returns false if it was
+/// @param progress  if there is one, called now and then with the motion's time in periods
 /// @throws NumericalError as Motion::advance
-bool trace(Motion& motion, Instant end, Tracer& tracer, const std::atomic<bool>* stop);
+bool trace(Motion& motion, Instant end, Tracer& tracer, const std::atomic<bool>* stop,
+           const std::function<void(double periods)>& progress = {});
 
 }  // namespace slapstick::quantity

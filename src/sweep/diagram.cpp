@@ -1,10 +1,7 @@
-/// Runs a diagram: chains of transients, and recordings on the thread pool.
+/// Runs a diagram: which values are a chain, and what each does before and after it hands on.
 #include "slapstick/sweep/diagram.hpp"
 
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-#include <tbb/task_group.h>
-
+#include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <optional>
@@ -12,7 +9,7 @@
 #include "slapstick/base/error.hpp"
 #include "base/text.hpp"
 #include "sweep/diagram_point.hpp"
-#include "sweep/fork_join.hpp"
+#include "sweep/executor.hpp"
 
 namespace slapstick::sweep {
 namespace {
@@ -42,7 +39,7 @@ void check(const DiagramProblem& problem) {
          "with start = reset, up and down are the same: choose one of them, or start = carry");
 }
 
-/// One sweep while it runs: the results, and the tasks that fill them.
+/// One sweep while it runs.
 class Run {
  public:
   explicit Run(const DiagramProblem& problem) : problem_(problem) {
@@ -52,13 +49,9 @@ class Run {
       for (int i = problem.count - 1; i >= 0; --i) add_point(i, Direction::down);
   }
 
+  /// With `carry` a direction is a chain, with `reset` some values together are one cell.
   Diagram operator()() {
-    settled_.resize(diagram_.points.size());
-    if (problem_.start == StartRule::carry) {
-      run_chains();
-    } else {
-      run_each();
-    }
+    diagram_.complete = carries() ? run_carried() : run_each();
     for (const DiagramPoint& point : diagram_.points) diagram_.complete = diagram_.complete && point.done;
     return std::move(diagram_);
   }
@@ -70,80 +63,61 @@ class Run {
     point.direction = direction;
   }
 
-  void run_each() {
-    for (std::size_t i = 0; i < diagram_.points.size(); ++i)
-      spawn([this, i] {
-        if (settle_point(i, {})) record_point(i);
-      });
-    tasks_.wait();
-    fork_join::join();
+  [[nodiscard]] bool carries() const { return problem_.start == StartRule::carry; }
+
+  bool run_carried() {
+    const int length = problem_.count, chains = static_cast<int>(diagram_.points.size()) / length;
+    const auto body = [&](const Cell& cell, const Starts& start, const HandOn& hand_on) {
+      run_point(static_cast<std::size_t>(cell.chain * length + cell.step), start.empty() ? Carried{} : start.front(), hand_on);
+    };
+    return run_chains({.chains = chains, .length = length}, problem_.threads, body, problem_.cancel);
   }
 
-  void run_chains() {
-    const auto chain = static_cast<std::size_t>(problem_.count);
-    for (std::size_t begin = 0; begin < diagram_.points.size(); begin += chain)
-      spawn([this, begin, chain] { run_chain(begin, begin + chain); });
-    tasks_.wait();
-    fork_join::join();
+  /// Transients in the lanes of a batch, as many points to a cell as keep the lanes full and all threads busy.
+  bool run_each() {
+    constexpr std::size_t most_together = 64;
+    const std::size_t all = diagram_.points.size(), together = std::clamp(all / 32, std::size_t{1}, most_together);
+    const auto body = [&](const Cell& cell, const Starts&, const HandOn&) {
+      const std::size_t begin = static_cast<std::size_t>(cell.chain) * together;
+      run_together(begin, std::min(begin + together, all));
+    };
+    return run_chains({.chains = static_cast<int>((all + together - 1) / together)}, problem_.threads, body, problem_.cancel);
   }
 
-  /// A task whose captures are plain numbers and pointers.
-  template <class Body>
-  void spawn(const Body& body) {
-    auto task = tasks_.defer([body] {
-      fork_join::enter();
-      body();
-      fork_join::leave();
-    });
-    fork_join::fork();  // what the task needs is written by now
-    tasks_.run(std::move(task));
+  void run_together(std::size_t begin, std::size_t end) {
+    std::vector<Carried> begun(end - begin);
+    bool fresh = true;  // lanes and motions have the same bits: where some points are known, the others go one by one
+    for (std::size_t i = begin; i < end; ++i) fresh = fresh && !(problem_.known && problem_.known(i) != nullptr);
+    if (fresh) run_in_lanes(problem_, {diagram_.points.data() + begin, end - begin}, begun);
+    for (std::size_t i = begin; i < end; ++i) run_point(i, begun[i - begin], [](const Starts&) {});
   }
 
-  /// Transients one after the other, recordings for whoever is free. When too many wait, because the others are busy or
-  /// there are none, the chain records itself: a waiting recording holds a System.
-  void run_chain(std::size_t begin, std::size_t end) {
-    Carried carried;
-    for (std::size_t i = begin; i < end && !cancelled(problem_); ++i) {
-      if (!settle_point(i, carried)) continue;
-      carried = carry_on(*settled_[i]);
-      if (waiting_ < most_waiting) {
-        ++waiting_;
-        spawn([this, i] {
-          --waiting_;
-          record_point(i);
-        });
-      } else {
-        record_point(i);
-      }
-    }
-  }
-
-  bool settle_point(std::size_t i, const Carried& carried) {
-    if (cancelled(problem_)) return false;
+  /// The next value begins where this one's transient ends; after a failure where this one began.
+  void run_point(std::size_t i, const Carried& begin, const HandOn& hand_on) {
     DiagramPoint& point = diagram_.points[i];
-    settled_[i] = settle(problem_, carried, point);
-    if (!settled_[i] && point.done) report();
-    return settled_[i].has_value();
+    if (const DiagramPoint* known = problem_.known ? problem_.known(i) : nullptr) {
+      point = *known;
+      hand_on({{point.carried, point.carried_phase}});
+      return report(i, true);
+    }
+    std::optional<Settled> settled = settle(problem_, begin, point);
+    const Carried next = settled ? carry_on(*settled) : begin;
+    if (carries()) point.carried = next.state, point.carried_phase = next.fraction;
+    if (settled) {
+      hand_on({next});
+      if (!cancelled(problem_)) record(problem_, std::move(*settled), point);
+    }
+    if (point.done) report(i, false);
   }
 
-  void record_point(std::size_t i) {
-    if (!cancelled(problem_)) record(problem_, std::move(*settled_[i]), diagram_.points[i]);
-    settled_[i].reset();
-    if (diagram_.points[i].done) report();
-  }
-
-  void report() {
-    if (!problem_.progress) return;
+  void report(std::size_t i, bool known) {
     const std::lock_guard lock(progress_);
-    problem_.progress(++done_, static_cast<int>(diagram_.points.size()));
+    if (problem_.finished && !known) problem_.finished(i, diagram_.points[i]);
+    if (problem_.progress) problem_.progress(++done_, static_cast<int>(diagram_.points.size()));
   }
 
   const DiagramProblem& problem_;
   Diagram diagram_;
-  std::vector<std::optional<Settled>> settled_;  // between a point's transient and its recording
-  static constexpr int most_waiting = 32;
-  std::atomic<int> waiting_{0};  // recordings that no thread has begun
-  tbb::task_group tasks_;
   std::mutex progress_;
   int done_ = 0;
 };
@@ -152,12 +126,7 @@ class Run {
 
 Diagram run_diagram(const DiagramProblem& problem) {
   check(problem);
-  std::optional<tbb::global_control> more_than_there_are_cores;
-  if (problem.threads > 0)
-    more_than_there_are_cores.emplace(tbb::global_control::max_allowed_parallelism,
-                                      static_cast<std::size_t>(problem.threads));
-  tbb::task_arena arena(problem.threads > 0 ? problem.threads : tbb::task_arena::automatic);
-  return arena.execute([&] { return Run(problem)(); });
+  return Run(problem)();
 }
 
 }  // namespace slapstick::sweep

@@ -8,6 +8,7 @@
 
 #include "slapstick/base/error.hpp"
 #include "base/floating_point.hpp"
+#include "batch/runner.hpp"
 #include "section/run_impacts.hpp"
 #include "slapstick/quantity/reader.hpp"
 
@@ -36,9 +37,9 @@ Motion start_motion(const DiagramProblem& problem, const Carried& carried, const
     State state = carried.state;
     undo_rounding(system.model(), state);
     try {
-      return Motion(system, state, Instant{0, carried.fraction});
+      return Motion(system, state, Instant{carried.periods, carried.fraction});
     } catch (const InputError& error) {
-      point.note = std::string("started anew: ") + error.what();
+      if (carried.periods == 0) point.note = std::string("started anew: ") + error.what();
     }
   }
   return Motion(system, problem.start_at(point.parameter));
@@ -73,6 +74,25 @@ void undo_rounding(const Model& model, State& state) {
   }
 }
 
+void run_in_lanes(const DiagramProblem& problem, std::span<const DiagramPoint> points, std::span<Carried> begun) {
+  constexpr int last_periods = 20;
+  const int periods = problem.transient_periods - last_periods;
+  if (periods < 1) return;
+  std::size_t next = 0;
+  const auto parameter = [&](std::size_t i) { return points[i].parameter; };
+  batch::Queue queue;
+  queue.next = [&] { return next < points.size() ? std::optional(next++) : std::nullopt; };
+  queue.model_at = [&](std::size_t i) { return problem.model_at(parameter(i)); };
+  queue.start_at = [&](std::size_t i) { return problem.start_at(parameter(i)); };
+  queue.wanted = batch::Queue::Wanted::those_of_lanes;
+  queue.plan.periods = periods;
+  queue.cancel = problem.cancel;
+  queue.take = [&](std::size_t i, BatchRun&& run) {
+    if (run.done) begun[i] = {std::move(run.end), 0.0, periods};
+  };
+  batch::Runner(std::move(queue), batch::kernel()).run();
+}
+
 std::optional<Settled> settle(const DiagramProblem& problem, const Carried& carried, DiagramPoint& point) {
   const IeeeArithmetic ieee;
   std::optional<Settled> settled;
@@ -83,7 +103,7 @@ std::optional<Settled> settle(const DiagramProblem& problem, const Carried& carr
     if (impacts && stop_contacts(system->model()).empty())
       throw InputError("model '" + system->model().name + "' has no stop, so there are no impacts to record");
     ImpactSection section(start_motion(problem, carried, *system, point), problem.stops);
-    const Instant end = after(section, problem.transient_periods);
+    const Instant end{problem.transient_periods, section.motion().time().fraction};
     interrupted = !run_impacts(section, end, problem.cancel, [](const SectionPoint&) { return true; });
     if (interrupted) return;
     settled.emplace(Settled{std::move(system), std::move(section)});
@@ -155,6 +175,15 @@ void record(const DiagramProblem& problem, Settled settled, DiagramPoint& point)
   });
   if (interrupted) point.impacts = {}, point.values = {};
   point.done = !good || !interrupted;
+}
+
+ImpactTable ImpactTable::of(std::vector<double> numbers, std::size_t row_width) {
+  if (row_width == 0 ? !numbers.empty() : row_width <= fixed || numbers.size() % row_width != 0)
+    throw InputError("ImpactTable: the numbers are no rows of " + std::to_string(row_width));
+  ImpactTable table;
+  table.numbers_ = std::move(numbers);
+  table.width_ = row_width;
+  return table;
 }
 
 void ImpactTable::add(const Row& row) {

@@ -5,14 +5,9 @@
 
 #include "slapstick/section/impact_section.hpp"
 #include "slapstick/sweep/diagram.hpp"
+#include "sweep/executor.hpp"
 
 namespace slapstick::sweep {
-
-/// A start that a chain hands from value to value.
-struct Carried {
-  State state;            ///< user's coordinates; empty: none yet
-  double fraction = 0.0;  ///< phase of the forcing
-};
 
 /// A motion after its transient; the System lives as long as the motion needs it.
 struct Settled {
@@ -24,6 +19,11 @@ struct Settled {
 /// (then with a note if a state was carried), and runs the transient.
 /// @returns nothing after a failure, which is written into `point`, or when cancelled
 std::optional<Settled> settle(const DiagramProblem& problem, const Carried& carried, DiagramPoint& point);
+
+/// The transients of points that begin at the problem's own start, in the lanes of a batch, up to the last few
+/// periods: these show the impact before the first that is recorded. Points that no lane can run, or that fail
+/// there, are left as they are.
+void run_in_lanes(const DiagramProblem& problem, std::span<const DiagramPoint> points, std::span<Carried> begun);
 
 /// Where the next value of a chain may start.
 Carried carry_on(const Settled& settled);

@@ -178,5 +178,35 @@ TEST(Raster, another_program_reads_back_every_pixel_of_the_png) {
   }
 }
 
+Cells two_by_three() {
+  return {.x = {0, 2}, .y = {0, 3}, .columns = 2, .rows = 3, .codes = {0, 1, 2, Cells::clear, 1, 0}, .colours = {{255, 0, 0}, {0, 255, 0}, {0, 0, 255}}};
+}
+
+TEST(Raster, cells_stand_where_their_rectangle_says_with_the_lowest_row_below) {
+  const Raster r = picture_of(two_by_three(), {{0, 2}, {0, 3}}, 4, 6);
+  EXPECT_EQ(r.pixels, (std::vector<std::uint8_t>{2, 2, 1, 1, 2, 2, 1, 1, 3, 3, 0, 0, 3, 3, 0, 0, 1, 1, 2, 2, 1, 1, 2, 2}));
+  EXPECT_EQ(r.inks.at(3), (Ink{{0, 0, 255}, 255}));
+}
+
+TEST(Raster, a_window_beyond_the_cells_shows_paper_there) {
+  const Raster r = picture_of(two_by_three(), {{-2, 2}, {0, 6}}, 4, 6);
+  EXPECT_EQ(r.pixels, (std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 1, 0, 0, 3, 0, 0, 0, 1, 2}));
+}
+
+TEST(Raster, cells_that_are_no_chart_are_refused) {
+  const workshop::Folder folder;
+  const auto refused = [&](const auto& change) {
+    Figure figure{.panels = {Panel{.cells = two_by_three()}}};
+    figure.panels[0].x_range = Range{0, 2}, figure.panels[0].y_range = Range{0, 3};
+    change(figure.panels[0]);
+    EXPECT_THROW(write(figure, folder / "c"), InputError);
+  };
+  refused([](Panel& panel) { panel.cells->codes.pop_back(); });
+  refused([](Panel& panel) { panel.cells->codes[0] = 3; });
+  refused([](Panel& panel) { panel.cells->rows = 0; });
+  refused([](Panel& panel) { panel.log_x = true, panel.x_range = Range{1, 2}; });
+  refused([](Panel& panel) { panel.points = {{.x = {1}, .y = {1}}}; });
+}
+
 }  // namespace
 }  // namespace slapstick::figure

@@ -34,7 +34,7 @@ TEST(Measure, OfALinearOscillatorAreThoseOfACosine) {
 
 /// The certified simulator from phase 0, and the legs of the orbit's equations.
 TEST(Measure, OfACycleIsTheSameByTheMotionAndByTheLegs) {
-  for (const char* name : {"vibro-impact", "two-sided-rattle", "stick-slip-impact", "gear-pair", "impact-absorber"}) {
+  for (const char* name : {"vibro-impact", "two-sided-rattle", "stick-slip-impact", "gear-pair", "impact-absorber", "belt", "falling-friction"}) {
     const SettledCycle cycle(load_model(name));
     std::vector<Quantity> of;
     for (const Quantity& one : cycle.all)

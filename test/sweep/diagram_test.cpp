@@ -65,6 +65,26 @@ TEST(Diagram, ResetIsTheSerialLoopOfOneValueEach) {
   }
 }
 
+/// Two routes to one answer: `carry` runs the transient of its first value by a Motion, `reset` in lanes.
+TEST(Diagram, TransientsInLanesEndOnTheOrbitOfAMotion) {
+  for (const double omega : {1.3, 1.5, 2.2}) {
+    DiagramProblem problem = over_omega(omega, omega, 1);
+    problem.transient_periods = 300;
+    const Diagram by_motion = run_diagram(problem);
+    problem.start = StartRule::reset;
+    const Diagram in_lanes = run_diagram(problem);
+    const ImpactTable &a = by_motion.points[0].impacts, &b = in_lanes.points[0].impacts;
+    ASSERT_EQ(a.size(), b.size());
+    ASSERT_EQ(a.size(), 30U);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      EXPECT_NEAR(a[i].w, b[i].w, 1e-10) << omega << " " << i;
+      EXPECT_NEAR(a[i].flight, b[i].flight, 1e-10);
+      EXPECT_NEAR(a[i].sliding, b[i].sliding, 1e-10);
+      EXPECT_NEAR(a[i].phase, b[i].phase, 1e-10);
+    }
+  }
+}
+
 /// At omega = 4.9 a 5-2 orbit (200 impacts per 500 periods) coexists with a chaotic attractor (231 or so), which is gone at 4.92. So the
 /// chain that begins at 4.9 on the chaotic one, and the one that comes back from 4.95, must differ there.
 TEST(Diagram, UpAndDownFindBothAttractorsOfOmega49) {

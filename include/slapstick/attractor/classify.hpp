@@ -121,6 +121,10 @@ struct Classification {
   State state;  ///< on the attractor, at phase 0 of a period or anywhere without a drive: needs no transient
 };
 
+/// The label of a motion: of a cycle (n > 0) "1-1-II", "2-inf-I", without a drive "free-1-I"; else the attractor's
+/// name.
+std::string class_label(Attractor attractor, int n, long p, bool sticking, Chatter chatter, bool driven);
+
 /// Classifies the motion that starts at `state` at phase 0.
 /// @throws InputError for a state that the stops forbid; NumericalError as Motion::advance
 Classification classify(const System& system, const State& state, const ClassifyOptions& options = {});

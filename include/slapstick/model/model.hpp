@@ -23,10 +23,19 @@ struct Coordinate {
   double mass = 1.0;
 };
 
+/// The forces of a model that stand for the motion of a base at the end of a spring or damper: its own force is
+/// stiffness * (x_a - x_b) less those of them that act on a (on b, where a is ground: and more).
+struct BaseMotion {
+  int first = 0, count = 0;  ///< among the model's forces
+  [[nodiscard]] bool none() const { return count == 0; }
+};
+
 /// Force stiffness * (x_a - x_b) pulling a and b together; stiffness may be any finite number.
 struct Spring {
   int a = 0, b = ground;
   double stiffness = 0.0;
+  std::string name = {};  ///< of the quantities of this spring; "": it has none
+  BaseMotion motion = {};
 };
 
 /// Force coefficient * (v_a - v_b); coefficient >= 0, or of either sign for one that may feed energy.
@@ -34,6 +43,8 @@ struct Damper {
   int a = 0, b = ground;
   double coefficient = 0.0;
   bool feeds = false;
+  std::string name = {};  ///< as of a spring
+  BaseMotion motion = {};
 };
 
 /// amplitude * sin(harmonic * omega * t + phase) on one coordinate; harmonic 0 is a constant force of size `amplitude`.

@@ -8,8 +8,11 @@
 /// Source: docs/reference/measure.md; Golub and Welsch (1969) for the quadrature.
 #include <array>
 #include <atomic>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "slapstick/flow/motion.hpp"
@@ -48,6 +51,12 @@ struct Measured {
   bool complete = true;  ///< false: stopped before the end; the statistics are those of `duration`
 };
 
+/// The statistics by name: the table that help and documents come from.
+struct StatisticRule {
+  std::string_view name, meaning;
+};
+[[nodiscard]] std::span<const StatisticRule> statistic_rules();
+
 /// A statistic by name: "mean", "rms", "min", "max", "min_at", "max_at", "peak_to_peak", "crest", "impulse", "number";
 /// of quantities at impacts also "q05" .. "q95" (part in percent).
 /// @throws InputError that names the nearest
@@ -59,13 +68,29 @@ void check_statistic(const Quantity& quantity, const std::string& name);
 
 /// The motion from where it stands to `end`. What happens at its present instant does not count, what happens at `end`
 /// does.
+/// @param progress  if there is one, called now and then with the motion's time
 /// @throws NumericalError as Motion::advance; InputError if `end` is not later
 [[nodiscard]] Measured measure(Motion motion, Instant end, const std::vector<Quantity>& of,
-                               const std::atomic<bool>* stop = nullptr);
+                               const std::atomic<bool>* stop = nullptr,
+                               const std::function<void(double periods)>& progress = {});
 
 /// The cycle of an orbit, by its legs: also of one that is unstable, or no motion. Times count from phase 0 (without
 /// forcing from event 0).
 /// @throws NumericalError if a leg is too long for the rates of its mode
 [[nodiscard]] Measured measure(const orbit::Problem& problem, const orbit::Orbit& orbit, const std::vector<Quantity>& of);
+
+/// The derivatives of `measure` of the cycle by each parameter of the problem's family, the others as they are: every
+/// number is that number's derivative, of `values` in the same order; counts are 0. Exact but for rounding, by the
+/// implicit function theorem on the orbit's equations, as long as the orbit keeps its events. Instants of extremes that
+/// are flat to second order, and numbers that do not exist, are NaN.
+/// Cost: for each parameter some times that of `measure`.
+/// @throws NumericalError as measure, and where the orbit has no derivative: at a fold, or as one of a family;
+/// InputError for a parameter among the quantities, and as Family::rate
+[[nodiscard]] std::vector<Measured> measure_rates(const orbit::Problem& problem, const orbit::Orbit& orbit,
+                                                  const std::vector<Quantity>& of);
+
+/// The derivative of `statistic(of, name)`, `rate` the derivatives of `of`.
+/// @throws InputError as statistic
+[[nodiscard]] double statistic_rate(const Statistics& of, const Statistics& rate, const std::string& name);
 
 }  // namespace slapstick

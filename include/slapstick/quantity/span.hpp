@@ -6,6 +6,7 @@
 ///
 /// Threads: a Span belongs to one thread at a time. Cost: the transient, and what `orbit::settle` takes for a cycle.
 /// Source: docs/reference/measure.md.
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -19,6 +20,7 @@ struct SpanWish {
   double periods = 0.0;   ///< length of the motion in forcing periods; 0: the cycle ..
   double instead = 1000;  ///< .. or where there is none so many periods
   const std::atomic<bool>* stop = nullptr;
+  std::function<void(double periods)> progress = {};  ///< called during the transient
 };
 
 struct Span {
@@ -38,7 +40,14 @@ struct Span {
                                             const System& system, const State& start, const SpanWish& wish);
 
 /// Of the cycle or of the motion. @throws as the measures of these
-[[nodiscard]] Measured measure(const Span& span, const std::vector<Quantity>& of, const std::atomic<bool>* stop = nullptr);
+[[nodiscard]] Measured measure(const Span& span, const std::vector<Quantity>& of, const std::atomic<bool>* stop = nullptr,
+                               const std::function<void(double periods)>& progress = {});
+
+/// measure_rates of a cycle of a model by parameters or groups, at their present values.
+/// @throws InputError for an unknown name, or a group whose members differ; as measure_rates
+[[nodiscard]] std::vector<Measured> measure_rates(const ModelDefinition& definition, const Overrides& overrides,
+                                                  const std::vector<std::string>& parameters, orbit::Orbit cycle,
+                                                  const std::vector<Quantity>& of);
 
 /// The density of the motion of a span, in as many stretches as fit.
 /// @throws InputError if none fits, and as density of a motion

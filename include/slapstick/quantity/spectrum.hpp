@@ -11,6 +11,7 @@
 /// IEC 61672-1 for the weighting A.
 #include <atomic>
 #include <complex>
+#include <functional>
 #include <vector>
 
 #include "slapstick/flow/motion.hpp"
@@ -46,6 +47,7 @@ struct DensityOptions {
   int stretches = 63;            ///< with half of each in the next one
   double highest_order = 20.0;   ///< multiples of the forcing; without forcing cycles per unit of time
   const std::atomic<bool>* stop = nullptr;
+  std::function<void(double periods)> progress = {};  ///< called now and then with the motion's time
 };
 
 /// One-sided power spectral density by Welch's method with the window of Hann.

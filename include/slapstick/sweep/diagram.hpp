@@ -31,6 +31,8 @@ enum class StartRule { carry, reset };
 /// (without forcing at every unit of time), or just before events.
 enum class ReadAt { impacts, periods, events };
 
+struct DiagramPoint;
+
 struct DiagramProblem {
   std::function<Model(double)> model_at;  ///< called from several threads at once
   std::function<State(double)> start_at;  ///< likewise; the start for `reset`, and of a chain
@@ -51,6 +53,11 @@ struct DiagramProblem {
   ReadAt read_at = ReadAt::impacts;
   EventChoice event = {};  ///< of ReadAt::events
   int threads = 0;  ///< 0: all
+  /// A point that need not be computed, because a run before has it, by its place in Diagram::points; or null. Called
+  /// from several threads at once.
+  std::function<const DiagramPoint*(std::size_t place)> known = {};
+  /// Takes each point that is computed, from any of the threads, but never two at once.
+  std::function<void(std::size_t place, const DiagramPoint&)> finished = {};
   /// Called after every value with the numbers done and to do; from any of the threads, but never two at once.
   std::function<void(int done, int total)> progress;
   const std::atomic<bool>* cancel = nullptr;  ///< set it and the sweep returns soon with what is complete
@@ -74,6 +81,10 @@ class ImpactTable {
   }
   /// Appends a row. All states must have the same length.
   void add(const Row& row);
+  /// All rows as they lie in memory, `row_width` numbers each; and a table of such.
+  [[nodiscard]] const std::vector<double>& numbers() const { return numbers_; }
+  [[nodiscard]] std::size_t row_width() const { return width_; }
+  static ImpactTable of(std::vector<double> numbers, std::size_t row_width);
   friend bool operator==(const ImpactTable&, const ImpactTable&) = default;
 
  private:
@@ -93,6 +104,8 @@ struct DiagramPoint {
   double periods = 0.0;                 ///< length of the recording
   std::string failure;                  ///< one line, what the NumericalError or InputError said; else empty
   std::string note;                     ///< e.g. that the carried state does not fit this model; else empty
+  State carried;                        ///< where the next value of a chain begins; empty: at its own start
+  double carried_phase = 0.0;
   friend bool operator==(const DiagramPoint&, const DiagramPoint&) = default;
 };
 

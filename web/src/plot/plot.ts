@@ -75,6 +75,13 @@ export class Plot {
     this.schedule("all");
   }
 
+  /** All points are there: the axes fit them, however they came. */
+  settle(): void {
+    this.hasData = false;
+    this.grow();
+    this.redraw();
+  }
+
   /** The cursor, the dot and what is under the pointer, over what is drawn. */
   overlay(): void {
     const pen = this.pen(this.top), colours = palette(), frame = this.frame();

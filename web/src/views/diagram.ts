@@ -74,7 +74,7 @@ export class DiagramView {
         this.told();
         if (failure) this.plot.note = sweep.layer.x.length === 0 ? failure : "";
         if (failure && sweep.layer.x.length > 0) announce(`some values failed, first ${failure}`);
-        this.plot.redraw();
+        this.plot.settle();
       },
       error: (error) => {
         this.plot.note = error.message;

@@ -59,7 +59,7 @@ export class SectionView {
       done: (failure) => {
         if (layer.x.length === 0) this.plot.note = failure || "no point of this section was found";
         if (isFew(layer.x, layer.y)) layer.size = 6;  // a cycle: points that all can be seen
-        this.plot.redraw();
+        this.plot.settle();
       },
       error: (error) => {
         this.plot.note = error.message;

@@ -1,0 +1,252 @@
+/// Draws maps: classes in colours that can be told apart, quantities on a scale.
+#include "chart_figure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+
+#include "axis_text.hpp"
+#include "base/nearest.hpp"
+#include "base/ranges.hpp"
+#include "base/text.hpp"
+#include "chart_colours.hpp"
+#include "measured_diagram.hpp"
+#include "slapstick/base/error.hpp"
+
+namespace slapstick::app {
+namespace {
+
+using figure::Cells;
+using sweep::Finding;
+
+/// What is drawn of a pixel: of several attractors the one with most starts, and how many there are.
+struct Shown {
+  const Finding* found = nullptr;
+  int attractors = 0;
+};
+
+std::vector<Shown> shown_pixels(const sweep::Map& map, sweep::Direction direction) {
+  std::vector<Shown> all(static_cast<std::size_t>(map.x.count) * static_cast<std::size_t>(map.y.count));
+  for (const Finding& found : map.findings) {
+    if (found.direction != direction) continue;
+    Shown& pixel = all[static_cast<std::size_t>(found.pixel)];
+    if (pixel.attractors++ == 0) pixel.found = &found;
+  }
+  return all;
+}
+
+/// The rectangle of pixels whose middles are the values of the axis.
+figure::Range edges(const sweep::GridAxis& axis) {
+  const double half = 0.5 * (axis.to - axis.from) / (axis.count - 1);
+  return {axis.from - half, axis.to + half};
+}
+
+Cells empty_cells(const sweep::Map& map) {
+  return {.x = edges(map.x), .y = edges(map.y), .columns = map.x.count, .rows = map.y.count};
+}
+
+constexpr double swatch_mm = 2.2;
+
+figure::Key swatch(const std::string& label, figure::Colour colour) {
+  const bool paper = colour == undecided_colour;  // white on white: only its rim is seen
+  return {.label = label,
+          .colour = paper ? figure::colours::black : colour,
+          .marker = paper ? figure::Marker::box : figure::Marker::square,
+          .size = swatch_mm};
+}
+
+/// "12.3 %", and no zero for what is there.
+std::string percent(long part, long whole) {
+  char text[32];
+  const double share = 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+  std::snprintf(text, sizeof text, share >= 10.0 ? "%.0f %%" : share >= 0.095 ? "%.1f %%" : "< 0.1 %%", share);
+  return text;
+}
+
+/// Colours of the classes of a map, the same in all of its panels.
+class ClassColours {
+ public:
+  explicit ClassColours(const sweep::Map& map) : map_(map) {
+    std::map<std::string, long> areas;
+    for (const Finding& found : map.findings) ++areas[found.label(map.driven)];
+    by_area_.assign(areas.begin(), areas.end());
+    ranges::stable_sort(by_area_, [](const auto& a, const auto& b) { return a.second > b.second; });
+    std::size_t next = 0;
+    for (const auto& [label, area] : by_area_) {
+      if (label == name(Attractor::chaotic))
+        colours_[label] = chaotic_colour;
+      else if (label == name(Attractor::quasi_periodic))
+        colours_[label] = quasi_periodic_colour;
+      else if (label == name(Attractor::undecided))
+        colours_[label] = undecided_colour;
+      else
+        colours_[label] = next < class_colours.size() ? class_colours[next++] : other_classes_colour;
+    }
+  }
+
+  [[nodiscard]] figure::Colour of(const Finding& found) const { return colours_.at(found.label(map_.driven)); }
+
+  /// The legend: classes by their area among these pixels, then the others together.
+  [[nodiscard]] std::vector<figure::Key> keys(const std::vector<Shown>& pixels) const {
+    std::map<std::string, long> areas;
+    for (const Shown& pixel : pixels)
+      if (pixel.found != nullptr) ++areas[pixel.found->label(map_.driven)];
+    std::vector<std::pair<std::string, long>> sorted(areas.begin(), areas.end());
+    ranges::stable_sort(sorted, [](const auto& a, const auto& b) { return a.second > b.second; });
+    std::vector<figure::Key> keys;
+    const long whole = static_cast<long>(pixels.size());
+    long others = 0, kinds = 0;
+    for (const auto& [label, area] : sorted) {
+      if (colours_.at(label) == other_classes_colour) {
+        others += area;
+        ++kinds;
+      } else {
+        keys.push_back(swatch(axis_text(label) + "  " + percent(area, whole), colours_.at(label)));
+      }
+    }
+    if (kinds > 0)
+      keys.push_back(swatch(std::to_string(kinds) + " others  " + percent(others, whole), other_classes_colour));
+    return keys;
+  }
+
+ private:
+  const sweep::Map& map_;
+  std::vector<std::pair<std::string, long>> by_area_;
+  std::map<std::string, figure::Colour> colours_;
+};
+
+void draw_classes(const ClassColours& colours, const std::vector<Shown>& pixels, Cells& cells, figure::Panel& panel) {
+  for (const Shown& pixel : pixels) {
+    if (pixel.found == nullptr) {
+      cells.codes.push_back(Cells::clear);
+      continue;
+    }
+    const figure::Colour colour = colours.of(*pixel.found);
+    auto place = ranges::find(cells.colours, colour);
+    if (place == cells.colours.end()) place = cells.colours.insert(place, colour);
+    cells.codes.push_back(static_cast<std::uint8_t>(place - cells.colours.begin()));
+  }
+  panel.keys = colours.keys(pixels);
+}
+
+/// The number that a column gives a pixel, or not a number.
+double value_of(const MapWish& wish, const sweep::Map& map, const Shown& pixel, const std::string& column) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (pixel.found == nullptr || pixel.found->failed) return none;
+  const Finding& found = *pixel.found;
+  if (column == "exponent") return found.exponent;
+  if (column == "multiplier") return std::abs(found.multiplier);
+  if (column == "n") return found.n > 0 ? found.n : none;
+  if (column == "p") return found.n > 0 && found.chatter != Chatter::complete ? found.p : none;
+  if (column == "attractors") return pixel.attractors;
+  for (std::size_t k = 0; k < wish.of.size(); ++k)
+    if (column == wish.of[k].quantity.name + ":" + wish.of[k].statistic) return map.values_of(found)[k];
+  return none;
+}
+
+/// A round step of about a fifth of the range: 1, 2 or 5 times a power of ten.
+double round_step(double range) {
+  const double raw = range / 5.0, power = std::pow(10.0, std::floor(std::log10(raw)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (raw <= factor * power) return factor * power;
+  return 10.0 * power;
+}
+
+/// The range of a scale: all values but for the outermost half percent on either side, which take the end's colour.
+figure::Range scale_range(std::vector<double> values) {
+  if (values.empty()) return {0.0, 1.0};
+  ranges::sort(values);
+  const std::size_t cut = values.size() / 200;
+  figure::Range range{values[cut], values[values.size() - 1 - cut]};
+  if (range.min == range.max) range = {range.min - 0.5, range.max + 0.5};
+  return range;
+}
+
+/// @param whole  the values are whole numbers, and so are those of the legend
+void draw_scale(const std::vector<double>& values, bool whole, Cells& cells, figure::Panel& panel) {
+  constexpr int shades = 200;
+  std::vector<double> finite;
+  ranges::copy_if(values, std::back_inserter(finite), [](double value) { return std::isfinite(value); });
+  const figure::Range range = scale_range(finite);
+  const auto share = [&](double value) { return std::clamp((value - range.min) / (range.max - range.min), 0.0, 1.0); };
+  for (int i = 0; i < shades; ++i) cells.colours.push_back(scale_colour(static_cast<double>(i) / (shades - 1)));
+  for (const double value : values)
+    cells.codes.push_back(std::isfinite(value) ? static_cast<std::uint8_t>(std::lround(share(value) * (shades - 1)))
+                                               : Cells::clear);
+  const auto text = [&](double value, const char* form) {
+    char words[48];
+    std::snprintf(words, sizeof words, form, std::abs(value) < 1e-9 * (range.max - range.min) ? 0.0 : value);
+    panel.keys.push_back(swatch(words, scale_colour(share(value))));
+  };
+  if (finite.empty()) return panel.keys.push_back(swatch("none", undecided_colour));
+  const double step = std::max(round_step(range.max - range.min), whole ? 1.0 : 0.0);
+  text(range.min, "\u2264 %.3g");
+  for (double tick = std::floor(range.min / step + 1.2) * step; tick < range.max - 0.2 * step; tick += step) text(tick, "%.6g");
+  text(range.max, "\u2265 %.3g");
+  if (finite.size() < values.size()) panel.keys.push_back(swatch("none", undecided_colour));
+}
+
+std::string title_of(const MapWish& wish, const std::string& column) {
+  if (column == "multiplier") return "largest multiplier, absolute value";
+  if (column == "exponent") return "largest Lyapunov exponent";
+  if (column == "attractors") return "number of attractors";
+  for (const Wanted& one : wish.of)
+    if (column == one.quantity.name + ":" + one.statistic) return statistic_axis(one);
+  return column == "class" ? "" : column;
+}
+
+}  // namespace
+
+std::vector<std::string> shown_columns(const MapWish& wish, const std::string& show) {
+  std::vector<std::string> known{"class", "exponent", "multiplier", "n", "p"};
+  if (wish.problem.start == sweep::MapStart::random) known.emplace_back("attractors");
+  std::vector<std::string> usual{"class"};
+  for (const Wanted& one : wish.of) {
+    known.push_back(one.quantity.name + ":" + one.statistic);
+    usual.push_back(known.back());
+  }
+  if (show.empty()) return usual;
+  std::vector<std::string> columns = split(show, ',');
+  for (const std::string& column : columns)
+    if (ranges::find(known, column) == known.end())
+      throw InputError("--show: " + in_quotes(column) + " is no column that can be drawn" + suggestion(column, known));
+  return columns;
+}
+
+figure::Figure chart_figure(const MapWish& wish, const sweep::Map& map, const std::vector<std::string>& columns) {
+  const bool both = wish.problem.direction == sweep::Direction::both;
+  std::vector<sweep::Direction> directions{wish.problem.direction};
+  if (both) directions = {sweep::Direction::up, sweep::Direction::down};
+  const ClassColours colours(map);
+  figure::Figure figure;
+  for (const std::string& column : columns) {
+    for (const sweep::Direction direction : directions) {
+      const std::vector<Shown> pixels = shown_pixels(map, direction);
+      figure::Panel panel{.x_label = parameter_axis(wish.chosen.definition, wish.x.name),
+                          .y_label = parameter_axis(wish.chosen.definition, wish.y.name),
+                          .title = title_of(wish, column)};
+      if (both) panel.title += std::string(panel.title.empty() ? "" : ", ") + (direction == sweep::Direction::up ? "up" : "down");
+      panel.legend = figure::Legend::below;
+      Cells cells = empty_cells(map);
+      panel.x_range = cells.x;
+      panel.y_range = cells.y;
+      std::vector<double> values;
+      if (column == "class")
+        draw_classes(colours, pixels, cells, panel);
+      else
+        for (const Shown& pixel : pixels) values.push_back(value_of(wish, map, pixel, column));
+      if (column != "class") draw_scale(values, column == "n" || column == "p" || column == "attractors", cells, panel);
+      panel.cells = std::move(cells);
+      figure.panels.push_back(std::move(panel));
+    }
+  }
+  const bool several = figure.panels.size() > 1;
+  figure.columns = several ? 2 : 1;
+  figure.width_cm = several ? 17.5 : 12.0;
+  figure.row_cm = several ? 7.0 : 8.5;
+  return figure;
+}
+
+}  // namespace slapstick::app

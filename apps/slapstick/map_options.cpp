@@ -1,0 +1,177 @@
+/// Reads the options of `map` and makes its problem of them.
+#include "map_options.hpp"
+
+#include "base/ranges.hpp"
+#include "base/text.hpp"
+#include "io/table.hpp"
+#include "measured_diagram.hpp"
+#include "slapstick/base/error.hpp"
+#include "work.hpp"
+
+namespace slapstick::app {
+
+void MapOptions::declare(Arguments& arguments) {
+  model.declare(arguments);
+  model.declare_state(arguments);
+  arguments.text("--x", x, "NAME=A:B:COUNT", "the parameter across, its range and the number of values (required)");
+  arguments.text("--y", y, "NAME=A:B:COUNT", "the parameter upwards (required)");
+  arguments.choice("--level", level, {"quick", "full"},
+                   "quick: a cycle that Newton's method confirms within --periods, or undecided; full: as `classify` (quick)");
+  arguments.text("--start", start, "reset|carry|N",
+                 "begin each pixel anew, or where its neighbour in the row ended up, or at N random states and keep every "
+                 "attractor (reset)");
+  arguments.choice("--direction", direction, {"up", "down", "both"},
+                   "of --start carry: through the values of x; both shows coexisting attractors (up)");
+  arguments.count("--periods", periods, 20, 1'000'000'000, "of quick: forcing periods, half of them transient (300)");
+  arguments.count("--transient", transient, 0, 1'000'000'000, "of full: as `classify` (500)");
+  arguments.count("--most-periods", most_periods, 10, 1'000'000'000, "of full: as `classify` (20000)");
+  arguments.count("--exponent-periods", exponent_periods, 400, 100'000'000, "of full: as `classify` (4000)");
+  arguments.count("--most-n", most_n, 1, 4096, "longest cycle sought, in forcing periods or returns (64)");
+  arguments.count("--seed", seed, 0, 4'294'967'295, "of --start N: which random states (1)");
+  arguments.text("--of", of, "Q:STAT,..", "statistics of quantities over the cycle, or without one over --measured-periods");
+  arguments.count("--measured-periods", measured_periods, 1, 1'000'000'000, "of --of: where there is no cycle (100)");
+  stops.declare(arguments, "count the impacts of this stop only; may be repeated (all)");
+  arguments.count("--threads", threads, 0, 1024, "0: all cores; the result is the same for any number (0)");
+  arguments.text("--shard", shard, "I/N", "only every N-th tile, beginning with the I-th (1 to N); needs --store");
+}
+
+void MapOptions::check_words(const Arguments& arguments) const {
+  for (const char* name : {"--x", "--y"})
+    if (!arguments.given(name)) throw InputError(std::string(name) + " NAME=A:B:COUNT is required");
+  if (level == "full" && arguments.given("--periods")) throw InputError("--periods: it is for --level quick");
+  for (const char* name : {"--transient", "--most-periods", "--exponent-periods"})
+    if (level == "quick" && arguments.given(name)) throw InputError(std::string(name) + ": it is for --level full");
+  if (start != "carry" && arguments.given("--direction")) throw InputError("--direction: it is for --start carry");
+  if ((start == "carry" || start == "reset") && arguments.given("--seed"))
+    throw InputError("--seed: it is for --start N");
+  if (of.empty() && arguments.given("--measured-periods")) throw InputError("--measured-periods: it is for --of");
+}
+
+std::vector<std::string> MapOptions::words() const {
+  const auto axis = [](const std::string& argument, const std::string& text) {
+    const Sweep sweep = parse_sweep(text, argument);
+    return sweep.name + "=" + number_text(sweep.from) + ":" + number_text(sweep.to) + ":" + std::to_string(sweep.count);
+  };
+  std::vector<std::string> words{"--x", axis("--x", x), "--y", axis("--y", y), "--level", level, "--start", start,
+                                 "--direction", direction};
+  for (const auto& [name, value] :
+       {std::pair{"--periods", periods}, {"--transient", transient}, {"--most-periods", most_periods},
+        {"--exponent-periods", exponent_periods}, {"--most-n", most_n}, {"--seed", seed},
+        {"--measured-periods", measured_periods}}) {
+    words.emplace_back(name);
+    words.push_back(std::to_string(value));
+  }
+  if (!of.empty()) words.insert(words.end(), {"--of", of});
+  if (!model.state.empty()) words.insert(words.end(), {"--state", model.state});
+  for (const std::string& stop : stops.names) words.insert(words.end(), {"--stop", stop});
+  return words;
+}
+
+namespace {
+
+Overrides values_at(const MapWish& wish, double x, double y) {
+  Overrides overrides = wish.chosen.overrides;
+  overrides[wish.x.name] = x;
+  overrides[wish.y.name] = y;
+  return overrides;
+}
+
+void read_start(const MapOptions& options, sweep::MapProblem& problem) {
+  if (options.start == "carry") {
+    problem.start = sweep::MapStart::carry;
+  } else if (options.start != "reset") {
+    if (options.start.find_first_not_of("0123456789") != std::string::npos || options.start.empty())
+      throw InputError("--start: " + in_quotes(options.start) + " must be reset, carry or a number");
+    problem.start = sweep::MapStart::random;
+    problem.starts = static_cast<int>(parse_integer("--start", options.start, 2, 100'000));
+  }
+  problem.direction = options.direction == "up"     ? sweep::Direction::up
+                      : options.direction == "down" ? sweep::Direction::down
+                                                    : sweep::Direction::both;
+}
+
+void read_shard(const std::string& text, sweep::MapProblem& problem) {
+  if (text.empty()) return;
+  const auto parts = split(text, '/');
+  if (parts.size() != 2) throw InputError("--shard: " + in_quotes(text) + " is not of the form I/N");
+  problem.shards = static_cast<int>(parse_integer("--shard N", parts[1], 1, 1'000'000));
+  problem.shard = static_cast<int>(parse_integer("--shard I", parts[0], 1, problem.shards)) - 1;
+}
+
+void read_level(const MapOptions& options, const Model& model, sweep::MapProblem& problem) {
+  problem.level = options.level == "quick" ? sweep::Level::quick : sweep::Level::full;
+  problem.periods = static_cast<int>(options.periods);
+  problem.classify.transient_periods = static_cast<int>(options.transient);
+  problem.classify.most_periods = static_cast<int>(options.most_periods);
+  problem.classify.exponent_periods = static_cast<int>(options.exponent_periods);
+  problem.classify.most_n = static_cast<int>(options.most_n);
+  problem.classify.stops = options.stops.choice(model);
+}
+
+void read_quantities(const MapOptions& options, MapWish& wish) {
+  if (options.of.empty()) return;
+  wish.of = parse_statistics("--of", options.of, wish.chosen);
+  for (const Wanted& one : wish.of) {
+    if (one.quantity.kind == Quantity::Kind::parameter)
+      throw InputError("--of: " + in_quotes(one.quantity.name) + " is a parameter, which no motion changes");
+    wish.problem.of.push_back(one.quantity);
+    wish.problem.statistics.push_back(one.statistic);
+  }
+}
+
+/// The corners of the chart.
+void check_corners(const MapOptions& options, const MapWish& wish) {
+  const Work work{options.level == "quick" ? static_cast<double>(options.periods) : static_cast<double>(options.transient) + 10.0,
+                  options.level == "quick" ? "--periods" : "--transient"};
+  for (const double x : {wish.x.from, wish.x.to}) {
+    for (const double y : {wish.y.from, wish.y.to}) {
+      try {
+        const Overrides here{{wish.x.name, x}, {wish.y.name, y}};
+        const System system = affordable_system(wish.chosen, work, here);
+        demand_period(system.model());
+        validate(system.model(), options.model.start(wish.chosen, here));
+      } catch (const InputError& error) {
+        throw InputError("--x " + wish.x.name + "=" + shown(x) + " --y " + wish.y.name + "=" + shown(y) + ": " + error.message());
+      }
+    }
+  }
+}
+
+void check_names(const MapWish& wish) {
+  if (wish.x.name == wish.y.name) throw InputError("--y: " + in_quotes(wish.y.name) + " is the parameter of --x too");
+  for (const auto& [argument, name] : {std::pair{"--x", wish.x.name}, std::pair{"--y", wish.y.name}})
+    if (wish.chosen.overrides.count(name) != 0)
+      throw InputError(std::string(argument) + ": " + in_quotes(name) + " is given by --set too");
+  const double pixels = static_cast<double>(wish.x.count) * wish.y.count;
+  if (pixels > 1e9) throw InputError("--x and --y give " + shown(pixels) + " pixels, more than the 1e9 that a map may have");
+}
+
+}  // namespace
+
+std::unique_ptr<MapWish> map_wish(const MapOptions& options) { return map_wish(options, options.model.load()); }
+
+std::unique_ptr<MapWish> map_wish(const MapOptions& options, ChosenModel chosen) {
+  auto wish = std::make_unique<MapWish>(
+      MapWish{std::move(chosen), parse_sweep(options.x, "--x"), parse_sweep(options.y, "--y"), {}, {}});
+  check_names(*wish);
+  sweep::MapProblem& problem = wish->problem;
+  read_start(options, problem);
+  read_shard(options.shard, problem);
+  check_corners(options, *wish);
+  read_level(options, wish->chosen.model, problem);
+  read_quantities(options, *wish);
+  problem.x = {wish->x.from, wish->x.to, wish->x.count};
+  problem.y = {wish->y.from, wish->y.to, wish->y.count};
+  problem.seed = static_cast<std::uint64_t>(options.seed);
+  problem.measured_periods = static_cast<int>(options.measured_periods);
+  problem.threads = static_cast<int>(options.threads);
+  const MapWish* one = wish.get();
+  problem.model_at = [one](double x, double y) { return one->chosen.definition.build(values_at(*one, x, y)); };
+  const ModelOptions model = options.model;
+  problem.start_at = [one, model](double x, double y) {
+    return model.start(one->chosen, {{one->x.name, x}, {one->y.name, y}});
+  };
+  return wish;
+}
+
+}  // namespace slapstick::app

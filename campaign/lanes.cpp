@@ -1,0 +1,146 @@
+/// Campaign `lanes`: runs of a batch have the events of a motion, wherever that one's own do not depend on its windows.
+#include <algorithm>
+#include <utility>
+
+#include "batches.hpp"
+#include "mixed_machine.hpp"
+#include "slapstick/base/error.hpp"
+#include "slapstick/flow/motion.hpp"
+#include "slapstick/io/model_file.hpp"
+#include "slapstick/sweep/batch.hpp"
+
+namespace campaign {
+namespace {
+
+using namespace slapstick;
+
+constexpr int periods = 20;
+/// Of times, in periods; a motion whose own windows move an event by more than the second is not stable.
+constexpr double same = 1e-8, stable = 1e-11;
+
+struct Tally {
+  long runs = 0, in_lanes = 0, agreed = 0, unstable = 0, differ = 0, failed = 0, lane_events = 0, motion_events = 0;
+  double worst = 0.0;
+  std::vector<std::string> faults;
+
+  void add(const Tally& other) {
+    runs += other.runs, in_lanes += other.in_lanes, agreed += other.agreed, unstable += other.unstable;
+    differ += other.differ, failed += other.failed;
+    lane_events += other.lane_events, motion_events += other.motion_events;
+    worst = std::max(worst, other.worst);
+    for (const std::string& fault : other.faults)
+      if (faults.size() < 20) faults.push_back(fault);
+  }
+};
+
+/// Without what no lane can run, but for contacts that depend on each other.
+MixedMachine plainer(MixedMachine machine) {
+  Model& model = machine.model;
+  model.characteristics.clear();
+  std::erase_if(model.forces, [](const Force& force) { return force.frequency != 0.0; });
+  std::vector<std::pair<int, int>> pairs;
+  std::erase_if(model.stops, [&](const Stop& stop) {
+    const std::pair<int, int> pair = std::minmax({stop.a, stop.b});
+    const bool again = std::find(pairs.begin(), pairs.end(), pair) != pairs.end();
+    pairs.push_back(pair);
+    return again;
+  });
+  for (Stop& stop : model.stops) stop.corners.clear();
+  for (FrictionContact& contact : model.frictions) contact.normal.reset();
+  for (CompliantStop& stop : model.compliant_stops) stop.bounded = false;
+  return machine;
+}
+
+/// Half of the runs are the paper's system at random frequencies and frictions, half mixed machines.
+MixedMachine draw(Random& random) {
+  static const ModelDefinition paper = load_model("vibro-impact");
+  if (!random.one_in(2)) return plainer(mixed_machine(random));
+  const double omega = random.uniform(0.4, 6.0), friction = random.uniform(0.05, 0.3);
+  return {paper.build({{"omega", omega}, {"friction", friction}}), {-0.5, 0.0, random.uniform(-0.1, 0.1), 0.0}};
+}
+
+std::vector<Event> events_of(const MixedMachine& machine, double longest_window) {
+  Motion motion(System(machine.model, {longest_window}), machine.start);
+  std::vector<Event> events;
+  while (motion.advance({periods, 0.0}) == Outcome::event) events.push_back(motion.event());
+  return events;
+}
+
+/// How many events agree before the first that does not; how far the agreeing ones are apart.
+std::size_t agreeing(const std::vector<Event>& a, const std::vector<Event>& b, double tolerance, double& worst) {
+  std::size_t i = 0;
+  for (; i < a.size() && i < b.size(); ++i) {
+    const double apart = std::abs(a[i].time.since(b[i].time));
+    if (a[i].kind != b[i].kind || a[i].contact != b[i].contact || apart > tolerance) break;
+    worst = std::max(worst, apart);
+  }
+  return i;
+}
+
+bool is_stable(const MixedMachine& machine, const std::vector<Event>& expected) {
+  double worst = 0.0;
+  for (const double longest : {0.03, 0.07, 0.11}) {
+    const std::vector<Event> other = events_of(machine, longest);
+    if (agreeing(expected, other, stable, worst) < expected.size() || other.size() != expected.size()) return false;
+  }
+  return true;
+}
+
+void compare(const MixedMachine& machine, const BatchRun& run, const std::string& where, Tally& tally) {
+  const std::vector<Event> expected = events_of(machine, INFINITY);
+  const std::size_t agreed = agreeing(expected, run.events, same, tally.worst);
+  if (agreed == expected.size() && agreed == run.events.size()) {
+    ++tally.agreed;
+  } else if (!is_stable(machine, expected)) {
+    ++tally.unstable;
+  } else {
+    ++tally.differ;
+    tally.faults.push_back(where + ": event " + std::to_string(agreed) + " of " + machine.model.name + " " + run.failure);
+  }
+}
+
+Tally examine(const Options& options, long batch, long count) {
+  Random random(options.seed, static_cast<std::uint64_t>(batch));
+  std::vector<MixedMachine> machines;
+  for (long i = 0; i < count; ++i) machines.push_back(draw(random));
+  sweep::BatchProblem problem;
+  problem.count = machines.size();
+  problem.model_at = [&](std::size_t i) { return machines[i].model; };
+  problem.start_at = [&](std::size_t i) { return machines[i].start; };
+  problem.plan = {.periods = periods, .events = true};
+  problem.threads = 1;
+  const sweep::Batch found = run_batch(problem);
+  Tally tally;
+  for (std::size_t i = 0; i < machines.size(); ++i) {
+    const BatchRun& run = found.runs[i];
+    ++tally.runs;
+    tally.in_lanes += run.in_lanes ? 1 : 0;
+    tally.lane_events += run.lane_events;
+    tally.motion_events += run.motion_events;
+    try {
+      if (run.in_lanes) compare(machines[i], run, "batch " + std::to_string(batch) + ", run " + std::to_string(i), tally);
+    } catch (const NumericalError&) {
+      ++tally.failed;  // a motion's own
+    }
+  }
+  return tally;
+}
+
+}  // namespace
+
+Report run_lanes(const Options& options) {
+  Batches<Tally> batches(options, 64, "runs");
+  const Tally all = batches.run([&](long k, long n) { return examine(options, k, n); });
+  Report out;
+  out.done = batches.done();
+  out.passed = all.differ == 0 && all.in_lanes > 0 && 20 * all.unstable <= all.in_lanes;
+  Json faults = Json::list();
+  for (const std::string& fault : all.faults) faults.push(fault);
+  out.figures.set("runs", all.runs).set("in_lanes", all.in_lanes).set("agreed", all.agreed);
+  out.figures.set("unstable", all.unstable).set("differ", all.differ).set("failed", all.failed);
+  out.figures.set("lane_events", all.lane_events).set("motion_events", all.motion_events);
+  out.figures.set("worst_time_in_periods", all.worst).set("faults", faults);
+  return out;
+}
+
+}  // namespace campaign

@@ -1,0 +1,92 @@
+"""Charts: the program's numbers; shards, and tiles on a Dask cluster whose worker is killed, give the bits of one call."""
+
+import os
+import signal
+
+import numpy as np
+import pytest
+import slapstick
+from test_same_as_program import assert_same_table
+
+X, Y = ("omega", 1.2, 5.2, 12), ("friction", 0.1, 0.3, 7)
+WORDS = ("--x", "omega=1.2:5.2:12", "--y", "friction=0.1:0.3:7")
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({}, ()),
+        ({"of": "x1:rms"}, ("--of", "x1:rms")),
+        ({"level": "full", "most_periods": 2000}, ("--level", "full", "--most-periods", 2000)),
+        ({"carry": True, "direction": "both"}, ("--start", "carry", "--direction", "both")),
+        ({"starts": 3, "seed": 5}, ("--start", 3, "--seed", 5)),
+    ],
+)
+def test_map_has_the_rows_of_the_program(program, tmp_path, options, words):
+    ran = program("map", "vibro-impact", *WORDS, *words, "--out", tmp_path / "m.csv")
+    assert ran.returncode == 0, ran.stderr
+    chart = slapstick.map("vibro-impact", X, Y, **options)
+    assert_same_table(chart.to_pandas(), program.table(tmp_path / "m.csv"))
+
+
+def equal(one, other):
+    assert one.label.tolist() == other.label.tolist()
+    for name in ("pixel", "exponent", "multiplier", "n", "p"):
+        assert np.array_equal(getattr(one, name), getattr(other, name), equal_nan=True), name
+
+
+def test_shards_together_are_the_whole():
+    from slapstick._map import merged
+
+    whole = slapstick.map("vibro-impact", X, Y, of="x1:rms")
+    parts = [slapstick.map("vibro-impact", X, Y, of="x1:rms", shard=(i, 3)) for i in (3, 1, 2)]
+    assert sum(len(part) for part in parts) == len(whole) == 84
+    columns = merged([part._columns for part in parts])
+    assert np.array_equal(columns["measured"]["x1:rms"], whole.measured["x1:rms"])
+    assert columns["label"].tolist() == whole.label.tolist()
+
+
+def test_a_chart_is_seen_as_a_picture():
+    chart = slapstick.map("vibro-impact", X, Y, carry=True, direction="both")
+    up, down = chart.grid(chart.label, "up"), chart.grid(chart.label, "down")
+    assert up.shape == down.shape == (7, 12) and up[0, 0] == chart.label[0]
+    data = chart.to_xarray()
+    assert data["class"].dims == ("direction", "friction", "omega")
+    assert data["class"].sel(direction="down").values.tolist() == down.tolist()
+    assert slapstick.map("vibro-impact", X, Y).plot().get_xlabel() == "omega"
+
+
+def test_bad_input_is_named():
+    for options, name in (
+        ({"x": ("omega", 2, 1, 3)}, "x"),
+        ({"y": ("omega", 1, 2, 3)}, "x, y"),
+        ({"level": "deep"}, "level"),
+        ({"direction": "down"}, "direction"),
+        ({"of": "x1"}, "x1"),
+        ({"carry": True, "starts": 3}, "starts"),
+        ({"starts": 1}, "starts"),
+        ({"shard": (3, 2)}, "shard"),
+        ({"omega": 3.0}, "omega"),
+    ):
+        with pytest.raises(slapstick.InputError, match=name):
+            slapstick.map("vibro-impact", **({"x": X, "y": Y} | options))
+
+
+def test_dask_gives_the_same_bits_also_where_a_worker_is_killed():
+    from dask.distributed import Client, LocalCluster
+
+    import slapstick.dask
+
+    x, y = ("omega", 1.0, 6.0, 60), ("friction", 0.05, 0.3, 40)
+    whole = slapstick.map("vibro-impact", x, y)
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as client:
+        workers = list(client.scheduler_info()["workers"])
+        pids = client.run(os.getpid)
+        equal(slapstick.dask.map(client, "vibro-impact", x, y), whole)
+        from threading import Timer
+
+        Timer(0.5, os.kill, (pids[workers[0]], signal.SIGKILL)).start()
+        equal(slapstick.dask.map(client, "vibro-impact", x, y, tasks=24), whole)
+        assert pids[workers[0]] not in client.run(os.getpid).values()
+        with pytest.raises(slapstick.InputError, match="shard"):
+            slapstick.dask.map(client, "vibro-impact", x, y, shard=(1, 2))

@@ -1,0 +1,165 @@
+#pragma once
+/// The modes that may follow an event, for all lanes: each lane tries the candidates of what has ended its mode.
+#include "batch/flight.hpp"
+
+namespace slapstick::batch {
+namespace {
+
+template <int width, int n>
+class Follow : public Flight<width, n> {
+  using Base = Flight<width, n>;
+
+ public:
+  using Real = typename Base::Real;
+  using Mask = typename Base::Mask;
+
+  __attribute__((always_inline)) explicit Follow(Block& block) : Base(block) {}
+
+ protected:
+  using Base::at_, Base::block_, Base::fraction_, Base::occupied_, Base::p_, Base::u_, Base::word;
+
+  static inline __attribute__((always_inline)) Mask of(unsigned lanes) {
+    Mask mask;
+    from_bits(mask, lanes);
+    return mask;
+  }
+
+  /// The first mode of each lane's candidates that nothing refuses. @returns the lanes that have none
+  __attribute__((always_inline)) unsigned follow(unsigned lanes) {
+    unsigned refused = 0;
+    start_streams();
+    for (int c = 0; lanes != 0; ++c) {
+      for (unsigned left = lanes; left != 0; left &= left - 1) {
+        const int l = __builtin_ctz(left);
+        const unsigned bit = 1U << l;
+        if (c >= action_[l]->candidates) {
+          refused |= bit;
+          lanes &= ~bit;
+          continue;
+        }
+        const int mode = action_[l]->candidate[c];
+        if (block_.ready[mode * most_lanes + l] == 0) {
+          block_.wanting |= bit;
+          lanes &= ~bit;
+          continue;
+        }
+        next_[l] = mode;
+      }
+      if (lanes == 0) break;
+      take_words(lanes, next_);
+      tried_ |= lanes;
+      const Verdict verdict = judge();
+      refused |= lanes & bits(verdict.unsure & ~verdict.falls);
+      lanes &= bits(verdict.falls);
+    }
+    return refused;
+  }
+
+  /// Makes each lane's words those of its mode.
+  __attribute__((always_inline)) void take_words(unsigned lanes, const int (&modes)[most_lanes]) {
+    const int size = at_.size();
+    for (unsigned left = lanes; left != 0; left &= left - 1) {
+      const int slots = block_.slots[modes[__builtin_ctz(left)]];
+      block_.filled = slots > block_.filled ? slots : block_.filled;
+    }
+    const int last = at_.slot(block_.filled);
+    while (lanes != 0) {
+      const int mode = modes[__builtin_ctz(lanes)];
+      unsigned same = 0;
+      for (unsigned left = lanes; left != 0; left &= left - 1)
+        if (modes[__builtin_ctz(left)] == mode) same |= left & -left;
+      lanes &= ~same;
+      const Mask mine = of(same);
+      const Block::Row* const from = block_.all + static_cast<long>(mode) * size;
+      for (int w = 0; w < last; ++w) store<Real>(block_.active[w], choose(mine, load<Real>(from[w]), load<Real>(block_.active[w])));
+    }
+  }
+
+  __attribute__((always_inline)) void start_streams() {
+    for (int k = 0; k < at_.k; ++k) {
+      Real sine, cosine;
+      sine_cosine(fraction_ * static_cast<double>(block_.harmonic[k]), sine, cosine);
+      const bool turned = block_.cosine[k] != 0;
+      stream_[k] = turned ? cosine : sine;
+      stream_rate_[k] = turned ? -sine : cosine;
+    }
+  }
+
+  /// row . (p, scaled velocities, f, 1)
+  __attribute__((always_inline)) Real product(int row, const Real (&velocity)[n]) const {
+    Real sum = word(row + 2 * n + at_.k);
+    for (int i = 0; i < n; ++i) sum = sum + word(row + i) * p_[i] + word(row + n + i) * velocity[i];
+    for (int k = 0; k < at_.k; ++k) sum = sum + word(row + 2 * n + k) * stream_[k];
+    return sum;
+  }
+
+  /// Its derivative along the motion, per window.
+  __attribute__((always_inline)) Real rate_of(int row, const Real (&velocity)[n], const Real (&acceleration)[n]) const {
+    Real sum = Real{};
+    for (int i = 0; i < n; ++i) sum = sum + word(row + i) * (velocity[i] + word(at_.drift(i))) + word(row + n + i) * acceleration[i];
+    for (int k = 0; k < at_.k; ++k) sum = sum + word(row + 2 * n + k) * stream_rate_[k] * word(Layout::rates + k);
+    return sum;
+  }
+
+  /// Of lanes whose mode may not start, and of those that rounding decides.
+  struct Verdict {
+    Mask falls, unsure;
+  };
+
+  /// A slot refuses a mode by its value; by its rate where the value is zero within rounding (exactly, for a single
+  /// number); by its bend where that is zero too. A velocity is a single number: where a force comes to its limit the
+  /// velocity and its rate are zero, and its bend says whether slip begins that way. Where the bend is no more than
+  /// rounding either, an engine decides.
+  __attribute__((always_inline)) Verdict judge() const {
+    Real velocity[n], acceleration[n], jerk[n];
+    const Real H = word(Layout::window), inverse_speed = word(Layout::inverse_speed);
+    Real size = word(Layout::least_size);
+    for (int i = 0; i < n; ++i) {
+      velocity[i] = u_[i] * H;
+      size = larger(size, larger(magnitude(p_[i]), magnitude(u_[i]) * inverse_speed));
+    }
+    for (int i = 0; i < n; ++i) acceleration[i] = product(at_.row(i), velocity);
+    for (int i = 0; i < n; ++i) jerk[i] = rate_of(at_.row(i), velocity, acceleration);
+    Verdict verdict{occupied_ & ~occupied_, occupied_ & ~occupied_};
+    for (int s = 0; s < block_.filled; ++s) {
+      const Real norm = word(at_.slot_number(s, Layout::norm));
+      if (any(less(Real{}, norm) & occupied_)) judge_slot(s, norm, size, velocity, acceleration, jerk, verdict);
+    }
+    return verdict;
+  }
+
+  __attribute__((always_inline)) void judge_slot(int s, const Real& norm, const Real& size, const Real (&velocity)[n], const Real (&acceleration)[n],
+                                                 const Real (&jerk)[n], Verdict& verdict) const {
+    const Real start_norm = word(at_.slot_number(s, Layout::start_norm));
+    const Real lower = word(at_.slot_number(s, Layout::lower)), upper = word(at_.slot_number(s, Layout::upper));
+    const Real value = product(at_.slot(s), velocity), margin = smaller(upper - value, value + lower);
+    const Real noise = start_norm * size * (24.0 * step_rounding), rate_noise = norm * size * (24.0 * longest_window * step_rounding), turn_noise = longest_window * rate_noise;
+    Real rate = rate_of(at_.slot(s), velocity, acceleration), bend = Real{}, turn = Real{}, turning = Real{};
+    for (int i = 0; i < n; ++i) {
+      bend = bend + word(at_.slot(s) + i) * acceleration[i];
+      turn = turn + word(at_.slot(s) + n + i) * jerk[i];
+      turning = turning + magnitude(word(at_.slot(s) + n + i));
+    }
+    const Mask upwards = less(upper - value, value + lower);
+    rate = choose(upwards, -rate, rate);
+    turn = choose(upwards, -turn, turn);
+    const Mask there = less(Real{}, norm), single = equal(start_norm, Real{});
+    const Mask zero = ~less(noise, margin) & ~less(margin, -noise), drops = less(rate, -rate_noise);
+    const Mask flat = zero & single & equal(rate, Real{}), sinks = less(bend, -rate_noise);
+    const Mask level = zero & ~drops & ~less(rate_noise, rate);  // the rate is rounding
+    const Mask velocity_only = single & less(Real{}, turning);
+    const Mask turns_down = level & velocity_only & less(turn, -turn_noise), turns_up = level & velocity_only & less(turn_noise, turn);
+    verdict.falls = verdict.falls | (there & (less(margin, -noise) | (zero & drops) | (flat & sinks) | turns_down));
+    verdict.unsure = verdict.unsure | (there & level & (~single | (velocity_only & ~turns_down & ~turns_up)));
+  }
+
+  const Action* action_[most_lanes];  ///< what has ended each lane's mode
+  int next_[most_lanes];              ///< the mode that follows
+  unsigned tried_ = 0;                ///< lanes whose words are those of a candidate
+
+ private:
+  Real stream_[most_streams], stream_rate_[most_streams];
+};
+
+}  // namespace
+}  // namespace slapstick::batch

@@ -1,0 +1,47 @@
+/// Records a run; carries it on by an engine.
+#include "batch/recorder.hpp"
+
+#include <algorithm>
+
+namespace slapstick::batch {
+Instant Recorder::next() const {
+  const int points = std::max(plan_->points, 1);
+  const int periods = plan_->transient_periods + (passed_ == 0 ? 0 : plan_->periods - points + passed_ - 1);
+  return {begin_.period + periods, begin_.fraction};
+}
+
+bool Recorder::look(const mode::Frame& frame, const double* p, const double* u) {
+  const int points = std::max(plan_->points, 1);
+  if (passed_ == 0) impacts = speeds = 0.0;
+  if (passed_ >= 2) {
+    run.end.resize(2 * static_cast<std::size_t>(frame.n));
+    frame.leave(p, u, run.end.data());
+    if (plan_->points > 0) {
+      run.points.insert(run.points.end(), run.end.begin(), run.end.end());
+      run.point_impacts.push_back(static_cast<long>(impacts - impacts_before_));
+    }
+  }
+  impacts_before_ = impacts;
+  if (++passed_ < points + 2) return false;
+  run.impacts = static_cast<long>(impacts);
+  run.speeds = speeds;
+  run.done = true;
+  return true;
+}
+
+bool follow(flow::Engine& engine, Recorder& recorder, bool to_the_end) {
+  const mode::Frame& frame = engine.system().frame();
+  for (;;) {
+    if (engine.advance(recorder.next()) == Outcome::reached_end) {
+      if (recorder.look(frame, engine.extended().data(), engine.extended().data() + frame.d)) return true;
+      continue;
+    }
+    const Event& event = engine.event();
+    ++recorder.run.motion_events;
+    if (event.kind == EventKind::impact) recorder.count(event.w);
+    if (recorder.wants_events()) recorder.run.events.push_back(event);
+    if (!to_the_end && !engine.tells_more() && !engine.may_chatter()) return false;
+  }
+}
+
+}  // namespace slapstick::batch

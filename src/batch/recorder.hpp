@@ -1,0 +1,42 @@
+#pragma once
+/// What is recorded of a run, whoever carries it on: instants to look at, impacts, points.
+#include <optional>
+
+#include "flow/engine.hpp"
+#include "slapstick/batch/run.hpp"
+
+namespace slapstick::batch {
+
+class Recorder {
+ public:
+  Recorder(const BatchPlan& plan, Instant begin) : plan_(&plan), begin_(begin), passed_(plan.transient_periods == 0 ? 1 : 0) {}
+
+  /// The next instant to look at: the recording's start, a period before the first point, the points.
+  [[nodiscard]] Instant next() const;
+  /// Whether the recording has begun.
+  [[nodiscard]] bool recording() const { return passed_ > 0; }
+  [[nodiscard]] bool wants_events() const { return plan_->events && recording(); }
+  /// Looks at the state (contact coordinates) at `next`. @returns true if the run is at its end
+  bool look(const mode::Frame& frame, const double* p, const double* u);
+  /// An impact of speed w.
+  void count(double w) {
+    ++impacts;
+    speeds += w;
+  }
+
+  double impacts = 0.0, speeds = 0.0;  ///< since the recording began, or the run
+  BatchRun run;
+
+ private:
+  const BatchPlan* plan_;
+  Instant begin_;
+  int passed_;  ///< instants that have been looked at: a recording without a transient has begun
+  double impacts_before_ = 0.0;  ///< at the one before
+};
+
+/// Carries a run on by its engine: to its end, or over one event. An impact that may begin a complete chatter is
+/// followed by the next event.
+/// @returns true if the run is at its end
+bool follow(flow::Engine& engine, Recorder& recorder, bool to_the_end);
+
+}  // namespace slapstick::batch

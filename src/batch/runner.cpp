@@ -1,0 +1,279 @@
+/// Fills lanes, serves what a kernel hands back, and asks an engine what lanes cannot decide.
+#include "batch/runner.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/floating_point.hpp"
+#include "batch/report.hpp"
+#include "batch/shape.hpp"
+#include "slapstick/base/error.hpp"
+
+namespace slapstick::batch {
+
+/// A run that has begun.
+struct Runner::Entry {
+  Entry(std::size_t index_, const BatchPlan& plan, Model model_) : index(index_), model(std::move(model_)), recorder(plan, {}), frame(model) {}
+
+  std::size_t index;
+  Model model;
+  Recorder recorder;
+  mode::Frame frame;
+  std::vector<double> X;  ///< at the start: p and u
+  std::unique_ptr<flow::CompiledSystem> system;
+  std::unique_ptr<flow::Engine> engine;
+  bool stands = false;  ///< whether `engine` stands where the lane went on from
+};
+
+/// [word][lane], at the alignment of a vector.
+struct Runner::Rows {
+  explicit Rows(std::size_t count) : rows(count) {}
+  struct alignas(64) Row {
+    Block::Row numbers;
+  };
+  std::vector<Row> rows;
+  [[nodiscard]] Block::Row* at(std::size_t i) { return &rows[i].numbers; }
+};
+
+Runner::Runner(Queue queue, const Kernel& kernel) : queue_(std::move(queue)), kernel_(kernel), block_(std::make_unique<Block>()) {}
+
+Runner::~Runner() = default;
+
+void Runner::run() {
+  const IeeeArithmetic ieee;
+  for (;;) {
+    for (int l = 0; l < kernel_.width; ++l) {
+      if (entry_[l] != nullptr) continue;
+      if (waiting_ == nullptr) waiting_ = next_entry();
+      if (waiting_ == nullptr || !finds_place(*waiting_)) break;
+      entry_[l] = std::move(waiting_);
+      start(l);
+    }
+    if (block_->occupied == 0) return;
+    kernel_.run(*block_);
+    if (queue_.cancel != nullptr && queue_.cancel->load(std::memory_order_relaxed)) return;
+    for (unsigned left = block_->cuts | block_->doubtful | block_->wanting | block_->events; left != 0; left &= left - 1)
+      serve(__builtin_ctz(left));
+  }
+}
+
+/// The next run that lanes can carry; those that they cannot, and those that fail at once, are done on the way.
+std::unique_ptr<Runner::Entry> Runner::next_entry() {
+  while (const std::optional<std::size_t> index = queue_.next()) {
+    BatchRun failed;
+    try {
+      Model model = queue_.model_at(*index);
+      const State state = queue_.start_at(*index);
+      validate(model);
+      validate(model, state);
+      auto entry = std::make_unique<Entry>(*index, queue_.plan, std::move(model));
+      Recorder& recorder = entry->recorder;
+      if (fits_lanes(entry->model, entry->frame)) {
+        recorder.run.in_lanes = true;
+        entry->X.resize(static_cast<std::size_t>(entry->frame.size()));
+        entry->frame.enter(state.data(), entry->X.data());
+        return entry;
+      }
+      if (queue_.wanted == Queue::Wanted::those_of_lanes) {
+        queue_.take(*index, {});
+        continue;
+      }
+      const flow::CompiledSystem system(entry->model, {});
+      flow::Engine engine(system, state, {}, {});
+      follow(engine, recorder, true);
+      queue_.take(*index, std::move(recorder.run));
+      continue;
+    } catch (const NumericalError& error) {
+      failed.failure = error.what();
+    } catch (const InputError& error) {
+      failed.failure = error.what();
+    }
+    queue_.take(*index, std::move(failed));
+  }
+  return nullptr;
+}
+
+bool Runner::finds_place(const Entry& entry) {
+  if (shape_ && same_shape(*shape_, entry.model, entry.frame)) return true;
+  if (block_->occupied != 0) return false;
+  make_room(entry);
+  return true;
+}
+
+/// New lanes, for models of another shape.
+void Runner::make_room(const Entry& entry) {
+  shape_ = shape_of(entry.model, entry.frame);
+  const auto size = static_cast<std::size_t>(shape_->layout.size()), modes = static_cast<std::size_t>(shape_->modes);
+  active_ = std::make_unique<Rows>(size);
+  all_ = std::make_unique<Rows>(size * modes);
+  ready_.assign(modes * most_lanes, 0);
+  words_.assign(size, 0.0);
+  block_->active = active_->at(0);
+  block_->all = all_->at(0);
+  block_->ready = ready_.data();
+  block_->layout = shape_->layout;
+  block_->harmonic = shape_->harmonic.data();
+  block_->cosine = shape_->cosine.data();
+  block_->action = shape_->action.data();
+  block_->open = shape_->open.data();
+  block_->slots = shape_->slots.data();
+  block_->filled = 0;
+}
+
+void Runner::start(int l) {
+  const Entry& entry = *entry_[l];
+  const int n = entry.frame.n;
+  for (int i = 0; i < n; ++i) {
+    block_->p[i][l] = entry.X[static_cast<std::size_t>(i)];
+    block_->u[i][l] = entry.X[static_cast<std::size_t>(n + i)];
+  }
+  const ModelWords words = model_words(entry.model, entry.frame);
+  for (int s = 0; s < most_contacts; ++s) {
+    block_->restitution[s][l] = words.restitution[s];
+    block_->let_off[s][l] = words.let_off[s];
+    for (int i = 0; i < most_coordinates; ++i) block_->impulse[s][i][l] = words.impulse[s][i];
+  }
+  for (int m = 0; m < shape_->modes; ++m) ready_[static_cast<std::size_t>(m * most_lanes + l)] = 0;
+  block_->seen[l] = block_->fraction[l] = block_->period[l] = block_->tries[l] = block_->impacts[l] = block_->speeds[l] = 0.0;
+  block_->scale[l] = 1.0;
+  block_->mode[l] = 0;
+  block_->start[l] = start_action(entry.model, entry.frame, *shape_, entry.X.data(), entry.X.data() + n);
+  block_->occupied |= 1U << l;
+  block_->starting |= 1U << l;
+  set_cut(l);
+}
+
+void Runner::serve(int l) {
+  const unsigned bit = 1U << l;
+  if ((block_->cuts & bit) != 0) return look(l);
+  if ((block_->doubtful & bit) != 0) return ask_engine(l, false);
+  if ((block_->wanting & bit) != 0) return want(l);
+  report(*shape_, entry_[l]->frame, block_->event_mode[l], block_->event_slot[l], block_->event_side[l], block_->mode[l], now(l),
+         block_->event_speed[l], entry_[l]->recorder.run.events);
+}
+
+Instant Runner::now(int l) const { return {static_cast<std::int64_t>(block_->period[l]), block_->fraction[l]}; }
+
+void Runner::set_cut(int l) {
+  const Recorder& recorder = entry_[l]->recorder;
+  const Instant at = recorder.next();
+  block_->cut_period[l] = static_cast<double>(at.period);
+  block_->cut_fraction[l] = at.fraction;
+  block_->watched = recorder.wants_events() ? block_->watched | 1U << l : block_->watched & ~(1U << l);
+}
+
+/// A lane at its cut.
+void Runner::look(int l) {
+  Recorder& recorder = entry_[l]->recorder;
+  double p[most_coordinates], u[most_coordinates];
+  for (int i = 0; i < block_->layout.n; ++i) {
+    p[i] = block_->at_p[i][l];
+    u[i] = block_->at_u[i][l];
+  }
+  recorder.impacts = block_->impacts[l];
+  recorder.speeds = block_->speeds[l];
+  if (recorder.look(entry_[l]->frame, p, u)) return finish(l);
+  block_->impacts[l] = recorder.impacts;
+  block_->speeds[l] = recorder.speeds;
+  set_cut(l);
+}
+
+void Runner::finish(int l) {
+  const std::size_t index = entry_[l]->index;
+  BatchRun run = std::move(entry_[l]->recorder.run);
+  run.lane_events = static_cast<long>(block_->seen[l]);
+  entry_[l].reset();
+  const unsigned others = ~(1U << l);
+  block_->occupied &= others;
+  block_->starting &= others;
+  block_->watched &= others;
+  queue_.take(index, std::move(run));
+}
+
+/// The words of all modes that may follow a lane's event.
+void Runner::want(int l) {
+  const Action action = (block_->starting >> l & 1U) != 0
+                            ? block_->start[l]
+                            : shape_->action_of(block_->event_mode[l], block_->event_slot[l], block_->event_side[l]);
+  for (int c = 0; c < action.candidates; ++c)
+    if (!make_mode(l, action.candidate[c])) return ask_engine(l, true);
+}
+
+bool Runner::make_mode(int l, int mode) {
+  std::uint8_t& ready = ready_[static_cast<std::size_t>(mode * most_lanes + l)];
+  if (ready != 0) return true;
+  if (!make_words(entry_[l]->model, entry_[l]->frame, *shape_, mode, words_.data())) return false;
+  Block::Row* const rows = all_->at(static_cast<std::size_t>(mode) * words_.size());
+  for (std::size_t w = 0; w < words_.size(); ++w) rows[w][l] = words_[w];
+  ready = 1;
+  return true;
+}
+
+/// One event, or all up to the end, by an engine from the lane's state.
+void Runner::ask_engine(int l, bool to_the_end) {
+  Recorder& recorder = entry_[l]->recorder;
+  recorder.impacts = block_->impacts[l];
+  recorder.speeds = block_->speeds[l];
+  block_->starting &= ~(1U << l);
+  try {
+    put_engine(l);
+    if (follow(*entry_[l]->engine, recorder, to_the_end)) return finish(l);
+    return to_lane(l);
+  } catch (const NumericalError& error) {
+    recorder.run.failure = error.what();
+  } catch (const InputError& error) {
+    recorder.run.failure = error.what();
+  }
+  recorder.run.done = false;
+  finish(l);
+}
+
+/// Puts the engine where the lane is. A lane that is in doubt at once after an engine's event goes on with the same
+/// engine: that knows more of what has happened than the state says.
+void Runner::put_engine(int l) {
+  Entry& entry = *entry_[l];
+  const int n = entry.frame.n;
+  double X[2 * most_coordinates];
+  for (int i = 0; i < n; ++i) {
+    X[i] = block_->p[i][l];
+    X[n + i] = block_->u[i][l];
+  }
+  const std::span<const double> coordinates(X, 2 * static_cast<std::size_t>(n));
+  if (entry.engine == nullptr) {
+    entry.system = std::make_unique<flow::CompiledSystem>(entry.model, SystemOptions{});
+    entry.engine = std::make_unique<flow::Engine>(*entry.system, coordinates, now(l), MotionOptions{});
+  } else if (!entry.stands || entry.engine->time() != now(l)) {
+    entry.engine->restart(coordinates, now(l));
+  }
+}
+
+/// The lane goes on from where its engine stands; in a mode of another structure the engine goes on to the end.
+void Runner::to_lane(int l) {
+  Entry& entry = *entry_[l];
+  const int n = entry.frame.n;
+  const std::span<const double> X = entry.engine->extended();
+  for (int i = 0; i < n; ++i) {
+    block_->p[i][l] = X[static_cast<std::size_t>(i)];
+    block_->u[i][l] = X[static_cast<std::size_t>(n + i)];
+  }
+  const Instant time = entry.engine->time();
+  block_->period[l] = static_cast<double>(time.period);
+  block_->fraction[l] = time.fraction;
+  block_->scale[l] = 1.0;
+  block_->tries[l] = 0.0;
+  block_->impacts[l] = entry.recorder.impacts;
+  block_->speeds[l] = entry.recorder.speeds;
+  entry.stands = true;
+  const int mode = static_cast<int>(entry.engine->mode_id());
+  if (!make_mode(l, mode)) {
+    (void)follow(*entry.engine, entry.recorder, true);
+    return finish(l);
+  }
+  block_->mode[l] = mode;
+  block_->filled = std::max(block_->filled, static_cast<int>(shape_->slots[static_cast<std::size_t>(mode)]));
+  const Block::Row* const rows = all_->at(static_cast<std::size_t>(mode) * words_.size());
+  for (std::size_t w = 0; w < words_.size(); ++w) block_->active[w][l] = rows[w][l];
+  set_cut(l);
+}
+
+}  // namespace slapstick::batch

@@ -1,0 +1,174 @@
+/// Finds the impulses between two pieces of a motion, and keeps the flights between impacts.
+#include "quantity/blow.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace slapstick::quantity {
+namespace {
+
+constexpr Number unknown{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+
+}  // namespace
+
+Number value_at(const Quantity& quantity, const Struck& impact) {
+  using Kind = Quantity::Kind;
+  const bool one_stop = quantity.index >= 0;
+  const Since& since = one_stop ? impact.own : impact.any;
+  if (one_stop && quantity.index != impact.contact) return unknown;
+  if (quantity.kind == Kind::speed) return impact.w;
+  if (quantity.kind == Kind::impulse) return impact.impulse;
+  if (quantity.kind == Kind::loss) return impact.loss;
+  if (quantity.kind == Kind::flight) return since.flight;
+  return quantity.kind == Kind::sliding ? since.sliding : unknown;
+}
+
+Blows::Blows(const Model& model, const mode::Frame& frame, Number period, const std::vector<Quantity>& of, const Rates* rates)
+    : model_(model), frame_(frame), period_(period), of_(of), rates_(rates),
+      marks_(model.stops.size() + model.frictions.size() + model.compliant_stops.size() + 1) {}
+
+void Blows::impact(int stop, double w, const Moving& before) {
+  strike(std::uint32_t{1} << static_cast<unsigned>(stop));
+  const auto known = std::find_if(impacts_.begin(), impacts_.end(), [&](const Struck& one) { return one.contact == stop; });
+  if (known != impacts_.end()) return;
+  const RowVector row = frame_.velocity_row(frame_.stops[static_cast<std::size_t>(stop)]);
+  impacts_.push_back(meet(stop, {w, rates_ != nullptr ? row.dot(before.by) : 0.0}));
+}
+
+void Blows::begin_flight(int contact, Number time, Number slid) {
+  const Mark mark{time, slid_ - slid};
+  marks_[static_cast<std::size_t>(contact)] = mark;
+  if (!marks_.back() || time.value >= marks_.back()->time.value) marks_.back() = mark;
+}
+
+void Blows::go_on(Number time, Number slid) {
+  now_ = time;
+  slid_ += slid;
+}
+
+/// @param contact  -1: any
+Since Blows::since(int contact) const {
+  const auto& mark = contact < 0 ? marks_.back() : marks_[static_cast<std::size_t>(contact)];
+  return mark ? Since{(now_ - mark->time) / period_, (slid_ - mark->slid) / period_} : Since{unknown, unknown};
+}
+
+/// An impact here and now: it ends a flight and begins one.
+Struck Blows::meet(int contact, Number w) {
+  const Struck met{contact, w, {}, {}, since(-1), since(contact)};
+  begin_flight(contact, now_, {});
+  return met;
+}
+
+std::optional<Blow> Blows::between(const mode::Outline& last, const Moving& before, const mode::Outline& next,
+                                   const Moving& after) {
+  Blow blow{now_, std::vector<Number>(of_.size()), {}};
+  const bool struck = struck_ != 0;
+  if (struck) {
+    const Impulses of = impulses(before, after);
+    const Formulas formulas(model_, frame_, last);  // velocities do not depend on a parameter but by their drift
+    for (std::size_t k = 0; k < of_.size(); ++k) {
+      blow.impulses[k] = share(of_[k], of_[k].index, of, formulas, before, after);
+      if (of_[k].minus >= 0) blow.impulses[k] -= share(of_[k], of_[k].minus, of, formulas, before, after);
+    }
+    for (Struck& impact : impacts_) {
+      const auto i = static_cast<std::size_t>(std::find(of.stops.begin(), of.stops.end(), impact.contact) - of.stops.begin());
+      impact.impulse = of.P[i];
+      impact.loss = of.loss[i];
+    }
+    blow.impacts = impacts_;
+  }
+  if (last.states.compliant != next.states.compliant) {
+    let_go(last, next, before, blow);
+    engage(last, next, before, blow);
+  }
+  const bool any = std::any_of(blow.impulses.begin(), blow.impulses.end(), [](Number one) { return one.value != 0.0; });
+  const bool happens = struck || any || !blow.impacts.empty();
+  struck_ = 0;
+  impacts_.clear();
+  return happens ? std::optional(std::move(blow)) : std::nullopt;
+}
+
+/// M dv = -sum_i g_i P_i over the stops that were struck: in contact coordinates dw_i = -sum_j D_ij P_j. Each takes P_i
+/// (w_i- + w_i+) / 2. The derivative of P is -D^+ (dw' + D' P).
+Blows::Impulses Blows::impulses(const Moving& before, const Moving& after) const {
+  Impulses of;
+  for (int i = 0; i < static_cast<int>(model_.stops.size()); ++i)
+    if ((struck_ >> static_cast<unsigned>(i) & 1U) != 0) of.stops.push_back(i);
+  const auto count = static_cast<Eigen::Index>(of.stops.size());
+  const auto row = [&](Eigen::Index i) { return frame_.stops[static_cast<std::size_t>(of.stops[static_cast<std::size_t>(i)])]; };
+  const auto between_stops = [&](const Matrix& all) {
+    Matrix D(count, count);
+    for (Eigen::Index i = 0; i < count; ++i)
+      for (Eigen::Index j = 0; j < count; ++j) D(i, j) = row(i).sign * row(j).sign * all(row(i).own, row(j).own);
+    return D;
+  };
+  const auto speeds = [&](const Vector& X) {
+    Vector w(count);
+    for (Eigen::Index i = 0; i < count; ++i) w[i] = row(i).sign * X[frame_.u(row(i).own)];
+    return w;
+  };
+  const Matrix inverse = mode::least_norm_inverse(between_stops(frame_.mass_inverse));
+  const Vector jump = speeds(after.X) - speeds(before.X), sum = speeds(after.X) + speeds(before.X);
+  const Vector P = -inverse * jump;
+  Vector P_rate = Vector::Zero(count), sum_rate = P_rate;
+  if (rates_ != nullptr) {
+    const Vector w = speeds(before.by), v = speeds(after.by);
+    P_rate = -inverse * (v - w + between_stops(rates_->frame.mass_inverse) * P);
+    sum_rate = v + w;
+  }
+  for (Eigen::Index i = 0; i < count; ++i) {
+    of.P.push_back({P[i], P_rate[i]});
+    of.loss.push_back(0.5 * of.P.back() * Number{sum[i], sum_rate[i]});
+  }
+  return of;
+}
+
+/// The impulse of a quantity of one coordinate or contact.
+Number Blows::share(const Quantity& quantity, int index, const Impulses& of, const Formulas& formulas,
+                    const Moving& before, const Moving& after) const {
+  if (quantity.kind == Quantity::Kind::acceleration) {
+    const RowVector row = formulas.velocity(index).value.segment(frame_.d, frame_.n);
+    const auto jump = [&](const Vector& from, const Vector& to) {
+      const Vector change = to - from;  // the drift of a belt does not jump
+      return row.dot(change.segment(frame_.d, frame_.n));
+    };
+    return {jump(before.X, after.X), rates_ != nullptr ? jump(before.by, after.by) : 0.0};
+  }
+  const auto i = static_cast<std::size_t>(std::find(of.stops.begin(), of.stops.end(), index) - of.stops.begin());
+  if (i == of.P.size()) return {};
+  if (quantity.kind == Quantity::Kind::force) return of.P[i];
+  return quantity.kind == Quantity::Kind::power ? of.loss[i] : Number{};
+}
+
+/// A compliant stop that lets go beyond its gap takes the energy of its spring; one that pushes again brings it back.
+void Blows::let_go(const mode::Outline& last, const mode::Outline& next, const Moving& before, Blow& blow) const {
+  for (std::size_t k = 0; k < of_.size(); ++k) {
+    if (of_[k].kind != Quantity::Kind::power) continue;
+    const int compliant = of_[k].index - static_cast<int>(model_.stops.size() + model_.frictions.size());
+    if (compliant < 0 || compliant >= static_cast<int>(model_.compliant_stops.size())) continue;
+    const auto at = static_cast<std::size_t>(compliant);
+    const auto detached = [&](const mode::Outline& mode) {
+      return mode.states.compliant[at] == mode::CompliantState::detached ? 1.0 : 0.0;
+    };
+    const double sense = detached(next) - detached(last);
+    const int own = frame_.compliant[at].own;
+    const Number delta{before.X[own], rates_ != nullptr ? before.by[own] : 0.0},
+        stiffness{model_.compliant_stops[at].stiffness, rates_ != nullptr ? rates_->model.compliant_stops[at].stiffness : 0.0};
+    blow.impulses[k] += 0.5 * sense * stiffness * delta * delta;
+  }
+}
+
+/// A compliant stop that is met from its free side, as section/stop_choice.hpp counts them.
+void Blows::engage(const mode::Outline& last, const mode::Outline& next, const Moving& before, Blow& blow) {
+  const int first = static_cast<int>(model_.stops.size() + model_.frictions.size());
+  for (std::size_t i = 0; i < model_.compliant_stops.size(); ++i) {
+    const bool met = last.states.compliant[i] == mode::CompliantState::off && next.states.compliant[i] != mode::CompliantState::off;
+    const RowVector row = frame_.velocity_row(frame_.compliant[i]);
+    const Number w{met ? row.dot(before.X) : 0.0, rates_ != nullptr ? row.dot(before.by) : 0.0};
+    if (!(w.value > 0.0)) continue;
+    blow.impacts.push_back(meet(first + static_cast<int>(i), w));
+    blow.impacts.back().impulse = blow.impacts.back().loss = unknown;
+  }
+}
+
+}  // namespace slapstick::quantity

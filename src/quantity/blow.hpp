@@ -1,0 +1,93 @@
+#pragma once
+/// What happens at the instants at which velocities jump: impulses of all quantities, and the impacts of stops.
+///
+/// Impulses follow from the jump between two states, never from the impact law, so that they are what momentum asks
+/// for. Numbers have their derivatives by the parameter of the trace beside them (zero without one).
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "quantity/formula.hpp"
+
+namespace slapstick::quantity {
+
+/// A time since an impact and the part of it in slip, forcing periods; NaN where there was none.
+struct Since {
+  Number flight, sliding;
+};
+
+/// A stop that was struck, or a compliant one that was met from its free side.
+struct Struck {
+  int contact = 0;       ///< System::contact_name
+  Number w;              ///< just before
+  Number impulse, loss;  ///< NaN of a compliant stop: both take time
+  Since any, own;        ///< since an impact of any stop, and of this one
+};
+
+struct Blow {
+  Number time;
+  std::vector<Number> impulses;  ///< of every quantity
+  std::vector<Struck> impacts;   ///< none: the tail of a chatter, or a compliant stop that lets go
+};
+
+/// What a quantity at impacts is at one; NaN if it is not about this stop.
+[[nodiscard]] Number value_at(const Quantity& quantity, const Struck& impact);
+
+/// An extended state, and how it moves with the parameter.
+struct Moving {
+  Vector X, by;
+};
+
+class Blows {
+ public:
+  /// Refers to its arguments. @param period  what flights are measured in @param rates  null: no derivatives
+  Blows(const Model& model, const mode::Frame& frame, Number period, const std::vector<Quantity>& of, const Rates* rates);
+
+  /// These stops, bit by bit, get an impulse at the next blow ..
+  void strike(std::uint32_t stops) { struck_ |= stops; }
+  /// .. and this one was hit; `before` is where the trace stands.
+  void impact(int stop, double w, const Moving& before);
+  /// Flights of a stop count from here. @param slid  how long friction has slipped since then
+  void begin_flight(int contact, Number time, Number slid);
+  /// The trace has come to an instant; friction slipped on the way so long.
+  void go_on(Number time, Number slid);
+  void forget() { struck_ = 0; }
+  /// Can there be a blow between these modes? If not, no state is needed.
+  [[nodiscard]] bool may_come(const mode::Outline& last, const mode::Outline& next) const {
+    return struck_ != 0 || !impacts_.empty() || last.states.compliant != next.states.compliant;
+  }
+
+  /// What lies between the end of one piece and the start of the next; nothing if nothing happens.
+  [[nodiscard]] std::optional<Blow> between(const mode::Outline& last, const Moving& before, const mode::Outline& next,
+                                            const Moving& after);
+
+ private:
+  /// An impact, and how long friction had slipped until then.
+  struct Mark {
+    Number time, slid;
+  };
+  struct Impulses {
+    std::vector<int> stops;
+    std::vector<Number> P, loss;
+  };
+
+  [[nodiscard]] Impulses impulses(const Moving& before, const Moving& after) const;
+  [[nodiscard]] Number share(const Quantity& quantity, int index, const Impulses& of, const Formulas& formulas,
+                             const Moving& before, const Moving& after) const;
+  void let_go(const mode::Outline& last, const mode::Outline& next, const Moving& before, Blow& blow) const;
+  void engage(const mode::Outline& last, const mode::Outline& next, const Moving& before, Blow& blow);
+  [[nodiscard]] Since since(int contact) const;
+  [[nodiscard]] Struck meet(int contact, Number w);
+
+  const Model& model_;
+  const mode::Frame& frame_;
+  Number period_;
+  const std::vector<Quantity>& of_;
+  const Rates* rates_;
+  std::uint32_t struck_ = 0;
+  std::vector<Struck> impacts_;
+  Number now_, slid_;
+  std::vector<std::optional<Mark>> marks_;  ///< the last one of each contact, and of any behind them
+};
+
+}  // namespace slapstick::quantity

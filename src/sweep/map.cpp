@@ -1,0 +1,207 @@
+/// Runs a map: which pixels are a tile, which tiles are a chain, and what happens to the finished ones.
+#include "slapstick/sweep/map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "base/ranges.hpp"
+#include "base/text.hpp"
+#include "section/settling.hpp"
+#include "slapstick/base/error.hpp"
+#include "sweep/executor.hpp"
+#include "sweep/map_pixel.hpp"
+
+namespace slapstick::sweep {
+namespace {
+
+void demand(bool good, const std::string& message) {
+  if (!good) throw InputError("map: " + message);
+}
+
+void check_axis(const char* name, const GridAxis& axis) {
+  const std::string of = name;
+  demand(std::isfinite(axis.from) && std::isfinite(axis.to), of + ": from and to must be finite");
+  demand(axis.count >= 1, of + ".count = " + std::to_string(axis.count) + " is below 1");
+  demand(axis.count == 1 ? axis.from == axis.to : axis.from < axis.to,
+         of + ": from = " + shown(axis.from) + " is not below to = " + shown(axis.to) + " (one value needs from == to)");
+}
+
+void check(const MapProblem& problem) {
+  demand(problem.model_at != nullptr && problem.start_at != nullptr, "model_at and start_at must be given");
+  check_axis("x", problem.x);
+  check_axis("y", problem.y);
+  constexpr double most = 0.5 * std::numeric_limits<std::int32_t>::max();
+  demand(static_cast<double>(problem.x.count) * problem.y.count < most, "more pixels than one map can have");
+  demand(problem.periods >= 20, "periods = " + std::to_string(problem.periods) + " is below 20");
+  demand(problem.starts >= 2 || problem.start != MapStart::random,
+         "starts = " + std::to_string(problem.starts) + " is below 2");
+  demand(problem.start == MapStart::carry || problem.direction == Direction::up,
+         "direction is for start = carry; else all directions are the same");
+  demand(problem.of.size() == problem.statistics.size(), "every quantity needs a statistic");
+  for (std::size_t k = 0; k < problem.of.size(); ++k) check_statistic(problem.of[k], problem.statistics[k]);
+  demand(problem.measured_periods >= 1, "measured_periods must be positive");
+  demand(problem.shards >= 1 && problem.shard >= 0 && problem.shard < problem.shards, "shard must be in 0 .. shards - 1");
+  demand(problem.threads >= 0, "threads = " + std::to_string(problem.threads) + " is below 0");
+  demand(!problem.known || problem.carried_of || problem.start != MapStart::carry, "known needs carried_of");
+}
+
+/// How the pixels of a problem are cut into tiles. With `carry` a chain goes through the columns of a band of rows, and
+/// a tile is a column of the band; else a tile is a run of pixels.
+class Tiling {
+ public:
+  explicit Tiling(const MapProblem& problem) : problem_(problem), carry_(problem.start == MapStart::carry) {
+    const auto parts = [](long whole, long part) { return (whole + part - 1) / part; };
+    const long pixels = static_cast<long>(problem.x.count) * problem.y.count;
+    bands_ = static_cast<int>(carry_ ? parts(problem.y.count, band) : parts(pixels, run()));
+    const int all = bands_ * directions();
+    for (int chain = problem.shard; chain < all; chain += problem.shards) chains_.push_back(chain);
+  }
+
+  [[nodiscard]] Chains chains() const {
+    return {.chains = static_cast<int>(chains_.size()), .length = carry_ ? problem_.x.count : 1};
+  }
+
+  /// The pixels of a cell, without starts.
+  [[nodiscard]] std::vector<PixelTask> tile(const Cell& cell) const {
+    const int chain = chains_[static_cast<std::size_t>(cell.chain)], place = chain % bands_;
+    std::vector<PixelTask> tasks;
+    if (!carry_) {
+      const int end = std::min((place + 1) * run(), problem_.x.count * problem_.y.count);
+      for (int number = place * run(); number < end; ++number) tasks.push_back({number, Direction::up, {}});
+      return tasks;
+    }
+    const Direction direction = problem_.direction == Direction::both ? (chain < bands_ ? Direction::up : Direction::down)
+                                                                      : problem_.direction;
+    const int ix = direction == Direction::up ? cell.step : problem_.x.count - 1 - cell.step;
+    for (int iy = place * band; iy < std::min((place + 1) * band, problem_.y.count); ++iy)
+      tasks.push_back({iy * problem_.x.count + ix, direction, {}});
+    return tasks;
+  }
+
+  /// Pixels of all cells.
+  [[nodiscard]] long size() const {
+    long pixels = 0;
+    for (int chain = 0; chain < chains().chains; ++chain) pixels += static_cast<long>(tile({chain, 0}).size());
+    return pixels * chains().length;
+  }
+
+ private:
+  static constexpr int band = 8;
+  /// Pixels of a tile: some tens of milliseconds.
+  [[nodiscard]] int run() const { return problem_.level == Level::quick && problem_.start == MapStart::reset ? 32 : 4; }
+  [[nodiscard]] int directions() const { return problem_.direction == Direction::both ? 2 : 1; }
+
+  const MapProblem& problem_;
+  bool carry_;
+  int bands_ = 0;
+  std::vector<int> chains_;
+};
+
+/// One map while it runs.
+class Run {
+ public:
+  explicit Run(const MapProblem& problem) : problem_(problem), tiling_(problem), total_(tiling_.size()) {}
+
+  bool operator()() {
+    const bool all = run_chains(
+        tiling_.chains(), problem_.threads,
+        [&](const Cell& cell, const Starts& start, const HandOn& hand_on) { run_tile(cell, start, hand_on); },
+        problem_.cancel);
+    return all && done_ == total_;
+  }
+
+ private:
+  void run_tile(const Cell& cell, const Starts& start, const HandOn& hand_on) {
+    std::vector<PixelTask> tasks = tiling_.tile(cell);
+    for (std::size_t i = 0; i < tasks.size() && i < start.size(); ++i) tasks[i].start = start[i].state;
+    const auto is_known = [&](const PixelTask& task) { return problem_.known && problem_.known(task.number, task.direction); };
+    std::vector<PixelTask> unknown;
+    ranges::copy_if(tasks, std::back_inserter(unknown), [&](const PixelTask& task) { return !is_known(task); });
+    const std::vector<Pixel> pixels = analyse(problem_, unknown);
+    deliver(pixels, pixels.size() + tasks.size() - unknown.size());
+    if (pixels.size() == unknown.size() && problem_.start == MapStart::carry) hand_on(starts_after(tasks, pixels));
+  }
+
+  /// What the next tile of a chain begins with: of new pixels and of known ones.
+  [[nodiscard]] Starts starts_after(const std::vector<PixelTask>& tasks, const std::vector<Pixel>& pixels) const {
+    Starts next;
+    auto pixel = pixels.begin();
+    for (const PixelTask& task : tasks) {
+      const bool is_new = pixel != pixels.end() && pixel->number == task.number;
+      next.push_back({is_new ? (pixel++)->carried : problem_.carried_of(task.number, task.direction)});
+    }
+    return next;
+  }
+
+  void deliver(const std::vector<Pixel>& pixels, std::size_t done) {
+    const std::lock_guard lock(delivery_);
+    if (problem_.finished && !pixels.empty()) problem_.finished(pixels);
+    done_ += static_cast<long>(done);
+    if (problem_.progress && done > 0) problem_.progress(done_, total_);
+  }
+
+  const MapProblem& problem_;
+  const Tiling tiling_;
+  std::mutex delivery_;
+  long done_ = 0, total_;
+};
+
+}  // namespace
+
+std::string Finding::label(bool driven) const {
+  return failed ? "failed" : class_label(attractor, n, p, sticking, chatter, driven);
+}
+
+MapBuilder::MapBuilder(const MapProblem& problem) {
+  check(problem);
+  map_.x = problem.x;
+  map_.y = problem.y;
+  map_.driven = section::driven(problem.model_at(problem.x.from, problem.y.from));
+  map_.width = problem.of.size();
+  const auto pixels = static_cast<std::size_t>(pixel_count(problem));
+  map_.findings.reserve(pixels);
+  map_.values.reserve(pixels * map_.width);
+}
+
+void MapBuilder::add(const Pixel& pixel) {
+  const auto first = static_cast<std::int32_t>(map_.width == 0 ? 0 : map_.values.size() / map_.width);
+  for (std::size_t k = 0; k < pixel.found.size(); ++k) {
+    map_.findings.push_back(pixel.found[k]);
+    map_.findings.back().values = first + static_cast<std::int32_t>(k);
+  }
+  map_.values.insert(map_.values.end(), pixel.values.begin(), pixel.values.end());
+  if (!pixel.failure.empty()) map_.failures[{static_cast<int>(pixel.direction), pixel.number}] = pixel.failure;
+}
+
+Map MapBuilder::take(bool complete) {
+  const auto place = [](const Finding& of) { return std::pair(of.direction, of.pixel); };
+  std::stable_sort(map_.findings.begin(), map_.findings.end(),
+                   [&](const Finding& a, const Finding& b) { return place(a) < place(b); });
+  map_.complete = complete;
+  return std::move(map_);
+}
+
+long pixel_count(const MapProblem& problem) {
+  const bool both = problem.start == MapStart::carry && problem.direction == Direction::both;
+  return static_cast<long>(problem.x.count) * problem.y.count * (both ? 2 : 1);
+}
+
+bool run_tiles(const MapProblem& problem) {
+  check(problem);
+  return Run(problem)();
+}
+
+Map run_map(const MapProblem& problem) {
+  MapBuilder builder(problem);
+  MapProblem gathered = problem;
+  gathered.finished = [&](std::span<const Pixel> pixels) {
+    for (const Pixel& pixel : pixels) builder.add(pixel);
+    if (problem.finished) problem.finished(pixels);
+  };
+  const bool complete = run_tiles(gathered);
+  return builder.take(complete);
+}
+
+}  // namespace slapstick::sweep

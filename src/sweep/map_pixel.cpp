@@ -1,0 +1,215 @@
+/// Analyses pixels of a map: from a start to what the motion is.
+#include "sweep/map_pixel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <random>
+
+#include "base/floating_point.hpp"
+#include "base/ranges.hpp"
+#include "flow/contact_state.hpp"
+#include "orbit/starts.hpp"
+#include "section/settling.hpp"
+#include "slapstick/base/error.hpp"
+#include "slapstick/flow/stage.hpp"
+#include "sweep/diagram_point.hpp"
+
+namespace slapstick::sweep {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// `classify` gives a rate to what has one; the rest is 0 there.
+bool has_exponent(const Classification& found) {
+  if (found.n > 0 || !found.eigenvalues.empty()) return true;
+  if (found.attractor == Attractor::equilibrium) return found.sticking;
+  return found.exponent != 0.0 || found.exponent_error != 0.0;
+}
+
+Finding finding_of(const Classification& found, const PixelTask& task) {
+  Finding finding{.pixel = task.number, .direction = task.direction};
+  finding.attractor = found.attractor;
+  finding.doubt = found.doubt;
+  finding.chatter = found.chatter;
+  finding.sticking = found.sticking;
+  finding.n = found.n;
+  finding.p = static_cast<std::int32_t>(std::min<long>(found.p, std::numeric_limits<std::int32_t>::max()));
+  finding.exponent = has_exponent(found) ? found.exponent : unknown;
+  finding.multiplier = found.multipliers.empty() ? std::complex<double>(unknown, unknown) : found.multipliers.front();
+  return finding;
+}
+
+/// One pixel while it is analysed.
+class Analysis {
+ public:
+  Analysis(const MapProblem& problem, const PixelTask& task) : problem_(problem), task_(task) {
+    pixel_.number = task.number;
+    pixel_.direction = task.direction;
+  }
+
+  /// @returns nothing if it was cancelled
+  std::optional<Pixel> operator()() {
+    try {
+      run();
+    } catch (const NumericalError& error) {
+      fail(error.what());
+    } catch (const InputError& error) {
+      fail(error.what());
+    }
+    if (interrupted_) return std::nullopt;
+    return std::move(pixel_);
+  }
+
+ private:
+  void run() {
+    const double x = problem_.x.value(task_.number % problem_.x.count), y = problem_.y.value(task_.number / problem_.x.count);
+    const System system(problem_.model_at(x, y));
+    const State start = start_of(system, x, y);
+    if (problem_.start == MapStart::random) return run_all(system, start);
+    const Classification found = classified(system, start);
+    if (interrupted_) return;
+    if (problem_.start == MapStart::carry) pixel_.carried = found.state;
+    keep(system, found, 1);
+  }
+
+  /// What was handed on, if it is admissible here.
+  State start_of(const System& system, double x, double y) const {
+    if (task_.start.empty()) return problem_.start_at(x, y);
+    State state = task_.start;
+    undo_rounding(system.model(), state);
+    try {
+      validate(system.model(), state);
+      return state;
+    } catch (const InputError&) {
+      return problem_.start_at(x, y);
+    }
+  }
+
+  Classification classified(const System& system, const State& start) {
+    ClassifyOptions options = problem_.classify;
+    options.cancel = problem_.cancel;
+    options.progress = {};
+    Classification found = problem_.level == Level::quick ? classify_quickly(system, start, problem_.periods, options)
+                                                          : classify(system, start, options);
+    interrupted_ = interrupted_ || found.interrupted;
+    return found;
+  }
+
+  /// Every attractor, with the number of starts that lead there; one with more starts goes first, of equals the one
+  /// that was found first.
+  void run_all(const System& system, const State& start) {
+    struct Known {
+      Classification found;
+      int starts;
+    };
+    std::vector<Known> all;
+    const flow::Translations translations(system);
+    const orbit::Starts starts(translations, Motion(system, start), problem_.cancel);
+    std::mt19937 random(static_cast<std::mt19937::result_type>(problem_.seed));
+    for (int k = 0; k < problem_.starts && !interrupted_; ++k) {
+      const State one = k == 0 ? start : flow::user_state(system, starts.draw(random, 1.0));
+      Classification found = classified(system, one);
+      if (interrupted_) return;
+      const auto same = ranges::find_if(all, [&](const Known& known) { return same_attractor(system, known.found, found); });
+      if (same != all.end())
+        ++same->starts;
+      else
+        all.push_back({std::move(found), 1});
+    }
+    std::stable_sort(all.begin(), all.end(), [](const Known& a, const Known& b) { return a.starts > b.starts; });
+    for (const Known& known : all) keep(system, known.found, known.starts);
+  }
+
+  void keep(const System& system, const Classification& found, int starts) {
+    Finding finding = finding_of(found, task_);
+    finding.starts = starts;
+    pixel_.found.push_back(finding);
+    if (!problem_.of.empty()) measure_values(system, found);
+  }
+
+  /// A measure that fails is NaN: the class is known all the same.
+  void measure_values(const System& system, const Classification& found) {
+    const bool cycle = found.n > 0;
+    try {
+      const double periods = cycle ? found.period / system.period() : problem_.measured_periods;
+      const Measured measured =
+          measure(Motion(system, found.state), Instant{}.plus(periods), problem_.of, problem_.cancel);
+      interrupted_ = interrupted_ || !measured.complete;
+      for (std::size_t k = 0; k < problem_.of.size(); ++k)
+        pixel_.values.push_back(statistic(measured.of[k], problem_.statistics[k]));
+    } catch (const NumericalError&) {
+      pixel_.values.insert(pixel_.values.end(), problem_.of.size(), unknown);
+    }
+  }
+
+  void fail(const char* why) {
+    pixel_.failure = why;
+    pixel_.carried = task_.start;
+    Finding finding{.pixel = task_.number, .direction = task_.direction, .failed = true};
+    finding.exponent = unknown;
+    finding.multiplier = {unknown, unknown};
+    pixel_.found = {finding};
+    pixel_.values.assign(problem_.of.size(), unknown);
+  }
+
+  const MapProblem& problem_;
+  const PixelTask& task_;
+  Pixel pixel_;
+  bool interrupted_ = false;
+};
+
+/// The largest difference of two states against the largest number of a.
+double apart(const State& a, const State& b) {
+  double difference = 0.0, size = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    difference = std::max(difference, std::abs(a[i] - b[i]));
+    size = std::max(size, std::abs(a[i]));
+  }
+  return size > 0.0 ? difference / size : difference;
+}
+
+constexpr double same = 1e-6;  ///< relative; Newton's method leaves 1e-10
+
+bool same_impacts(const Classification& a, const Classification& b) {
+  if (a.impacts.size() != b.impacts.size() || std::abs(a.period - b.period) > same * a.period) return false;
+  const auto speeds = [](const Classification& of) {
+    std::vector<std::pair<int, double>> all;
+    for (const CycleImpact& impact : of.impacts) all.emplace_back(impact.contact, impact.w);
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  const auto one = speeds(a), other = speeds(b);
+  for (std::size_t i = 0; i < one.size(); ++i)
+    if (one[i].first != other[i].first || std::abs(one[i].second - other[i].second) > same * one[i].second) return false;
+  return true;
+}
+
+}  // namespace
+
+bool same_attractor(const System& system, const Classification& a, const Classification& b) {
+  if (a.attractor != b.attractor || a.label != b.label) return false;
+  if (a.attractor == Attractor::equilibrium) return apart(a.state, b.state) < same;
+  if (a.n == 0) return true;
+  if (!section::driven(system)) return same_impacts(a, b);
+  Motion motion(system, a.state);
+  for (int k = 0; k < a.n; ++k) {
+    if (apart(motion.state(), b.state) < same) return true;
+    (void)run_to(motion, {k + 1, 0.0}, nullptr, [] {});
+  }
+  return false;
+}
+
+std::vector<Pixel> analyse(const MapProblem& problem, std::span<const PixelTask> tasks) {
+  std::vector<Pixel> pixels;
+  for (const PixelTask& task : tasks) {
+    if (problem.cancel != nullptr && problem.cancel->load(std::memory_order_relaxed)) break;
+    std::optional<Pixel> pixel = Analysis(problem, task)();
+    if (!pixel) break;
+    pixels.push_back(std::move(*pixel));
+  }
+  return pixels;
+}
+
+}  // namespace slapstick::sweep

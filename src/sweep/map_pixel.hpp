@@ -1,0 +1,24 @@
+#pragma once
+/// What a tile of pixels gives: the one place where pixels are analysed. No threads here.
+#include "slapstick/sweep/map.hpp"
+#include "sweep/executor.hpp"
+
+namespace slapstick::sweep {
+
+/// A pixel that is to be analysed.
+struct PixelTask {
+  std::int32_t number = 0;
+  Direction direction = Direction::up;
+  State start;  ///< handed on by its neighbour; empty: the problem's own
+};
+
+/// Analyses the pixels of a tile. They are independent of one another, so that several may be computed at once; today
+/// each is computed by itself.
+/// @returns as many as there was time for before the problem was cancelled, in the order of the tasks
+[[nodiscard]] std::vector<Pixel> analyse(const MapProblem& problem, std::span<const PixelTask> tasks);
+
+/// Are two motions of one system the same attractor? Cycles are compared by their states, or without a phase by period
+/// and impacts; of motions without a cycle the kind is all that is compared.
+[[nodiscard]] bool same_attractor(const System& system, const Classification& a, const Classification& b);
+
+}  // namespace slapstick::sweep

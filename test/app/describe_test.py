@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+"""slapstick describe and completion: what is written about the program is what the program takes.
+
+    describe_test.py PROGRAM CASE
+"""
+import os
+import subprocess
+import tempfile
+
+from program import PROGRAM, good, main, read, refused
+
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..')
+
+
+def described():
+    return eval(good('describe', '--json'), {'true': True, 'false': False, 'null': None})
+
+
+def test_the_page_of_all_options_is_what_the_program_writes():
+    assert read(os.path.join(ROOT, 'docs', 'reference', 'options.md')) == good('describe', '--markdown')
+
+
+def test_every_verb_of_the_help_is_described_and_every_option_is_in_its_help():
+    verbs = {verb['name']: verb for verb in described()['verbs']}
+    listed = [line.split()[0] for line in good('--help').split('Verbs:\n')[1].split('\n\n')[0].splitlines()]
+    assert list(verbs) == listed and len(listed) > 15
+    for name, verb in verbs.items():
+        shown = good(name, '--help')
+        for argument in verb['arguments']:
+            assert argument['name'] in shown and argument['help'], (name, argument)
+        options = [argument['name'] for argument in verb['arguments']]
+        assert len(options) == len(set(options)), name
+
+
+def test_words_and_bounds_that_are_described_are_those_that_are_taken():
+    for verb in described()['verbs']:
+        model = ['vibro-impact'] if verb['arguments'] and verb['arguments'][0]['kind'] == 'positional' else []
+        for argument in verb['arguments']:
+            if argument['kind'] == 'choice':
+                assert 'none of its words' in refused(2, verb['name'], *model, argument['name'], 'no-such-word')
+            if argument['kind'] == 'count':
+                line = refused(2, verb['name'], *model, argument['name'], str(argument['most'] + 1))
+                assert f"[{argument['least']}, {argument['most']}]" in line, (verb['name'], line)
+
+
+def test_quantities_of_a_model_follow_the_rules_that_are_described():
+    found = described()
+    patterns = [rule['name'].split('NAME') for rule in found['quantities'] if rule['of'] != 'coordinate']
+    for one in eval(good('quantities', 'vibro-impact')):
+        if one['kind'] in ('displacement', 'velocity', 'acceleration', 'parameter') and not one['name'].startswith('w_'):
+            continue
+        assert any(one['name'].startswith(parts[0]) for parts in patterns), one
+    assert 'rms' in [one['name'] for one in found['statistics']]
+
+
+def bash_completes(line):
+    """What bash offers for the last word of a line."""
+    words = line.split(' ')
+    script = (f'export PATH={os.path.dirname(PROGRAM)}:$PATH\nsource <(slapstick completion bash)\n'
+              f'COMP_WORDS=({" ".join(repr(word) for word in words)})\nCOMP_CWORD={len(words) - 1}\n_slapstick\nprintf "%s\\n" "${{COMPREPLY[@]}}"')
+    done = subprocess.run(['bash', '-c', script], capture_output=True, check=True, timeout=60)
+    assert done.stderr == b'', done.stderr
+    return done.stdout.decode().split()
+
+
+def test_bash_completes_verbs_options_models_words_and_names():
+    assert bash_completes('slapstick meas') == ['measure']
+    assert '--sensitivity' in bash_completes('slapstick measure vibro-impact --sens')
+    assert 'vibro-impact' in bash_completes('slapstick measure vib')
+    assert bash_completes('slapstick diagram vibro-impact --direction b') == ['both']
+    assert sorted(bash_completes('slapstick measure vibro-impact --of F_')) == ['F_friction', 'F_stop']
+    assert bash_completes('slapstick measure vibro-impact --sensitivity om') == ['omega']
+
+
+def test_scripts_of_zsh_and_fish_are_scripts_where_these_shells_are():
+    for shell, check in (('zsh', ['zsh', '-n']), ('fish', ['fish', '--no-execute'])):
+        script = good('completion', shell)
+        assert 'spectrum' in script
+        with tempfile.TemporaryDirectory() as place:
+            path = os.path.join(place, 'script')
+            with open(path, 'w', encoding='utf-8') as file:
+                file.write(script)
+            try:
+                done = subprocess.run([*check, path], capture_output=True, check=False, timeout=60)
+            except FileNotFoundError:
+                continue
+            assert done.returncode == 0, done.stderr
+    assert 'bash, zsh and fish' in refused(2, 'completion', 'tcsh')
+
+
+main({name: case for name, case in globals().items() if name.startswith('test_')})

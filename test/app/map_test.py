@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""slapstick map: its table, its picture, its refusals, its end on a signal.
+
+    map_test.py PROGRAM CASE
+"""
+import math
+import os
+import re
+import signal
+
+from program import good, main, read, refused, run, says, signalled, table
+
+PAPER = ('map', 'vibro-impact', '--x', 'omega=1.2:3:5', '--y', 'friction=0.1:0.3:3')
+
+
+def test_rows_are_pixels_from_the_lowest_row_on_and_say_what_classify_says():
+    columns, rows = table(good(*PAPER))
+    assert columns[:8] == ['x', 'y', 'class', 'attractor', 'n', 'p', 'chatter', 'exponent']
+    assert [float(row[1]) for row in rows] == [0.1] * 5 + [0.2] * 5 + [0.3] * 5
+    assert [float(row[0]) for row in rows[:5]] == [1.2, 1.65, 2.1, 2.55, 3.0]
+    for row in rows[::4]:
+        alone = good('classify', 'vibro-impact', '--set', 'omega=' + row[0], '--set', 'friction=' + row[1], '--quick', '300')
+        assert '"class": "%s"' % row[2] in alone
+        assert row[3] == re.search('"attractor": "([^"]*)"', alone).group(1)
+        exponent = re.search('"exponent": ([-0-9.e]+)', alone)
+        assert float(exponent.group(1)) == float(row[7]) if exponent else math.isnan(float(row[7]))
+
+
+def test_the_same_bytes_for_any_number_of_threads_and_in_every_format():
+    one = good(*PAPER, '--threads', '1', '--of', 'x1:rms')
+    assert one == good(*PAPER, '--threads', '3', '--of', 'x1:rms')
+    assert ',x1:rms,' in one.splitlines()[0]
+    for ending in ('npz', 'h5'):
+        for file in ('a', 'b'):
+            good(*PAPER, '--out', f'{file}.{ending}', '--threads', '1' if file == 'a' else '2')
+        with open('a.' + ending, 'rb') as a, open('b.' + ending, 'rb') as b:
+            assert a.read() == b.read()
+
+
+def test_starts_are_told_apart():
+    columns, rows = table(good(*PAPER, '--start', 'carry', '--direction', 'both'))
+    assert len(rows) == 30 and [row[columns.index('direction')] for row in rows] == ['up'] * 15 + ['down'] * 15
+    columns, rows = table(good(*PAPER, '--start', '3'))
+    starts = {}
+    for row in rows:
+        starts[row[0], row[1]] = starts.get((row[0], row[1]), 0) + int(float(row[columns.index('starts')]))
+    assert len(starts) == 15 and set(starts.values()) == {3}
+
+
+def test_the_picture_is_there_with_its_shares():
+    good(*PAPER, '--out', 'a.csv', '--plot', 'a.png', '--of', 'x1:rms', '--show', 'class,exponent,x1:rms')
+    assert os.path.getsize('a.png') > 10000
+    script = read('a.gp')
+    classes = [row[2] for row in table(read('a.csv'))[1]]
+    largest = max(set(classes), key=classes.count)
+    says(script, '%s  %.0f %%' % (largest, 100 * classes.count(largest) / len(classes)))
+    for panel in '123':
+        assert os.path.exists('a-raster%s.png' % panel), os.listdir('.')
+
+
+def test_the_curve_behind_a_boundary_is_where_the_linear_oscillator_grazes():
+    """Without impacts the amplitude is 1 / sqrt((1 - omega^2)^2 + (2 zeta omega)^2): there the stop is touched."""
+    done = run('map', 'impact-oscillator', '--set', 'damping_ratio=0.8', '--x', 'omega=0.5:1.5:24', '--y', 'clearance=0.3:1:18', '--out', 'a.csv', '--plot', 'a.png', '--curves', '1')
+    assert done.status == 0, done.err
+    found = re.search('GR between .* and .*: ([0-9]+) boundary edges; .* differ at ([0-9]+) places and are alike at ([0-9]+)', done.err)
+    edges, differ, alike = (int(number) for number in found.groups())
+    assert edges > 30 and differ > 10 and alike <= differ // 10, done.err
+    points = [line.split(',')[:2] for line in read('a-plot.csv').splitlines()[1:]]
+    points = [(float(x), float(y)) for x, y in points if x not in ('', 'NaN')]
+    assert len(points) > 20
+    for omega, clearance in points:
+        amplitude = 1 / math.hypot(1 - omega ** 2, 2 * 0.8 * omega)
+        assert abs(clearance - amplitude) < 1e-9 * amplitude, (omega, clearance, amplitude)
+
+
+def test_bad_input_is_named():
+    says(refused(2, 'map', 'vibro-impact', '--x', 'omega=1:2:3'), '--y')
+    says(refused(2, *PAPER[:4], '--y', 'omega=1:2:3'), '--y', "'omega'")
+    says(refused(2, *PAPER[:4], '--y', 'frictoin=1:2:3'), 'frictoin')
+    says(refused(2, *PAPER[:4], '--y', 'friction=1:2'), '--y', 'NAME=A:B:COUNT')
+    says(refused(2, *PAPER[:4], '--y', 'friction=2:1:3'), '--y', 'is not below')
+    says(refused(2, *PAPER, '--set', 'omega=3'), '--x', '--set')
+    says(refused(2, *PAPER, '--start', 'both'), '--start')
+    says(refused(2, *PAPER, '--start', '1'), '--start')
+    says(refused(2, *PAPER, '--direction', 'up'), '--direction', '--start carry')
+    says(refused(2, *PAPER, '--transient', '7'), '--transient', '--level full')
+    says(refused(2, *PAPER, '--level', 'full', '--periods', '70'), '--periods')
+    says(refused(2, *PAPER, '--of', 'x1'), '--of', 'x1:rms')
+    says(refused(2, *PAPER, '--of', 'x1:rsm'), '--of')
+    says(refused(2, *PAPER, '--show', 'clas'), '--show', "'class'")
+    says(refused(2, *PAPER, '--seed', '2'), '--seed')
+    says(refused(2, *PAPER, '--curves', '2'), '--curves', '--plot')
+    says(refused(2, 'map', 'vibro-impact', '--x', 'omega=1:2:100000', '--y', 'friction=0.1:0.2:100000'), 'pixels')
+    says(refused(2, *PAPER, '--out', 'a.mat'), 'a.mat')
+    assert os.listdir('.') == []
+
+
+def test_a_signal_ends_it_within_two_seconds_with_what_is_complete():
+    big = ('map', 'vibro-impact', '--x', 'omega=1:6:400', '--y', 'friction=0.05:0.3:400', '--out', 'a.csv', '--progress')
+    for number in (signal.SIGINT, signal.SIGTERM):
+        done = signalled(number, 3, *big, patience=2)
+        assert done.status == 130, (done.status, done.err)
+        says(done.err, 'stopped after', 'pixels (', '/s', 'left')
+        rows = table(read('a.csv'))[1]
+        assert len(rows) == int(re.search('stopped after ([0-9]+) of 160000', done.err).group(1)) > 100
+
+
+if __name__ == '__main__':
+    main(globals())

@@ -1,0 +1,221 @@
+#!/usr/bin/env python3
+"""Stores of long runs: no death loses a finished pixel, no damage goes unnoticed, no two runs are mixed.
+
+    store_test.py PROGRAM CASE
+"""
+import os
+import re
+import signal
+import subprocess
+import time
+
+from program import PROGRAM, good, main, read, refused, run, says, table
+
+CHART = ('map', 'vibro-impact', '--x', 'omega=1:6:40', '--y', 'friction=0.05:0.3:30')
+CARRY = (*CHART, '--start', 'carry', '--direction', 'both')
+
+
+def hash_of(text):
+    return re.search('"hash": "([0-9a-f]{16})"', text).group(1)
+
+
+def done_in(text):
+    return int(re.search('"done": ([0-9]+)', text).group(1))
+
+
+class Numbers:
+    """A row of numbers below `most` that looks random: the same at every run."""
+
+    def __init__(self, seed):
+        self.state = seed
+
+    def below(self, most):
+        self.state = (6364136223846793005 * self.state + 1442695040888963407) % 2 ** 64
+        return (self.state >> 33) % most
+
+
+def killed(words, delay):
+    process = subprocess.Popen([PROGRAM, *words], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    time.sleep(delay)
+    process.kill()
+    process.communicate()
+    return process.returncode == -signal.SIGKILL
+
+
+def kill_often(words, kills, seed, longest):
+    """Resumed after each kill; what was there stays there. Returns the number of kills that hit a run at work."""
+    whole = good(*words, '--store', 'whole.db')
+    numbers, seen, hits = Numbers(seed), 0, 0
+    for _ in range(kills):
+        hits += killed((*words, '--store', 'part.db', '--resume'), longest * numbers.below(1000) / 1000)
+        if os.path.exists('part.db'):
+            found = run('store', 'info', 'part.db')
+            if found.status == 0:  # else it died before it began
+                assert done_in(found.out) >= seen, 'finished pixels are lost'
+                seen = done_in(found.out)
+                if seen == done_in(whole):
+                    os.remove('part.db')
+                    seen = 0
+            else:
+                assert seen == 0, found.err
+    assert hash_of(good(*words, '--store', 'part.db', '--resume')) == hash_of(whole)
+    return hits
+
+
+def test_killed_runs_lose_nothing_and_end_with_the_same_hash():
+    assert kill_often(CHART, 4, 1, 0.8) >= 2
+    os.remove('whole.db'), os.remove('part.db')
+    assert kill_often(CARRY, 3, 2, 0.8) >= 1
+
+
+def test_two_hundred_kills():
+    assert kill_often(CHART, 120, 3, 0.7) >= 60
+    os.remove('whole.db'), os.remove('part.db')
+    assert kill_often(CARRY, 80, 4, 1.0) >= 40
+
+
+def test_an_interrupted_run_resumes_and_says_how():
+    process = subprocess.Popen([PROGRAM, *CHART, '--store', 'a.db'], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    time.sleep(0.4)
+    process.send_signal(signal.SIGTERM)
+    out, err = process.communicate(timeout=20)
+    if process.returncode == 130:  # it was not done yet
+        says(err.decode(), '--resume')
+        assert done_in(out.decode()) < 1200 and not os.path.exists('a.db-wal')
+    assert hash_of(good(*CHART, '--store', 'a.db', '--resume')) == hash_of(good(*CHART, '--store', 'b.db'))
+
+
+def test_shards_in_any_order_are_the_whole_and_duplicates_must_be_equal():
+    whole = hash_of(good(*CHART, '--store', 'whole.db'))
+    for shard in '123':
+        good(*CHART, '--shard', shard + '/3', '--store', shard + '.db')
+    for order in ('123', '312', '21131'):
+        assert hash_of(good('store', 'merge', *(shard + '.db' for shard in order), '--out', order + '.db')) == whole
+    good('store', 'merge', '1.db', 'whole.db', '--out', 'both.db')
+    assert '"complete": false' in good('store', 'merge', '1.db', '3.db', '--out', 'part.db')
+    good(*CHART, '--periods', '200', '--store', 'other.db')
+    says(refused(2, 'store', 'merge', '1.db', 'other.db', '--out', 'no.db'), 'other.db', 'another run')
+
+
+def test_a_store_is_not_mixed_with_another_run():
+    good(*CHART, '--shard', '1/40', '--store', 'a.db')
+    again = (*CHART, '--shard', '1/40', '--store', 'a.db')
+    says(refused(2, *again), 'a.db', '--resume')
+    good(*again, '--resume')
+    good(*again, '--resume', '--set', 'restitution=0.8')  # what it is without --set too
+    says(refused(2, *again, '--resume', '--periods', '200'), "'300'", "'200'", "'--periods'")
+    says(refused(2, *again, '--resume', '--set', 'restitution=0.7'), 'model', '0.7')
+    says(refused(2, *CHART, '--shard', '2/40', '--store', 'a.db', '--resume'), 'shard')
+    says(refused(2, *CHART, '--shard', '1/40'), '--shard', '--store')
+    says(refused(2, *CHART, '--resume'), '--resume', '--store')
+    says(refused(2, *CHART, '--shard', '3/2', '--store', 'b.db'), '--shard')
+    with open('text.db', 'w', encoding='utf-8') as file:
+        file.write('this is no database, but a text that is long enough to be taken for one by its size. ' * 50)
+    says(refused(4, *CHART, '--store', 'text.db', '--resume'), 'text.db')
+    says(refused(4, 'store', 'info', 'text.db'), 'text.db')
+    says(refused(4, 'store', 'info', 'none.db'), 'none.db')
+    says(refused(2, 'store', 'look', 'a.db'), 'info, merge or export')
+
+
+def test_a_killed_diagram_resumes_with_its_bytes():
+    """Impacts, statistics and values at instants; the state is carried, so that a wrong start shows."""
+    diagram = ('diagram', 'vibro-impact', '--sweep', 'omega=0.6:7:300', '--direction', 'both', '--transient', '200', '--impacts', '40')
+    for more in ((), ('--y', 'w:q95,x1:rms'), ('--y', 'x1,v1', '--at', 'period')):
+        words = diagram if not more or '--at' in more else diagram[:-2]
+        whole = good(*words, *more)
+        for delay in (0.15, 0.3, 0.45):
+            killed((*words, *more, '--store', 'a.db', '--resume'), delay)
+        assert good(*words, *more, '--store', 'a.db', '--resume') == whole
+        assert good(*words, *more, '--store', 'a.db', '--resume', '--threads', '1') == whole
+        says(refused(2, *words, *more, '--store', 'a.db', '--resume', '--set', 'restitution=0.7'), 'model', '0.7')
+        os.remove('a.db')
+    says(refused(2, *diagram, '--resume'), '--resume', '--store')
+
+
+def test_a_second_writer_is_refused_and_a_reader_is_not():
+    process = subprocess.Popen([PROGRAM, *CHART, '--level', 'full', '--store', 'a.db'], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    for _ in range(200):
+        time.sleep(0.05)
+        if run('store', 'info', 'a.db').status == 0:
+            break
+    assert process.poll() is None, 'it ended too early to test anything'
+    says(refused(4, *CHART, '--level', 'full', '--store', 'a.db', '--resume'), 'a.db', 'another run writes it')
+    assert done_in(good('store', 'info', 'a.db')) < 1200
+    process.terminate()
+    assert process.wait(20) == 130
+
+
+def test_a_full_disk_ends_the_run_and_loses_nothing():
+    line = 'trap "" XFSZ; ulimit -f 240; exec "$@"'  # files of 120 kB at most
+    done = subprocess.run(['sh', '-c', line, 'sh', PROGRAM, *CHART, '--store', 'a.db'], stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
+    assert done.returncode == 4, (done.returncode, done.stderr)
+    says(done.stderr.decode(), "cannot write 'a.db'")
+    part = done_in(good('store', 'info', 'a.db'))
+    assert 0 < part < 1200
+    assert hash_of(good(*CHART, '--store', 'a.db', '--resume')) == hash_of(good(*CHART, '--store', 'b.db'))
+
+
+def test_changed_bytes_are_noticed():
+    small = (*CHART[:2], '--x', 'omega=1:6:8', '--y', 'friction=0.1:0.3:5', '--store', 'a.db')
+    whole = hash_of(good(*small))
+    with open('a.db', 'rb') as file:
+        sound = file.read()
+    numbers, noticed = Numbers(5), 0
+    for _ in range(150):
+        place, bit = numbers.below(len(sound)), 1 << numbers.below(8)
+        with open('b.db', 'wb') as file:
+            file.write(sound[:place] + bytes([sound[place] ^ bit]) + sound[place + 1:])
+        found = run('store', 'info', 'b.db')
+        if found.status == 0:
+            assert hash_of(found.out) == whole, 'a wrong store is taken for a right one: byte %d, bit %d' % (place, bit)
+        else:
+            assert found.status == 4 and found.out == '', (found.status, found.err)
+            noticed += 1
+    assert noticed > 20, noticed  # the rest lies in free space of pages
+    for length in (0, 100, 4096, len(sound) // 2, len(sound) - 1):
+        with open('b.db', 'wb') as file:
+            file.write(sound[:length])
+        found = run('store', 'info', 'b.db')
+        assert found.status == 4, (length, found.out)
+
+
+def test_an_export_is_what_the_run_itself_would_have_written():
+    good(*CARRY, '--of', 'x1:rms', '--store', 'a.db')
+    good('store', 'export', 'a.db', '--out', 'a.csv', '--plot', 'a.png')
+    assert read('a.csv') == good(*CARRY, '--of', 'x1:rms') == good('store', 'export', 'a.db')
+    assert len(table(read('a.csv'))[1]) == 2400
+    good(*CARRY, '--of', 'x1:rms', '--out', 'b.h5')
+    good('store', 'export', 'a.db', '--out', 'a.h5')
+    with open('a.h5', 'rb') as a, open('b.h5', 'rb') as b:
+        assert a.read() == b.read()
+
+
+def test_the_script_of_a_cluster_does_the_whole_also_where_a_task_is_killed():
+    """Each task as Slurm would run it, without Slurm; `./dev cluster` has the real one."""
+    os.mkdir("it's here")
+    script = good(*CHART, '--slurm', '3', '--store', "it's here/chart.db", '--out', 'chart.csv')
+    with open('chart.sh', 'w', encoding='utf-8') as file:
+        file.write(script)
+    says(script, '#SBATCH --array=1-3', '#SBATCH --requeue', "it'\\''s here")
+    task = lambda number, **options: subprocess.Popen(['bash', 'chart.sh', number], stderr=subprocess.PIPE, **options)  # noqa: E731
+    assert task('3').wait(60) == 0
+    ended = task('1', start_new_session=True)
+    time.sleep(0.3)
+    os.killpg(ended.pid, signal.SIGKILL)
+    ended.communicate()
+    stopped = task('1')
+    time.sleep(0.3)
+    stopped.terminate()
+    assert stopped.wait(20) in (0, 130, 143)
+    assert not os.path.exists("it's here/chart.db")
+    both = [task('1'), task('2')]
+    assert [one.wait(60) for one in both] == [0, 0]
+    assert hash_of(good('store', 'info', "it's here/chart.db")) == hash_of(good(*CHART, '--store', 'b.db'))
+    assert read('chart.csv') == good('store', 'export', 'b.db')
+    says(refused(2, *CHART, '--slurm', '3'), '--slurm', '--store')
+    says(refused(2, *CHART, '--slurm', '3', '--store', 'c.db', '--shard', '1/2'), '--shard')
+    says(refused(2, *CHART, '--slurm', '0', '--store', 'c.db'), '--slurm')
+
+
+if __name__ == '__main__':
+    main(globals())

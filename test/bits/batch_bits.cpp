@@ -1,0 +1,104 @@
+/// Prints a hash of the runs of a batch, and compares it with the one that stands in the repository: the same bits in every lane of every machine.
+///
+///     test_batch_bits [FILE]     exit status 1 if FILE says something else, or the kernel is not that of SLAPSTICK_TARGET
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "slapstick/base/error.hpp"
+#include "slapstick/io/model_file.hpp"
+#include "slapstick/sweep/batch.hpp"
+
+namespace slapstick {
+namespace {
+
+class Hash {
+ public:
+  void add(std::uint64_t bits) {
+    for (int byte = 0; byte < 8; ++byte, bits >>= 8) value_ = (value_ ^ (bits & 255)) * 1099511628211U;
+  }
+  void add(double x) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &x, sizeof bits);
+    add(bits);
+  }
+  void add(const BatchRun& run) {
+    for (const Event& event : run.events) {
+      add(static_cast<std::uint64_t>(event.kind));
+      add(static_cast<std::uint64_t>(event.contact));
+      add(static_cast<std::uint64_t>(event.time.period));
+      add(event.time.fraction);
+      add(event.w);
+    }
+    for (const double x : run.end) add(x);
+    add(run.speeds);
+  }
+  [[nodiscard]] std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 14695981039346656037U;
+};
+
+/// Runs a model at `count` values of a parameter.
+std::string line(const std::string& model, const std::string& parameter, double from, double to, std::size_t count, int periods, sweep::Batch& batch) {
+  const ModelDefinition definition = load_model(model);
+  sweep::BatchProblem problem;
+  problem.count = count;
+  problem.model_at = [&](std::size_t i) {
+    return definition.build({{parameter, from + (to - from) * static_cast<double>(i) / static_cast<double>(count - 1)}});
+  };
+  problem.start_at = [&](std::size_t) { return definition.start(); };
+  problem.plan = {.periods = periods, .events = true};
+  batch = run_batch(problem);
+  Hash hash;
+  long lanes = 0, motions = 0;
+  for (const BatchRun& run : batch.runs) {
+    if (!run.failure.empty()) throw NumericalError(run.failure);
+    hash.add(run);
+    lanes += run.lane_events;
+    motions += run.motion_events;
+  }
+  if (lanes < 10 * static_cast<long>(count)) throw NumericalError("hardly an event of " + model + " was decided in a lane");
+  char text[160];
+  std::snprintf(text, sizeof text, "%s %s=%g..%g periods %d lane events %ld motion events %ld bits %016llx", model.c_str(), parameter.c_str(), from, to,
+                periods, lanes, motions, static_cast<unsigned long long>(hash.value()));
+  return text;
+}
+
+int run(int arguments, char** values) {
+  sweep::Batch batch;
+  const std::vector<std::string> lines = {line("vibro-impact", "omega", 1.0, 6.0, 60, 100, batch), line("vibro-impact", "omega", 0.5, 1.0, 20, 30, batch),
+                                          line("stick-slip-impact", "omega", 0.8, 3.0, 20, 60, batch),
+                                          line("two-blocks-on-belt", "belt_speed", 0.2, 1.0, 10, 60, batch)};
+  const char* const forced = std::getenv("SLAPSTICK_TARGET");
+  std::cout << "kernel: " << batch.kernel << ", " << batch.lanes << " lanes\n";
+  std::ifstream stored(arguments > 1 ? values[1] : "");
+  bool same = true;
+  for (const std::string& found : lines) {
+    std::string expected;
+    std::getline(stored, expected);
+    std::cout << found << "\n";
+    if (arguments > 1 && found != expected) {
+      std::cout << "stored: " << expected << "\n";
+      same = false;
+    }
+  }
+  return same && (forced == nullptr || forced == batch.kernel) ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace slapstick
+
+int main(int arguments, char** values) {
+  try {
+    return slapstick::run(arguments, values);
+  } catch (const std::exception& error) {
+    std::cout << error.what() << "\n";
+    return 2;
+  }
+}

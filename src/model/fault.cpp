@@ -18,7 +18,7 @@ using Found = std::optional<Fault>;
 constexpr std::array<std::string_view, 9> reserved = {"ground", "time",   "kind",  "contact", "w",
                                                       "mode",   "flight", "phase", "omega"};
 
-bool plain_name(std::string_view name) {
+bool has_plain_name(std::string_view name) {
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
   if (name.empty() || name.size() > 64 || !letter(name.front())) return false;
   for (const char c : name)
@@ -82,7 +82,7 @@ class Check {
 /// A name that is usable in tables and on the command line and was not used before.
 void check_name(Check& check, const std::string& name, std::set<std::string>& used) {
   if (name.empty()) check.fail("name", "the name is empty");
-  if (!plain_name(name))
+  if (!has_plain_name(name))
     check.fail("name", "name " + in_quotes(name) + " is not 1 to 64 letters, digits and '_', beginning with a letter");
   if (!used.insert(name).second) check.fail("name", "name " + in_quotes(name) + " is used twice");
 }

@@ -16,35 +16,35 @@
 namespace slapstick::sweep {
 namespace {
 
-void demand(bool good, const std::string& message) {
+void demand_of_map(bool good, const std::string& message) {
   if (!good) throw InputError("map: " + message);
 }
 
 void check_axis(const char* name, const GridAxis& axis) {
   const std::string of = name;
-  demand(std::isfinite(axis.from) && std::isfinite(axis.to), of + ": from and to must be finite");
-  demand(axis.count >= 1, of + ".count = " + std::to_string(axis.count) + " is below 1");
-  demand(axis.count == 1 ? axis.from == axis.to : axis.from < axis.to,
+  demand_of_map(std::isfinite(axis.from) && std::isfinite(axis.to), of + ": from and to must be finite");
+  demand_of_map(axis.count >= 1, of + ".count = " + std::to_string(axis.count) + " is below 1");
+  demand_of_map(axis.count == 1 ? axis.from == axis.to : axis.from < axis.to,
          of + ": from = " + shown(axis.from) + " is not below to = " + shown(axis.to) + " (one value needs from == to)");
 }
 
-void check(const MapProblem& problem) {
-  demand(problem.model_at != nullptr && problem.start_at != nullptr, "model_at and start_at must be given");
+void check_map(const MapProblem& problem) {
+  demand_of_map(problem.model_at != nullptr && problem.start_at != nullptr, "model_at and start_at must be given");
   check_axis("x", problem.x);
   check_axis("y", problem.y);
   constexpr double most = 0.5 * std::numeric_limits<std::int32_t>::max();
-  demand(static_cast<double>(problem.x.count) * problem.y.count < most, "more pixels than one map can have");
-  demand(problem.periods >= 20, "periods = " + std::to_string(problem.periods) + " is below 20");
-  demand(problem.starts >= 2 || problem.start != MapStart::random,
+  demand_of_map(static_cast<double>(problem.x.count) * problem.y.count < most, "more pixels than one map can have");
+  demand_of_map(problem.periods >= 20, "periods = " + std::to_string(problem.periods) + " is below 20");
+  demand_of_map(problem.starts >= 2 || problem.start != MapStart::random,
          "starts = " + std::to_string(problem.starts) + " is below 2");
-  demand(problem.start == MapStart::carry || problem.direction == Direction::up,
+  demand_of_map(problem.start == MapStart::carry || problem.direction == Direction::up,
          "direction is for start = carry; else all directions are the same");
-  demand(problem.of.size() == problem.statistics.size(), "every quantity needs a statistic");
+  demand_of_map(problem.of.size() == problem.statistics.size(), "every quantity needs a statistic");
   for (std::size_t k = 0; k < problem.of.size(); ++k) check_statistic(problem.of[k], problem.statistics[k]);
-  demand(problem.measured_periods >= 1, "measured_periods must be positive");
-  demand(problem.shards >= 1 && problem.shard >= 0 && problem.shard < problem.shards, "shard must be in 0 .. shards - 1");
-  demand(problem.threads >= 0, "threads = " + std::to_string(problem.threads) + " is below 0");
-  demand(!problem.known || problem.carried_of || problem.start != MapStart::carry, "known needs carried_of");
+  demand_of_map(problem.measured_periods >= 1, "measured_periods must be positive");
+  demand_of_map(problem.shards >= 1 && problem.shard >= 0 && problem.shard < problem.shards, "shard must be in 0 .. shards - 1");
+  demand_of_map(problem.threads >= 0, "threads = " + std::to_string(problem.threads) + " is below 0");
+  demand_of_map(!problem.known || problem.carried_of || problem.start != MapStart::carry, "known needs carried_of");
 }
 
 /// How the pixels of a problem are cut into tiles. With `carry` a chain goes through the columns of a band of rows, and
@@ -100,9 +100,9 @@ class Tiling {
 };
 
 /// One map while it runs.
-class Run {
+class MapRun {
  public:
-  explicit Run(const MapProblem& problem) : problem_(problem), tiling_(problem), total_(tiling_.size()) {}
+  explicit MapRun(const MapProblem& problem) : problem_(problem), tiling_(problem), total_(tiling_.size()) {}
 
   bool operator()() {
     const bool all = run_chains(
@@ -155,7 +155,7 @@ std::string Finding::label(bool driven) const {
 }
 
 MapBuilder::MapBuilder(const MapProblem& problem) {
-  check(problem);
+  check_map(problem);
   map_.x = problem.x;
   map_.y = problem.y;
   map_.driven = section::driven(problem.model_at(problem.x.from, problem.y.from));
@@ -189,8 +189,8 @@ long pixel_count(const MapProblem& problem) {
 }
 
 bool run_tiles(const MapProblem& problem) {
-  check(problem);
-  return Run(problem)();
+  check_map(problem);
+  return MapRun(problem)();
 }
 
 Map run_map(const MapProblem& problem) {

@@ -45,6 +45,8 @@ install(FILES ${PROJECT_SOURCE_DIR}/models/model.schema.json DESTINATION ${CMAKE
 install(EXPORT slapstick-targets NAMESPACE slapstick:: DESTINATION ${slapstick_cmake_folder})
 if(TARGET slapstick_app)
   install(TARGETS slapstick_app COMPONENT programs)
+  # The explorer, if it was built (./dev web).
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/web DESTINATION ${CMAKE_INSTALL_DATADIR}/slapstick COMPONENT programs OPTIONAL)
 endif()
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/slapstick-config.cmake.in

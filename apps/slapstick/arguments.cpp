@@ -58,6 +58,11 @@ void Arguments::positionals(const std::string& name, std::vector<std::string>& t
   parser_->app.add_option(name, target, help)->type_name("");
 }
 
+void Arguments::optional_positional(const std::string& name, std::string& target, const std::string& help) {
+  parser_->app.add_option(name, target, help)->type_name("");
+  parser_->facts.push_back({ArgumentFact::Kind::positional, name, "", help});
+}
+
 void Arguments::text(const std::string& name, std::string& target, const std::string& value, const std::string& help) {
   parser_->app.add_option(name, target, help)->type_name(value);
   parser_->names.push_back(name);

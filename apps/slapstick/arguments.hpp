@@ -30,6 +30,8 @@ class Arguments {
 
   /// A required argument without a dash: "MODEL".
   void positional(const std::string& name, std::string& target, const std::string& help);
+  /// One that may be left out: `target` stays as it is.
+  void optional_positional(const std::string& name, std::string& target, const std::string& help);
   /// Any number of arguments without a dash: "FILE..".
   void positionals(const std::string& name, std::vector<std::string>& target, const std::string& help);
   /// `--name VALUE` with any text. `value` is what the help calls it: "FILE".

@@ -49,5 +49,6 @@ Action add_store(Arguments& arguments);
 Action add_reproduce(Arguments& arguments);
 Action add_describe(Arguments& arguments);
 Action add_completion(Arguments& arguments);
+Action add_explore(Arguments& arguments);  // where the HTTP library is
 
 }  // namespace slapstick::app

@@ -25,6 +25,9 @@ const std::vector<Verb>& verbs() {
       {"reproduce", "every figure and claim of the paper, into a folder", add_reproduce},
       {"describe", "all verbs and options, quantities and statistics: as JSON, or as the page of the documents", add_describe},
       {"completion", "the script by which a shell completes verbs, options, models and names", add_completion},
+#ifdef SLAPSTICK_HTTP
+      {"explore", "the explorer in the browser, served to this machine", add_explore},
+#endif
   };
   return all;
 }

@@ -124,11 +124,6 @@ class Run {
 
 }  // namespace
 
-double sweep_value(double from, double to, int count, int i) {
-  if (count == 1 || i == 0) return from;
-  return i == count - 1 ? to : from + (to - from) * (static_cast<double>(i) / (count - 1));
-}
-
 Diagram run_diagram(const DiagramProblem& problem) {
   check(problem);
   return Run(problem)();

@@ -56,6 +56,11 @@ double x_of(const State& state, int coordinate) {
 
 }  // namespace
 
+double sweep_value(double from, double to, int count, int i) {
+  if (count == 1 || i == 0) return from;
+  return i == count - 1 ? to : from + (to - from) * (static_cast<double>(i) / (count - 1));
+}
+
 void undo_rounding(const Model& model, State& state) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const Stop& stop : model.stops) {

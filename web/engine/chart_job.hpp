@@ -1,0 +1,37 @@
+#pragma once
+/// A tile of a chart: what the motion is at each of its pixels, by a short classification.
+///
+/// Rows: index of the pixel in the first parameter, in the second, what it is (`Attractor`; -1 where it failed), n, p
+/// (-1 with a complete chatter), sticking.
+/// A pixel starts at the choice's start, so it depends on itself only, as `slapstick map --start reset`.
+#include "choice.hpp"
+#include "job.hpp"
+
+namespace slapstick::web {
+
+struct ChartWish {
+  std::string x, y;  ///< the parameters
+  double x_from = 0.0, x_to = 1.0, y_from = 0.0, y_to = 1.0;
+  int columns = 2, rows = 2;  ///< of the whole chart
+  int first = 0, step = 1;    ///< pixels first, first + step, .. of the row-by-row numbering
+  int stride = 1;             ///< every so many columns and rows: a coarse chart first
+  int coarser = 0;            ///< pixels on the grid of this stride are left out: they are known
+  int periods = 100;          ///< a pixel
+};
+
+class ChartJob : public Job {
+ public:
+  ChartJob(const Choice& choice, const ChartWish& wish);
+
+ protected:
+  bool work(const Deadline& deadline) override;
+
+ private:
+  void run_pixel(int column, int row);
+
+  Choice choice_;
+  ChartWish wish_;
+  int next_ = 0;
+};
+
+}  // namespace slapstick::web

@@ -1,0 +1,83 @@
+// The bench page: times of what a person waits for, and the bits of the engine in this browser.
+import { element } from "./dom.ts";
+import { Lane } from "./lane.ts";
+import type { Model, Part } from "./protocol.ts";
+
+/** Frequencies of the paper's motions. */
+const frequencies = [0.552, 1.5, 2.2, 2.7, 3.0, 4.1, 4.65, 4.803, 5.5, 9.0];
+
+const results: Record<string, number | string[]> = {};
+(window as unknown as { bench: typeof results }).bench = results;
+
+function row(name: string, value: string): void {
+  document.querySelector("#speed")?.append(element("tr", {}, element("th", { scope: "row" }, name), element("td", {}, value)));
+}
+
+function model(omega: number): Model {
+  return { source: "vibro-impact", set: { omega }, start: [] };
+}
+
+/** Runs a job. @returns milliseconds until its first part and its end */
+function timed(lane: Lane, request: Parameters<Lane["ask"]>[0], use: (part: Part) => void = () => undefined): Promise<{ first: number; all: number }> {
+  const begun = performance.now();
+  let first = 0;
+  return new Promise((resolve, reject) => lane.ask(request, {
+    part: (part) => {
+      first ||= performance.now() - begun;
+      use(part);
+    },
+    done: () => resolve({ first, all: performance.now() - begun }),
+    error: reject,
+  }));
+}
+
+const median = (list: number[]): number => [...list].sort((a, b) => a - b)[Math.floor(list.length / 2)] ?? 0;
+
+async function motions(lane: Lane): Promise<void> {
+  const times: number[] = [];
+  for (let round = 0; round < 5; ++round)
+    for (const omega of frequencies)
+      times.push((await timed(lane, { verb: "motion", model: model(omega), wish: { transient: 500, periods: 4, samples: 400, of: "" } })).all);
+  results["drag"] = median(times.slice(frequencies.length));
+  row("A drag: 504 periods of the motion, ten frequencies, median", `${results["drag"].toFixed(1)} ms`);
+  for (const omega of [2.2, 0.552]) {
+    const { all } = await timed(lane, { verb: "motion", model: model(omega), wish: { transient: 20000, periods: 1, samples: 1, of: "" } });
+    results[`period ${omega}`] = all / 20000;
+    row(`A period at ω = ${omega}`, `${((1000 * all) / 20000).toFixed(2)} µs`);
+  }
+}
+
+async function diagrams(lane: Lane): Promise<void> {
+  const wish = { parameter: "omega", from: 0.5, to: 10, count: 900, transient: 100, points: 60, down: false, shown: "w", at: "impacts" };
+  const { first, all } = await timed(lane, { verb: "diagram", model: model(2.2), wish });
+  Object.assign(results, { "first column": first, diagram: all });
+  row("A diagram of 900 values, one direction: first values", `${first.toFixed(0)} ms`);
+  row("… complete", `${(all / 1000).toFixed(2)} s`);
+}
+
+async function chart(): Promise<void> {
+  const lanes = Array.from({ length: Math.max(1, Math.min(4, navigator.hardwareConcurrency)) }, () => new Lane());
+  const wish = { x: "omega", y: "friction", xFrom: 0.5, xTo: 10, yFrom: 0, yTo: 0.4, columns: 100, rows: 100, step: lanes.length, stride: 1, coarser: 0, periods: 100 };
+  const begun = performance.now();
+  await Promise.all(lanes.map((lane, first) => timed(lane, { verb: "chart", model: model(2.2), wish: { ...wish, first } })));
+  results["chart"] = performance.now() - begun;
+  row(`A chart of 100 × 100 pixels, 100 periods each, ${lanes.length} workers`, `${(results["chart"] / 1000).toFixed(1)} s`);
+  lanes.forEach((lane) => lane.close());
+}
+
+async function run(): Promise<void> {
+  const lane = new Lane(), begun = performance.now();
+  await lane.question({ verb: "models" });
+  results["load"] = performance.now() - begun;
+  row("Loading and compiling the engine", `${results["load"].toFixed(0)} ms`);
+  await motions(lane);
+  await diagrams(lane);
+  const { lines } = await lane.question<{ lines: string[] }>({ verb: "bits" });
+  results["bits"] = lines;
+  const place = document.querySelector("#bits");
+  if (place) place.textContent = lines.join("\n");
+  if (!new URLSearchParams(location.search).has("short")) await chart();
+  results["done"] = 1;
+}
+
+run().catch((error: unknown) => row("failed", String((error as { message?: string }).message ?? error)));

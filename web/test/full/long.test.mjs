@@ -1,0 +1,114 @@
+// Long tests of the page: every model, the stories from first to last step, random moves without error or leak, pictures.
+import assert from "node:assert/strict";
+import test, { after, before } from "node:test";
+import { explorer, idle, launch, serve } from "../browser.mjs";
+
+let server, browser;
+before(async () => {
+  server = await serve();
+  browser = await launch();
+});
+after(async () => {
+  await browser.close();
+  server.close();
+});
+
+test("every built-in model is shown: a mechanism, a motion, a class, a diagram", async () => {
+  const { page, faults } = await explorer(browser, server.url, "#model=belt");
+  const names = await page.getByLabel("model", { exact: true }).locator("option").evaluateAll((options) => options.map(({ value }) => value).filter(Boolean));
+  assert.ok(names.length >= 27);
+  for (const name of names) {
+    await page.evaluate((source) => window.explorer.open(source), name);
+    await page.waitForFunction((wanted) => window.explorer.card?.name === wanted, name);
+    await idle(page);
+    const seen = await page.evaluate(() => ({
+      time: window.explorer.motion.time.points, label: document.querySelector("#class").textContent, diagram: window.explorer.diagram.plot.points,
+      failure: document.querySelector("#failure").textContent, note: window.explorer.diagram.plot.note,
+    }));
+    assert.ok(seen.time > 100 && seen.label && seen.failure === "", `${name}: ${JSON.stringify(seen)}`);
+    assert.ok(seen.diagram > 0 || seen.note !== "", `${name}: ${JSON.stringify(seen)}`);
+  }
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test("stories go from the first step to the last", async () => {
+  const { page, faults } = await explorer(browser, server.url, "#model=vibro-impact");
+  const keys = await page.getByRole("combobox", { name: "guided story" }).locator("option").evaluateAll((options) => options.map(({ value }) => value).filter(Boolean));
+  assert.equal(keys.length, 6);
+  for (const key of keys) {
+    await page.getByRole("combobox", { name: "guided story" }).selectOption("");
+    await page.getByRole("combobox", { name: "guided story" }).selectOption(key);
+    for (;;) {
+      await idle(page);
+      assert.equal(await page.locator("#failure").innerText({ timeout: 1000 }).catch(() => ""), "", key);
+      const told = await page.locator("#story").getAttribute("data-motion");
+      if (told) assert.equal(await page.locator("#class").innerText(), told, `${key}: ${await page.locator("#story-step").innerText()}`);
+      const next = page.locator("#story").getByRole("button", { name: "next step" });
+      if (!(await next.isVisible())) break;
+      await next.click();
+    }
+    const [at, all] = (await page.locator("#story-step").innerText()).split(" of ");
+    assert.equal(at, all, key);
+    await page.locator("#story").getByRole("button", { name: "end of the story" }).click();
+  }
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test("200 random moves of random sliders make no error and no leak", async () => {
+  const { page, faults } = await explorer(browser, server.url, "#model=vibro-impact");
+  const heap = async () => {
+    const session = await page.context().newCDPSession(page);
+    await session.send("HeapProfiler.collectGarbage");
+    const { usedSize } = await session.send("Runtime.getHeapUsage");
+    await session.detach();
+    return usedSize;
+  };
+  const moves = (seed, count) => page.evaluate(async ([from, many]) => {
+    let state = from;
+    const random = () => (state = (state * 1103515245 + 12345) % 2147483648) / 2147483648;
+    const sliders = [...document.querySelectorAll(".parameter input[type=range]")];
+    for (let i = 0; i < many; ++i) {
+      const slider = sliders[Math.floor(random() * sliders.length)];
+      slider.value = String(Math.floor(random() * 2001));
+      slider.dispatchEvent(new Event("input", { bubbles: true }));
+      await new Promise((resolve) => setTimeout(resolve, random() < 0.2 ? 300 : 20));
+    }
+  }, [seed, count]);
+  await moves(7, 60);
+  await page.evaluate(() => window.explorer.open("vibro-impact"));
+  await idle(page, 300000);
+  const before_ = await heap();
+  await moves(11, 200);
+  await page.evaluate(() => window.explorer.open("vibro-impact"));
+  await idle(page, 300000);
+  const grown = (await heap()) - before_;
+  assert.ok(grown < 12e6, `the page's memory has grown by ${(grown / 1e6).toFixed(1)} MB`);
+  assert.ok(page.workers().length <= 12, `${page.workers().length} workers`);
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test("a branch lies over the diagram, with the doubling where it is known to be", async () => {
+  // x'' = -g + a g sin t on a table with r = 0.5: one bounce a period doubles at a^2 = (pi (1-r)/(1+r))^2 + (2 (1+r^2)/(1+r)^2)^2.
+  const page_ = { diagram: { from: 1.1, to: 1.8, count: 150 } };
+  const { page, faults } = await explorer(browser, server.url, `#model=shaken-table&acceleration=1.3&page=${encodeURIComponent(JSON.stringify(page_))}`);
+  await page.evaluate(() => document.querySelector("#branch").click());
+  await page.waitForFunction(() => window.explorer.diagram.hasBranch, null, { timeout: 120000 });
+  const rows = await page.evaluate(() => window.explorer.diagram.plot.csv().split("\n"));
+  const r = 0.5, doubling = Math.hypot((Math.PI * (1 - r)) / (1 + r), (2 * (1 + r * r)) / (1 + r) ** 2);
+  const special = rows.filter((row) => row.startsWith('"special point"')).map((row) => Number(row.split(",")[1]));
+  assert.ok(special.some((value) => Math.abs(value - doubling) < 1e-9), `${special} and ${doubling}`);
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test("a chart fills in, coarse and then fine, and agrees with the class of the motion", async () => {
+  const page_ = { view: "chart", chart: { size: 60 } };
+  const { page, faults } = await explorer(browser, server.url, `#model=vibro-impact&omega=2.2&page=${encodeURIComponent(JSON.stringify(page_))}`);
+  await page.waitForFunction(() => window.explorer.chart.known() === 3600, null, { timeout: 240000 });
+  assert.equal(await page.evaluate(() => window.explorer.chart.classAt(2.2, 0.15)), await page.locator("#class").innerText());
+  assert.deepEqual(faults, []);
+  await page.close();
+});

@@ -3,6 +3,7 @@
 What a header declares is read from Doxygen's XML; Breathe shows each declaration with its text.
 """
 
+import itertools
 import os
 import re
 import xml.etree.ElementTree as ElementTree
@@ -56,10 +57,20 @@ def members():
                 yield place(member), line, DIRECTIVES[kind], name, ""
 
 
+def about(header):
+    """What the header says of itself. Breathe knows files by their last names: of two that share one, the comment is taken as it stands."""
+    name = header.rsplit("/", 1)[1]
+    if [other.rsplit("/", 1)[1] for other in headers()].count(name) == 1:
+        return f"```{{doxygenfile}} {name}\n:sections: briefdescription detaileddescription\n```\n"
+    lines = (ROOT / "include" / header).read_text(encoding="utf-8").split("\n")[1:]
+    comment = itertools.takewhile(lambda line: line.startswith("///"), lines)
+    return "\n".join(line[4:] for line in comment) + "\n"
+
+
 def page():
     found = sorted({*classes(), *members()}, key=lambda entry: entry[:2])
     for header in headers():
-        yield f"\n## {header}\n\n```{{doxygenfile}} {header.rsplit('/', 1)[1]}\n:sections: briefdescription detaileddescription\n```\n"
+        yield f"\n## {header}\n\n{about(header)}"
         for where, _, directive, name, options in found:
             if where == f"include/{header}":
                 yield f"\n```{{{directive}}} {name}\n{options}\n```\n"

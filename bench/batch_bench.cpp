@@ -1,4 +1,4 @@
-/// What a period costs in the batch's lanes: one frequency in all lanes, and the chart of frequency and friction with refilled lanes.
+/// What a period costs in the lanes of a batch: one frequency in all lanes, or a chart with refilled lanes.
 ///
 ///     bench_batch omega 2.2 4000        64 runs at omega from slightly different starts
 ///     bench_batch chart 80 300          80 x 80 values of omega 1..6 and friction 0.05..0.3, from rest

@@ -18,8 +18,9 @@ MASS, STIFFNESS, DASHPOT, DAMPING = 10.0, 5.0, 5.0, 0.1
 STATIC = KINETIC = 0.15
 RESTITUTION = 0.8
 REST_SPEED = 1e-9  # as bench/peers.hpp: an impact that leaves slower ends the chatter
-# An event is zero at its own instant, and a reversal at a release too, with a slope that rounding decides. heyoka would deduce how long to look away
-# from that slope, and look away for good. All guards here come back to their zeros from the other side: a moment is enough.
+# An event is zero at its own instant. A reversal is zero at a release too, with a slope that rounding decides.
+# heyoka would take the time to look away from that slope, and look away for good.
+# All guards here come back to their zeros from the other side, so a moment is enough.
 COOLDOWN = 1e-10
 AT_LIMIT = 1.0 - 1e-10  # a contact that was just released does not hold at once: above the rounding of the time and of the force
 START = (-0.5, 0.0, 0.0, 0.0)

@@ -18,7 +18,8 @@ import sys
 
 PERIODS = 500
 OMEGAS = ('2.2', '1.5', '4.9', '0.552')
-# name: (worker, kind, repeats of a run). A run of another engine of slapstick is a row here, and one in `kinds` of worker.cpp.
+# name: (worker, kind, repeats of a run).
+# Another engine of slapstick is a row here, and a row in `kinds` of worker.cpp.
 CONTENDERS = {
     'Boost.odeint RKF 7(8), 1e-12': ('native', 'odeint', 1),
     'CVODE Adams, 1e-9': ('native', 'cvode', 1),

@@ -215,7 +215,7 @@ void compare_sides(ChartCurve& curve, const Pixels& pixels) {
 
 using Pair = std::pair<std::string, std::string>;
 
-/// The unexplained edges of the pair of classes that has most of them, but for those given up; empty if there is none.
+/// The unexplained edges of the pair of classes that has most of them. Pairs in `given_up` are left out.
 std::vector<std::size_t> largest_boundary(const Pixels& pixels, const std::vector<Edge>& edges, const std::set<Pair>& given_up,
                                           Pair& pair) {
   constexpr std::size_t least = 4;  // edges: shorter boundaries are left

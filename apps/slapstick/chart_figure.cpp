@@ -154,7 +154,7 @@ double round_step(double range) {
   return 10.0 * power;
 }
 
-/// The range of a scale: all values but for the outermost half percent on either side, which take the end's colour.
+/// The range of a scale: the outermost half percent of the values on either side takes the colour of the end.
 figure::Range scale_range(std::vector<double> values) {
   if (values.empty()) return {0.0, 1.0};
   ranges::sort(values);

@@ -35,7 +35,7 @@ bool is_for_us(const httplib::Request& request, int port) {
   return host == loopback + end || host == "localhost" + end;
 }
 
-/// The file that a path stands for, or nothing if there is none in the folder.
+/// The file that a path stands for, or an empty path if the folder has no such file.
 fs::path file_of(const fs::path& root, const std::string& path) {
   std::error_code failed;
   const fs::path wanted = fs::canonical(root / fs::path(path == "/" ? "index.html" : path.substr(1)), failed);

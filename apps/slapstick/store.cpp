@@ -128,7 +128,7 @@ struct Store::Database {
     return Statement(statement);
   }
 
-  /// The next row. @returns false if there is none
+  /// The next row. @returns false after the last row
   [[nodiscard]] bool step(sqlite3_stmt* statement) const {
     const int status = sqlite3_step(statement);
     if (status != SQLITE_ROW && status != SQLITE_DONE) {

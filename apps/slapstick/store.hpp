@@ -54,7 +54,7 @@ class Store {
   void for_each(const std::function<void(const StoredCell&)>& use) const;
   /// Looks at every page and every cell. @throws StorageError for a damaged one
   void check() const;
-  /// Of facts (but for the shard) and cells: equal results have equal hashes, whatever the order in which they came.
+  /// Of the facts without the shard, and of the cells. Equal results have equal hashes, in whatever order they came.
   [[nodiscard]] std::string hash() const;
 
  private:

@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <iostream>
 #include <string>
 #include <vector>
 
+#include "hash.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/io/model_file.hpp"
 #include "slapstick/sweep/batch.hpp"
@@ -17,32 +17,17 @@
 namespace slapstick {
 namespace {
 
-class Hash {
- public:
-  void add(std::uint64_t bits) {
-    for (int byte = 0; byte < 8; ++byte, bits >>= 8) value_ = (value_ ^ (bits & 255)) * 1099511628211U;
+void add(Hash& hash, const BatchRun& run) {
+  for (const Event& event : run.events) {
+    hash.add(static_cast<std::uint64_t>(event.kind));
+    hash.add(static_cast<std::uint64_t>(event.contact));
+    hash.add(static_cast<std::uint64_t>(event.time.period));
+    hash.add(event.time.fraction);
+    hash.add(event.w);
   }
-  void add(double x) {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &x, sizeof bits);
-    add(bits);
-  }
-  void add(const BatchRun& run) {
-    for (const Event& event : run.events) {
-      add(static_cast<std::uint64_t>(event.kind));
-      add(static_cast<std::uint64_t>(event.contact));
-      add(static_cast<std::uint64_t>(event.time.period));
-      add(event.time.fraction);
-      add(event.w);
-    }
-    for (const double x : run.end) add(x);
-    add(run.speeds);
-  }
-  [[nodiscard]] std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 14695981039346656037U;
-};
+  for (const double x : run.end) hash.add(x);
+  hash.add(run.speeds);
+}
 
 /// Runs a model at `count` values of a parameter.
 std::string line(const std::string& model, const std::string& parameter, double from, double to, std::size_t count, int periods, sweep::Batch& batch) {
@@ -59,7 +44,7 @@ std::string line(const std::string& model, const std::string& parameter, double 
   long lanes = 0, motions = 0;
   for (const BatchRun& run : batch.runs) {
     if (!run.failure.empty()) throw NumericalError(run.failure);
-    hash.add(run);
+    add(hash, run);
     lanes += run.lane_events;
     motions += run.motion_events;
   }

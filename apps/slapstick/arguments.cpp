@@ -56,6 +56,7 @@ void Arguments::positional(const std::string& name, std::string& target, const s
 
 void Arguments::positionals(const std::string& name, std::vector<std::string>& target, const std::string& help) {
   parser_->app.add_option(name, target, help)->type_name("");
+  parser_->facts.push_back({ArgumentFact::Kind::positional, name, "", help});
 }
 
 void Arguments::optional_positional(const std::string& name, std::string& target, const std::string& help) {

@@ -8,27 +8,30 @@
 namespace slapstick::app {
 namespace {
 
-figure::Dash dash_of(orbit::SpecialType type) {
+struct Style {
+  figure::Dash dash;
+  figure::Colour colour = figure::colours::black;
+};
+
+/// No two types look alike.
+Style style_of(orbit::SpecialType type) {
+  constexpr figure::Colour red{170, 0, 0}, blue{0, 0, 170};
   switch (type) {
-    case orbit::SpecialType::LP:
-      return figure::Dash::dotted;
-    case orbit::SpecialType::GR:
-    case orbit::SpecialType::CH:
-      return figure::Dash::dashed;
-    case orbit::SpecialType::SL:
-    case orbit::SpecialType::CO:
-      return figure::Dash::dash_dotted;
-    case orbit::SpecialType::PD:
-    case orbit::SpecialType::NS:
-    case orbit::SpecialType::BP:
-      break;
+    case orbit::SpecialType::LP: return {figure::Dash::dotted};
+    case orbit::SpecialType::GR: return {figure::Dash::dashed};
+    case orbit::SpecialType::CH: return {figure::Dash::dashed, red};
+    case orbit::SpecialType::SL: return {figure::Dash::dash_dotted};
+    case orbit::SpecialType::CO: return {figure::Dash::dash_dotted, red};
+    case orbit::SpecialType::PD: return {figure::Dash::solid};
+    case orbit::SpecialType::NS: return {figure::Dash::solid, red};
+    case orbit::SpecialType::BP: break;
   }
-  return figure::Dash::solid;
+  return {figure::Dash::solid, blue};
 }
 
 }  // namespace
 
-/// Black on a white rim: seen on light and dark classes alike.
+/// Dark on a white rim: seen on light and dark classes alike.
 void draw_curves(const ChartCurves& found, figure::Figure& chart) {
   constexpr double rim_pt = 1.9, line_pt = 0.8;
   for (figure::Panel& panel : chart.panels) {
@@ -37,9 +40,10 @@ void draw_curves(const ChartCurves& found, figure::Figure& chart) {
     std::set<orbit::SpecialType> named;
     for (const ChartCurve& curve : found.curves) {
       panel.lines.push_back({.x = curve.x, .y = curve.y, .colour = {255, 255, 255}, .width_pt = rim_pt});
-      panel.lines.push_back({.x = curve.x, .y = curve.y, .dash = dash_of(curve.type), .width_pt = line_pt});
+      const auto [dash, colour] = style_of(curve.type);
+      panel.lines.push_back({.x = curve.x, .y = curve.y, .colour = colour, .dash = dash, .width_pt = line_pt});
       if (named.insert(curve.type).second)
-        panel.keys.push_back({.label = std::string(name(curve.type)), .size = line_pt, .dash = dash_of(curve.type), .group = group});
+        panel.keys.push_back({.label = std::string(name(curve.type)), .colour = colour, .size = line_pt, .dash = dash, .group = group});
     }
   }
 }

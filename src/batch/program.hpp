@@ -66,9 +66,8 @@ struct ModelWords {
 [[nodiscard]] bool same_shape(const Shape& shape, const Model& model, const mode::Frame& frame);
 [[nodiscard]] ModelWords model_words(const Model& model, const mode::Frame& frame);
 
-/// Contact states of a mode and back: the numbering of System.
+/// Contact states of a mode, in the numbering of System.
 [[nodiscard]] mode::ContactStates states_of(const Shape& shape, int mode);
-[[nodiscard]] int mode_of(const Shape& shape, const mode::ContactStates& states);
 
 /// The words of a mode; and, once for a shape, its slots and what ends it.
 /// @returns false if this parameter value has another structure than the shape: such a run is a Motion's

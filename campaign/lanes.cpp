@@ -15,7 +15,8 @@ namespace {
 using namespace slapstick;
 
 constexpr int periods = 20;
-/// Of times, in periods; a motion whose own windows move an event by more than the second is not stable.
+/// Of times, in periods: an event after up to 20 periods may be so far from the motion's, since errors grow along both.
+/// A motion whose own windows move an event by more than the second is not stable, and proves nothing.
 constexpr double same = 1e-8, stable = 1e-11;
 
 struct Tally {

@@ -53,12 +53,13 @@ class Ball {
   /// Something near the midpoint, for messages and for choices that need no proof.
   [[nodiscard]] double near() const { return arf_get_d(arb_midref(x_), ARF_RND_NEAR); }
 
-  /// Doubles that no number of the ball is above, or below.
+  /// Not below the ball's radius.
   [[nodiscard]] double radius() const {
     Ball r;
     arb_get_rad_arb(r.x_, x_);
     return r.highest();
   }
+  /// Doubles that no number of the ball is above, or below.
   [[nodiscard]] double highest() const { return bound(arb_get_ubound_arf, ARF_RND_CEIL); }
   [[nodiscard]] double lowest() const { return bound(arb_get_lbound_arf, ARF_RND_FLOOR); }
 

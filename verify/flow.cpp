@@ -8,7 +8,9 @@ namespace verify {
 
 namespace {
 
-/// An entry that is zero but for the balls' own rounding is as large as what makes its radius no more than rounding.
+/// Of an entry that is zero in exact arithmetic the balls know only the radius, near 2^-250 of its terms. Its size is
+/// 2^48 radii, so that the allowances of rounding (2^-40) and of a start (2^-44 of sizes) are some radii. With less
+/// than 2^44 no such condition would ever count as zero.
 std::vector<double> magnitudes(const Balls& row) {
   constexpr double above_rounding = 0x1p+48;
   std::vector<double> sizes;

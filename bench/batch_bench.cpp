@@ -2,44 +2,31 @@
 ///
 ///     bench_batch omega 2.2 4000        64 runs at omega from slightly different starts
 ///     bench_batch chart 80 300          80 x 80 values of omega 1..6 and friction 0.05..0.3, from rest
-#include <time.h>
-
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <string>
 
+#include "runs.hpp"
 #include "slapstick/io/model_file.hpp"
 #include "slapstick/sweep/batch.hpp"
 
 namespace {
 
-double cpu() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
 void print(const char* what, double seconds, const slapstick::sweep::Batch& batch, double periods) {
-  std::uint64_t hash = 1469598103934665603ULL;
   double impacts = 0.0, lane_events = 0.0, motion_events = 0.0;
   std::size_t failed = 0;
   for (const slapstick::BatchRun& run : batch.runs) {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &run.speeds, 8);
-    hash = (hash ^ bits) * 1099511628211ULL;
     impacts += static_cast<double>(run.impacts);
     lane_events += static_cast<double>(run.lane_events);
     motion_events += static_cast<double>(run.motion_events);
     failed += run.failure.empty() ? 0 : 1;
   }
   std::printf("%s: %s, %d lanes, %zu runs, %.4f us a period, %.1f ns a lane step, %.3f lane steps, %.4f halved, %.5f doubtful events, "
-              "of %.3f, %.4f impacts a period, %.0f%% of the lanes full, %zu failed, hash %016lx\n",
+              "of %.3f, %.4f impacts a period, %.0f%% of the lanes full, %zu failed\n",
               what, batch.kernel.c_str(), batch.lanes, batch.runs.size(), 1e6 * seconds / periods, 1e9 * seconds / static_cast<double>(batch.lane_steps),
               static_cast<double>(batch.lane_steps) / periods, static_cast<double>(batch.halved) / periods, motion_events / periods,
               (lane_events + motion_events) / periods, impacts / periods,
-              100.0 * static_cast<double>(batch.lane_steps) / static_cast<double>(batch.steps) / batch.lanes, failed, hash);
+              100.0 * static_cast<double>(batch.lane_steps) / static_cast<double>(batch.steps) / batch.lanes, failed);
 }
 
 }  // namespace
@@ -66,9 +53,9 @@ int main(int arguments, char** values) {
     };
     problem.start_at = [](std::size_t) { return State{-0.5, 0.0, 0.0, 0.0}; };
   }
-  const double begun = cpu();
+  const double begun = bench::cpu_time();
   const sweep::Batch batch = sweep::run_batch(problem);
-  const double seconds = cpu() - begun;
+  const double seconds = bench::cpu_time() - begun;
   print(what.c_str(), seconds, batch, static_cast<double>(problem.count) * problem.plan.periods);
   for (const BatchRun& run : batch.runs)
     if (!run.failure.empty()) {

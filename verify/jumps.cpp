@@ -9,7 +9,8 @@ namespace {
 
 constexpr double most_in_sum = 0x1p-24;
 
-/// A number that is stored is rounded by 2^-53 of it; a coordinate is made of up to some of them.
+/// Eight roundings of 2^-53: a coordinate is a sum of stored numbers, each rounded once. Longer sums may be refused;
+/// none is accepted wrongly.
 constexpr double stored_rounding = 0x1p-50;
 
 }  // namespace

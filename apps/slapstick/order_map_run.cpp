@@ -78,7 +78,7 @@ int order_map_run(const OrderMapWish& wish, const ChosenModel& chosen, const Sta
   const Plot plot(wish.plot, wish.plot_size);
   RunUp run = run_of(climb, chosen, start);
   Progress progress("values", static_cast<double>(climb.options.steps), wish.progress);
-  const OrderMap map = order_map(run, climb.options.hold, of,
+  const OrderMap map = order_map(run, of,
                                  {wish.highest_order, static_cast<long>(wish.settle), &context.stop,
                                   [&](long steps) { progress.update(static_cast<double>(steps)); }});
   write(map, table);

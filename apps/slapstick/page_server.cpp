@@ -2,12 +2,15 @@
 #include "page_server.hpp"
 
 #include <httplib.h>
+#include <sys/socket.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <thread>
+#include <vector>
 
 #include "base/text.hpp"
 #include "slapstick/base/error.hpp"
@@ -77,6 +80,10 @@ std::string page_folder(const std::string& given) {
 void serve_page(const Served& served, int port, const std::atomic<bool>& stop,
                 const std::function<void(const std::string& address)>& ready) {
   httplib::Server server;
+  server.set_socket_options([](socket_t socket) {  // the library's own (SO_REUSEPORT) would share a port with another explorer
+    const int yes = 1;
+    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  });
   const fs::path root = fs::canonical(served.folder);
   int heard = port;
   server.set_pre_routing_handler([&heard](const httplib::Request& request, httplib::Response& response) {

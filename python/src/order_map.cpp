@@ -27,7 +27,7 @@ std::unique_ptr<OrderMap> order_map_of(const ModelDefinition& definition, const 
       {from, to, over / hold, hold}, start_of(definition, values, start));
   Watch watch(std::move(progress));
   watch.run_aside([&] {
-    *result = order_map(run, hold, quantity,
+    *result = order_map(run, quantity,
                         {orders, settle, watch.cancel(), [&](long steps) { watch.note(static_cast<double>(steps * hold)); }});
   });
   watch.finish(result->complete);

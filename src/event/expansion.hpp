@@ -45,7 +45,7 @@ struct Expansion {
   Lane4* dropped = nullptr;         ///< [16][m]: bounds of |t'_n|, n >= 24
   Lane4* errors = nullptr;          ///< [8][m]: e'_n = (e'_{n-1} |A| + u |t'_{n-1}| S) / 2^e_n
   Lane4* peaks = nullptr;           ///< [25][4]: the largest |t'_n| of each block, n < 24, and of the bound of t'_39
-  Lane4* scales = nullptr;          ///< [4]: of the blocks, from `excess`
+  Lane4* scales = nullptr;          ///< [4]: of the blocks, of the last call of `excess` or `enclose_tails`
   Lane4* tails = nullptr;           ///< [3][m]: sum |T_n|, sum n |T_n|, sum n (n - 1) |T_n| over n >= 24
   Lane4* ends = nullptr;            ///< [4][m]: sum T_n and sum n T_n over all n, each as what is rounded and the rest
   Lane4* scratch = nullptr;         ///< [2 m], shared

@@ -1,9 +1,9 @@
 #pragma once
 /// What a motion spends its time in, compiled from one text for every instruction set, and chosen when the program runs.
 ///
-/// All work in lanes of eight doubles and in one order, so that each gives the same bits; wider vectors only do more lanes at once. Their sources
-/// (first_root.cpp, products.cpp) are compiled once a target, in its own namespace; tools/check_objects proves that they define nothing that the
-/// linker might take for another target's.
+/// All work in lanes of eight doubles and in one order, so that each gives the same bits; wider vectors only do more
+/// lanes at once. Their sources (first_root.cpp, products.cpp, expansion.cpp) are compiled once a target, in its own
+/// namespace; tools/check_objects proves that they define nothing that the linker might take for another target's.
 #include <vector>
 
 #include "event/expansion.hpp"

@@ -62,9 +62,11 @@ void List::coordinates() {
   const std::vector<std::string> names = state_names(model_);
   for (int i = 0; i < model_.size(); ++i) {
     const std::string &x = names[2 * static_cast<std::size_t>(i)], &v = names[2 * static_cast<std::size_t>(i) + 1];
-    each(Of::coordinate, i, x);
-    all_[all_.size() - 2].name = v;
-    all_.back().name = "a" + v.substr(1);
+    for (const QuantityRule& rule : quantity_rules()) {
+      if (rule.of != Of::coordinate) continue;
+      const std::string name = rule.kind == Kind::displacement ? x : rule.kind == Kind::velocity ? v : "a" + v.substr(1);
+      all_.push_back({rule.kind, i, -1, 0.0, free_name(all_, name), "", filled(rule.meaning, x)});
+    }
   }
 }
 

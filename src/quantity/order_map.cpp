@@ -23,7 +23,8 @@ void check(long hold, const Quantity& of, const OrderMapOptions& options) {
 
 }  // namespace
 
-OrderMap order_map(RunUp& run, long hold, const Quantity& of, const OrderMapOptions& options) {
+OrderMap order_map(RunUp& run, const Quantity& of, const OrderMapOptions& options) {
+  const auto hold = static_cast<long>(run.end().period);
   check(hold, of, options);
   const auto measured = static_cast<double>(hold - options.settle);
   OrderMap map;

@@ -3,6 +3,7 @@
 Commands stand in ```console blocks or are indented by four columns; a line that begins with "> " goes on with a command. Of an indented line `slapstick ..` without a `$` only the exit status is looked at. A block of a page below a line that ends with "`NAME.toml`:" is that file. `<!-- files: FOLDER -->` names a folder of the repository whose files are there.
 Numbers may differ in the tenth digit, words may not. Only what Debian's python3-minimal has is used.
 """
+import math
 import os
 import re
 import shutil
@@ -87,7 +88,7 @@ def same(printed, now):
         return False
     for a, b in zip(words, other):
         x, y = number(a), number(b)
-        if a != b and (x is None or y is None or abs(x - y) > 1e-9 * max(1.0, abs(x))):
+        if a != b and (x is None or y is None or not math.isclose(x, y, rel_tol=1e-9, abs_tol=1e-9)):
             return False
     return True
 

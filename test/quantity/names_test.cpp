@@ -28,6 +28,15 @@ TEST(Quantities, FollowTheNamesOfCoordinatesAndContacts) {
   for (const Quantity& one : all) EXPECT_TRUE(names.insert(one.name).second) << one.name;
 }
 
+/// The acceleration of x1 would be a1, which is a coordinate here: both can be asked for.
+TEST(Quantities, OfACoordinateThatHasTheNameOfAnAccelerationAreTwo) {
+  Model model;
+  model.coordinates = {{"a1", 1.0}, {"x1", 1.0}};
+  const auto all = quantities(model);
+  EXPECT_EQ(find_quantity(all, "a1").kind, Quantity::Kind::displacement);
+  EXPECT_EQ(find_quantity(all, "a1_2").kind, Quantity::Kind::acceleration);
+}
+
 TEST(Quantities, OfABareCoordinateHaveNoNumber) {
   const auto all = quantities(load_model("belt"));
   for (const char* name : {"x", "v", "a"}) EXPECT_EQ(find_quantity(all, name).name, name);

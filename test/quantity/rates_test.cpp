@@ -122,12 +122,21 @@ TEST(Rates, AgreeWithDifferencesOfCompliantStopsAndCharacteristics) {
   expect_differences("pressed-block", {}, {"belt_speed", "stiffness"});
 }
 
-/// A mass that may stick anywhere is one of a family: no derivative, and no number that looks like one.
+/// A mass that sticks for ever is one of a family: no derivative, and no number that looks like one.
 TEST(Rates, OfOneOfAFamilyAreRefused) {
+  const ModelDefinition model = load_model("coulomb-oscillator");
+  const Overrides values = {{"amplitude", 0.1}, {"omega", 0.8}};
+  const SettledCycle cycle(model, values);
+  ASSERT_FALSE(cycle.solution.isolated());
+  EXPECT_THROW((void)measure_rates(model, values, {"omega"}, cycle.solution.orbit, {cycle.named("x")}), NumericalError);
+}
+
+TEST(Rates, OfUnknownNamesAndOfParametersAreRefused) {
   const ModelDefinition model = load_model("impact-oscillator");
-  const SettledCycle cycle(model, {{"clearance", 100.0}});
-  EXPECT_THROW((void)measure_rates(model, {}, {"no_such"}, cycle.solution.orbit, {cycle.named("x")}), InputError);
-  EXPECT_THROW((void)measure_rates(model, {}, {"omega"}, cycle.solution.orbit, {cycle.named("omega")}), InputError);
+  const Overrides values = {{"clearance", 100.0}};
+  const SettledCycle cycle(model, values);
+  EXPECT_THROW((void)measure_rates(model, values, {"no_such"}, cycle.solution.orbit, {cycle.named("x")}), InputError);
+  EXPECT_THROW((void)measure_rates(model, values, {"omega"}, cycle.solution.orbit, {cycle.named("omega")}), InputError);
 }
 
 }  // namespace

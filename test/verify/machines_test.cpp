@@ -65,7 +65,7 @@ TEST(CertificateOfAChain, IsProvedHoweverHighTheOrderOfItsFirstZero) {
 
 /// What docs/reference/certificate.md says of the size of certificates.
 TEST(SizeOfACertificate, PerEventStaysAsItIsTold) {
-  for (const auto& [name, most] : {std::pair{"vibro-impact", 179.0}, {"spool", 167.0}}) {
+  for (const auto& [name, told] : {std::pair{"vibro-impact", 179.0}, {"spool", 167.0}}) {
     const ModelDefinition definition = load_model(name);
     test::Machine machine;
     machine.model = definition.build();
@@ -78,7 +78,7 @@ TEST(SizeOfACertificate, PerEventStaysAsItIsTold) {
     Motion motion(system, machine.start);
     long events = 0;
     while (motion.advance(Instant{}.plus(2000.0)) == Outcome::event) ++events;
-    EXPECT_NEAR(static_cast<double>(bytes) / static_cast<double>(events), most, 4.0) << name;
+    EXPECT_NEAR(static_cast<double>(bytes) / static_cast<double>(events), told, 4.0) << name;
   }
 }
 

@@ -35,9 +35,9 @@ struct OrderMap {
   bool complete = true;                     ///< false: stopped; the steps are those that were finished
 };
 
-/// The run is followed to its end. @param hold  periods at each value, as of the run
+/// The run is followed to its end.
 /// @throws InputError for a quantity at impacts, an order that is not positive, or a settle of hold or more periods;
 /// NumericalError as Motion::advance
-[[nodiscard]] OrderMap order_map(RunUp& run, long hold, const Quantity& of, const OrderMapOptions& options);
+[[nodiscard]] OrderMap order_map(RunUp& run, const Quantity& of, const OrderMapOptions& options);
 
 }  // namespace slapstick

@@ -228,7 +228,7 @@ def map(  # noqa: A001 (the verb is called so)
 
     x, y: (NAME, A, B, COUNT), both ends included. level: 'quick', a cycle that Newton's method confirms in `periods`,
     or undecided; 'full', as `slapstick.classify`. carry: a pixel begins where its neighbour in the row ended up, in
-    `direction` 'up', 'down' or 'both'. starts: so many random states at every pixel; every attractor is a row.
+    `direction` 'up', 'down' or 'both'. starts: so many motions at every pixel, the first from the model's own start, the others from random states; every attractor is a row.
     of: "Q:STAT,..": statistics over the cycle, or where there is none over `measured_periods`.
     shard: (I, N): only every N-th tile, beginning with the I-th. threads: 0 for all; the result is the same.
 

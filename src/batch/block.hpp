@@ -42,7 +42,7 @@ struct alignas(64) Block {
   unsigned watched;   ///< lanes whose events are to be seen one by one
   unsigned events, cuts, doubtful, wanting;  ///< lanes with an event, at a cut, in doubt, and in want of the words
                                              ///< of modes
-  alignas(64) Row at_p[most_coordinates], at_u[most_coordinates];  ///< at the cut; or just before the event
+  alignas(64) Row at_p[most_coordinates], at_u[most_coordinates];  ///< at the cut
   alignas(64) Row event_speed;
   int event_mode[most_lanes], event_slot[most_lanes], event_side[most_lanes];  ///< what has ended, and how
   // Work done

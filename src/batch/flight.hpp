@@ -1,6 +1,6 @@
 #pragma once
 /// The flight part of a step, for all lanes: window, slots, the first of their zeros, the state there. What happens
-/// at it is events.hpp's.
+/// at it is step.hpp's.
 #include "batch/slot.hpp"
 
 namespace slapstick::batch {

@@ -154,10 +154,13 @@ void Runner::serve(int l) {
 
 Instant Runner::now(int l) const { return {static_cast<std::int64_t>(block_->period[l]), block_->fraction[l]}; }
 
+/// Where the lane stops next: at what its recorder asks for, and before that for a look at `cancel`. A cut changes
+/// nothing. Between two looks a lane works for some milliseconds.
 void Runner::set_cut(int l) {
+  constexpr double periods_between_looks = 10'000.0;
   const Recorder& recorder = entry_[l]->recorder;
   const Instant at = recorder.next();
-  block_->cut_period[l] = static_cast<double>(at.period);
+  block_->cut_period[l] = std::min(static_cast<double>(at.period), block_->period[l] + periods_between_looks);
   block_->cut_fraction[l] = at.fraction;
   block_->watched = recorder.wants_events() ? block_->watched | 1U << l : block_->watched & ~(1U << l);
 }
@@ -165,6 +168,7 @@ void Runner::set_cut(int l) {
 /// A lane at its cut.
 void Runner::look(int l) {
   Recorder& recorder = entry_[l]->recorder;
+  if (block_->cut_period[l] < static_cast<double>(recorder.next().period)) return set_cut(l);
   double p[most_coordinates], u[most_coordinates];
   for (int i = 0; i < block_->layout.n; ++i) {
     p[i] = block_->at_p[i][l];

@@ -79,11 +79,6 @@ class Step : Follow<width, n> {
     tried_ = 0;
     if (lanes == 0) return;
     find_actions(lanes);
-    if ((lanes & block_.watched) != 0)
-      for (int i = 0; i < n; ++i) {
-        store<Real>(block_.at_p[i], choose(reached_, p_[i], load<Real>(block_.at_p[i])));
-        store<Real>(block_.at_u[i], choose(reached_, u_[i], load<Real>(block_.at_u[i])));
-      }
     speed_ = Real{};
     unsigned refused = untouched(lanes);
     for (unsigned left = lanes; left != 0;) {

@@ -86,9 +86,9 @@ class Run {
 
   void run_together(std::size_t begin, std::size_t end) {
     std::vector<Carried> begun(end - begin);
-    bool fresh = true;  // lanes and motions have the same bits: where some points are known, the others go one by one
-    for (std::size_t i = begin; i < end; ++i) fresh = fresh && !(problem_.known && problem_.known(i) != nullptr);
-    if (fresh) run_in_lanes(problem_, {diagram_.points.data() + begin, end - begin}, begun);
+    bool unknown = false;  // lanes round otherwise than a Motion: what is left of a cell runs in lanes too
+    for (std::size_t i = begin; i < end; ++i) unknown = unknown || !(problem_.known && problem_.known(i) != nullptr);
+    if (unknown) run_in_lanes(problem_, {diagram_.points.data() + begin, end - begin}, begun);
     for (std::size_t i = begin; i < end; ++i) run_point(i, begun[i - begin], [](const Starts&) {});
   }
 

@@ -120,8 +120,9 @@ def test_a_store_is_not_mixed_with_another_run():
 def test_a_killed_diagram_resumes_with_its_bytes():
     """Impacts, statistics and values at instants; the state is carried, so that a wrong start shows."""
     diagram = ('diagram', 'vibro-impact', '--sweep', 'omega=0.6:7:300', '--direction', 'both', '--transient', '200', '--impacts', '40')
-    for more in ((), ('--y', 'w:q95,x1:rms'), ('--y', 'x1,v1', '--at', 'period')):
-        words = diagram if not more or '--at' in more else diagram[:-2]
+    in_lanes = diagram[:4] + ('--start', 'reset') + diagram[6:]
+    cases = ((diagram, ()), (diagram[:-2], ('--y', 'w:q95,x1:rms')), (diagram, ('--y', 'x1,v1', '--at', 'period')), (in_lanes, ()))
+    for words, more in cases:
         whole = good(*words, *more)
         for delay in (0.15, 0.3, 0.45):
             killed((*words, *more, '--store', 'a.db', '--resume'), delay)

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstring>
 #include <numbers>
 #include <random>
+#include <thread>
 
 #include "batch/same_events.hpp"
 #include "slapstick/base/error.hpp"
@@ -237,7 +239,22 @@ TEST(Batch, StopsWhenItIsCancelled) {
   std::atomic<bool> cancel{true};
   BatchProblem problem = problem_of(all, {.periods = 1000});
   problem.cancel = &cancel;
-  EXPECT_FALSE(run_batch(problem).complete);
+  const Batch none = run_batch(problem);
+  EXPECT_FALSE(none.complete);
+  for (const BatchRun& run : none.runs) EXPECT_FALSE(run.done);
+  // Periodic runs that meet nothing to stop at for hours.
+  cancel = false;
+  const std::vector<Pixel> long_runs = pixels(8, 2.1, 2.3);
+  BatchProblem hours = problem_of(long_runs, {.periods = 1'000'000'000});
+  hours.cancel = &cancel;
+  std::thread later([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    cancel = true;
+  });
+  const Batch stopped = run_batch(hours);
+  later.join();
+  EXPECT_FALSE(stopped.complete);
+  for (const BatchRun& run : stopped.runs) EXPECT_FALSE(run.done);
 }
 
 /// Work is a part of the interface: a change is noticed. 2.2: an impact and a reversal a period, a window each.

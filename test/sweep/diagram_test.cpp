@@ -54,6 +54,15 @@ TEST(Diagram, SameBitsForAnyNumberOfThreads) {
   }
 }
 
+/// Lanes round otherwise than a Motion: what a store does not know yet must not come from the other of the two.
+TEST(Diagram, ResetThatKnowsEverySecondValueHasTheBitsOfTheWhole) {
+  DiagramProblem problem = over_omega(0.6, 7.0, 130);
+  problem.start = StartRule::reset;
+  const Diagram whole = run_diagram(problem);
+  problem.known = [&](std::size_t i) { return i % 2 == 0 ? &whole.points[i] : nullptr; };
+  EXPECT_TRUE(run_diagram(problem) == whole);
+}
+
 TEST(Diagram, ResetIsTheSerialLoopOfOneValueEach) {
   DiagramProblem problem = over_omega(1.2, 4.0, 7);
   problem.start = StartRule::reset;

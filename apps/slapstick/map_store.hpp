@@ -15,7 +15,8 @@ namespace slapstick::app {
 [[nodiscard]] StoreFacts run_facts(const std::string& verb, const ChosenModel& chosen, const std::vector<std::string>& options,
                                    long cells, int shard = 0, int shards = 1);
 
-/// The map that a store is of: its model, options and problem. @throws InputError if it is of another verb. The version is not looked at
+/// The map that a store is of: its model, options and problem. @throws InputError if it is of another verb.
+/// The version is not looked at
 [[nodiscard]] std::unique_ptr<MapWish> wish_of(const Store& store);
 
 [[nodiscard]] StoredCell cell_of(const sweep::Pixel& pixel, const sweep::MapProblem& problem);

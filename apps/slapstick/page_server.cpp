@@ -80,7 +80,8 @@ std::string page_folder(const std::string& given) {
 void serve_page(const Served& served, int port, const std::atomic<bool>& stop,
                 const std::function<void(const std::string& address)>& ready) {
   httplib::Server server;
-  server.set_socket_options([](socket_t socket) {  // the library's own (SO_REUSEPORT) would share a port with another explorer
+  // The library's own option, SO_REUSEPORT, would share a port with another explorer.
+  server.set_socket_options([](socket_t socket) {
     const int yes = 1;
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   });

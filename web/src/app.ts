@@ -66,14 +66,11 @@ export class App {
   readonly editor: Editor;
   readonly share = new SharePanel();
   card: ModelCard | undefined;
-  /** Milliseconds from a request to the picture, of the last motions: for the bench. */
-  readonly redraws: number[] = [];
 
   private readonly lanes = {
     motion: new Lane(), section: new Lane(), card: new Lane(), class: new Lane(true), spectrum: new Lane(true), branch: new Lane(true), editor: new Lane(),
   };
   private restTimer = 0;
-  private asked = 0;
   private lastState: number[] = [];
   /** What the present model opens with. */
   private base: Settings = settingsOf("");
@@ -161,6 +158,12 @@ export class App {
       draft.start = state;
       if (draft.motion.transient === 0 && this.card?.forced) draft.motion.transient = 200;
     });
+  }
+
+  /** What is not finished is begun anew when the chart is seen again. */
+  leaveChart(): void {
+    this.chart.stop();
+    if (this.chart.known() < this.history.now.chart.size ** 2) this.drawnFor.chart = "";
   }
 
   rangeOf(name: string): [number, number] {
@@ -272,7 +275,6 @@ export class App {
     const { card } = this;
     if (!card) return;
     const settings = this.history.now, { transient, periods } = settings.motion;
-    this.asked = performance.now();
     const samples = Math.max(20, Math.min(400, Math.round(2400 / periods)));
     this.lanes.motion.ask({ verb: "motion", model: this.model(), wish: { transient, periods, samples, of: this.wanted().join(",") } }, this.hearing(false));
   }
@@ -295,7 +297,6 @@ export class App {
         this.player.show(window);
         this.mechanism.fit(window);
         this.showWindow();
-        requestAnimationFrame(() => this.redraws.push(performance.now() - this.asked));
       },
       done: (failure: string) => {
         if (!next && this.player.playing) this.goOn();

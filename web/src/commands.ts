@@ -10,9 +10,14 @@ function word(text: string): string {
   return /^[A-Za-z0-9_.,:=+-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
 }
 
+/** The file of an own model, as Share saves it. */
+export function fileOf(card: ModelCard): string {
+  return `${card.name.replaceAll(/[^A-Za-z0-9_-]/g, "-")}.toml`;
+}
+
 function namesOf(settings: Settings, card: ModelCard): { model: string; start: [string, number][] } {
   return {
-    model: isText(settings.source) ? `${card.name.replaceAll(/[^A-Za-z0-9_-]/g, "-")}.toml` : settings.source,
+    model: isText(settings.source) ? fileOf(card) : settings.source,
     start: settings.start.length > 0 ? card.state.map((name, i): [string, number] => [name, settings.start[i] ?? 0]) : [],
   };
 }

@@ -68,7 +68,8 @@ class Page {
   }
 
   async begin(): Promise<void> {
-    const models = await new Lane().question<{ name: string; summary: string }[]>({ verb: "models" });
+    const lane = new Lane(), models = await lane.question<{ name: string; summary: string }[]>({ verb: "models" });
+    lane.close();
     this.modelChoice.replaceChildren(...models.map(({ name, summary }) => element("option", { value: name, title: summary }, name)), element("option", { value: "", hidden: true }, "own model"));
     await this.app.begin();
     const story = new URLSearchParams(location.search).get("story");
@@ -160,7 +161,7 @@ class Page {
     place.setAttribute("aria-labelledby", `tab-${settings.view}`);
     if (place.dataset["view"] === settings.view) return;
     place.dataset["view"] = settings.view;
-    if (settings.view !== "chart") app.chart.stop();
+    if (settings.view !== "chart") app.leaveChart();
     const parts = {
       section: [app.section.plot.host, app.section.choices], spectrum: [app.spectrum.plot.host, app.spectrum.choices],
       forces: [app.forces.plot.host, app.forces.choices], chart: [app.chart.plot.host, app.chart.choices],

@@ -1,5 +1,5 @@
 // Link, pictures, numbers, and the lines that give the same result elsewhere.
-import { commandLine, pythonLines } from "../commands.ts";
+import { commandLine, fileOf, pythonLines } from "../commands.ts";
 import { announce, button, element, save } from "../dom.ts";
 import type { ModelCard } from "../protocol.ts";
 import { isText, type Settings } from "../settings.ts";
@@ -33,7 +33,7 @@ export class SharePanel {
       element("h3", {}, "Pictures and numbers"), this.files(views, card.name),
     );
     if (isText(settings.source))
-      this.host.append(button("Save the model file", "save the model file", () => save(`${card.name}.toml`, new Blob([settings.source]))));
+      this.host.append(button("Save the model file", "save the model file", () => save(fileOf(card), new Blob([settings.source]))));
     this.host.showModal();
   }
 

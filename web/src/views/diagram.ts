@@ -18,8 +18,6 @@ interface Sweep {
 export class DiagramView {
   readonly plot: Plot;
   readonly progress = document.createElement("span");
-  /** Time until the first values were there and until all were, for the bench. */
-  times = { first: 0, all: 0 };
   private readonly lanes = { up: new Lane(), down: new Lane() };
   private sweeps: Sweep[] = [];
   private branch: Branch | undefined;
@@ -55,22 +53,18 @@ export class DiagramView {
       },
     }));
     this.layers();
-    const begun = performance.now();
-    this.times = { first: 0, all: 0 };
-    for (const sweep of this.sweeps) this.start(sweep, model, begun);
+    for (const sweep of this.sweeps) this.start(sweep, model);
   }
 
-  private start(sweep: Sweep, model: Model, begun: number): void {
+  private start(sweep: Sweep, model: Model): void {
     const { direction: _direction, ...wish } = this.settings as Settings["diagram"];
     const { start: _start, ...plain } = model;
     const set = Object.fromEntries(Object.entries(model.set).filter(([name]) => name !== wish.parameter));
     this.lanes[sweep.down ? "down" : "up"].ask({ verb: "diagram", model: { ...plain, set, start: [] }, wish: { ...wish, down: sweep.down } }, {
       part: (part) => {
-        if (this.times.first === 0) this.times.first = performance.now() - begun;
         this.take(sweep, part);
       },
       done: (failure) => {
-        if (this.sweeps.every(({ down }) => !this.lanes[down ? "down" : "up"].isBusy)) this.times.all = performance.now() - begun;
         this.told();
         if (failure) this.plot.note = sweep.layer.x.length === 0 ? failure : "";
         if (failure && sweep.layer.x.length > 0) announce(`some values failed, first ${failure}`);

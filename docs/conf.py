@@ -5,6 +5,8 @@ import re
 import sys
 from pathlib import Path
 
+from pygments.lexers.special import TextLexer
+
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
 sys.path[:0] = [str(HERE / "_sphinx"), str(ROOT / "python")]
@@ -54,3 +56,7 @@ cpp_id_attributes = ["alignas"]
 autodoc_mock_imports = ["slapstick._core"]  # the compiled part: the guide is built without it
 autodoc_typehints = "signature"
 autodoc_member_order = "bysource"
+
+
+def setup(app):
+    app.add_lexer("csv", TextLexer)

@@ -52,6 +52,23 @@ function(slapstick_group target count)
   endforeach()
 endfunction()
 
+# slapstick_precompile(TARGET [HEADER...]): with SLAPSTICK_GROUPED, headers of others that most sources of the target
+# read are read once. Builds without groups find a source that does not name what it needs. Not with ccache, which
+# would keep no object that depends on such a file.
+function(slapstick_precompile target)
+  if(SLAPSTICK_GROUPED AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    target_precompile_headers(${target} PRIVATE <algorithm> <array> <atomic> <cmath> <complex> <cstdio> <filesystem>
+      <functional> <map> <memory> <optional> <span> <string> <string_view> <utility> <vector> ${ARGN})
+    # GCC 12's false alarm about std::string (its bug 105651) has other names where headers were read before.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow -Wno-array-bounds>)
+  endif()
+endfunction()
+
+# slapstick_thin(TARGET): what holds no numerics of its own is not worth the time of a full optimisation.
+function(slapstick_thin target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 # Objects come from ccache where there is one.
 find_program(SLAPSTICK_CCACHE ccache)
 if(SLAPSTICK_CCACHE AND PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)

@@ -43,8 +43,13 @@ install(TARGETS slapstick EXPORT slapstick-targets)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/slapstick DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
 install(FILES ${PROJECT_SOURCE_DIR}/models/model.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/slapstick)
 install(EXPORT slapstick-targets NAMESPACE slapstick:: DESTINATION ${slapstick_cmake_folder})
+if(TARGET slapstick_verify)
+  install(TARGETS slapstick_verify COMPONENT programs)
+endif()
 if(TARGET slapstick_app)
   install(TARGETS slapstick_app COMPONENT programs)
+  # Manual pages and completion, written by the programs after they were linked.
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/share/ DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT programs OPTIONAL)
   # The explorer, if it was built (./dev web).
   install(DIRECTORY ${PROJECT_BINARY_DIR}/web DESTINATION ${CMAKE_INSTALL_DATADIR}/slapstick COMPONENT programs OPTIONAL)
 endif()
@@ -54,3 +59,15 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/slapstick-config.cmake
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/slapstick-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/package/slapstick-config.cmake ${PROJECT_BINARY_DIR}/package/slapstick-config-version.cmake
   DESTINATION ${slapstick_cmake_folder})
+
+# The same for pkg-config.
+if(slapstick_dependencies MATCHES "TBB")
+  set(slapstick_pc_requires "Requires: eigen3 tbb")
+else()
+  set(slapstick_pc_requires "Requires: eigen3")
+endif()
+get_target_property(slapstick_pc_definitions slapstick INTERFACE_COMPILE_DEFINITIONS)
+list(TRANSFORM slapstick_pc_definitions PREPEND -D)
+list(JOIN slapstick_pc_definitions " " slapstick_pc_definitions)
+configure_file(${PROJECT_SOURCE_DIR}/cmake/slapstick.pc.in ${PROJECT_BINARY_DIR}/package/slapstick.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/package/slapstick.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

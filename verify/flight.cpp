@@ -109,8 +109,8 @@ void Flight::start(const Expansion& about) {
     ++(proofs_[i].rests ? tally_.rests : tally_.conditions);
     if (order.rises || segment_.duration == 0.0) continue;  // what lasts no time obeys any law
     failed_ = true;
-    refuse(i, order.order == 0 ? "fails at the start: it is " + digits(order.value)
-                               : "fails at once: it is zero at the start, and its derivative of order " +
+    refuse(i, order.order == 0 ? "fails at the start: the value is " + digits(order.value)
+                               : "fails at once: the value is zero at the start, and its derivative of order " +
                                      std::to_string(order.order) + " is " + digits(order.value));
   }
 }
@@ -127,7 +127,7 @@ void Flight::piece(const Expansion& about, double from, double to, bool first) {
       walk({i, f, drop, from, to - from, allowed, f.most(2, Ball(L))});
     } else if (const Ball most = f.most(0, Ball(L)); !(most <= Ball(allowed))) {
       failed_ = true;
-      refuse(i, "does not stay zero: it is up to " + digits(most.near()) + ", rounding explains " + digits(allowed));
+      refuse(i, "does not stay zero: the value is up to " + digits(most.near()) + ", rounding explains " + digits(allowed));
     }
   }
 }
@@ -182,7 +182,7 @@ double Flight::through_band(const Piece& piece, double t) {
     if (most * power(Ball(t) + D, piece.drop) <= Ball(piece.allowed)) return d;
   }
   failed_ = true;
-  refuse(piece.condition, "fails at s = " + digits(piece.begin + t) + " of " + digits(segment_.duration) + ": it is " +
+  refuse(piece.condition, "fails at s = " + digits(piece.begin + t) + " of " + digits(segment_.duration) + ": the value is " +
                               digits(piece.f.value(0, Ball(t)).near()) + ", rounding explains " + digits(piece.allowed));
   return 0.0;
 }

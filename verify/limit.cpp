@@ -135,7 +135,7 @@ void Limit::conditions(const FlownMode& mode, const char* way) const {
     if (of_pair(condition)) continue;
     const Ball middle = dot(mode.flow.rows[i], S_), spread = dot(magnitudes(mode.flow.rows[i]), delta_);
     if (!(middle > spread || (spread.is_zero() && middle >= Ball(0.0))))
-      refuse(condition.name + " may fail on the way " + way + " the stop: it is " + digits(middle.near()) + " to " +
+      refuse(condition.name + " may fail on the way " + way + " the stop: the value is " + digits(middle.near()) + " to " +
              digits(spread.near()));
   }
 }

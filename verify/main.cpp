@@ -1,23 +1,15 @@
 /// slapstick-verify: checks a certificate (docs/reference/certificate.md) in ball arithmetic, sharing no code.
 #include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <iostream>
 
+#include "usage.hpp"
 #include "verdict.hpp"
 
 namespace verify {
 namespace {
 
 enum Status { proved = 0, not_proved = 1, unreadable = 2, proved_but_for = 3 };
-
-constexpr char usage[] =
-    "slapstick-verify FILE    checks a certificate that `slapstick simulate --certify FILE` has written; `-` reads it "
-    "from standard input\n\n"
-    "The motion is checked against the model in the file, in ball arithmetic of 256 bits; the rules are in "
-    "docs/reference/certificate.md.\n"
-    "Standard output gets one line for each claim that does not hold (the first 20) and a report.\n"
-    "Exit status: 0 proved, 1 not proved, 2 unreadable or incomplete, 3 proved but for what the last line names.\n";
 
 constexpr long most_shown = 20;
 
@@ -36,10 +28,11 @@ int run(std::istream& in) {
 
 int main(int count, char** arguments) {
   using namespace verify;
-  if (count == 2 && (std::strcmp(arguments[1], "--help") == 0 || std::strcmp(arguments[1], "-h") == 0))
-    return std::fputs(usage, stdout), proved;
-  if (count != 2) return std::fputs(usage, stderr), unreadable;
+  if (count != 2) return std::fputs(usage().c_str(), stderr), unreadable;
   const std::string name = arguments[1];
+  if (name == "--help" || name == "-h") return std::fputs(usage().c_str(), stdout), proved;
+  if (name == "--man") return std::fputs(manual().c_str(), stdout), proved;
+  if (name == "--version") return std::puts("slapstick-verify " SLAPSTICK_VERSION), proved;
   try {
     if (name == "-") return run(std::cin);
     std::ifstream file(name);

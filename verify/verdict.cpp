@@ -47,13 +47,13 @@ std::string sentence(const Verdict& verdict) {
   const Open& open = verdict.tally.open;
   std::string text;
   const auto add = [&](long n, const std::string& what, const std::string& of) {
-    if (n > 0) text += (text.empty() ? " but for " : ", ") + counted(n, what) + of;
+    if (n > 0) text += (text.empty() ? "proved but for " : ", ") + counted(n, what) + of;
   };
   add(open.pile_ups, "pile-up", "");
   add(open.undecided, "undecided sign", "");
   add(open.choices, "choice", " among lawful modes");
-  add(open.still, "coordinate", " that rounding alone moves");
-  return "proved" + text;
+  add(open.still, "coordinate", " moved by rounding alone");
+  return text.empty() ? "proved" : text;
 }
 
 std::string report(const Verdict& verdict) {

@@ -90,8 +90,8 @@ Claim claim_4(const Evidence& evidence) {
       "0.552 lies at the very end of complete "
       "chatter; above it every period has a finite burst whose number of impacts falls step by step to 1 at 1.12, "
       "where the paper's interval ends. "
-      "0.55 is no lower limit of chatter: it is complete at every lower frequency computed (to 0.3). It marks where "
-      "complete chatter ends.";
+      "0.55 is no lower limit of chatter: chatter is complete at every lower frequency computed (to 0.3). 0.55 marks "
+      "where complete chatter ends.";
   claim.quantities = {class_quantity("class at 0.552", "chatter until stick", at),
                       number_quantity("impacts at 0.552 before the limit is known to rounding", "", burst.impacts, 0),
                       number_quantity("limit at 0.552, periods after the first impact", "", burst.limit - burst.first,

@@ -52,6 +52,7 @@ Arguments::~Arguments() = default;
 void Arguments::positional(const std::string& name, std::string& target, const std::string& help) {
   parser_->app.add_option(name, target, help)->required()->type_name("");
   parser_->facts.push_back({ArgumentFact::Kind::positional, name, "", help});
+  parser_->facts.back().required = true;
 }
 
 void Arguments::positionals(const std::string& name, std::vector<std::string>& target, const std::string& help) {
@@ -108,7 +109,7 @@ void Arguments::choice(const std::string& name, std::string& target, const std::
   parser_->facts.back().words = words;
   parser_->conversions.emplace_back([name, words, &target] {
     if (std::find(words.begin(), words.end(), target) == words.end())
-      throw InputError(name + ": " + in_quotes(target) + " is none of its words" + suggestion(target, words));
+      throw InputError(name + ": " + in_quotes(target) + " is not one of its words" + suggestion(target, words));
   });
 }
 

@@ -17,6 +17,7 @@ struct ArgumentFact {
   std::string name, value, help;        ///< "--out", "FILE"; the value is empty of a flag
   std::vector<std::string> words = {};  ///< of a choice
   long long least = 0, most = 0;        ///< of a count
+  bool required = false;                ///< a positional that may not be left out
 };
 /// "positional", "text", "repeated", "number", "count", "choice", "flag".
 [[nodiscard]] std::string_view name(ArgumentFact::Kind kind);

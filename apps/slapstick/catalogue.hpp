@@ -1,7 +1,8 @@
 #pragma once
 /// All that the program takes: the verbs with their arguments, as the verbs declare them.
 ///
-/// Nothing is listed a second time: help, the page docs/reference/options.md, completion and `describe` walk this.
+/// Nothing is listed a second time: help, manual pages, the page docs/reference/options.md, completion and `describe`
+/// walk this.
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct VerbFacts {
 /// Verbs with their arguments, quantities, statistics and models, as JSON and as the page docs/reference/options.md.
 [[nodiscard]] std::string catalogue_json();
 [[nodiscard]] std::string catalogue_markdown();
+
+/// The manual page of "slapstick", or slapstick-VERB(1) of a verb, for man. @throws InputError of another name
+[[nodiscard]] std::string manual(const std::string& page);
 
 /// The script of a shell: "bash", "zsh" or "fish".
 [[nodiscard]] std::string completion(const std::string& shell);

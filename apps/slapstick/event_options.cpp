@@ -67,7 +67,7 @@ EventChoice event_choice(const std::string& text, const System& system, const st
                    (events.contact ? "contact " + in_quotes(system.contact_name(*events.contact))
                                    : "model " + in_quotes(system.model().name)) +
                    " cannot have " + in_quotes(std::string(name(events.kind))) +
-                   (known.empty() ? ", it has no contacts" : "; it can have " + known));
+                   (known.empty() ? ", and the model has no contacts" : "; the model can have " + known));
 }
 
 int mapped_contact(const EventChoice& events, const Model& model) {

@@ -27,7 +27,7 @@ void MapOptions::declare(Arguments& arguments) {
   arguments.count("--most-periods", most_periods, 10, 1'000'000'000, "of full: as `classify` (20000)");
   arguments.count("--exponent-periods", exponent_periods, 400, 100'000'000, "of full: as `classify` (4000)");
   arguments.count("--most-n", most_n, 1, 4096, "longest cycle sought, in forcing periods or returns (64)");
-  arguments.count("--seed", seed, 0, 4'294'967'295, "of --start N: which random states (1)");
+  arguments.count("--seed", seed, 0, 4'294'967'295, "of --start N: the number that chooses the random states (1)");
   arguments.text("--of", of, "Q:STAT,..", "statistics of quantities over the cycle, or without one over --measured-periods");
   arguments.count("--measured-periods", measured_periods, 1, 1'000'000'000, "of --of: where there is no cycle (100)");
   stops.declare(arguments, "count the impacts of this stop only; may be repeated (all)");
@@ -38,13 +38,13 @@ void MapOptions::declare(Arguments& arguments) {
 void MapOptions::check_words(const Arguments& arguments) const {
   for (const char* name : {"--x", "--y"})
     if (!arguments.given(name)) throw InputError(std::string(name) + " NAME=A:B:COUNT is required");
-  if (level == "full" && arguments.given("--periods")) throw InputError("--periods: it is for --level quick");
+  if (level == "full" && arguments.given("--periods")) throw InputError("--periods: only for --level quick");
   for (const char* name : {"--transient", "--most-periods", "--exponent-periods"})
-    if (level == "quick" && arguments.given(name)) throw InputError(std::string(name) + ": it is for --level full");
-  if (start != "carry" && arguments.given("--direction")) throw InputError("--direction: it is for --start carry");
+    if (level == "quick" && arguments.given(name)) throw InputError(std::string(name) + ": only for --level full");
+  if (start != "carry" && arguments.given("--direction")) throw InputError("--direction: only for --start carry");
   if ((start == "carry" || start == "reset") && arguments.given("--seed"))
-    throw InputError("--seed: it is for --start N");
-  if (of.empty() && arguments.given("--measured-periods")) throw InputError("--measured-periods: it is for --of");
+    throw InputError("--seed: only for --start N");
+  if (of.empty() && arguments.given("--measured-periods")) throw InputError("--measured-periods: only for --of");
 }
 
 std::vector<std::string> MapOptions::words() const {

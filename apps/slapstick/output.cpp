@@ -56,7 +56,7 @@ const std::string& checked_table(const std::string& path) {
   const std::string ending = ending_of(path);
   for (const char* other : {".npy", ".mat", ".nc", ".parquet", ".feather", ".arrow", ".xlsx", ".xls", ".ods", ".gz", ".zip"})
     if (ending == other)
-      throw InputError("cannot write " + in_quotes(path) + ": tables are .csv, .npz or .h5, and " + ending + " is none of them");
+      throw InputError("cannot write " + in_quotes(path) + ": tables are .csv, .npz or .h5, and " + ending + " is not one of them");
   if (ends_as_hdf5(path) && !has_hdf5())
     throw InputError("cannot write " + in_quotes(path) + ": this program was built without HDF5; .npz and .csv are there");
   return path;
@@ -141,7 +141,7 @@ void TableOutput::commit() {
 }
 
 Plot::Plot(const std::string& path, const std::string& size) {
-  if (path.empty() && !size.empty()) throw InputError("--plot-size: it is for the picture of --plot, which is not given");
+  if (path.empty() && !size.empty()) throw InputError("--plot-size: only for the picture of --plot, and --plot is not given");
   if (path.empty()) return;
   const fs::path file(path);
   const std::string ending = file.extension().string();

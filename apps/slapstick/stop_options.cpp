@@ -8,7 +8,7 @@
 namespace slapstick::app {
 
 void StopOptions::declare(Arguments& arguments, const std::string& help) {
-  arguments.repeated("--stop", names, "NAME", help);
+  arguments.repeated("--stop", names, "STOP", help);
 }
 
 StopChoice StopOptions::choice(const Model& model) const {

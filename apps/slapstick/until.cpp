@@ -31,7 +31,7 @@ Json Until::json() const { return Json::object().set("event", event_).set("numbe
 void Until::demand_met(double periods) const {
   if (met()) return;
   throw NumericalError("--until " + event_ + ": " + (seen_ == 0 ? "no such event" : "only " + std::to_string(seen_) + " such events") +
-                       " in " + shown(periods) + " periods; a longer --periods may bring " + (wanted_ == 1 ? "it" : "the others"));
+                       " in " + shown(periods) + " periods; a longer --periods may bring " + (wanted_ == 1 ? "one" : "more"));
 }
 
 }  // namespace slapstick::app

@@ -89,7 +89,7 @@ std::string missing(const Classification& found, const Options& options) {
     case Doubt::exponent:
       return "exponent, averages and rotation number do not agree on a kind: a longer run tells" + decides;
     case Doubt::no_return:
-      return "the motion has no more events and comes to no rest: it grows, or goes away for ever";
+      return "the motion has no more events and comes to no rest: the motion grows, or goes away for ever";
   }
   return {};
 }

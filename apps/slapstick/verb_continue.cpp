@@ -155,7 +155,7 @@ void check(const Options& options, const ChosenModel& chosen) {
   if (!(options.step > 0.0 && options.step <= 0.2))
     throw InputError("--step: " + shown(options.step) + " is outside (0, 0.2]");
   if (!options.plot_range.empty() && options.plot.empty())
-    throw InputError("--plot-range: it is for the picture of --plot, which is not given");
+    throw InputError("--plot-range: only for the picture of --plot, and --plot is not given");
   if (options.diagram == 1) throw InputError("--diagram: a range has two ends; 1 is too few values");
   if (!options.y.empty() && options.table) throw InputError("--y: the JSON has its values, and --table asks for none");
   if (!options.y.empty() && options.diagram > 0)
@@ -322,9 +322,9 @@ Action add_continue(Arguments& arguments) {
                  "of the picture: the parameter, and the height (all that --range says, and all that there is)");
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
-      "Special points: LP fold, PD period doubling, NS torus, BP branches cross, GR a stop is grazed, SL stick gained "
-      "or lost,\n"
-      "CH complete chatter begins or ends, CO two events meet. docs/explanation/continuation.md says how they are found.\n"
+      "Special points: LP fold; PD period doubling; NS torus; BP branches cross; GR a stop is grazed; SL stick gained "
+      "or lost;\n"
+      "CH complete chatter begins or ends; CO two events meet. docs/explanation/continuation.md says how they are found.\n"
       "  slapstick continue vibro-impact --set omega=2.2 --orbit 1-1 --param omega --range 1:4 --table");
   return [options](const Context& context) { return run(*options, context); };
 }

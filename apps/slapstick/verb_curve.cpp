@@ -92,7 +92,7 @@ void check(const Options& options) {
     if (ranges::find(types, type) == types.end())
       throw InputError("--from: " + in_quotes(type) + " is no type of special point; there are LP, PD, NS, BP, GR, SL, CH and CO");
   if (options.which > 1 && options.from.size() > 1)
-    throw InputError("--which: it counts the points of one type, and --from is given more than once");
+    throw InputError("--which: only for the points of one type, and --from is given more than once");
 }
 
 /// A curve with its equations.

@@ -9,13 +9,15 @@ namespace {
 
 struct Options {
   bool json = false, markdown = false;
-  std::string out;
+  std::string page, out;
 };
 
 int run(const Options& options) {
-  if (options.json && options.markdown) throw InputError("--json and --markdown both say how: choose one");
+  if (options.json + options.markdown + !options.page.empty() > 1)
+    throw InputError("choose one of --json, --markdown and --man");
+  const std::string text = options.markdown ? catalogue_markdown() : options.page.empty() ? catalogue_json() : manual(options.page);
   Output out(options.out);
-  out.write(options.markdown ? catalogue_markdown() : catalogue_json());
+  out.write(text);
   out.commit();
   return done;
 }
@@ -26,10 +28,12 @@ Action add_describe(Arguments& arguments) {
   auto options = std::make_shared<Options>();
   arguments.flag("--json", options->json, "as JSON, for programs (this is what is written without an option, too)");
   arguments.flag("--markdown", options->markdown, "as a page of tables");
+  arguments.text("--man", options->page, "VERB", "the manual page of a verb, or of slapstick itself, as man reads it");
   arguments.text("--out", options->out, "FILE", "write there instead of to standard output");
   arguments.footer(
       "Every verb with its arguments, the quantities of every kind of part, the statistics and the built-in models.\n"
-      "  slapstick describe --json");
+      "  slapstick describe --json\n"
+      "  slapstick describe --man map | man -l -");
   return [options](const Context&) { return run(*options); };
 }
 

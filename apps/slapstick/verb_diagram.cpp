@@ -174,7 +174,7 @@ void report(const sweep::Diagram& diagram, const Sweep& sweep, const std::string
   const auto at = [&](const sweep::DiagramPoint& point) { return sweep.name + " = " + shown(point.parameter); };
   if (!diagram.complete) {
     const auto finished = ranges::count_if(diagram.points, [](const auto& point) { return point.done; });
-    std::fprintf(stderr, "slapstick: stopped after %ld of %zu values; these are written\n",
+    std::fprintf(stderr, "slapstick: stopped after %ld of %zu values; the finished ones are written\n",
                  static_cast<long>(finished), diagram.points.size());
   }
   if (without != nullptr)
@@ -267,11 +267,11 @@ void check_words(const Options& options, const Arguments& arguments) {
   const bool statistics = !options.y.empty() && are_statistics(options.y);
   for (const char* name : {"--impacts", "--most-periods", "--stop", "--at"})
     if (statistics && arguments.given(name))
-      throw InputError(std::string(name) + ": it is for values at instants, and --y asks for statistics over --periods");
+      throw InputError(std::string(name) + ": only for values at instants, and --y asks for statistics over --periods");
   if (!statistics && arguments.given("--periods"))
-    throw InputError("--periods: it is for statistics of --y, and none is given");
-  if (options.y.empty() && arguments.given("--at")) throw InputError("--at: it is for --y, which is not given");
-  if (options.store.empty() && options.resume) throw InputError("--resume: it needs --store F.db");
+    throw InputError("--periods: only for statistics of --y, and --y names no statistic");
+  if (options.y.empty() && arguments.given("--at")) throw InputError("--at: only for --y, and --y is not given");
+  if (options.store.empty() && options.resume) throw InputError("--resume needs --store F.db");
   if (options.start == "reset" && options.direction == "both")
     throw InputError("--direction both: with --start reset, up and down are the same; choose one, or --start carry");
 }

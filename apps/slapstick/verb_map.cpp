@@ -29,7 +29,7 @@ struct Options {
 void report(const MapWish& wish, const sweep::Map& map) {
   const auto known = static_cast<long>(map.findings.size()), all = sweep::pixel_count(wish.problem);
   if (!map.complete && wish.problem.start != sweep::MapStart::random)
-    std::fprintf(stderr, "slapstick: stopped after %ld of %ld pixels; these are written\n", known, all);
+    std::fprintf(stderr, "slapstick: stopped after %ld of %ld pixels; the finished ones are written\n", known, all);
   if (!map.complete && wish.problem.start == sweep::MapStart::random)
     std::fprintf(stderr, "slapstick: stopped before the end; what is complete is written\n");
   if (map.failures.empty()) return;
@@ -143,11 +143,11 @@ Action add_map(Arguments& arguments) {
   return [options, &arguments](const Context& context) {
     options->map.check_words(arguments);
     if (options->curves > 0 && (options->plot.empty() || options->map.start != "reset" || options->slurm > 0))
-      throw InputError("--curves: it needs --plot and --start reset, and is not for --slurm");
+      throw InputError("--curves needs --plot and --start reset, and is not for --slurm");
     for (const char* other : {"--shard", "--resume", "--threads"})
       if (options->slurm > 0 && arguments.given(other)) throw InputError(std::string(other) + ": the script of --slurm has its own");
     for (const char* name : {"--resume", "--shard", "--slurm"})
-      if (options->store.empty() && arguments.given(name)) throw InputError(std::string(name) + ": it needs --store F.db");
+      if (options->store.empty() && arguments.given(name)) throw InputError(std::string(name) + " needs --store F.db");
     return map(*options, context);
   };
 }

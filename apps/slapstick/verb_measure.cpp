@@ -22,7 +22,7 @@ int run(const Options& all, const Context& context) {
   roles.add("--out", options.out);
   options.check();
   if (!all.sensitivity.empty() && (options.periods > 0 || options.time > 0.0))
-    throw InputError(std::string("--sensitivity: it is of a cycle, and ") + (options.periods > 0 ? "--periods" : "--time") +
+    throw InputError(std::string("--sensitivity: only for a cycle, and ") + (options.periods > 0 ? "--periods" : "--time") +
                      " measures over a time");
   const ChosenModel chosen = options.model.load();
   const std::vector<Wanted> wanted = parse_wanted("--of", options.of, quantities(chosen.definition, chosen.overrides));
@@ -33,7 +33,7 @@ int run(const Options& all, const Context& context) {
   const Measured found = measure(*span, quantities_of(wanted), &context.stop, [&](double now) { progress.update(now); });
   if (!(found.duration > 0.0)) return interrupted;  // Ctrl-C before anything was measured
   if (!all.sensitivity.empty() && !span->cycle)
-    throw InputError("--sensitivity: it is of a cycle, and the motion settles on none: choose an orbit, as by --orbit 1-1");
+    throw InputError("--sensitivity: only for a cycle, and the motion settles on none: choose an orbit, as by --orbit 1-1");
   const Sensitivity rates =
       span->cycle ? sensitivity_of(all.sensitivity, chosen, span->cycle->orbit, wanted) : Sensitivity{};
   Json json = Json::object(), parameters = Json::object();

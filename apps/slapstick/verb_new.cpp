@@ -30,7 +30,7 @@ int write_new(const std::string& name) {
   }
   std::error_code error;
   if (fs::symlink_status(file, error).type() != fs::file_type::not_found && !error)
-    throw StorageError("cannot write " + in_quotes(file.string()) + ": it exists, and `new` overwrites nothing");
+    throw StorageError("cannot write " + in_quotes(file.string()) + ": the file exists, and `new` overwrites nothing");
   write_atomically(file, text);
   Json next = Json::list();
   for (const char* verb : {"check ", "simulate "}) next.push("slapstick " + (verb + file.string()));

@@ -79,11 +79,11 @@ void check(const Options& options) {
   if (options.all && !options.plot.empty())
     throw InputError("--all lists every orbit; --plot draws one: name it by --orbit");
   if (!options.show.empty() && options.plot.empty())
-    throw InputError("--show: it is for the picture of --plot, which is not given");
+    throw InputError("--show: only for the picture of --plot, and --plot is not given");
   if (options.all && options.orbit.nearest)
     throw InputError("--all lists every orbit; --nearest has no meaning with it");
   if (!options.sensitivity.empty() && options.of.empty())
-    throw InputError("--sensitivity: it is of the statistics of --of, which is not given");
+    throw InputError("--sensitivity: only for the statistics of --of, and --of is not given");
   if (!options.all && (options.most_n > 0 || options.most_p >= 0)) throw InputError("--max-n and --max-p need --all");
 }
 

@@ -146,7 +146,7 @@ Action add_poincare(Arguments& arguments) {
       throw InputError("--phase belongs to --section stroboscopic");
     if (arguments.given("--most-periods")) options->patience = options->most_periods;
     if (!options->stops.names.empty() && options->section == "stroboscopic" && options->plot.empty())
-      throw InputError("--stop: of the stroboscopic section it is for the picture of --plot, which is not given");
+      throw InputError("--stop: of the stroboscopic section only for the picture of --plot, and --plot is not given");
     if (!options->stops.names.empty() && options->section == "event")
       throw InputError("--stop: the event section takes its contact by --event KIND:CONTACT");
     return poincare(*options, context);

@@ -229,7 +229,7 @@ std::pair<Instant, Instant> window_of(const Options& options, Instant end) {
   if (options.window.empty()) return {end.period >= plotted_periods ? Instant{end.period - plotted_periods, end.fraction} : Instant{}, end};
   const ParameterRange window = parse_range("--window", options.window);
   if (!(window.from >= 0.0 && window.from < length))
-    throw InputError("--window: the run has the periods 0 to " + shown(length) + ", and " + shown(window.from) + " is none of them");
+    throw InputError("--window: the run has the periods 0 to " + shown(length) + ", and " + shown(window.from) + " is not one of them");
   if (window.to - window.from > most_plotted_periods)
     throw InputError("--window: " + shown(window.to - window.from) + " periods are more than a picture shows (" + shown(most_plotted_periods) + ")");
   return {Instant{}.plus(window.from), std::min(end, Instant{}.plus(window.to))};
@@ -269,15 +269,15 @@ void check(const Options& options, const Arguments& arguments) {
   if (arguments.given("--time") && arguments.given("--periods"))
     throw InputError("--time and --periods both give the length: choose one");
   if (!options.columns.empty() && options.trajectory.empty())
-    throw InputError("--columns: they are columns of --trajectory, which is not given");
+    throw InputError("--columns: only for --trajectory, and --trajectory is not given");
   if (!options.columns.empty() && options.physical)
     throw InputError("--columns: quantities are in the model's numbers; leave --physical away");
   options.climb.check(arguments, {"--periods", "--time", "--certify", "--plot", "--physical", "--columns", "--until"});
   if (options.physical && options.events.empty() && options.trajectory.empty())
-    throw InputError("--physical: it is for --events and --trajectory, and neither is given");
+    throw InputError("--physical: only for --events and --trajectory, and neither is given");
   for (const char* name : {"--stop", "--window", "--show"})
     if (arguments.given(name) && options.plot.empty())
-      throw InputError(std::string(name) + ": it is for the picture of --plot, which is not given");
+      throw InputError(std::string(name) + ": only for the picture of --plot, and --plot is not given");
   if (options.stop.names.size() > 1) throw InputError("--stop is given more than once: the picture shows one pair");
 }
 
@@ -315,12 +315,10 @@ Action add_simulate(Arguments& arguments) {
   arguments.footer(
       "Example:\n  slapstick simulate vibro-impact --set omega=1.5 --state x1=-0.5,v1=0 --periods 50 --events "
       "events.csv --plot motion.png\n"
-      "Events are impact, slip+, slip-, stick, release, graze, chatter (the limit of infinitely many impacts), and "
-      "engage,\n"
-      "disengage, separate of compliant stops, corner of characteristics, unload, load of friction contacts with a normal\n"
-      "force; w is the relative velocity just before. A "
-      "model without forcing has a "
-      "period of 1.");
+      "Events are impact, slip+, slip-, stick, release, graze and chatter (the limit of infinitely many impacts).\n"
+      "Compliant stops have engage, disengage and separate; characteristics have corner.\n"
+      "Friction contacts with a normal force have unload and load. w is the relative velocity just before.\n"
+      "A model without forcing has a period of 1.");
   return [options, &arguments](const Context& context) {
     check(*options, arguments);
     return simulate(*options, arguments.given("--time"), context);

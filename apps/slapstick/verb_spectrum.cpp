@@ -119,7 +119,7 @@ void check(const Options& options) {
   if (!(options.highest >= 0.0)) throw InputError("--to: " + shown(options.highest) + " is negative");
   if (!(options.stretch > 0.0)) throw InputError("--stretch: " + shown(options.stretch) + " is not positive");
   if (!(options.reference > 0.0)) throw InputError("--reference: " + shown(options.reference) + " is not positive");
-  if (options.weighted && options.octaves == "none") throw InputError("--a-weighting: it is for the levels of --octaves, which is not given");
+  if (options.weighted && options.octaves == "none") throw InputError("--a-weighting: only for the levels of --octaves, and --octaves is not given");
 }
 
 int run(const Options& options, const Context& context) {
@@ -186,7 +186,7 @@ Action add_spectrum(Arguments& arguments) {
     options->climb.check(arguments, {"--periods", "--time", "--transient", "--orbit", "--stable", "--unstable",
                                      "--symmetric", "--nearest", "--stretch", "--octaves", "--a-weighting", "--to"});
     if (options->climb.sweep.empty() && arguments.given("--settle"))
-      throw InputError("--settle: it is of a run-up, and --sweep is not given");
+      throw InputError("--settle: only for a run-up, and --sweep is not given");
     return run(*options, context);
   };
 }

@@ -106,7 +106,7 @@ Action add_store(Arguments& arguments) {
   return [options, &arguments](const Context& context) {
     if (options->action != "export")
       for (const char* name : {"--plot", "--plot-size", "--show"})
-        if (arguments.given(name)) throw InputError(std::string(name) + ": it is for store export");
+        if (arguments.given(name)) throw InputError(std::string(name) + ": only for store export");
     if (options->action == "info") return info(*options);
     if (options->action == "merge") return merge(*options, context);
     if (options->action == "export") return write_out(*options);

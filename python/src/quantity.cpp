@@ -55,7 +55,7 @@ std::vector<Measured> rates_of(const ModelDefinition& definition, const Override
                                const orbit::Orbit* cycle, const std::vector<Quantity>& of) {
   if (by.empty()) return {};
   if (cycle == nullptr)
-    throw InputError("sensitivity: it is of a cycle, and here a motion is measured: choose an orbit, as by orbit(..).measure");
+    throw InputError("sensitivity: only for a cycle, and here a motion is measured: choose an orbit, as by orbit(..).measure");
   try {
     return measure_rates(definition, values, by, *cycle, of);
   } catch (const InputError& error) {

@@ -57,7 +57,7 @@ inline void require_ieee_arithmetic() {
   const bool nearest = one + half_ulp == one && one + more > one && -one - more < -one;
   if (!(subnormal && nearest))
     throw NumericalError("this processor does not compute as IEEE 754 says (" +
-                         std::string(subnormal ? "it does not round to the nearest" : "subnormal numbers are zero") +
+                         std::string(subnormal ? "no rounding to the nearest" : "subnormal numbers are zero") +
                          "); results would not be those of other machines");
 }
 

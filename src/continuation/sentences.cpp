@@ -230,7 +230,7 @@ std::string what_becomes(const SpecialPoint& point) {
     case Passage::equilibrium:
       return "the cycle shrinks to a state of rest";
     case Passage::retraced:
-      return "the branch as it came";
+      return "the branch as it was on the way here";
     case Passage::not_followed:
       return "not followed";
     case Passage::unknown:

@@ -132,7 +132,7 @@ void check_movable(const Scratch& scratch, const fs::path& folder, const std::ve
     std::error_code error;
     if (!fs::exists(scratch.path() / name, error)) throw StorageError("gnuplot did not write " + name);
     if (fs::is_directory(folder / name, error))
-      throw StorageError("cannot write " + (folder / name).string() + ": it is a folder");
+      throw StorageError("cannot write " + (folder / name).string() + ": a folder has this name");
   }
 }
 

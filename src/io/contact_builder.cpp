@@ -138,7 +138,7 @@ void ModelBuilder::add_friction(Model& model, const Part& part) {
   } else if (!part.load.empty() || !part.load_stop.empty()) {
     if (law.size() > 1)
       throw InputError(definition_.place(part.line),
-                       where("normal_force") + ": it changes with the state, and friction over the speed too: their "
+                       where("normal_force") + ": the force changes with the state, and friction over the speed too: their "
                                                "product is not linear in the state; give one number for kinetic");
     normal = load(part, model);
   }

@@ -64,7 +64,7 @@ Numbers read_band(const TreeReader& tree, const TomlNode& table, const std::stri
     const double value = scalar.number;
     if (scalar.expression || !(value >= least && value <= most) || value != std::floor(value))
       tree.fail(scalar.line, where + ": " + key,
-                "it is not a whole number in [" + shown(least) + ", " + shown(most) + "]");
+                "not a whole number in [" + shown(least) + ", " + shown(most) + "]");
     return value;
   };
   const double from = whole("from", 1, 1e6, 0), to = whole("to", 1, 1e6, 0);
@@ -73,7 +73,7 @@ Numbers read_band(const TreeReader& tree, const TomlNode& table, const std::stri
   const double most = to - from + 1;
   const double lines = whole("lines", 1, std::min(most, 100.0), most);
   if (lines > 100.0)
-    tree.fail(table.line, where, "it has " + shown(most) + " harmonics; name fewer by lines (at most 100)");
+    tree.fail(table.line, where, "the band has " + shown(most) + " harmonics; name fewer by lines (at most 100)");
   (void)whole("seed", 0, 9007199254740992.0, 0);
   return band;
 }
@@ -99,7 +99,7 @@ void read_signal(const TreeReader& tree, const TomlNode& node, const std::string
     if (at == table.heading.end())
       tree.fail(wanted->line, where + ": column",
                 "file " + in_quotes(file->text) + " has no column " + in_quotes(wanted->text) +
-                    (table.heading.empty() ? " (it has no heading)" : suggestion(wanted->text, table.heading)));
+                    (table.heading.empty() ? " (the file has no heading)" : suggestion(wanted->text, table.heading)));
     column = static_cast<std::size_t>(at - table.heading.begin());
   }
   if (table.rows.front().numbers.size() <= column || column == 0)

@@ -31,7 +31,7 @@ ModelDefinition load_model(const std::string& name_or_path) {
     if (model.name == name_or_path) return ModelDefinition::parse(model.text, name_or_path + " (built in)");
   std::error_code error;
   if (std::filesystem::is_directory(name_or_path, error))
-    throw StorageError("model file " + in_quotes(name_or_path) + ": this is a folder");
+    throw StorageError("model file " + in_quotes(name_or_path) + ": a folder, not a file");
   if (std::filesystem::is_regular_file(name_or_path, error))
     throw InputError("model file " + in_quotes(name_or_path) + ": its name must end in .toml");
   throw InputError("unknown model " + in_quotes(name_or_path) + suggestion(name_or_path, builtin_models()) +

@@ -177,7 +177,7 @@ FileMatrix read_matrix_csv(std::string_view text, const std::string& source) {
   const std::size_t n = table.rows.size(), width = table.rows.front().numbers.size();
   if (width != n || n > most_rows)
     throw InputError(line_of(source, table.rows.back().line) + "the matrix has " + std::to_string(n) + " rows and " +
-                     std::to_string(width) + " columns; it must be square, with at most 1000 rows");
+                     std::to_string(width) + " columns; a matrix is square, with at most 1000 rows");
   Gathered all(source, n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) all.set(i, j, table.rows[i].numbers[j], table.rows[i].line);

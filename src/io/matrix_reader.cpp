@@ -164,7 +164,7 @@ std::vector<Part> matrix_rows(const TreeReader& tree, const TomlNode& root, cons
       names.push_back(item.text);
     }
   }
-  if (names.empty()) tree.fail(node->line, where, "it is empty");
+  if (names.empty()) tree.fail(node->line, where, "nothing is in it");
   tree.check_count(*node, names.size(), where);
   std::vector<Part> rows;
   for (const auto& name : names) {

@@ -34,7 +34,7 @@ Dual ModelBuilder::dual(const Scalar& scalar, const std::string& where) const {
     if (!std::isfinite(rates_->at(name).rate)) broken = ", as " + in_quotes(name) + " has none";
   }
   throw InputError(definition_.place(scalar.line), where + ": expression " + in_quotes(scalar.expression->text()) +
-                                                       ": it has no derivative" + with + broken);
+                                                       " has no derivative" + with + broken);
 }
 
 std::string ModelBuilder::where(std::string_view key) const {

@@ -43,7 +43,7 @@ class Evaluation {
     double value = entry.value.number;
     if (const auto& expression = entry.value.expression) {
       if (std::find(open_.begin(), open_.end(), name) != open_.end())
-        throw InputError(where + "it depends on itself: " + circle(name));
+        throw InputError(where + "the value depends on itself: " + circle(name));
       open_.push_back(name);
       for (const auto& other : expression->names()) need(other);
       open_.pop_back();

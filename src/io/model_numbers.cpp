@@ -105,7 +105,7 @@ void ModelNumbers::demand(const Expression& expression, const Values& others) co
   if (unit && without_unit(*unit)) return;
   const std::string what = "expression " + in_quotes(expression.text()) + ": ", in = with_units(expression);
   if (!unit)
-    throw InputError(what + "it mixes numbers that have a unit" + (in.empty() ? "" : " (" + in + ")") +
+    throw InputError(what + "the expression mixes numbers that have a unit" + (in.empty() ? "" : " (" + in + ")") +
                      " with numbers of the model: divide each by scale_length, scale_time or scale_mass first");
   const bool one = expression.text().find_first_of("+-*/^?<>=&|") == std::string::npos;
   throw InputError(what + "its value is in " + unit_of_scale(definition_, *unit) +

@@ -88,7 +88,7 @@ class Reader {
     for (const auto& [name, node] : table->entries) {
       tree_.check_new_name(name, node.line, "parameter");
       if (tree_.is_parameter(name))
-        tree_.fail(node.line, "parameter " + in_quotes(name), "this is what expressions call the value of [scale]");
+        tree_.fail(node.line, "parameter " + in_quotes(name), "expressions call the value of [scale] by this name");
       tree_.know_parameter(name);
     }
     for (const auto& [name, node] : table->entries) definition_.parameters.push_back(parameter(name, node));
@@ -149,7 +149,7 @@ class Reader {
                      "unknown parameter " + in_quotes(item.text) + suggestion(item.text, tree_.parameters()));
         group.shown.members.push_back(item.text);
       }
-      if (group.shown.members.empty()) tree_.fail(node.line, where, "it is empty");
+      if (group.shown.members.empty()) tree_.fail(node.line, where, "nothing is in it");
       definition_.groups.push_back(std::move(group));
     }
   }
@@ -157,7 +157,7 @@ class Reader {
   void read_scale(const TomlNode& table) {
     tree_.expect(table, Kind::table, "scale");
     tree_.check_keys(table, "scale", scale_keys());
-    if (table.entries.empty()) tree_.fail(table.line, "scale", "it is empty");
+    if (table.entries.empty()) tree_.fail(table.line, "scale", "nothing is in it");
     for (const auto& [name, node] : table.entries) {
       const std::string where = "scale: " + name;
       tree_.expect(node, Kind::table, where);
@@ -176,7 +176,7 @@ class Reader {
 
   void read_start(const TomlNode& table, const std::vector<std::string>& states) {
     tree_.expect(table, Kind::table, "start");
-    if (states.empty()) tree_.fail(1, "model", "it has no coordinates");
+    if (states.empty()) tree_.fail(1, "model", "the model has no coordinates");
     tree_.check_keys(table, "start", states);
     for (const auto& [name, node] : table.entries)
       definition_.start.emplace_back(name, tree_.scalar(node, "start: " + name));

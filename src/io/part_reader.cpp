@@ -63,7 +63,7 @@ class PartReader {
         tree_.fail(part.line, "coordinate " + in_quotes(part.name),
                    "this name is reserved (it is a column of tables, or the surroundings)");
       if (Expression::reserves(part.name))  // an observable could not name it
-        tree_.fail(part.line, "coordinate " + in_quotes(part.name), "this is the name of a function or constant");
+        tree_.fail(part.line, "coordinate " + in_quotes(part.name), "a function or constant has this name");
       coordinates_.push_back(part.name);
       names_only.coordinates.push_back({part.name, 1.0});
     }
@@ -212,7 +212,7 @@ class PartReader {
       if (const auto* bent = node.find(key); bent != nullptr)
         demand_one_home(part, bent->line, where + ": " + key, "the corners");
     if (node.find("clearance_lower") != nullptr && !part.flag("two_sided"))
-      tree_.fail(node.find("clearance_lower")->line, where + ": clearance_lower", "it needs two_sided = true");
+      tree_.fail(node.find("clearance_lower")->line, where + ": clearance_lower", "this key needs two_sided = true");
     return part;
   }
 
@@ -255,11 +255,11 @@ class PartReader {
         continue;
       }
       if (const std::string other = first_present(node, field.instead_of); !other.empty())
-        tree_.fail(value->line, place, "it stands in place of " + in_quotes(other) + ": give one of the two");
+        tree_.fail(value->line, place, "this key stands in place of " + in_quotes(other) + ": give one of the two");
       if (!field.needs.empty() && first_present(node, field.needs).empty())
         tree_.fail(value->line, place,
-                   "it belongs to a " + in_quotes(std::string(field.needs.substr(0, field.needs.find('|')))) +
-                       ", and there is none");
+                   "this key belongs to a " + in_quotes(std::string(field.needs.substr(0, field.needs.find('|')))) +
+                       ", and the part has no such key");
       read_value(node, rule, field, *value, where, part);
     }
   }
@@ -324,13 +324,13 @@ class PartReader {
       else
         part.load.emplace_back(key, tree_.scalar(node, where + ": " + key));
     }
-    if (table.entries.empty()) tree_.fail(table.line, where, "it is empty");
+    if (table.entries.empty()) tree_.fail(table.line, where, "nothing is in it");
   }
 
   std::vector<Part> harmonics(const TomlNode& list, const std::string& where) const {
     tree_.expect(list, TomlNode::Kind::list, where);
     tree_.check_count(list, list.items.size(), where);
-    if (list.items.empty()) tree_.fail(list.line, where, "it is empty");
+    if (list.items.empty()) tree_.fail(list.line, where, "nothing is in it");
     std::vector<Part> parts;
     for (const auto& item : list.items) {
       const auto each = where + " " + std::to_string(parts.size() + 1);
@@ -374,7 +374,7 @@ class PartReader {
         tree_.fail(node.line, where, in_quotes(node.text) + " is a base: its motion is given, a force cannot change it");
       return base_end(static_cast<int>(base - bases_.begin()));
     }
-    if (coordinates_.empty()) tree_.fail(1, "model", "it has no coordinates");
+    if (coordinates_.empty()) tree_.fail(1, "model", "the model has no coordinates");
     auto known = coordinates_;
     if (rule.ends != Ends::on) known.insert(known.end(), bases_.begin(), bases_.end());
     known.emplace_back("ground");

@@ -19,7 +19,7 @@ std::string read_file(const std::string& path, const std::string& what, std::siz
   const auto status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) throw StorageError(where + "no such file");
   if (error) throw StorageError(where + error.message());
-  if (std::filesystem::is_directory(status)) throw StorageError(where + "this is a folder");
+  if (std::filesystem::is_directory(status)) throw StorageError(where + "a folder, not a file");
   if (!std::filesystem::is_regular_file(status)) throw StorageError(where + "not a regular file");
   const auto size = std::filesystem::file_size(path, error);
   std::ifstream in(path, std::ios::binary);

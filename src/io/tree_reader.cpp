@@ -54,7 +54,7 @@ void TreeReader::check_new_name(const std::string& name, int line, const std::st
   if (!plain)
     fail(line, what + " " + in_quotes(name), "a name is 1 to 64 letters, digits and '_', beginning with a letter");
   if (Expression::reserves(name))
-    fail(line, what + " " + in_quotes(name), "this is the name of a function or constant");
+    fail(line, what + " " + in_quotes(name), "a function or constant has this name");
 }
 
 std::string TreeReader::text(const TomlNode& table, const char* key, const std::string& where) const {

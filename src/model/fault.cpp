@@ -141,7 +141,7 @@ Found check_signal(const Signal& signal, int index, std::set<std::string>& used)
   Check check("signal", index);
   check_name(check, signal.name, used);
   const auto& knots = signal.knots;
-  if (knots.size() < 2) check.fail("points", "it has fewer than two points");
+  if (knots.size() < 2) check.fail("points", "there are fewer than two points");
   for (std::size_t i = 0; i < knots.size(); ++i) {
     const std::string point = "point " + std::to_string(i + 1);
     check.sized((point + ": time").c_str(), knots[i].time);
@@ -167,7 +167,7 @@ void check_normal(Check& check, const NormalForce& normal, const Model& model) {
   if (normal.compliant_stop >= static_cast<int>(model.compliant_stops.size()))
     check.fail("normal_force", "there is no compliant stop " + std::to_string(normal.compliant_stop));
   if (normal.terms.empty() && normal.compliant_stop < 0)
-    check.fail("normal_force", "it is constant: multiply static and kinetic by the constant instead");
+    check.fail("normal_force", "the force is constant: multiply static and kinetic by the constant instead");
 }
 
 Found check_friction(const FrictionContact& friction, int index, const Model& model, std::set<std::string>& used) {
@@ -203,7 +203,7 @@ Found check_stop(const Stop& stop, int index, const Model& model, std::set<std::
       check.fail("restitution", point + assigned("restitution", restitution) + " is outside [0, 1]");
   }
   if (!stop.corners.empty() && stop.corners.front().restitution != stop.restitution)
-    check.fail("restitution", "it is not that of the first corner");
+    check.fail("restitution", "the value is not that of the first corner");
   return check.result();
 }
 
@@ -225,7 +225,7 @@ Found check_characteristic(const Characteristic& one_of, int index, const Model&
   check_name(check, one_of.name, used);
   check.ends(one_of.a, one_of.b, model);
   if (one_of.corners.empty())
-    check.fail("characteristic", "it has no corner: a straight line is a stiffness or a coefficient");
+    check.fail("characteristic", "there is no corner: a straight line is a stiffness or a coefficient");
   for (std::size_t i = 0; i < one_of.corners.size(); ++i) {
     const std::string point = "point " + std::to_string(i + 1);
     check.sized((point + ": position").c_str(), one_of.corners[i].at);
@@ -316,7 +316,7 @@ std::string Fault::place(const Model& model) const {
 }
 
 std::optional<Fault> first_fault(const Model& model) {
-  if (model.coordinates.empty()) return Fault{"model", -1, "coordinate", "it has no coordinates"};
+  if (model.coordinates.empty()) return Fault{"model", -1, "coordinate", "the model has no coordinates"};
   std::set<std::string> states, contacts;
   const bool massive = !model.mass.empty();
   Found fault;

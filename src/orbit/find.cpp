@@ -64,7 +64,7 @@ std::string settled_on(const Settled& settled, bool free, const Spelling& spelli
     case SettleEnd::time:
       return "the time was over before the motion had settled (" + spelling("seconds") + ")";
     case SettleEnd::rest:
-      return "the motion has no more events: it comes to rest, or goes away for ever (classify says which)";
+      return "the motion has no more events: the motion comes to rest, or goes away for ever (classify says which)";
     case SettleEnd::no_cycle:
     case SettleEnd::stopped:
       break;
@@ -148,8 +148,8 @@ std::string tried(const SearchReport& report, const OrbitWish& wish, const Spell
   add(report.other, "to orbits that were not meant");
   if (!part.empty()) text += " (" + part + ")";
   if (report.end == SearchEnd::time)
-    text += "; it ended after " + shown(seconds_of(wish)) + " s (" + spelling("seconds") +
-            "), not by itself: on a faster machine it tries more";
+    text += "; the search ended after " + shown(seconds_of(wish)) + " s (" + spelling("seconds") +
+            "), not by itself: a faster machine tries more";
   return text;
 }
 

@@ -44,7 +44,7 @@ std::vector<OrbitRate> orbit_rates(const Problem& problem, const ModeSet& set, c
   MatrixXd matrix = at.by.leftCols(own) * units.head(own).asDiagonal();
   const VectorXd rows = level_rows(matrix);
   if (!matrix.allFinite() || !(dense::reciprocal_condition(matrix) > singular))
-    throw NumericalError("the orbit has no derivative by a parameter: it is at a fold or one of a family, where the "
+    throw NumericalError("the orbit has no derivative by a parameter: the orbit is at a fold or one of a family, where the "
                          "equations are singular; change a parameter a little");
   std::vector<OrbitRate> rates;
   for (Index j = 0; j < problem.parameters(); ++j) {

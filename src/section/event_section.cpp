@@ -34,7 +34,7 @@ EventChoice parse_event_choice(const std::string& text, const System& system) {
   }
   if (!choice.contact)
     throw InputError("model " + in_quotes(model.name) + " has no contact " + in_quotes(text.substr(colon + 1)) +
-                     (known.empty() ? "" : "; it has " + known));
+                     (known.empty() ? "" : "; the model has " + known));
   return choice;
 }
 

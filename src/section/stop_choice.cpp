@@ -20,7 +20,7 @@ StopChoice::StopChoice(const Model& model, const std::vector<std::string>& names
       continue;
     }
     std::string known;
-    for (const int contact : stops) known += (known.empty() ? "; it has " : ", ") + stop_name(model, contact);
+    for (const int contact : stops) known += (known.empty() ? "; the model has " : ", ") + stop_name(model, contact);
     throw InputError("model " + in_quotes(model.name) + " has no stop " + in_quotes(name) +
                      (known.empty() ? ", nor any other" : known));
   }

@@ -39,7 +39,7 @@ def test_words_and_bounds_that_are_described_are_those_that_are_taken():
         model = ['vibro-impact'] if verb['arguments'] and verb['arguments'][0]['kind'] == 'positional' else []
         for argument in verb['arguments']:
             if argument['kind'] == 'choice':
-                assert 'none of its words' in refused(2, verb['name'], *model, argument['name'], 'no-such-word')
+                assert 'is not one of its words' in refused(2, verb['name'], *model, argument['name'], 'no-such-word')
             if argument['kind'] == 'count':
                 line = refused(2, verb['name'], *model, argument['name'], str(argument['most'] + 1))
                 assert f"[{argument['least']}, {argument['most']}]" in line, (verb['name'], line)
@@ -72,6 +72,57 @@ def test_bash_completes_verbs_options_models_words_and_names():
     assert bash_completes('slapstick diagram vibro-impact --direction b') == ['both']
     assert sorted(bash_completes('slapstick measure vibro-impact --of F_')) == ['F_friction', 'F_stop']
     assert bash_completes('slapstick measure vibro-impact --sensitivity om') == ['omega']
+
+
+def test_bash_completes_a_list_and_an_assignment_and_a_stop():
+    assert bash_completes('slapstick measure vibro-impact --of x1:rms,F_s') == ['x1:rms,F_stop']
+    assert bash_completes('slapstick simulate vibro-impact --set om') == ['omega=']
+    assert bash_completes('slapstick simulate vibro-impact --stop s') == ['stop']
+    assert bash_completes('slapstick curve vibro-impact --params omega,clear') == ['omega,clearance']
+
+
+def shell_or_nothing(command, script):
+    """What a shell prints, or None where it is not installed."""
+    try:
+        done = subprocess.run(command, input=script.encode(), capture_output=True, check=True, timeout=60,
+                              env={**os.environ, 'PATH': os.path.dirname(PROGRAM) + ':' + os.environ['PATH'], 'HOME': os.getcwd()})
+    except FileNotFoundError:
+        print(f'{command[0]} is not here: its completion is not tried', file=sys.stderr)
+        return None
+    return done.stdout.decode()
+
+
+def test_fish_completes_verbs_models_and_names():
+    lines = {'slapstick meas': ['measure'], 'slapstick measure shaken-b': ['shaken-belt'], 'slapstick measure vibro-impact --of F_s': ['F_stop'],
+             'slapstick measure vibro-impact --of x1:rms,F_s': ['x1:rms,F_stop'], 'slapstick simulate vibro-impact --set om': ['omega='],
+             'slapstick simulate vibro-impact --stop s': ['stop'], 'slapstick diagram vibro-impact --direction b': ['both']}
+    for line, wanted in lines.items():
+        found = shell_or_nothing(['fish', '--no-config'], f"slapstick completion fish | source\ncomplete -C '{line}'\n")
+        if found is not None:
+            assert [one.split('\t')[0] for one in found.splitlines()] == wanted, (line, found)
+
+
+def zsh_completes(line):
+    """What an interactive zsh makes of a line at the tab key, or None where zsh is not installed."""
+    script = ('zmodload zsh/zpty\nzpty shell zsh -f -i\n'
+              "zpty -w shell 'PS1=; unsetopt zle_bracketed_paste 2>/dev/null; autoload -Uz compinit; compinit -u -D; source <(slapstick completion zsh)'\n"
+              "zpty -w shell 'show() { print -r -- \"<$BUFFER>\"; exit }; zle -N show; bindkey \"^X\" show; print ready-now'\n"
+              'while zpty -r shell text; do [[ $text == ready-now* ]] && break; done\n'
+              f"zpty -w -n shell $'{line}\\t\\C-x'\n"
+              'while zpty -r shell text; do [[ $text == *\\<*\\>* ]] && print -r -- "$text" && break; done\n')
+    found = shell_or_nothing(['zsh', '-f'], script)
+    return found and re.search(r'<(slapstick [^<>]*)>', found)[1].rstrip()
+
+
+def test_zsh_completes_verbs_models_and_names():
+    lines = {'slapstick meas': 'slapstick measure', 'slapstick measure shaken-b': 'slapstick measure shaken-belt',
+             'slapstick measure vibro-impact --of F_s': 'slapstick measure vibro-impact --of F_stop',
+             'slapstick measure vibro-impact --of x1:rms,F_s': 'slapstick measure vibro-impact --of x1:rms,F_stop',
+             'slapstick simulate vibro-impact --set om': 'slapstick simulate vibro-impact --set omega=',
+             'slapstick simulate vibro-impact --stop s': 'slapstick simulate vibro-impact --stop stop'}
+    for line, wanted in lines.items():
+        found = zsh_completes(line)
+        assert found in (None, wanted), (line, found)
 
 
 def test_scripts_of_zsh_and_fish_are_scripts_where_these_shells_are():

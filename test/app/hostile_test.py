@@ -99,7 +99,7 @@ def test_options_that_are_given_twice_or_without_a_value():
 
 def test_a_curve_has_one_range_for_each_of_its_parameters():
     words = ('curve', 'vibro-impact', '--params')
-    says(refused(2, *words, 'ome\nga,friction', '--range', 'omega=2:3'), "--range: 'omega' is none of --params 'ome\\x0aga,friction'")
+    says(refused(2, *words, 'ome\nga,friction', '--range', 'omega=2:3'), "--range: 'omega' is not one of --params 'ome\\x0aga,friction'")
     says(refused(2, *words, 'omega,\n', '--range', 'omega=2:3'), "--range: give '\\x0a=A:B' too")
     says(refused(2, *words, 'omega,friction', '--range', 'omega=2:3', '--range', 'omega=3:4'), "--range: 'omega' is given twice")
     says(refused(2, *words, 'omega,omega', '--range', 'omega=2:3'), '--params', 'two different parameters')

@@ -50,7 +50,7 @@ def test_a_name_used_twice_is_said_before_what_follows_from_it():
 
 def test_a_file_without_coordinates_is_not_asked_for_their_names():
     for text in (HEAD, HEAD + FORCE, HEAD + '[start]\nx = 1\n'):
-        says(refused(2, 'check', write('n.toml', text)), 'n.toml:1: model: it has no coordinates')
+        says(refused(2, 'check', write('n.toml', text)), 'n.toml:1: model: the model has no coordinates')
 
 
 def test_a_start_behind_a_stop_is_told_how_to_begin_elsewhere():
@@ -90,7 +90,7 @@ def test_a_model_file_that_cannot_be_read_is_status_4():
         says(refused(4, verb, 'nothing.toml'), "'nothing.toml': no such file")
     says(refused(4, 'check', 'no/such/m.toml'), 'no/such/m.toml')
     for folder in ('folder.toml', 'folder', 'folder/', '.', '..'):
-        says(refused(4, 'check', folder), repr(folder), 'this is a folder')
+        says(refused(4, 'check', folder), repr(folder), 'a folder, not a file')
     says(refused(4, 'diagram', 'nothing.toml', '--sweep', 'a=1:2:3'), 'no such file')
     os.mkfifo('pipe.toml')
     says(refused(4, 'check', 'pipe.toml', timeout=10), 'not a regular file')

@@ -30,8 +30,8 @@ def test_a_kind_that_no_contact_can_have_is_refused_with_those_that_it_can():
                             ('engage', 'impact, slip+, slip-, stick, release, graze, chatter')):
         line = refused(2, *words, wrong)
         says(line, '--event', "cannot have '%s'" % wrong.split(':')[0])
-        assert line.endswith('; it can have ' + possible + '\n'), line
-    says(refused(2, *words[:1], 'bilinear-oscillator', *words[2:], 'impact'), 'it can have engage, disengage, separate')
+        assert line.endswith('; the model can have ' + possible + '\n'), line
+    says(refused(2, *words[:1], 'bilinear-oscillator', *words[2:], 'impact'), 'the model can have engage, disengage, separate')
     for right in ('impact', 'impact:stop', 'slip+:friction', 'stick', 'release'):
         good(*words, right, '--set', 'omega=1.5')
 

@@ -33,7 +33,7 @@ def test_an_orbit_that_is_not_stable_has_derivatives_too():
 
 def test_what_has_no_derivative_is_refused_in_a_line():
     of = ('--of', 'x1:rms', '--sensitivity', 'omega')
-    assert 'of a cycle' in refused(2, 'measure', 'vibro-impact', *of, '--periods', '10')
+    assert 'only for a cycle' in refused(2, 'measure', 'vibro-impact', *of, '--periods', '10')
     assert 'settles on none' in refused(2, 'measure', 'vibro-impact', '--set', 'omega=6.69', *of)
     assert "did you mean 'omega'" in refused(2, 'measure', 'vibro-impact', '--of', 'x1:rms', '--sensitivity', 'omga')
     assert '--of' in refused(2, 'orbit', 'vibro-impact', '--orbit', '1-1', '--sensitivity', 'omega')

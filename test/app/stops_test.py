@@ -80,7 +80,7 @@ def test_the_flights_of_one_side_are_those_of_both_added_up():
 def test_every_verb_refuses_an_unknown_stop_and_lists_the_others():
     for verb in (('poincare',), ('classify',), ('diagram', '--sweep', 'omega=1:2:3'), ('simulate', '--plot', 'p.png')):
         words = (verb[0], 'two-sided-rattle', *verb[1:])
-        says(refused(2, *words, '--stop', 'stop'), "--stop: model 'two-sided-rattle' has no stop 'stop'; it has stop_upper, stop_lower")
+        says(refused(2, *words, '--stop', 'stop'), "--stop: model 'two-sided-rattle' has no stop 'stop'; the model has stop_upper, stop_lower")
         refused(2, *words, '--stop', '')
     says(refused(2, 'classify', 'coulomb-oscillator', '--stop', 'friction'), '--stop', 'nor any other')
     says(refused(2, 'simulate', 'two-sided-rattle', '--stop', 'stop_upper'), '--stop', '--plot')

@@ -78,7 +78,7 @@ TEST(Base, refusals_say_what_to_write_instead) {
   EXPECT_EQ(named("amplitude"), at(next) + "base 'amplitude': a parameter has this name");
   EXPECT_EQ(named("ground"),
             at(next) + "base 'ground': this name is reserved (it is a column of tables, or the surroundings)");
-  EXPECT_EQ(named("sin"), at(next) + "base 'sin': this is the name of a function or constant");
+  EXPECT_EQ(named("sin"), at(next) + "base 'sin': a function or constant has this name");
 }
 
 TEST(Base, harmonics_are_checked_one_by_one) {
@@ -88,7 +88,7 @@ TEST(Base, harmonics_are_checked_one_by_one) {
   };
   const std::string at = "f.toml:14: base 'b': harmonics";
   EXPECT_EQ(with("[{ amplitude = 1, harmonic = 3, phase = 'pi' }]"), "accepted");
-  EXPECT_EQ(with("[]"), at + ": it is empty");
+  EXPECT_EQ(with("[]"), at + ": nothing is in it");
   EXPECT_EQ(with("3"), at + ": expected a list, found a number");
   EXPECT_EQ(with("[{ phase = 1 }]"), at + " 1: 'amplitude' is missing");
   EXPECT_EQ(with("[{ amplitude = 1 }, { amplitude = 1, phse = 2 }]"),

@@ -76,7 +76,7 @@ TEST(MatrixFile, every_fault_has_its_line) {
   EXPECT_EQ(market(symmetric + "1 1 1\n1 1 1\n1 1 1\n"), "K.mtx:4: expected the file's end, found '1 1 1'");
   EXPECT_EQ(csv("1,2\n2\n"), "K.csv:2: the row has 1 fields, and the first one has 2");
   EXPECT_EQ(csv("1,\n0,2\n"), "K.csv:1: a number is missing");
-  EXPECT_EQ(csv("1,2\n"), "K.csv:1: the matrix has 1 rows and 2 columns; it must be square, with at most 1000 rows");
+  EXPECT_EQ(csv("1,2\n"), "K.csv:1: the matrix has 1 rows and 2 columns; a matrix is square, with at most 1000 rows");
   EXPECT_EQ(csv("\n"), "K.csv: the file has no row of numbers");
 }
 

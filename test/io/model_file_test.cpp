@@ -187,7 +187,7 @@ TEST(HostileFile, names_that_are_no_regular_file) {
   fs::create_symlink("loop.toml", folder / "loop.toml");
   const auto named = [&](const char* name) { return "storage: model file '" + (folder / name).string() + "': "; };
   EXPECT_EQ(message(folder / "none.toml"), named("none.toml") + "no such file");
-  EXPECT_EQ(message(folder / "folder.toml"), named("folder.toml") + "this is a folder");
+  EXPECT_EQ(message(folder / "folder.toml"), named("folder.toml") + "a folder, not a file");
   EXPECT_EQ(message(folder / "pipe.toml"), named("pipe.toml") + "not a regular file");
   EXPECT_EQ(message(folder / "loop.toml"), named("loop.toml") + "Too many levels of symbolic links");
   EXPECT_EQ(message("vibro-impct"),

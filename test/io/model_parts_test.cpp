@@ -49,7 +49,7 @@ TEST(TwoSided, refusals_name_the_stop_of_the_file) {
     return refusal(two + "[[stop]]\nname = 's'\n" + between + "restitution = 0.5\n" + keys);
   };
   EXPECT_EQ(stop("clearance = 1\nclearance_lower = 1\n"),
-            at(next + 5) + "stop 's': clearance_lower: it needs two_sided = true");
+            at(next + 5) + "stop 's': clearance_lower: this key needs two_sided = true");
   EXPECT_EQ(stop("clearance = 1\ntwo_sided = 1\n"),
             at(next + 5) + "stop 's': two_sided: expected true or false, found a number");
   EXPECT_EQ(stop("clearance = 1\ntwo_sided = true\nclearance_lower = -1\n"),
@@ -123,7 +123,7 @@ TEST(Matrix, entries_by_rows_are_numbers_or_expressions) {
 TEST(Matrix, refusals_name_the_entries) {
   const auto matrix = [](const std::string& text) { return refusal(two + "[matrix]\n" + text); };
   EXPECT_EQ(matrix("stiffness = [[1, 2], [3, 4]]\n"),
-            at(next + 1) + "matrix: stiffness: it is not symmetric: [x2, x1] = 3 differs from [x1, x2] = 2");
+            at(next + 1) + "matrix: stiffness: the matrix is not symmetric: [x2, x1] = 3 differs from [x1, x2] = 2");
   EXPECT_EQ(matrix("damping = [[1, 2]]\n"),
             at(next + 1) + "matrix: damping: expected 2 rows (one per coordinate), found 1");
   EXPECT_EQ(matrix("damping = [[1, 2],\n[1]]\n"),
@@ -139,11 +139,11 @@ TEST(Matrix, refusals_name_the_entries) {
                 "matrix: mass: with the coordinates' masses it is not positive definite: some motion of the "
                 "coordinates up to 'x2' has no positive mass");
   EXPECT_EQ(matrix("mass = [[0, 0], [0, -2]]\n"),
-            at(next - 1) + "coordinate 'x2': it has no mass: its own and its entry of [matrix] mass add up to 0");
+            at(next - 1) + "coordinate 'x2': the coordinate has no mass: its own and its entry of [matrix] mass add up to 0");
   const auto bare = std::string("name='m'\n[[coordinate]]\nname='a'\n");
   EXPECT_EQ(refusal(bare + "[matrix]\nstiffness = [[1]]\n"), at(2) + "coordinate 'a': 'mass' is missing");
   EXPECT_EQ(refusal(bare + "[matrix]\nmass = [[0]]\n"),
-            at(2) + "coordinate 'a': it has no mass: its own and its entry of [matrix] mass add up to 0");
+            at(2) + "coordinate 'a': the coordinate has no mass: its own and its entry of [matrix] mass add up to 0");
 }
 
 TEST(ImpactLaw, words) {

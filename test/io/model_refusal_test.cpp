@@ -41,13 +41,13 @@ TEST(ModelFile, a_polyline_that_is_none_is_named_with_its_point) {
   const std::string spring = good + "[[spring]]\nbetween = ['x1', 'ground']\n", here = "f.toml:8: spring 1: ";
   EXPECT_EQ(refusal(spring), "f.toml:6: spring 1: 'stiffness' is missing");
   EXPECT_EQ(refusal(spring + "characteristic = [[0, 0], [1, 2]]\nstiffness = 3\n"),
-            here + "characteristic: it stands in place of 'stiffness': give one of the two");
+            here + "characteristic: this key stands in place of 'stiffness': give one of the two");
   EXPECT_EQ(refusal(spring + "characteristic = [[0, 0]]\n"),
             here + "characteristic: expected 2 to 100 points [x, force], found 1");
   EXPECT_EQ(refusal(spring + "characteristic = [[0, 0], [1]]\n"),
             here + "characteristic: point 2: expected [x, force], found 1 numbers");
-  EXPECT_EQ(refusal(spring + "stiffness = 1\nslope_above = 2\n").substr(0, 60),
-            "f.toml:9: spring 1: slope_above: it belongs to a 'characteri");
+  EXPECT_EQ(refusal(spring + "stiffness = 1\nslope_above = 2\n").substr(0, 66),
+            "f.toml:9: spring 1: slope_above: this key belongs to a 'characteri");
   for (const char* points : {"[[0, 0], [0, 1], [1, 2]]", "[[0, 0], [1, 1], [0.5, 2]]"})
     EXPECT_NE(refusal(spring + "characteristic = " + points + "\n").find("is not above"), std::string::npos) << points;
   EXPECT_EQ(refusal(spring + "characteristic = [[0, 0], ['m', 1], [1, 2]]\n"),
@@ -61,7 +61,7 @@ TEST(ModelFile, friction_over_the_speed_begins_at_rest) {
   for (const char* points : {"[[0.1, 1], [1, 0.5]]", "[[0, 2], [1, 0.5]]", "[[0, 1], [1, -0.5]]"})
     EXPECT_NE(refusal(dry + "characteristic = " + points + "\n"), "accepted") << points;
   EXPECT_EQ(refusal(dry + "kinetic = 1\ncharacteristic = [[0, 1], [1, 0.5]]\n"),
-            "f.toml:11: friction 'dry': characteristic: it stands in place of 'kinetic': give one of the two");
+            "f.toml:11: friction 'dry': characteristic: this key stands in place of 'kinetic': give one of the two");
 }
 
 TEST(ModelFile, an_interval_of_a_damper_has_an_inside) {
@@ -72,9 +72,9 @@ TEST(ModelFile, an_interval_of_a_damper_has_an_inside) {
   EXPECT_EQ(refusal(damper + "within = [1]\n"), here + "within: expected [from, to], found 1 numbers");
   EXPECT_EQ(refusal(damper + "within = 1\n"), here + "within: expected a list, found a number");
   EXPECT_EQ(refusal(damper + "within = [0, 'n']\n"), here + "within: to: expression 'n': unknown parameter 'n'; known: m");
-  EXPECT_EQ(refusal(damper + "coefficient_outside = 1\n"), here + "coefficient_outside: it belongs to a 'within', and there is none");
+  EXPECT_EQ(refusal(damper + "coefficient_outside = 1\n"), here + "coefficient_outside: this key belongs to a 'within', and the part has no such key");
   EXPECT_EQ(refusal(damper + "characteristic = [[0, 0], [1, 1], [2, 0]]\n"),
-            here + "characteristic: it stands in place of 'coefficient': give one of the two");
+            here + "characteristic: this key stands in place of 'coefficient': give one of the two");
 }
 
 TEST(ModelFile, a_stribeck_law_falls_to_a_friction_that_there_is) {
@@ -91,7 +91,7 @@ TEST(ModelFile, a_stribeck_law_falls_to_a_friction_that_there_is) {
       {"static = 2, kinetic = 1, speed = 1, corners = 2.5", "corners = 2.5 is not a fixed whole number in [1, 100]"}};
   for (const auto& [law, why] : cases) EXPECT_EQ(refusal(friction + "stribeck = { " + law + " }\n"), here + why);
   EXPECT_EQ(refusal(friction + "static = 2\nstribeck = { static = 2, kinetic = 1, speed = 0.5 }\n"),
-            "f.toml:10: friction 'f': stribeck: it stands in place of 'static': give one of the two");
+            "f.toml:10: friction 'f': stribeck: this key stands in place of 'static': give one of the two");
 }
 
 TEST(ModelFile, laws_of_stops_name_the_number_that_is_none) {
@@ -102,10 +102,10 @@ TEST(ModelFile, laws_of_stops_name_the_number_that_is_none) {
               "f.toml:11: compliant_stop 'c': unloading_stiffness = " + std::string(value) +
                   " is outside (0, stiffness]: beyond, each contact would feed energy");
   EXPECT_EQ(refusal(soft + "damping = 1\nunloading_stiffness = 2\n"),
-            "f.toml:12: compliant_stop 'c': unloading_stiffness: it stands in place of 'damping': give one of the two");
+            "f.toml:12: compliant_stop 'c': unloading_stiffness: this key stands in place of 'damping': give one of the two");
   EXPECT_EQ(refusal(soft + "law = 'bound'\n"), "f.toml:11: compliant_stop 'c': law: unknown word 'bound'; did you mean 'bounded'?");
   EXPECT_EQ(refusal(soft + "law = 'bounded'\npulls = true\n"),
-            "f.toml:11: compliant_stop 'c': law: it stands in place of 'pulls': give one of the two");
+            "f.toml:11: compliant_stop 'c': law: this key stands in place of 'pulls': give one of the two");
   const std::string rigid = good + "[[stop]]\nname = 's'\nbetween = ['x1', 'ground']\nclearance = 0\n", key = "restitution_over_speed";
   const std::pair<const char*, const char*> cases[] = {
       {"[[0, 0.5], ['m', 0.4]]", "point 1: speed = 0 is not positive"},
@@ -116,7 +116,7 @@ TEST(ModelFile, laws_of_stops_name_the_number_that_is_none) {
   for (const auto& [points, why] : cases)
     EXPECT_EQ(refusal(rigid + key + " = " + points + "\n"), "f.toml:10: stop 's': " + key + ": " + why);
   EXPECT_EQ(refusal(rigid + "restitution = 0.3\n" + key + " = [[1, 0.5], [2, 0.4]]\n"),
-            "f.toml:11: stop 's': " + key + ": it stands in place of 'restitution': give one of the two");
+            "f.toml:11: stop 's': " + key + ": this key stands in place of 'restitution': give one of the two");
 }
 
 TEST(ModelFile, values_out_of_range_name_parameter_value_and_range) {
@@ -137,7 +137,7 @@ TEST(ModelFile, values_out_of_range_name_parameter_value_and_range) {
 
 TEST(ModelFile, wrong_types_and_missing_keys) {
   EXPECT_EQ(refusal(""), "f.toml:1: model: 'name' is missing");
-  EXPECT_EQ(refusal(head), "f.toml:1: model: it has no coordinates");
+  EXPECT_EQ(refusal(head), "f.toml:1: model: the model has no coordinates");
   EXPECT_EQ(refusal("name = 3\n"), "f.toml:1: model: name: expected a string, found a number");
   EXPECT_EQ(refusal(head + "parameters = 3\n"), "f.toml:2: parameters: expected a table, found a number");
   EXPECT_EQ(refusal(head + "parameters.m = true\n"),
@@ -145,11 +145,11 @@ TEST(ModelFile, wrong_types_and_missing_keys) {
   EXPECT_EQ(refusal(head + "parameters.m = {}\n"), "f.toml:2: parameter 'm': 'value' is missing");
   EXPECT_EQ(refusal(head + "parameters.m = inf\n"), "f.toml:2: parameter 'm': inf is not a finite number");
   EXPECT_EQ(refusal(head + "parameters.sin = 1\n"),
-            "f.toml:2: parameter 'sin': this is the name of a function or constant");
+            "f.toml:2: parameter 'sin': a function or constant has this name");
   EXPECT_EQ(refusal(head + "parameters.'a b' = 1\n"),
             "f.toml:2: parameter 'a b': a name is 1 to 64 letters, digits and '_', beginning with a letter");
   EXPECT_EQ(refusal(head + "[[coordinate]]\nname = 'pi'\nmass = 1\n"),
-            "f.toml:2: coordinate 'pi': this is the name of a function or constant");
+            "f.toml:2: coordinate 'pi': a function or constant has this name");
   EXPECT_EQ(refusal(head + "parameters.x1 = 1\n[[coordinate]]\nname='x1'\nmass=1\n"),
             "f.toml:3: coordinate 'x1': a parameter has the name 'x1'");
   EXPECT_EQ(refusal(head + "[coordinate]\n"), "f.toml:2: coordinate: expected [[coordinate]], found a table");
@@ -172,7 +172,7 @@ TEST(ModelFile, expressions_that_fail_are_named) {
   EXPECT_EQ(refusal(with("1 / m")), "f.toml:5: coordinate 'x': mass: expression '1 / m': its value is inf with m = 0");
   EXPECT_EQ(refusal(with("1 +")).substr(0, 52), "f.toml:5: coordinate 'x': mass: expression '1 +': un");
   EXPECT_EQ(refusal(head + "[parameters]\na = 'b'\nb = 'c + 1'\nc = 'a'\n"),
-            "f.toml:3: parameter 'a': it depends on itself: a -> b -> c -> a");
+            "f.toml:3: parameter 'a': the value depends on itself: a -> b -> c -> a");
   EXPECT_EQ(refusal(head + "parameters.a = '1 / b'\nparameters.b = 0\n"),
             "f.toml:2: parameter 'a': expression '1 / b': its value is inf with b = 0");
 }

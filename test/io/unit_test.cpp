@@ -122,7 +122,7 @@ TEST(Scale, missing_unknown_and_mixed_units_are_refused) {
 TEST(Scale, its_own_keys) {
   const std::string rest = "\n[[coordinate]]\nname = 'x'\nmass = 1\n", length = "length = { value = 1, unit = 'm' }\n";
   const auto scale = [&](const std::string& keys) { return refusal("name = 'm'\n[scale]\n" + keys + rest); };
-  EXPECT_EQ(scale(""), "f.toml:2: scale: it is empty");
+  EXPECT_EQ(scale(""), "f.toml:2: scale: nothing is in it");
   EXPECT_EQ(scale(length), "f.toml:3: scale: 'time' is missing");
   EXPECT_EQ(scale(length + "time = { value = 1, unit = 's' }"), "accepted");
   EXPECT_EQ(scale(length + "time = { value = 1, unit = 'm' }"), "f.toml:4: scale: time: unit 'm' is not one of time");

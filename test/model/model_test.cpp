@@ -87,7 +87,7 @@ TEST(Model, period_and_names) {
 
 TEST(Model, every_refusal_names_part_and_value) {
   const std::vector<std::pair<std::function<void(Model&)>, std::string>> cases = {
-      {[](Model& m) { m.coordinates.clear(); }, "model: it has no coordinates"},
+      {[](Model& m) { m.coordinates.clear(); }, "model: the model has no coordinates"},
       {[](Model& m) { m.coordinates[0].mass = 0.0; }, "coordinate 'x1': mass = 0 is not positive"},
       {[](Model& m) { m.coordinates[1].mass = -1.5; }, "coordinate 'x2': mass = -1.5 is not positive"},
       {[](Model& m) { m.coordinates[1].mass = 5e-324; },
@@ -152,11 +152,11 @@ TEST(Model, refusals_of_compliant_stops_and_matrices) {
       {[](Model& m) {
          m.stiffness = {1, 2, 3, 4};
        },
-       "matrix: stiffness: it is not symmetric: [x2, x1] = 3 differs from [x1, x2] = 2"},
+       "matrix: stiffness: the matrix is not symmetric: [x2, x1] = 3 differs from [x1, x2] = 2"},
       {[](Model& m) {
          m.mass = {0, 0, 0, -10};
        },
-       "coordinate 'x2': it has no mass: its own and its entry of [matrix] mass add up to 0"},
+       "coordinate 'x2': the coordinate has no mass: its own and its entry of [matrix] mass add up to 0"},
       {[](Model& m) {
          m.mass = {9, 10, 10, 0};
        },

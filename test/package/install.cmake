@@ -4,7 +4,7 @@ execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --config ${CONFIG} -
   OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 file(RENAME ${PREFIX}.first ${PREFIX})
 
-file(GLOB_RECURSE scripts ${PREFIX}/*.cmake)
+file(GLOB_RECURSE scripts ${PREFIX}/*.cmake ${PREFIX}/*.pc)
 if(NOT scripts)
   message(FATAL_ERROR "no package files were installed")
 endif()
@@ -33,3 +33,18 @@ file(READ ${installed} installed_schema)
 if(NOT schema STREQUAL installed_schema)
   message(FATAL_ERROR "the installed ${installed} is not models/model.schema.json")
 endif()
+
+# Manual pages and completion, of each program that was installed.
+set(wanted)
+if(EXISTS ${PREFIX}/bin/slapstick)
+  list(APPEND wanted man/man1/slapstick.1 man/man1/slapstick-map.1 bash-completion/completions/slapstick zsh/site-functions/_slapstick
+    fish/vendor_completions.d/slapstick.fish)
+endif()
+if(EXISTS ${PREFIX}/bin/slapstick-verify)
+  list(APPEND wanted man/man1/slapstick-verify.1)
+endif()
+foreach(page IN LISTS wanted)
+  if(NOT EXISTS ${PREFIX}/share/${page})
+    message(FATAL_ERROR "share/${page} was not installed")
+  endif()
+endforeach()

@@ -59,7 +59,7 @@ TEST(EventSection, AnUnknownEventOrContactIsNamedWithWhatThereIs) {
   };
   EXPECT_NE(refusal("stik").find("'stik' is no kind of event; there are impact, slip+"), std::string::npos)
       << refusal("stik");
-  EXPECT_NE(refusal("stick:brake").find("has no contact 'brake'; it has belt"), std::string::npos)
+  EXPECT_NE(refusal("stick:brake").find("has no contact 'brake'; the model has belt"), std::string::npos)
       << refusal("stick:brake");
   EXPECT_EQ(refusal("slip+:belt"), "taken");
 }

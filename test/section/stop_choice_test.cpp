@@ -182,9 +182,9 @@ TEST(StopChoice, AnUnknownNameIsAnsweredWithThoseThereAre) {
     }
     return "";
   };
-  EXPECT_EQ(message(everything(), "wal"), "model 'everything' has no stop 'wal'; it has wall, meet, buffer");
-  EXPECT_EQ(message(everything(), "rub"), "model 'everything' has no stop 'rub'; it has wall, meet, buffer");
-  EXPECT_EQ(message(everything(), ""), "model 'everything' has no stop ''; it has wall, meet, buffer");
+  EXPECT_EQ(message(everything(), "wal"), "model 'everything' has no stop 'wal'; the model has wall, meet, buffer");
+  EXPECT_EQ(message(everything(), "rub"), "model 'everything' has no stop 'rub'; the model has wall, meet, buffer");
+  EXPECT_EQ(message(everything(), ""), "model 'everything' has no stop ''; the model has wall, meet, buffer");
   EXPECT_EQ(message(everything(), "buffer"), "");
   Model none = corridor();
   none.stops.clear();

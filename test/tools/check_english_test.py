@@ -16,6 +16,13 @@ CASES = [
     ('a hard turn', {'README.md': 'We saw all but one.\n'}, 'README.md:1: "all but"'),
     ('code', {'README.md': f'```sh\n{LONG}and more. Two.\n```\n\n    {LONG}and more. Two.\n'}, None),
     ('a message', {'README.md': 'A.\n', 'apps/a.cpp': 'fail("there is none, or says so");\n'}, 'apps/a.cpp:1: message with "is none"'),
+    ('a message over two literals', {'README.md': 'A.\n', 'src/a.cpp': f'fail("{LONG}"\n     "and more");\n'}, 'src/a.cpp:1: message of 32 words'),
+    ('a message around a value', {'README.md': 'A.\n', 'src/a.cpp': f'fail("{LONG}" + f(x, y) + " and more");\n'}, 'src/a.cpp:1: message of 32 words'),
+    ('two messages', {'README.md': 'A.\n', 'src/a.cpp': f'fail("{LONG}", "and more");\nfail("{LONG}");\n'}, None),
+    ('a message that names nothing', {'README.md': 'A.\n', 'src/a.hpp': 'fail(name + ": it is wrong");\n'}, 'src/a.hpp:1: what is meant by "it"'),
+    ('a message whose second part names nothing', {'README.md': 'A.\n', 'verify/a.cpp': 'fail("no end; that is wrong");\n'}, 'verify/a.cpp:1: what is meant by "that"'),
+    ('an option of that name', {'README.md': 'A.\n', 'apps/a.cpp': 'add("--which", "the K-th that is met");\n'}, None),
+    ('an example and a script', {'README.md': 'A.\n', 'apps/a.cpp': f'add("So:\\n  it {LONG} {LONG}\\n");\nR"({LONG} {LONG})";\n'}, None),
     ('a comment', {'README.md': 'A.\n', 'src/a.cpp': '// there is none\n'}, None),
     ('no page', {'src/a.cpp': ''}, 'check_english: no page'),
 ]

@@ -174,7 +174,7 @@ def test_coordinate_that_rounding_alone_moves():
     """A body rests at zero, where its contact number is -1/2: of its last bit nothing is said, and the verdict tells."""
     lines = head('still', [1.0], [('spring', 0, -1, 1.0), ('stop', 0, -1, 0.5, 0.5, 'far')], [(0, -1, 0.5, 0.0)]) + [line('start', 0, 0.0, 0.0, 0.0)]
     lines += segment(0, (0, 0.0), 1.0, ['open'], [-0.5], [0.0], CUT)
-    for off, what in ((0.0, None), (2.0 ** -54, '1 coordinate that rounding alone moves'), (2.0 ** -36, 'from where it must be')):
+    for off, what in ((0.0, None), (2.0 ** -54, '1 coordinate moved by rounding alone'), (2.0 ** -36, 'from where it must be')):
         p, u = -0.5 + off * math.cos(1.0), -off * math.sin(1.0)
         moved = lines + segment(1, (1, 0.0), 1.0, ['open'], [-0.5 + off], [0.0], CUT) + done(2, (2, 0.0), [p], [u])
         if off == 0.0:
@@ -191,7 +191,7 @@ def test_coordinate_beside_a_far_stop():
     lines += segment(0, (0, 0.0), 1.0, ['open'], [-1024.5], [0.0], CUT)
     moved = lambda off: lines + segment(1, (1, 0.0), 1.0, ['open'], [-1024.5 + off], [0.0], CUT) + done(2, (2, 0.0), [-1024.5 + off], [0.0])
     proved(moved(2.0 ** -42))
-    proved_but_for(moved(2.0 ** -40), '1 coordinate that rounding alone moves')
+    proved_but_for(moved(2.0 ** -40), '1 coordinate moved by rounding alone')
     refused(moved(2.0 ** -38), 'coordinate 0 jumps by')
 
 

@@ -105,7 +105,7 @@ def test_event_that_is_hidden():
 
 def test_contact_that_is_in_another_state():
     refused(forged(motions.dead_ball(), 'segment', {5: 'open'}, 1), 'gap of stop floor: fails at once', 'its derivative of order 2 is -1')
-    refused(forged(motions.touching(), 'segment', {5: 'closed'}, 1), 'push of stop ceiling: fails at the start: it is -1')
+    refused(forged(motions.touching(), 'segment', {5: 'closed'}, 1), 'push of stop ceiling: fails at the start: the value is -1')
     refused(forged(motions.ball(), 'segment', {5: 'closed'}), 'stop floor is not at rest where it is called closed')
     refused(forged(motions.released(), 'segment', {5: 'slip+'}), 'slip of friction contact belt: fails at once')
     refused(forged(motions.released(), 'segment', {5: 'slip-'}, 1), 'slip of friction contact belt: fails at once')
@@ -209,7 +209,7 @@ def test_choice_of_the_mode():
 
 
 def test_share_of_redundant_forces():
-    refused(forged(motions.loop(), 'friction', {4: 0.4375, 5: 0.25}), 'hold of friction contact f01: fails at the start: it is -0.0625')
+    refused(forged(motions.loop(), 'friction', {4: 0.4375, 5: 0.25}), 'hold of friction contact f01: fails at the start: the value is -0.0625')
     proved(forged(motions.loop(), 'friction', {4: 0.5625, 5: 0.25}))
 
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "base/ranges.hpp"
 #include "base/text.hpp"
 #include "slapstick/continuation/sentences.hpp"
 
@@ -165,60 +164,17 @@ std::string branch_table(const std::vector<orbit::Branch>& branches, const Follo
   return text;
 }
 
-namespace {
-
-/// Follows what is born at special points, each branch once, and one of each two that are images of one another.
-class Descent {
- public:
-  Descent(const orbit::Problem& problem, std::vector<orbit::Branch>& branches, const orbit::ContinuationOptions& how)
-      : problem_(problem), branches_(branches), how_(how) {}
-
-  /// @returns true if there is a branch more
-  /// @param images  the branch whose image it is, if it is one, is added
-  bool follow(const orbit::Orbit& start, std::vector<std::size_t>& images) {
-    if (start.values[0] < how_.from || start.values[0] > how_.to || known(start, images)) return false;
-    orbit::Branch branch = orbit::follow(problem_, start, how_);
-    if (known(typical(branch), images)) return false;
-    branches_.push_back(std::move(branch));
-    return true;
-  }
-
- private:
-  /// The orbit that Newton's method knows best: the most stable one, away from where branches meet.
-  static const orbit::Orbit& typical(const orbit::Branch& branch) {
-    const auto largest = [](const orbit::Solution& point) {
-      return point.multipliers.empty() ? 0.0 : std::abs(point.multipliers.front());
-    };
-    return ranges::min_element(branch.points, {}, largest)->orbit;
-  }
-  bool known(const orbit::Orbit& orbit, std::vector<std::size_t>& images) const {
-    for (std::size_t b = 0; b < branches_.size(); ++b) {
-      if (orbit::lies_on(problem_, branches_[b], orbit)) return true;
-      if (!orbit::image_lies_on(problem_, branches_[b], orbit)) continue;
-      images.push_back(b);
-      return true;
-    }
-    return false;
-  }
-
-  const orbit::Problem& problem_;
-  std::vector<orbit::Branch>& branches_;
-  const orbit::ContinuationOptions& how_;
-};
-
-}  // namespace
-
 Lineage follow_born(const orbit::Problem& problem, std::vector<orbit::Branch>& branches, std::size_t most,
                     const orbit::ContinuationOptions& how) {
   Lineage lineage{std::vector<std::optional<Birth>>(branches.size()), {}};
-  Descent descent(problem, branches, how);
   for (std::size_t b = 0; b < branches.size(); ++b) {
     lineage.images.emplace_back(branches[b].special.size());
     for (std::size_t k = 0; k < branches[b].special.size(); ++k) {
       const Birth here{b, branches[b].special[k].type, branches[b].special[k].value};
       const std::vector<orbit::Orbit> born = branches[b].special[k].born;
       for (const orbit::Orbit& start : born)
-        if (branches.size() < most && descent.follow(start, lineage.images[b][k])) lineage.births.emplace_back(here);
+        if (branches.size() < most && orbit::follow_born(problem, branches, start, how, lineage.images[b][k]))
+          lineage.births.emplace_back(here);
     }
   }
   return lineage;

@@ -1,6 +1,6 @@
 #pragma once
-/// What is computed in one piece: the class of a motion, its spectrum, the branch of its orbit. A worker that must hear
-/// of a newer wish is ended and begun anew.
+/// What is computed in one piece: the class of a motion, and its spectrum. A worker that must hear of a newer wish is
+/// ended and begun anew.
 ///
 /// Results are objects for the page; the keys are those of web/src/protocol.ts. Errors as the library's.
 #include "choice.hpp"
@@ -13,16 +13,5 @@ namespace slapstick::web {
 
 /// The lines of a quantity's cycle, or where there is none its density.
 [[nodiscard]] Json spectrum_of(const Choice& choice, const std::string& quantity, double highest_order);
-
-struct BranchWish {
-  std::string parameter;
-  double from = 0.0, to = 1.0;
-  std::string shown = "w";     ///< as DiagramWish
-  std::string at = "impacts";
-};
-
-/// The branch of the orbit that the motion settles on, with its special points.
-/// @throws NumericalError where the motion settles on no orbit
-[[nodiscard]] Json branch_of(const Choice& choice, const BranchWish& wish);
 
 }  // namespace slapstick::web

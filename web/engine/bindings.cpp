@@ -7,6 +7,7 @@
 
 #include "analysis.hpp"
 #include "bits/report.hpp"
+#include "branch_study.hpp"
 #include "card.hpp"
 #include "chart_job.hpp"
 #include "diagram_job.hpp"
@@ -72,15 +73,30 @@ class Session {
   }
   std::string branch(val model, val wish) {
     return attempt([&] {
-      return branch_of(choice_of(model), {.parameter = wish["parameter"].as<std::string>(),
-                                          .from = wish["from"].as<double>(),
-                                          .to = wish["to"].as<double>(),
-                                          .shown = wish["shown"].as<std::string>(),
-                                          .at = wish["at"].as<std::string>()});
+      study_.reset();
+      const BranchWish how{.parameter = wish["parameter"].as<std::string>(),
+                           .from = wish["from"].as<double>(),
+                           .to = wish["to"].as<double>(),
+                           .shown = wish["shown"].as<std::string>(),
+                           .at = wish["at"].as<std::string>()};
+      study_ = std::make_unique<BranchStudy>(choice_of(model), how, [](long points) {
+        val::global("globalThis").call<void>("followed", static_cast<int>(points));
+      });
+      return study_->branches(0);
     });
   }
-  std::string text(val model) {
-    return attempt([&] { return Json::object().set("text", text_of(choice_of(model))); });
+  std::string born(int branch, int special) {
+    return attempt([&] { return study().follow_born(static_cast<std::size_t>(branch), static_cast<std::size_t>(special)); });
+  }
+  std::string curve(int branch, int special, val wish) {
+    return attempt([&] {
+      return study().curve(static_cast<std::size_t>(branch), static_cast<std::size_t>(special),
+                           {.second = wish["second"].as<std::string>(),
+                            .from = wish["from"].as<double>(),
+                            .to = wish["to"].as<double>(),
+                            .second_from = wish["secondFrom"].as<double>(),
+                            .second_to = wish["secondTo"].as<double>()});
+    });
   }
   std::string bits() {
     return attempt([] {
@@ -122,10 +138,7 @@ class Session {
                                             .y_to = wish["yTo"].as<double>(),
                                             .columns = wish["columns"].as<int>(),
                                             .rows = wish["rows"].as<int>(),
-                                            .first = wish["first"].as<int>(),
-                                            .step = wish["step"].as<int>(),
-                                            .stride = wish["stride"].as<int>(),
-                                            .coarser = wish["coarser"].as<int>(),
+                                            .pixels = emscripten::convertJSArrayToNumberVector<int>(wish["pixels"]),
                                             .periods = wish["periods"].as<int>()});
   }
 
@@ -153,7 +166,13 @@ class Session {
   }
   static val view(const std::vector<double>& numbers) { return val(typed_memory_view(numbers.size(), numbers.data())); }
 
+  BranchStudy& study() {
+    if (study_ == nullptr) throw InputError("there is no branch: follow one first");
+    return *study_;
+  }
+
   std::unique_ptr<Job> job_;
+  std::unique_ptr<BranchStudy> study_;  ///< of the last branch that was asked for
 };
 
 }  // namespace
@@ -167,7 +186,8 @@ EMSCRIPTEN_BINDINGS(slapstick) {
       .function("classify", &Session::classify)
       .function("spectrum", &Session::spectrum)
       .function("branch", &Session::branch)
-      .function("text", &Session::text)
+      .function("born", &Session::born)
+      .function("curve", &Session::curve)
       .function("bits", &Session::bits)
       .function("beginMotion", &Session::begin_motion)
       .function("beginDiagram", &Session::begin_diagram)

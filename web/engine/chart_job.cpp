@@ -7,18 +7,14 @@
 
 namespace slapstick::web {
 
-ChartJob::ChartJob(const Choice& choice, const ChartWish& wish) : choice_(choice), wish_(wish), next_(wish.first) {
+ChartJob::ChartJob(const Choice& choice, const ChartWish& wish) : choice_(choice), wish_(wish) {
   width_ = 6;
 }
 
 bool ChartJob::work(const Deadline& deadline) {
-  const int across = (wish_.columns + wish_.stride - 1) / wish_.stride;
-  const int down = (wish_.rows + wish_.stride - 1) / wish_.stride;
-  for (; next_ < across * down; next_ += wish_.step) {
+  for (; next_ < wish_.pixels.size(); ++next_) {
     if (deadline.passed()) return false;
-    const int column = next_ % across * wish_.stride, row = next_ / across * wish_.stride;
-    const bool known = wish_.coarser > 0 && column % wish_.coarser == 0 && row % wish_.coarser == 0;
-    if (!known) run_pixel(column, row);
+    run_pixel(wish_.pixels[next_] % wish_.columns, wish_.pixels[next_] / wish_.columns);
   }
   return true;
 }

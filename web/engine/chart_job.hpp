@@ -1,5 +1,6 @@
 #pragma once
-/// A tile of a chart: what the motion is at each of its pixels, by a short classification.
+/// Pixels of a chart: what the motion is at each of them, by a short classification. Which pixels are due, and in what
+/// order, is the page's affair (web/src/pixels.ts).
 ///
 /// Rows: index of the pixel in the first parameter, in the second, what it is (`Attractor`; -1 where it failed), n, p
 /// (-1 with a complete chatter), sticking.
@@ -13,9 +14,7 @@ struct ChartWish {
   std::string x, y;  ///< the parameters
   double x_from = 0.0, x_to = 1.0, y_from = 0.0, y_to = 1.0;
   int columns = 2, rows = 2;  ///< of the whole chart
-  int first = 0, step = 1;    ///< pixels first, first + step, .. of the row-by-row numbering
-  int stride = 1;             ///< every so many columns and rows: a coarse chart first
-  int coarser = 0;            ///< pixels on the grid of this stride are left out: they are known
+  std::vector<int> pixels;    ///< numbered row by row
   int periods = 100;          ///< a pixel
 };
 
@@ -31,7 +30,7 @@ class ChartJob : public Job {
 
   Choice choice_;
   ChartWish wish_;
-  int next_ = 0;
+  std::size_t next_ = 0;
 };
 
 }  // namespace slapstick::web

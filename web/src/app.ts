@@ -1,53 +1,28 @@
 // The page: settings in, requests out, views in step. Nothing here computes dynamics.
-import { announce } from "./dom.ts";
+import { fill } from "./fill.ts";
+import { Following } from "./following.ts";
 import { Lane } from "./lane.ts";
-import { sliderRange } from "./numbers.ts";
 import { Editor } from "./panels/editor.ts";
 import { ParametersPanel } from "./panels/parameters.ts";
 import { type Saved, SharePanel } from "./panels/share.ts";
 import { Player } from "./player.ts";
-import type { Branch, Classification, EngineError, Model, ModelCard } from "./protocol.ts";
+import type { Classification, EngineError, Model, ModelCard } from "./protocol.ts";
 import { fromHash, History, isText, type Settings, settingsOf, toHash } from "./settings.ts";
 import { ChartView } from "./views/chart.ts";
 import { DiagramView } from "./views/diagram.ts";
 import { ForcesView, forcesOf } from "./views/forces.ts";
 import { MechanismView } from "./views/mechanism.ts";
 import { MotionViews } from "./views/motion.ts";
-import { instantsOf, SectionView } from "./views/section.ts";
+import { SectionView } from "./views/section.ts";
 import { SpectrumView } from "./views/spectrum.ts";
 import { MotionWindow } from "./window.ts";
 
 /** After a change the quick views follow at once, the long ones when the person rests, in milliseconds. */
 const rest = 220;
 
-/** What the settings leave open, by the model. */
-function fill(draft: Settings, card: ModelCard): void {
-  const { motion, section, diagram, chart } = draft;
-  const known = (name: string, other: string): string => (card.state.includes(name) ? name : other);
-  const at = instantsOf(card)[0]?.value ?? "impacts";
-  motion.x = known(motion.x, card.state[0] ?? "");
-  motion.y = known(motion.y, card.state[1] ?? "");
-  section.at ||= at;
-  const ofImpacts = section.at === "impacts";
-  if (!section.x) section.x = ofImpacts && card.forced ? "phase" : card.state[0] ?? "";
-  if (!section.y) section.y = ofImpacts ? "w" : card.state[1] ?? "";
-  const first = card.parameters.find(({ name }) => name === "omega") ?? card.parameters[0];
-  if (!diagram.parameter && first) {
-    const [from, to] = sliderRange(first.value, Number(first.min), Number(first.max));
-    Object.assign(diagram, { parameter: first.name, from: first.minOpen && from === first.min ? to / 100 : from, to });
-  }
-  diagram.at ||= at;
-  diagram.shown ||= diagram.at === "impacts" ? "w" : card.state[0] ?? "";
-  if (!chart.x) Object.assign(chart, { x: diagram.parameter, xFrom: diagram.from, xTo: diagram.to });
-  const second = card.parameters.find(({ name, expression }) => name !== chart.x && !expression);
-  if (!chart.y && second) {
-    const [yFrom, yTo] = sliderRange(second.value, Number(second.min), Number(second.max));
-    Object.assign(chart, { y: second.name, yFrom: second.minOpen && yFrom === second.min ? yTo / 100 : yFrom, yTo });
-  }
-}
-
 export interface Listeners {
   settings(settings: Settings, card: ModelCard): void;
+  played(playing: boolean): void;
   classified(text: string, detail: string): void;
   failed(message: string): void;
 }
@@ -62,6 +37,7 @@ export class App {
   readonly spectrum: SpectrumView;
   readonly forces: ForcesView;
   readonly chart: ChartView;
+  private readonly following: Following;
   readonly parameters: ParametersPanel;
   readonly editor: Editor;
   readonly share = new SharePanel();
@@ -80,11 +56,15 @@ export class App {
 
   constructor(first: Settings, private readonly listeners: Listeners) {
     this.history = new History(first);
-    this.player = new Player(() => this.frame(), () => this.goOn(), () => this.showWindow());
+    this.player = new Player(() => this.frame(), () => this.goOn(), () => this.showWindow(), () => this.listeners.played(this.player.playing));
     this.mechanism = new MechanismView(this.player, (state, over) => this.start(state, over));
     this.motion = new MotionViews(this.player, (axis, name) => this.change("phase", (draft) => { draft.motion[axis] = name; }));
     this.section = new SectionView(this.lanes.section, (edit) => this.change("section", (draft) => edit(draft.section)));
-    this.diagram = new DiagramView((value, state) => this.goTo(value, state));
+    this.diagram = new DiagramView({
+      go: (value, state, unstable) => this.goTo(value, state, unstable),
+      born: (branch, special) => this.following.born(branch, special),
+      curve: (branch, special) => this.following.curve(branch, special, this.model()),
+    });
     this.spectrum = new SpectrumView(this.lanes.spectrum, (name) => this.change("spectrum", (draft) => { draft.spectrum = name; }));
     this.forces = new ForcesView((time) => this.player.seek(time), (names) => this.change("forces", (draft) => { draft.forces = names; }));
     this.chart = new ChartView((x, y) => this.change("chart", (draft) => {
@@ -96,6 +76,7 @@ export class App {
       if (draft.chart.x !== before.x) [draft.chart.xFrom, draft.chart.xTo] = this.rangeOf(draft.chart.x);
       if (draft.chart.y !== before.y) [draft.chart.yFrom, draft.chart.yTo] = this.rangeOf(draft.chart.y);
     }));
+    this.following = new Following(this.lanes.branch, this.history, this.diagram, this.chart);
     this.parameters = new ParametersPanel((name, value) => this.setParameter(name, value), (name, from, to) => this.change("diagram", (draft) => {
       Object.assign(draft.diagram, { parameter: name, from, to });
     }));
@@ -152,18 +133,20 @@ export class App {
     if (over) this.player.play();
   }
 
-  private goTo(value: number, state: number[]): void {
+  /** An unstable orbit is seen only as long as nothing has grown beside it. */
+  private goTo(value: number, state: number[], unstable: boolean): void {
     this.change("diagram click", (draft) => {
       draft.set[draft.diagram.parameter] = value;
       draft.start = state;
-      if (draft.motion.transient === 0 && this.card?.forced) draft.motion.transient = 200;
+      if (unstable) draft.motion.transient = 0;
+      else if (draft.motion.transient === 0 && this.card?.forced) draft.motion.transient = 200;
     });
   }
 
   /** What is not finished is begun anew when the chart is seen again. */
   leaveChart(): void {
     this.chart.stop();
-    if (this.chart.known() < this.history.now.chart.size ** 2) this.drawnFor.chart = "";
+    if (!this.chart.finished) this.drawnFor.chart = "";
   }
 
   rangeOf(name: string): [number, number] {
@@ -172,18 +155,7 @@ export class App {
 
   /** The branch of the present orbit over the diagram, or none again. */
   followBranch(): void {
-    if (this.diagram.hasBranch || this.lanes.branch.isBusy) {
-      this.lanes.branch.cancel();
-      this.diagram.showBranch(undefined);
-      announce("no branch");
-      return;
-    }
-    const { parameter, from, to, shown, at } = this.history.now.diagram;
-    announce("following the orbit through the parameter …");
-    this.lanes.branch.question<Branch>({ verb: "branch", model: this.model(), wish: { parameter, from, to, shown, at } }).then((branch) => {
-      this.diagram.showBranch(branch);
-      announce(`${branch.points.length} orbits and ${branch.special.length} special points. ${branch.ended}`);
-    }, (error: EngineError) => announce(error.message));
+    this.following.branch(this.model());
   }
 
   saved(): Saved[] {
@@ -377,7 +349,7 @@ export class App {
   private classify(model: Model): void {
     this.listeners.classified("…", "being classified");
     this.lanes.class.question<Classification>({ verb: "classify", model, periods: 8000 }).then((found) => {
-      const parts = [found.attractor];
+      const parts = found.attractor === found.label ? [] : [found.attractor];
       if (found.attractor === "periodic" && found.n > 0 && this.card?.forced) parts.push(`${found.n} forcing period${found.n > 1 ? "s" : ""}`, found.chatter === "complete" ? "complete chatter" : `${found.p} impact${found.p === 1 ? "" : "s"}`);
       if (found.sticking) parts.push("with stick");
       if (found.attractor === "chaotic") parts.push(`exponent ${found.exponent.toPrecision(3)} per period`);

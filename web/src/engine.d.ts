@@ -1,15 +1,16 @@
 // The engine as Emscripten gives it (web/engine/bindings.cpp).
 declare module "slapstick-engine" {
-  import type { ChartWish, DiagramWish, Model, MotionWish, SectionWish } from "./protocol.ts";
+  import type { BranchWish, ChartWish, CurveWish, DiagramWish, Model, MotionWish, SectionWish } from "./protocol.ts";
 
   export interface Session {
     card(model: Model): string;
     models(): string;
     blank(name: string): string;
-    text(model: Model): string;
     classify(model: Model, periods: number): string;
     spectrum(model: Model, quantity: string, highestOrder: number): string;
-    branch(model: Model, wish: object): string;
+    branch(model: Model, wish: BranchWish): string;
+    born(branch: number, special: number): string;
+    curve(branch: number, special: number, wish: CurveWish): string;
     bits(): string;
     beginMotion(model: Model, wish: MotionWish): string;
     beginDiagram(model: Model, wish: DiagramWish): string;

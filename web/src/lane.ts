@@ -16,8 +16,9 @@ function engineModule(): Promise<WebAssembly.Module> {
 
 export interface Listener {
   part?(part: Part): void;
-  done?(failure: string, milliseconds: number): void;
-  answer?(answer: never, milliseconds: number): void;
+  points?(count: number): void;
+  done?(failure: string): void;
+  answer?(answer: never): void;
   error?(error: EngineError): void;
 }
 
@@ -53,9 +54,9 @@ export class Lane {
   }
 
   /** The answer of a question. @throws EngineError; never settles if a newer request comes first */
-  question<Answer>(request: Request): Promise<Answer> {
+  question<Answer>(request: Request, points?: (count: number) => void): Promise<Answer> {
     return new Promise((resolve, reject) => {
-      this.ask(request, { answer: (answer) => resolve(answer as Answer), error: reject });
+      this.ask(request, { answer: (answer) => resolve(answer as Answer), error: reject, ...(points ? { points } : {}) });
     });
   }
 
@@ -96,9 +97,13 @@ export class Lane {
       listener.part?.(data.part);
       return;
     }
+    if ("points" in data) {
+      listener.points?.(data.points);
+      return;
+    }
     this.busy = false;
-    if ("done" in data) listener.done?.(data.failure, data.milliseconds);
-    else if ("answer" in data) listener.answer?.(data.answer as never, data.milliseconds);
+    if ("done" in data) listener.done?.(data.failure);
+    else if ("answer" in data) listener.answer?.(data.answer as never);
     else listener.error?.(data.error);
   }
 }

@@ -2,6 +2,7 @@
 import { App } from "./app.ts";
 import { announce, button, choice, element } from "./dom.ts";
 import { Lane } from "./lane.ts";
+import { familyOf } from "./presets.ts";
 import type { ModelCard } from "./protocol.ts";
 import { fromHash, isText, type Settings, settingsOf } from "./settings.ts";
 import { Story } from "./stories.ts";
@@ -47,6 +48,7 @@ class Page {
   constructor(first: Settings) {
     this.app = new App(first, {
       settings: (settings, card) => this.show(settings, card),
+      played: (playing) => this.showPlay(playing),
       classified: (label, detail) => {
         at("#class").textContent = label;
         at("#class-detail").textContent = detail;
@@ -70,7 +72,9 @@ class Page {
   async begin(): Promise<void> {
     const lane = new Lane(), models = await lane.question<{ name: string; summary: string }[]>({ verb: "models" });
     lane.close();
-    this.modelChoice.replaceChildren(...models.map(({ name, summary }) => element("option", { value: name, title: summary }, name)), element("option", { value: "", hidden: true }, "own model"));
+    const families = [...new Set(models.map(({ name }) => familyOf(name)))];
+    this.modelChoice.replaceChildren(...families.map((family) => element("optgroup", { label: family },
+      ...models.filter(({ name }) => familyOf(name) === family).map(({ name, summary }) => element("option", { value: name, title: summary }, name)))), element("option", { value: "", hidden: true }, "own model"));
     await this.app.begin();
     const story = new URLSearchParams(location.search).get("story");
     if (story) this.tell(story);
@@ -90,14 +94,14 @@ class Page {
   }
 
   private transport(): void {
-    const { app } = this, number = (label: string, title: string, read: (settings: Settings) => number, write: (settings: Settings, value: number) => void): HTMLElement => {
+    const { app } = this, number = (label: string, text: string, title: string, read: (settings: Settings) => number, write: (settings: Settings, value: number) => void): HTMLElement => {
       const input = element("input", { type: "text", inputmode: "numeric", "aria-label": title, title, "data-setting": label });
       input.addEventListener("change", () => {
         const value = Math.round(Number(input.value));
         if (Number.isFinite(value) && value >= 0 && value <= 1e6) app.change(label, (draft) => write(draft, value));
         input.value = String(read(app.history.now));
       });
-      return element("label", { class: "small" }, label, input);
+      return element("label", { class: "small" }, text, input);
     };
     const slow = element("button", { type: "button", "aria-pressed": "false", title: "slow motion where impacts are close, through a chatter (l)", id: "slow", click: () => this.slow() }, "Slow at impacts");
     at("#transport").append(
@@ -105,8 +109,8 @@ class Page {
       button("▶❚", "to the next event (.)", () => this.step()),
       choice("speed", [["0.125", "⅛ speed"], ["0.25", "¼ speed"], ["0.5", "½ speed"], ["1", "speed 1"], ["2", "speed 2"], ["4", "speed 4"]].map(([value, text]) => ({ value: value ?? "", text: text ?? "" })), "1", (value) => { app.player.speed = Number(value); }),
       slow,
-      number("window", "length of the window, in periods", ({ motion }) => motion.periods, ({ motion }, value) => { motion.periods = Math.min(Math.max(value, 1), 1000); }),
-      number("after", "periods before the window: the transient that is left out", ({ motion }) => motion.transient, ({ motion }, value) => { motion.transient = value; }),
+      number("window", "periods shown", "length of the window, in periods", ({ motion }) => motion.periods, ({ motion }, value) => { motion.periods = Math.min(Math.max(value, 1), 1000); }),
+      number("after", "after", "periods before the window: the transient that is left out", ({ motion }) => motion.transient, ({ motion }, value) => { motion.transient = value; }),
       this.startChip,
     );
   }
@@ -118,6 +122,7 @@ class Page {
     at("#phase").append(app.motion.phase.host);
     at("#phase-choices").append(app.motion.phaseChoices);
     at("#diagram").append(app.diagram.plot.host);
+    at("#diagram").before(app.diagram.chosen);
     at("#parameters").append(app.parameters.host);
     const carry = element("input", { type: "checkbox", change: () => { app.carryOn = carry.checked; } });
     at("#carry").append(element("label", { title: "a change of a parameter goes on from the present motion, so that an attractor is kept as long as it exists" }, carry, " carry the motion on"));
@@ -189,18 +194,15 @@ class Page {
     const { player } = this.app;
     if (player.playing) player.pause();
     else player.play();
-    this.showPlay();
   }
 
   private step(): void {
     this.app.player.step();
-    this.showPlay();
     const { window: shown, time } = this.app.player, event = shown?.events.find((one) => one.time === time);
     if (event) announce(`${event.kind} at ${this.app.card?.contacts[event.contact]?.name ?? ""}, time ${time.toFixed(4)}`);
   }
 
-  private showPlay(): void {
-    const { playing } = this.app.player;
+  private showPlay(playing: boolean): void {
     this.play.textContent = playing ? "❚❚" : "▶";
     this.play.setAttribute("aria-label", playing ? "pause (space)" : "play (space)");
   }

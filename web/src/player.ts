@@ -27,8 +27,11 @@ export class Player {
    * @param frame  called for every frame while it plays, and after a change
    * @param wants  called when the next window is needed soon
    * @param swapped  called when a window has been taken
+   * @param turned  called when it begins or ends to play
    */
-  constructor(private readonly frame: () => void, private readonly wants: () => void, private readonly swapped: () => void) {}
+  constructor(
+    private readonly frame: () => void, private readonly wants: () => void, private readonly swapped: () => void, private readonly turned: () => void,
+  ) {}
 
   /** A new motion: the playhead stays at its share of the window. */
   show(window: MotionWindow): void {
@@ -49,6 +52,7 @@ export class Player {
   play(): void {
     if (this.playing) return;
     this.playing = true;
+    this.turned();
     this.last = performance.now();
     if (!this.next) this.wants();
     requestAnimationFrame((now) => this.tick(now));
@@ -56,6 +60,7 @@ export class Player {
 
   pause(): void {
     this.playing = false;
+    this.turned();
     this.frame();
   }
 
@@ -68,6 +73,7 @@ export class Player {
   /** To the next event; from the last one to the window that follows. */
   step(): void {
     this.playing = false;
+    this.turned();
     const event = this.window?.events.find(({ time }) => time > this.time + 1e-12);
     if (event) {
       this.time = event.time;

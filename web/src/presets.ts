@@ -47,6 +47,22 @@ const presets: Record<string, Preset> = {
   "sliding-pair": { over: ["stiffness", 0, 2], shown: ["x1", "stick"], section: ["stick", "x1", "x2"], window: [0, 12], ends: true },
 };
 
+const families: Record<string, string[]> = {
+  "Impact and friction": ["vibro-impact", "impact-friction-oscillator", "stick-slip-impact", "friction-rattle"],
+  "Friction: stick and slip": [
+    "belt", "falling-friction", "two-blocks-on-belt", "shaken-belt", "pressed-block", "mode-coupling-brake", "drill-string",
+    "coulomb-oscillator", "sliding-block", "sliding-pair",
+  ],
+  "Impacts": [
+    "impact-oscillator", "shaken-table", "two-sided-rattle", "impact-absorber", "impact-pair", "gear-rattle", "spool", "bouncing-ball", "colliding-blocks",
+  ],
+};
+
+/** Under which head a built-in model stands in the list. */
+export function familyOf(name: string): string {
+  return Object.keys(families).find((family) => families[family]?.includes(name)) ?? "Springs, dampers and others";
+}
+
 export function presetOf(name: string): Settings {
   const { set, over, shown, section, window, phase, chart, ends } = presets[name] ?? {};
   const own = presets[name] !== undefined;

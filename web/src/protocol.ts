@@ -105,10 +105,8 @@ export interface ChartWish {
   yTo: number;
   columns: number;
   rows: number;
-  first: number;
-  step: number;
-  stride: number;
-  coarser: number;
+  /** Row by row. */
+  pixels: number[];
   periods: number;
 }
 
@@ -118,6 +116,14 @@ export interface BranchWish {
   to: number;
   shown: string;
   at: string;
+}
+
+export interface CurveWish {
+  second: string;
+  from: number;
+  to: number;
+  secondFrom: number;
+  secondTo: number;
 }
 
 /** The kinds of EventKind, in its order (flow/motion.hpp). */
@@ -136,10 +142,11 @@ export type Request =
   | { verb: "card"; model: Model }
   | { verb: "models" }
   | { verb: "blank"; name: string }
-  | { verb: "text"; model: Model }
   | { verb: "classify"; model: Model; periods: number }
   | { verb: "spectrum"; model: Model; quantity: string; highestOrder: number }
   | { verb: "branch"; model: Model; wish: BranchWish }
+  | { verb: "born"; branch: number; special: number }
+  | { verb: "curve"; branch: number; special: number; wish: CurveWish }
   | { verb: "bits" };
 
 /** A newer request of a worker cancels the older one; `cancel` alone leaves nothing to do. */
@@ -156,8 +163,10 @@ export interface Part {
 export type FromWorker =
   | { ready: true }
   | { id: number; part: Part }
-  | { id: number; done: true; failure: string; milliseconds: number }
-  | { id: number; answer: unknown; milliseconds: number }
+  /** Points of a branch or curve so far. */
+  | { id: number; points: number }
+  | { id: number; done: true; failure: string }
+  | { id: number; answer: unknown }
   | { id: number; error: EngineError };
 
 export interface Classification {
@@ -167,12 +176,7 @@ export interface Classification {
   p: number;
   chatter: string;
   sticking: boolean;
-  stickingFraction: number;
   exponent: number;
-  exponentError: number;
-  multipliers: [number, number][];
-  periods: number;
-  state: number[];
 }
 
 export interface Spectrum {
@@ -182,9 +186,35 @@ export interface Spectrum {
   height: number[];
 }
 
+export interface SpecialPoint {
+  type: string;
+  value: number;
+  what: string;
+  becomes: string;
+  /** Other branches begin or cross here. */
+  begins: boolean;
+  /** One of many changes that gather at the onset of a chatter, for which the onset stands. */
+  inCascade: boolean;
+  state: number[];
+  shown: number[];
+}
+
 export interface Branch {
-  points: { value: number; stable: boolean; label: string; motion: boolean; shown: number[]; state: number[] }[];
-  special: { type: string; value: number; what: string; becomes: string; shown: number[] }[];
-  failed: boolean;
+  points: { value: number; stable: boolean; label: string; shown: number[]; state: number[] }[];
+  special: SpecialPoint[];
+  /** It ends at the ends of the range. */
+  whole: boolean;
+  ended: string;
+}
+
+/** Where a special point is when a second parameter varies too. */
+export interface Curve {
+  type: string;
+  first: number[];
+  second: number[];
+  /** Is the point an orbit that moves so? 1 or 0. */
+  motion: number[];
+  met: { type: string; what: string; values: number[] }[];
+  whole: boolean;
   ended: string;
 }

@@ -11,6 +11,9 @@ const channel = new MessageChannel();
 let resume: (() => void) | undefined;
 channel.port1.onmessage = () => resume?.();
 
+/** What the engine calls on its way along a branch or curve. */
+Object.assign(globalThis, { followed: (points: number) => { if (points % 10 === 0) send({ id: current, points }); } });
+
 /** Lets messages that have come be handled; a timer would wait 4 ms. */
 function breathe(): Promise<void> {
   return new Promise((resolve) => {
@@ -35,10 +38,11 @@ function answerOf(engine: Session, request: Request): unknown {
     case "card": return read(engine.card(request.model));
     case "models": return read(engine.models());
     case "blank": return read(engine.blank(request.name));
-    case "text": return read(engine.text(request.model));
     case "classify": return read(engine.classify(request.model, request.periods));
     case "spectrum": return read(engine.spectrum(request.model, request.quantity, request.highestOrder));
     case "branch": return read(engine.branch(request.model, request.wish));
+    case "born": return read(engine.born(request.branch, request.special));
+    case "curve": return read(engine.curve(request.branch, request.special, request.wish));
     case "bits": return read(engine.bits());
     default: return undefined;
   }
@@ -64,11 +68,10 @@ function sendPart(engine: Session, id: number): void {
 
 /** A motion is sent whole, so that no half of it is drawn; other jobs as they grow. */
 async function run(engine: Session, id: number, request: Request): Promise<void> {
-  const begun = performance.now();
   const whole = request.verb === "motion" || request.verb === "goOn";
   try {
     if (!begin(engine, request)) {
-      send({ id, answer: answerOf(engine, request), milliseconds: performance.now() - begun });
+      send({ id, answer: answerOf(engine, request) });
       return;
     }
     for (let done = false; !done; ) {
@@ -77,7 +80,7 @@ async function run(engine: Session, id: number, request: Request): Promise<void>
       if (!done) await breathe();
       if (current !== id) return;
     }
-    send({ id, done: true, failure: engine.failure(), milliseconds: performance.now() - begun });
+    send({ id, done: true, failure: engine.failure() });
   } catch (error) {
     const known = error as Partial<EngineError>;
     send({ id, error: { kind: known.kind ?? "bug", place: known.place ?? "", message: known.message ?? String(error) } });

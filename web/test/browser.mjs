@@ -31,6 +31,7 @@ export function launch() {
 /** A page that notes what no page of ours may have: errors, requests to other hosts. */
 export async function open(browser, url, options = {}) {
   const page = await browser.newPage({ viewport: { width: 1440, height: 1000 }, colorScheme: "light", reducedMotion: "reduce", ...options });
+  page.setDefaultTimeout(120000);  // other programs may have the processors
   const faults = [];
   page.on("pageerror", (error) => faults.push(`error: ${error.message}`));
   page.on("console", (message) => {

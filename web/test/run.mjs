@@ -15,10 +15,10 @@ for (const needed of [join(page, "index.html"), program]) {
 }
 const files = (folder) => readdirSync(join(here, folder)).filter((name) => name.endsWith(".test.mjs")).map((name) => join(here, folder, name));
 const chosen = [...files("smoke"), ...(mode === "test-all" ? files("full") : [])];
-let failed = 0;
+const failed = [];
 for (const file of chosen) {  // one after another: each has a browser
-  const { status } = spawnSync(process.execPath, ["--test", file], { stdio: "inherit", env: { ...process.env, EXPLORER_PAGE: resolve(page), SLAPSTICK: program } });
-  failed += status === 0 ? 0 : 1;
+  const { status } = spawnSync(process.execPath, ["--test", "--test-reporter=spec", file], { stdio: "inherit", env: { ...process.env, EXPLORER_PAGE: resolve(page), SLAPSTICK: program } });
+  if (status !== 0) failed.push(file);
 }
-console.log(failed === 0 ? `explorer: ${chosen.length} files of tests passed` : `explorer: ${failed} of ${chosen.length} files failed`);
-process.exit(failed === 0 ? 0 : 1);
+console.log(failed.length === 0 ? `explorer: ${chosen.length} files of tests passed` : `explorer: ${failed.length} of ${chosen.length} files failed, each with its reasons above: ${failed.join(", ")}`);
+process.exit(failed.length === 0 ? 0 : 1);

@@ -101,6 +101,13 @@ struct Cascade {
 /// False without forcing.
 [[nodiscard]] bool image_lies_on(const Problem& problem, const Branch& branch, const Orbit& orbit);
 
+/// Follows the branch through an orbit, one of SpecialPoint::born, and adds it to the branches, unless it is one of
+/// these, the image of one, or outside the range of `options`.
+/// @param images  the branch whose image it is, if it is one, is added
+/// @returns true if there is a branch more
+bool follow_born(const Problem& problem, std::vector<Branch>& branches, const Orbit& born,
+                 const ContinuationOptions& options, std::vector<std::size_t>& images);
+
 struct CurvePoint {
   std::vector<double> values;  ///< of the two parameters
   Solution solution;           ///< is_motion: no other margin than the point's own is used up

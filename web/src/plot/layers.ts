@@ -28,16 +28,22 @@ export type Layer =
   | { kind: "dots"; name: string; x: Numbers; y: Numbers; colour: Colour; size: number; opacity: number }
   /** Spans of x over the whole height, or its lowest part. */
   | { kind: "spans"; name: string; from: number[]; to: number[]; colour: Colour; opacity: number; strip?: [row: number, rows: number] }
-  | { kind: "marks"; name: string; x: number[]; y: number[]; texts: string[]; colour: Colour; shape: "diamond" | "ring" | "tick" }
+  | { kind: "marks"; name: string; x: number[]; y: number[]; texts: string[]; colour: Colour; shape: "diamond" | "tick" }
   | { kind: "stems"; name: string; x: ArrayLike<number>; y: ArrayLike<number>; colour: Colour }
-  /** Cells of a chart: column and row of each, and its colour. */
-  | { kind: "cells"; name: string; columns: number; rows: number; box: Box; colours: (string | undefined)[]; sizes: Uint8Array };
+  /** A chart: a picture with a pixel for each cell, the lowest row last; what the cells are, row by row from the lowest. */
+  | { kind: "cells"; name: string; columns: number; rows: number; box: Box; picture: HTMLCanvasElement; names: readonly string[] };
 
 export interface Box {
   x0: number;
   x1: number;
   y0: number;
   y1: number;
+}
+
+/** Both parameters of a cell. */
+export function cellAt({ box, columns, rows }: Extract<Layer, { kind: "cells" }>, i: number): [number, number] {
+  const share = (k: number, count: number): number => k / Math.max(count - 1, 1);
+  return [box.x0 + share(i % columns, columns) * (box.x1 - box.x0), box.y0 + share(Math.floor(i / columns), rows) * (box.y1 - box.y0)];
 }
 
 /** From numbers to pixels. */
@@ -77,9 +83,8 @@ function pixels(frame: Frame, count: number, x: (i: number) => number, y: (i: nu
   return points;
 }
 
-function drawMark(pen: Pen, shape: "diamond" | "ring" | "tick", x: number, y: number, colour: string, ground: string): void {
-  if (shape === "ring") pen.circle(x, y, 3.5, ground, { colour, width: 1.6 });
-  else if (shape === "diamond") {
+function drawMark(pen: Pen, shape: "diamond" | "tick", x: number, y: number, colour: string, ground: string): void {
+  if (shape === "diamond") {
     pen.fill([x, y - 6, x + 6, y, x, y + 6, x - 6, y], ground);
     pen.fill([x, y - 5, x + 5, y, x, y + 5, x - 5, y], colour);
   } else pen.fill([x - 3.5, y - 7, x + 3.5, y - 7, x, y], colour);
@@ -126,13 +131,8 @@ export function drawLayer(pen: Pen, frame: Frame, layer: Layer, palette: Palette
     case "cells": {
       const { box, columns, rows } = layer;
       const dx = (box.x1 - box.x0) / (columns - 1), dy = (box.y1 - box.y0) / (rows - 1);
-      layer.colours.forEach((colour, i) => {
-        if (colour === undefined) return;
-        const size = layer.sizes[i] as number, column = i % columns, row = Math.floor(i / columns);
-        const x0 = toX(frame, box.x0 + (column - 0.5) * dx), y0 = toY(frame, box.y0 + (row + size - 0.5) * dy);
-        const x1 = toX(frame, box.x0 + (column + size - 0.5) * dx), y1 = toY(frame, box.y0 + (row - 0.5) * dy);
-        pen.rect(Math.floor(x0), Math.floor(y0), Math.ceil(x1) - Math.floor(x0), Math.ceil(y1) - Math.floor(y0), colour);
-      });
+      const x = toX(frame, box.x0 - dx / 2), y = toY(frame, box.y1 + dy / 2);
+      pen.image(layer.picture, x, y, toX(frame, box.x1 + dx / 2) - x, toY(frame, box.y0 - dy / 2) - y);
     }
   }
 }

@@ -26,6 +26,8 @@ export interface Pen {
   dots(points: ArrayLike<number>, colour: string, size: number, opacity: number): void;
   circle(x: number, y: number, radius: number, fill: string | undefined, stroke?: Stroke): void;
   text(x: number, y: number, text: string, style: TextStyle): void;
+  /** A picture of square pixels. */
+  image(picture: HTMLCanvasElement, x: number, y: number, width: number, height: number): void;
   /** What `body` draws is cut to the rectangle. */
   clipped(x: number, y: number, width: number, height: number, body: () => void): void;
 }
@@ -103,6 +105,11 @@ export class CanvasPen implements Pen {
     }
   }
 
+  image(picture: HTMLCanvasElement, x: number, y: number, width: number, height: number): void {
+    this.to.imageSmoothingEnabled = false;
+    this.to.drawImage(picture, x, y, width, height);
+  }
+
   text(x: number, y: number, text: string, { colour, size = 12, anchor = "start", baseline = "middle", turned = false, weight = 400 }: TextStyle): void {
     const to = this.to;
     to.save();
@@ -170,6 +177,10 @@ export class SvgPen implements Pen {
   circle(x: number, y: number, radius: number, fill: string | undefined, stroke?: Stroke): void {
     const line = stroke ? ` stroke="${stroke.colour}" stroke-width="${stroke.width ?? 1.5}"` : "";
     this.parts.push(`<circle cx="${pixel(x)}" cy="${pixel(y)}" r="${pixel(radius)}" fill="${fill ?? "none"}"${line}/>`);
+  }
+
+  image(picture: HTMLCanvasElement, x: number, y: number, width: number, height: number): void {
+    this.parts.push(`<image x="${pixel(x)}" y="${pixel(y)}" width="${pixel(width)}" height="${pixel(height)}" preserveAspectRatio="none" style="image-rendering:pixelated" href="${picture.toDataURL()}"/>`);
   }
 
   text(x: number, y: number, text: string, { colour, size = 12, anchor = "start", baseline = "middle", turned = false, weight = 400 }: TextStyle): void {

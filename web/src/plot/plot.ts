@@ -1,7 +1,7 @@
 // A plot that a person reads and moves about in: axes, layers, zoom, pan, values under the pointer, saving.
 import { element } from "../dom.ts";
 import { short, tickTexts, ticks } from "../numbers.ts";
-import { type Box, drawLayer, extentOf, type Frame, type Hit, type Layer, nearest, toX, toY } from "./layers.ts";
+import { type Box, cellAt, drawLayer, extentOf, type Frame, type Hit, type Layer, nearest, toX, toY } from "./layers.ts";
 import { light, type Palette, palette } from "./palette.ts";
 import { CanvasPen, type Pen, SvgPen } from "./pen.ts";
 
@@ -124,12 +124,16 @@ export class Plot {
 
   /** The numbers of lines and dots, with a column that names them. */
   csv(): string {
-    const rows = [`series,${JSON.stringify(this.xLabel)},${JSON.stringify(this.yLabel)}`];
+    const rows = [`series,${JSON.stringify(this.xLabel)},${JSON.stringify(this.yLabel)}${this.layers.some(({ kind }) => kind === "cells") ? ",class" : ""}`];
     for (const layer of this.layers) {
       if (layer.kind === "line" || layer.kind === "stems" || layer.kind === "marks")
         for (let i = 0; i < layer.x.length; ++i) rows.push(`${JSON.stringify(layer.name)},${String(layer.x[i])},${String(layer.y[i])}`);
       else if (layer.kind === "dots")
         for (let i = 0; i < layer.x.length; ++i) rows.push(`${JSON.stringify(layer.name)},${String(layer.x.at(i))},${String(layer.y.at(i))}`);
+      else if (layer.kind === "cells")
+        layer.names.forEach((name, i) => {
+          if (name !== "") rows.push([JSON.stringify(layer.name), ...cellAt(layer, i).map(String), name].join(","));
+        });
     }
     return `${rows.join("\n")}\n`;
   }

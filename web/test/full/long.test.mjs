@@ -90,20 +90,6 @@ test("200 random moves of random sliders make no error and no leak", async () =>
   await page.close();
 });
 
-test("a branch lies over the diagram, with the doubling where it is known to be", async () => {
-  // x'' = -g + a g sin t on a table with r = 0.5: one bounce a period doubles at a^2 = (pi (1-r)/(1+r))^2 + (2 (1+r^2)/(1+r)^2)^2.
-  const page_ = { diagram: { from: 1.1, to: 1.8, count: 150 } };
-  const { page, faults } = await explorer(browser, server.url, `#model=shaken-table&acceleration=1.3&page=${encodeURIComponent(JSON.stringify(page_))}`);
-  await page.evaluate(() => document.querySelector("#branch").click());
-  await page.waitForFunction(() => window.explorer.diagram.hasBranch, null, { timeout: 120000 });
-  const rows = await page.evaluate(() => window.explorer.diagram.plot.csv().split("\n"));
-  const r = 0.5, doubling = Math.hypot((Math.PI * (1 - r)) / (1 + r), (2 * (1 + r * r)) / (1 + r) ** 2);
-  const special = rows.filter((row) => row.startsWith('"special point"')).map((row) => Number(row.split(",")[1]));
-  assert.ok(special.some((value) => Math.abs(value - doubling) < 1e-9), `${special} and ${doubling}`);
-  assert.deepEqual(faults, []);
-  await page.close();
-});
-
 test("a chart fills in, coarse and then fine, and agrees with the class of the motion", async () => {
   const page_ = { view: "chart", chart: { size: 60 } };
   const { page, faults } = await explorer(browser, server.url, `#model=vibro-impact&omega=2.2&page=${encodeURIComponent(JSON.stringify(page_))}`);

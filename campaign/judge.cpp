@@ -19,9 +19,8 @@ using slapstick::EventKind;
 using slapstick::Motion;
 using slapstick::Outcome;
 
-/// What a value of a guard can be wrong by, in units of its scale, and how deep a graze may be: section 3 of
-/// docs/developers/proofs.md, for Taylor terms that add up to e^2 times the guard.
-constexpr double noise = 0x1p-46, graze_depth = 0x1p-42;
+/// What a value of a guard can be wrong by, in units of its scale (see graze_depth).
+constexpr double noise = 0x1p-46;
 
 /// How a segment ended.
 struct End {
@@ -33,13 +32,18 @@ struct End {
   double time = 0.0;
 };
 
-/// What times can be wrong by where the guard has this slope and curvature.
+}  // namespace
+
 double blur(const Truth& truth, double duration) {
   const double value = noise * truth.scale;
   return 0x1p-49 * duration + 2 * value / (truth.slope + std::sqrt(2 * value * truth.bend) + 1e-300);
 }
 
-/// Order of the zero of a guard at the start; nothing if it is zero within rounding only, or falls.
+double depth(const Truth& truth) {
+  const double dip = truth.bend > 0.0 ? truth.slope * truth.slope / (2 * truth.bend) : INFINITY;
+  return (truth.low ? std::abs(truth.least) : dip) / truth.scale;
+}
+
 std::optional<int> start_order(const ExactFlow& flow, int guard, const double* X) {
   double h = 0.0;
   for (int i = 0; i < flow.size(); ++i) h += flow.column(guard, i)[0] * X[i];
@@ -55,6 +59,8 @@ std::optional<int> start_order(const ExactFlow& flow, int guard, const double* X
   }
   return std::nullopt;
 }
+
+namespace {
 
 /// One segment and its guards.
 class SegmentJudge {
@@ -118,12 +124,6 @@ class SegmentJudge {
       return fault(order > 0 ? verdicts_.doubled : verdicts_.wrong, "false graze", end_.guard, truth);
     }
     if (end_.graze) verdicts_.deepest_graze = std::max(verdicts_.deepest_graze, depth(truth));
-  }
-
-  /// Of the minimum, as a share of the scale; behind a zero that is no minimum, by its slope and curvature.
-  [[nodiscard]] static double depth(const Truth& truth) {
-    const double dip = truth.bend > 0.0 ? truth.slope * truth.slope / (2 * truth.bend) : INFINITY;
-    return (truth.low ? std::abs(truth.least) : dip) / truth.scale;
   }
 
   void note_depth(const Truth& truth) {

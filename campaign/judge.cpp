@@ -19,9 +19,6 @@ using slapstick::EventKind;
 using slapstick::Motion;
 using slapstick::Outcome;
 
-/// What a value of a guard can be wrong by, in units of its scale (see graze_depth).
-constexpr double noise = 0x1p-46;
-
 /// How a segment ended.
 struct End {
   int guard = -1;  ///< -1: no event
@@ -34,8 +31,8 @@ struct End {
 
 }  // namespace
 
-double blur(const Truth& truth, double duration) {
-  const double value = noise * truth.scale;
+double blur(const Truth& truth, double duration, double wrong_by) {
+  const double value = wrong_by * truth.scale;
   return 0x1p-49 * duration + 2 * value / (truth.slope + std::sqrt(2 * value * truth.bend) + 1e-300);
 }
 
@@ -99,7 +96,7 @@ class SegmentJudge {
   /// its minimum.
   [[nodiscard]] bool passed(const Truth& truth) const {
     const double dip = end_.graze && depth(truth) <= graze_depth ? 1.5 * truth.slope / truth.bend : 0.0;
-    return truth.time + dip < end_.time - blur(truth, scene_.duration());
+    return truth.time + dip < end_.time - blur(truth, scene_.duration(), noise);
   }
 
   void judge_event(const Truth& truth, int order) {
@@ -110,7 +107,7 @@ class SegmentJudge {
     if (truth.kind == Kind::touch) return;
     if (truth.kind == Kind::none)
       return fault(order > 0 ? verdicts_.doubled : verdicts_.wrong, "false", end_.guard, truth);
-    const double off = (end_.time - truth.time) / blur(truth, scene_.duration());
+    const double off = (end_.time - truth.time) / blur(truth, scene_.duration(), noise);
     if (off > 1.0) return fault(verdicts_.missed, "late", end_.guard, truth);
     if (off < -1.0) return fault(order > 0 ? verdicts_.doubled : verdicts_.wrong, "early", end_.guard, truth);
     verdicts_.worst_time = std::max(verdicts_.worst_time, std::abs(off));

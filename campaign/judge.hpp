@@ -34,8 +34,11 @@ struct Verdicts {
   [[nodiscard]] bool sound() const { return missed + wrong + doubled + failed == 0; }
 };
 
-/// What times can be wrong by where the guard has this slope and curvature.
-double blur(const Truth& truth, double duration);
+/// What a value of a guard can be wrong by in a motion, in units of its scale (see graze_depth).
+inline constexpr double noise = 0x1p-46;
+/// What times can be wrong by where the guard has this slope and curvature, and its values may be wrong by so much of
+/// its scale.
+double blur(const Truth& truth, double duration, double wrong_by);
 /// Of the guard's minimum, as a share of its scale; behind a zero that is no minimum, by its slope and curvature.
 double depth(const Truth& truth);
 /// How deep a graze may be, in units of a guard's scale: section 3 of docs/developers/proofs.md, for Taylor terms that

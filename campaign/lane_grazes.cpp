@@ -18,6 +18,9 @@ using namespace slapstick;
 
 /// Of times, in periods: more is held against the search.
 constexpr double same = 1e-11;
+/// What a value of a guard can be wrong by in a lane, in units of its scale: rho (4 + z) exp(z) of section 11 of
+/// docs/developers/proofs.md, for the longest window.
+constexpr double lane_noise = 20.0 * 0x1p-53 * (4.0 + 3.875) * 48.2;
 
 struct LaneTally {
   long scenes = 0, starts = 0, near_grazes = 0, in_lanes = 0, agreed = 0, in_noise = 0, unjudged = 0, differ = 0, failed = 0;
@@ -62,8 +65,8 @@ class Difference {
   Difference(Scene& scene, const Start& start, const First& motion, const First& lane, LaneTally& tally)
       : scene_(scene), start_(start), motion_(motion), lane_(lane), tally_(tally) {}
 
-  /// The guard that the start nearly grazes, and the one that the motion has hit: the rate of a gap has its zero where the
-  /// gap has its minimum.
+  /// The guard that the start nearly grazes, and the one that the motion has hit: the rate of a gap has its zero where
+  /// the gap has its minimum.
   void judge() {
     const Motion begun(scene_.system(), start_.state);
     const ExactFlow& flow = scene_.flow(begun.mode_id());
@@ -82,7 +85,7 @@ class Difference {
 
  private:
   [[nodiscard]] bool is_noise(const Truth& truth) const {
-    return depth(truth) <= graze_depth || agree(motion_, lane_, 2.0 * blur(truth, scene_.duration()) / scene_.system().period());
+    return depth(truth) <= graze_depth || agree(motion_, lane_, 2.0 * blur(truth, scene_.duration(), lane_noise) / scene_.system().period());
   }
 
   static std::string text_of(const First& first) {

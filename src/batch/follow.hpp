@@ -64,45 +64,16 @@ class Follow : public Flight<width, n> {
     }
     const int last = at_.slot(block_.filled);
     while (lanes != 0) {
-      Words words;
-      words.next(*this, lanes, modes, size);
-      words.next(*this, lanes, modes, size);
-      words.next(*this, lanes, modes, size);
-      words.copy(block_, last);
-    }
-  }
-
-  /// Words of up to three modes that lanes change to: copied in one pass, each to its lanes.
-  struct Words {
-    const Block::Row* from[3] = {};
-    Mask mine[3];
-    int count = 0;
-
-    /// Takes the lanes of the next mode out of `lanes`.
-    __attribute__((always_inline)) void next(const Follow& follow, unsigned& lanes, const int (&modes)[most_lanes], int size) {
-      if (lanes == 0) return;
       const int mode = modes[__builtin_ctz(lanes)];
       unsigned same = 0;
       for (unsigned left = lanes; left != 0; left &= left - 1)
         if (modes[__builtin_ctz(left)] == mode) same |= left & -left;
       lanes &= ~same;
-      from[count] = follow.block_.all + static_cast<long>(mode) * size;
-      mine[count++] = of(same);
+      const Mask mine = of(same);
+      const Block::Row* const from = block_.all + static_cast<long>(mode) * size;
+      for (int w = 0; w < last; ++w) store<Real>(block_.active[w], choose(mine, load<Real>(from[w]), load<Real>(block_.active[w])));
     }
-
-    __attribute__((always_inline)) void copy(Block& block, int last) const {
-      if (count == 1) {
-        for (int w = 0; w < last; ++w) store<Real>(block.active[w], choose(mine[0], load<Real>(from[0][w]), load<Real>(block.active[w])));
-        return;
-      }
-      const Block::Row* const third = count == 3 ? from[2] : from[1];
-      const Mask of_third = count == 3 ? mine[2] : mine[1];
-      for (int w = 0; w < last; ++w) {
-        const Real two = choose(mine[1], load<Real>(from[1][w]), choose(mine[0], load<Real>(from[0][w]), load<Real>(block.active[w])));
-        store<Real>(block.active[w], choose(of_third, load<Real>(third[w]), two));
-      }
-    }
-  };
+  }
 
   __attribute__((always_inline)) void start_streams() {
     for (int k = 0; k < at_.k; ++k) {

@@ -2,9 +2,11 @@
 ///
 ///     bench_batch omega 2.2 4000        64 runs at omega from slightly different starts
 ///     bench_batch chart 80 300          80 x 80 values of omega 1..6 and friction 0.05..0.3, from rest
+///     bench_batch chart 80 300 0 tangents   with the largest exponent of each run; 0: the widest lanes
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <string_view>
 
 #include "runs.hpp"
 #include "slapstick/io/model_file.hpp"
@@ -38,6 +40,7 @@ int main(int arguments, char** values) {
   sweep::BatchProblem problem;
   problem.threads = 1;
   problem.lanes = arguments > 4 ? std::atoi(values[4]) : 0;
+  problem.plan.exponent = arguments > 5 && std::string_view(values[5]) == "tangents";
   problem.plan.periods = arguments > 3 ? std::atoi(values[3]) : 300;
   if (what == "omega") {
     const double omega = std::atof(values[2]);

@@ -49,6 +49,7 @@ Report run_families(const Options& options);
 Report run_branches(const Options& options);
 Report run_classes(const Options& options);
 Report run_lanes(const Options& options);
+Report run_lane_grazes(const Options& options);
 Report run_peers(const Options& options);
 
 }  // namespace campaign

@@ -19,10 +19,6 @@ using slapstick::EventKind;
 using slapstick::Motion;
 using slapstick::Outcome;
 
-/// What a value of a guard can be wrong by, in units of its scale, and how deep a graze may be: section 3 of
-/// docs/developers/proofs.md, for Taylor terms that add up to e^2 times the guard.
-constexpr double noise = 0x1p-46, graze_depth = 0x1p-42;
-
 /// How a segment ended.
 struct End {
   int guard = -1;  ///< -1: no event
@@ -33,13 +29,18 @@ struct End {
   double time = 0.0;
 };
 
-/// What times can be wrong by where the guard has this slope and curvature.
-double blur(const Truth& truth, double duration) {
-  const double value = noise * truth.scale;
+}  // namespace
+
+double blur(const Truth& truth, double duration, double wrong_by) {
+  const double value = wrong_by * truth.scale;
   return 0x1p-49 * duration + 2 * value / (truth.slope + std::sqrt(2 * value * truth.bend) + 1e-300);
 }
 
-/// Order of the zero of a guard at the start; nothing if it is zero within rounding only, or falls.
+double depth(const Truth& truth) {
+  const double dip = truth.bend > 0.0 ? truth.slope * truth.slope / (2 * truth.bend) : INFINITY;
+  return (truth.low ? std::abs(truth.least) : dip) / truth.scale;
+}
+
 std::optional<int> start_order(const ExactFlow& flow, int guard, const double* X) {
   double h = 0.0;
   for (int i = 0; i < flow.size(); ++i) h += flow.column(guard, i)[0] * X[i];
@@ -55,6 +56,8 @@ std::optional<int> start_order(const ExactFlow& flow, int guard, const double* X
   }
   return std::nullopt;
 }
+
+namespace {
 
 /// One segment and its guards.
 class SegmentJudge {
@@ -93,7 +96,7 @@ class SegmentJudge {
   /// its minimum.
   [[nodiscard]] bool passed(const Truth& truth) const {
     const double dip = end_.graze && depth(truth) <= graze_depth ? 1.5 * truth.slope / truth.bend : 0.0;
-    return truth.time + dip < end_.time - blur(truth, scene_.duration());
+    return truth.time + dip < end_.time - blur(truth, scene_.duration(), noise);
   }
 
   void judge_event(const Truth& truth, int order) {
@@ -104,7 +107,7 @@ class SegmentJudge {
     if (truth.kind == Kind::touch) return;
     if (truth.kind == Kind::none)
       return fault(order > 0 ? verdicts_.doubled : verdicts_.wrong, "false", end_.guard, truth);
-    const double off = (end_.time - truth.time) / blur(truth, scene_.duration());
+    const double off = (end_.time - truth.time) / blur(truth, scene_.duration(), noise);
     if (off > 1.0) return fault(verdicts_.missed, "late", end_.guard, truth);
     if (off < -1.0) return fault(order > 0 ? verdicts_.doubled : verdicts_.wrong, "early", end_.guard, truth);
     verdicts_.worst_time = std::max(verdicts_.worst_time, std::abs(off));
@@ -118,12 +121,6 @@ class SegmentJudge {
       return fault(order > 0 ? verdicts_.doubled : verdicts_.wrong, "false graze", end_.guard, truth);
     }
     if (end_.graze) verdicts_.deepest_graze = std::max(verdicts_.deepest_graze, depth(truth));
-  }
-
-  /// Of the minimum, as a share of the scale; behind a zero that is no minimum, by its slope and curvature.
-  [[nodiscard]] static double depth(const Truth& truth) {
-    const double dip = truth.bend > 0.0 ? truth.slope * truth.slope / (2 * truth.bend) : INFINITY;
-    return (truth.low ? std::abs(truth.least) : dip) / truth.scale;
   }
 
   void note_depth(const Truth& truth) {

@@ -1,6 +1,7 @@
 #pragma once
 /// What the engine says of a motion, held against the truth segment by segment.
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,19 @@ struct Verdicts {
   void add(const Verdicts& other);
   [[nodiscard]] bool sound() const { return missed + wrong + doubled + failed == 0; }
 };
+
+/// What a value of a guard can be wrong by in a motion, in units of its scale (see graze_depth).
+inline constexpr double noise = 0x1p-46;
+/// What times can be wrong by where the guard has this slope and curvature, and its values may be wrong by so much of
+/// its scale.
+double blur(const Truth& truth, double duration, double wrong_by);
+/// Of the guard's minimum, as a share of its scale; behind a zero that is no minimum, by its slope and curvature.
+double depth(const Truth& truth);
+/// How deep a graze may be, in units of a guard's scale: section 3 of docs/developers/proofs.md, for Taylor terms that
+/// add up to e^2 times the guard.
+inline constexpr double graze_depth = 0x1p-42;
+/// The order of the guard's zero at the start; nothing if it is zero within rounding only, or falls.
+std::optional<int> start_order(const ExactFlow& flow, int guard, const double* X);
 
 /// Follows the motion from a start for up to `most_segments` segments and judges each.
 void judge_motion(Scene& scene, const Start& start, Method method, int most_segments, Verdicts& verdicts);

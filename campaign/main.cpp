@@ -17,6 +17,8 @@ const std::vector<Campaign>& campaigns() {
       {"classes", "what classify says, also right beside special points, against orbits and 50 digits", "cases", 10'000,
        run_classes},
       {"lanes", "runs of a batch have the events of a motion", "runs", 100'000, run_lanes},
+      {"lane-grazes", "near-grazes in the lanes of a batch, against a motion and a certain search", "starts", 1'000'000,
+       run_lane_grazes},
       {"families", "error near resonance and near defective matrices", "starts", 1'000, run_families},
   };
   return all;

@@ -11,6 +11,7 @@ tolerances to choose. Errors are InputError (a ValueError), NumericalError and S
 """
 
 from ._attractor import Attractor, Attractors, classify
+from ._batch import Batch, BatchEvents, batch
 from ._branch import Branch, continuation
 from ._certificate import Certificate, certify
 from ._core import InputError, NumericalError, Parameter, Quantity, StorageError
@@ -31,6 +32,8 @@ from ._special import SpecialPoint
 __all__ = [
     "Attractor",
     "Attractors",
+    "Batch",
+    "BatchEvents",
     "Branch",
     "Certificate",
     "Diagram",
@@ -57,6 +60,7 @@ __all__ = [
     "Spectrum",
     "StorageError",
     "__version__",
+    "batch",
     "certify",
     "classify",
     "continuation",

@@ -61,7 +61,7 @@ class Contraction {
     MatrixXd columns = MatrixXd::Zero(2 * d, 2 * n);
     columns.topLeftCorner(d, n) = frame_.dependence;
     columns.bottomRightCorner(d, n) = frame_.dependence;
-    flow::pass_event(motion, columns);
+    flow::pass_event(motion.engine(), columns);
     MatrixXd saltation(2 * n, 2 * n);
     saltation << columns.topRows(n), columns.middleRows(d, n);
     const double determinant = std::abs(dense::determinant(saltation));

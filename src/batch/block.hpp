@@ -21,6 +21,8 @@ struct alignas(64) Block {
   alignas(64) Row impacts, speeds;           ///< number of impacts, and the sum of their speeds
   alignas(64) Row seen;          ///< events of a lane's run that the lane has decided
   int mode[most_lanes];
+  bool tangents;  ///< whether each lane carries a tangent vector ..
+  alignas(64) Row dp[most_coordinates], du[most_coordinates], power;  ///< .. these numbers times 2 to the power
 
   // Words
   alignas(64) Row restitution[most_contacts], let_off[most_contacts], impulse[most_contacts][most_coordinates];
@@ -29,11 +31,12 @@ struct alignas(64) Block {
   const Row* all;       ///< [mode][word]
   const std::uint8_t* ready;  ///< [mode][lane]: whether those words have been made
   Layout layout;
-  const int* harmonic;          ///< Shape::harmonic, cosine, action, open, slots
+  const int* harmonic;          ///< Shape::harmonic, cosine, action, open, slots, still
   const std::uint8_t* cosine;
   const Action* action;
   const std::uint8_t* open;
   const std::uint8_t* slots;
+  const std::uint8_t* still;
 
   // What a call of the kernel leaves
   unsigned occupied;  ///< lanes that have a trajectory
@@ -43,6 +46,7 @@ struct alignas(64) Block {
   unsigned events, cuts, doubtful, wanting;  ///< lanes with an event, at a cut, in doubt, and in want of the words
                                              ///< of modes
   alignas(64) Row at_p[most_coordinates], at_u[most_coordinates];  ///< at the cut
+  alignas(64) Row at_dp[most_coordinates], at_du[most_coordinates];
   alignas(64) Row event_speed;
   int event_mode[most_lanes], event_slot[most_lanes], event_side[most_lanes];  ///< what has ended, and how
   // Work done

@@ -27,9 +27,10 @@ inline constexpr double dropped = 0x1p-54;
 /// coefficients.
 inline constexpr double hull_rounding = 0x1.4p-47;
 
-/// 1/n!, the powers x^n modulo the Chebyshev polynomial of degree 8 (event/hull.hpp), the error of that on [0, 1],
+/// 1/n, 1/n!, the powers x^n modulo the Chebyshev polynomial of degree 8 (event/hull.hpp), the error of that on [0, 1],
 /// and 1/C(7, n).
 struct Tables {
+  double inverse[terms] = {};
   double inverse_factorial[terms + 1] = {};
   double economized[terms][8] = {};
   double error[terms] = {};
@@ -41,6 +42,7 @@ struct Tables {
       if (n > 0) factorial = factorial * static_cast<double>(n);
       inverse_factorial[n] = static_cast<double>(DoubleDouble(1.0) / factorial);
     }
+    for (int n = 1; n < terms; ++n) inverse[n] = 1.0 / n;
     economize();
     double binomial = 1.0;
     for (int n = 0; n < 8; ++n) {

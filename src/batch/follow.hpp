@@ -24,10 +24,10 @@ class Follow : public Flight<width, n> {
     return mask;
   }
 
-  /// The first mode of each lane's candidates that nothing refuses. @returns the lanes that have none
+  /// The first mode of each lane's candidates that nothing refuses, from the streams that `start_streams` has made.
+  /// @returns the lanes that have none
   __attribute__((always_inline)) unsigned follow(unsigned lanes) {
     unsigned refused = 0;
-    start_streams();
     for (int c = 0; lanes != 0; ++c) {
       for (unsigned left = lanes; left != 0; left &= left - 1) {
         const int l = __builtin_ctz(left);
@@ -78,7 +78,7 @@ class Follow : public Flight<width, n> {
   __attribute__((always_inline)) void start_streams() {
     for (int k = 0; k < at_.k; ++k) {
       Real sine, cosine;
-      sine_cosine(fraction_ * static_cast<double>(block_.harmonic[k]), sine, cosine);
+      sine_cosine(fraction_, static_cast<double>(block_.harmonic[k]), sine, cosine);
       const bool turned = block_.cosine[k] != 0;
       stream_[k] = turned ? cosine : sine;
       stream_rate_[k] = turned ? -sine : cosine;

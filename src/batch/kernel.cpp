@@ -15,13 +15,18 @@ constexpr int own_width = 4;
 constexpr int own_width = 1;
 #endif
 
-template <int n>
-__attribute__((noinline)) void run_of(Block& block) {
+template <int n, bool tangents>
+__attribute__((noinline)) void steps(Block& block) {
   for (;;) {
-    Step<own_width, n> step(block);
+    Step<own_width, n, tangents> step(block);
     if (block.starting != 0 && step.begin()) return;
     if (step.run()) return;
   }
+}
+
+template <int n>
+void run_of(Block& block) {
+  return block.tangents ? steps<n, true>(block) : steps<n, false>(block);
 }
 
 void run(Block& block) {

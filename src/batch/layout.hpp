@@ -5,7 +5,6 @@
 
 namespace slapstick::batch {
 
-inline constexpr int program_version = 1;
 inline constexpr int most_coordinates = 4, most_contacts = 4, most_streams = 4, most_slots = 8, most_candidates = 16;
 
 /// Where the words of a mode are. n coordinates, k streams.
@@ -55,7 +54,6 @@ struct Action {
   Jump jump = Jump::leave_it;
   std::int8_t own = 0, sign = 1;
   std::int8_t contact = 0;  ///< in the numbering of Event
-  std::int8_t guard = -1;   ///< of Outline::guards
   std::int8_t stop = 0;     ///< of an impact: which; of let_off: which compliant stop
   std::int8_t candidates = 0;
   std::int16_t candidate[most_candidates] = {};  ///< the modes that may follow, in order of preference

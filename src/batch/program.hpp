@@ -29,7 +29,6 @@ struct Slot {
 
 /// What all parameter values share.
 struct Shape {
-  int version = program_version;
   Layout layout;
   int modes = 0, stops = 0, frictions = 0, compliant = 0;
   std::vector<int> harmonic;      ///< of each stream ..
@@ -38,7 +37,8 @@ struct Shape {
   std::vector<std::uint8_t> slots;  ///< how many each mode has
   std::vector<Action> action;     ///< [mode][slot][side]
   std::vector<std::uint8_t> open;    ///< [mode]: bit by bit, the displacements of open stops that no slot watches
-  std::vector<std::uint8_t> known;   ///< [mode]: whether the three above have been made
+  std::vector<std::uint8_t> still;   ///< [mode]: bit i, a tangent's u_i is zero; bit most_coordinates + i, its p_i
+  std::vector<std::uint8_t> known;   ///< [mode]: whether slots, actions and the two above have been made
 
   std::vector<int> structure;        ///< what `same_shape` compares
 

@@ -2,6 +2,7 @@
 #include "batch/recorder.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace slapstick::batch {
 Instant Recorder::next() const {
@@ -10,9 +11,12 @@ Instant Recorder::next() const {
   return {begin_.period + periods, begin_.fraction};
 }
 
-bool Recorder::look(const mode::Frame& frame, const double* p, const double* u) {
+bool Recorder::look(const mode::Frame& frame, const double* p, const double* u, double growth) {
   const int points = std::max(plan_->points, 1);
-  if (passed_ == 0) impacts = speeds = 0.0;
+  if (passed_ == 0) {
+    impacts = speeds = 0.0;
+    growth_before_ = growth;
+  }
   if (passed_ >= 2) {
     run.end.resize(2 * static_cast<std::size_t>(frame.n));
     frame.leave(p, u, run.end.data());
@@ -25,15 +29,20 @@ bool Recorder::look(const mode::Frame& frame, const double* p, const double* u) 
   if (++passed_ < points + 2) return false;
   run.impacts = static_cast<long>(impacts);
   run.speeds = speeds;
+  if (plan_->exponent) run.exponent = std::isfinite(growth) ? (growth - growth_before_) / plan_->periods : -INFINITY;
   run.done = true;
   return true;
 }
 
-bool follow(flow::Engine& engine, Recorder& recorder, bool to_the_end) {
+bool follow(flow::Engine& engine, Recorder& recorder, EngineTangent* tangent, bool to_the_end) {
   const mode::Frame& frame = engine.system().frame();
   for (;;) {
-    if (engine.advance(recorder.next()) == Outcome::reached_end) {
-      if (recorder.look(frame, engine.extended().data(), engine.extended().data() + frame.d)) return true;
+    const Outcome outcome = engine.advance(recorder.next());
+    if (tangent != nullptr) tangent->follow(engine, outcome);
+    if (outcome == Outcome::reached_end) {
+      if (tangent != nullptr && !recorder.recording() && !std::isfinite(tangent->growth())) tangent->begin(engine);
+      const double growth = tangent != nullptr ? tangent->growth() : 0.0;
+      if (recorder.look(frame, engine.extended().data(), engine.extended().data() + frame.d, growth)) return true;
       continue;
     }
     const Event& event = engine.event();

@@ -2,6 +2,7 @@
 /// What is recorded of a run, whoever carries it on: instants to look at, impacts, points.
 #include <optional>
 
+#include "batch/tangent.hpp"
 #include "flow/engine.hpp"
 #include "slapstick/batch/run.hpp"
 
@@ -16,8 +17,12 @@ class Recorder {
   /// Whether the recording has begun.
   [[nodiscard]] bool recording() const { return passed_ > 0; }
   [[nodiscard]] bool wants_events() const { return plan_->events && recording(); }
-  /// Looks at the state (contact coordinates) at `next`. @returns true if the run is at its end
-  bool look(const mode::Frame& frame, const double* p, const double* u);
+  [[nodiscard]] bool wants_exponent() const { return plan_->exponent; }
+  /// Where the tangent starts from: `growth` is its ln |delta|.
+  void begin_growth(double growth) { growth_before_ = growth; }
+  /// Looks at the state (contact coordinates) at `next`. @param growth  ln |delta| there
+  /// @returns true if the run is at its end
+  bool look(const mode::Frame& frame, const double* p, const double* u, double growth);
   /// An impact of speed w.
   void count(double w) {
     ++impacts;
@@ -32,11 +37,13 @@ class Recorder {
   Instant begin_;
   int passed_;  ///< instants that have been looked at: a recording without a transient has begun
   double impacts_before_ = 0.0;  ///< at the one before
+  double growth_before_ = 0.0;   ///< at the start of the recording
 };
 
 /// Carries a run on by its engine: to its end, or over one event. An impact that may begin a complete chatter is
 /// followed by the next event.
+/// @param tangent  follows too; null if the recorder wants no exponent
 /// @returns true if the run is at its end
-bool follow(flow::Engine& engine, Recorder& recorder, bool to_the_end);
+bool follow(flow::Engine& engine, Recorder& recorder, EngineTangent* tangent, bool to_the_end);
 
 }  // namespace slapstick::batch

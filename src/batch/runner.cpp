@@ -22,6 +22,7 @@ struct Runner::Entry {
   std::vector<double> X;  ///< at the start: p and u
   std::unique_ptr<flow::CompiledSystem> system;
   std::unique_ptr<flow::Engine> engine;
+  std::unique_ptr<EngineTangent> tangent;
   bool stands = false;  ///< whether `engine` stands where the lane went on from
 };
 
@@ -35,7 +36,9 @@ struct Runner::Rows {
   [[nodiscard]] Block::Row* at(std::size_t i) { return &rows[i].numbers; }
 };
 
-Runner::Runner(Queue queue, const Kernel& kernel) : queue_(std::move(queue)), kernel_(kernel), block_(std::make_unique<Block>()) {}
+Runner::Runner(Queue queue, const Kernel& kernel) : queue_(std::move(queue)), kernel_(kernel), block_(std::make_unique<Block>()) {
+  block_->tangents = queue_.plan.exponent;
+}
 
 Runner::~Runner() = default;
 
@@ -80,7 +83,10 @@ std::unique_ptr<Runner::Entry> Runner::next_entry() {
       }
       const flow::CompiledSystem system(entry->model, {});
       flow::Engine engine(system, state, {}, {});
-      follow(engine, recorder, true);
+      EngineTangent tangent(system);
+      tangent.begin(engine);
+      recorder.begin_growth(tangent.growth());
+      follow(engine, recorder, recorder.wants_exponent() ? &tangent : nullptr, true);
       queue_.take(*index, std::move(recorder.run));
       continue;
     } catch (const NumericalError& error) {
@@ -117,16 +123,21 @@ void Runner::make_room(const Entry& entry) {
   block_->action = shape_->action.data();
   block_->open = shape_->open.data();
   block_->slots = shape_->slots.data();
+  block_->still = shape_->still.data();
   block_->filled = 0;
 }
 
 void Runner::start(int l) {
-  const Entry& entry = *entry_[l];
+  Entry& entry = *entry_[l];
   const int n = entry.frame.n;
+  double delta[2 * most_coordinates];
   for (int i = 0; i < n; ++i) {
     block_->p[i][l] = entry.X[static_cast<std::size_t>(i)];
     block_->u[i][l] = entry.X[static_cast<std::size_t>(n + i)];
+    block_->dp[i][l] = delta[i] = first_delta(i);
+    block_->du[i][l] = delta[n + i] = first_delta(n + i);
   }
+  entry.recorder.begin_growth(growth_of({delta, 2 * static_cast<std::size_t>(n)}, 0.0));
   const ModelWords words = model_words(entry.model, entry.frame);
   for (int s = 0; s < most_contacts; ++s) {
     block_->restitution[s][l] = words.restitution[s];
@@ -134,7 +145,7 @@ void Runner::start(int l) {
     for (int i = 0; i < most_coordinates; ++i) block_->impulse[s][i][l] = words.impulse[s][i];
   }
   for (int m = 0; m < shape_->modes; ++m) ready_[static_cast<std::size_t>(m * most_lanes + l)] = 0;
-  block_->seen[l] = block_->fraction[l] = block_->period[l] = block_->tries[l] = block_->impacts[l] = block_->speeds[l] = 0.0;
+  block_->seen[l] = block_->fraction[l] = block_->period[l] = block_->tries[l] = block_->impacts[l] = block_->speeds[l] = block_->power[l] = 0.0;
   block_->scale[l] = 1.0;
   block_->mode[l] = 0;
   block_->start[l] = start_action(entry.model, entry.frame, *shape_, entry.X.data(), entry.X.data() + n);
@@ -169,6 +180,7 @@ void Runner::set_cut(int l) {
 void Runner::look(int l) {
   Recorder& recorder = entry_[l]->recorder;
   if (block_->cut_period[l] < static_cast<double>(recorder.next().period)) return set_cut(l);
+  if (!recorder.recording() && block_->tangents && !std::isfinite(growth_at_cut(l)) && begin_tangent(l)) return;
   double p[most_coordinates], u[most_coordinates];
   for (int i = 0; i < block_->layout.n; ++i) {
     p[i] = block_->at_p[i][l];
@@ -176,10 +188,34 @@ void Runner::look(int l) {
   }
   recorder.impacts = block_->impacts[l];
   recorder.speeds = block_->speeds[l];
-  if (recorder.look(entry_[l]->frame, p, u)) return finish(l);
+  if (recorder.look(entry_[l]->frame, p, u, block_->tangents ? growth_at_cut(l) : 0.0)) return finish(l);
   block_->impacts[l] = recorder.impacts;
   block_->speeds[l] = recorder.speeds;
   set_cut(l);
+}
+
+double Runner::growth_at_cut(int l) const {
+  double delta[2 * most_coordinates];
+  const int n = block_->layout.n;
+  for (int i = 0; i < n; ++i) {
+    delta[i] = block_->at_dp[i][l];
+    delta[n + i] = block_->at_du[i][l];
+  }
+  return growth_of({delta, 2 * static_cast<std::size_t>(n)}, block_->power[l]);
+}
+
+/// A tangent that is lost starts again at the lane's window, and the lane comes to its cut once more.
+/// @returns false if the mode holds all of it still
+bool Runner::begin_tangent(int l) {
+  const int n = block_->layout.n, still = shape_->still[static_cast<std::size_t>(block_->mode[l])];
+  bool moves = false;
+  for (int i = 0; i < n; ++i) {
+    block_->dp[i][l] = (still >> (most_coordinates + i) & 1) != 0 ? 0.0 : first_delta(i);
+    block_->du[i][l] = (still >> i & 1) != 0 ? 0.0 : first_delta(n + i);
+    moves = moves || block_->dp[i][l] != 0.0 || block_->du[i][l] != 0.0;
+  }
+  block_->power[l] = 0.0;
+  return moves;
 }
 
 void Runner::finish(int l) {
@@ -221,7 +257,7 @@ void Runner::ask_engine(int l, bool to_the_end) {
   block_->starting &= ~(1U << l);
   try {
     put_engine(l);
-    if (follow(*entry_[l]->engine, recorder, to_the_end)) return finish(l);
+    if (follow(*entry_[l]->engine, recorder, entry_[l]->tangent.get(), to_the_end)) return finish(l);
     return to_lane(l);
   } catch (const NumericalError& error) {
     recorder.run.failure = error.what();
@@ -249,6 +285,13 @@ void Runner::put_engine(int l) {
   } else if (!entry.stands || entry.engine->time() != now(l)) {
     entry.engine->restart(coordinates, now(l));
   }
+  if (!block_->tangents) return;
+  if (entry.tangent == nullptr) entry.tangent = std::make_unique<EngineTangent>(*entry.system);
+  for (int i = 0; i < n; ++i) {
+    X[i] = block_->dp[i][l];
+    X[n + i] = block_->du[i][l];
+  }
+  entry.tangent->take(coordinates, block_->power[l], *entry.engine);
 }
 
 /// The lane goes on from where its engine stands; in a mode of another structure the engine goes on to the end.
@@ -260,6 +303,11 @@ void Runner::to_lane(int l) {
     block_->p[i][l] = X[static_cast<std::size_t>(i)];
     block_->u[i][l] = X[static_cast<std::size_t>(n + i)];
   }
+  for (int i = 0; i < n && block_->tangents; ++i) {
+    block_->dp[i][l] = entry.tangent->delta()[static_cast<std::size_t>(i)];
+    block_->du[i][l] = entry.tangent->delta()[static_cast<std::size_t>(n + i)];
+    block_->power[l] = entry.tangent->power();
+  }
   const Instant time = entry.engine->time();
   block_->period[l] = static_cast<double>(time.period);
   block_->fraction[l] = time.fraction;
@@ -270,7 +318,7 @@ void Runner::to_lane(int l) {
   entry.stands = true;
   const int mode = static_cast<int>(entry.engine->mode_id());
   if (!make_mode(l, mode)) {
-    (void)follow(*entry.engine, entry.recorder, true);
+    (void)follow(*entry.engine, entry.recorder, entry.tangent.get(), true);
     return finish(l);
   }
   block_->mode[l] = mode;

@@ -61,6 +61,8 @@ class Runner {
   void set_cut(int l);
   void finish(int l);
   [[nodiscard]] Instant now(int l) const;
+  [[nodiscard]] double growth_at_cut(int l) const;
+  [[nodiscard]] bool begin_tangent(int l);
 
   Queue queue_;
   const Kernel& kernel_;

@@ -8,11 +8,13 @@
 namespace slapstick::batch {
 namespace {
 
-/// sin and cos of 2 pi t for |t| <= 1, within 4 units of 2^-53 of one: Taylor's series on an eighth of a turn.
+/// sin and cos of 2 pi j t for 0 <= t <= 1 and a whole j, within 4 units of 2^-53 of one: Taylor's series on an eighth
+/// of a turn. t is split in two, so that j t less its whole turns is rounded as a part of an eighth only.
 template <class Real>
-SLAPSTICK_INLINE void sine_cosine(const Real& t, Real& sine, Real& cosine) {
-  const Real quarter = nearest(t * 4.0);
-  const Real r = (t - quarter * 0.25) * 0x1.921fb54442d18p+2, z = r * r;
+SLAPSTICK_INLINE void sine_cosine(const Real& t, double j, Real& sine, Real& cosine) {
+  const Real high = nearest(t * 0x1p26) * 0x1p-26, turns = high * j, low = (t - high) * j, rest = turns - nearest(turns);
+  const Real quarter = nearest((rest + low) * 4.0);
+  const Real r = ((rest - quarter * 0.25) + low) * 0x1.921fb54442d18p+2, z = r * r;
   Real s = z * -0x1.ae7f3e733b81fp-41 + 0x1.6124613a86d09p-33;
   s = s * z - 0x1.ae64567f544e4p-26;
   s = s * z + 0x1.71de3a556c734p-19;
@@ -113,7 +115,7 @@ struct Window {
     const Real phase = load<Real>(block.fraction), square = scale * scale;
     for (int s = 0; s < at.k; ++s) {
       Real sine, cosine;
-      sine_cosine(phase * static_cast<double>(block.harmonic[s]), sine, cosine);
+      sine_cosine(phase, static_cast<double>(block.harmonic[s]), sine, cosine);
       const Real rate = word(block, Layout::rates + s) * scale, bend = -(rate * rate);
       const bool turned = block.cosine[s] != 0;
       Real even = turned ? cosine : sine, odd = turned ? -(sine * rate) : cosine * rate;

@@ -282,6 +282,7 @@ Shape shape_of(const Model& model, const mode::Frame& frame) {
   shape.slots.resize(modes);
   shape.action.resize(modes * slots * sides);
   shape.open.resize(modes);
+  shape.still.resize(modes);
   shape.known.resize(modes);
   return shape;
 }
@@ -299,6 +300,20 @@ mode::ContactStates states_of(const Shape& shape, int mode) {
   return states;
 }
 
+namespace {
+
+/// The numbers that a mode holds still: velocities of held pairs, displacements of closed stops.
+std::uint8_t held_still(const mode::Outline& outline, const mode::Frame& frame) {
+  unsigned still = 0;
+  for (int i = 0; i < frame.n; ++i)
+    if (outline.steady[static_cast<std::size_t>(i)]) still |= 1U << i;
+  for (std::size_t i = 0; i < frame.stops.size(); ++i)
+    if (outline.states.stops[i] == StopState::closed) still |= 1U << (most_coordinates + frame.stops[i].own);
+  return static_cast<std::uint8_t>(still);
+}
+
+}  // namespace
+
 void add_mode(const Model& model, const mode::Frame& frame, const mode::Outline& outline, const std::vector<SlotRows>& slots, int mode,
               Shape& shape) {
   const auto first = static_cast<std::size_t>(mode) * static_cast<std::size_t>(shape.layout.slots);
@@ -311,13 +326,12 @@ void add_mode(const Model& model, const mode::Frame& frame, const mode::Outline&
     shape.slot[first + s] = slots[s].slot;
     for (std::size_t side = 0; side < sides; ++side)
       if (const int g = slots[s].guard[side]; g >= 0) {
-        Action& action = shape.action[(first + s) * sides + side];
-        action = action_of(model, frame, shape, mode, outline.guards[static_cast<std::size_t>(g)]);
-        action.guard = static_cast<std::int8_t>(g);
+        shape.action[(first + s) * sides + side] = action_of(model, frame, shape, mode, outline.guards[static_cast<std::size_t>(g)]);
       }
   }
   shape.slots[static_cast<std::size_t>(mode)] = static_cast<std::uint8_t>(slots.size());
   shape.open[static_cast<std::size_t>(mode)] = static_cast<std::uint8_t>(open);
+  shape.still[static_cast<std::size_t>(mode)] = held_still(outline, frame);
   shape.known[static_cast<std::size_t>(mode)] = 1;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// One step of all lanes: a flight, then cuts, jumps and the modes that may follow. No lane waits for another.
-#include "batch/follow.hpp"
+#include "batch/carry.hpp"
 
 namespace slapstick::batch {
 namespace {
@@ -10,13 +10,13 @@ constexpr double most_halvings = 6.0;
 /// No window is shorter, in units of the mode's.
 constexpr double least_scale = 0x1p-40;
 
-template <int width, int n>
-class Step : Follow<width, n> {
-  using Base = Follow<width, n>;
+template <int width, int n, bool tangents>
+class Step : Carry<width, n> {
+  using Base = Carry<width, n>;
   using Real = typename Base::Real;
   using Mask = typename Base::Mask;
   using Base::action_, Base::all, Base::at_, Base::block_, Base::doubtful_, Base::fraction_, Base::halve_, Base::follow, Base::impact_, Base::next_, Base::occupied_, Base::of, Base::p_, Base::period_,
-      Base::reached_, Base::slots_, Base::take_words, Base::tried_, Base::u_, Base::window_, Base::winner_, Base::word, Base::x_;
+      Base::reached_, Base::slots_, Base::start_streams, Base::take_words, Base::tried_, Base::u_, Base::window_, Base::winner_, Base::word, Base::x_;
 
  public:
   __attribute__((always_inline)) explicit Step(Block& block) : Base(block) {}
@@ -31,6 +31,7 @@ class Step : Follow<width, n> {
     moved_ = occupied_ & ~halve_ & ~doubtful_;
     reached_ = reached_ & moved_;
     look_at_cuts();
+    if constexpr (tangents) Base::carry(shown_);
     happen();
     keep(tries);
     return (block_.events | block_.cuts | block_.doubtful | block_.wanting) != 0;
@@ -46,9 +47,11 @@ class Step : Follow<width, n> {
     fraction_ = load<Real>(block_.fraction);
     for (unsigned left = block_.starting; left != 0; left &= left - 1) action_[__builtin_ctz(left)] = &block_.start[__builtin_ctz(left)];
     block_.events = block_.cuts = block_.wanting = 0;
+    start_streams();
     block_.doubtful = follow(block_.starting);
-    for (unsigned left = block_.starting & ~(block_.doubtful | block_.wanting); left != 0; left &= left - 1)
-      block_.mode[__builtin_ctz(left)] = next_[__builtin_ctz(left)];
+    const unsigned begun = block_.starting & ~(block_.doubtful | block_.wanting);
+    for (unsigned left = begun; left != 0; left &= left - 1) block_.mode[__builtin_ctz(left)] = next_[__builtin_ctz(left)];
+    if constexpr (tangents) Base::begin_tangents(begun);
     block_.starting = block_.wanting;
     return (block_.doubtful | block_.wanting) != 0;
   }
@@ -60,6 +63,7 @@ class Step : Follow<width, n> {
     const Real period = load<Real>(block_.cut_period), fraction = load<Real>(block_.cut_fraction);
     const Mask cut = moved_ & (less(period, period_) | (equal(period, period_) & less(fraction, fraction_)));
     block_.cuts = bits(cut);
+    shown_ = x_;
     if (block_.cuts == 0) return;
     const Real since = (period - load<Real>(block_.period)) + (fraction - load<Real>(block_.fraction));
     const Real x = smaller(larger(since / (word(Layout::window_periods) * window_.scale), Real{}), x_), inverse = 1.0 / window_.H;
@@ -69,6 +73,7 @@ class Step : Follow<width, n> {
       store<Real>(block_.at_p[i], state[i]);
       store<Real>(block_.at_u[i], state[n + i] * inverse);
     }
+    shown_ = choose(cut, x, x_);
     moved_ = moved_ & ~cut;
     reached_ = reached_ & ~cut;
   }
@@ -80,6 +85,8 @@ class Step : Follow<width, n> {
     if (lanes == 0) return;
     find_actions(lanes);
     speed_ = Real{};
+    start_streams();
+    if constexpr (tangents) Base::leave_mode();
     unsigned refused = untouched(lanes);
     for (unsigned left = lanes; left != 0;) {
       const Action& action = *action_[__builtin_ctz(left)];
@@ -93,6 +100,7 @@ class Step : Follow<width, n> {
       refused |= jump(action, same);
     }
     refused |= follow(lanes & ~refused);
+    if constexpr (tangents) Base::enter_mode(lanes & ~(refused | block_.wanting), next_);
     doubtful_ = doubtful_ | of(refused);
   }
 
@@ -167,6 +175,7 @@ class Step : Follow<width, n> {
                               : u_[j] + load<Real>(block_.impulse[action.stop][j]) * w,
                      u_[j]);
     p_[own] = choose(mine, Real{}, p_[own]);
+    if constexpr (tangents) Base::strike_tangent(action, own, mine);
     struck_ = struck_ | mine;
     return bits(mine & ~less(window_.size * word(Layout::chatter), load<Real>(block_.restitution[action.stop]) * w));
   }
@@ -190,6 +199,7 @@ class Step : Follow<width, n> {
     store<Real>(block_.impacts, choose(hit, load<Real>(block_.impacts) + 1.0, load<Real>(block_.impacts)));
     store<Real>(block_.speeds, choose(hit, load<Real>(block_.speeds) + speed_, load<Real>(block_.speeds)));
     store<Real>(block_.seen, choose(ended, load<Real>(block_.seen) + 1.0, load<Real>(block_.seen)));
+    if constexpr (tangents) Base::keep_tangents(go);
     const unsigned events = bits(ended);
     for (unsigned left = events; left != 0; left &= left - 1) block_.mode[__builtin_ctz(left)] = next_[__builtin_ctz(left)];
     block_.events = events & block_.watched;
@@ -201,6 +211,7 @@ class Step : Follow<width, n> {
 
   Mask moved_, struck_ = of(0);
   Real speed_ = Real{};
+  Real shown_;  ///< where each lane has come to, or its cut
 };
 
 }  // namespace

@@ -48,6 +48,8 @@ void Engine::restart(std::span<const double> coordinates, Instant start) {
   const IeeeArithmetic ieee;
   now_ = start;
   at_instant_ = {};
+  hits_.clear();
+  strikes_.clear();
   pending_.clear();
   later_before_.clear();
   chatter_stop_ = -1;

@@ -121,16 +121,21 @@ void Engine::land(const mode::ContactRow& contact) {
 }
 
 /// The force of a compliant stop has reached zero: made exactly so by the speed of its pair, so that it is not let go
-/// twice. A damper so weak that this would be more than rounding is left as it is.
+/// twice. Where a weak damper would make more than rounding of that, the force's rounding is the displacement's, and
+/// this one is moved.
 void Engine::let_off(int compliant) {
   constexpr double rounding = 0x1p-40;
   const CompliantStop& stop = system_->model().compliant_stops[compliant];
   const mode::ContactRow& row = system_->frame().compliant[compliant];
   double& u = X_.data()[system_->frame().u(row.own)];
   const double exact = -stop.stiffness / stop.damping * X_.data()[row.own];
-  if (!(std::abs(exact - u) <= rounding * std::abs(u))) return;
-  u = exact;
-  system_->frame().match_velocities(row.own, X_.data());
+  if (std::abs(exact - u) <= rounding * std::abs(u)) {
+    u = exact;
+    system_->frame().match_velocities(row.own, X_.data());
+  } else {
+    X_.data()[row.own] = -stop.damping / stop.stiffness * u;
+    system_->frame().match_displacements(row.own, X_.data());
+  }
 }
 
 /// The gap has reached zero: an impact, or a graze without impulse.

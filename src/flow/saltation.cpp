@@ -24,7 +24,7 @@ struct Blow {
 
 class Passage {
  public:
-  explicit Passage(const Motion& motion);
+  explicit Passage(const Engine& engine);
   void carry(Eigen::MatrixXd& tangents);
   void carry_at_once(Eigen::MatrixXd& tangents) const;
 
@@ -41,7 +41,7 @@ class Passage {
   [[nodiscard]] Eigen::VectorXd speeds(const Blow& blow) const;
   [[nodiscard]] Eigen::VectorXd flow(ModeId id, const Eigen::VectorXd& X) const;
 
-  const Motion& motion_;
+  const Engine& engine_;
   const CompiledSystem& system_;
   const mode::Frame& frame_;
   const mode::Mode& before_;
@@ -51,15 +51,15 @@ class Passage {
   Eigen::VectorXd X_;
 };
 
-Passage::Passage(const Motion& motion)
-    : motion_(motion),
-      system_(motion.system().compiled()),
+Passage::Passage(const Engine& engine)
+    : engine_(engine),
+      system_(engine.system()),
       frame_(system_.frame()),
-      before_(system_.mode(motion.segment().mode)),
-      hits_(motion.engine().hits().begin(), motion.engine().hits().end()),
+      before_(system_.mode(engine.segment().mode)),
+      hits_(engine.hits().begin(), engine.hits().end()),
       states_(before_.states()),
-      X_(Eigen::Map<const Eigen::VectorXd>(motion.engine().extended_before().data(), before_.size())) {
-  for (const Motion::Strike& strike : motion.strikes()) {
+      X_(Eigen::Map<const Eigen::VectorXd>(engine.extended_before().data(), before_.size())) {
+  for (const Motion::Strike& strike : engine.strikes()) {
     for (Blow& blow : separated(strike)) blows_.push_back(std::move(blow));
   }
   // The field is continuous at a crossing: nothing happens to a tangent there, but at the edge of a zone.
@@ -141,7 +141,7 @@ void Passage::drop_hits_of_others() {
 
 /// The changes of contact states that belong to the k-th guard.
 void Passage::take_states(std::size_t k) {
-  const ContactStates& final = system_.mode(motion_.mode_id()).states();
+  const ContactStates& final = system_.mode(engine_.mode_id()).states();
   if (k + 1 == hits_.size()) {
     states_ = final;
     return;
@@ -190,7 +190,7 @@ Eigen::VectorXd Passage::flow(ModeId id, const Eigen::VectorXd& X) const {
 void Passage::carry(Eigen::MatrixXd& tangents) {
   if (hits_.empty()) return;
   const int d = frame_.d;
-  const Eigen::Map<const Eigen::VectorXd> after(motion_.engine().extended().data(), before_.size());
+  const Eigen::Map<const Eigen::VectorXd> after(engine_.extended().data(), before_.size());
   for (std::size_t k = 0; k < hits_.size(); ++k) {
     const mode::RowVector& h = before_.guards()[hits_[k]].row;
     const Eigen::VectorXd f_minus = flow(system_.mode_id(states_), X_);
@@ -233,13 +233,13 @@ void push_along(const mode::Frame& frame, const std::vector<int>& rows, const Ei
     block -= push * dense::LeastNorm(D).solve(rates);
 }
 
-void pass_event(const Motion& motion, Eigen::MatrixXd& tangents) {
-  if (motion.engine().hits().empty() && motion.strikes().empty()) return;
-  const bool piled_up = ranges::any_of(motion.strikes(), &Motion::Strike::to_rest);
-  if (motion.engine().hits().empty() || piled_up)
-    Passage(motion).carry_at_once(tangents);
+void pass_event(const Engine& engine, Eigen::MatrixXd& tangents) {
+  if (engine.hits().empty() && engine.strikes().empty()) return;
+  const bool piled_up = ranges::any_of(engine.strikes(), &Motion::Strike::to_rest);
+  if (engine.hits().empty() || piled_up)
+    Passage(engine).carry_at_once(tangents);
   else
-    Passage(motion).carry(tangents);
+    Passage(engine).carry(tangents);
 }
 
 }  // namespace slapstick::flow

@@ -23,6 +23,8 @@
 
 namespace slapstick::flow {
 
+class Engine;
+
 /// u -> u - M^{-1} G^T D^+ F G u, D = G M^{-1} G^T: the rates of some displacements are changed by impulses along them,
 /// momentum is kept.
 /// @param rows    the displacements; if they depend on each other, any solution gives the same
@@ -31,8 +33,8 @@ namespace slapstick::flow {
 void push_along(const mode::Frame& frame, const std::vector<int>& rows, const Eigen::VectorXd& factor,
                 Eigen::Ref<Eigen::MatrixXd> block);
 
-/// Takes the columns of `tangents` (p and u of all d displacements) through the last event of `motion`, which must have
+/// Takes the columns of `tangents` (p and u of all d displacements) through the last event of `engine`, which must have
 /// ended a segment.
-void pass_event(const Motion& motion, Eigen::MatrixXd& tangents);
+void pass_event(const Engine& engine, Eigen::MatrixXd& tangents);
 
 }  // namespace slapstick::flow

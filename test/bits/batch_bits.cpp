@@ -29,8 +29,9 @@ void add(Hash& hash, const BatchRun& run) {
   hash.add(run.speeds);
 }
 
-/// Runs a model at `count` values of a parameter.
-std::string line(const std::string& model, const std::string& parameter, double from, double to, std::size_t count, int periods, sweep::Batch& batch) {
+/// Runs a model at `count` values of a parameter, with exponents or without.
+std::string line(const std::string& model, const std::string& parameter, double from, double to, std::size_t count, int periods, sweep::Batch& batch,
+                 bool exponent = false) {
   const ModelDefinition definition = load_model(model);
   sweep::BatchProblem problem;
   problem.count = count;
@@ -38,20 +39,21 @@ std::string line(const std::string& model, const std::string& parameter, double 
     return definition.build({{parameter, from + (to - from) * static_cast<double>(i) / static_cast<double>(count - 1)}});
   };
   problem.start_at = [&](std::size_t) { return definition.start(); };
-  problem.plan = {.periods = periods, .events = true};
+  problem.plan = {.periods = periods, .events = true, .exponent = exponent};
   batch = run_batch(problem);
   Hash hash;
   long lanes = 0, motions = 0;
   for (const BatchRun& run : batch.runs) {
     if (!run.failure.empty()) throw NumericalError(run.failure);
     add(hash, run);
+    if (exponent) hash.add(run.exponent);
     lanes += run.lane_events;
     motions += run.motion_events;
   }
   if (lanes < 10 * static_cast<long>(count)) throw NumericalError("hardly an event of " + model + " was decided in a lane");
   char text[160];
-  std::snprintf(text, sizeof text, "%s %s=%g..%g periods %d lane events %ld motion events %ld bits %016llx", model.c_str(), parameter.c_str(), from, to,
-                periods, lanes, motions, static_cast<unsigned long long>(hash.value()));
+  std::snprintf(text, sizeof text, "%s %s=%g..%g periods %d%s lane events %ld motion events %ld bits %016llx", model.c_str(), parameter.c_str(), from, to,
+                periods, exponent ? " exponents" : "", lanes, motions, static_cast<unsigned long long>(hash.value()));
   return text;
 }
 
@@ -59,7 +61,8 @@ int run(int arguments, char** values) {
   sweep::Batch batch;
   const std::vector<std::string> lines = {line("vibro-impact", "omega", 1.0, 6.0, 60, 100, batch), line("vibro-impact", "omega", 0.5, 1.0, 20, 30, batch),
                                           line("stick-slip-impact", "omega", 0.8, 3.0, 20, 60, batch),
-                                          line("two-blocks-on-belt", "belt_speed", 0.2, 1.0, 10, 60, batch)};
+                                          line("two-blocks-on-belt", "belt_speed", 0.2, 1.0, 10, 60, batch),
+                                          line("vibro-impact", "omega", 0.5, 6.0, 60, 60, batch, true)};
   const char* const forced = std::getenv("SLAPSTICK_TARGET");
   std::cout << "kernel: " << batch.kernel << ", " << batch.lanes << " lanes\n";
   std::ifstream stored(arguments > 1 ? values[1] : "");

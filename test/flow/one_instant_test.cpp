@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "oracle/models.hpp"
 #include "slapstick/flow/motion.hpp"
@@ -96,6 +97,21 @@ TEST(OneInstant, ACopyAmongTheEventsGoesOnWithTheirStates) {
   EXPECT_EQ(copy.before()[3], 1.0);
   EXPECT_EQ(motion.before()[1], 1.0);
   EXPECT_EQ(motion.before()[3], 0.0);
+}
+
+/// A weak damper far from the origin: where its force ends is known to the rounding of the displacement, and the speed that would make the
+/// force zero there is another one.
+TEST(OneInstant, AStopWithAWeakDamperLetsGoOnce) {
+  Model model;
+  model.coordinates.push_back({"x", 1.0});
+  model.springs.push_back({0, ground, 0.001});
+  model.compliant_stops.push_back({"buffer", 0, ground, 500.0, 10.0, 1e-3});
+  for (int k = 0; k < 300; ++k) {
+    Motion motion(System(model), {499.9, 1.0 + 0.01 * k});
+    std::string kinds;
+    while (motion.advance({3, 0.0}) == Outcome::event) kinds += std::string(name(motion.event().kind)) + " ";
+    EXPECT_EQ(kinds, "engage disengage separate ") << k;
+  }
 }
 
 }  // namespace

@@ -3,6 +3,13 @@
 ///
 /// A run starts at the problem's start, passes a transient, and is then recorded. Its length is counted in forcing
 /// periods (units of time without forcing) from the start's instant.
+///
+/// The exponent is ln(|delta| at the end / |delta| at the start of the recording) / periods. delta is a tangent vector
+/// that follows the run, events included (flow/tangent.hpp), from its start: 1, 1/2, 1/3, .. in contact coordinates,
+/// without what the first mode holds still. A transient turns delta to the direction that grows most; a tangent that is
+/// zero at its end starts again.
+/// The largest of all 2 n exponents is meant: without forcing the one along the motion, 0, is among them, and so is
+/// that of a rigid translation. attractor/lyapunov.hpp has all exponents, with errors.
 /// Plain data: no errors, no cost.
 #include <string>
 #include <vector>
@@ -18,6 +25,7 @@ struct BatchPlan {
   int points = 0;             ///< stroboscopic points: the states at the ends of the last so many periods of the
                               ///< recording, <= periods
   bool events = false;        ///< every event of the recording, one by one
+  bool exponent = false;      ///< the largest Lyapunov exponent
 };
 
 /// What a run has recorded.
@@ -28,6 +36,9 @@ struct BatchRun {
   std::vector<double> points;         ///< BatchPlan::points rows of 2 n numbers, the last one `end`
   std::vector<long> point_impacts;    ///< impacts in the period before each point
   std::vector<Event> events;          ///< if they were asked for, in order
+  /// If it was asked for: of the recording, per forcing period (unit of time without forcing); -infinity where stick or
+  /// chatter forget every small change.
+  double exponent = 0.0;
   long lane_events = 0;    ///< work: events that the lanes decided, from the start on ..
   long motion_events = 0;  ///< .. and events that a Motion decided: those in doubt, or all of a model that no lane
                            ///< can run

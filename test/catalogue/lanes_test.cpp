@@ -1,0 +1,99 @@
+/// The failure catalogue through the lanes of a batch: every member whose model lanes can run has the events of its motion.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "batch/same_events.hpp"
+#include "catalogue/member.hpp"
+#include "flow/compiled_system.hpp"
+#include "slapstick/base/error.hpp"
+
+namespace slapstick::catalogue {
+namespace {
+
+using library::number;
+using library::Setup;
+
+struct Tally {
+  int in_lanes = 0, no_run = 0, begins_later = 0, of_other_models = 0, unstable = 0;
+  long lane_events = 0, motion_events = 0;
+};
+
+/// A batch starts at phase 0 of period 0. Long drifts are a motion's alone: the events of all periods would be kept.
+constexpr int most_periods = 2000;
+
+/// Up to where the member runs, in periods; 0 if it runs nothing.
+int periods_of(const Entry& entry, const Setup& setup) {
+  if (!entry.contains("run") || entry.contains("fails")) return 0;
+  const auto length = [&](const Entry& duration) {
+    return duration.is_object() ? number(duration.at("periods"), setup.values) : number(duration, setup.values) / setup.system.period();
+  };
+  const double all = length(entry["run"]) + (entry.contains("settle") ? length(entry["settle"]) : 0.0);
+  return static_cast<int>(std::ceil(std::min(all, static_cast<double>(most_periods))));
+}
+
+std::vector<Event> first_of(std::vector<Event> events, std::size_t most) {
+  events.resize(std::min(events.size(), most));
+  return events;
+}
+
+/// Where the motion does not depend on its own windows, the lane has its events. @returns whether it does not
+bool compare(const Member& member, const Setup& setup, int periods, const BatchRun& run) {
+  constexpr double tolerance = 1e-9;
+  constexpr std::size_t most_events = 20'000;
+  const std::size_t most = std::min(most_events, static_cast<std::size_t>(member.entry.value("most_events", static_cast<long>(most_events))));
+  const Model& model = setup.system.model();
+  const auto of_motion = [&](double cap) { return first_of(events_of(model, setup.start, periods, cap), most); };
+  const std::vector<Event> expected = of_motion(INFINITY), found = first_of(run.events, most);
+  const std::size_t agreed = agreeing(expected, found, tolerance);
+  if (agreed == expected.size() && agreed == found.size()) return true;
+  bool stable = true;
+  for (const double cap : {0.03, 0.11}) {
+    const std::vector<Event> other = of_motion(cap);
+    stable = stable && other.size() == expected.size() && agreeing(expected, other, 1e-3 * tolerance) == expected.size();
+  }
+  EXPECT_FALSE(stable) << member.name << ", event " << agreed << ": " << (agreed < expected.size() ? text_of(expected[agreed]) : "none") << " | "
+                       << (agreed < found.size() ? text_of(found[agreed]) : "none") << " " << run.failure;
+  return false;
+}
+
+void examine(const Member& member, Tally& tally) {
+  if (member.entry.contains("refused") || member.entry.contains("guards")) return void(++tally.no_run);
+  const Setup setup(member.entry, {}, member.given);
+  const int periods = periods_of(member.entry, setup);
+  if (periods < 1) return void(++tally.no_run);
+  if (setup.begin != Instant{}) return void(++tally.begins_later);
+  sweep::BatchProblem problem;
+  problem.count = 1;
+  problem.model_at = [&](std::size_t) { return setup.system.model(); };
+  problem.start_at = [&](std::size_t) { return setup.start; };
+  problem.plan = {.periods = periods, .events = true};
+  problem.threads = 1;
+  const BatchRun run = sweep::run_batch(problem).runs.front();
+  if (!run.in_lanes) return void(++tally.of_other_models);
+  ++tally.in_lanes;
+  tally.lane_events += run.lane_events;
+  tally.motion_events += run.motion_events;
+  tally.unstable += compare(member, setup, periods, run) ? 0 : 1;
+}
+
+TEST(CatalogueInLanes, has_the_events_of_its_motions) {
+  Tally tally;
+  for (const Member& member : all_members()) {
+    SCOPED_TRACE(member.name);
+    try {
+      examine(member, tally);
+    } catch (const NumericalError& error) {
+      ADD_FAILURE() << error.what();
+    }
+  }
+  std::cout << tally.in_lanes << " of " << all_members().size() << " members in lanes (" << tally.lane_events << " events by lanes, "
+            << tally.motion_events << " by motions), " << tally.unstable << " not stable; " << tally.no_run << " run nothing, " << tally.begins_later
+            << " begin later than phase 0, " << tally.of_other_models << " have models of no lane\n";
+  EXPECT_GE(2 * tally.in_lanes, static_cast<int>(all_members().size()));
+  EXPECT_LE(20 * tally.unstable, tally.in_lanes);
+}
+
+}  // namespace
+}  // namespace slapstick::catalogue

@@ -148,7 +148,7 @@ def batch(
     >>> import slapstick
     >>> b = slapstick.batch("vibro-impact", omega=(1.9, 2.5, 4), transient=100, periods=100, exponent=True)
     >>> b.impacts.tolist(), b.exponent.round(3).tolist()
-    ([100, 100, 100, 100], [-0.5, -0.5, -0.5, -0.5])
+    ([100, 100, 100, 100], [-0.166, -0.138, -0.114, -0.062])
     """
     chosen = model_of(model)
     given = given_to(batch, chosen, values, parameters)

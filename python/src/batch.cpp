@@ -12,7 +12,7 @@ namespace slapstick::python {
 namespace {
 
 /// What is asked for, as the caller has it.
-struct Wish {
+struct BatchWish {
   int transient = 0, periods = 1, points = 0;
   bool events = false, exponent = false;
   int lanes = 0, threads = 0;
@@ -66,7 +66,7 @@ void add(Runs& into, const BatchRun& run, bool exponent, double period) {
 }
 
 std::unique_ptr<Runs> batch(const ModelDefinition& definition, const std::vector<Overrides>& values,
-                            const std::vector<std::optional<Start>>& starts, const Wish& wish, nb::object progress) {
+                            const std::vector<std::optional<Start>>& starts, const BatchWish& wish, nb::object progress) {
   const auto start_at = [&](std::size_t i) { return start_of(definition, values[i], starts[starts.size() == 1 ? 0 : i]); };
   static_cast<void>(start_at(0));  // what can be known to be wrong before the work
   sweep::BatchProblem problem;
@@ -122,15 +122,15 @@ void bind_batch(nb::module_& module) {
       .def_ro("failures", &Runs::failure)
       .def_ro("kernel", &Runs::kernel)
       .def_ro("complete", &Runs::complete);
-  nb::class_<Wish>(module, "BatchWish", "What a batch is asked for.")
+  nb::class_<BatchWish>(module, "BatchWish", "What a batch is asked for.")
       .def(nb::init<>())
-      .def_rw("transient", &Wish::transient)
-      .def_rw("periods", &Wish::periods)
-      .def_rw("points", &Wish::points)
-      .def_rw("events", &Wish::events)
-      .def_rw("exponent", &Wish::exponent)
-      .def_rw("lanes", &Wish::lanes)
-      .def_rw("threads", &Wish::threads);
+      .def_rw("transient", &BatchWish::transient)
+      .def_rw("periods", &BatchWish::periods)
+      .def_rw("points", &BatchWish::points)
+      .def_rw("events", &BatchWish::events)
+      .def_rw("exponent", &BatchWish::exponent)
+      .def_rw("lanes", &BatchWish::lanes)
+      .def_rw("threads", &BatchWish::threads);
   module.def("batch", &batch, "definition"_a, "values"_a, "starts"_a, "wish"_a, "progress"_a.none());
 }
 

@@ -20,8 +20,16 @@ struct Tally {
   long lane_events = 0, motion_events = 0;
 };
 
-/// A batch starts at phase 0 of period 0. Long drifts are a motion's alone: the events of all periods would be kept.
-constexpr int most_periods = 2000;
+/// Long drifts and endless chatters are a motion's alone: so many periods and events are compared.
+constexpr int most_periods = 200;
+constexpr long most_events = 2000;
+
+std::vector<Event> events_up_to(const Setup& setup, int periods, double cap, long most) {
+  Motion motion(System(setup.system.model(), {cap}), setup.start);
+  std::vector<Event> events;
+  while (static_cast<long>(events.size()) < most && motion.advance({periods, 0.0}) == Outcome::event) events.push_back(motion.event());
+  return events;
+}
 
 /// Up to where the member runs, in periods; 0 if it runs nothing.
 int periods_of(const Entry& entry, const Setup& setup) {
@@ -33,24 +41,24 @@ int periods_of(const Entry& entry, const Setup& setup) {
   return static_cast<int>(std::ceil(std::min(all, static_cast<double>(most_periods))));
 }
 
+long most_of(const Member& member) { return std::min(most_events, member.entry.value("most_events", most_events)); }
+
 std::vector<Event> first_of(std::vector<Event> events, std::size_t most) {
   events.resize(std::min(events.size(), most));
   return events;
 }
 
-/// Where the motion does not depend on its own windows, the lane has its events. @returns whether it does not
-bool compare(const Member& member, const Setup& setup, int periods, const BatchRun& run) {
+/// Where the motion does not depend on its own windows, the lane has its events. @returns whether it does
+bool compare(const Member& member, const Setup& setup, int periods, const BatchRun& run, const std::vector<Event>& expected) {
   constexpr double tolerance = 1e-9;
-  constexpr std::size_t most_events = 20'000;
-  const std::size_t most = std::min(most_events, static_cast<std::size_t>(member.entry.value("most_events", static_cast<long>(most_events))));
-  const Model& model = setup.system.model();
-  const auto of_motion = [&](double cap) { return first_of(events_of(model, setup.start, periods, cap), most); };
-  const std::vector<Event> expected = of_motion(INFINITY), found = first_of(run.events, most);
+  const auto most = static_cast<long>(expected.size());
+  const bool whole = most < most_of(member);
+  const std::vector<Event> found = whole ? run.events : first_of(run.events, expected.size());
   const std::size_t agreed = agreeing(expected, found, tolerance);
   if (agreed == expected.size() && agreed == found.size()) return true;
   bool stable = true;
   for (const double cap : {0.03, 0.11}) {
-    const std::vector<Event> other = of_motion(cap);
+    const std::vector<Event> other = events_up_to(setup, periods, cap, most);
     stable = stable && other.size() == expected.size() && agreeing(expected, other, 1e-3 * tolerance) == expected.size();
   }
   EXPECT_FALSE(stable) << member.name << ", event " << agreed << ": " << (agreed < expected.size() ? text_of(expected[agreed]) : "none") << " | "
@@ -61,9 +69,11 @@ bool compare(const Member& member, const Setup& setup, int periods, const BatchR
 void examine(const Member& member, Tally& tally) {
   if (member.entry.contains("refused") || member.entry.contains("guards")) return void(++tally.no_run);
   const Setup setup(member.entry, {}, member.given);
-  const int periods = periods_of(member.entry, setup);
+  int periods = periods_of(member.entry, setup);
   if (periods < 1) return void(++tally.no_run);
   if (setup.begin != Instant{}) return void(++tally.begins_later);
+  const std::vector<Event> expected = events_up_to(setup, periods, INFINITY, most_of(member));
+  if (static_cast<long>(expected.size()) == most_of(member)) periods = static_cast<int>(expected.back().time.period) + 1;
   sweep::BatchProblem problem;
   problem.count = 1;
   problem.model_at = [&](std::size_t) { return setup.system.model(); };
@@ -75,7 +85,7 @@ void examine(const Member& member, Tally& tally) {
   ++tally.in_lanes;
   tally.lane_events += run.lane_events;
   tally.motion_events += run.motion_events;
-  tally.unstable += compare(member, setup, periods, run) ? 0 : 1;
+  tally.unstable += compare(member, setup, periods, run, expected) ? 0 : 1;
 }
 
 TEST(CatalogueInLanes, has_the_events_of_its_motions) {

@@ -32,6 +32,9 @@ void MapOptions::declare(Arguments& arguments) {
   arguments.count("--measured-periods", measured_periods, 1, 1'000'000'000, "of --of: where there is no cycle (100)");
   stops.declare(arguments, "count the impacts of this stop only; may be repeated (all)");
   arguments.count("--threads", threads, 0, 1024, "0: all cores; the result is the same for any number (0)");
+  arguments.count("--refine", refine, 2, 1024,
+                  "compute every N-th pixel of every N-th row, and beyond that only where classes differ; the others are "
+                  "filled in, and marked (every pixel is computed)");
   arguments.text("--shard", shard, "I/N", "only every N-th tile, beginning with the I-th (1 to N); needs --store");
 }
 
@@ -44,6 +47,12 @@ void MapOptions::check_words(const Arguments& arguments) const {
   if (start != "carry" && arguments.given("--direction")) throw InputError("--direction: it is for --start carry");
   if ((start == "carry" || start == "reset") && arguments.given("--seed"))
     throw InputError("--seed: it is for --start N");
+  if (refine > 0 && start != "reset")
+    throw InputError("--refine: it is for --start reset; " +
+                     std::string(start == "carry" ? "carried states need every pixel of a row"
+                                                  : "random starts may find other attractors at every pixel"));
+  if (refine > 0 && !shard.empty())
+    throw InputError("--refine: it is not for --shard; which pixels are computed depends on the classes of the whole chart");
   if (of.empty() && arguments.given("--measured-periods")) throw InputError("--measured-periods: it is for --of");
 }
 
@@ -61,6 +70,7 @@ std::vector<std::string> MapOptions::words() const {
     words.emplace_back(name);
     words.push_back(std::to_string(value));
   }
+  if (refine > 0) words.insert(words.end(), {"--refine", std::to_string(refine)});
   if (!of.empty()) words.insert(words.end(), {"--of", of});
   if (!model.state.empty()) words.insert(words.end(), {"--state", model.state});
   for (const std::string& stop : stops.names) words.insert(words.end(), {"--stop", stop});
@@ -162,6 +172,7 @@ std::unique_ptr<MapWish> map_wish(const MapOptions& options, ChosenModel chosen)
   read_quantities(options, *wish);
   problem.x = {wish->x.from, wish->x.to, wish->x.count};
   problem.y = {wish->y.from, wish->y.to, wish->y.count};
+  problem.refine = static_cast<int>(options.refine);
   problem.seed = static_cast<std::uint64_t>(options.seed);
   problem.measured_periods = static_cast<int>(options.measured_periods);
   problem.threads = static_cast<int>(options.threads);

@@ -17,7 +17,7 @@ struct MapOptions {
   StopOptions stops;
   std::string x, y, level = "quick", start = "reset", direction = "up", of, shard;
   long long periods = 300, transient = 500, most_periods = 20'000, most_n = 64, exponent_periods = 4000;
-  long long measured_periods = 100, seed = 1, threads = 0;
+  long long measured_periods = 100, seed = 1, threads = 0, refine = 0;
 
   void declare(Arguments& arguments);
   /// Options that have no meaning together. @throws InputError naming one

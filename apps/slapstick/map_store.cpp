@@ -116,7 +116,7 @@ sweep::Map read_map(const Store& store, const MapWish& wish) {
     builder.add(pixel_of(cell, wish.problem));
     ++cells;
   });
-  return builder.take(cells == sweep::pixel_count(wish.problem));
+  return builder.take(wish.problem.refine > 0 || cells == sweep::pixel_count(wish.problem));
 }
 
 MapStore::MapStore(Store store, sweep::MapProblem& problem)
@@ -132,6 +132,10 @@ MapStore::MapStore(Store store, sweep::MapProblem& problem)
     const std::lock_guard lock(mutex_);
     const auto cell = store_.find(number_of(pixel, direction, problem_));
     return cell ? cell->carried : State{};
+  };
+  problem.finding_of = [this](std::int32_t pixel, Direction direction) {
+    const auto cell = store_.find(number_of(pixel, direction, problem_));
+    return cell ? pixel_of(*cell, problem_).found.at(0) : Finding{};
   };
   problem.finished = [this](std::span<const sweep::Pixel> pixels) { note(pixels); };
 }

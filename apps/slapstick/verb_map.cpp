@@ -32,6 +32,9 @@ void report(const MapWish& wish, const sweep::Map& map) {
     std::fprintf(stderr, "slapstick: stopped after %ld of %ld pixels; these are written\n", known, all);
   if (!map.complete && wish.problem.start == sweep::MapStart::random)
     std::fprintf(stderr, "slapstick: stopped before the end; what is complete is written\n");
+  if (map.complete && wish.problem.refine > 0)
+    std::fprintf(stderr, "slapstick: %ld of %ld pixels (%.3g %%) were computed, the others are filled in\n", known, all,
+                 100.0 * static_cast<double>(known) / static_cast<double>(all));
   if (map.failures.empty()) return;
   const auto& [place, why] = *map.failures.begin();
   const sweep::Finding first{.pixel = place.second};
@@ -44,8 +47,12 @@ void report(const MapWish& wish, const sweep::Map& map) {
 
 /// @returns whether it is complete
 bool run(MapWish& wish, const Options& options, const Context& context) {
-  Progress progress("pixels", static_cast<double>(sweep::pixel_count(wish.problem)) / wish.problem.shards, options.progress);
-  wish.problem.progress = [&](long done, long) { progress.update(static_cast<double>(done)); };
+  const bool refined = wish.problem.refine > 0;
+  Progress progress(refined ? "pixels wanted so far" : "pixels", static_cast<double>(sweep::pixel_count(wish.problem)) / wish.problem.shards, options.progress);
+  wish.problem.progress = [&](long done, long total) {
+    if (refined) return progress.update(static_cast<double>(done), static_cast<double>(total));
+    progress.update(static_cast<double>(done));
+  };
   wish.problem.cancel = &context.stop;
   return sweep::run_tiles(wish.problem);
 }
@@ -142,6 +149,8 @@ Action add_map(Arguments& arguments) {
       "  slapstick map vibro-impact --x omega=1:6:200 --y friction=0.05:0.3:120 --plot chart.png --out chart.csv");
   return [options, &arguments](const Context& context) {
     options->map.check_words(arguments);
+    if (options->map.refine > 0 && options->slurm > 0)
+      throw InputError("--refine: it is not for --slurm; which pixels are computed depends on the classes of the whole chart");
     if (options->curves > 0 && (options->plot.empty() || options->map.start != "reset" || options->slurm > 0))
       throw InputError("--curves: it needs --plot and --start reset, and is not for --slurm");
     for (const char* other : {"--shard", "--resume", "--threads"})

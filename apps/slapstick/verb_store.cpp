@@ -83,6 +83,8 @@ int write_out(const Options& options) {
   const Plot plot(options.plot, options.plot_size);
   TableOutput table(options.out, map_columns(*wish), map_facts(*wish));
   const sweep::Map map = read_map(store, *wish);
+  if (map.complete && wish->problem.refine > 0)
+    std::fprintf(stderr, "slapstick: %ld of %s pixels were computed, the others are filled in\n", store.count(), store.fact("cells").c_str());
   if (!map.complete) std::fprintf(stderr, "slapstick: the store has %ld of %s cells\n", store.count(), store.fact("cells").c_str());
   if (options.plot.empty() || !options.out.empty()) write_map(*wish, map, table);
   return plot.write_or_say(chart_figure(*wish, map, shown), map.findings.empty(), done);

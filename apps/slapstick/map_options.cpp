@@ -3,7 +3,6 @@
 
 #include "base/ranges.hpp"
 #include "base/text.hpp"
-#include "io/table.hpp"
 #include "measured_diagram.hpp"
 #include "slapstick/base/error.hpp"
 #include "work.hpp"
@@ -54,27 +53,6 @@ void MapOptions::check_words(const Arguments& arguments) const {
   if (refine > 0 && !shard.empty())
     throw InputError("--refine: it is not for --shard; which pixels are computed depends on the classes of the whole chart");
   if (of.empty() && arguments.given("--measured-periods")) throw InputError("--measured-periods: it is for --of");
-}
-
-std::vector<std::string> MapOptions::words() const {
-  const auto axis = [](const std::string& argument, const std::string& text) {
-    const Sweep sweep = parse_sweep(text, argument);
-    return sweep.name + "=" + number_text(sweep.from) + ":" + number_text(sweep.to) + ":" + std::to_string(sweep.count);
-  };
-  std::vector<std::string> words{"--x", axis("--x", x), "--y", axis("--y", y), "--level", level, "--start", start,
-                                 "--direction", direction};
-  for (const auto& [name, value] :
-       {std::pair{"--periods", periods}, {"--transient", transient}, {"--most-periods", most_periods},
-        {"--exponent-periods", exponent_periods}, {"--most-n", most_n}, {"--seed", seed},
-        {"--measured-periods", measured_periods}}) {
-    words.emplace_back(name);
-    words.push_back(std::to_string(value));
-  }
-  if (refine > 0) words.insert(words.end(), {"--refine", std::to_string(refine)});
-  if (!of.empty()) words.insert(words.end(), {"--of", of});
-  if (!model.state.empty()) words.insert(words.end(), {"--state", model.state});
-  for (const std::string& stop : stops.names) words.insert(words.end(), {"--stop", stop});
-  return words;
 }
 
 namespace {
@@ -162,7 +140,7 @@ std::unique_ptr<MapWish> map_wish(const MapOptions& options) { return map_wish(o
 
 std::unique_ptr<MapWish> map_wish(const MapOptions& options, ChosenModel chosen) {
   auto wish = std::make_unique<MapWish>(
-      MapWish{std::move(chosen), parse_sweep(options.x, "--x"), parse_sweep(options.y, "--y"), {}, {}});
+      MapWish{std::move(chosen), parse_sweep(options.x, "--x"), parse_sweep(options.y, "--y"), {}, options.model.state, options.stops.names, {}});
   check_names(*wish);
   sweep::MapProblem& problem = wish->problem;
   read_start(options, problem);

@@ -6,7 +6,7 @@
 
 #include "model_options.hpp"
 #include "parameter_ranges.hpp"
-#include "slapstick/sweep/map.hpp"
+#include "slapstick/chart/chart.hpp"
 #include "span_options.hpp"
 #include "stop_options.hpp"
 
@@ -22,8 +22,6 @@ struct MapOptions {
   void declare(Arguments& arguments);
   /// Options that have no meaning together. @throws InputError naming one
   void check_words(const Arguments& arguments) const;
-  /// The words that say what is computed, one way of many: without MODEL, --set, --threads and --shard.
-  [[nodiscard]] std::vector<std::string> words() const;
 };
 
 /// The wish with its model: what every part of `map` works on.
@@ -31,7 +29,14 @@ struct MapWish {
   ChosenModel chosen;
   Sweep x, y;
   std::vector<Wanted> of;
+  std::string state;                      ///< --state
+  std::vector<std::string> stops;         ///< --stop
   sweep::MapProblem problem;  ///< without threads, known, finished, progress, cancel; refers to this wish
+
+  /// As the library has it; refers to this wish.
+  [[nodiscard]] chart::Chart chart() const {
+    return {chosen.definition, chosen.overrides, x.name, y.name, state, stops, problem};
+  }
 };
 
 /// Reads and checks what can be known to be wrong before hours of work.

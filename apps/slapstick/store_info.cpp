@@ -17,7 +17,7 @@ bool is_whole(const Store& store) { return store.fact("shard") == "1/1"; }
 bool is_refined_to_the_end(const Store& store) {
   if (store.fact("verb") != "map") return false;
   const std::unique_ptr<MapWish> wish = wish_of(store);
-  return wish->problem.refine > 0 && read_map(store, *wish).complete;
+  return wish->problem.refine > 0 && chart::read_map(store, wish->problem).complete;
 }
 
 }  // namespace

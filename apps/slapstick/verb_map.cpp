@@ -66,20 +66,20 @@ sweep::Map gathered(MapWish& wish, const Options& options, const Context& contex
     const bool complete = run(wish, options, context);
     return builder.take(complete);
   }
-  const MapStore store(Store::to_write(options.store, map_facts_of(options.map, wish), options.resume), wish.problem);
+  const chart::MapStore store(open_store(options.store, chart::facts_of(wish.chart()), options.resume), wish.problem);
   const bool complete = run(wish, options, context);
-  sweep::Map map = read_map(store.store(), wish);
+  sweep::Map map = chart::read_map(store.kept(), wish.problem);
   map.complete = complete;
   return map;
 }
 
 /// With a store and no other output: what the store then holds.
 int only_store(MapWish& wish, const Options& options, const Context& context) {
-  const MapStore store(Store::to_write(options.store, map_facts_of(options.map, wish), options.resume), wish.problem);
+  const chart::MapStore store(open_store(options.store, chart::facts_of(wish.chart()), options.resume), wish.problem);
   const bool complete = run(wish, options, context);
   if (!complete) std::fprintf(stderr, "slapstick: stopped before the end; %s has what is complete, and --resume goes on\n", options.store.c_str());
   Output out("");
-  out.write(store_info(store.store()).dump() + "\n");
+  out.write(store_info(store.kept()).dump() + "\n");
   out.commit();
   return complete ? done : interrupted;
 }
@@ -89,7 +89,7 @@ int print_script(const Options& options) {
   const std::unique_ptr<MapWish> wish = map_wish(options.map);
   static_cast<void>(shown_columns(*wish, options.show));
   Output out("");
-  out.write(slurm_script(options.map, {.tasks = static_cast<int>(options.slurm),
+  out.write(slurm_script(options.map, chart::option_words(wish->chart()), {.tasks = static_cast<int>(options.slurm),
                                        .store = options.store,
                                        .out = options.out,
                                        .plot = options.plot,
@@ -115,7 +115,7 @@ int map(const Options& options, const Context& context) {
   if (options.store.empty() || !options.out.empty()) write_map(*wish, found, table);
   figure::Figure picture = chart_figure(*wish, found, shown);
   if (options.curves > 0 && !context.stop) {
-    const ChartCurves curves = find_curves(*wish, found, static_cast<int>(options.curves), context.stop);
+    const chart::Curves curves = chart::find_curves(wish->chart(), found, static_cast<int>(options.curves), &context.stop);
     draw_curves(curves, picture);
     report_curves(curves);
   }

@@ -17,6 +17,7 @@ set(package_of_fmt::fmt fmt)
 set(package_of_fmt::fmt-header-only fmt)
 set(package_of_tomlplusplus::tomlplusplus tomlplusplus)
 set(package_of_nlohmann_json::nlohmann_json nlohmann_json)
+set(package_of_SQLite::SQLite3 SQLite3)
 set(package_of_Threads::Threads Threads)
 
 get_target_property(slapstick_type slapstick TYPE)

@@ -32,13 +32,13 @@ Style style_of(orbit::SpecialType type) {
 }  // namespace
 
 /// Dark on a white rim: seen on light and dark classes alike.
-void draw_curves(const ChartCurves& found, figure::Figure& chart) {
+void draw_curves(const chart::Curves& found, figure::Figure& figure) {
   constexpr double rim_pt = 1.9, line_pt = 0.8;
-  for (figure::Panel& panel : chart.panels) {
+  for (figure::Panel& panel : figure.panels) {
     int group = 0;
     for (const figure::Key& key : panel.keys) group = std::max(group, key.group + 1);
     std::set<orbit::SpecialType> named;
-    for (const ChartCurve& curve : found.curves) {
+    for (const chart::FoundCurve& curve : found.curves) {
       panel.lines.push_back({.x = curve.x, .y = curve.y, .colour = {255, 255, 255}, .width_pt = rim_pt});
       const auto [dash, colour] = style_of(curve.type);
       panel.lines.push_back({.x = curve.x, .y = curve.y, .colour = colour, .dash = dash, .width_pt = line_pt});
@@ -48,8 +48,8 @@ void draw_curves(const ChartCurves& found, figure::Figure& chart) {
   }
 }
 
-void report_curves(const ChartCurves& found) {
-  for (const ChartCurve& curve : found.curves)
+void report_curves(const chart::Curves& found) {
+  for (const chart::FoundCurve& curve : found.curves)
     std::fprintf(stderr, "slapstick: %s between %s and %s: %ld boundary edges; along it the pixels on both sides differ at %ld places and are alike at %ld\n",
                  std::string(name(curve.type)).c_str(), curve.from.c_str(), curve.to.c_str(), curve.edges, curve.differ, curve.alike);
   std::fprintf(stderr, "slapstick: %zu curves explain %ld of %ld boundary edges; at %ld edges tried no curve was found%s\n",

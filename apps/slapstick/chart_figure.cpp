@@ -23,17 +23,20 @@ using sweep::Finding;
 
 /// What is drawn of a pixel: of several attractors the one with most starts, and how many there are.
 struct Shown {
-  const Finding* found = nullptr;
-  int attractors = 0;
+  std::int32_t place = -1;  ///< among the findings; -1: nothing
+  std::int32_t attractors = 0;
+  bool filled = false;
 };
 
 std::vector<Shown> shown_pixels(const sweep::Map& map, sweep::Direction direction) {
   std::vector<Shown> all(static_cast<std::size_t>(map.x.count) * static_cast<std::size_t>(map.y.count));
-  for (const Finding& found : map.findings) {
-    if (found.direction != direction) continue;
-    Shown& pixel = all[static_cast<std::size_t>(found.pixel)];
-    if (pixel.attractors++ == 0) pixel.found = &found;
+  for (std::size_t i = 0; i < map.findings.size(); ++i) {
+    if (map.findings[i].direction != direction) continue;
+    Shown& pixel = all[static_cast<std::size_t>(map.findings[i].pixel)];
+    if (pixel.attractors++ == 0) pixel.place = static_cast<std::int32_t>(i);
   }
+  for (std::size_t pixel = 0; pixel < map.stands_for.size(); ++pixel)
+    if (all[pixel].place < 0) all[pixel] = {map.stands_for[pixel], 1, true};
   return all;
 }
 
@@ -68,13 +71,15 @@ std::string percent(long part, long whole) {
 /// Colours of the classes of a map, the same in all of its panels.
 class ClassColours {
  public:
-  explicit ClassColours(const sweep::Map& map) : map_(map) {
+  explicit ClassColours(const sweep::Map& map) {
     std::map<std::string, long> areas;
-    for (const Finding& found : map.findings) ++areas[found.label(map.driven)];
-    by_area_.assign(areas.begin(), areas.end());
-    ranges::stable_sort(by_area_, [](const auto& a, const auto& b) { return a.second > b.second; });
+    std::vector<long> pixels(map.findings.size(), map.stands_for.empty() ? 1 : 0);
+    for (const std::int32_t place : map.stands_for) ++pixels[static_cast<std::size_t>(place)];
+    for (std::size_t i = 0; i < map.findings.size(); ++i) areas[map.findings[i].label(map.driven)] += pixels[i];
+    std::vector<std::pair<std::string, long>> by_area(areas.begin(), areas.end());
+    ranges::stable_sort(by_area, [](const auto& a, const auto& b) { return a.second > b.second; });
     std::size_t next = 0;
-    for (const auto& [label, area] : by_area_) {
+    for (const auto& [label, area] : by_area) {
       if (label == name(Attractor::chaotic))
         colours_[label] = chaotic_colour;
       else if (label == name(Attractor::quasi_periodic))
@@ -84,15 +89,19 @@ class ClassColours {
       else
         colours_[label] = next < class_colours.size() ? class_colours[next++] : other_classes_colour;
     }
+    for (const Finding& found : map.findings) class_of_.push_back(colours_.find(found.label(map.driven)));
   }
 
-  [[nodiscard]] figure::Colour of(const Finding& found) const { return colours_.at(found.label(map_.driven)); }
+  [[nodiscard]] figure::Colour of(const Shown& pixel) const { return class_of_[static_cast<std::size_t>(pixel.place)]->second; }
 
   /// The legend: classes by their area among these pixels, then the others together.
   [[nodiscard]] std::vector<figure::Key> keys(const std::vector<Shown>& pixels) const {
-    std::map<std::string, long> areas;
+    std::vector<long> of_findings(class_of_.size());
     for (const Shown& pixel : pixels)
-      if (pixel.found != nullptr) ++areas[pixel.found->label(map_.driven)];
+      if (pixel.place >= 0) ++of_findings[static_cast<std::size_t>(pixel.place)];
+    std::map<std::string, long> areas;
+    for (std::size_t i = 0; i < class_of_.size(); ++i)
+      if (of_findings[i] > 0) areas[class_of_[i]->first] += of_findings[i];
     std::vector<std::pair<std::string, long>> sorted(areas.begin(), areas.end());
     ranges::stable_sort(sorted, [](const auto& a, const auto& b) { return a.second > b.second; });
     std::vector<figure::Key> keys;
@@ -112,18 +121,17 @@ class ClassColours {
   }
 
  private:
-  const sweep::Map& map_;
-  std::vector<std::pair<std::string, long>> by_area_;
   std::map<std::string, figure::Colour> colours_;
+  std::vector<std::map<std::string, figure::Colour>::const_iterator> class_of_;  // each finding's
 };
 
 void draw_classes(const ClassColours& colours, const std::vector<Shown>& pixels, Cells& cells, figure::Panel& panel) {
   for (const Shown& pixel : pixels) {
-    if (pixel.found == nullptr) {
+    if (pixel.place < 0) {
       cells.codes.push_back(Cells::clear);
       continue;
     }
-    const figure::Colour colour = colours.of(*pixel.found);
+    const figure::Colour colour = colours.of(pixel);
     auto place = ranges::find(cells.colours, colour);
     if (place == cells.colours.end()) place = cells.colours.insert(place, colour);
     cells.codes.push_back(static_cast<std::uint8_t>(place - cells.colours.begin()));
@@ -134,12 +142,14 @@ void draw_classes(const ClassColours& colours, const std::vector<Shown>& pixels,
 /// The number that a column gives a pixel, or not a number.
 double value_of(const MapWish& wish, const sweep::Map& map, const Shown& pixel, const std::string& column) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  if (pixel.found == nullptr || pixel.found->failed) return none;
-  const Finding& found = *pixel.found;
-  if (column == "exponent") return found.exponent;
-  if (column == "multiplier") return std::abs(found.multiplier);
+  if (pixel.place < 0) return none;
+  const Finding& found = map.findings[static_cast<std::size_t>(pixel.place)];
+  if (found.failed) return none;
   if (column == "n") return found.n > 0 ? found.n : none;
   if (column == "p") return found.n > 0 && found.chatter != Chatter::complete ? found.p : none;
+  if (pixel.filled) return none;
+  if (column == "exponent") return found.exponent;
+  if (column == "multiplier") return std::abs(found.multiplier);
   if (column == "attractors") return pixel.attractors;
   for (std::size_t k = 0; k < wish.of.size(); ++k)
     if (column == wish.of[k].quantity.name + ":" + wish.of[k].statistic) return map.values_of(found)[k];
@@ -165,7 +175,8 @@ figure::Range scale_range(std::vector<double> values) {
 }
 
 /// @param whole  the values are whole numbers, and so are those of the legend
-void draw_scale(const std::vector<double>& values, bool whole, Cells& cells, figure::Panel& panel) {
+/// @param none  what pixels without a value are called
+void draw_scale(const std::vector<double>& values, bool whole, const char* none, Cells& cells, figure::Panel& panel) {
   constexpr int shades = 200;
   std::vector<double> finite;
   ranges::copy_if(values, std::back_inserter(finite), [](double value) { return std::isfinite(value); });
@@ -180,12 +191,12 @@ void draw_scale(const std::vector<double>& values, bool whole, Cells& cells, fig
     std::snprintf(words, sizeof words, form, std::abs(value) < 1e-9 * (range.max - range.min) ? 0.0 : value);
     panel.keys.push_back(swatch(words, scale_colour(share(value))));
   };
-  if (finite.empty()) return panel.keys.push_back(swatch("none", undecided_colour));
+  if (finite.empty()) return panel.keys.push_back(swatch(none, undecided_colour));
   const double step = std::max(round_step(range.max - range.min), whole ? 1.0 : 0.0);
   text(range.min, "\u2264 %.3g");
   for (double tick = std::floor(range.min / step + 1.2) * step; tick < range.max - 0.2 * step; tick += step) text(tick, "%.6g");
   text(range.max, "\u2265 %.3g");
-  if (finite.size() < values.size()) panel.keys.push_back(swatch("none", undecided_colour));
+  if (finite.size() < values.size()) panel.keys.push_back(swatch(none, undecided_colour));
 }
 
 std::string title_of(const MapWish& wish, const std::string& column) {
@@ -194,7 +205,48 @@ std::string title_of(const MapWish& wish, const std::string& column) {
   if (column == "attractors") return "number of attractors";
   for (const Wanted& one : wish.of)
     if (column == one.quantity.name + ":" + one.statistic) return statistic_axis(one);
-  return column == "class" ? "" : column;
+  return column == "class" || column == "computed" ? "" : column;
+}
+
+/// Which pixels of a refined map were computed.
+void draw_computed(const std::vector<Shown>& pixels, Cells& cells, figure::Panel& panel) {
+  cells.colours = {class_colours[0], other_classes_colour};
+  for (const Shown& pixel : pixels)
+    cells.codes.push_back(pixel.place < 0 ? Cells::clear : static_cast<std::uint8_t>(pixel.filled ? 1 : 0));
+  panel.keys = {swatch("computed", cells.colours[0]), swatch("filled in", cells.colours[1])};
+}
+
+/// "5.3 % of the pixels computed", or nothing for a map that has no others.
+std::string share_computed(const sweep::Map& map) {
+  if (map.stands_for.empty()) return {};
+  return percent(static_cast<long>(map.findings.size()), static_cast<long>(map.rows())) + " of the pixels computed";
+}
+
+figure::Panel panel_of(const MapWish& wish, const sweep::Map& map, const ClassColours& colours, const std::string& column,
+                       sweep::Direction direction) {
+  const std::vector<Shown> pixels = shown_pixels(map, direction);
+  figure::Panel panel{.x_label = parameter_axis(wish.chosen.definition, wish.x.name),
+                      .y_label = parameter_axis(wish.chosen.definition, wish.y.name),
+                      .title = title_of(wish, column)};
+  const auto add_to_title = [&](const std::string& words) { panel.title += (panel.title.empty() || words.empty() ? "" : ", ") + words; };
+  if (column == "class" || column == "computed") add_to_title(share_computed(map));
+  if (wish.problem.direction == sweep::Direction::both) add_to_title(direction == sweep::Direction::up ? "up" : "down");
+  panel.legend = figure::Legend::below;
+  Cells cells = empty_cells(map);
+  panel.x_range = cells.x;
+  panel.y_range = cells.y;
+  if (column == "class") {
+    draw_classes(colours, pixels, cells, panel);
+  } else if (column == "computed") {
+    draw_computed(pixels, cells, panel);
+  } else {
+    std::vector<double> values;
+    for (const Shown& pixel : pixels) values.push_back(value_of(wish, map, pixel, column));
+    draw_scale(values, column == "n" || column == "p" || column == "attractors",
+               map.stands_for.empty() ? "none" : "none, or filled in", cells, panel);
+  }
+  panel.cells = std::move(cells);
+  return panel;
 }
 
 }  // namespace
@@ -202,6 +254,7 @@ std::string title_of(const MapWish& wish, const std::string& column) {
 std::vector<std::string> shown_columns(const MapWish& wish, const std::string& show) {
   std::vector<std::string> known{"class", "exponent", "multiplier", "n", "p"};
   if (wish.problem.start == sweep::MapStart::random) known.emplace_back("attractors");
+  if (wish.problem.refine > 0) known.emplace_back("computed");
   std::vector<std::string> usual{"class"};
   for (const Wanted& one : wish.of) {
     known.push_back(one.quantity.name + ":" + one.statistic);
@@ -221,27 +274,9 @@ figure::Figure chart_figure(const MapWish& wish, const sweep::Map& map, const st
   if (both) directions = {sweep::Direction::up, sweep::Direction::down};
   const ClassColours colours(map);
   figure::Figure figure;
-  for (const std::string& column : columns) {
-    for (const sweep::Direction direction : directions) {
-      const std::vector<Shown> pixels = shown_pixels(map, direction);
-      figure::Panel panel{.x_label = parameter_axis(wish.chosen.definition, wish.x.name),
-                          .y_label = parameter_axis(wish.chosen.definition, wish.y.name),
-                          .title = title_of(wish, column)};
-      if (both) panel.title += std::string(panel.title.empty() ? "" : ", ") + (direction == sweep::Direction::up ? "up" : "down");
-      panel.legend = figure::Legend::below;
-      Cells cells = empty_cells(map);
-      panel.x_range = cells.x;
-      panel.y_range = cells.y;
-      std::vector<double> values;
-      if (column == "class")
-        draw_classes(colours, pixels, cells, panel);
-      else
-        for (const Shown& pixel : pixels) values.push_back(value_of(wish, map, pixel, column));
-      if (column != "class") draw_scale(values, column == "n" || column == "p" || column == "attractors", cells, panel);
-      panel.cells = std::move(cells);
-      figure.panels.push_back(std::move(panel));
-    }
-  }
+  for (const std::string& column : columns)
+    for (const sweep::Direction direction : directions)
+      figure.panels.push_back(panel_of(wish, map, colours, column, direction));
   const bool several = figure.panels.size() > 1;
   figure.columns = several ? 2 : 1;
   figure.width_cm = several ? 17.5 : 12.0;

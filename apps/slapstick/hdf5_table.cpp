@@ -2,11 +2,14 @@
 #include "hdf5_table.hpp"
 
 #include <algorithm>
+#include <deque>
 
+#include "base/ranges.hpp"
 #include "slapstick/base/error.hpp"
 
 #ifdef SLAPSTICK_HDF5
 #include <hdf5.h>
+#include <hdf5_hl.h>
 #endif
 
 namespace slapstick::app {
@@ -65,38 +68,95 @@ void add_number(hid_t to, const std::string& name, double value) {
   demand(H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value));
 }
 
+using Extent = std::vector<hsize_t>;
+
+/// What a column is as a dataset: how its numbers are stored and given, and where they lie.
+struct Data {
+  hid_t stored, given;
+  const void* at = nullptr;
+  const std::vector<std::string>* names = nullptr;
+};
+
+Data data_of(const Column& column) {
+  if (const auto* words = std::get_if<Words>(&column.cells)) {
+    if (words->small()) return {H5T_STD_U8LE, H5T_NATIVE_UINT8, words->small_codes().data(), &words->names()};
+    return {H5T_STD_U32LE, H5T_NATIVE_UINT32, words->large_codes().data(), &words->names()};
+  }
+  const auto* numbers = std::get_if<std::vector<double>>(&column.cells);
+  return {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, numbers != nullptr ? numbers->data() : nullptr};
+}
+
+std::size_t rows_of(const Column& column) {
+  if (const auto* words = std::get_if<Words>(&column.cells)) return words->size();
+  const auto* numbers = std::get_if<std::vector<double>>(&column.cells);
+  return numbers != nullptr ? numbers->size() : 0;
+}
+
 /// A packed dataset that no time is noted of, so that the bytes depend on the table only.
-void add_column(hid_t file, const Column& column, hid_t stored, hid_t given, const void* data, std::size_t rows,
-                const std::vector<std::string>* names) {
+/// @returns it, for the caller to close
+hid_t add_array(hid_t to, const std::string& name, const std::string& unit, const Data& data, const Extent& extent) {
   constexpr hsize_t chunk = 1U << 16U;
   constexpr unsigned effort = 4;
+  const auto rank = static_cast<int>(extent.size());
+  const bool some = std::find(extent.begin(), extent.end(), 0U) == extent.end();
   const Handle how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   demand(H5Pset_obj_track_times(how, false));
-  if (rows > 0) {
-    const hsize_t piece = std::min<hsize_t>(rows, chunk);
-    demand(H5Pset_chunk(how, 1, &piece));
+  if (some) {
+    Extent piece = extent;
+    hsize_t left = chunk;
+    for (auto side = piece.rbegin(); side != piece.rend(); ++side) {
+      *side = std::min(*side, left);
+      left = std::max<hsize_t>(left / *side, 1);
+    }
+    demand(H5Pset_chunk(how, rank, piece.data()));
     demand(H5Pset_shuffle(how));
     if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) demand(H5Pset_deflate(how, effort));
   }
-  const hsize_t size = rows;
-  const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
-  const Handle set(H5Dcreate2(file, column.name.c_str(), stored, space, H5P_DEFAULT, how, H5P_DEFAULT), H5Dclose);
-  if (rows > 0) demand(H5Dwrite(set, given, H5S_ALL, H5S_ALL, H5P_DEFAULT, data));
-  if (!column.unit.empty()) add_texts(set, "units", {column.unit}, false);
-  if (names != nullptr) add_texts(set, "names", *names, true);
+  const Handle space(H5Screate_simple(rank, extent.data(), nullptr), H5Sclose);
+  const hid_t set = H5Dcreate2(to, name.c_str(), data.stored, space, H5P_DEFAULT, how, H5P_DEFAULT);
+  if (set < 0) throw StorageError("HDF5 does not succeed");
+  if (some) demand(H5Dwrite(set, data.given, H5S_ALL, H5S_ALL, H5P_DEFAULT, data.at));
+  if (!unit.empty()) add_texts(set, "units", {unit}, false);
+  if (data.names != nullptr) add_texts(set, "names", *data.names, true);
+  return set;
 }
 
 void add_column(hid_t file, const Column& column) {
-  if (const auto* words = std::get_if<Words>(&column.cells)) {
-    if (words->small())
-      return add_column(file, column, H5T_STD_U8LE, H5T_NATIVE_UINT8, words->small_codes().data(), words->size(),
-                        &words->names());
-    return add_column(file, column, H5T_STD_U32LE, H5T_NATIVE_UINT32, words->large_codes().data(), words->size(),
-                      &words->names());
-  }
+  const Handle set(add_array(file, column.name, column.unit, data_of(column), {rows_of(column)}), H5Dclose);
+}
+
+/// The values of an axis: those of every `stride`-th row.
+std::vector<double> values_along(const Column& column, std::size_t count, std::size_t stride) {
   const auto* numbers = std::get_if<std::vector<double>>(&column.cells);
-  add_column(file, column, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, numbers != nullptr ? numbers->data() : nullptr,
-             numbers != nullptr ? numbers->size() : 0, nullptr);
+  std::vector<double> values;
+  for (std::size_t i = 0; i < count && numbers != nullptr; ++i) values.push_back((*numbers)[i * stride]);
+  return values;
+}
+
+/// The group of arrays over the axes; none if a row is missing.
+void add_grid(hid_t file, const ColumnTable& table) {
+  Extent extent;
+  std::size_t points = 1;
+  for (const TableAxis& axis : table.axes()) {
+    extent.push_back(axis.count);
+    points *= axis.count;
+  }
+  if (extent.empty() || points != rows_of(table.columns().front())) return;
+  const Handle group(H5Gcreate2(file, "grid", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  std::deque<Handle> scales;
+  std::size_t stride = points;
+  for (const TableAxis& axis : table.axes()) {
+    stride /= axis.count;
+    const auto column = ranges::find_if(table.columns(), [&](const Column& one) { return one.name == axis.column; });
+    const std::vector<double> values = values_along(*column, axis.count, stride);
+    scales.emplace_back(add_array(group, axis.name, column->unit, {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.data()}, {axis.count}), H5Dclose);
+    demand(H5DSset_scale(scales.back(), axis.name.c_str()));
+  }
+  for (const Column& column : table.columns()) {
+    if (ranges::any_of(table.axes(), [&](const TableAxis& axis) { return axis.column == column.name; })) continue;
+    const Handle set(add_array(group, column.name, column.unit, data_of(column), extent), H5Dclose);
+    for (unsigned k = 0; k < scales.size(); ++k) demand(H5DSattach_scale(set, scales[k], k));
+  }
 }
 
 }  // namespace
@@ -110,6 +170,7 @@ std::string hdf5_file(const ColumnTable& table) {
   demand(H5Pset_fapl_core(access, growth, false));
   const Handle file(H5Fcreate("table.h5", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
   for (const Column& column : table.columns()) add_column(file, column);
+  add_grid(file, table);
   for (const Attribute& attribute : table.attributes()) {
     if (const auto* text = std::get_if<std::string>(&attribute.value))
       add_texts(file, attribute.name.c_str(), {*text}, false);

@@ -3,7 +3,6 @@
 
 #include "base/ranges.hpp"
 #include "base/text.hpp"
-#include "io/table.hpp"
 #include "measured_diagram.hpp"
 #include "slapstick/base/error.hpp"
 #include "work.hpp"
@@ -32,6 +31,9 @@ void MapOptions::declare(Arguments& arguments) {
   arguments.count("--measured-periods", measured_periods, 1, 1'000'000'000, "of --of: where there is no cycle (100)");
   stops.declare(arguments, "count the impacts of this stop only; may be repeated (all)");
   arguments.count("--threads", threads, 0, 1024, "0: all cores; the result is the same for any number (0)");
+  arguments.count("--refine", refine, 2, 1024,
+                  "compute every N-th pixel of every N-th row, and beyond that only where classes differ; the others are "
+                  "filled in, and marked (every pixel is computed)");
   arguments.text("--shard", shard, "I/N", "only every N-th tile, beginning with the I-th (1 to N); needs --store");
 }
 
@@ -44,27 +46,13 @@ void MapOptions::check_words(const Arguments& arguments) const {
   if (start != "carry" && arguments.given("--direction")) throw InputError("--direction: only for --start carry");
   if ((start == "carry" || start == "reset") && arguments.given("--seed"))
     throw InputError("--seed: only for --start N");
+  if (refine > 0 && start != "reset")
+    throw InputError("--refine: only for --start reset; " +
+                     std::string(start == "carry" ? "carried states need every pixel of a row"
+                                                  : "random starts may find other attractors at every pixel"));
+  if (refine > 0 && !shard.empty())
+    throw InputError("--refine: not for --shard; which pixels are computed depends on the classes of the whole chart");
   if (of.empty() && arguments.given("--measured-periods")) throw InputError("--measured-periods: only for --of");
-}
-
-std::vector<std::string> MapOptions::words() const {
-  const auto axis = [](const std::string& argument, const std::string& text) {
-    const Sweep sweep = parse_sweep(text, argument);
-    return sweep.name + "=" + number_text(sweep.from) + ":" + number_text(sweep.to) + ":" + std::to_string(sweep.count);
-  };
-  std::vector<std::string> words{"--x", axis("--x", x), "--y", axis("--y", y), "--level", level, "--start", start,
-                                 "--direction", direction};
-  for (const auto& [name, value] :
-       {std::pair{"--periods", periods}, {"--transient", transient}, {"--most-periods", most_periods},
-        {"--exponent-periods", exponent_periods}, {"--most-n", most_n}, {"--seed", seed},
-        {"--measured-periods", measured_periods}}) {
-    words.emplace_back(name);
-    words.push_back(std::to_string(value));
-  }
-  if (!of.empty()) words.insert(words.end(), {"--of", of});
-  if (!model.state.empty()) words.insert(words.end(), {"--state", model.state});
-  for (const std::string& stop : stops.names) words.insert(words.end(), {"--stop", stop});
-  return words;
 }
 
 namespace {
@@ -152,7 +140,7 @@ std::unique_ptr<MapWish> map_wish(const MapOptions& options) { return map_wish(o
 
 std::unique_ptr<MapWish> map_wish(const MapOptions& options, ChosenModel chosen) {
   auto wish = std::make_unique<MapWish>(
-      MapWish{std::move(chosen), parse_sweep(options.x, "--x"), parse_sweep(options.y, "--y"), {}, {}});
+      MapWish{std::move(chosen), parse_sweep(options.x, "--x"), parse_sweep(options.y, "--y"), {}, options.model.state, options.stops.names, {}});
   check_names(*wish);
   sweep::MapProblem& problem = wish->problem;
   read_start(options, problem);
@@ -162,6 +150,7 @@ std::unique_ptr<MapWish> map_wish(const MapOptions& options, ChosenModel chosen)
   read_quantities(options, *wish);
   problem.x = {wish->x.from, wish->x.to, wish->x.count};
   problem.y = {wish->y.from, wish->y.to, wish->y.count};
+  problem.refine = static_cast<int>(options.refine);
   problem.seed = static_cast<std::uint64_t>(options.seed);
   problem.measured_periods = static_cast<int>(options.measured_periods);
   problem.threads = static_cast<int>(options.threads);

@@ -6,7 +6,7 @@
 
 #include "model_options.hpp"
 #include "parameter_ranges.hpp"
-#include "slapstick/sweep/map.hpp"
+#include "slapstick/chart/chart.hpp"
 #include "span_options.hpp"
 #include "stop_options.hpp"
 
@@ -17,13 +17,11 @@ struct MapOptions {
   StopOptions stops;
   std::string x, y, level = "quick", start = "reset", direction = "up", of, shard;
   long long periods = 300, transient = 500, most_periods = 20'000, most_n = 64, exponent_periods = 4000;
-  long long measured_periods = 100, seed = 1, threads = 0;
+  long long measured_periods = 100, seed = 1, threads = 0, refine = 0;
 
   void declare(Arguments& arguments);
   /// Options that have no meaning together. @throws InputError naming one
   void check_words(const Arguments& arguments) const;
-  /// The words that say what is computed, one way of many: without MODEL, --set, --threads and --shard.
-  [[nodiscard]] std::vector<std::string> words() const;
 };
 
 /// The wish with its model: what every part of `map` works on.
@@ -31,7 +29,14 @@ struct MapWish {
   ChosenModel chosen;
   Sweep x, y;
   std::vector<Wanted> of;
+  std::string state;                      ///< --state
+  std::vector<std::string> stops;         ///< --stop
   sweep::MapProblem problem;  ///< without threads, known, finished, progress, cancel; refers to this wish
+
+  /// As the library has it; refers to this wish.
+  [[nodiscard]] chart::Chart chart() const {
+    return {chosen.definition, chosen.overrides, x.name, y.name, state, stops, problem};
+  }
 };
 
 /// Reads and checks what can be known to be wrong before hours of work.

@@ -10,6 +10,7 @@ namespace slapstick::app {
 namespace {
 
 bool has_directions(const MapWish& wish) { return wish.problem.direction == sweep::Direction::both; }
+bool is_refined(const MapWish& wish) { return wish.problem.refine > 0; }
 bool has_starts(const MapWish& wish) { return wish.problem.start == sweep::MapStart::random; }
 
 /// Of complete chatter without end; of what is no cycle not a number.
@@ -27,6 +28,7 @@ void write_row(const MapWish& wish, const sweep::Map& map, const sweep::Finding&
   table.number(found.sticking ? 1.0 : 0.0).word(name(found.doubt));
   if (has_directions(wish)) table.word(found.direction == sweep::Direction::up ? "up" : "down");
   if (has_starts(wish)) table.number(found.starts);
+  if (is_refined(wish)) table.number(found.filled ? 0.0 : 1.0);
   table.end_row();
 }
 
@@ -40,6 +42,7 @@ std::vector<std::string> map_columns(const MapWish& wish) {
   for (const char* name : {"multiplier_re", "multiplier_im", "sticking", "doubt"}) columns.emplace_back(name);
   if (has_directions(wish)) columns.emplace_back("direction");
   if (has_starts(wish)) columns.emplace_back("starts");
+  if (is_refined(wish)) columns.emplace_back("computed");
   return columns;
 }
 
@@ -53,12 +56,15 @@ TableFacts map_facts(const MapWish& wish) {
     for (const Parameter& parameter_of : wish.chosen.definition.parameters())
       if (parameter_of.name == sweep->name && parameter_of.unit != "1") facts.units[column] = parameter_of.unit;
   }
+  if (is_refined(wish)) facts.attributes.push_back({"refined_from_cells_of", static_cast<double>(wish.problem.refine)});
+  if (!has_directions(wish) && !has_starts(wish))
+    facts.axes = {{"y", wish.y.name, static_cast<std::size_t>(wish.y.count)}, {"x", wish.x.name, static_cast<std::size_t>(wish.x.count)}};
   for (const Wanted& one : wish.of) facts.units[one.quantity.name + ":" + one.statistic] = one.quantity.unit;
   return facts;
 }
 
 void write_map(const MapWish& wish, const sweep::Map& map, TableOutput& table) {
-  for (const sweep::Finding& found : map.findings) write_row(wish, map, found, table);
+  for (std::size_t i = 0; i < map.rows(); ++i) write_row(wish, map, map.row(i), table);
   if (ranges::any_of(map.findings, [](const sweep::Finding& found) { return !found.failed; })) table.commit();
 }
 

@@ -6,7 +6,8 @@
 namespace slapstick::app {
 
 /// x, y, class, attractor, n, p, chatter, exponent, a column for each statistic, then multiplier_re, multiplier_im,
-/// sticking and doubt; with two directions `direction`, with random starts `starts`.
+/// sticking and doubt; with two directions `direction`, with random starts `starts`, of a refined map `computed`: 0
+/// where the class was filled in and the numbers are NaN.
 [[nodiscard]] std::vector<std::string> map_columns(const MapWish& wish);
 /// What table formats say of all rows: also what x and y are.
 [[nodiscard]] TableFacts map_facts(const MapWish& wish);

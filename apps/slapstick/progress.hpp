@@ -16,6 +16,11 @@ class Progress {
 
   /// Cheap unless it is time for a new line: five a second on a terminal, else one. One thread at a time.
   void update(double done);
+  /// The same where what is to do grows.
+  void update(double done, double total) {
+    total_ = total;
+    update(done);
+  }
 
  private:
   using Clock = std::chrono::steady_clock;

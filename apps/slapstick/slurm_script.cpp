@@ -31,11 +31,10 @@ std::string this_program() {
   return error ? "slapstick" : program.string();
 }
 
-std::string map_words(const MapOptions& options) {
+std::string map_words(const MapOptions& options, const std::vector<std::string>& all) {
   const bool file = options.model.source.ends_with(".toml");
   std::string words = "map " + quoted(file ? absolute(options.model.source) : options.model.source);
   for (const std::string& set : options.model.sets) words += " --set " + quoted(set);
-  const std::vector<std::string> all = options.words();
   // Of each level and start only what `map` takes with it.
   const auto belongs = [&](const std::string& name) {
     if (name == "--periods") return options.level == "quick";
@@ -60,7 +59,7 @@ std::string export_line(const SlurmWish& wish) {
 
 }  // namespace
 
-std::string slurm_script(const MapOptions& options, const SlurmWish& wish) {
+std::string slurm_script(const MapOptions& options, const std::vector<std::string>& words, const SlurmWish& wish) {
   const std::string whole = absolute(wish.store), stem = fs::path(whole).replace_extension().string();
   const std::string tasks = std::to_string(wish.tasks);
   return "#!/bin/bash\n"
@@ -79,7 +78,7 @@ std::string slurm_script(const MapOptions& options, const SlurmWish& wish) {
          "whole=" + quoted(whole) + "\n"
          "task=${SLURM_ARRAY_TASK_ID:-${1:?the number of a task is wanted, 1 to " + tasks + "}}\n"
          "rm -f \"$stem-$task.done\"\n"
-         "\"$slapstick\" " + map_words(options) + " \\\n"
+         "\"$slapstick\" " + map_words(options, words) + " \\\n"
          "  --shard \"$task/" + tasks + "\" --store \"$stem-$task.db\" --resume --threads \"${SLURM_CPUS_PER_TASK:-1}\" &\n"
          "program=$!\n"
          "trap 'kill -TERM \"$program\"' TERM  # the time is nearly over: the program keeps what is complete\n"

@@ -13,6 +13,6 @@ struct SlurmWish {
 /// A shell script for `sbatch`: each task computes one shard and goes on where an earlier attempt was ended; the task
 /// that is finished last joins the stores. Without Slurm `bash SCRIPT I` does what task I does.
 /// @throws InputError if the paths cannot be written into a script
-[[nodiscard]] std::string slurm_script(const MapOptions& options, const SlurmWish& wish);
+[[nodiscard]] std::string slurm_script(const MapOptions& options, const std::vector<std::string>& words, const SlurmWish& wish);
 
 }  // namespace slapstick::app

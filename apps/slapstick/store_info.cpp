@@ -5,12 +5,20 @@
 
 #include "arguments.hpp"
 #include "base/text.hpp"
+#include "map_store.hpp"
 
 namespace slapstick::app {
 namespace {
 
 /// The cells of the whole map that a shard is a part of count only where the store is of the whole.
 bool is_whole(const Store& store) { return store.fact("shard") == "1/1"; }
+
+/// A refined map has what its own rounds ask for.
+bool is_refined_to_the_end(const Store& store) {
+  if (store.fact("verb") != "map") return false;
+  const std::unique_ptr<MapWish> wish = wish_of(store);
+  return wish->problem.refine > 0 && chart::read_map(store, wish->problem).complete;
+}
 
 }  // namespace
 
@@ -26,7 +34,7 @@ Json store_info(const Store& store) {
   std::replace(options.begin(), options.end(), '\n', ' ');
   const long long whole = parse_integer("cells", store.fact("cells"), 0, 1'000'000'000'000);
   json.set("options", options).set("cells", whole).set("done", cells).set("failed", failed);
-  if (is_whole(store)) json.set("complete", cells == whole);
+  if (is_whole(store)) json.set("complete", cells == whole || is_refined_to_the_end(store));
   return json.set("hash", store.hash());
 }
 

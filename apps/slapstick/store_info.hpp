@@ -1,7 +1,7 @@
 #pragma once
 /// What a store holds, in words and numbers.
 #include "io/json.hpp"
-#include "store.hpp"
+#include "map_store.hpp"
 
 namespace slapstick::app {
 

@@ -12,6 +12,7 @@ namespace slapstick::app {
 struct TableFacts {
   std::vector<Attribute> attributes{};
   std::map<std::string, std::string> units{};  ///< of columns by name; headings with a unit need none
+  std::vector<TableAxis> axes{};                ///< of a table that is a grid
 };
 
 /// @param varied  the parameter that is a column, or ""

@@ -191,8 +191,8 @@ void report(const sweep::Diagram& diagram, const Sweep& sweep, const std::string
 sweep::Diagram run(sweep::DiagramProblem& problem, const Options& options, const ChosenModel& chosen, const Context& context) {
   std::optional<DiagramStore> store;
   if (!options.store.empty()) {
-    const StoreFacts facts = run_facts("diagram", chosen, options.words(), problem.count * (problem.direction == Direction::both ? 2 : 1));
-    store.emplace(Store::to_write(options.store, facts, options.resume), problem);
+    const StoreFacts facts = chart::run_facts("diagram", chosen.definition, chosen.overrides, options.words(), problem.count * (problem.direction == Direction::both ? 2 : 1));
+    store.emplace(open_store(options.store, facts, options.resume), problem);
   }
   Progress progress("values", problem.count * (problem.direction == Direction::both ? 2.0 : 1.0), options.progress);
   problem.progress = [&](int count, int) { progress.update(count); };

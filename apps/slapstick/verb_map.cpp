@@ -32,6 +32,9 @@ void report(const MapWish& wish, const sweep::Map& map) {
     std::fprintf(stderr, "slapstick: stopped after %ld of %ld pixels; the finished ones are written\n", known, all);
   if (!map.complete && wish.problem.start == sweep::MapStart::random)
     std::fprintf(stderr, "slapstick: stopped before the end; what is complete is written\n");
+  if (map.complete && wish.problem.refine > 0)
+    std::fprintf(stderr, "slapstick: %ld of %ld pixels (%.3g %%) were computed, the others are filled in\n", known, all,
+                 100.0 * static_cast<double>(known) / static_cast<double>(all));
   if (map.failures.empty()) return;
   const auto& [place, why] = *map.failures.begin();
   const sweep::Finding first{.pixel = place.second};
@@ -44,8 +47,12 @@ void report(const MapWish& wish, const sweep::Map& map) {
 
 /// @returns whether it is complete
 bool run(MapWish& wish, const Options& options, const Context& context) {
-  Progress progress("pixels", static_cast<double>(sweep::pixel_count(wish.problem)) / wish.problem.shards, options.progress);
-  wish.problem.progress = [&](long done, long) { progress.update(static_cast<double>(done)); };
+  const bool refined = wish.problem.refine > 0;
+  Progress progress(refined ? "pixels wanted so far" : "pixels", static_cast<double>(sweep::pixel_count(wish.problem)) / wish.problem.shards, options.progress);
+  wish.problem.progress = [&](long done, long total) {
+    if (refined) return progress.update(static_cast<double>(done), static_cast<double>(total));
+    progress.update(static_cast<double>(done));
+  };
   wish.problem.cancel = &context.stop;
   return sweep::run_tiles(wish.problem);
 }
@@ -59,20 +66,20 @@ sweep::Map gathered(MapWish& wish, const Options& options, const Context& contex
     const bool complete = run(wish, options, context);
     return builder.take(complete);
   }
-  const MapStore store(Store::to_write(options.store, map_facts_of(options.map, wish), options.resume), wish.problem);
+  const chart::MapStore store(open_store(options.store, chart::facts_of(wish.chart()), options.resume), wish.problem);
   const bool complete = run(wish, options, context);
-  sweep::Map map = read_map(store.store(), wish);
+  sweep::Map map = chart::read_map(store.kept(), wish.problem);
   map.complete = complete;
   return map;
 }
 
 /// With a store and no other output: what the store then holds.
 int only_store(MapWish& wish, const Options& options, const Context& context) {
-  const MapStore store(Store::to_write(options.store, map_facts_of(options.map, wish), options.resume), wish.problem);
+  const chart::MapStore store(open_store(options.store, chart::facts_of(wish.chart()), options.resume), wish.problem);
   const bool complete = run(wish, options, context);
   if (!complete) std::fprintf(stderr, "slapstick: stopped before the end; %s has what is complete, and --resume goes on\n", options.store.c_str());
   Output out("");
-  out.write(store_info(store.store()).dump() + "\n");
+  out.write(store_info(store.kept()).dump() + "\n");
   out.commit();
   return complete ? done : interrupted;
 }
@@ -82,7 +89,7 @@ int print_script(const Options& options) {
   const std::unique_ptr<MapWish> wish = map_wish(options.map);
   static_cast<void>(shown_columns(*wish, options.show));
   Output out("");
-  out.write(slurm_script(options.map, {.tasks = static_cast<int>(options.slurm),
+  out.write(slurm_script(options.map, chart::option_words(wish->chart()), {.tasks = static_cast<int>(options.slurm),
                                        .store = options.store,
                                        .out = options.out,
                                        .plot = options.plot,
@@ -108,7 +115,7 @@ int map(const Options& options, const Context& context) {
   if (options.store.empty() || !options.out.empty()) write_map(*wish, found, table);
   figure::Figure picture = chart_figure(*wish, found, shown);
   if (options.curves > 0 && !context.stop) {
-    const ChartCurves curves = find_curves(*wish, found, static_cast<int>(options.curves), context.stop);
+    const chart::Curves curves = chart::find_curves(wish->chart(), found, static_cast<int>(options.curves), &context.stop);
     draw_curves(curves, picture);
     report_curves(curves);
   }
@@ -142,6 +149,8 @@ Action add_map(Arguments& arguments) {
       "  slapstick map vibro-impact --x omega=1:6:200 --y friction=0.05:0.3:120 --plot chart.png --out chart.csv");
   return [options, &arguments](const Context& context) {
     options->map.check_words(arguments);
+    if (options->map.refine > 0 && options->slurm > 0)
+      throw InputError("--refine: it is not for --slurm; which pixels are computed depends on the classes of the whole chart");
     if (options->curves > 0 && (options->plot.empty() || options->map.start != "reset" || options->slurm > 0))
       throw InputError("--curves needs --plot and --start reset, and is not for --slurm");
     for (const char* other : {"--shard", "--resume", "--threads"})

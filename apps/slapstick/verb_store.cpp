@@ -50,7 +50,7 @@ int merge(const Options& options, const Context& context) {
     roles.add("--out", options.out);
   }
   const StoreFacts facts = whole_facts(Store::to_read(options.files.front()));
-  Store into = Store::to_write(options.out, facts, false);
+  Store into = open_store(options.out, facts, false);
   for (const std::string& file : options.files) {
     const Store from = Store::to_read(file);
     if (whole_facts(from) != facts)
@@ -82,7 +82,9 @@ int write_out(const Options& options) {
   const std::vector<std::string> shown = shown_columns(*wish, options.show);
   const Plot plot(options.plot, options.plot_size);
   TableOutput table(options.out, map_columns(*wish), map_facts(*wish));
-  const sweep::Map map = read_map(store, *wish);
+  const sweep::Map map = chart::read_map(store, wish->problem);
+  if (map.complete && wish->problem.refine > 0)
+    std::fprintf(stderr, "slapstick: %ld of %s pixels were computed, the others are filled in\n", store.count(), store.fact("cells").c_str());
   if (!map.complete) std::fprintf(stderr, "slapstick: the store has %ld of %s cells\n", store.count(), store.fact("cells").c_str());
   if (options.plot.empty() || !options.out.empty()) write_map(*wish, map, table);
   return plot.write_or_say(chart_figure(*wish, map, shown), map.findings.empty(), done);

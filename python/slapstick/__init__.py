@@ -19,7 +19,7 @@ from ._core import version as __version__
 from ._diagram import Diagram, diagram
 from ._locus import Locus, Meeting, locus
 from ._lyapunov import Exponents, lyapunov
-from ._map import Map, map  # noqa: A004 (the verb is called so)
+from ._map import ChartCurve, ChartCurves, Map, map  # noqa: A004 (the verb is called so)
 from ._model import Model, Parameters, load, models, new
 from ._motion import Events, Motion, simulate
 from ._orbit import Orbit, OrbitEvents, orbit, orbits
@@ -36,6 +36,8 @@ __all__ = [
     "BatchEvents",
     "Branch",
     "Certificate",
+    "ChartCurve",
+    "ChartCurves",
     "Diagram",
     "Events",
     "Exponents",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -21,7 +22,41 @@ from ._tables import words
 
 Axis = tuple[str, float, float, int]
 WORDS = ("label", "attractor", "chatter", "doubt")
+OPTIONS = (
+    *("level", "carry", "direction", "starts", "seed", "periods", "transient", "most_periods", "most_n"),
+    *("exponent_periods", "of", "measured_periods", "stops", "start", "refine", "resume", "shard"),
+)
 NUMBERS = ("pixel", "n", "p", "starts", "exponent")
+
+
+@dataclass(frozen=True)
+class ChartCurve:
+    """A bifurcation curve behind a boundary of a chart.
+
+    type: 'PD', 'LP', ..; from_class, to_class: of the two pixels between which it was found; x, y: its points that are
+    motions, shape (k,), NaN between pieces; edges: that it explains, and no curve before; differ, alike: places along
+    the curve, a pixel apart, at which the pixels on both sides differ, or are alike.
+    """
+
+    type: str
+    from_class: str
+    to_class: str
+    x: Floats
+    y: Floats
+    edges: int
+    differ: int
+    alike: int
+
+
+@dataclass(frozen=True)
+class ChartCurves:
+    """The bifurcation curves of a chart, and what is left: edges of the whole chart with a cycle on one side at least,
+    those explained by some curve, and those tried without one."""
+
+    curves: list[ChartCurve]
+    edges: int
+    explained: int
+    without: int
 
 
 class Map(Result):
@@ -30,11 +65,19 @@ class Map(Result):
     x_name, y_name: the parameters; x, y: their values along the axes, shapes (nx,) and (ny,). pixel: iy * nx + ix.
     label: '1-1-II', 'chaotic', ..; attractor, chatter, doubt: as of `Attractor`; n, p: of a cycle, else 0 and NaN;
     sticking; exponent: the largest, per period, NaN where none is known; multiplier: the largest of a cycle, complex;
+    computed: False where a refined chart has filled in what the pixels around have in common, and numbers are NaN;
     starts: how many lead there; direction: 'up' or 'down', as the state was carried; measured: "Q:STAT" to its column.
     `grid(column)` is a column as a picture, shape (ny, nx).
     """
 
-    def __init__(self, columns: dict[str, Any], model: Model, values: dict[str, float], options: dict[str, Any]) -> None:
+    def __init__(
+        self,
+        columns: dict[str, Any],
+        model: Model,
+        values: dict[str, float],
+        options: dict[str, Any],
+        core: _core.Map | None = None,
+    ) -> None:
         super().__init__(model, values, options)
         (self.x_name, *x), (self.y_name, *y) = options["x"], options["y"]
         self._free = (self.x_name, self.y_name)
@@ -54,6 +97,8 @@ class Map(Result):
         self.p: Floats = columns["p"]
         self.starts: NDArray[np.int32] = columns["starts"]
         self.sticking: NDArray[np.bool_] = columns["sticking"]
+        self.computed: NDArray[np.bool_] = columns["computed"]
+        self._core = core
         self.exponent: Floats = columns["exponent"]
         self.multiplier: NDArray[np.complex128] = columns["multiplier"]
 
@@ -77,6 +122,18 @@ class Map(Result):
         picture[self.pixel[rows]] = column[rows]
         return picture.reshape(len(self.y), len(self.x))
 
+    def curves(self, most: int = 10, progress: Progress = None) -> ChartCurves:
+        """Up to `most` bifurcation curves over the chart, found from its own boundaries, as `slapstick map --curves`.
+
+        Of a chart without carry and starts that `slapstick.map` has made. Raises InputError.
+        """
+        if self._core is None:
+            raise InputError("curves: the chart must be of slapstick.map itself, not of slapstick.dask")
+        found = _progress.run(self._core.curves, (int(most),), "curves", float(most), progress)
+        names = ("type", "from_class", "to_class", "x", "y", "edges", "differ", "alike")
+        curves = [ChartCurve(**{name: getattr(curve, name) for name in names}) for curve in found.curves]
+        return ChartCurves(curves, found.edges, found.explained, found.without)
+
     def to_pandas(self) -> Any:
         """A DataFrame with the columns of `slapstick map`."""
         import pandas as pd
@@ -90,6 +147,8 @@ class Map(Result):
             table |= {"direction": self.direction}
         if self.options["starts"]:
             table |= {"starts": self.starts}
+        if self.options.get("refine"):
+            table |= {"computed": self.computed.astype(float)}
         return pd.DataFrame(table)
 
     def to_xarray(self) -> Any:
@@ -98,7 +157,7 @@ class Map(Result):
 
         columns: dict[str, Any] = {"class": self.label, "attractor": self.attractor, "n": self.n, "p": self.p}
         columns |= {"chatter": self.chatter, "exponent": self.exponent, "multiplier": np.abs(self.multiplier)}
-        columns |= {"sticking": self.sticking, **self.measured}
+        columns |= {"sticking": self.sticking, "computed": self.computed, **self.measured}
         ways = ["up", "down"] if self.options["direction"] == "both" else [self.options["direction"]]
         data = {
             name: (("direction", self.y_name, self.x_name), np.stack([self.grid(column, way) for way in ways]))
@@ -182,6 +241,7 @@ def columns_of(core: _core.Map, measured: list[str]) -> dict[str, Any]:
     columns: dict[str, Any] = {name: getattr(core, name) for name in NUMBERS}
     columns |= {name: words(getattr(core, name + "_names"), getattr(core, name + "_codes")) for name in WORDS}
     columns |= {"direction": words(("up", "down"), core.direction_codes), "sticking": core.sticking.view(np.bool_)}
+    columns |= {"computed": core.computed.view(np.bool_)}
     columns |= {"multiplier": core.multiplier_re + 1j * core.multiplier_im, "failures": core.failures}
     return columns | {"measured": {word: core.measured(k) for k, word in enumerate(measured)}, "complete": core.complete}
 
@@ -218,6 +278,9 @@ def map(  # noqa: A001 (the verb is called so)
     measured_periods: int = 100,
     stops: str | Sequence[str] = (),
     start: Start = None,
+    refine: int = 0,
+    store: str | os.PathLike[str] = "",
+    resume: bool = False,
     shard: tuple[int, int] = (1, 1),
     threads: int = 0,
     progress: Progress = None,
@@ -226,11 +289,12 @@ def map(  # noqa: A001 (the verb is called so)
 ) -> Map:
     """A chart over two parameters: what the motion is at every pixel, on all cores.
 
-    x, y: (NAME, A, B, COUNT), both ends included. level: 'quick', a cycle that Newton's method confirms in `periods`,
-    or undecided; 'full', as `slapstick.classify`. carry: a pixel begins where its neighbour in the row ended up, in
-    `direction` 'up', 'down' or 'both'. starts: so many motions at every pixel, the first from the model's own start, the others from random states; every attractor is a row.
-    of: "Q:STAT,..": statistics over the cycle, or where there is none over `measured_periods`.
-    shard: (I, N): only every N-th tile, beginning with the I-th. threads: 0 for all; the result is the same.
+    x, y: (NAME, A, B, COUNT), both ends included. level: 'quick', a cycle that Newton's method confirms in `periods`, or
+    undecided; 'full', as `slapstick.classify`. carry: a pixel begins where its neighbour in the row ended up, in `direction`
+    'up', 'down' or 'both'. starts: so many motions at every pixel, the first from the model's own start, the others random.
+    of: "Q:STAT,..": statistics over the cycle, or where there is none over `measured_periods`. refine: N: every N-th pixel of
+    every N-th row, and else only where classes differ; the others are filled in. store: a file that takes every tile as it is
+    finished and that the program reads too; with `resume` what is there is not computed again. shard: (I, N): every N-th tile.
 
     Raises InputError before the work. A pixel that fails is labelled 'failed', in `failures`, and a RuntimeWarning.
 
@@ -239,16 +303,24 @@ def map(  # noqa: A001 (the verb is called so)
     >>> chart.grid(chart.label).tolist()
     [['1-1-II', '1-1-I', '1-1-I'], ['1-1-II', '1-1-I', '1-1-I']]
     """
+    options = options_of(locals())
     chosen = model_of(model)
     fixed = numbers(given_to(map, chosen, values, parameters))
-    options: dict[str, Any] = {"x": axis_of("x", x), "y": axis_of("y", y), "measured_periods": measured_periods}
-    options |= dict(level=level, carry=carry, direction=direction, starts=starts, seed=seed, periods=periods, of=of)
-    options |= dict(most_periods=most_periods, most_n=most_n, exponent_periods=exponent_periods, stops=stops)
-    options |= dict(transient=transient, shard=shard, start=start)
     wish, measured = wish_of(options, chosen, fixed, threads)
-    total = x[3] * y[3] * (2 if direction == "both" else 1) // shard[1]
-    core = _progress.run(_core.map, (chosen._core, fixed, start_of(start), wish), "pixels", total, progress)
-    return reported(Map(columns_of(core, measured), chosen, fixed, options))
+    core = _progress.run(_core.map, (chosen._core, fixed, start_of(start), wish), "pixels", total_of(options), progress)
+    return reported(Map(columns_of(core, measured), chosen, fixed, options, core))
+
+
+def options_of(given: dict[str, Any]) -> dict[str, Any]:
+    """What a Map keeps of its call. Raises InputError for an axis that is none."""
+    axes_of = {name: axis_of(name, given[name]) for name in ("x", "y")}
+    return {name: given[name] for name in OPTIONS} | axes_of | {"store": os.fspath(given["store"])}
+
+
+def total_of(options: dict[str, Any]) -> float:
+    """Pixels of all directions and of the shard."""
+    both = 2 if options["direction"] == "both" else 1
+    return float(options["x"][3] * options["y"][3] * both // options["shard"][1])
 
 
 def wish_of(
@@ -271,6 +343,9 @@ def wish_of(
     wish.measured_periods, wish.stops = options["measured_periods"], stops_of(options["stops"])
     wish.starts, wish.threads = options["starts"] or 2, threads
     wish.of, wish.statistics = [quantity for quantity, _ in wanted], [name for _, name in wanted]
+    wish.refine, wish.store, wish.resume = options["refine"], options["store"], options["resume"]
+    if options["resume"] and not options["store"]:
+        raise InputError("resume: it needs store")
     wish.shard, wish.shards = options["shard"][0] - 1, options["shard"][1]
     return wish, [f"{quantity.name}:{name}" for quantity, name in wanted]
 

@@ -39,9 +39,9 @@ def map(  # noqa: A001 (the verb is called so)
 
     tasks: into how many shards the chart is cut; 0: four for each thread of the cluster. retries: how often a task that
     fails is tried again; one whose worker dies is given to another. options: those of `slapstick.map`, but for shard,
-    threads and progress.
+    threads, progress, store, resume and refine.
     """
-    refused = [name for name in ("shard", "threads", "progress") if name in options]
+    refused = [name for name in ("shard", "threads", "progress", "store", "resume", "refine") if name in options]
     if refused:
         raise InputError(f"{refused[0]}: the cluster decides it")
     chosen = model_of(model)

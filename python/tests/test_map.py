@@ -46,6 +46,41 @@ def test_shards_together_are_the_whole():
     assert columns["label"].tolist() == whole.label.tolist()
 
 
+def test_a_store_is_resumed_by_the_program_and_by_python(program, tmp_path):
+    store = tmp_path / "a.db"
+    whole = slapstick.map("vibro-impact", X, Y, of="x1:rms", store=store)
+    equal(whole, slapstick.map("vibro-impact", X, Y, of="x1:rms"))
+    words = ("map", "vibro-impact", *WORDS, "--of", "x1:rms")
+    ran = program(*words, "--store", store, "--resume", "--out", tmp_path / "m.csv")
+    assert ran.returncode == 0, ran.stderr
+    assert_same_table(whole.to_pandas(), program.table(tmp_path / "m.csv"))
+    equal(slapstick.map("vibro-impact", X, Y, of="x1:rms", store=store, resume=True), whole)
+    with pytest.raises(slapstick.InputError, match="resume"):
+        slapstick.map("vibro-impact", X, Y, of="x1:rms", store=store)
+    with pytest.raises(slapstick.InputError, match="another run"):
+        slapstick.map("vibro-impact", X, Y, of="x1:max", store=store, resume=True)
+
+
+def test_a_refined_chart_marks_what_it_filled_in():
+    x, y = ("omega", 1.3, 2.6, 49), ("friction", 0.1, 0.2, 33)
+    whole, fine = slapstick.map("vibro-impact", x, y), slapstick.map("vibro-impact", x, y, refine=8)
+    assert fine.grid(fine.label).tolist() == whole.grid(whole.label).tolist()
+    assert 0 < fine.computed.sum() < len(fine) / 2 and whole.computed.all()
+    assert np.isnan(fine.exponent[~fine.computed]).all()
+    assert np.array_equal(fine.exponent[fine.computed], whole.exponent[fine.computed])
+
+
+def test_the_curve_behind_a_boundary_is_where_the_linear_oscillator_grazes():
+    x, y = ("omega", 0.5, 1.5, 24), ("clearance", 0.3, 1.0, 18)
+    chart = slapstick.map("impact-oscillator", x, y, damping_ratio=0.8)
+    found = chart.curves(1)
+    (curve,) = found.curves
+    assert curve.type == "GR" and curve.edges == found.explained > 30 and curve.differ > 10 * curve.alike
+    there = ~np.isnan(curve.x)
+    amplitude = 1 / np.hypot(1 - curve.x[there] ** 2, 1.6 * curve.x[there])
+    assert np.allclose(curve.y[there], amplitude, rtol=1e-9, atol=0)
+
+
 def test_a_chart_is_seen_as_a_picture():
     chart = slapstick.map("vibro-impact", X, Y, carry=True, direction="both")
     up, down = chart.grid(chart.label, "up"), chart.grid(chart.label, "down")

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -39,6 +40,12 @@ struct Attribute {
   std::variant<std::string, double> value{};
 };
 
+/// An axis of a table whose rows are the points of a grid.
+struct TableAxis {
+  std::string column{}, name{};  ///< the column that has its values, and what they are called
+  std::size_t count = 0;
+};
+
 /// Rows are given cell by cell, in the order of the columns.
 class ColumnTable {
  public:
@@ -53,6 +60,9 @@ class ColumnTable {
 
   [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
   [[nodiscard]] const std::vector<Attribute>& attributes() const { return attributes_; }
+  /// Rows are the points of a grid, the last axis fastest; formats that have grids show it if no row is missing.
+  void over(std::vector<TableAxis> axes) { axes_ = std::move(axes); }
+  [[nodiscard]] const std::vector<TableAxis>& axes() const { return axes_; }
   void unit(const std::string& column, const std::string& unit);  ///< of the column of that name, if it has none
 
  private:
@@ -60,6 +70,7 @@ class ColumnTable {
 
   std::vector<Column> columns_;
   std::vector<Attribute> attributes_;
+  std::vector<TableAxis> axes_;
   std::size_t cell_ = 0;
 };
 

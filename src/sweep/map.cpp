@@ -8,10 +8,12 @@
 
 #include "base/ranges.hpp"
 #include "base/text.hpp"
-#include "section/settling.hpp"
 #include "slapstick/base/error.hpp"
 #include "sweep/executor.hpp"
+#include "sweep/finding_kinds.hpp"
+#include "sweep/map_check.hpp"
 #include "sweep/map_pixel.hpp"
+#include "sweep/refinement.hpp"
 
 namespace slapstick::sweep {
 namespace {
@@ -27,6 +29,17 @@ void check_axis(const char* name, const GridAxis& axis) {
   demand_of_map(axis.count == 1 ? axis.from == axis.to : axis.from < axis.to,
          of + ": from = " + shown(axis.from) + " is not below to = " + shown(axis.to) + " (one value needs from == to)");
 }
+
+void check_refine(const MapProblem& problem) {
+  if (problem.refine == 0) return;
+  demand_of_map(problem.refine >= 2, "refine = " + std::to_string(problem.refine) + " is below 2");
+  demand_of_map(problem.start == MapStart::reset, "refine needs start = reset: carried states need every pixel of a row, random ones "
+                                                  "show other attractors at each");
+  demand_of_map(problem.shards == 1, "refine needs shards = 1: what is computed next depends on all pixels before");
+  demand_of_map(!problem.known || problem.finding_of, "known needs finding_of");
+}
+
+}  // namespace
 
 void check_map(const MapProblem& problem) {
   demand_of_map(problem.model_at != nullptr && problem.start_at != nullptr, "model_at and start_at must be given");
@@ -45,7 +58,10 @@ void check_map(const MapProblem& problem) {
   demand_of_map(problem.shards >= 1 && problem.shard >= 0 && problem.shard < problem.shards, "shard must be in 0 .. shards - 1");
   demand_of_map(problem.threads >= 0, "threads = " + std::to_string(problem.threads) + " is below 0");
   demand_of_map(!problem.known || problem.carried_of || problem.start != MapStart::carry, "known needs carried_of");
+  check_refine(problem);
 }
+
+namespace {
 
 /// How the pixels of a problem are cut into tiles. With `carry` a chain goes through the columns of a band of rows, and
 /// a tile is a column of the band; else a tile is a run of pixels.
@@ -59,12 +75,19 @@ class Tiling {
     for (int chain = problem.shard; chain < all; chain += problem.shards) chains_.push_back(chain);
   }
 
+  /// Of a refined map: these pixels only, in runs.
+  Tiling(const MapProblem& problem, std::vector<std::int32_t> pixels) : problem_(problem), pixels_(std::move(pixels)) {
+    const int tiles = (static_cast<int>(pixels_.size()) + run() - 1) / run();
+    for (int tile = 0; tile < tiles; ++tile) chains_.push_back(tile);
+  }
+
   [[nodiscard]] Chains chains() const {
     return {.chains = static_cast<int>(chains_.size()), .length = carry_ ? problem_.x.count : 1};
   }
 
   /// The pixels of a cell, without starts.
   [[nodiscard]] std::vector<PixelTask> tile(const Cell& cell) const {
+    if (!pixels_.empty()) return listed(cell.chain * run());
     const int chain = chains_[static_cast<std::size_t>(cell.chain)], place = chain % bands_;
     std::vector<PixelTask> tasks;
     if (!carry_) {
@@ -92,29 +115,59 @@ class Tiling {
   /// Pixels of a tile: some tens of milliseconds.
   [[nodiscard]] int run() const { return problem_.level == Level::quick && problem_.start == MapStart::reset ? 32 : 4; }
   [[nodiscard]] int directions() const { return problem_.direction == Direction::both ? 2 : 1; }
+  [[nodiscard]] std::vector<PixelTask> listed(int from) const {
+    std::vector<PixelTask> tasks;
+    for (int i = from; i < std::min(from + run(), static_cast<int>(pixels_.size())); ++i)
+      tasks.push_back({pixels_[static_cast<std::size_t>(i)], Direction::up, {}});
+    return tasks;
+  }
 
   const MapProblem& problem_;
-  bool carry_;
+  bool carry_ = false;
   int bands_ = 0;
+  std::vector<std::int32_t> pixels_;
   std::vector<int> chains_;
 };
 
 /// One map while it runs.
 class MapRun {
  public:
-  explicit MapRun(const MapProblem& problem) : problem_(problem), tiling_(problem), total_(tiling_.size()) {}
+  explicit MapRun(const MapProblem& problem) : problem_(problem) {}
 
-  bool operator()() {
+  bool operator()() { return problem_.refine > 0 ? run_refined() : run_tiling(Tiling(problem_)); }
+
+ private:
+  bool run_tiling(const Tiling& tiling) {
+    total_ += tiling.size();
     const bool all = run_chains(
-        tiling_.chains(), problem_.threads,
-        [&](const Cell& cell, const Starts& start, const HandOn& hand_on) { run_tile(cell, start, hand_on); },
+        tiling.chains(), problem_.threads,
+        [&](const Cell& cell, const Starts& start, const HandOn& hand_on) { run_tile(tiling, cell, start, hand_on); },
         problem_.cancel);
     return all && done_ == total_;
   }
 
- private:
-  void run_tile(const Cell& cell, const Starts& start, const HandOn& hand_on) {
-    std::vector<PixelTask> tasks = tiling_.tile(cell);
+  /// Round by round: what a round wants depends on all rounds before.
+  bool run_refined() {
+    Refinement refinement(problem_.x.count, problem_.y.count, problem_.refine);
+    for (;;) {
+      std::vector<std::int32_t> unknown;
+      const std::vector<std::int32_t> wanted = refinement.wanted();
+      if (wanted.empty()) return true;
+      for (const std::int32_t pixel : wanted) {
+        if (problem_.known && problem_.known(pixel, Direction::up))
+          refinement.set(pixel, kinds_.number(problem_.finding_of(pixel, Direction::up)));
+        else
+          unknown.push_back(pixel);
+      }
+      total_ += static_cast<long>(wanted.size() - unknown.size());
+      done_ += static_cast<long>(wanted.size() - unknown.size());
+      refinement_ = &refinement;
+      if (!unknown.empty() && !run_tiling(Tiling(problem_, std::move(unknown)))) return false;
+    }
+  }
+
+  void run_tile(const Tiling& tiling, const Cell& cell, const Starts& start, const HandOn& hand_on) {
+    std::vector<PixelTask> tasks = tiling.tile(cell);
     for (std::size_t i = 0; i < tasks.size() && i < start.size(); ++i) tasks[i].start = start[i].state;
     const auto is_known = [&](const PixelTask& task) { return problem_.known && problem_.known(task.number, task.direction); };
     std::vector<PixelTask> unknown;
@@ -138,50 +191,20 @@ class MapRun {
   void deliver(const std::vector<Pixel>& pixels, std::size_t done) {
     const std::lock_guard lock(delivery_);
     if (problem_.finished && !pixels.empty()) problem_.finished(pixels);
+    if (refinement_ != nullptr)
+      for (const Pixel& pixel : pixels) refinement_->set(pixel.number, kinds_.number(pixel.found.front()));
     done_ += static_cast<long>(done);
     if (problem_.progress && done > 0) problem_.progress(done_, total_);
   }
 
   const MapProblem& problem_;
-  const Tiling tiling_;
   std::mutex delivery_;
-  long done_ = 0, total_;
+  Refinement* refinement_ = nullptr;
+  FindingKinds kinds_;
+  long done_ = 0, total_ = 0;
 };
 
 }  // namespace
-
-std::string Finding::label(bool driven) const {
-  return failed ? "failed" : class_label(attractor, n, p, sticking, chatter, driven);
-}
-
-MapBuilder::MapBuilder(const MapProblem& problem) {
-  check_map(problem);
-  map_.x = problem.x;
-  map_.y = problem.y;
-  map_.driven = section::driven(problem.model_at(problem.x.from, problem.y.from));
-  map_.width = problem.of.size();
-  const auto pixels = static_cast<std::size_t>(pixel_count(problem));
-  map_.findings.reserve(pixels);
-  map_.values.reserve(pixels * map_.width);
-}
-
-void MapBuilder::add(const Pixel& pixel) {
-  const auto first = static_cast<std::int32_t>(map_.width == 0 ? 0 : map_.values.size() / map_.width);
-  for (std::size_t k = 0; k < pixel.found.size(); ++k) {
-    map_.findings.push_back(pixel.found[k]);
-    map_.findings.back().values = first + static_cast<std::int32_t>(k);
-  }
-  map_.values.insert(map_.values.end(), pixel.values.begin(), pixel.values.end());
-  if (!pixel.failure.empty()) map_.failures[{static_cast<int>(pixel.direction), pixel.number}] = pixel.failure;
-}
-
-Map MapBuilder::take(bool complete) {
-  const auto place = [](const Finding& of) { return std::pair(of.direction, of.pixel); };
-  std::stable_sort(map_.findings.begin(), map_.findings.end(),
-                   [&](const Finding& a, const Finding& b) { return place(a) < place(b); });
-  map_.complete = complete;
-  return std::move(map_);
-}
 
 long pixel_count(const MapProblem& problem) {
   const bool both = problem.start == MapStart::carry && problem.direction == Direction::both;

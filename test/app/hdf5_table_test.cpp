@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <hdf5.h>
+#include <hdf5_hl.h>
 
 #include <cmath>
 
@@ -64,6 +65,30 @@ class Opened {
     return value;
   }
 
+  bool has(const char* name) const { return H5Lexists(file_, name, H5P_DEFAULT) > 0; }
+  std::vector<hsize_t> extent(const char* name) const {
+    const hid_t set = H5Dopen2(file_, name, H5P_DEFAULT), space = H5Dget_space(set);
+    std::vector<hsize_t> sides(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
+    H5Sget_simple_extent_dims(space, sides.data(), nullptr);
+    H5Sclose(space);
+    H5Dclose(set);
+    return sides;
+  }
+  /// The path of the scale that is attached to a dimension.
+  std::string scale_of(const char* name, unsigned dimension) const {
+    const hid_t set = H5Dopen2(file_, name, H5P_DEFAULT);
+    std::string path;
+    const auto take = [](hid_t, unsigned, hid_t scale, void* to) -> herr_t {
+      char text[64] = "";
+      H5Iget_name(scale, text, sizeof text);
+      *static_cast<std::string*>(to) = text;
+      return 1;
+    };
+    H5DSiterate_scales(set, dimension, nullptr, take, &path);
+    H5Dclose(set);
+    return path;
+  }
+
  private:
   hid_t access_, file_;
 };
@@ -91,6 +116,40 @@ TEST(Hdf5Table, numbers_words_units_and_attributes_come_back) {
   EXPECT_EQ(file.number("parameter_omega"), 1.5);
   EXPECT_LT(bytes.size(), rows * 17U) << "words take a byte";
   EXPECT_EQ(bytes, hdf5_file(some_table(rows))) << "the bytes depend on the table only";
+}
+
+ColumnTable grid_table(int missing) {
+  ColumnTable table({"x", "y", "class", "w [m/s]"}, {});
+  table.over({{"y", "friction", 3}, {"x", "omega", 4}});
+  for (int i = 0; i < 12 - missing; ++i) {
+    table.number(1.0 + i % 4);
+    table.number(0.1 * (i / 4));
+    table.word(i % 4 < 2 ? "1-1-I" : "chaotic");
+    table.number(i);
+    table.end_row();
+  }
+  return table;
+}
+
+TEST(Hdf5Table, a_grid_has_its_axes_as_dimension_scales) {
+  const std::string bytes = hdf5_file(grid_table(0));
+  EXPECT_EQ(bytes, hdf5_file(grid_table(0)));
+  const Opened file(bytes);
+  EXPECT_EQ(file.numbers<double>("grid/omega", H5T_NATIVE_DOUBLE), (std::vector<double>{1, 2, 3, 4}));
+  EXPECT_EQ(file.numbers<double>("grid/friction", H5T_NATIVE_DOUBLE), (std::vector<double>{0.0, 0.1, 0.2}));
+  EXPECT_EQ(file.text("grid/omega", "NAME"), std::string("omega", 6));
+  EXPECT_EQ(file.text("grid/w", "units"), "m/s");
+  EXPECT_EQ(file.scale_of("grid/w", 0), "/grid/friction");
+  EXPECT_EQ(file.scale_of("grid/class", 1), "/grid/omega");
+  EXPECT_EQ(file.extent("grid/w"), (std::vector<hsize_t>{3, 4}));
+  EXPECT_EQ(file.numbers<double>("grid/w", H5T_NATIVE_DOUBLE), file.numbers<double>("w", H5T_NATIVE_DOUBLE));
+}
+
+/// A run that was stopped: rows are not at their place.
+TEST(Hdf5Table, a_grid_with_a_missing_row_is_a_table_only) {
+  const Opened file(hdf5_file(grid_table(1)));
+  EXPECT_FALSE(file.has("grid"));
+  EXPECT_EQ(file.numbers<double>("w", H5T_NATIVE_DOUBLE).size(), 11U);
 }
 
 TEST(Hdf5Table, a_table_without_rows_is_a_file) {

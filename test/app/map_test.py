@@ -73,6 +73,46 @@ def test_the_curve_behind_a_boundary_is_where_the_linear_oscillator_grazes():
         assert abs(clearance - amplitude) < 1e-9 * amplitude, (omega, clearance, amplitude)
 
 
+BROAD = ('map', 'vibro-impact', '--x', 'omega=1.3:2.6:49', '--y', 'friction=0.1:0.2:33')
+
+
+def told(*words):
+    """A run that must succeed; returns what it tells on standard error."""
+    done = run(*words)
+    assert done.status == 0, (words, done.err)
+    return done.err
+
+
+def test_a_refined_chart_is_the_whole_one_and_marks_what_it_filled_in():
+    columns, whole = table(good(*BROAD))
+    err = told(*BROAD, '--refine', '8', '--out', 'a.csv', '--plot', 'a.png', '--show', 'class,computed,exponent')
+    marked, rows = table(read('a.csv'))
+    assert marked == columns + ['computed'] and len(rows) == len(whole) == 49 * 33
+    computed = [row for row in rows if row[-1] == '1']
+    says(err, '%d of %d pixels' % (len(computed), len(rows)), 'filled in')
+    assert 0 < len(computed) < len(rows) / 2
+    taken_over = [columns.index(name) for name in ('x', 'y', 'class', 'attractor', 'n', 'p', 'chatter', 'sticking')]
+    for row, other in zip(rows, whole):
+        assert [row[k] for k in taken_over] == [other[k] for k in taken_over]
+        if row[-1] == '1':
+            assert row[:-1] == other
+        else:
+            assert row[columns.index('exponent')] == row[columns.index('multiplier_re')] == 'nan'
+    says(read('a.gp'), '%.0f %% of the pixels computed' % (100 * len(computed) / len(rows)), 'filled in')
+    told(*BROAD, '--refine', '8', '--out', 'b.csv', '--threads', '3')
+    assert read('a.csv') == read('b.csv')
+
+
+def test_refinement_is_refused_where_it_has_no_meaning():
+    says(refused(2, *PAPER, '--refine', '4', '--start', 'carry'), '--refine', 'every pixel of a row')
+    says(refused(2, *PAPER, '--refine', '4', '--start', '3'), '--refine', 'random starts')
+    says(refused(2, *PAPER, '--refine', '4', '--store', 'a.db', '--shard', '1/2'), '--refine', '--shard')
+    says(refused(2, *PAPER, '--refine', '4', '--store', 'a.db', '--slurm', '2'), '--refine', '--slurm')
+    says(refused(2, *PAPER, '--refine', '1'), '--refine')
+    says(refused(2, *PAPER, '--plot', 'a.png', '--show', 'computed'), '--show', 'computed')
+    assert os.listdir('.') == []
+
+
 def test_bad_input_is_named():
     says(refused(2, 'map', 'vibro-impact', '--x', 'omega=1:2:3'), '--y')
     says(refused(2, *PAPER[:4], '--y', 'omega=1:2:3'), '--y', "'omega'")

@@ -74,6 +74,19 @@ def test_two_hundred_kills():
     assert kill_often(CARRY, 80, 4, 1.0) >= 40
 
 
+def test_a_refined_run_resumes_with_the_same_hash_and_exports_what_it_would_have_written():
+    refined = (*CHART, '--refine', '8')
+    kill_often(refined, 3, 5, 0.5)
+    whole = good('store', 'info', 'whole.db')
+    assert '"complete": true' in whole and 0 < done_in(whole) < 1200
+    done = run('store', 'export', 'part.db', '--out', 'a.csv', '--plot', 'a.png', '--show', 'class,computed')
+    assert done.status == 0, done.err
+    says(done.err, '%d of 1200 pixels' % done_in(whole), 'filled in')
+    assert run(*refined, '--out', 'b.csv').status == 0
+    assert read('a.csv') == read('b.csv')
+    says(refused(2, *CHART, '--store', 'part.db', '--resume'), 'another run')
+
+
 def test_an_interrupted_run_resumes_and_says_how():
     process = subprocess.Popen([PROGRAM, *CHART, '--store', 'a.db'], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     time.sleep(0.4)

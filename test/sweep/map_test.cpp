@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 #include <set>
+#include <tuple>
 
 #include "slapstick/base/error.hpp"
 #include "slapstick/io/model_file.hpp"
@@ -189,6 +190,79 @@ TEST(Map, RandomStartsFindEveryAttractorOfAPixel) {
   EXPECT_GE(map.findings[0].starts, map.findings[1].starts);
 }
 
+/// What a filled pixel takes over.
+auto common(const Finding& of) { return std::tuple(of.failed, of.attractor, of.n, of.p, of.chatter, of.sticking); }
+
+/// The paper's system at high friction: broad classes, no region smaller than a coarse cell.
+MapProblem broad() {
+  MapProblem problem = chart(49, 33, 1.3, 2.6);
+  problem.y = {0.1, 0.2, 33};
+  return problem;
+}
+
+TEST(Map, RefinedMapIsTheWholeOne) {
+  MapProblem problem = broad();
+  const Map whole = run_map(problem);
+  problem.refine = 8;
+  for (const int threads : {1, 3}) {
+    problem.threads = threads;
+    const Map map = run_map(problem);
+    ASSERT_TRUE(map.complete);
+    ASSERT_EQ(map.rows(), whole.findings.size());
+    EXPECT_LT(map.findings.size(), whole.findings.size() / 2);
+    std::size_t computed = 0;
+    for (std::size_t i = 0; i < map.rows(); ++i) {
+      const Finding found = map.row(i);
+      EXPECT_EQ(common(found), common(whole.findings[i])) << i;
+      if (!found.filled) ++computed;
+      if (!found.filled) { EXPECT_TRUE(same(found, whole.findings[i])) << i; }
+      EXPECT_EQ(std::isnan(map.values_of(found)[0]), found.filled);
+      if (found.filled) { EXPECT_TRUE(std::isnan(found.exponent) && std::isnan(found.multiplier.real())); }
+    }
+    EXPECT_EQ(computed, map.findings.size());
+  }
+}
+
+TEST(Map, RefinedMapResumesWithTheSamePixels) {
+  MapProblem problem = broad();
+  problem.refine = 8;
+  const Map whole = run_map(problem);
+  std::map<std::int32_t, Pixel> known;
+  std::atomic<bool> cancel{false};
+  problem.cancel = &cancel;
+  problem.finished = [&](std::span<const Pixel> pixels) {
+    for (const Pixel& pixel : pixels) known[pixel.number] = pixel;
+    cancel = known.size() > 150;
+  };
+  EXPECT_FALSE(run_tiles(problem));
+  cancel = false;
+  const std::map<std::int32_t, Pixel> before = known;
+  problem.known = [&](std::int32_t number, Direction) { return before.count(number) != 0; };
+  problem.finding_of = [&](std::int32_t number, Direction) { return before.at(number).found.front(); };
+  problem.finished = [&](std::span<const Pixel> pixels) {
+    for (const Pixel& pixel : pixels) EXPECT_TRUE(known.emplace(pixel.number, pixel).second) << "computed twice";
+  };
+  EXPECT_TRUE(run_tiles(problem));
+  MapBuilder together(problem);
+  for (const auto& [number, pixel] : known) together.add(pixel);
+  const Map map = together.take(true);
+  expect_same(map, whole);
+  EXPECT_EQ(map.stands_for, whole.stands_for);
+}
+
+/// Half of a refined map has no filled pixels: they may still turn out to be others.
+TEST(Map, IncompleteRefinedMapFillsNothing) {
+  MapProblem problem = broad();
+  problem.refine = 8;
+  std::atomic<bool> cancel{false};
+  problem.cancel = &cancel;
+  problem.progress = [&](long, long) { cancel = true; };
+  const Map map = run_map(problem);
+  EXPECT_FALSE(map.complete);
+  EXPECT_EQ(map.rows(), map.findings.size());
+  EXPECT_FALSE(map.row(0).filled);
+}
+
 TEST(Map, FailureStaysAtItsPixelWithItsReason) {
   for (const MapStart start : {MapStart::reset, MapStart::carry}) {
     MapProblem problem = chart(5, 3);
@@ -243,6 +317,11 @@ TEST(Map, RefusesAMeaninglessProblem) {
   refuses([](MapProblem& p) { p.direction = Direction::down; });
   refuses([](MapProblem& p) { p.start = MapStart::random, p.starts = 1; });
   refuses([](MapProblem& p) { p.model_at = {}; });
+  refuses([](MapProblem& p) { p.refine = 1; });
+  refuses([](MapProblem& p) { p.refine = 4, p.start = MapStart::carry; });
+  refuses([](MapProblem& p) { p.refine = 4, p.start = MapStart::random; });
+  refuses([](MapProblem& p) { p.refine = 4, p.shards = 2; });
+  refuses([](MapProblem& p) { p.refine = 4, p.known = [](std::int32_t, Direction) { return true; }; });
 }
 
 }  // namespace

@@ -16,8 +16,11 @@
 ///   carry   a pixel begins where its neighbour in the row ended up, going up or down through x; up and down together
 ///           show coexisting attractors;
 ///   random  several starts at every pixel, and every attractor that is found: the first start is the problem's own,
-///   the
-///           others are random admissible states about it, which depend on the pixel's model and the seed only.
+///           the others are random admissible states about it, which depend on the pixel's model and the seed only.
+///
+/// With `refine` a map computes a coarse grid and then only where classes differ; the other pixels are filled in.
+/// A filled pixel is wrong only if the whole region of its class, pixels that hang together by edges, holds no computed
+/// pixel; a region that holds a pixel of the coarse grid is right to the last pixel.
 ///
 /// A pixel depends on its own start only and is kept under its number: nothing depends on threads, on shards or on what
 /// was known before. Cost: a System (0.3 ms for the paper's) and the periods, at about a microsecond each, a pixel.
@@ -56,6 +59,9 @@ struct Finding {
   Chatter chatter = Chatter::none;
   bool sticking = false;
   bool failed = false;        ///< the reason is in Map::failures; nothing else is meant
+  /// Not computed: attractor, n, p, chatter, sticking and failed are what all computed pixels of the cell around have
+  /// in common; the rest is not known, its numbers are NaN.
+  bool filled = false;
   std::int32_t n = 0, p = 0;  ///< as of Classification
   std::int32_t starts = 1;    ///< of `random`: how many of them lead there
   std::int32_t values = 0;    ///< place of its statistics among Map::values, in rows
@@ -92,6 +98,9 @@ struct MapProblem {
   std::vector<Quantity> of = {};
   std::vector<std::string> statistics = {};
   int measured_periods = 100;
+  /// Of `reset`, without shards: side of the coarse cells in pixels, >= 2; 0: every pixel is computed. Which pixels are
+  /// computed depends on the problem only.
+  int refine = 0;
   /// Only every `shards`-th tile, beginning with number `shard` of 0 .. shards - 1. A tile is a run of pixels, of
   /// `carry` a band of rows; what belongs to which shard depends on the problem only.
   int shard = 0, shards = 1;
@@ -100,10 +109,13 @@ struct MapProblem {
   /// any thread.
   std::function<bool(std::int32_t number, Direction)> known = {};
   std::function<State(std::int32_t number, Direction)> carried_of = {};
+  /// Of `refine`: what a known pixel is. Called from the caller's thread.
+  std::function<Finding(std::int32_t number, Direction)> finding_of = {};
   /// Takes each tile as it is finished, from any of the threads, but never two at once; of a run that is stopped the
   /// finished pixels of a tile.
   std::function<void(std::span<const Pixel>)> finished = {};
-  /// Called after every tile with the numbers of pixels done and to do, never two at once.
+  /// Called after every tile with the numbers of pixels done and to do, never two at once. With `refine` the number of
+  /// those to do grows: it is what is wanted so far.
   std::function<void(long done, long total)> progress = {};
   const std::atomic<bool>* cancel = nullptr;  ///< set it and the map returns soon with what is complete
 };
@@ -116,7 +128,13 @@ struct Map {
   std::vector<double> values;     ///< row by row
   std::map<std::pair<int, std::int32_t>, std::string> failures;  ///< by direction and pixel
   bool complete = true;           ///< false if cancelled; a shard is complete by itself
+  /// Of a refined map that is complete: for each pixel the place among `findings` of the computed one that stands for
+  /// it. Else empty.
+  std::vector<std::int32_t> stands_for;
 
+  /// The motions of all pixels, filled ones included, and the i-th of them: those of `findings`, or one a pixel.
+  [[nodiscard]] std::size_t rows() const { return stands_for.empty() ? findings.size() : stands_for.size(); }
+  [[nodiscard]] Finding row(std::size_t i) const;
   [[nodiscard]] double x_of(const Finding& found) const { return x.value(found.pixel % x.count); }
   [[nodiscard]] double y_of(const Finding& found) const { return y.value(found.pixel / x.count); }
   [[nodiscard]] std::span<const double> values_of(const Finding& found) const {
@@ -129,11 +147,15 @@ class MapBuilder {
  public:
   explicit MapBuilder(const MapProblem& problem);
   void add(const Pixel& pixel);
-  /// In order. @param complete  as of Map
+  /// In order; a refined map with its other pixels filled in, and incomplete if a pixel for that is missing.
+  /// @param complete  as of Map
   [[nodiscard]] Map take(bool complete);
 
  private:
+  bool fill();
+
   Map map_;
+  int refine_ = 0;
 };
 
 /// Pixels that a whole problem has, in all directions.
@@ -145,7 +167,7 @@ class MapBuilder {
 /// @throws InputError for a meaningless problem, naming the field; what `finished` and `progress` throw
 bool run_tiles(const MapProblem& problem);
 
-/// The same, gathered. Memory: 64 bytes a pixel and 8 a statistic.
+/// The same, gathered. Memory: 64 bytes a computed pixel and 8 a statistic; with `refine` 8 more for every pixel.
 [[nodiscard]] Map run_map(const MapProblem& problem);
 
 }  // namespace slapstick::sweep

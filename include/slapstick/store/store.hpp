@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace slapstick::app {
+namespace slapstick::store {
 
 struct StoredCell {
   std::int64_t number = 0;
@@ -63,4 +63,4 @@ class Store {
   std::unique_ptr<Database> database_;
 };
 
-}  // namespace slapstick::app
+}  // namespace slapstick::store

@@ -1,5 +1,5 @@
 /// Finds the bifurcation curves behind the boundaries of a map.
-#include "chart_curves.hpp"
+#include "slapstick/chart/curves.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +12,8 @@
 #include "slapstick/base/error.hpp"
 #include "slapstick/orbit/search.hpp"
 
-namespace slapstick::app {
+namespace slapstick::chart {
 namespace {
-
-using sweep::Finding;
 
 struct Edge {
   int a = 0, b = 0;  ///< pixels; b is right of a, or above
@@ -26,18 +24,23 @@ struct Edge {
 /// The pixels of a map with their classes.
 class Pixels {
  public:
-  explicit Pixels(const sweep::Map& map) : map_(map), found_(static_cast<std::size_t>(map.x.count) * map.y.count, nullptr) {
-    for (const Finding& finding : map.findings) {
-      const Finding*& place = found_[static_cast<std::size_t>(finding.pixel)];
-      if (place == nullptr) place = &finding;
+  explicit Pixels(const sweep::Map& map) : map_(map), places_(static_cast<std::size_t>(map.x.count) * map.y.count, -1) {
+    for (std::size_t i = 0; i < map.findings.size(); ++i) {
+      std::int32_t& place = places_[static_cast<std::size_t>(map.findings[i].pixel)];
+      if (place < 0) place = static_cast<std::int32_t>(i);
+      labels_.push_back(map.findings[i].label(map.driven));
     }
-    for (const Finding* finding : found_) labels_.push_back(finding == nullptr ? "" : finding->label(map.driven));
+    if (!map.stands_for.empty()) places_ = map.stands_for;
   }
 
-  [[nodiscard]] const std::string& label(int pixel) const { return labels_[static_cast<std::size_t>(pixel)]; }
+  [[nodiscard]] const std::string& label(int pixel) const {
+    static const std::string none;
+    const std::int32_t place = places_[static_cast<std::size_t>(pixel)];
+    return place < 0 ? none : labels_[static_cast<std::size_t>(place)];
+  }
   [[nodiscard]] bool is_cycle(int pixel) const {
-    const Finding* finding = found_[static_cast<std::size_t>(pixel)];
-    return finding != nullptr && finding->n > 0;
+    const std::int32_t place = places_[static_cast<std::size_t>(pixel)];
+    return place >= 0 && map_.findings[static_cast<std::size_t>(place)].n > 0;
   }
   [[nodiscard]] double x(int pixel) const { return map_.x.value(pixel % map_.x.count); }
   [[nodiscard]] double y(int pixel) const { return map_.y.value(pixel / map_.x.count); }
@@ -69,34 +72,39 @@ class Pixels {
 
  private:
   const sweep::Map& map_;
-  std::vector<const Finding*> found_;
-  std::vector<std::string> labels_;
+  std::vector<std::int32_t> places_;  // of each pixel the finding that it is, or that stands for it; -1: none
+  std::vector<std::string> labels_;   // of each finding
+};
+
+struct Axis {
+  const std::string& name;
+  const sweep::GridAxis& range;
 };
 
 /// The two parameters in the order in which an edge is crossed: the first goes from pixel to pixel.
 struct Order {
-  const Sweep *first, *second;
+  Axis first, second;
 };
 
 /// The special point that a cycle meets on the way from one pixel to its neighbour.
-std::optional<orbit::SpecialPoint> special_between(const MapWish& wish, const Pixels& pixels, const Edge& edge, bool from_a,
-                                                   const Order& order, const std::atomic<bool>& stop) {
+std::optional<orbit::SpecialPoint> special_between(const Chart& chart, const Pixels& pixels, const Edge& edge, bool from_a,
+                                                   const Order& order, const std::atomic<bool>* stop) {
   const int from = from_a ? edge.a : edge.b, to = from_a ? edge.b : edge.a;
   const auto first = [&](int pixel) { return edge.across ? pixels.x(pixel) : pixels.y(pixel); };
   const double second = edge.across ? pixels.y(from) : pixels.x(from), begin = first(from), end = first(to);
-  Overrides values = wish.chosen.overrides;
-  values[order.second->name] = second;
-  const auto problem = orbit::pose(wish.chosen.definition.family({order.first->name}, values), {begin});
+  Overrides values = chart.values;
+  values[order.second.name] = second;
+  const auto problem = orbit::pose(chart.definition.family({order.first.name}, values), {begin});
   const double x = pixels.x(from), y = pixels.y(from);
-  const System system(wish.problem.model_at(x, y));
-  const orbit::Settled settled = orbit::settle(*problem, system, wish.problem.start_at(x, y), {.stop = &stop});
+  const System system(chart.problem.model_at(x, y));
+  const orbit::Settled settled = orbit::settle(*problem, system, chart.problem.start_at(x, y), {.stop = stop});
   if (!settled.orbit) return std::nullopt;
   orbit::ContinuationOptions how;
   const double width = std::abs(end - begin);
-  how.from = std::max(order.first->from, std::min(begin, end) - width);
-  how.to = std::min(order.first->to, std::max(begin, end) + width);
+  how.from = std::max(order.first.range.from, std::min(begin, end) - width);
+  how.to = std::min(order.first.range.to, std::max(begin, end) + width);
   how.most_points = 100;
-  how.stop = &stop;
+  how.stop = stop;
   const orbit::Branch branch = orbit::follow(*problem, settled.orbit->orbit, how);
   std::optional<orbit::SpecialPoint> nearest;
   for (const orbit::SpecialPoint& special : branch.special) {
@@ -120,7 +128,7 @@ std::vector<std::size_t> changes_on(const orbit::Curve& curve) {
 
 /// Its motions. Where a margin is zero all along, as at a graze of an impact of no speed, single points may fail the
 /// check by rounding: of each piece the majority counts.
-void keep_motions(const orbit::Curve& curve, std::size_t first_parameter, ChartCurve& found) {
+void keep_motions(const orbit::Curve& curve, std::size_t first_parameter, FoundCurve& found) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const std::vector<std::size_t> places = changes_on(curve);
   for (std::size_t k = 0; k + 1 < places.size(); ++k) {
@@ -137,26 +145,27 @@ void keep_motions(const orbit::Curve& curve, std::size_t first_parameter, ChartC
 }
 
 /// The curve of a special point over the chart, its motions only.
-ChartCurve curve_of(const MapWish& wish, const orbit::SpecialPoint& special, const Order& order, bool across,
-                    const std::atomic<bool>& stop) {
-  const auto problem = orbit::pose(wish.chosen.definition.family({order.first->name, order.second->name}, wish.chosen.overrides),
+FoundCurve curve_of(const Chart& chart, const orbit::SpecialPoint& special, const Order& order, bool across,
+                    const std::atomic<bool>* stop) {
+  const auto problem = orbit::pose(chart.definition.family({order.first.name, order.second.name}, chart.values),
                                    special.solution.orbit.values);
-  orbit::CurveOptions how{.from = order.first->from, .to = order.first->to, .second_from = order.second->from, .second_to = order.second->to};
+  orbit::CurveOptions how{.from = order.first.range.from, .to = order.first.range.to, .second_from = order.second.range.from, .second_to = order.second.range.to};
   how.most_points = 400;
-  how.stop = &stop;
-  ChartCurve found{.type = special.type};
+  how.stop = stop;
+  FoundCurve found{.type = special.type};
   keep_motions(orbit::locus(*problem, special, how), across ? 0 : 1, found);
   return found;
 }
 
-std::optional<ChartCurve> curve_at(const MapWish& wish, const Pixels& pixels, const Edge& edge, const std::atomic<bool>& stop) {
-  const Order order = edge.across ? Order{&wish.x, &wish.y} : Order{&wish.y, &wish.x};
+std::optional<FoundCurve> curve_at(const Chart& chart, const Pixels& pixels, const Edge& edge, const std::atomic<bool>* stop) {
+  const Axis x{chart.x, chart.problem.x}, y{chart.y, chart.problem.y};
+  const Order order = edge.across ? Order{x, y} : Order{y, x};
   for (const bool from_a : {true, false}) {
     if (!pixels.is_cycle(from_a ? edge.a : edge.b)) continue;
     try {
-      const auto special = special_between(wish, pixels, edge, from_a, order, stop);
+      const auto special = special_between(chart, pixels, edge, from_a, order, stop);
       if (!special) continue;
-      ChartCurve found = curve_of(wish, *special, order, edge.across, stop);
+      FoundCurve found = curve_of(chart, *special, order, edge.across, stop);
       if (found.x.size() < 2) continue;
       found.from = pixels.label(edge.a);
       found.to = pixels.label(edge.b);
@@ -177,14 +186,14 @@ double distance(double x, double y, double ax, double ay, double bx, double by) 
 
 /// use(ax, ay, bx, by) for each segment, in pixels.
 template <class Use>
-void for_each_segment(const ChartCurve& curve, const Pixels& pixels, const Use& use) {
+void for_each_segment(const FoundCurve& curve, const Pixels& pixels, const Use& use) {
   for (std::size_t i = 0; i + 1 < curve.x.size(); ++i) {
     if (std::isnan(curve.x[i]) || std::isnan(curve.x[i + 1])) continue;
     use(pixels.across(curve.x[i]), pixels.up(curve.y[i]), pixels.across(curve.x[i + 1]), pixels.up(curve.y[i + 1]));
   }
 }
 
-void explain(ChartCurve& curve, const Pixels& pixels, std::vector<Edge>& edges) {
+void explain(FoundCurve& curve, const Pixels& pixels, std::vector<Edge>& edges) {
   for (Edge& edge : edges) {
     if (edge.explained) continue;
     const double x = 0.5 * (pixels.across(pixels.x(edge.a)) + pixels.across(pixels.x(edge.b)));
@@ -197,7 +206,7 @@ void explain(ChartCurve& curve, const Pixels& pixels, std::vector<Edge>& edges) 
 }
 
 /// Looks at the pixels on both sides, a pixel apart along the curve and one off it.
-void compare_sides(ChartCurve& curve, const Pixels& pixels) {
+void compare_sides(FoundCurve& curve, const Pixels& pixels) {
   double since = 1.0;
   for_each_segment(curve, pixels, [&](double ax, double ay, double bx, double by) {
     const double length = std::hypot(bx - ax, by - ay);
@@ -233,19 +242,21 @@ std::vector<std::size_t> largest_boundary(const Pixels& pixels, const std::vecto
 
 }  // namespace
 
-ChartCurves find_curves(const MapWish& wish, const sweep::Map& map, int most, const std::atomic<bool>& stop) {
+Curves find_curves(const Chart& chart, const sweep::Map& map, int most, const std::atomic<bool>* stop) {
+  if (chart.problem.start != sweep::MapStart::reset) throw InputError("curves: they need start = reset");
+  const auto stopped = [&] { return stop != nullptr && stop->load(); };
   const Pixels pixels(map);
   std::vector<Edge> edges = pixels.edges();
-  ChartCurves found;
+  Curves found;
   found.edges = static_cast<long>(edges.size());
   std::set<Pair> given_up;
-  while (static_cast<int>(found.curves.size()) < most && !stop) {
+  while (static_cast<int>(found.curves.size()) < most && !stopped()) {
     Pair pair;
     const std::vector<std::size_t> places = largest_boundary(pixels, edges, given_up, pair);
     if (places.empty()) break;
-    std::optional<ChartCurve> curve;
+    std::optional<FoundCurve> curve;
     for (const double share : {0.5, 0.25, 0.75}) {
-      curve = curve_at(wish, pixels, edges[places[static_cast<std::size_t>(share * static_cast<double>(places.size()))]], stop);
+      curve = curve_at(chart, pixels, edges[places[static_cast<std::size_t>(share * static_cast<double>(places.size()))]], stop);
       if (curve) compare_sides(*curve, pixels);
       if (curve && curve->differ > curve->alike) break;  // else it is hidden where it runs, or is not this boundary
       ++found.without;
@@ -260,8 +271,8 @@ ChartCurves find_curves(const MapWish& wish, const sweep::Map& map, int most, co
     found.curves.push_back(std::move(*curve));
   }
   found.explained = ranges::count_if(edges, [](const Edge& edge) { return edge.explained; });
-  found.stopped = stop;
+  found.stopped = stopped();
   return found;
 }
 
-}  // namespace slapstick::app
+}  // namespace slapstick::chart

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace slapstick::app {
+namespace slapstick::store {
 
 class Checksum {
  public:
@@ -34,4 +34,4 @@ class Checksum {
   std::uint64_t sum_ = 0xcbf29ce484222325U;
 };
 
-}  // namespace slapstick::app
+}  // namespace slapstick::store

@@ -1,5 +1,5 @@
 /// Keeps cells in an SQLite database.
-#include "store.hpp"
+#include "slapstick/store/store.hpp"
 
 #include <fcntl.h>
 #include <sqlite3.h>
@@ -14,10 +14,10 @@
 #include <system_error>
 
 #include "base/text.hpp"
-#include "checksum.hpp"
+#include "store/checksum.hpp"
 #include "slapstick/base/error.hpp"
 
-namespace slapstick::app {
+namespace slapstick::store {
 
 static_assert(std::endian::native == std::endian::little, "numbers are stored as they lie in memory");
 
@@ -183,7 +183,7 @@ struct Store::Database {
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       if (i < facts.size() && facts[i] == wanted[i]) continue;
       const std::string there = i < facts.size() && facts[i].first == wanted[i].first ? facts[i].second : "";
-      throw InputError("--store: " + in_quotes(path) + " is of another run: " + difference(wanted[i].first, there, wanted[i].second) +
+      throw InputError("store: " + in_quotes(path) + " is of another run: " + difference(wanted[i].first, there, wanted[i].second) +
                        "; give the store of this run, or another name");
     }
   }
@@ -231,7 +231,7 @@ Store& Store::operator=(Store&&) noexcept = default;
 Store Store::to_write(const std::string& path, const StoreFacts& facts, bool resume) {
   std::error_code ignored;
   if (!resume && std::filesystem::exists(path, ignored))
-    throw InputError("--store: " + in_quotes(path) + " is there already; --resume goes on with it");
+    throw InputError("store: " + in_quotes(path) + " is there already; resume goes on with it");
   auto database = std::make_unique<Database>();
   database->path = path;
   database->lock = WriterLock(path);
@@ -300,4 +300,4 @@ std::string Store::hash() const {
   return sum.text();
 }
 
-}  // namespace slapstick::app
+}  // namespace slapstick::store

@@ -1,0 +1,105 @@
+/// Charts: their words and what stores say of them.
+#include "slapstick/chart/chart.hpp"
+
+#include "io/table.hpp"
+
+namespace slapstick::chart {
+namespace {
+
+/// The arithmetic by which pixels are computed. Instruction sets have no part in it: their bits are the same.
+constexpr const char* kernel = "motion";
+
+std::string axis_words(const std::string& name, const sweep::GridAxis& axis) {
+  return name + "=" + number_text(axis.from) + ":" + number_text(axis.to) + ":" + std::to_string(axis.count);
+}
+
+std::string start_words(const sweep::MapProblem& problem) {
+  switch (problem.start) {
+    case sweep::MapStart::reset: return "reset";
+    case sweep::MapStart::carry: return "carry";
+    case sweep::MapStart::random: break;
+  }
+  return std::to_string(problem.starts);
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : "\n") + word;
+  return text;
+}
+
+}  // namespace
+
+Chart over(ModelDefinition definition, Overrides values, std::string x, const sweep::GridAxis& x_axis, std::string y,
+           const sweep::GridAxis& y_axis) {
+  Chart chart{.definition = std::move(definition), .values = std::move(values), .x = std::move(x), .y = std::move(y)};
+  chart.problem.x = x_axis;
+  chart.problem.y = y_axis;
+  const auto at = [values = chart.values, x = chart.x, y = chart.y](double of_x, double of_y) {
+    Overrides all = values;
+    all[x] = of_x;
+    all[y] = of_y;
+    return all;
+  };
+  chart.problem.model_at = [at, model = chart.definition](double of_x, double of_y) { return model.build(at(of_x, of_y)); };
+  chart.problem.start_at = [at, model = chart.definition](double of_x, double of_y) { return model.start(at(of_x, of_y)); };
+  return chart;
+}
+
+std::string state_words(const Overrides& named) {
+  std::string words;
+  for (const auto& [name, value] : named) words += (words.empty() ? "" : ",") + name + "=" + number_text(value);
+  return words;
+}
+
+std::vector<std::string> option_words(const Chart& chart) {
+  const sweep::MapProblem& problem = chart.problem;
+  const char* direction = problem.direction == sweep::Direction::up ? "up" : problem.direction == sweep::Direction::down ? "down" : "both";
+  std::vector<std::string> words{"--x", axis_words(chart.x, problem.x), "--y", axis_words(chart.y, problem.y),
+                                 "--level", problem.level == sweep::Level::quick ? "quick" : "full",
+                                 "--start", start_words(problem), "--direction", direction};
+  const ClassifyOptions& classify = problem.classify;
+  for (const auto& [name, value] :
+       {std::pair<const char*, long long>{"--periods", problem.periods}, {"--transient", classify.transient_periods},
+        {"--most-periods", classify.most_periods}, {"--exponent-periods", classify.exponent_periods},
+        {"--most-n", classify.most_n}, {"--seed", static_cast<long long>(problem.seed)},
+        {"--measured-periods", problem.measured_periods}}) {
+    words.emplace_back(name);
+    words.push_back(std::to_string(value));
+  }
+  if (problem.refine > 0) words.insert(words.end(), {"--refine", std::to_string(problem.refine)});
+  std::string of;
+  for (std::size_t k = 0; k < problem.of.size(); ++k)
+    of += (of.empty() ? "" : ",") + problem.of[k].name + ":" + problem.statistics[k];
+  if (!of.empty()) words.insert(words.end(), {"--of", of});
+  if (!chart.state.empty()) words.insert(words.end(), {"--state", chart.state});
+  for (const std::string& stop : chart.stops) words.insert(words.end(), {"--stop", stop});
+  return words;
+}
+
+store::StoreFacts run_facts(const std::string& verb, const ModelDefinition& definition, const Overrides& values,
+                            const std::vector<std::string>& options, long cells, int shard, int shards) {
+  return {{"verb", verb},
+          {"version", SLAPSTICK_VERSION},
+          {"kernel", kernel},
+          {"model", definition.to_toml(values)},
+          {"options", joined(options)},
+          {"shard", std::to_string(shard + 1) + "/" + std::to_string(shards)},
+          {"cells", std::to_string(cells)}};
+}
+
+store::StoreFacts facts_of(const Chart& chart) {
+  return run_facts("map", chart.definition, chart.values, option_words(chart), sweep::pixel_count(chart.problem),
+                   chart.problem.shard, chart.problem.shards);
+}
+
+sweep::Map stored_map(const Chart& chart, const std::string& path, bool resume) {
+  sweep::MapProblem problem = chart.problem;
+  const MapStore bound(store::Store::to_write(path, facts_of(chart), resume), problem);
+  const bool complete = sweep::run_tiles(problem);
+  sweep::Map map = read_map(bound.kept(), problem);
+  map.complete = complete;
+  return map;
+}
+
+}  // namespace slapstick::chart

@@ -22,7 +22,7 @@ void MapOptions::declare(Arguments& arguments) {
                  "attractor (reset)");
   arguments.choice("--direction", direction, {"up", "down", "both"},
                    "of --start carry: through the values of x; both shows coexisting attractors (up)");
-  arguments.count("--periods", periods, 20, 1'000'000'000, "of quick: forcing periods, half of them transient (300)");
+  arguments.count("--periods", periods, 20, 1'000'000'000, "of quick: forcing periods within which a cycle is to be confirmed (300)");
   arguments.count("--transient", transient, 0, 1'000'000'000, "of full: as `classify` (500)");
   arguments.count("--most-periods", most_periods, 10, 1'000'000'000, "of full: as `classify` (20000)");
   arguments.count("--exponent-periods", exponent_periods, 400, 100'000'000, "of full: as `classify` (4000)");

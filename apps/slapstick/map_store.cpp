@@ -16,8 +16,6 @@ std::int64_t number_of(std::int32_t pixel, Direction direction, const sweep::Map
   return pixel + (second ? layer : 0);
 }
 
-/// The arithmetic by which pixels are computed. Instruction sets have no part in it: their bits are the same.
-constexpr const char* kernel = "motion";
 constexpr std::size_t fixed = 11;  ///< numbers of a finding before its statistics
 
 void append(const Finding& found, std::vector<double>& to) {
@@ -51,7 +49,7 @@ std::string joined(const std::vector<std::string>& words) {
 }  // namespace
 
 StoreFacts run_facts(const std::string& verb, const ChosenModel& chosen, const std::vector<std::string>& options, long cells,
-                     int shard, int shards) {
+                     int shard, int shards, const std::string& kernel) {
   return {{"verb", verb},
           {"version", SLAPSTICK_VERSION},
           {"kernel", kernel},
@@ -63,7 +61,8 @@ StoreFacts run_facts(const std::string& verb, const ChosenModel& chosen, const s
 
 StoreFacts map_facts_of(const MapOptions& options, const MapWish& wish) {
   const sweep::MapProblem& problem = wish.problem;
-  return run_facts("map", wish.chosen, options.words(), sweep::pixel_count(problem), problem.shard, problem.shards);
+  return run_facts("map", wish.chosen, options.words(), sweep::pixel_count(problem), problem.shard, problem.shards,
+                   sweep::runs_in_lanes(problem) ? "lanes" : "motion");
 }
 
 std::unique_ptr<MapWish> wish_of(const Store& store) {

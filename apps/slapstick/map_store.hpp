@@ -12,8 +12,10 @@ namespace slapstick::app {
 [[nodiscard]] StoreFacts map_facts_of(const MapOptions& options, const MapWish& wish);
 
 /// What any run says of itself. @param options  words that say what is computed, besides the model and its values
+/// @param kernel  the arithmetic of the cells: "motion", or "lanes" where lanes take the model. Instruction sets have
+/// no part in it: their bits are the same
 [[nodiscard]] StoreFacts run_facts(const std::string& verb, const ChosenModel& chosen, const std::vector<std::string>& options,
-                                   long cells, int shard = 0, int shards = 1);
+                                   long cells, int shard = 0, int shards = 1, const std::string& kernel = "motion");
 
 /// The map that a store is of: its model, options and problem. @throws InputError if it is of another verb.
 /// The version is not looked at

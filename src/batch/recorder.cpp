@@ -13,7 +13,9 @@ Instant Recorder::next() const {
 bool Recorder::look(const mode::Frame& frame, const double* p, const double* u) {
   const int points = std::max(plan_->points, 1);
   if (passed_ == 0) impacts = speeds = 0.0;
-  if (passed_ >= 2) {
+  if (passed_ >= 2 && watch) {
+    if (watch(p, u, static_cast<long>(impacts - impacts_before_))) passed_ = points + 1;
+  } else if (passed_ >= 2) {
     run.end.resize(2 * static_cast<std::size_t>(frame.n));
     frame.leave(p, u, run.end.data());
     if (plan_->points > 0) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <tuple>
 
 #include "base/ranges.hpp"
 #include "base/text.hpp"
@@ -89,8 +90,12 @@ class Tiling {
 
  private:
   static constexpr int band = 8;
-  /// Pixels of a tile: some tens of milliseconds.
-  [[nodiscard]] int run() const { return problem_.level == Level::quick && problem_.start == MapStart::reset ? 32 : 4; }
+  /// Pixels of a tile: some tens of milliseconds. Many pixels keep lanes full, many tiles keep threads busy.
+  [[nodiscard]] int run() const {
+    if (!runs_in_lanes(problem_)) return 4;
+    const long pixels = static_cast<long>(problem_.x.count) * problem_.y.count;
+    return static_cast<int>(std::clamp(pixels / 64, 32L, 256L));
+  }
   [[nodiscard]] int directions() const { return problem_.direction == Direction::both ? 2 : 1; }
 
   const MapProblem& problem_;
@@ -176,12 +181,15 @@ void MapBuilder::add(const Pixel& pixel) {
 }
 
 Map MapBuilder::take(bool complete) {
-  const auto place = [](const Finding& of) { return std::pair(of.direction, of.pixel); };
-  std::stable_sort(map_.findings.begin(), map_.findings.end(),
-                   [&](const Finding& a, const Finding& b) { return place(a) < place(b); });
+  // In place: a stable sort would ask for half as much memory again. Findings of one pixel have ascending `values`.
+  const auto place = [](const Finding& of) { return std::tuple(of.direction, of.pixel, of.values); };
+  std::sort(map_.findings.begin(), map_.findings.end(),
+            [&](const Finding& a, const Finding& b) { return place(a) < place(b); });
   map_.complete = complete;
   return std::move(map_);
 }
+
+bool runs_in_lanes(const MapProblem& problem) { return problem.level == Level::quick && problem.start != MapStart::random; }
 
 long pixel_count(const MapProblem& problem) {
   const bool both = problem.start == MapStart::carry && problem.direction == Direction::both;

@@ -75,15 +75,23 @@ class LanePixel {
     State state = flow::user_state(system, record_.back(0));
     undo_rounding(point.model, state);
     const Motion motion(system, state);
-    const section::Confirmation confirmation(*map_, record_, motion, options_);
-    section::Confirmation::Look look = confirmation.first_of(candidates);
-    if (last && !look.cycle && !stopped(problem_.cancel)) look.cycle = confirmation.look_around();
+    section::Confirmation::Look look = section::Confirmation(*map_, record_, motion, options_).first_of(candidates);
+    if (last && !look.cycle) look.cycle = follow_on(motion, candidates);
     if (look.cycle && !stopped(problem_.cancel)) {
       ClassifyOptions options = problem_.classify;
       options.cancel = problem_.cancel;
       attractor::describe(system, *look.cycle, flow::user_state(system, look.cycle->x), options, finding_.found);
     }
     return look;
+  }
+
+  /// At the end of the periods a Motion goes on from there, as in `classify`, with the same candidates.
+  [[nodiscard]] std::optional<section::Cycle> follow_on(const Motion& motion, const std::vector<section::Candidate>& candidates) const {
+    section::ConfirmationOptions options = options_;
+    options.by_record = false;
+    const section::Confirmation confirmation(*map_, record_, motion, options);
+    section::Confirmation::Look look = confirmation.first_of(candidates);
+    return look.cycle || stopped(problem_.cancel) ? look.cycle : confirmation.look_around();
   }
 
   void give_up(const batch::PassedPoint& point) {

@@ -21,7 +21,7 @@ void MapOptions::declare(Arguments& arguments) {
                  "attractor (reset)");
   arguments.choice("--direction", direction, {"up", "down", "both"},
                    "of --start carry: through the values of x; both shows coexisting attractors (up)");
-  arguments.count("--periods", periods, 20, 1'000'000'000, "of quick: forcing periods, half of them transient (300)");
+  arguments.count("--periods", periods, 20, 1'000'000'000, "of quick: forcing periods within which a cycle is to be confirmed (300)");
   arguments.count("--transient", transient, 0, 1'000'000'000, "of full: as `classify` (500)");
   arguments.count("--most-periods", most_periods, 10, 1'000'000'000, "of full: as `classify` (20000)");
   arguments.count("--exponent-periods", exponent_periods, 400, 100'000'000, "of full: as `classify` (4000)");
@@ -51,7 +51,7 @@ void MapOptions::check_words(const Arguments& arguments) const {
                      std::string(start == "carry" ? "carried states need every pixel of a row"
                                                   : "random starts may find other attractors at every pixel"));
   if (refine > 0 && !shard.empty())
-    throw InputError("--refine: not for --shard; which pixels are computed depends on the classes of the whole chart");
+    throw InputError("--refine: not for --shard; the classes of the whole chart decide what is computed");
   if (of.empty() && arguments.given("--measured-periods")) throw InputError("--measured-periods: only for --of");
 }
 

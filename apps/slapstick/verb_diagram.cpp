@@ -191,7 +191,9 @@ void report(const sweep::Diagram& diagram, const Sweep& sweep, const std::string
 sweep::Diagram run(sweep::DiagramProblem& problem, const Options& options, const ChosenModel& chosen, const Context& context) {
   std::optional<DiagramStore> store;
   if (!options.store.empty()) {
-    const StoreFacts facts = chart::run_facts("diagram", chosen.definition, chosen.overrides, options.words(), problem.count * (problem.direction == Direction::both ? 2 : 1));
+    const int values = problem.count * (problem.direction == Direction::both ? 2 : 1);
+    const StoreFacts facts = chart::run_facts("diagram", chosen.definition, chosen.overrides, options.words(), values, 0, 1,
+                                              problem.start == sweep::StartRule::reset ? "lanes" : "motion");
     store.emplace(open_store(options.store, facts, options.resume), problem);
   }
   Progress progress("values", problem.count * (problem.direction == Direction::both ? 2.0 : 1.0), options.progress);

@@ -150,7 +150,7 @@ Action add_map(Arguments& arguments) {
   return [options, &arguments](const Context& context) {
     options->map.check_words(arguments);
     if (options->map.refine > 0 && options->slurm > 0)
-      throw InputError("--refine: it is not for --slurm; which pixels are computed depends on the classes of the whole chart");
+      throw InputError("--refine: not for --slurm; the classes of the whole chart decide what is computed");
     if (options->curves > 0 && (options->plot.empty() || options->map.start != "reset" || options->slurm > 0))
       throw InputError("--curves needs --plot and --start reset, and is not for --slurm");
     for (const char* other : {"--shard", "--resume", "--threads"})

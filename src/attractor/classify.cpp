@@ -40,22 +40,6 @@ std::string class_label(Attractor attractor, int n, long p, bool sticking, Chatt
 
 namespace {
 
-/// What the cycle holds.
-void record(const section::Settling& settling, const section::Cycle& cycle, const ClassifyOptions& options,
-            Classification& result) {
-  const System& system = settling.translations().system();
-  result.attractor = cycle.neutral ? Attractor::family : Attractor::periodic;
-  result.family = cycle.family;
-  result.doubt = Doubt::none;
-  result.approach = cycle.approach;
-  attractor::record_cycle(system, settling.at_home(flow::user_state(system, cycle.x)), cycle.duration,
-                          options.stops, options.cancel, result);
-  result.return_distance = cycle.return_distance;
-  result.multipliers = cycle.multipliers;
-  result.drift = settling.drift(cycle.advance);
-  if (!cycle.multipliers.empty()) result.exponent = std::log(std::abs(cycle.multipliers.front())) / cycle.duration;
-}
-
 /// ln N / N: the exponent that a tangent shows which grows no faster than the time, as on every curve of a family.
 double growth_without_exponent(int periods) { return std::log(static_cast<double>(periods)) / periods; }
 
@@ -177,9 +161,11 @@ Classification classify(const System& system, const State& state, const Classify
   // However chaotic a motion looks, the whole search goes before: a chaotic transient ends in a cycle.
   std::optional<section::Cycle> cycle;
   while (!cycle && !settling.exhausted() && !settling.cancelled()) cycle = settling.next_round();
-  if (cycle)
-    record(settling, *cycle, options, result);
-  else if (!settling.cancelled())
+  if (cycle) {
+    attractor::describe(system, *cycle, settling.at_home(flow::user_state(system, cycle->x)), options, result);
+    result.drift = settling.drift(cycle->advance);
+  }
+  if (!cycle && !settling.cancelled())
     result = settling.ended() ? without_events(settling, system, options) : without_cycle(settling, system, options);
   result.periods_used = settling.periods();
   result.interrupted = settling.cancelled();

@@ -106,4 +106,16 @@ void record_cycle(const System& system, const State& state, double duration, con
   out.label = class_label(out.attractor, out.n, out.p, out.sticking, out.chatter, driven);
 }
 
+void describe(const System& system, const section::Cycle& cycle, const State& state, const ClassifyOptions& options,
+              Classification& out) {
+  out.attractor = cycle.neutral ? Attractor::family : Attractor::periodic;
+  out.family = cycle.family;
+  out.doubt = Doubt::none;
+  out.approach = cycle.approach;
+  record_cycle(system, state, cycle.duration, options.stops, options.cancel, out);
+  out.return_distance = cycle.return_distance;
+  out.multipliers = cycle.multipliers;
+  if (!cycle.multipliers.empty()) out.exponent = std::log(std::abs(cycle.multipliers.front())) / cycle.duration;
+}
+
 }  // namespace slapstick::attractor

@@ -15,6 +15,11 @@ using section::distance, section::PeriodEvents, section::Stop;
 void record_cycle(const System& system, const State& state, double duration, const StopChoice& stops, Stop stop,
                   Classification& out);
 
+/// Fills in all that a cycle says of a motion but its drift.
+/// @param state  of the user, on the cycle
+void describe(const System& system, const section::Cycle& cycle, const State& state, const ClassifyOptions& options,
+              Classification& out);
+
 /// Chatter of a sequence of impacts: incomplete if at least four in a row come ever slower and ever sooner.
 bool has_burst(const std::vector<double>& times, const std::vector<double>& speeds);
 

@@ -17,7 +17,9 @@ bool Recorder::look(const mode::Frame& frame, const double* p, const double* u, 
     impacts = speeds = 0.0;
     growth_before_ = growth;
   }
-  if (passed_ >= 2) {
+  if (passed_ >= 2 && watch) {
+    if (watch(p, u, static_cast<long>(impacts - impacts_before_))) passed_ = points + 1;
+  } else if (passed_ >= 2) {
     run.end.resize(2 * static_cast<std::size_t>(frame.n));
     frame.leave(p, u, run.end.data());
     if (plan_->points > 0) {

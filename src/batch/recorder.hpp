@@ -1,5 +1,6 @@
 #pragma once
 /// What is recorded of a run, whoever carries it on: instants to look at, impacts, points.
+#include <functional>
 #include <optional>
 
 #include "batch/tangent.hpp"
@@ -30,6 +31,8 @@ class Recorder {
   }
 
   double impacts = 0.0, speeds = 0.0;  ///< since the recording began, or the run
+  /// If set, takes each point in contact coordinates, with the impacts since the point before; true ends the run there.
+  std::function<bool(const double* p, const double* u, long impacts)> watch = {};
   BatchRun run;
 
  private:

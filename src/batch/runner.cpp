@@ -71,6 +71,10 @@ std::unique_ptr<Runner::Entry> Runner::next_entry() {
       validate(model, state);
       auto entry = std::make_unique<Entry>(*index, queue_.plan, std::move(model));
       Recorder& recorder = entry->recorder;
+      if (queue_.watch)
+        recorder.watch = [this, &of = *entry](const double* p, const double* u, long impacts) {
+          return queue_.watch(of.index, {of.model, of.frame, p, u, impacts});
+        };
       if (fits_lanes(entry->model, entry->frame)) {
         recorder.run.in_lanes = true;
         entry->X.resize(static_cast<std::size_t>(entry->frame.size()));

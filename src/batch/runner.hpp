@@ -13,6 +13,14 @@
 
 namespace slapstick::batch {
 
+/// A run at one of its stroboscopic points, in contact coordinates (mode/frame.hpp): n numbers each.
+struct PassedPoint {
+  const Model& model;
+  const mode::Frame& frame;
+  const double *p, *u;
+  long impacts = 0;  ///< since the point before
+};
+
 /// What the lanes are to run.
 struct Queue {
   std::function<std::optional<std::size_t>()> next;  ///< the index of the next run
@@ -23,6 +31,8 @@ struct Queue {
   enum class Wanted { all, those_of_lanes } wanted = Wanted::all;  ///< whether runs that no lane can carry are left
                                                                    ///< out, undone
   const std::atomic<bool>* cancel = nullptr;
+  /// If set, it is given every point of a run in place of BatchRun::points, while the lanes wait; true ends the run.
+  std::function<bool(std::size_t, const PassedPoint&)> watch = {};
 };
 
 /// Work of a thread's lanes.

@@ -6,9 +6,6 @@
 namespace slapstick::chart {
 namespace {
 
-/// The arithmetic by which pixels are computed. Instruction sets have no part in it: their bits are the same.
-constexpr const char* kernel = "motion";
-
 std::string axis_words(const std::string& name, const sweep::GridAxis& axis) {
   return name + "=" + number_text(axis.from) + ":" + number_text(axis.to) + ":" + std::to_string(axis.count);
 }
@@ -78,7 +75,8 @@ std::vector<std::string> option_words(const Chart& chart) {
 }
 
 store::StoreFacts run_facts(const std::string& verb, const ModelDefinition& definition, const Overrides& values,
-                            const std::vector<std::string>& options, long cells, int shard, int shards) {
+                            const std::vector<std::string>& options, long cells, int shard, int shards,
+                            const std::string& kernel) {
   return {{"verb", verb},
           {"version", SLAPSTICK_VERSION},
           {"kernel", kernel},
@@ -90,7 +88,8 @@ store::StoreFacts run_facts(const std::string& verb, const ModelDefinition& defi
 
 store::StoreFacts facts_of(const Chart& chart) {
   return run_facts("map", chart.definition, chart.values, option_words(chart), sweep::pixel_count(chart.problem),
-                   chart.problem.shard, chart.problem.shards);
+                   chart.problem.shard, chart.problem.shards,
+                   sweep::runs_in_lanes(chart.problem) ? "lanes" : "motion");
 }
 
 sweep::Map stored_map(const Chart& chart, const std::string& path, bool resume) {

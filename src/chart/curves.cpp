@@ -243,7 +243,7 @@ std::vector<std::size_t> largest_boundary(const Pixels& pixels, const std::vecto
 }  // namespace
 
 Curves find_curves(const Chart& chart, const sweep::Map& map, int most, const std::atomic<bool>* stop) {
-  if (chart.problem.start != sweep::MapStart::reset) throw InputError("curves: they need start = reset");
+  if (chart.problem.start != sweep::MapStart::reset) throw InputError("curves: start = reset is needed");
   const auto stopped = [&] { return stop != nullptr && stop->load(); };
   const Pixels pixels(map);
   std::vector<Edge> edges = pixels.edges();

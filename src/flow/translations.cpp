@@ -50,6 +50,10 @@ MatrixXd seen_displacements(const Model& model) {
 
 }  // namespace
 
+int translation_count(const Model& model, const mode::Frame& frame) {
+  return static_cast<int>(dense::kernel(seen_displacements(model) * frame.W_inverse, dependent).free.size());
+}
+
 Translations::Translations(const System& system) : system_(system) {
   const mode::Frame& frame = system.compiled().frame();
   const dense::Kernel unseen = dense::kernel(seen_displacements(system.model()) * frame.W_inverse, dependent);

@@ -12,10 +12,14 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "mode/frame.hpp"
 #include "slapstick/flow/motion.hpp"
 #include "slapstick/flow/tangent.hpp"
 
 namespace slapstick::flow {
+
+/// How many a model has. Cost: a microsecond or two.
+[[nodiscard]] int translation_count(const Model& model, const mode::Frame& frame);
 
 class Translations {
  public:

@@ -16,14 +16,12 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr double there = 1e-10;  ///< of the motion's size: as near as a return is recognised
-
 /// |w . (x - x*)| for the left eigenvector of the leading multiplier, of norm 1 over |x_i| <= scale_i.
 class Amplitude {
  public:
   Amplitude(const flow::Translations& translations, const FixedPoint& cycle, const VectorXd& scale)
       : translations_(translations), at_(translations.numbers(cycle.x)) {
-    const dense::Eigenpairs left = dense::eigenpairs(cycle.jacobian.transpose());
+    const dense::Eigenpairs left = dense::eigenpairs(cycle.value.jacobian.transpose());
     Index leading = 0;
     if (left.values.size() > 0) left.values.cwiseAbs().maxCoeff(&leading);
     w_ = left.vectors.col(leading);
@@ -52,16 +50,19 @@ long cycles_of_stage(double slowest, int n) {
 /// A motion beside a cycle, from stage to stage.
 class Trial {
  public:
-  Trial(const ReturnMap& map, Motion motion, const FixedPoint& cycle, int n, const VectorXd& scale, Stop stop)
+  Trial(const ReturnMap& map, const Followed& followed, const FixedPoint& cycle, int n, const VectorXd& scale, Stop stop)
       : map_(map),
-        motion_(std::move(motion)),
+        record_(followed.record),
+        motion_(followed.motion),
         cycle_(cycle),
         scale_(scale),
+        there_(followed.there),
         stop_(stop),
         amplitude_(map.translations(), cycle, scale),
         slowest_(std::abs(cycle.multipliers.front())),
         cycles_(cycles_of_stage(slowest_, n)),
         periods_(cycles_ * n) {
+    go_back(n);
     look();
   }
 
@@ -74,10 +75,10 @@ class Trial {
     constexpr double linear = 1e-2;           // farther away the loss must be near the linear one, from both sides
     constexpr double above_rounding = 1e-13;  // a loss below is that of some hundred roundings
     const double away = distance_, first = size_;
-    if (!map_.run(motion_, periods_, stop_)) return false;
+    if (!go_on()) return false;
     look();
     // what is left is of faster directions, which fall by themselves
-    if (first <= there) return distance_ <= 0.8 * away;
+    if (first <= there_) return distance_ <= 0.8 * away;
     const double lost = first - size_;
     const double expected = first * (1.0 - std::pow(slowest_, static_cast<double>(cycles_)));
     const bool turns = cycle_.multipliers.front().imag() != 0.0;
@@ -85,17 +86,35 @@ class Trial {
   }
 
  private:
+  /// To the first point of the record from which on the motion stays beside the cycle.
+  void go_back(int n) {
+    constexpr double near = 1e-3;  // of the motion's size, as where Newton's method begins
+    if (record_ == nullptr) return;
+    const auto is_near = [&](long place) { return section::distance(record_->back(place), cycle_.x, scale_) <= near; };
+    for (long place = 0; place < record_->size() && place <= static_cast<long>(longest_trial) && is_near(place); place += n) ago_ = place;
+  }
+
+  /// One stage: through the record, and then with the motion.
+  [[nodiscard]] bool go_on() {
+    const long in_record = std::min(ago_, periods_);
+    ago_ -= in_record;
+    return in_record == periods_ || map_.run(motion_, periods_ - in_record, stop_);
+  }
+
   void look() {
-    VectorXd x = flow::contact_state(motion_);
+    VectorXd x = ago_ > 0 ? VectorXd(record_->back(ago_)) : flow::contact_state(motion_);
     map_.translations().take_out(x);
     distance_ = section::distance(x, cycle_.x, scale_);
     size_ = amplitude_(x);
   }
 
   const ReturnMap& map_;
+  const PointRecord* record_;
+  long ago_ = 0;  ///< points of the record that are left
   Motion motion_;
   const FixedPoint& cycle_;
   const VectorXd& scale_;
+  double there_;
   Stop stop_;
   Amplitude amplitude_;
   double slowest_;
@@ -105,14 +124,14 @@ class Trial {
 
 }  // namespace
 
-Attraction attraction(const ReturnMap& map, Motion motion, const FixedPoint& cycle, int n, const VectorXd& scale,
+Attraction attraction(const ReturnMap& map, const Followed& followed, const FixedPoint& cycle, int n, const VectorXd& scale,
                       Stop stop) {
   constexpr double beside = 0.05;  // of the motion's size: a motion farther away may do anything yet
   if (cycle.multipliers.empty()) return {true, 0.0};
-  Trial trial(map, std::move(motion), cycle, n, scale, stop);
+  Trial trial(map, followed, cycle, n, scale, stop);
   for (double left = longest_trial; left > 0.0; left -= static_cast<double>(trial.periods())) {
     const bool loses = trial.loses();
-    if (trial.distance() <= there) return {true, trial.distance()};
+    if (trial.distance() <= followed.there) return {true, trial.distance()};
     if (!loses) return {false, trial.distance()};
   }
   return {trial.distance() <= beside, trial.distance()};

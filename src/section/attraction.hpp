@@ -12,6 +12,7 @@
 /// One such loss may be chance: a chaotic motion comes nearer now and then. So stage after stage is asked for, each
 /// until the amplitude should have halved, up to 256 periods (points of the section) in all or until the motion is
 /// there; and at the end it must be beside the cycle, within a twentieth of its size.
+#include "section/point_record.hpp"
 #include "section/return_map.hpp"
 
 namespace slapstick::section {
@@ -21,10 +22,19 @@ struct Attraction {
   double distance = 0.0;  ///< of the motion from the cycle at the end of the trial, relative to its size
 };
 
-/// @param motion  at a point of the section; a copy is followed, for 256 points and one stage at most
+/// What a trial looks at. Without a record it follows the motion from where the motion stands. With one it begins at
+/// the first point of the last 256 from which on the motion stays within 1e-3 of the cycle, and follows the motion
+/// only past the record's end.
+struct Followed {
+  const PointRecord* record = nullptr;  ///< whose last point is where the motion stands
+  const Motion& motion;                 ///< at a point of the section; a copy is run
+  double there = 1e-10;  ///< of the motion's size: so near the cycle a trial ends
+};
+
+/// A trial lasts for 256 points and one stage at most.
 /// @param n  points of the section in the cycle: of a driven motion forcing periods
 /// @param scale  size of the motion, as of section::distance
-[[nodiscard]] Attraction attraction(const ReturnMap& map, Motion motion, const FixedPoint& cycle, int n,
+[[nodiscard]] Attraction attraction(const ReturnMap& map, const Followed& followed, const FixedPoint& cycle, int n,
                                     const Eigen::VectorXd& scale, Stop stop);
 
 /// Of how many dimensions is the continuum of cycles that x is a member of? Counted are the directions to whose both

@@ -12,7 +12,7 @@ namespace slapstick::section {
 
 using flow::contact_state, flow::multipliers_of, flow::Translations, flow::user_state;
 
-double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::VectorXd& scale) {
+double distance(const Eigen::Ref<const Eigen::VectorXd>& a, const Eigen::Ref<const Eigen::VectorXd>& b, const Eigen::VectorXd& scale) {
   return ((a - b).array().abs() / scale.array()).maxCoeff();
 }
 
@@ -49,9 +49,10 @@ MapValue Stroboscopic::value(const Eigen::VectorXd& x, int n, Stop stop) const {
 namespace {
 
 FixedPoint on_section(const ReturnMap& map, const Eigen::VectorXd& x, const MapValue& value, int n, Stop stop) {
-  const Eigen::VectorXd point = map.on_section(x, stop);
-  const Eigen::MatrixXd jacobian = point == x ? value.jacobian : map.value(point, n, stop).jacobian;
-  return {point, jacobian, map.multipliers(jacobian)};
+  FixedPoint found{map.on_section(x, stop), value, {}};
+  if (found.x != x) found.value = map.value(found.x, n, stop);
+  found.multipliers = map.multipliers(found.value.jacobian);
+  return found;
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace slapstick::section {
 using Stop = const std::atomic<bool>*;
 
 /// Distance of two contact states, positions and velocities each relative to `scale` (same layout).
-[[nodiscard]] double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::VectorXd& scale);
+[[nodiscard]] double distance(const Eigen::Ref<const Eigen::VectorXd>& a, const Eigen::Ref<const Eigen::VectorXd>& b, const Eigen::VectorXd& scale);
 
 struct MapValue {
   Eigen::VectorXd image;     ///< representative of its class
@@ -65,7 +65,7 @@ class Stroboscopic final : public ReturnMap {
 
 struct FixedPoint {
   Eigen::VectorXd x;
-  Eigen::MatrixXd jacobian;                       ///< of the classes
+  MapValue value;                                 ///< of the map there
   std::vector<std::complex<double>> multipliers;  ///< largest modulus first
   [[nodiscard]] bool stable() const { return multipliers.empty() || std::abs(multipliers.front()) < 1.0; }
 };

@@ -17,9 +17,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr long returns_compared = 100;
-constexpr double known_to = 1e-9;   ///< a multiplier of a return within 1e-10
-constexpr double repelling = 1e-6;  ///< a multiplier of one of a family beyond 1 by more than its own error
 constexpr int shortest_round = 500;
 
 }  // namespace
@@ -45,7 +42,7 @@ Settling::Settling(const System& system, const State& state, const SettlingOptio
       map_(std::make_unique<Stroboscopic>(system)),
       motion_(system, state),
       home_(translations().take_out(motion_)),
-      scale_(VectorXd::Constant(2 * system.compiled().frame().n, 1e-300)),
+      record_(2 * system.compiled().frame().n),
       omega_(2.0 * std::numbers::pi / system.period()),
       round_(std::max(shortest_round, 4 * options.most_n)),
       free_(!options.by_clock && !driven(system)) {
@@ -110,56 +107,30 @@ bool Settling::is_a_point(const Cycle& cycle) const {
   run_to(motion, Instant{}.plus(0.25 * cycle.duration / cycle.n), options_.stop, [] {});
   VectorXd x = flow::contact_state(motion);
   translations().take_out(x);
-  return distance(x, cycle.x, scale_) <= nothing;
-}
-
-/// The largest of the last returns after n periods.
-double Settling::widest_return(int n) const {
-  double widest = 0.0;
-  const auto last = static_cast<long>(states_.size()) - 1;
-  for (long j = 0; j < returns_compared && j + n <= last; ++j)
-    widest = std::max(widest, distance(states_[last - j], states_[last - j - n], scale_));
-  return widest;
+  return distance(x, cycle.x, record_.scale()) <= nothing;
 }
 
 void Settling::note_approach(int k, int periods) {
   if (k == periods / 2) {
     earlier_.clear();
-    for (int n = 1; n <= options_.most_n; ++n) earlier_.push_back(widest_return(n));
+    for (int n = 1; n <= options_.most_n; ++n) earlier_.push_back(record_.widest_return(n));
   }
   if (k + 1 != periods || earlier_.empty()) return;
   int nearest = 1;
   for (int n = 2; n <= options_.most_n; ++n) {
-    if (widest_return(n) < widest_return(nearest)) nearest = n;
+    if (record_.widest_return(n) < record_.widest_return(nearest)) nearest = n;
   }
-  approaching_ = widest_return(nearest) < 0.5 * earlier_[static_cast<std::size_t>(nearest) - 1];
+  approaching_ = record_.widest_return(nearest) < 0.5 * earlier_[static_cast<std::size_t>(nearest) - 1];
 }
 
 bool Settling::note_period() {
   const std::optional<PeriodEvents> events = run_period();
   if (!events) return false;
-  events_.push_back(*events);
+  record_.add(flow::contact_state(motion_), *events, omega_);
   report();
-  states_.push_back(flow::contact_state(motion_));
-  note_size(states_.back());
-  const long surplus = static_cast<long>(states_.size()) - (6L * options_.most_n + returns_compared);
-  if (surplus > 0) {  // keep what comparisons can reach
-    const long removed = surplus + 2L * options_.most_n;
-    states_.erase(states_.begin(), states_.begin() + removed);
-    events_.erase(events_.begin(), events_.begin() + removed);
-  }
+  const long reach = 6L * options_.most_n + returns_compared;  // of what comparisons can ask for
+  if (record_.size() > reach) record_.keep_last(reach - 2L * options_.most_n);
   return true;
-}
-
-void Settling::note_size(const VectorXd& x) {
-  const auto n = system_.compiled().frame().n;
-  const double position = x.head(n).cwiseAbs().maxCoeff(), speed = x.tail(n).cwiseAbs().maxCoeff();
-  scale_.head(n) = scale_.head(n).cwiseMax(position);
-  scale_.tail(n) = scale_.tail(n).cwiseMax(speed);
-  // A velocity (or a displacement) that happens to vanish at phase 0 says nothing about the size of the motion.
-  const double least = 1e-3;
-  scale_.head(n) = scale_.head(n).cwiseMax(least * scale_.tail(n) / omega_);
-  scale_.tail(n) = scale_.tail(n).cwiseMax(least * scale_.head(n) * omega_);
 }
 
 /// With translations a displacement is zero at every return by definition: what the motion is like in between says how
@@ -173,22 +144,14 @@ void Settling::look_between() {
   for (int k = 1; k < looks; ++k) {
     const Instant next = begin.plus(period * static_cast<double>(k) / looks);
     if (!run_to(trial, next, options_.stop, [] {})) return;
-    note_size(flow::contact_state(trial));
+    record_.note_size(flow::contact_state(trial), omega_);
   }
-}
-
-bool Settling::same_events(long n) const {
-  const auto size = static_cast<long>(events_.size());
-  for (long i = 1; i <= n; ++i) {
-    if (!(events_[size - i] == events_[size - i - n])) return false;
-  }
-  return true;
 }
 
 std::vector<double> Settling::drift(const VectorXd& advance) const {
   std::vector<double> by_coordinate = translations().by_coordinate(advance);
   for (double& length : by_coordinate) {
-    if (std::abs(length) <= options_.tolerance * scale_[0]) length = 0.0;
+    if (std::abs(length) <= options_.tolerance * record_.scale()[0]) length = 0.0;
   }
   return by_coordinate;
 }
@@ -197,8 +160,7 @@ std::vector<double> Settling::drift(const VectorXd& advance) const {
 void Settling::lose_section() {
   if (cancelled()) return;
   choose_section();
-  states_.clear();
-  events_.clear();
+  record_.clear();
   earlier_.clear();
 }
 
@@ -216,113 +178,23 @@ std::optional<Cycle> Settling::run(int periods) {
     const bool newton_turn = k >= next_newton;
     if (newton_turn) next_newton = later;
     if (newton_turn || k >= next_return) {
-      const Look look = look_for_return(newton_turn, k >= next_return);
+      const ReturnWish wish{options_.most_n, options_.tolerance, options_.newton_start};
+      const Confirmation::Look look = confirmation().first_of(record_.candidates(wish, k >= next_return, newton_turn));
       if (look.cycle) return look.cycle;
       if (look.refused_return) next_return = later;
     }
     note_approach(k, periods);
   }
-  return cancelled() ? std::nullopt : look_around();
+  return cancelled() ? std::nullopt : confirmation().look_around();
 }
 
-Settling::Look Settling::look_for_return(bool newton_turn, bool return_turn) const {
-  const auto kept = static_cast<long>(states_.size());
-  Look look;
-  double nearest = INFINITY;  // of the returns after fewer periods
-  for (int n = 1; n <= options_.most_n && 2 * n < kept; ++n) {
-    const double d = returned(n);
-    const bool returns =
-        return_turn && d <= options_.tolerance && same_events(n) && returned(n, 1) <= 2.0 * options_.tolerance;
-    const bool approaching = newton_turn && 3 * n < kept && d < options_.newton_start && d < returned(n, 1);
-    const bool nearer = d < 0.5 * nearest;  // else it is a multiple of an n that was tried
-    nearest = std::min(nearest, d);
-    const bool multiple = look.refused_return != 0 && n % look.refused_return == 0;
-    const bool worthwhile = (returns && !multiple) || (approaching && nearer);
-    if (!worthwhile) continue;
-    if ((look.cycle = confirm(n))) return look;
-    if (returns) {
-      if ((look.cycle = member(n))) return look;
-      if (look.refused_return == 0) look.refused_return = n;
-    }
-  }
-  return look;
-}
-
-/// Of the last returns after n periods.
-VectorXd Settling::mean(int n, long count) const {
-  VectorXd sum = VectorXd::Zero(scale_.size());
-  for (long j = 0; j < count; ++j) sum += back(j * n);
-  return sum / static_cast<double>(count);
-}
-
-/// The cycle beside a motion that returns after n periods, the shortest first: a motion that alternates beside it,
-/// slowly nearer, returns after twice its length. Its mean over the alternations is where Newton's method begins.
-std::optional<Cycle> Settling::confirm(int n) const {
-  constexpr double beside = 0.1;  // of the motion's size: what alternates more widely is not beside a shorter cycle
-  for (int length = 1; length <= n && !cancelled(); ++length) {
-    if (n % length != 0 || (length < n && returned(length) > beside)) continue;
-    if (auto cycle = drawn_to(length, mean(length, n / length))) return cycle;
-  }
-  return std::nullopt;
-}
-
-/// A shorter cycle that a stable one of n periods goes round several times; n becomes its length. Beside a multiplier
-/// -1 the cycle solves the equations of twice its length also at points beside it: 1 - lambda^2 is almost zero.
-FixedPoint Settling::once_round(FixedPoint found, int& n) const {
-  constexpr double same = 1e-5;  // of the motion's size: rounding over 1 - |lambda| where the cycle is barely stable
-  for (int length = 1; length < n; ++length) {
-    if (n % length != 0) continue;
-    auto shorter = fixed_point(*map_, found.x, length, scale_, options_.stop);
-    if (!shorter || !shorter->stable() || distance(shorter->x, found.x, scale_) > same) continue;
-    n = length;
-    return std::move(*shorter);
-  }
-  return found;
-}
-
-/// A stable fixed point of the n-period map that the motion is drawn to.
-std::optional<Cycle> Settling::drawn_to(int n, const VectorXd& start) const {
-  auto found = fixed_point(*map_, start, n, scale_, options_.stop);
-  if (!found || !found->stable()) return std::nullopt;
-  // On a free family the one multiplier that is left is 1 but for rounding, on either side: `member` judges.
-  if (free_ && !found->multipliers.empty() && std::abs(found->multipliers.front()) >= 1.0 - known_to)
-    return std::nullopt;
-  const Attraction seen = attraction(*map_, motion_, *found, n, scale_, options_.stop);
-  if (!seen.drawn) return std::nullopt;
-  found = once_round(std::move(*found), n);
-  const MapValue map = map_->value(found->x, n, options_.stop);
-  const double missed = distance(map.image, found->x, scale_);
-  return Cycle{found->x, n, map.duration, found->multipliers, map.advance, missed, seen.distance};
-}
-
-/// The cycle that the motion is on, if that is one of a family, where Newton's method has no single point to go to, or
-/// if nothing draws motions beside it nor repels them.
-std::optional<Cycle> Settling::member(int n) const {
-  for (int length = 1; length <= n; ++length) {
-    if (n % length != 0 || returned(length) > options_.tolerance) continue;
-    const int dimensions = family(*map_, back(0), length, scale_, options_.stop);
-    const MapValue map = map_->value(back(0), length, options_.stop);
-    auto multipliers = map_->multipliers(map.jacobian);
-    const double largest = multipliers.empty() ? 0.0 : std::abs(multipliers.front());
-    const bool neutral = largest >= 1.0 - known_to;
-    if ((dimensions == 0 && !neutral) || largest > 1.0 + repelling) continue;
-    const double missed = distance(map.image, back(0), scale_);
-    return Cycle{back(0),     length, map.duration,     std::move(multipliers),
-                 map.advance, missed, returned(length), dimensions,
-                 true};
-  }
-  return std::nullopt;
-}
-
-/// A short cycle that the motion winds round: it returns to none of its states, but their mean is near the cycle.
-std::optional<Cycle> Settling::look_around() const {
-  constexpr int longest = 8;
-  for (int n = 1; n <= std::min(longest, options_.most_n) && !cancelled(); ++n) {
-    const long count = std::min(returns_compared, static_cast<long>(states_.size()) / n);
-    if (count < 2) break;
-    if (auto cycle = drawn_to(n, mean(n, count))) return cycle;
-  }
-  return std::nullopt;
+Confirmation Settling::confirmation() const {
+  ConfirmationOptions options;
+  options.wish = {options_.most_n, options_.tolerance, options_.newton_start};
+  options.tolerance = options_.tolerance;
+  options.free = free_;
+  options.stop = options_.stop;
+  return {*map_, record_, motion_, options};
 }
 
 }  // namespace slapstick::section

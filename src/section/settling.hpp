@@ -14,16 +14,9 @@
 #include <optional>
 #include <vector>
 
-#include "section/return_map.hpp"
+#include "section/confirmation.hpp"
 
 namespace slapstick::section {
-
-/// Events within one period, of all contacts; engagements of compliant stops are impacts
-/// (section/stop_choice.hpp).
-struct PeriodEvents {
-  int impacts = 0, sticks = 0, chatters = 0;
-  friend bool operator==(const PeriodEvents&, const PeriodEvents&) = default;
-};
 
 /// Runs to an instant and counts.
 PeriodEvents run_counting(Motion& motion, Instant end, Stop stop);
@@ -43,19 +36,6 @@ struct SettlingOptions {
   std::function<void(long periods)> progress = {};
 };
 
-/// A cycle of the return map that the motion is drawn to, or that it is on where the cycle is one of a family.
-struct Cycle {
-  Eigen::VectorXd x;                              ///< contact state on the section, representative of its class
-  int n = 0;                                      ///< returns
-  double duration = 0.0;                          ///< in periods of the clock
-  std::vector<std::complex<double>> multipliers;  ///< largest modulus first
-  Eigen::VectorXd advance;                        ///< along each translation, per cycle
-  double return_distance = 0.0;                   ///< of x from its image, relative to the motion's size
-  double approach = 0.0;                          ///< how far the motion itself still was from the cycle
-  int family = 0;                                 ///< dimensions of the continuum of cycles that it is a member of
-  bool neutral = false;                           ///< the motion is on it, but is not drawn to it
-};
-
 class Settling {
  public:
   Settling(const System& system, const State& state, const SettlingOptions& options);
@@ -71,7 +51,7 @@ class Settling {
   /// .. or it has events for ever, but shrinks to a state of rest on the border of two modes, as a mass that touches a
   /// compliant stop at rest: the contact state there.
   [[nodiscard]] const std::optional<Eigen::VectorXd>& shrinks_to() const { return shrinks_to_; }
-  [[nodiscard]] double distance_from(const Eigen::VectorXd& x) const { return distance(back(0), x, scale_); }
+  [[nodiscard]] double distance_from(const Eigen::VectorXd& x) const { return distance(record_.back(0), x, record_.scale()); }
   [[nodiscard]] bool cancelled() const;
   [[nodiscard]] bool out_of_time() const;
 
@@ -89,47 +69,25 @@ class Settling {
   [[nodiscard]] bool still_approaching() const { return approaching_; }
 
  private:
-  [[nodiscard]] const Eigen::VectorXd& back(long n) const {
-    return states_[states_.size() - 1 - static_cast<std::size_t>(n)];
-  }
-  [[nodiscard]] double returned(long n, long cycles_ago = 0) const {
-    return distance(back(cycles_ago * n), back((cycles_ago + 1) * n), scale_);
-  }
-  [[nodiscard]] double widest_return(int n) const;
   std::optional<PeriodEvents> run_period();
   void choose_section();
   std::optional<Cycle> run(int periods);
   [[nodiscard]] bool is_a_point(const Cycle& cycle) const;
-  struct Look {
-    std::optional<Cycle> cycle;
-    int refused_return = 0;  ///< after so many periods the motion returned, but is drawn to no cycle; 0: none
-  };
-  /// Returns within the tolerance, and, as a start for Newton's method, wider ones.
-  [[nodiscard]] Look look_for_return(bool newton_turn, bool return_turn) const;
   void note_approach(int k, int periods);
   [[nodiscard]] bool note_period();
   void lose_section();
-  void note_size(const Eigen::VectorXd& x);
   void look_between();
   void report() const {
     if (options_.progress) options_.progress(periods());
   }
-  [[nodiscard]] bool same_events(long n) const;
-  [[nodiscard]] Eigen::VectorXd mean(int n, long count) const;
-  [[nodiscard]] std::optional<Cycle> confirm(int n) const;
-  [[nodiscard]] FixedPoint once_round(FixedPoint found, int& n) const;
-  [[nodiscard]] std::optional<Cycle> drawn_to(int n, const Eigen::VectorXd& start) const;
-  [[nodiscard]] std::optional<Cycle> member(int n) const;
-  [[nodiscard]] std::optional<Cycle> look_around() const;
+  [[nodiscard]] Confirmation confirmation() const;
 
   const System& system_;
   SettlingOptions options_;
   std::unique_ptr<const ReturnMap> map_;
   Motion motion_;
   Eigen::VectorXd home_;   ///< the start along each translation
-  Eigen::VectorXd scale_;  ///< size of the motion: positions share one number, velocities another
-  std::vector<Eigen::VectorXd> states_;
-  std::vector<PeriodEvents> events_;
+  PointRecord record_;
   std::vector<double> earlier_;  ///< widest_return of every n, half a round ago
   double omega_;      ///< of a period: what makes a velocity of a displacement
   long periods_ = 0;  ///< that have passed

@@ -112,8 +112,12 @@ class Tiling {
 
  private:
   static constexpr int band = 8;
-  /// Pixels of a tile: some tens of milliseconds.
-  [[nodiscard]] int run() const { return problem_.level == Level::quick && problem_.start == MapStart::reset ? 32 : 4; }
+  /// Pixels of a tile: some tens of milliseconds. Many pixels keep lanes full, many tiles keep threads busy.
+  [[nodiscard]] int run() const {
+    if (!runs_in_lanes(problem_)) return 4;
+    const long pixels = static_cast<long>(problem_.x.count) * problem_.y.count;
+    return static_cast<int>(std::clamp(pixels / 64, 32L, 256L));
+  }
   [[nodiscard]] int directions() const { return problem_.direction == Direction::both ? 2 : 1; }
   [[nodiscard]] std::vector<PixelTask> listed(int from) const {
     std::vector<PixelTask> tasks;
@@ -205,6 +209,8 @@ class MapRun {
 };
 
 }  // namespace
+
+bool runs_in_lanes(const MapProblem& problem) { return problem.level == Level::quick && problem.start != MapStart::random; }
 
 long pixel_count(const MapProblem& problem) {
   const bool both = problem.start == MapStart::carry && problem.direction == Direction::both;

@@ -15,6 +15,7 @@
 #include "slapstick/base/error.hpp"
 #include "slapstick/flow/stage.hpp"
 #include "sweep/diagram_point.hpp"
+#include "sweep/lane_pixels.hpp"
 
 namespace slapstick::sweep {
 namespace {
@@ -51,8 +52,23 @@ class Analysis {
 
   /// @returns nothing if it was cancelled
   std::optional<Pixel> operator()() {
+    return attempt([&] { run(); });
+  }
+
+  /// The same of what lanes have found.
+  std::optional<Pixel> of(LaneFinding&& lane) {
+    return attempt([&] {
+      if (problem_.start == MapStart::carry) pixel_.carried = lane.found.state;
+      if (lane.system == nullptr && !problem_.of.empty()) lane.system = std::make_unique<System>(problem_.model_at(x(), y()));
+      keep(lane.system.get(), lane.found, 1);
+    });
+  }
+
+ private:
+  template <class Body>
+  std::optional<Pixel> attempt(const Body& body) {
     try {
-      run();
+      body();
     } catch (const NumericalError& error) {
       fail(error.what());
     } catch (const InputError& error) {
@@ -62,29 +78,17 @@ class Analysis {
     return std::move(pixel_);
   }
 
- private:
+  [[nodiscard]] double x() const { return problem_.x.value(task_.number % problem_.x.count); }
+  [[nodiscard]] double y() const { return problem_.y.value(task_.number / problem_.x.count); }
+
   void run() {
-    const double x = problem_.x.value(task_.number % problem_.x.count), y = problem_.y.value(task_.number / problem_.x.count);
-    const System system(problem_.model_at(x, y));
-    const State start = start_of(system, x, y);
+    const System system(problem_.model_at(x(), y()));
+    const State start = start_of(problem_, task_, system.model());
     if (problem_.start == MapStart::random) return run_all(system, start);
     const Classification found = classified(system, start);
     if (interrupted_) return;
     if (problem_.start == MapStart::carry) pixel_.carried = found.state;
-    keep(system, found, 1);
-  }
-
-  /// What was handed on, if it is admissible here.
-  State start_of(const System& system, double x, double y) const {
-    if (task_.start.empty()) return problem_.start_at(x, y);
-    State state = task_.start;
-    undo_rounding(system.model(), state);
-    try {
-      validate(system.model(), state);
-      return state;
-    } catch (const InputError&) {
-      return problem_.start_at(x, y);
-    }
+    keep(&system, found, 1);
   }
 
   Classification classified(const System& system, const State& start) {
@@ -119,14 +123,15 @@ class Analysis {
         all.push_back({std::move(found), 1});
     }
     std::stable_sort(all.begin(), all.end(), [](const Known& a, const Known& b) { return a.starts > b.starts; });
-    for (const Known& known : all) keep(system, known.found, known.starts);
+    for (const Known& known : all) keep(&system, known.found, known.starts);
   }
 
-  void keep(const System& system, const Classification& found, int starts) {
+  /// @param system  null if nothing is measured
+  void keep(const System* system, const Classification& found, int starts) {
     Finding finding = finding_of(found, task_);
     finding.starts = starts;
     pixel_.found.push_back(finding);
-    if (!problem_.of.empty()) measure_values(system, found);
+    if (!problem_.of.empty()) measure_values(*system, found);
   }
 
   /// A measure that fails is NaN: the class is known all the same.
@@ -201,15 +206,29 @@ bool same_attractor(const System& system, const Classification& a, const Classif
   return false;
 }
 
-std::vector<Pixel> analyse(const MapProblem& problem, std::span<const PixelTask> tasks) {
-  std::vector<Pixel> pixels;
-  for (const PixelTask& task : tasks) {
-    if (problem.cancel != nullptr && problem.cancel->load(std::memory_order_relaxed)) break;
-    std::optional<Pixel> pixel = Analysis(problem, task)();
-    if (!pixel) break;
-    pixels.push_back(std::move(*pixel));
+State start_of(const MapProblem& problem, const PixelTask& task, const Model& model) {
+  const double x = problem.x.value(task.number % problem.x.count), y = problem.y.value(task.number / problem.x.count);
+  if (task.start.empty()) return problem.start_at(x, y);
+  State state = task.start;
+  undo_rounding(model, state);
+  try {
+    validate(model, state);
+    return state;
+  } catch (const InputError&) {
+    return problem.start_at(x, y);
   }
-  return pixels;
+}
+
+std::vector<Pixel> analyse(const MapProblem& problem, std::span<const PixelTask> tasks) {
+  std::vector<std::optional<Pixel>> pixels(tasks.size());
+  if (runs_in_lanes(problem))
+    run_quick_in_lanes(problem, tasks, [&](std::size_t i, LaneFinding&& lane) { pixels[i] = Analysis(problem, tasks[i]).of(std::move(lane)); });
+  for (std::size_t i = 0; i < tasks.size() && !stopped(problem.cancel); ++i)
+    if (!pixels[i]) pixels[i] = Analysis(problem, tasks[i])();
+  std::vector<Pixel> done;
+  for (std::optional<Pixel>& pixel : pixels)
+    if (pixel) done.push_back(std::move(*pixel));
+  return done;
 }
 
 }  // namespace slapstick::sweep

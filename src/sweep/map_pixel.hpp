@@ -12,8 +12,10 @@ struct PixelTask {
   State start;  ///< handed on by its neighbour; empty: the problem's own
 };
 
-/// Analyses the pixels of a tile. They are independent of one another, so that several may be computed at once; today
-/// each is computed by itself.
+/// Where a pixel begins: at what was handed on, if that is admissible there.
+[[nodiscard]] State start_of(const MapProblem& problem, const PixelTask& task, const Model& model);
+
+/// Analyses the pixels of a tile: those of `quick` in lanes (lane_pixels.hpp), others each by itself.
 /// @returns as many as there was time for before the problem was cancelled, in the order of the tasks
 [[nodiscard]] std::vector<Pixel> analyse(const MapProblem& problem, std::span<const PixelTask> tasks);
 

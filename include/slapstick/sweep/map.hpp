@@ -9,7 +9,8 @@
 ///     const sweep::Map map = sweep::run_map(problem);
 ///     for (const sweep::Finding& found : map.findings) use(map.x_of(found), map.y_of(found), found.label(map.driven));
 ///
-/// `quick` is `classify_quickly`: within so many periods a cycle that Newton's method confirms, or undecided. `full` is
+/// `quick` names within so many periods a cycle that Newton's method confirms, or says undecided. Its periods run in
+/// the lanes of a batch (sweep/batch.hpp) where lanes take the model, else it is `classify_quickly`. `full` is
 /// `classify`. Both have the same words; where both decide they agree.
 ///
 ///   reset   every pixel begins at the problem's own start;
@@ -23,7 +24,7 @@
 /// pixel; a region that holds a pixel of the coarse grid is right to the last pixel.
 ///
 /// A pixel depends on its own start only and is kept under its number: nothing depends on threads, on shards or on what
-/// was known before. Cost: a System (0.3 ms for the paper's) and the periods, at about a microsecond each, a pixel.
+/// was known before. Cost: of `quick` some 0.2 ms a pixel for the paper's system, docs/howto/charts.md.
 /// Source: docs/howto/charts.md.
 #include <atomic>
 #include <complex>
@@ -87,7 +88,7 @@ struct MapProblem {
   std::function<State(double x, double y)> start_at;  ///< likewise
   GridAxis x, y;
   Level level = Level::quick;
-  int periods = 300;  ///< of `quick`: half of them transient, >= 20
+  int periods = 300;  ///< of `quick`: within which a cycle is to be confirmed, >= 20
   /// Of both levels most_n and stops, of `full` all but cancel and progress.
   ClassifyOptions classify = {};
   MapStart start = MapStart::reset;
@@ -157,6 +158,9 @@ class MapBuilder {
   Map map_;
   int refine_ = 0;
 };
+
+/// Whether pixels are computed in lanes where the model allows; their bits are not those of a Motion.
+[[nodiscard]] bool runs_in_lanes(const MapProblem& problem);
 
 /// Pixels that a whole problem has, in all directions.
 [[nodiscard]] long pixel_count(const MapProblem& problem);

@@ -1,0 +1,111 @@
+/// Confirms cycles beside a motion, the shortest first.
+#include "section/confirmation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "section/attraction.hpp"
+#include "slapstick/flow/stage.hpp"
+
+namespace slapstick::section {
+
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double known_to = 1e-9;   ///< a multiplier of a return within 1e-10
+constexpr double repelling = 1e-6;  ///< a multiplier of one of a family beyond 1 by more than its own error
+
+}  // namespace
+
+Confirmation::Look Confirmation::first_of(const std::vector<Candidate>& candidates) const {
+  Look look;
+  for (const Candidate& candidate : candidates) {
+    const bool multiple = candidate.returns && look.refused_return != 0 && candidate.n % look.refused_return == 0;
+    if (multiple) continue;
+    if ((look.cycle = confirm(candidate.n))) return look;
+    if (!candidate.returns) continue;
+    if ((look.cycle = member(candidate.n))) return look;
+    if (look.refused_return == 0) look.refused_return = candidate.n;
+  }
+  return look;
+}
+
+/// The cycle beside a motion that returns after n points, the shortest first: a motion that alternates beside it,
+/// slowly nearer, returns after twice its length. Its mean over the alternations is where Newton's method begins.
+std::optional<Cycle> Confirmation::confirm(int n) const {
+  constexpr double beside = 0.1;  // of the motion's size: what alternates more widely is not beside a shorter cycle
+  for (int length = 1; length <= n && !stopped(options_.stop); ++length) {
+    if (n % length != 0 || (length < n && record_.returned(length) > beside)) continue;
+    if (auto cycle = drawn_to(length, record_.mean(length, n / length))) return cycle;
+  }
+  return std::nullopt;
+}
+
+/// A shorter cycle that a stable one of n points goes round several times; n becomes its length. Beside a multiplier
+/// -1 the cycle solves the equations of twice its length also at points beside it: 1 - lambda^2 is almost zero.
+FixedPoint Confirmation::once_round(FixedPoint found, int& n) const {
+  constexpr double same = 1e-5;  // of the motion's size: rounding over 1 - |lambda| where the cycle is barely stable
+  constexpr double far = 1e-2;   // no stable cycle moves a point beside it so much: (1 + |J|) same
+  const System& system = map_.translations().system();
+  if (n == 1) return found;
+  Motion motion(system, flow::user_state(system, found.x));
+  for (int length = 1; length < n; ++length) {
+    if (!map_.run(motion, 1, options_.stop)) break;
+    if (n % length != 0) continue;
+    VectorXd image = flow::contact_state(motion);
+    map_.translations().take_out(image);
+    if (distance(image, found.x, record_.scale()) > far) continue;
+    auto shorter = fixed_point(map_, found.x, length, record_.scale(), options_.stop);
+    if (!shorter || !shorter->stable() || distance(shorter->x, found.x, record_.scale()) > same) continue;
+    n = length;
+    return std::move(*shorter);
+  }
+  return found;
+}
+
+/// A stable fixed point of the n-point map that the motion is drawn to.
+std::optional<Cycle> Confirmation::drawn_to(int n, const VectorXd& start) const {
+  auto found = fixed_point(map_, start, n, record_.scale(), options_.stop);
+  if (!found || !found->stable()) return std::nullopt;
+  // On a free family the one multiplier that is left is 1 but for rounding, on either side: `member` judges.
+  if (options_.free && !found->multipliers.empty() && std::abs(found->multipliers.front()) >= 1.0 - known_to)
+    return std::nullopt;
+  const Attraction seen = attraction(map_, {options_.by_record ? &record_ : nullptr, motion_, options_.there}, *found, n, record_.scale(), options_.stop);
+  if (!seen.drawn) return std::nullopt;
+  found = once_round(std::move(*found), n);
+  const double missed = distance(found->value.image, found->x, record_.scale());
+  return Cycle{found->x, n, found->value.duration, found->multipliers, found->value.advance, missed, seen.distance};
+}
+
+/// The cycle that the motion is on, if that is one of a family, where Newton's method has no single point to go to, or
+/// if nothing draws motions beside it nor repels them.
+std::optional<Cycle> Confirmation::member(int n) const {
+  const VectorXd here = record_.back(0);
+  for (int length = 1; length <= n; ++length) {
+    if (n % length != 0 || record_.returned(length) > options_.tolerance) continue;
+    const int dimensions = family(map_, here, length, record_.scale(), options_.stop);
+    const MapValue map = map_.value(here, length, options_.stop);
+    auto multipliers = map_.multipliers(map.jacobian);
+    const double largest = multipliers.empty() ? 0.0 : std::abs(multipliers.front());
+    const bool neutral = largest >= 1.0 - known_to;
+    if ((dimensions == 0 && !neutral) || largest > 1.0 + repelling) continue;
+    const double missed = distance(map.image, here, record_.scale());
+    return Cycle{here, length, map.duration, std::move(multipliers), map.advance, missed, record_.returned(length), dimensions, true};
+  }
+  return std::nullopt;
+}
+
+std::optional<Cycle> Confirmation::look_around() const {
+  constexpr int longest = 8;
+  for (int n = 1; n <= std::min(longest, options_.wish.most_n) && !stopped(options_.stop); ++n) {
+    const long count = std::min(returns_compared, record_.size() / n);
+    if (count < 2) break;
+    const VectorXd mean = record_.mean(n, count);
+    if (record_.spread(n, count, mean) > options_.widest_round) continue;
+    if (auto cycle = drawn_to(n, mean)) return cycle;
+  }
+  return std::nullopt;
+}
+
+}  // namespace slapstick::section

@@ -47,7 +47,8 @@ class Store {
   /// @throws StorageError if there is no such fact
   [[nodiscard]] const std::string& fact(const std::string& name) const;
   [[nodiscard]] long count() const;
-  /// Cells that are there already must be equal. @throws StorageError; then none of these cells is there that was not
+  /// Cells that are there already must be equal.
+  /// @throws StorageError where that fails; of these cells, none is there then that was not
   void add(std::span<const StoredCell> cells);
   [[nodiscard]] std::optional<StoredCell> find(std::int64_t number) const;
   /// In the order of their numbers. @throws StorageError at the first damaged cell, naming its number

@@ -59,6 +59,11 @@ struct AxisOf {
     };
     for (figure::Points& points : panel.points) columns(points);
     for (figure::Line& line : panel.lines) columns(line);
+    if (panel.cells) {
+      figure::Range& covered = is_x ? panel.cells->x : panel.cells->y;
+      change(covered.min);
+      change(covered.max);
+    }
     for (figure::Mark& mark : panel.marks) {
       if (is_x && mark.x) change(*mark.x);
       if (is_x && mark.x_end) change(*mark.x_end);

@@ -7,6 +7,8 @@ import math
 import os
 import re
 import signal
+import struct
+import zlib
 
 from program import good, main, read, refused, run, says, signalled, table
 
@@ -56,6 +58,28 @@ def test_the_picture_is_there_with_its_shares():
     says(script, '%s  %.0f %%' % (largest, 100 * classes.count(largest) / len(classes)))
     for panel in '123':
         assert os.path.exists('a-raster%s.png' % panel), os.listdir('.')
+
+
+def test_a_chart_in_millimetres_fills_its_frame():
+    """The axis of a small gap in metres gets a prefix, and the cells go with it."""
+    model = good('show', 'impact-oscillator').replace('[parameters.clearance]', '[parameters.clearance]\nunit = "m"', 1)
+    assert 'unit = "m"' in model
+    with open('m.toml', 'w') as file:
+        file.write(model)
+    good('map', 'm.toml', '--x', 'omega=0.8:1.2:5', '--y', 'clearance=0.001:0.006:4', '--plot', 'a.png', '--out', 'a.csv')
+    assert '[mm]' in read('a.gp')
+    with open('a-raster1.png', 'rb') as file:
+        png = file.read()
+    width, height = struct.unpack('>II', png[16:24])
+    data, at = b'', 8
+    while at < len(png):
+        length = struct.unpack('>I', png[at:at + 4])[0]
+        data += png[at + 8:at + 8 + length] if png[at + 4:at + 8] == b'IDAT' else b''
+        at += 12 + length
+    rows = zlib.decompress(data)  # a filter of no effect, then an index of the palette for each pixel; 0 is paper
+    assert len(rows) == height * (width + 1)
+    painted = sum(width - rows[1 + j * (width + 1):(j + 1) * (width + 1)].count(0) for j in range(height))
+    assert painted > 0.9 * width * height
 
 
 def test_the_curve_behind_a_boundary_is_where_the_linear_oscillator_grazes():

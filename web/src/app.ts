@@ -198,10 +198,12 @@ export class App {
   }
 
   private async settle(now: Settings, before: Settings): Promise<void> {
-    if (now.source !== before.source || !this.card) {
+    const standard = Object.keys(before.set).some((name) => !(name in now.set));  // a value is the model's own again
+    if (now.source !== before.source || standard || !this.card) {
       await this.load(now);
       return;
     }
+    fill(now, this.card);
     const motion = (settings: Settings): string => JSON.stringify([settings.set, settings.start, settings.motion.transient, settings.motion.periods, settings.forces, settings.view === "forces"]);
     if (motion(now) !== motion(before)) {
       this.showValues(now);

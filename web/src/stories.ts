@@ -50,7 +50,7 @@ const tales: Tale[] = [
   {
     key: "attractors", title: "Two attractors", steps: [
       { model: "bump-stop", motion: "", text: "The two colours of the diagram are two directions. Around ω = 1.3 they differ: two motions exist there, a large and a small one, and the past decides which one is seen.", edit: (s) => { s.set = { omega: 1.3 }; } },
-      { model: "bump-stop", motion: "", text: "Click the upper colour at ω = 1.3, then the lower one: the parameter stays, the motion is another one. “carry the motion on” and the slider of ω do the same: come from below, then from above." },
+      { model: "bump-stop", motion: "", text: "Click the upper colour at ω = 1.3, then the lower one: the parameter stays, the motion is another one. “carry the motion on” and the slider of ω do the same: come from below, then from above.", edit: (s) => { s.set = { omega: 1.3 }; } },
       { model: "two-sided-rattle", motion: "1-2-I", text: "A mass that rattles between two stops keeps hitting them as the frequency rises. Coming down it does not touch them: the diagram has no orange points there.", edit: (s) => { s.set = { omega: 2 }; } },
       { model: "two-sided-rattle", motion: "1-2-I", text: "Drag the mass close to the middle and let it go: it swings without a touch. From a start near a stop it may go on rattling.", edit: (s) => { s.set = { omega: 2 }; s.motion.transient = 0; s.motion.periods = 30; } },
     ],

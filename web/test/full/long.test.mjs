@@ -44,6 +44,8 @@ test("stories go from the first step to the last", async () => {
       assert.equal(await page.locator("#failure").innerText({ timeout: 1000 }).catch(() => ""), "", key);
       const told = await page.locator("#story").getAttribute("data-motion");
       if (told) assert.equal(await page.locator("#class").innerText(), told, `${key}: ${await page.locator("#story-step").innerText()}`);
+      const { motion, section, chart, diagram } = await page.evaluate(() => window.explorer.history.now);
+      for (const axis of [motion.x, motion.y, section.x, section.y, chart.x, chart.y, diagram.parameter]) assert.notEqual(axis, "", `${key}: an axis without a name`);
       const next = page.locator("#story").getByRole("button", { name: "next step" });
       if (!(await next.isVisible())) break;
       await next.click();

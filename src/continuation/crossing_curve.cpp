@@ -43,6 +43,18 @@ class CrossingCurve {
     return values[0] >= options_.from && values[0] <= options_.to && values[1] >= options_.second_from &&
            values[1] <= options_.second_to;
   }
+  /// From one orbit to another, in units of both ranges.
+  [[nodiscard]] Vector2d chord(const Orbit& from, const Orbit& to) const {
+    return {(to.values[0] - from.values[0]) / ranges_[0], (to.values[1] - from.values[1]) / ranges_[1]};
+  }
+  [[nodiscard]] Vector2d way(const Orbit& from, const Orbit& to) const { return chord(from, to).normalized(); }
+  /// The tangent at the last of three orbits, of the circle through them. A secant's angle to the curve would not fall with the step.
+  [[nodiscard]] Vector2d tangent(const Orbit& before, const Orbit& here, const Orbit& next) const {
+    const Vector2d a = chord(before, here), b = chord(here, next);
+    const double turned = std::atan2(a[0] * b[1] - a[1] * b[0], a.dot(b)) * b.norm() / (a.norm() + b.norm());
+    const double c = std::cos(turned), s = std::sin(turned);
+    return Vector2d(c * b[0] - s * b[1], s * b[0] + c * b[1]).normalized();
+  }
   struct Step {
     std::vector<double> values;  ///< that it leads to
     double length = 0.0;
@@ -140,11 +152,15 @@ Curve CrossingCurve::run(Orbit here, double sign) {
       curve.up.kind = CurveEnd::Kind::range;
       return curve;
     }
+    const auto goes_on = [&](const std::optional<Orbit>& to) {
+      return to && inside(to->values) && (curve.points.size() == 1 || way(here, *to).dot(along) >= straight);
+    };
     std::optional<Orbit> next = located(here, step.values, step.hold_second);
-    const Vector2d moved = next ? Vector2d((next->values[0] - here.values[0]) / ranges_[0],
-                                           (next->values[1] - here.values[1]) / ranges_[1])
-                                : Vector2d(0.0, 0.0);
-    if (!next || !inside(next->values) || (curve.points.size() > 1 && moved.normalized().dot(along) < straight)) {
+    if (!goes_on(next) && !step.last && before) {  // near a turn of the held parameter two crossings lie in one search
+      std::optional<Orbit> other = located(here, step.values, !step.hold_second);
+      if (goes_on(other)) next = std::move(other);
+    }
+    if (!goes_on(next)) {
       length = 0.5 * std::min(length, step.length);
       if (length > shortest_step) continue;
       if (!next || inside(next->values))
@@ -153,7 +169,7 @@ Curve CrossingCurve::run(Orbit here, double sign) {
         curve.up.kind = CurveEnd::Kind::range;
       return curve;
     }
-    along = moved.normalized();
+    along = before ? tangent(*before, here, *next) : way(here, *next);
     if (before) note_turns(*before, here, *next, curve);
     before = std::exchange(here, std::move(*next));
     add(here, curve);

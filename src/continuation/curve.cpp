@@ -212,7 +212,7 @@ void CurveFollower::note(const Place& before, const Place& now, double step, Cur
   for (const CurveTest& test : tests_) {
     const auto value = [&](const Place& here) { return test.value(watched_at(here)); };
     const double from = value(before), to = value(now);
-    if (std::isnan(from) || std::isnan(to)) continue;
+    if (!(std::abs(from) >= test.noise && std::abs(to) >= test.noise)) continue;  // no sign, or no value
     if ((from < 0.0) == (to < 0.0) || (test.falls && !(from > 0.0 && to < 0.0))) continue;
     const std::optional<Place> there = located(before, now, step, value);
     const Place& at = there ? *there : now;

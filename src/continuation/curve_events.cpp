@@ -66,7 +66,7 @@ bool on_the_circle(const Watched& at) {
 
 void add_multipliers(std::vector<CurveTest>& tests, SpecialType type) {
   const auto add = [&](const Meeting& met, double (*value)(const Watched&), std::function<bool(const Watched&)> holds) {
-    tests.push_back({met, of_multipliers(value), false, std::move(holds)});
+    tests.push_back({met, of_multipliers(value), false, 0.0, std::move(holds)});
   };
   if (type == SpecialType::PD)
     add(
@@ -117,8 +117,9 @@ std::vector<CurveTest> curve_tests(const SpecialPoint& point, const Watched& sta
   std::vector<CurveTest> tests;
   add_multipliers(tests, point.type);
   for (std::size_t j = 0; j < 2; ++j)
-    tests.push_back({{.kind = Meeting::Kind::turn, .parameter = j},
-                     [j](const CurvePlace& at) { return std::abs(at.along[j]) > constant ? at.along[j] : 0.0; }});
+    tests.push_back({.met = {.kind = Meeting::Kind::turn, .parameter = j},
+                     .value = [j](const CurvePlace& at) { return at.along[j]; },
+                     .noise = constant});
   const Itinerary& shape = point.solution.orbit.shape;
   for (std::size_t i = 0; i < own.size(); ++i) {
     if (own[i]) continue;

@@ -18,6 +18,7 @@ struct CurveTest {
   Meeting met;  ///< what holds at its zero
   std::function<double(const CurvePlace&)> value;
   bool falls = false;                               ///< only from positive to negative
+  double noise = 0.0;                               ///< a smaller value has no sign
   std::function<bool(const Watched&)> holds = {};   ///< is a zero such a point? Empty: each is
 };
 

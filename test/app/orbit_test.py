@@ -1,4 +1,5 @@
 """orbit, continue and curve from the command line: the stable part of their results, and what they refuse."""
+import json
 import os
 import time
 
@@ -241,6 +242,20 @@ def test_a_group_may_be_swept_and_its_sensitivity_is_the_slope_of_the_curve():
 def test_a_curve_starts_at_its_point_and_ends_at_its_range():
     text = good('curve', *PAPER, '--orbit', '1-1', '--from', 'PD', '--params', 'omega,friction', '--range', 'omega=2.6:3', '--range', 'friction=0.1:0.2')
     says(text, '"type": "PD"', '"points"', '"ended": "down: range; up: range"')
+
+
+def test_a_curve_is_the_same_from_either_of_its_points():
+    """Both branch points at restitution 0.7 lie on one curve with a fold between them, beside which two crossings are near."""
+    seen = []
+    for which in ('1', '2'):
+        curve = json.loads(good('curve', 'two-sided-rattle', '--from', 'BP', '--which', which, '--params', 'omega,restitution',
+                                '--range', 'omega=0.5:3', '--range', 'restitution=0.3:0.9'))
+        assert curve['ended'] == 'down: range; up: range'
+        (turn,) = curve['met']
+        points = sorted((point['restitution'], point['omega']) for point in curve['points'])
+        assert turn['type'] == 'turn' and turn['restitution'] <= points[0][0] + 1e-7
+        seen.append(sorted(omega for restitution, omega in points if restitution == 0.9) + [turn['restitution']])
+    assert len(seen[0]) == 3 and all(abs(a - b) < 1e-7 for a, b in zip(*seen)), seen
 
 
 def test_a_class_with_stick_is_not_one_without():

@@ -160,7 +160,8 @@ Report run_lane_grazes(const Options& options) {
   const LaneTally all = batches.run([&](long k, long n) { return examine(options, k, n); });
   Report out;
   out.done = batches.done();
-  out.passed = all.differ == 0 && all.failed == 0 && 2 * all.near_grazes >= all.starts && 2 * all.in_lanes >= all.starts && all.lane_events > 0;
+  out.passed = all.differ == 0 && all.failed == 0 && 2 * all.near_grazes >= all.starts && 2 * all.in_lanes >= all.starts && all.lane_events > 0 &&
+               20 * all.unjudged <= all.in_lanes && 2 * all.agreed >= all.in_lanes;
   Json faults = Json::list();
   for (const std::string& fault : all.faults) faults.push(fault);
   out.figures.set("systems", all.scenes).set("starts", all.starts).set("near_grazes", all.near_grazes).set("in_lanes", all.in_lanes);

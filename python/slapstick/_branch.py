@@ -186,7 +186,7 @@ def continuation(
     options |= {"parameter": parameter, "between": (begin, end), "step": step, "points": points}
     options |= {"same_events": same_events, "y": y}
     if y:
-        statistics_of(y, chosen, fixed)
+        statistics_of("y", y, chosen, fixed)
     arguments = (chosen._core, fixed, parameter, begin, end, start_of(start), wish, step, points, same_events)
     core = _progress.run(_core.continuation, arguments, "points at most", 2 * points, progress)
     return finished(Branch(core, chosen, fixed, options), "continuation", 3)

@@ -185,7 +185,7 @@ def measure_of(
     y: str | Sequence[str], chosen: Model, values: dict[str, float], periods: int
 ) -> tuple[list[str], _core.DiagramMeasure]:
     """The words of `y`, and what the extension is given."""
-    wanted = statistics_of(y, chosen, values) if y else []
+    wanted = statistics_of("y", y, chosen, values) if y else []
     words_of = [f"{quantity.name}:{statistic}" for quantity, statistic in wanted]
     return words_of, _core.DiagramMeasure([quantity for quantity, _ in wanted], [word for _, word in wanted], periods)
 

@@ -168,13 +168,18 @@ class Map(Result):
         return found if len(ways) > 1 else found.isel(direction=0, drop=True)
 
     def plot(self, ax: Any = None, column: str = "class", direction: str = "") -> Any:
-        """Draws 'class', 'exponent' or a "Q:STAT" of `measured` over both parameters. Returns the axes."""
+        """Draws 'class', 'exponent', 'multiplier' (its modulus), 'n', 'p' or a "Q:STAT" of `measured` over both parameters.
+        Returns the axes. Raises InputError for another column."""
         ax = axes(ax)
         extent = (*edges(self.x), *edges(self.y))
         if column == "class":
             draw_classes(ax, self.grid(self.label, direction), extent)
         else:
-            values = self.exponent if column == "exponent" else self.measured[column]
+            numbers = {"exponent": self.exponent, "multiplier": np.abs(self.multiplier), "p": self.p, **self.measured}
+            numbers["n"] = np.where(self.n > 0, self.n, np.nan)
+            if column not in numbers:
+                raise InputError(f"column: {column!r} is not one of class, " + ", ".join(numbers))
+            values = numbers[column]
             shown = ax.imshow(self.grid(values, direction), origin="lower", extent=extent, aspect="auto", cmap="cividis")
             ax.figure.colorbar(shown, ax=ax, label=column)
         ax.set_xlabel(self.x_name)
@@ -213,6 +218,10 @@ def draw_classes(ax: Any, labels: NDArray[np.str_], extent: tuple[float, ...]) -
         for i in order
         if names[i] and colours[i] != OTHERS
     ]
+    others = sum(areas[i] for i in order if colours[i] == OTHERS)
+    if others > 0:
+        count = colours.count(OTHERS)
+        keys.append(Patch(facecolor=OTHERS, edgecolor="black", linewidth=0.4, label=f"{count} others {others / labels.size:.1%}"))
     ax.legend(handles=keys, fontsize="small", frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
 
 

@@ -244,4 +244,6 @@ def start_of(start: Start) -> dict[str, float] | list[float] | None:
         return None
     if isinstance(start, Mapping):
         return numbers(start)
+    if isinstance(start, str):
+        raise InputError(f"start: {start!r} is not a state: numbers by name, or 2 n numbers")
     return [number("start", value) for value in np.ravel(np.asarray(start))]

@@ -100,12 +100,14 @@ def words_of(names: str | Sequence[str]) -> list[str]:
     return [word for word in names.split(",") if word] if isinstance(names, str) else list(names)
 
 
-def statistics_of(of: str | Sequence[str], chosen: Model, values: dict[str, float]) -> list[tuple[Quantity, str]]:
-    """The same, each with a statistic."""
+def statistics_of(
+    argument: str, of: str | Sequence[str], chosen: Model, values: dict[str, float]
+) -> list[tuple[Quantity, str]]:
+    """The same, each with a statistic. argument: what messages name."""
     wanted = wanted_of(of, chosen, values)
     for quantity, name in wanted:
         if not name:
-            raise InputError(f"y: '{quantity.name}' needs a statistic, as '{quantity.name}:rms'")
+            raise InputError(f"{argument}: '{quantity.name}' needs a statistic, as '{quantity.name}:rms'")
     return wanted
 
 

@@ -80,6 +80,8 @@ def test_an_orbit_that_is_no_orbit_is_refused():
         (lambda: slapstick.continuation("vibro-impact", "omega", (3, 4), omega=2.2), "is outside 3 to 4"),
         (lambda: slapstick.continuation("vibro-impact", "omega", (2, 4), step=0.5), "step"),
         (lambda: slapstick.orbit("vibro-impact", "free-1"), "is driven"),
+        (lambda: slapstick.simulate("vibro-impact", start="carry"), "start: 'carry' is not a state"),
+        (lambda: slapstick.map("vibro-impact", ("omega", 2, 3, 2), ("friction", 0.1, 0.2, 2), of="x1"), "of: 'x1' needs a statistic"),
     ],
 )
 def test_a_call_that_makes_no_sense_is_an_input_error(call, text):

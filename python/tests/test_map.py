@@ -91,6 +91,17 @@ def test_a_chart_is_seen_as_a_picture():
     assert slapstick.map("vibro-impact", X, Y).plot().get_xlabel() == "omega"
 
 
+def test_the_legend_of_a_chart_names_the_whole_area():
+    pytest.importorskip("matplotlib")
+    chart = slapstick.map("vibro-impact", ("omega", 1, 6, 60), ("friction", 0.05, 0.3, 40))
+    texts = [text.get_text() for text in chart.plot().get_legend().get_texts()]
+    assert any(" others " in text for text in texts), texts
+    assert abs(sum(float(text.split()[-1].rstrip("%")) for text in texts) - 100) < 0.1 * len(texts)
+    assert chart.plot(column="p").get_ylabel() == "friction"
+    with pytest.raises(slapstick.InputError, match="column: 'q' is not one of class, exponent"):
+        chart.plot(column="q")
+
+
 def test_bad_input_is_named():
     for options, name in (
         ({"x": ("omega", 2, 1, 3)}, "x"),

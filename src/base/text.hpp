@@ -46,6 +46,12 @@ namespace slapstick {
   return out + "'";
 }
 
+[[nodiscard]] inline std::string joined(const std::vector<std::string>& parts, std::string_view separator) {
+  std::string text;
+  for (std::size_t i = 0; i < parts.size(); ++i) text.append(i == 0 ? "" : separator).append(parts[i]);
+  return text;
+}
+
 /// Splits at every `separator`; an empty text gives one empty part.
 [[nodiscard]] inline std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts(1);

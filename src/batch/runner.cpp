@@ -87,10 +87,12 @@ std::unique_ptr<Runner::Entry> Runner::next_entry() {
       }
       const flow::CompiledSystem system(entry->model, {});
       flow::Engine engine(system, state, {}, {});
-      EngineTangent tangent(system);
-      tangent.begin(engine);
-      recorder.begin_growth(tangent.growth());
-      follow(engine, recorder, recorder.wants_exponent() ? &tangent : nullptr, true);
+      std::optional<EngineTangent> tangent;
+      if (recorder.wants_exponent()) {
+        tangent.emplace(system).begin(engine);
+        recorder.begin_growth(tangent->growth());
+      }
+      follow(engine, recorder, tangent ? &*tangent : nullptr, true);
       queue_.take(*index, std::move(recorder.run));
       continue;
     } catch (const NumericalError& error) {

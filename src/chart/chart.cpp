@@ -1,6 +1,7 @@
 /// Charts: their words and what stores say of them.
 #include "slapstick/chart/chart.hpp"
 
+#include "base/text.hpp"
 #include "io/table.hpp"
 
 namespace slapstick::chart {
@@ -17,12 +18,6 @@ std::string start_words(const sweep::MapProblem& problem) {
     case sweep::MapStart::random: break;
   }
   return std::to_string(problem.starts);
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : "\n") + word;
-  return text;
 }
 
 }  // namespace
@@ -65,10 +60,9 @@ std::vector<std::string> option_words(const Chart& chart) {
     words.push_back(std::to_string(value));
   }
   if (problem.refine > 0) words.insert(words.end(), {"--refine", std::to_string(problem.refine)});
-  std::string of;
-  for (std::size_t k = 0; k < problem.of.size(); ++k)
-    of += (of.empty() ? "" : ",") + problem.of[k].name + ":" + problem.statistics[k];
-  if (!of.empty()) words.insert(words.end(), {"--of", of});
+  std::vector<std::string> of;
+  for (std::size_t k = 0; k < problem.of.size(); ++k) of.push_back(problem.of[k].name + ":" + problem.statistics[k]);
+  if (!of.empty()) words.insert(words.end(), {"--of", joined(of, ",")});
   if (!chart.state.empty()) words.insert(words.end(), {"--state", chart.state});
   for (const std::string& stop : chart.stops) words.insert(words.end(), {"--stop", stop});
   return words;
@@ -81,7 +75,7 @@ store::StoreFacts run_facts(const std::string& verb, const ModelDefinition& defi
           {"version", SLAPSTICK_VERSION},
           {"kernel", kernel},
           {"model", definition.to_toml(values)},
-          {"options", joined(options)},
+          {"options", joined(options, "\n")},
           {"shard", std::to_string(shard + 1) + "/" + std::to_string(shards)},
           {"cells", std::to_string(cells)}};
 }

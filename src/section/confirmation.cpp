@@ -98,7 +98,7 @@ std::optional<Cycle> Confirmation::member(int n) const {
 
 std::optional<Cycle> Confirmation::look_around() const {
   constexpr int longest = 8;
-  for (int n = 1; n <= std::min(longest, options_.wish.most_n) && !stopped(options_.stop); ++n) {
+  for (int n = 1; n <= std::min(longest, options_.most_n) && !stopped(options_.stop); ++n) {
     const long count = std::min(returns_compared, record_.size() / n);
     if (count < 2) break;
     const VectorXd mean = record_.mean(n, count);

@@ -23,7 +23,7 @@ struct Cycle {
 };
 
 struct ConfirmationOptions {
-  ReturnWish wish = {};
+  int most_n = 64;                 ///< longest cycle sought, points
   double widest_round = INFINITY;  ///< of the size: a motion that winds more widely is beside no cycle
   bool free = false;  ///< of a free motion the multiplier 1 along the motion is left out
   /// Whether the approach is seen in the record where the record has it, or by following the motion only; and how near

@@ -190,7 +190,7 @@ std::optional<Cycle> Settling::run(int periods) {
 
 Confirmation Settling::confirmation() const {
   ConfirmationOptions options;
-  options.wish = {options_.most_n, options_.tolerance, options_.newton_start};
+  options.most_n = options_.most_n;
   options.tolerance = options_.tolerance;
   options.free = free_;
   options.stop = options_.stop;

@@ -23,6 +23,7 @@ class LanePixel {
   LanePixel(const MapProblem& problem, const batch::PassedPoint& first)
       : problem_(problem),
         options_(options_of(problem)),
+        wish_{problem.classify.most_n, returned, problem.classify.newton_start, waves},
         record_(2 * first.frame.n),
         omega_(2.0 * std::numbers::pi / first.model.forcing_period()),
         fits_(section::driven(first.model) && flow::translation_count(first.model, first.frame) == 0) {}
@@ -34,6 +35,7 @@ class LanePixel {
     Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * batch::most_coordinates, 1> x(2 * n);
     std::copy_n(point.p, n, x.data());
     std::copy_n(point.u, n, x.data() + n);
+    // lanes tell no sticks: the cycle's own record does
     record_.add(x, {static_cast<int>(point.impacts), 0, 0}, omega_);
     try {
       return decides(point);
@@ -51,13 +53,25 @@ class LanePixel {
   }
 
  private:
+  // Of the motion's size. Each only says when to ask; Newton's method and the approach decide.
+  /// A return that is worth Newton's method. Wider: asked sooner and oftener in vain; narrower: longer runs.
+  static constexpr double returned = 1e-8;
+  /// Where an approach has been seen. From 1e-3 on that is 13 halvings at the rate of the multiplier, where `classify`
+  /// sees 23: wider, and a chaotic motion that comes nearer for a while may pass.
+  static constexpr double there = 1e-7;
+  /// A motion that winds more widely round the mean of its points is not tried. Narrower: more are undecided; wider:
+  /// Newton's method runs in vain for chaotic ones.
+  static constexpr double widest_round = 0.6;
+  /// An oscillating approach is nearer than one of so many returns before.
+  static constexpr int waves = 3;
+
   /// Returns are looked for at every fourth point, and what only comes nearer at the end.
   bool decides(const batch::PassedPoint& point) {
     constexpr long every = 4;
     const long points = record_.size();
     const bool last = points >= problem_.periods;
     if (!last && (points % every != 0 || points < next_return_)) return false;
-    const auto candidates = record_.candidates(options_.wish, true, last);
+    const auto candidates = record_.candidates(wish_, true, last);
     if (!candidates.empty() || last) {
       const section::Confirmation::Look look = confirm(point, candidates, last);
       if (stopped(problem_.cancel)) return true;
@@ -104,14 +118,12 @@ class LanePixel {
     decided_ = true;
   }
 
-  /// A lane need not come as near a cycle as `classify` wants a motion to come. What the slowest direction loses from
-  /// 1e-3 of the motion's size on to 1e-7 is seen, at the rate of its multiplier: some 13 halvings.
   [[nodiscard]] static section::ConfirmationOptions options_of(const MapProblem& problem) {
     section::ConfirmationOptions options;
-    options.wish = {problem.classify.most_n, 1e-8, problem.classify.newton_start, 3};
-    options.widest_round = 0.6;
+    options.most_n = problem.classify.most_n;
+    options.widest_round = widest_round;
     options.by_record = true;
-    options.there = 1e-7;
+    options.there = there;
     options.tolerance = problem.classify.tolerance;
     options.stop = problem.cancel;
     return options;
@@ -119,6 +131,7 @@ class LanePixel {
 
   const MapProblem& problem_;
   section::ConfirmationOptions options_;
+  section::ReturnWish wish_;
   section::PointRecord record_;
   double omega_;
   bool fits_, decided_ = false;
@@ -137,8 +150,7 @@ void run_quick_in_lanes(const MapProblem& problem, std::span<const PixelTask> ta
   batch::Queue queue;
   queue.next = [&] { return next < tasks.size() ? std::optional(next++) : std::nullopt; };
   queue.model_at = [&](std::size_t i) {
-    const double x = problem.x.value(tasks[i].number % problem.x.count), y = problem.y.value(tasks[i].number / problem.x.count);
-    Model model = problem.model_at(x, y);
+    Model model = model_at(problem, tasks[i]);
     start = start_of(problem, tasks[i], model);
     return model;
   };

@@ -1,10 +1,10 @@
 #pragma once
 /// Pixels of `quick` in the lanes of a batch: lanes give the points at phase 0, the scalar engine confirms the cycles.
 ///
-/// A pixel's run ends as soon as a cycle is confirmed, at most after MapProblem::periods. Every point is compared with
-/// those before; what returns within the tolerance, and at the end what comes nearer, is a start for Newton's method
-/// (section/confirmation.hpp). A pixel makes its System only then, and most modes are never made.
-/// Cost: a lane's periods, and some 60 us for the System, Newton's method and the record of the cycle.
+/// A pixel's run ends as soon as a cycle is confirmed, at most after MapProblem::periods. Every fourth point is
+/// compared with those before; what returns within the tolerance, and at the end what comes nearer, is a start for
+/// Newton's method (section/confirmation.hpp). A pixel makes its System only then, and most modes are never made.
+/// Cost: a lane's periods, a System, Newton's method and the record of the cycle.
 #include "slapstick/sweep/map.hpp"
 #include "sweep/map_pixel.hpp"
 

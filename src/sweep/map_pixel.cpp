@@ -59,7 +59,7 @@ class Analysis {
   std::optional<Pixel> of(LaneFinding&& lane) {
     return attempt([&] {
       if (problem_.start == MapStart::carry) pixel_.carried = lane.found.state;
-      if (lane.system == nullptr && !problem_.of.empty()) lane.system = std::make_unique<System>(problem_.model_at(x(), y()));
+      if (lane.system == nullptr && !problem_.of.empty()) lane.system = std::make_unique<System>(model_at(problem_, task_));
       keep(lane.system.get(), lane.found, 1);
     });
   }
@@ -78,11 +78,8 @@ class Analysis {
     return std::move(pixel_);
   }
 
-  [[nodiscard]] double x() const { return problem_.x.value(task_.number % problem_.x.count); }
-  [[nodiscard]] double y() const { return problem_.y.value(task_.number / problem_.x.count); }
-
   void run() {
-    const System system(problem_.model_at(x(), y()));
+    const System system(model_at(problem_, task_));
     const State start = start_of(problem_, task_, system.model());
     if (problem_.start == MapStart::random) return run_all(system, start);
     const Classification found = classified(system, start);
@@ -206,16 +203,20 @@ bool same_attractor(const System& system, const Classification& a, const Classif
   return false;
 }
 
+Model model_at(const MapProblem& problem, const PixelTask& task) {
+  return problem.model_at(problem.x_at(task.number), problem.y_at(task.number));
+}
+
 State start_of(const MapProblem& problem, const PixelTask& task, const Model& model) {
-  const double x = problem.x.value(task.number % problem.x.count), y = problem.y.value(task.number / problem.x.count);
-  if (task.start.empty()) return problem.start_at(x, y);
+  const auto own = [&] { return problem.start_at(problem.x_at(task.number), problem.y_at(task.number)); };
+  if (task.start.empty()) return own();
   State state = task.start;
   undo_rounding(model, state);
   try {
     validate(model, state);
     return state;
   } catch (const InputError&) {
-    return problem.start_at(x, y);
+    return own();
   }
 }
 

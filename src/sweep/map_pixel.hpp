@@ -12,6 +12,7 @@ struct PixelTask {
   State start;  ///< handed on by its neighbour; empty: the problem's own
 };
 
+[[nodiscard]] Model model_at(const MapProblem& problem, const PixelTask& task);
 /// Where a pixel begins: at what was handed on, if that is admissible there.
 [[nodiscard]] State start_of(const MapProblem& problem, const PixelTask& task, const Model& model);
 

@@ -2,6 +2,7 @@
 import { createReadStream, existsSync } from "node:fs";
 import { createServer } from "node:http";
 import { extname, join } from "node:path";
+import { after, before } from "node:test";
 import { chromium } from "playwright-core";
 
 /** The built page. */
@@ -26,6 +27,20 @@ export function serve() {
 export function launch() {
   const executablePath = process.env.CHROMIUM ?? "/usr/bin/chromium";
   return chromium.launch({ executablePath, args: ["--no-sandbox", "--disable-gpu", "--force-color-profile=srgb", "--font-render-hinting=none"] });
+}
+
+/** The server and the browser of a file of tests, from its first test to its last. */
+export function shared() {
+  const both = {};
+  before(async () => {
+    both.server = await serve();
+    both.browser = await launch();
+  });
+  after(async () => {
+    await both.browser.close();
+    both.server.close();
+  });
+  return both;
 }
 
 /** A page that notes what no page of ours may have: errors, requests to other hosts. */

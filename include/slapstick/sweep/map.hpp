@@ -24,7 +24,7 @@
 /// pixel; a region that holds a pixel of the coarse grid is right to the last pixel.
 ///
 /// A pixel depends on its own start only and is kept under its number: nothing depends on threads, on shards or on what
-/// was known before. Cost: of `quick` some 0.2 ms a pixel for the paper's system, docs/howto/charts.md.
+/// was known before. Cost: of `quick` some 0.4 ms a pixel for the paper's system, docs/howto/charts.md.
 /// Source: docs/howto/charts.md.
 #include <atomic>
 #include <complex>
@@ -119,6 +119,10 @@ struct MapProblem {
   /// those to do grows: it is what is wanted so far.
   std::function<void(long done, long total)> progress = {};
   const std::atomic<bool>* cancel = nullptr;  ///< set it and the map returns soon with what is complete
+
+  /// The parameters of a pixel, iy * x.count + ix.
+  [[nodiscard]] double x_at(std::int32_t pixel) const { return x.value(pixel % x.count); }
+  [[nodiscard]] double y_at(std::int32_t pixel) const { return y.value(pixel / x.count); }
 };
 
 struct Map {

@@ -1,20 +1,12 @@
 // Long tests of the page: every model, the stories from first to last step, random moves without error or leak, pictures.
 import assert from "node:assert/strict";
-import test, { after, before } from "node:test";
-import { explorer, idle, launch, serve } from "../browser.mjs";
+import test from "node:test";
+import { explorer, idle, shared } from "../browser.mjs";
 
-let server, browser;
-before(async () => {
-  server = await serve();
-  browser = await launch();
-});
-after(async () => {
-  await browser.close();
-  server.close();
-});
+const held = shared();
 
 test("every built-in model is shown: a mechanism, a motion, a class, a diagram", async () => {
-  const { page, faults } = await explorer(browser, server.url, "#model=belt");
+  const { page, faults } = await explorer(held.browser, held.server.url, "#model=belt");
   const names = await page.getByLabel("model", { exact: true }).locator("option").evaluateAll((options) => options.map(({ value }) => value).filter(Boolean));
   assert.ok(names.length >= 27);
   for (const name of names) {
@@ -33,7 +25,7 @@ test("every built-in model is shown: a mechanism, a motion, a class, a diagram",
 });
 
 test("stories go from the first step to the last", async () => {
-  const { page, faults } = await explorer(browser, server.url, "#model=vibro-impact");
+  const { page, faults } = await explorer(held.browser, held.server.url, "#model=vibro-impact");
   const keys = await page.getByRole("combobox", { name: "guided story" }).locator("option").evaluateAll((options) => options.map(({ value }) => value).filter(Boolean));
   assert.equal(keys.length, 6);
   for (const key of keys) {
@@ -59,7 +51,7 @@ test("stories go from the first step to the last", async () => {
 });
 
 test("200 random moves of random sliders make no error and no leak", async () => {
-  const { page, faults } = await explorer(browser, server.url, "#model=vibro-impact");
+  const { page, faults } = await explorer(held.browser, held.server.url, "#model=vibro-impact");
   const heap = async () => {
     const session = await page.context().newCDPSession(page);
     await session.send("HeapProfiler.collectGarbage");
@@ -94,7 +86,7 @@ test("200 random moves of random sliders make no error and no leak", async () =>
 
 test("a chart fills in, coarse and then fine, and agrees with the class of the motion", async () => {
   const page_ = { view: "chart", chart: { size: 60 } };
-  const { page, faults } = await explorer(browser, server.url, `#model=vibro-impact&omega=2.2&page=${encodeURIComponent(JSON.stringify(page_))}`);
+  const { page, faults } = await explorer(held.browser, held.server.url, `#model=vibro-impact&omega=2.2&page=${encodeURIComponent(JSON.stringify(page_))}`);
   await page.waitForFunction(() => window.explorer.chart.known() === 3600, null, { timeout: 240000 });
   assert.equal(await page.evaluate(() => window.explorer.chart.classAt(2.2, 0.15)), await page.locator("#class").innerText());
   assert.deepEqual(faults, []);

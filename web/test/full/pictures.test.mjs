@@ -2,8 +2,8 @@
 // EXPLORER_PICTURES=renew writes the pictures anew; look at each before it is committed.
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
-import test, { after, before } from "node:test";
-import { explorer, launch, serve } from "../browser.mjs";
+import test from "node:test";
+import { explorer, shared } from "../browser.mjs";
 
 const folder = new URL("pictures/", import.meta.url).pathname;
 /** Share of pixels that may differ: letters and edges are drawn a little differently by every version of a browser. */
@@ -20,15 +20,7 @@ const views = [
   ["forces", `#model=stick-slip-impact${small({ view: "forces" })}`, "#view"],
 ];
 
-let server, browser;
-before(async () => {
-  server = await serve();
-  browser = await launch();
-});
-after(async () => {
-  await browser.close();
-  server.close();
-});
+const held = shared();
 
 /** Share of pixels in which two PNG files differ by more than a fifth of a channel. */
 async function difference(page, first, second) {
@@ -49,7 +41,7 @@ async function difference(page, first, second) {
 }
 
 async function picture(hash, selector) {
-  const { page, faults } = await explorer(browser, server.url, hash);
+  const { page, faults } = await explorer(held.browser, held.server.url, hash);
   await page.waitForTimeout(300);  // the last frame is drawn
   const shot = await page.locator(selector).screenshot();
   assert.deepEqual(faults, []);

@@ -4,8 +4,8 @@ import { execFileSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import test, { after, before } from "node:test";
-import { explorer, launch, motionOf, serve } from "../browser.mjs";
+import test from "node:test";
+import { explorer, motionOf, shared } from "../browser.mjs";
 
 /** Where ./dev python has installed the package. */
 const python = process.env.SLAPSTICK_PYTHON ?? new URL("../../../build/python/tools/bin/python", import.meta.url).pathname;
@@ -24,19 +24,11 @@ impacts = [i for i, kind in enumerate(motion.events.kind) if kind == "impact"]
 print(json.dumps({"t": motion.events.t.tolist(), "w": [float(motion.events.w[i]) for i in impacts], "diagram": diagram.w.tolist() if "diagram" in globals() else []}))
 `;
 
-let server, browser;
-before(async () => {
-  server = await serve();
-  browser = await launch();
-});
-after(async () => {
-  await browser.close();
-  server.close();
-});
+const held = shared();
 
 /** The page at a state, the lines that it gives, and what it shows. */
 async function shown(hash) {
-  const opened = await explorer(browser, server.url, hash === "own" ? "#model=impact-oscillator" : hash);
+  const opened = await explorer(held.browser, held.server.url, hash === "own" ? "#model=impact-oscillator" : hash);
   if (hash === "own") {
     await opened.page.evaluate(() => {
       const app = window.explorer;

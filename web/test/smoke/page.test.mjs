@@ -2,19 +2,11 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import test, { after, before } from "node:test";
-import { explorer, idle, launch, motionOf, moving, serve } from "../browser.mjs";
+import test from "node:test";
+import { explorer, idle, motionOf, moving, shared } from "../browser.mjs";
 
 const axePath = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
-let server, browser;
-before(async () => {
-  server = await serve();
-  browser = await launch();
-});
-after(async () => {
-  await browser.close();
-  server.close();
-});
+const held = shared();
 
 /** How many different colours a canvas has: an empty one has one. */
 const colours = (page, selector) => page.locator(`${selector} canvas`).first().evaluate((canvas) => {
@@ -30,7 +22,7 @@ async function accessible(page) {
 }
 
 test("every view shows the paper's motion, and nothing is fetched from elsewhere", async () => {
-  const { page, faults } = await explorer(browser, server.url, "#model=vibro-impact&omega=1.5");
+  const { page, faults } = await explorer(held.browser, held.server.url, "#model=vibro-impact&omega=1.5");
   assert.equal(await page.locator("#class").innerText(), "1-1-II");
   const points = await page.evaluate(() => {
     const { motion, section, diagram } = window.explorer;
@@ -51,7 +43,7 @@ test("every view shows the paper's motion, and nothing is fetched from elsewhere
 });
 
 test("a drag never blocks the page, and ends with the motion of its last value", async () => {
-  const { page, faults } = await explorer(browser, server.url, "#model=vibro-impact", { until: moving });
+  const { page, faults } = await explorer(held.browser, held.server.url, "#model=vibro-impact", { until: moving });
   // A motion of a thousand million periods: the page goes on living beside it, and the next move ends it.
   const beats = await page.evaluate(async () => {
     const app = window.explorer;
@@ -75,7 +67,7 @@ test("a drag never blocks the page, and ends with the motion of its last value",
   });
   await page.waitForFunction(() => !window.explorer.movesOn);
   const dragged = await motionOf(page), omega = await page.evaluate(() => window.explorer.history.now.set.omega);
-  const fresh = await explorer(browser, server.url, `#model=vibro-impact&omega=${omega}`, { until: moving });
+  const fresh = await explorer(held.browser, held.server.url, `#model=vibro-impact&omega=${omega}`, { until: moving });
   assert.deepEqual(dragged, await motionOf(fresh.page));
   await page.keyboard.press("Control+z");
   assert.equal(await page.evaluate(() => window.explorer.history.now.set.omega), 0.552, "a drag is one step of undo");
@@ -87,7 +79,7 @@ test("a drag never blocks the page, and ends with the motion of its last value",
 });
 
 test("a newer diagram ends the one that is running", async () => {
-  const { page, faults } = await explorer(browser, server.url, "#model=impact-oscillator");
+  const { page, faults } = await explorer(held.browser, held.server.url, "#model=impact-oscillator");
   await page.evaluate(() => {
     const app = window.explorer;
     app.change("diagram", (draft) => { draft.diagram.count = 1800; });
@@ -102,7 +94,7 @@ test("a newer diagram ends the one that is running", async () => {
 });
 
 test("a broken model is told at its line and changes nothing; a sound one is shown", async () => {
-  const { page, faults } = await explorer(browser, server.url, "#model=belt", { until: moving });
+  const { page, faults } = await explorer(held.browser, held.server.url, "#model=belt", { until: moving });
   await page.getByRole("button", { name: "edit the model" }).click();
   const text = page.getByLabel("model file");
   const sound = await text.inputValue();
@@ -119,7 +111,7 @@ test("a broken model is told at its line and changes nothing; a sound one is sho
   await idle(page);
   assert.equal(await page.evaluate(() => window.explorer.card.mechanism.coordinates[0].mass), 2);
   const link = await page.evaluate(() => location.hash), motion = await motionOf(page);
-  const other = await explorer(browser, server.url, link, { until: moving });
+  const other = await explorer(held.browser, held.server.url, link, { until: moving });
   assert.equal(await other.page.evaluate(() => window.explorer.card.name), "my belt");
   assert.deepEqual(await motionOf(other.page), motion);
   assert.deepEqual([...faults, ...other.faults], []);
@@ -128,7 +120,7 @@ test("a broken model is told at its line and changes nothing; a sound one is sho
 });
 
 test("a value that the model does not admit is told, and the next one works", async () => {
-  const { page, faults } = await explorer(browser, server.url, "#model=vibro-impact", { until: moving });
+  const { page, faults } = await explorer(held.browser, held.server.url, "#model=vibro-impact", { until: moving });
   const number = page.getByLabel("restitution, number");
   await number.fill("1.5");
   await number.press("Enter");
@@ -145,14 +137,14 @@ test("a value that the model does not admit is told, and the next one works", as
 
 test("damaged links open the page all the same", async () => {
   for (const hash of ["#model=vibro-impact&page=%7Bbroken", "#text=!!!", "#model=vibro-impact&omega=abc"]) {
-    const { page } = await explorer(browser, server.url, hash, { until: moving });
+    const { page } = await explorer(held.browser, held.server.url, hash, { until: moving });
     assert.equal(await page.evaluate(() => window.explorer.card.name), "vibro-impact", hash);
     await page.close();
   }
 });
 
 test("a click in the diagram goes to that motion, play moves it, a step stands at an event", async () => {
-  const { page, faults } = await explorer(browser, server.url, "#model=vibro-impact");
+  const { page, faults } = await explorer(held.browser, held.server.url, "#model=vibro-impact");
   const box = await page.locator("#diagram .plot").boundingBox();
   await page.locator("#diagram").scrollIntoViewIfNeeded();
   await page.locator("#diagram .plot").click({ position: { x: box.width * 0.5, y: box.height * 0.7 } });
@@ -176,7 +168,7 @@ test("a click on a special point starts its branch, and a button its curve over 
   // x'' = -g + a g sin t on a table with r: one bounce a period doubles at a^2 = (pi (1-r)/(1+r))^2 + (2 (1+r^2)/(1+r)^2)^2.
   const doubling = (r) => Math.hypot((Math.PI * (1 - r)) / (1 + r), (2 * (1 + r * r)) / (1 + r) ** 2);
   const state = { diagram: { from: 1.1, to: 1.8, count: 150 }, chart: { size: 60, xFrom: 1, xTo: 2, yFrom: 0.3, yTo: 0.7 } };
-  const { page, faults } = await explorer(browser, server.url, `#model=shaken-table&acceleration=1.3&page=${encodeURIComponent(JSON.stringify(state))}`);
+  const { page, faults } = await explorer(held.browser, held.server.url, `#model=shaken-table&acceleration=1.3&page=${encodeURIComponent(JSON.stringify(state))}`);
   await page.locator("#branch").click();
   await page.waitForFunction(() => window.explorer.diagram.hasBranch && window.explorer.idle);
   const place = await page.evaluate(() => {
@@ -204,7 +196,7 @@ test("a click on a special point starts its branch, and a button its curve over 
 });
 
 test("the button says whether the motion plays, also after a mass was dragged", async () => {
-  const { page, faults } = await explorer(browser, server.url, "#model=vibro-impact&omega=1.5", { until: moving });
+  const { page, faults } = await explorer(held.browser, held.server.url, "#model=vibro-impact&omega=1.5", { until: moving });
   const play = page.locator("#transport .main"), box = await page.locator("#mechanism").boundingBox();
   await page.evaluate(() => { window.explorer.player.speed = 0; });  // it plays, and the masses stay where they are
   await play.click();
@@ -232,7 +224,7 @@ test("the button says whether the motion plays, also after a mass was dragged", 
 
 test("people who do not see, or use no mouse, or a phone, can use it", async () => {
   for (const options of [{}, { colorScheme: "dark" }, { viewport: { width: 390, height: 844 }, hasTouch: true }]) {
-    const { page, faults } = await explorer(browser, server.url, "#model=vibro-impact&omega=1.5", options);
+    const { page, faults } = await explorer(held.browser, held.server.url, "#model=vibro-impact&omega=1.5", options);
     assert.deepEqual(await accessible(page), [], JSON.stringify(options));
     assert.ok((await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)) <= 0, "the page is wider than the screen");
     await page.getByRole("button", { name: /^link, pictures/ }).click();
@@ -247,7 +239,7 @@ test("people who do not see, or use no mouse, or a phone, can use it", async () 
 });
 
 test("saved files hold what is shown", async () => {
-  const { page, faults } = await explorer(browser, server.url, "#model=belt");
+  const { page, faults } = await explorer(held.browser, held.server.url, "#model=belt");
   const files = await page.evaluate(async () => {
     const { explorer: app } = window, list = [];
     for (const { name, svg, png, csv } of app.saved()) {

@@ -40,7 +40,7 @@ settles on, follows periodic motions over parameters, and draws bifurcation
 diagrams and charts. slapstick-verify proves certified runs.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libslapstick-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4), libtbb-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4), libsqlite3-dev, libtbb-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "C++20 library for oscillators with friction and impacts
 Headers, the static library, and the files by which CMake and pkg-config

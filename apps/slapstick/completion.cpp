@@ -1,6 +1,7 @@
 /// Writes the scripts by which shells complete the program's arguments.
 #include <algorithm>
 
+#include "base/text.hpp"
 #include "catalogue.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/io/model_file.hpp"
@@ -10,11 +11,7 @@ namespace {
 
 using Kind = ArgumentFact::Kind;
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
+std::string joined(const std::vector<std::string>& words) { return slapstick::joined(words, " "); }
 
 /// In single quotes of a shell, on one line.
 std::string quoted(const std::string& text) {

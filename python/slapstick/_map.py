@@ -343,7 +343,7 @@ def wish_of(
         raise InputError("starts: with carry=True a pixel has the start that it is handed")
     if options["direction"] != "up" and not options["carry"]:
         raise InputError("direction: only for carry=True")
-    wanted = statistics_of(options["of"], chosen, fixed | {x_name: x[0], y_name: y[0]}) if options["of"] else []
+    wanted = statistics_of("of", options["of"], chosen, fixed | {x_name: x[0], y_name: y[0]}) if options["of"] else []
     wish = _core.MapWish()
     wish.x_name, wish.y_name, wish.x, wish.y = x_name, y_name, tuple(x), tuple(y)
     wish.rule = "carry" if options["carry"] else "random" if options["starts"] else "reset"

@@ -2,6 +2,8 @@
 
 import os
 import signal
+import time
+from threading import Timer
 
 import numpy as np
 import pytest
@@ -129,9 +131,10 @@ def test_dask_gives_the_same_bits_also_where_a_worker_is_killed():
         workers = list(client.scheduler_info()["workers"])
         pids = client.run(os.getpid)
         equal(slapstick.dask.map(client, "vibro-impact", x, y), whole)
-        from threading import Timer
-
-        Timer(0.5, os.kill, (pids[workers[0]], signal.SIGKILL)).start()
+        begin = time.monotonic()
+        slapstick.dask.map(client, "vibro-impact", x, y, tasks=24)
+        in_the_middle = 0.5 * (time.monotonic() - begin)
+        Timer(in_the_middle, os.kill, (pids[workers[0]], signal.SIGKILL)).start()
         equal(slapstick.dask.map(client, "vibro-impact", x, y, tasks=24), whole)
         assert pids[workers[0]] not in client.run(os.getpid).values()
         with pytest.raises(slapstick.InputError, match="shard"):

@@ -4,11 +4,30 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <type_traits>
 #include <vector>
 
 #include "base/decimal.hpp"
 
 namespace slapstick {
+
+/// A text for a message that may not be needed: a string, or a function that makes one. It must outlive this.
+class LazyText {
+ public:
+  template <class Source>
+  LazyText(const Source& source)  // NOLINT: strings and functions are given as they are
+      : source_(&source), make_([](const void* from) -> std::string {
+          if constexpr (std::is_invocable_v<const Source&>)
+            return (*static_cast<const Source*>(from))();
+          else
+            return *static_cast<const Source*>(from);
+        }) {}
+  [[nodiscard]] std::string operator()() const { return make_(source_); }
+
+ private:
+  const void* source_;
+  std::string (*make_)(const void*);
+};
 
 /// Bytes of the character that the text begins with, or 0 if that is a control character or no UTF-8.
 [[nodiscard]] inline std::size_t printable_bytes(std::string_view text) {

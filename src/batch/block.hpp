@@ -17,6 +17,8 @@ struct alignas(64) Block {
   alignas(64) Row fraction, period;          ///< the instant; whole periods as a double
   alignas(64) Row scale;                     ///< what the window is shorter than the mode's by
   alignas(64) Row tries;                     ///< how often the window has been halved from the same start
+  alignas(64) Row sine[most_streams], cosine[most_streams];  ///< of the streams at the instant, if `in_phase`
+  bool in_phase;                             ///< false where an instant has been set by another than the kernel
   alignas(64) Row cut_period, cut_fraction;  ///< the next instant to look at
   alignas(64) Row impacts, speeds;           ///< number of impacts, and the sum of their speeds
   alignas(64) Row seen;          ///< events of a lane's run that the lane has decided
@@ -31,8 +33,8 @@ struct alignas(64) Block {
   const Row* all;       ///< [mode][word]
   const std::uint8_t* ready;  ///< [mode][lane]: whether those words have been made
   Layout layout;
-  const int* harmonic;          ///< Shape::harmonic, cosine, action, open, slots, still
-  const std::uint8_t* cosine;
+  const int* harmonic;          ///< Shape::harmonic, cosine_of, action, open, slots, still
+  const std::uint8_t* cosine_of;
   const Action* action;
   const std::uint8_t* open;
   const std::uint8_t* slots;

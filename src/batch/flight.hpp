@@ -75,49 +75,52 @@ class Flight {
     return gap;
   }
 
-  /// About where: the cubic through both ends with the slope at the start, and none at the end where the slot ends
-  /// too.
+  /// About where: from the cubic through both ends with the slopes there, two steps of Newton's method on the
+  /// integral of the slot's hull. The slot is minus the gap's rate.
   __attribute__((always_inline)) void close(int s, const Mask& closed, const Real& gap) {
+    const auto& slot = slots_[s];
     Real before = Real{}, slope = Real{};
     for (int i = 0; i < n; ++i) {
       before = before + word(at_.gap(s) + i) * window_.p[i][0];
       slope = slope + word(at_.gap(s) + i) * window_.p[i][1];
     }
-    // the slot is minus the gap's rate
-    const Real D = place_, change = gap - before, m0 = slope * D, m1 = -(slots_[s].about(D) * window_.H * D);
+    const Real D = place_, change = gap - before, m0 = slope * D, m1 = -(slot.about(D) * window_.H * D);
     const Real c2 = 3.0 * change - (m0 + m0 + m1), c3 = m0 + m1 - (change + change);
-    Real t = -before / change;
-    for (int k = 0; k < 3; ++k) {
-      const Real f = ((c3 * t + c2) * t + m0) * t + before, f1 = (3.0 * c3 * t + c2 + c2) * t + m0, f2 = 3.0 * c3 * t + c2;
-      t = smaller(larger(t - f * f1 / (f1 * f1 - f * f2), Real{}), all(1.0));
+    const Real t = -before / change, f = ((c3 * t + c2) * t + m0) * t + before, f1 = (3.0 * c3 * t + c2 + c2) * t + m0, f2 = 3.0 * c3 * t + c2;
+    Real x = inside(t - f * f1 / (f1 * f1 - f * f2), all(1.0)) * D;
+    for (int k = 0; k < 2; ++k) {
+      Real rate, fallen;
+      slot.integrate(x, rate, fallen);
+      x = inside(x + (before - window_.H * fallen) / (window_.H * rate), D);
     }
-    const Mask sooner = closed & (~impact_ | less(t * D, guess_));
-    guess_ = choose(sooner, t * D, guess_);
+    const Mask sooner = closed & (~impact_ | less(x, guess_));
+    guess_ = choose(sooner, x, guess_);
     winner_ = choose(sooner, all(s), winner_);
     impact_ = impact_ | closed;
   }
+  static inline __attribute__((always_inline)) Real inside(const Real& x, const Real& most) { return smaller(larger(x, Real{}), most); }
 
   /// Halley's iteration on the whole series of what comes first, and the proof that nothing comes before.
   __attribute__((always_inline)) void refine() {
     x_ = end_;
     if (!any(reached_)) return;
-    Real h[terms];
-    Real error = all(1.0), noise = gap_noise_, size = all(1.0);
-    gather(h, error, noise, size);
+    Falling f;
+    gather(f);
     Real x = choose(impact_, guess_, place_);
     Mask open = reached_;
     Jet<Real> jet{all(1.0), all(1.0), Real{}};
     for (int k = 0; k < 8 && any(open); ++k) {
       Jet<Real> now;
-      jet_at(h, x, now);
+      jet_at(f.h, x, now);
+      now = {-(f.side * now.value), -(f.side * now.slope), -(f.side * now.half_bend)};
       jet = {choose(open, now.value, jet.value), choose(open, now.slope, jet.slope), choose(open, now.half_bend, jet.half_bend)};
       const Real move = now.value * now.slope / (now.slope * now.slope - now.value * now.half_bend);
       x = choose(open, x - move, x);
       open = open & ~less(magnitude(move), x * 0x1p-17);  // cubic: the next error is below rounding
     }
-    const Real z = window_.scale * longest_window, third = size * z * z * z * (window_.scale * growth + 1.0);
-    const Real reach = 2.0 * error / magnitude(jet.slope);
-    const Real flat = reach * magnitude(jet.half_bend) * 2.0 + reach * reach * third * 0.5 + noise * 64.0;
+    const Real z = window_.scale * longest_window, third = f.size * z * z * z * (window_.scale * growth + 1.0);
+    const Real reach = 2.0 * f.error / magnitude(jet.slope);
+    const Real flat = reach * magnitude(jet.half_bend) * 2.0 + reach * reach * third * 0.5 + f.noise * 64.0;
     Mask proven = reached_ & ~open & less(Real{}, x) & ~less(end_, x) & less(2.0 * flat, -jet.slope);
     const Mask by_hull = ~less(Real{}, x - reach) | less(Real{}, above_winner(x - reach));
     proven = proven & (impact_ | by_hull);
@@ -127,28 +130,45 @@ class Flight {
     x_ = choose(reached_, x, end_);
   }
 
-  /// The series, positive at the start, whose zero is the event; with the errors of its hull and its rounding.
-  __attribute__((always_inline)) void gather(Real (&h)[terms], Real& error, Real& noise, Real& size) const {
+  /// Each lane's event is the zero of -side h, positive at the start: of a slot's series less its limit, or of a gap's
+  /// series with side -1. With the errors of its hull and its rounding.
+  struct Falling {
+    Real h[terms], side, error, noise, size;
+  };
+  __attribute__((always_inline)) void gather(Falling& to) const {
+    to.side = all(-1.0);
+    Real limit = Real{};
+    to.error = all(1.0);
+    to.noise = gap_noise_;
+    to.size = all(1.0);
     bool begun = false;
     for (int s = 0; s < used_; ++s) {
       const auto& slot = slots_[s];
-      const Mask mine = equal(winner_, all(s)) & reached_;
+      const Mask mine = equal(winner_, all(s)) & reached_, by_gap = mine & impact_, by_slot = mine & ~impact_;
       if (!any(mine)) continue;
-      const Mask by_gap = mine & impact_, by_slot = mine & ~impact_;
-      const Real side = choose(by_slot, -slot.side, Real{});
-      for (int m = 0; m < terms; ++m) h[m] = begun ? h[m] + side * slot.series[m] : side * slot.series[m];
+      to.side = choose(by_slot, slot.side, to.side);
+      limit = choose(by_slot, slot.side * slot.limit, limit);
+      to.error = choose(by_slot, slot.error, choose(by_gap, gap_noise_, to.error));
+      to.noise = choose(by_slot, slot.noise, to.noise);
+      to.size = choose(by_slot, slot.size, choose(by_gap, window_.size, to.size));
+      take_series(to.h, s, by_gap, mine, begun);
       begun = true;
-      h[0] = h[0] + choose(by_slot, slot.limit, Real{});
-      error = choose(by_slot, slot.error, error);
-      noise = choose(by_slot, slot.noise, noise);
-      size = choose(by_slot, slot.size, size);
-      if (!any(by_gap)) continue;
-      error = choose(by_gap, gap_noise_, error);
-      size = choose(by_gap, window_.size, size);
-      Real row[n];
-      for (int i = 0; i < n; ++i) row[i] = choose(by_gap, word(at_.gap(s) + i), Real{});
-      for (int m = 0; m < terms; ++m)
-        for (int i = 0; i < n; ++i) h[m] = h[m] + row[i] * window_.p[i][m];
+    }
+    to.h[0] = to.h[0] - limit;
+  }
+
+  __attribute__((always_inline)) void take_series(Real (&h)[terms], int s, const Mask& by_gap, const Mask& mine, bool begun) const {
+    const bool gaps = any(by_gap);
+    Real row[n];
+    for (int i = 0; i < n; ++i) row[i] = word(at_.gap(s) + i);
+    for (int m = 0; m < terms; ++m) {
+      Real a = slots_[s].series[m];
+      if (gaps) {
+        Real gap = row[0] * window_.p[0][m];
+        for (int i = 1; i < n; ++i) gap = gap + row[i] * window_.p[i][m];
+        a = choose(by_gap, gap, a);
+      }
+      h[m] = begun ? choose(mine, a, h[m]) : a;
     }
   }
 
@@ -164,13 +184,7 @@ class Flight {
   /// The state at x_, and what else must not have happened up to there: other slots at their limits, gaps that fall
   /// with slots.
   __attribute__((always_inline)) void arrive() {
-    const Real inverse = 1.0 / window_.H;
-    Real state[2 * n];
-    values_at<2 * n>(window_.p, x_, state);
-    for (int i = 0; i < n; ++i) {
-      p_[i] = state[i];
-      u_[i] = state[n + i] * inverse;
-    }
+    window_.state_at(x_, p_, u_);
     for (int s = 0; s < used_; ++s) {
       const Mask winner = equal(winner_, all(s)) & reached_;
       const Mask other = slots_[s].hit & ~(winner & ~impact_);

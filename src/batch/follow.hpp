@@ -24,7 +24,7 @@ class Follow : public Flight<width, n> {
     return mask;
   }
 
-  /// The first mode of each lane's candidates that nothing refuses, from the streams that `start_streams` has made.
+  /// The first mode of each lane's candidates that nothing refuses, from the streams that `take_phase` has made.
   /// @returns the lanes that have none
   __attribute__((always_inline)) unsigned follow(unsigned lanes) {
     unsigned refused = 0;
@@ -55,41 +55,62 @@ class Follow : public Flight<width, n> {
     return refused;
   }
 
-  /// Makes each lane's words those of its mode.
+  /// Makes each lane's words those of its mode: a word is stored once, whatever the number of modes.
   __attribute__((always_inline)) void take_words(unsigned lanes, const int (&modes)[most_lanes]) {
-    const int size = at_.size();
-    for (unsigned left = lanes; left != 0; left &= left - 1) {
-      const int slots = block_.slots[modes[__builtin_ctz(left)]];
-      block_.filled = slots > block_.filled ? slots : block_.filled;
+    const Block::Row* from[most_lanes];
+    unsigned takers[most_lanes];
+    int groups = 0, filled = 0;
+    for (unsigned left = block_.occupied & ~(lanes | block_.starting); left != 0; left &= left - 1) {
+      const int slots = block_.slots[block_.mode[__builtin_ctz(left)]];
+      filled = slots > filled ? slots : filled;
     }
-    const int last = at_.slot(block_.filled);
     while (lanes != 0) {
-      const int mode = modes[__builtin_ctz(lanes)];
+      const int mode = modes[__builtin_ctz(lanes)], slots = block_.slots[mode];
+      filled = slots > filled ? slots : filled;
       unsigned same = 0;
       for (unsigned left = lanes; left != 0; left &= left - 1)
         if (modes[__builtin_ctz(left)] == mode) same |= left & -left;
       lanes &= ~same;
-      const Mask mine = of(same);
-      const Block::Row* const from = block_.all + static_cast<long>(mode) * size;
-      for (int w = 0; w < last; ++w) store<Real>(block_.active[w], choose(mine, load<Real>(from[w]), load<Real>(block_.active[w])));
+      takers[groups] = same;
+      from[groups++] = block_.all + static_cast<long>(mode) * at_.size();
+    }
+    const int last = at_.slot(filled > block_.filled ? filled : block_.filled);  // no lane's slot any more: zero
+    block_.filled = filled;
+    if (groups == 2)
+      copy_words<2>(last, from, takers);
+    else
+      for (int g = 0; g < groups; ++g) copy_words<1>(last, from + g, takers + g);
+  }
+
+  template <int groups>
+  __attribute__((always_inline)) void copy_words(int last, const Block::Row* const* from, const unsigned* takers) {
+    for (int w = 0; w < last; ++w) {
+      Real word = load<Real>(block_.active[w]);
+      for (int g = 0; g < groups; ++g) word = choose(of(takers[g]), load<Real>(from[g][w]), word);
+      store<Real>(block_.active[w], word);
     }
   }
 
-  __attribute__((always_inline)) void start_streams() {
+  /// Sines and cosines of the streams at fraction_.
+  __attribute__((always_inline)) void take_phase() {
+    for (int k = 0; k < at_.k; ++k) sine_cosine(fraction_, static_cast<double>(block_.harmonic[k]), sine_[k], cosine_[k]);
+  }
+  /// Keeps those of lanes that go on for their next window.
+  __attribute__((always_inline)) void keep_phase(const Mask& go) {
     for (int k = 0; k < at_.k; ++k) {
-      Real sine, cosine;
-      sine_cosine(fraction_, static_cast<double>(block_.harmonic[k]), sine, cosine);
-      const bool turned = block_.cosine[k] != 0;
-      stream_[k] = turned ? cosine : sine;
-      stream_rate_[k] = turned ? -sine : cosine;
+      store<Real>(block_.sine[k], choose(go, sine_[k], load<Real>(block_.sine[k])));
+      store<Real>(block_.cosine[k], choose(go, cosine_[k], load<Real>(block_.cosine[k])));
     }
   }
+
+  __attribute__((always_inline)) Real stream(int k) const { return block_.cosine_of[k] != 0 ? cosine_[k] : sine_[k]; }
+  __attribute__((always_inline)) Real stream_rate(int k) const { return block_.cosine_of[k] != 0 ? -sine_[k] : cosine_[k]; }
 
   /// row . (p, scaled velocities, f, 1)
   __attribute__((always_inline)) Real product(int row, const Real (&velocity)[n]) const {
     Real sum = word(row + 2 * n + at_.k);
     for (int i = 0; i < n; ++i) sum = sum + word(row + i) * p_[i] + word(row + n + i) * velocity[i];
-    for (int k = 0; k < at_.k; ++k) sum = sum + word(row + 2 * n + k) * stream_[k];
+    for (int k = 0; k < at_.k; ++k) sum = sum + word(row + 2 * n + k) * stream(k);
     return sum;
   }
 
@@ -97,7 +118,7 @@ class Follow : public Flight<width, n> {
   __attribute__((always_inline)) Real rate_of(int row, const Real (&velocity)[n], const Real (&acceleration)[n]) const {
     Real sum = Real{};
     for (int i = 0; i < n; ++i) sum = sum + word(row + i) * (velocity[i] + word(at_.drift(i))) + word(row + n + i) * acceleration[i];
-    for (int k = 0; k < at_.k; ++k) sum = sum + word(row + 2 * n + k) * stream_rate_[k] * word(Layout::rates + k);
+    for (int k = 0; k < at_.k; ++k) sum = sum + word(row + 2 * n + k) * stream_rate(k) * word(Layout::rates + k);
     return sum;
   }
 
@@ -158,7 +179,7 @@ class Follow : public Flight<width, n> {
   unsigned tried_ = 0;                ///< lanes whose words are those of a candidate
 
  private:
-  Real stream_[most_streams], stream_rate_[most_streams];
+  Real sine_[most_streams], cosine_[most_streams];
 };
 
 }  // namespace

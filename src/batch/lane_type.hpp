@@ -102,12 +102,25 @@ template <class Mask>
 SLAPSTICK_INLINE bool any(const Mask& m) {
   return bits(m) != 0;
 }
+/// a < b ? a : b, and a > b ? a : b: what the processors' instructions for least and most do.
 template <class Real>
 SLAPSTICK_INLINE Real smaller(const Real& a, const Real& b) {
+#if defined(__AVX512F__)
+  if constexpr (sizeof(Real) == 64) return _mm512_maskz_min_pd(__mmask8{0xff}, a, b);
+#endif
+#if defined(__AVX__)
+  if constexpr (sizeof(Real) == 32) return _mm256_min_pd(a, b);
+#endif
   return choose(less(a, b), a, b);
 }
 template <class Real>
 SLAPSTICK_INLINE Real larger(const Real& a, const Real& b) {
+#if defined(__AVX512F__)
+  if constexpr (sizeof(Real) == 64) return _mm512_maskz_max_pd(__mmask8{0xff}, a, b);
+#endif
+#if defined(__AVX__)
+  if constexpr (sizeof(Real) == 32) return _mm256_max_pd(a, b);
+#endif
   return choose(less(b, a), a, b);
 }
 /// The nearest whole number of |a| < 2^51, ties to even; and the greatest that is not above a.

@@ -60,7 +60,7 @@ void write_row(const mode::RowVector& row, const Shape& shape, const mode::Frame
   }
   for (int s = 0; s < k; ++s) {
     const auto h = std::find(frame.harmonics.begin(), frame.harmonics.end(), shape.harmonic[static_cast<std::size_t>(s)]) - frame.harmonics.begin();
-    out[2 * n + s] = f * row[2 * n + 2 * h + (shape.cosine[static_cast<std::size_t>(s)] != 0 ? 0 : 1)];
+    out[2 * n + s] = f * row[2 * n + 2 * h + (shape.cosine_of[static_cast<std::size_t>(s)] != 0 ? 0 : 1)];
   }
   out[2 * n + k] = f * row[frame.one()];
 }

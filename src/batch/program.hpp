@@ -32,7 +32,7 @@ struct Shape {
   Layout layout;
   int modes = 0, stops = 0, frictions = 0, compliant = 0;
   std::vector<int> harmonic;      ///< of each stream ..
-  std::vector<std::uint8_t> cosine;  ///< .. and whether it is a cosine
+  std::vector<std::uint8_t> cosine_of;  ///< .. and whether it is a cosine
   std::vector<Slot> slot;         ///< [mode][slot]
   std::vector<std::uint8_t> slots;  ///< how many each mode has
   std::vector<Action> action;     ///< [mode][slot][side]

@@ -125,7 +125,7 @@ void Runner::make_room(const Entry& entry) {
   block_->ready = ready_.data();
   block_->layout = shape_->layout;
   block_->harmonic = shape_->harmonic.data();
-  block_->cosine = shape_->cosine.data();
+  block_->cosine_of = shape_->cosine_of.data();
   block_->action = shape_->action.data();
   block_->open = shape_->open.data();
   block_->slots = shape_->slots.data();
@@ -153,6 +153,7 @@ void Runner::start(int l) {
   for (int m = 0; m < shape_->modes; ++m) ready_[static_cast<std::size_t>(m * most_lanes + l)] = 0;
   block_->seen[l] = block_->fraction[l] = block_->period[l] = block_->tries[l] = block_->impacts[l] = block_->speeds[l] = block_->power[l] = 0.0;
   block_->scale[l] = 1.0;
+  block_->in_phase = false;
   block_->mode[l] = 0;
   block_->start[l] = start_action(entry.model, entry.frame, *shape_, entry.X.data(), entry.X.data() + n);
   block_->occupied |= 1U << l;
@@ -317,6 +318,7 @@ void Runner::to_lane(int l) {
   const Instant time = entry.engine->time();
   block_->period[l] = static_cast<double>(time.period);
   block_->fraction[l] = time.fraction;
+  block_->in_phase = false;
   block_->scale[l] = 1.0;
   block_->tries[l] = 0.0;
   block_->impacts[l] = entry.recorder.impacts;

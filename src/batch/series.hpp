@@ -37,10 +37,10 @@ SLAPSTICK_INLINE void sine_cosine(const Real& t, double j, Real& sine, Real& cos
   cosine = choose(one | two, -b, b);
 }
 
-/// The values of `count` series sum_m a_m x^m at one place, in even and odd parts, side by side: each waits for
-/// itself only. A function of its own: gcc 12 would keep what two calls load in memory beside where it is.
+/// The values of `count` series sum_m a_m x^m, m < terms, at one place, in even and odd parts, side by side: each
+/// waits for itself only. A function of its own: gcc 12 would keep what two calls load in memory beside where it is.
 template <int count, class Real>
-static __attribute__((noinline)) void values_at(const Real (*a)[terms], const Real& x, Real (&value)[count]) {
+static __attribute__((noinline)) void values_at(const Real (*a)[terms + 1], const Real& x, Real (&value)[count]) {
   const Real z = x * x;
   Real even[count], odd[count];
   for (int i = 0; i < count; ++i) {
@@ -54,6 +54,31 @@ static __attribute__((noinline)) void values_at(const Real (*a)[terms], const Re
       even[i] = even[i] * z + a[i][m - 1];
     }
   for (int i = 0; i < count; ++i) value[i] = odd[i] * x + even[i];
+}
+
+/// The same of m <= terms, and their derivatives: with a = e(z) + x o(z), z = x^2,  a' = 2 x e' + o + 2 z o'.
+template <int count, class Real>
+static __attribute__((noinline)) void values_and_slopes_at(const Real (*a)[terms + 1], const Real& x, Real (&value)[count], Real (&slope)[count]) {
+  const Real z = x * x;
+  Real e[count], o[count], e1[count], o1[count];
+  for (int i = 0; i < count; ++i) {
+    e1[i] = a[i][terms];
+    e[i] = a[i][terms] * z + a[i][terms - 2];
+    o1[i] = Real{};
+    o[i] = a[i][terms - 1];
+  }
+#pragma GCC unroll 16
+  for (int m = terms - 3; m > 0; m -= 2)
+    for (int i = 0; i < count; ++i) {
+      o1[i] = o1[i] * z + o[i];
+      e1[i] = e1[i] * z + e[i];
+      o[i] = o[i] * z + a[i][m];
+      e[i] = e[i] * z + a[i][m - 1];
+    }
+  for (int i = 0; i < count; ++i) {
+    value[i] = o[i] * x + e[i];
+    slope[i] = (x + x) * (x * o1[i] + e1[i]) + o[i];
+  }
 }
 
 /// Value, first and half the second derivative: with p = e(z) + x o(z), z = x^2,
@@ -77,91 +102,111 @@ static __attribute__((noinline)) void jet_at(const Real* a, const Real& x, Jet<R
   jet = {o * x + e, (x + x) * (x * o1 + e1) + o, e1 + 3.0 * x * o1 + 4.0 * z * (x * o2 + e2)};
 }
 
-/// Derivatives in x of all numbers at the start, divided by m!: y^(m+1) from y^(m) by the mode's rows.
+/// Taylor coefficients of the displacements p, from p^(m+2) by the mode's rows. The velocities' are not kept:
+/// H u = p' - drift.
 template <int width, int n>
 struct Window {
   using Real = typename Lanes<width>::Real;
   using Mask = typename Lanes<width>::Mask;
 
-  Real p[2 * n][terms];        ///< of p, then of scale H u
-  Real stream[most_streams][terms];
+  Real p[n][terms + 1];
+  Real start[n], drift[n];  ///< scale H u at the start; p' = scale H u + drift
+  Real even[most_streams], odd[most_streams], bend[most_streams];  ///< f^(2j) = even bend^j, f^(2j+1) = odd bend^j
   Real scale, H;  ///< H times scale
   Real size;      ///< the norm of the state
 
   static inline __attribute__((always_inline)) Real word(const Block& block, int i) { return load<Real>(block.active[i]); }
 
-  __attribute__((noinline)) void make(const Block& block) {
-    const Layout& at = block.layout;
-    scale = load<Real>(block.scale);
-    H = word(block, Layout::window) * scale;
-    Real force[n][terms];
-    make_streams(block, force);
-    Real p0[n], u0[n];
-    const Real inverse_speed = word(block, Layout::inverse_speed);
-    size = word(block, Layout::least_size);
-    for (int i = 0; i < n; ++i) {
-      p0[i] = load<Real>(block.p[i]);
-      u0[i] = load<Real>(block.u[i]);
-      size = larger(size, larger(magnitude(p0[i]), magnitude(u0[i]) * inverse_speed));
-      u0[i] = u0[i] * H;
-    }
-    recur(block, at, p0, u0, force);
+  __attribute__((always_inline)) void make(const Block& block) { block.layout.k <= 1 ? expand<1>(block) : expand<most_streams>(block); }
+
+  /// p and u at x.
+  __attribute__((always_inline)) void state_at(const Real& x, Real (&p_at)[n], Real (&u_at)[n]) const {
+    const Real inverse = 1.0 / H;
+    values_and_slopes_at<n>(p, x, p_at, u_at);
+    for (int i = 0; i < n; ++i) u_at[i] = (u_at[i] - drift[i]) * inverse;
   }
 
  private:
-  /// f^(m+2) = -(j omega H)^2 f^(m); and what the streams do to each row.
-  __attribute__((always_inline)) void make_streams(const Block& block, Real (*force)[terms]) {
+  template <int k>
+  __attribute__((noinline)) void expand(const Block& block) {
     const Layout& at = block.layout;
-    const Real phase = load<Real>(block.fraction), square = scale * scale;
-    for (int s = 0; s < at.k; ++s) {
-      Real sine, cosine;
-      sine_cosine(phase, static_cast<double>(block.harmonic[s]), sine, cosine);
-      const Real rate = word(block, Layout::rates + s) * scale, bend = -(rate * rate);
-      const bool turned = block.cosine[s] != 0;
-      Real even = turned ? cosine : sine, odd = turned ? -(sine * rate) : cosine * rate;
-      Real share[n];
-      for (int i = 0; i < n; ++i) share[i] = word(block, at.row(i) + 2 * n + s) * square;
-      for (int m = 0; m < terms; m += 2) {
-        stream[s][m] = even * tables.inverse_factorial[m];
-        stream[s][m + 1] = odd * tables.inverse_factorial[m + 1];
-        for (int i = 0; i < n; ++i) {
-          force[i][m] = s == 0 ? share[i] * even : force[i][m] + share[i] * even;
-          force[i][m + 1] = s == 0 ? share[i] * odd : force[i][m + 1] + share[i] * odd;
-        }
-        even = even * bend;
-        odd = odd * bend;
-      }
-    }
+    scale = load<Real>(block.scale);
+    H = word(block, Layout::window) * scale;
+    const Real inverse_speed = word(block, Layout::inverse_speed);
+    size = word(block, Layout::least_size);
     for (int i = 0; i < n; ++i) {
-      if (at.k == 0)
-        for (int m = 0; m < terms; ++m) force[i][m] = Real{};
-      force[i][0] = force[i][0] + word(block, at.row(i) + at.row_size() - 1) * square;
+      const Real p0 = load<Real>(block.p[i]), u0 = load<Real>(block.u[i]);
+      size = larger(size, larger(magnitude(p0), magnitude(u0) * inverse_speed));
+      p[i][0] = p0;
+      start[i] = u0 * H;
+      drift[i] = word(block, at.drift(i)) * scale;
+    }
+    start_streams<k>(block);
+    recur<k>(block);
+  }
+
+  /// Streams that the model does not have are zero.
+  template <int k>
+  __attribute__((always_inline)) void start_streams(const Block& block) {
+    for (int s = 0; s < k; ++s) {
+      even[s] = odd[s] = bend[s] = Real{};
+      if (s >= block.layout.k) continue;
+      const Real sine = load<Real>(block.sine[s]), cosine = load<Real>(block.cosine[s]);
+      const Real rate = word(block, Layout::rates + s) * scale;
+      const bool turned = block.cosine_of[s] != 0;
+      even[s] = turned ? cosine : sine;
+      odd[s] = turned ? -(sine * rate) : cosine * rate;
+      bend[s] = -(rate * rate);
     }
   }
 
-  __attribute__((always_inline)) void recur(const Block& block, const Layout& at, Real (&dp)[n], Real (&du)[n], Real (*force)[terms]) {
-    Real K[n][n], C[n][n];
+  template <int k>
+  __attribute__((always_inline)) void recur(const Block& block) {
+    const Layout& at = block.layout;
     const Real square = scale * scale;
-    for (int i = 0; i < n; ++i)
+    Real K[n][n], C[n][n], share[n][k], dp[n], du[n], f_even[k], f_odd[k];
+    for (int i = 0; i < n; ++i) {
       for (int j = 0; j < n; ++j) {
         K[i][j] = word(block, at.row(i) + j) * square;
         C[i][j] = word(block, at.row(i) + n + j) * scale;
       }
-    for (int m = 0; m < terms; ++m) {
+      for (int s = 0; s < k; ++s) share[i][s] = s < at.k ? word(block, at.row(i) + 2 * n + s) * square : Real{};
+      dp[i] = p[i][0];
+      du[i] = start[i];
+    }
+    for (int s = 0; s < k; ++s) {
+      f_even[s] = even[s];
+      f_odd[s] = odd[s];
+    }
+    // u^(m+1) = K p^(m) + C u^(m) + F f^(m); then p^(m+1) = u^(m)
+    const auto step = [&](int m, const Real (&f)[k]) __attribute__((always_inline)) {
       Real a[n];
       for (int i = 0; i < n; ++i) {
         p[i][m] = dp[i] * tables.inverse_factorial[m];
-        p[n + i][m] = du[i] * tables.inverse_factorial[m];
-        Real still = force[i][m], moving = C[i][0] * du[0];
+        Real still = share[i][0] * f[0], moving = C[i][0] * du[0];
+        for (int s = 1; s < k; ++s) still = still + share[i][s] * f[s];
+        if (m == 0) still = still + word(block, at.row(i) + at.row_size() - 1) * square;
         for (int j = 0; j < n; ++j) still = still + K[i][j] * dp[j];
         for (int j = 1; j < n; ++j) moving = moving + C[i][j] * du[j];
         a[i] = still + moving;
       }
       for (int i = 0; i < n; ++i) {
-        dp[i] = m == 0 ? du[i] + word(block, at.drift(i)) * scale : du[i];
+        dp[i] = du[i];
         du[i] = a[i];
       }
+    };
+    step(0, f_even);
+    for (int i = 0; i < n; ++i) dp[i] = dp[i] + drift[i];
+    step(1, f_odd);
+    for (int m = 2; m < terms; m += 2) {
+      for (int s = 0; s < k; ++s) {
+        f_even[s] = f_even[s] * bend[s];
+        f_odd[s] = f_odd[s] * bend[s];
+      }
+      step(m, f_even);
+      step(m + 1, f_odd);
     }
+    for (int i = 0; i < n; ++i) p[i][terms] = dp[i] * tables.inverse_factorial[terms];
   }
 };
 

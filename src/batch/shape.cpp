@@ -273,7 +273,7 @@ Shape shape_of(const Model& model, const mode::Frame& frame) {
     for (int cosine = 1; cosine >= 0; --cosine) {
       if (frame.free.col(2 * frame.d + 2 * static_cast<Eigen::Index>(k) + 1 - cosine).isZero(0.0)) continue;
       shape.harmonic.push_back(frame.harmonics[k]);
-      shape.cosine.push_back(static_cast<std::uint8_t>(cosine));
+      shape.cosine_of.push_back(static_cast<std::uint8_t>(cosine));
     }
   const int doubled = ranges::any_of(model.compliant_stops, [](const CompliantStop& stop) { return !stop.pulls && stop.damping > 0.0; });
   shape.layout = {frame.n, static_cast<int>(shape.harmonic.size()), shape.stops + shape.frictions + (1 + doubled) * shape.compliant};

@@ -16,14 +16,16 @@ class Step : Carry<width, n> {
   using Real = typename Base::Real;
   using Mask = typename Base::Mask;
   using Base::action_, Base::all, Base::at_, Base::block_, Base::doubtful_, Base::fraction_, Base::halve_, Base::follow, Base::impact_, Base::next_, Base::occupied_, Base::of, Base::p_, Base::period_,
-      Base::reached_, Base::slots_, Base::start_streams, Base::take_words, Base::tried_, Base::u_, Base::window_, Base::winner_, Base::word, Base::x_;
+      Base::reached_, Base::slots_, Base::take_phase, Base::take_words, Base::tried_, Base::u_, Base::window_, Base::winner_, Base::word, Base::x_;
 
  public:
   __attribute__((always_inline)) explicit Step(Block& block) : Base(block) {}
 
   /// @returns true if a lane needs the caller
   __attribute__((always_inline)) bool run() {
+    if (!block_.in_phase) look_up_phase();
     Base::fly();
+    take_phase();
     block_.events = block_.cuts = block_.doubtful = block_.wanting = 0;
     const Real tries = choose(halve_, load<Real>(block_.tries) + 1.0, Real{});
     doubtful_ = doubtful_ | (halve_ & less(all(most_halvings - 0.5), tries));
@@ -47,7 +49,7 @@ class Step : Carry<width, n> {
     fraction_ = load<Real>(block_.fraction);
     for (unsigned left = block_.starting; left != 0; left &= left - 1) action_[__builtin_ctz(left)] = &block_.start[__builtin_ctz(left)];
     block_.events = block_.cuts = block_.wanting = 0;
-    start_streams();
+    take_phase();
     block_.doubtful = follow(block_.starting);
     const unsigned begun = block_.starting & ~(block_.doubtful | block_.wanting);
     for (unsigned left = begun; left != 0; left &= left - 1) block_.mode[__builtin_ctz(left)] = next_[__builtin_ctz(left)];
@@ -57,6 +59,14 @@ class Step : Carry<width, n> {
   }
 
  private:
+  /// Of lanes that have been set by the caller.
+  __attribute__((noinline)) void look_up_phase() {
+    fraction_ = load<Real>(block_.fraction);
+    take_phase();
+    Base::keep_phase(~of(0));
+    block_.in_phase = true;
+  }
+
   /// A lane whose cut lies before what it has reached is shown there, and stays at its window's start: a cut changes
   /// nothing.
   __attribute__((always_inline)) void look_at_cuts() {
@@ -66,12 +76,12 @@ class Step : Carry<width, n> {
     shown_ = x_;
     if (block_.cuts == 0) return;
     const Real since = (period - load<Real>(block_.period)) + (fraction - load<Real>(block_.fraction));
-    const Real x = smaller(larger(since / (word(Layout::window_periods) * window_.scale), Real{}), x_), inverse = 1.0 / window_.H;
-    Real state[2 * n];
-    values_at<2 * n>(window_.p, x, state);
+    const Real x = smaller(larger(since / (word(Layout::window_periods) * window_.scale), Real{}), x_);
+    Real p[n], u[n];
+    window_.state_at(x, p, u);
     for (int i = 0; i < n; ++i) {
-      store<Real>(block_.at_p[i], state[i]);
-      store<Real>(block_.at_u[i], state[n + i] * inverse);
+      store<Real>(block_.at_p[i], p[i]);
+      store<Real>(block_.at_u[i], u[i]);
     }
     shown_ = choose(cut, x, x_);
     moved_ = moved_ & ~cut;
@@ -85,7 +95,6 @@ class Step : Carry<width, n> {
     if (lanes == 0) return;
     find_actions(lanes);
     speed_ = Real{};
-    start_streams();
     if constexpr (tangents) Base::leave_mode();
     unsigned refused = untouched(lanes);
     for (unsigned left = lanes; left != 0;) {
@@ -191,6 +200,7 @@ class Step : Carry<width, n> {
       store<Real>(block_.p[i], choose(go, p_[i], load<Real>(block_.p[i])));
       store<Real>(block_.u[i], choose(go, u_[i], load<Real>(block_.u[i])));
     }
+    Base::keep_phase(go);
     store<Real>(block_.fraction, choose(go, fraction_, load<Real>(block_.fraction)));
     store<Real>(block_.period, choose(go, period_, load<Real>(block_.period)));
     const Real grown = smaller(all(1.0), larger(window_.scale * choose(ended, x_ * 32.0, all(16.0)), all(least_scale)));

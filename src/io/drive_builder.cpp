@@ -67,14 +67,15 @@ int ModelBuilder::signal(const Part& part) const {
 
 /// Of a force, or of one harmonic of a base. @param place  "force 1: " or "base 'road': harmonics 2: "
 ModelBuilder::Term ModelBuilder::term(const Part& part, const std::string& place) const {
-  Term term{at(part, "amplitude", {}, place + "amplitude"), 0, at(part, "phase", {}, place + "phase")};
-  term.frequency = at(part, "frequency", {}, place + "frequency");
+  const auto of = [&](const char* key) { return at(part, key, {}, [&] { return place + key; }); };
+  Term term{of("amplitude"), 0, of("phase")};
+  term.frequency = of("frequency");
   term.signal = signal(part);
   const bool timed = part.fields.contains("frequency") || term.signal >= 0;
   if (part.fields.contains("frequency") && !(term.frequency.value > 0.0))
     throw InputError(definition_.place(part.fields.at("frequency").line),
                      place + "frequency = " + shown(term.frequency.value) + " is not positive");
-  if (!timed) term.harmonic = harmonic(part, place + "harmonic");
+  if (!timed) term.harmonic = harmonic(part, [&] { return place + "harmonic"; });
   return term;
 }
 

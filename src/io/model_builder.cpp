@@ -13,18 +13,18 @@
 
 namespace slapstick {
 
-double ModelBuilder::number(const Scalar& scalar, const std::string& where) const {
+double ModelBuilder::number(const Scalar& scalar, const LazyText& where) const {
   if (!scalar.expression) return scalar.number;
   try {
     const double value = scalar.expression->evaluate(values_);
     if (numbers_ != nullptr) numbers_->demand(*scalar.expression);
     return value;
   } catch (const InputError& error) {
-    throw InputError(definition_.place(scalar.line), where + ": " + error.what());
+    throw InputError(definition_.place(scalar.line), where() + ": " + error.what());
   }
 }
 
-Dual ModelBuilder::dual(const Scalar& scalar, const std::string& where) const {
+Dual ModelBuilder::dual(const Scalar& scalar, const LazyText& where) const {
   if (rates_ == nullptr || !scalar.expression) return {number(scalar, where)};
   const Dual result = scalar.expression->differentiated(*rates_);
   if (std::isfinite(result.rate) && std::isfinite(result.value)) return result;
@@ -33,7 +33,7 @@ Dual ModelBuilder::dual(const Scalar& scalar, const std::string& where) const {
     with += (with.empty() ? " with " : ", ") + name + " = " + shown(values_.at(name));
     if (!std::isfinite(rates_->at(name).rate)) broken = ", as " + in_quotes(name) + " has none";
   }
-  throw InputError(definition_.place(scalar.line), where + ": expression " + in_quotes(scalar.expression->text()) +
+  throw InputError(definition_.place(scalar.line), where() + ": expression " + in_quotes(scalar.expression->text()) +
                                                        " has no derivative" + with + broken);
 }
 
@@ -41,24 +41,24 @@ std::string ModelBuilder::where(std::string_view key) const {
   return part_label(kind_, index_, definition_.of(kind_)[index_]).append(": ").append(key);
 }
 
-Dual ModelBuilder::at(const Part& part, std::string_view key, const Dual& fallback, const std::string& place) const {
+Dual ModelBuilder::at(const Part& part, std::string_view key, const Dual& fallback, const LazyText& place) const {
   const auto found = part.fields.find(key);
   return found == part.fields.end() ? fallback : dual(found->second, place);
 }
 
 Dual ModelBuilder::field(const Part& part, std::string_view key, const Dual& fallback) const {
-  return at(part, key, fallback, where(key));
+  return at(part, key, fallback, [&] { return where(key); });
 }
 
 /// `harmonic` of a force or of one term of a base.
-int ModelBuilder::harmonic(const Part& part, const std::string& place) const {
+int ModelBuilder::harmonic(const Part& part, const LazyText& place) const {
   const Dual number = at(part, "harmonic", Dual{1.0}, place);
   const double value = number.value;
   const bool whole = value >= 0.0 && value <= 1e6 && value == std::floor(value);
   if (whole && !number.varies) return static_cast<int>(value);
   throw InputError(
       definition_.place(part.fields.find("harmonic")->second.line),
-      place + " = " + shown(value) +
+      place() + " = " + shown(value) +
           (whole ? " is a whole number, which has no derivative" : " is not a whole number in [0, 1000000]"));
 }
 

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/text.hpp"
 #include "io/definition.hpp"
 #include "io/dual.hpp"
 #include "slapstick/base/error.hpp"
@@ -48,7 +49,7 @@ class ModelBuilder {
   [[nodiscard]] double base(std::size_t k, double omega, double time) const;
 
   /// The value of a number or expression; `where` is for the message. @throws InputError
-  [[nodiscard]] double number(const Scalar& scalar, const std::string& where) const;
+  [[nodiscard]] double number(const Scalar& scalar, const LazyText& where) const;
 
  private:
   struct Origin {
@@ -82,9 +83,9 @@ class ModelBuilder {
     }
   }
   [[nodiscard]] std::string where(std::string_view key) const;
-  [[nodiscard]] Dual dual(const Scalar& scalar, const std::string& where) const;
+  [[nodiscard]] Dual dual(const Scalar& scalar, const LazyText& where) const;
   [[nodiscard]] Dual field(const Part& part, std::string_view key, const Dual& fallback = {}) const;
-  [[nodiscard]] Dual at(const Part& part, std::string_view key, const Dual& fallback, const std::string& place) const;
+  [[nodiscard]] Dual at(const Part& part, std::string_view key, const Dual& fallback, const LazyText& place) const;
   /// What the model that is being made has in the place of a number.
   [[nodiscard]] double written(const Dual& number) const { return rates_ == nullptr ? number.value : number.rate; }
   [[nodiscard]] std::vector<std::pair<Dual, Dual>> points(const Part& part,
@@ -102,7 +103,7 @@ class ModelBuilder {
   void add(Model& model, Characteristic head, const Bends& bends);
   [[nodiscard]] double written(const Part& part, std::string_view key) const { return written(field(part, key)); }
   [[nodiscard]] Model assembled();
-  [[nodiscard]] int harmonic(const Part& part, const std::string& place) const;
+  [[nodiscard]] int harmonic(const Part& part, const LazyText& place) const;
   void add_signals(Model& model);
   void add_bases();
   void add_forces(Model& model);

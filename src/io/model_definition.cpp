@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/ranges.hpp"
+#include "base/text.hpp"
 #include "io/observed.hpp"
 #include "io/definition.hpp"
 #include "io/model_numbers.hpp"
@@ -37,20 +38,21 @@ class Evaluation {
       values_[name] = given->second;
       return;
     }
-    const std::string where =
-        definition_.place(entry.value.line) +
-        (is_one(entry) ? "scale: " + name.substr(scale_name({}).size()) : "parameter " + in_quotes(name)) + ": ";
+    const auto where = [&] {
+      return definition_.place(entry.value.line) +
+             (is_one(entry) ? "scale: " + name.substr(scale_name({}).size()) : "parameter " + in_quotes(name)) + ": ";
+    };
     double value = entry.value.number;
     if (const auto& expression = entry.value.expression) {
       if (std::find(open_.begin(), open_.end(), name) != open_.end())
-        throw InputError(where + "the value depends on itself: " + circle(name));
+        throw InputError(where() + "the value depends on itself: " + circle(name));
       open_.push_back(name);
       for (const auto& other : expression->names()) need(other);
       open_.pop_back();
       value = evaluated(*expression, where);
     }
     if (!entry.shown.admits(value))
-      throw InputError(where + "value = " + shown(value) + " is outside " + entry.shown.range());
+      throw InputError(where() + "value = " + shown(value) + " is outside " + entry.shown.range());
     values_[name] = value;
   }
 
@@ -58,11 +60,11 @@ class Evaluation {
     return ranges::any_of(definition_.ones, [&](const auto& one) { return &one == &entry; });
   }
 
-  double evaluated(const Expression& expression, const std::string& where) const {
+  double evaluated(const Expression& expression, const LazyText& where) const {
     try {
       return expression.evaluate(values_);
     } catch (const InputError& error) {
-      throw InputError(where + error.what());
+      throw InputError(where() + error.what());
     }
   }
 

@@ -31,13 +31,10 @@ std::string assigned(std::string_view field, double value) { return std::string(
 /// Checks of one part, each remembering only the first thing that is wrong.
 class Check {
  public:
-  Check(std::string part, int index) : fault_{std::move(part), index, "", ""} {}
+  Check(const char* part, int index) : part_(part), index_(index) {}
 
   void fail(std::string field, std::string what) {
-    if (found_) return;
-    found_ = true;
-    fault_.field = std::move(field);
-    fault_.what = std::move(what);
+    if (!found_) found_ = Fault{part_, index_, std::move(field), std::move(what)};
   }
   void finite(const char* field, double value) {
     if (!std::isfinite(value)) fail(field, assigned(field, value) + " is not a finite number");
@@ -68,15 +65,16 @@ class Check {
     end("between", b, model);
     if (a == b) fail("between", "both ends are " + (a == ground ? "the ground" : in_quotes(name_of(a, model))));
   }
-  [[nodiscard]] Found result() const { return found_ ? Found(fault_) : std::nullopt; }
+  [[nodiscard]] const Found& result() const { return found_; }
 
  private:
   static std::string name_of(int index, const Model& model) {
     return index >= 0 && index < model.size() ? model.coordinates[static_cast<std::size_t>(index)].name
                                               : std::to_string(index);
   }
-  Fault fault_;
-  bool found_ = false;
+  const char* part_;
+  int index_;
+  Found found_;
 };
 
 /// A name that is usable in tables and on the command line and was not used before.

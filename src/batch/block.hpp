@@ -29,7 +29,8 @@ struct alignas(64) Block {
   // Words
   alignas(64) Row restitution[most_contacts], let_off[most_contacts], impulse[most_contacts][most_coordinates];
   Row* active;  ///< [word]: of each lane's mode. Those of slots that no lane's mode has are zero
-  int filled;   ///< slots that some lane's mode may have
+  int active_mode[most_lanes];  ///< whose words those are; -1: none
+  int filled;   ///< the most slots that one of these modes has
   const Row* all;       ///< [mode][word]
   const std::uint8_t* ready;  ///< [mode][lane]: whether those words have been made
   Layout layout;

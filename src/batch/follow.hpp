@@ -60,19 +60,22 @@ class Follow : public Flight<width, n> {
     const Block::Row* from[most_lanes];
     unsigned takers[most_lanes];
     int groups = 0, filled = 0;
-    for (unsigned left = block_.occupied & ~(lanes | block_.starting); left != 0; left &= left - 1) {
-      const int slots = block_.slots[block_.mode[__builtin_ctz(left)]];
-      filled = slots > filled ? slots : filled;
-    }
     while (lanes != 0) {
-      const int mode = modes[__builtin_ctz(lanes)], slots = block_.slots[mode];
-      filled = slots > filled ? slots : filled;
+      const int mode = modes[__builtin_ctz(lanes)];
       unsigned same = 0;
-      for (unsigned left = lanes; left != 0; left &= left - 1)
-        if (modes[__builtin_ctz(left)] == mode) same |= left & -left;
+      for (unsigned left = lanes; left != 0; left &= left - 1) {
+        const int l = __builtin_ctz(left);
+        if (modes[l] != mode) continue;
+        same |= left & -left;
+        block_.active_mode[l] = mode;
+      }
       lanes &= ~same;
       takers[groups] = same;
       from[groups++] = block_.all + static_cast<long>(mode) * at_.size();
+    }
+    for (int l = 0; l < width; ++l) {
+      const int slots = block_.active_mode[l] < 0 ? 0 : block_.slots[block_.active_mode[l]];
+      filled = slots > filled ? slots : filled;
     }
     const int last = at_.slot(filled > block_.filled ? filled : block_.filled);  // no lane's slot any more: zero
     block_.filled = filled;

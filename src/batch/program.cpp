@@ -99,6 +99,7 @@ ModelWords model_words(const Model& model, const mode::Frame& frame) {
 bool make_words(const Model& model, const mode::Frame& frame, Shape& shape, int mode, double* words) {
   const mode::Outline outline(model, frame, states_of(shape, mode));
   const std::vector<SlotRows> slots = slots_of(outline, frame);
+  if (slots.size() > static_cast<std::size_t>(shape.layout.slots)) return false;
   if (shape.known[static_cast<std::size_t>(mode)] == 0) add_mode(model, frame, outline, slots, mode, shape);
   if (!has_shape(shape, mode, slots)) return false;
   const Layout& at = shape.layout;

@@ -131,6 +131,7 @@ void Runner::make_room(const Entry& entry) {
   block_->slots = shape_->slots.data();
   block_->still = shape_->still.data();
   block_->filled = 0;
+  std::fill_n(block_->active_mode, most_lanes, -1);
 }
 
 void Runner::start(int l) {
@@ -329,7 +330,7 @@ void Runner::to_lane(int l) {
     (void)follow(*entry.engine, entry.recorder, entry.tangent.get(), true);
     return finish(l);
   }
-  block_->mode[l] = mode;
+  block_->mode[l] = block_->active_mode[l] = mode;
   block_->filled = std::max(block_->filled, static_cast<int>(shape_->slots[static_cast<std::size_t>(mode)]));
   const Block::Row* const rows = all_->at(static_cast<std::size_t>(mode) * words_.size());
   for (std::size_t w = 0; w < words_.size(); ++w) block_->active[w][l] = rows[w][l];

@@ -121,6 +121,32 @@ TEST(Batch, HasTheSameBitsForEveryWidthOrderAndNumberOfThreads) {
       }
 }
 
+/// A damped compliant stop has one slot open and two engaged: runs that end and begin at different instants leave lanes
+/// with the words of either.
+TEST(Batch, LanesThatGainAndLoseSlotsLeaveTheirNeighboursAlone) {
+  const ModelDefinition bilinear = load_model("bilinear-oscillator");
+  std::mt19937_64 random(27);
+  const auto between = [&](double a, double b) { return a + (b - a) * static_cast<double>(random() >> 11) * 0x1p-53; };
+  std::vector<Pixel> all;
+  for (int i = 0; i < 200; ++i) {
+    const Model model = bilinear.build({{"omega", between(0.3, 5.0)}, {"clearance", between(0.1, 1.5)}, {"contact_damping", between(0.1, 2.0)}});
+    all.push_back({model, {between(-1.0, 0.0), between(-1.0, 1.0)}});
+  }
+  BatchProblem problem = problem_of(all, {.periods = 3, .events = true});
+  problem.threads = 1;
+  problem.lanes = 1;
+  const Batch alone = run_batch(problem);
+  problem.lanes = 8;
+  const Batch together = run_batch(problem);
+  long events = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    ASSERT_TRUE(same_bits(alone.runs[i], together.runs[i])) << "run " << i;
+    EXPECT_EQ(alone.runs[i].lane_events, together.runs[i].lane_events) << "run " << i;
+    events += alone.runs[i].lane_events;
+  }
+  EXPECT_GT(events, 400);
+}
+
 TEST(Batch, CutsChangeNothing) {
   const std::vector<Pixel> all = pixels(16, 0.6, 6.0);
   const Batch whole = run_batch(problem_of(all, {.periods = 40})), cut = run_batch(problem_of(all, {.periods = 40, .points = 40})),

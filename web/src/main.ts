@@ -50,7 +50,7 @@ class Page {
       settings: (settings, card) => this.show(settings, card),
       played: (playing) => this.showPlay(playing),
       classified: (label, detail) => {
-        at("#class").textContent = label;
+        for (const place of ["#class", "#class-here"]) at(place).textContent = label;
         at("#class-detail").textContent = detail;
       },
       failed: (message) => {

@@ -90,8 +90,24 @@ function drawMark(pen: Pen, shape: "diamond" | "tick", x: number, y: number, col
   } else pen.fill([x - 3.5, y - 7, x + 3.5, y - 7, x, y], colour);
 }
 
-/** @param from  dots before this one are drawn already */
-export function drawLayer(pen: Pen, frame: Frame, layer: Layer, palette: Palette, from = 0): void {
+/** The text of a mark. */
+export interface Label {
+  x: number;
+  y: number;
+  text: string;
+  colour: string;
+}
+
+/** Labels stand over all layers. */
+export function drawLabels(pen: Pen, labels: readonly Label[]): void {
+  for (const { x, y, text, colour } of labels) pen.text(x, y - 9, text, { colour, size: 11, anchor: "middle", baseline: "bottom", weight: 600 });
+}
+
+/**
+ * @param from    dots before this one are drawn already
+ * @param labels  gets those of marks, but for one that would cover another
+ */
+export function drawLayer(pen: Pen, frame: Frame, layer: Layer, palette: Palette, from = 0, labels: Label[] = []): void {
   switch (layer.kind) {
     case "line":
       pen.line(pixels(frame, layer.x.length, (i) => layer.x[i] as number, (i) => layer.y[i] as number), {
@@ -110,18 +126,15 @@ export function drawLayer(pen: Pen, frame: Frame, layer: Layer, palette: Palette
         else pen.rect(x, frame.top + frame.height - 5 * (rows - row), width, 4, layer.colour(palette), layer.opacity);
       });
       break;
-    case "marks": {
-      const texts: [number, number][] = [];
+    case "marks":
       layer.x.forEach((value, i) => {
         const x = toX(frame, value), y = layer.shape === "tick" ? frame.top + 8 : toY(frame, layer.y[i] as number);
         drawMark(pen, layer.shape, x, y, layer.colour(palette), palette.ground);
         const text = layer.texts[i];
-        if (!text || layer.shape !== "diamond" || texts.some(([u, v]) => Math.abs(u - x) < 24 && Math.abs(v - y) < 14)) return;
-        texts.push([x, y]);
-        pen.text(x, y - 9, text, { colour: layer.colour(palette), size: 11, anchor: "middle", baseline: "bottom", weight: 600 });
+        if (text && layer.shape === "diamond" && !labels.some((other) => Math.abs(other.x - x) < 24 && Math.abs(other.y - y) < 14))
+          labels.push({ x, y, text, colour: layer.colour(palette) });
       });
       break;
-    }
     case "stems":
       for (let i = 0; i < layer.x.length; ++i) {
         const x = toX(frame, layer.x[i] as number);

@@ -1,7 +1,7 @@
 // A plot that a person reads and moves about in: axes, layers, zoom, pan, values under the pointer, saving.
 import { element } from "../dom.ts";
 import { short, tickTexts, ticks } from "../numbers.ts";
-import { type Box, cellAt, drawLayer, extentOf, type Frame, type Hit, type Layer, nearest, toX, toY } from "./layers.ts";
+import { type Box, cellAt, drawLabels, drawLayer, extentOf, type Frame, type Hit, type Label, type Layer, nearest, toX, toY } from "./layers.ts";
 import { light, type Palette, palette } from "./palette.ts";
 import { CanvasPen, type Pen, SvgPen } from "./pen.ts";
 
@@ -218,7 +218,9 @@ export class Plot {
     const frame = this.frame();
     this.drawAxes(pen, frame, colours);
     pen.clipped(frame.left, frame.top, frame.width, frame.height, () => {
-      for (const layer of this.layers) drawLayer(pen, frame, layer, colours);
+      const labels: Label[] = [];
+      for (const layer of this.layers) drawLayer(pen, frame, layer, colours, 0, labels);
+      drawLabels(pen, labels);
     });
     pen.line([frame.left, frame.top, frame.left, frame.top + frame.height, frame.left + frame.width, frame.top + frame.height],
       { colour: colours.faint, width: 1 });
@@ -305,7 +307,10 @@ export class Plot {
       return { x: event.clientX - box.left, y: event.clientY - box.top };
     };
     this.host.addEventListener("wheel", (event) => {
-      if (!event.ctrlKey && !event.shiftKey && !event.altKey && document.activeElement !== this.host) return;
+      if (!event.ctrlKey && !event.shiftKey && !event.altKey && document.activeElement !== this.host) {
+        this.tip.textContent = "Ctrl + wheel zooms, Shift only across; drag moves; a double click shows all";
+        return;
+      }
       event.preventDefault();
       const factor = Math.exp(Math.sign(event.deltaY || event.deltaX) * 0.18);
       this.zoom(place(event), factor, event.shiftKey ? 1 : factor);
@@ -345,7 +350,10 @@ export class Plot {
       fingers.set(event.pointerId, now);
     });
     const end = (event: PointerEvent): void => {
-      if (fingers.delete(event.pointerId) && moved <= 5 && event.type === "pointerup") this.pickAt(place(event));
+      if (!fingers.delete(event.pointerId) || moved > 5 || event.type !== "pointerup") return;
+      this.pickAt(place(event));
+      this.pointer = undefined;  // what was picked is said elsewhere: the tip goes until the pointer moves again
+      this.overlay();
     };
     this.host.addEventListener("pointerup", end);
     this.host.addEventListener("pointercancel", end);

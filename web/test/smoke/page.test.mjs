@@ -24,6 +24,7 @@ async function accessible(page) {
 test("every view shows the paper's motion, and nothing is fetched from elsewhere", async () => {
   const { page, faults } = await explorer(held.browser, held.server.url, "#model=vibro-impact&omega=1.5");
   assert.equal(await page.locator("#class").innerText(), "1-1-II");
+  assert.equal(await page.locator("#class-here").innerText(), "1-1-II");
   const points = await page.evaluate(() => {
     const { motion, section, diagram } = window.explorer;
     return { time: motion.time.points, phase: motion.phase.points, section: section.plot.points, diagram: diagram.plot.points };
@@ -178,7 +179,10 @@ test("a click on a special point starts its branch, and a button its curve over 
   assert.ok(Math.abs(place.value - doubling(0.5)) < 1e-9, `${place.value}`);
   await page.locator("#diagram .plot").hover({ position: place });
   assert.match(await page.locator("#diagram .tip").innerText(), /^PD at acceleration = 1\.5268237: period doubling/);
+  await page.mouse.wheel(0, 100);
+  assert.match(await page.locator("#diagram .tip").innerText(), /^Ctrl \+ wheel zooms/);
   await page.locator("#diagram .plot").click({ position: place });
+  assert.ok(await page.locator("#diagram .tip").isHidden());
   await page.waitForFunction(() => window.explorer.diagram.branches.length === 2 && window.explorer.idle);
   const born = await page.evaluate(() => window.explorer.diagram.branches[1].points.map(({ label, value }) => [label, value]));
   assert.ok(born.length > 10 && born.every(([label, value]) => label === "2-2-I" && value > place.value - 1e-9), JSON.stringify(born.slice(0, 3)));

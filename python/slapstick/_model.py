@@ -140,6 +140,18 @@ class Model:
         """The forcing period in the model's unit of time; 1 without forcing."""
         return self._core.period(numbers(parameters))
 
+    def check(self, **parameters: float) -> dict[str, Any]:
+        """What `slapstick check` prints: the counts of parts, the period, what can feed energy, the natural modes.
+
+        `natural_modes` are those without contact at the start; a mode that does not oscillate has a decay alone.
+        `laid_errors` has the largest error of each friction law that is laid along a curve.
+        Raises InputError for values that make no sound model or start.
+
+        >>> [round(mode["frequency"], 4) for mode in load("vibro-impact").check()["natural_modes"]]
+        [0.6526, 1.0836]
+        """
+        return self._core.check(numbers(parameters))
+
     def to_toml(self, **parameters: float) -> str:
         """A complete model file with these values as defaults. Comments of the file are not kept."""
         return self._core.to_toml(numbers(parameters))

@@ -1,6 +1,8 @@
 /// Models and the table of their parameters.
 #include "bind.hpp"
 #include "chosen.hpp"
+#include "slapstick/flow/motion.hpp"
+#include "slapstick/flow/natural_modes.hpp"
 #include "slapstick/model/energy_sources.hpp"
 #include "slapstick/section/stop_choice.hpp"
 
@@ -25,6 +27,44 @@ std::vector<std::string> stop_names(const ModelDefinition& definition) {
   std::vector<std::string> names;
   for (const int contact : stop_contacts(model)) names.push_back(stop_name(model, contact));
   return names;
+}
+
+nb::list natural(const System& system, const State& start) {
+  nb::list all;
+  for (const NaturalMode& mode : natural_modes(system, start)) {
+    nb::dict entry;
+    if (mode.oscillates()) {
+      entry["frequency"] = mode.frequency;
+      entry["damping_ratio"] = mode.damping_ratio();
+    }
+    entry["decay"] = mode.decay;
+    all.append(entry);
+  }
+  return all;
+}
+
+/// What `slapstick check` prints, but for the parameters and their units.
+nb::dict check(const ModelDefinition& definition, const Overrides& values) {
+  const Model model = build(definition, values);
+  const State start = start_of(definition, values, {});
+  const System system(model);
+  static_cast<void>(Motion(system, start));
+  nb::dict laid, result;
+  for (const LaidLaw& law : definition.laid_laws(values)) laid[law.friction.c_str()] = law.largest_error;
+  result["sound"] = true;
+  result["name"] = model.name;
+  result["coordinates"] = model.size();
+  result["stops"] = model.stops.size();
+  result["compliant_stops"] = model.compliant_stops.size();
+  result["frictions"] = model.frictions.size();
+  result["characteristics"] = model.characteristics.size();
+  result["period"] = model.forcing_period();
+  result["forced"] = model.forced();
+  result["feeds_energy"] = energy_sources(model);
+  result["falling_forces"] = falling_forces(model);
+  result["laid_errors"] = laid;
+  result["natural_modes"] = natural(system, start);
+  return result;
 }
 
 }  // namespace
@@ -54,9 +94,7 @@ void bind_model(nb::module_& module) {
                      return names;
                    })
       .def("values", &ModelDefinition::values, "values"_a)
-      .def(
-          "check", [](const ModelDefinition& self, const Overrides& values) { static_cast<void>(build(self, values)); },
-          "values"_a)
+      .def("check", &check, "values"_a, nb::sig("def check(self, values: Mapping[str, float]) -> dict[str, typing.Any]"))
       .def(
           "start", [](const ModelDefinition& self, const Overrides& values) { return start_of(self, values, {}); },
           "values"_a)

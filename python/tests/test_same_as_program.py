@@ -263,3 +263,15 @@ def test_derivatives_of_statistics_are_those_of_the_program(program):
     words = ("--set", "omega=2.6", "--of", "x1:rms,w:mean", "--sensitivity", "friction")
     printed = program.json("measure", "vibro-impact", *words)["sensitivity"]["friction"]["values"]
     assert slapstick.measure("vibro-impact", "x1:rms,w:mean", sensitivity="friction", omega=2.6).sensitivity["friction"] == printed
+
+
+@pytest.mark.parametrize("name", ["vibro-impact", "falling-friction", "gear-rattle", "shaken-belt"])
+def test_check_says_what_the_program_says(program, name):
+    printed = program.json("check", name)
+    del printed["parameters"], printed["units"]
+    assert slapstick.load(name).check() == printed
+
+
+def test_check_refuses_values_that_make_no_motion():
+    with pytest.raises(slapstick.InputError, match="mass_ratio"):
+        slapstick.load("vibro-impact").check(mass_ratio=-1.0)

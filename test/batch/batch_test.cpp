@@ -181,6 +181,24 @@ TEST(Batch, AStartInContactIsAMotions) {
   EXPECT_EQ(batch.runs[2].motion_events, 0);
 }
 
+/// A pair is pressed together, and two friction contacts hold its lower body. Where they let go the pair stays closed: a
+/// mode in which the bodies would pass through each other has no gap among its slots, and takes load off the friction.
+TEST(Batch, ABodyThatIsLetGoPassesThroughNoOther) {
+  Model model;
+  model.name = "pressed";
+  model.coordinates = {{"upper", 0.25}, {"lower", 1.0}};
+  model.springs = {{1, ground, 1.0}};
+  model.forces = {{0, 0, -0.75}, {1, 1, 2.0}};
+  model.stops = {{"stop", 1, 0, 0.0, 0.5}};
+  model.frictions = {{"within", 1, 0, 0.0, 0.15, 0.15}, {"first", 1, ground, 0.0, 0.75, 0.7}, {"second", 1, ground, 0.0, 0.3, 0.3}};
+  model.omega = 0.5;
+  const std::vector<Pixel> one = {{model, {0.0, 0.0, 0.0, 0.0}}};
+  expect_the_events_of_a_motion(one, 10, 0);
+  const Batch batch = run_batch(problem_of(one, {.periods = 10, .events = true}));
+  ASSERT_TRUE(batch.runs[0].in_lanes);
+  for (const Event& event : batch.runs[0].events) EXPECT_FALSE(event.kind == EventKind::release && event.contact < 2) << text_of(event);
+}
+
 TEST(Batch, AModelThatNoLaneCanRunHasTheBitsOfAMotion) {
   for (const std::string name : {"two-sided-rattle", "falling-friction", "spool"}) {
     const ModelDefinition definition = load_model(name);

@@ -1,5 +1,6 @@
 /// Campaign `lane-grazes`: starts of the campaign `segments` in the lanes of a batch. The first event is that of a
 /// motion, and where they differ a certain search says that the guard's least value is within the noise.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -62,11 +63,12 @@ bool agree(const First& motion, const First& lane, double tolerance) {
 /// What the search says of the guard in which the two differ.
 class Difference {
  public:
-  Difference(Scene& scene, const Start& start, const First& motion, const First& lane, LaneTally& tally)
-      : scene_(scene), start_(start), motion_(motion), lane_(lane), tally_(tally) {}
+  Difference(Scene& scene, const Start& start, const First& motion, const First& lane, const std::string& where, LaneTally& tally)
+      : scene_(scene), start_(start), motion_(motion), lane_(lane), where_(where), tally_(tally) {}
 
   /// The guard that the start nearly grazes, and the one that the motion has hit: the rate of a gap has its zero where
-  /// the gap has its minimum.
+  /// the gap has its minimum. Searched up to the earlier of the two events: there one of the two sees what the other
+  /// does not, though the guard may have its certain zero later.
   void judge() {
     const Motion begun(scene_.system(), start_.state);
     const ExactFlow& flow = scene_.flow(begun.mode_id());
@@ -76,14 +78,22 @@ class Difference {
       const std::optional<int> order = guard >= 0 && guard < flow.guards() ? start_order(flow, guard, X) : std::nullopt;
       if (!order) continue;
       known = true;
-      if (is_noise(first_zero(flow, guard, X, *order, flow.count(), Method::quick))) return void(++tally_.in_noise);
+      if (is_noise(first_zero(flow, guard, X, *order, up_to_the_earlier(flow), Method::quick))) return void(++tally_.in_noise);
     }
     if (!known) return void(++tally_.unjudged);
     ++tally_.differ;
-    tally_.faults.push_back(scene_.system().model().name + ": " + text_of(motion_) + " | " + text_of(lane_));
+    tally_.faults.push_back(where_ + scene_.system().model().name + ": " + text_of(motion_) + " | " + text_of(lane_));
   }
 
  private:
+  /// In intervals of the grid, and one beyond: events are not known better than their noise.
+  [[nodiscard]] int up_to_the_earlier(const ExactFlow& flow) const {
+    double periods = INFINITY;
+    for (const First* first : {&motion_, &lane_})
+      if (first->event) periods = std::min(periods, first->event->time.since({}));
+    return static_cast<int>(std::min(std::ceil(periods * scene_.system().period() / flow.spacing()) + 1.0, static_cast<double>(flow.count())));
+  }
+
   [[nodiscard]] bool is_noise(const Truth& truth) const {
     return depth(truth) <= graze_depth || agree(motion_, lane_, 2.0 * blur(truth, scene_.duration(), lane_noise) / scene_.system().period());
   }
@@ -98,6 +108,7 @@ class Difference {
   Scene& scene_;
   const Start& start_;
   const First &motion_, &lane_;
+  const std::string& where_;
   LaneTally& tally_;
 };
 
@@ -115,7 +126,7 @@ std::vector<Start> draw(Scene& scene, Random& random, long count, LaneTally& tal
   return starts;
 }
 
-void examine_scene(Random& random, long count, LaneTally& tally) {
+void examine_scene(Random& random, long count, const std::string& where, LaneTally& tally) {
   Scene scene(random, Scene::Phase::zero);
   const std::vector<Start> starts = draw(scene, random, count, tally);
   const Instant end = Instant{}.plus(scene.duration() / scene.system().period());
@@ -138,7 +149,7 @@ void examine_scene(Random& random, long count, LaneTally& tally) {
       if (agree(motion, lane, same))
         ++tally.agreed;
       else
-        Difference(scene, starts[i], motion, lane, tally).judge();
+        Difference(scene, starts[i], motion, lane, where + "start " + std::to_string(i) + ", ", tally).judge();
     } catch (const NumericalError&) {
       ++tally.failed;  // a motion's own
     }
@@ -149,7 +160,10 @@ LaneTally examine(const Options& options, long batch, long count) {
   constexpr long starts_of_a_scene = 100;
   Random random(options.seed, static_cast<std::uint64_t>(batch));
   LaneTally tally;
-  for (long left = count; left > 0; left -= starts_of_a_scene) examine_scene(random, std::min(left, starts_of_a_scene), tally);
+  for (long done = 0; done < count; done += starts_of_a_scene) {
+    const std::string where = "batch " + std::to_string(batch) + ", scene " + std::to_string(done / starts_of_a_scene) + ", ";
+    examine_scene(random, std::min(count - done, starts_of_a_scene), where, tally);
+  }
   return tally;
 }
 

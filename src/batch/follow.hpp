@@ -16,7 +16,7 @@ class Follow : public Flight<width, n> {
   __attribute__((always_inline)) explicit Follow(Block& block) : Base(block) {}
 
  protected:
-  using Base::at_, Base::block_, Base::fraction_, Base::occupied_, Base::p_, Base::u_, Base::word;
+  using Base::all, Base::at_, Base::block_, Base::fraction_, Base::occupied_, Base::p_, Base::u_, Base::word;
 
   static inline __attribute__((always_inline)) Mask of(unsigned lanes) {
     Mask mask;
@@ -174,7 +174,18 @@ class Follow : public Flight<width, n> {
     const Mask velocity_only = single & less(Real{}, turning);
     const Mask turns_down = level & velocity_only & less(turn, -turn_noise), turns_up = level & velocity_only & less(turn_noise, turn);
     verdict.falls = verdict.falls | (there & (less(margin, -noise) | (zero & drops) | (flat & sinks) | turns_down));
-    verdict.unsure = verdict.unsure | (there & level & (~single | (velocity_only & ~turns_down & ~turns_up)));
+    const Mask unsure = there & level & (~single | (velocity_only & ~turns_down & ~turns_up));
+    verdict.unsure = verdict.unsure | unsure;
+    verdict.falls = verdict.falls | (there & touches(s) & ~unsure);
+  }
+
+  /// Lanes whose gap, which falls as long as slot s is positive, is zero already: the mode would push it below zero.
+  __attribute__((always_inline)) Mask touches(int s) const {
+    const Mask linked = less(all(0.5), word(at_.slot_number(s, Layout::linked)));
+    if (!any(linked)) return linked;
+    Real gap = Real{};
+    for (int i = 0; i < n; ++i) gap = gap + word(at_.gap(s) + i) * p_[i];
+    return linked & equal(gap, Real{});
   }
 
   const Action* action_[most_lanes];  ///< what has ended each lane's mode

@@ -1,15 +1,17 @@
-/// Turns the end of a mode into events, by the rules of flow/engine_events.cpp.
+/// Turns the end of a mode into events, by the rules of flow/changes.hpp.
 #include "batch/report.hpp"
+
+#include "flow/changes.hpp"
 
 namespace slapstick::batch {
 
 using mode::CompliantState;
-using mode::FrictionState;
-using mode::StopState;
+using mode::GuardKind;
 
 namespace {
 
-EventKind kind_of(const Action& action, const mode::ContactStates& old, const mode::ContactStates& now) {
+/// Of the event itself.
+EventKind kind_of(const Action& action, const mode::ContactStates& old) {
   switch (action.jump) {
     case Jump::impact:
       return EventKind::impact;
@@ -21,58 +23,52 @@ EventKind kind_of(const Action& action, const mode::ContactStates& old, const mo
       return old.compliant[i] == CompliantState::detached ? EventKind::separate : EventKind::disengage;
     }
     default:
-      (void)now;
       return EventKind::release;
   }
 }
 
-/// Contacts that the event has let go on other pairs than its own.
-void report_released(const Action& action, const mode::Frame& frame, const mode::ContactStates& old, const mode::ContactStates& now, Event event,
-                     std::vector<Event>& events) {
-  if (old.stops.size() + old.frictions.size() < 3) return;
-  const bool on_pair = action.jump != Jump::land && action.jump != Jump::let_off;
-  const auto of_event = [&](const mode::ContactRow& contact) { return on_pair && contact.own == action.own; };
-  event.kind = EventKind::release;
-  event.w = 0.0;
-  for (std::size_t i = 0; i < now.frictions.size(); ++i) {
-    event.contact = static_cast<int>(old.stops.size() + i);
-    if (old.frictions[i] == FrictionState::stick && now.frictions[i] != FrictionState::stick && !of_event(frame.frictions[i])) events.push_back(event);
+/// What has ended, as a guard of a motion.
+flow::Ended ended_of(const Shape& shape, const Action& action) {
+  flow::Ended ended;
+  ended.contact = action.contact;
+  switch (action.jump) {
+    case Jump::impact:
+      ended.kind = GuardKind::gap;
+      ended.struck = std::uint32_t{1} << action.stop;
+      break;
+    case Jump::land:
+    case Jump::let_off:
+      ended.kind = GuardKind::engage;
+      ended.contact = action.stop;
+      break;
+    case Jump::rest:
+      ended.kind = GuardKind::slip;
+      ended.reversal = true;
+      break;
+    default:
+      ended.kind = action.contact < shape.stops ? GuardKind::press : GuardKind::stick_above;
   }
-  for (std::size_t i = 0; i < now.stops.size(); ++i) {
-    event.contact = static_cast<int>(i);
-    const bool struck = action.jump == Jump::impact && static_cast<std::size_t>(action.stop) == i;
-    if (old.stops[i] == StopState::closed && now.stops[i] == StopState::open && !struck && !of_event(frame.stops[i])) events.push_back(event);
-  }
+  if (mode::of_friction(*ended.kind)) ended.contact -= shape.stops;
+  return ended;
 }
 
 }  // namespace
 
-void report(const Shape& shape, const mode::Frame& frame, int mode, int slot, int side, int next, Instant time, double w,
-            std::vector<Event>& events) {
-  const Action& action = shape.action_of(mode, slot, side);
-  const mode::ContactStates old = states_of(shape, mode), now = states_of(shape, next);
-  Event event{EventKind::impact, action.contact, time, w, 0.0};
-  if (action.jump != Jump::rest) {
-    event.kind = kind_of(action, old, now);
-    events.push_back(event);
-  }
-  event.w = 0.0;
-  bool stuck = false;
-  for (std::size_t i = 0; i < now.frictions.size(); ++i) {
-    event.contact = shape.stops + static_cast<int>(i);
-    const bool sticks = now.frictions[i] == FrictionState::stick, stuck_before = old.frictions[i] == FrictionState::stick;
-    const bool itself = action.jump == Jump::rest && action.contact == event.contact;
-    event.kind = sticks ? EventKind::stick : now.frictions[i] == FrictionState::slip_plus ? EventKind::slip_plus : EventKind::slip_minus;
-    const bool turned = action.jump == Jump::rest && !sticks && (itself || (old.frictions[i] != now.frictions[i] && !stuck_before));
-    if (turned || (sticks && !stuck_before)) events.push_back(event);
-    stuck = stuck || (sticks && !stuck_before);
-  }
-  event.kind = EventKind::stick;
-  for (std::size_t i = 0; i < now.stops.size() && !stuck; ++i) {
-    event.contact = static_cast<int>(i);
-    if (now.stops[i] == StopState::closed && old.stops[i] == StopState::open) events.push_back(event);
-  }
-  report_released(action, frame, old, now, event, events);
+void report(const Shape& shape, const Model& model, const mode::Frame& frame, const Ending& ending, int next,
+            Instant time, const double* u, std::vector<Event>& events) {
+  const Action& action = shape.action_of(ending.mode, ending.slot, ending.side);
+  const mode::ContactStates old = states_of(shape, ending.mode), now = states_of(shape, next);
+  if (action.jump != Jump::rest) events.push_back({kind_of(action, old), action.contact, time, ending.w, 0.0});
+  const auto tell = [&](EventKind kind, int contact) {
+    const int compliant = contact - shape.stops - shape.frictions;
+    double w = 0.0;
+    if (compliant >= 0) {
+      const mode::ContactRow& row = frame.compliant[static_cast<std::size_t>(compliant)];
+      w = row.sign * u[row.own];
+    }
+    events.push_back({kind, contact, time, w, 0.0});
+  };
+  flow::Changes(model, frame, ended_of(shape, action), old, now, tell).tell();
 }
 
 }  // namespace slapstick::batch

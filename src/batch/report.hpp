@@ -7,8 +7,14 @@
 
 namespace slapstick::batch {
 
-/// @param mode, slot, side  what has ended; next: the mode that follows; w: the speed of the contact
-void report(const Shape& shape, const mode::Frame& frame, int mode, int slot, int side, int next, Instant time, double w,
-            std::vector<Event>& events);
+/// What has ended a mode, and w of its contact.
+struct Ending {
+  int mode = 0, slot = 0, side = 0;
+  double w = 0.0;
+};
+
+/// @param next  the mode that follows; u: the velocities that it starts with
+void report(const Shape& shape, const Model& model, const mode::Frame& frame, const Ending& ending, int next,
+            Instant time, const double* u, std::vector<Event>& events);
 
 }  // namespace slapstick::batch

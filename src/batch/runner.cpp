@@ -167,8 +167,11 @@ void Runner::serve(int l) {
   if ((block_->cuts & bit) != 0) return look(l);
   if ((block_->doubtful & bit) != 0) return ask_engine(l, false);
   if ((block_->wanting & bit) != 0) return want(l);
-  report(*shape_, entry_[l]->frame, block_->event_mode[l], block_->event_slot[l], block_->event_side[l], block_->mode[l], now(l),
-         block_->event_speed[l], entry_[l]->recorder.run.events);
+  double u[most_coordinates];
+  for (int i = 0; i < block_->layout.n; ++i) u[i] = block_->u[i][l];
+  const Ending ending{block_->event_mode[l], block_->event_slot[l], block_->event_side[l], block_->event_speed[l]};
+  Entry& entry = *entry_[l];
+  report(*shape_, entry.model, entry.frame, ending, block_->mode[l], now(l), u, entry.recorder.run.events);
 }
 
 Instant Runner::now(int l) const { return {static_cast<std::int64_t>(block_->period[l]), block_->fraction[l]}; }

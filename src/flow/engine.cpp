@@ -79,7 +79,7 @@ void Engine::start() {
   }
   X_before_ = X_;
   strike_all();
-  settle(Cause::impact);
+  settle(Cause::start);
 }
 
 void Engine::begin_segment() {

@@ -40,7 +40,7 @@ class Engine : public Flight {
   [[nodiscard]] std::span<const Motion::Strike> strikes() const { return strikes_; }
 
  private:
-  enum class Cause { impact, graze, reversal, force, compliant /* and characteristic */ };
+  enum class Cause { start, impact, graze, reversal, force, compliant /* and characteristic */ };
 
   void reserve();
   void start();
@@ -61,7 +61,6 @@ class Engine : public Flight {
   void end_pile_up();
   void reconcile_contacts();
   void compliant_limit(int compliant, mode::GuardKind kind);
-  void report_others(const mode::ContactStates& old);
   [[nodiscard]] int stop_touched_at_rest(int friction) const;
   void force_limit(int guard, int contact, bool graze);
   void land_on_crossing(const mode::Guard& guard);
@@ -71,6 +70,8 @@ class Engine : public Flight {
   void choose_mode();
   void settle(Cause cause);
   void report_settled(Cause cause, const mode::ContactStates& old);
+  [[nodiscard]] double speed_of(EventKind kind, int contact) const;
+  [[nodiscard]] double value_of(const mode::RowVector& row) const;
   void report(EventKind kind, int contact, double w) { report(kind, contact, w, X_); }
   void report(EventKind kind, int contact, double w, const Extended& before);
   [[noreturn]] void fail(const std::string& what) const;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "flow/changes.hpp"
 #include "flow/chatter.hpp"
 #include "flow/engine.hpp"
 #include "flow/impact_law.hpp"
@@ -11,9 +12,7 @@
 
 namespace slapstick::flow {
 
-using mode::FrictionState;
 using mode::GuardKind;
-using mode::StopState;
 
 namespace {
 
@@ -188,10 +187,7 @@ void Engine::cross(int guard, bool graze) {
   if (of_corner(hit.kind)) {
     const int contact = first + compliants() + hit.contact;
     if (graze) return force_limit(guard, contact, graze);
-    const mode::RowVector& speed = frame.characteristics[hit.contact].velocity;
-    double w = 0.0;
-    for (Eigen::Index j = 0; j < speed.size(); ++j) w += speed[j] * X_.data()[j];
-    report(EventKind::corner, contact, w);
+    report(EventKind::corner, contact, speed_of(EventKind::corner, contact));
     return settle(Cause::compliant);
   }
   const int contact = (of_load(hit.kind) ? stops() : first) + hit.contact;
@@ -233,60 +229,44 @@ void Engine::settle(Cause cause) {
   if (approaching() >= 0) strike_all();  // a tie
   reconcile_contacts();
   choose_mode();
-  if (cause != Cause::impact) chatter_stop_ = -1;
+  if (cause != Cause::impact && cause != Cause::start) chatter_stop_ = -1;
   report_settled(cause, old);
 }
 
-/// What the new mode says about the event: reversal or stick of a friction contact, a stop that has closed at rest.
+/// What the new mode says about all contacts.
 void Engine::report_settled(Cause cause, const mode::ContactStates& old) {
-  const mode::ContactStates& now = here_->states();
   const mode::Guard* hit = hit_guard();
-  bool stuck = false;
-  for (std::size_t i = 0; i < now.frictions.size(); ++i) {
-    const int contact = stops() + static_cast<int>(i);
-    const bool sticks = now.frictions[i] == FrictionState::stick;
-    const bool itself = hit != nullptr && hit->kind == GuardKind::slip && hit->contact == static_cast<int>(i);
-    if (sticks && old.frictions[i] != FrictionState::stick) {
-      report(EventKind::stick, contact, 0.0);
-      stuck = true;
-    } else if (!sticks && cause == Cause::reversal &&
-               (itself || (old.frictions[i] != now.frictions[i] && old.frictions[i] != FrictionState::stick))) {
-      report(now.frictions[i] == FrictionState::slip_plus    ? EventKind::slip_plus
-             : now.frictions[i] == FrictionState::slip_minus ? EventKind::slip_minus
-                                                             : EventKind::unload,
-             contact, 0.0);
-    }
+  Ended ended;
+  ended.reversal = cause == Cause::reversal;
+  ended.start = cause == Cause::start;
+  ended.struck = at_instant_.struck;
+  if (hit != nullptr) {
+    ended.kind = hit->kind;
+    ended.contact = hit->contact;
   }
-  for (std::size_t i = 0; i < now.stops.size() && !stuck; ++i) {
-    if (now.stops[i] == StopState::closed && old.stops[i] == StopState::open)
-      report(EventKind::stick, static_cast<int>(i), 0.0);
+  for (const int g : hits_) {
+    const mode::Guard& guard = system_->mode(segment_mode_).guards()[g];
+    if (guard.kind == GuardKind::slip) ended.rested |= std::uint32_t{1} << guard.contact;
   }
-  report_others(old);
+  const auto tell = [this](EventKind kind, int contact) { report(kind, contact, speed_of(kind, contact)); };
+  Changes(system_->model(), system_->frame(), ended, old, here_->states(), tell).tell();
 }
 
-/// Releases of contacts other than the one whose event this is, on other pairs than its own: its change of force, or
-/// its impulse, has let them go.
-void Engine::report_others(const mode::ContactStates& old) {
-  const mode::Guard* hit = hit_guard();
-  if (hit == nullptr || old.stops.size() + old.frictions.size() < 3) return;
+/// w of an event that changes a contact: that of its pair where its kind has one.
+double Engine::speed_of(EventKind kind, int contact) const {
   const mode::Frame& frame = system_->frame();
-  const mode::ContactStates& now = here_->states();
-  const auto of_event = [&](const mode::ContactRow& contact) {
-    const bool on_friction = of_friction(hit->kind);
-    const bool on_stop = hit->kind == GuardKind::gap || hit->kind == GuardKind::press;
-    if (!on_friction && !on_stop) return false;
-    const auto& own = on_friction ? frame.frictions[hit->contact] : frame.stops[hit->contact];
-    return frame.parallel(own.own, contact.own) != 0;
-  };
-  for (std::size_t i = 0; i < now.frictions.size(); ++i) {
-    const bool released = old.frictions[i] == FrictionState::stick && now.frictions[i] != FrictionState::stick;
-    if (released && !of_event(frame.frictions[i])) report(EventKind::release, stops() + static_cast<int>(i), 0.0);
-  }
-  for (std::size_t i = 0; i < now.stops.size(); ++i) {
-    const bool released = old.stops[i] == StopState::closed && now.stops[i] == StopState::open;
-    const bool struck = (at_instant_.struck >> i & 1U) != 0;  // its impact says it all
-    if (released && !struck && !of_event(frame.stops[i])) report(EventKind::release, static_cast<int>(i), 0.0);
-  }
+  const int friction = contact - stops(), compliant = friction - frictions(), piece = compliant - compliants();
+  if (piece >= 0) return value_of(frame.characteristics[piece].velocity);
+  const bool has_speed = compliant >= 0 || kind == EventKind::load || kind == EventKind::unload;
+  if (!has_speed) return 0.0;
+  const mode::ContactRow& row = compliant >= 0 ? frame.compliant[compliant] : frame.frictions[friction];
+  return row.sign * X_.data()[frame.u(row.own)];
+}
+
+double Engine::value_of(const mode::RowVector& row) const {
+  double value = 0.0;
+  for (Eigen::Index j = 0; j < row.size(); ++j) value += row[j] * X_.data()[j];
+  return value;
 }
 
 /// Replaces a proven complete chatter, from the impact at which the flight began, by its limit if that is known sharply

@@ -48,12 +48,14 @@ void drop_kept_direction(std::vector<std::complex<double>>& multipliers) {
   if (nearest != multipliers.end()) multipliers.erase(nearest);
 }
 
-/// Impacts, and engagements of compliant stops, at the end of a leg.
-long points(const Leg& leg) {
+/// Impacts, and compliant stops that begin to act at their gap, at the end of a leg.
+long points(const Leg& leg, const Leg& next) {
   if (leg.ending == Ending::cut) return 0;
-  if (leg.event == EventKind::engage) return 1;
   long count = 0;
   for (const Motion::Strike& strike : leg.strikes) count += std::popcount(strike.stops);
+  const auto off = mode::CompliantState::off;
+  for (std::size_t i = 0; i < leg.states.compliant.size(); ++i)
+    count += leg.states.compliant[i] == off && next.states.compliant[i] != off ? 1 : 0;
   return count;
 }
 
@@ -110,8 +112,9 @@ Solution describe(const Problem& problem, Orbit orbit, const System* system) {
   const ModeSet set(problem.family(), orbit.values);
   Solution found;
   found.multipliers = multipliers(problem, set, orbit, linearise(problem, set, orbit).legs);
-  for (const Leg& leg : orbit.shape.legs) {
-    found.impacts += points(leg);
+  for (std::size_t i = 0; i < orbit.legs(); ++i) {
+    const Leg& leg = orbit.shape.legs[i];
+    found.impacts += points(leg, orbit.shape.legs[(i + 1) % orbit.legs()]);
     found.sticking = found.sticking || !held_numbers(set.frame(), set.mode(leg.states).outline).empty();
   }
   found.chatters = chatters(orbit);

@@ -207,6 +207,45 @@ TEST(Batch, AStartInContactIsAMotions) {
   EXPECT_EQ(batch.runs[2].motion_events, 0);
 }
 
+/// A pair is pressed together, and two friction contacts hold its lower body. Where they let go the pair stays closed: a
+/// mode in which the bodies would pass through each other has no gap among its slots, and takes load off the friction.
+TEST(Batch, ABodyThatIsLetGoPassesThroughNoOther) {
+  Model model;
+  model.name = "pressed";
+  model.coordinates = {{"upper", 0.25}, {"lower", 1.0}};
+  model.springs = {{1, ground, 1.0}};
+  model.forces = {{0, 0, -0.75}, {1, 1, 2.0}};
+  model.stops = {{"stop", 1, 0, 0.0, 0.5}};
+  model.frictions = {{"within", 1, 0, 0.0, 0.15, 0.15}, {"first", 1, ground, 0.0, 0.75, 0.7}, {"second", 1, ground, 0.0, 0.3, 0.3}};
+  model.omega = 0.5;
+  const std::vector<Pixel> one = {{model, {0.0, 0.0, 0.0, 0.0}}};
+  expect_the_events_of_a_motion(one, 10, 0);
+  const Batch batch = run_batch(problem_of(one, {.periods = 10, .events = true}));
+  ASSERT_TRUE(batch.runs[0].in_lanes);
+  for (const Event& event : batch.runs[0].events) EXPECT_FALSE(event.kind == EventKind::release && event.contact < 2) << text_of(event);
+}
+
+/// A tie is a motion's to decide, and both stops have their rows.
+TEST(Batch, TellsOfBothBuffersThatAreMetAtOnce) {
+  Model model;
+  model.name = "twins";
+  model.coordinates = {{"left", 1.0}, {"right", 1.0}};
+  model.springs = {{0, ground, 1.0}, {1, ground, 1.0}};
+  model.dampers = {{0, ground, 0.1}, {1, ground, 0.1}};
+  model.forces = {{0, 1, 1.0}, {1, 1, 1.0}};
+  model.compliant_stops = {{"l", 0, ground, 0.3, 40.0, 2.0}, {"r", 1, ground, 0.3, 40.0, 2.0}};
+  model.omega = 1.3;
+  const std::vector<Pixel> one = {{model, {-0.2, 0.1, -0.2, 0.1}}};
+  expect_the_events_of_a_motion(one, 20, 0);
+  const Batch batch = run_batch(problem_of(one, {.periods = 20, .events = true}));
+  ASSERT_TRUE(batch.runs[0].in_lanes);
+  int left = 0, right = 0;
+  for (const Event& event : batch.runs[0].events)
+    if (event.kind == EventKind::engage) ++(event.contact == 0 ? left : right);
+  EXPECT_GE(left, 15);
+  EXPECT_EQ(left, right);
+}
+
 TEST(Batch, AModelThatNoLaneCanRunHasTheBitsOfAMotion) {
   for (const std::string name : {"two-sided-rattle", "falling-friction", "spool"}) {
     const ModelDefinition definition = load_model(name);

@@ -99,6 +99,86 @@ TEST(OneInstant, ACopyAmongTheEventsGoesOnWithTheirStates) {
   EXPECT_EQ(motion.before()[3], 0.0);
 }
 
+/// Two equal bodies side by side, with the same force.
+Model twins() {
+  Model model;
+  model.coordinates = {{"left", 1.0}, {"right", 1.0}};
+  model.springs = {{0, ground, 1.0}, {1, ground, 1.0}};
+  model.forces = {{0, 1, 1.0}, {1, 1, 1.0}};
+  model.omega = 1.3;
+  return model;
+}
+
+Model with_stops(Model model) {
+  model.stops = {{"l", 0, ground, 0.3, 0.6}, {"r", 1, ground, 0.3, 0.6}};
+  return model;
+}
+
+Model with_buffers(Model model) {
+  model.compliant_stops = {{"l", 0, ground, 0.3, 40.0, 2.0}, {"r", 1, ground, 0.3, 40.0, 2.0}};
+  return model;
+}
+
+std::vector<Event> events_of(const Model& model, const State& start, int periods) {
+  Motion motion(System(model), start);
+  std::vector<Event> events;
+  while (motion.advance({periods, 0.0}) == Outcome::event) events.push_back(motion.event());
+  return events;
+}
+
+/// Every event of one twin has its like of the other at the same instant, with the same speed but for rounding: of
+/// forces and corners the event's own condition alone is made exact.
+void expect_pairs(const std::vector<Event>& events, EventKind kind, int first, std::size_t least) {
+  std::vector<Event> left, right;
+  for (const Event& event : events)
+    if (event.kind == kind) (event.contact == first ? left : right).push_back(event);
+  ASSERT_EQ(left.size(), right.size()) << name(kind);
+  EXPECT_GE(left.size(), least) << name(kind);
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    EXPECT_EQ(right[i].contact, first + 1);
+    EXPECT_EQ(left[i].time, right[i].time) << name(kind) << " " << i;
+    EXPECT_NEAR(left[i].w, right[i].w, 1e-12) << name(kind) << " " << i;
+  }
+}
+
+TEST(OneInstant, TwoEqualStopsHaveARowEachRigidOrNot) {
+  const State start = {-0.2, 0.1, -0.2, 0.1};
+  expect_pairs(events_of(with_stops(twins()), start, 20), EventKind::impact, 0, 20);
+  const std::vector<Event> soft = events_of(with_buffers(twins()), start, 20);
+  for (const EventKind kind : {EventKind::engage, EventKind::disengage, EventKind::separate}) expect_pairs(soft, kind, 0, 15);
+}
+
+TEST(OneInstant, TwoEqualFrictionContactsLetGoTogetherInTwoRows) {
+  Model model = twins();
+  model.omega = 0.3;
+  model.frictions = {{"l", 0, ground, 0.0, 0.5, 0.4}, {"r", 1, ground, 0.0, 0.5, 0.4}};
+  const std::vector<Event> events = events_of(model, {0, 0, 0, 0}, 20);
+  expect_pairs(events, EventKind::release, 0, 1);
+  expect_pairs(events, EventKind::stick, 0, 1);
+}
+
+TEST(OneInstant, TwoEqualSpringsPassTheirCornersInTwoRows) {
+  Model model = twins();
+  for (const int i : {0, 1}) model.characteristics.push_back({i == 0 ? "l" : "r", i, ground, Characteristic::Over::displacement, {{0.2, 0.2}}, 1.0, 4.0});
+  expect_pairs(events_of(model, {-0.1, 0, -0.1, 0}, 20), EventKind::corner, 0, 20);
+}
+
+/// An impact takes the body out of a buffer: the buffer's force would pull, so it lets go at that instant.
+TEST(OneInstant, ABufferThatAnImpactUnloadsLetsGoInARowOfItsOwn) {
+  Model model;
+  model.coordinates = {{"x", 1.0}};
+  model.compliant_stops = {{"buffer", 0, ground, 0.0, 1.0, 5.0}};
+  model.stops = {{"wall", 0, ground, 0.5, 0.9}};
+  const std::vector<Event> events = events_of(model, {-0.1, 6.0}, 1);
+  ASSERT_GE(events.size(), 4U);
+  EXPECT_EQ(events[0].kind, EventKind::engage);
+  EXPECT_EQ(events[1].kind, EventKind::impact);
+  EXPECT_EQ(events[2].kind, EventKind::disengage);
+  EXPECT_EQ(events[2].time, events[1].time);
+  EXPECT_NEAR(events[2].w, -0.9 * events[1].w, 1e-14);
+  EXPECT_EQ(events[3].kind, EventKind::separate);
+}
+
 /// A weak damper far from the origin: where its force ends is known to the rounding of the displacement, and the speed that would make the
 /// force zero there is another one.
 TEST(OneInstant, AStopWithAWeakDamperLetsGoOnce) {

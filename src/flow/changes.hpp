@@ -1,0 +1,173 @@
+#pragma once
+/// What a choice of mode tells: which contacts have other states than before, beside the contact whose event asked for
+/// the choice. Motions and lanes tell by the same rules.
+///
+/// A contact whose own event it is has been told before, or is told here as what its zero velocity has become. Of the
+/// contacts on one pair one speaks: their state is that of the pair. A friction contact that an impulse turns round is
+/// not told: the impact says it.
+///
+/// Cost: no allocation; a comparison for each contact. Source: docs/explanation/mode_graph.md.
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "mode/frame.hpp"
+#include "slapstick/flow/motion.hpp"
+
+namespace slapstick::flow {
+
+/// What has ended a mode.
+struct Ended {
+  std::optional<mode::GuardKind> kind;  ///< of the guard that was zero; none: the limit of a chatter, a knot
+  int contact = -1;                     ///< of that guard, counted among those of its kind
+  bool reversal = false;                ///< a velocity has come to zero, and none by an impulse
+  std::uint32_t struck = 0;             ///< stops that got an impulse at this instant, bit by bit
+  std::uint32_t rested = 0;             ///< friction contacts whose velocity came to zero too
+  bool start = false;  ///< nothing: an impact at a motion's start, before which the forces were not asked
+};
+
+template <class Tell>
+class Changes {
+ public:
+  /// @param tell  called as tell(kind, contact) for each row in order, the contact in the numbering of Event
+  Changes(const Model& model, const mode::Frame& frame, const Ended& ended, const mode::ContactStates& old,
+          const mode::ContactStates& now, Tell tell)
+      : model_(model), frame_(frame), ended_(ended), old_(old), now_(now), tell_(tell) {}
+
+  void tell() {
+    if (!ended_.start) {
+      of_compliant_stops();
+      of_characteristics();
+      of_loads();
+    }
+    of_velocities();
+    of_closings();
+    of_releases();
+  }
+
+ private:
+  using Friction = mode::FrictionState;
+  using Compliant = mode::CompliantState;
+
+  void of_compliant_stops() {
+    for (std::size_t i = 0; i < now_.compliant.size(); ++i) {
+      if (old_.compliant[i] == now_.compliant[i] || is_own(i, of_compliant)) continue;
+      tell_(kind_of(old_.compliant[i], now_.compliant[i]), first_compliant() + static_cast<int>(i));
+    }
+  }
+
+  void of_characteristics() {
+    const int first = first_compliant() + static_cast<int>(now_.compliant.size());
+    for (std::size_t i = 0; i < now_.pieces.size(); ++i) {
+      const bool changes = old_.pieces[i] != now_.pieces[i];
+      if (changes && !is_own(i, mode::of_corner)) tell_(EventKind::corner, first + static_cast<int>(i));
+    }
+  }
+
+  /// One that held and is unloaded now has been released; one that holds at once sticks. Both are told below. A
+  /// compliant stop that begins or ends to act speaks for what it presses.
+  void of_loads() {
+    for (std::size_t i = 0; i < now_.frictions.size(); ++i) {
+      const bool free = now_.frictions[i] == Friction::unloaded, was_free = old_.frictions[i] == Friction::unloaded;
+      if (free == was_free || is_own(i, mode::of_load) || is_reversed(i)) continue;
+      const bool told_below = old_.frictions[i] == Friction::stick || now_.frictions[i] == Friction::stick;
+      if (told_below || stop_changes(i)) continue;
+      tell_(free ? EventKind::unload : EventKind::load, first_friction() + static_cast<int>(i));
+    }
+  }
+
+  /// Stick, and what a velocity that came to zero goes on as.
+  void of_velocities() {
+    for (std::size_t i = 0; i < now_.frictions.size(); ++i) {
+      const int contact = first_friction() + static_cast<int>(i);
+      if (now_.frictions[i] == Friction::stick) {
+        if (old_.frictions[i] != Friction::stick) tell_(EventKind::stick, contact);
+      } else if (is_reversed(i)) {
+        tell_(now_.frictions[i] == Friction::slip_plus    ? EventKind::slip_plus
+              : now_.frictions[i] == Friction::slip_minus ? EventKind::slip_minus
+                                                          : EventKind::unload,
+              contact);
+      }
+    }
+  }
+
+  void of_closings() {
+    for (std::size_t i = 0; i < now_.stops.size(); ++i) {
+      const bool closes = now_.stops[i] == mode::StopState::closed && old_.stops[i] == mode::StopState::open;
+      if (closes && !sticks_too(frame_.stops[i])) tell_(EventKind::stick, static_cast<int>(i));
+    }
+  }
+
+  /// Of contacts on other pairs than the event's: its change of force, or its impulse, has let them go.
+  void of_releases() {
+    for (std::size_t i = 0; i < now_.frictions.size(); ++i) {
+      const bool released = old_.frictions[i] == Friction::stick && now_.frictions[i] != Friction::stick;
+      if (released && !of_pair(frame_.frictions[i])) tell_(EventKind::release, first_friction() + static_cast<int>(i));
+    }
+    for (std::size_t i = 0; i < now_.stops.size(); ++i) {
+      const bool released = old_.stops[i] == mode::StopState::closed && now_.stops[i] == mode::StopState::open;
+      const bool struck = (ended_.struck >> i & 1U) != 0;  // its impact says it all
+      if (released && !struck && !of_pair(frame_.stops[i])) tell_(EventKind::release, static_cast<int>(i));
+    }
+  }
+
+  static EventKind kind_of(Compliant old, Compliant now) {
+    if (old == Compliant::off) return EventKind::engage;
+    if (now == Compliant::off) return old == Compliant::detached ? EventKind::separate : EventKind::disengage;
+    if (now == Compliant::detached) return EventKind::disengage;
+    return old == Compliant::detached ? EventKind::engage : EventKind::corner;
+  }
+
+  static bool of_compliant(mode::GuardKind kind) {
+    using mode::GuardKind;
+    return kind == GuardKind::engage || kind == GuardKind::leave || kind == GuardKind::let_go ||
+           kind == GuardKind::push || kind == GuardKind::bound || kind == GuardKind::beyond;
+  }
+
+  [[nodiscard]] bool is_own(std::size_t i, bool (*of)(mode::GuardKind)) const {
+    return ended_.kind && of(*ended_.kind) && ended_.contact == static_cast<int>(i);
+  }
+
+  /// A velocity that was zero at this instant, and went on without sticking.
+  [[nodiscard]] bool is_reversed(std::size_t i) const {
+    if (now_.frictions[i] == Friction::stick) return false;
+    if (ended_.reversal && ended_.kind == mode::GuardKind::slip && ended_.contact == static_cast<int>(i)) return true;
+    const bool asked = ended_.reversal || (ended_.rested >> i & 1U) != 0;
+    return asked && old_.frictions[i] != now_.frictions[i] && old_.frictions[i] != Friction::stick;
+  }
+
+  [[nodiscard]] bool stop_changes(std::size_t friction) const {
+    const int stop = model_.frictions[friction].normal->compliant_stop;
+    return stop >= 0 && old_.compliant[static_cast<std::size_t>(stop)] != now_.compliant[static_cast<std::size_t>(stop)];
+  }
+
+  /// Whether a friction contact of the pair sticks now.
+  [[nodiscard]] bool sticks_too(const mode::ContactRow& stop) const {
+    for (std::size_t i = 0; i < now_.frictions.size(); ++i) {
+      const bool sticks = now_.frictions[i] == Friction::stick && old_.frictions[i] != Friction::stick;
+      if (sticks && frame_.parallel(frame_.frictions[i].own, stop.own) != 0) return true;
+    }
+    return false;
+  }
+
+  /// Whether the event is one of the contact's pair.
+  [[nodiscard]] bool of_pair(const mode::ContactRow& contact) const {
+    if (!ended_.kind) return false;
+    const bool on_stop = ended_.kind == mode::GuardKind::gap || ended_.kind == mode::GuardKind::press;
+    if (!on_stop && !mode::of_friction(*ended_.kind) && !mode::of_load(*ended_.kind)) return false;
+    const auto at = static_cast<std::size_t>(ended_.contact);
+    const mode::ContactRow& own = on_stop ? frame_.stops[at] : frame_.frictions[at];
+    return frame_.parallel(own.own, contact.own) != 0;
+  }
+
+  [[nodiscard]] int first_friction() const { return static_cast<int>(now_.stops.size()); }
+  [[nodiscard]] int first_compliant() const { return first_friction() + static_cast<int>(now_.frictions.size()); }
+
+  const Model& model_;
+  const mode::Frame& frame_;
+  const Ended& ended_;
+  const mode::ContactStates &old_, &now_;
+  Tell tell_;
+};
+
+}  // namespace slapstick::flow

@@ -130,7 +130,7 @@ Sensitivities sensitivities(const orbit::Branch& branch, const ChosenModel& chos
       try {
         const Family family = chosen.definition.family({options.parameter, other}, chosen.overrides);
         rate = orbit::sensitivities(family, values, point, range).front();
-      } catch (const NumericalError&) {  // a place by extrapolation, beside which the equations are singular
+      } catch (const NumericalError&) {  // the equations are singular there
       }
       rates.push_back(rate);
     }

@@ -11,7 +11,5 @@ struct Change {
   PathPoint at;
   double length = 0.0;  ///< from `from` to there
   TestValue test;
-  std::optional<Solution>
-      nearby;  ///< where several legs are gone at the change, and it may be singular: a regular orbit beside it
 };
 }  // namespace slapstick::orbit

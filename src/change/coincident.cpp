@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "base/ranges.hpp"
+#include "change/without_legs.hpp"
 #include "orbit/leg_flow.hpp"
 #include "slapstick/base/error.hpp"
 
@@ -17,29 +18,6 @@ using Eigen::VectorXd;
 constexpr double vanishing = 1e-2;   ///< of a leg's length, or an impact's speed, at the point before: it vanishes
 constexpr double no_gap = 1e-9;    ///< of the largest margin of a gap at the point before
 constexpr double no_speed = 1e-4;  ///< of the largest speed at the point before: so much is left by rounding
-
-/// The cycle of one leg without its event, from phase 0.
-Orbit uncut(const ModeSet& set, const Orbit& orbit) {
-  Orbit plain = orbit;
-  plain.x = {contact_state(set, state_within(set, orbit, 0, std::ceil(orbit.t[0]) - orbit.t[0]))};
-  plain.shape.legs.resize(1);
-  plain.shape.legs[0].ending = Ending::cut;
-  plain.shape.legs[0].strikes.clear();
-  plain.t = {0.0, static_cast<double>(orbit.shape.n)};
-  return plain;
-}
-
-template <class List>
-void cut(List& list, std::ptrdiff_t from, std::ptrdiff_t count) {
-  list.erase(list.begin() + from, list.begin() + from + count);
-}
-
-/// Leaves out so many legs from one on, and as many events and states from the first leg's end on.
-void leave_out(Orbit& orbit, std::ptrdiff_t leg, std::ptrdiff_t count) {
-  cut(orbit.shape.legs, leg, count);
-  cut(orbit.x, 1, count);
-  cut(orbit.t, 1, count);
-}
 
 /// Does a leg shrink to nothing from one orbit to the next?
 bool vanishes(const Orbit& before, const Orbit& orbit, std::size_t leg) {
@@ -56,8 +34,8 @@ double fastest(const ModeSet& set, const Orbit& orbit, std::size_t leg, std::siz
   return most;
 }
 
-/// Do contacts that stick in another leg slip in this one from one orbit to the next no more, however long it is? An impact has set them off, and what is
-/// left of their motion dies away.
+}  // namespace
+
 bool comes_to_rest(const ModeSet& set, const Orbit& before, const Orbit& orbit, std::size_t leg, std::size_t other) {
   bool slips = false;
   for (std::size_t i = 0; i < set.frame().frictions.size(); ++i) {
@@ -69,6 +47,8 @@ bool comes_to_rest(const ModeSet& set, const Orbit& before, const Orbit& orbit, 
   }
   return slips;
 }
+
+namespace {
 
 /// An impact whose speed goes to zero is no more: its leg and the next are one, or a velocity of the same pair passes zero there instead.
 std::vector<Orbit> without_impact(const ModeSet& set, const Orbit& before, const Orbit& orbit, const TestValue& test) {
@@ -101,96 +81,6 @@ std::vector<Orbit> without_impact(const ModeSet& set, const Orbit& before, const
   if (turned.shape.legs[0].states == turned.shape.legs[1].states) {
     leave_out(turned, 0, 1);
     shapes.push_back(std::move(turned));
-  }
-  return shapes;
-}
-
-/// An orbit, and which of its legs have shrunk to nothing.
-struct Shrunk {
-  Orbit orbit;
-  std::vector<bool> gone;
-
-  void begin_with(std::size_t leg) {
-    rotate(orbit, leg);
-    std::rotate(gone.begin(), gone.begin() + static_cast<std::ptrdiff_t>(leg), gone.end());
-  }
-  /// How many there are next to each other behind the first leg.
-  [[nodiscard]] std::size_t run() const {
-    return static_cast<std::size_t>(std::find(gone.begin() + 1, gone.end(), false) - gone.begin()) - 1;
-  }
-  void leave_out(std::ptrdiff_t leg, std::ptrdiff_t count) {
-    orbit::leave_out(orbit, leg, count);
-    cut(gone, 1, count);
-  }
-};
-
-/// Takes over the state of the contact that a crossing is about.
-void take_state(mode::ContactStates& states, const mode::ContactStates& from, const Leg& crossing) {
-  const auto at = static_cast<std::size_t>(crossing.contact);
-  if (mode::of_corner(crossing.kind)) states.pieces[at] = from.pieces[at];
-  if (mode::of_load(crossing.kind)) states.frictions[at] = from.frictions[at];
-  if (mode::of_bound(crossing.kind)) states.compliant[at] = from.compliant[at];
-}
-
-/// A line is crossed at the end of the first leg and crossed back at the end of the last of those that are gone: both crossings are no more, what
-/// lies between them stays. @returns false if it is not so
-bool uncross(Shrunk& turned) {
-  std::vector<Leg>& legs = turned.orbit.shape.legs;
-  const Leg first = legs[0];
-  const std::size_t run = turned.run(), next = (run + 1) % legs.size();
-  if (run < 2 || !mode::of_crossing(first.kind) || !mode::of_crossing(legs[run].kind) || legs[run].kind == first.kind ||
-      legs[run].contact != first.contact)
-    return false;
-  mode::ContactStates as_before = legs[next].states;
-  take_state(as_before, first.states, first);
-  if (!(as_before == legs[next].states)) return false;
-  for (std::size_t i = 1; i <= run; ++i) take_state(legs[i].states, first.states, first);
-  turned.leave_out(0, 1);
-  turned.leave_out(static_cast<std::ptrdiff_t>(run) - 1, 1);
-  return true;
-}
-
-/// One event in place of the two, the ends of the first leg and of the last of those behind it that are gone. @returns false if none is known
-bool unite(Shrunk& turned, bool impacts_stay) {
-  Leg& first = turned.orbit.shape.legs[0];
-  Leg& last = turned.orbit.shape.legs[turned.run()];
-  const auto count = static_cast<std::ptrdiff_t>(turned.run());
-  const bool first_strikes = impacts_stay && !first.strikes.empty(),
-             last_strikes = impacts_stay && !last.strikes.empty();
-  if (first_strikes && last_strikes) return false;
-  if (first_strikes) {  // an impact takes over the other event
-    turned.leave_out(1, count);
-    return true;
-  }
-  const bool stops = first.kind == mode::GuardKind::slip && last.kind == first.kind && last.contact == first.contact;
-  const std::size_t next = (turned.run() + 1) % turned.orbit.legs();
-  if (!last_strikes && first.states == turned.orbit.shape.legs[next].states) {  // neither
-    turned.leave_out(0, count + 1);
-    return true;
-  }
-  if (!first_strikes && !last_strikes && uncross(turned)) return true;
-  if (!last_strikes && !stops) return false;
-  last.states = first.states;
-  turned.leave_out(0, count);
-  return true;
-}
-
-/// Legs that have shrunk to nothing. Between two of one mode: those are one leg. Between two stops of one velocity: the second is the first's. Between
-/// another event and an impact, of which a speed is left: the impact is all. Between two crossings of one line: what lies between them.
-std::vector<Orbit> merged(const ModeSet& set, const Orbit& before, const Orbit& orbit, bool impacts_stay) {
-  Shrunk all{orbit, {}};
-  for (std::size_t i = 0; i < orbit.legs(); ++i) all.gone.push_back(vanishes(before, orbit, i));
-  std::vector<Orbit> shapes;  // one place after another; in symmetric orbits legs vanish in several together
-  for (std::size_t i = 0; i < all.orbit.legs(); ++i) {
-    Shrunk turned = all;
-    turned.begin_with(i);
-    if (turned.run() == 0) continue;
-    if (turned.run() + 1 == turned.orbit.legs())
-      return orbit.shape.n > 0 ? std::vector{uncut(set, turned.orbit)} : std::vector<Orbit>{};
-    if (!unite(turned, impacts_stay)) continue;
-    shapes.insert(shapes.begin(), turned.orbit);
-    all = std::move(turned);
-    i = static_cast<std::size_t>(-1);
   }
   return shapes;
 }
@@ -304,9 +194,11 @@ std::vector<Orbit> coincident(const Problem& problem, const Orbit& before, const
   for (const Orbit& fewer : without_impact(set, before, orbit, test))
     add(several ? without_all(set, largest(was, impact_speed), fewer) : fewer, fewer);
   for (const Orbit& more : with_impact(set, orbit, test)) add(with_all(set, largest(was, gap), more), more);
-  ranges::copy(merged(set, before, orbit, !impact_speed(test)), std::back_inserter(shapes));
+  std::vector<bool> gone;
+  for (std::size_t i = 0; i < orbit.legs(); ++i) gone.push_back(vanishes(before, orbit, i));
+  ranges::copy(without_legs(set, orbit, gone, !impact_speed(test)), std::back_inserter(shapes));
   if (lost > 0 && !impact_speed(test))  // another margin is used up with their speed
-    ranges::copy(merged(set, before, orbit, false), std::back_inserter(shapes));
+    ranges::copy(without_legs(set, orbit, gone, false), std::back_inserter(shapes));
   return shapes;
 }
 

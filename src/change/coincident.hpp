@@ -13,4 +13,9 @@ namespace slapstick::orbit {
 [[nodiscard]] std::vector<Orbit> coincident(const Problem& problem, const Orbit& before, const Orbit& orbit,
                                             const TestValue& test);
 
+/// Do contacts that stick in another leg slip in this one from one orbit to the next no more, however long it is? An
+/// impact has set them off, and what is left of their motion dies away.
+[[nodiscard]] bool comes_to_rest(const ModeSet& set, const Orbit& before, const Orbit& orbit, std::size_t leg,
+                                 std::size_t other);
+
 }  // namespace slapstick::orbit

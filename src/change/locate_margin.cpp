@@ -5,18 +5,17 @@
 #include <cmath>
 
 #include "base/ranges.hpp"
+#include "change/without_legs.hpp"
 #include "orbit/interpolate.hpp"
-#include "orbit/record.hpp"
 
 namespace slapstick::orbit {
 namespace {
 
 /// Has a leg between two zeros of one guard shrunk to nothing? Without length it solves its equation anywhere.
 bool loses_a_leg(const PathPoint& from, const Orbit& orbit) {
-  constexpr double nothing = 1e-2;
+  const std::vector<bool> gone = gone_legs(from.orbit, orbit);
   return ranges::any_of(from.watched.tests, [&](const TestValue& test) {
-    return test.test == Test::duration && test.starts_at_end && !in_burst(orbit, test.leg) &&
-           orbit.duration(test.leg) < nothing * from.orbit.duration(test.leg);
+    return test.test == Test::duration && test.starts_at_end && gone[test.leg];
   });
 }
 

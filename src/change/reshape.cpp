@@ -214,19 +214,28 @@ void add(std::vector<HalfBranch>& all, std::optional<HalfBranch> next, double ra
 
 }  // namespace
 
-std::vector<HalfBranch> leavings(const Problem& problem, const Orbit& before, const PathPoint& change,
-                               const TestValue& test, double range) {
+std::vector<HalfBranch> leavings(const Problem& problem, const PathPoint& change, const std::vector<Orbit>& shapes,
+                               double range) {
   std::vector<HalfBranch> all;
   const double sense = std::copysign(1.0, change.watched.turn);
   try {
-    for (const Orbit& shape : coincident(problem, before, change.orbit, test))
-      add(all, leaving(problem, sense, shape, range), range);
+    for (const Orbit& shape : shapes) add(all, leaving(problem, sense, shape, range), range);
   } catch (const NumericalError&) {  // a shape whose modes have no such guards
   } catch (const InputError&) {
   }
   ranges::stable_sort(all, {},
                       &HalfBranch::length);  // what is a motion farther off only has changed once more on the way
   return all;
+}
+
+std::vector<HalfBranch> leavings(const Problem& problem, const Orbit& before, const PathPoint& change,
+                               const TestValue& test, double range) {
+  try {
+    return leavings(problem, change, coincident(problem, before, change.orbit, test), range);
+  } catch (const NumericalError&) {
+  } catch (const InputError&) {
+  }
+  return {};
 }
 
 std::vector<HalfBranch> reshape(const Problem& problem, const Orbit& before, const PathPoint& change,

@@ -39,6 +39,10 @@ struct HalfBranch {
 [[nodiscard]] std::vector<HalfBranch> leavings(const Problem& problem, const Orbit& before, const PathPoint& change,
                                              const TestValue& test, double range);
 
+/// .. of some orbits with other events which the orbit at the change is too.
+[[nodiscard]] std::vector<HalfBranch> leavings(const Problem& problem, const PathPoint& change,
+                                             const std::vector<Orbit>& shapes, double range);
+
 /// Has a branch come to orbits of a family, which lie beside each other at the same parameter, as those of a mass that sticks anywhere in an interval?
 [[nodiscard]] bool one_of_family(const Problem& problem, const PathPoint& point, double range);
 

@@ -357,7 +357,7 @@ Curve CurveFollower::run(Orbit orbit, double sign) {
 
 Curve locus(const Problem& problem, const SpecialPoint& point, const CurveOptions& options) {
   if (problem.parameters() != 2) throw InputError("curve: a family of two parameters is needed");
-  if (point.beside)
+  if (point.occurrence == Occurrence::death || (point.death && point.passage == Passage::family))
     throw InputError("curve: at " + problem.family().names[0] + " = " + shown(point.value) +
                      " the motion dies out, where its equations are singular: there is no curve to follow");
   if (point.type == SpecialType::BP)

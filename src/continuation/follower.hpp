@@ -1,7 +1,7 @@
 #pragma once
 /// What follows a branch, point by point. Steps and what is looked for between points: branch.cpp; changes of events: follower_changes.cpp;
 /// onsets of chatter: follower_onsets.cpp.
-#include "change/dying.hpp"
+#include "change/collapse.hpp"
 #include "change/onset.hpp"
 #include "orbit/path.hpp"
 #include "orbit/record.hpp"
@@ -62,7 +62,7 @@ class Follower {
   bool end_cascade_with(PathPoint& at, SpecialPoint last);
   bool turn_round(PathPoint& at);
   bool clear_onset(PathPoint& at);
-  bool die_out(PathPoint& at, const std::optional<Death>& death);
+  bool die_out(PathPoint& at);
   bool leave_edge(PathPoint& at);
   bool leave(PathPoint& at);
   void add_here(SpecialPoint special);

@@ -33,17 +33,6 @@ bool turns(const SpecialPoint& special) {
   return special.type == SpecialType::LP || special.passage == Passage::fold;
 }
 
-/// Is there a model at a value of the parameter?
-bool is_model(const Problem& problem, std::vector<double> values, double value) {
-  values[0] = value;
-  try {
-    static_cast<void>(problem.family().model(values));
-    return true;
-  } catch (const InputError&) {
-    return false;
-  }
-}
-
 }  // namespace
 
 /// The first change. A point that is all but singular leads nowhere: the one before it may.
@@ -83,17 +72,13 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
   std::optional<Change> change = first_change(at, beyond, length);
   if ((!change || in_gathering(at, *change)) && meet_onset(at)) return !ended_;
   if (!change || fades(at.orbit, change->test.leg)) return look_nearer(at, length, why);
-  sharpen_death(problem_, branch_.points, has_before(at) ? before_->point : at, range_, *change);
   SpecialPoint& special = change->special;
   if (at_end(special.value, special.error, at)) {
     end(BranchEnd::Kind::range);
     return false;
   }
   const bool arrived = back_to_ && !back_to_->onset && std::abs(special.value - back_to_->value) <= back_to_->error;
-  if (!arrived && is_all_but_gone(at.orbit)) {
-    const std::optional<Death> death = dies_out(branch_.points);
-    if (death && death->error < special.error && die_out(at, death)) return !ended_;
-  }
+  if (!arrived && !special.death && is_all_but_gone(at.orbit) && die_out(at)) return !ended_;
   std::optional<PathPoint> behind_others;  // where a fold, say, lies before the change
   if (change->length > 0.0) {
     std::vector<SpecialPoint> smooth = beside_change(problem_, at, change->length, range_);
@@ -168,11 +153,6 @@ bool Follower::pass(PathPoint& at, Change change) {
   if (beyond.branches.empty()) {
     const bool family = beyond.passage == Passage::family;
     if (!family && end_cascade_with(at, special)) return !ended_;
-    if (family && change.nearby) {
-      change.nearby->multipliers = special.solution.multipliers;
-      special.solution = std::move(*change.nearby);
-      special.beside = true;
-    }
     return end_at(at, std::move(special));
   }
   const bool merges = beyond.passage == Passage::merges;
@@ -233,31 +213,31 @@ bool Follower::end_at(const PathPoint& at, SpecialPoint special) {
   return false;
 }
 
-/// Where legs shrink to nothing together and steps lead no further: the place, by extrapolation, and what the motion does beyond.
+/// Where legs shrink to nothing together and steps lead no further: what the motion does beyond.
 /// @returns false if none shrinks
-bool Follower::die_out(PathPoint& at, const std::optional<Death>& death) {
+bool Follower::die_out(PathPoint& at) {
   if (!options_.through_changes) return false;
-  if (!death || !is_model(problem_, at.orbit.values, death->value)) return false;
-  if (at_end(death->value, death->error, at)) {
+  std::optional<Collapse> ahead = death_ahead(problem_, at);
+  if (!ahead) return false;
+  SpecialPoint special;
+  special.value = ahead->death.orbit.values[0];
+  special.error = ahead->error;
+  if (at_end(special.value, special.error, at)) {
     end(BranchEnd::Kind::range);
     return true;
   }
-  SpecialPoint special;
-  special.solution = describe(problem_, death->near, nullptr);
-  special.solution.is_motion = branch_.points.back().is_motion;
+  special.solution = branch_.points.back();
   special.type = special.solution.sticking ? SpecialType::SL : SpecialType::CO;
-  special.value = death->value;
-  special.error = death->error;
   special.after = branch_.points.size() - 1;
-  special.beside = true;
+  special.death = std::move(ahead->death);
   special.occurrence = Occurrence::death;
-  special.margin = {.kind = UsedMargin::Kind::duration, .leg = death->leg};
+  special.margin = {.kind = UsedMargin::Kind::duration, .leg = ahead->leg};
   const auto& tests = at.watched.tests;
-  const auto length = [&](const TestValue& test) { return test.test == Test::duration && test.leg == death->leg; };
+  const auto length = [&](const TestValue& test) { return test.test == Test::duration && test.leg == ahead->leg; };
   special.test = static_cast<std::size_t>(ranges::find_if(tests, length) - tests.begin());
   PathPoint there = at;
-  there.orbit.values[0] = death->value;
-  std::vector<HalfBranch> left = leavings(problem_, death->longest, there, tests[special.test], range_);
+  there.orbit.values[0] = special.value;
+  std::vector<HalfBranch> left = leavings(problem_, there, {special.death->orbit}, range_);
   std::erase_if(left, [&](const HalfBranch& next) { return one_of_family(problem_, next.point, range_); });
   if (!left.empty()) {
     const ChangeOfEvents seen = compare_events(special.solution.orbit, left.front().point.orbit);
@@ -292,7 +272,7 @@ bool Follower::leave_edge(PathPoint& at) {
 /// Where no step leads on and no change is found: an end that is known, or a way on. @returns false if there is none
 bool Follower::leave(PathPoint& at) {
   return leave_edge(at) || leave_chatter(at) || turn_round(at) || clear_onset(at) || end_cascade(at) ||
-         die_out(at, dies_out(problem_, branch_.points, at, range_));
+         die_out(at);
 }
 
 /// Goes on from an orbit that the branch has.

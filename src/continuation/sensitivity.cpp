@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "base/dense.hpp"
-#include "change/dying.hpp"
+#include "change/collapse.hpp"
 #include "continuation/crossing.hpp"
 #include "continuation/special.hpp"
 #include "orbit/extent.hpp"
@@ -160,94 +160,30 @@ std::vector<Sensitivity> moved_with(const Problem& problem, const PathPoint& at,
   return result;
 }
 
-/// Exact rates, as far as they are numbers.
-std::vector<Sensitivity> exact(const std::vector<double>& rates) {
-  std::vector<Sensitivity> result;
-  for (const double rate : rates)
-    result.push_back({rate, std::isfinite(rate) ? Known::from_both_sides : Known::unsettled});
-  return result;
-}
-
-std::vector<double> values_of(const std::vector<Sensitivity>& all) {
-  std::vector<double> values;
-  for (const Sensitivity& one : all) values.push_back(one.value);
-  return values;
-}
-
-/// The rates of all parameters at points of a branch, and the lengths there of a leg that dies.
-struct Rates {
-  std::vector<double> lengths;
-  std::vector<std::vector<double>> of;  ///< a list for each parameter
-  std::vector<double> least;            ///< of each: what is next to nothing
-
-  /// Extrapolated to no length; not a number if one point less says otherwise.
-  [[nodiscard]] double limit(std::size_t j) const {
-    const double all = at_zero(lengths, of[j]),
-                 fewer = at_zero({lengths.begin(), lengths.end() - 1}, {of[j].begin(), of[j].end() - 1});
-    return std::abs(all - fewer) < agreement * size(j) ? all : std::nan("");
-  }
-  [[nodiscard]] double size(std::size_t j) const {
-    double most = least[j];
-    for (const double rate : of[j]) most = std::max(most, std::abs(rate));
-    return most;
-  }
-};
-
-/// With a leg's length kept.
-std::vector<double> moved_with_leg(const Problem& problem, const PathPoint& at, std::size_t leg) {
-  const ModeSet set(problem.family(), at.orbit.values);
-  const std::vector<VectorXd> all = directions(problem, linearise(problem, set, at.orbit), at);
-  const Index place = problem.parameter_column(at.orbit.legs(), 0);
-  std::vector<double> rates;
-  for (std::size_t j = 0; j < all.size(); ++j) {
-    const double along = growth(problem, at, all[j], leg) / growth(problem, at, at.tangent, leg);
-    rates.push_back((all[j][place] - at.tangent[place] * along) * at.units[place] /
-                    at.units[problem.parameter_column(at.orbit.legs(), static_cast<Index>(j) + 1)]);
-  }
-  return rates;
-}
-
-/// Where legs shrink to nothing the equations are singular: the sensitivity of the parameter at which one of them has some length, ever shorter,
-/// extrapolated to none. Another parameter may part what vanishes there together: it is believed if the margins that do say the same.
-std::vector<double> death_sensitivity(const Problem& problem, const Orbit& orbit, double range) {
-  constexpr std::size_t most = 7, fewest = 4;
-  constexpr double falls = 0.5;  // from the farthest point to the nearest, what vanishes there
-  const std::vector<PathPoint> points = away_from_death(problem, point_of(problem, orbit, range, {}), range, most);
-  if (points.size() < fewest) throw NumericalError("sensitivity: too few orbits beside the special point");
-  const std::size_t leg = dying_leg(problem, points.front()), others = orbit.values.size() - 1;
-  const auto rates_by = [&](const std::function<std::vector<double>(const PathPoint&)>& moved, std::size_t count) {
-    Rates rates{{}, std::vector<std::vector<double>>(others), {}};
-    const VectorXd& units = points.front().units;
-    for (std::size_t j = 0; j < others; ++j)
-      rates.least.push_back(1e-3 * range / units[problem.parameter_column(orbit.legs(), static_cast<Index>(j) + 1)]);
-    for (std::size_t i = 0; i < count; ++i) {
-      const PathPoint& at = points[i];
-      const std::vector<double> here = moved(at);
-      rates.lengths.push_back(at.orbit.duration(leg));
-      for (std::size_t j = 0; j < others; ++j) rates.of[j].push_back(here[j]);
+/// Where legs die the rates are exact. At a parameter's bound they are those of the side that there is.
+std::vector<Sensitivity> death_sensitivity(const Problem& problem, Death death, const std::vector<double>& values) {
+  constexpr double beside = 1e-6;  // of a parameter's value, or by itself where that is zero
+  const double own = death.orbit.values[0];
+  death.orbit.values = values;
+  death.orbit.values[0] = own;
+  const auto is_model = [&](std::size_t j, double sense) {
+    std::vector<double> moved = values;
+    moved[j] += sense * beside * (values[j] != 0.0 ? std::abs(values[j]) : 1.0);
+    try {
+      static_cast<void>(problem.family().model(moved));
+      return true;
+    } catch (const InputError&) {
+      return false;
     }
-    return rates;
   };
-  const Rates rates = rates_by([&](const PathPoint& at) { return moved_with_leg(problem, at, leg); },
-                               points.size());
-  std::vector<double> result;
-  for (std::size_t j = 0; j < others; ++j) result.push_back(rates.limit(j));
-  std::vector<bool> confirmed(others, false);
-  const std::vector<TestValue>& near = points.front().watched.tests;
-  for (std::size_t i = 0; i < near.size(); ++i) {
-    if (near[i].test == Test::duration || !(near[i].value < falls * points.back().watched.tests[i].value)) continue;
-    const auto by_margin = [&](const PathPoint& at) {
-      return values_of(moved_with(problem, at, range, [i](const Watched& watched) { return watched.tests[i].value; }));
-    };
-    const Rates kept = rates_by(by_margin, fewest);  // differences: more points would make more of their rounding
-    for (std::size_t j = 0; j < others; ++j) {
-      const double off = std::abs(kept.limit(j) - result[j]), close = agreement * std::max(kept.size(j), rates.size(j));
-      if (off > close) result[j] = std::nan("");
-      if (off <= close) confirmed[j] = true;
-    }
+  std::vector<Sensitivity> result;
+  for (const double rate : death_rates(problem, death)) {
+    const std::size_t j = result.size() + 1;
+    const Known known = !std::isfinite(rate)                         ? Known::unsettled
+                        : is_model(j, 1.0) && is_model(j, -1.0) ? Known::from_both_sides
+                                                                     : Known::from_one_side;
+    result.push_back({rate, known});
   }
-  for (std::size_t j = 0; j < others; ++j)
-    if (!confirmed[j]) result[j] = std::nan("");
   return result;
 }
 
@@ -272,12 +208,8 @@ std::vector<Sensitivity> sensitivities(const Family& full, const std::vector<dou
   const Problem problem(full, values);
   Orbit orbit = point.solution.orbit;
   if (!(range > 0.0)) range = values[0] != 0.0 ? std::abs(values[0]) : 1.0;
-  const double own = orbit.values[0];
   orbit.values = values;
-  if (point.beside) {
-    orbit.values[0] = own;
-    return exact(death_sensitivity(problem, orbit, range));
-  }
+  if (point.death) return death_sensitivity(problem, *point.death, values);
   if (point.type == SpecialType::BP) return crossing_sensitivity(problem, orbit, range);
   if (point.occurrence == Occurrence::end_of_doubled) orbit = doubling(problem, orbit);
   const PathPoint at = point_of(problem, orbit, range, {});
@@ -286,7 +218,9 @@ std::vector<Sensitivity> sensitivities(const Family& full, const std::vector<dou
 
 std::vector<double> sensitivity(const Family& full, const std::vector<double>& values, const SpecialPoint& point,
                                 double range) {
-  return values_of(sensitivities(full, values, point, range));
+  std::vector<double> rates;
+  for (const Sensitivity& one : sensitivities(full, values, point, range)) rates.push_back(one.value);
+  return rates;
 }
 
 }  // namespace slapstick::orbit

@@ -7,6 +7,7 @@
 
 #include "base/ranges.hpp"
 #include "change/change_kind.hpp"
+#include "change/collapse.hpp"
 #include "change/locate_margin.hpp"
 #include "continuation/crossing.hpp"
 #include "orbit/extent.hpp"
@@ -246,6 +247,32 @@ double disagreement(const Candidates& candidates, const std::pair<std::size_t, L
   return most;
 }
 
+constexpr double known = 1e-7;  ///< of the range: a margin's zero
+
+/// The change where a margin is used up. Where legs die with it, the death is the place.
+Change change_at(const Problem& problem, const PathPoint& from, Located located, std::size_t test, double range) {
+  Orbit& orbit = located.point.orbit;
+  Change change;
+  change.test = located.point.watched.tests[test];
+  change.special.test = test;
+  change.special.error = located.error;
+  auto death = death_at(problem, from, orbit, change.test);
+  if (death && std::abs(death->death.orbit.values[0] - orbit.values[0]) <= known * range) {
+    orbit.values[0] = death->death.orbit.values[0];
+    change.special.error = death->error;
+    change.special.death = std::move(death->death);
+  }
+  change.special.type = type_of(change.test, from.orbit.shape);
+  change.special.value = orbit.values[0];
+  change.special.occurrence = Occurrence::margin;
+  change.special.margin = used(change.test);
+  change.special.sliding = kind_of_sliding(change.test, from.orbit.shape);
+  change.special.solution = describe(problem, orbit, nullptr);
+  change.at = std::move(located.point);
+  change.length = located.length;
+  return change;
+}
+
 }  // namespace
 
 std::optional<Change> find_change(const Problem& problem, const PathPoint& from, const PathPoint& to, double length,
@@ -258,7 +285,6 @@ std::optional<Change> find_change(const Problem& problem, const PathPoint& from,
       candidates.emplace_back(i, std::move(*located));
   }
   // Where the equations are hardly solvable, as near the onset of a chatter, what looks like a margin's zero may be none.
-  constexpr double known = 1e-7;
   std::erase_if(candidates, [&](const auto& candidate) { return candidate.second.error > known * range; });
   in_order(candidates, from.watched.tests, length, range);
   for (auto& candidate : candidates) {
@@ -266,19 +292,7 @@ std::optional<Change> find_change(const Problem& problem, const PathPoint& from,
     if (!changes_there(problem, from, length, located.length, range)) continue;
     located.error = std::max(located.error, disagreement(candidates, candidate, from, length));
     look_back(problem, from, range, located);
-    Change change;
-    change.test = located.point.watched.tests[test];
-    change.special.test = test;
-    change.special.type = type_of(change.test, from.orbit.shape);
-    change.special.value = located.point.orbit.values[0];
-    change.special.error = located.error;
-    change.special.occurrence = Occurrence::margin;
-    change.special.margin = used(change.test);
-    change.special.sliding = kind_of_sliding(change.test, from.orbit.shape);
-    change.special.solution = describe(problem, located.point.orbit, nullptr);
-    change.at = std::move(located.point);
-    change.length = located.length;
-    return change;
+    return change_at(problem, from, std::move(located), test, range);
   }
   return std::nullopt;
 }

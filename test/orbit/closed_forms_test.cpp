@@ -225,10 +225,19 @@ TEST(StickSlipImpact, GrazesWhereTheHeldFrameSays) {
       return point.type == orbit::SpecialType::GR && std::abs(point.value - c.graze) < 1e-10;
     });
     ASSERT_NE(graze, branch.special.end()) << c.parameter << ": " << c.graze;
-    EXPECT_NEAR(graze->value, c.graze, graze->error + 1e-13) << c.parameter;
+    EXPECT_NEAR(graze->value, c.graze, graze->error + 1e-15) << c.parameter;  // and the closed form's own rounding
     EXPECT_TRUE(std::ranges::any_of(branch.points, [](const orbit::Solution& point) {
       return point.label == "1-0-II";
     })) << c.parameter;
+    if (c.start == 0.7) continue;  // where no leg dies
+    ASSERT_TRUE(graze->death) << c.parameter;
+    EXPECT_LT(graze->error, 1e-14) << c.parameter;
+    if (c.parameter != "drive") continue;  // V is a root of the clearance, and neither impacts nor slips are left
+    const Posed others("stick-slip-impact", {}, {"drive", "clearance", "restitution", "friction"}, {drive, 0.5, 0.8, 3.17});
+    const auto rates = orbit::sensitivity(others.family, {graze->value, 0.5, 0.8, 3.17}, *graze);
+    EXPECT_NEAR(rates[0], graze->value / (2.0 * clearance), 1e-13);
+    EXPECT_NEAR(rates[1], 0.0, 1e-13);
+    EXPECT_NEAR(rates[2], 0.0, 1e-13);
   }
 }
 

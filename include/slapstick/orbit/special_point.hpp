@@ -120,12 +120,31 @@ struct NormalForm {
 };
 [[nodiscard]] std::string_view name(NormalForm::Verdict verdict);
 
+/// What is left of legs that have shrunk to nothing: guards that are zero at one instant, within a leg or at an end.
+struct Touch {
+  struct Guard {
+    mode::GuardKind kind = mode::GuardKind::gap;
+    int contact = 0;  ///< among contacts of its kind
+  };
+  enum class Place : std::uint8_t { start, within, end };
+  Place place = Place::within;
+  std::size_t leg = 0;
+  double t = 0.0;             ///< the instant, in periods, as those of the orbit's events
+  std::vector<Guard> guards;  ///< of the leg's mode; of the first the derivative is zero too where the place is within
+};
+
+/// Where legs shrink to nothing together: the orbit without them, and its touches.
+struct Death {
+  Orbit orbit;
+  std::vector<Touch> touches;
+};
+
 struct SpecialPoint {
   SpecialType type = SpecialType::LP;
   double value = 0.0;   ///< of the parameter
   double error = 0.0;   ///< of it: the last change of the refinement, or what rounding leaves
-  Solution solution;    ///< the orbit there ..
-  bool beside = false;  ///< .. or one beside it, where a motion dies out and its equations are singular
+  Solution solution;    ///< the orbit there; where legs die one beside it, with these legs
+  std::optional<Death> death;  ///< where legs shrink to nothing, as far as that is what makes its equations singular
 
   Occurrence occurrence = Occurrence::fold;
   UsedMargin margin;                     ///< occurrence margin; death: a leg's length

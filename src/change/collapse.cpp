@@ -1,0 +1,168 @@
+/// Solves for a death: the orbit without its dying legs, and the touches that are left of these.
+#include "change/collapse.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/dense.hpp"
+#include "base/ranges.hpp"
+#include "change/coincident.hpp"
+#include "change/death_equations.hpp"
+#include "change/touches.hpp"
+#include "orbit/record.hpp"
+#include "slapstick/base/error.hpp"
+
+namespace slapstick::orbit {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double hold_together = 1e-10;  ///< a residual, or what a rate leaves of one: more equations than unknowns
+
+bool within(const Touch& touch) { return touch.place == Touch::Place::within; }
+
+/// The longest entry of a step, and of what the orbit's inner states have to make good.
+double length(const Problem& problem, const DeathEquations& at, const VectorXd& step) {
+  double longest = step.cwiseAbs().maxCoeff();
+  for (const VectorXd& defect : at.orbit.defects) {
+    const VectorXd off = problem.translations().numbers(defect).cwiseQuotient(at.units.head(problem.numbers()));
+    longest = std::max(longest, off.cwiseAbs().maxCoeff());
+  }
+  return longest;
+}
+
+void move_death(const Problem& problem, const DeathEquations& at, const VectorXd& step, double fraction, Death& death) {
+  const VectorXd change = fraction * step.cwiseProduct(at.units);
+  VectorXd of_orbit = VectorXd::Zero(problem.unknowns(death.orbit.legs()));
+  of_orbit.head(at.parameter + 1) = change.head(at.parameter + 1);
+  move(problem, at.orbit, of_orbit, fraction, death.orbit);
+  for (std::size_t i = 0; i < death.touches.size(); ++i)
+    death.touches[i].t += change[at.parameter + 1 + static_cast<Index>(i)];
+}
+
+/// What the rounding of the equations makes of the parameter; infinite where they do not hold together or leave it open.
+double parameter_error(const Problem& problem, const Death& death) {
+  constexpr double determined = 1e-6;  // off 1: the parameter by itself
+  constexpr double operations = 4.0;   // whose roundings a residual has, beyond its noise as a sum
+  const DeathEquations at(problem, death);
+  const Eigen::MatrixXd inverse = dense::LeastNorm(at.by).pseudo_inverse();
+  const Eigen::RowVectorXd of_parameter = inverse.row(at.parameter);
+  if (!(at.residual.cwiseAbs().maxCoeff() < hold_together)) return INFINITY;
+  if (!(std::abs(of_parameter.dot(at.by.col(at.parameter)) - 1.0) < determined)) return INFINITY;
+  return operations * at.units[at.parameter] * of_parameter.cwiseAbs().dot(at.noise);
+}
+
+/// @returns whether the Gauss-Newton method came to a solution
+bool solve_death(const Problem& problem, Death& death) {
+  constexpr int most_steps = 20;
+  constexpr double enough = 1e-13, alike = 1e-9, longest_step = 0.5;  // as of an orbit's own equations
+  double before = INFINITY;
+  for (int k = 0; k < most_steps; ++k) {
+    const DeathEquations at(problem, death);
+    if (!at.by.allFinite()) return false;
+    const VectorXd step = -dense::LeastNorm(at.by).solve(at.residual);
+    if (!step.allFinite()) return false;
+    const double now = length(problem, at, step);
+    move_death(problem, at, step, std::min(1.0, longest_step / step.cwiseAbs().maxCoeff()), death);
+    if (now < enough || (now < alike && now > 0.1 * before)) return true;
+    before = now;
+  }
+  return false;
+}
+
+/// Do the events and the touches lie in order still? A cycle without events may begin anywhere.
+bool in_order(const Death& death) {
+  if (death.orbit.shape.legs[0].ending == Ending::cut) return true;
+  for (std::size_t i = 0; i < death.orbit.legs(); ++i)
+    if (!(death.orbit.duration(i) > 0.0)) return false;
+  return ranges::all_of(death.touches, [&](const Touch& touch) {
+    return !within(touch) || (touch.t > death.orbit.t[touch.leg] && touch.t < death.orbit.t[touch.leg + 1]);
+  });
+}
+
+/// The farthest that an instant has moved.
+double moved(const Death& from, const Death& to) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < from.orbit.t.size(); ++i)
+    most = std::max(most, std::abs(to.orbit.t[i] - from.orbit.t[i]));
+  for (std::size_t i = 0; i < from.touches.size(); ++i)
+    if (within(from.touches[i])) most = std::max(most, std::abs(to.touches[i].t - from.touches[i].t));
+  return most;
+}
+
+std::optional<Collapse> solved(const Problem& problem, const Orbit& near, const std::vector<bool>& dying,
+                               bool impacts_stay) {
+  constexpr double far = 10.0, rounding = 1e-4;  // of the dying legs' length; of the cycle, where that is next to nothing
+  const ModeSet set(problem.family(), near.values);
+  const std::vector<Shortened> shapes = shortened(set, near, dying, impacts_stay);
+  if (shapes.empty()) return std::nullopt;
+  const auto left = touches(set, near, dying, shapes.front());
+  if (!left) return std::nullopt;
+  const Death guess{shapes.front().orbit, *left};
+  Collapse found{guess, INFINITY, 0};
+  if (!solve_death(problem, found.death) || !in_order(found.death)) return std::nullopt;
+  double longest = 0.0;
+  for (std::size_t i = 0; i < near.legs(); ++i)
+    if (dying[i] && near.duration(i) > longest) longest = near.duration(found.leg = i);
+  const double most = std::max(far * longest, rounding * (near.t.back() - near.t.front()));
+  found.error = parameter_error(problem, found.death);
+  if (!std::isfinite(found.error) || moved(guess, found.death) > most) return std::nullopt;
+  return found;
+}
+
+}  // namespace
+
+std::optional<Collapse> collapse(const Problem& problem, const Orbit& near, const std::vector<bool>& dying) {
+  for (const bool impacts_stay : {true, false}) {
+    try {
+      if (auto found = solved(problem, near, dying, impacts_stay)) return found;
+    } catch (const InputError&) {  // no model there
+    } catch (const NumericalError&) {
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Collapse> death_ahead(const Problem& problem, const PathPoint& at) {
+  constexpr double alike = 10.0;  // a leg like the fourth power of another seems to be gone after a quarter of the way
+  const Orbit& orbit = at.orbit;
+  std::vector<double> left;  // arclength to where a leg would be gone, if it shrank on as there
+  for (std::size_t i = 0; i < orbit.legs(); ++i) {
+    const Index begin = problem.instant_column(i), end = problem.instant_column(i + 1);
+    const double shrinks = at.tangent[begin] * at.units[begin] - at.tangent[end] * at.units[end];
+    left.push_back(in_burst(orbit, i) || !(shrinks > 0.0) ? INFINITY : orbit.duration(i) / shrinks);
+  }
+  const double soonest = *ranges::min_element(left);
+  std::vector<bool> dying;
+  for (const double way : left) dying.push_back(way < alike * soonest);
+  return collapse(problem, orbit, dying);
+}
+
+std::optional<Collapse> death_at(const Problem& problem, const PathPoint& from, const Orbit& change,
+                                 const TestValue& test) {
+  const std::size_t legs = change.legs();
+  std::vector<bool> dying = gone_legs(from.orbit, change);
+  if (test.test == Test::speed && test.kind == mode::GuardKind::gap) {  // a slip may die with its speed, at any length
+    const ModeSet set(problem.family(), change.values);
+    for (std::size_t i = 0; i < legs; ++i)
+      dying[i] = dying[i] || comes_to_rest(set, from.orbit, change, i, test.leg);
+  }
+  const std::size_t before = (test.leg + legs - 1) % legs, behind = (test.leg + 1) % legs;
+  if (!dying[test.leg] && !dying[before] && !dying[behind]) return std::nullopt;
+  return collapse(problem, change, dying);
+}
+
+std::vector<double> death_rates(const Problem& problem, const Death& death) {
+  const DeathEquations at(problem, death);
+  const dense::LeastNorm solver(at.by);
+  std::vector<double> rates;
+  for (Index j = 0; j < at.by_others.cols(); ++j) {
+    const VectorXd right = -at.by_others.col(j), moves = solver.solve(right);
+    const bool together = (at.by * moves - right).cwiseAbs().maxCoeff() < hold_together;
+    rates.push_back(together ? moves[at.parameter] * at.units[at.parameter] / at.units_of_others[j] : std::nan(""));
+  }
+  return rates;
+}
+
+}  // namespace slapstick::orbit

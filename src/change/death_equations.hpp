@@ -1,0 +1,22 @@
+#pragma once
+/// The equations of a death (change/collapse.hpp) at an approximation to it, linearised.
+#include "orbit/equations.hpp"
+#include "slapstick/orbit/special_point.hpp"
+
+namespace slapstick::orbit {
+
+/// Unknowns, one a column: those of the orbit up to the first parameter, then the instants of the touches. Rows are
+/// divided by their sizes, columns multiplied by the unknowns'. A row of nothing but rounding, as of an equation that is
+/// always met, stays small.
+struct DeathEquations {
+  /// @throws NumericalError, InputError as linearise
+  DeathEquations(const Problem& problem, const Death& death);
+
+  Linearised orbit;
+  Eigen::VectorXd residual, noise;  ///< and the rounding of the residual
+  Eigen::MatrixXd by, by_others;    ///< by_others: by the parameters but the first
+  Eigen::VectorXd units, units_of_others;
+  Eigen::Index parameter = 0;       ///< the first parameter's column
+};
+
+}  // namespace slapstick::orbit

@@ -1,0 +1,38 @@
+#pragma once
+/// An orbit without some of its legs: those that have shrunk to nothing, and the events that are no more with them.
+#include <vector>
+
+#include "orbit/mode_set.hpp"
+#include "slapstick/orbit/itinerary.hpp"
+
+namespace slapstick::orbit {
+
+/// Which legs are gone from one orbit of a shape to another: less than a hundredth of their length is left. Those of a
+/// chatter's burst are never gone.
+[[nodiscard]] std::vector<bool> gone_legs(const Orbit& from, const Orbit& to);
+
+/// The cycle of one leg without its event, from phase 0.
+[[nodiscard]] Orbit uncut(const ModeSet& set, const Orbit& orbit);
+
+/// Leaves out so many legs from one on, and as many events and states from the first leg's end on.
+void leave_out(Orbit& orbit, std::ptrdiff_t leg, std::ptrdiff_t count);
+
+/// An orbit with fewer legs, and the legs of the longer one that begin with the same events; none for a cycle without
+/// events.
+struct Shortened {
+  Orbit orbit;
+  std::vector<std::size_t> starts;
+};
+
+/// Without the legs that are gone. Between two legs of one mode: those are one leg. Between two stops of one velocity:
+/// the second is the first's. Between another event and an impact, of which a speed is left: the impact is all.
+/// Between two crossings of one line: what lies between them.
+/// @param gone  of each leg: has it no length?
+/// @param impacts_stay  impacts keep their speed
+/// @returns the orbit with one run of such legs left out, with two .. : the shortest first
+[[nodiscard]] std::vector<Shortened> shortened(const ModeSet& set, const Orbit& orbit, const std::vector<bool>& gone,
+                                               bool impacts_stay);
+[[nodiscard]] std::vector<Orbit> without_legs(const ModeSet& set, const Orbit& orbit, const std::vector<bool>& gone,
+                                              bool impacts_stay);
+
+}  // namespace slapstick::orbit

@@ -50,6 +50,11 @@ Cells empty_cells(const sweep::Map& map) {
   return {.x = edges(map.x), .y = edges(map.y), .columns = map.x.count, .rows = map.y.count};
 }
 
+std::vector<sweep::Direction> directions_of(const MapWish& wish) {
+  if (wish.problem.direction == sweep::Direction::both) return {sweep::Direction::up, sweep::Direction::down};
+  return {wish.problem.direction};
+}
+
 constexpr double swatch_mm = 2.2;
 
 figure::Key swatch(const std::string& label, figure::Colour colour) {
@@ -222,19 +227,26 @@ std::string share_computed(const sweep::Map& map) {
   return percent(static_cast<long>(map.findings.size()), static_cast<long>(map.rows())) + " of the pixels computed";
 }
 
-figure::Panel panel_of(const MapWish& wish, const sweep::Map& map, const ClassColours& colours, const std::string& column,
-                       sweep::Direction direction) {
+void add_to_title(const std::string& words, figure::Panel& panel) {
+  panel.title += (panel.title.empty() || words.empty() ? "" : ", ") + words;
+}
+
+/// A panel without its cells.
+figure::Panel empty_panel(const MapWish& wish, const std::string& column) {
+  return {.x_label = parameter_axis(wish.chosen.definition, wish.x.name),
+          .y_label = parameter_axis(wish.chosen.definition, wish.y.name),
+          .title = title_of(wish, column),
+          .x_range = edges(wish.problem.x),
+          .y_range = edges(wish.problem.y),
+          .legend = figure::Legend::below};
+}
+
+void fill(const MapWish& wish, const sweep::Map& map, const ClassColours& colours, const std::string& column,
+          sweep::Direction direction, figure::Panel& panel) {
   const std::vector<Shown> pixels = shown_pixels(map, direction);
-  figure::Panel panel{.x_label = parameter_axis(wish.chosen.definition, wish.x.name),
-                      .y_label = parameter_axis(wish.chosen.definition, wish.y.name),
-                      .title = title_of(wish, column)};
-  const auto add_to_title = [&](const std::string& words) { panel.title += (panel.title.empty() || words.empty() ? "" : ", ") + words; };
-  if (column == "class" || column == "computed") add_to_title(share_computed(map));
-  if (wish.problem.direction == sweep::Direction::both) add_to_title(direction == sweep::Direction::up ? "up" : "down");
-  panel.legend = figure::Legend::below;
+  if (column == "class" || column == "computed") add_to_title(share_computed(map), panel);
+  if (wish.problem.direction == sweep::Direction::both) add_to_title(direction == sweep::Direction::up ? "up" : "down", panel);
   Cells cells = empty_cells(map);
-  panel.x_range = cells.x;
-  panel.y_range = cells.y;
   if (column == "class") {
     draw_classes(colours, pixels, cells, panel);
   } else if (column == "computed") {
@@ -246,7 +258,6 @@ figure::Panel panel_of(const MapWish& wish, const sweep::Map& map, const ClassCo
                map.stands_for.empty() ? "none" : "none, or filled in", cells, panel);
   }
   panel.cells = std::move(cells);
-  return panel;
 }
 
 }  // namespace
@@ -268,19 +279,28 @@ std::vector<std::string> shown_columns(const MapWish& wish, const std::string& s
   return columns;
 }
 
-figure::Figure chart_figure(const MapWish& wish, const sweep::Map& map, const std::vector<std::string>& columns) {
-  const bool both = wish.problem.direction == sweep::Direction::both;
-  std::vector<sweep::Direction> directions{wish.problem.direction};
-  if (both) directions = {sweep::Direction::up, sweep::Direction::down};
-  const ClassColours colours(map);
+std::vector<NamedInset> chart_insets(const MapWish& wish, const InsetOptions& options) {
+  return read_insets(options, {wish.x.name, edges(wish.problem.x)}, {{wish.y.name, edges(wish.problem.y)}});
+}
+
+figure::Figure chart_outline(const MapWish& wish, const ChartLook& look) {
   figure::Figure figure;
-  for (const std::string& column : columns)
-    for (const sweep::Direction direction : directions)
-      figure.panels.push_back(panel_of(wish, map, colours, column, direction));
+  for (const std::string& column : look.columns)
+    for (std::size_t k = 0; k < directions_of(wish).size(); ++k) figure.panels.push_back(empty_panel(wish, column));
   const bool several = figure.panels.size() > 1;
   figure.columns = several ? 2 : 1;
   figure.width_cm = several ? 17.5 : 12.0;
   figure.row_cm = several ? 7.0 : 8.5;
+  add_insets(look.insets, {wish.y.name}, figure);
+  return figure;
+}
+
+figure::Figure chart_figure(const MapWish& wish, const sweep::Map& map, const ChartLook& look) {
+  const ClassColours colours(map);
+  figure::Figure figure = chart_outline(wish, look);
+  std::size_t panel = 0;
+  for (const std::string& column : look.columns)
+    for (const sweep::Direction direction : directions_of(wish)) fill(wish, map, colours, column, direction, figure.panels[panel++]);
   return figure;
 }
 

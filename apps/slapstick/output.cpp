@@ -90,7 +90,7 @@ TableOutput::TableOutput(const std::string& path, const std::vector<std::string>
   if (is_column_file(path)) {
     columns_.emplace(columns, facts.attributes);
     for (const auto& [column, unit] : facts.units) columns_->unit(column, unit);
-    columns_->over(facts.axes);
+    columns_->over(facts.axes, facts.layers);
     return;
   }
   for (const std::string& column : columns) word(column);

@@ -73,51 +73,42 @@ std::string percent(long part, long whole) {
   return text;
 }
 
-/// Colours of the classes of a map, the same in all of its panels.
+/// Colours of the classes of a map, the same in all of its panels. Takes 4 bytes a finding.
 class ClassColours {
  public:
   explicit ClassColours(const sweep::Map& map) {
-    std::map<std::string, long> areas;
-    std::vector<long> pixels(map.findings.size(), map.stands_for.empty() ? 1 : 0);
-    for (const std::int32_t place : map.stands_for) ++pixels[static_cast<std::size_t>(place)];
-    for (std::size_t i = 0; i < map.findings.size(); ++i) areas[map.findings[i].label(map.driven)] += pixels[i];
-    std::vector<std::pair<std::string, long>> by_area(areas.begin(), areas.end());
-    ranges::stable_sort(by_area, [](const auto& a, const auto& b) { return a.second > b.second; });
-    std::size_t next = 0;
-    for (const auto& [label, area] : by_area) {
-      if (label == name(Attractor::chaotic))
-        colours_[label] = chaotic_colour;
-      else if (label == name(Attractor::quasi_periodic))
-        colours_[label] = quasi_periodic_colour;
-      else if (label == name(Attractor::undecided))
-        colours_[label] = undecided_colour;
-      else
-        colours_[label] = next < class_colours.size() ? class_colours[next++] : other_classes_colour;
+    std::map<std::string, std::int32_t> known;
+    for (const Finding& found : map.findings) {
+      const auto [place, is_new] = known.try_emplace(found.label(map.driven), static_cast<std::int32_t>(classes_.size()));
+      if (is_new) classes_.push_back({place->first});
+      class_of_.push_back(place->second);
     }
-    for (const Finding& found : map.findings) class_of_.push_back(colours_.find(found.label(map.driven)));
+    if (map.stands_for.empty())
+      for (const std::int32_t one : class_of_) ++class_at(one).area;
+    for (const std::int32_t place : map.stands_for) ++class_at(class_of_[static_cast<std::size_t>(place)]).area;
+    std::size_t next = 0;
+    for (Class* one : by_area()) one->colour = colour_of(one->label, next);
   }
 
-  [[nodiscard]] figure::Colour of(const Shown& pixel) const { return class_of_[static_cast<std::size_t>(pixel.place)]->second; }
+  [[nodiscard]] figure::Colour of(const Shown& pixel) const {
+    return classes_[static_cast<std::size_t>(class_of_[static_cast<std::size_t>(pixel.place)])].colour;
+  }
 
   /// The legend: classes by their area among these pixels, then the others together.
-  [[nodiscard]] std::vector<figure::Key> keys(const std::vector<Shown>& pixels) const {
-    std::vector<long> of_findings(class_of_.size());
+  [[nodiscard]] std::vector<figure::Key> keys(const std::vector<Shown>& pixels) {
+    for (Class& one : classes_) one.area = 0;
     for (const Shown& pixel : pixels)
-      if (pixel.place >= 0) ++of_findings[static_cast<std::size_t>(pixel.place)];
-    std::map<std::string, long> areas;
-    for (std::size_t i = 0; i < class_of_.size(); ++i)
-      if (of_findings[i] > 0) areas[class_of_[i]->first] += of_findings[i];
-    std::vector<std::pair<std::string, long>> sorted(areas.begin(), areas.end());
-    ranges::stable_sort(sorted, [](const auto& a, const auto& b) { return a.second > b.second; });
+      if (pixel.place >= 0) ++class_at(class_of_[static_cast<std::size_t>(pixel.place)]).area;
     std::vector<figure::Key> keys;
     const long whole = static_cast<long>(pixels.size());
     long others = 0, kinds = 0;
-    for (const auto& [label, area] : sorted) {
-      if (colours_.at(label) == other_classes_colour) {
-        others += area;
+    for (const Class* one : by_area()) {
+      if (one->area == 0) continue;
+      if (one->colour == other_classes_colour) {
+        others += one->area;
         ++kinds;
       } else {
-        keys.push_back(swatch(axis_text(label) + "  " + percent(area, whole), colours_.at(label)));
+        keys.push_back(swatch(axis_text(one->label) + "  " + percent(one->area, whole), one->colour));
       }
     }
     if (kinds > 0)
@@ -126,11 +117,35 @@ class ClassColours {
   }
 
  private:
-  std::map<std::string, figure::Colour> colours_;
-  std::vector<std::map<std::string, figure::Colour>::const_iterator> class_of_;  // each finding's
+  struct Class {
+    std::string label{};
+    figure::Colour colour{};
+    long area = 0;  ///< in pixels
+  };
+
+  Class& class_at(std::int32_t place) { return classes_[static_cast<std::size_t>(place)]; }
+
+  /// The largest first; of equal ones in the order of their labels.
+  std::vector<Class*> by_area() {
+    std::vector<Class*> sorted;
+    for (Class& one : classes_) sorted.push_back(&one);
+    ranges::sort(sorted, [](const Class* a, const Class* b) { return a->area != b->area ? a->area > b->area : a->label < b->label; });
+    return sorted;
+  }
+
+  /// @param next  of the colours of classes
+  static figure::Colour colour_of(const std::string& label, std::size_t& next) {
+    if (label == name(Attractor::chaotic)) return chaotic_colour;
+    if (label == name(Attractor::quasi_periodic)) return quasi_periodic_colour;
+    if (label == name(Attractor::undecided)) return undecided_colour;
+    return next < class_colours.size() ? class_colours[next++] : other_classes_colour;
+  }
+
+  std::vector<Class> classes_;
+  std::vector<std::int32_t> class_of_;  // each finding's
 };
 
-void draw_classes(const ClassColours& colours, const std::vector<Shown>& pixels, Cells& cells, figure::Panel& panel) {
+void draw_classes(ClassColours& colours, const std::vector<Shown>& pixels, Cells& cells, figure::Panel& panel) {
   for (const Shown& pixel : pixels) {
     if (pixel.place < 0) {
       cells.codes.push_back(Cells::clear);
@@ -241,7 +256,7 @@ figure::Panel empty_panel(const MapWish& wish, const std::string& column) {
           .legend = figure::Legend::below};
 }
 
-void fill(const MapWish& wish, const sweep::Map& map, const ClassColours& colours, const std::string& column,
+void fill(const MapWish& wish, const sweep::Map& map, ClassColours& colours, const std::string& column,
           sweep::Direction direction, figure::Panel& panel) {
   const std::vector<Shown> pixels = shown_pixels(map, direction);
   if (column == "class" || column == "computed") add_to_title(share_computed(map), panel);
@@ -296,7 +311,7 @@ figure::Figure chart_outline(const MapWish& wish, const ChartLook& look) {
 }
 
 figure::Figure chart_figure(const MapWish& wish, const sweep::Map& map, const ChartLook& look) {
-  const ClassColours colours(map);
+  ClassColours colours(map);
   figure::Figure figure = chart_outline(wish, look);
   std::size_t panel = 0;
   for (const std::string& column : look.columns)

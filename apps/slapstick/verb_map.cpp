@@ -120,7 +120,8 @@ int map(const Options& options, const Context& context) {
   TableOutput table(options.out, map_columns(*wish), map_facts(*wish));
   const sweep::Map found = gathered(*wish, options, context);
   if (options.store.empty() || !options.out.empty()) write_map(*wish, found, table);
-  figure::Figure picture = chart_figure(*wish, found, look);
+  figure::Figure picture;
+  if (plot.wanted()) picture = chart_figure(*wish, found, look);
   if (options.curves > 0 && !context.stop) {
     const chart::Curves curves = chart::find_curves(wish->chart(), found, static_cast<int>(options.curves), &context.stop);
     draw_curves(curves, picture);

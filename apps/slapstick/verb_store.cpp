@@ -89,7 +89,7 @@ int write_out(const Options& options) {
     std::fprintf(stderr, "slapstick: %ld of %s pixels were computed, the others are filled in\n", store.count(), store.fact("cells").c_str());
   if (!map.complete) std::fprintf(stderr, "slapstick: the store has %ld of %s cells\n", store.count(), store.fact("cells").c_str());
   if (options.plot.empty() || !options.out.empty()) write_map(*wish, map, table);
-  return plot.write_or_say(chart_figure(*wish, map, look), map.findings.empty(), done);
+  return plot.wanted() ? plot.write_or_say(chart_figure(*wish, map, look), map.findings.empty(), done) : done;
 }
 
 }  // namespace

@@ -50,6 +50,11 @@ Cells empty_cells(const sweep::Map& map) {
   return {.x = edges(map.x), .y = edges(map.y), .columns = map.x.count, .rows = map.y.count};
 }
 
+std::vector<sweep::Direction> directions_of(const MapWish& wish) {
+  if (wish.problem.direction == sweep::Direction::both) return {sweep::Direction::up, sweep::Direction::down};
+  return {wish.problem.direction};
+}
+
 constexpr double swatch_mm = 2.2;
 
 figure::Key swatch(const std::string& label, figure::Colour colour) {
@@ -68,51 +73,42 @@ std::string percent(long part, long whole) {
   return text;
 }
 
-/// Colours of the classes of a map, the same in all of its panels.
+/// Colours of the classes of a map, the same in all of its panels. Takes 4 bytes a finding.
 class ClassColours {
  public:
   explicit ClassColours(const sweep::Map& map) {
-    std::map<std::string, long> areas;
-    std::vector<long> pixels(map.findings.size(), map.stands_for.empty() ? 1 : 0);
-    for (const std::int32_t place : map.stands_for) ++pixels[static_cast<std::size_t>(place)];
-    for (std::size_t i = 0; i < map.findings.size(); ++i) areas[map.findings[i].label(map.driven)] += pixels[i];
-    std::vector<std::pair<std::string, long>> by_area(areas.begin(), areas.end());
-    ranges::stable_sort(by_area, [](const auto& a, const auto& b) { return a.second > b.second; });
-    std::size_t next = 0;
-    for (const auto& [label, area] : by_area) {
-      if (label == name(Attractor::chaotic))
-        colours_[label] = chaotic_colour;
-      else if (label == name(Attractor::quasi_periodic))
-        colours_[label] = quasi_periodic_colour;
-      else if (label == name(Attractor::undecided))
-        colours_[label] = undecided_colour;
-      else
-        colours_[label] = next < class_colours.size() ? class_colours[next++] : other_classes_colour;
+    std::map<std::string, std::int32_t> known;
+    for (const Finding& found : map.findings) {
+      const auto [place, is_new] = known.try_emplace(found.label(map.driven), static_cast<std::int32_t>(classes_.size()));
+      if (is_new) classes_.push_back({place->first});
+      class_of_.push_back(place->second);
     }
-    for (const Finding& found : map.findings) class_of_.push_back(colours_.find(found.label(map.driven)));
+    if (map.stands_for.empty())
+      for (const std::int32_t one : class_of_) ++class_at(one).area;
+    for (const std::int32_t place : map.stands_for) ++class_at(class_of_[static_cast<std::size_t>(place)]).area;
+    std::size_t next = 0;
+    for (Class* one : by_area()) one->colour = colour_of(one->label, next);
   }
 
-  [[nodiscard]] figure::Colour of(const Shown& pixel) const { return class_of_[static_cast<std::size_t>(pixel.place)]->second; }
+  [[nodiscard]] figure::Colour of(const Shown& pixel) const {
+    return classes_[static_cast<std::size_t>(class_of_[static_cast<std::size_t>(pixel.place)])].colour;
+  }
 
   /// The legend: classes by their area among these pixels, then the others together.
-  [[nodiscard]] std::vector<figure::Key> keys(const std::vector<Shown>& pixels) const {
-    std::vector<long> of_findings(class_of_.size());
+  [[nodiscard]] std::vector<figure::Key> keys(const std::vector<Shown>& pixels) {
+    for (Class& one : classes_) one.area = 0;
     for (const Shown& pixel : pixels)
-      if (pixel.place >= 0) ++of_findings[static_cast<std::size_t>(pixel.place)];
-    std::map<std::string, long> areas;
-    for (std::size_t i = 0; i < class_of_.size(); ++i)
-      if (of_findings[i] > 0) areas[class_of_[i]->first] += of_findings[i];
-    std::vector<std::pair<std::string, long>> sorted(areas.begin(), areas.end());
-    ranges::stable_sort(sorted, [](const auto& a, const auto& b) { return a.second > b.second; });
+      if (pixel.place >= 0) ++class_at(class_of_[static_cast<std::size_t>(pixel.place)]).area;
     std::vector<figure::Key> keys;
     const long whole = static_cast<long>(pixels.size());
     long others = 0, kinds = 0;
-    for (const auto& [label, area] : sorted) {
-      if (colours_.at(label) == other_classes_colour) {
-        others += area;
+    for (const Class* one : by_area()) {
+      if (one->area == 0) continue;
+      if (one->colour == other_classes_colour) {
+        others += one->area;
         ++kinds;
       } else {
-        keys.push_back(swatch(axis_text(label) + "  " + percent(area, whole), colours_.at(label)));
+        keys.push_back(swatch(axis_text(one->label) + "  " + percent(one->area, whole), one->colour));
       }
     }
     if (kinds > 0)
@@ -121,11 +117,35 @@ class ClassColours {
   }
 
  private:
-  std::map<std::string, figure::Colour> colours_;
-  std::vector<std::map<std::string, figure::Colour>::const_iterator> class_of_;  // each finding's
+  struct Class {
+    std::string label{};
+    figure::Colour colour{};
+    long area = 0;  ///< in pixels
+  };
+
+  Class& class_at(std::int32_t place) { return classes_[static_cast<std::size_t>(place)]; }
+
+  /// The largest first; of equal ones in the order of their labels.
+  std::vector<Class*> by_area() {
+    std::vector<Class*> sorted;
+    for (Class& one : classes_) sorted.push_back(&one);
+    ranges::sort(sorted, [](const Class* a, const Class* b) { return a->area != b->area ? a->area > b->area : a->label < b->label; });
+    return sorted;
+  }
+
+  /// @param next  of the colours of classes
+  static figure::Colour colour_of(const std::string& label, std::size_t& next) {
+    if (label == name(Attractor::chaotic)) return chaotic_colour;
+    if (label == name(Attractor::quasi_periodic)) return quasi_periodic_colour;
+    if (label == name(Attractor::undecided)) return undecided_colour;
+    return next < class_colours.size() ? class_colours[next++] : other_classes_colour;
+  }
+
+  std::vector<Class> classes_;
+  std::vector<std::int32_t> class_of_;  // each finding's
 };
 
-void draw_classes(const ClassColours& colours, const std::vector<Shown>& pixels, Cells& cells, figure::Panel& panel) {
+void draw_classes(ClassColours& colours, const std::vector<Shown>& pixels, Cells& cells, figure::Panel& panel) {
   for (const Shown& pixel : pixels) {
     if (pixel.place < 0) {
       cells.codes.push_back(Cells::clear);
@@ -222,19 +242,26 @@ std::string share_computed(const sweep::Map& map) {
   return percent(static_cast<long>(map.findings.size()), static_cast<long>(map.rows())) + " of the pixels computed";
 }
 
-figure::Panel panel_of(const MapWish& wish, const sweep::Map& map, const ClassColours& colours, const std::string& column,
-                       sweep::Direction direction) {
+void add_to_title(const std::string& words, figure::Panel& panel) {
+  panel.title += (panel.title.empty() || words.empty() ? "" : ", ") + words;
+}
+
+/// A panel without its cells.
+figure::Panel empty_panel(const MapWish& wish, const std::string& column) {
+  return {.x_label = parameter_axis(wish.chosen.definition, wish.x.name),
+          .y_label = parameter_axis(wish.chosen.definition, wish.y.name),
+          .title = title_of(wish, column),
+          .x_range = edges(wish.problem.x),
+          .y_range = edges(wish.problem.y),
+          .legend = figure::Legend::below};
+}
+
+void fill(const MapWish& wish, const sweep::Map& map, ClassColours& colours, const std::string& column,
+          sweep::Direction direction, figure::Panel& panel) {
   const std::vector<Shown> pixels = shown_pixels(map, direction);
-  figure::Panel panel{.x_label = parameter_axis(wish.chosen.definition, wish.x.name),
-                      .y_label = parameter_axis(wish.chosen.definition, wish.y.name),
-                      .title = title_of(wish, column)};
-  const auto add_to_title = [&](const std::string& words) { panel.title += (panel.title.empty() || words.empty() ? "" : ", ") + words; };
-  if (column == "class" || column == "computed") add_to_title(share_computed(map));
-  if (wish.problem.direction == sweep::Direction::both) add_to_title(direction == sweep::Direction::up ? "up" : "down");
-  panel.legend = figure::Legend::below;
+  if (column == "class" || column == "computed") add_to_title(share_computed(map), panel);
+  if (wish.problem.direction == sweep::Direction::both) add_to_title(direction == sweep::Direction::up ? "up" : "down", panel);
   Cells cells = empty_cells(map);
-  panel.x_range = cells.x;
-  panel.y_range = cells.y;
   if (column == "class") {
     draw_classes(colours, pixels, cells, panel);
   } else if (column == "computed") {
@@ -246,7 +273,6 @@ figure::Panel panel_of(const MapWish& wish, const sweep::Map& map, const ClassCo
                map.stands_for.empty() ? "none" : "none, or filled in", cells, panel);
   }
   panel.cells = std::move(cells);
-  return panel;
 }
 
 }  // namespace
@@ -268,19 +294,28 @@ std::vector<std::string> shown_columns(const MapWish& wish, const std::string& s
   return columns;
 }
 
-figure::Figure chart_figure(const MapWish& wish, const sweep::Map& map, const std::vector<std::string>& columns) {
-  const bool both = wish.problem.direction == sweep::Direction::both;
-  std::vector<sweep::Direction> directions{wish.problem.direction};
-  if (both) directions = {sweep::Direction::up, sweep::Direction::down};
-  const ClassColours colours(map);
+std::vector<NamedInset> chart_insets(const MapWish& wish, const InsetOptions& options) {
+  return read_insets(options, {wish.x.name, edges(wish.problem.x)}, {{wish.y.name, edges(wish.problem.y)}});
+}
+
+figure::Figure chart_outline(const MapWish& wish, const ChartLook& look) {
   figure::Figure figure;
-  for (const std::string& column : columns)
-    for (const sweep::Direction direction : directions)
-      figure.panels.push_back(panel_of(wish, map, colours, column, direction));
+  for (const std::string& column : look.columns)
+    for (std::size_t k = 0; k < directions_of(wish).size(); ++k) figure.panels.push_back(empty_panel(wish, column));
   const bool several = figure.panels.size() > 1;
   figure.columns = several ? 2 : 1;
   figure.width_cm = several ? 17.5 : 12.0;
   figure.row_cm = several ? 7.0 : 8.5;
+  add_insets(look.insets, {wish.y.name}, figure);
+  return figure;
+}
+
+figure::Figure chart_figure(const MapWish& wish, const sweep::Map& map, const ChartLook& look) {
+  ClassColours colours(map);
+  figure::Figure figure = chart_outline(wish, look);
+  std::size_t panel = 0;
+  for (const std::string& column : look.columns)
+    for (const sweep::Direction direction : directions_of(wish)) fill(wish, map, colours, column, direction, figure.panels[panel++]);
   return figure;
 }
 

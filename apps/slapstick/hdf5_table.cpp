@@ -133,16 +133,14 @@ std::vector<double> values_along(const Column& column, std::size_t count, std::s
   return values;
 }
 
-/// The group of arrays over the axes; none if a row is missing.
-void add_grid(hid_t file, const ColumnTable& table) {
-  Extent extent;
-  std::size_t points = 1;
-  for (const TableAxis& axis : table.axes()) {
-    extent.push_back(axis.count);
-    points *= axis.count;
-  }
-  if (extent.empty() || points != rows_of(table.columns().front())) return;
-  const Handle group(H5Gcreate2(file, "grid", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+/// The same column from a row on.
+Data from_row(Data data, std::size_t row) {
+  data.at = static_cast<const char*>(data.at) + row * H5Tget_size(data.given);
+  return data;
+}
+
+/// Arrays over the axes, of the rows from `first` on.
+void fill_grid(hid_t group, const ColumnTable& table, const Extent& extent, std::size_t points, std::size_t first) {
   std::deque<Handle> scales;
   std::size_t stride = points;
   for (const TableAxis& axis : table.axes()) {
@@ -153,10 +151,27 @@ void add_grid(hid_t file, const ColumnTable& table) {
     demand(H5DSset_scale(scales.back(), axis.name.c_str()));
   }
   for (const Column& column : table.columns()) {
-    if (ranges::any_of(table.axes(), [&](const TableAxis& axis) { return axis.column == column.name; })) continue;
-    const Handle set(add_array(group, column.name, column.unit, data_of(column), extent), H5Dclose);
+    const bool is_axis = ranges::any_of(table.axes(), [&](const TableAxis& axis) { return axis.column == column.name; });
+    if (is_axis || column.name == table.layers().column) continue;
+    const Handle set(add_array(group, column.name, column.unit, from_row(data_of(column), first), extent), H5Dclose);
     for (unsigned k = 0; k < scales.size(); ++k) demand(H5DSattach_scale(set, scales[k], k));
   }
+}
+
+/// The group of arrays over the axes, with a group for each layer of a table that has layers; none if a row is missing.
+void add_grid(hid_t file, const ColumnTable& table) {
+  Extent extent;
+  std::size_t points = 1;
+  for (const TableAxis& axis : table.axes()) {
+    extent.push_back(axis.count);
+    points *= axis.count;
+  }
+  const std::vector<std::string>& layers = table.layers().names;
+  if (extent.empty() || points * std::max<std::size_t>(layers.size(), 1) != rows_of(table.columns().front())) return;
+  const auto grouped = [](hid_t in, const std::string& name) { return H5Gcreate2(in, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT); };
+  const Handle grid(grouped(file, "grid"), H5Gclose);
+  if (layers.empty()) return fill_grid(grid, table, extent, points, 0);
+  for (std::size_t k = 0; k < layers.size(); ++k) fill_grid(Handle(grouped(grid, layers[k]), H5Gclose), table, extent, points, k * points);
 }
 
 }  // namespace

@@ -57,7 +57,8 @@ TableFacts map_facts(const MapWish& wish) {
       if (parameter_of.name == sweep->name && parameter_of.unit != "1") facts.units[column] = parameter_of.unit;
   }
   if (is_refined(wish)) facts.attributes.push_back({"refined_from_cells_of", static_cast<double>(wish.problem.refine)});
-  if (!has_directions(wish) && !has_starts(wish))
+  if (has_directions(wish)) facts.layers = {"direction", {"up", "down"}};
+  if (!has_starts(wish))
     facts.axes = {{"y", wish.y.name, static_cast<std::size_t>(wish.y.count)}, {"x", wish.x.name, static_cast<std::size_t>(wish.x.count)}};
   for (const Wanted& one : wish.of) facts.units[one.quantity.name + ":" + one.statistic] = one.quantity.unit;
   return facts;

@@ -38,9 +38,15 @@ std::vector<Quantity> MeasuredDiagram::of() const {
   return all;
 }
 
+std::vector<std::string> MeasuredDiagram::shown() const {
+  std::vector<std::string> all;
+  for (const Wanted& one : wanted_) all.push_back(one.quantity.name + ":" + one.statistic);
+  return all;
+}
+
 std::vector<std::string> MeasuredDiagram::columns() const {
   std::vector<std::string> all{sweep_.name, "direction"};
-  for (const Wanted& one : wanted_) all.push_back(one.quantity.name + ":" + one.statistic);
+  for (const std::string& name : shown()) all.push_back(name);
   return all;
 }
 

@@ -16,6 +16,8 @@ class MeasuredDiagram {
 
   [[nodiscard]] std::vector<Quantity> of() const;
   [[nodiscard]] std::vector<std::string> columns() const;
+  /// The columns that have a panel.
+  [[nodiscard]] std::vector<std::string> shown() const;
   /// A row for each value that did not fail. If every value has failed, no table is made.
   void write(const sweep::Diagram& diagram, TableOutput& table) const;
   [[nodiscard]] figure::Figure figure(const sweep::Diagram& diagram) const;

@@ -90,7 +90,7 @@ TableOutput::TableOutput(const std::string& path, const std::vector<std::string>
   if (is_column_file(path)) {
     columns_.emplace(columns, facts.attributes);
     for (const auto& [column, unit] : facts.units) columns_->unit(column, unit);
-    columns_->over(facts.axes);
+    columns_->over(facts.axes, facts.layers);
     return;
   }
   for (const std::string& column : columns) word(column);
@@ -165,12 +165,27 @@ Plot::Plot(const std::string& path, const std::string& size) {
   if (formats_.of_gnuplot()) figure::demand_gnuplot();
 }
 
-void Plot::write(figure::Figure figure) const {
-  if (!wanted()) return;
+/// The size that was asked for, and units of a handy size.
+void Plot::fit(figure::Figure& figure) const {
   if (width_cm_ && figure.height_cm && !height_cm_) figure.height_cm = *figure.height_cm * *width_cm_ / figure.width_cm;
   if (width_cm_) figure.width_cm = *width_cm_;
   if (height_cm_) figure.height_cm = *height_cm_;
   use_prefixes(figure);
+}
+
+void Plot::demand_room(figure::Figure figure) const {
+  if (!wanted()) return;
+  fit(figure);
+  try {
+    figure::demand_room(figure);
+  } catch (const InputError& error) {
+    throw InputError("--plot: " + error.message());
+  }
+}
+
+void Plot::write(figure::Figure figure) const {
+  if (!wanted()) return;
+  fit(figure);
   figure::write(figure, stem_, formats_, beside_);
 }
 

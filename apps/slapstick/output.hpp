@@ -66,6 +66,8 @@ class Plot {
   /// StorageError if it cannot be written
   explicit Plot(const std::string& path, const std::string& size = {});
   [[nodiscard]] bool wanted() const { return !stem_.empty(); }
+  /// Whether a picture has room for its parts, known from its panels and insets alone. @throws InputError
+  void demand_room(figure::Figure figure) const;
   /// @throws StorageError
   void write(figure::Figure figure) const;
   /// The same, or a line on standard error if the figure is empty. `status`: the exit status so far.
@@ -74,6 +76,8 @@ class Plot {
   [[nodiscard]] int write_or_say(figure::Figure figure, bool empty, int status) const;
 
  private:
+  void fit(figure::Figure& figure) const;
+
   std::filesystem::path stem_;
   std::string beside_;
   figure::Formats formats_;

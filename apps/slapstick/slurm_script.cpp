@@ -54,6 +54,7 @@ std::string export_line(const SlurmWish& wish) {
   for (const auto& [name, value] : {std::pair{"--out", absolute(wish.out)}, std::pair{"--plot", absolute(wish.plot)},
                                     std::pair{"--plot-size", wish.plot_size}, std::pair{"--show", wish.show}})
     if (!value.empty()) line += std::string(" ") + name + " " + quoted(value);
+  for (const std::string& inset : wish.insets) line += " --inset " + quoted(inset);
   return line + "\n";
 }
 

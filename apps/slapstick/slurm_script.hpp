@@ -8,6 +8,7 @@ struct SlurmWish {
   int tasks = 1;
   std::string store;                  ///< of the whole; those of the shards lie beside it
   std::string out, plot, plot_size, show;  ///< of the whole, by `store export`; empty: none
+  std::vector<std::string> insets;         ///< of the picture
 };
 
 /// A shell script for `sbatch`: each task computes one shard and goes on where an earlier attempt was ended; the task

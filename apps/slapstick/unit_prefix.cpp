@@ -64,6 +64,11 @@ struct AxisOf {
       change(covered.min);
       change(covered.max);
     }
+    for (figure::Inset& inset : panel.insets) {
+      figure::Range& shown = is_x ? inset.x : inset.y;
+      change(shown.min);
+      change(shown.max);
+    }
     for (figure::Mark& mark : panel.marks) {
       if (is_x && mark.x) change(*mark.x);
       if (is_x && mark.x_end) change(*mark.x_end);

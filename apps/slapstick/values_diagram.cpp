@@ -57,9 +57,15 @@ void ValuesDiagram::complete(sweep::DiagramProblem& problem) const {
   problem.event = event_;
 }
 
+std::vector<std::string> ValuesDiagram::shown() const {
+  std::vector<std::string> all;
+  for (const Quantity& one : of_) all.push_back(one.name);
+  return all;
+}
+
 std::vector<std::string> ValuesDiagram::columns() const {
   std::vector<std::string> all{sweep_.name, "direction"};
-  for (const Quantity& one : of_) all.push_back(one.name);
+  for (const std::string& name : shown()) all.push_back(name);
   return all;
 }
 

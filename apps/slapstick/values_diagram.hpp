@@ -18,6 +18,8 @@ class ValuesDiagram {
   /// Asks for what is shown.
   void complete(sweep::DiagramProblem& problem) const;
   [[nodiscard]] std::vector<std::string> columns() const;
+  /// The columns that have a panel.
+  [[nodiscard]] std::vector<std::string> shown() const;
   /// A row for each instant. If every value has failed, no table is made.
   void write(const sweep::Diagram& diagram, TableOutput& table) const;
   /// A panel for each quantity.

@@ -7,6 +7,7 @@
 #include "contact_clouds.hpp"
 #include "diagram_store.hpp"
 #include "fine_dots.hpp"
+#include "inset_options.hpp"
 #include "model_options.hpp"
 #include "output.hpp"
 #include "measured_diagram.hpp"
@@ -29,6 +30,7 @@ using sweep::Direction;
 struct Options {
   ModelOptions model;
   StopOptions stops;
+  InsetOptions insets;
   std::string sweep, direction = "up", start = "carry", y, at, out, plot, plot_size, store;
   long long transient = 500, impacts = 200, most_periods = 5000, periods = 100, threads = 0;
   bool resume = false, progress = false;
@@ -153,6 +155,25 @@ figure::Figure picture(const sweep::Diagram& diagram, const Sweep& sweep, const 
   return figure;
 }
 
+/// --inset of a diagram: known before the work, drawn after it.
+class PanelInsets {
+ public:
+  /// @param shown  what is shown upwards in each panel
+  PanelInsets(const InsetOptions& options, const Sweep& sweep, std::vector<std::string> shown) : shown_(std::move(shown)) {
+    std::vector<NamedAxis> y;
+    for (const std::string& name : shown_) y.push_back({name});
+    insets_ = read_insets(options, {sweep.name, figure::Range{sweep.from, sweep.to}}, y);
+  }
+  [[nodiscard]] figure::Figure in(figure::Figure figure) const {
+    add_insets(insets_, shown_, figure);
+    return figure;
+  }
+
+ private:
+  std::vector<std::string> shown_;
+  std::vector<NamedInset> insets_;
+};
+
 /// "3 (up) and 1 (down)"
 std::string per_direction(long up, long down) {
   std::string text = up > 0 ? std::to_string(up) + " (up)" : "";
@@ -205,6 +226,7 @@ sweep::Diagram run(sweep::DiagramProblem& problem, const Options& options, const
 /// --y: statistics instead of impacts.
 int measured(const Options& options, const ChosenModel& chosen, const Sweep& sweep, const Context& context) {
   const MeasuredDiagram about(chosen, options.y, sweep);
+  const PanelInsets insets(options.insets, sweep, about.shown());
   const Plot plot(options.plot, options.plot_size);
   TableOutput table(options.out, about.columns(), table_facts(chosen, sweep.name));
   sweep::DiagramProblem problem = problem_of(options, chosen, sweep);
@@ -212,7 +234,7 @@ int measured(const Options& options, const ChosenModel& chosen, const Sweep& swe
   const sweep::Diagram result = run(problem, options, chosen, context);
   about.write(result, table);
   const auto some = [](const sweep::DiagramPoint& point) { return !point.of.empty(); };
-  const int status = plot.write_or_say(about.figure(result), ranges::none_of(result.points, some),
+  const int status = plot.write_or_say(insets.in(about.figure(result)), ranges::none_of(result.points, some),
                                        result.complete ? done : interrupted);
   report(result, sweep, "", true);
   return status;
@@ -221,6 +243,7 @@ int measured(const Options& options, const ChosenModel& chosen, const Sweep& swe
 /// --y without a statistic: values at instants.
 int values(const Options& options, const ChosenModel& chosen, const Sweep& sweep, const Context& context) {
   const ValuesDiagram about(chosen, options.y, options.at, sweep);
+  const PanelInsets insets(options.insets, sweep, about.shown());
   const Plot plot(options.plot, options.plot_size);
   TableOutput table(options.out, about.columns(), table_facts(chosen, sweep.name));
   sweep::DiagramProblem problem = problem_of(options, chosen, sweep);
@@ -228,7 +251,7 @@ int values(const Options& options, const ChosenModel& chosen, const Sweep& sweep
   const sweep::Diagram result = run(problem, options, chosen, context);
   about.write(result, table);
   const auto some = [](const sweep::DiagramPoint& point) { return !point.values.empty(); };
-  const int status = plot.write_or_say(about.figure(result), ranges::none_of(result.points, some),
+  const int status = plot.write_or_say(insets.in(about.figure(result)), ranges::none_of(result.points, some),
                                        result.complete ? done : interrupted);
   report(result, sweep, about.noun());
   return status;
@@ -246,6 +269,7 @@ int diagram(const Options& options, const Context& context) {
   roles.add_plot(options.plot);
   if (!options.y.empty())
     return are_statistics(options.y) ? measured(options, chosen, sweep, context) : values(options, chosen, sweep, context);
+  const PanelInsets insets(options.insets, sweep, {"w", "flight"});
   const Plot plot(options.plot, options.plot_size);
   std::vector<std::string> columns{sweep.name, "direction", "w", "flight", "sliding", "phase"};
   for (const std::string& name : state_names(chosen.model)) columns.push_back(name);
@@ -258,7 +282,7 @@ int diagram(const Options& options, const Context& context) {
   bool any = false;
   for (const sweep::DiagramPoint& point : result.points) any = any || point.impacts.size() > 0;
   const int status =
-      plot.write_or_say(picture(result, sweep, chosen, problem), !any, result.complete ? done : interrupted);
+      plot.write_or_say(insets.in(picture(result, sweep, chosen, problem)), !any, result.complete ? done : interrupted);
   report(result, sweep, contact_noun(chosen.model, problem.stops));
   return status;
 }
@@ -273,6 +297,7 @@ void check_words(const Options& options, const Arguments& arguments) {
   if (!statistics && arguments.given("--periods"))
     throw InputError("--periods: only for statistics of --y, and --y names no statistic");
   if (options.y.empty() && arguments.given("--at")) throw InputError("--at: only for --y, and --y is not given");
+  options.insets.check_words(options.plot);
   if (options.store.empty() && options.resume) throw InputError("--resume needs --store F.db");
   if (options.start == "reset" && options.direction == "both")
     throw InputError("--direction both: with --start reset, up and down are the same; choose one, or --start carry");
@@ -310,6 +335,7 @@ Action add_diagram(Arguments& arguments) {
   arguments.text("--plot", options->plot, "F.png",
                  "diagrams of w and flight: .png, .pdf or .svg; its data and script lie beside it");
   declare_plot_size(arguments, options->plot_size);
+  options->insets.declare(arguments);
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
       "Columns: the parameter, direction, w, flight, sliding, phase and the state just before each impact, with "

@@ -20,6 +20,7 @@ namespace {
 
 struct Options {
   MapOptions map;
+  InsetOptions insets;
   std::string out, plot, plot_size, show, store;
   long long slurm = 0, curves = 0;
   bool resume = false, progress = false;
@@ -84,17 +85,22 @@ int only_store(MapWish& wish, const Options& options, const Context& context) {
   return complete ? done : interrupted;
 }
 
+ChartLook look_of(const MapWish& wish, const Options& options) {
+  return {shown_columns(wish, options.show), chart_insets(wish, options.insets)};
+}
+
 /// The script instead of the map.
 int print_script(const Options& options) {
   const std::unique_ptr<MapWish> wish = map_wish(options.map);
-  static_cast<void>(shown_columns(*wish, options.show));
+  static_cast<void>(look_of(*wish, options));
   Output out("");
   out.write(slurm_script(options.map, chart::option_words(wish->chart()), {.tasks = static_cast<int>(options.slurm),
                                        .store = options.store,
                                        .out = options.out,
                                        .plot = options.plot,
                                        .plot_size = options.plot_size,
-                                       .show = options.show}));
+                                       .show = options.show,
+                                       .insets = options.insets.texts}));
   out.commit();
   return done;
 }
@@ -107,13 +113,15 @@ int map(const Options& options, const Context& context) {
   roles.add("--store", options.store);
   roles.add_plot(options.plot);
   const std::unique_ptr<MapWish> wish = map_wish(options.map);
-  const std::vector<std::string> shown = shown_columns(*wish, options.show);
+  const ChartLook look = look_of(*wish, options);
   if (!options.store.empty() && options.out.empty() && options.plot.empty()) return only_store(*wish, options, context);
   const Plot plot(options.plot, options.plot_size);
+  plot.demand_room(chart_outline(*wish, look));
   TableOutput table(options.out, map_columns(*wish), map_facts(*wish));
   const sweep::Map found = gathered(*wish, options, context);
   if (options.store.empty() || !options.out.empty()) write_map(*wish, found, table);
-  figure::Figure picture = chart_figure(*wish, found, shown);
+  figure::Figure picture;
+  if (plot.wanted()) picture = chart_figure(*wish, found, look);
   if (options.curves > 0 && !context.stop) {
     const chart::Curves curves = chart::find_curves(wish->chart(), found, static_cast<int>(options.curves), &context.stop);
     draw_curves(curves, picture);
@@ -136,6 +144,7 @@ Action add_map(Arguments& arguments) {
   arguments.text("--show", options->show, "class,..",
                  "what the panels of the picture are: class, exponent, multiplier, n, p, attractors, Q:STAT of --of "
                  "(class and those of --of)");
+  options->insets.declare(arguments);
   arguments.count("--curves", options->curves, 0, 1000,
                   "of --plot: lay up to N bifurcation curves over the chart, found from its own boundaries (0)");
   arguments.text("--store", options->store, "F.db", "write each pixel there as it is finished");
@@ -151,6 +160,7 @@ Action add_map(Arguments& arguments) {
     options->map.check_words(arguments);
     if (options->map.refine > 0 && options->slurm > 0)
       throw InputError("--refine: not for --slurm; the classes of the whole chart decide what is computed");
+    options->insets.check_words(options->plot);
     if (options->curves > 0 && (options->plot.empty() || options->map.start != "reset" || options->slurm > 0))
       throw InputError("--curves needs --plot and --start reset, and is not for --slurm");
     for (const char* other : {"--shard", "--resume", "--threads"})

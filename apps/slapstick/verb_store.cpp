@@ -17,6 +17,7 @@ struct Options {
   std::string action;
   std::vector<std::string> files;
   std::string out, plot, plot_size, show;
+  InsetOptions insets;
 };
 
 const std::string& only_file(const Options& options) {
@@ -79,15 +80,16 @@ int write_out(const Options& options) {
   roles.add("--out", options.out);
   roles.add_plot(options.plot);
   const std::unique_ptr<MapWish> wish = wish_of(store);
-  const std::vector<std::string> shown = shown_columns(*wish, options.show);
+  const ChartLook look{shown_columns(*wish, options.show), chart_insets(*wish, options.insets)};
   const Plot plot(options.plot, options.plot_size);
+  plot.demand_room(chart_outline(*wish, look));
   TableOutput table(options.out, map_columns(*wish), map_facts(*wish));
   const sweep::Map map = chart::read_map(store, wish->problem);
   if (map.complete && wish->problem.refine > 0)
     std::fprintf(stderr, "slapstick: %ld of %s pixels were computed, the others are filled in\n", store.count(), store.fact("cells").c_str());
   if (!map.complete) std::fprintf(stderr, "slapstick: the store has %ld of %s cells\n", store.count(), store.fact("cells").c_str());
   if (options.plot.empty() || !options.out.empty()) write_map(*wish, map, table);
-  return plot.write_or_say(chart_figure(*wish, map, shown), map.findings.empty(), done);
+  return plot.wanted() ? plot.write_or_say(chart_figure(*wish, map, look), map.findings.empty(), done) : done;
 }
 
 }  // namespace
@@ -100,6 +102,7 @@ Action add_store(Arguments& arguments) {
   arguments.text("--plot", options->plot, "F.png", "of export: draw the chart");
   declare_plot_size(arguments, options->plot_size);
   arguments.text("--show", options->show, "class,..", "of export: what the panels are, as of `map`");
+  options->insets.declare(arguments);
   arguments.footer(
       "Stores are written by `map --store F.db`. Equal results have equal hashes.\n"
       "  slapstick store info chart.db\n"
@@ -107,8 +110,9 @@ Action add_store(Arguments& arguments) {
       "  slapstick store export chart.db --out chart.h5 --plot chart.png");
   return [options, &arguments](const Context& context) {
     if (options->action != "export")
-      for (const char* name : {"--plot", "--plot-size", "--show"})
+      for (const char* name : {"--plot", "--plot-size", "--show", "--inset"})
         if (arguments.given(name)) throw InputError(std::string(name) + ": only for store export");
+    options->insets.check_words(options->plot);
     if (options->action == "info") return info(*options);
     if (options->action == "merge") return merge(*options, context);
     if (options->action == "export") return write_out(*options);

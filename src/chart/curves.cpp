@@ -115,32 +115,16 @@ std::optional<orbit::SpecialPoint> special_between(const Chart& chart, const Pix
   return nearest;
 }
 
-/// The points before which a curve meets another change of events, in order: between two of them all are motions, or
-/// none.
-std::vector<std::size_t> changes_on(const orbit::Curve& curve) {
-  std::vector<std::size_t> places{0, curve.points.size()};
-  for (const orbit::CurveEvent& event : curve.met)
-    if (ranges::any_of(event.met, [](const orbit::Meeting& one) { return one.kind == orbit::Meeting::Kind::margin; }))
-      places.push_back(std::min(event.after + 1, curve.points.size()));
-  ranges::sort(places);
-  return places;
-}
-
-/// Its motions. Where a margin is zero all along, as at a graze of an impact of no speed, single points may fail the
-/// check by rounding: of each piece the majority counts.
+/// Its motions, with a break where points between them are none.
 void keep_motions(const orbit::Curve& curve, std::size_t first_parameter, FoundCurve& found) {
   const double none = std::numeric_limits<double>::quiet_NaN();
-  const std::vector<std::size_t> places = changes_on(curve);
-  for (std::size_t k = 0; k + 1 < places.size(); ++k) {
-    const auto begin = curve.points.begin() + static_cast<std::ptrdiff_t>(places[k]);
-    const auto end = curve.points.begin() + static_cast<std::ptrdiff_t>(places[k + 1]);
-    const auto motions = std::count_if(begin, end, [](const orbit::CurvePoint& point) { return point.solution.is_motion; });
-    if (2 * motions <= end - begin) continue;
-    if (!found.x.empty()) found.x.push_back(none), found.y.push_back(none);
-    for (auto point = begin; point != end; ++point) {
-      found.x.push_back(point->values[first_parameter]);
-      found.y.push_back(point->values[1 - first_parameter]);
-    }
+  bool goes_on = true;
+  for (const orbit::CurvePoint& point : curve.points) {
+    if (point.solution.is_motion && !goes_on && !found.x.empty()) found.x.push_back(none), found.y.push_back(none);
+    goes_on = point.solution.is_motion;
+    if (!goes_on) continue;
+    found.x.push_back(point.values[first_parameter]);
+    found.y.push_back(point.values[1 - first_parameter]);
   }
 }
 

@@ -101,6 +101,8 @@ bool resolvable(Range range) {
   return largest <= largest_coordinate && span > 1e-9 * largest && span > 1e-290;
 }
 
+int most_labels(double length_cm, double label_cm) { return std::clamp(static_cast<int>(length_cm / label_cm), 1, 8); }
+
 Axis with_ticks(Range range, bool log, int most) {
   Axis axis{.range = range, .log = log};
   const double decades = log ? std::log10(range.max / range.min) : 0;

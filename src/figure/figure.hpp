@@ -92,6 +92,13 @@ struct Mark {
   Colour colour = colours::grey;
 };
 
+/// A rectangle of a panel that is drawn again, enlarged: cells, points and lines, with numbers of its own. It lies in
+/// the corner of the frame in which it hides least, covers no rectangle that is enlarged, and two lines join both.
+struct Inset {
+  Range x{}, y{};
+};
+inline constexpr std::size_t most_insets = 4;  ///< of a panel: a corner each
+
 /// An entry of the legend for what several series share, a style or a marker; it comes before those of the series.
 struct Key {
   std::string label{};
@@ -119,6 +126,7 @@ struct Panel {
   std::vector<Points> points{};
   std::vector<Line> lines{};  ///< drawn over the points
   std::vector<Mark> marks{};
+  std::vector<Inset> insets{};  ///< on linear axes; a legend that is `automatic` then lies above
   std::vector<Key> keys{};
   Legend legend = Legend::automatic;
   double height_share = 1;   ///< frame height relative to the other rows; a row takes its largest
@@ -152,7 +160,9 @@ struct Formats {
 /// What was written. Paths of formats that were not asked for are empty.
 struct Files {
   std::filesystem::path script, data;
-  std::vector<std::filesystem::path> rasters;  ///< one per panel with a rastered series: stem-raster<panel>.png
+  /// One per panel with a rastered series, stem-raster<panel>.png, and per inset of such a panel,
+  /// stem-raster<panel>-inset<inset>.png.
+  std::vector<std::filesystem::path> rasters;
   std::filesystem::path png, pdf, svg, tex, py;
 };
 
@@ -162,6 +172,10 @@ inline constexpr double largest_coordinate = 1e150;
 /// Whether a figure could be drawn, before the work that leads to it. @throws StorageError "gnuplot not found: install
 /// gnuplot-nox"
 void demand_gnuplot();
+
+/// Whether a figure has room for all its parts, before the work that leads to its data: panels with their ranges, names
+/// and insets say enough. @throws InputError as `write`
+void demand_room(const Figure& figure);
 
 /// Writes `<stem>.gp`, `<stem>-plot.csv` (a header row, then two columns per series drawn as vectors, numbers in
 /// shortest round-trip form; no file if there is no such series), the raster images and the formats asked for. `stem`

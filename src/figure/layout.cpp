@@ -162,8 +162,18 @@ void place_rows(const Figure& figure, const Grid& grid, Layout& layout) {
   }
 }
 
-/// Numbers need air: as many as fit with most of a label's width (or a line of height) between them.
-int most_labels(double length_cm, double label_cm) { return std::clamp(static_cast<int>(length_cm / label_cm), 1, 8); }
+/// Images of the panel and of its insets.
+void size_images(const Figure& figure, std::size_t index, PanelLayout& at) {
+  const Panel& panel = figure.panels[index];
+  const auto pixels = [&](const Box& frame, int& width, int& height) {
+    const int dpi = figure.raster_dpi.value_or(suitable_dpi(panel, frame, figure.png_dpi));
+    width = static_cast<int>(std::lround(frame.width() / 2.54 * dpi));
+    height = static_cast<int>(std::lround(frame.height() / 2.54 * dpi));
+  };
+  at.raster = wants_raster(panel);
+  pixels(at.frame, at.raster_width, at.raster_height);
+  for (InsetLayout& inset : at.insets) pixels(inset.frame, inset.raster_width, inset.raster_height);
+}
 
 void choose_y_axes(const Figure& figure, const Grid& grid, Layout& layout) {
   double mean_share = 0;
@@ -238,10 +248,8 @@ Layout lay_out(const Figure& figure) {
   place_rows(figure, grid, layout);
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     PanelLayout& panel = layout.panels[i];
-    panel.raster = wants_raster(figure.panels[i]);
-    const int dpi = figure.raster_dpi.value_or(suitable_dpi(figure.panels[i], panel.frame, figure.png_dpi));
-    panel.raster_width = static_cast<int>(std::lround(panel.frame.width() / 2.54 * dpi));
-    panel.raster_height = static_cast<int>(std::lround(panel.frame.height() / 2.54 * dpi));
+    panel.insets = place_insets(figure.panels[i], panel, layout.em_cm, "panel " + std::to_string(i + 1));
+    size_images(figure, i, panel);
   }
   return layout;
 }

@@ -2,6 +2,7 @@
 /// Where everything stands on the paper, in cm from the lower left corner. Decided here and not by gnuplot, so that
 /// frames of stacked panels align, the raster knows its pixels, and nothing is cut off.
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "axis.hpp"
@@ -30,6 +31,21 @@ struct KeyPlace {
   int row = 0;         ///< 0 is the highest
 };
 
+/// An inset on the paper.
+struct InsetLayout {
+  Axis x{}, y{};
+  bool right = true, top = true;            ///< the corner; its numbers stand on these sides, where no line comes in
+  Box outer{}, frame{};                     ///< with its numbers; its axes
+  std::vector<Box> paper{};                 ///< what covers the panel: the frame, and a strip for each axis's numbers
+  Box source{};                             ///< what is enlarged, as far as the panel shows it
+  std::vector<int> joined{};                ///< corners of source and frame joined by lines: 2 * top + right
+  int raster_width = 0, raster_height = 0;  ///< pixels
+};
+
+/// The corner of a box: 2 * top + right.
+inline double corner_x(const Box& box, int corner) { return corner % 2 == 1 ? box.right : box.left; }
+inline double corner_y(const Box& box, int corner) { return corner / 2 == 1 ? box.top : box.bottom; }
+
 struct PanelLayout {
   Axis x{}, y{};
   Box frame{};
@@ -42,6 +58,7 @@ struct PanelLayout {
   int legend_rows = 0;                      ///< .. and their rows
   std::vector<MarkLabel> mark_labels{};
   int mark_rows = 0;
+  std::vector<InsetLayout> insets{};
 };
 
 struct Layout {
@@ -63,6 +80,7 @@ inline constexpr double tick = 0.75;                             ///< tick and g
 inline constexpr double legend_font = 0.9;                       ///< relative to the figure's
 inline constexpr double line_sample = 2.2, marker_sample = 1.0;  ///< of a legend below
 inline constexpr double after_sample = 0.5, between_keys = 1.2;
+inline constexpr double inset_font = 0.8;  ///< of the numbers of an inset, relative to the figure's
 }  // namespace spacing
 
 /// Rows of text above the frame: the title (or a lone tag), the legend if it stands there, mark labels.
@@ -75,6 +93,11 @@ inline bool in_raster(const Points& points) { return points.drawing != Drawing::
 
 /// Of two named clouds in an image: the colour where both are, which is an entry of the legend too.
 std::optional<Colour> colour_of_both(const Panel& panel);
+
+/// The insets of a panel, whose frame is known, but for the size of their images.
+/// @param where  what an error calls the panel. @throws InputError if an inset shows nothing of the panel, or has no
+/// corner in which it is larger than what it shows
+std::vector<InsetLayout> place_insets(const Panel& panel, const PanelLayout& layout, double em_cm, const std::string& where);
 
 /// Number of entries that the legend would have.
 int legend_entries(const Panel& panel);

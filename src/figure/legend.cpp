@@ -101,7 +101,7 @@ Legend place_legend(const Panel& panel, const PanelLayout& layout, double em_cm)
   if (legend_entries(panel) == 0) return Legend::none;
   if (panel.legend != Legend::automatic) return panel.legend;
   const Share share = legend_share(panel, layout, em_cm);
-  if (share.across > 0.6 || share.up > 0.5) return Legend::above;
+  if (!panel.insets.empty() || share.across > 0.6 || share.up > 0.5) return Legend::above;
   Crowd crowd(layout, share);
   for (const auto& points : panel.points)
     for (std::size_t i = 0; i < points.x.size(); ++i) crowd.point(points.x[i], points.y[i]);

@@ -1,6 +1,7 @@
 /// Writes a figure as a script for matplotlib.
 #include "matplotlib.hpp"
 
+#include "base/ranges.hpp"
 #include "latex.hpp"
 #include "script.hpp"
 #include "text.hpp"
@@ -84,9 +85,10 @@ class PyPanel {
             ", " + fixed(frame.width() / whole_.width_cm, 5) + ", " + fixed(frame.height() / whole_.height_cm, 5) + "])\n";
     if (at_.x.log) line("axes.set_xscale('log')");
     if (at_.y.log) line("axes.set_yscale('log')");
-    if (at_.raster) raster();
+    if (at_.raster) raster("axes", raster_name(name_, index_));
     for (const Mark& mark : panel_.marks) draw(mark);
-    series();
+    series("axes", true);
+    entries();
     line("axes.set_xlim(" + number(at_.x.range.min) + ", " + number(at_.x.range.max) + ")");
     line("axes.set_ylim(" + number(at_.y.range.min) + ", " + number(at_.y.range.max) + ")");
     if (at_.x_numbers)
@@ -97,6 +99,7 @@ class PyPanel {
     if (!panel_.title.empty()) line("axes.set_title(" + py_label(panel_.title) + ", loc='left')");
     if (!panel_.tag.empty()) line("axes.annotate(" + py_label(panel_.tag) + ", (0, 1), (-25, 4), xycoords='axes fraction', textcoords='offset points')");
     legend();
+    for (std::size_t i = 0; i < at_.insets.size(); ++i) inset(i);
     return out_;
   }
 
@@ -104,13 +107,28 @@ class PyPanel {
   void line(const std::string& command) { out_ += command + "\n"; }
 
   /// The image fills the frame, whatever the axes are.
-  void raster() {
-    line("axes.imshow(pyplot.imread(" + py_text(raster_name(name_, index_)) +
-         "), extent=(0, 1, 0, 1), transform=axes.transAxes, aspect='auto', zorder=0)");
-    for (const Points& points : panel_.points)
-      if (!points.label.empty() && in_raster(points))
-        line("axes.plot([], [], linestyle='none', marker='s', markersize=4, color=" + quote_colour(points.colour) +
-             ", label=" + py_label(points.label) + ")");
+  void raster(const std::string& axes, const std::string& file) {
+    line(axes + ".imshow(pyplot.imread(" + py_text(file) + "), extent=(0, 1, 0, 1), transform=" + axes + ".transAxes, aspect='auto', zorder=0)");
+  }
+
+  /// On white paper, over all else of the panel; its numbers stand on the outer sides.
+  void inset(std::size_t i) {
+    const InsetLayout& inset = at_.insets[i];
+    const auto share = [](double length, double whole) { return fixed(length / whole, 5); };
+    const auto corner = [&](const Box& box) { return share(box.left - at_.frame.left, at_.frame.width()) + ", " + share(box.bottom - at_.frame.bottom, at_.frame.height()); };
+    const auto size = [&](const Box& box) { return share(box.width(), at_.frame.width()) + ", " + share(box.height(), at_.frame.height()); };
+    for (const Box& paper : inset.paper)
+      line("axes.add_patch(pyplot.Rectangle((" + corner(paper) + "), " + size(paper) + ", transform=axes.transAxes, color='white', linewidth=0, zorder=4))");
+    line("inset = axes.inset_axes([" + corner(inset.frame) + ", " + size(inset.frame) + "])");
+    if (at_.raster) raster("inset", inset_raster_name(name_, index_, i));
+    series("inset", false);
+    const auto range = [](const Range& shown) { return "(" + number(shown.min) + ", " + number(shown.max) + ")"; };
+    line("inset.set(xlim=" + range(inset.x.range) + ", ylim=" + range(inset.y.range) + ")");
+    line("inset.xaxis.set_major_locator(ticker.MultipleLocator(" + number(inset.x.step) + "))");
+    line("inset.yaxis.set_major_locator(ticker.MultipleLocator(" + number(inset.y.step) + "))");
+    line(std::string("inset.tick_params(labelsize=") + fixed(whole_.em_cm * 72 / 2.54 * spacing::inset_font, 2) + ", pad=1.5, length=2" +
+         (inset.top ? ", labeltop=True, labelbottom=False" : "") + (inset.right ? ", labelright=True, labelleft=False" : "") + ")");
+    line("axes.indicate_inset_zoom(inset, edgecolor='black', alpha=1, linewidth=0.6)");
   }
 
   void draw(const Mark& mark) {
@@ -133,26 +151,45 @@ class PyPanel {
            ", transform=axes.get_yaxis_transform(), ha='right', va='bottom', fontsize=small" + colour + ")");
   }
 
-  void series() {
+  /// @param named  with the entries of the legend
+  void series(const std::string& axes, bool named) {
     std::size_t column = series_.first_column - 1;
     const auto columns = [&] {
       const std::string text = "data[:, " + std::to_string(column) + "], data[:, " + std::to_string(column + 1) + "], ";
       column += 2;
       return text;
     };
-    const auto label = [](const std::string& text) { return text.empty() ? std::string() : ", label=" + py_label(text); };
+    const auto label = [&](const std::string& text) { return !named ? std::string() : entry(text); };
     for (const std::size_t i : series_.points) {
       const Points& points = panel_.points[i];
-      line("axes.plot(" + columns() + point_arguments(points.marker, points.diameter_mm, points.colour) + label(points.label) +
+      line(axes + ".plot(" + columns() + point_arguments(points.marker, points.diameter_mm, points.colour) + label(points.label) +
            (points.over_lines ? ", zorder=3)" : ", zorder=1)"));
     }
     for (const std::size_t i : series_.lines) {
       const Line& drawn = panel_.lines[i];
-      line("axes.plot(" + columns() + line_arguments(drawn.width_pt, drawn.dash, drawn.colour) + label(drawn.label) + ", zorder=2)");
+      line(axes + ".plot(" + columns() + line_arguments(drawn.width_pt, drawn.dash, drawn.colour) + label(drawn.label) + ", zorder=2)");
     }
+  }
+
+  static std::string entry(const std::string& label) { return label.empty() ? std::string() : ", label=" + py_label(label); }
+
+  /// Entries of the legend that no series draws.
+  void entries() {
+    for (const Points& points : panel_.points)
+      if (at_.raster && !points.label.empty() && in_raster(points))
+        line("axes.plot([], [], linestyle='none', marker='s', markersize=4, color=" + quote_colour(points.colour) + entry(points.label) + ")");
     for (const Key& key : panel_.keys)
       line("axes.plot([], [], " + (key.marker ? point_arguments(*key.marker, key.size, key.colour) : line_arguments(key.size, key.dash, key.colour)) +
-           label(key.label) + ")");
+           entry(key.label) + ")");
+  }
+
+  /// In as many columns as the layout has found room for, from the left edge of the panel's part of the paper.
+  void legend_below(const std::string& how) {
+    const auto columns = ranges::count_if(at_.keys, [](const KeyPlace& place) { return place.row == 0; });
+    const double under_em = at_.x_numbers ? spacing::numbers + (panel_.x_label.empty() ? 0 : spacing::axis_label) : 0;
+    line("axes.legend(loc='upper left', bbox_to_anchor=(" + fixed((at_.cell_left + (at_.keys.empty() ? 0.0 : at_.keys.front().x_cm)) / whole_.width_cm, 5) + ", " +
+         fixed((at_.frame.bottom - under_em * whole_.em_cm) / whole_.height_cm, 5) + "), bbox_transform=figure.transFigure, ncol=" +
+         std::to_string(columns) + ", columnspacing=1.2, labelspacing=0.25, borderpad=0, borderaxespad=0, handletextpad=0.3, handlelength=1.6" + how + ")");
   }
 
   void legend() {
@@ -164,7 +201,7 @@ class PyPanel {
       case Legend::above:
         return line("axes.legend(loc='lower right', bbox_to_anchor=(1, 1), ncol=" + std::to_string(legend_entries(panel_)) + how + ")");
       case Legend::below:
-        return line("axes.legend(loc='upper center', bbox_to_anchor=(0.5, -0.2), ncol=4" + how + ")");
+        return legend_below(how);
       case Legend::top_left:
         return line("axes.legend(loc='upper left'" + how + ")");
       case Legend::top_right:
@@ -190,9 +227,9 @@ class PyPanel {
 std::string matplotlib_script(const Figure& figure, const Layout& layout, const Table& table, const std::string& name,
                               const std::string& picture) {
   std::string out = "#!/usr/bin/env python3\n\"\"\"Written by slapstick. Change it at will, and draw in this folder: python3 SCRIPT [FILE.pdf ..]\"\"\"\n";
-  out += "import sys\n\nimport matplotlib\nmatplotlib.use('Agg')\nimport numpy\nfrom matplotlib import pyplot\n\n";
+  out += "import sys\n\nimport matplotlib\nmatplotlib.use('Agg')\nimport numpy\nfrom matplotlib import pyplot, ticker\n\n";
   out += "pyplot.rcParams.update({'font.size': " + number(figure.font_pt) + ", 'font.family': " + py_text(figure.font) +
-         ", 'xtick.direction': 'in', 'ytick.direction': 'in', 'xtick.top': True, 'ytick.right': True, 'axes.linewidth': 0.5})\n";
+         ", 'xtick.direction': 'in', 'ytick.direction': 'in', 'xtick.top': True, 'ytick.right': True, 'axes.linewidth': 0.5, 'axes.titlesize': 'medium', 'axes.labelpad': 2})\n";
   out += "small = " + number(figure.font_pt * spacing::legend_font) + "\n";
   if (!table.series.empty())
     out += "data = numpy.genfromtxt(" + py_text(table_name(name)) + ", delimiter=',', skip_header=1, ndmin=2)\n";

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "base/ranges.hpp"
-#include "latex.hpp"
+#include "commands.hpp"
+#include "inset_script.hpp"
 #include "style.hpp"
 #include "text.hpp"
 
@@ -36,49 +37,22 @@ class PanelScript {
 
   std::string text() {
     out_ = "\n  # ---- panel " + std::to_string(index_ + 1) + "\n";
-    frame();
-    axis("x", at_.x, at_.x_numbers);
-    axis("y", at_.y, true);
+    out_ += frame_commands(at_.frame, whole_);
+    out_ += axis_commands("x", at_.x, at_.x_numbers, latex_) + axis_commands("y", at_.y, true, latex_);
     words();
     marks();
     legend();
+    out_ += source_commands(panel_, at_, whole_);
     plot();
+    for (std::size_t i = 0; i < at_.insets.size(); ++i) out_ += inset_commands({panel_, at_, whole_, series_, name_, index_}, i, font_pt_, latex_);
     return out_;
   }
 
  private:
   void line(const std::string& command) { out_ += "  " + command + "\n"; }
 
-  std::string screen(double x_cm, double y_cm) const {
-    return "screen " + fixed(x_cm / whole_.width_cm, 5) + ", screen " + fixed(y_cm / whole_.height_cm, 5);
-  }
-
-  void frame() {
-    line("unset label; unset arrow; unset object; unset logscale; unset key");
-    line("set lmargin at screen " + fixed(at_.frame.left / whole_.width_cm, 5) + "; set rmargin at screen " +
-         fixed(at_.frame.right / whole_.width_cm, 5));
-    line("set bmargin at screen " + fixed(at_.frame.bottom / whole_.height_cm, 5) + "; set tmargin at screen " +
-         fixed(at_.frame.top / whole_.height_cm, 5));
-  }
-
-  void axis(const std::string& name, const Axis& axis, bool numbers) {
-    if (axis.log) line("set logscale " + name);
-    line("set " + name + "range [" + number(axis.range.min) + ":" + number(axis.range.max) + "]");
-    line("set format " + name + " " + quote(!numbers ? "" : latex_ ? latex_format(axis.format) : axis.format));
-    std::string ticks = "autofreq";
-    if (!axis.ticks.empty()) {
-      ticks.clear();
-      for (const double tick : axis.ticks) ticks += (ticks.empty() ? "(" : ", ") + number(tick);
-      ticks += ")";
-    } else if (axis.step > 0) {
-      ticks = number(axis.step);
-    }
-    line("set " + name + "tics " + ticks + "; set m" + name + "tics " +
-         (axis.log ? "default" : std::to_string(axis.minor)));
-  }
-
   void label(const std::string& text, double x_cm, double y_cm, const std::string& how) {
-    if (!text.empty()) line("set label " + quote(text) + " at " + screen(x_cm, y_cm) + " " + how);
+    if (!text.empty()) line("set label " + quote(text) + " at " + screen_place(whole_, x_cm, y_cm) + " " + how);
   }
 
   void words() {
@@ -148,7 +122,7 @@ class PanelScript {
                                " spacing 1.05 height 0.2 width 0 font '," + small_font_ + "'";
     if (at_.legend == Legend::above) {
       const double y = at_.frame.top + row_em(at_.mark_rows) * whole_.em_cm;
-      line("set key at " + screen(at_.frame.right, y) + " right center horizontal maxcols " +
+      line("set key at " + screen_place(whole_, at_.frame.right, y) + " right center horizontal maxcols " +
            std::to_string(legend_entries(panel_)) + " maxrows 1" + common);
       return;
     }
@@ -166,35 +140,21 @@ class PanelScript {
       const double to = text - spacing::after_sample * font_cm;
       const Key& key = place.key;
       if (key.marker)
-        line("set label '' at " + screen(0.5 * (from + to), y) + " point " +
+        line("set label '' at " + screen_place(whole_, 0.5 * (from + to), y) + " point " +
              point_style(*key.marker, key.size, key.colour));
       else
-        line("set arrow from " + screen(from, y) + " to " + screen(to, y) + " nohead " +
+        line("set arrow from " + screen_place(whole_, from, y) + " to " + screen_place(whole_, to, y) + " nohead " +
              line_style(key.size, key.dash, key.colour));
       label(key.label, text, y, "left font '," + small_font_ + "'");
     }
   }
 
   void plot() {
-    std::vector<std::string> parts, on_top;
+    std::vector<std::string> parts;
     if (at_.raster) raster_parts(parts);
     if (at_.legend != Legend::none && at_.legend != Legend::below) key_parts(parts);
-    std::size_t column = series_.first_column;
-    for (const std::size_t i : series_.points) {
-      const Points& points = panel_.points[i];
-      (points.over_lines ? on_top : parts)
-          .push_back(columns(column) + " with points " + point_style(points.marker, points.diameter_mm, points.colour) +
-                     title(points.label));
-    }
-    for (const std::size_t i : series_.lines) {
-      const Line& drawn = panel_.lines[i];
-      parts.push_back(columns(column) + " with lines " + line_style(drawn.width_pt, drawn.dash, drawn.colour) +
-                      title(drawn.label));
-    }
-    parts.insert(parts.end(), on_top.begin(), on_top.end());
-    if (parts.empty()) parts.push_back("NaN notitle");  // draws the axes
-    for (std::size_t i = 0; i < parts.size(); ++i)
-      line((i == 0 ? "plot " : "     ") + parts[i] + (i + 1 < parts.size() ? ", \\" : ""));
+    series_parts(panel_, series_, table_name(name_), [&](const std::string& label) { return title(label); }, parts);
+    out_ += plot_command(parts);
   }
 
   void key_parts(std::vector<std::string>& parts) const {
@@ -205,28 +165,15 @@ class PanelScript {
     }
   }
 
-  /// On linear axes the image lies in data coordinates; gnuplot cannot do that on logarithmic ones, where it fills the
-  /// frame.
   void raster_parts(std::vector<std::string>& parts) {
     const bool fill = at_.x.log || at_.y.log;
-    const Range x = fill ? Range{0, 1} : at_.x.range, y = fill ? Range{0, 1} : at_.y.range;
-    const double dx = (x.max - x.min) / at_.raster_width, dy = (y.max - y.min) / at_.raster_height;
     if (fill) line("set x2range [0:1]; set y2range [0:1]  # the frame; the image knows the ranges of x and y above");
-    parts.push_back(quote_file(raster_name(name_, index_)) + " binary filetype=png origin=(" +
-                    number(x.min + 0.5 * dx) + "," + number(y.min + 0.5 * dy) + ") dx=" + number(dx) +
-                    " dy=" + number(dy) + " using 1:2:3:4" + (fill ? " axes x2y2" : "") + " with rgbalpha notitle");
+    parts.push_back(image_part(raster_name(name_, index_), at_.x, at_.y, at_.raster_width, at_.raster_height));
     for (const Points& points : panel_.points)
       if (!points.label.empty() && in_raster(points))
         parts.push_back("keyentry with points pt 5 ps 0.6 lc rgb " + quote_colour(points.colour) + title(points.label));
     if (const auto both = colour_of_both(panel_))
       parts.push_back("keyentry with points pt 5 ps 0.6 lc rgb " + quote_colour(*both) + title("both"));
-  }
-
-  std::string columns(std::size_t& column) const {
-    const std::string text =
-        quote_file(table_name(name_)) + " skip 1 using " + std::to_string(column) + ":" + std::to_string(column + 1);
-    column += 2;
-    return text;
   }
 
   std::string title(const std::string& label) const {
@@ -290,6 +237,10 @@ std::string table_name(const std::string& name) { return name + "-plot.csv"; }
 
 std::string raster_name(const std::string& name, std::size_t panel) {
   return name + "-raster" + std::to_string(panel + 1) + ".png";
+}
+
+std::string inset_raster_name(const std::string& name, std::size_t panel, std::size_t inset) {
+  return name + "-raster" + std::to_string(panel + 1) + "-inset" + std::to_string(inset + 1) + ".png";
 }
 
 std::string script(const Figure& figure, const Layout& layout, const Table& table, const std::string& name,

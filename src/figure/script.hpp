@@ -17,5 +17,7 @@ std::string table_name(const std::string& name);
 
 /// File name of the image of a panel (counted from 0).
 std::string raster_name(const std::string& name, std::size_t panel);
+/// The same of an inset of a panel.
+std::string inset_raster_name(const std::string& name, std::size_t panel, std::size_t inset);
 
 }  // namespace slapstick::figure

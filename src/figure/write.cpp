@@ -92,6 +92,13 @@ void check_panel(const Panel& panel, const std::string& where) {
         where + ": an image holds at most 8 series of points");
   check_range(panel.x_range, panel.log_x, where + ": x");
   check_range(panel.y_range, panel.log_y, where + ": y");
+  check(panel.insets.size() <= most_insets, where + ": more than 4 insets");
+  check(panel.insets.empty() || (!panel.log_x && !panel.log_y), where + ": insets need linear axes");
+  for (std::size_t i = 0; i < panel.insets.size(); ++i) {
+    const std::string inset = where + ", inset " + std::to_string(i + 1);
+    check_range(panel.insets[i].x, false, inset + ": x");
+    check_range(panel.insets[i].y, false, inset + ": y");
+  }
   check(panel.height_share > 0 && std::isfinite(panel.height_share), where + ": height_share must be positive");
   for (const Mark& mark : panel.marks)
     check(mark.x || (mark.y && !mark.x_end), where + ": a mark needs x or y (and x if it has x_end)");
@@ -112,14 +119,14 @@ void check_figure(const Figure& figure, const Formats& formats) {
     check_panel(figure.panels[i], "panel " + std::to_string(i + 1));
 }
 
-std::string draw_raster(const Panel& panel, const PanelLayout& at) {
-  const Window window{at.x.range, at.y.range, at.x.log, at.y.log};
-  if (panel.cells) return encode_png(picture_of(*panel.cells, window, at.raster_width, at.raster_height));
+std::string draw_raster(const Panel& panel, const Axis& x, const Axis& y, int width, int height) {
+  const Window window{x.range, y.range, x.log, y.log};
+  if (panel.cells) return encode_png(picture_of(*panel.cells, window, width, height));
   std::vector<Counts> counts;
   std::vector<Colour> colours;
   for (const Points& points : panel.points) {
     if (!in_raster(points)) continue;
-    counts.push_back(count_points(points.x, points.y, window, at.raster_width, at.raster_height));
+    counts.push_back(count_points(points.x, points.y, window, width, height));
     spread_one_pixel(counts.back());
     colours.push_back(points.colour);
   }
@@ -151,6 +158,11 @@ void check_name(const std::string& name, const fs::path& stem) {
 
 }  // namespace
 
+void demand_room(const Figure& figure) {
+  check_figure(figure, {});
+  static_cast<void>(lay_out(figure));
+}
+
 Files write(const Figure& figure, const fs::path& stem, Formats formats, const std::string& beside) {
   check_figure(figure, formats);
   const std::string picture = stem.filename().string(), name = beside.empty() ? picture : beside;
@@ -166,8 +178,13 @@ Files write(const Figure& figure, const fs::path& stem, Formats formats, const s
     scratch.save(file, contents);
     names.push_back(file);
   };
-  for (std::size_t i = 0; i < figure.panels.size(); ++i)
-    if (layout.panels[i].raster) save(raster_name(name, i), draw_raster(figure.panels[i], layout.panels[i]));
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    const PanelLayout& at = layout.panels[i];
+    if (!at.raster) continue;
+    save(raster_name(name, i), draw_raster(figure.panels[i], at.x, at.y, at.raster_width, at.raster_height));
+    for (std::size_t k = 0; k < at.insets.size(); ++k)
+      save(inset_raster_name(name, i, k), draw_raster(figure.panels[i], at.insets[k].x, at.insets[k].y, at.insets[k].raster_width, at.insets[k].raster_height));
+  }
   const std::size_t raster_count = names.size();
   if (!table.series.empty()) save(table_name(name), to_csv(table));
   if (formats.py) save(picture + ".py", matplotlib_script(figure, layout, table, name, picture));

@@ -46,6 +46,12 @@ struct TableAxis {
   std::size_t count = 0;
 };
 
+/// Of a table that is several grids, one after another: their names, and the column that tells them apart.
+struct TableLayers {
+  std::string column{};
+  std::vector<std::string> names{};
+};
+
 /// Rows are given cell by cell, in the order of the columns.
 class ColumnTable {
  public:
@@ -61,8 +67,12 @@ class ColumnTable {
   [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
   [[nodiscard]] const std::vector<Attribute>& attributes() const { return attributes_; }
   /// Rows are the points of a grid, the last axis fastest; formats that have grids show it if no row is missing.
-  void over(std::vector<TableAxis> axes) { axes_ = std::move(axes); }
+  void over(std::vector<TableAxis> axes, TableLayers layers = {}) {
+    axes_ = std::move(axes);
+    layers_ = std::move(layers);
+  }
   [[nodiscard]] const std::vector<TableAxis>& axes() const { return axes_; }
+  [[nodiscard]] const TableLayers& layers() const { return layers_; }
   void unit(const std::string& column, const std::string& unit);  ///< of the column of that name, if it has none
 
  private:
@@ -71,6 +81,7 @@ class ColumnTable {
   std::vector<Column> columns_;
   std::vector<Attribute> attributes_;
   std::vector<TableAxis> axes_;
+  TableLayers layers_;
   std::size_t cell_ = 0;
 };
 

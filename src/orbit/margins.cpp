@@ -116,7 +116,19 @@ class AlongStep {
   const VectorXd& start_;
 };
 
-Least least_value(const Course& course, const mode::Guard& guard, bool with_start, bool with_end) {
+/// What the value of a guard at the leg's end says.
+enum class AtEnd {
+  counts,      ///< it is a value as any other
+  is_watched,  ///< nothing: it is the speed of the impact, a test of its own
+  is_zero      ///< the guard ends the leg there, and its slope there is a test of its own
+};
+
+/// The least value of a guard along a leg: at its ends, and at its minima.
+///
+/// A guard that ends the leg falls to its zero from the last maximum on. A minimum behind that maximum is this zero
+/// passed, by rounding or because the slope there has changed its sign: the slope at the end says so, and its place and
+/// value are those of the end. So a minimum of such a guard counts once a maximum has followed it.
+Least least_value(const Course& course, const mode::Guard& guard, bool with_start, AtEnd at_end) {
   constexpr double clear =
       1e-9;  // of the guard's size in the leg: what is nearer to a zero at the start is its rounding
   const mode::RowVector slope_row = guard.row * course.mode.outline.system,
@@ -130,24 +142,28 @@ Least least_value(const Course& course, const mode::Guard& guard, bool with_star
   }
   double size = 0.0, highest = 0.0;
   for (const double value : values) size = std::max(size, std::abs(value));
-  Least least;
+  Least least, behind_maximum;
   if (with_start) least.take(values.front(), 0.0);
-  if (with_end) least.take(values.back(), static_cast<double>(last) * course.step);
+  if (at_end == AtEnd::counts) least.take(values.back(), static_cast<double>(last) * course.step);
+  const auto take_maximum = [&] { least.take(behind_maximum.value, behind_maximum.at); };
   for (std::size_t i = 0; i < last; ++i) {
     const AlongStep value(course, guard.row, i), slope(course, slope_row, i);
     const auto take_minimum = [&](double a, double b) {
       if (!with_start && !(highest > clear * size)) return;
       const double s = slope.zero(a, b);
-      least.take(value.at(s), static_cast<double>(i) * course.step + s);
+      (at_end == AtEnd::is_zero ? behind_maximum : least).take(value.at(s), static_cast<double>(i) * course.step + s);
     };
     highest = std::max(highest, values[i]);
     if (slopes[i] < 0.0 && slopes[i + 1] >= 0.0) take_minimum(0.0, course.step);
+    if (slopes[i] > 0.0 && slopes[i + 1] <= 0.0) take_maximum();
     // A minimum and a maximum in one step: the slope turns back between them.
     if (slopes[i] * slopes[i + 1] <= 0.0 || bends[i] * bends[i + 1] >= 0.0 || bends[i] * slopes[i] > 0.0) continue;
     const double turn = AlongStep(course, bend_row, i).zero(0.0, course.step);
     if (slope.at(turn) * slopes[i] >= 0.0) continue;
     highest = std::max(highest, value.at(turn));
+    if (slopes[i] > 0.0) take_maximum();
     slopes[i] < 0.0 ? take_minimum(0.0, turn) : take_minimum(turn, course.step);
+    if (slopes[i] < 0.0) take_maximum();
   }
   return least;
 }
@@ -187,8 +203,8 @@ std::vector<TestValue> test_values(const ModeSet& set, const Orbit& orbit) {
     const auto& guards = course.mode.outline.guards;
     for (const mode::Guard& guard : guards) {
       const bool ending = leg.ending == Ending::guard && guard.kind == leg.kind && guard.contact == leg.contact;
-      const bool with_end = !ending && !is_speed_of(set.frame(), leg, guard);
-      const Least least = least_value(course, guard, !zero_by_event(set.frame(), before, guard), with_end);
+      const AtEnd at_end = ending ? AtEnd::is_zero : is_speed_of(set.frame(), leg, guard) ? AtEnd::is_watched : AtEnd::counts;
+      const Least least = least_value(course, guard, !zero_by_event(set.frame(), before, guard), at_end);
       all.push_back({Test::guard, i, guard.kind, guard.contact, least.value, least.at / set.period()});
     }
     bool starts_at_end = false;

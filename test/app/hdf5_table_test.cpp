@@ -145,6 +145,38 @@ TEST(Hdf5Table, a_grid_has_its_axes_as_dimension_scales) {
   EXPECT_EQ(file.numbers<double>("grid/w", H5T_NATIVE_DOUBLE), file.numbers<double>("w", H5T_NATIVE_DOUBLE));
 }
 
+/// Both directions, one after the other: a grid of each, with scales of its own.
+TEST(Hdf5Table, layers_are_grids_of_their_own) {
+  const auto table = [](int rows) {
+    ColumnTable made({"x", "y", "class", "direction", "w [m/s]"}, {});
+    made.over({{"y", "friction", 2}, {"x", "omega", 3}}, {"direction", {"up", "down"}});
+    for (int i = 0; i < rows; ++i) {
+      made.number(1.0 + i % 3);
+      made.number(0.1 * (i / 3 % 2));
+      made.word(i < 6 ? "1-1-I" : "chaotic");
+      made.word(i < 6 ? "up" : "down");
+      made.number(i);
+      made.end_row();
+    }
+    return made;
+  };
+  {
+    const Opened stopped(hdf5_file(table(11)));  // files of one name are not open together
+    EXPECT_FALSE(stopped.has("grid"));
+  }
+  const Opened file(hdf5_file(table(12)));
+  EXPECT_EQ(file.numbers<double>("grid/up/w", H5T_NATIVE_DOUBLE), (std::vector<double>{0, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(file.numbers<double>("grid/down/w", H5T_NATIVE_DOUBLE), (std::vector<double>{6, 7, 8, 9, 10, 11}));
+  EXPECT_EQ(file.numbers<int>("grid/up/class", H5T_NATIVE_INT), std::vector<int>(6, 0));
+  EXPECT_EQ(file.numbers<int>("grid/down/class", H5T_NATIVE_INT), std::vector<int>(6, 1));
+  EXPECT_EQ(file.numbers<double>("grid/down/omega", H5T_NATIVE_DOUBLE), (std::vector<double>{1, 2, 3}));
+  EXPECT_EQ(file.extent("grid/down/w"), (std::vector<hsize_t>{2, 3}));
+  EXPECT_EQ(file.scale_of("grid/down/w", 0), "/grid/down/friction");
+  EXPECT_EQ(file.scale_of("grid/up/class", 1), "/grid/up/omega");
+  EXPECT_EQ(file.text("grid/down/w", "units"), "m/s");
+  EXPECT_FALSE(file.has("grid/up/direction"));
+}
+
 /// A run that was stopped: rows are not at their place.
 TEST(Hdf5Table, a_grid_with_a_missing_row_is_a_table_only) {
   const Opened file(hdf5_file(grid_table(1)));

@@ -66,8 +66,9 @@ def test_a_chart_in_millimetres_fills_its_frame():
     assert 'unit = "m"' in model
     with open('m.toml', 'w') as file:
         file.write(model)
-    good('map', 'm.toml', '--x', 'omega=0.8:1.2:5', '--y', 'clearance=0.001:0.006:4', '--plot', 'a.png', '--out', 'a.csv')
-    assert '[mm]' in read('a.gp')
+    good('map', 'm.toml', '--x', 'omega=0.8:1.2:5', '--y', 'clearance=0.001:0.006:4', '--plot', 'a.png', '--out', 'a.csv',
+         '--inset', 'clearance=0.002:0.003,omega=0.85:0.95')
+    says(read('a.gp'), '[mm]', 'set yrange [2:3]', 'set xrange [0.85:0.95]')
     with open('a-raster1.png', 'rb') as file:
         png = file.read()
     width, height = struct.unpack('>II', png[16:24])
@@ -134,6 +135,35 @@ def test_refinement_is_refused_where_it_has_no_meaning():
     says(refused(2, *PAPER, '--refine', '4', '--store', 'a.db', '--slurm', '2'), '--refine', '--slurm')
     says(refused(2, *PAPER, '--refine', '1'), '--refine')
     says(refused(2, *PAPER, '--plot', 'a.png', '--show', 'computed'), '--show', 'computed')
+    assert os.listdir('.') == []
+
+
+def test_insets_are_in_every_panel_and_of_stores_too():
+    good(*PAPER, '--store', 'a.db', '--out', 'a.csv', '--plot', 'a.png', '--show', 'class,exponent', '--inset', 'omega=1.3:1.7,friction=0.1:0.14')
+    good('store', 'export', 'a.db', '--plot', 'b.png', '--show', 'class,exponent', '--inset', 'friction=0.1:0.14,omega=1.3:1.7')
+    assert read('a.gp') == read('b.gp').replace('b-raster', 'a-raster').replace("'b.", "'a.").replace('./b.', './a.').replace(' b.gp', ' a.gp')
+    for panel in '12':
+        with open('a-raster%s-inset1.png' % panel, 'rb') as a, open('b-raster%s-inset1.png' % panel, 'rb') as b:
+            assert a.read() == b.read()
+    says(good(*PAPER, '--store', 'a.db', '--plot', 'a.png', '--inset', 'omega=1.3:1.7,friction=0.1:0.14', '--slurm', '3'), '--inset omega=1.3:1.7,friction=0.1:0.14')
+
+
+def test_an_inset_of_a_diagram_is_in_the_panel_of_its_quantity():
+    words = ('diagram', 'impact-oscillator', '--sweep', 'omega=2:4:30', '--out', 'a.csv', '--plot', 'a.png')
+    good(*words, '--inset', 'omega=2.5:2.7,flight=0.9:1.1')
+    assert read('a.gp').count('# ---- inset') == 1 and '# ---- inset 1 of panel 2' in read('a.gp')
+    good(*words, '--y', 'x:rms,x:max', '--inset', 'x:rms=0.1:0.3,omega=2.5:2.7')
+    assert read('a.gp').count('# ---- inset') == 1 and '# ---- inset 1 of panel 1' in read('a.gp')
+    says(refused(2, *words, '--inset', 'omega=2.5:2.7,x=0:1'), '--inset', "'x'", "'w' or 'flight'")
+
+
+def test_insets_that_cannot_be_drawn_are_refused_before_the_work():
+    for text, *why in (('omega=1.3:1.7', 'X=A:B,Y=A:B'), ('omega=1.3:1.7,omega=1.3:1.7', "'friction'"), ('omega=1.7:1.3,friction=0.1:0.2', 'not below'),
+                       ('omega=0:1.7,friction=0.1:0.2', 'leaves the picture'), ('omega=1.3:1.7,fraction=0.1:0.2', "'fraction'"), ('omega=a:b,friction=0.1:0.2', "'a'")):
+        says(refused(2, *PAPER, '--plot', 'a.png', '--inset', text), '--inset', *why)
+    says(refused(2, *PAPER, '--plot', 'a.png', '--inset', 'omega=1.2:3,friction=0.1:0.3'), '--plot', 'inset 1', 'smaller rectangle')
+    says(refused(2, *PAPER, '--plot', 'a.png', *(('--inset', 'omega=1.3:1.4,friction=0.1:0.12') * 5)), '--inset', 'four')
+    says(refused(2, *PAPER, '--inset', 'omega=1.3:1.7,friction=0.1:0.2'), '--inset', '--plot')
     assert os.listdir('.') == []
 
 

@@ -244,8 +244,8 @@ void Engine::report_settled(Cause cause, const mode::ContactStates& old) {
     ended.kind = hit->kind;
     ended.contact = hit->contact;
   }
-  for (const int g : hits_) {
-    const mode::Guard& guard = system_->mode(segment_mode_).guards()[g];
+  for (std::size_t k = 1; k < hits_.size(); ++k) {  // the first has told: a touch at rest is one event, its graze
+    const mode::Guard& guard = system_->mode(segment_mode_).guards()[hits_[k]];
     if (guard.kind == GuardKind::slip) ended.rested |= std::uint32_t{1} << guard.contact;
   }
   const auto tell = [this](EventKind kind, int contact) { report(kind, contact, speed_of(kind, contact)); };

@@ -199,6 +199,27 @@ TEST(Batch, ABodyThatIsLetGoPassesThroughNoOther) {
   for (const Event& event : batch.runs[0].events) EXPECT_FALSE(event.kind == EventKind::release && event.contact < 2) << text_of(event);
 }
 
+/// A tie is a motion's to decide, and both stops have their rows.
+TEST(Batch, TellsOfBothBuffersThatAreMetAtOnce) {
+  Model model;
+  model.name = "twins";
+  model.coordinates = {{"left", 1.0}, {"right", 1.0}};
+  model.springs = {{0, ground, 1.0}, {1, ground, 1.0}};
+  model.dampers = {{0, ground, 0.1}, {1, ground, 0.1}};
+  model.forces = {{0, 1, 1.0}, {1, 1, 1.0}};
+  model.compliant_stops = {{"l", 0, ground, 0.3, 40.0, 2.0}, {"r", 1, ground, 0.3, 40.0, 2.0}};
+  model.omega = 1.3;
+  const std::vector<Pixel> one = {{model, {-0.2, 0.1, -0.2, 0.1}}};
+  expect_the_events_of_a_motion(one, 20, 0);
+  const Batch batch = run_batch(problem_of(one, {.periods = 20, .events = true}));
+  ASSERT_TRUE(batch.runs[0].in_lanes);
+  int left = 0, right = 0;
+  for (const Event& event : batch.runs[0].events)
+    if (event.kind == EventKind::engage) ++(event.contact == 0 ? left : right);
+  EXPECT_GE(left, 15);
+  EXPECT_EQ(left, right);
+}
+
 TEST(Batch, AModelThatNoLaneCanRunHasTheBitsOfAMotion) {
   for (const std::string name : {"two-sided-rattle", "falling-friction", "spool"}) {
     const ModelDefinition definition = load_model(name);

@@ -10,25 +10,15 @@ using mode::GuardKind;
 
 namespace {
 
-/// Of the event itself.
-EventKind kind_of(const Action& action, const mode::ContactStates& old) {
-  switch (action.jump) {
-    case Jump::impact:
-      return EventKind::impact;
-    case Jump::land:
-    case Jump::let_off: {
-      const auto i = static_cast<std::size_t>(action.stop);
-      const bool pushes = action.jump == Jump::let_off && old.compliant[i] == CompliantState::detached;
-      if (old.compliant[i] == CompliantState::off || pushes) return EventKind::engage;
-      return old.compliant[i] == CompliantState::detached ? EventKind::separate : EventKind::disengage;
-    }
-    default:
-      return EventKind::release;
-  }
+/// A compliant stop at its gap, or whose force has come to zero.
+EventKind kind_of(const Action& action, CompliantState old) {
+  const bool pushes = action.jump == Jump::let_off && old == CompliantState::detached;
+  if (old == CompliantState::off || pushes) return EventKind::engage;
+  return old == CompliantState::detached ? EventKind::separate : EventKind::disengage;
 }
 
 /// What has ended, as a guard of a motion.
-flow::Ended ended_of(const Shape& shape, const Action& action) {
+flow::Ended ended_of(const Shape& shape, const Action& action, const mode::ContactStates& old) {
   flow::Ended ended;
   ended.contact = action.contact;
   switch (action.jump) {
@@ -40,6 +30,7 @@ flow::Ended ended_of(const Shape& shape, const Action& action) {
     case Jump::let_off:
       ended.kind = GuardKind::engage;
       ended.contact = action.stop;
+      ended.own = kind_of(action, old.compliant[static_cast<std::size_t>(action.stop)]);
       break;
     case Jump::rest:
       ended.kind = GuardKind::slip;
@@ -47,6 +38,7 @@ flow::Ended ended_of(const Shape& shape, const Action& action) {
       break;
     default:
       ended.kind = action.contact < shape.stops ? GuardKind::press : GuardKind::stick_above;
+      ended.own = EventKind::release;
   }
   if (mode::of_friction(*ended.kind)) ended.contact -= shape.stops;
   return ended;
@@ -58,17 +50,17 @@ void report(const Shape& shape, const Model& model, const mode::Frame& frame, co
             Instant time, const double* u, std::vector<Event>& events) {
   const Action& action = shape.action_of(ending.mode, ending.slot, ending.side);
   const mode::ContactStates old = states_of(shape, ending.mode), now = states_of(shape, next);
-  if (action.jump != Jump::rest) events.push_back({kind_of(action, old), action.contact, time, ending.w, 0.0});
+  if (action.jump == Jump::impact) events.push_back({EventKind::impact, action.contact, time, ending.w, 0.0});
   const auto tell = [&](EventKind kind, int contact) {
     const int compliant = contact - shape.stops - shape.frictions;
     double w = 0.0;
     if (compliant >= 0) {
       const mode::ContactRow& row = frame.compliant[static_cast<std::size_t>(compliant)];
-      w = row.sign * u[row.own];
+      w = contact == action.contact ? ending.w : row.sign * u[row.own];
     }
     events.push_back({kind, contact, time, w, 0.0});
   };
-  flow::Changes(model, frame, ended_of(shape, action), old, now, tell).tell();
+  flow::Changes(model, frame, ended_of(shape, action, old), old, now, tell).tell();
 }
 
 }  // namespace slapstick::batch

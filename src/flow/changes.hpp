@@ -1,10 +1,10 @@
 #pragma once
-/// What a choice of mode tells: which contacts have other states than before, beside the contact whose event asked for
-/// the choice. Motions and lanes tell by the same rules.
+/// What a choice of mode tells: the event that asked for the choice, and which other contacts have other states than
+/// before. Motions and lanes tell by the same rules.
 ///
-/// A contact whose own event it is has been told before, or is told here as what its zero velocity has become. Of the
-/// contacts on one pair one speaks: their state is that of the pair. A friction contact that an impulse turns round is
-/// not told: the impact says it.
+/// Rows of one kind are in the order of the contacts: which of several zeros at one instant comes first in a search is
+/// rounding, and nobody sees it. Of the contacts on one pair one speaks: their state is that of the pair. A friction
+/// contact that an impulse turns round is not told: the impact says it.
 ///
 /// Cost: no allocation; a comparison for each contact. Source: docs/explanation/mode_graph.md.
 #include <cstdint>
@@ -20,6 +20,7 @@ namespace slapstick::flow {
 struct Ended {
   std::optional<mode::GuardKind> kind;  ///< of the guard that was zero; none: the limit of a chatter, a knot
   int contact = -1;                     ///< of that guard, counted among those of its kind
+  std::optional<EventKind> own;         ///< what the event itself is, unless told before: impact, graze, chatter, knot
   bool reversal = false;                ///< a velocity has come to zero, and none by an impulse
   std::uint32_t struck = 0;             ///< stops that got an impulse at this instant, bit by bit
   std::uint32_t rested = 0;             ///< friction contacts whose velocity came to zero too
@@ -35,6 +36,8 @@ class Changes {
       : model_(model), frame_(frame), ended_(ended), old_(old), now_(now), tell_(tell) {}
 
   void tell() {
+    const bool released = ended_.own == EventKind::release;
+    if (released) of_releases();
     if (!ended_.start) {
       of_compliant_stops();
       of_characteristics();
@@ -42,7 +45,7 @@ class Changes {
     }
     of_velocities();
     of_closings();
-    of_releases();
+    if (!released) of_releases();
   }
 
  private:
@@ -51,16 +54,21 @@ class Changes {
 
   void of_compliant_stops() {
     for (std::size_t i = 0; i < now_.compliant.size(); ++i) {
-      if (old_.compliant[i] == now_.compliant[i] || is_own(i, of_compliant)) continue;
-      tell_(kind_of(old_.compliant[i], now_.compliant[i]), first_compliant() + static_cast<int>(i));
+      const int contact = first_compliant() + static_cast<int>(i);
+      if (is_own(i, of_compliant))
+        tell_own(contact);
+      else if (old_.compliant[i] != now_.compliant[i])
+        tell_(kind_of(old_.compliant[i], now_.compliant[i]), contact);
     }
   }
 
   void of_characteristics() {
     const int first = first_compliant() + static_cast<int>(now_.compliant.size());
     for (std::size_t i = 0; i < now_.pieces.size(); ++i) {
-      const bool changes = old_.pieces[i] != now_.pieces[i];
-      if (changes && !is_own(i, mode::of_corner)) tell_(EventKind::corner, first + static_cast<int>(i));
+      if (is_own(i, mode::of_corner))
+        tell_own(first + static_cast<int>(i));
+      else if (old_.pieces[i] != now_.pieces[i])
+        tell_(EventKind::corner, first + static_cast<int>(i));
     }
   }
 
@@ -69,6 +77,7 @@ class Changes {
   void of_loads() {
     for (std::size_t i = 0; i < now_.frictions.size(); ++i) {
       const bool free = now_.frictions[i] == Friction::unloaded, was_free = old_.frictions[i] == Friction::unloaded;
+      if (is_own(i, mode::of_load)) tell_own(first_friction() + static_cast<int>(i));
       if (free == was_free || is_own(i, mode::of_load) || is_reversed(i)) continue;
       const bool told_below = old_.frictions[i] == Friction::stick || now_.frictions[i] == Friction::stick;
       if (told_below || stop_changes(i)) continue;
@@ -98,16 +107,23 @@ class Changes {
     }
   }
 
-  /// Of contacts on other pairs than the event's: its change of force, or its impulse, has let them go.
+  /// The event's own, and of contacts on other pairs: its change of force, or its impulse, has let them go.
   void of_releases() {
     for (std::size_t i = 0; i < now_.frictions.size(); ++i) {
       const bool released = old_.frictions[i] == Friction::stick && now_.frictions[i] != Friction::stick;
-      if (released && !of_pair(frame_.frictions[i])) tell_(EventKind::release, first_friction() + static_cast<int>(i));
+      const int contact = first_friction() + static_cast<int>(i);
+      if (is_own(i, of_hold))
+        tell_own(contact);
+      else if (released && !of_pair(frame_.frictions[i]))
+        tell_(EventKind::release, contact);
     }
     for (std::size_t i = 0; i < now_.stops.size(); ++i) {
       const bool released = old_.stops[i] == mode::StopState::closed && now_.stops[i] == mode::StopState::open;
       const bool struck = (ended_.struck >> i & 1U) != 0;  // its impact says it all
-      if (released && !struck && !of_pair(frame_.stops[i])) tell_(EventKind::release, static_cast<int>(i));
+      if (is_own(i, of_press))
+        tell_own(static_cast<int>(i));
+      else if (released && !struck && !of_pair(frame_.stops[i]))
+        tell_(EventKind::release, static_cast<int>(i));
     }
   }
 
@@ -122,6 +138,16 @@ class Changes {
     using mode::GuardKind;
     return kind == GuardKind::engage || kind == GuardKind::leave || kind == GuardKind::let_go ||
            kind == GuardKind::push || kind == GuardKind::bound || kind == GuardKind::beyond;
+  }
+
+  static bool of_hold(mode::GuardKind kind) {
+    return kind == mode::GuardKind::stick_above || kind == mode::GuardKind::stick_below;
+  }
+
+  static bool of_press(mode::GuardKind kind) { return kind == mode::GuardKind::press; }
+
+  void tell_own(int contact) {
+    if (ended_.own) tell_(*ended_.own, contact);
   }
 
   [[nodiscard]] bool is_own(std::size_t i, bool (*of)(mode::GuardKind)) const {

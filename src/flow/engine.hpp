@@ -2,6 +2,7 @@
 /// What a Motion does: flights, and what happens at their ends (ties, impacts, rest, chatter, the next mode). See
 /// slapstick/flow/motion.hpp.
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -68,8 +69,14 @@ class Engine : public Flight {
   void touch(int stop, bool graze);
   bool end_chatter(double limit);
   void choose_mode();
-  void settle(Cause cause);
-  void report_settled(Cause cause, const mode::ContactStates& old);
+  struct Own {
+    EventKind kind;
+    int contact;
+    double w;  ///< as it was before the event
+  };
+  [[nodiscard]] Own own(EventKind kind, int contact) const { return {kind, contact, speed_of(kind, contact)}; }
+  void settle(Cause cause, std::optional<Own> own = {});
+  void report_settled(Cause cause, const std::optional<Own>& own, const mode::ContactStates& old);
   [[nodiscard]] double speed_of(EventKind kind, int contact) const;
   [[nodiscard]] double value_of(const mode::RowVector& row) const;
   void report(EventKind kind, int contact, double w) { report(kind, contact, w, X_); }

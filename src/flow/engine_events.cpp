@@ -85,10 +85,11 @@ void Engine::gather_ties(int guard) {
 /// A holding force has reached its limit: release. A force that only touches its limit holds on (|f0| <= f_s is stick):
 /// the guard has a double zero here, and the mode goes on unless its next derivative says otherwise.
 void Engine::force_limit(int guard, int contact, bool graze) {
-  report(graze ? EventKind::graze : EventKind::release, contact, 0.0);
+  if (!graze) return settle(Cause::force, own(EventKind::release, contact));
+  report(EventKind::graze, contact, 0.0);
   note_magnitude(X_);
   const mode::Mode& mode = *here_;
-  const int touched = graze ? start_order(mode, guard, X_.data(), magnitude_.data(), 2) : negative;
+  const int touched = start_order(mode, guard, X_.data(), magnitude_.data(), 2);
   if (touched == negative) return settle(Cause::force);
   for (int g = 0; g < mode.guard_count(); ++g) orders_[g] = start_order(mode, g, X_.data(), magnitude_.data());
   orders_[guard] = touched;
@@ -156,12 +157,8 @@ void Engine::compliant_limit(int compliant, GuardKind kind) {
   const bool was_on = here_->states().compliant[compliant] != mode::CompliantState::detached;
   at_gap ? land(system_->frame().compliant[compliant]) : let_off(compliant);
   const bool begins = kind == GuardKind::engage || kind == GuardKind::push;
-  const mode::ContactRow& row = system_->frame().compliant[compliant];
-  report(begins   ? EventKind::engage
-         : was_on ? EventKind::disengage
-                  : EventKind::separate,
-         stops() + frictions() + compliant, row.sign * X_.data()[system_->frame().u(row.own)]);
-  settle(Cause::compliant);
+  const EventKind event = begins ? EventKind::engage : was_on ? EventKind::disengage : EventKind::separate;
+  settle(Cause::compliant, own(event, stops() + frictions() + compliant));
 }
 
 /// The displacement (velocity) of a characteristic made that of its corner, or a force made zero, but for the rounding
@@ -182,22 +179,13 @@ void Engine::land_on_crossing(const mode::Guard& guard) {
 /// A characteristic passes a corner, a normal force or the excess of a spring force its zero; or touches it.
 void Engine::cross(int guard, bool graze) {
   const mode::Guard& hit = here_->guards()[guard];
-  const mode::Frame& frame = system_->frame();
-  const int first = stops() + frictions();  // of the compliant stops
-  if (of_corner(hit.kind)) {
-    const int contact = first + compliants() + hit.contact;
-    if (graze) return force_limit(guard, contact, graze);
-    report(EventKind::corner, contact, speed_of(EventKind::corner, contact));
-    return settle(Cause::compliant);
-  }
-  const int contact = (of_load(hit.kind) ? stops() : first) + hit.contact;
-  if (graze) return force_limit(guard, contact, graze);
-  const mode::ContactRow& row = of_load(hit.kind) ? frame.frictions[hit.contact] : frame.compliant[hit.contact];
-  report(hit.kind == GuardKind::load       ? EventKind::unload
-         : hit.kind == GuardKind::unloaded ? EventKind::load
-                                           : EventKind::corner,
-         contact, row.sign * X_.data()[frame.u(row.own)]);
-  settle(Cause::compliant);
+  const int compliant = stops() + frictions();  // the first of them
+  const int first = of_corner(hit.kind) ? compliant + compliants() : of_load(hit.kind) ? stops() : compliant;
+  if (graze) return force_limit(guard, first + hit.contact, graze);
+  const EventKind event = hit.kind == GuardKind::load       ? EventKind::unload
+                          : hit.kind == GuardKind::unloaded ? EventKind::load
+                                                            : EventKind::corner;
+  settle(Cause::compliant, own(event, first + hit.contact));
 }
 
 /// The mode that may start now, from which a new flight begins.
@@ -223,20 +211,21 @@ void Engine::reconcile_contacts() {
   }
 }
 
-/// Decides the next mode after an event and reports what follows from it at once.
-void Engine::settle(Cause cause) {
+/// Decides the next mode after an event and reports the event, unless that is done, and what follows from it at once.
+void Engine::settle(Cause cause, std::optional<Own> own) {
   const mode::ContactStates& old = here_->states();
   if (approaching() >= 0) strike_all();  // a tie
   reconcile_contacts();
   choose_mode();
   if (cause != Cause::impact && cause != Cause::start) chatter_stop_ = -1;
-  report_settled(cause, old);
+  report_settled(cause, own, old);
 }
 
 /// What the new mode says about all contacts.
-void Engine::report_settled(Cause cause, const mode::ContactStates& old) {
+void Engine::report_settled(Cause cause, const std::optional<Own>& own, const mode::ContactStates& old) {
   const mode::Guard* hit = hit_guard();
   Ended ended;
+  if (own) ended.own = own->kind;
   ended.reversal = cause == Cause::reversal;
   ended.start = cause == Cause::start;
   ended.struck = at_instant_.struck;
@@ -244,11 +233,14 @@ void Engine::report_settled(Cause cause, const mode::ContactStates& old) {
     ended.kind = hit->kind;
     ended.contact = hit->contact;
   }
-  for (const int g : hits_) {
-    const mode::Guard& guard = system_->mode(segment_mode_).guards()[g];
+  for (std::size_t k = 1; k < hits_.size(); ++k) {  // the first has told: a touch at rest is one event, its graze
+    const mode::Guard& guard = system_->mode(segment_mode_).guards()[hits_[k]];
     if (guard.kind == GuardKind::slip) ended.rested |= std::uint32_t{1} << guard.contact;
   }
-  const auto tell = [this](EventKind kind, int contact) { report(kind, contact, speed_of(kind, contact)); };
+  const auto tell = [&](EventKind kind, int contact) {
+    const bool itself = own && own->kind == kind && own->contact == contact;
+    report(kind, contact, itself ? own->w : speed_of(kind, contact));
+  };
   Changes(system_->model(), system_->frame(), ended, old, here_->states(), tell).tell();
 }
 

@@ -65,7 +65,9 @@ std::optional<Blow> Blows::between(const mode::Outline& last, const Moving& befo
   const bool struck = struck_ != 0;
   if (struck) {
     const Impulses of = impulses(before, after);
-    const Formulas formulas(model_, frame_, last);  // velocities do not depend on a parameter but by their drift
+    const bool asked = std::any_of(of_.begin(), of_.end(), [](const Quantity& one) { return one.kind == Quantity::Kind::acceleration; });
+    std::optional<Formulas> formulas;
+    if (asked) formulas.emplace(model_, frame_, last);  // velocities do not depend on a parameter but by their drift
     for (std::size_t k = 0; k < of_.size(); ++k) {
       blow.impulses[k] = share(of_[k], of_[k].index, of, formulas, before, after);
       if (of_[k].minus >= 0) blow.impulses[k] -= share(of_[k], of_[k].minus, of, formulas, before, after);
@@ -88,32 +90,43 @@ std::optional<Blow> Blows::between(const mode::Outline& last, const Moving& befo
   return happens ? std::optional(std::move(blow)) : std::nullopt;
 }
 
+/// What an impulse of one stop adds to the speed of another.
+Matrix Blows::coupling(const std::vector<int>& stops, const Matrix& mass_inverse) const {
+  const auto count = static_cast<Eigen::Index>(stops.size());
+  const auto row = [&](Eigen::Index i) { return frame_.stops[static_cast<std::size_t>(stops[static_cast<std::size_t>(i)])]; };
+  Matrix D(count, count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    for (Eigen::Index j = 0; j < count; ++j) D(i, j) = row(i).sign * row(j).sign * mass_inverse(row(i).own, row(j).own);
+  return D;
+}
+
+/// Of the stops that were struck: made once for each set of stops.
+const Matrix& Blows::inverse_coupling(const std::vector<int>& stops) {
+  for (const auto& [struck, inverse] : inverses_)
+    if (struck == struck_) return inverse;
+  return inverses_.emplace_back(struck_, mode::least_norm_inverse(coupling(stops, frame_.mass_inverse))).second;
+}
+
 /// M dv = -sum_i g_i P_i over the stops that were struck: in contact coordinates dw_i = -sum_j D_ij P_j. Each takes P_i
 /// (w_i- + w_i+) / 2. The derivative of P is -D^+ (dw' + D' P).
-Blows::Impulses Blows::impulses(const Moving& before, const Moving& after) const {
+Blows::Impulses Blows::impulses(const Moving& before, const Moving& after) {
   Impulses of;
   for (int i = 0; i < static_cast<int>(model_.stops.size()); ++i)
     if ((struck_ >> static_cast<unsigned>(i) & 1U) != 0) of.stops.push_back(i);
   const auto count = static_cast<Eigen::Index>(of.stops.size());
   const auto row = [&](Eigen::Index i) { return frame_.stops[static_cast<std::size_t>(of.stops[static_cast<std::size_t>(i)])]; };
-  const auto between_stops = [&](const Matrix& all) {
-    Matrix D(count, count);
-    for (Eigen::Index i = 0; i < count; ++i)
-      for (Eigen::Index j = 0; j < count; ++j) D(i, j) = row(i).sign * row(j).sign * all(row(i).own, row(j).own);
-    return D;
-  };
   const auto speeds = [&](const Vector& X) {
     Vector w(count);
     for (Eigen::Index i = 0; i < count; ++i) w[i] = row(i).sign * X[frame_.u(row(i).own)];
     return w;
   };
-  const Matrix inverse = mode::least_norm_inverse(between_stops(frame_.mass_inverse));
+  const Matrix& inverse = inverse_coupling(of.stops);
   const Vector jump = speeds(after.X) - speeds(before.X), sum = speeds(after.X) + speeds(before.X);
   const Vector P = -inverse * jump;
   Vector P_rate = Vector::Zero(count), sum_rate = P_rate;
   if (rates_ != nullptr) {
     const Vector w = speeds(before.by), v = speeds(after.by);
-    P_rate = -inverse * (v - w + between_stops(rates_->frame.mass_inverse) * P);
+    P_rate = -inverse * (v - w + coupling(of.stops, rates_->frame.mass_inverse) * P);
     sum_rate = v + w;
   }
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -124,10 +137,10 @@ Blows::Impulses Blows::impulses(const Moving& before, const Moving& after) const
 }
 
 /// The impulse of a quantity of one coordinate or contact.
-Number Blows::share(const Quantity& quantity, int index, const Impulses& of, const Formulas& formulas,
+Number Blows::share(const Quantity& quantity, int index, const Impulses& of, const std::optional<Formulas>& formulas,
                     const Moving& before, const Moving& after) const {
   if (quantity.kind == Quantity::Kind::acceleration) {
-    const RowVector row = formulas.velocity(index).value.segment(frame_.d, frame_.n);
+    const RowVector row = formulas->velocity(index).value.segment(frame_.d, frame_.n);
     const auto jump = [&](const Vector& from, const Vector& to) {
       const Vector change = to - from;  // the drift of a belt does not jump
       return row.dot(change.segment(frame_.d, frame_.n));

@@ -4,7 +4,9 @@
 /// Impulses follow from the jump between two states, never from the impact law, so that they are what momentum asks
 /// for. Numbers have their derivatives by the parameter of the trace beside them (zero without one).
 #include <cstdint>
+#include <deque>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "quantity/formula.hpp"
@@ -71,9 +73,11 @@ class Blows {
     std::vector<Number> P, loss;
   };
 
-  [[nodiscard]] Impulses impulses(const Moving& before, const Moving& after) const;
-  [[nodiscard]] Number share(const Quantity& quantity, int index, const Impulses& of, const Formulas& formulas,
-                             const Moving& before, const Moving& after) const;
+  [[nodiscard]] Matrix coupling(const std::vector<int>& stops, const Matrix& mass_inverse) const;
+  [[nodiscard]] const Matrix& inverse_coupling(const std::vector<int>& stops);
+  [[nodiscard]] Impulses impulses(const Moving& before, const Moving& after);
+  [[nodiscard]] Number share(const Quantity& quantity, int index, const Impulses& of,
+                             const std::optional<Formulas>& formulas, const Moving& before, const Moving& after) const;
   void let_go(const mode::Outline& last, const mode::Outline& next, const Moving& before, Blow& blow) const;
   void engage(const mode::Outline& last, const mode::Outline& next, const Moving& before, Blow& blow);
   [[nodiscard]] Since since(int contact) const;
@@ -86,6 +90,7 @@ class Blows {
   const Rates* rates_;
   std::uint32_t struck_ = 0;
   std::vector<Struck> impacts_;
+  std::deque<std::pair<std::uint32_t, Matrix>> inverses_;  ///< by the stops that were struck
   Number now_, slid_;
   std::vector<std::optional<Mark>> marks_;  ///< the last one of each contact, and of any behind them
 };

@@ -15,8 +15,10 @@ class Follower {
 
   /// After a call of advance.
   void look(bool event) {
-    if (motion_.counters().segments != segments_) piece(event && motion_.event().kind == EventKind::chatter);
+    const bool flown = motion_.counters().segments != segments_;
+    if (flown) piece(event && motion_.event().kind == EventKind::chatter);
     if (!event) return;
+    if (flown) tracer_.arrive(motion_.engine().extended_before().data());
     const Event& last = motion_.event();
     if (last.kind == EventKind::impact) tracer_.impact(last.contact, last.w);
     if (last.kind == EventKind::chatter) tracer_.begin_flight(last.contact, Number{last.time.since(origin_) * motion_.system().period(), 0.0});

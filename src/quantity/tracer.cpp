@@ -231,6 +231,11 @@ void Tracer::catch_up() {
   behind_ = nullptr;
 }
 
+void Tracer::arrive(const double* X) {
+  at_.X = Eigen::Map<const Vector>(X, frame_.size());
+  behind_ = nullptr;
+}
+
 /// Taylor's terms over a step of length `longest`, of X and of Y.
 void Tracer::expand(const Expansion& mode) {
   const Eigen::Index m = at_.X.size();

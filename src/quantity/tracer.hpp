@@ -62,6 +62,8 @@ class Tracer {
   /// @param longest  time over which the Taylor polynomial of degree 23 is exact but for rounding
   void piece(const std::shared_ptr<const mode::Outline>& mode, double longest, const double* X, double begin,
              double duration, const PieceRates* rates = nullptr);
+  /// X at the end of the last piece, where the caller has it: otherwise it is computed when a blow asks for it.
+  void arrive(const double* X);
   /// At the end of the last piece, or (of a chatter) at the start of the next one: these stops, bit by bit, get an
   /// impulse ..
   void strike(std::uint32_t stops) { blows_.strike(stops); }

@@ -95,9 +95,14 @@ bool goes_past(const Problem& problem, const Branch& branch, const Branch& other
   return point.after + 1 < other.points.size() && on_it(point.after) && on_it(point.after + 1);
 }
 
-/// Places that are known by extrapolation: onsets of chatter and what gathers there, motions that die out.
+/// Onsets of chatter, and what gathers there: their places are limits.
 bool is_limit(const SpecialPoint& point) {
-  return point.type == SpecialType::CH || point.passage == Passage::cascade || point.occurrence == Occurrence::death;
+  return point.type == SpecialType::CH || point.passage == Passage::cascade;
+}
+
+/// Where a motion dies out several margins vanish together: which of them is named may depend on the start.
+bool may_have_another_name(const SpecialPoint& point) {
+  return is_limit(point) || point.occurrence == Occurrence::death || !changes_events(point.type);
 }
 
 std::string words(const SpecialPoint& point) {
@@ -107,7 +112,7 @@ std::string words(const SpecialPoint& point) {
 
 /// A change of events has one name from wherever it is come to: type, kind of sliding, what the branch does there.
 bool named_alike(const SpecialPoint& a, const SpecialPoint& b) {
-  if (is_limit(a) || is_limit(b) || !changes_events(a.type)) return true;
+  if (may_have_another_name(a) || may_have_another_name(b)) return true;
   return a.type == b.type &&
          (!goes_on(a.passage) || !goes_on(b.passage) || (a.passage == b.passage && a.sliding == b.sliding));
 }

@@ -48,6 +48,7 @@ Report run_orbit(const Options& options);
 Report run_families(const Options& options);
 Report run_branches(const Options& options);
 Report run_classes(const Options& options);
+Report run_charts(const Options& options);
 Report run_lanes(const Options& options);
 Report run_lane_grazes(const Options& options);
 Report run_peers(const Options& options);

@@ -16,6 +16,8 @@ const std::vector<Campaign>& campaigns() {
       {"branches", "branches followed from three starts each have the same special points", "cases", 300, run_branches},
       {"classes", "what classify says, also right beside special points, against orbits and 50 digits", "cases", 10'000,
        run_classes},
+      {"charts", "pixels of the gallery's charts, at boundaries and anywhere, against classify alone",
+       "boundary pixels of each chart", 200, run_charts},
       {"lanes", "runs of a batch have the events of a motion", "runs", 100'000, run_lanes},
       {"lane-grazes", "near-grazes in the lanes of a batch, against a motion and a certain search", "starts", 1'000'000,
        run_lane_grazes},

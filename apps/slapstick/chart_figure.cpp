@@ -213,9 +213,10 @@ void draw_scale(const std::vector<double>& values, bool whole, const char* none,
   };
   if (finite.empty()) return panel.keys.push_back(swatch(none, undecided_colour));
   const double step = std::max(round_step(range.max - range.min), whole ? 1.0 : 0.0);
-  text(range.min, "\u2264 %.3g");
+  const auto [least, most] = std::minmax_element(finite.begin(), finite.end());
+  text(range.min, *least < range.min ? "\u2264 %.3g" : "%.3g");
   for (double tick = std::floor(range.min / step + 1.2) * step; tick < range.max - 0.2 * step; tick += step) text(tick, "%.6g");
-  text(range.max, "\u2265 %.3g");
+  text(range.max, *most > range.max ? "\u2265 %.3g" : "%.3g");
   if (finite.size() < values.size()) panel.keys.push_back(swatch(none, undecided_colour));
 }
 

@@ -58,6 +58,19 @@ class ChartCurves:
     explained: int
     without: int
 
+    def plot(self, ax: Any = None) -> Any:
+        """Draws the curves, a style for each type as `slapstick map --curves` has it: on the axes of a chart, which
+        `Map.plot` returns. Returns the axes."""
+        ax = axes(ax)
+        named: set[str] = set()
+        for curve in self.curves:
+            dash, colour = CURVE_STYLES.get(curve.type, ("-", "#0000aa"))
+            ax.plot(curve.x, curve.y, color="white", linewidth=1.9, scalex=False, scaley=False)
+            label = None if curve.type in named else curve.type
+            ax.plot(curve.x, curve.y, dash, color=colour, linewidth=0.8, label=label, scalex=False, scaley=False)
+            named.add(curve.type)
+        return ax
+
 
 class Map(Result):
     """What the motion is at every pixel of a chart, as columns of shape (k,): a row for each motion that was found.
@@ -182,9 +195,14 @@ class Map(Result):
             values = numbers[column]
             shown = ax.imshow(self.grid(values, direction), origin="lower", extent=extent, aspect="auto", cmap="cividis")
             ax.figure.colorbar(shown, ax=ax, label=column)
-        ax.set_xlabel(self.x_name)
-        ax.set_ylabel(self.y_name)
+        ax.set_xlabel(self._with_unit(self.x_name))
+        ax.set_ylabel(self._with_unit(self.y_name))
         return ax
+
+    def _with_unit(self, name: str) -> str:
+        """The name of an axis, with the unit that the model states for that parameter."""
+        units = {row[0]: row[2] for row in self.model.parameters._table()}
+        return f"{name} [{units[name]}]" if units.get(name, "1") not in ("1", "") else name
 
     def _facts(self) -> list[tuple[str, str]]:
         names, areas = np.unique(self.label, return_counts=True)
@@ -193,6 +211,10 @@ class Map(Result):
         facts += [("classes", ", ".join(f"{name} {area / max(len(self), 1):.0%}" for area, name in largest))]
         return facts + ([("failed", str(len(self.failures)))] if self.failures else [])
 
+
+# As the program's curves (apps/slapstick/chart_curves_figure.cpp).
+CURVE_STYLES = {"LP": (":", "black"), "GR": ("--", "black"), "CH": ("--", "#aa0000"), "SL": ("-.", "black")}
+CURVE_STYLES |= {"CO": ("-.", "#aa0000"), "PD": ("-", "black"), "NS": ("-", "#aa0000")}
 
 # As the program's charts (apps/slapstick/chart_colours.hpp).
 CLASS_COLOURS = "#2288ee #ff8800 #ffbb88 #004455 #00ccff #774400 #aa66aa #ff2244 #4400bb #550077".split()

@@ -93,6 +93,17 @@ def test_a_chart_is_seen_as_a_picture():
     assert slapstick.map("vibro-impact", X, Y).plot().get_xlabel() == "omega"
 
 
+def test_curves_are_drawn_over_a_chart_whose_axes_stay():
+    pytest.importorskip("matplotlib")
+    chart = slapstick.map("impact-oscillator", ("omega", 0.5, 1.5, 24), ("clearance", 0.3, 1, 18), damping_ratio=0.8)
+    found = chart.curves(1)
+    ax = chart.plot()
+    limits = ax.get_xlim(), ax.get_ylim()
+    assert found.plot(ax) is ax and (ax.get_xlim(), ax.get_ylim()) == limits
+    assert len(ax.lines) == 2 * len(found.curves) == 2
+    assert ax.lines[1].get_label() == found.curves[0].type == "GR"
+
+
 def test_the_legend_of_a_chart_names_the_whole_area():
     pytest.importorskip("matplotlib")
     chart = slapstick.map("vibro-impact", ("omega", 1, 6, 60), ("friction", 0.05, 0.3, 40))

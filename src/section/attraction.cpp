@@ -139,39 +139,60 @@ Attraction attraction(const ReturnMap& map, const Followed& followed, const Fixe
 
 namespace {
 
-/// The part of a residual that moves of no null direction can mend is left; the rest is mended in the least move.
-VectorXd least_move(const dense::SingularVectors& by, Index nulls, const VectorXd& residual) {
-  const Index regular = by.values.size() - nulls;
-  return by.right.leftCols(regular) *
-         (by.left.leftCols(regular).transpose() * residual).cwiseQuotient(by.values.head(regular));
-}
+/// Fixed points of the map of n points near x, in numbers relative to the motion's size: the linear part of the map
+/// there, and its null directions, along which there may be others.
+class Beside {
+ public:
+  Beside(const ReturnMap& map, const VectorXd& x, int n, const VectorXd& scale, Stop stop)
+      : map_(map), n_(n), stop_(stop), sizes_(map.translations().numbers(scale)), here_(map.translations().numbers(x)) {
+    constexpr double null = 1e-6;  // a double multiplier 1, as of a conservative model, is known to half the digits
+    const MatrixXd jacobian = map.value(x, n, stop).jacobian;
+    by_ = dense::singular_vectors(sizes_.cwiseInverse().asDiagonal() *
+                                  (jacobian - MatrixXd::Identity(here_.size(), here_.size())) * sizes_.asDiagonal());
+    nulls_ = (by_.values.array() < null).count();
+  }
+
+  [[nodiscard]] Index size() const { return here_.size(); }
+  [[nodiscard]] Index nulls() const { return nulls_; }
+  [[nodiscard]] VectorXd direction(Index k) const { return by_.right.col(k); }
+  [[nodiscard]] VectorXd state(const VectorXd& y) const { return map_.translations().representative(here_ + y.cwiseProduct(sizes_)); }
+
+  /// By how much the point at y misses its return.
+  [[nodiscard]] VectorXd residual(const VectorXd& y) const {
+    const VectorXd at = here_ + y.cwiseProduct(sizes_);
+    const VectorXd image = map_.value(map_.translations().representative(at), n_, stop_).image;
+    return (map_.translations().numbers(image) - at).cwiseQuotient(sizes_);
+  }
+
+  /// The part of a residual that moves of no null direction can mend is left; the rest is mended in the least move.
+  [[nodiscard]] VectorXd least_move(const VectorXd& residual) const {
+    const Index regular = by_.values.size() - nulls_;
+    return by_.right.leftCols(regular) *
+           (by_.left.leftCols(regular).transpose() * residual).cwiseQuotient(by_.values.head(regular));
+  }
+
+ private:
+  const ReturnMap& map_;
+  int n_;
+  Stop stop_;
+  VectorXd sizes_, here_;
+  dense::SingularVectors by_;
+  Index nulls_ = 0;
+};
 
 }  // namespace
 
 int family(const ReturnMap& map, const VectorXd& x, int n, const VectorXd& scale, Stop stop) {
-  const flow::Translations& translations = map.translations();
-  constexpr double null = 1e-6;    // a double multiplier 1, as of a conservative model, is known to half the digits
   constexpr double aside = 1e-3;   // of the motion's size
   constexpr double closed = 1e-9;  // a fold leaves a residual of the order of aside^2
-  const VectorXd sizes = translations.numbers(scale);
-  const auto residual = [&](const VectorXd& numbers) {
-    const VectorXd at = translations.representative(numbers);
-    const VectorXd image = map.value(at, n, stop).image;
-    return VectorXd((translations.numbers(image) - numbers).cwiseQuotient(sizes));
-  };
-  const VectorXd here = translations.numbers(x);
-  const MatrixXd jacobian = map.value(x, n, stop).jacobian;
-  const MatrixXd scaled = sizes.cwiseInverse().asDiagonal() *
-                          (jacobian - MatrixXd::Identity(here.size(), here.size())) * sizes.asDiagonal();
-  const dense::SingularVectors by = dense::singular_vectors(scaled);
-  const Index nulls = (by.values.array() < null).count();
+  const Beside beside(map, x, n, scale, stop);
   int dimensions = 0;
-  for (Index k = here.size() - nulls; k < here.size(); ++k) {
+  for (Index k = beside.size() - beside.nulls(); k < beside.size(); ++k) {
     const auto has_member = [&](double move) {
-      VectorXd y = move * by.right.col(k);
+      VectorXd y = move * beside.direction(k);
       try {
-        for (int step = 0; step < 2; ++step) y -= least_move(by, nulls, residual(here + y.cwiseProduct(sizes)));
-        return residual(here + y.cwiseProduct(sizes)).cwiseAbs().maxCoeff() < closed;
+        for (int step = 0; step < 2; ++step) y -= beside.least_move(beside.residual(y));
+        return beside.residual(y).cwiseAbs().maxCoeff() < closed;
       } catch (const InputError&) {  // behind a stop
       } catch (const NumericalError&) {
       }
@@ -180,6 +201,11 @@ int family(const ReturnMap& map, const VectorXd& x, int n, const VectorXd& scale
     if (has_member(aside) && has_member(-aside)) ++dimensions;
   }
   return stopped(stop) ? 0 : dimensions;
+}
+
+VectorXd nearest_fixed_point(const ReturnMap& map, const VectorXd& x, int n, const VectorXd& scale, Stop stop) {
+  const Beside beside(map, x, n, scale, stop);
+  return beside.state(-beside.least_move(beside.residual(VectorXd::Zero(beside.size()))));
 }
 
 }  // namespace slapstick::section

@@ -43,4 +43,10 @@ struct Followed {
 [[nodiscard]] int family(const ReturnMap& map, const Eigen::VectorXd& x, int n, const Eigen::VectorXd& scale,
                          Stop stop);
 
+/// Where the linear part of the map has its fixed point nearest to x, which returns almost: on a continuum of cycles
+/// the member that x comes to, with an error of the order of the square of what x misses.
+/// @param n  as of attraction. Cost: two maps. @throws InputError, NumericalError where the point is no motion's
+[[nodiscard]] Eigen::VectorXd nearest_fixed_point(const ReturnMap& map, const Eigen::VectorXd& x, int n,
+                                                  const Eigen::VectorXd& scale, Stop stop);
+
 }  // namespace slapstick::section

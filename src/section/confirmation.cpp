@@ -64,13 +64,20 @@ FixedPoint Confirmation::once_round(FixedPoint found, int& n) const {
   return found;
 }
 
+/// On a family a multiplier is 1 but for rounding, on either side, and nothing draws motions to one member. Of a free
+/// motion this is the one multiplier that is left.
+bool Confirmation::on_a_family(const FixedPoint& found, int n) const {
+  if (found.multipliers.empty()) return false;
+  const std::complex<double> largest = found.multipliers.front();
+  if (options_.free) return std::abs(largest) >= 1.0 - known_to;
+  return std::abs(largest - 1.0) <= known_to && family(map_, found.x, n, record_.scale(), options_.stop) > 0;
+}
+
 /// A stable fixed point of the n-point map that the motion is drawn to.
 std::optional<Cycle> Confirmation::drawn_to(int n, const VectorXd& start) const {
   auto found = fixed_point(map_, start, n, record_.scale(), options_.stop);
   if (!found || !found->stable()) return std::nullopt;
-  // On a free family the one multiplier that is left is 1 but for rounding, on either side: `member` judges.
-  if (options_.free && !found->multipliers.empty() && std::abs(found->multipliers.front()) >= 1.0 - known_to)
-    return std::nullopt;
+  if (on_a_family(*found, n)) return std::nullopt;  // `member` judges
   const Attraction seen = attraction(map_, {options_.by_record ? &record_ : nullptr, motion_, options_.there}, *found, n, record_.scale(), options_.stop);
   if (!seen.drawn) return std::nullopt;
   found = once_round(std::move(*found), n);
@@ -79,11 +86,17 @@ std::optional<Cycle> Confirmation::drawn_to(int n, const VectorXd& start) const 
 }
 
 /// The cycle that the motion is on, if that is one of a family, where Newton's method has no single point to go to, or
-/// if nothing draws motions beside it nor repels them.
+/// if nothing draws motions beside it nor repels them. A motion that still turns round the cycle as it comes nearer
+/// may return after n points closely and after fewer not yet: there the point of the cycle itself is asked.
 std::optional<Cycle> Confirmation::member(int n) const {
-  const VectorXd here = record_.back(0);
+  const VectorXd last = record_.back(0);
+  std::optional<VectorXd> nearest;
   for (int length = 1; length <= n; ++length) {
-    if (n % length != 0 || record_.returned(length) > options_.tolerance) continue;
+    if (n % length != 0) continue;
+    const bool returns = record_.returned(length) <= options_.tolerance;
+    if (!returns && !nearest) nearest = nearest_fixed_point(map_, last, n, record_.scale(), options_.stop);
+    const VectorXd& here = returns ? last : *nearest;
+    if (!returns && distance(map_.value(here, length, options_.stop).image, here, record_.scale()) > options_.tolerance) continue;
     const int dimensions = family(map_, here, length, record_.scale(), options_.stop);
     const MapValue map = map_.value(here, length, options_.stop);
     auto multipliers = map_.multipliers(map.jacobian);

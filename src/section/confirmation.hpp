@@ -53,6 +53,7 @@ class Confirmation {
  private:
   [[nodiscard]] std::optional<Cycle> confirm(int n) const;
   [[nodiscard]] FixedPoint once_round(FixedPoint found, int& n) const;
+  [[nodiscard]] bool on_a_family(const FixedPoint& found, int n) const;
   [[nodiscard]] std::optional<Cycle> drawn_to(int n, const Eigen::VectorXd& start) const;
   [[nodiscard]] std::optional<Cycle> member(int n) const;
 

@@ -164,5 +164,23 @@ TEST(Rotation, OfSeveralCurvesIsThatOfOne) {
 
 TEST(Rotation, ThatIsAFractionIsALongCycle) { EXPECT_EQ(attractor::rotation(line(28.0 / 97.0, 4000)).locked, 97); }
 
+/// Two masses that friction holds together in the end are one damped oscillator: its steady motion has the period of the
+/// forcing, and how the masses stuck is a continuum. Where the decay turns by nearly a part of a whole turn in a period,
+/// the motion returns after so many periods closely long before the motion returns after one.
+TEST(Decision, OneOfAFamilyIsNotNamedByHowTheMotionTurnsOnItsWay) {
+  const ModelDefinition definition = load_model("vibro-impact");
+  int decided = 0;
+  for (int i = 0; i <= 80; ++i) {
+    const Overrides values{{"force_share_2", 0.9}, {"omega", 1.9 + 4.0 * i / 80.0}};
+    const Classification found = classify_quickly(System(definition.build(values)), definition.start(values), 300);
+    if (found.attractor == Attractor::undecided) continue;
+    ++decided;
+    EXPECT_EQ(found.attractor, Attractor::family) << values.at("omega");
+    EXPECT_EQ(found.label, "1-0-II") << values.at("omega");
+    EXPECT_EQ(found.family, 1) << values.at("omega");
+  }
+  EXPECT_GT(decided, 30);
+}
+
 }  // namespace
 }  // namespace slapstick

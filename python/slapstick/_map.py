@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core, _progress
+from ._chart_plot import CURVE_STYLES, draw_classes, draw_inset
 from ._core import InputError
 from ._model import Model, Start, Values, given_to, model_of, number, numbers, start_of, stops_of
 from ._progress import Progress
@@ -180,9 +181,12 @@ class Map(Result):
         found = xr.Dataset(data, coords={"direction": ways, self.y_name: self.y, self.x_name: self.x}, attrs=about)
         return found if len(ways) > 1 else found.isel(direction=0, drop=True)
 
-    def plot(self, ax: Any = None, column: str = "class", direction: str = "") -> Any:
+    def plot(
+        self, ax: Any = None, column: str = "class", direction: str = "", inset: Sequence[float] | None = None
+    ) -> Any:
         """Draws 'class', 'exponent', 'multiplier' (its modulus), 'n', 'p' or a "Q:STAT" of `measured` over both parameters.
-        Returns the axes. Raises InputError for another column."""
+        inset: (x from, x to, y from, y to), which is shown enlarged in a corner that does not cover it; the axes have it
+        as their last `child_axes`. Returns the axes. Raises InputError for another column, and for an inset that is none."""
         ax = axes(ax)
         extent = (*edges(self.x), *edges(self.y))
         if column == "class":
@@ -197,6 +201,8 @@ class Map(Result):
             ax.figure.colorbar(shown, ax=ax, label=column)
         ax.set_xlabel(self._with_unit(self.x_name))
         ax.set_ylabel(self._with_unit(self.y_name))
+        if inset is not None:
+            draw_inset(ax, inset)
         return ax
 
     def _with_unit(self, name: str) -> str:
@@ -210,41 +216,6 @@ class Map(Result):
         facts = [("pixels", f"{len(self.x)} x {len(self.y)} of {self.x_name}, {self.y_name}")]
         facts += [("classes", ", ".join(f"{name} {area / max(len(self), 1):.0%}" for area, name in largest))]
         return facts + ([("failed", str(len(self.failures)))] if self.failures else [])
-
-
-# As the program's curves (apps/slapstick/chart_curves_figure.cpp).
-CURVE_STYLES = {"LP": (":", "black"), "GR": ("--", "black"), "CH": ("--", "#aa0000"), "SL": ("-.", "black")}
-CURVE_STYLES |= {"CO": ("-.", "#aa0000"), "PD": ("-", "black"), "NS": ("-", "#aa0000")}
-
-# As the program's charts (apps/slapstick/chart_colours.hpp).
-CLASS_COLOURS = "#2288ee #ff8800 #ffbb88 #004455 #00ccff #774400 #aa66aa #ff2244 #4400bb #550077".split()
-KINDS = {"chaotic": "#191919", "quasi-periodic": "#787878", "undecided": "#ffffff", "": "#ffffff"}
-OTHERS = "#c8c8c8"
-
-
-def draw_classes(ax: Any, labels: NDArray[np.str_], extent: tuple[float, ...]) -> None:
-    """Ten classes by area, kinds of motion and the others, with their shares."""
-    from matplotlib.colors import to_rgb
-    from matplotlib.patches import Patch
-
-    names, codes, areas = np.unique(labels, return_inverse=True, return_counts=True)
-    order = np.argsort(-areas, kind="stable")
-    named = [i for i in order if names[i] not in KINDS][: len(CLASS_COLOURS)]
-    colours = [KINDS.get(name, OTHERS) for name in names.tolist()]
-    for i, colour in zip(named, CLASS_COLOURS):
-        colours[i] = colour
-    picture = np.array([to_rgb(colour) for colour in colours])[codes.reshape(labels.shape)]
-    ax.imshow(picture, origin="lower", extent=extent, aspect="auto", interpolation="nearest")
-    keys = [
-        Patch(facecolor=colours[i], edgecolor="black", linewidth=0.4, label=f"{names[i]} {areas[i] / labels.size:.1%}")
-        for i in order
-        if names[i] and colours[i] != OTHERS
-    ]
-    others = sum(areas[i] for i in order if colours[i] == OTHERS)
-    if others > 0:
-        count = colours.count(OTHERS)
-        keys.append(Patch(facecolor=OTHERS, edgecolor="black", linewidth=0.4, label=f"{count} others {others / labels.size:.1%}"))
-    ax.legend(handles=keys, fontsize="small", frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
 
 
 def along(axis: Sequence[Any]) -> Floats:

@@ -104,6 +104,20 @@ def test_curves_are_drawn_over_a_chart_whose_axes_stay():
     assert ax.lines[1].get_label() == found.curves[0].type == "GR"
 
 
+def test_an_inset_shows_its_part_of_the_chart_and_covers_it_nowhere():
+    pytest.importorskip("matplotlib")
+    chart = slapstick.map("vibro-impact", ("omega", 1.5, 2.5, 12), ("friction", 0.1, 0.2, 9))
+    for x, y in ((1.6, 0.11), (2.3, 0.11), (1.6, 0.18), (2.3, 0.18), (1.95, 0.15)):
+        ax = chart.plot(inset=(x, x + 0.1, y, y + 0.01))
+        (part,) = ax.child_axes
+        assert part.get_xlim() == (x, x + 0.1) and part.get_ylim() == (y, y + 0.01)
+        box = part.get_position().transformed(ax.figure.transFigure).transformed(ax.transData.inverted())
+        assert box.x0 > x + 0.1 or box.x1 < x or box.y0 > y + 0.01 or box.y1 < y
+    for wrong in ((1, 2, 0.1, 0.2), (1.6, 1.7, 0.1), (1.7, 1.6, 0.1, 0.2), (1.5, 2.5, 0.1, 0.2)):
+        with pytest.raises(slapstick.InputError, match="inset"):
+            chart.plot(inset=wrong)
+
+
 def test_the_legend_of_a_chart_names_the_whole_area():
     pytest.importorskip("matplotlib")
     chart = slapstick.map("vibro-impact", ("omega", 1, 6, 60), ("friction", 0.05, 0.3, 40))

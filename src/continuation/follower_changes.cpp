@@ -78,7 +78,7 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
     return false;
   }
   const bool arrived = back_to_ && !back_to_->onset && std::abs(special.value - back_to_->value) <= back_to_->error;
-  if (!arrived && !special.death && is_all_but_gone(at.orbit) && die_out(at)) return !ended_;
+  if (!arrived && is_all_but_gone(at.orbit) && die_out(at)) return !ended_;
   std::optional<PathPoint> behind_others;  // where a fold, say, lies before the change
   if (change->length > 0.0) {
     std::vector<SpecialPoint> smooth = beside_change(problem_, at, change->length, range_);

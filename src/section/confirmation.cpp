@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "section/attraction.hpp"
+#include "slapstick/base/error.hpp"
 #include "slapstick/flow/stage.hpp"
 
 namespace slapstick::section {
@@ -85,6 +86,25 @@ std::optional<Cycle> Confirmation::drawn_to(int n, const VectorXd& start) const 
   return Cycle{found->x, n, found->value.duration, found->multipliers, found->value.advance, missed, seen.distance};
 }
 
+/// The point of the cycle that a motion comes to, which returns almost; empty where maps beside it are of no motion.
+VectorXd Confirmation::beside(const VectorXd& x, int n) const {
+  try {
+    return nearest_fixed_point(map_, x, n, record_.scale(), options_.stop);
+  } catch (const InputError&) {      // behind a stop
+  } catch (const NumericalError&) {  // or a motion that does not return
+  }
+  return {};
+}
+
+bool Confirmation::closes(const VectorXd& x, int length) const {
+  try {
+    return distance(map_.value(x, length, options_.stop).image, x, record_.scale()) <= options_.tolerance;
+  } catch (const InputError&) {
+  } catch (const NumericalError&) {
+  }
+  return false;
+}
+
 /// The cycle that the motion is on, if that is one of a family, where Newton's method has no single point to go to, or
 /// if nothing draws motions beside it nor repels them. A motion that still turns round the cycle as it comes nearer
 /// may return after n points closely and after fewer not yet: there the point of the cycle itself is asked.
@@ -94,9 +114,9 @@ std::optional<Cycle> Confirmation::member(int n) const {
   for (int length = 1; length <= n; ++length) {
     if (n % length != 0) continue;
     const bool returns = record_.returned(length) <= options_.tolerance;
-    if (!returns && !nearest) nearest = nearest_fixed_point(map_, last, n, record_.scale(), options_.stop);
+    if (!returns && !nearest) nearest = beside(last, n);
+    if (!returns && !(nearest->size() > 0 && closes(*nearest, length))) continue;
     const VectorXd& here = returns ? last : *nearest;
-    if (!returns && distance(map_.value(here, length, options_.stop).image, here, record_.scale()) > options_.tolerance) continue;
     const int dimensions = family(map_, here, length, record_.scale(), options_.stop);
     const MapValue map = map_.value(here, length, options_.stop);
     auto multipliers = map_.multipliers(map.jacobian);

@@ -55,6 +55,8 @@ class Confirmation {
   [[nodiscard]] FixedPoint once_round(FixedPoint found, int& n) const;
   [[nodiscard]] bool on_a_family(const FixedPoint& found, int n) const;
   [[nodiscard]] std::optional<Cycle> drawn_to(int n, const Eigen::VectorXd& start) const;
+  [[nodiscard]] Eigen::VectorXd beside(const Eigen::VectorXd& x, int n) const;
+  [[nodiscard]] bool closes(const Eigen::VectorXd& x, int length) const;
   [[nodiscard]] std::optional<Cycle> member(int n) const;
 
   const ReturnMap& map_;

@@ -92,7 +92,7 @@ def test_options_that_are_given_twice_or_without_a_value():
             takes_value = not line.split()[1].islower() or '|' in line.split()[1]
             if takes_value:
                 says(refused(2, verb, 'vibro-impact', option), option)
-                repeated = (option == '--stop' and verb != 'simulate') or option == '--sensitivity' or (verb, option) in (('curve', '--range'), ('curve', '--from'))
+                repeated = (option == '--stop' and verb != 'simulate') or option in ('--inset', '--sensitivity') or (verb, option) in (('curve', '--range'), ('curve', '--from'))
                 if not repeated:
                     says(refused(2, verb, 'vibro-impact', option, '1', option, '1'), option)
 

@@ -9,6 +9,7 @@ import subprocess
 import sys
 
 import matplotlib
+import matplotlib.pyplot
 import numpy as np
 import pytest
 
@@ -46,6 +47,13 @@ class Program:
         ran = self(*words)
         assert ran.returncode in (2, 3, 4), ran
         return ran.stderr.strip().removeprefix("slapstick: ")
+
+
+@pytest.fixture(autouse=True)
+def figures_are_closed():
+    """pyplot keeps every figure, and warns at the 21st."""
+    yield
+    matplotlib.pyplot.close("all")
 
 
 @pytest.fixture(scope="session")

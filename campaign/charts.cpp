@@ -69,7 +69,8 @@ class Questions {
   }
   [[nodiscard]] std::size_t size() const { return map_.complete ? map_.findings.size() : 0; }
 
-  /// The same criterion on a Motion of its own. @returns whether the answer is the same; nothing if there is none
+  /// The same criterion on a Motion of its own. @returns whether the answer is the same;
+  /// nothing if the pixel or the search has failed
   std::optional<bool> ask(std::size_t place) {
     const sweep::Finding& found = map_.findings[place];
     if (found.failed) return ++tally_.failed, std::nullopt;
@@ -110,8 +111,8 @@ class Questions {
   sweep::Map map_;
 };
 
-/// @param count  boundary pixels that are asked about; of all pixels seven times as many, so that 200 of each chart
-/// make 1e4
+/// @param count  boundary pixels that are asked about, and 7.2 times that number of all pixels: 200 of each chart make
+/// 1e4
 ChartTally examine_chart(const Options& options, long chart, long count) {
   constexpr int most_columns = 160, per_root = 12;
   constexpr double anywhere_for_each = 7.2;

@@ -186,7 +186,7 @@ class Map(Result):
     ) -> Any:
         """Draws 'class', 'exponent', 'multiplier' (its modulus), 'n', 'p' or a "Q:STAT" of `measured` over both parameters.
         inset: (x from, x to, y from, y to), which is shown enlarged in a corner that does not cover it; the axes have it
-        as their last `child_axes`. Returns the axes. Raises InputError for another column, and for an inset that is none."""
+        as their last `child_axes`. Returns the axes. Raises InputError for another column, and for an inset that shows nothing."""
         ax = axes(ax)
         extent = (*edges(self.x), *edges(self.y))
         if column == "class":

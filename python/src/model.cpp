@@ -43,7 +43,7 @@ nb::list natural(const System& system, const State& start) {
   return all;
 }
 
-/// What `slapstick check` prints, but for the parameters and their units.
+/// What `slapstick check` prints, without the parameters and their units.
 nb::dict check(const ModelDefinition& definition, const Overrides& values) {
   const Model model = build(definition, values);
   const State start = start_of(definition, values, {});

@@ -88,11 +88,7 @@ class Flight {
     const Real c2 = 3.0 * change - (m0 + m0 + m1), c3 = m0 + m1 - (change + change);
     const Real t = -before / change, f = ((c3 * t + c2) * t + m0) * t + before, f1 = (3.0 * c3 * t + c2 + c2) * t + m0, f2 = 3.0 * c3 * t + c2;
     Real x = inside(t - f * f1 / (f1 * f1 - f * f2), all(1.0)) * D;
-    for (int k = 0; k < 2; ++k) {
-      Real rate, fallen;
-      slot.integrate(x, rate, fallen);
-      x = inside(x + (before - window_.H * fallen) / (window_.H * rate), D);
-    }
+    for (int k = 0; k < 2; ++k) x = inside(x + (before - window_.H * slot.integral(x)) / (window_.H * slot.about(x)), D);
     const Mask sooner = closed & (~impact_ | less(x, guess_));
     guess_ = choose(sooner, x, guess_);
     winner_ = choose(sooner, all(s), winner_);

@@ -55,7 +55,8 @@ class Follow : public Flight<width, n> {
     return refused;
   }
 
-  /// Makes each lane's words those of its mode: a word is stored once, whatever the number of modes.
+  /// Makes each lane's words those of its mode. Two modes are taken together; together, three and more cost what they
+  /// cost one after another.
   __attribute__((always_inline)) void take_words(unsigned lanes, const int (&modes)[most_lanes]) {
     const Block::Row* from[most_lanes];
     unsigned takers[most_lanes];
@@ -77,7 +78,8 @@ class Follow : public Flight<width, n> {
       const int slots = block_.active_mode[l] < 0 ? 0 : block_.slots[block_.active_mode[l]];
       filled = slots > filled ? slots : filled;
     }
-    const int last = at_.slot(filled > block_.filled ? filled : block_.filled);  // no lane's slot any more: zero
+    // up to the most slots before: a slot that no mode has any more becomes zeros
+    const int last = at_.slot(filled > block_.filled ? filled : block_.filled);
     block_.filled = filled;
     if (groups == 2)
       copy_words<2>(last, from, takers);

@@ -48,17 +48,14 @@ struct SlotWindow {
     return value * choose(first, choose(second, x * x, x), Real{} + 1.0);
   }
 
-  /// About its value, and its integral from 0, at x.
-  __attribute__((always_inline)) void integrate(const Real& x, Real& value, Real& integral) const {
-    value = integral = Real{};
+  /// About the integral of v from 0 to x.
+  __attribute__((always_inline)) Real integral(const Real& x) const {
+    Real sum = Real{};
     for (int j = 7; j >= 0; --j) {
       const Real part = choose(first, choose(second, Real{} + tables.inverse[j + 3], Real{} + tables.inverse[j + 2]), Real{} + tables.inverse[j + 1]);
-      value = value * x + P[j];
-      integral = integral * x + P[j] * part;
+      sum = sum * x + P[j] * part;
     }
-    const Real power = choose(first, choose(second, x * x, x), Real{} + 1.0);
-    value = value * power;
-    integral = integral * power * x;
+    return sum * choose(first, choose(second, x * x, x), Real{} + 1.0) * x;
   }
 
   /// The lower polynomial limit - side P - error at x.

@@ -41,7 +41,8 @@ void move_death(const Problem& problem, const DeathEquations& at, const VectorXd
     death.touches[i].t += change[at.parameter + 1 + static_cast<Index>(i)];
 }
 
-/// What the rounding of the equations makes of the parameter; infinite where they do not hold together or leave it open.
+/// What the rounding of the equations makes of the parameter; infinite where they do not hold together or leave the
+/// parameter open.
 double parameter_error(const Problem& problem, const Death& death) {
   constexpr double determined = 1e-6;  // off 1: the parameter by itself
   constexpr double operations = 4.0;   // whose roundings a residual has, beyond its noise as a sum
@@ -93,7 +94,9 @@ double moved(const Death& from, const Death& to) {
 
 std::optional<Collapse> solved(const Problem& problem, const Orbit& near, const std::vector<bool>& dying,
                                bool impacts_stay) {
-  constexpr double far = 10.0, rounding = 1e-4;  // of the dying legs' length; of the cycle, where that is next to nothing
+  // No solution lies farther from the guess: nearer bounds lose deaths that a long step has come to, farther ones take
+  // another death for this. Of the dying legs' length; of the cycle, where these are next to nothing.
+  constexpr double far = 10.0, rounding = 1e-4;
   const ModeSet set(problem.family(), near.values);
   const std::vector<Shortened> shapes = shortened(set, near, dying, impacts_stay);
   if (shapes.empty()) return std::nullopt;

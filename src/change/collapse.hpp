@@ -1,8 +1,8 @@
 #pragma once
 /// Where legs of an orbit shrink to nothing together (a *death*), by a regular system of equations.
 ///
-/// Near a death the orbit's own equations are singular: an event makes the guard that ends a dying leg zero at the leg's
-/// start, so a leg without length solves its equation whatever the orbit. With the dying legs left out the orbit there
+/// Near a death the orbit's own equations are singular: an event makes the guard that ends a dying leg zero at the
+/// leg's start, so a leg without length solves its equation whatever the orbit. With the dying legs left out the orbit there
 /// is an ordinary orbit of fewer events, on which the dying legs leave touches (change/touches.hpp). Its equations and
 ///     guard = 0 at the touch; within a leg also d guard / dt = 0
 /// are regular; the parameter and the instants of touches are further unknowns. There may be more equations than
@@ -26,7 +26,8 @@ struct Collapse {
 /// @param dying  of each leg of `near`: does it die?
 /// @returns empty if what remains is no orbit of a shorter sequence, if its equations do not determine the parameter or
 ///          do not hold together, or if the solution is not near
-[[nodiscard]] std::optional<Collapse> collapse(const Problem& problem, const Orbit& near, const std::vector<bool>& dying);
+[[nodiscard]] std::optional<Collapse> collapse(const Problem& problem, const Orbit& near,
+                                               const std::vector<bool>& dying);
 
 /// The death ahead of a point of a branch, of the legs that are gone the soonest as they shrink there.
 [[nodiscard]] std::optional<Collapse> death_ahead(const Problem& problem, const PathPoint& at);

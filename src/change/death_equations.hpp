@@ -6,8 +6,8 @@
 namespace slapstick::orbit {
 
 /// Unknowns, one a column: those of the orbit up to the first parameter, then the instants of the touches. Rows are
-/// divided by their sizes, columns multiplied by the unknowns'. A row of nothing but rounding, as of an equation that is
-/// always met, stays small.
+/// divided by their sizes, columns multiplied by the unknowns'. An equation that is always met has a row of rounding
+/// alone, which stays small.
 struct DeathEquations {
   /// @throws NumericalError, InputError as linearise
   DeathEquations(const Problem& problem, const Death& death);

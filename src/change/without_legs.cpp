@@ -73,8 +73,8 @@ void take_state(mode::ContactStates& states, const mode::ContactStates& from, co
   if (mode::of_bound(crossing.kind)) states.compliant[at] = from.compliant[at];
 }
 
-/// A line is crossed at the end of the first leg and crossed back at the end of the last of those that are gone: both crossings are no more, what
-/// lies between them stays. @returns false if it is not so
+/// The first leg ends as a line is crossed, and the last of the legs that are gone as the line is crossed back: both
+/// crossings go, what lies between them stays. @returns false if it is not so
 bool uncross(Shrunk& turned) {
   std::vector<Leg>& legs = turned.orbit.shape.legs;
   const Leg first = legs[0];
@@ -91,7 +91,8 @@ bool uncross(Shrunk& turned) {
   return true;
 }
 
-/// One event in place of the two, the ends of the first leg and of the last of those behind it that are gone. @returns false if none is known
+/// One event in place of two: the end of the first leg, and that of the last leg behind it that is gone. @returns false
+/// if no such event is known
 bool unite(Shrunk& turned, bool impacts_stay) {
   Leg& first = turned.orbit.shape.legs[0];
   Leg& last = turned.orbit.shape.legs[turned.run()];
@@ -118,7 +119,8 @@ bool unite(Shrunk& turned, bool impacts_stay) {
 
 }  // namespace
 
-std::vector<Shortened> shortened(const ModeSet& set, const Orbit& orbit, const std::vector<bool>& gone, bool impacts_stay) {
+std::vector<Shortened> shortened(const ModeSet& set, const Orbit& orbit, const std::vector<bool>& gone,
+                                 bool impacts_stay) {
   Shrunk all{orbit, gone, {}};
   for (std::size_t i = 0; i < orbit.legs(); ++i) all.starts.push_back(i);
   std::vector<Shortened> shapes;  // one place after another; in symmetric orbits legs vanish in several together
@@ -138,7 +140,8 @@ std::vector<Shortened> shortened(const ModeSet& set, const Orbit& orbit, const s
   return shapes;
 }
 
-std::vector<Orbit> without_legs(const ModeSet& set, const Orbit& orbit, const std::vector<bool>& gone, bool impacts_stay) {
+std::vector<Orbit> without_legs(const ModeSet& set, const Orbit& orbit, const std::vector<bool>& gone,
+                                bool impacts_stay) {
   std::vector<Orbit> shapes;
   for (Shortened& one : shortened(set, orbit, gone, impacts_stay)) shapes.push_back(std::move(one.orbit));
   return shapes;

@@ -14,7 +14,7 @@ namespace slapstick::orbit {
 /// The cycle of one leg without its event, from phase 0.
 [[nodiscard]] Orbit uncut(const ModeSet& set, const Orbit& orbit);
 
-/// Leaves out so many legs from one on, and as many events and states from the first leg's end on.
+/// Leaves out `count` legs, the first of them `leg`; and `count` events and states, the first those at the end of leg 0.
 void leave_out(Orbit& orbit, std::ptrdiff_t leg, std::ptrdiff_t count);
 
 /// An orbit with fewer legs, and the legs of the longer one that begin with the same events; none for a cycle without
@@ -25,8 +25,8 @@ struct Shortened {
 };
 
 /// Without the legs that are gone. Between two legs of one mode: those are one leg. Between two stops of one velocity:
-/// the second is the first's. Between another event and an impact, of which a speed is left: the impact is all.
-/// Between two crossings of one line: what lies between them.
+/// the second is the first's. Between another event and an impact that keeps a speed: the impact is all. Between two
+/// crossings of one line: what lies between them.
 /// @param gone  of each leg: has it no length?
 /// @param impacts_stay  impacts keep their speed
 /// @returns the orbit with one run of such legs left out, with two .. : the shortest first

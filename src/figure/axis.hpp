@@ -38,7 +38,7 @@ Range padded(const Extent& extent, double padding, bool log);
 /// Is a range wide enough to be numbered (in double precision and in print)?
 bool resolvable(Range range);
 
-/// Numbers need air: as many as fit with most of a label's width (or a line of height) between them.
+/// Numbers need air: between two of them most of a label's width (or a line of height) is free.
 int most_labels(double length_cm, double label_cm);
 
 /// Ticks at round numbers such that at most `most` labels stand on the axis (at least two where possible).

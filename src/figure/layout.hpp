@@ -94,7 +94,7 @@ inline bool in_raster(const Points& points) { return points.drawing != Drawing::
 /// Of two named clouds in an image: the colour where both are, which is an entry of the legend too.
 std::optional<Colour> colour_of_both(const Panel& panel);
 
-/// The insets of a panel, whose frame is known, but for the size of their images.
+/// The insets of a panel whose frame is known. The size of their images is not set yet.
 /// @param where  what an error calls the panel. @throws InputError if an inset shows nothing of the panel, or has no
 /// corner in which it is larger than what it shows
 std::vector<InsetLayout> place_insets(const Panel& panel, const PanelLayout& layout, double em_cm, const std::string& where);

@@ -183,7 +183,7 @@ class PyPanel {
            entry(key.label) + ")");
   }
 
-  /// In as many columns as the layout has found room for, from the left edge of the panel's part of the paper.
+  /// In the columns that the layout has found room for, from the left edge of the panel's part of the paper.
   void legend_below(const std::string& how) {
     const auto columns = ranges::count_if(at_.keys, [](const KeyPlace& place) { return place.row == 0; });
     const double under_em = at_.x_numbers ? spacing::numbers + (panel_.x_label.empty() ? 0 : spacing::axis_label) : 0;

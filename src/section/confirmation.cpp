@@ -65,7 +65,7 @@ FixedPoint Confirmation::once_round(FixedPoint found, int& n) const {
   return found;
 }
 
-/// On a family a multiplier is 1 but for rounding, on either side, and nothing draws motions to one member. Of a free
+/// On a family a multiplier is within rounding of 1, on either side, and nothing draws motions to one member. Of a free
 /// motion this is the one multiplier that is left.
 bool Confirmation::on_a_family(const FixedPoint& found, int n) const {
   if (found.multipliers.empty()) return false;

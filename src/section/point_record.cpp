@@ -67,8 +67,8 @@ double PointRecord::spread(int n, long count, const VectorXd& about) const {
   return widest;
 }
 
-/// By the last number alone, which says so of almost all. The half more keeps what is within the tolerance but for
-/// rounding.
+/// By the last number alone, which says so of almost all. The half more keeps what only rounding puts beyond the
+/// tolerance.
 bool PointRecord::far_apart(long n, double tolerance) const {
   const long last = scale_.size() - 1;
   return !(std::abs(back(0)[last] - back(n)[last]) <= tolerance * 1.5 * scale_[last]);

@@ -62,7 +62,7 @@ class LanePixel {
   /// A motion that winds more widely round the mean of its points is not tried. Narrower: more are undecided; wider:
   /// Newton's method runs in vain for chaotic ones.
   static constexpr double widest_round = 0.6;
-  /// An oscillating approach is nearer than one of so many returns before.
+  /// An oscillating approach is nearer than one of this number of returns before.
   static constexpr int waves = 3;
 
   /// Returns are looked for at every fourth point, and what only comes nearer at the end.

@@ -164,9 +164,9 @@ TEST(Rotation, OfSeveralCurvesIsThatOfOne) {
 
 TEST(Rotation, ThatIsAFractionIsALongCycle) { EXPECT_EQ(attractor::rotation(line(28.0 / 97.0, 4000)).locked, 97); }
 
-/// Two masses that friction holds together in the end are one damped oscillator: its steady motion has the period of the
-/// forcing, and how the masses stuck is a continuum. Where the decay turns by nearly a part of a whole turn in a period,
-/// the motion returns after so many periods closely long before the motion returns after one.
+/// Two masses that friction holds together in the end are one damped oscillator: its steady motion has the period of
+/// the forcing, and how the masses stuck is a continuum. Where the decay turns by nearly 1/n of a whole turn in a
+/// period, the motion returns closely after n periods long before the motion returns after one.
 TEST(Decision, OneOfAFamilyIsNotNamedByHowTheMotionTurnsOnItsWay) {
   const ModelDefinition definition = load_model("vibro-impact");
   int decided = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/twins.hpp"
 #include "slapstick/attractor/classify.hpp"
 
 namespace slapstick {
@@ -58,14 +59,7 @@ TEST(classify_stops, engagements_of_a_linear_motion_are_its_upward_crossings) {
 
 /// Two equal bodies that meet their stops at the same instant: p counts both, whether the stops are rigid or not.
 TEST(classify_stops, two_equal_stops_that_are_met_at_once_count_twice) {
-  Model model;
-  model.name = "twins";
-  model.coordinates = {{"left", 1.0}, {"right", 1.0}};
-  model.springs = {{0, ground, 1.0}, {1, ground, 1.0}};
-  model.dampers = {{0, ground, 0.1}, {1, ground, 0.1}};
-  model.forces = {{0, 1, 1.0}, {1, 1, 1.0}};
-  model.omega = 1.3;
-  Model soft = model;
+  Model soft = test::twins(), model = soft;
   soft.compliant_stops = {{"l", 0, ground, 0.3, 40.0, 2.0}, {"r", 1, ground, 0.3, 40.0, 2.0}};
   model.stops = {{"l", 0, ground, 0.3, 0.6}, {"r", 1, ground, 0.3, 0.6}};
   EXPECT_EQ(of(model, {}).label, "1-2-I");

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "batch/same_events.hpp"
+#include "model/twins.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/io/model_file.hpp"
 
@@ -207,8 +208,8 @@ TEST(Batch, AStartInContactIsAMotions) {
   EXPECT_EQ(batch.runs[2].motion_events, 0);
 }
 
-/// A pair is pressed together, and two friction contacts hold its lower body. Where they let go the pair stays closed: a
-/// mode in which the bodies would pass through each other has no gap among its slots, and takes load off the friction.
+/// A pair is pressed together, and two friction contacts hold its lower body. Where they let go the pair stays closed:
+/// a mode in which the bodies would pass through each other has no gap among its slots, and takes load off the friction.
 TEST(Batch, ABodyThatIsLetGoPassesThroughNoOther) {
   Model model;
   model.name = "pressed";
@@ -227,14 +228,8 @@ TEST(Batch, ABodyThatIsLetGoPassesThroughNoOther) {
 
 /// A tie is a motion's to decide, and both stops have their rows.
 TEST(Batch, TellsOfBothBuffersThatAreMetAtOnce) {
-  Model model;
-  model.name = "twins";
-  model.coordinates = {{"left", 1.0}, {"right", 1.0}};
-  model.springs = {{0, ground, 1.0}, {1, ground, 1.0}};
-  model.dampers = {{0, ground, 0.1}, {1, ground, 0.1}};
-  model.forces = {{0, 1, 1.0}, {1, 1, 1.0}};
+  Model model = test::twins();
   model.compliant_stops = {{"l", 0, ground, 0.3, 40.0, 2.0}, {"r", 1, ground, 0.3, 40.0, 2.0}};
-  model.omega = 1.3;
   const std::vector<Pixel> one = {{model, {-0.2, 0.1, -0.2, 0.1}}};
   expect_the_events_of_a_motion(one, 20, 0);
   const Batch batch = run_batch(problem_of(one, {.periods = 20, .events = true}));

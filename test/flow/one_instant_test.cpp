@@ -126,7 +126,7 @@ std::vector<Event> events_of(const Model& model, const State& start, int periods
   return events;
 }
 
-/// Every event of one twin has its like of the other at the same instant, with the same speed but for rounding: of
+/// Every event of one twin has its like of the other at the same instant, with the same speed within rounding: of
 /// forces and corners the event's own condition alone is made exact.
 void expect_pairs(const std::vector<Event>& events, EventKind kind, int first, std::size_t least) {
   std::vector<Event> left, right;

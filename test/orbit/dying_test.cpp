@@ -57,8 +57,9 @@ TEST(DyingMotion, IsNotSaidToEndWhereThereIsNoModel) {
   EXPECT_GT(branch.points.front().orbit.values[0], 0.2002);
 }
 
-/// Where static friction rises above kinetic friction slips keep some length, and die in a jump where the force does not come to static friction any
-/// more. Stuck masses are off the middle by the square of what parts the two frictions: the place is static friction's all the same, to that side.
+/// Where static friction rises above kinetic friction slips keep some length, and die in a jump where the force no more
+/// comes to static friction. Stuck masses are off the middle by the square of what parts the two frictions: the place
+/// is static friction's all the same, to that side.
 TEST(DyingMotion, MovesWithStaticFrictionAlone) {
   const auto place = [](double static_friction) {
     const Posed posed("coulomb-oscillator", {{"static_friction", static_friction}, {"kinetic_friction", 0.2}},

@@ -15,7 +15,7 @@ namespace {
 using orbit::Test, orbit::TestValue;
 
 /// x'' + x = cos 2 t from x = -1/3 at rest: x = -cos(2 t) / 3, so that the gap is clearance + cos(2 t) / 3. The leg
-/// ends after so many periods by the gap's zero, or by what stands for it.
+/// ends after `periods` by the gap's zero, or by what stands for it.
 struct GrazingLeg {
   double least, least_at, speed;
 
@@ -37,7 +37,8 @@ struct GrazingLeg {
   }
 };
 
-/// On a curve of grazes the instant and the slope of the zero are rounding, to either side. No least value is made of that.
+/// On a curve of grazes the instant and the slope of the zero are rounding, to either side. No least value is made of
+/// that.
 TEST(MarginAtAGraze, TheSlopeAtTheEndDecidesAlone) {
   for (const double aside : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15, 0.0})
     for (const double sign : {-1.0, 1.0}) {

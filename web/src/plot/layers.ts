@@ -105,7 +105,7 @@ export function drawLabels(pen: Pen, labels: readonly Label[]): void {
 
 /**
  * @param from    dots before this one are drawn already
- * @param labels  gets those of marks, but for one that would cover another
+ * @param labels  gets those of marks; one that would cover another is left out
  */
 export function drawLayer(pen: Pen, frame: Frame, layer: Layer, palette: Palette, from = 0, labels: Label[] = []): void {
   switch (layer.kind) {

@@ -9,8 +9,6 @@
 #include <string_view>
 
 #include "runs.hpp"
-#include "slapstick/io/model_file.hpp"
-#include "slapstick/sweep/batch.hpp"
 
 namespace {
 
@@ -36,26 +34,11 @@ void print(const char* what, double seconds, const slapstick::sweep::Batch& batc
 int main(int arguments, char** values) {
   using namespace slapstick;
   const std::string what = arguments > 1 ? values[1] : "chart";
-  const ModelDefinition definition = load_model("vibro-impact");
-  sweep::BatchProblem problem;
-  problem.threads = 1;
+  const int periods = arguments > 3 ? std::atoi(values[3]) : 300;
+  sweep::BatchProblem problem = what == "omega" ? bench::lanes_of_starts(std::atof(values[2]), periods)
+                                                : bench::lanes_of_chart(arguments > 2 ? std::atoi(values[2]) : 80, periods);
   problem.lanes = arguments > 4 ? std::atoi(values[4]) : 0;
   problem.plan.exponent = arguments > 5 && std::string_view(values[5]) == "tangents";
-  problem.plan.periods = arguments > 3 ? std::atoi(values[3]) : 300;
-  if (what == "omega") {
-    const double omega = std::atof(values[2]);
-    problem.count = 64;
-    problem.model_at = [model = definition.build({{"omega", omega}})](std::size_t) { return model; };
-    problem.start_at = [](std::size_t i) { return State{-0.5 - 0.001 * static_cast<double>(i), 0.0, 0.0, 0.0}; };
-  } else {
-    const int rows = arguments > 2 ? std::atoi(values[2]) : 80;
-    problem.count = static_cast<std::size_t>(rows) * static_cast<std::size_t>(rows);
-    problem.model_at = [&definition, rows](std::size_t i) {
-      const auto k = static_cast<int>(i);
-      return definition.build({{"omega", 1.0 + 5.0 * (k % rows) / (rows - 1)}, {"friction", 0.05 + 0.25 * (k / rows) / (rows - 1)}});
-    };
-    problem.start_at = [](std::size_t) { return State{-0.5, 0.0, 0.0, 0.0}; };
-  }
   const double begun = bench::cpu_time();
   const sweep::Batch batch = sweep::run_batch(problem);
   const double seconds = bench::cpu_time() - begun;

@@ -4,7 +4,8 @@
     bench/ratios.py BUILD_FOLDER [--python INTERPRETER] [--rounds 15] [--out FOLDER] [--short]
 
 Two workers run in turn, one run each at a time: `bench_worker` (slapstick, Boost.odeint, CVODE) and bench/heyoka_peer.py. A round measures
-slapstick right before every other contender; a ratio is that of the two, so that a machine whose speed drifts shifts both. Printed and written are the
+slapstick's motion and its lanes right before every other contender; a ratio is that to the motion, `lanes_ratio` that to the lanes, so that a
+machine whose speed drifts shifts both. Printed and written are the
 median of the rounds and the quartiles. Times are CPU time, without compilation; `wall_us` is the clock's. The files: `<machine>-ratios.csv` and `<machine>-scaling.csv`.
 """
 import argparse
@@ -19,7 +20,6 @@ import sys
 PERIODS = 500
 OMEGAS = ('2.2', '1.5', '4.9', '0.552')
 # name: (worker, kind, repeats of a run).
-# Another engine of slapstick is a row here, and a row in `kinds` of worker.cpp.
 CONTENDERS = {
     'Boost.odeint RKF 7(8), 1e-12': ('native', 'odeint', 1),
     'CVODE Adams, 1e-9': ('native', 'cvode', 1),
@@ -66,31 +66,38 @@ def per_period(answer):
 
 
 def compare(workers, omega, rounds):
-    """Of each contender: CPU microseconds a period, and slapstick's in the run before."""
-    pairs = {name: [] for name in CONTENDERS if CONTENDERS[name][0] in workers}
-    counts = {}
+    """Of each contender: CPU microseconds a period, and those of slapstick's motion and of its lanes in the runs before."""
+    costs = {name: [] for name in CONTENDERS if CONTENDERS[name][0] in workers}
+    answers = {}
     for _ in range(rounds):
-        for name in pairs:
+        for name in costs:
             worker, kind, repeats = CONTENDERS[name]
-            own = workers['native'].run('slapstick', omega, PERIODS, 20)
+            motion = workers['native'].run('slapstick', omega, PERIODS, 20)
+            lanes = workers['native'].run('lanes', omega, PERIODS, 1)
             other = workers[worker].run(kind, omega, PERIODS, repeats) if worker == 'native' else workers[worker].run(kind, omega, PERIODS)
-            pairs[name].append((per_period(other), per_period(own)))
-            counts['slapstick'], counts[name] = own, other
-    return pairs, counts
+            costs[name].append(tuple(map(per_period, (other, motion, lanes))))
+            answers.update({'slapstick': motion, 'slapstick, lanes': lanes, name: other})
+    return costs, answers
+
+
+def ratio_row(omega, solver, answer, triples):
+    """From triples of costs: the solver's, the motion's, the lanes'."""
+    row = dict(omega=omega, solver=solver)
+    for key, values in (('us_per_period', [cost for cost, _, _ in triples]), ('ratio', [cost / motion for cost, motion, _ in triples]),
+                        ('lanes_ratio', [cost / lanes for cost, _, lanes in triples])):
+        low, middle, high = spread(values)
+        row.update({key: middle, f'{key}_low': low, f'{key}_high': high})
+    return dict(row, impacts=answer['impacts'] / answer.get('trajectories', 1))
 
 
 def ratio_rows(workers, rounds):
     for omega in OMEGAS:
-        pairs, counts = compare(workers, omega, rounds)
-        own = [cost for all_pairs in pairs.values() for _, cost in all_pairs]
-        low, middle, high = spread(own)
-        yield dict(omega=omega, solver='slapstick', us_per_period=middle, us_low=low, us_high=high, ratio=1, ratio_low=1, ratio_high=1,
-                   impacts=counts['slapstick']['impacts'])
-        for name, values in pairs.items():
-            low, middle, high = spread([cost for cost, _ in values])
-            ratios = spread([cost / before for cost, before in values])
-            yield dict(omega=omega, solver=name, us_per_period=middle, us_low=low, us_high=high, ratio=ratios[1], ratio_low=ratios[0],
-                       ratio_high=ratios[2], impacts=counts[name]['impacts'] / counts[name].get('trajectories', 1))
+        costs, answers = compare(workers, omega, rounds)
+        own = [triple for triples in costs.values() for triple in triples]
+        yield ratio_row(omega, 'slapstick', answers['slapstick'], [(motion, motion, lanes) for _, motion, lanes in own])
+        yield ratio_row(omega, 'slapstick, lanes', answers['slapstick, lanes'], [(lanes, motion, lanes) for _, motion, lanes in own])
+        for name, triples in costs.items():
+            yield ratio_row(omega, name, answers[name], triples)
 
 
 def scaling_rows(worker, rounds, short):
@@ -103,6 +110,12 @@ def scaling_rows(worker, rounds, short):
         low, middle, high = spread([1e6 * a['cpu'] / periods for a in answers])
         yield dict(what='chain, a period', coordinates=coordinates, contacts=contacts, threads=1, us=middle, us_low=low, us_high=high,
                    events=answers[0]['events'] / periods, windows=answers[0]['windows'] / periods)
+    for name, threads, exponent in (('chart in lanes, a period', 1, 0), ('the same with exponents', 1, 1), ('chart in lanes, a period', os.cpu_count() or 1, 0)):
+        answers = [worker.run('chart', 16 if short else 40, 300, threads, exponent) for _ in range(max(3, rounds // 3))]
+        of = lambda key: [1e6 * a[key] / (a['trajectories'] * 300) for a in answers]
+        low, middle, high = spread(of('cpu'))
+        yield dict(what=name, coordinates=2, contacts=2, threads=threads, us=middle, us_low=low, us_high=high, windows=1e-6 * spread(of('lane_steps'))[1],
+                   wall_us=spread(of('wall'))[1])
     count = 1
     while count <= (os.cpu_count() or 1):
         answers = [worker.run('threads', count, '2.2', 20000) for _ in range(rounds)]
@@ -151,8 +164,9 @@ def main():
     ratios = []
     for row in ratio_rows(workers, given.rounds):
         ratios.append(row)
-        print(f"omega {row['omega']:>6}  {row['solver']:30} {row['us_per_period']:9.3f} us a period  ratio {row['ratio']:8.2f}"
-              f"  ({row['ratio_low']:.2f} .. {row['ratio_high']:.2f})  impacts {row['impacts']:.0f}", flush=True)
+        print(f"omega {row['omega']:>6}  {row['solver']:30} {row['us_per_period']:9.3f} us a period  {row['ratio']:8.2f} motions"
+              f"  ({row['ratio_low']:.2f} .. {row['ratio_high']:.2f})  {row['lanes_ratio']:8.2f} lanes ({row['lanes_ratio_low']:.2f} .. {row['lanes_ratio_high']:.2f})"
+              f"  impacts {row['impacts']:.0f}", flush=True)
     scaling = []
     for row in scaling_rows(workers['native'], given.rounds, given.short):
         scaling.append(row)

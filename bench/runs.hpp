@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "slapstick/sweep/batch.hpp"
+
 namespace slapstick::bench {
 
 /// In the order in which they are printed.
@@ -26,5 +28,13 @@ Answer run_system(const Words& words);
 Answer run_chain(const Words& words);
 /// THREADS OMEGA PERIODS: a motion on each thread, of one System. `wall` beside `cpu`.
 Answer run_threads(const Words& words);
+/// OMEGA PERIODS REPEATS: 64 such motions in the lanes of one thread, from starts that are 0.001 apart.
+Answer run_lanes(const Words& words);
+/// ROWS PERIODS THREADS EXPONENT(0 or 1): ROWS x ROWS values of omega 1..6 and friction 0.05..0.3, from rest, in refilled lanes.
+Answer run_chart(const Words& words);
+
+/// What the two run.
+sweep::BatchProblem lanes_of_starts(double omega, int periods);
+sweep::BatchProblem lanes_of_chart(int rows, int periods);
 
 }  // namespace slapstick::bench

@@ -105,6 +105,57 @@ Answer run_system(const Words& words) {
   return {{"cpu", (alone - begun) / repeats}, {"with_modes", (cpu_time() - alone) / repeats}, {"modes", static_cast<double>(met.size())}};
 }
 
+sweep::BatchProblem lanes_of_starts(double omega, int periods) {
+  sweep::BatchProblem problem;
+  problem.threads = 1;
+  problem.plan.periods = periods;
+  problem.count = 64;
+  problem.model_at = [model = paper_model(omega)](std::size_t) { return model; };
+  problem.start_at = [](std::size_t i) { return State{start[0] - 0.001 * static_cast<double>(i), 0.0, 0.0, 0.0}; };
+  return problem;
+}
+
+sweep::BatchProblem lanes_of_chart(int rows, int periods) {
+  sweep::BatchProblem problem;
+  problem.threads = 1;
+  problem.plan.periods = periods;
+  problem.count = static_cast<std::size_t>(rows) * static_cast<std::size_t>(rows);
+  problem.model_at = [rows, definition = load_model("vibro-impact")](std::size_t i) {
+    const auto k = static_cast<int>(i);
+    return definition.build({{"omega", 1.0 + 5.0 * (k % rows) / (rows - 1)}, {"friction", 0.05 + 0.25 * (k / rows) / (rows - 1)}});
+  };
+  problem.start_at = [](std::size_t) { return start; };
+  return problem;
+}
+
+namespace {
+
+Answer run_batches(const sweep::BatchProblem& problem, int repeats) {
+  sweep::Batch batch;
+  const double begun = cpu_time();
+  const auto before = std::chrono::steady_clock::now();
+  for (int k = 0; k < repeats; ++k) batch = run_batch(problem);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - before;
+  const double cpu = (cpu_time() - begun) / repeats;
+  double impacts = 0.0;
+  for (const BatchRun& run : batch.runs) impacts += static_cast<double>(run.impacts);
+  return {{"cpu", cpu}, {"wall", wall.count() / repeats}, {"trajectories", static_cast<double>(problem.count)},
+          {"impacts", impacts}, {"lane_steps", static_cast<double>(batch.lane_steps)}};
+}
+
+}  // namespace
+
+Answer run_lanes(const Words& words) {
+  return run_batches(lanes_of_starts(std::stod(words.at(1)), std::stoi(words.at(2))), std::stoi(words.at(3)));
+}
+
+Answer run_chart(const Words& words) {
+  sweep::BatchProblem problem = lanes_of_chart(std::stoi(words.at(1)), std::stoi(words.at(2)));
+  problem.threads = std::stoi(words.at(3));
+  problem.plan.exponent = words.at(4) == "1";
+  return run_batches(problem, 1);
+}
+
 Answer run_threads(const Words& words) {
   const int threads = std::stoi(words.at(1)), periods = std::stoi(words.at(3));
   const System system(paper_model(std::stod(words.at(2))));

@@ -28,6 +28,8 @@ const std::map<std::string, Answer (*)(const Words&)> kinds = {
     {"system", run_system},
     {"chain", run_chain},
     {"threads", run_threads},
+    {"lanes", run_lanes},
+    {"chart", run_chart},
     {"odeint", [](const Words& words) { return run_peer(run_odeint, 1e-12, words); }},
     {"cvode", [](const Words& words) { return run_peer(run_cvode, 1e-9, words); }}};
 

@@ -15,11 +15,11 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   /// Cheap unless it is time for a new line: five a second on a terminal, else one. One thread at a time.
-  void update(double done);
+  void update(double amount);
   /// The same where what is to do grows.
-  void update(double done, double total) {
+  void update(double amount, double total) {
     total_ = total;
-    update(done);
+    update(amount);
   }
 
  private:

@@ -29,11 +29,12 @@ struct alignas(64) Block {
   // Words
   alignas(64) Row restitution[most_contacts], let_off[most_contacts], impulse[most_contacts][most_coordinates];
   Row* active;  ///< [word]: of each lane's mode. Those of slots that no lane's mode has are zero
-  int active_mode[most_lanes];  ///< whose words those are; -1: none
+  int active_mode[most_lanes];  ///< whose words those are; the number of modes: none
   int filled;   ///< the most slots that one of these modes has
   const Row* all;       ///< [mode][word]
   const std::uint8_t* ready;  ///< [mode][lane]: whether those words have been made
   Layout layout;
+  int words;  ///< of a mode
   const int* harmonic;          ///< Shape::harmonic, cosine_of, action, open, slots, still
   const std::uint8_t* cosine_of;
   const Action* action;
@@ -47,7 +48,8 @@ struct alignas(64) Block {
   Action start[most_lanes];
   unsigned watched;   ///< lanes whose events are to be seen one by one
   unsigned events, cuts, doubtful, wanting;  ///< lanes with an event, at a cut, in doubt, and in want of the words
-                                             ///< of modes
+                                             ///< of a mode ..
+  int wanted[most_lanes];                    ///< .. and which
   alignas(64) Row at_p[most_coordinates], at_u[most_coordinates];  ///< at the cut
   alignas(64) Row at_dp[most_coordinates], at_du[most_coordinates];
   alignas(64) Row event_speed;

@@ -40,6 +40,7 @@ class Follow : public Flight<width, n> {
         const int mode = action_[l]->candidate[c];
         if (block_.ready[mode * most_lanes + l] == 0) {
           block_.wanting |= bit;
+          block_.wanted[l] = mode;
           lanes &= ~bit;
           continue;
         }
@@ -55,28 +56,29 @@ class Follow : public Flight<width, n> {
     return refused;
   }
 
+  /// Lanes whose number is this.
+  static inline __attribute__((always_inline)) unsigned lanes_of(const int (&numbers)[most_lanes], int number) {
+    unsigned lanes = 0;
+    for (int l = 0; l < width; ++l) lanes |= static_cast<unsigned>(numbers[l] == number) << l;
+    return lanes;
+  }
+
   /// Makes each lane's words those of its mode. Two modes are taken together; together, three and more cost what they
   /// cost one after another.
   __attribute__((always_inline)) void take_words(unsigned lanes, const int (&modes)[most_lanes]) {
     const Block::Row* from[most_lanes];
     unsigned takers[most_lanes];
+    for (int l = 0; l < width; ++l) block_.active_mode[l] = (lanes >> l & 1U) != 0 ? modes[l] : block_.active_mode[l];
     int groups = 0, filled = 0;
+    for (int l = 0; l < width; ++l) {
+      const int slots = block_.slots[block_.active_mode[l]];
+      filled = slots > filled ? slots : filled;
+    }
     while (lanes != 0) {
       const int mode = modes[__builtin_ctz(lanes)];
-      unsigned same = 0;
-      for (unsigned left = lanes; left != 0; left &= left - 1) {
-        const int l = __builtin_ctz(left);
-        if (modes[l] != mode) continue;
-        same |= left & -left;
-        block_.active_mode[l] = mode;
-      }
-      lanes &= ~same;
-      takers[groups] = same;
-      from[groups++] = block_.all + static_cast<long>(mode) * at_.size();
-    }
-    for (int l = 0; l < width; ++l) {
-      const int slots = block_.active_mode[l] < 0 ? 0 : block_.slots[block_.active_mode[l]];
-      filled = slots > filled ? slots : filled;
+      takers[groups] = lanes & lanes_of(modes, mode);
+      lanes &= ~takers[groups];
+      from[groups++] = block_.all + static_cast<long>(mode) * block_.words;
     }
     // up to the most slots before: a slot that no mode has any more becomes zeros
     const int last = at_.slot(filled > block_.filled ? filled : block_.filled);
@@ -90,9 +92,9 @@ class Follow : public Flight<width, n> {
   template <int groups>
   __attribute__((always_inline)) void copy_words(int last, const Block::Row* const* from, const unsigned* takers) {
     for (int w = 0; w < last; ++w) {
-      Real word = load<Real>(block_.active[w]);
-      for (int g = 0; g < groups; ++g) word = choose(of(takers[g]), load<Real>(from[g][w]), word);
-      store<Real>(block_.active[w], word);
+      Real number = load<Real>(block_.active[w]);
+      for (int g = 0; g < groups; ++g) number = choose(of(takers[g]), load<Real>(from[g][w]), number);
+      store<Real>(block_.active[w], number);
     }
   }
 
@@ -137,7 +139,7 @@ class Follow : public Flight<width, n> {
   /// velocity and its rate are zero, and its bend says whether slip begins that way. Where the bend is no more than
   /// rounding either, an engine decides.
   __attribute__((always_inline)) Verdict judge() const {
-    Real velocity[n], acceleration[n], jerk[n];
+    Real velocity[n], acceleration[n];
     const Real H = word(Layout::window), inverse_speed = word(Layout::inverse_speed);
     Real size = word(Layout::least_size);
     for (int i = 0; i < n; ++i) {
@@ -145,40 +147,50 @@ class Follow : public Flight<width, n> {
       size = larger(size, larger(magnitude(p_[i]), magnitude(u_[i]) * inverse_speed));
     }
     for (int i = 0; i < n; ++i) acceleration[i] = product(at_.row(i), velocity);
-    for (int i = 0; i < n; ++i) jerk[i] = rate_of(at_.row(i), velocity, acceleration);
     Verdict verdict{occupied_ & ~occupied_, occupied_ & ~occupied_};
     for (int s = 0; s < block_.filled; ++s) {
       const Real norm = word(at_.slot_number(s, Layout::norm));
-      if (any(less(Real{}, norm) & occupied_)) judge_slot(s, norm, size, velocity, acceleration, jerk, verdict);
+      if (any(less(Real{}, norm) & occupied_)) judge_slot(s, norm, size, velocity, acceleration, verdict);
     }
     return verdict;
   }
 
   __attribute__((always_inline)) void judge_slot(int s, const Real& norm, const Real& size, const Real (&velocity)[n], const Real (&acceleration)[n],
-                                                 const Real (&jerk)[n], Verdict& verdict) const {
+                                                 Verdict& verdict) const {
     const Real start_norm = word(at_.slot_number(s, Layout::start_norm));
     const Real lower = word(at_.slot_number(s, Layout::lower)), upper = word(at_.slot_number(s, Layout::upper));
     const Real value = product(at_.slot(s), velocity), margin = smaller(upper - value, value + lower);
-    const Real noise = start_norm * size * (24.0 * step_rounding), rate_noise = norm * size * (24.0 * longest_window * step_rounding), turn_noise = longest_window * rate_noise;
-    Real rate = rate_of(at_.slot(s), velocity, acceleration), bend = Real{}, turn = Real{}, turning = Real{};
-    for (int i = 0; i < n; ++i) {
-      bend = bend + word(at_.slot(s) + i) * acceleration[i];
-      turn = turn + word(at_.slot(s) + n + i) * jerk[i];
-      turning = turning + magnitude(word(at_.slot(s) + n + i));
+    const Real noise = start_norm * size * (24.0 * step_rounding);
+    const Mask there = less(Real{}, norm), at_start = there & ~less(2.0 * noise, margin);
+    Mask unsure = at_start & ~at_start;
+    if (any(at_start)) {
+      Real rate = rate_of(at_.slot(s), velocity, acceleration);
+      rate = choose(less(upper - value, value + lower), -rate, rate);
+      const Real rate_noise = norm * size * (24.0 * longest_window * step_rounding);
+      const Mask single = equal(start_norm, Real{}), zero = at_start & ~less(noise, margin) & ~less(margin, -noise);
+      const Mask rises = less(2.0 * rate_noise, rate);
+      unsure = at_start & ~(rises & equal(lower, Real{}));  // what a first window would doubt: SlotWindow::find_orders
+      verdict.falls = verdict.falls | (there & less(margin, -noise)) | (zero & less(rate, -rate_noise));
+      if (any(unsure & single & ~rises)) judge_bend(s, velocity, acceleration, zero & single, rate, rate_noise, unsure, verdict.falls);
     }
-    const Mask upwards = less(upper - value, value + lower);
-    rate = choose(upwards, -rate, rate);
-    turn = choose(upwards, -turn, turn);
-    const Mask there = less(Real{}, norm), single = equal(start_norm, Real{});
-    const Mask zero = ~less(noise, margin) & ~less(margin, -noise), drops = less(rate, -rate_noise);
-    const Mask flat = zero & single & equal(rate, Real{}), sinks = less(bend, -rate_noise);
-    const Mask level = zero & ~drops & ~less(rate_noise, rate);  // the rate is rounding
-    const Mask velocity_only = single & less(Real{}, turning);
-    const Mask turns_down = level & velocity_only & less(turn, -turn_noise), turns_up = level & velocity_only & less(turn_noise, turn);
-    verdict.falls = verdict.falls | (there & (less(margin, -noise) | (zero & drops) | (flat & sinks) | turns_down));
-    const Mask unsure = there & level & (~single | (velocity_only & ~turns_down & ~turns_up));
     verdict.unsure = verdict.unsure | unsure;
     verdict.falls = verdict.falls | (there & touches(s) & ~unsure);
+  }
+
+  /// Single numbers that are zero, with a rate that is rounding; of a displacement, exactly zero. A gap's bend is an
+  /// acceleration, a velocity's a jerk.
+  __attribute__((noinline)) void judge_bend(int s, const Real (&velocity)[n], const Real (&acceleration)[n], const Mask& zero, const Real& rate,
+                                            const Real& rate_noise, Mask& unsure, Mask& falls) const {
+    const Real bend_noise = longest_window * rate_noise;
+    Real bend = Real{}, turning = Real{};
+    for (int i = 0; i < n; ++i) {
+      const Real by_velocity = word(at_.slot(s) + n + i);
+      bend = bend + word(at_.slot(s) + i) * acceleration[i] + by_velocity * rate_of(at_.row(i), velocity, acceleration);
+      turning = turning + magnitude(by_velocity);
+    }
+    const Mask level = ~less(rate_noise, magnitude(rate)) & (less(Real{}, turning) | equal(rate, Real{}));
+    unsure = unsure & ~(zero & less(4.0 * bend_noise, bend));
+    falls = falls | (zero & level & less(bend, -bend_noise));
   }
 
   /// Lanes whose gap, which falls as long as slot s is positive, is zero already: the mode would push it below zero.
@@ -191,7 +203,7 @@ class Follow : public Flight<width, n> {
   }
 
   const Action* action_[most_lanes];  ///< what has ended each lane's mode
-  int next_[most_lanes];              ///< the mode that follows
+  int next_[most_lanes] = {};         ///< the mode that follows
   unsigned tried_ = 0;                ///< lanes whose words are those of a candidate
 
  private:

@@ -57,6 +57,11 @@ struct Action {
   std::int8_t stop = 0;     ///< of an impact: which; of let_off: which compliant stop
   std::int8_t candidates = 0;
   std::int16_t candidate[most_candidates] = {};  ///< the modes that may follow, in order of preference
+
+  /// The same of actions that do the same to a state.
+  [[nodiscard, gnu::always_inline]] int key() const {
+    return static_cast<int>(jump) | own << 8 | (sign > 0 ? 1 : 0) << 16 | stop << 24;
+  }
 };
 /// Sides of a slot.
 inline constexpr int at_lower = 0, at_upper = 1, at_gap = 2, sides = 3;

@@ -34,7 +34,7 @@ struct Shape {
   std::vector<int> harmonic;      ///< of each stream ..
   std::vector<std::uint8_t> cosine_of;  ///< .. and whether it is a cosine
   std::vector<Slot> slot;         ///< [mode][slot]
-  std::vector<std::uint8_t> slots;  ///< how many each mode has
+  std::vector<std::uint8_t> slots;  ///< how many each mode has; none of a lane without a mode
   std::vector<Action> action;     ///< [mode][slot][side]
   std::vector<std::uint8_t> open;    ///< [mode]: bit by bit, the displacements of open stops that no slot watches
   std::vector<std::uint8_t> still;   ///< [mode]: bit i, a tangent's u_i is zero; bit most_coordinates + i, its p_i

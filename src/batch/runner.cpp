@@ -124,6 +124,7 @@ void Runner::make_room(const Entry& entry) {
   block_->all = all_->at(0);
   block_->ready = ready_.data();
   block_->layout = shape_->layout;
+  block_->words = shape_->layout.size();
   block_->harmonic = shape_->harmonic.data();
   block_->cosine_of = shape_->cosine_of.data();
   block_->action = shape_->action.data();
@@ -131,7 +132,7 @@ void Runner::make_room(const Entry& entry) {
   block_->slots = shape_->slots.data();
   block_->still = shape_->still.data();
   block_->filled = 0;
-  std::fill_n(block_->active_mode, most_lanes, -1);
+  std::fill_n(block_->active_mode, most_lanes, shape_->modes);
 }
 
 void Runner::start(int l) {
@@ -166,7 +167,10 @@ void Runner::serve(int l) {
   const unsigned bit = 1U << l;
   if ((block_->cuts & bit) != 0) return look(l);
   if ((block_->doubtful & bit) != 0) return ask_engine(l, false);
-  if ((block_->wanting & bit) != 0) return want(l);
+  if ((block_->wanting & bit) != 0) {
+    if (!make_mode(l, block_->wanted[l])) ask_engine(l, true);
+    return;
+  }
   double u[most_coordinates];
   for (int i = 0; i < block_->layout.n; ++i) u[i] = block_->u[i][l];
   const Ending ending{block_->event_mode[l], block_->event_slot[l], block_->event_side[l], block_->event_speed[l]};
@@ -239,15 +243,6 @@ void Runner::finish(int l) {
   block_->starting &= others;
   block_->watched &= others;
   queue_.take(index, std::move(run));
-}
-
-/// The words of all modes that may follow a lane's event.
-void Runner::want(int l) {
-  const Action action = (block_->starting >> l & 1U) != 0
-                            ? block_->start[l]
-                            : shape_->action_of(block_->event_mode[l], block_->event_slot[l], block_->event_side[l]);
-  for (int c = 0; c < action.candidates; ++c)
-    if (!make_mode(l, action.candidate[c])) return ask_engine(l, true);
 }
 
 bool Runner::make_mode(int l, int mode) {

@@ -63,7 +63,6 @@ class Runner {
   void start(int l);
   void serve(int l);
   void look(int l);
-  void want(int l);
   [[nodiscard]] bool make_mode(int l, int mode);
   void ask_engine(int l, bool to_the_end);
   void put_engine(int l);

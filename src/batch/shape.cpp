@@ -20,7 +20,7 @@ struct Offer {
   int count = 1;
 };
 
-Offer at_rest() { return {{1, 2, 0}, 3}; }
+Offer at_rest(bool falls) { return falls ? Offer{{1, 0, 2}, 3} : Offer{{1, 2, 0}, 3}; }
 
 void add(const Shape& shape, const std::vector<int>& digits, Action& action) {
   int id = 0, stride = 1;
@@ -61,10 +61,12 @@ class Offers {
   std::vector<Offer> offers_;
 };
 
-/// The same where the state's zeros are those that the mode and an event make.
+/// The same where the state's zeros are those that the mode and an event make. Of the two directions of slip no more
+/// than one fits; the likely one comes first.
 class EventOffers {
  public:
-  EventOffers(const Model& model, const mode::Frame& frame, const Action& action) : model_(model), frame_(frame), action_(action) {}
+  EventOffers(const Model& model, const mode::Frame& frame, const Action& action, const mode::Guard& guard)
+      : model_(model), frame_(frame), action_(action), guard_(guard) {}
 
   [[nodiscard]] std::vector<Offer> of(const mode::ContactStates& states) const {
     std::vector<Offer> offers;
@@ -88,8 +90,14 @@ class EventOffers {
       if (frame_.mass_inverse(contact.own, action_.own) != 0.0)
         return state == FrictionState::slip_minus ? Offer{{0, 2}, 2} : Offer{{2, 0}, 2};
     }
-    if (state == FrictionState::stick || (same && action_.jump == Jump::rest)) return at_rest();
+    if (state == FrictionState::stick || (same && action_.jump == Jump::rest)) return at_rest(falls(i, state));
     return {{static_cast<int>(state) + 1}, 1};
+  }
+
+  /// A slip ends where its velocity turns; a force comes to the limit above which the velocity falls (b pushes a back).
+  [[nodiscard]] bool falls(std::size_t i, FrictionState state) const {
+    if (state != FrictionState::stick) return state == FrictionState::slip_plus;
+    return guard_.kind == GuardKind::stick_below && guard_.contact == static_cast<int>(i);
   }
 
   [[nodiscard]] Offer of_compliant(std::size_t i, CompliantState state) const {
@@ -103,11 +111,12 @@ class EventOffers {
   const Model& model_;
   const mode::Frame& frame_;
   const Action& action_;
+  const mode::Guard& guard_;
 };
 
 /// The modes that may follow. A force at its limit does not leave the mode as it is: it is falling.
-void add_candidates(const Model& model, const mode::Frame& frame, const Shape& shape, int mode, Action& action) {
-  Offers(EventOffers(model, frame, action).of(states_of(shape, mode))).each(2, [&](const std::vector<int>& digits) {
+void add_candidates(const Model& model, const mode::Frame& frame, const Shape& shape, int mode, const mode::Guard& guard, Action& action) {
+  Offers(EventOffers(model, frame, action, guard).of(states_of(shape, mode))).each(2, [&](const std::vector<int>& digits) {
     add(shape, digits, action);
     const bool stays = action.candidates > 0 && action.candidate[action.candidates - 1] == mode;
     if (action.jump == Jump::none && stays) --action.candidates;
@@ -156,7 +165,7 @@ Action action_of(const Model& model, const mode::Frame& frame, const Shape& shap
     default:
       return {};
   }
-  add_candidates(model, frame, shape, mode, action);
+  add_candidates(model, frame, shape, mode, guard, action);
   return action;
 }
 
@@ -169,7 +178,7 @@ std::vector<Offer> start_offers(const Model& model, const mode::Frame& frame, co
   }
   for (const mode::ContactRow& friction : frame.frictions) {
     const double w = friction.sign * u[friction.own];
-    offers.push_back(w == 0.0 ? at_rest() : Offer{{w > 0.0 ? 2 : 0}, 1});
+    offers.push_back(w == 0.0 ? at_rest(false) : Offer{{w > 0.0 ? 2 : 0}, 1});
   }
   for (std::size_t i = 0; i < frame.compliant.size(); ++i) {
     const double depth = frame.compliant[i].sign * p[frame.compliant[i].own];
@@ -279,7 +288,7 @@ Shape shape_of(const Model& model, const mode::Frame& frame) {
   shape.layout = {frame.n, static_cast<int>(shape.harmonic.size()), shape.stops + shape.frictions + (1 + doubled) * shape.compliant};
   const auto modes = static_cast<std::size_t>(shape.modes), slots = static_cast<std::size_t>(shape.layout.slots);
   shape.slot.resize(modes * slots);
-  shape.slots.resize(modes);
+  shape.slots.resize(modes + 1);
   shape.action.resize(modes * slots * sides);
   shape.open.resize(modes);
   shape.still.resize(modes);

@@ -15,7 +15,7 @@ class Step : Carry<width, n> {
   using Base = Carry<width, n>;
   using Real = typename Base::Real;
   using Mask = typename Base::Mask;
-  using Base::action_, Base::all, Base::at_, Base::block_, Base::doubtful_, Base::fraction_, Base::halve_, Base::follow, Base::impact_, Base::next_, Base::occupied_, Base::of, Base::p_, Base::period_,
+  using Base::action_, Base::all, Base::at_, Base::block_, Base::doubtful_, Base::fraction_, Base::halve_, Base::follow, Base::impact_, Base::lanes_of, Base::next_, Base::occupied_, Base::of, Base::p_, Base::period_,
       Base::reached_, Base::slots_, Base::take_phase, Base::take_words, Base::tried_, Base::u_, Base::window_, Base::winner_, Base::word, Base::x_;
 
  public:
@@ -99,12 +99,7 @@ class Step : Carry<width, n> {
     unsigned refused = untouched(lanes);
     for (unsigned left = lanes; left != 0;) {
       const Action& action = *action_[__builtin_ctz(left)];
-      unsigned same = 0;
-      for (unsigned more = left; more != 0; more &= more - 1) {
-        const Action& other = *action_[__builtin_ctz(more)];
-        if (other.jump == action.jump && other.own == action.own && other.sign == action.sign && other.stop == action.stop)
-          same |= 1U << __builtin_ctz(more);
-      }
+      const unsigned same = left & lanes_of(jumps_, action.key());
       left &= ~same;
       refused |= jump(action, same);
     }
@@ -123,6 +118,7 @@ class Step : Carry<width, n> {
       const int l = __builtin_ctz(left), s = static_cast<int>(winner[l]);
       const int side = (by_gap >> l & 1U) != 0 ? at_gap : (high >> l & 1U) != 0 ? at_upper : at_lower;
       action_[l] = &block_.action[(block_.mode[l] * at_.slots + s) * sides + side];
+      jumps_[l] = action_[l]->key();
       block_.event_mode[l] = block_.mode[l];
       block_.event_slot[l] = s;
       block_.event_side[l] = side;
@@ -219,6 +215,7 @@ class Step : Carry<width, n> {
     block_.halved += __builtin_popcount(bits(halve_));
   }
 
+  int jumps_[most_lanes] = {};  ///< what happens to each lane
   Mask moved_, struck_ = of(0);
   Real speed_ = Real{};
   Real shown_;  ///< where each lane has come to, or its cut

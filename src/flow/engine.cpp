@@ -132,9 +132,9 @@ Outcome Engine::advance(Instant end) {
   shown_ = 0;
   if (chatter_stop_ >= 0 && !place_.moved && end_chatter(limit)) return Outcome::event;
   begin_segment();
-  if (const auto found = fly(stage)) {
+  while (const auto found = fly(stage)) {
     handle(found->guard, found->kind == event::RootKind::graze);
-    return Outcome::event;
+    if (!pending_.empty()) return Outcome::event;
   }
   if (stage == knot_) {
     pass_knot();

@@ -76,6 +76,7 @@ class Engine : public Flight {
   };
   [[nodiscard]] Own own(EventKind kind, int contact) const { return {kind, contact, speed_of(kind, contact)}; }
   void settle(Cause cause, std::optional<Own> own = {});
+  void hold_on(double flown);
   void report_settled(Cause cause, const std::optional<Own>& own, const mode::ContactStates& old);
   [[nodiscard]] double speed_of(EventKind kind, int contact) const;
   [[nodiscard]] double value_of(const mode::RowVector& row) const;

@@ -216,9 +216,21 @@ void Engine::settle(Cause cause, std::optional<Own> own) {
   const mode::ContactStates& old = here_->states();
   if (approaching() >= 0) strike_all();  // a tie
   reconcile_contacts();
+  const ModeId ended = mode_;
+  const double flown = elapsed_;
   choose_mode();
   if (cause != Cause::impact && cause != Cause::start) chatter_stop_ = -1;
+  const bool released = own && own->kind == EventKind::release;
+  if (released && mode_ == ended && pending_.empty() && !at_instant_.held) return hold_on(flown);
   report_settled(cause, own, old);
+}
+
+/// Rounding has left a force so far above zero that the choice of the mode sees it hold: it is released when the flight
+/// finds its zero again, and told once.
+void Engine::hold_on(double flown) {
+  at_instant_.held = true;
+  hits_.clear();
+  segment_begun_ -= flown;
 }
 
 /// What the new mode says about all contacts.

@@ -73,6 +73,7 @@ class Flight {
     long events = 0;
     double fastest = 0.0;      ///< the fastest impact
     std::uint32_t struck = 0;  ///< the stops that were struck, bit by bit
+    bool held = false;         ///< a release has been put off
   };
 
   Flight(const CompiledSystem& system, Instant start);

@@ -99,9 +99,10 @@ struct Valued {
 };
 
 void check_override(const Parameter& parameter, double value) {
+  if (parameter.admits(value)) return;
   const std::string name = "parameter " + in_quotes(parameter.name) + " = " + shown(value);
   if (!std::isfinite(value)) throw InputError(name + " is not a finite number");
-  if (!parameter.admits(value)) throw InputError(name + " is outside " + parameter.range());
+  throw InputError(name + " is outside " + parameter.range());
 }
 
 Observable shown_observable(const Part& part) {

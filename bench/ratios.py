@@ -6,7 +6,7 @@
 Two workers run in turn, one run each at a time: `bench_worker` (slapstick, Boost.odeint, CVODE) and bench/heyoka_peer.py. A round measures
 slapstick's motion and its lanes right before every other contender; a ratio is that to the motion, `lanes_ratio` that to the lanes, so that a
 machine whose speed drifts shifts both. Printed and written are the
-median of the rounds and the quartiles. Times are CPU time, without compilation; `wall_us` is the clock's. The files: `<machine>-ratios.csv` and `<machine>-scaling.csv`.
+median of the rounds and the quartiles. Times are CPU time, without compilation (lanes make the words of their modes as they go); `wall_us` is the clock's. The files: `<machine>-ratios.csv` and `<machine>-scaling.csv`.
 """
 import argparse
 import csv
@@ -114,7 +114,7 @@ def scaling_rows(worker, rounds, short):
         answers = [worker.run('chart', 16 if short else 40, 300, threads, exponent) for _ in range(max(3, rounds // 3))]
         of = lambda key: [1e6 * a[key] / (a['trajectories'] * 300) for a in answers]
         low, middle, high = spread(of('cpu'))
-        yield dict(what=name, coordinates=2, contacts=2, threads=threads, us=middle, us_low=low, us_high=high, windows=1e-6 * spread(of('lane_steps'))[1],
+        yield dict(what=name, coordinates=2, contacts=2, threads=threads, us=middle, us_low=low, us_high=high, lane_steps=1e-6 * spread(of('lane_steps'))[1],
                    wall_us=spread(of('wall'))[1])
     count = 1
     while count <= (os.cpu_count() or 1):

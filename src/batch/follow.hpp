@@ -137,7 +137,7 @@ class Follow : public Flight<width, n> {
   /// A slot refuses a mode by its value; by its rate where the value is zero within rounding (exactly, for a single
   /// number); by its bend where that is zero too. A velocity is a single number: where a force comes to its limit the
   /// velocity and its rate are zero, and its bend says whether slip begins that way. Where the bend is no more than
-  /// rounding either, an engine decides.
+  /// rounding either, or a force starts at one of two limits, an engine decides.
   __attribute__((always_inline)) Verdict judge() const {
     Real velocity[n], acceleration[n];
     const Real H = word(Layout::window), inverse_speed = word(Layout::inverse_speed);
@@ -169,7 +169,7 @@ class Follow : public Flight<width, n> {
       const Real rate_noise = norm * size * (24.0 * longest_window * step_rounding);
       const Mask single = equal(start_norm, Real{}), zero = at_start & ~less(noise, margin) & ~less(margin, -noise);
       const Mask rises = less(2.0 * rate_noise, rate);
-      unsure = at_start & ~(rises & equal(lower, Real{}));  // what a first window would doubt: SlotWindow::find_orders
+      unsure = at_start & ~(rises & equal(upper, all(no_limit)));  // as a first window would doubt (find_orders)
       verdict.falls = verdict.falls | (there & less(margin, -noise)) | (zero & less(rate, -rate_noise));
       if (any(unsure & single & ~rises)) judge_bend(s, velocity, acceleration, zero & single, rate, rate_noise, unsure, verdict.falls);
     }
@@ -177,8 +177,8 @@ class Follow : public Flight<width, n> {
     verdict.falls = verdict.falls | (there & touches(s) & ~unsure);
   }
 
-  /// Single numbers that are zero, with a rate that is rounding; of a displacement, exactly zero. A gap's bend is an
-  /// acceleration, a velocity's a jerk.
+  /// Single numbers that are zero, with a rate that is rounding. Where they bend down the mode falls, a displacement
+  /// only if its rate is exactly zero. A gap's bend is an acceleration, a velocity's a jerk.
   __attribute__((noinline)) void judge_bend(int s, const Real (&velocity)[n], const Real (&acceleration)[n], const Mask& zero, const Real& rate,
                                             const Real& rate_noise, Mask& unsure, Mask& falls) const {
     const Real bend_noise = longest_window * rate_noise;
@@ -189,7 +189,7 @@ class Follow : public Flight<width, n> {
       turning = turning + magnitude(by_velocity);
     }
     const Mask level = ~less(rate_noise, magnitude(rate)) & (less(Real{}, turning) | equal(rate, Real{}));
-    unsure = unsure & ~(zero & less(4.0 * bend_noise, bend));
+    unsure = unsure & ~(zero & less(-0.5 * rate_noise, rate) & less(4.0 * bend_noise, bend));
     falls = falls | (zero & level & less(bend, -bend_noise));
   }
 

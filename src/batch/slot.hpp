@@ -169,7 +169,7 @@ struct SlotWindow {
                noise_2 = size * z * z * (8.0 * 3.0 * step_rounding);
     const Real margin = smaller(upper - value, value + lower);
     const Mask clear = less(noise_0, margin), outside = less(margin, -noise_0);
-    const Mask one_sided = equal(lower, Real{});
+    const Mask one_sided = equal(upper, Real{} + no_limit);
     const Mask rises = less(noise_1, slope), falls = less(slope, -noise_1), bends = less(noise_2, bend);
     first = there & ~clear;
     second = first & ~rises;

@@ -82,6 +82,7 @@ class Engine : public Flight {
   [[nodiscard]] double value_of(const mode::RowVector& row) const;
   void report(EventKind kind, int contact, double w) { report(kind, contact, w, X_); }
   void report(EventKind kind, int contact, double w, const Extended& before);
+  void spend_budget();
   [[noreturn]] void fail(const std::string& what) const;
   [[noreturn]] void fail_pile_up() const;
   [[nodiscard]] int stops() const { return static_cast<int>(system_->model().stops.size()); }

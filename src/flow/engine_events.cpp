@@ -225,11 +225,12 @@ void Engine::settle(Cause cause, std::optional<Own> own) {
   report_settled(cause, own, old);
 }
 
-/// Rounding has left a force so far above zero that the choice of the mode sees it hold: it is released when the flight
-/// finds its zero again, and told once.
+/// Rounding has left a force so far above zero that the choice of the mode sees it hold, and changes nothing: the force
+/// is released, and told, where the flight finds its zero again. The segment goes on.
 void Engine::hold_on(double flown) {
   at_instant_.held = true;
   hits_.clear();
+  spend_budget();
   segment_begun_ -= flown;
 }
 
@@ -351,7 +352,10 @@ void Engine::report(EventKind kind, int contact, double w, const Extended& befor
   pending_.push_back(Event{kind, contact, now_, w, 0.0});
   ++counters_.events;
   counters_.grazes += kind == EventKind::graze;
-  if (kind == EventKind::knot) return;  // the signal says how many there are
+  if (kind != EventKind::knot) spend_budget();  // the signal says how many knots there are
+}
+
+void Engine::spend_budget() {
   if (++at_instant_.events > most_events_at_one_instant) fail_pile_up();
   if (now_.period != budget_period_) {
     budget_period_ = now_.period;

@@ -3,10 +3,11 @@
 
     bench/ratios.py BUILD_FOLDER [--python INTERPRETER] [--rounds 15] [--out FOLDER] [--short]
 
-Two workers run in turn, one run each at a time: `bench_worker` (slapstick, Boost.odeint, CVODE) and bench/heyoka_peer.py. A round measures
-slapstick's motion and its lanes right before every other contender; a ratio is that to the motion, `lanes_ratio` that to the lanes, so that a
-machine whose speed drifts shifts both. Printed and written are the
-median of the rounds and the quartiles. Times are CPU time, without compilation (lanes make the words of their modes as they go); `wall_us` is the clock's. The files: `<machine>-ratios.csv` and `<machine>-scaling.csv`.
+Two workers run in turn, one run each at a time: `bench_worker` (slapstick, Boost.odeint, CVODE) and bench/heyoka_peer.py.
+A round measures slapstick's motion and its lanes right before every other contender; `ratio` is that to the motion, `lanes_ratio` that to
+the lanes, so that a machine whose speed drifts shifts all three. Printed and written are the median of the rounds and the quartiles.
+Times are CPU time, without compilation (lanes make the words of their modes as they go); `wall_us` is the clock's.
+The files: `<machine>-ratios.csv`, `<machine>-scaling.csv` and `<machine>-roofline.csv`.
 """
 import argparse
 import csv
@@ -73,7 +74,7 @@ def compare(workers, omega, rounds):
         for name in costs:
             worker, kind, repeats = CONTENDERS[name]
             motion = workers['native'].run('slapstick', omega, PERIODS, 20)
-            lanes = workers['native'].run('lanes', omega, PERIODS, 1)
+            lanes = workers['native'].run('lanes', omega, PERIODS)
             other = workers[worker].run(kind, omega, PERIODS, repeats) if worker == 'native' else workers[worker].run(kind, omega, PERIODS)
             costs[name].append(tuple(map(per_period, (other, motion, lanes))))
             answers.update({'slapstick': motion, 'slapstick, lanes': lanes, name: other})
@@ -110,7 +111,7 @@ def scaling_rows(worker, rounds, short):
         low, middle, high = spread([1e6 * a['cpu'] / periods for a in answers])
         yield dict(what='chain, a period', coordinates=coordinates, contacts=contacts, threads=1, us=middle, us_low=low, us_high=high,
                    events=answers[0]['events'] / periods, windows=answers[0]['windows'] / periods)
-    for name, threads, exponent in (('chart in lanes, a period', 1, 0), ('the same with exponents', 1, 1), ('chart in lanes, a period', os.cpu_count() or 1, 0)):
+    for name, threads, exponent in (('chart in lanes, a period', 1, 0), ('chart in lanes with exponents, a period', 1, 1), ('chart in lanes, a period', os.cpu_count() or 1, 0)):
         answers = [worker.run('chart', 16 if short else 40, 300, threads, exponent) for _ in range(max(3, rounds // 3))]
         of = lambda key: [1e6 * a[key] / (a['trajectories'] * 300) for a in answers]
         low, middle, high = spread(of('cpu'))

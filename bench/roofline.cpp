@@ -4,7 +4,7 @@
 ///
 /// The operations are counted by kernels that count and then call the real ones: this program defines event::kernels() itself, so that the linker
 /// does not take the library's. An operation is a + - x / or comparison of doubles. Not counted is what is done outside of kernels (clock, mode graph, bookkeeping).
-/// The peak is that of as many additions as products in independent chains, one in each of twelve registers of this processor, without FMA.
+/// The peak is that of as many additions as products, without FMA, in twelve independent chains: one in each of twelve registers.
 #include <cmath>
 #include <cstdio>
 

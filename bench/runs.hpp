@@ -28,9 +28,10 @@ Answer run_system(const Words& words);
 Answer run_chain(const Words& words);
 /// THREADS OMEGA PERIODS: a motion on each thread, of one System. `wall` beside `cpu`.
 Answer run_threads(const Words& words);
-/// OMEGA PERIODS REPEATS: 64 such motions in the lanes of one thread, from starts that are 0.001 apart.
+/// OMEGA PERIODS: 64 such motions in the lanes of one thread, from starts that are 0.001 apart.
 Answer run_lanes(const Words& words);
-/// ROWS PERIODS THREADS EXPONENT(0 or 1): ROWS x ROWS values of omega 1..6 and friction 0.05..0.3, from rest, in refilled lanes.
+/// ROWS PERIODS THREADS EXPONENT: ROWS x ROWS values of omega 1..6 and friction 0.05..0.3 in refilled lanes.
+/// EXPONENT 1: with the largest exponent of each run.
 Answer run_chart(const Words& words);
 
 /// What the two run.

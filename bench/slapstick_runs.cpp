@@ -130,30 +130,29 @@ sweep::BatchProblem lanes_of_chart(int rows, int periods) {
 
 namespace {
 
-Answer run_batches(const sweep::BatchProblem& problem, int repeats) {
-  sweep::Batch batch;
+Answer run_lanes_of(const sweep::BatchProblem& problem) {
   const double begun = cpu_time();
   const auto before = std::chrono::steady_clock::now();
-  for (int k = 0; k < repeats; ++k) batch = run_batch(problem);
+  const sweep::Batch batch = run_batch(problem);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - before;
-  const double cpu = (cpu_time() - begun) / repeats;
+  const double cpu = cpu_time() - begun;
   double impacts = 0.0;
   for (const BatchRun& run : batch.runs) impacts += static_cast<double>(run.impacts);
-  return {{"cpu", cpu}, {"wall", wall.count() / repeats}, {"trajectories", static_cast<double>(problem.count)},
+  return {{"cpu", cpu}, {"wall", wall.count()}, {"trajectories", static_cast<double>(problem.count)},
           {"impacts", impacts}, {"lane_steps", static_cast<double>(batch.lane_steps)}};
 }
 
 }  // namespace
 
 Answer run_lanes(const Words& words) {
-  return run_batches(lanes_of_starts(std::stod(words.at(1)), std::stoi(words.at(2))), std::stoi(words.at(3)));
+  return run_lanes_of(lanes_of_starts(std::stod(words.at(1)), std::stoi(words.at(2))));
 }
 
 Answer run_chart(const Words& words) {
   sweep::BatchProblem problem = lanes_of_chart(std::stoi(words.at(1)), std::stoi(words.at(2)));
   problem.threads = std::stoi(words.at(3));
   problem.plan.exponent = words.at(4) == "1";
-  return run_batches(problem, 1);
+  return run_lanes_of(problem);
 }
 
 Answer run_threads(const Words& words) {

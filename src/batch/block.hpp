@@ -34,7 +34,6 @@ struct alignas(64) Block {
   const Row* all;       ///< [mode][word]
   const std::uint8_t* ready;  ///< [mode][lane]: whether those words have been made
   Layout layout;
-  int words;  ///< of a mode
   const int* harmonic;          ///< Shape::harmonic, cosine_of, action, open, slots, still
   const std::uint8_t* cosine_of;
   const Action* action;

@@ -69,6 +69,7 @@ class Follow : public Flight<width, n> {
     const Block::Row* from[most_lanes];
     unsigned takers[most_lanes];
     for (int l = 0; l < width; ++l) block_.active_mode[l] = (lanes >> l & 1U) != 0 ? modes[l] : block_.active_mode[l];
+    const long size = at_.size();
     int groups = 0, filled = 0;
     for (int l = 0; l < width; ++l) {
       const int slots = block_.slots[block_.active_mode[l]];
@@ -78,7 +79,7 @@ class Follow : public Flight<width, n> {
       const int mode = modes[__builtin_ctz(lanes)];
       takers[groups] = lanes & lanes_of(modes, mode);
       lanes &= ~takers[groups];
-      from[groups++] = block_.all + static_cast<long>(mode) * block_.words;
+      from[groups++] = block_.all + mode * size;
     }
     // up to the most slots before: a slot that no mode has any more becomes zeros
     const int last = at_.slot(filled > block_.filled ? filled : block_.filled);
@@ -169,7 +170,9 @@ class Follow : public Flight<width, n> {
       const Real rate_noise = norm * size * (24.0 * longest_window * step_rounding);
       const Mask single = equal(start_norm, Real{}), zero = at_start & ~less(noise, margin) & ~less(margin, -noise);
       const Mask rises = less(2.0 * rate_noise, rate);
-      unsure = at_start & ~(rises & equal(upper, all(no_limit)));  // as a first window would doubt (find_orders)
+      // As a first window would doubt (find_orders). Both compute alike, apart from rounding, which the bounds hold
+      // eight times: twice or half of a bound leaves room for that.
+      unsure = at_start & ~(rises & equal(upper, all(no_limit)));
       verdict.falls = verdict.falls | (there & less(margin, -noise)) | (zero & less(rate, -rate_noise));
       if (any(unsure & single & ~rises)) judge_bend(s, velocity, acceleration, zero & single, rate, rate_noise, unsure, verdict.falls);
     }

@@ -124,7 +124,6 @@ void Runner::make_room(const Entry& entry) {
   block_->all = all_->at(0);
   block_->ready = ready_.data();
   block_->layout = shape_->layout;
-  block_->words = shape_->layout.size();
   block_->harmonic = shape_->harmonic.data();
   block_->cosine_of = shape_->cosine_of.data();
   block_->action = shape_->action.data();

@@ -61,8 +61,8 @@ class Offers {
   std::vector<Offer> offers_;
 };
 
-/// The same where the state's zeros are those that the mode and an event make. Of the two directions of slip no more
-/// than one fits; the likely one comes first.
+/// The same where the state's zeros are those that the mode and an event make. With given states of the others no more
+/// than one direction of slip fits; the likely one comes first.
 class EventOffers {
  public:
   EventOffers(const Model& model, const mode::Frame& frame, const Action& action, const mode::Guard& guard)
@@ -94,7 +94,7 @@ class EventOffers {
     return {{static_cast<int>(state) + 1}, 1};
   }
 
-  /// A slip ends where its velocity turns; a force comes to the limit above which the velocity falls (b pushes a back).
+  /// Whether the velocity is likely to go below zero: it comes from above, or the holding force is at its lower limit.
   [[nodiscard]] bool falls(std::size_t i, FrictionState state) const {
     if (state != FrictionState::stick) return state == FrictionState::slip_plus;
     return guard_.kind == GuardKind::stick_below && guard_.contact == static_cast<int>(i);

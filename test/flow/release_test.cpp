@@ -21,7 +21,8 @@ Model pressed_block(std::mt19937_64& random) {
   return m;
 }
 
-/// Where the flight begins decides how the force is rounded at its zero: the choice of the mode may see that force hold.
+/// Where the flight begins decides how the force is rounded at its zero.
+/// The choice of the mode may see that force hold.
 TEST(Release, IsToldOnceFromWhereverInTheRestTheFlightBegins) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> share(0.0, 1.0);

@@ -8,6 +8,7 @@ import sys
 
 import pytest
 import slapstick
+from beside import HANGS
 from conftest import ROOT
 
 sys.path.insert(0, str(ROOT / "test/library"))
@@ -59,7 +60,7 @@ def test_the_notebook_draws_the_main_figure_and_the_branch_in_ten_lines():
             "[(point.type, round(point.value, 5)) for point in branch.special]]))"
         )
     )
-    nbclient.NotebookClient(notebook, timeout=300, kernel_name="python3").execute()
+    nbclient.NotebookClient(notebook, timeout=HANGS, kernel_name="python3").execute()
     outputs = [output for cell in notebook.cells for output in cell.get("outputs", [])]
     pictures = [output for output in outputs if "image/png" in output.get("data", {})]
     assert len(pictures) == 2 and all(len(output["data"]["image/png"]) > 20_000 for output in pictures)
@@ -78,5 +79,5 @@ def test_notebooks_of_the_tutorial_are_its_pages_and_run(page, tmp_path):
     kept = ROOT / f"python/notebooks/{page}.ipynb"
     assert kept.read_text() == (tmp_path / kept.name).read_text()
     notebook = nbformat.read(kept, as_version=4)
-    nbclient.NotebookClient(notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": str(tmp_path)}}).execute()
+    nbclient.NotebookClient(notebook, timeout=HANGS, kernel_name="python3", resources={"metadata": {"path": str(tmp_path)}}).execute()
     assert any(cell.get("outputs") for cell in notebook.cells)

@@ -2,12 +2,12 @@
 
 import os
 import signal
-import time
-from threading import Timer
+from threading import Thread
 
 import numpy as np
 import pytest
 import slapstick
+from beside import wait_until
 from test_same_as_program import assert_same_table
 
 X, Y = ("omega", 1.2, 5.2, 12), ("friction", 0.1, 0.3, 7)
@@ -156,11 +156,17 @@ def test_dask_gives_the_same_bits_also_where_a_worker_is_killed():
         workers = list(client.scheduler_info()["workers"])
         pids = client.run(os.getpid)
         equal(slapstick.dask.map(client, "vibro-impact", x, y), whole)
-        begin = time.monotonic()
-        slapstick.dask.map(client, "vibro-impact", x, y, tasks=24)
-        in_the_middle = 0.5 * (time.monotonic() - begin)
-        Timer(in_the_middle, os.kill, (pids[workers[0]], signal.SIGKILL)).start()
+
+        def kill_in_the_middle():  # a part is done, and the worker is at another
+            states = cluster.scheduler.tasks
+            worker = cluster.scheduler.workers[workers[0]]
+            wait_until(lambda: any(task.state == "memory" for task in list(states.values())) and worker.processing)
+            os.kill(pids[workers[0]], signal.SIGKILL)
+
+        killer = Thread(target=kill_in_the_middle)
+        killer.start()
         equal(slapstick.dask.map(client, "vibro-impact", x, y, tasks=24), whole)
+        killer.join()
         assert pids[workers[0]] not in client.run(os.getpid).values()
         with pytest.raises(slapstick.InputError, match="shard"):
             slapstick.dask.map(client, "vibro-impact", x, y, shard=(1, 2))

@@ -124,7 +124,7 @@ def test_a_diagram_of_values_that_are_not_equidistant_is_that_of_each_value():
 
 def test_orbit_has_every_number_of_the_program(program):
     words = ("orbit", "vibro-impact", "--set", "omega=2.9", "--orbit", "1-1", "--unstable")
-    printed, found = program.json(*words), slapstick.orbit("vibro-impact", "1-1", stable=False, omega=2.9)
+    printed, found = program.json(*words), slapstick.orbit("vibro-impact", "1-1", starts=64, stable=False, omega=2.9)
     assert (found.label, found.n, found.p, found.stable) == (printed["class"], 1, printed["p"], False)
     assert [[mu.real, mu.imag] for mu in found.multipliers] == printed["multipliers"]
     assert found.state.tolist() == list(printed["state"].values())
@@ -215,7 +215,7 @@ def test_orbit_and_attractor_measure_what_the_program_does(program):
     of = "a1:rms,F_stop:mean,w:number"
     words = ("--set", "omega=2.9", "--of", of)
     printed = program.json("orbit", "vibro-impact", "--orbit", "1-1", "--unstable", *words)
-    orbit = slapstick.orbit("vibro-impact", "1-1", stable=False, omega=2.9)
+    orbit = slapstick.orbit("vibro-impact", "1-1", starts=64, stable=False, omega=2.9)
     assert dict(orbit.measure(of)) == printed["values"]
     printed = program.json("classify", "vibro-impact", *words)
     assert dict(slapstick.classify("vibro-impact", omega=2.9).measure(of)) == printed["values"]

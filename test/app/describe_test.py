@@ -9,7 +9,7 @@ import subprocess
 import sys
 import tempfile
 
-from program import PROGRAM, good, main, read, refused
+from program import HANGS, PROGRAM, good, main, read, refused
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..')
 
@@ -60,7 +60,7 @@ def bash_completes(line):
     words = line.split(' ')
     script = (f'export PATH={os.path.dirname(PROGRAM)}:$PATH\nsource <(slapstick completion bash)\n'
               f'COMP_WORDS=({" ".join(repr(word) for word in words)})\nCOMP_CWORD={len(words) - 1}\n_slapstick\nprintf "%s\\n" "${{COMPREPLY[@]}}"')
-    done = subprocess.run(['bash', '-c', script], capture_output=True, check=True, timeout=60)
+    done = subprocess.run(['bash', '-c', script], capture_output=True, check=True, timeout=HANGS)
     assert done.stderr == b'', done.stderr
     return done.stdout.decode().split()
 
@@ -84,7 +84,7 @@ def test_bash_completes_a_list_and_an_assignment_and_a_stop():
 def shell_or_nothing(command, script):
     """What a shell prints, or None where it is not installed."""
     try:
-        done = subprocess.run(command, input=script.encode(), capture_output=True, check=True, timeout=60,
+        done = subprocess.run(command, input=script.encode(), capture_output=True, check=True, timeout=HANGS,
                               env={**os.environ, 'PATH': os.path.dirname(PROGRAM) + ':' + os.environ['PATH'], 'HOME': os.getcwd()})
     except FileNotFoundError:
         print(f'{command[0]} is not here: its completion is not tried', file=sys.stderr)
@@ -134,7 +134,7 @@ def test_scripts_of_zsh_and_fish_are_scripts_where_these_shells_are():
             with open(path, 'w', encoding='utf-8') as file:
                 file.write(script)
             try:
-                done = subprocess.run([*check, path], capture_output=True, check=False, timeout=60)
+                done = subprocess.run([*check, path], capture_output=True, check=False, timeout=HANGS)
             except FileNotFoundError:
                 print(f'{shell} is not here: its script is not looked at', file=sys.stderr)
                 continue

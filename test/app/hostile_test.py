@@ -2,7 +2,7 @@
 import os
 import subprocess
 
-from program import PROGRAM, good, main, read, refused, run, says
+from program import HANGS, PROGRAM, good, main, read, refused, run, says
 
 VERBS = [line.split()[0] for line in good('--help').split('Verbs:\n')[1].split('\n\n')[0].splitlines()]
 WITH_MODEL = [verb for verb in VERBS if 'MODEL' in good(verb, '--help')]
@@ -47,7 +47,7 @@ def test_sizes_that_would_exhaust_a_parser():
         assert checked(deep) != '', deep[:20]
     with open('f.toml', 'wb') as file:
         file.truncate(1 << 30)
-    says(refused(2, 'check', 'f.toml', timeout=10), 'f.toml: larger than 1048576 bytes')
+    says(refused(2, 'check', 'f.toml'), 'f.toml: larger than 1048576 bytes')
 
 
 def test_numbers_that_are_none():
@@ -111,7 +111,7 @@ def test_files_that_cannot_be_what_they_are_for():
     os.symlink('loop.toml', 'loop.toml')
     for verb in WITH_MODEL:
         for name in ('folder.toml', 'pipe.toml', 'loop.toml', '/dev/null.toml', 'none.toml'):
-            says(refused(4, verb, name, *NEEDED.get(verb, []), timeout=10), name)
+            says(refused(4, verb, name, *NEEDED.get(verb, [])), name)
     for verb in ('show', 'simulate', 'classify'):
         says(refused(4, verb, 'impact-oscillator', '--out', 'folder.toml'), 'folder.toml')
         says(refused(4, verb, 'impact-oscillator', '--out', '/proc/self/none'), '/proc/self/none')
@@ -150,7 +150,7 @@ def test_closed_standard_streams_take_no_file():
     """A file that is opened as descriptor 1 would get what is meant for standard output."""
     for closed in (0, 1, 2):
         done = subprocess.run([PROGRAM, 'simulate', 'impact-oscillator', '--periods', '3', '--events', 'e.csv', '--out', 'o.json'],
-                              preexec_fn=lambda: os.close(closed), check=False, timeout=60)
+                              preexec_fn=lambda: os.close(closed), check=False, timeout=HANGS)
         assert done.returncode == 0 and read('e.csv').startswith('time,kind') and read('o.json').startswith('{')
 
 

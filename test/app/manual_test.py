@@ -8,7 +8,7 @@ import re
 import subprocess
 import sys
 
-from program import PROGRAM, good, main, refused
+from program import HANGS, PROGRAM, good, main, refused
 
 VERIFIER = os.path.join(os.path.dirname(PROGRAM), 'slapstick-verify')
 
@@ -23,13 +23,13 @@ def pages():
     for verb in verbs():
         yield 'slapstick-' + verb['name'], good('describe', '--man', verb['name'])
     if os.path.exists(VERIFIER):
-        yield 'slapstick-verify', subprocess.run([VERIFIER, '--man'], capture_output=True, check=True, timeout=60).stdout.decode()
+        yield 'slapstick-verify', subprocess.run([VERIFIER, '--man'], capture_output=True, check=True, timeout=HANGS).stdout.decode()
 
 
 def formatted(source, *command):
     """(text, complaints) of a formatter, or None where it is not installed."""
     try:
-        done = subprocess.run(command, input=source.encode(), capture_output=True, check=False, timeout=60)
+        done = subprocess.run(command, input=source.encode(), capture_output=True, check=False, timeout=HANGS)
     except FileNotFoundError:
         print(f'{command[0]} is not here: pages are not read by it', file=sys.stderr)
         return None

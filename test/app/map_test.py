@@ -10,7 +10,8 @@ import signal
 import struct
 import zlib
 
-from program import good, main, read, refused, run, says, signalled, table
+from beside import Beside, second, shows_progress
+from program import good, main, read, refused, run, says, table
 
 PAPER = ('map', 'vibro-impact', '--x', 'omega=1.2:3:5', '--y', 'friction=0.1:0.3:3')
 
@@ -189,14 +190,23 @@ def test_bad_input_is_named():
     assert os.listdir('.') == []
 
 
+def done_of(progress):
+    """How many pixels the last line of progress tells of."""
+    told = re.findall('([0-9]+)/4000000 pixels', progress)
+    return int(told[-1]) if told else 0
+
+
 def test_a_signal_ends_it_within_two_seconds_with_what_is_complete():
-    big = ('map', 'vibro-impact', '--x', 'omega=1:6:400', '--y', 'friction=0.05:0.3:400', '--out', 'a.csv', '--progress')
+    big = ('map', 'vibro-impact', '--x', 'omega=1:6:2000', '--y', 'friction=0.05:0.3:2000', '--threads', '2', '--out', 'a.csv', '--progress')
     for number in (signal.SIGINT, signal.SIGTERM):
-        done = signalled(number, 3, *big, patience=2)
+        endless = Beside(*big)
+        assert endless.until(lambda run=endless: done_of(run.err()) > 100), endless.err()
+        done = endless.signalled(number)
         assert done.status == 130, (done.status, done.err)
+        assert done.cpu < 2 * 2 * second(), (done.cpu, second())  # of two threads
         says(done.err, 'stopped after', 'pixels (', '/s', 'left')
         rows = table(read('a.csv'))[1]
-        assert len(rows) == int(re.search('stopped after ([0-9]+) of 160000', done.err).group(1)) > 100
+        assert len(rows) == int(re.search('stopped after ([0-9]+) of 4000000', done.err).group(1)) > 100
 
 
 if __name__ == '__main__':

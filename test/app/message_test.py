@@ -4,7 +4,8 @@ import math
 import os
 import signal
 
-from program import good, main, read, refused, run, says, signalled, table
+from beside import Beside, second, shows_progress
+from program import good, main, read, refused, run, says, table
 
 HEAD = 'name = "m"\n'
 COORDINATE = '[[coordinate]]\nname = "x"\nmass = %s\n'
@@ -93,7 +94,7 @@ def test_a_model_file_that_cannot_be_read_is_status_4():
         says(refused(4, 'check', folder), repr(folder), 'a folder, not a file')
     says(refused(4, 'diagram', 'nothing.toml', '--sweep', 'a=1:2:3'), 'no such file')
     os.mkfifo('pipe.toml')
-    says(refused(4, 'check', 'pipe.toml', timeout=10), 'not a regular file')
+    says(refused(4, 'check', 'pipe.toml'), 'not a regular file')
     write('m.txt', HEAD + COORDINATE % 1)
     says(refused(2, 'check', 'm.txt'), "'m.txt'", 'must end in .toml')
 
@@ -101,14 +102,16 @@ def test_a_model_file_that_cannot_be_read_is_status_4():
 def test_a_section_without_points_ends_soon_and_leaves_nothing():
     words = ('poincare', 'vibro-impact', '--set', 'clearance=9')
     with open('out.csv', 'wb') as out:
-        refused(3, *words, timeout=10, out=out)
+        refused(3, *words, out=out)
     assert read('out.csv') == ''
     for more in ((), ('--out', 'p.csv'), ('--out', 'p.csv', '--plot', 'p.png')):
-        says(refused(3, *words, *more, timeout=10), 'no impacts in 10000 periods', '--state', '--most-periods', '--section stroboscopic')
+        says(refused(3, *words, *more), 'no impacts in 10000 periods', '--state', '--most-periods', '--section stroboscopic')
     says(refused(3, *words, '--most-periods', '20'), 'no impacts in 20 periods')
     says(refused(3, *words, '--most-periods', '30000'), 'no impacts in 30000 periods')
     says(refused(3, 'poincare', 'bouncing-ball', '--transient', '1000'), 'no impacts', 'a shorter --transient')
-    done = signalled(signal.SIGINT, 0.5, *words, '--most-periods', '1000000000', '--out', 'p.csv')
+    endless = Beside(*words, '--most-periods', '1000000000', '--out', 'p.csv')
+    assert endless.until(endless.works), endless.err()
+    done = endless.signalled(signal.SIGINT)
     assert done.status == 130, (done.status, done.err)
     assert os.listdir('.') == ['out.csv'], os.listdir('.')
     done = run('poincare', 'bouncing-ball', '--transient', '0')  # it comes to rest after some points
@@ -136,9 +139,12 @@ def plotted_times(name):
 
 
 def test_ctrl_c_plots_the_last_periods_that_there_are():
-    for omega, periods in (('4.9', '100000000'), ('1e-4', '1000000')):  # some events per period; a stage of many windows
-        done = signalled(signal.SIGINT, 1.0, 'simulate', 'vibro-impact', '--set', 'omega=' + omega, '--periods', periods, '--plot', 'p.png', patience=20)
-        assert done.status == 130 and done.err == '', (done.status, done.err)
+    for omega, periods in (('4.9', '10000000000'), ('1e-4', '3000000')):  # some events per period; a stage of many windows
+        endless = Beside('simulate', 'vibro-impact', '--set', 'omega=' + omega, '--periods', periods, '--plot', 'p.png', '--progress')
+        assert endless.until(shows_progress(endless)), endless.err()
+        done = endless.signalled(signal.SIGINT)
+        assert done.status == 130 and all(' left' in line for line in done.err.splitlines()), (done.status, done.err)
+        assert done.cpu < 20 * second(), (omega, done.cpu, second())
         end = float(done.out.split('"periods": ')[1].split(',')[0])
         assert os.path.getsize('p.png') > 1000
         times = plotted_times('p-plot.csv')

@@ -3,12 +3,14 @@
 
     store_test.py PROGRAM CASE
 """
+import glob
 import os
 import re
 import signal
 import subprocess
 import time
 
+from beside import Beside, bytes_of
 from program import PROGRAM, good, main, read, refused, run, says, table
 
 CHART = ('map', 'vibro-impact', '--x', 'omega=1:6:40', '--y', 'friction=0.05:0.3:30')
@@ -34,23 +36,39 @@ class Numbers:
         return (self.state >> 33) % most
 
 
-def killed(words, delay):
-    process = subprocess.Popen([PROGRAM, *words], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    time.sleep(delay)
-    process.kill()
-    process.communicate()
-    return process.returncode == -signal.SIGKILL
+def grown(name, size=40000):
+    """For `until`: so much more is written for a store, with 40 kB the first tiles. No program is asked: the run would end meanwhile."""
+    most = bytes_of(name) + size
+    return lambda: bytes_of(name) >= most
+
+
+def done_now(name):
+    found = run('store', 'info', name)
+    return done_in(found.out) if found.status == 0 else 0
+
+
+def remove_all(start):
+    for name in glob.glob(glob.escape(start) + '*'):
+        os.remove(name)
+
+
+def killed(words, name, size):
+    """Killed when it has written so many bytes, or a moment later. Returns whether that hit a run at work."""
+    process = Beside(*words, '--store', name, '--resume')
+    process.until(grown(name, size))
+    time.sleep(size % 8 / 1000)  # not only just after a write
+    if not process.ended():
+        os.kill(process.pid, signal.SIGKILL)
+    return process.outcome().status == -signal.SIGKILL
 
 
 def kill_often(words, kills, seed, share):
-    """Resumed after each kill, which comes within a share of the time that the whole run takes; what was there stays
-    there. Returns the number of kills that hit a run at work."""
-    begin = time.monotonic()
+    """Resumed after each of so many kills that hit a run at work, within a share of what it writes; what was there stays there."""
     whole = good(*words, '--store', 'whole.db')
-    longest = share * (time.monotonic() - begin)
+    written = 4 * os.path.getsize('whole.db')  # the log holds each page several times
     numbers, seen, hits = Numbers(seed), 0, 0
-    for _ in range(kills):
-        hits += killed((*words, '--store', 'part.db', '--resume'), longest * numbers.below(1000) / 1000)
+    while hits < kills:
+        hits += killed(words, 'part.db', int(share * written * numbers.below(1000) / 1000))
         if os.path.exists('part.db'):
             found = run('store', 'info', 'part.db')
             if found.status == 0:  # else it died before it began
@@ -62,19 +80,18 @@ def kill_often(words, kills, seed, share):
             else:
                 assert seen == 0, found.err
     assert hash_of(good(*words, '--store', 'part.db', '--resume')) == hash_of(whole)
-    return hits
 
 
 def test_killed_runs_lose_nothing_and_end_with_the_same_hash():
-    assert kill_often(CHART, 4, 1, 0.8) >= 2
+    kill_often(CHART, 4, 1, 0.8)
     os.remove('whole.db'), os.remove('part.db')
-    assert kill_often(CARRY, 3, 2, 0.8) >= 1
+    kill_often(CARRY, 3, 2, 0.8)
 
 
 def test_two_hundred_kills():
-    assert kill_often(CHART, 120, 3, 0.6) >= 60
+    kill_often(CHART, 120, 3, 0.6)
     os.remove('whole.db'), os.remove('part.db')
-    assert kill_often(CARRY, 80, 4, 0.6) >= 40
+    kill_often(CARRY, 80, 4, 0.6)
 
 
 def test_a_refined_run_resumes_with_the_same_hash_and_exports_what_it_would_have_written():
@@ -91,13 +108,14 @@ def test_a_refined_run_resumes_with_the_same_hash_and_exports_what_it_would_have
 
 
 def test_an_interrupted_run_resumes_and_says_how():
-    process = subprocess.Popen([PROGRAM, *CHART, '--store', 'a.db'], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-    time.sleep(0.4)
-    process.send_signal(signal.SIGTERM)
-    out, err = process.communicate(timeout=20)
-    if process.returncode == 130:  # it was not done yet
-        says(err.decode(), '--resume')
-        assert done_in(out.decode()) < 1200 and not os.path.exists('a.db-wal')
+    done = None
+    while done is None or done_in(done.out) == 1200:  # until it is caught at work
+        remove_all('a.db')
+        process = Beside(*CHART, '--store', 'a.db')
+        done = process.signalled(signal.SIGTERM) if process.until(grown('a.db')) else process.outcome()
+    assert done.status == 130, (done.status, done.err)
+    says(done.err, '--resume')
+    assert 0 < done_in(done.out) < 1200 and not os.path.exists('a.db-wal')
     assert hash_of(good(*CHART, '--store', 'a.db', '--resume')) == hash_of(good(*CHART, '--store', 'b.db'))
 
 
@@ -139,27 +157,25 @@ def test_a_killed_diagram_resumes_with_its_bytes():
     in_lanes = diagram[:4] + ('--start', 'reset') + diagram[6:]
     cases = ((diagram, ()), (diagram[:-2], ('--y', 'w:q95,x1:rms')), (diagram, ('--y', 'x1,v1', '--at', 'period')), (in_lanes, ()))
     for words, more in cases:
-        whole = good(*words, *more)
-        for delay in (0.15, 0.3, 0.45):
-            killed((*words, *more, '--store', 'a.db', '--resume'), delay)
+        whole = good(*words, *more, '--store', 'whole.db')
+        for share in (0, 0.3, 0.3):  # the log of a run is larger than its store
+            while not killed((*words, *more), 'a.db', 1 + int(share * os.path.getsize('whole.db'))):
+                remove_all('a.db')
         assert good(*words, *more, '--store', 'a.db', '--resume') == whole
         assert good(*words, *more, '--store', 'a.db', '--resume', '--threads', '1') == whole
         says(refused(2, *words, *more, '--store', 'a.db', '--resume', '--set', 'restitution=0.7'), 'model', '0.7')
-        os.remove('a.db')
+        remove_all('a.db'), remove_all('whole.db')
     says(refused(2, *diagram, '--resume'), '--resume', '--store')
 
 
 def test_a_second_writer_is_refused_and_a_reader_is_not():
-    process = subprocess.Popen([PROGRAM, *CHART, '--level', 'full', '--store', 'a.db'], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    for _ in range(200):
-        time.sleep(0.05)
-        if run('store', 'info', 'a.db').status == 0:
-            break
-    assert process.poll() is None, 'it ended too early to test anything'
-    says(refused(4, *CHART, '--level', 'full', '--store', 'a.db', '--resume'), 'a.db', 'another run writes it')
-    assert done_in(good('store', 'info', 'a.db')) < 1200
-    process.terminate()
-    assert process.wait(20) == 130
+    endless = ('map', 'vibro-impact', '--x', 'omega=1:6:2000', '--y', 'friction=0.05:0.3:2000', '--level', 'full', '--store', 'a.db')
+    process = Beside(*endless)
+    assert process.until(lambda: run('store', 'info', 'a.db').status == 0), process.err()
+    says(refused(4, *endless, '--resume'), 'a.db', 'another run writes it')
+    assert done_in(good('store', 'info', 'a.db')) < 4000000
+    assert not process.ended(), process.err()
+    assert process.signalled(signal.SIGTERM).status == 130
 
 
 def test_a_full_disk_ends_the_run_and_loses_nothing():
@@ -214,19 +230,23 @@ def test_the_script_of_a_cluster_does_the_whole_also_where_a_task_is_killed():
     with open('chart.sh', 'w', encoding='utf-8') as file:
         file.write(script)
     says(script, '#SBATCH --array=1-3', '#SBATCH --requeue', "it'\\''s here")
-    task = lambda number, **options: subprocess.Popen(['bash', 'chart.sh', number], stderr=subprocess.PIPE, **options)  # noqa: E731
-    assert task('3').wait(60) == 0
-    ended = task('1', start_new_session=True)
-    time.sleep(0.3)
-    os.killpg(ended.pid, signal.SIGKILL)
-    ended.communicate()
+    task = lambda number, **options: Beside('chart.sh', number, command=('bash',), **options)  # noqa: E731
+    assert task('3').outcome().status == 0
+    shard, done = "it's here/chart-1.db", 0
+    while not 0 < done < 400:  # until it is killed at work
+        remove_all(shard[:-3])
+        ended = task('1', start_new_session=True)
+        if ended.until(grown(shard)):
+            os.killpg(ended.pid, signal.SIGKILL)
+        ended.outcome()
+        done = done_now(shard)
     stopped = task('1')
-    time.sleep(0.3)
-    stopped.terminate()
-    assert stopped.wait(20) in (0, 130, 143)
+    if stopped.until(grown(shard)):
+        os.kill(stopped.pid, signal.SIGTERM)
+    assert stopped.outcome().status in (0, 130, 143)
     assert not os.path.exists("it's here/chart.db")
     both = [task('1'), task('2')]
-    assert [one.wait(60) for one in both] == [0, 0]
+    assert [one.outcome().status for one in both] == [0, 0]
     assert hash_of(good('store', 'info', "it's here/chart.db")) == hash_of(good(*CHART, '--store', 'b.db'))
     assert read('chart.csv') == good('store', 'export', 'b.db')
     says(refused(2, *CHART, '--slurm', '3'), '--slurm', '--store')

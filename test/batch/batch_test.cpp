@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstring>
+#include <ctime>
 #include <numbers>
 #include <random>
 #include <thread>
@@ -294,6 +295,13 @@ TEST(Batch, AMeaninglessProblemIsRefusedByName) {
   EXPECT_NE(why({}, 3).find("1, 4 or 8"), std::string::npos);
 }
 
+/// Sets it once the process has worked for some time: of the processor, which another program may have.
+void cancel_at_work(std::atomic<bool>& cancel) {
+  const std::clock_t begin = std::clock();
+  while (std::clock() - begin < CLOCKS_PER_SEC / 10) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  cancel = true;
+}
+
 TEST(Batch, StopsWhenItIsCancelled) {
   const std::vector<Pixel> all = pixels(40, 1.0, 6.0);
   std::atomic<bool> cancel{true};
@@ -307,9 +315,14 @@ TEST(Batch, StopsWhenItIsCancelled) {
   const std::vector<Pixel> long_runs = pixels(8, 2.1, 2.3);
   BatchProblem hours = problem_of(long_runs, {.periods = 1'000'000'000});
   hours.cancel = &cancel;
+  std::atomic<int> started{0};
+  hours.start_at = [&](std::size_t i) {
+    ++started;
+    return long_runs[i].start;
+  };
   std::thread later([&] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    cancel = true;
+    while (started == 0) std::this_thread::yield();
+    cancel_at_work(cancel);
   });
   const Batch stopped = run_batch(hours);
   later.join();

@@ -10,6 +10,7 @@ import shutil
 import subprocess
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+HANGS = 600  # seconds: a guard against a command that hangs; no test says with it how fast one is
 FILE = re.compile(r'`([\w-]+\.\w+)`:?$')
 FOLDER = re.compile(r'<!-- files: (\S+) -->')
 
@@ -101,7 +102,7 @@ def check(program, text, folder):
     write_files(text, folder)
     for command, printed in found:
         done = subprocess.run(['sh', '-c', command], cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                              stdin=subprocess.DEVNULL, check=False, timeout=250)
+                              stdin=subprocess.DEVNULL, check=False, timeout=HANGS)
         assert printed is not None or done.returncode == 0, (command, done.returncode)
         if printed is None:
             continue

@@ -11,6 +11,7 @@ import motions
 from motions import line
 
 PROGRAM = sys.argv[1]
+HANGS = 600  # seconds: a guard against a verifier that hangs; no test says with it how fast it is
 ALL = [motions.ball, motions.dead_ball, motions.chatter, motions.rubbing, motions.oscillator, motions.released, motions.cradle,
        lambda: motions.cradle('sequence'), motions.bumper, motions.kink, motions.loop, motions.zone, motions.bounded,
        motions.two_restitutions, motions.lifted, motions.pressed_by_a_spring]
@@ -19,7 +20,7 @@ ALL = [motions.ball, motions.dead_ball, motions.chatter, motions.rubbing, motion
 def check(lines):
     """(exit status, everything printed) for a certificate."""
     text = lines if isinstance(lines, bytes) else ('\n'.join(lines) + '\n').encode()
-    done = subprocess.run([PROGRAM, '-'], input=text, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False, timeout=60)
+    done = subprocess.run([PROGRAM, '-'], input=text, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False, timeout=HANGS)
     return done.returncode, done.stdout.decode()
 
 

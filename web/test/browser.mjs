@@ -5,6 +5,8 @@ import { extname, join } from "node:path";
 import { after, before } from "node:test";
 import { chromium } from "playwright-core";
 
+/** A guard against what hangs, in milliseconds; no test says with it how fast something is. */
+export const hangs = 600000;
 /** The built page. */
 export const folder = process.env.EXPLORER_PAGE ?? new URL("../../build/web", import.meta.url).pathname;
 const types = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".json": "application/json", ".svg": "image/svg+xml" };
@@ -46,7 +48,7 @@ export function shared() {
 /** A page that notes what no page of ours may have: errors, requests to other hosts. */
 export async function open(browser, url, options = {}) {
   const page = await browser.newPage({ viewport: { width: 1440, height: 1000 }, colorScheme: "light", reducedMotion: "reduce", ...options });
-  page.setDefaultTimeout(120000);  // other programs may have the processors
+  page.setDefaultTimeout(hangs);
   const faults = [];
   page.on("pageerror", (error) => faults.push(`error: ${error.message}`));
   page.on("console", (message) => {
@@ -61,13 +63,18 @@ export async function open(browser, url, options = {}) {
 }
 
 /** Waits until a motion is shown and nothing is computed. */
-export async function idle(page, timeout = 90000) {
-  await page.waitForFunction(() => window.explorer?.player.window && window.explorer.idle, null, { timeout });
+export async function idle(page) {
+  await page.waitForFunction(() => window.explorer?.player.window && window.explorer.idle);
 }
 
 /** Waits until a motion is shown; sections and diagrams may still grow. */
 export async function moving(page) {
-  await page.waitForFunction(() => window.explorer?.player.window, null, { timeout: 60000 });
+  await page.waitForFunction(() => window.explorer?.player.window);
+}
+
+/** Waits until the page has drawn what it has. */
+export function drawn(page) {
+  return page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(resolve)))));
 }
 
 /** The explorer, open and at rest, or as soon as a motion is shown. */

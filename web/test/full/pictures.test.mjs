@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import test from "node:test";
-import { explorer, shared } from "../browser.mjs";
+import { drawn, explorer, shared } from "../browser.mjs";
 
 const folder = new URL("pictures/", import.meta.url).pathname;
 /** Share of pixels that may differ: letters and edges are drawn a little differently by every version of a browser. */
@@ -42,7 +42,7 @@ async function difference(page, first, second) {
 
 async function picture(hash, selector) {
   const { page, faults } = await explorer(held.browser, held.server.url, hash);
-  await page.waitForTimeout(300);  // the last frame is drawn
+  await drawn(page);
   const shot = await page.locator(selector).screenshot();
   assert.deepEqual(faults, []);
   return { page, shot };

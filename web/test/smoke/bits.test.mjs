@@ -23,7 +23,7 @@ test("in the browser twelve motions have the program's bits, and the bench page 
     server.close();
   });
   const { page, faults } = await open(browser, `${server.url}/bench.html?short`);
-  await page.waitForFunction(() => window.bench.done === 1, null, { timeout: 150000 });
+  await page.waitForFunction(() => window.bench.done === 1);
   const bench = await page.evaluate(() => window.bench);
   assert.deepEqual(bench.bits, stored);
   assert.equal((await page.locator("#bits").innerText()).trim(), stored.join("\n"));

@@ -7,7 +7,7 @@ import { connect } from "node:net";
 import { networkInterfaces, tmpdir } from "node:os";
 import { join } from "node:path";
 import test from "node:test";
-import { explorer, folder, launch } from "../browser.mjs";
+import { explorer, folder, hangs, launch } from "../browser.mjs";
 
 const program = process.env.SLAPSTICK, place = mkdtempSync(join(tmpdir(), "explore-")), page = join(place, "page");
 cpSync(folder, page, { recursive: true });
@@ -57,7 +57,7 @@ test("serves the page, and refuses other hosts, other paths and other methods", 
   assert.notEqual((await get(port, "/", { method: "POST" })).status, 200);
   for (const { address } of Object.values(networkInterfaces()).flat().filter(({ internal, family }) => !internal && family === "IPv4"))
     await assert.rejects(new Promise((resolve, reject) => connect(port, address, resolve).on("error", reject)), `${address} is listened to`);
-  const second = spawnSync(program, ["explore", "--port", String(port), "--page", page, "--no-browser"], { timeout: 10000 });
+  const second = spawnSync(program, ["explore", "--port", String(port), "--page", page, "--no-browser"], { timeout: hangs });
   assert.equal(second.status, 4, "a port that another explorer has");
   child.kill("SIGINT");
   assert.equal(await new Promise((resolve) => child.on("exit", resolve)), 0, "Ctrl-C is its end");

@@ -1,0 +1,26 @@
+# The format of the sources, and what clang-tidy says of them. Uses `packages` and `lint_packages`.
+
+# format_files CLANG-FORMAT ARGUMENT...: clang-format on every C++ file.
+format_files() {
+  find include src apps web/engine verify campaign python test fuzz bench examples -name '*.[ch]pp' -print0 |
+    xargs -0 -r -n 16 -P "$(nproc)" clang-format "$@"
+}
+
+verb_format() {
+  need clang-format
+  step "clang-format in place"
+  format_files -i
+}
+
+verb_lint() {
+  need "${packages[@]}" "${lint_packages[@]}"
+  step "check the pages"
+  tools/check_english
+  tools/check_links
+  step "check the format"
+  format_files --dry-run -Werror || fail "the format differs: run ./dev format"
+  build_preset clang
+  step "clang-tidy"
+  find src apps verify campaign -name '*.cpp' ! -path '*/peers/*' -print0 |
+    xargs -0 -r -n 1 -P "$(nproc)" clang-tidy -p build-clang --quiet
+}

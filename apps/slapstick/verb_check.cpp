@@ -1,8 +1,8 @@
 /// slapstick check FILE
 #include "io/json.hpp"
-#include "slapstick/model/energy_sources.hpp"
 #include "model_options.hpp"
 #include "output.hpp"
+#include "slapstick/flow/energy_sources.hpp"
 #include "slapstick/flow/motion.hpp"
 #include "slapstick/flow/natural_modes.hpp"
 #include "verb.hpp"

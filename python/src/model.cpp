@@ -3,7 +3,7 @@
 #include "chosen.hpp"
 #include "slapstick/flow/motion.hpp"
 #include "slapstick/flow/natural_modes.hpp"
-#include "slapstick/model/energy_sources.hpp"
+#include "slapstick/flow/energy_sources.hpp"
 #include "slapstick/section/stop_choice.hpp"
 
 namespace slapstick::python {

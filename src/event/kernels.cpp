@@ -14,7 +14,6 @@ namespace slapstick::event {
 namespace scalar {
 extern const Kernels table;
 }
-#if defined(SLAPSTICK_X86_KERNELS)
 namespace sse4 {
 extern const Kernels table;
 }
@@ -24,7 +23,6 @@ extern const Kernels table;
 namespace avx512 {
 extern const Kernels table;
 }
-#endif
 
 namespace {
 
@@ -36,9 +34,13 @@ struct Target {
 /// Narrow ones first.
 std::vector<Target> targets() {
   std::vector<Target> all = {{&scalar::table, true}};
-#if defined(SLAPSTICK_X86_KERNELS)
+#if defined(SLAPSTICK_KERNEL_SSE4)
   all.push_back({&sse4::table, __builtin_cpu_supports("sse4.2") != 0});
+#endif
+#if defined(SLAPSTICK_KERNEL_AVX2)
   all.push_back({&avx2::table, __builtin_cpu_supports("avx2") != 0});
+#endif
+#if defined(SLAPSTICK_KERNEL_AVX512)
   all.push_back({&avx512::table, __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
                                      __builtin_cpu_supports("avx512vl") != 0});
 #endif

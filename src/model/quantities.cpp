@@ -1,6 +1,5 @@
 /// Names the quantities of a model by the rules of quantity_rules.cpp, and finds one by its name.
 #include <algorithm>
-#include <array>
 
 #include "base/nearest.hpp"
 #include "base/text.hpp"
@@ -64,7 +63,9 @@ void List::coordinates() {
     const std::string &x = names[2 * static_cast<std::size_t>(i)], &v = names[2 * static_cast<std::size_t>(i) + 1];
     for (const QuantityRule& rule : quantity_rules()) {
       if (rule.of != Of::coordinate) continue;
-      const std::string name = rule.kind == Kind::displacement ? x : rule.kind == Kind::velocity ? v : "a" + v.substr(1);
+      const std::string name = rule.kind == Kind::displacement ? x
+                               : rule.kind == Kind::velocity   ? v
+                                                               : "a" + v.substr(1);
       all_.push_back({rule.kind, i, -1, 0.0, free_name(all_, name), "", filled(rule.meaning, x)});
     }
   }
@@ -105,7 +106,8 @@ void List::impacts() {
   if (!rigid && model_.compliant_stops.empty()) return;
   const auto takes_time = [](Kind kind) { return kind == Kind::impulse || kind == Kind::loss; };
   each(Of::impacts, -1, {}, [&](Kind kind) { return rigid || !takes_time(kind); });
-  for (std::size_t i = 0; i < model_.stops.size(); ++i) each(Of::impacts_of_one, static_cast<int>(i), model_.stops[i].name);
+  for (std::size_t i = 0; i < model_.stops.size(); ++i)
+    each(Of::impacts_of_one, static_cast<int>(i), model_.stops[i].name);
   const auto first = model_.stops.size() + model_.frictions.size();
   for (std::size_t i = 0; i < model_.compliant_stops.size(); ++i)
     each(Of::impacts_of_one, static_cast<int>(first + i), model_.compliant_stops[i].name,
@@ -122,10 +124,35 @@ bool has_difference(Kind kind) { return kind <= Kind::force; }
 }  // namespace
 
 std::string_view name(Quantity::Kind kind) {
-  constexpr std::array<std::string_view, 17> words = {
-      "displacement", "velocity", "acceleration", "gap",    "velocity", "force",  "power",  "power",    "power",
-      "energy",       "energy",   "impact",       "impact", "impact",   "impact", "impact", "parameter"};
-  return words[static_cast<std::size_t>(kind)];
+  switch (kind) {
+    case Kind::displacement:
+      return "displacement";
+    case Kind::velocity:
+    case Kind::relative:
+      return "velocity";
+    case Kind::acceleration:
+      return "acceleration";
+    case Kind::gap:
+      return "gap";
+    case Kind::force:
+      return "force";
+    case Kind::power:
+    case Kind::damping:
+    case Kind::input:
+      return "power";
+    case Kind::kinetic:
+    case Kind::potential:
+      return "energy";
+    case Kind::speed:
+    case Kind::impulse:
+    case Kind::loss:
+    case Kind::flight:
+    case Kind::sliding:
+      return "impact";
+    case Kind::parameter:
+      break;
+  }
+  return "parameter";
 }
 
 std::vector<Quantity> quantities(const Model& model) {
@@ -143,8 +170,15 @@ Quantity find_quantity(const std::vector<Quantity>& all, const std::string& name
     const Quantity *const a = known(all, name.substr(0, dash)), *const b = known(all, name.substr(dash + 1));
     if (a == nullptr || b == nullptr) continue;
     if (a->kind != b->kind || !has_difference(a->kind))
-      throw InputError(in_quotes(name) + ": a difference is of two displacements, velocities, accelerations, gaps or forces");
-    return {a->kind, a->index, b->index, 0.0, name, a->unit == b->unit ? a->unit : "", a->meaning + ", minus " + b->meaning};
+      throw InputError(in_quotes(name) +
+                       ": a difference is of two displacements, velocities, accelerations, gaps or forces");
+    return {a->kind,
+            a->index,
+            b->index,
+            0.0,
+            name,
+            a->unit == b->unit ? a->unit : "",
+            a->meaning + ", minus " + b->meaning};
   }
   std::vector<std::string> names;
   for (const Quantity& one : all) names.push_back(one.name);

@@ -1,5 +1,4 @@
-/// Matrices from Matrix Market and CSV files: what the file says is what the Model has, and a bar of finite elements
-/// oscillates with the frequencies of its closed form.
+/// Matrices from Matrix Market and CSV files: what the file says is what the Model has.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +9,6 @@
 #include "io/matrix_file.hpp"
 #include "io/refusal.hpp"
 #include "io/same_model.hpp"
-#include "slapstick/flow/motion.hpp"
 
 namespace slapstick {
 namespace {
@@ -146,25 +144,6 @@ TEST_F(Folder, a_fault_of_a_file_names_both_places) {
             "m.toml:6: matrix: stiffness: file 'one.csv': column 1 is 'y', and the coordinate there is 'x'");
   EXPECT_EQ(fault("[matrix]\ncoordinates = ['a', 'a']\n"), "m.toml:3: matrix: coordinates: name 'a' is used twice");
   EXPECT_EQ(fault("[matrix]\ncoordinates = ['a']\nstiffness = [[1]]\n"), "m.toml:3: coordinate 'a': mass = 0 is not positive");
-}
-
-/// Linear elements of a clamped bar: w_k^2 = 6 (E / rho h^2) (1 - cos t) / (2 + cos t), t = (2 k - 1) pi / 2 n.
-TEST(MatrixFile, a_bar_of_thirty_elements_oscillates_with_its_closed_frequencies) {
-  const auto definition = load_model(SLAPSTICK_BAR);
-  const Model model = definition.build({{"loss", 0}, {"friction", 0}, {"force", 0}, {"gap", 10}});
-  ASSERT_EQ(model.size(), 30);
-  for (const int k : {1, 2, 7, 30}) {
-    const double t = (2 * k - 1) * pi / 60, w = std::sqrt(5400 * (1 - std::cos(t)) / (2 + std::cos(t)));
-    State start(60, 0.0);
-    for (int i = 0; i < 30; ++i) start[static_cast<std::size_t>(2 * i)] = 0.01 * std::sin((i + 1) * t);
-    Motion motion(System(model), start);
-    const Instant end = Instant{}.plus(8 * pi / w / model.forcing_period());  // four periods
-    while (motion.advance(end) == Outcome::event) {
-    }
-    // rounding of displacements, times the fastest frequency, 104, where it is a velocity's
-    const State back = motion.state();
-    for (std::size_t i = 0; i < start.size(); ++i) EXPECT_NEAR(back[i], start[i], 5e-12) << k;
-  }
 }
 
 }  // namespace

@@ -181,29 +181,35 @@ TEST(Cascade, OfSymmetricOrbitsGoesOverToTheChatter) {
     EXPECT_EQ(point.chatter, point.orbit.values[0] < onset->value) << point.orbit.values[0];
 }
 
-/// A graze 1e-18 ahead of a point, by the value of the margin, is 1e-7 of arclength ahead; how wide the range is must not move it. Impacts are counted by
-/// simulations on both sides.
+/// A graze 1e-18 ahead of a point, by the value of the margin, is 1e-7 of arclength ahead.
+constexpr double graze_right_ahead = -0.66809573755613;
+void expect_the_graze_in(double from, double to) {
+  const Posed posed("impact-friction-oscillator", {}, {"clearance"}, {-0.1});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = from, .to = to});
+  EXPECT_FALSE(branch.failed()) << ended(branch);
+  EXPECT_TRUE(std::ranges::any_of(branch.special,
+                                  [&](const orbit::SpecialPoint& point) {
+                                    return point.type == SpecialType::GR &&
+                                           std::abs(point.value - graze_right_ahead) < 1e-12;
+                                  }))
+      << from << ":" << to;
+}
+
+/// Impacts are counted by simulations on both sides.
 TEST(Graze, RightAheadOfAPointIsWhereTheSimulatorSays) {
-  constexpr double graze = -0.66809573755613;
-  for (const auto& [from, to] : {std::pair(-1.5, 1.5), std::pair(-5.0, 5.0)}) {
-    const Posed posed("impact-friction-oscillator", {}, {"clearance"}, {-0.1});
-    const auto first = posed.settled();
-    ASSERT_TRUE(first);
-    const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = from, .to = to});
-    EXPECT_FALSE(branch.failed()) << ended(branch);
-    EXPECT_TRUE(std::ranges::any_of(branch.special,
-                                    [&](const orbit::SpecialPoint& point) {
-                                      return point.type == SpecialType::GR && std::abs(point.value - graze) < 1e-12;
-                                    }))
-        << from << ":" << to;
-  }
+  expect_the_graze_in(-1.5, 1.5);
   const auto impacts = [](double clearance) {
     const Posed there("impact-friction-oscillator", {}, {"clearance"}, {clearance});
     const auto orbit = there.settled();
     return orbit ? orbit->impacts : -1;
   };
-  EXPECT_EQ(impacts(graze - 1e-11), impacts(graze + 1e-11) + 1);
+  EXPECT_EQ(impacts(graze_right_ahead - 1e-11), impacts(graze_right_ahead + 1e-11) + 1);
 }
+
+/// How wide the range is must not move it.
+TEST(Graze, RightAheadOfAPointIsThereInAWiderRange) { expect_the_graze_in(-5.0, 5.0); }
 
 /// Just behind the onset from which a chatter is followed its first steps are among impacts too short to be told from rounding; how near that is has
 /// nothing to do with the range.

@@ -21,6 +21,12 @@ def tree(path, line, **extra):
     return files
 
 
+def linked(call):
+    """A tree with the folders base and model, the latter by this call."""
+    return dict(tree('src/model/CMakeLists.txt', ''), **{'src/model/CMakeLists.txt': call + '\n',
+                                                         'src/base/CMakeLists.txt': 'slapstick_folder(base SOURCES text.cpp)\n'})
+
+
 CASES = [
     ('downwards', tree('src/flow/motion.cpp', '#include "slapstick/model/model.hpp"'), None),
     ('own folder', tree('src/flow/motion.cpp', '#include "private.hpp"'), None),
@@ -53,6 +59,11 @@ CASES = [
     ('the umbrella lacks one', dict(tree('include/slapstick/flow/motion.hpp', '#include <cmath>'),
                                     **{'include/slapstick/slapstick.hpp': '#pragma once\n'}),
      "slapstick.hpp: does not include 'slapstick/flow/motion.hpp'"),
+    ('a folder linked with what its includes lead to', linked('slapstick_folder(model NEEDS base SOURCES model.cpp)'), None),
+    ('a folder linked with too little', linked('slapstick_folder(model SOURCES model.cpp)'),
+     "src/model/CMakeLists.txt: model is linked with ['model'], but its includes lead to ['base', 'model']"),
+    ('a folder linked with what is none', linked('slapstick_folder(model NEEDS bace SOURCES model.cpp)'),
+     'src/model/CMakeLists.txt: model needs bace, which is no folder'),
     ('TBB elsewhere', tree('apps/reproduce/study.cpp', '#include <tbb/parallel_for.h>'), 'oneTBB belongs to sweep'),
     ('oneapi/tbb elsewhere', tree('src/flow/motion.cpp', '#include <oneapi/tbb.h>'), 'oneTBB belongs to sweep'),
     ('threads before sweep', tree('src/flow/motion.cpp', '#include <thread>'), 'threads belong to sweep'),

@@ -25,9 +25,10 @@ def expect(part, text, target, *flags):
 
 assert verdict(SOUND, 'sse4')[0] == 0, verdict(SOUND, 'sse4')
 with tempfile.TemporaryDirectory() as tree:
-    os.mkdir(os.path.join(tree, 'flow'))
+    objects = os.path.join(tree, 'src', 'flow', 'CMakeFiles')
+    os.makedirs(objects)
     for text, status in (('double f(double x) { return __builtin_sqrt(x) * 2; }', 0), ('double f(double x) { return __builtin_cos(x); }', 1)):
-        made = os.path.join(tree, 'flow', 'a.o')
+        made = os.path.join(objects, 'a.o')
         subprocess.run([COMPILER, '-O2', '-x', 'c++', '-', '-c', '-o', made], input=text, text=True, check=True)
         assert subprocess.run([sys.executable, '-B', CHECK, 'arithmetic', made], capture_output=True, check=False).returncode == status, text
 expect('may take', SOUND + 'inline double shared(double x) { return x + 1; }\nnamespace sse4 { double (*f())(double) { return shared; } }\n', 'sse4')

@@ -1,5 +1,5 @@
 /// Names the parts of a model that can feed energy, and those whose force falls.
-#include "slapstick/model/energy_sources.hpp"
+#include "slapstick/flow/energy_sources.hpp"
 
 #include <algorithm>
 

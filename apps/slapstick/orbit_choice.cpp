@@ -16,7 +16,7 @@ std::string spelled(std::string_view option) { return "--" + std::string(option 
 void OrbitOptions::declare(Arguments& arguments) {
   declare_choice(arguments);
   arguments.count("--transient", transient, 0, 1'000'000'000,
-                  "forcing periods to leave out before the first try (500); of a motion without a drive its returns");
+                  "forcing periods to leave out before the first try (500); of a motion without a drive its returns; 0: an orbit at --state is taken first");
 }
 
 void OrbitOptions::declare_choice(Arguments& arguments) {

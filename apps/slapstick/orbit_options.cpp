@@ -47,7 +47,12 @@ double value_inside(const ChosenModel& chosen, const std::string& argument, cons
 }
 
 Json solution_json(const orbit::Solution& solution) {
-  Json json = Json::object(), multipliers = Json::list();
+  Json json = Json::object(), multipliers, stable;
+  const bool known = orbit::differentiable(solution.orbit.shape);
+  if (known) {
+    multipliers = Json::list();
+    stable = solution.stable();
+  }
   for (const auto& multiplier : solution.multipliers)
     multipliers.push(Json::list(std::vector<double>{multiplier.real(), multiplier.imag()}));
   json.set("class", solution.label);
@@ -55,7 +60,8 @@ Json solution_json(const orbit::Solution& solution) {
   json.set("n", shape.n > 0 ? shape.n : orbit::returns(shape));
   json.set("p", solution.chatter ? Json("inf") : Json(solution.impacts)).set("sticking", solution.sticking);
   if (!solution.isolated()) json.set("family", solution.family);
-  json.set("stable", solution.stable()).set("period", solution.cycle).set("multipliers", std::move(multipliers));
+  json.set("stable", std::move(stable)).set("period", solution.cycle).set("multipliers", std::move(multipliers));
+  if (!known) json.set("why_no_multipliers", "contacts that act on each other meet their events at one instant");
   json.set("is_motion", solution.is_motion);
   if (!solution.is_motion) json.set("why", solution.why);
   if (!solution.drift.empty()) json.set("drift", Json::list(solution.drift));
@@ -110,7 +116,7 @@ Json extremes_json(const orbit::Problem& problem, const orbit::Solution& solutio
   return json;
 }
 
-Json energy_json(const orbit::Energy& energy, const Model& model) {
+Json energy_json(const CycleEnergy& energy, const Model& model) {
   Json json = Json::object(), friction = Json::object(), impacts = Json::object();
   for (std::size_t i = 0; i < energy.friction.size(); ++i) friction.set(model.frictions[i].name, energy.friction[i]);
   for (std::size_t i = 0; i < energy.impacts.size(); ++i) impacts.set(model.stops[i].name, energy.impacts[i]);

@@ -8,6 +8,7 @@
 #include "io/json.hpp"
 #include "model_options.hpp"
 #include "slapstick/orbit/periodic_orbit.hpp"
+#include "slapstick/quantity/cycle_energy.hpp"
 #include "verb.hpp"
 
 namespace slapstick::app {
@@ -38,7 +39,7 @@ struct ParameterRange {
 [[nodiscard]] Json events_json(const orbit::Problem& problem, const orbit::Solution& solution, const System& system);
 /// The least and the largest value of each number of the state over the cycle: "x": {"min": .., "max": ..}.
 [[nodiscard]] Json extremes_json(const orbit::Problem& problem, const orbit::Solution& solution, const Model& model);
-[[nodiscard]] Json energy_json(const orbit::Energy& energy, const Model& model);
+[[nodiscard]] Json energy_json(const CycleEnergy& energy, const Model& model);
 [[nodiscard]] Json margins_json(const std::vector<orbit::Margin>& margins, const System& system);
 
 }  // namespace slapstick::app

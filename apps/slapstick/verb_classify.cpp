@@ -1,5 +1,6 @@
 /// slapstick classify MODEL
 #include <algorithm>
+#include <cmath>
 
 #include "io/json.hpp"
 #include "measured_json.hpp"
@@ -51,11 +52,17 @@ Json complex_json(const std::vector<std::complex<double>>& numbers) {
   return list;
 }
 
+/// No multipliers: the reason, as `orbit` gives it.
+constexpr const char* no_derivative = "contacts that act on each other meet their events at one instant";
+bool has_derivative(const Classification& found) { return !std::isnan(found.exponent); }
+
 Json cycle_json(const Classification& found, Json json, const Model& model) {
   json.set("n", found.n);
   json.set("p", found.chatter == Chatter::complete ? Json("inf") : Json(found.p));
   if (found.label.starts_with("free")) json.set("period", found.period);
-  json.set("sticking_fraction", found.sticking_fraction).set("multipliers", complex_json(found.multipliers));
+  json.set("sticking_fraction", found.sticking_fraction)
+      .set("multipliers", has_derivative(found) ? complex_json(found.multipliers) : Json());
+  if (!has_derivative(found)) json.set("why_no_multipliers", no_derivative);
   json.set("return_distance", found.return_distance)
       .set("approach", found.approach)
       .set("impacts", impacts_json(found.impacts, model));
@@ -108,7 +115,7 @@ Json result_json(const Classification& found, const Options& options, const Chos
   const bool averaged =
       !is_cycle(found) && !is_at_rest(found) && options.quick == 0 && found.doubt != Doubt::no_return;
   const bool rest_rate = is_at_rest(found) && (found.sticking || !found.eigenvalues.empty());
-  if (averaged || is_cycle(found) || rest_rate) json.set("exponent", found.exponent);
+  if (averaged || is_cycle(found) || rest_rate) json.set("exponent", has_derivative(found) ? Json(found.exponent) : Json());
   if (averaged) json.set("exponent_error", found.exponent_error).set("birkhoff_digits", found.digits);
   if (found.curves > 0)
     json.set("rotation", found.rotation).set("rotation_digits", found.rotation_digits).set("curves", found.curves);

@@ -40,7 +40,7 @@ Json whole_json(const orbit::Problem& problem, const orbit::Solution& solution, 
   json.set("symmetric", orbit::symmetric(problem, solution.orbit));
   json.set("events", events_json(problem, solution, system)).set("impacts", impacts_json(problem, solution, system));
   json.set("extremes", extremes_json(problem, solution, system.model()));
-  json.set("energy", energy_json(orbit::energy(problem, solution.orbit), system.model()));
+  json.set("energy", energy_json(cycle_energy(problem, solution.orbit), system.model()));
   json.set("margins", margins_json(orbit::margins(problem, solution.orbit), system));
   if (asked.wanted.empty()) return json;
   const Measured found = measure(problem, solution.orbit, quantities_of(asked.wanted));

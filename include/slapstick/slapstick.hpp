@@ -42,6 +42,7 @@
 #include "slapstick/orbit/periodic_orbit.hpp"
 #include "slapstick/orbit/search.hpp"
 #include "slapstick/orbit/special_point.hpp"
+#include "slapstick/quantity/cycle_energy.hpp"
 #include "slapstick/quantity/measure.hpp"
 #include "slapstick/quantity/observables.hpp"
 #include "slapstick/quantity/order_map.hpp"

@@ -81,9 +81,14 @@ class Orbit(Result):
         return float("inf") if self._core.chatter else self._core.impacts
 
     sticking = Given[bool]("Whether there is a stick phase in the cycle.")
-    stable = Given[bool]("Whether all multipliers are inside the unit circle.")
+    stable = Given[bool | None](
+        "Whether all multipliers are inside the unit circle; None where the return map has no derivative: contacts "
+        "that act on each other meet their events at one instant."
+    )
     family = Given[int]("Dimensions of the continuum of orbits that this is a member of; 0: it is isolated.")
-    multipliers = Given[NDArray[np.complex128]]("Of the return map, complex, largest first, shape (k,).")
+    multipliers = Given[NDArray[np.complex128]](
+        "Of the return map, complex, largest first, shape (k,); empty where it has no derivative."
+    )
     cycle = Given[float]("The period of the orbit in the model's unit of time.")
     is_motion = Given[bool]("Whether the simulator does the same.")
     why = Given[str]("What the simulator does instead; '' if it does the same.")
@@ -162,7 +167,7 @@ class Orbit(Result):
 
     def _facts(self) -> list[tuple[str, str]]:
         largest = f"{self.multipliers[0]:.6g}" if len(self.multipliers) else "0"
-        facts = [("class", self.label), ("stable", "yes" if self.stable else "no"), ("largest multiplier", largest)]
+        facts = [("class", self.label), ("stable", {True: "yes", False: "no", None: "unknown"}[self.stable]), ("largest multiplier", largest)]
         return facts + ([] if self.is_motion else [("no motion", self.why)])
 
 

@@ -5,6 +5,7 @@
 #include "arrays.hpp"
 #include "names.hpp"
 #include "orbits.hpp"
+#include "slapstick/quantity/cycle_energy.hpp"
 
 namespace slapstick::python {
 
@@ -77,7 +78,7 @@ std::map<std::string, std::pair<double, double>> extremes(const FoundOrbit& self
 }
 
 std::map<std::string, std::variant<double, std::map<std::string, double>>> energy(const FoundOrbit& self) {
-  const orbit::Energy energy = orbit::energy(*self.setting->problem, self.solution.orbit);
+  const CycleEnergy energy = cycle_energy(*self.setting->problem, self.solution.orbit);
   const Model& model = self.setting->system.model();
   std::map<std::string, double> friction, impacts;
   for (std::size_t i = 0; i < energy.friction.size(); ++i) friction[model.frictions[i].name] = energy.friction[i];
@@ -171,7 +172,10 @@ void bind_orbit(nb::module_& module) {
       .def_prop_ro("sticks", [](const O& self) { return self.solution.sticks; })
       .def_prop_ro("reversals", [](const O& self) { return self.solution.reversals; })
       .def_prop_ro("chatters", [](const O& self) { return self.solution.chatters; })
-      .def_prop_ro("stable", [](const O& self) { return self.solution.stable(); })
+      .def_prop_ro("stable", [](const O& self) -> std::optional<bool> {
+                     if (!orbit::differentiable(self.solution.orbit.shape)) return std::nullopt;
+                     return self.solution.stable();
+                   })
       .def_prop_ro("family", [](const O& self) { return self.solution.family; })
       .def_prop_ro("multipliers", [](O& self) { return column(self.solution.multipliers); })
       .def_prop_ro("cycle", [](const O& self) { return self.solution.cycle; })

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <tuple>
 
 #include "flow/compiled_system.hpp"
+#include "flow/saltation.hpp"
 
 namespace slapstick::attractor {
 
@@ -106,6 +108,18 @@ void record_cycle(const System& system, const State& state, double duration, con
   out.label = class_label(out.attractor, out.n, out.p, out.sticking, out.chatter, driven);
 }
 
+namespace {
+
+/// Have all events of a cycle a derivative?
+bool differentiable(const System& system, const State& state, double duration, Stop stop) {
+  Motion motion(system, state);
+  bool all = true;
+  run_to(motion, Instant{}.plus(duration), stop, [&] { all = all && flow::differentiable(motion.engine()); });
+  return all;
+}
+
+}  // namespace
+
 void describe(const System& system, const section::Cycle& cycle, const State& state, const ClassifyOptions& options,
               Classification& out) {
   out.attractor = cycle.neutral ? Attractor::family : Attractor::periodic;
@@ -116,6 +130,9 @@ void describe(const System& system, const section::Cycle& cycle, const State& st
   out.return_distance = cycle.return_distance;
   out.multipliers = cycle.multipliers;
   if (!cycle.multipliers.empty()) out.exponent = std::log(std::abs(cycle.multipliers.front())) / cycle.duration;
+  if (differentiable(system, state, cycle.duration, options.cancel)) return;
+  out.multipliers.clear();
+  out.exponent = std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace slapstick::attractor

@@ -13,6 +13,7 @@
 #include "flow/contact_state.hpp"
 #include "flow/saltation.hpp"
 #include "flow/translations.hpp"
+#include "slapstick/base/error.hpp"
 #include "slapstick/flow/stage.hpp"
 #include "slapstick/flow/tangent.hpp"
 
@@ -51,6 +52,7 @@ class Contraction {
   /// After a new start of the motion, which counts its segments anew.
   void begin_at(const Motion& motion) { segments_seen_ = motion.counters().segments; }
   [[nodiscard]] bool forgets() const { return forgets_; }            ///< a direction: the volume is zero
+  [[nodiscard]] bool differentiable() const { return differentiable_; }  ///< all events so far
   [[nodiscard]] double sum() const { return static_cast<double>(sum_); }  ///< unless it forgets
   [[nodiscard]] double windows() const { return windows_; }          ///< of the last segment
   [[nodiscard]] double rounding() const { return rounding_; }
@@ -62,6 +64,7 @@ class Contraction {
     columns.topLeftCorner(d, n) = frame_.dependence;
     columns.bottomRightCorner(d, n) = frame_.dependence;
     flow::pass_event(motion.engine(), columns);
+    differentiable_ = differentiable_ && flow::differentiable(motion.engine());
     MatrixXd saltation(2 * n, 2 * n);
     saltation << columns.topRows(n), columns.middleRows(d, n);
     const double determinant = std::abs(dense::determinant(saltation));
@@ -84,7 +87,7 @@ class Contraction {
   const System& system_;
   const mode::Frame& frame_;
   long segments_seen_ = 0;
-  bool forgets_ = false;
+  bool forgets_ = false, differentiable_ = true;
   DoubleDouble sum_ = 0.0;  // a running sum of doubles would lose a rounding of the whole at each event
   double rounding_ = 0.0, windows_ = 0.0;
 };
@@ -285,6 +288,9 @@ LyapunovExponents lyapunov(const System& system, const State& state, const Lyapu
   long next_look = 100 * attractor::batches;
   for (long k = 0; k < options.most_periods; ++k) {
     if (!frame->run_period(options.cancel)) return give_up();
+    if (!frame->contraction().differentiable())
+      throw NumericalError("the motion has no exponents: contacts that act on each other meet their events at one instant, "
+                           "and what comes first decides; change a parameter or the start a little");
     report(options.transient_periods + k + 1);
     const std::vector<double> taken = frame->take_growth();
     for (std::size_t i = 0; i < growth.size(); ++i) growth[i].push_back(taken[i]);

@@ -21,7 +21,7 @@ constexpr double no_speed = 1e-4;  ///< of the largest speed at the point before
 
 /// Does a leg shrink to nothing from one orbit to the next?
 bool vanishes(const Orbit& before, const Orbit& orbit, std::size_t leg) {
-  return orbit.duration(leg) < vanishing * before.duration(leg);
+  return !orbit.tied(leg) && orbit.duration(leg) < vanishing * before.duration(leg);
 }
 
 /// The largest relative velocity of a friction contact within a leg.

@@ -76,7 +76,7 @@ bool solve_death(const Problem& problem, Death& death) {
 bool in_order(const Death& death) {
   if (death.orbit.shape.legs[0].ending == Ending::cut) return true;
   for (std::size_t i = 0; i < death.orbit.legs(); ++i)
-    if (!(death.orbit.duration(i) > 0.0)) return false;
+    if (!death.orbit.tied(i) && !(death.orbit.duration(i) > 0.0)) return false;
   return ranges::all_of(death.touches, [&](const Touch& touch) {
     return !within(touch) || (touch.t > death.orbit.t[touch.leg] && touch.t < death.orbit.t[touch.leg + 1]);
   });
@@ -134,7 +134,7 @@ std::optional<Collapse> death_ahead(const Problem& problem, const PathPoint& at)
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
     const Index begin = problem.instant_column(i), end = problem.instant_column(i + 1);
     const double shrinks = at.tangent[begin] * at.units[begin] - at.tangent[end] * at.units[end];
-    left.push_back(in_burst(orbit, i) || !(shrinks > 0.0) ? INFINITY : orbit.duration(i) / shrinks);
+    left.push_back(orbit.tied(i) || in_burst(orbit, i) || !(shrinks > 0.0) ? INFINITY : orbit.duration(i) / shrinks);
   }
   const double soonest = *ranges::min_element(left);
   std::vector<bool> dying;

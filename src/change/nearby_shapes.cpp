@@ -21,14 +21,14 @@ std::optional<Orbit> spliced(const Orbit& orbit, Motion motion) {
   constexpr double at_its_time = 0.02;  // of a cycle
   const double cycle = orbit.t.back() - orbit.t.front();
   const Instant end = Instant{}.plus(orbit.t.back());
-  bool touched = false;
+  EventReader reader(motion, 0);
   Orbit other = orbit;
   other.shape.legs.clear();
   other.x = {orbit.x[0]};
   other.t = {orbit.t[0]};
   for (int k = 0; k < most_events; ++k) {
-    const std::optional<Seen> seen = next_event(motion, 0, end, touched, nullptr);
-    if (!seen || touched) return std::nullopt;
+    const std::optional<Seen> seen = reader.next(end);
+    if (!seen) return std::nullopt;
     other.shape.legs.push_back(seen->leg);
     other.t.push_back(seen->t);
     for (std::size_t i = 0; i + 1 < orbit.legs(); ++i) {

@@ -21,7 +21,7 @@ std::vector<bool> gone_legs(const Orbit& from, const Orbit& to) {
   constexpr double nothing = 1e-2;  // of a leg's length
   std::vector<bool> gone;
   for (std::size_t leg = 0; leg < to.legs(); ++leg)
-    gone.push_back(!in_burst(to, leg) && to.duration(leg) < nothing * from.duration(leg));
+    gone.push_back(!to.tied(leg) && !in_burst(to, leg) && to.duration(leg) < nothing * from.duration(leg));
   return gone;
 }
 

@@ -24,7 +24,8 @@ namespace {
 bool is_all_but_gone(const Orbit& orbit) {
   constexpr double nothing = 1e-7;
   for (std::size_t leg = 0; leg < orbit.legs(); ++leg)
-    if (!in_burst(orbit, leg) && orbit.duration(leg) < nothing * (orbit.t.back() - orbit.t.front())) return true;
+    if (!orbit.tied(leg) && !in_burst(orbit, leg) && orbit.duration(leg) < nothing * (orbit.t.back() - orbit.t.front()))
+      return true;
   return false;
 }
 

@@ -20,7 +20,7 @@ int outside(const Watched& watched) {
 /// Is a leg's length less than this part of what it was?
 bool shrinks(const Orbit& from, const Orbit& to, double part) {
   for (std::size_t i = 0; i < from.legs(); ++i)
-    if (to.duration(i) < part * from.duration(i)) return true;
+    if (!to.tied(i) && to.duration(i) < part * from.duration(i)) return true;
   return false;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/ranges.hpp"
+#include "flow/collision.hpp"
 #include "flow/engine.hpp"
 #include "flow/saltation.hpp"
 

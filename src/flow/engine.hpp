@@ -26,6 +26,8 @@ class Engine : public Flight {
   [[nodiscard]] bool tells_more() const { return shown_ + 1 < static_cast<int>(pending_.size()); }
 
   [[nodiscard]] const Event& event() const { return pending_.empty() ? last_ : pending_[shown_]; }
+  /// All events of its instant, in order.
+  [[nodiscard]] std::span<const Event> events_of_instant() const { return pending_; }
   [[nodiscard]] std::span<const double> before() const;
   /// The extended state just before `event()`, from which `before()` is taken.
   [[nodiscard]] std::span<const double> extended_of_event() const;

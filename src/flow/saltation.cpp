@@ -2,244 +2,142 @@
 #include "flow/saltation.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <vector>
 
-#include "base/dense.hpp"
 #include "base/ranges.hpp"
+#include "flow/collision.hpp"
 #include "flow/engine.hpp"
-#include "flow/mode_graph.hpp"
+#include "flow/instant_parts.hpp"
 
 namespace slapstick::flow {
 namespace {
 
-using mode::ContactRow;
-using mode::ContactStates;
-using mode::GuardKind;
-
-/// Stops that are struck together and act on each other.
-struct Blow {
-  std::vector<int> stops;
-  bool to_rest = false;
-};
-
 class Passage {
  public:
-  explicit Passage(const Engine& engine);
+  Passage(const Engine& engine, bool backward);
   void carry(Eigen::MatrixXd& tangents);
   void carry_at_once(Eigen::MatrixXd& tangents) const;
 
  private:
-  [[nodiscard]] bool jumps(int hit) const;
-  [[nodiscard]] bool acts_on(const mode::Guard& guard, const ContactRow& contact) const;
-  [[nodiscard]] bool coupled(const ContactRow& a, const ContactRow& b) const;
-  [[nodiscard]] std::vector<Blow> separated(const Motion::Strike& strike) const;
-  [[nodiscard]] std::size_t owner(const ContactRow& contact) const;
-  [[nodiscard]] std::size_t owner(const Blow& blow) const;
-  void drop_hits_of_others();
-  void take_states(std::size_t k);
-  void apply(const Blow& blow, const Eigen::VectorXd& speeds, bool rates, Eigen::Ref<Eigen::MatrixXd> velocities) const;
-  [[nodiscard]] Eigen::VectorXd speeds(const Blow& blow) const;
-  [[nodiscard]] Eigen::VectorXd flow(ModeId id, const Eigen::VectorXd& X) const;
+  void apply(const Motion::Strike& strike, bool rates, Eigen::Ref<Eigen::MatrixXd> velocities) const;
+  [[nodiscard]] Eigen::VectorXd flow(const mode::ContactStates& states, const Eigen::VectorXd& X) const;
 
   const Engine& engine_;
   const CompiledSystem& system_;
   const mode::Frame& frame_;
   const mode::Mode& before_;
-  std::vector<int> hits_;
-  std::vector<Blow> blows_;
-  ContactStates states_;  ///< while the guards are passed
+  bool backward_;
   Eigen::VectorXd X_;
 };
 
-Passage::Passage(const Engine& engine)
+Passage::Passage(const Engine& engine, bool backward)
     : engine_(engine),
       system_(engine.system()),
       frame_(system_.frame()),
       before_(system_.mode(engine.segment().mode)),
-      hits_(engine.hits().begin(), engine.hits().end()),
-      states_(before_.states()),
-      X_(Eigen::Map<const Eigen::VectorXd>(engine.extended_before().data(), before_.size())) {
-  for (const Motion::Strike& strike : engine.strikes()) {
-    for (Blow& blow : separated(strike)) blows_.push_back(std::move(blow));
-  }
-  // The field is continuous at a crossing: nothing happens to a tangent there, but at the edge of a zone.
-  std::erase_if(hits_, [&](int hit) { return mode::of_crossing(before_.guards()[hit].kind) && !jumps(hit); });
-  drop_hits_of_others();
-}
+      backward_(backward),
+      X_(Eigen::Map<const Eigen::VectorXd>(engine.extended_before().data(), before_.size())) {}
 
-/// Is this crossing the edge of a zone?
-bool Passage::jumps(int hit) const {
-  const mode::Guard& guard = before_.guards()[hit];
-  return mode::of_corner(guard.kind) &&
-         system_.model().characteristics[guard.contact].over == Characteristic::Over::zones;
-}
-
-/// Does the guard's pair share a mass with the contact's?
-bool Passage::acts_on(const mode::Guard& guard, const ContactRow& contact) const {
-  if (mode::of_corner(guard.kind)) return frame_.characteristics[guard.contact].push[contact.own] != 0.0;
-  if (guard.kind == GuardKind::gap || guard.kind == GuardKind::press) return coupled(frame_.stops[guard.contact], contact);
-  const bool friction = mode::of_friction(guard.kind) || mode::of_load(guard.kind);
-  return coupled(friction ? frame_.frictions[guard.contact] : frame_.compliant[guard.contact], contact);
-}
-
-bool Passage::coupled(const ContactRow& a, const ContactRow& b) const {
-  return frame_.mass_inverse(a.own, b.own) != 0.0;
-}
-
-/// The parts of a strike that do not act on each other.
-std::vector<Blow> Passage::separated(const Motion::Strike& strike) const {
-  std::vector<Blow> parts;
-  for (int stop = 0; stop < static_cast<int>(frame_.stops.size()); ++stop) {
-    if ((strike.stops >> stop & 1U) == 0) continue;
-    Blow joined{{stop}, strike.to_rest};
-    std::vector<Blow> others;
-    for (Blow& part : parts) {
-      const bool touched =
-          ranges::any_of(part.stops, [&](int s) { return coupled(frame_.stops[s], frame_.stops[stop]); });
-      if (touched)
-        joined.stops.insert(joined.stops.end(), part.stops.begin(), part.stops.end());
-      else
-        others.push_back(std::move(part));
-    }
-    others.push_back(std::move(joined));
-    parts.swap(others);
-  }
-  return parts;
-}
-
-/// The first guard whose pair shares a mass with the contact's; the last one if there is none.
-std::size_t Passage::owner(const ContactRow& contact) const {
-  for (std::size_t k = 0; k < hits_.size(); ++k)
-    if (acts_on(before_.guards()[hits_[k]], contact)) return k;
-  return hits_.size() - 1;
-}
-
-/// The guard that is the gap of one of the stops struck, or else the first that acts on one of them.
-std::size_t Passage::owner(const Blow& blow) const {
-  for (std::size_t k = 0; k < hits_.size(); ++k) {
-    const mode::Guard& guard = before_.guards()[hits_[k]];
-    if (guard.kind == GuardKind::gap && ranges::find(blow.stops, guard.contact) != blow.stops.end()) return k;
-  }
-  std::size_t first = hits_.size() - 1;
-  for (int stop : blow.stops) first = std::min(first, owner(frame_.stops[stop]));
-  return first;
-}
-
-/// A stop that was struck together with an earlier one has no event of its own.
-void Passage::drop_hits_of_others() {
-  for (std::size_t k = 1; k < hits_.size();) {
-    const mode::Guard& guard = before_.guards()[hits_[k]];
-    const bool taken = guard.kind == GuardKind::gap && ranges::any_of(blows_, [&](const Blow& blow) {
-                         return ranges::find(blow.stops, guard.contact) != blow.stops.end() && owner(blow) < k;
-                       });
-    if (taken)
-      hits_.erase(hits_.begin() + static_cast<std::ptrdiff_t>(k));
-    else
-      ++k;
-  }
-}
-
-/// The changes of contact states that belong to the k-th guard.
-void Passage::take_states(std::size_t k) {
-  const ContactStates& final = system_.mode(engine_.mode_id()).states();
-  if (k + 1 == hits_.size()) {
-    states_ = final;
-    return;
-  }
-  const auto take = [&](auto& states, const auto& last, const std::vector<ContactRow>& rows) {
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (owner(rows[i]) == k) states[i] = last[i];
-  };
-  take(states_.stops, final.stops, frame_.stops);
-  take(states_.frictions, final.frictions, frame_.frictions);
-  take(states_.compliant, final.compliant, frame_.compliant);
-}
-
-/// With which the stops are hit, in the state now.
-Eigen::VectorXd Passage::speeds(const Blow& blow) const {
-  Eigen::VectorXd all(blow.stops.size());
-  for (std::size_t i = 0; i < blow.stops.size(); ++i)
-    all[static_cast<Eigen::Index>(i)] = approach_velocity(system_, blow.stops[i], X_.data());
-  return all;
-}
-
-/// Each of the stops leaves with -r(v) v of the velocity v it came with; a small change of v is multiplied by
-/// -d(r v)/dv.
-/// @param rates  of small changes
+/// Of the state now, or of small changes of it.
 // NOLINTNEXTLINE(performance-unnecessary-value-param): a view, through which is written
-void Passage::apply(const Blow& blow, const Eigen::VectorXd& speeds, bool rates,
-                    Eigen::Ref<Eigen::MatrixXd> velocities) const {
-  std::vector<int> rows;
-  Eigen::VectorXd factor = Eigen::VectorXd::Ones(speeds.size());
-  for (int stop : blow.stops) {
-    const auto i = static_cast<Eigen::Index>(rows.size());
-    const Rebound law = rebound(system_.model().stops[stop], speeds[i]);
-    if (!blow.to_rest) factor[i] += rates ? law.rate : law.restitution;
-    rows.push_back(frame_.stops[stop].own);
-  }
-  push_along(frame_, rows, factor, velocities);
+void Passage::apply(const Motion::Strike& strike, bool rates, Eigen::Ref<Eigen::MatrixXd> velocities) const {
+  const Collision hit(system_.model(), frame_, strike, X_);
+  push_along(frame_, hit.rows, rates ? hit.slope : hit.factor, velocities);
 }
 
 /// A X in a mode, which may exist between two guards only.
-Eigen::VectorXd Passage::flow(ModeId id, const Eigen::VectorXd& X) const {
+Eigen::VectorXd Passage::flow(const mode::ContactStates& states, const Eigen::VectorXd& X) const {
+  const ModeId id = system_.mode_id(states);
   const mode::Mode* known = system_.known_mode(id);
   if (known != nullptr) return known->system() * X;
   return system_.outline(id)->system * X;
 }
 
 void Passage::carry(Eigen::MatrixXd& tangents) {
-  if (hits_.empty()) return;
+  const std::vector<InstantPart> parts = parts_of_instant(engine_, backward_);
   const int d = frame_.d;
-  const Eigen::Map<const Eigen::VectorXd> after(engine_.extended().data(), before_.size());
-  for (std::size_t k = 0; k < hits_.size(); ++k) {
-    const mode::RowVector& h = before_.guards()[hits_[k]].row;
-    const Eigen::VectorXd f_minus = flow(system_.mode_id(states_), X_);
-    const double slope = h.dot(f_minus);
-    Eigen::RowVectorXd dt = Eigen::RowVectorXd::Zero(tangents.cols());
-    if (slope != 0.0) dt = -(h.head(2 * d) * tangents) / slope;
-    tangents += f_minus.head(2 * d) * dt;
-    for (const Blow& blow : blows_) {
-      if (owner(blow) != k) continue;
-      const Eigen::VectorXd v = speeds(blow);
-      apply(blow, v, true, tangents.bottomRows(d));
-      apply(blow, v, false, X_.segment(d, d));
+  mode::ContactStates states = before_.states();
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const mode::Guard& guard = before_.guards()[parts[k].guard];
+    const bool last = k + 1 == parts.size();
+    if (!passes_smoothly(system_.model(), guard)) {  // else nothing happens to a tangent
+      const Eigen::VectorXd f_minus = flow(states, X_);
+      const double slope = guard.row.dot(f_minus);
+      Eigen::RowVectorXd dt = Eigen::RowVectorXd::Zero(tangents.cols());
+      if (slope != 0.0) dt = -(guard.row.head(2 * d) * tangents) / slope;
+      tangents += f_minus.head(2 * d) * dt;
+      for (const Motion::Strike& strike : parts[k].strikes) {
+        apply(strike, true, tangents.bottomRows(d));
+        apply(strike, false, X_.segment(d, d));
+      }
+      if (last) X_ = Eigen::Map<const Eigen::VectorXd>(engine_.extended().data(), before_.size());
+      tangents -= flow(parts[k].after, X_).head(2 * d) * dt;
     }
-    take_states(k);
-    if (k + 1 == hits_.size()) X_ = after;
-    tangents -= flow(system_.mode_id(states_), X_).head(2 * d) * dt;
+    states = parts[k].after;
   }
 }
 
 /// Impacts without a time of their own, after a chatter limit, and the end of a pile-up: gaps and their rates are lost,
 /// the momentum is kept.
 void Passage::carry_at_once(Eigen::MatrixXd& tangents) const {
-  for (const Blow& blow : blows_) {
-    const Eigen::VectorXd v = speeds(blow);
-    apply(blow, v, true, tangents.bottomRows(frame_.d));
-    if (blow.to_rest) apply(blow, v, true, tangents.topRows(frame_.d));
+  for (const Motion::Strike& strike : separated_strikes(frame_, engine_.strikes())) {
+    apply(strike, true, tangents.bottomRows(frame_.d));
+    if (strike.to_rest) apply(strike, true, tangents.topRows(frame_.d));
   }
+}
+
+/// Do all events of the instant have a time of their own?
+bool timed(const Engine& engine) {
+  return !engine.hits().empty() && ranges::none_of(engine.strikes(), &Motion::Strike::to_rest);
+}
+
+/// What the mode behind the instant holds still is zero; a saltation makes it so but for rounding.
+void hold_still(const Engine& engine, Eigen::MatrixXd& tangents) {
+  const mode::Frame& frame = engine.system().frame();
+  const mode::Mode& mode = engine.system().mode(engine.mode_id());
+  for (int i = 0; i < frame.d; ++i)
+    if (mode.steady(i)) tangents.row(frame.u(i)).setZero();
+  for (std::size_t i = 0; i < frame.stops.size(); ++i)
+    if (mode.states().stops[i] == mode::StopState::closed) tangents.row(frame.stops[i].own).setZero();
+}
+
+/// Are two derivatives the same but for rounding? Their four blocks, displacements and velocities by displacements and
+/// velocities, have a unit each. The state at the instant has no size to go by: all may be at rest there.
+/// @param time  in which a state of the motion changes
+bool alike(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double time) {
+  constexpr double rounding = 1e-9;  // of a block's entries; an order that matters shows in the leading digits
+  Eigen::Matrix2d units;
+  units << 1.0, time, 1.0 / time, 1.0;
+  const Eigen::Index d = a.rows() / 2, n = a.cols() / 2;
+  for (Eigen::Index i = 0; i < 2; ++i)
+    for (Eigen::Index j = 0; j < 2; ++j) {
+      const Eigen::MatrixXd x = a.block(i * d, j * n, d, n), y = b.block(i * d, j * n, d, n);
+      const double size = std::max(units(i, j), x.cwiseAbs().cwiseMax(y.cwiseAbs()).maxCoeff());
+      if ((x - y).cwiseAbs().maxCoeff() > rounding * size) return false;
+    }
+  return true;
 }
 
 }  // namespace
 
-void push_along(const mode::Frame& frame, const std::vector<int>& rows, const Eigen::VectorXd& factor,
-                Eigen::Ref<Eigen::MatrixXd> block) {
-  if (rows.empty()) return;
-  const Eigen::MatrixXd push = frame.mass_inverse(Eigen::all, rows), D = push(rows, Eigen::all);
-  const Eigen::MatrixXd rates = factor.asDiagonal() * Eigen::MatrixXd(block(rows, Eigen::all));
-  if (rows.size() == 1)
-    block -= push * (rates / D(0, 0));
-  else
-    block -= push * dense::LeastNorm(D).solve(rates);
-}
-
 void pass_event(const Engine& engine, Eigen::MatrixXd& tangents) {
   if (engine.hits().empty() && engine.strikes().empty()) return;
-  const bool piled_up = ranges::any_of(engine.strikes(), &Motion::Strike::to_rest);
-  if (engine.hits().empty() || piled_up)
-    Passage(engine).carry_at_once(tangents);
-  else
-    Passage(engine).carry(tangents);
+  Passage passage(engine, false);
+  timed(engine) ? passage.carry(tangents) : passage.carry_at_once(tangents);
+}
+
+bool differentiable(const Engine& engine) {
+  if (!timed(engine) || (engine.hits().size() < 2 && parts_of_instant(engine).size() < 2)) return true;
+  const mode::Frame& frame = engine.system().frame();
+  Eigen::MatrixXd forward = Eigen::MatrixXd::Zero(2 * frame.d, 2 * frame.n);
+  forward.topLeftCorner(frame.d, frame.n) = frame.dependence;
+  forward.bottomRightCorner(frame.d, frame.n) = frame.dependence;
+  Eigen::MatrixXd backward = forward;
+  Passage(engine, false).carry(forward);
+  Passage(engine, true).carry(backward);
+  hold_still(engine, forward);
+  hold_still(engine, backward);
+  return alike(forward, backward, engine.system().mode(engine.mode_id()).window());
 }
 
 }  // namespace slapstick::flow

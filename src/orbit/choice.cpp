@@ -115,11 +115,25 @@ void choose_among(const Problem& problem, const OrbitChoice& choice, std::vector
   result.others = std::move(found);
 }
 
+/// Without a transient the state itself is what is asked about: an orbit that it lies on, stable or not, if it is
+/// one that is meant.
+bool choose_at(const Problem& problem, const System& system, const State& state, const OrbitChoice& choice,
+               const SettleOptions& options, Chosen& result) {
+  if (options.transient > 0 || choice.nearest) return false;
+  const int n = problem.free() ? 0 : choice.n.value_or(0);
+  std::optional<Solution> found = orbit_near(problem, Motion(system, state), 0, n, options.stop);
+  if (!found || !choice.admits(problem, *found)) return false;
+  result.settles = found->stable();
+  result.orbit = std::move(found);
+  return true;
+}
+
 }  // namespace
 
 Chosen choose(const Problem& problem, const System& system, const State& state, const OrbitChoice& choice,
               const SettleOptions& settling, SearchOptions searching) {
   Chosen result;
+  if (choose_at(problem, system, state, choice, settling, result)) return result;
   result.settled = settle(problem, system, state, settling);
   const std::optional<Solution>& settled = result.settled.orbit;
   const bool admitted = settled && choice.admits(problem, *settled) && !choice.nearest;

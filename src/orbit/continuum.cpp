@@ -125,7 +125,7 @@ Null null_vectors_at(const Problem& problem, const Orbit& orbit) {
 bool has_all_legs(const Orbit& orbit, const Orbit& beside) {
   constexpr double gone = 0.5;  // far more than the way along a null direction makes of a leg
   for (std::size_t leg = 0; leg < orbit.legs(); ++leg)
-    if (!(beside.duration(leg) > gone * orbit.duration(leg))) return false;
+    if (!orbit.tied(leg) && !(beside.duration(leg) > gone * orbit.duration(leg))) return false;
   return true;
 }
 

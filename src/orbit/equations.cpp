@@ -253,6 +253,18 @@ double deflation(const std::vector<VectorXd>& taken_out, const VectorXd& v, cons
   return 1.0 / (1.0 - slope);
 }
 
+/// A tied leg has no length but for rounding. One that has got a length is a leg as any other.
+void settle_ties(Orbit& orbit) {
+  constexpr double rounding = 1e-11;  // of the cycle; more would hide a coincidence that a parameter takes apart
+  for (std::size_t i = 0; i < orbit.legs(); ++i) {
+    if (!orbit.tied(i)) continue;
+    if (std::abs(orbit.duration(i)) > rounding * (orbit.t.back() - orbit.t.front()))
+      orbit.shape.legs[i].tied = false;
+    else
+      orbit.t[i + 1] = orbit.t[i];
+  }
+}
+
 void newton(const Problem& problem, Orbit& orbit, const std::vector<Condition>& conditions, int most_steps,
             const std::vector<Orbit>& besides, NewtonResult& result) {
   const VectorXd scale = sizes(problem, orbit);
@@ -296,6 +308,7 @@ NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condi
   NewtonResult result;
   try {
     newton(problem, orbit, conditions, most_steps, besides, result);
+    if (result.converged) settle_ties(orbit);
   } catch (const InputError& error) {
     result.refusal = error.what();
   } catch (const NumericalError& error) {

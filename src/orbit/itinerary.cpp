@@ -7,14 +7,16 @@
 
 namespace slapstick::orbit {
 
-bool operator==(const Leg& a, const Leg& b) {
+bool same_end(const Leg& a, const Leg& b) {
   const auto same_strike = [](const Motion::Strike& p, const Motion::Strike& q) {
     return p.stops == q.stops && p.to_rest == q.to_rest;
   };
-  return a.states == b.states && a.ending == b.ending &&
+  return a.ending == b.ending &&
          (a.ending == Ending::cut || (a.kind == b.kind && a.contact == b.contact)) &&
          ranges::equal(a.strikes, b.strikes, same_strike);
 }
+
+bool operator==(const Leg& a, const Leg& b) { return a.states == b.states && same_end(a, b); }
 
 void rotate(Orbit& orbit, std::size_t first) {
   const std::size_t k = orbit.legs();
@@ -28,6 +30,26 @@ void rotate(Orbit& orbit, std::size_t first) {
   std::rotate(orbit.x.begin(), orbit.x.begin() + static_cast<std::ptrdiff_t>(first), orbit.x.end());
   std::rotate(legs.begin(), legs.begin() + static_cast<std::ptrdiff_t>(first), legs.end());
 }
+
+std::vector<std::size_t> ended_at_start(const Itinerary& shape, std::size_t leg) {
+  const std::size_t k = shape.legs.size();
+  std::vector<std::size_t> ended;
+  do {
+    leg = (leg + k - 1) % k;
+    ended.push_back(leg);
+  } while (shape.legs[leg].tied && ended.size() < k);
+  return ended;
+}
+
+std::vector<std::size_t> ended_at_end(const Itinerary& shape, std::size_t leg) {
+  const std::size_t k = shape.legs.size();
+  std::vector<std::size_t> ended = {leg};
+  for (std::size_t next = (leg + 1) % k; shape.legs[next].tied && ended.size() < k; next = (next + 1) % k)
+    ended.push_back(next);
+  return ended;
+}
+
+bool differentiable(const Itinerary& shape) { return ranges::all_of(shape.legs, &Leg::differentiable); }
 
 int returns(const Itinerary& shape) {
   const auto alike = [](const Leg& a, const Leg& b) {

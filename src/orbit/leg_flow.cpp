@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <utility>
 
-#include "base/dense.hpp"
 #include "base/ranges.hpp"
+#include "flow/collision.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::orbit {
@@ -46,53 +47,26 @@ void step(const ModeRates& mode, Index d, double s, Jet& X) {
   }
 }
 
-/// The factor F of an impulse and what a small change of the velocity is multiplied by: 1 + r and 1 + d(r v)/dv.
-struct Factors {
-  VectorXd value, slope;
-  MatrixXd rates;  ///< of F, by the parameters
-};
-
-/// Impulses along some displacements: u -> u - M^{-1} G^T D^+ F G u, of all columns of a jet.
-void push(const ModeSet& set, const std::vector<int>& rows, const Factors& factor, Jet& X) {
+/// The impulses of stops that are struck together (flow/collision.hpp), of all columns of a jet.
+void push(const ModeSet& set, const Motion::Strike& strike, Jet& X) {
   const mode::Frame& frame = set.frame();
   const Index d = frame.d;
-  const MatrixXd S = frame.mass_inverse(Eigen::all, rows), D = S(rows, Eigen::all);
-  const dense::LeastNorm solver(D);
-  const MatrixXd before = X.all.middleRows(d, d)(rows, Eigen::all);
-  MatrixXd load = factor.slope.asDiagonal() * before;
-  load.col(0) = factor.value.cwiseProduct(before.col(0));
-  const MatrixXd impulses = solver.solve(load);
-  X.all.middleRows(d, d) -= S * impulses;
+  const flow::Collision hit(set.model(), frame, strike, X.value());
+  const MatrixXd before = X.all.middleRows(d, d)(hit.rows, Eigen::all);
+  MatrixXd load = hit.slope.asDiagonal() * before;
+  load.col(0) = hit.factor.cwiseProduct(before.col(0));
+  const MatrixXd P = flow::impulses(frame, hit.rows, load), S = frame.mass_inverse(Eigen::all, hit.rows);
+  X.all.middleRows(d, d) -= S * P;
   for (Index p = 0; p < X.parameters; ++p) {
-    const MatrixXd S_rate = set.frame_rate(static_cast<std::size_t>(p)).mass_inverse(Eigen::all, rows);
-    const VectorXd change = factor.rates.col(p).cwiseProduct(before.col(0)) - S_rate(rows, Eigen::all) * impulses.col(0);
-    X.by_parameter().col(p).segment(d, d) -= S * solver.solve(change) + S_rate * impulses.col(0);
-  }
-}
-
-/// The impacts of one instant, in order.
-void strike(const ModeSet& set, const Leg& leg, Jet& X) {
-  for (const Motion::Strike& strike : leg.strikes) {
-    std::vector<int> rows;
-    std::vector<int> stops;
-    for (int stop = 0; stop < static_cast<int>(set.frame().stops.size()); ++stop)
-      if ((strike.stops >> stop & 1U) != 0) stops.push_back(stop);
-    const auto count = static_cast<Index>(stops.size());
-    Factors factor{VectorXd::Ones(count), VectorXd::Ones(count), MatrixXd::Zero(count, X.parameters)};
-    for (Index i = 0; i < count; ++i) {
-      const int k = stops[static_cast<std::size_t>(i)];
-      const mode::ContactRow& own = set.frame().stops[k];
-      rows.push_back(own.own);
-      if (strike.to_rest) continue;
-      const Stop& stop = set.model().stops[k];
-      const double speed = own.sign * X.value()[set.frame().u(own.own)];
-      const Rebound law = rebound(stop, speed);
-      factor.value[i] += law.restitution;
-      factor.slope[i] += law.rate;
-      for (Index p = 0; p < X.parameters; ++p)
-        factor.rates(i, p) = rebound_rate(stop, set.rate(static_cast<std::size_t>(p)).stops[k], speed);
+    const auto which = static_cast<std::size_t>(p);
+    const MatrixXd S_rate = set.frame_rate(which).mass_inverse(Eigen::all, hit.rows);
+    VectorXd change = -S_rate(hit.rows, Eigen::all) * P.col(0);
+    for (std::size_t i = 0; i < hit.stops.size() && !strike.to_rest; ++i) {
+      const int stop = hit.stops[i];
+      const auto row = static_cast<Index>(i);
+      change[row] += rebound_rate(set.model().stops[stop], set.rate(which).stops[stop], hit.speed[row]) * before(row, 0);
     }
-    push(set, rows, factor, X);
+    X.by_parameter().col(p).segment(d, d) -= S * flow::impulses(frame, hit.rows, change) + S_rate * P.col(0);
   }
 }
 
@@ -234,9 +208,7 @@ void flow(const ModeRates& mode, double s, Jet& X) {
 
 Jet leg_start(const ModeSet& set, const Leg& leg, const VectorXd& x, double t_begin) {
   Jet X = extended(set, x, t_begin);
-  if (sums_impacts(leg))
-    push(set, {set.frame().stops[leg.contact].own},
-         {VectorXd::Ones(1), VectorXd::Ones(1), MatrixXd::Zero(1, X.parameters)}, X);
+  if (sums_impacts(leg)) push(set, {std::uint32_t{1} << static_cast<unsigned>(leg.contact), true}, X);
   return X;
 }
 
@@ -303,7 +275,7 @@ LegValue leg_value(const ModeSet& set, const Leg& leg, const Leg& next, const Ve
   if (leg.ending == Ending::guard || leg.ending == Ending::onset) h = guard_jet(mode, leg, X);
   if (leg.ending == Ending::chatter) h = chatter_jet(set, leg.contact, extended(set, x, t_begin), t_begin, t_end);
   Jet struck = X;
-  strike(set, leg, struck);
+  for (const Motion::Strike& strike : leg.strikes) push(set, strike, struck);
   return {std::move(X), contact_jet(set, next, struck), std::move(h)};
 }
 

@@ -45,6 +45,12 @@ bool zero_by_event(const mode::Frame& frame, const Leg& before, const mode::Guar
   return false;
 }
 
+/// .. because of one of the events there?
+bool zero_by_events(const mode::Frame& frame, const Itinerary& shape, std::size_t leg, const mode::Guard& guard) {
+  return ranges::any_of(ended_at_start(shape, leg),
+                        [&](std::size_t before) { return zero_by_event(frame, shape.legs[before], guard); });
+}
+
 /// Is this the relative velocity of the pair whose gap ends the leg? Its value there is the speed of the impact, which is watched by itself.
 bool is_speed_of(const mode::Frame& frame, const Leg& leg, const mode::Guard& guard) {
   if (leg.ending != Ending::guard || !of_gap(leg.kind) || guard.kind != GuardKind::slip) return false;
@@ -123,6 +129,16 @@ enum class AtEnd {
   is_zero      ///< the guard ends the leg there, and its slope there is a test of its own
 };
 
+AtEnd at_end(const mode::Frame& frame, const Itinerary& shape, std::size_t leg, const mode::Guard& guard) {
+  AtEnd found = AtEnd::counts;
+  for (const std::size_t ended : ended_at_end(shape, leg)) {
+    const Leg& one = shape.legs[ended];
+    if (one.ending == Ending::guard && guard.kind == one.kind && guard.contact == one.contact) return AtEnd::is_zero;
+    if (is_speed_of(frame, one, guard)) found = AtEnd::is_watched;
+  }
+  return found;
+}
+
 /// The least value of a guard along a leg: at its ends, and at its minima.
 ///
 /// A guard that ends the leg falls to its zero from the last maximum on. A minimum behind that maximum is this zero
@@ -198,25 +214,26 @@ std::vector<TestValue> test_values(const ModeSet& set, const Orbit& orbit) {
   std::vector<TestValue> all;
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
     const Leg& leg = orbit.shape.legs[i];
-    const Leg& before = orbit.shape.legs[(i + orbit.legs() - 1) % orbit.legs()];
     const Course course(set, leg, orbit.x[i], orbit.t[i], orbit.duration(i));
     const auto& guards = course.mode.outline.guards;
     for (const mode::Guard& guard : guards) {
-      const bool ending = leg.ending == Ending::guard && guard.kind == leg.kind && guard.contact == leg.contact;
-      const AtEnd at_end = ending ? AtEnd::is_zero : is_speed_of(set.frame(), leg, guard) ? AtEnd::is_watched : AtEnd::counts;
-      const Least least = least_value(course, guard, !zero_by_event(set.frame(), before, guard), at_end);
+      Least least;
+      if (!leg.tied)
+        least = least_value(course, guard, !zero_by_events(set.frame(), orbit.shape, i, guard),
+                            at_end(set.frame(), orbit.shape, i, guard));
       all.push_back({Test::guard, i, guard.kind, guard.contact, least.value, least.at / set.period()});
     }
     bool starts_at_end = false;
     if (leg.ending == Ending::guard) {
       const mode::Guard& end = guards[course.mode.guard(leg.kind, leg.contact)];
-      starts_at_end = zero_by_event(set.frame(), before, end);
+      starts_at_end = !leg.tied && zero_by_events(set.frame(), orbit.shape, i, end);
       all.push_back({Test::speed, i, leg.kind, leg.contact,
                      -end.row.dot(course.mode.outline.system * course.states.back()), orbit.duration(i),
                      starts_at_end});
     }
     if (leg.ending != Ending::cut)
-      all.push_back({Test::duration, i, leg.kind, leg.contact, orbit.duration(i), orbit.duration(i), starts_at_end});
+      all.push_back({Test::duration, i, leg.kind, leg.contact,
+                     leg.tied ? std::numeric_limits<double>::infinity() : orbit.duration(i), orbit.duration(i), starts_at_end});
     if (passes_without_stick(orbit, i))
       all.push_back({Test::no_stick, i, leg.kind, leg.contact, beyond_stick(set, orbit, i, course.states.back()),
                      orbit.duration(i)});

@@ -37,6 +37,9 @@ OrbitRate carried(const ModeSet& set, const Orbit& orbit, const std::vector<LegV
 
 std::vector<OrbitRate> orbit_rates(const Problem& problem, const ModeSet& set, const Orbit& orbit) {
   constexpr double singular = 1e-13;
+  if (!differentiable(orbit.shape))
+    throw NumericalError("the orbit has no derivative: contacts that act on each other meet their events at one instant, "
+                         "and what comes first decides; change a parameter a little");
   const std::size_t legs = orbit.legs();
   const Linearised at = linearise(problem, set, orbit);
   const Index own = at.by.cols() - problem.parameters();

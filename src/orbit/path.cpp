@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/dense.hpp"
+#include "base/ranges.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/orbit/periodic_orbit.hpp"
 
@@ -31,6 +32,16 @@ VectorXd tangent_at(const Problem& problem, const Linearised& at, std::size_t le
   VectorXd tangent = dense::solve(matrix, VectorXd::Unit(matrix.rows(), matrix.rows() - 1));
   tangent.normalize();
   return tangent.dot(last) < 0.0 ? VectorXd(-tangent) : tangent;
+}
+
+/// Each but once.
+std::vector<std::complex<double>> distinct(const std::vector<std::complex<double>>& multipliers) {
+  constexpr double equal = 1e-6;  // of 1 + |mu|: a double one is known to no more where two pairs meet
+  std::vector<std::complex<double>> once;
+  for (const auto& mu : multipliers)
+    if (ranges::none_of(once, [&](const auto& other) { return std::abs(other - mu) <= equal * (1.0 + std::abs(mu)); }))
+      once.push_back(mu);
+  return once;
 }
 
 }  // namespace
@@ -82,6 +93,7 @@ PathPoint point_of(const Problem& problem, Orbit orbit, double range, const Vect
   level_rows(crossing);
   point.watched.cross = dense::determinant(crossing);
   point.watched.multipliers = multipliers(problem, set, orbit, at.legs);
+  if (ranges::any_of(orbit.shape.legs, &Leg::tied)) point.watched.multipliers = distinct(point.watched.multipliers);
   point.watched.flip = flip_function(point.watched.multipliers);
   point.watched.torus = torus_function(point.watched.multipliers);
   point.watched.tests = test_values(set, orbit);

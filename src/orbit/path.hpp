@@ -24,6 +24,8 @@ struct Watched {
   double cross = 0.0;  ///< determinant bordered by the tangent: zero where branches cross
   double flip = 0.0;   ///< flip_function
   double torus = 0.0;  ///< torus_function
+  /// Of an orbit with tied legs each but once: those of equal machines pass the unit circle together, and a function that
+  /// counts them all would be zero without a change of sign.
   std::vector<std::complex<double>> multipliers;
   std::vector<TestValue> tests;
 };

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/ranges.hpp"
-#include "flow/engine.hpp"
 #include "flow/contact_state.hpp"
 #include "orbit/equations.hpp"
 #include "slapstick/base/error.hpp"
@@ -19,52 +18,7 @@ constexpr double far_off = 0.3;        ///< a cycle's length may be this much of
 constexpr double same_instant = 1e-8;  ///< of a cycle
 constexpr long most_events_autonomous = 400;
 
-/// What ended the last segment; empty for a touch that changes nothing, or none of a leg's endings.
-std::optional<Leg> ended_leg(const Motion& motion) {
-  const System& system = motion.system();
-  const Event& event = motion.event();
-  Leg leg;
-  leg.states = system.compiled().mode(motion.segment().mode).states();
-  leg.event = event.kind;
-  leg.event_contact = event.contact;
-  leg.strikes.assign(motion.strikes().begin(), motion.strikes().end());
-  if (event.kind == EventKind::chatter) {
-    leg.ending = Ending::chatter;
-    leg.contact = event.contact;
-    return leg;
-  }
-  const mode::Guard* hit = motion.engine().hit_guard();
-  if (hit == nullptr || event.kind == EventKind::graze) return std::nullopt;
-  leg.kind = hit->kind;
-  leg.contact = hit->contact;
-  return leg;
-}
-
 }  // namespace
-
-std::optional<Seen> next_event(Motion& motion, std::int64_t zero, Instant end, bool& touched,
-                               const std::atomic<bool>* stop) {
-  const long seen = motion.counters().segments;
-  Instant stage = motion.time();
-  while (!stopped(stop)) {
-    stage = next_stage(motion.system(), stage, end);
-    if (motion.advance(stage) != Outcome::event) {
-      if (stage >= end) return std::nullopt;
-      continue;
-    }
-    if (motion.counters().segments == seen) continue;  // a further event of the instant before
-    const std::optional<Leg> leg = ended_leg(motion);
-    if (!leg) {
-      touched = true;
-      return std::nullopt;
-    }
-    // A force that has come to zero but for rounding may come to zero again: what changes no mode is no event.
-    const bool changes = leg->ending == Ending::chatter || motion.segment().mode != motion.mode_id();
-    if (!changes && leg->strikes.empty()) continue;
-    return Seen{*leg, motion.event().time.since({zero, 0.0}), flow::contact_state(motion)};
-  }
-  return std::nullopt;
-}
 
 Orbit orbit_of(const std::vector<Seen>& events, std::size_t k, int n) {
   Orbit orbit;
@@ -76,6 +30,7 @@ Orbit orbit_of(const std::vector<Seen>& events, std::size_t k, int n) {
   }
   const double whole = n > 0 ? std::floor(orbit.t[0]) : orbit.t[0];
   for (double& t : orbit.t) t -= whole;
+  for (std::size_t i = 0; i < k && orbit.tied(0); ++i) rotate(orbit, 1);  // it begins behind all events of an instant
   return orbit;
 }
 
@@ -93,17 +48,16 @@ Orbit without_events(const Motion& motion, int n) {
   return orbit;
 }
 
-std::optional<Orbit> record_autonomous(Motion& motion, std::vector<Seen> events, Instant end,
-                                       const std::atomic<bool>* stop) {
-  bool touched = false;
+std::optional<Orbit> record_autonomous(const Motion& motion, EventReader& reader, std::vector<Seen> events, Instant end) {
   const std::int64_t zero = motion.time().period;
+  reader.count_from(zero);
   events.front().t = motion.time().since({zero, 0.0});
   VectorXd size = events.front().x.cwiseAbs();
   std::size_t best = 0;
   double least = 0.1;
   for (long count = 0; count < most_events_autonomous; ++count) {
-    const std::optional<Seen> seen = next_event(motion, zero, end, touched, stop);
-    if (!seen || touched) break;
+    const std::optional<Seen> seen = reader.next(end);
+    if (!seen) break;
     events.push_back(*seen);
     size = size.cwiseMax(seen->x.cwiseAbs());
     if (!(seen->leg == events.front().leg)) continue;
@@ -122,31 +76,30 @@ std::optional<Orbit> record_autonomous(Motion& motion, std::vector<Seen> events,
 
 std::optional<Orbit> record(const Motion& start, int n, const std::atomic<bool>* stop) {
   Motion motion = start;
-  const std::int64_t zero = motion.time().period;
-  bool touched = false;
+  EventReader reader(motion, motion.time().period, stop);
   const int cycle = std::max(1, n);
   constexpr int patience = 1'000'000;  // periods of 1 that an autonomous motion may take to its next event
   const Instant limit = motion.time().plus(n > 0 ? n : patience);
   std::vector<Seen> events;
-  if (auto first = next_event(motion, zero, limit, touched, stop)) events.push_back(std::move(*first));
-  if (touched || stopped(stop)) return std::nullopt;
+  if (auto first = reader.next(limit)) events.push_back(std::move(*first));
+  if (reader.touched() || stopped(stop)) return std::nullopt;
   if (events.empty()) {
     if (n == 0) return std::nullopt;
     motion.advance({motion.time().period + 1, 0.0});
     return without_events(motion, n);
   }
-  if (n == 0) return record_autonomous(motion, events, motion.time().plus(patience), stop);
+  if (n == 0) return record_autonomous(motion, reader, events, motion.time().plus(patience));
   const Instant end = motion.time().plus(cycle * (1.0 + far_off));
   std::size_t best = 0;
   double least = far_off * cycle;
-  while (auto seen = next_event(motion, zero, end, touched, stop)) {
+  while (auto seen = reader.next(end)) {
     events.push_back(std::move(*seen));
     const double off = std::abs(events.back().t - events.front().t - cycle);
     if (off > least || !(events.back().leg == events.front().leg)) continue;
     least = off;
     best = events.size() - 1;
   }
-  if (touched || best == 0) return std::nullopt;
+  if (reader.touched() || best == 0) return std::nullopt;
   return orbit_of(events, best, n);
 }
 
@@ -213,7 +166,8 @@ class Check {
   bool run(std::size_t first, std::size_t next);
 
  private:
-  [[nodiscard]] bool to_chatter(Motion& motion, Seen seen) const;
+  [[nodiscard]] bool meets_all(EventReader& reader, std::vector<std::size_t> legs, double due, double tolerance) const;
+  [[nodiscard]] bool to_chatter(const Motion& motion, EventReader& reader, Seen seen) const;
   bool refuse(const std::string& why) {
     result_.why = why;
     return false;
@@ -225,16 +179,27 @@ class Check {
 };
 
 /// Runs on to the limit of the burst that an event is part of.
-bool Check::to_chatter(Motion& motion, Seen seen) const {
+bool Check::to_chatter(const Motion& motion, EventReader& reader, Seen seen) const {
   constexpr int most = 1000;
   const double cycle = orbit_.t.back() - orbit_.t.front();
-  bool touched = false;
   for (int k = 0; k < most && seen.leg.ending != Ending::chatter; ++k) {
-    auto next = next_event(motion, 0, motion.time().plus(cycle), touched, nullptr);
+    auto next = reader.next(motion.time().plus(cycle));
     if (!next) return false;
     seen = std::move(*next);
   }
   return seen.leg.ending == Ending::chatter;
+}
+
+/// Are these the next events, at one instant but for rounding? Which of them is seen first is rounding too.
+bool Check::meets_all(EventReader& reader, std::vector<std::size_t> legs, double due, double tolerance) const {
+  while (!legs.empty()) {
+    const std::optional<Seen> seen = reader.next(Instant{}.plus(due + 2.0 * tolerance));
+    if (!seen || std::abs(seen->t - due) > tolerance) return false;
+    const auto same = ranges::find_if(legs, [&](std::size_t leg) { return same_end(orbit_.shape.legs[leg], seen->leg); });
+    if (same == legs.end()) return false;
+    legs.erase(same);
+  }
+  return true;
 }
 
 bool Check::run(std::size_t first, std::size_t next) {
@@ -242,19 +207,24 @@ bool Check::run(std::size_t first, std::size_t next) {
   Motion motion = from_middle(system_, orbit_, first);
   if (motion.mode_id() != system_.mode_id(orbit_.shape.legs[first].states))
     return refuse("leg " + std::to_string(first + 1) + " starts in mode " + system_.mode_name(motion.mode_id()));
-  bool touched = false;
+  EventReader reader(motion, 0);
   for (std::size_t i = first; i < next; ++i) {
     const std::size_t leg = i % orbit_.legs();
     const double due = orbit_.t[leg + 1] + (i >= orbit_.legs() ? cycle : 0.0);
     const double tolerance = fades(orbit_, leg) ? 0.5 * cycle : same_instant * cycle;
-    const std::optional<Seen> seen = next_event(motion, 0, Instant{}.plus(due + 2.0 * tolerance), touched, nullptr);
-    if (touched) return refuse("the motion grazes in leg " + std::to_string(leg + 1));
+    if (const std::vector<std::size_t> tied = ended_at_end(orbit_.shape, leg); tied.size() > 1) {
+      if (!meets_all(reader, tied, due, tolerance)) return refuse("other events than the orbit's at one instant");
+      i += tied.size() - 1;
+      continue;
+    }
+    const std::optional<Seen> seen = reader.next(Instant{}.plus(due + 2.0 * tolerance));
+    if (reader.touched()) return refuse("the motion grazes in leg " + std::to_string(leg + 1));
     const Leg* wanted = &orbit_.shape.legs[leg];
     if (!seen || !(seen->leg == *wanted)) {
       const bool burst = in_burst(orbit_, leg) && seen &&
                          (seen->leg.ending == Ending::chatter || seen->leg.kind == mode::GuardKind::gap ||
                           seen->leg.kind == mode::GuardKind::slip);
-      if (!burst || !to_chatter(motion, *seen))
+      if (!burst || !to_chatter(motion, reader, *seen))
         return refuse(mismatch(system_, leg, seen ? &seen->leg : nullptr, wanted));
       result_.same_chatter = false;
       while (orbit_.shape.legs[i % orbit_.legs()].ending != Ending::chatter) ++i;
@@ -265,8 +235,8 @@ bool Check::run(std::size_t first, std::size_t next) {
   }
   const std::size_t half = next % orbit_.legs();
   const double stop = orbit_.t[half] + 0.5 * orbit_.duration(half) + (next >= orbit_.legs() ? cycle : 0.0);
-  const std::optional<Seen> early = next_event(motion, 0, Instant{}.plus(stop), touched, nullptr);
-  if (touched) return refuse("the motion grazes in leg " + std::to_string(half + 1));
+  const std::optional<Seen> early = reader.next(Instant{}.plus(stop));
+  if (reader.touched()) return refuse("the motion grazes in leg " + std::to_string(half + 1));
   if (early) return refuse(mismatch(system_, half, &early->leg, nullptr));
   // The next check begins there by the orbit's own mode: what the last event led to shows in this one's.
   if (motion.mode_id() != system_.mode_id(orbit_.shape.legs[half].states))
@@ -295,7 +265,7 @@ bool is_motion(const Problem& problem, const Orbit& orbit) {
 Verification verify(const System& system, const Orbit& orbit) {
   Verification result;
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
-    if (orbit.duration(i) > 0.0) continue;
+    if (orbit.duration(i) > 0.0 || orbit.tied(i)) continue;
     if (fades(orbit, i)) {
       result.same_chatter = false;
       continue;
@@ -306,10 +276,10 @@ Verification verify(const System& system, const Orbit& orbit) {
   try {
     if (orbit.shape.legs[0].ending == Ending::cut) {
       Motion motion = from_middle(system, orbit, 0);
-      bool touched = false;
-      const std::optional<Seen> seen = next_event(motion, 0, motion.time().plus(orbit.duration(0)), touched, nullptr);
+      EventReader reader(motion, 0);
+      const std::optional<Seen> seen = reader.next(motion.time().plus(orbit.duration(0)));
       if (seen) result.why = mismatch(system, 0, &seen->leg, nullptr);
-      result.is_motion = !seen && !touched;
+      result.is_motion = !seen && !reader.touched();
       return result;
     }
     const std::vector<std::size_t> legs = starts(system, orbit);
@@ -331,7 +301,7 @@ Verification verify(const System& system, const Orbit& orbit) {
 int legs_shrunk(const Orbit& from, const Orbit& to, double left) {
   int gone = 0;
   for (std::size_t leg = 0; leg < to.legs(); ++leg)
-    if (!in_burst(to, leg) && to.duration(leg) < left * from.duration(leg)) ++gone;
+    if (!to.tied(leg) && !in_burst(to, leg) && to.duration(leg) < left * from.duration(leg)) ++gone;
   return gone;
 }
 

@@ -2,24 +2,13 @@
 /// From motions to orbits: the shape of a cycle as a motion shows it, and whether an orbit is one.
 #include <optional>
 
-#include "slapstick/flow/stage.hpp"
 #include "slapstick/orbit/itinerary.hpp"
+#include "orbit/event_reader.hpp"
 #include "orbit/mode_set.hpp"
 
 namespace slapstick::orbit {
 
 class Problem;
-
-/// An event as the end of a leg, and the contact state behind it.
-struct Seen {
-  Leg leg;
-  double t;  ///< periods since the start of period `zero`
-  Eigen::VectorXd x;
-};
-
-/// Runs on to the next event that ends a leg, or to `end`. @returns empty at the end, or (and sets `touched`) after a graze
-[[nodiscard]] std::optional<Seen> next_event(Motion& motion, std::int64_t zero, Instant end, bool& touched,
-                                             const std::atomic<bool>* stop);
 
 /// The orbit of n periods (0: of a free motion) from the first of these events to number k. Its equations need not be met.
 [[nodiscard]] Orbit orbit_of(const std::vector<Seen>& events, std::size_t k, int n);

@@ -135,9 +135,9 @@ void Hunt::run_free(Motion motion, const VectorXd& size) {
   std::vector<Seen> events;
   std::vector<Patience> patience(most_legs + 1);
   const Instant end = motion.time().plus(section::patience(system_));
-  bool touched = false;
+  EventReader reader(motion, 0, options_.stop);
   for (int k = 0; k < 2 * options_.periods && !over(); ++k) {
-    auto seen = next_event(motion, 0, end, touched, options_.stop);
+    auto seen = reader.next(end);
     if (!seen) return;
     problem_.translations().take_out(seen->x);
     events.push_back(std::move(*seen));

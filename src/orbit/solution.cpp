@@ -77,6 +77,7 @@ void count_changes(Solution& found, const Orbit& orbit) {
 
 std::vector<std::complex<double>> multipliers(const Problem& problem, const ModeSet& set, const Orbit& orbit,
                                               const std::vector<LegValue>& legs) {
+  if (!differentiable(orbit.shape)) return {};
   const std::size_t first = most_held_leg(set, orbit);
   MatrixXd map;
   if (first == 0) {
@@ -99,6 +100,7 @@ std::vector<std::complex<double>> multipliers(const Problem& problem, const Mode
 }
 
 bool Solution::stable() const {
+  if (!differentiable(orbit.shape)) return false;
   std::vector<std::complex<double>> others = multipliers;
   for (int along = 0; along < family; ++along) drop_kept_direction(others);
   return ranges::all_of(others, [](auto mu) { return std::abs(mu) < 1.0; });

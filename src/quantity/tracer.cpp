@@ -175,6 +175,8 @@ void Tracer::piece(const std::shared_ptr<const mode::Outline>& outline, double l
                end_rate = rates != nullptr ? rates->duration : 0.0;
   double from_rate = 0.0;
   behind_ = nullptr;
+  // Between two events at one instant a piece has no length, and yet its ends move apart.
+  if (duration == 0.0 && end_rate != 0.0) step(mode, 0.0, {begin, 0.0, values_, value_rates_, begin_rate, 0.0, end_rate});
   for (double left = duration; left > 0.0;) {
     catch_up();
     Number length{std::min(left, mode.longest), 0.0};

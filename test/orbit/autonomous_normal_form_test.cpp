@@ -62,11 +62,11 @@ struct Returning {
     start[0] = 0.0;  // on the stop
     Motion motion(system, flow::user_state(system, start));
     double first = 0.0, last = 0.0;
-    bool touched = false;
+    orbit::EventReader reader(motion, 0);
     for (long k = 1; k <= after + over; ++k) {
       std::optional<orbit::Seen> seen;
       for (std::size_t leg = 0; leg < orbit.legs(); ++leg) {
-        seen = orbit::next_event(motion, 0, motion.time().plus(100.0), touched, nullptr);
+        seen = reader.next(motion.time().plus(100.0));
         if (!seen || !(seen->leg == orbit.shape.legs[leg])) throw std::runtime_error("other events than the cycle's");
       }
       const double square = std::norm(beside.apart(seen->x, orbit.x[0])) / (foretold * foretold);

@@ -8,6 +8,7 @@
 #include "flow/contact_state.hpp"
 #include "slapstick/attractor/classify.hpp"
 #include "slapstick/base/error.hpp"
+#include "slapstick/quantity/cycle_energy.hpp"
 
 namespace slapstick::test {
 namespace {
@@ -365,8 +366,8 @@ TEST(Orbit, OfCompleteChatterIsSolved) {
   const Classification seen = classify(posed.system, posed.start());
   ASSERT_FALSE(seen.multipliers.empty());
   EXPECT_NEAR(std::abs(found->multipliers.front()), std::abs(seen.multipliers.front()), 1e-7);
-  EXPECT_LT(std::abs(orbit::energy(*posed.problem, found->orbit).balance()),
-            1e-10 * orbit::energy(*posed.problem, found->orbit).input);
+  EXPECT_LT(std::abs(cycle_energy(*posed.problem, found->orbit).balance()),
+            1e-10 * cycle_energy(*posed.problem, found->orbit).input);
 }
 
 /// A model without forcing: the period is an unknown. On the belt: the closed form of stick and slip.

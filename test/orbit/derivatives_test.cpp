@@ -9,6 +9,7 @@
 #include "families.hpp"
 #include "orbit/path.hpp"
 #include "slapstick/attractor/classify.hpp"
+#include "slapstick/quantity/cycle_energy.hpp"
 
 namespace slapstick::test {
 namespace {
@@ -133,7 +134,7 @@ TEST(NormalForce, PeriodOfABlockThatASpringPresses) {
     const auto solution = posed.settled();
     ASSERT_TRUE(solution);
     EXPECT_NEAR(solution->cycle, period(mu, 0.3), 1e-13);
-    const orbit::Energy energy = orbit::energy(*posed.problem, solution->orbit);
+    const CycleEnergy energy = cycle_energy(*posed.problem, solution->orbit);
     EXPECT_GT(energy.friction[0], 0.0);
     EXPECT_LT(std::abs(energy.balance()), 1e-13 * energy.input);
   }
@@ -145,7 +146,7 @@ TEST(Energy, OfCyclesWithEveryLawIsBalanced) {
     const Posed posed(std::string(SLAPSTICK_ORBIT_MODELS) + file, {}, {}, {});
     const auto solution = posed.settled();
     ASSERT_TRUE(solution) << file;
-    const orbit::Energy energy = orbit::energy(*posed.problem, solution->orbit);
+    const CycleEnergy energy = cycle_energy(*posed.problem, solution->orbit);
     EXPECT_LT(std::abs(energy.balance()), 1e-12 * energy.input) << file;
   }
 }
@@ -156,7 +157,7 @@ TEST(Energy, OfACycleIsBalanced) {
     const Posed posed("vibro-impact", {{"omega", omega}}, {}, {});
     const auto solution = posed.settled();
     ASSERT_TRUE(solution);
-    const orbit::Energy energy = orbit::energy(*posed.problem, solution->orbit);
+    const CycleEnergy energy = cycle_energy(*posed.problem, solution->orbit);
     EXPECT_GT(energy.friction[0], 0.0);
     EXPECT_GT(energy.impacts[0], 0.0);
     EXPECT_LT(std::abs(energy.balance()), 1e-13 * energy.input);

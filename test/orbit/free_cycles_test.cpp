@@ -8,6 +8,7 @@
 #include "orbit/equations.hpp"
 #include "slapstick/attractor/classify.hpp"
 #include "slapstick/orbit/find.hpp"
+#include "slapstick/quantity/cycle_energy.hpp"
 
 namespace slapstick::test {
 namespace {
@@ -63,7 +64,7 @@ TEST(FreeCycle, WhatTheDamperFeedsIsWhatFrictionTakes) {
   const FedOscillator fed;
   const orbit::Chosen found = fed.find({.orbit = "1-0-I", .stable = false});
   ASSERT_TRUE(found.orbit);
-  const orbit::Energy energy = orbit::energy(*fed.problem, found.orbit->orbit);
+  const CycleEnergy energy = cycle_energy(*fed.problem, found.orbit->orbit);
   const double taken = 4.0 * fed.f * fed.A;  // f times the way
   EXPECT_NEAR(energy.friction.at(0), taken, 1e-11 * taken);
   EXPECT_NEAR(energy.damping, -taken, 1e-11 * taken);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "settled.hpp"
+#include "slapstick/quantity/cycle_energy.hpp"
 #include "slapstick/quantity/measure.hpp"
 
 namespace slapstick::test {
@@ -61,7 +62,7 @@ TEST(Balance, OfMomentumHoldsOverACycleOfTheTwoBlocks) {
     EXPECT_NEAR(found.of[0].mean + found.of[1].mean + found.of[2].mean, 0.0, 1e-10 * size) << omega;
     EXPECT_NEAR(found.of[3].mean, 0.0, 1e-9 * found.of[3].rms) << omega;
     EXPECT_NEAR(found.of[4].mean, 0.0, 1e-9 * found.of[4].rms) << omega;
-    const orbit::Energy energy = orbit::energy(*cycle.problem, cycle.solution.orbit);
+    const CycleEnergy energy = cycle_energy(*cycle.problem, cycle.solution.orbit);
     EXPECT_NEAR(found.of[5].impulse, energy.impacts[0], 1e-10) << omega;
   }
 }

@@ -31,8 +31,15 @@ struct Leg {
   std::vector<Motion::Strike> strikes;          ///< the impacts at the end, in order
   EventKind event = EventKind::impact;          ///< what the end is called (the first of the events of its instant)
   int event_contact = 0;                        ///< System::contact_name
+  /// Of several events at one instant that do not act on each other, as in two equal machines, each ends a leg of its
+  /// own: this leg has no length, and is no leg that shrinks to nothing. It is no part of the shape.
+  bool tied = false;
+  bool differentiable = true;  ///< false: several events of its end do act on each other, and their order matters
   friend bool operator==(const Leg& a, const Leg& b);
 };
+
+/// Do they end by the same event, whatever their modes?
+[[nodiscard]] bool same_end(const Leg& a, const Leg& b);
 
 struct Itinerary {
   std::vector<Leg> legs;
@@ -54,12 +61,21 @@ struct Orbit {
   Eigen::VectorXd advance;  ///< along each of the model's rigid translations, per cycle
 
   [[nodiscard]] std::size_t legs() const { return shape.legs.size(); }
+  [[nodiscard]] bool tied(std::size_t leg) const { return shape.legs[leg].tied; }
   [[nodiscard]] double duration(std::size_t leg) const { return t[leg + 1] - t[leg]; }
 };
 
 /// Makes leg `first` the first one. Times stay in order; those of the legs before it move on by a cycle. Without
 /// forcing they begin at 0 anew.
 void rotate(Orbit& orbit, std::size_t first);
+
+/// The legs that end at the instant at which a leg begins, and at which it ends: one, and those that are tied to it.
+[[nodiscard]] std::vector<std::size_t> ended_at_start(const Itinerary& shape, std::size_t leg);
+[[nodiscard]] std::vector<std::size_t> ended_at_end(const Itinerary& shape, std::size_t leg);
+
+/// Has a return map with these legs a derivative? Not where contacts that act on each other meet their events at one
+/// instant: what comes first decides.
+[[nodiscard]] bool differentiable(const Itinerary& shape);
 
 /// "impact wall, slip- pad, stick pad": for messages and tables.
 [[nodiscard]] std::string describe(const Itinerary& shape, const System& system);

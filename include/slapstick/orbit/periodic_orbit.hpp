@@ -23,15 +23,6 @@ class Problem;  // the equations of a family's orbits
 /// @throws InputError as the family and System
 [[nodiscard]] std::shared_ptr<const Problem> pose(const Family& family, const std::vector<double>& values);
 
-/// Where the energy of a cycle comes from and goes, in the model's units. `input` - all sinks = 0 but for rounding.
-struct Energy {
-  double input = 0.0;            ///< by forces and belts
-  double damping = 0.0;          ///< in dampers, the damping matrix and compliant stops
-  std::vector<double> friction;  ///< in each friction contact
-  std::vector<double> impacts;   ///< in each stop, by the first of those that are struck together
-  [[nodiscard]] double balance() const;
-};
-
 /// How near a cycle comes to changing its events: the least value that a guard of one kind and contact takes along it,
 /// where it is not a zero that belongs to an event; and at its reversals the force that keeps it from sticking.
 struct Margin {
@@ -51,7 +42,7 @@ struct Solution {
   Orbit orbit;
   /// Of the return map at fixed time, largest modulus first; those of directions that stick or a closed stop
   /// annihilates are exactly zero. The multiplier 1 of each rigid translation, and without forcing the one of the
-  /// motion along itself, are left out.
+  /// motion along itself, are left out. Empty where the map has no derivative (`differentiable(orbit.shape)`).
   std::vector<std::complex<double>> multipliers;
   std::string label;     ///< "1-1-II"; without forcing "free-1-II"
   long impacts = 0;      ///< per cycle; meaningless with complete chatter
@@ -71,8 +62,8 @@ struct Solution {
   int family = 0;
 
   [[nodiscard]] bool isolated() const { return family == 0; }
-  /// All multipliers are inside the unit circle, but for those that lead along the family: a motion beside it settles
-  /// on a member.
+  /// All multipliers are known and inside the unit circle, but for those that lead along the family: a motion beside it
+  /// settles on a member.
   [[nodiscard]] bool stable() const;
 };
 
@@ -111,7 +102,6 @@ struct Range {
 /// every impact included. A displacement that drifts counts from where the cycle begins.
 [[nodiscard]] std::vector<Range> ranges(const Problem& problem, const Orbit& orbit);
 
-[[nodiscard]] Energy energy(const Problem& problem, const Orbit& orbit);
 [[nodiscard]] std::vector<Margin> margins(const Problem& problem, const Orbit& orbit);
 
 }  // namespace slapstick::orbit

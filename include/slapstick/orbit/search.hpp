@@ -137,7 +137,8 @@ struct Chosen {
   std::vector<Solution> others;        ///< found, but not chosen
 };
 
-/// The orbit that is meant: the one that the motion settles on if it is admitted; else what a search finds first. With
+/// The orbit that is meant: without a transient the one that `state` lies on, to 1e-3 of its size, stable or not; else
+/// the one that the motion settles on, if it is admitted; else what a search finds first. With
 /// `nearest` the search goes to its end, and the least distance wins.
 [[nodiscard]] Chosen choose(const Problem& problem, const System& system, const State& state, const OrbitChoice& choice,
                             const SettleOptions& settling = {}, SearchOptions searching = {});

@@ -1,0 +1,126 @@
+/// Reads the events of a motion as the ends of an orbit's legs.
+#include "orbit/event_reader.hpp"
+
+#include <utility>
+
+#include "base/ranges.hpp"
+#include "flow/collision.hpp"
+#include "flow/contact_state.hpp"
+#include "flow/engine.hpp"
+#include "flow/instant_parts.hpp"
+#include "flow/saltation.hpp"
+
+namespace slapstick::orbit {
+namespace {
+
+using Eigen::VectorXd;
+
+/// The events of an instant, as the ends of legs: guards that do not act on each other end one each. Where their order
+/// matters they end one leg together, which has no derivative.
+std::vector<flow::InstantPart> separate_parts(const flow::Engine& engine, bool differentiable) {
+  std::vector<flow::InstantPart> all = flow::parts_of_instant(engine), apart;
+  const flow::CompiledSystem& system = engine.system();
+  const auto& guards = system.mode(engine.segment().mode).guards();
+  for (flow::InstantPart& part : all) {
+    const bool joins = !differentiable || ranges::any_of(apart, [&](const flow::InstantPart& other) {
+                         return flow::share_mass(system.frame(), guards[other.guard], guards[part.guard]);
+                       });
+    if (apart.empty() || !joins) {
+      apart.push_back(std::move(part));
+      continue;
+    }
+    apart.back().strikes.insert(apart.back().strikes.end(), part.strikes.begin(), part.strikes.end());
+    apart.back().after = std::move(part.after);
+  }
+  return apart;
+}
+
+/// The contact of a guard in the numbering of Event.
+int numbered(const Model& model, const mode::Guard& guard) {
+  const auto frictions = static_cast<int>(model.stops.size());
+  const int compliant = frictions + static_cast<int>(model.frictions.size());
+  if (guard.kind == mode::GuardKind::gap || guard.kind == mode::GuardKind::press) return guard.contact;
+  if (mode::of_friction(guard.kind) || mode::of_load(guard.kind)) return frictions + guard.contact;
+  const int first = mode::of_corner(guard.kind) ? compliant + static_cast<int>(model.compliant_stops.size()) : compliant;
+  return first + guard.contact;
+}
+
+/// What the end of a leg is called: by the event of its contact, else by the first of the instant.
+void name_end(const Motion& motion, const mode::Guard& guard, Leg& leg) {
+  const auto events = motion.engine().events_of_instant();
+  const int contact = numbered(motion.system().model(), guard);
+  const auto own = ranges::find(events, contact, &Event::contact);
+  const Event& event = own != events.end() ? *own : motion.event();
+  leg.event = event.kind;
+  leg.event_contact = event.contact;
+}
+
+/// The contact state behind a part: that before the instant, with the impacts so far.
+VectorXd behind(const mode::Frame& frame, const VectorXd& X) {
+  VectorXd x(2 * frame.n);
+  x << X.head(frame.n), X.segment(frame.d, frame.n);
+  return x;
+}
+
+}  // namespace
+
+/// What ended the last segment; nothing for a touch that changes nothing.
+void EventReader::read() {
+  const flow::Engine& engine = motion_.engine();
+  const flow::CompiledSystem& system = engine.system();
+  const mode::Mode& before = system.mode(motion_.segment().mode);
+  Leg leg;
+  leg.states = before.states();
+  leg.event = motion_.event().kind;
+  leg.event_contact = leg.contact = motion_.event().contact;
+  const double t = motion_.event().time.since({zero_, 0.0});
+  const VectorXd last = flow::contact_state(motion_);
+  if (leg.event == EventKind::chatter) {
+    leg.strikes.assign(motion_.strikes().begin(), motion_.strikes().end());
+    leg.ending = Ending::chatter;
+    read_.push_back({leg, t, last});
+    return;
+  }
+  touched_ = engine.hit_guard() == nullptr || leg.event == EventKind::graze;
+  // A force that has come to zero but for rounding may come to zero again: what changes no mode is no event.
+  if (touched_ || (motion_.segment().mode == motion_.mode_id() && motion_.strikes().empty())) return;
+  leg.differentiable = flow::differentiable(engine);
+  const std::vector<flow::InstantPart> parts = separate_parts(engine, leg.differentiable);
+  VectorXd X = Eigen::Map<const VectorXd>(engine.extended_before().data(), before.size());
+  const mode::Frame& frame = system.frame();
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const mode::Guard& guard = before.guards()[parts[k].guard];
+    leg.kind = guard.kind;
+    leg.contact = guard.contact;
+    leg.strikes = parts[k].strikes;
+    if (parts.size() > 1) name_end(motion_, guard, leg);
+    for (const Motion::Strike& strike : leg.strikes) {
+      const flow::Collision collision(system.model(), frame, strike, X);
+      flow::push_along(frame, collision.rows, collision.factor, X.segment(frame.d, frame.d));
+    }
+    read_.push_back({leg, t, k + 1 == parts.size() ? last : behind(frame, X)});
+    leg.states = parts[k].after;
+    leg.tied = true;
+  }
+}
+
+std::optional<Seen> EventReader::next(Instant end) {
+  const long seen = motion_.counters().segments;
+  Instant stage = motion_.time();
+  while (read_.empty() && !stopped(stop_)) {
+    stage = next_stage(motion_.system(), stage, end);
+    if (motion_.advance(stage) != Outcome::event) {
+      if (stage >= end) return std::nullopt;
+      continue;
+    }
+    if (motion_.counters().segments == seen) continue;  // a further event of the instant before
+    read();
+    if (touched_) return std::nullopt;
+  }
+  if (read_.empty()) return std::nullopt;
+  Seen first = std::move(read_.front());
+  read_.pop_front();
+  return first;
+}
+
+}  // namespace slapstick::orbit

@@ -18,7 +18,7 @@ Engine::Engine(const CompiledSystem& system, const State& state, Instant start, 
   const mode::Frame& frame = system.frame();
   frame.enter(state.data(), X_.data());
   frame.set_clock(now_, X_.data());
-  knot_ = frame.next_knot(now_);
+  look_ahead();
   X_before_ = X_;
   keep_segment_start();
   this->start();
@@ -57,7 +57,7 @@ void Engine::restart(std::span<const double> coordinates, Instant start) {
   budget_events_ = 0;
   std::copy(coordinates.begin(), coordinates.end(), X_.data());
   system_->frame().set_clock(now_, X_.data());
-  knot_ = system_->frame().next_knot(now_);
+  look_ahead();
   X_before_ = X_;
   keep_segment_start();
   this->start();
@@ -145,15 +145,22 @@ Outcome Engine::advance(Instant end) {
   return Outcome::reached_end;
 }
 
+/// X_ has the slopes of the signals from now on.
+void Engine::look_ahead() {
+  knot_ = system_->frame().next_knot(now_);
+  note_clock_sizes();
+}
+
 /// The slope of a signal jumps. Its value does not, but a damper's force at a moving base may: the next mode is asked
 /// for.
 void Engine::pass_knot() {
   if (now_ < knot_) at_instant_ = {};
   now_ = knot_;
   const mode::Frame& frame = system_->frame();
-  frame.set_clock(now_, X_.data());
-  knot_ = frame.next_knot(now_);
   X_before_ = X_;
+  frame.set_clock_within(now_, X_before_.data());
+  frame.set_clock(now_, X_.data());
+  look_ahead();
   const int first = stops() + frictions() + compliants() + static_cast<int>(system_->model().characteristics.size());
   for (std::size_t k = 0; k < frame.signals.size(); ++k)
     if (frame.signals[k].has_knot(now_)) report(EventKind::knot, first + static_cast<int>(k), 0.0);

@@ -48,6 +48,7 @@ class Engine : public Flight {
   void reserve();
   void start();
   void pass_knot();
+  void look_ahead();
   void begin_segment();
   void handle(int guard, bool graze);
   void rest(const mode::ContactRow& contact);

@@ -33,14 +33,15 @@ Flight::Flight(const CompiledSystem& system, Instant start)
       X_next_(X_),
       origin_(system.frame().size()),
       X_segment_(X_),
-      phase_floor_(X_) {
+      clock_sizes_(X_) {
   const auto guards = static_cast<std::size_t>(system.most_guards());
   orders_.assign(guards, 0);
   lingers_.assign(guards, false);
   sample_.assign(2 * X_.span().size(), 0.0);
   sample_out_.resize(X_.span().size() / 8);
-  system.frame().set_clock_sizes(phase_floor_.data());
 }
+
+void Flight::note_clock_sizes() { system_->frame().set_clock_sizes(X_.data(), clock_sizes_.data()); }
 
 void Flight::state(std::span<double> out) const {
   const IeeeArithmetic ieee;
@@ -49,11 +50,20 @@ void Flight::state(std::span<double> out) const {
 
 void Flight::sample(double s, std::span<double> out) const {
   const IeeeArithmetic ieee;
-  system_->frame().leave(state_within(s).data(), out.data());
+  system_->frame().leave(stepped_to(s), out.data());
 }
 
-std::span<const double> Flight::state_within(double s) const {
+std::span<const double> Flight::extended_within(double s) const {
   const IeeeArithmetic ieee;
+  const mode::Frame& frame = system_->frame();
+  double* X = stepped_to(s);
+  std::copy(X_segment_.data() + 2 * frame.d, X_segment_.data() + frame.size(), X + 2 * frame.d);  // the slopes
+  frame.set_clock_within(segment_start_.plus(s / system_->period()), X);
+  return {X, static_cast<std::size_t>(frame.size())};
+}
+
+/// p and u, by steps from the start of the last segment; what moves by the clock is left as it was.
+double* Flight::stepped_to(double s) const {
   const mode::Mode& mode = system_->mode(segment_mode_);
   const int m = system_->frame().size();
   double* X = sample_.data();
@@ -68,7 +78,7 @@ std::span<const double> Flight::state_within(double s) const {
     std::copy_n(reinterpret_cast<const double*>(sample_out_.data()), m, X);
   }
   mode.state_at(s / mode.window(), X, at);
-  return {at, 2 * static_cast<std::size_t>(system_->frame().d)};
+  return at;
 }
 
 /// From the state now, in the mode just selected; `orders_` and `magnitude_` are those of this state.
@@ -176,7 +186,7 @@ void Flight::next_window() {
   const mode::Mode& mode = *here_;
   const bool fresh = origin_.leave(X_window_.lanes());
   std::array<double, 2> sizes{};
-  mode.pass(X_window_.lanes().data(), phase_floor_.lanes().data(), fresh, X_next_.lanes().data(), magnitude_.lanes().data(),
+  mode.pass(X_window_.lanes().data(), clock_sizes_.lanes().data(), fresh, X_next_.lanes().data(), magnitude_.lanes().data(),
             origin_.largest_lanes().data(), sizes.data());
   size_ = sizes[0];
   origin_.arrive(sizes[1]);
@@ -304,7 +314,7 @@ void Flight::stand(double x) {
 /// |X|, what rounding is measured by. The phase is known to the clock's rounding only, also where a sine vanishes:
 /// those count as one.
 void Flight::note_magnitude(Extended& X) {
-  size_ = event::kernels().magnitudes(X.lanes().data(), phase_floor_.lanes().data(), static_cast<int>(X.lanes().size()),
+  size_ = event::kernels().magnitudes(X.lanes().data(), clock_sizes_.lanes().data(), static_cast<int>(X.lanes().size()),
                                       magnitude_.lanes().data());
 }
 

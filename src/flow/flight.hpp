@@ -44,8 +44,9 @@ class Flight {
   void state(std::span<double> out) const;
   [[nodiscard]] Motion::Segment segment() const { return {segment_start_, segment_mode_, segment_duration_}; }
   void sample(double s, std::span<double> out) const;
-  /// p and u, the first 2 d numbers of the extended state, at time s of the last segment. Valid until the next call.
-  [[nodiscard]] std::span<const double> state_within(double s) const;
+  /// The extended state at time s of the last segment, in its mode: at a knot that ends it, with the slope before the
+  /// knot. Valid until the next call of this or of `sample`.
+  [[nodiscard]] std::span<const double> extended_within(double s) const;
   /// The windows that all calls of `sample` have stepped over.
   [[nodiscard]] long sampled_windows() const { return sampled_windows_; }
   /// The extended state now, and at the start of the last segment.
@@ -88,6 +89,8 @@ class Flight {
   void arrive(double x);
   [[nodiscard]] bool within_noise(int guard, double x) const;
   void note_magnitude(Extended& X);
+  /// From the slopes of the signals in X_: after a start and behind a knot.
+  void note_clock_sizes();
 
   const CompiledSystem* system_;
   Instant now_, segment_start_;
@@ -119,10 +122,11 @@ class Flight {
   void stand(double x);
   [[nodiscard]] bool in_doubt(const Found& found) const;
   [[nodiscard]] double rate(const mode::Guard& guard) const;
+  [[nodiscard]] double* stepped_to(double s) const;
 
   FlightOrigin origin_;
   double size_ = 0.0;  ///< the sum of magnitude_
-  Extended X_segment_, phase_floor_;
+  Extended X_segment_, clock_sizes_;
   // Of `sample`: the state at the end of the first `sample_at_` windows of the segment (-1: of none), and scratch.
   mutable std::vector<double> sample_;
   mutable std::int64_t sample_at_ = -1;

@@ -60,6 +60,8 @@ struct Part {
   std::vector<Part> harmonics;
   std::vector<Point> points;  ///< of its characteristic, of its restitution, or of a signal ..
   std::vector<std::pair<double, double>> samples;  ///< .. whose file has many
+  std::string record;     ///< the file of a signal ..
+  std::vector<int> rows;  ///< .. and the line in it of each point
   std::vector<Scalar> within;
   std::map<std::string, Scalar, std::less<>> stribeck;     // by stribeck_keys()
   std::map<std::string, Scalar, std::less<>> band;         // by band_keys()

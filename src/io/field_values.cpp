@@ -93,6 +93,7 @@ void read_signal(const TreeReader& tree, const TomlNode& node, const std::string
   } catch (const StorageError& error) {
     throw StorageError(place + error.what());
   }
+  part.record = path;
   std::size_t column = 1;
   if (const auto* wanted = node.find("column")) {
     const auto at = std::find(table.heading.begin(), table.heading.end(), wanted->text);
@@ -110,6 +111,7 @@ void read_signal(const TreeReader& tree, const TomlNode& node, const std::string
       throw InputError(place + line_of(path, row.line) + "time " + shown(time) + " is not above the " +
                        shown(part.samples.back().first) + " of the row before");
     part.samples.emplace_back(time, row.numbers[column]);
+    part.rows.push_back(row.line);
   }
   if (part.samples.size() < 2) tree.fail(file->line, where + ": file", in_quotes(file->text) + " has only one row");
   if (part.samples.size() > most_points) {

@@ -9,6 +9,7 @@
 #include "base/ranges.hpp"
 #include "base/text.hpp"
 #include "io/model_numbers.hpp"
+#include "io/number_rows.hpp"
 #include "model/fault.hpp"
 
 namespace slapstick {
@@ -248,8 +249,20 @@ Model ModelBuilder::assembled() {
 Model ModelBuilder::model() {
   Model model = assembled();
   if (!definition_.omega) demand_no_forcing(model);
+  demand_resolved_records(model);
   if (const auto fault = first_fault(model)) throw refusal(*fault, model);
   return model;
+}
+
+/// A piece of a signal that is too steep, with the row of its file.
+void ModelBuilder::demand_resolved_records(const Model& model) const {
+  const auto& parts = definition_.of("signal");
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (parts[k].record.empty()) continue;
+    if (const auto steep = first_steep_piece(model.signals[k], model.forcing_period()))
+      throw InputError(definition_.place(parts[k].line), part_label("signal", k, parts[k]) + ": file: " +
+                                                             line_of(parts[k].record, parts[k].rows[steep->end]) + steep->what);
+  }
 }
 
 /// Without `omega` there can be no harmonic > 0; the first one is named.

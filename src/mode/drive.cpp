@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/double_double.hpp"
 
 namespace slapstick::mode {
+
+Tone::Tone(double of_frequency, double period)
+    : frequency(of_frequency), turns(of_frequency * period / (2.0 * std::numbers::pi)) {}
 
 double Tone::at(Instant t) const {
   const DoubleDouble whole = two_product(turns, static_cast<double>(t.period)), part = two_product(turns, t.fraction);
@@ -65,12 +69,6 @@ Instant SignalTable::next(Instant t) const {
 bool SignalTable::has_knot(Instant t) const {
   const auto [round, piece] = place(t);
   return piece == outside ? t == knots_.back() : t == knot(round, piece);
-}
-
-double SignalTable::steepest() const {
-  double steepest = 0.0;
-  for (const double slope : slopes_) steepest = std::max(steepest, std::abs(slope));
-  return steepest;
 }
 
 }  // namespace slapstick::mode

@@ -12,8 +12,10 @@
 namespace slapstick::mode {
 
 struct Tone {
-  double frequency = 0.0;  ///< rad per unit of time
-  double turns = 0.0;      ///< in a period of the clock
+  Tone(double of_frequency, double period);
+
+  double frequency;  ///< rad per unit of time
+  double turns;      ///< in a period of the clock
 
   /// Turns since t = 0, but for whole ones. Error: some 2^-53 of a turn at any instant.
   [[nodiscard]] double at(Instant t) const;
@@ -33,8 +35,6 @@ class SignalTable {
   [[nodiscard]] Instant next(Instant t) const;
   /// Is there a knot at t?
   [[nodiscard]] bool has_knot(Instant t) const;
-  /// The largest |slope|.
-  [[nodiscard]] double steepest() const;
 
   static constexpr Instant never{INT64_MAX, 0.0};
 

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/dense.hpp"
 #include "base/elementary.hpp"
 #include "base/phase.hpp"
 #include "base/ranges.hpp"
 #include "mode/assembly.hpp"
+#include "slapstick/base/error.hpp"
 
 namespace slapstick::mode {
 namespace {
@@ -83,7 +83,7 @@ Frame::Frame(const Model& model) : n(model.size()) {
   period = model.forcing_period();
   for (const Force& force : model.forces) {
     if (force.frequency != 0.0 && ranges::find(tones, force.frequency, &Tone::frequency) == tones.end())
-      tones.push_back({force.frequency, force.frequency * period / (2.0 * std::numbers::pi)});
+      tones.emplace_back(force.frequency, period);
   }
   for (const Signal& of : model.signals) signals.emplace_back(of, period);
   choose_displacements(model);
@@ -278,16 +278,21 @@ void Frame::enter(const double* state, double* X) const {
   }
 }
 
-void Frame::set_phase(double fraction, double* X) const {
+PeriodicDrive::PeriodicDrive(const Frame& frame) : frame_(frame) {
+  if (!frame.tones.empty() || !frame.signals.empty())
+    throw InputError("a model with a signal or a force of its own frequency has no phase");
+}
+
+void Frame::set_phase(double turns, double* X) const {
   for (std::size_t k = 0; k < harmonics.size(); ++k) {
-    const auto [cosine, sine] = of_turns(harmonics[k] * fraction);
+    const auto [cosine, sine] = of_turns(harmonics[k] * turns);
     X[2 * d + 2 * k] = cosine;
     X[2 * d + 2 * k + 1] = sine;
   }
   X[one()] = 1.0;
 }
 
-void Frame::set_clock(Instant t, double* X) const {
+void Frame::set_clock(Instant t, double* X, bool slopes) const {
   set_phase(t.fraction, X);
   for (std::size_t k = 0; k < tones.size(); ++k) {
     const auto [cosine, sine] = of_turns(tones[k].at(t));
@@ -297,13 +302,13 @@ void Frame::set_clock(Instant t, double* X) const {
   for (std::size_t k = 0; k < signals.size(); ++k) {
     const auto [value, slope] = signals[k].at(t);
     X[signal(k)] = value;
-    X[signal(k) + 1] = slope;
+    if (slopes) X[signal(k) + 1] = slope;
   }
 }
 
-void Frame::set_clock_sizes(double* sizes) const {
+void Frame::set_clock_sizes(const double* X, double* sizes) const {
   for (int c = 2 * d; c < signal(0); ++c) sizes[c] = 1.0;
-  for (std::size_t k = 0; k < signals.size(); ++k) sizes[signal(k)] = signals[k].steepest();
+  for (std::size_t k = 0; k < signals.size(); ++k) sizes[signal(k)] = std::abs(X[signal(k) + 1]);
 }
 
 Instant Frame::next_knot(Instant t) const {

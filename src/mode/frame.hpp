@@ -114,12 +114,14 @@ struct Frame {
   /// that is exactly zero (contact, rest) stays, and the largest of those it follows from gives way; one that is summed without
   /// cancellation is set; one near zero keeps its own value, which is the more accurate.
   void refresh(double* X) const;
-  /// Writes cos, sin of the harmonics at phase `fraction` (periods) and the constant 1 into X. Fixed operations (base/phase.hpp).
-  void set_phase(double fraction, double* X) const;
-  /// The same and all that moves by the clock: tones and signals.
-  void set_clock(Instant t, double* X) const;
-  /// Bounds, by columns from 2 d on, of what is known no better than the clock: 1 of a phase, a slope of a signal.
-  void set_clock_sizes(double* sizes) const;
+  /// Writes all of X that moves by the clock, harmonics, tones and signals, and the constant 1. Fixed operations
+  /// (base/phase.hpp). At a knot the slope is that behind the knot.
+  void set_clock(Instant t, double* X) const { set_clock(t, X, true); }
+  /// The same of a piece of the motion that may end at t: the slopes are those that X has, at a knot those before it.
+  void set_clock_within(Instant t, double* X) const { set_clock(t, X, false); }
+  /// Bounds, by columns from 2 d on, of what is known no better than the clock: 1 of a phase, of a signal's value the
+  /// slope that X has.
+  void set_clock_sizes(const double* X, double* sizes) const;
   /// The first instant after t at which the slope of a signal jumps, or SignalTable::never.
   [[nodiscard]] Instant next_knot(Instant t) const;
   /// Writes the user's state (x_1, v_1, ..) of X; from the first n displacements and velocities.
@@ -127,9 +129,25 @@ struct Frame {
   void leave(const double* p, const double* velocity, double* state) const;
 
  private:
+  friend class PeriodicDrive;
+  void set_phase(double turns, double* X) const;
+  void set_clock(Instant t, double* X, bool slopes) const;
   void choose_displacements(const Model& model);
   void set_dynamics(const Model& model);
   void set_characteristics(const Model& model);
+};
+
+/// What drives a model whose drives all repeat with the forcing. Its part of X follows from the phase, so that an orbit
+/// needs no clock; of tones and signals it would leave what was there before.
+class PeriodicDrive {
+ public:
+  /// Refers to the frame. @throws InputError if that has tones or signals
+  explicit PeriodicDrive(const Frame& frame);
+  /// Writes cos, sin of the harmonics at a phase (periods) and the constant 1 into X.
+  void set(double turns, double* X) const { frame_.set_phase(turns, X); }
+
+ private:
+  const Frame& frame_;
 };
 
 }  // namespace slapstick::mode

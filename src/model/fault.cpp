@@ -135,7 +135,7 @@ Found check_force(const Force& force, int index, const Model& model) {
   return check.result();
 }
 
-Found check_signal(const Signal& signal, int index, std::set<std::string>& used) {
+Found check_signal(const Signal& signal, int index, double period, std::set<std::string>& used) {
   Check check("signal", index);
   check_name(check, signal.name, used);
   const auto& knots = signal.knots;
@@ -151,6 +151,8 @@ Found check_signal(const Signal& signal, int index, std::set<std::string>& used)
   if (signal.repeats && knots.size() > 1 && knots.back().value != knots.front().value)
     check.fail("repeats", "the last value, " + shown(knots.back().value) + ", is not the first one, " +
                               shown(knots.front().value) + ": a signal that repeats would jump");
+  if (const auto steep = first_steep_piece(signal, period))
+    check.fail("points", "point " + std::to_string(steep->end + 1) + ": " + steep->what);
   return check.result();
 }
 
@@ -305,6 +307,23 @@ std::string part_name(const Fault& fault, const Model& model) {
 
 }  // namespace
 
+std::optional<SteepPiece> first_steep_piece(const Signal& signal, double period) {
+  const auto& knots = signal.knots;
+  if (knots.size() < 2 || !std::isfinite(period)) return std::nullopt;
+  const auto [low, high] =
+      std::minmax_element(knots.begin(), knots.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
+  const double range = high->value - low->value;
+  for (std::size_t i = 1; i < knots.size(); ++i) {
+    const double apart = knots[i].time - knots[i - 1].time;
+    const double least = 0x1p-26 * period * std::abs(knots[i].value - knots[i - 1].value) / range;
+    if (apart < least)
+      return SteepPiece{i, "time " + shown(knots[i].time) + " is only " + shown(apart) +
+                               " after that of the point before, and events would be lost in such a steep step: leave " +
+                               shown(least) + " at least"};
+  }
+  return std::nullopt;
+}
+
 bool is_reserved(std::string_view name) { return std::find(reserved.begin(), reserved.end(), name) != reserved.end(); }
 
 std::string Fault::place(const Model& model) const {
@@ -325,7 +344,7 @@ std::optional<Fault> first_fault(const Model& model) {
   if (!fault) fault = first_matrix_fault(model);
   look(model.springs, [&](const auto& part, int i) { return check_spring(part, i, model, contacts); });
   look(model.dampers, [&](const auto& part, int i) { return check_damper(part, i, model, contacts); });
-  look(model.signals, [&](const auto& part, int i) { return check_signal(part, i, contacts); });
+  look(model.signals, [&](const auto& part, int i) { return check_signal(part, i, model.forcing_period(), contacts); });
   look(model.forces, [&](const auto& part, int i) { return check_force(part, i, model); });
   look(model.frictions, [&](const auto& part, int i) { return check_friction(part, i, model, contacts); });
   look(model.stops, [&](const auto& part, int i) { return check_stop(part, i, model, contacts); });

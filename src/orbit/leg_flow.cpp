@@ -185,7 +185,7 @@ Jet extended(const ModeSet& set, const VectorXd& x, double t) {
   value.segment(d, d) = frame.dependence * (x.tail(n) + frame.drift.head(n)) - frame.drift;
   value.head(n) = x.head(n);  // exactly
   value.segment(d, n) = x.tail(n);
-  frame.set_phase(t, value.data());
+  mode::PeriodicDrive(frame).set(t, value.data());
   X.value() = value;
   X.by_state().topLeftCorner(d, n) = frame.dependence;
   X.by_state().block(d, n, d, n) = frame.dependence;

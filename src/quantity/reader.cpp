@@ -83,9 +83,7 @@ const std::vector<Quantity>& Reader::of() const { return parts_->of; }
 
 const std::vector<double>& Reader::within(const Motion& motion, double s) {
   const Motion::Segment segment = motion.segment();
-  parts_->take(motion.engine().state_within(s));
-  const double fraction = segment.start.plus(s / parts_->system.period()).fraction;
-  parts_->system.compiled().frame().set_phase(fraction, parts_->X.data());
+  parts_->take(motion.engine().extended_within(s));
   return parts_->read(segment.duration > 0.0 ? segment.mode : motion.mode_id(), nullptr);
 }
 

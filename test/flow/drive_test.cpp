@@ -172,6 +172,29 @@ TEST(Signal, KnotsInAChatterAreKnotsInAChatter) {
   EXPECT_NEAR(seconds(expected.back(), a), 3.0, 1e-14);  // 1 + 2 (1/2 + 1/4 + ..)
 }
 
+/// A ramp of 2e-8 stands for a step: friction 150 stops the mass that 100 pushes at t = 0.4, long before the step.
+TEST(Signal, ThatIsSteepElsewhereDoesNotHideEventsWhereItIsFlat) {
+  const System system(built(mass + signal("[[0.5, 100], [0.50000002, 0]]") +
+                            "[[friction]]\nname = 'pad'\nbetween = ['x', 'ground']\nstatic = 150\n"));
+  Motion motion(system, {0.0, 20.0});
+  const std::vector<Event> events = run_without_knots(motion, 2.0);
+  ASSERT_EQ(kinds(events), "stick");
+  EXPECT_NEAR(seconds(events[0], motion), 0.4, 1e-15);
+  EXPECT_NEAR(motion.state()[0], 4.0, 1e-14);
+}
+
+/// Behind a step of 100 the mass moves on at 1e-6, against a friction of 1: it stops after 1e-6.
+TEST(Signal, ThatWasSteepDoesNotStopASlowMotion) {
+  const System system(built(mass + signal("[[0.25, 100], [0.25000002, 0]]") +
+                            "[[force]]\non = 'x'\nharmonic = 0\namplitude = -100\n"
+                            "[[friction]]\nname = 'pad'\nbetween = ['x', 'ground']\nstatic = 200\nkinetic = 1\n"));
+  Motion motion(system, {0.0, 0.25 + 3e-6});
+  const std::vector<Event> events = run_without_knots(motion, 1.0);
+  ASSERT_EQ(kinds(events), "stick");
+  // v = 3e-6 at the step, whose ramp takes 100 * 2e-8 / 2 + 2e-8; then v' = -101
+  EXPECT_NEAR(seconds(events[0], motion), 0.25 + 2e-8 + (3e-6 - 1.02e-6) / 101.0, 1e-14);
+}
+
 /// The exponents of a linear oscillator do not depend on what drives it.
 TEST(Signal, TangentsPassKnotsUnchanged) {
   const System system(built(mass + spring + "[[damper]]\nbetween = ['x', 'ground']\ncoefficient = 0.2\n" +
@@ -223,6 +246,47 @@ TEST(RunUp, EveryStepStartsWhereTheLastOneEnded) {
   }
   EXPECT_EQ(steps, 11);
   EXPECT_EQ(run.value(), 1.5);
+}
+
+/// A parameter that does nothing climbs: the motion under a tone and a signal, with impacts, is the one without steps.
+TEST(RunUp, TonesAndSignalsGoOnThroughTheSteps) {
+  const Model model = built("omega = 1.3\n" + mass + spring +
+                            "[[stop]]\nname = 'w'\nbetween = ['x', 'ground']\nclearance = 0.3\nrestitution = 0.5\n"
+                            "[[force]]\non = 'x'\namplitude = 0.4\nfrequency = 0.77\nphase = 0.4\n"
+                            "[[force]]\non = 'x'\namplitude = 0.3\n" +
+                            signal("[[0.2, 0], [7.1, 1], [21.7, -1], [28, 0]]"));
+  const System system(model);
+  Motion whole(system, {0.1, 0.0});
+  std::vector<double> expected, times;
+  while (whole.advance({20, 0.0}) == Outcome::event) expected.push_back(whole.event().time.seconds(system.period()));
+  RunUp run([&](double) { return model; }, {.from = 1.0, .to = 2.0, .steps = 10, .hold = 2}, {0.1, 0.0});
+  while (run.next())
+    while (run.motion().advance(run.end()) == Outcome::event) times.push_back(run.time(run.motion().event().time));
+  ASSERT_EQ(times.size(), expected.size());
+  ASSERT_GT(times.size(), 20U);
+  for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(times[i], expected[i], 1e-11) << i;
+  EXPECT_NEAR(run.motion().state()[0], whole.state()[0], 1e-11);
+}
+
+/// The frequency of a force on a free mass climbs, v' = sin(phase), phase' = w: over each step v changes by
+/// (cos(phase before) - cos(phase behind)) / w.
+TEST(RunUp, ATonesPhaseIsContinuousWhereItsFrequencyClimbs) {
+  const auto model = [](double frequency) {
+    return ModelDefinition::parse("name = 'm'\n[parameters]\nw = 1\n" + mass +
+                                      "[[force]]\non = 'x'\namplitude = 1\nfrequency = 'w'\nphase = 0.2\n",
+                                  "f.toml")
+        .build({{"w", frequency}});
+  };
+  RunUp run(model, {.from = 0.5, .to = 3.5, .steps = 13, .hold = 4}, {0.0, 0.0});
+  double phase = 0.2, v = 0.0;
+  while (run.next()) {
+    while (run.motion().advance(run.end()) == Outcome::event) {
+    }
+    const double next = phase + 4.0 * run.value();
+    v += (std::cos(phase) - std::cos(next)) / run.value();
+    phase = next;
+    EXPECT_NEAR(run.motion().state()[1], v, 1e-13) << run.value();
+  }
 }
 
 TEST(Drive, WhatNeedsAPeriodSaysThatThereIsNone) {

@@ -29,7 +29,7 @@ Model mass_on_a_floor_and_mass_at_a_wall(double load) {
 std::vector<double> entered(const System& system, const State& state, double phase) {
   std::vector<double> X(static_cast<std::size_t>(system.compiled().frame().size()));
   system.compiled().frame().enter(state.data(), X.data());
-  system.compiled().frame().set_phase(phase, X.data());
+  system.compiled().frame().set_clock(Instant{0, phase}, X.data());
   return X;
 }
 

@@ -67,6 +67,23 @@ TEST_F(SignalFile, what_is_printed_reads_back) {
   EXPECT_EQ(again.signals[0].knots[899].value, many.build().signals[0].knots[899].value);
 }
 
+/// A step of the whole range needs 2^-26 of the clock's period, 1.5e-8; a part of it that part.
+TEST_F(SignalFile, a_step_that_is_steeper_than_the_clock_resolves_is_named_with_its_row) {
+  const auto said = [&](const std::string& rows) {
+    write("road.csv", rows);
+    return message(model());
+  };
+  const std::string steep = said("t,z\n0,1\n1,2\n1.00000001,0\n");
+  EXPECT_NE(steep.find("m.toml:6: signal 'road': file: "), std::string::npos) << steep;
+  EXPECT_NE(steep.find("road.csv:4: time 1.00000001 is only"), std::string::npos) << steep;
+  EXPECT_EQ(said("t,z\n0,1\n1,2\n1.0000001,0\n"), "accepted");
+  EXPECT_EQ(said("t,z\n0,1\n1,2\n1.00000001,1.98\n2,0\n"), "accepted");
+  const std::string written = message(
+      "name = 'm'\n[[coordinate]]\nname = 'x'\nmass = 1\n[[signal]]\nname = 's'\npoints = [[0, 0], [1e-8, 1]]\n");
+  EXPECT_NE(written.find("m.toml:"), std::string::npos) << written;
+  EXPECT_NE(written.find("signal 's': point 2: time 1e-08 is only 1e-08 after"), std::string::npos) << written;
+}
+
 TEST_F(SignalFile, a_bad_row_is_named_with_its_file) {
   const auto said = [&](const std::string& rows) {
     write("road.csv", rows);

@@ -27,7 +27,7 @@ class Check {
     for (int k = 0; k < count; ++k) {
       X_.assign((mode_.size() + 7) / 8 * 8, 0.0);
       for (int i = 0; i < 2 * frame_.d; ++i) X_[i] = std::pow(10.0, uniform(-3, 0)) * (uniform(-1, 1) < 0 ? -1 : 1);
-      frame_.set_phase(uniform(0, 1), X_.data());
+      frame_.set_clock(Instant{}.plus(uniform(0, 1)), X_.data());
       exact_.assign(X_.begin(), X_.begin() + mode_.size());
       magnitude_ = X_;
       for (double& x : magnitude_) x = std::abs(x);
@@ -334,7 +334,7 @@ TEST(WindowOperators, ConstrainedCoordinateDoesNotMoveAtAll) {
   const Mode stick(model, frame, {{StopState::open}, {FrictionState::stick}, {}});
   std::vector<double> X(16, 0.0);
   X[0] = -0.3, X[1] = 0.7, X[3] = -1.1;
-  frame.set_phase(0.3, X.data());
+  frame.set_clock(Instant{}.plus(0.3), X.data());
   event::Lanes out(2);
   stick.step(X.data(), out.data());
   EXPECT_EQ(out[0][0], -0.3);  // gap
@@ -352,7 +352,7 @@ TEST(Frame, PhaseIsExactAtTheQuarterPeriodsAndLosesNothingAtLargeHarmonics) {
   double X[16] = {};
   const double cosine[] = {1, 0, -1, 0}, sine[] = {0, 1, 0, -1};
   for (int q = 0; q < 4; ++q) {
-    frame.set_phase(0.25 * q, X);
+    frame.set_clock(Instant{}.plus(0.25 * q), X);
     EXPECT_EQ(X[2], cosine[q]);
     EXPECT_EQ(X[3], sine[q]);
     EXPECT_EQ(X[4], cosine[7 * q % 4]);
@@ -361,7 +361,7 @@ TEST(Frame, PhaseIsExactAtTheQuarterPeriodsAndLosesNothingAtLargeHarmonics) {
   std::mt19937_64 random(3);
   for (int i = 0; i < 500; ++i) {
     const double fraction = std::uniform_real_distribution<double>(0, 1)(random);
-    frame.set_phase(fraction, X);
+    frame.set_clock(Instant{}.plus(fraction), X);
     const Real angle = 2 * oracle::pi() * Real(fraction);
     EXPECT_LE(abs(Real(X[2]) - cos(angle)), Real(3e-16));
     EXPECT_LE(abs(Real(X[3]) - sin(angle)), Real(3e-16));

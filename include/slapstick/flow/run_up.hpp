@@ -5,11 +5,13 @@
 ///     while (run.next())
 ///       while (run.motion().advance(run.end()) == Outcome::event) use(run.time(run.motion().event().time));
 ///
-/// The phase is continuous, because every step has whole periods; so is the state. A coordinate that is measured from a
-/// base keeps its velocity relative to the base.
+/// The phase is continuous, because every step has whole periods; so is the state. Forces of a frequency of their own
+/// keep their phases too, and signals go on at the run's time. A coordinate that is measured from a base keeps its
+/// velocity relative to the base.
 /// Cost: a System for every step. Threads: as a Motion's. Source: docs/reference/command_line.md, "Run-up".
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "slapstick/flow/motion.hpp"
 
@@ -38,10 +40,14 @@ class RunUp {
   [[nodiscard]] double time(Instant instant) const { return begun_ + instant.seconds(motion_->system().period()); }
 
  private:
+  void end_step();
+  [[nodiscard]] Model continued(Model model) const;
+
   std::function<Model(double)> model_;
   RunUpOptions options_;
   State start_;
   std::optional<Motion> motion_;
+  std::vector<double> turns_;  ///< that each force of a frequency of its own has made so far, but for whole ones
   double value_ = 0.0, begun_ = 0.0;
   long step_ = 0;
 };

@@ -2,46 +2,22 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <cstdio>
 #include <new>
 #include <string>
 #include <vector>
 
+#include "interruption.hpp"
 #include "output.hpp"
 #include "slapstick/base/error.hpp"
 #include "base/floating_point.hpp"
 #include "base/ranges.hpp"
 #include "base/nearest.hpp"
-#include "io/atomic_file.hpp"
 #include "slapstick/io/model_file.hpp"
 #include "verb.hpp"
 
 namespace slapstick::app {
 namespace {
-
-std::atomic<bool> stop_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-/// The first signal asks for a clean end, the second ends the program at once.
-extern "C" void on_signal(int) {
-  if (!stop_requested.exchange(true)) return;
-  remove_temporary_files();
-  ::_exit(interrupted);
-}
-
-void catch_signals() {
-  struct sigaction action {};
-  action.sa_handler = on_signal;
-  action.sa_flags = SA_RESTART;
-  sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGINT, SIGTERM}) {
-    struct sigaction present {};
-    if (::sigaction(signal, nullptr, &present) == 0 && present.sa_handler == SIG_IGN)
-      continue;  // nohup, background job
-    ::sigaction(signal, &action, nullptr);
-  }
-}
 
 /// A closed standard stream would give its number to the next file that is opened. Reading from or writing to what
 /// stands in for it fails.
@@ -105,7 +81,7 @@ int run(const std::vector<std::string>& words) {
   Arguments arguments(verb.name, verb.summary);
   const Action action = verb.add(arguments);
   if (!arguments.parse({words.begin() + 1, words.end()})) return print(arguments.help());
-  return action(Context{stop_requested});
+  return action(Context{stop_requested()});
 }
 
 int fail(int status, const char* message) {
@@ -123,7 +99,7 @@ int guarded(const std::vector<std::string>& words) {
   } catch (const InputError& error) {
     return fail(2, error.what());
   } catch (const NumericalError& error) {
-    return fail(3, error.what());
+    return stop_requested() ? interrupted : fail(3, error.what());  // a search that was cut short has found nothing
   } catch (const StorageError& error) {
     return fail(4, error.what());
   } catch (const std::bad_alloc&) {

@@ -11,6 +11,7 @@
 #include "base/text.hpp"
 #include "arguments.hpp"
 #include "hdf5_table.hpp"
+#include "interruption.hpp"
 #include "io/table.hpp"
 #include "unit_prefix.hpp"
 #include "verb.hpp"
@@ -31,6 +32,7 @@ void Output::write(std::string_view bytes) {
 }
 
 void Output::commit() {
+  answer_signal();
   if (file_) return file_->commit();
   errno = 0;
   if (std::fflush(stdout) != 0)
@@ -135,6 +137,7 @@ void TableOutput::end_row() {
 }
 
 void TableOutput::commit() {
+  answer_signal();
   if (columns_ && hdf5_) output_.write(hdf5_file(*columns_));
   if (columns_ && !hdf5_) write_npz(*columns_, [this](std::string_view bytes) { output_.write(bytes); });
   write_header();
@@ -185,6 +188,7 @@ void Plot::demand_room(figure::Figure figure) const {
 
 void Plot::write(figure::Figure figure) const {
   if (!wanted()) return;
+  answer_signal();
   fit(figure);
   figure::write(figure, stem_, formats_, beside_);
 }
@@ -218,7 +222,7 @@ void FileRoles::add(const std::string& argument, const std::string& path) {
 void FileRoles::add_plot(const std::string& path) {
   if (path.empty()) return;
   add("--plot", path);
-  if (path.ends_with(".tex")) add("--plot " + path + " (its lines)", fs::path(path).replace_extension(".pdf").string());
+  if (path.ends_with(".tex")) add("--plot " + path + " (its lines)", fs::path(path).replace_filename(name_beside(path) + ".pdf").string());
   for (const char* ending : {"-plot.csv", ".gp"})
     add("--plot " + path + " (its data and script lie beside it)",
         fs::path(path).replace_filename(name_beside(path) + ending).string());

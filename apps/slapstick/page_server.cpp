@@ -6,14 +6,17 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <iterator>
 #include <thread>
 #include <vector>
 
 #include "base/text.hpp"
 #include "slapstick/base/error.hpp"
+#include "verb.hpp"
 
 namespace slapstick::app {
 namespace {
@@ -96,10 +99,16 @@ void serve_page(const Served& served, int port, const std::atomic<bool>& stop,
   if (port == 0) heard = server.bind_to_any_port(loopback);
   if (heard < 0 || (port != 0 && !server.bind_to_port(loopback, port)))
     throw StorageError("port " + std::to_string(port) + " of " + loopback + " cannot be listened to: choose another --port");
-  std::thread listening([&server] { server.listen_after_bind(); });
+  std::promise<void> ended;
+  std::thread listening([&server, &ended] {
+    server.listen_after_bind();
+    ended.set_value();
+  });
   ready("http://" + std::string(loopback) + ":" + std::to_string(heard) + "/");
   while (!stop.load(std::memory_order_relaxed)) std::this_thread::sleep_for(std::chrono::milliseconds(100));
   server.stop();
+  // A client that sends its request byte by byte holds its thread, which the library cannot interrupt.
+  if (ended.get_future().wait_for(std::chrono::seconds(1)) != std::future_status::ready) std::_Exit(done);
   listening.join();
 }
 

@@ -44,7 +44,7 @@ void mark_orders(double highest, figure::Panel& panel) {
 }  // namespace
 
 double level(const Band& band, double reference, bool weighted) {
-  return 10.0 * std::log10(band.mean_square / (reference * reference)) + (weighted ? a_weighting(band.centre) : 0.0);
+  return 10.0 * std::log10((weighted ? band.weighted : band.mean_square) / (reference * reference));
 }
 
 /// A stem for each line, from the lower end of the axis.

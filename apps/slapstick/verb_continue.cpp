@@ -259,6 +259,9 @@ int run(const Options& options, const Context& context) {
   roles.add("MODEL", options.model.source);
   roles.add("--out", options.out);
   roles.add_plot(options.plot);
+  for (const char* ending : {".json", ".npz", ".h5", ".hdf5"})
+    if (options.table && options.out.ends_with(ending))
+      throw InputError("--out: " + in_quotes(options.out) + " names another format than the text that --table asks for: leave --table out, or end the name in .txt");
   const bool file = is_table_file(options.out) && !options.table;
   if (file) const AtomicFile writable(options.out);  // goes away without a trace
   Output out(file ? "" : options.out);

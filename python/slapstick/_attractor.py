@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _progress
-from ._model import Model, Start, Values, given_to, model_of, numbers, rows_of, start_of, stops_of
+from ._model import Model, Start, Values, demand_counts, given_to, model_of, numbers, rows_of, start_of, stops_of
 from ._progress import Progress
 from ._quantity import Measured, measure
 from ._result import Floats, Given, Interrupted, Result
@@ -281,6 +281,7 @@ def classify(
     """
     chosen = model_of(model)
     given = given_to(classify, chosen, values, parameters)
+    demand_counts(transient=transient, most_periods=most_periods, most_n=most_n, exponent_periods=exponent_periods)
     options = {"transient": transient, "most_periods": most_periods, "most_n": most_n, "stops": stops, "start": start}
     options |= {"exponent_periods": exponent_periods, "quick": quick}
     limits = _core.Limits(transient, most_periods, most_n, exponent_periods, quick, stops_of(stops))

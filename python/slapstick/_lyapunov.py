@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core, _progress
-from ._model import Model, Start, Values, given_to, model_of, numbers, rows_of, start_of
+from ._model import Model, Start, Values, demand_counts, given_to, model_of, numbers, rows_of, start_of
 from ._progress import Progress
 from ._result import Floats, Given, Interrupted, Result
 
@@ -113,6 +113,7 @@ def lyapunov(
     """
     chosen = model_of(model)
     given = given_to(lyapunov, chosen, values, parameters)
+    demand_counts(transient=transient, periods=periods, error=error)
     options = {"transient": transient, "periods": periods, "error": error, "start": start}
     limits = (start_of(start), transient, periods, error)
     if any(np.ndim(value) > 0 for value in given.values()):

@@ -129,6 +129,8 @@ class Map(Result):
         """A column as shape (ny, nx): of several attractors of a pixel the one with most starts. What is missing is NaN,
         an empty word or 0. direction: of a chart that was carried both ways."""
         column = np.asarray(column)
+        if column.shape != self.pixel.shape:
+            raise InputError("grid: a column of the chart is wanted, as chart.label or chart.measured['x1:rms']; no name, and no part")
         rows = self._first
         rows = rows[self.direction[rows] == (direction or self.direction[0])] if len(rows) else rows
         empty: Any = np.nan if column.dtype.kind in "fc" else 0

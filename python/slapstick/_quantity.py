@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _core, _progress
 from ._core import InputError, Quantity, StopImpacts
-from ._model import Model, Start, Values, given_to, model_of, numbers, start_of
+from ._model import Model, Start, Values, demand_counts, given_to, model_of, numbers, start_of
 from ._progress import Progress
 from ._result import Floats, Given, Result, axes
 
@@ -144,6 +144,7 @@ def measure(
     """
     chosen = model_of(model)
     fixed = numbers(given_to(measure, chosen, values, parameters))
+    demand_counts(transient=transient, periods=periods)
     by = words_of(sensitivity)
     options = {"of": of, "periods": periods, "sensitivity": by, "transient": transient, "start": start}
     wanted = wanted_of(of, chosen, fixed)
@@ -246,6 +247,7 @@ def spectrum(
     """
     chosen = model_of(model)
     fixed = numbers(given_to(spectrum, chosen, values, parameters))
+    demand_counts(transient=transient, periods=periods, orders=orders, stretch=stretch)
     options = {"of": of, "orders": orders, "periods": periods, "stretch": stretch, "transient": transient, "start": start}
     call = (chosen._core, fixed, start_of(start), of, float(orders), transient, float(periods), float(stretch))
     found = _progress.run(_core.spectrum, call, "periods", transient, progress)

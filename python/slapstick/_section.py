@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from . import _core, _progress
 from ._core import InputError, NumericalError
-from ._model import Model, Start, Values, given_to, model_of, numbers, start_of, stops_of
+from ._model import Model, Start, Values, demand_counts, given_to, model_of, numbers, start_of, stops_of
 from ._progress import Progress
 from ._result import Floats, Given, GivenWords, Interrupted, Result, axes
 from ._tables import categorical, state_columns, words
@@ -133,6 +133,7 @@ def poincare(
     """
     chosen = model_of(model)
     fixed = numbers(given_to(poincare, chosen, values, parameters))
+    demand_counts(transient=transient, points=points)
     options = {"section": section, "event": event, "phase": phase, "transient": transient, "points": points}
     options |= {"most_periods": most_periods, "stops": stops, "start": start}
     begin = (chosen._core, fixed, start_of(start), transient, points)

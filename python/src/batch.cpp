@@ -1,10 +1,13 @@
 /// Batches: many starts and parameter values at once, in the lanes of the library.
+#include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "chosen.hpp"
+#include "slapstick/base/error.hpp"
 #include "slapstick/sweep/batch.hpp"
 #include "watch.hpp"
 
@@ -65,10 +68,24 @@ void add(Runs& into, const BatchRun& run, bool exponent, double period) {
   }
 }
 
+/// What is wrong with every run is an error before the work; what is wrong with some is their failure.
+void demand_a_start(std::size_t count, const std::function<State(std::size_t)>& start_at) {
+  std::optional<InputError> first;
+  for (std::size_t i = 0; i < count; ++i) {
+    try {
+      static_cast<void>(start_at(i));
+      return;
+    } catch (const InputError& error) {
+      if (!first) first = error;
+    }
+  }
+  if (first) throw InputError(*first);
+}
+
 std::unique_ptr<Runs> batch(const ModelDefinition& definition, const std::vector<Overrides>& values,
                             const std::vector<std::optional<Start>>& starts, const BatchWish& wish, nb::object progress) {
   const auto start_at = [&](std::size_t i) { return start_of(definition, values[i], starts[starts.size() == 1 ? 0 : i]); };
-  static_cast<void>(start_at(0));  // what can be known to be wrong before the work
+  demand_a_start(values.size(), start_at);
   sweep::BatchProblem problem;
   problem.count = values.size();
   problem.model_at = [&](std::size_t i) { return build(definition, values[i]); };

@@ -2,6 +2,7 @@
 #include "bind.hpp"
 #include "chosen.hpp"
 #include "slapstick/flow/motion.hpp"
+#include "slapstick/flow/struck_together.hpp"
 #include "slapstick/flow/natural_modes.hpp"
 #include "slapstick/flow/energy_sources.hpp"
 #include "slapstick/section/stop_choice.hpp"
@@ -58,6 +59,10 @@ nb::dict check(const ModelDefinition& definition, const Overrides& values) {
   result["compliant_stops"] = model.compliant_stops.size();
   result["frictions"] = model.frictions.size();
   result["characteristics"] = model.characteristics.size();
+  std::vector<std::string> rows;
+  for (const int stop : struck_together(model, start)) rows.push_back(model.stops[static_cast<std::size_t>(stop)].name);
+  result["impact_law"] = model.impact_law == ImpactLaw::sequence ? "sequence" : "moreau";
+  if (!rows.empty()) result["struck_together"] = rows, result["note"] = how_rows_are_struck;
   result["period"] = model.forcing_period();
   result["forced"] = model.forced();
   result["feeds_energy"] = energy_sources(model);

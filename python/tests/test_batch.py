@@ -77,3 +77,12 @@ def test_bad_input_is_named():
     ):
         with pytest.raises(slapstick.InputError, match=name):
             slapstick.batch("vibro-impact", **options)
+
+
+def test_a_start_behind_a_stop_is_the_failure_of_its_run_alone():
+    for start in ([1.0, -0.5], [-0.5, 1.0]):
+        with pytest.warns(RuntimeWarning, match="1 of 2 runs failed"):
+            found = slapstick.batch("vibro-impact", start={"x1": start}, periods=3)
+        assert [text != "" for text in found.failures] == [x > 0 for x in start]
+    with pytest.raises(slapstick.InputError, match="stop"):
+        slapstick.batch("vibro-impact", start={"x1": [1.0, 2.0]}, periods=3)

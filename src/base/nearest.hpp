@@ -74,4 +74,12 @@ namespace slapstick {
   return list + (candidates.size() > 20 ? ", ..." : "");
 }
 
+/// The same for a name of a state: that of a coordinate and of its velocity in turn. The velocity of x1 is v1, that of
+/// x is v, that of l is v_l; v_x means the velocity that x has.
+[[nodiscard]] inline std::string state_suggestion(const std::string& word, const std::vector<std::string>& names) {
+  for (std::size_t i = 0; i + 1 < names.size(); i += 2)
+    if (word == "v_" + names[i] || word == "v" + names[i]) return "; did you mean " + in_quotes(names[i + 1]) + "?";
+  return suggestion(word, names);
+}
+
 }  // namespace slapstick

@@ -235,7 +235,7 @@ std::string matplotlib_script(const Figure& figure, const Layout& layout, const 
     out += "data = numpy.genfromtxt(" + py_text(table_name(name)) + ", delimiter=',', skip_header=1, ndmin=2)\n";
   out += "figure = pyplot.figure(figsize=(" + fixed(layout.width_cm / 2.54, 4) + ", " + fixed(layout.height_cm / 2.54, 4) + "))\n";
   for (std::size_t i = 0; i < figure.panels.size(); ++i) out += PyPanel(figure, layout, table, name, i).text();
-  return out + "\nfor file in sys.argv[1:] or [" + py_text(picture + ".pdf") + "]:\n    figure.savefig(file, dpi=" +
+  return out + "\nfor file in sys.argv[1:] or [" + py_text(picture + "-py.pdf") + "]:\n    figure.savefig(file, dpi=" +
          std::to_string(figure.png_dpi) + ")\n";
 }
 

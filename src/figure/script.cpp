@@ -222,6 +222,21 @@ std::string terminals(const Figure& figure, const Layout& layout, Formats format
   return out;
 }
 
+/// The command of gnuplot that gives a file another name: names are words of the shell, in double quotes, in a string
+/// of gnuplot, in which an apostrophe stands twice.
+std::string rename_command(const std::string& from, const std::string& to) {
+  std::string out = "system('mv --";
+  for (const std::string& name : {from, to}) {
+    out += " \"";
+    for (const char c : name) {
+      if (std::string_view("$`\"\\").find(c) != std::string_view::npos) out += '\\';
+      out += c == '\'' ? "''" : std::string(1, c);
+    }
+    out += "\"";
+  }
+  return out + "')\n";
+}
+
 std::string format_list(Formats formats) {
   std::string out;
   for (const auto& [wanted, name] :
@@ -251,12 +266,14 @@ std::string script(const Figure& figure, const Layout& layout, const Table& tabl
   if (!figure.caption.empty()) out += comment("\n" + figure.caption);
   out += std::string("reset\nset encoding utf8\n") + (formats.tex ? "" : "set minussign\n") + "set datafile separator comma\n";
   out += "do for [format in " + quote(format_list(formats)) + "] {\n" + terminals(figure, layout, formats);
-  out += "  set output " + quote_file(picture + ".") + " . format\n";
+  out += "  set output " + quote_file(picture + (formats.tex ? "-tex." : ".")) + " . format\n";
   out += "  set border 15 lw 0.5 front; set tics front in scale 0.8, 0.4 mirror; unset x2tics; unset y2tics\n";
   out += "  set style textbox opaque fillcolor rgb '#40ffffff' noborder margins 1, 0.8\n";
   out += "  set multiplot\n";
   for (std::size_t i = 0; i < figure.panels.size(); ++i) out += PanelScript(figure, layout, table, name, i, formats.tex).text();
-  return out + "\n  unset multiplot\n  unset output\n}\n";
+  // The lines lie in a file beside that is called like the text: a-tex.pdf, for a.pdf is the picture of another format.
+  const std::string rename = formats.tex ? rename_command("./" + picture + "-tex.tex", "./" + picture + ".tex") : "";
+  return out + "\n  unset multiplot\n  unset output\n}\n" + rename;
 }
 
 }  // namespace slapstick::figure

@@ -193,8 +193,8 @@ Files write(const Figure& figure, const fs::path& stem, Formats formats, const s
     run_gnuplot(scratch.path(), name + ".gp");
   }
   for (const auto& [wanted, ending] :
-       {std::pair{formats.png, ".png"}, std::pair{formats.pdf || formats.tex, ".pdf"}, std::pair{formats.svg, ".svg"},
-        std::pair{formats.tex, ".tex"}})
+       {std::pair{formats.png, ".png"}, std::pair{formats.pdf, ".pdf"}, std::pair{formats.svg, ".svg"},
+        std::pair{formats.tex, "-tex.pdf"}, std::pair{formats.tex, ".tex"}})
     if (wanted) names.push_back(picture + ending);
 
   check_movable(scratch, folder, names);
@@ -204,7 +204,7 @@ Files write(const Figure& figure, const fs::path& stem, Formats formats, const s
               .data = table.series.empty() ? fs::path() : folder / table_name(name),
               .rasters = {},
               .png = path(formats.png, ".png"),
-              .pdf = path(formats.pdf || formats.tex, ".pdf"),
+              .pdf = path(formats.pdf || formats.tex, formats.tex ? "-tex.pdf" : ".pdf"),
               .svg = path(formats.svg, ".svg"),
               .tex = path(formats.tex, ".tex"),
               .py = path(formats.py, ".py")};

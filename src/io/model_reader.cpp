@@ -177,7 +177,9 @@ class Reader {
   void read_start(const TomlNode& table, const std::vector<std::string>& states) {
     tree_.expect(table, Kind::table, "start");
     if (states.empty()) tree_.fail(1, "model", "the model has no coordinates");
-    tree_.check_keys(table, "start", states);
+    for (const auto& [name, node] : table.entries)
+      if (!ranges::any_of(states, [&name = name](const std::string& state) { return state == name; }))
+        tree_.fail(node.line, "start", "unknown key " + in_quotes(name) + state_suggestion(name, states));
     for (const auto& [name, node] : table.entries)
       definition_.start.emplace_back(name, tree_.scalar(node, "start: " + name));
   }

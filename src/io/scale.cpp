@@ -120,7 +120,7 @@ class UnitCheck {
       fail(bare->line, "coordinate " + in_quotes(bare->name),
            "'unit' is missing: coordinate " + in_quotes(with->name) + " has one");
     for (const auto& entry : definition_.parameters)
-      if (!seen.empty() && !entry.shown.unit.empty())
+      if (!entry.shown.unit.empty())
         demand_one(seen, entry.shown.unit, entry.value.line, "parameter " + in_quotes(entry.shown.name), false);
   }
 

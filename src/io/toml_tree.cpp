@@ -37,15 +37,19 @@ std::string place(const std::string& source, std::size_t line) { return source +
 void check_limits(std::string_view text, const std::string& source) {
   if (text.size() > toml_size_limit)
     throw InputError(source + ": larger than " + std::to_string(toml_size_limit) + " bytes");
-  std::size_t line = 1, begin = 0;
+  std::size_t line = 1, begin = 0, dots = 0, most_dots = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '\0') throw InputError(place(source, line), "a NUL byte");
     if (text[i] == '\n') {
       ++line;
       begin = i + 1;
+      most_dots = 0;
     }
-    if (i + 1 - begin > toml_line_limit)
-      throw InputError(place(source, line), "a line longer than " + std::to_string(toml_line_limit) + " bytes");
+    dots = std::string_view("=,[]{}\n").find(text[i]) != std::string_view::npos ? 0 : dots + (text[i] == '.' ? 1 : 0);
+    most_dots = std::max(most_dots, dots);
+    if (i + 1 - begin > toml_ordinary_line && most_dots > toml_most_dots)
+      throw InputError(place(source, line), "a line longer than " + std::to_string(toml_ordinary_line) + " bytes with more than " +
+                                                std::to_string(toml_most_dots) + " dots in one place");
   }
 }
 

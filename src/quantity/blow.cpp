@@ -76,6 +76,10 @@ std::optional<Blow> Blows::between(const mode::Outline& last, const Moving& befo
       const auto i = static_cast<std::size_t>(std::find(of.stops.begin(), of.stops.end(), impact.contact) - of.stops.begin());
       impact.impulse = of.P[i];
       impact.loss = of.loss[i];
+      if (impact.contact != chatter_) continue;
+      const auto [impulse, loss] = plastic(impact);
+      impact.impulse -= impulse;
+      impact.loss -= loss;
     }
     blow.impacts = impacts_;
   }
@@ -85,7 +89,7 @@ std::optional<Blow> Blows::between(const mode::Outline& last, const Moving& befo
   }
   const bool any = std::any_of(blow.impulses.begin(), blow.impulses.end(), [](Number one) { return one.value != 0.0; });
   const bool happens = struck || any || !blow.impacts.empty();
-  struck_ = 0;
+  forget();
   impacts_.clear();
   return happens ? std::optional(std::move(blow)) : std::nullopt;
 }
@@ -134,6 +138,18 @@ Blows::Impulses Blows::impulses(const Moving& before, const Moving& after) {
     of.loss.push_back(0.5 * of.P.back() * Number{sum[i], sum_rate[i]});
   }
   return of;
+}
+
+/// Impulse and loss of the plastic impact that begins the tail of a chatter, behind an impact at w+ = -r w:
+///     P = w+ / D < 0,   E = w+^2 / (2 D).
+std::pair<Number, Number> Blows::plastic(const Struck& impact) const {
+  const auto at = static_cast<std::size_t>(impact.contact);
+  const Rebound law = rebound(model_.stops[at], impact.w.value);
+  const double r_rate = rates_ != nullptr ? rebound_rate(model_.stops[at], rates_->model.stops[at], impact.w.value) : 0.0;
+  const int own = frame_.stops[at].own;
+  const Number back{-law.restitution * impact.w.value, -law.rate * impact.w.rate - r_rate * impact.w.value},
+      D{frame_.mass_inverse(own, own), rates_ != nullptr ? rates_->frame.mass_inverse(own, own) : 0.0};
+  return {back / D, 0.5 * back * back / D};
 }
 
 /// The impulse of a quantity of one coordinate or contact.

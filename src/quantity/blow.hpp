@@ -47,13 +47,19 @@ class Blows {
 
   /// These stops, bit by bit, get an impulse at the next blow ..
   void strike(std::uint32_t stops) { struck_ |= stops; }
+  /// The tail of a complete chatter of this stop begins at the next blow: its jump is that of an impact, if one is
+  /// there, and of a plastic one behind it.
+  void chatter(int stop) {
+    strike(std::uint32_t{1} << static_cast<unsigned>(stop));
+    chatter_ = stop;
+  }
   /// .. and this one was hit; `before` is where the trace stands.
   void impact(int stop, double w, const Moving& before);
   /// Flights of a stop count from here. @param slid  how long friction has slipped since then
   void begin_flight(int contact, Number time, Number slid);
   /// The trace has come to an instant; friction slipped on the way so long.
   void go_on(Number time, Number slid);
-  void forget() { struck_ = 0; }
+  void forget() { struck_ = 0, chatter_ = -1; }
   /// Can there be a blow between these modes? If not, no state is needed.
   [[nodiscard]] bool may_come(const mode::Outline& last, const mode::Outline& next) const {
     return struck_ != 0 || !impacts_.empty() || last.states.compliant != next.states.compliant;
@@ -78,6 +84,7 @@ class Blows {
   [[nodiscard]] Impulses impulses(const Moving& before, const Moving& after);
   [[nodiscard]] Number share(const Quantity& quantity, int index, const Impulses& of,
                              const std::optional<Formulas>& formulas, const Moving& before, const Moving& after) const;
+  [[nodiscard]] std::pair<Number, Number> plastic(const Struck& impact) const;
   void let_go(const mode::Outline& last, const mode::Outline& next, const Moving& before, Blow& blow) const;
   void engage(const mode::Outline& last, const mode::Outline& next, const Moving& before, Blow& blow);
   [[nodiscard]] Since since(int contact) const;
@@ -89,6 +96,7 @@ class Blows {
   const std::vector<Quantity>& of_;
   const Rates* rates_;
   std::uint32_t struck_ = 0;
+  int chatter_ = -1;  ///< the stop whose chatter begins at the next blow, or -1
   std::vector<Struck> impacts_;
   std::deque<std::pair<std::uint32_t, Matrix>> inverses_;  ///< by the stops that were struck
   Number now_, slid_;

@@ -34,6 +34,15 @@ class Formulas {
   /// @param above  of each kink, whether its row is positive
   [[nodiscard]] Formula of(const Quantity& quantity, const std::vector<bool>& above) const;
 
+  /// The tail of a complete chatter is flown with its stop closed (flow/chatter.hpp), but the stop pushes at impacts
+  /// only. What the friction of its pair bears in the mean, from the tail's start at X on ..
+  [[nodiscard]] Number borne_in_chatter(int stop, const Vector& X, const Vector& by) const;
+  /// .. the mean push of its impacts as a row over X ..
+  [[nodiscard]] Row press_in_chatter(int stop, Number borne) const;
+  /// .. a quantity between the impacts, and what it has of their impulses.
+  [[nodiscard]] Formula in_chatter(const Quantity& quantity, const std::vector<bool>& above, int stop, Number borne) const;
+  [[nodiscard]] Number share_in_chatter(const Quantity& quantity, int stop) const;
+
   /// Row over X of a coordinate's displacement and velocity, of a contact's velocity.
   [[nodiscard]] Row displacement(int coordinate) const;
   [[nodiscard]] Row velocity(int coordinate) const;
@@ -60,6 +69,10 @@ class Formulas {
   [[nodiscard]] Row limit(const mode::HeldPair& pair) const;
   [[nodiscard]] Row holding(std::size_t pair) const;
   [[nodiscard]] Number shared_friction(const mode::HeldPair& pair) const;
+  [[nodiscard]] std::size_t pair_of(int stop) const;
+  [[nodiscard]] Number moved_by(int stop, int coordinate) const;
+  [[nodiscard]] Number single_share(const Quantity& quantity, int index, int stop) const;
+  [[nodiscard]] Row single_in_chatter(const Quantity& quantity, int index, const std::vector<bool>& above, int stop, Number borne) const;
   [[nodiscard]] Formula single(const Quantity& quantity, int index, const std::vector<bool>& above) const;
   [[nodiscard]] Row acceleration(int coordinate) const;
   [[nodiscard]] Row gap(int contact) const;

@@ -72,7 +72,7 @@ void Cycle::trace(Tracer& tracer) const {
   for (std::size_t k = 0; k < legs; ++k) {
     const std::size_t i = (first + k) % legs;
     const Number begin = this->begin(i, first);
-    if (sums_impacts(leg(i))) tracer.strike(std::uint32_t{1} << static_cast<unsigned>(leg(i).contact));
+    if (sums_impacts(leg(i))) tracer.chatter(leg(i).contact);
     piece(i, begin, tracer);
     for (const Motion::Strike& strike : leg(i).strikes) tracer.strike(strike.stops);
     for (const auto& [contact, w] : met(i))

@@ -12,14 +12,20 @@ namespace {
 std::vector<Band> bands(double lowest, double highest, int parts) {
   if (parts != 1 && parts != 3) throw InputError("octaves: parts are 1 or 3");
   std::vector<Band> all;
-  if (!(lowest > 0.0 && highest > lowest)) return all;
+  if (!(lowest > 0.0 && highest >= lowest)) return all;
   const double G = std::pow(10.0, 0.3), half = std::pow(G, 0.5 / parts);
   const auto place = [&](double hertz) { return parts * std::log(hertz / 1000.0) / std::log(G); };
   for (double x = std::floor(place(lowest) + 0.5); x <= std::floor(place(highest) + 0.5); ++x) {
     const double centre = 1000.0 * std::pow(G, x / parts);
-    all.push_back({centre, centre / half, centre * half, 0.0, true});
+    all.push_back({centre, centre / half, centre * half, 0.0, 0.0, true});
   }
   return all;
+}
+
+/// A mean square at a frequency, and with the weight of that frequency: the weighting is steep beside a band.
+void add(double mean_square, double hertz, Band& band) {
+  band.mean_square += mean_square;
+  band.weighted += mean_square * std::pow(10.0, 0.1 * a_weighting(hertz));
 }
 
 }  // namespace
@@ -30,7 +36,7 @@ std::vector<Band> octaves(const LineSpectrum& of, int parts, double unit_of_time
   for (const SpectralLine& line : of.lines) {
     const double hertz = line.frequency / unit_of_time;
     for (Band& band : all)
-      if (hertz >= band.from && hertz < band.to) band.mean_square += 2.0 * std::norm(line.c);
+      if (hertz >= band.from && hertz < band.to) add(2.0 * std::norm(line.c), hertz, band);
   }
   const double next = of.lines.back().frequency + of.lines[1].frequency;  // the first line that is left out
   for (Band& band : all) band.whole = next / unit_of_time >= band.to;
@@ -39,14 +45,16 @@ std::vector<Band> octaves(const LineSpectrum& of, int parts, double unit_of_time
 
 /// A point stands for the frequencies that are nearest to it.
 std::vector<Band> octaves(const DensitySpectrum& of, int parts, double unit_of_time) {
-  if (of.frequency.size() < 2) return {};
-  const double half = 0.5 * (of.frequency[1] - of.frequency[0]) / unit_of_time;
+  if (of.frequency.empty()) return {};
+  constexpr double noise_bandwidth = 1.5;  // of the resolution, in steps of the frequencies
+  const double step = of.frequency.size() > 1 ? of.frequency[1] - of.frequency[0] : of.resolution / noise_bandwidth;
+  const double half = 0.5 * step / unit_of_time;
   std::vector<Band> all = bands(of.frequency.front() / unit_of_time, of.frequency.back() / unit_of_time, parts);
   for (std::size_t k = 0; k < of.frequency.size(); ++k) {
     const double hertz = of.frequency[k] / unit_of_time;
     for (Band& band : all) {
-      const double width = std::min(band.to, hertz + half) - std::max(band.from, hertz - half);
-      if (width > 0.0) band.mean_square += width * unit_of_time * of.density[k];
+      const double from = std::max(band.from, hertz - half), to = std::min(band.to, hertz + half);
+      if (to > from) add((to - from) * unit_of_time * of.density[k], 0.5 * (from + to), band);
     }
   }
   for (Band& band : all)

@@ -32,7 +32,7 @@ class Follower {
     const flow::CompiledSystem& system = motion_.system().compiled();
     auto& outline = outlines_[segment.mode];
     if (outline == nullptr) outline = system.outline(segment.mode);
-    if (chatter) tracer_.strike(std::uint32_t{1} << static_cast<unsigned>(motion_.event().contact));
+    if (chatter) tracer_.chatter(motion_.event().contact);
     tracer_.piece(outline, system.mode(segment.mode).window(), motion_.engine().extended_at_start().data(),
                   segment.start.since(origin_) * system.period(), segment.duration);
     for (const Motion::Strike& strike : motion_.strikes()) tracer_.strike(strike.stops);

@@ -85,6 +85,7 @@ struct Tracer::Expansion {
   };
 
   Branch& branch(const std::vector<bool>& above, const std::vector<Quantity>& quantities);
+  [[nodiscard]] Branch branch_of(const std::vector<Formula>& formulas) const;
   [[nodiscard]] Matrix taylor_of(const std::vector<Row>& rows) const;
 
   std::shared_ptr<const mode::Outline> kept;
@@ -112,8 +113,16 @@ Matrix Tracer::Expansion::taylor_of(const std::vector<Row>& rows) const {
 Tracer::Expansion::Branch& Tracer::Expansion::branch(const std::vector<bool>& above, const std::vector<Quantity>& quantities) {
   for (Branch& known : branches)
     if (known.above == above) return known;
+  std::vector<Formula> all;
+  for (const Quantity& quantity : quantities) all.push_back(formulas.of(quantity, above));
+  branches.push_back(branch_of(all));
+  branches.back().above = above;
+  return branches.back();
+}
+
+/// A term for each formula.
+Tracer::Expansion::Branch Tracer::Expansion::branch_of(const std::vector<Formula>& all) const {
   Branch made;
-  made.above = above;
   const auto place = [&](const Row& row) {
     const auto same = [&](const Row& one) { return one.value == row.value && one.rate == row.rate; };
     const auto found = std::find_if(made.rows.begin(), made.rows.end(), same);
@@ -122,8 +131,7 @@ Tracer::Expansion::Branch& Tracer::Expansion::branch(const std::vector<bool>& ab
     return made.rows.size() - 1;
   };
   const auto nothing = [](const Row& row) { return row.value.isZero(0.0) && row.rate.isZero(0.0); };
-  for (const Quantity& quantity : quantities) {
-    const Formula formula = formulas.of(quantity, above);
+  for (const Formula& formula : all) {
     Term term;
     if (!nothing(formula.linear)) term.linear = place(formula.linear);
     for (const auto& [left, right] : formula.products) {
@@ -134,9 +142,15 @@ Tracer::Expansion::Branch& Tracer::Expansion::branch(const std::vector<bool>& ab
     made.terms.push_back(std::move(term));
   }
   made.taylor = taylor_of(made.rows);
-  branches.push_back(std::move(made));
-  return branches.back();
+  return made;
 }
+
+/// The tail of a chatter: the quantities between its impacts, and the sum of these, the integral of the mean push.
+struct Tracer::Tail {
+  Expansion::Branch branch;     ///< a term for each quantity, and one for the push
+  std::vector<Number> shares;   ///< of each quantity, in the sum
+  Number sum;
+};
 
 Tracer::Tracer(const Model& model, const mode::Frame& frame, Number period, const std::vector<Quantity>& of,
                Listener& listener, const Rates* rates)
@@ -166,7 +180,10 @@ Tracer::Expansion& Tracer::expansion(const std::shared_ptr<const mode::Outline>&
 
 void Tracer::piece(const std::shared_ptr<const mode::Outline>& outline, double longest, const double* X, double begin,
                    double duration, const PieceRates* rates) {
-  if (last_ != nullptr) tell_blow(*outline, X, rates != nullptr ? rates->X : nullptr);
+  if (chatter_ >= 0) blows_.chatter(chatter_);
+  std::optional<Blow> blow;
+  if (last_ != nullptr) blow = blow_before(*outline, X, rates != nullptr ? rates->X : nullptr);
+  if (blow && chatter_ < 0) listener_.blow(*blow);
   blows_.forget();
   Expansion& mode = expansion(outline, longest, rates);
   at_.X = Eigen::Map<const Vector>(X, frame_.size());
@@ -175,6 +192,7 @@ void Tracer::piece(const std::shared_ptr<const mode::Outline>& outline, double l
                end_rate = rates != nullptr ? rates->duration : 0.0;
   double from_rate = 0.0;
   behind_ = nullptr;
+  if (chatter_ >= 0) begin_tail(mode);
   // Between two events at one instant a piece has no length, and yet its ends move apart.
   if (duration == 0.0 && end_rate != 0.0) step(mode, 0.0, {begin, 0.0, values_, value_rates_, begin_rate, 0.0, end_rate});
   for (double left = duration; left > 0.0;) {
@@ -187,12 +205,48 @@ void Tracer::piece(const std::shared_ptr<const mode::Outline>& outline, double l
     from_rate = length.rate;
     left -= length.value;
   }
+  if (chatter_ >= 0) tell_tail(std::move(blow), {begin, begin_rate});
   if (rates != nullptr) at_.by += end_rate * (outline->system * at_.X);
   const auto slips = [](mode::FrictionState state) { return state != mode::FrictionState::stick; };
   const auto& frictions = outline->states.frictions;
   const bool slipped = std::any_of(frictions.begin(), frictions.end(), slips);
   blows_.go_on({end, begin_rate + end_rate}, slipped ? Number{duration, end_rate} : Number{});
   last_ = outline.get();
+}
+
+void Tracer::begin_tail(const Expansion& mode) {
+  const Formulas& formulas = mode.formulas;
+  std::vector<bool> above;
+  for (const Row& kink : formulas.kinks()) above.push_back(kink.value.dot(at_.X) > 0.0);
+  const Number borne = formulas.borne_in_chatter(chatter_, at_.X, at_.by);
+  std::vector<Formula> all;
+  std::vector<Number> shares;
+  for (const Quantity& quantity : of_) {
+    all.push_back(formulas.in_chatter(quantity, above, chatter_, borne));
+    shares.push_back(formulas.share_in_chatter(quantity, chatter_));
+  }
+  all.push_back({formulas.press_in_chatter(chatter_, borne)});
+  tail_ = std::make_unique<Tail>(Tail{mode.branch_of(all), std::move(shares), {}});
+}
+
+/// The push of the impacts that a step stands for.
+void Tracer::add_to_tail(const Step& place) {
+  Polynomial push, rate;
+  const Term& term = tail_->branch.terms.back();
+  combine(term, rows_, push);
+  tail_->sum.value += place.length * push.integral();
+  if (rates_ == nullptr) return;
+  combine_rates(term, rows_, row_rates_, rate);
+  tail_->sum.rate += place.length * rate.integral() + push.at(1.0) * place.to_rate - push.at(0.0) * place.from_rate;
+}
+
+/// The blow with which the tail began, and the impulses of all impacts that are left.
+void Tracer::tell_tail(std::optional<Blow> blow, Number begin) {
+  if (!blow) blow = Blow{begin, std::vector<Number>(of_.size()), {}};
+  for (std::size_t k = 0; k < of_.size(); ++k) blow->impulses[k] += tail_->shares[k] * tail_->sum;
+  listener_.blow(*blow);
+  tail_.reset();
+  chatter_ = -1;
 }
 
 /// At most `length`: the step ends where a kink's row passes zero. The place moves by -k_p / k' with the parameter.
@@ -223,6 +277,7 @@ Number Tracer::to_first_kink(const Expansion& mode, double length) {
 void Tracer::step(Expansion& mode, double length, const Step& place) {
   evaluate(mode, length);
   listener_.step(place);
+  if (tail_ != nullptr) add_to_tail(place);
   if (rates_ != nullptr) return move_rates(mode, length);
   behind_ = &mode;
   behind_by_ = length;
@@ -260,7 +315,7 @@ void Tracer::evaluate(Expansion& mode, double length) {
     scale_rows(mode.kinks * at_.X, ratio, rows_);
     for (const Polynomial& row : rows_) above_.push_back(row.at(0.5) > 0.0);
   }
-  const Expansion::Branch& branch = mode.branch(above_, of_);
+  const Expansion::Branch& branch = tail_ != nullptr ? tail_->branch : mode.branch(above_, of_);
   coefficients_.noalias() = branch.taylor * at_.X;
   scale_rows(coefficients_, ratio, rows_);
   for (std::size_t k = 0; k < of_.size(); ++k) combine(branch.terms[k], rows_, values_[k]);
@@ -308,16 +363,20 @@ void Tracer::impact(int stop, double w) {
 }
 
 void Tracer::finish(const double* X, const mode::Outline& next, const double* X_rate) {
-  if (last_ != nullptr) tell_blow(next, X, X_rate);
+  if (last_ == nullptr) return;
+  if (const auto blow = blow_before(next, X, X_rate)) listener_.blow(*blow);
 }
 
 /// What lies between the end of the last piece and X.
-void Tracer::tell_blow(const mode::Outline& next, const double* X, const double* X_rate) {
-  if (!blows_.may_come(*last_, next)) return blows_.forget();
+std::optional<Blow> Tracer::blow_before(const mode::Outline& next, const double* X, const double* X_rate) {
+  if (!blows_.may_come(*last_, next)) {
+    blows_.forget();
+    return std::nullopt;
+  }
   catch_up();
   Moving after{Eigen::Map<const Vector>(X, frame_.size()), {}};
   if (X_rate != nullptr) after.by = Eigen::Map<const Vector>(X_rate, frame_.size());
-  if (const auto blow = blows_.between(*last_, at_, next, after)) listener_.blow(*blow);
+  return blows_.between(*last_, at_, next, after);
 }
 
 }  // namespace slapstick::quantity

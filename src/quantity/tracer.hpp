@@ -11,6 +11,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "event/polynomial.hpp"
@@ -64,9 +65,11 @@ class Tracer {
              double duration, const PieceRates* rates = nullptr);
   /// X at the end of the last piece, where the caller has it: otherwise it is computed when a blow asks for it.
   void arrive(const double* X);
-  /// At the end of the last piece, or (of a chatter) at the start of the next one: these stops, bit by bit, get an
-  /// impulse ..
+  /// At the end of the last piece: these stops, bit by bit, get an impulse ..
   void strike(std::uint32_t stops) { blows_.strike(stops); }
+  /// .. or that next piece is the tail of a complete chatter of this stop, flown with the stop closed. The blow before
+  /// comes after the piece, with the impulses of all impacts that the tail stands for ..
+  void chatter(int stop) { chatter_ = stop; }
   /// .. and this one was hit. Ignored before the first piece.
   void impact(int stop, double w);
   /// Flights of a stop count from here: an impact before the first piece, or the end of a chatter.
@@ -77,6 +80,7 @@ class Tracer {
 
  private:
   struct Expansion;
+  struct Tail;
 
   Expansion& expansion(const std::shared_ptr<const mode::Outline>& outline, double longest, const PieceRates* rates);
   void step(Expansion& mode, double length, const Step& place);
@@ -86,7 +90,10 @@ class Tracer {
   void catch_up();
   void move_rates(const Expansion& mode, double length);
   [[nodiscard]] Number to_first_kink(const Expansion& mode, double length);
-  void tell_blow(const mode::Outline& next, const double* X, const double* X_rate);
+  [[nodiscard]] std::optional<Blow> blow_before(const mode::Outline& next, const double* X, const double* X_rate);
+  void begin_tail(const Expansion& mode);
+  void add_to_tail(const Step& place);
+  void tell_tail(std::optional<Blow> blow, Number begin);
 
   const Model& model_;
   const mode::Frame& frame_;
@@ -95,6 +102,8 @@ class Tracer {
   const Rates* rates_;
   Blows blows_;
   std::vector<std::unique_ptr<Expansion>> modes_;
+  int chatter_ = -1;                     ///< the next piece is the tail of a chatter of this stop
+  std::unique_ptr<Tail> tail_;           ///< while the trace is in one
   const mode::Outline* last_ = nullptr;  ///< of the last piece
   Moving at_;                            ///< where the trace stands, but for what it is behind
   const Expansion* behind_ = nullptr;    ///< X has still to go on in this mode ..

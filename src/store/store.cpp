@@ -179,6 +179,13 @@ struct Store::Database {
     all = prepare("SELECT number, numbers, failure, carried, checksum FROM cells ORDER BY number");
   }
 
+  /// Each page is where SQLite's tree says: a page that was written to the place of another has good cells, twice, and
+  /// others are gone.
+  void check_pages() const {
+    const Statement statement = prepare("PRAGMA integrity_check(1)");
+    if (step(statement.get()) && text_at(statement.get(), 0) != "ok") damaged(in_quotes(text_at(statement.get(), 0)));
+  }
+
   void demand(const StoreFacts& wanted) const {
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       if (i < facts.size() && facts[i] == wanted[i]) continue;
@@ -236,7 +243,10 @@ Store Store::to_write(const std::string& path, const StoreFacts& facts, bool res
   database->path = path;
   database->lock = WriterLock(path);
   database->open(SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
-  if (database->is_empty()) database->begin(facts);  // new, or of a run that died before it began
+  if (database->is_empty())
+    database->begin(facts);  // new, or of a run that died before it began
+  else
+    database->check_pages();
   database->run("PRAGMA journal_mode = WAL");
   database->run("PRAGMA synchronous = NORMAL");
   database->read_facts();
@@ -252,6 +262,7 @@ Store Store::to_read(const std::string& path) {
   database->path = path;
   database->open(SQLITE_OPEN_READWRITE);  // a log of a run that died is taken in
   database->read_facts();
+  database->check_pages();
   return Store(std::move(database));
 }
 
@@ -287,8 +298,6 @@ void Store::for_each(const std::function<void(const StoredCell&)>& use) const {
 }
 
 void Store::check() const {
-  const Statement statement = database_->prepare("PRAGMA integrity_check(1)");
-  if (database_->step(statement.get()) && text_at(statement.get(), 0) != "ok") database_->damaged(in_quotes(text_at(statement.get(), 0)));
   for_each([](const StoredCell&) {});
 }
 

@@ -212,6 +212,28 @@ def test_changed_bytes_are_noticed():
         assert found.status == 4, (length, found.out)
 
 
+def test_a_page_in_the_place_of_another_is_noticed_by_all_who_read():
+    """Every page twice, over its neighbour, and gone: each cell that is left is sound, and others are lost."""
+    small = (*CHART[:2], '--x', 'omega=1:6:20', '--y', 'friction=0.05:0.3:12')
+    good(*small, '--store', 'a.db')
+    whole, size = good('store', 'export', 'a.db'), 4096
+    with open('a.db', 'rb') as file:
+        sound = file.read()
+    pages = [sound[at:at + size] for at in range(0, len(sound), size)]
+    noticed = 0
+    for i in range(len(pages)):
+        for wrong in (pages[:i] + [pages[i]] + pages[i:], pages[:i] + [pages[i - 1]] + pages[i + 1:], pages[:i] + pages[i + 1:]):
+            remove_all('b.db')
+            with open('b.db', 'wb') as file:
+                file.write(b''.join(wrong))
+            found = run('store', 'export', 'b.db')
+            assert found.status == 4 or found.out == whole, 'page %d of %d' % (i, len(pages))
+            noticed += found.status == 4
+            resumed = run(*small, '--store', 'b.db', '--resume', '--out', 'b.csv')
+            assert resumed.status == 4 or read('b.csv') == whole, 'page %d of %d' % (i, len(pages))
+    assert noticed > 2 * len(pages), (noticed, len(pages))
+
+
 def test_an_export_is_what_the_run_itself_would_have_written():
     good(*CARRY, '--of', 'x1:rms', '--store', 'a.db')
     good('store', 'export', 'a.db', '--out', 'a.csv', '--plot', 'a.png')

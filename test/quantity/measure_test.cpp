@@ -98,6 +98,35 @@ TEST(Measure, AChatterTakesAllMomentumAndEnergy) {
   EXPECT_NEAR(found.of[1].mean * T, g, 1e-9 * g);  // energy: m g h
 }
 
+/// A drop from h in four scales of length and time: impulses of m sqrt(2 g h) (1 + r) / (1 - r), however early the tail of the chatter is
+/// summed. With friction f on the pair a flight that rises at -(g + f) and falls at g - f shrinks the speed by r sqrt((g - f) / (g + f)).
+TEST(Measure, AChatterSummedEarlyHasTheImpulsesOfAllItsImpacts) {
+  for (const double h : {1e-13, 1e-10, 1e-5, 1.0})
+    for (const double f : {0.0, 4.0}) {
+      Model model;
+      model.coordinates = {{"z", 2.0}};
+      model.forces = {{0, 0, -2.0 * 9.81, 0.0}};
+      model.stops = {{"floor", ground, 0, 0.0, 0.5}};
+      if (f > 0.0) model.frictions = {{"pad", 0, ground, 0.0, 2.0 * f, 2.0 * f}};
+      const auto all = quantities(model);
+      const System system(model);
+      const double v = std::sqrt(2.0 * (9.81 - f) * h), rho = 0.5 * std::sqrt((9.81 - f) / (9.81 + f)), T = 20.0 * v / 9.81;
+      const double sum = 2.0 * v * 1.5 / (1.0 - rho);
+      const Measured found = measure(Motion(system, {h, 0.0}), Instant{}.plus(T / system.period()),
+                                     {find_quantity(all, "F_floor"), find_quantity(all, "a_z"), find_quantity(all, "impulse"), find_quantity(all, "energy_lost")});
+      EXPECT_NEAR(found.of[0].impulse, sum, 1e-6 * sum) << h << " " << f;
+      EXPECT_NEAR(2.0 * found.of[1].impulse, found.of[0].impulse, 1e-14 * sum) << h << " " << f;  // m dv of all blows
+      EXPECT_NEAR(found.of[1].mean * T, 0.0, 1e-13 * v);                                        // from rest to rest
+      const auto& values = found.of[2].values;  // sorted: r^n of the first, down to where the tail begins
+      ASSERT_FALSE(values.empty());
+      EXPECT_NEAR(values.back(), 3.0 * v, 1e-9 * v);
+      EXPECT_NEAR(values.front(), 3.0 * v * std::pow(rho, static_cast<double>(values.size() - 1)), 1e-9 * v);
+      EXPECT_NEAR(found.of[3].greatest, 2.0 * 0.375 * v * v, 1e-9 * v * v);
+      if (f > 0.0) continue;
+      EXPECT_NEAR(found.of[0].mean, 2.0 * 9.81, 1e-9 * 20.0) << h;  // momentum: from rest to rest
+    }
+}
+
 TEST(Measure, RefusesAnEndThatIsNotLater) {
   const ModelDefinition ball = load_model("bouncing-ball");
   const System system(ball.build());

@@ -132,6 +132,21 @@ TEST(Octaves, LoseNoPower) {
   EXPECT_NEAR(a_weighting(10000.0), -2.5, 0.06);
 }
 
+/// A cosine of amplitude 1 has the mean square 1/2, and the weight of its frequency, wherever it lies in its band.
+TEST(Octaves, OfOneLineHaveItsPowerAndItsWeight) {
+  for (const double hertz : {45.0, 63.0, 70.0, 400.0}) {
+    const LineSpectrum found{1.0 / hertz, {{0.0, 0.0, 0.0}, {1.0, hertz, 0.5}}, 0.5, 0.5, 0};
+    for (const int parts : {1, 3}) {
+      const auto bands = octaves(found, parts);
+      ASSERT_EQ(bands.size(), 1U) << hertz;
+      EXPECT_LE(bands[0].from, hertz);
+      EXPECT_GT(bands[0].to, hertz);
+      EXPECT_NEAR(bands[0].mean_square, 0.5, 1e-15) << hertz;
+      EXPECT_NEAR(10.0 * std::log10(bands[0].weighted / bands[0].mean_square), a_weighting(hertz), 1e-12) << hertz;
+    }
+  }
+}
+
 /// A band is whole if more lines leave it as it is; the one that the highest order cuts grows.
 TEST(Octaves, TellWhichBandsAreCut) {
   const SettledCycle cycle(load_model("shaken-table"));

@@ -69,10 +69,11 @@ struct DensitySpectrum {
 struct Band {
   double centre = 0.0, from = 0.0, to = 0.0;  ///< Hz
   double mean_square = 0.0;
+  double weighted = 0.0;  ///< the same with each line, or frequency, weighted by A
   bool whole = true;  ///< the spectrum has all of the band: not so of one that the highest or lowest frequency cuts
 };
 
-/// Mean squares in the bands that begin within what the spectrum has. Frequencies are per `unit_of_time` seconds.
+/// Mean squares in the bands of what the spectrum has, be it one line. Frequencies are per `unit_of_time` seconds.
 [[nodiscard]] std::vector<Band> octaves(const LineSpectrum& of, int parts, double unit_of_time = 1.0);
 [[nodiscard]] std::vector<Band> octaves(const DensitySpectrum& of, int parts, double unit_of_time = 1.0);
 

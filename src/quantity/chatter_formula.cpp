@@ -1,0 +1,86 @@
+/// What quantities are in the tail of a complete chatter, whose impacts carry what the closed stop would bear.
+#include <algorithm>
+#include <cmath>
+
+#include "quantity/formula.hpp"
+
+namespace slapstick::quantity {
+
+using Kind = Quantity::Kind;
+
+/// The held pair of a closed stop, or one past the last.
+std::size_t Formulas::pair_of(int stop) const {
+  const auto has = [&](const mode::HeldPair& pair) {
+    return std::find(pair.stops.begin(), pair.stops.end(), stop) != pair.stops.end();
+  };
+  return static_cast<std::size_t>(std::find_if(held_.begin(), held_.end(), has) - held_.begin());
+}
+
+/// The acceleration of a coordinate for each unit of the stop's press is minus this: sign e_i W^-1 M^-1 g^T.
+Number Formulas::moved_by(int stop, int coordinate) const {
+  const mode::ContactRow& own = frame_.stops[static_cast<std::size_t>(stop)];
+  const auto along = [&](const Matrix& mass_inverse) {
+    return own.sign * frame_.W_inverse.row(coordinate).dot(mass_inverse.col(own.own).head(frame_.n));
+  };
+  return {along(frame_.mass_inverse), rates_ ? along(rates_->frame.mass_inverse) : 0.0};
+}
+
+/// Friction f_k helps a flight to return while the pair rises, for T_rise, and hinders for T_fall. With the press f0,
+/// T_rise : T_fall = sqrt(f0 - f_k) : sqrt(f0 + f_k), so that friction bears in the mean
+///     f_k (T_fall - T_rise) / (T_fall + T_rise) = f0 - sqrt(f0^2 - f_k^2).
+Number Formulas::borne_in_chatter(int stop, const Vector& X, const Vector& by) const {
+  const std::size_t k = pair_of(stop);
+  if (k == held_.size() || held_[k].frictions.empty()) return {};
+  Number kinetic;
+  for (const int i : held_[k].frictions) kinetic += number(&Model::frictions, i, &FrictionContact::kinetic_friction);
+  const Number f0 = sense(held_[k], frame_.stops[static_cast<std::size_t>(stop)]) *
+                    (rates_ ? holding(k).at(X, by) : Number{holding(k).value.dot(X), 0.0});
+  const Number square = f0 * f0 - kinetic * kinetic;
+  if (!(square.value > 0.0)) return kinetic;
+  const double root = std::sqrt(square.value);
+  return f0 - Number{root, 0.5 * square.rate / root};
+}
+
+Row Formulas::press_in_chatter(int stop, Number borne) const {
+  const std::size_t k = pair_of(stop);
+  if (k == held_.size()) return none();
+  return sense(held_[k], frame_.stops[static_cast<std::size_t>(stop)]) * holding(k) - borne * one();
+}
+
+Row Formulas::single_in_chatter(const Quantity& quantity, int index, const std::vector<bool>& above, int stop, Number borne) const {
+  const std::size_t k = pair_of(stop);
+  if (quantity.kind == Kind::acceleration) {
+    Row free = acceleration(index);
+    return free += moved_by(stop, index) * press_in_chatter(stop, borne);
+  }
+  if (index == stop) return none();
+  const int friction = index - stops();
+  const auto& of_pair = held_[k].frictions;
+  if (std::find(of_pair.begin(), of_pair.end(), friction) == of_pair.end()) return force(index, above);
+  Number kinetic;
+  for (const int i : of_pair) kinetic += number(&Model::frictions, i, &FrictionContact::kinetic_friction);
+  if (kinetic.value == 0.0) return none();
+  const double side = sense(held_[k], frame_.stops[static_cast<std::size_t>(stop)]) *
+                      sense(held_[k], frame_.frictions[static_cast<std::size_t>(friction)]);
+  return side * borne * (number(&Model::frictions, friction, &FrictionContact::kinetic_friction) / kinetic) * one();
+}
+
+Formula Formulas::in_chatter(const Quantity& quantity, const std::vector<bool>& above, int stop, Number borne) const {
+  const bool changes = quantity.kind == Kind::acceleration || quantity.kind == Kind::force;
+  if (!changes || pair_of(stop) == held_.size()) return of(quantity, above);
+  Row row = single_in_chatter(quantity, quantity.index, above, stop, borne);
+  if (quantity.minus >= 0) row -= single_in_chatter(quantity, quantity.minus, above, stop, borne);
+  return {row};
+}
+
+Number Formulas::single_share(const Quantity& quantity, int index, int stop) const {
+  if (quantity.kind == Kind::acceleration) return -moved_by(stop, index);
+  return Number{quantity.kind == Kind::force && index == stop ? 1.0 : 0.0, 0.0};
+}
+
+Number Formulas::share_in_chatter(const Quantity& quantity, int stop) const {
+  const Number share = single_share(quantity, quantity.index, stop);
+  return quantity.minus >= 0 ? share - single_share(quantity, quantity.minus, stop) : share;
+}
+
+}  // namespace slapstick::quantity

@@ -17,6 +17,7 @@ run_parts() {
   [ "${SLAPSTICK_SLICE:-}" != all ] || rotation=rotation-all
   run_part build build-all
   [ ${#failed[@]} = 0 ] || return 0
+  run_part memory memory
   run_part wasm wasm
   run_part python python
   if npm_answers; then

@@ -1,9 +1,20 @@
-# Builds of other kinds, each with its tests: sanitizers, clang, WebAssembly, coverage.
+# Builds of other kinds, each with its tests: sanitizers, memory, clang, WebAssembly, coverage.
 # Uses the lists of packages.sh, and `around` of presets.sh.
 
 verb_sanitize() {
   need "${packages[@]}"
   test_preset asan "$@"
+}
+
+# verb_memory [-R REGEX]: the commands of test/memory/commands.txt, with two fillings of the heap.
+verb_memory() {
+  need "${packages[@]}"
+  group_if_fresh
+  build_preset release slapstick
+  step "memory: commands with two fillings of the heap"
+  tools/memory list build/slapstick
+  tools/memory run build/slapstick '' "$@"
+  step "memory took $SECONDS s"
 }
 
 verb_tsan() {

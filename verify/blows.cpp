@@ -70,7 +70,7 @@ void Checker::blows() {
         refuse_(each.line, "stop " + name(k) + " is struck with a gap of " +
                                digits(-m_.stop(static_cast<std::size_t>(k)).sign * last_->X[p(k)].near()));
     blow(each, found);
-    if (each.kind != Blow::Kind::impact && &each != &segment.blows.back())
+    if (each.kind == Blow::Kind::chatter && &each != &segment.blows.back())
       refuse_(each.line, "a stop that has come to rest is struck again");
   }
   for (std::size_t i = 0; i < found.size(); ++i)
@@ -235,18 +235,22 @@ double Checker::fastest_near(const Blow& blow) const {
   return fastest;
 }
 
-/// Only of stops that have become slow by impacts of this instant, of their own or of stops that act on them. One of
-/// them would be struck again. That they come to rest is an assumption.
+/// Only of stops that have become slow by impacts of this instant, of their own or of stops that act on them, or that
+/// have come to rest at this instant before and were disturbed. One of them would be struck again. That they come to
+/// rest is an assumption.
 void Checker::pile_up(const Blow& blow) {
   ++tally_.open.pile_ups;
   bool approaches = false;
+  auto& rested = instant_.rested;
+  const bool again = std::find(rested.begin(), rested.end(), blow.stops) != rested.end();
+  if (!again) rested.push_back(blow.stops);
   for (const int k : blow.stops) {
     const Ball v = approach(k);
     const double fastest = fastest_near({blow.line, blow.kind, {k}});
     approaches = approaches || v > Ball(-speed_rounding(k));
     if (fastest == 0.0)
       refuse_(blow.line, "stop " + name(k) + " comes to rest, and no impact of the instant was at it or acts on it");
-    else if (instant_.blows < many_blows && !(abs(v) <= Ball(slow * fastest)))
+    else if (!again && instant_.blows < many_blows && !(abs(v) <= Ball(slow * fastest)))
       refuse_(blow.line, "stop " + name(k) + " with w = " + digits(v.near()) + " is not slow beside the fastest impact of the instant, " +
                              digits(fastest));
   }

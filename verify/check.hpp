@@ -59,6 +59,7 @@ class Checker {
   struct Instant {
     std::vector<double> fastest;  ///< by stop; 0 for one that was not struck
     long blows = 0;
+    std::vector<std::vector<int>> rested = {};  ///< the sets of stops that have come to rest
   };
 
   const FlownMode& flown(const ContactStates& states);

@@ -5,6 +5,7 @@
 #include "slapstick/flow/energy_sources.hpp"
 #include "slapstick/flow/motion.hpp"
 #include "slapstick/flow/natural_modes.hpp"
+#include "slapstick/flow/struck_together.hpp"
 #include "verb.hpp"
 #include "work.hpp"
 
@@ -57,10 +58,13 @@ Action add_check(Arguments& arguments) {
         .set("compliant_stops", chosen.model.compliant_stops.size())
         .set("frictions", chosen.model.frictions.size())
         .set("characteristics", chosen.model.characteristics.size());
-    Json feeds = Json::list(), falls = Json::list(), laid = Json::object();
+    Json feeds = Json::list(), rows = Json::list(), falls = Json::list(), laid = Json::object();
     for (const std::string& part : energy_sources(chosen.model)) feeds.push(part);
     for (const std::string& part : falling_forces(chosen.model)) falls.push(part);
     for (const LaidLaw& law : chosen.definition.laid_laws(chosen.overrides)) laid.set(law.friction, law.largest_error);
+    for (const int stop : struck_together(chosen.model, start)) rows.push(chosen.model.stops[static_cast<std::size_t>(stop)].name);
+    result.set("impact_law", chosen.model.impact_law == ImpactLaw::sequence ? "sequence" : "moreau");
+    if (!std::get<Json::List>(rows.value()).empty()) result.set("struck_together", std::move(rows)).set("note", how_rows_are_struck);
     result.set("period", chosen.model.forcing_period())
         .set("forced", chosen.model.forced())
         .set("feeds_energy", std::move(feeds))

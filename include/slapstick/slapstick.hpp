@@ -29,6 +29,7 @@
 #include "slapstick/flow/natural_modes.hpp"
 #include "slapstick/flow/run_up.hpp"
 #include "slapstick/flow/stage.hpp"
+#include "slapstick/flow/struck_together.hpp"
 #include "slapstick/flow/system.hpp"
 #include "slapstick/flow/tangent.hpp"
 #include "slapstick/io/model_file.hpp"

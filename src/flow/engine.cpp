@@ -47,7 +47,7 @@ void Engine::reserve() {
 void Engine::restart(std::span<const double> coordinates, Instant start) {
   const IeeeArithmetic ieee;
   now_ = start;
-  at_instant_ = {};
+  at_instant_.forget();
   hits_.clear();
   strikes_.clear();
   pending_.clear();
@@ -154,7 +154,7 @@ void Engine::look_ahead() {
 /// The slope of a signal jumps. Its value does not, but a damper's force at a moving base may: the next mode is asked
 /// for.
 void Engine::pass_knot() {
-  if (now_ < knot_) at_instant_ = {};
+  if (now_ < knot_) at_instant_.forget();
   now_ = knot_;
   const mode::Frame& frame = system_->frame();
   X_before_ = X_;

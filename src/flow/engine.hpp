@@ -63,6 +63,8 @@ class Engine : public Flight {
   void moreau(std::span<const int> stops);
   void strike_all();
   void end_pile_up();
+  void bring_together(std::span<const int> stops);
+  [[nodiscard]] bool piles_up_again(int stop);
   void reconcile_contacts();
   void compliant_limit(int compliant, mode::GuardKind kind);
   [[nodiscard]] int stop_touched_at_rest(int friction) const;

@@ -34,19 +34,26 @@ int Engine::approaching() const {
   return -1;
 }
 
-/// All impacts of this instant, by the model's law, until no stop in contact is approaching.
+/// All impacts of this instant, by the model's law, until no stop in contact is approaching: the end of a pile-up may
+/// leave others that do.
 void Engine::strike_all() {
   chatter_stop_ = -1;
   int rounds = 0;
   for (int stop = approaching(); stop >= 0; stop = approaching(), ++rounds) {
     const double speed = approach_velocity(*system_, stop, X_.data());
     at_instant_.fastest = std::max(at_instant_.fastest, speed);
-    if (speed < slow_impacts * at_instant_.fastest || at_instant_.events > most_impacts_at_one_instant) return end_pile_up();
+    if (speed < slow_impacts * at_instant_.fastest || at_instant_.events > most_impacts_at_one_instant) {
+      end_pile_up();
+      chatter_stop_ = -1;
+      continue;
+    }
+    if (piles_up_again(stop)) continue;
     if (touching().size() == 1 || system_->model().impact_law == ImpactLaw::sequence)
       newton(stop);
     else
       moreau(touching_);
     at_instant_.struck |= strikes_.back().stops;
+    at_instant_.pile_ups.strike(strikes_.back().stops);
     chatter_stop_ = rounds == 0 && system_->model().stops[stop].restitution > 0.0 ? stop : -1;
   }
 }
@@ -72,12 +79,32 @@ void Engine::end_pile_up() {
     fail("impacts without loss follow each other without end at one instant");
   ranges::sort(touching_);
   for (int s : touching_) land(frame.stops[s]);
-  bring_to_rest(*system_, touching_, X_.data());
-  strikes_.push_back({0, true});
-  for (int s : touching_) strikes_.back().stops |= std::uint32_t{1} << s;
-  ++counters_.pile_ups;
+  bring_together(touching_);
   report(EventKind::chatter, touching_.front(), 0.0);
   pending_.back().error = 0x1p-53 * system_->period();
+}
+
+/// Stops come to rest: the end of a pile-up.
+void Engine::bring_together(std::span<const int> stops) {
+  bring_to_rest(*system_, stops, X_.data());
+  strikes_.push_back({0, true});
+  for (int s : stops) strikes_.back().stops |= std::uint32_t{1} << s;
+  const bool scales = ranges::all_of(stops, [&](int s) { return system_->model().stops[s].corners.empty(); });
+  at_instant_.pile_ups.rest(strikes_.back().stops, scales);
+  ++counters_.pile_ups;
+}
+
+/// What has come to rest at this instant after such a blow does so again, in no time: no events of their own.
+bool Engine::piles_up_again(int stop) {
+  const std::uint32_t set = at_instant_.pile_ups.known(stop);
+  if (set == 0) return false;
+  touching_.clear();
+  for (int s = 0; s < stops(); ++s)
+    if ((set >> s & 1U) != 0) touching_.push_back(s);
+  bring_together(touching_);
+  chatter_stop_ = -1;
+  spend_budget();
+  return true;
 }
 
 void Engine::newton(int stop) {

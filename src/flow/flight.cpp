@@ -306,7 +306,7 @@ void Flight::stand(double x) {
   const Instant at = instant(x);
   if (now_ < at) {
     now_ = at;
-    at_instant_ = {};
+    at_instant_.forget();
   }
   system_->frame().set_clock(now_, X_.data());
 }

@@ -8,6 +8,7 @@
 
 #include "flow/compiled_system.hpp"
 #include "flow/flight_origin.hpp"
+#include "flow/pile_ups.hpp"
 #include "slapstick/flow/motion.hpp"
 
 namespace slapstick::flow {
@@ -75,6 +76,12 @@ class Flight {
     double fastest = 0.0;      ///< the fastest impact
     std::uint32_t struck = 0;  ///< the stops that were struck, bit by bit
     bool held = false;         ///< a release has been put off
+    PileUps pile_ups = {};     ///< what has come to rest together, and after what
+
+    void forget() {
+      events = 0, fastest = 0.0, struck = 0, held = false;
+      pile_ups.forget();
+    }
   };
 
   Flight(const CompiledSystem& system, Instant start);

@@ -33,23 +33,40 @@ constexpr int deepest = 16;
 
 std::string place(const std::string& source, std::size_t line) { return source + ":" + std::to_string(line) + ": "; }
 
+/// What is deep in a line: dots since the last delimiter, for a dotted key is a tree as deep as it has dots, and
+/// brackets that are open.
+class LineDepth {
+ public:
+  void add(char c) {
+    constexpr std::string_view opens = "[{", closes = "]}";
+    open_ += (opens.find(c) != std::string_view::npos) - (closes.find(c) != std::string_view::npos);
+    dots_ = std::string_view("=,[]{}").find(c) != std::string_view::npos ? 0 : dots_ + (c == '.');
+    most_ = std::max({most_, open_, dots_});
+  }
+  [[nodiscard]] int most() const { return most_; }
+
+ private:
+  int open_ = 0, dots_ = 0, most_ = 0;
+};
+
 /// What bounds the work of the parser, checked before it starts.
 void check_limits(std::string_view text, const std::string& source) {
   if (text.size() > toml_size_limit)
     throw InputError(source + ": larger than " + std::to_string(toml_size_limit) + " bytes");
-  std::size_t line = 1, begin = 0, dots = 0, most_dots = 0;
+  std::size_t line = 1, begin = 0;
+  LineDepth depth;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '\0') throw InputError(place(source, line), "a NUL byte");
     if (text[i] == '\n') {
       ++line;
       begin = i + 1;
-      most_dots = 0;
+      depth = {};
+      continue;
     }
-    dots = std::string_view("=,[]{}\n").find(text[i]) != std::string_view::npos ? 0 : dots + (text[i] == '.' ? 1 : 0);
-    most_dots = std::max(most_dots, dots);
-    if (i + 1 - begin > toml_ordinary_line && most_dots > toml_most_dots)
+    depth.add(text[i]);
+    if (i + 1 - begin > toml_ordinary_line && depth.most() > toml_deepest_line)
       throw InputError(place(source, line), "a line longer than " + std::to_string(toml_ordinary_line) + " bytes with more than " +
-                                                std::to_string(toml_most_dots) + " dots in one place");
+                                                std::to_string(toml_deepest_line) + " dots or brackets in one place");
   }
 }
 

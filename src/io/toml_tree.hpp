@@ -26,10 +26,10 @@ struct TomlEntry {
   TomlNode node;
 };
 
-/// Largest text that is read, and the most dots between two delimiters of a line that is longer than an ordinary one: a
-/// dotted key is a tree as deep as it has dots. These bound time, memory and nesting for hostile files.
-inline constexpr std::size_t toml_size_limit = std::size_t{1} << 20;
-inline constexpr std::size_t toml_ordinary_line = 4096, toml_most_dots = 64;
+/// Largest text that is read, and the most dots or open brackets in one place of a line that is longer than an ordinary
+/// one. These bound time, memory and nesting for hostile files: of nested tables the parser needs time by their square.
+inline constexpr std::size_t toml_size_limit = std::size_t{1} << 20, toml_ordinary_line = 4096;
+inline constexpr int toml_deepest_line = 64;
 
 /// @throws InputError "SOURCE:LINE: what" for anything that is not TOML or exceeds a limit
 [[nodiscard]] TomlNode parse_toml(std::string_view text, const std::string& source);

@@ -218,4 +218,44 @@ def test_check_tells_by_how_much_a_laid_law_is_off():
     assert json.loads(good('check', 'vibro-impact'))['laid_errors'] == {}
 
 
+def test_a_velocity_under_the_name_of_another_coordinate_is_found():
+    for key, state in (('v_x', 'v_x=1'), ('vx', 'vx=1')):
+        says(refused(2, 'check', write('v.toml', HEAD + COORDINATE % 1 + '[start]\n%s = 1\n' % key)), 'v.toml:6: start:', "did you mean 'v'?")
+        says(refused(2, 'simulate', write('w.toml', HEAD + COORDINATE % 1), '--time', '1', '--state', state), '--state', "did you mean 'v'?")
+
+
+def test_a_unit_that_is_none_is_said_where_it_stands():
+    text = HEAD + '[parameters.k]\nvalue = 1\nunit = "furlong"\n' + COORDINATE % '"k"'
+    says(refused(2, 'check', write('u.toml', text)), "u.toml:3: parameter 'k': unknown unit 'furlong'")
+
+
+def test_a_long_line_is_read_and_one_that_is_too_deep_is_not():
+    points = ', '.join('[%.17g, %.17g]' % (k + 1 / 3, math.sin(k)) for k in range(100))
+    long = HEAD + COORDINATE % 1 + '[[signal]]\nname = "s"\npoints = [%s]\n[[force]]\non = "x"\namplitude = 1\nsignal = "s"\n' % points
+    assert max(map(len, long.splitlines())) > 4096
+    good('check', write('long.toml', long))
+    says(refused(2, 'check', write('deep.toml', HEAD + 'a' + '.a' * 3000 + ' = 1\n')), 'deep.toml:2:', 'dots or brackets in one place')
+
+
+def test_a_row_that_touches_is_said_to_differ_by_law():
+    balls = ''.join('[[coordinate]]\nname = "x%d"\nmass = 1\n' % k for k in range(5))
+    stops = ''.join('[[stop]]\nname = "s%d"\nbetween = ["x%d", "x%d"]\nclearance = 0\nrestitution = 1\n' % (k, k, k + 1) for k in range(4))
+    left = {'moreau': [-0.6, 0.4, 0.4, 0.4, 0.4], 'sequence': [0, 0, 0, 0, 1]}  # momentum 1 and energy 1/2 in both
+    for law, speeds in left.items():
+        path = write('cradle.toml', HEAD + 'impact_law = "%s"\n' % law + balls + stops + '[start]\nx0 = -1\nv0 = 1\n')
+        found = json.loads(good('check', path))
+        assert found['impact_law'] == law and found['struck_together'] == ['s1', 's2', 's3'], found
+        says(found['note'], 'sequence', 'moreau', 'cradle')
+        end = json.loads(good('simulate', path, '--time', '2'))['end']['state']
+        assert all(abs(end['v%d' % k] - speed) < 1e-12 for k, speed in enumerate(speeds)), end
+    assert 'struck_together' not in json.loads(good('check', 'vibro-impact'))
+
+
+def test_a_table_in_a_file_of_another_format_is_refused():
+    words = ('continue', 'vibro-impact', '--set', 'omega=2.2', '--orbit', '1-1', '--param', 'omega', '--range', '2:2.4', '--table', '--out')
+    for name in ('br.json', 'br.npz', 'br.h5'):
+        says(refused(2, *words, name), '--out', name, '--table')
+    assert os.listdir('.') == []
+
+
 main({name: case for name, case in globals().items() if name.startswith('test_')})

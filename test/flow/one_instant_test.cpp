@@ -86,6 +86,50 @@ TEST(OneInstant, RestAfterAPlasticImpactBeginsAtRest) {
   EXPECT_EQ(steps[1].before, (State{0.0, 0.0}));
 }
 
+/// Momentum is kept, and plastic bodies that touch end with one velocity: the one ball's, shared by all.
+TEST(OneInstant, ARowOfPlasticBallsEndsTogetherWhateverItsLength) {
+  for (const double r : {0.0, 0.3}) {
+    for (int count = 2; count <= 8; ++count) {
+      const Model model = row(count, r, ImpactLaw::sequence);
+      State start(2 * static_cast<std::size_t>(count), 0.0);
+      start[0] = -1.0, start[1] = 1.0;
+      Motion motion(System(model), start);
+      while (motion.advance({2, 0.0}) == Outcome::event) {
+      }
+      const State end = motion.state();
+      double momentum = 0.0;
+      for (int i = 0; i < count; ++i) momentum += end[2 * i + 1];
+      EXPECT_NEAR(momentum, 1.0, 1e-12) << r << " " << count;
+      for (int i = 0; i + 1 < count; ++i) {
+        EXPECT_LE(end[2 * i + 1], end[2 * i + 3] + 1e-12) << "ball " << i << " of " << count << " approaches, r = " << r;
+        const double together = r == 0.0 ? 1.0 / count : end[2 * i + 1];
+        EXPECT_NEAR(end[2 * i + 1], together, 1e-12) << i << " of " << count;
+      }
+    }
+  }
+}
+
+/// A stack falls on a floor, lies there, and has kept nothing: at rest the floor bears the weight of all.
+TEST(OneInstant, AStackThatFallsComesToRest) {
+  for (const double r : {0.0, 0.3, 0.5}) {
+    for (const int count : {2, 3, 4}) {
+      Model model = row(count, r, ImpactLaw::sequence);  // ball i + 1 lies on ball i
+      model.stops.insert(model.stops.begin(), Stop{"floor", ground, 0, 0.0, r});
+      for (int i = 0; i < count; ++i) model.forces.push_back({i, 0, -1.0});
+      State start;
+      for (int i = 0; i < count; ++i) start.insert(start.end(), {0.5, 0.0});
+      Motion motion(System(model), start);
+      while (motion.advance({40, 0.0}) == Outcome::event) {
+      }
+      const State end = motion.state();
+      for (int i = 0; i < count; ++i) {
+        EXPECT_NEAR(end[2 * i], 0.0, 1e-12) << r << " " << count;
+        EXPECT_NEAR(end[2 * i + 1], 0.0, 1e-12) << r << " " << count;
+      }
+    }
+  }
+}
+
 TEST(OneInstant, ACopyAmongTheEventsGoesOnWithTheirStates) {
   const Model model = row(3, 1.0, ImpactLaw::sequence);
   const System system(model);

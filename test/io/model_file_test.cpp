@@ -135,10 +135,11 @@ TEST(HostileFile, deep_nesting_ends_in_an_error) {
     for (int i = 0; i < count; ++i) text += piece;
     return text;
   };
-  EXPECT_EQ(outcome("a = " + repeated("[", 1000000)).substr(0, 8), "f.toml:1");
+  for (const char* piece : {"[", "{b=", "[{b="})  // unbounded, tables in tables take minutes
+    EXPECT_NE(outcome("a = " + repeated(piece, 200000)).find("dots or brackets in one place"), std::string::npos) << piece;
   EXPECT_NE(outcome("a = " + repeated("[\n", 400000)).substr(0, 7), "accepted");
   EXPECT_NE(outcome("a = " + repeated("{a=", 1000)), "accepted");
-  EXPECT_NE(outcome("a" + repeated(".a", 400000) + " = 1").find("dots in one place"), std::string::npos);
+  EXPECT_NE(outcome("a" + repeated(".a", 400000) + " = 1").find("dots or brackets in one place"), std::string::npos);
   EXPECT_NE(outcome("a" + repeated(".a", 2000) + " = 1").find("nested more than 16 deep"), std::string::npos);
   EXPECT_NE(outcome("[a" + repeated(".a", 2000) + "]\na" + repeated(".a", 2000) + " = 1"), "accepted");
   EXPECT_NE(outcome("[a" + repeated(".a", 2000) + "]\nb = " + repeated("[\n{a" + repeated(".a", 2000) + " = ", 8)),

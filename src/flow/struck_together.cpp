@@ -1,0 +1,38 @@
+/// Finds rows of stops that touch.
+#include "slapstick/flow/struck_together.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slapstick {
+namespace {
+
+double place(int coordinate, const State& state) {
+  return coordinate == ground ? 0.0 : state[2 * static_cast<std::size_t>(coordinate)];
+}
+
+bool touches(const Stop& stop, const State& state) {
+  constexpr double rounding = 0x1p-50;
+  const double a = place(stop.a, state), b = place(stop.b, state);
+  return std::abs(stop.clearance - (a - b)) <= rounding * (std::abs(stop.clearance) + std::abs(a) + std::abs(b));
+}
+
+bool share_a_body(const Stop& one, const Stop& other) {
+  const auto on = [&](int body) { return body != ground && (body == other.a || body == other.b); };
+  return on(one.a) || on(one.b);
+}
+
+}  // namespace
+
+std::vector<int> struck_together(const Model& model, const State& state) {
+  std::vector<int> all;
+  for (std::size_t i = 0; i < model.stops.size(); ++i) {
+    bool beside = false;
+    for (std::size_t j = 0; j < model.stops.size() && touches(model.stops[i], state); ++j)
+      beside = beside || (i != j && touches(model.stops[j], state) && share_a_body(model.stops[i], model.stops[j]));
+    if (beside) all.push_back(static_cast<int>(i));
+  }
+  return all;
+}
+
+}  // namespace slapstick

@@ -7,9 +7,14 @@
 namespace verify {
 namespace {
 
-constexpr double clock_rounding = 0x1p-48, flight_rounding = 0x1p-50;
+/// Of the clock: that of a stored fraction, in periods; of an instant, in radians of the fastest motion of its mode (no
+/// more than so many periods); of a flight. A model that nothing drives has no period: its 1 may be long beside its
+/// motion.
+constexpr double stored_clock = 0x1p-51, clock_rounding = 0x1p-48, flight_rounding = 0x1p-50;
 constexpr double start_of_run = 0x1p-48;  ///< of W q - shift, in units of its terms
-constexpr double most_of_clock = 0x1p-24;  ///< all jumps of the clock together, in periods
+/// all jumps of the clock together, in such radians, but for what each stored fraction is
+constexpr double most_of_clock = 0x1p-24;
+constexpr double most_behind = 0x1p-10;       ///< radians behind an event in which its condition has fallen
 
 }  // namespace
 
@@ -31,6 +36,7 @@ const FlownMode& Checker::flown(const ContactStates& states) {
 void Checker::segment(const Segment& segment) {
   begin(segment);
   const FlownMode& mode = flown(segment.states);
+  fastest_ = std::max(fastest_, mode.flow.nu);
   Flight flight(mode, segment, m_.extended(segment.p, segment.u, segment.start), period_, tally_.flight,
                 refuse_);
   flight.fly();
@@ -78,7 +84,7 @@ void Checker::start(const Segment& segment) {
   for (std::size_t i = 0; i < 2 * m_.d(); ++i) {
     const double stated = i < m_.d() ? segment.p[i] : segment.u[i - m_.d()];
     double loop = 0.0;
-    for (const std::size_t j : m_.loop(i % m_.d())) loop += size(j + (i < m_.d() ? 0 : m_.d()));
+    for (const std::size_t j : m_.loop(i % m_.d(), i >= m_.d())) loop += size(j + (i < m_.d() ? 0 : m_.d()));
     jump(segment.line, i, X[i] - Ball(stated), start_of_run * loop);
   }
   coordinates_jump(segment.p, segment.u, X);
@@ -95,8 +101,9 @@ void Checker::done(const Done& done) {
   tally_.open.still = jumps_.check(done.line, refuse_);
   tally_.displacement = {jumps_.largest(false), jumps_.sum(false)};
   tally_.velocity = {jumps_.largest(true), jumps_.sum(true)};
-  if (!(tally_.clock.sum <= most_of_clock))
-    refuse_(done.line, "all jumps of the clock together are " + digits(tally_.clock.sum) + " periods, more than 2^-24");
+  const double most = most_of_clock * std::min(1.0, 1.0 / (fastest_ * period_)) + stored_clock * static_cast<double>(tally_.segments);
+  if (!(tally_.clock.sum <= most))
+    refuse_(done.line, "all jumps of the clock together are " + digits(tally_.clock.sum) + " periods, rounding explains " + digits(most));
 }
 
 /// What happens at the end of the segment before leads to this state.
@@ -117,7 +124,7 @@ void Checker::clock(long line, const Clock& at) {
   tally_.clock.sum += off.highest();
   if (before.duration == 0.0 && (at.period != before.start.period || at.fraction != before.start.fraction))
     return refuse_(line, "the clock has moved in a segment that lasts no time");
-  if (!(off <= Ball(clock_rounding) + Ball(flight_rounding) * flown))
+  if (!(off <= Ball(clock_allowance(before) / period_)))
     refuse_(line, "begins " + digits((shown - flown).near()) + " periods from where the one before has ended");
 }
 
@@ -138,10 +145,16 @@ void Checker::land(const std::vector<double>& next) {
   }
 }
 
+/// By how much, in time, the next segment may begin from where this one ends.
+double Checker::clock_allowance(const Segment& segment) {
+  const double radian = 1.0 / flown(segment.states).flow.nu;
+  return stored_clock * period_ + clock_rounding * std::min(period_, radian) + flight_rounding * segment.duration;
+}
+
 /// The instant of the end is known to a rounding of the clock, and a number of the state to its rate times that: so
 /// much its size is more.
-void Checker::blur(Departure& end, const Flow& flow) const {
-  const double length = clock_rounding * period_ + flight_rounding * end.segment.duration;
+void Checker::blur(Departure& end, const Flow& flow) {
+  const double length = clock_allowance(end.segment);
   const Balls rate = flow.rate(end.X);
   for (std::size_t i = 0; i < 2 * m_.d(); ++i) end.size[i] += length / rounding * std::abs(rate[i].near());
 }
@@ -164,10 +177,8 @@ void Checker::continuity(long line, const std::vector<double>& p, const std::vec
 
 void Checker::coordinates_jump(const std::vector<double>& p, const std::vector<double>& u, const Balls& X) {
   Balls by_p, by_u;
-  for (std::size_t i = 0; i < m_.n(); ++i) {
-    by_p.push_back(Ball(p[i]) - X[i]);
-    by_u.push_back(Ball(u[i]) - X[m_.d() + i]);
-  }
+  for (const std::size_t i : m_.basis(false)) by_p.push_back(Ball(p[i]) - X[i]);
+  for (const std::size_t i : m_.basis(true)) by_u.push_back(Ball(u[i]) - X[m_.d() + i]);
   jumps_.add(by_p, by_u);
 }
 
@@ -175,15 +186,17 @@ void Checker::coordinates_jump(const std::vector<double>& p, const std::vector<d
 void Checker::dependence(long line, const Balls& X, const std::vector<double>& size) {
   for (std::size_t i = 0; i < 2 * m_.d(); ++i) {
     const std::size_t k = i % m_.d(), block = i - k;
-    if (k < m_.n()) continue;
+    const bool velocity = block > 0;
+    if (m_.in_basis(k, velocity)) continue;
     const auto offset = [&](std::size_t j) {
       const Number& number = m_.model().numbers[j];
       return Ball(block == 0 ? number.shift : number.drift);
     };
     Ball sum = -(X[i] + offset(k));
     double allowed = std::abs(X[i].near()) + std::abs(offset(k).near()) + (size.empty() ? 0.0 : size[i]);
-    for (std::size_t j = 0; j < m_.n(); ++j) {
-      const Ball& c = m_.dependence()[k][j];
+    for (std::size_t l = 0; l < m_.n(); ++l) {
+      const std::size_t j = m_.basis(velocity)[l];
+      const Ball& c = m_.dependence(velocity)[k][l];
       sum.add_product(c, X[block + j] + offset(j));
       const double part = std::abs(X[block + j].near()) + std::abs(offset(j).near()) + (size.empty() ? 0.0 : size[block + j]);
       allowed += std::abs(c.near()) * part;
@@ -194,11 +207,12 @@ void Checker::dependence(long line, const Balls& X, const std::vector<double>& s
   }
 }
 
-/// What a number is made of: numbers that follow from each other have to agree.
+/// What a number is made of: numbers that follow from each other have to agree, and those of the basis do not give way
+/// to others.
 double Checker::size_of_loop(std::size_t i) const {
   const std::size_t block = i < m_.d() ? 0 : m_.d();
   double sum = 0.0;
-  for (const std::size_t j : m_.loop(i - block)) sum += last_->size[block + j];
+  for (const std::size_t j : m_.loop(i - block, block > 0)) sum += last_->size[block + j];
   return sum;
 }
 
@@ -226,8 +240,9 @@ void Checker::ends(const Segment& segment, const Flight& flight, const FlownMode
     refuse_(segment.end_line, "nothing ends the segment: no condition of its mode is zero");
   if (!event && segment.duration == 0.0) return;
   std::vector<std::size_t> open = flight.zeros;
-  for (double ahead = 0x1p-50; event && ahead <= instant && !open.empty(); ahead *= 2.0) {
-    const Ball t(ahead * period_);
+  const double farthest = std::min(instant * period_, most_behind / mode.flow.nu);
+  for (double ahead = 0x1p-20 * farthest; event && ahead <= farthest && !open.empty(); ahead *= 2.0) {
+    const Ball t(ahead);
     const Expansion behind(mode.flow, flight.X, t);
     const auto falls = [&](std::size_t i) { return behind.of(mode.flow.rows[i]).value(0, t) < Ball(0.0); };
     std::copy_if(open.begin(), open.end(), std::back_inserter(fallen_), falls);

@@ -71,7 +71,8 @@ class Checker {
   void dependence(long line, const Balls& X, const std::vector<double>& size);
   void jump(long line, std::size_t i, const Ball& by, double allowed);
   void rest(const Segment& segment);
-  void blur(Departure& end, const Flow& flow) const;
+  [[nodiscard]] double clock_allowance(const Segment& segment);
+  void blur(Departure& end, const Flow& flow);
   [[nodiscard]] double size_of_loop(std::size_t i) const;
   [[nodiscard]] double allowance(std::size_t i) const { return rounding * size_of_loop(i); }
   void coordinates_jump(const std::vector<double>& p, const std::vector<double>& u, const Balls& X);
@@ -115,7 +116,7 @@ class Checker {
   Mechanics m_;
   Refuse refuse_;  ///< names the segment
   const Start& start_;
-  double period_;
+  double period_, fastest_ = 0.0;  ///< the greatest norm of a mode that was flown
   std::map<ContactStates, std::unique_ptr<FlownMode>> flown_;
   std::unique_ptr<Departure> last_;
   bool cut_ = false;         ///< the segment goes on where the one before was cut

@@ -12,6 +12,7 @@ namespace {
 constexpr double radians_of_piece = 1.5;  ///< nearly: by the norm of A
 constexpr double most_pieces = 4e5;
 constexpr int most_walked = 4000;
+constexpr double longest_band = 0x1p-10;  ///< radians
 /// What is no more than this of its sizes is walked through as a band.
 constexpr double band_level = 0x1p-46;
 
@@ -203,7 +204,7 @@ void Flight::end() {
     zeros.push_back(i);
     const double band = proof.in_band ? (segment_.duration - proof.band_begin) / period_ : 0.0;
     tally_.band = std::max(tally_.band, band);
-    if (band > instant) ++tally_.flats;
+    if (band > instant || band * period_ * flown_.flow.nu > longest_band) ++tally_.flats;
   }
 }
 

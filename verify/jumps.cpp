@@ -21,7 +21,7 @@ Jumps::Jumps(const Mechanics& mechanics)
 void Jumps::add(const Balls& p, const Balls& u) {
   for (std::size_t i = 0; i < 2 * m_.n(); ++i) {
     const bool velocity = i >= m_.n();
-    const double size = abs(dot(m_.to_coordinates()[i % m_.n()], velocity ? u : p)).highest();
+    const double size = abs(dot(m_.to_coordinates(velocity)[i % m_.n()], velocity ? u : p)).highest();
     largest_[i] = std::max(largest_[i], size);
     sum_[i] += size;
   }
@@ -30,9 +30,10 @@ void Jumps::add(const Balls& p, const Balls& u) {
 void Jumps::raise(const std::vector<double>& sizes, const std::vector<double>& of_numbers) {
   for (std::size_t i = 0; i < scale_.size(); ++i) {
     scale_[i] = std::max(scale_[i], sizes[i]);
+    const bool velocity = i >= m_.n();
     double reach = 0.0;
     for (std::size_t j = 0; j < m_.n(); ++j)
-      reach += std::abs(m_.to_coordinates()[i % m_.n()][j].near()) * of_numbers[(i < m_.n() ? 0 : m_.d()) + j];
+      reach += std::abs(m_.to_coordinates(velocity)[i % m_.n()][j].near()) * of_numbers[(velocity ? m_.d() : 0) + m_.basis(velocity)[j]];
     reach_[i] = std::max(reach_[i], reach);
   }
 }

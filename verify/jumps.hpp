@@ -11,7 +11,7 @@ namespace verify {
 class Jumps {
  public:
   explicit Jumps(const Mechanics& mechanics);
-  /// @param by  of the first n contact numbers, and of their velocities
+  /// @param p, u  jumps of the numbers of the basis of displacements, and of that of velocities
   void add(const Balls& p, const Balls& u);
   /// What the coordinates are added up from is at least this, and so is what contact numbers are.
   void raise(const std::vector<double>& sizes, const std::vector<double>& of_numbers);

@@ -2,7 +2,9 @@
 #include "mechanics.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "bodies.hpp"
 #include "mode_builder.hpp"
 
 namespace verify {
@@ -14,15 +16,22 @@ double same_pair(const Pair& a, const Pair& b) {
   return a.a == b.b && a.b == b.a ? -1.0 : 0.0;
 }
 
-/// A number is of a contact, with its constants, or of a coordinate alone. Any other could only hide what coordinates
-/// do: rounding is measured by the sizes of numbers.
+bool has_contact(const Model& model, const Pair& pair) {
+  const auto on_pair = [&](const auto& contact) { return same_pair(contact.pair, pair) != 0.0; };
+  return std::any_of(model.stops.begin(), model.stops.end(), on_pair) ||
+         std::any_of(model.compliant.begin(), model.compliant.end(), on_pair) ||
+         std::any_of(model.frictions.begin(), model.frictions.end(), on_pair);
+}
+
+/// A number is of a contact, with its constants, or of a pair alone, without any. Any other could only hide what
+/// coordinates do: rounding is measured by the sizes of numbers.
 bool is_needed(const Model& model, const Number& number) {
   const auto is = [&](const Pair& pair, double shift, double drift) {
     const double sign = same_pair(number.pair, pair);
     return sign != 0.0 && number.shift == sign * shift && number.drift == sign * drift;
   };
   const auto is_gap = [&](const auto& stop) { return is(stop.pair, stop.clearance, 0.0); };
-  if (number.pair.b == ground && number.shift == 0.0 && number.drift == 0.0) return true;
+  if (number.shift == 0.0 && number.drift == 0.0 && (number.pair.b == ground || has_contact(model, number.pair))) return true;
   return std::any_of(model.stops.begin(), model.stops.end(), is_gap) ||
          std::any_of(model.compliant.begin(), model.compliant.end(), is_gap) ||
          std::any_of(model.frictions.begin(), model.frictions.end(),
@@ -48,12 +57,16 @@ Mechanics::Mechanics(const Model& model, long line) : model_(model), line_(line)
   }
   keep_each_once(harmonics_);
   keep_each_once(tones_);
+  constexpr std::size_t most_numbers = 2000;  // matrices of balls: 1 GB
+  if (size() > most_numbers)
+    throw Unreadable(line_, "a state of the model has " + std::to_string(size()) + " numbers (displacements, velocities, two for each frequency); the verifier takes at most " +
+                                std::to_string(most_numbers));
   if (!harmonics_.empty()) period_ = times(Ball::pi(), 2) / Ball(model.omega);
   place_contacts();
   for (const Number& number : model.numbers)
     if (!is_needed(model, number)) throw Unreadable(line_, "no contact and no coordinate has the number of " + words_of(number));
   invert();
-  find_loops();
+  for (const bool velocity : {false, true}) find_loops(velocity);
   set_free();
 }
 
@@ -105,46 +118,70 @@ void Mechanics::invert() {
   if (!inverse) throw Unreadable(line_, "the masses are not positive definite");
   mass_inverse_ = *inverse;
   for (const Number& number : model_.numbers) W_.push_back(pair_row(number.pair));
-  Matrix one = zero_matrix(n(), n());
-  for (std::size_t i = 0; i < n(); ++i) one[i][i] = Ball(1.0);
-  const auto from_first = solve(Matrix(W_.begin(), W_.begin() + model_.n), std::move(one));
-  if (!from_first) throw Unreadable(line_, "the first numbers depend on each other");
-  W_inverse_ = *from_first;
-  dependence_ = product(W_, W_inverse_);
+  for (const bool velocity : {false, true}) choose_basis(velocity);
   inertia_ = product(product(W_, mass_inverse_), transposed(W_));
 }
 
-/// A number i >= n closes a loop of the first n that it follows from; loops with a number in common are one.
-void Mechanics::find_loops() {
+/// The least shifts (drifts) first; of equal ones the first in the file. Greedy: no other n numbers are less in any
+/// place.
+void Mechanics::choose_basis(bool velocity) {
+  std::vector<std::size_t> order(d());
+  std::iota(order.begin(), order.end(), 0U);
+  const auto size = [&](std::size_t i) { return std::abs(velocity ? model_.numbers[i].drift : model_.numbers[i].shift); };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return size(i) < size(j); });
+  Bodies bodies(model_.n);
+  std::vector<std::size_t>& basis = bases_[velocity ? 1 : 0];
+  Matrix rows, one = zero_matrix(n(), n());
+  for (const std::size_t i : order) {
+    if (!bodies.join(model_.numbers[i].pair)) continue;
+    basis.push_back(i);
+    rows.push_back(W_[i]);
+  }
+  for (std::size_t i = 0; i < n(); ++i) one[i][i] = Ball(1.0);
+  const auto inverse = basis.size() == n() ? solve(std::move(rows), std::move(one)) : std::nullopt;
+  if (!inverse) throw Unreadable(line_, "the numbers do not tell where all coordinates are");
+  W_inverse_[velocity ? 1 : 0] = *inverse;
+  dependence_[velocity ? 1 : 0] = product(W_, *inverse);
+}
+
+bool Mechanics::in_basis(std::size_t number, bool velocity) const {
+  const std::vector<std::size_t>& all = basis(velocity);
+  return std::find(all.begin(), all.end(), number) != all.end();
+}
+
+/// A number that is not in the basis closes a loop of those that it follows from; loops with a number in common are
+/// one.
+void Mechanics::find_loops(bool velocity) {
   std::vector<std::size_t> of(d());
   for (std::size_t i = 0; i < d(); ++i) of[i] = i;
-  for (std::size_t i = n(); i < d(); ++i)
+  for (std::size_t i = 0; i < d(); ++i)
     for (std::size_t j = 0; j < n(); ++j) {
-      if (dependence_[i][j].is_zero()) continue;
-      const std::size_t one = of[i], other = of[j];
+      if (dependence(velocity)[i][j].is_zero()) continue;
+      const std::size_t one = of[i], other = of[basis(velocity)[j]];
       for (std::size_t& k : of) k = k == other ? one : k;
     }
-  loops_.resize(d());
+  auto& loops = loops_[velocity ? 1 : 0];
+  loops.resize(d());
   for (std::size_t i = 0; i < d(); ++i)
     for (std::size_t j = 0; j < d(); ++j)
-      if (of[i] == of[j]) loops_[i].push_back(j);
+      if (i == j || (of[i] == of[j] && in_basis(j, velocity))) loops[i].push_back(j);
 }
 
 Balls Mechanics::in_coordinates(const Balls& X) const {
   Balls z;
   for (const bool velocity : {false, true}) {
     Balls numbers;
-    for (std::size_t j = 0; j < n(); ++j) {
+    for (const std::size_t j : basis(velocity)) {
       const Number& number = model_.numbers[j];
       numbers.push_back(X[(velocity ? d() : 0) + j] + Ball(velocity ? number.drift : number.shift));
     }
-    for (const Balls& row : W_inverse_) z.push_back(dot(row, numbers));
+    for (const Balls& row : to_coordinates(velocity)) z.push_back(dot(row, numbers));
   }
   z.insert(z.end(), X.begin() + 2 * static_cast<std::ptrdiff_t>(d()), X.end());
   return z;
 }
 
-/// With X = T z: q'' = W^-1 (the first n rows of u') T z.
+/// With X = T z: q'' = W^-1 (the rows of u' of the basis) T z.
 Matrix Mechanics::in_coordinates(const Matrix& A) const {
   const std::size_t phases = size() - 2 * d(), m = 2 * n() + phases;
   Matrix T = zero_matrix(size(), m), of_z = zero_matrix(m, m);
@@ -154,8 +191,9 @@ Matrix Mechanics::in_coordinates(const Matrix& A) const {
     T[d() + j].back() = Ball(-model_.numbers[j].drift);
   }
   for (std::size_t k = 0; k < phases; ++k) T[2 * d() + k][2 * n() + k] = Ball(1.0);
-  const auto first = A.begin() + static_cast<std::ptrdiff_t>(d());
-  const Matrix rates = product(W_inverse_, product(Matrix(first, first + model_.n), T));
+  Matrix accelerations;
+  for (const std::size_t j : basis(true)) accelerations.push_back(A[d() + j]);
+  const Matrix rates = product(to_coordinates(true), product(accelerations, T));
   for (std::size_t i = 0; i < n(); ++i) {
     of_z[i][n() + i] = Ball(1.0);
     of_z[n() + i] = rates[i];
@@ -167,12 +205,13 @@ Matrix Mechanics::in_coordinates(const Matrix& A) const {
 
 /// A row over X of the displacement, or velocity, of a pair: q = W^-1 (p + shift), q' = W^-1 (u + drift).
 Balls Mechanics::over_state(const Pair& pair, bool velocity) const {
-  const Balls row = product({pair_row(pair)}, W_inverse_).front();
+  const Balls row = product({pair_row(pair)}, to_coordinates(velocity)).front();
   Balls over(size());
-  for (std::size_t j = 0; j < n(); ++j) {
+  for (std::size_t k = 0; k < n(); ++k) {
+    const std::size_t j = basis(velocity)[k];
     const Number& number = model_.numbers[j];
-    over[(velocity ? d() : 0) + j] = row[j];
-    over.back().add_product(row[j], Ball(velocity ? number.drift : number.shift));
+    over[(velocity ? d() : 0) + j] = row[k];
+    over.back().add_product(row[k], Ball(velocity ? number.drift : number.shift));
   }
   return over;
 }

@@ -3,10 +3,14 @@
 ///
 ///     M q'' = F(t) - C q' - K q + contact forces,     p = W q - shift,  u = W q' - drift,
 ///
-/// the rows of W the pairs of the certificate's numbers, the first n of them independent. The extended state is
+/// the rows of W the pairs of the certificate's numbers. The extended state is
 /// X = (p, u, cos j theta, sin j theta for each harmonic j,
 /// cos w t, sin w t for each tone w, 1), so that p' = u + drift, u' = free X + W M^-1 (forces).
-/// Nothing of the library is used: docs/reference/certificate.md says what the numbers mean.
+/// Which n numbers the others follow from, the *basis*, the verifier chooses: those of the least shift for
+/// displacements, of the least drift for velocities. So the order of the file, and a contact that is far away, explain
+/// no rounding of what is near. Nothing of the library is used: docs/reference/certificate.md says what the numbers
+/// mean.
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -54,13 +58,16 @@ class Mechanics {
   [[nodiscard]] const Place& compliant(std::size_t k) const { return compliant_[k]; }
   /// W M^-1 W^T.
   [[nodiscard]] const Matrix& inertia() const { return inertia_; }
-  /// The first n numbers that number i >= n follows from: its row of W is this row of coefficients times theirs.
-  [[nodiscard]] const Matrix& dependence() const { return dependence_; }
+  /// n numbers whose rows of W are independent, and have the least shifts (drifts).
+  [[nodiscard]] const std::vector<std::size_t>& basis(bool velocity) const { return bases_[velocity ? 1 : 0]; }
+  [[nodiscard]] bool in_basis(std::size_t number, bool velocity) const;
+  /// A row of coefficients for each number: its row of W is that times the rows of the basis.
+  [[nodiscard]] const Matrix& dependence(bool velocity) const { return dependence_[velocity ? 1 : 0]; }
   /// +1 or -1 if the numbers are of one pair, else 0.
   [[nodiscard]] double parallel(std::size_t i, std::size_t j) const;
 
-  /// q = this (p + shift), q' = this (u + drift), of the first n numbers.
-  [[nodiscard]] const Matrix& to_coordinates() const { return W_inverse_; }
+  /// q = this (p + shift), q' = this (u + drift), of the numbers of the basis.
+  [[nodiscard]] const Matrix& to_coordinates(bool velocity) const { return W_inverse_[velocity ? 1 : 0]; }
   /// (q, q', phases, 1) of X, and the system that it obeys where X' = A X.
   [[nodiscard]] Balls in_coordinates(const Balls& X) const;
   [[nodiscard]] Matrix in_coordinates(const Matrix& A) const;
@@ -68,8 +75,11 @@ class Mechanics {
   [[nodiscard]] Ball impulse_effect(std::size_t coordinate, std::size_t number) const {
     return dot(mass_inverse_[coordinate], W_[number]);
   }
-  /// Numbers of one loop of pairs, this one among them: they follow from each other. Alone if there is no loop.
-  [[nodiscard]] const std::vector<std::size_t>& loop(std::size_t number) const { return loops_[number]; }
+  /// Numbers that a rounding of this one may come from: of a loop of pairs, in which they follow from each other, those
+  /// of the basis, and the number itself. Alone if there is no loop.
+  [[nodiscard]] const std::vector<std::size_t>& loop(std::size_t number, bool velocity) const {
+    return loops_[velocity ? 1 : 0][number];
+  }
 
   /// X at an instant, phases exact.
   [[nodiscard]] Balls extended(const std::vector<double>& p, const std::vector<double>& u, const Clock& at) const;
@@ -82,7 +92,8 @@ class Mechanics {
 
   [[nodiscard]] Place find(const Pair& pair, const double* shift, double drift, const std::string& name) const;
   void place_contacts();
-  void find_loops();
+  void choose_basis(bool velocity);
+  void find_loops(bool velocity);
   void invert();
   void set_free();
   [[nodiscard]] std::size_t cosine_of(const Force& force) const;
@@ -95,9 +106,11 @@ class Mechanics {
   std::vector<int> harmonics_;
   std::vector<double> tones_;  ///< frequencies beside omega
   Ball period_;
-  std::vector<std::vector<std::size_t>> loops_;
+  std::array<std::vector<std::size_t>, 2> bases_;  ///< of displacements, of velocities; so are the arrays below
+  std::array<std::vector<std::vector<std::size_t>>, 2> loops_;
+  std::array<Matrix, 2> W_inverse_, dependence_;
   std::vector<Place> stops_, frictions_, compliant_;
-  Matrix mass_inverse_, W_, W_inverse_, inertia_, dependence_, free_;
+  Matrix mass_inverse_, W_, inertia_, free_;
   std::map<ContactStates, std::unique_ptr<Mode>> modes_;
 };
 

@@ -34,6 +34,7 @@ class Certificate::Writer {
   std::function<void(const std::string&)> write_;
   std::string text_;
   long seen_ = 0;  ///< segments of the motion
+  long shaken_ = 0;  ///< limits of chatter that shake another contact
   Tally tally_;
 };
 
@@ -90,6 +91,8 @@ void Certificate::Writer::segment(bool ended_by_event) {
   else
     line(ended_by_event && !engine_.hits().empty() ? "end event" : "end cut", "");
   tally_.chatters += chatter ? 1 : 0;
+  tally_.unproved += motion_.counters().shaken - shaken_;
+  shaken_ = motion_.counters().shaken;
   blows();
 }
 

@@ -155,7 +155,8 @@ std::string pair_of(const mode::Frame& frame, int i) {
 std::string stated_model(const flow::CompiledSystem& system) {
   demand_stated(system.model());
   const auto& [name, coordinates, springs, dampers, forces, frictions, stops, compliant_stops, characteristics, signals,
-               mass, damping, stiffness, impact_law, omega] = system.model();
+               mass, damping, stiffness, impact_law, omega, numbered_by] = system.model();
+  (void)numbered_by;  // the numbers themselves are stated
   const mode::Frame& frame = system.frame();
   std::string text = line("slapstick-certificate 3") + line("model" + called(name)) + line("size" + number(frame.n));
   text += line("omega" + hex(omega));

@@ -65,7 +65,7 @@ std::vector<Orbit> without_impact(const ModeSet& set, const Orbit& before, const
   if (turned.legs() == 2 && gone(next % orbit.legs())) return {uncut(set, turned)};
   const mode::Frame& frame = set.frame();
   for (std::size_t i = 0; i < frame.frictions.size(); ++i) {
-    if (frame.parallel(frame.frictions[i].own, frame.stops[test.contact].own) == 0) continue;
+    if (!frame.in_step(frame.frictions[i].own, frame.stops[test.contact].own)) continue;
     Orbit reversed = turned;
     Leg& leg = reversed.shape.legs[0];
     leg.kind = mode::GuardKind::slip;

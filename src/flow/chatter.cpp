@@ -225,6 +225,18 @@ bool all_slip_on(const CompiledSystem& system, int stop, const double* X, const 
   return true;
 }
 
+/// May the impacts move a friction contact of another pair through its rest? With room for bounds that are less sharp
+/// than delta.
+bool shakes(const CompiledSystem& system, int stop, const double* X, const double* delta) {
+  constexpr double room = 4.0;
+  for (int i = 0; i < static_cast<int>(system.model().frictions.size()); ++i) {
+    const auto [effect, same_pair] = system.coupling(stop, i);
+    const double moved = delta[system.frame().u(system.frame().frictions[i].own)];
+    if (!same_pair && effect != 0.0 && std::abs(sliding_velocity(system, i, X)) <= room * moved) return true;
+  }
+  return false;
+}
+
 /// A closed stop, or a compliant one, that pushes on the chattering pair is more than the proof looks at; so is
 /// friction whose limit changes with the state.
 bool coupled_to_others(const CompiledSystem& system, int stop, const double* X) {
@@ -261,11 +273,12 @@ ChatterLimit prove_chatter(const CompiledSystem& system, const mode::Mode& here,
   const auto& corners = system.model().stops[stop].corners;  // below the first the restitution is constant
   if (!corners.empty() && v > system.model().stops[stop].restitution * corners.front().speed) return {};
 
-  const ChatterLimit limit = prove(system, here, stop, X, tolerance, friction, scratch);
+  ChatterLimit limit = prove(system, here, stop, X, tolerance, friction, scratch);
   const double* delta = scratch.data() + 2 * system.frame().size();
-  if (!limit.proven || all_slip_on(system, stop, X, delta)) return limit;
-  // A contact that may come to rest on the way can push either way.
-  return prove(system, here, stop, X, tolerance, friction_on(system, stop, X, delta), scratch);
+  if (limit.proven && !all_slip_on(system, stop, X, delta))  // one that may come to rest on the way can push either way
+    limit = prove(system, here, stop, X, tolerance, friction_on(system, stop, X, delta), scratch);
+  limit.shaken = limit.proven && shakes(system, stop, X, delta);
+  return limit;
 }
 
 }  // namespace slapstick::flow

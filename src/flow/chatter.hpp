@@ -33,6 +33,8 @@ struct ChatterLimit {
   bool proven = false;
   double duration = 0.0;  ///< time from the impact to the limit
   double error = 0.0;     ///< bound on the error of `duration`
+  /// its impacts may move a friction contact of another pair through its rest: any force is allowed for
+  bool shaken = false;
 };
 
 /// No chatter is proven whose first flight begins faster than this times the acceleration R: the error of the limit

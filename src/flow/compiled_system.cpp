@@ -108,9 +108,8 @@ CompiledSystem::CompiledSystem(Model model, SystemOptions options)
     presses_.emplace_back(stop.sign * frame_.free.row(stop.own));
     for (std::size_t i = 0; i < frame_.frictions.size(); ++i) {
       const mode::ContactRow& friction = frame_.frictions[i];
-      const bool same = frame_.parallel(stop.own, friction.own) != 0;
       couplings_.push_back({stop.sign * friction.sign * frame_.mass_inverse(stop.own, friction.own),
-                            same && model_.frictions[i].belt_speed == 0.0});
+                            frame_.in_step(stop.own, friction.own)});
     }
   }
 }

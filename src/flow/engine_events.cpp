@@ -305,6 +305,7 @@ bool Engine::end_chatter(double limit) {
   arrive(chatter.duration / H);
   X_before_ = X_;
   report(EventKind::chatter, stop, 0.0);
+  counters_.shaken += chatter.shaken ? 1 : 0;
   pending_.back().error = chatter.error;
   settle(Cause::force);
   return true;

@@ -9,70 +9,10 @@
 #include "base/phase.hpp"
 #include "base/ranges.hpp"
 #include "mode/assembly.hpp"
+#include "mode/numbering.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::mode {
-namespace {
-
-/// The displacements to store, while they are gathered.
-struct Displacements {
-  std::vector<RowVector> rows;
-  std::vector<double> shift, drift;
-};
-
-/// +1 or -1 if the rows are equal or opposite, else 0.
-int same_direction(const RowVector& a, const RowVector& b) {
-  if (a == b) return 1;
-  return a == -b ? -1 : 0;
-}
-
-/// The number sign * (row . q - shift, row . q' - drift): one that is there already, or a new one.
-ContactRow find_or_add(Displacements& all, const RowVector& row, double shift, double drift) {
-  for (std::size_t i = 0; i < all.rows.size(); ++i) {
-    const double sign = same_direction(all.rows[i], row);
-    if (sign != 0.0 && all.shift[i] == sign * shift && all.drift[i] == sign * drift) return {static_cast<int>(i), sign};
-  }
-  all.rows.push_back(row);
-  all.shift.push_back(shift);
-  all.drift.push_back(drift);
-  return {static_cast<int>(all.rows.size()) - 1, 1.0};
-}
-
-/// A friction contact shares the velocity of any displacement of its pair, whatever its shift.
-ContactRow find_or_add_velocity(Displacements& all, const RowVector& row, double drift) {
-  for (std::size_t i = 0; i < all.rows.size(); ++i) {
-    const double sign = same_direction(all.rows[i], row);
-    if (sign != 0.0 && all.drift[i] == sign * drift) return {static_cast<int>(i), sign};
-  }
-  return find_or_add(all, row, 0.0, drift);
-}
-
-/// Indices of the rows, those that are independent of the ones before first; unit rows complete them, from the last coordinate on.
-std::vector<int> independent_first(Displacements& all, int n) {
-  std::vector<int> order, dependent;
-  Matrix basis(0, n);
-  const auto extends = [&](const RowVector& row) {
-    Matrix trial(basis.rows() + 1, n);
-    trial << basis, row;
-    if (dense::rank(trial) < trial.rows()) return false;
-    basis = trial;
-    return true;
-  };
-  for (std::size_t i = 0; i < all.rows.size(); ++i)
-    (extends(all.rows[i]) ? order : dependent).push_back(static_cast<int>(i));
-  for (int i = n - 1; i >= 0 && basis.rows() < n; --i) {
-    const RowVector unit = RowVector::Unit(n, i);
-    if (!extends(unit)) continue;
-    order.push_back(static_cast<int>(all.rows.size()));
-    all.rows.push_back(unit);
-    all.shift.push_back(0.0);
-    all.drift.push_back(0.0);
-  }
-  order.insert(order.end(), dependent.begin(), dependent.end());
-  return order;
-}
-
-}  // namespace
 
 Frame::Frame(const Model& model) : n(model.size()) {
   for (const Force& force : model.forces) {
@@ -92,28 +32,20 @@ Frame::Frame(const Model& model) : n(model.size()) {
 }
 
 void Frame::choose_displacements(const Model& model) {
-  Displacements all;
-  for (const Stop& stop : model.stops)
-    stops.push_back(find_or_add(all, pair_row(n, stop.a, stop.b), stop.clearance, 0.0));
-  for (const CompliantStop& stop : model.compliant_stops)
-    compliant.push_back(find_or_add(all, pair_row(n, stop.a, stop.b), stop.clearance, 0.0));
-  for (const FrictionContact& contact : model.frictions)
-    frictions.push_back(find_or_add_velocity(all, pair_row(n, contact.a, contact.b), contact.belt_speed));
-  const std::vector<int> order = independent_first(all, n);
-  d = static_cast<int>(order.size());
+  const Numbering numbering(model);
+  stops = numbering.stops;
+  compliant = numbering.compliant;
+  frictions = numbering.frictions;
+  d = static_cast<int>(numbering.numbers.size());
   W.resize(d, n);
   shift.resize(d);
   drift.resize(d);
-  std::vector<int> place(order.size());
   for (int i = 0; i < d; ++i) {
-    W.row(i) = all.rows[order[i]];
-    shift[i] = all.shift[order[i]];
-    drift[i] = all.drift[order[i]];
-    place[order[i]] = i;
+    const Number& number = numbering.numbers[static_cast<std::size_t>(i)];
+    W.row(i) = number.row;
+    shift[i] = number.shift;
+    drift[i] = number.drift;
   }
-  for (ContactRow& contact : stops) contact.own = place[contact.own];
-  for (ContactRow& contact : compliant) contact.own = place[contact.own];
-  for (ContactRow& contact : frictions) contact.own = place[contact.own];
   W_inverse = dense::inverse(W.topRows(n));
   dependence = W * W_inverse;
   dependence.topRows(n).setIdentity();

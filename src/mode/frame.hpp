@@ -8,8 +8,9 @@
 /// on a friction contact's own row, else 0. A gap and a relative velocity are then each one stored number, with a relative error
 /// of its own: exactly zero at contact, constant in stick. Contacts whose numbers are equal or opposite share one.
 ///
-/// W has d >= n rows: a contact whose row depends on earlier ones (the second side of a two-sided stop, a loop of contacts) has a number of
+/// W has d >= n rows: a contact whose row depends on others (the far side of a two-sided stop, a loop of contacts) has a number of
 /// its own all the same. The first n rows are independent; the others follow from them, but for rounding (see `refresh`).
+/// Which contacts are among the first n says mode/numbering.hpp: the nearest of each pair, and none that is far.
 ///
 /// Extended state X in R^m, m = 2 d + 2 h + 1, h = number of distinct harmonics of the forcing, tones and signals:
 ///     X = (p_1..p_d, u_1..u_d, cos j_1 theta, sin j_1 theta, .., 1),   theta = omega t.
@@ -84,6 +85,9 @@ struct Frame {
 
   /// +1 or -1 if the displacements i and j are those of one pair, else 0.
   [[nodiscard]] int parallel(int i, int j) const;
+  /// Are the displacements i and j of one pair, and is no belt between their velocities? Then one is the other's, or opposite. A stop
+  /// and a friction contact on a belt are of one pair and not in step: the belt's w is no rate of the gap.
+  [[nodiscard]] bool in_step(int i, int j) const { return parallel(i, j) != 0 && drift[i] == parallel(i, j) * drift[j]; }
   /// Row over X of a contact's velocity, and of a stop's gap.
   [[nodiscard]] RowVector velocity_row(const ContactRow& contact) const;
   [[nodiscard]] RowVector gap_row(const ContactRow& contact) const;

@@ -99,8 +99,14 @@ void Builder::note_steady(const Matrix& G) {
   const Matrix held = (G * frame_.W).transpose();
   const dense::LeastNorm span(held);
   for (int i = 0; i < d_; ++i) {
-    const Vector row = frame_.W.row(i).transpose();
-    out_.steady[i] = (held * span.solve(row) - row).norm() < 1e-10 * row.norm();
+    const Vector row = frame_.W.row(i).transpose(), by_held = span.solve(row);
+    out_.steady[i] = (held * by_held - row).norm() < 1e-10 * row.norm();
+    if (!out_.steady[i]) continue;
+    out_.follows.row(i) = by_held.transpose() * G;
+    for (const HeldPair& pair : held_) {  // exactly
+      const double sign = frame_.parallel(i, pair.displacement);
+      if (sign != 0) out_.follows.row(i) = sign * RowVector::Unit(d_, pair.displacement);
+    }
   }
 }
 
@@ -228,11 +234,19 @@ std::string_view name(GuardKind kind) {
 }
 
 Outline::Outline(const Model& model, const Frame& frame, ContactStates contact_states)
-    : states(std::move(contact_states)), steady(static_cast<std::size_t>(frame.d), false) {
+    : states(std::move(contact_states)), steady(static_cast<std::size_t>(frame.d), false), follows(Matrix::Zero(frame.d, frame.d)) {
   Builder builder(model, frame, *this);
   builder.select_linear_system();
   builder.arm_guards();
   builder.note_guard_structure();
+}
+
+Vector Outline::held_speeds(const Vector& drift) const {
+  Matrix speeds = follows * drift - drift;
+  Frame::drop_rounding(speeds, follows.cwiseAbs() * drift.cwiseAbs() + drift.cwiseAbs());
+  for (std::size_t i = 0; i < steady.size(); ++i)
+    if (!steady[i]) speeds(static_cast<Eigen::Index>(i), 0) = 0.0;
+  return Vector(speeds);
 }
 
 }  // namespace slapstick::mode

@@ -55,6 +55,12 @@ struct Outline {
       guards;  ///< in the order in which events at one instant are handled: gaps, relative velocities, forces
   std::vector<bool> steady;  ///< u_i keeps its value to the last bit: its pair is held
   Matrix holding;            ///< f0 of each held pair (mode/held.hpp): a row over X each
+  /// d x d: u_i + drift_i = follows_i . drift of what is steady, since a held contact's own u is zero. Zero rows of what is not.
+  Matrix follows;
+
+  /// The u of what is steady: zero of a held contact, and what a belt makes of another number of its pair. Linear in the drifts,
+  /// so that it gives a derivative too.
+  [[nodiscard]] Vector held_speeds(const Vector& drift) const;
 };
 
 }  // namespace slapstick::mode

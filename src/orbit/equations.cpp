@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/dense.hpp"
+#include "mode/numbering.hpp"
 #include "section/settling.hpp"
 #include "slapstick/base/error.hpp"
 
@@ -55,7 +56,7 @@ bool stays_free(const Family& family, const std::vector<double>& values) {
 }  // namespace
 
 Problem::Problem(Family family, const std::vector<double>& values)
-    : family_(std::move(family)),
+    : family_(mode::numbered_alike(std::move(family), values)),
       values_(values),
       base_(std::make_shared<const System>(family_.model(values))),
       translations_(*base_),

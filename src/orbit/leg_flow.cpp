@@ -73,16 +73,24 @@ void push(const ModeSet& set, const Motion::Strike& strike, Jet& X) {
 /// Does it begin with a plastic impact that stands for all impacts of a chatter that follow?
 bool sums_impacts(const Leg& leg) { return leg.ending == Ending::chatter || leg.ending == Ending::onset; }
 
-/// The contact states of the columns of an extended jet, with what the next mode holds still set to zero: velocities, and gaps of closed stops. A gap
-/// that is none of the coordinates goes to zero the shortest way.
+/// The contact states of the columns of an extended jet, with what the next mode holds still set to what it holds: velocities, zero or a belt's, and
+/// the gaps of closed stops, zero. A gap that is none of the coordinates goes to zero the shortest way.
 Jet contact_jet(const ModeSet& set, const Leg& next, const Jet& X) {
   const mode::Frame& frame = set.frame();
   Jet x(2 * frame.n, X.states, X.parameters);
   x.all << X.all.topRows(frame.n), X.all.middleRows(frame.d, frame.n);
   if (sums_impacts(next)) return x;
   const mode::Outline& outline = set.mode(next.states).outline;
-  for (int i = 0; i < frame.n; ++i)
-    if (outline.steady[i]) x.all.row(frame.n + i).setZero();
+  MatrixXd speeds(frame.d, 1 + X.parameters);  // and their derivatives by the parameters
+  speeds.col(0) = outline.held_speeds(frame.drift);
+  for (Index p = 0; p < X.parameters; ++p)
+    speeds.col(1 + p) = outline.held_speeds(set.frame_rate(static_cast<std::size_t>(p)).drift);
+  for (int i = 0; i < frame.n; ++i) {
+    if (!outline.steady[i]) continue;
+    x.all.row(frame.n + i).setZero();
+    x.value()[frame.n + i] = speeds(i, 0);
+    x.by_parameter().row(frame.n + i) = speeds.row(i).tail(X.parameters);
+  }
   const auto closed = [&](std::size_t i) { return next.states.stops[i] == mode::StopState::closed; };
   for (std::size_t i = 0; i < frame.stops.size(); ++i) {
     const int own = frame.stops[i].own;
@@ -154,7 +162,7 @@ Jet chatter_jet(const ModeSet& set, int stop, const Jet& X, double t_begin, doub
       effect[first + p] = rate(which).frictions[i].kinetic_friction * per_force +
                           kinetic * sense * set.frame_rate(which).mass_inverse(own.own, contact.own);
     }
-    if (frame.parallel(own.own, contact.own) != 0)
+    if (frame.in_step(own.own, contact.own))
       phi += std::copysign(1.0, per_force) * effect;
     else if (w != 0.0)
       R -= std::copysign(1.0, w) * effect;

@@ -37,11 +37,11 @@ bool zero_by_event(const mode::Frame& frame, const Leg& before, const mode::Guar
                       (of_bound(kind) && of_bound(guard.kind));
     return same && kind != guard.kind && before.contact == guard.contact;
   }
-  if (frame.parallel(displacement(frame, kind, before.contact), displacement(frame, guard.kind, guard.contact)) == 0)
-    return false;
+  const int was = displacement(frame, kind, before.contact), is = displacement(frame, guard.kind, guard.contact);
+  if (frame.parallel(was, is) == 0) return false;
   if (of_gap(guard.kind))
     return of_gap(kind) || kind == GuardKind::press || kind == GuardKind::let_go || kind == GuardKind::push;
-  if (guard.kind == GuardKind::slip) return mode::of_friction(kind) || kind == GuardKind::press;
+  if (guard.kind == GuardKind::slip) return frame.in_step(was, is) && (mode::of_friction(kind) || kind == GuardKind::press);
   return false;
 }
 
@@ -54,7 +54,7 @@ bool zero_by_events(const mode::Frame& frame, const Itinerary& shape, std::size_
 /// Is this the relative velocity of the pair whose gap ends the leg? Its value there is the speed of the impact, which is watched by itself.
 bool is_speed_of(const mode::Frame& frame, const Leg& leg, const mode::Guard& guard) {
   if (leg.ending != Ending::guard || !of_gap(leg.kind) || guard.kind != GuardKind::slip) return false;
-  return frame.parallel(displacement(frame, leg.kind, leg.contact), frame.frictions[guard.contact].own) != 0;
+  return frame.in_step(displacement(frame, leg.kind, leg.contact), frame.frictions[guard.contact].own);
 }
 
 /// A leg sampled: the extended state at equal distances.

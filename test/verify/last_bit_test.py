@@ -60,10 +60,11 @@ def test_choice_of_a_slip_that_begins_at_its_limit():
 
 
 def test_chatter_whose_flights_are_no_more_than_rounding():
-    """A flight of 2^-20 under a ceiling, back from its lowest point: with that gap at zero the body might stay, stuck and closed."""
-    t, numbers = 2.0 ** -21, [(0, -1, 0.0, 0.0), (-1, 0, 2.0, 0.0)]
-    parts = [('force', 0, 0, 1.0, 0.0), ('stop', 0, -1, 0.0, 0.5, 'ceiling'), ('stop', -1, 0, 2.0, 0.5, 'floor'), ('friction', 0, -1, 0.0, 0.5, 0.25, 'wall')]
-    lines = head('flight', [1.0], parts, numbers) + [line('start', 0, 0.0, 0.0, -1.25 * t)]
+    """A flight of 2^-20 under a ceiling at 3/2, back from its lowest point: with that gap at zero the body might stay, stuck and closed.
+    The floor at -1/2 is the nearer contact, by which the body is numbered."""
+    t, numbers = 2.0 ** -21, [(0, -1, 1.5, 0.0), (-1, 0, 0.5, 0.0)]
+    parts = [('force', 0, 0, 1.0, 0.0), ('stop', 0, -1, 1.5, 0.5, 'ceiling'), ('stop', -1, 0, 0.5, 0.5, 'floor'), ('friction', 0, -1, 0.0, 0.5, 0.25, 'wall')]
+    lines = head('flight', [1.0], parts, numbers) + [line('start', 0, 0.0, 1.5, -1.25 * t)]
     both = lambda x, v: ([x, -x - 2.0], [v, -v])
     lines += segment(0, (0, 0.0), t, ['open', 'open', 'slip-'], *both(0.0, -1.25 * t), EVENT)
     lines += segment(1, (0, t), t / 2, ['open', 'open', 'slip+'], *both(-0.625 * t * t, 0.0), CUT)
@@ -166,8 +167,7 @@ def test_numbers_of_contacts_that_are_never_reached():
     parts = [('stop', 0, -1, big, 0.5, 'far'), ('friction', 0, -1, big, 0.0, 0.0, 'belt')]
     lines = hovering(parts, [(0, -1, big, 0.0), (0, -1, 0.0, big)], (-0.5, 0.0), lambda t: [-big - 0.5, -0.5], [0.0, -big])
     lines = [text.replace(' open', ' open slip-') if text.startswith('segment') else text for text in lines]
-    refused(lines, 'coordinate 0 jumps by', 'more than 2^-40')
-    refused(lines, 'velocity 0 jumps by')
+    refused(lines, 'segment 1, number 2 of the state is', 'from where it must be')  # the far stop's, which the belt does not drive
 
 
 def test_coordinate_that_rounding_alone_moves():

@@ -17,7 +17,9 @@ namespace slapstick::certify {
 struct Tally {
   long segments = 0, impacts = 0;
   long chatters = 0;  ///< limits of complete chatter
-  long unproved = 0;  ///< pile-ups: rest after impacts without end at one instant, which is assumed and not proved
+  /// Pile-ups, which are rest after impacts without end at one instant, assumed and not proved; and limits of chatter
+  /// whose impacts may move another friction contact to and fro through its rest, which the verifier refuses.
+  long unproved = 0;
 };
 
 /// Refuses a model that certificates cannot hold, before anything is computed. @throws InputError saying what it has

@@ -173,6 +173,9 @@ struct Model {
   SymmetricMatrix mass, damping, stiffness;  ///< added to what coordinates, dampers and springs give
   ImpactLaw impact_law = ImpactLaw::moreau;
   double omega = 0.0;  ///< forcing frequency; 0 only if no force has a harmonic > 0
+  /// For the engine: the contact that numbers each pair of bodies (mode/numbering.hpp). Empty for the nearest ones. All
+  /// models of a family of orbits have the same, so that a state's numbers mean the same at all values.
+  std::vector<int> numbered_by = {};
 
   [[nodiscard]] int size() const { return static_cast<int>(coordinates.size()); }
   /// 2 pi / omega, or 1 for a model without harmonic forcing.

@@ -1,0 +1,121 @@
+/// A contact that is never reached takes no digit from the motion, wherever it stands in the file.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mode/numbering.hpp"
+#include "runs.hpp"
+#include "slapstick/io/model_file.hpp"
+
+namespace slapstick::testing {
+namespace {
+
+const std::string mass_on_spring =
+    "name = 'm'\n[[coordinate]]\nname = 'x'\nmass = 1\n[[spring]]\nbetween = ['x', 'ground']\nstiffness = 1\n";
+const std::string far_away[] = {"1e3", "1e6", "1e9", "1e12"};
+
+std::string named_by(std::string kind, const std::string& number) {
+  for (const char c : number) kind += c == '.' ? '_' : c;
+  return "name = '" + kind + "'\n";
+}
+
+std::string stop_at(const std::string& clearance, const std::string& more = "") {
+  return "[[stop]]\n" + named_by("stop_", clearance) + "between = ['x', 'ground']\nclearance = " + clearance + "\nrestitution = 0.5\n" + more;
+}
+
+std::string pad_on(const std::string& belt, double friction) {
+  return "[[friction]]\n" + named_by("pad_", belt) + "between = ['x', 'ground']\nstatic = " + std::to_string(friction) +
+         "\nbelt_speed = " + belt + "\n";
+}
+
+Model model_with(const std::string& parts) { return ModelDefinition::parse(mass_on_spring + parts, "f.toml").build(); }
+
+/// x = -cos t until it hits the stop at 0.3.
+void first_impact_is_exact(const std::string& parts) {
+  const System system(model_with(parts));
+  Motion motion(system, {-1.0, 0.0});
+  const std::vector<Event> events = run(motion, 10.0, 1);
+  ASSERT_EQ(kinds(events), "impact") << parts;
+  EXPECT_NEAR(seconds(events[0], motion), std::acos(-0.3), 4e-15) << parts;
+  EXPECT_NEAR(events[0].w, std::sqrt(1.0 - 0.09), 4e-16) << parts;
+}
+
+TEST(NeverReached, AStopCostsNoDigitWhereverItIsListed) {
+  for (const std::string& far : far_away) {
+    first_impact_is_exact(stop_at(far) + stop_at("0.3"));
+    first_impact_is_exact(stop_at("0.3") + stop_at(far));
+    first_impact_is_exact(stop_at("0.3", "two_sided = true\nclearance_lower = " + far + "\n"));
+    first_impact_is_exact(pad_on("0", 0.0) + stop_at(far) + stop_at("0.3"));
+  }
+}
+
+/// The only stop of its pair: x = -cos t all along.
+TEST(NeverReached, AStopAloneOnItsPairCostsNoDigit) {
+  for (const std::string& far : far_away) {
+    const System system(model_with(stop_at(far)));
+    Motion motion(system, {-1.0, 0.0});
+    EXPECT_TRUE(run(motion, 10.0).empty());
+    EXPECT_NEAR(motion.state()[0], -std::cos(10.0), 1e-14) << far;
+    EXPECT_NEAR(motion.state()[1], std::sin(10.0), 1e-14) << far;
+  }
+}
+
+/// Against a belt that is far too fast to stick to friction is a constant force f: x = f + (x_0 - f) cos t.
+TEST(NeverReached, AFastBeltIsAConstantForce) {
+  for (const std::string& belt : far_away) {
+    const System system(model_with(pad_on(belt, 0.125)));
+    Motion motion(system, {1.0, 0.0});
+    EXPECT_TRUE(run(motion, 10.0).empty());
+    EXPECT_NEAR(motion.state()[0], 0.125 + 0.875 * std::cos(10.0), 1e-14) << belt;
+    EXPECT_NEAR(motion.state()[1], -0.875 * std::sin(10.0), 1e-14) << belt;
+  }
+}
+
+/// A belt and a stop on one pair: neither is numbered by the other, so that both are met exactly.
+TEST(NeverReached, AFastBeltCostsTheImpactsAtAStopNoDigit) {
+  for (const std::string& belt : far_away) {
+    const System system(model_with(pad_on(belt, 0.125) + stop_at("0.3")));
+    Motion motion(system, {-1.0, 0.0});  // about 0.125
+    const std::vector<Event> events = run(motion, 10.0, 1);
+    ASSERT_EQ(kinds(events), "impact");
+    EXPECT_NEAR(seconds(events[0], motion), std::acos(-0.175 / 1.125), 4e-15) << belt;
+    EXPECT_NEAR(events[0].w, std::sqrt(1.125 * 1.125 - 0.175 * 0.175), 4e-16) << belt;
+  }
+}
+
+/// x = -3e6 cos t: what is far is hit where it is reached after all, with a rounding of the motion's own size.
+TEST(NeverReached, AFarStopThatIsReachedAfterAllIsHit) {
+  const System system(model_with(pad_on("0", 0.125) + stop_at("1e6")));
+  EXPECT_EQ(system.compiled().frame().d, 2);
+  Motion motion(system, {-3e6, 0.0});
+  const std::vector<Event> events = run(motion, 10.0, 1);
+  ASSERT_EQ(kinds(events), "impact");
+  const double f = 0.125, A = 3e6 - f;  // x = -f - A cos t: friction is against the motion
+  EXPECT_NEAR(seconds(events[0], motion), std::acos(-(1e6 + f) / A), 4e-15);
+  EXPECT_EQ(motion.state()[0], 1e6);
+}
+
+/// W of the basis belongs to the first contact of each pair, its shift to the nearest one: a parameter that makes another one the
+/// nearest moves no row.
+TEST(Numbering, TheBasisKeepsItsRowsWhereAnotherContactBecomesTheNearest) {
+  Model model = model_with(stop_at("0.5") + stop_at("2", "two_sided = true\n") + pad_on("0", 1.0));
+  const mode::Frame before(model);
+  model.stops[0].clearance = 4.0;
+  const mode::Frame after(model);
+  EXPECT_EQ(before.W.topRows(1), after.W.topRows(1));
+  EXPECT_EQ(before.shift[0], 0.5);
+  EXPECT_EQ(std::abs(after.shift[0]), 2.0);
+  for (const mode::Frame& frame : {before, after})
+    for (std::size_t i = 0; i < frame.stops.size(); ++i)
+      EXPECT_EQ(frame.stops[i].sign * frame.W(frame.stops[i].own, 0), model.stops[i].a == ground ? -1.0 : 1.0) << i;
+}
+
+TEST(Numbering, NearContactsNeedNoNumberMore) {
+  EXPECT_EQ(mode::Frame(model_with(stop_at("0.3") + pad_on("0", 1.0))).d, 1);
+  EXPECT_EQ(mode::Frame(model_with(stop_at("0.3", "two_sided = true\n") + pad_on("0", 1.0))).d, 2);
+  EXPECT_EQ(mode::Frame(model_with(pad_on("0.5", 1.0))).d, 1);
+  EXPECT_EQ(mode::Frame(model_with(stop_at("5") + pad_on("0.5", 1.0))).d, 2);
+}
+
+}  // namespace
+}  // namespace slapstick::testing

@@ -64,7 +64,7 @@ TEST_F(FormatsTest, latex_gets_lines_in_a_pdf_and_text_in_commands) {
   EXPECT_NE(tex.find("50 \\% \\& more"), std::string::npos);
   EXPECT_EQ(workshop::read(files.pdf).substr(0, 4), "%PDF");
   EXPECT_EQ(files.pdf, folder / "a-tex.pdf");  // a.pdf may be a picture of its own
-  EXPECT_NE(tex.find("{a-tex}"), std::string::npos);
+  EXPECT_NE(tex.find("a-tex}"), std::string::npos);
   EXPECT_EQ(tex.find("\u2212"), std::string::npos) << "a sign that LaTeX does not know";
 }
 

@@ -96,7 +96,9 @@ std::string missing(const Classification& found, const Options& options) {
     case Doubt::exponent:
       return "exponent, averages and rotation number do not agree on a kind: a longer run tells" + decides;
     case Doubt::no_return:
-      return "the motion has no more events and comes to no rest: the motion grows, or goes away for ever";
+      return "the motion had no event for long, but one may come yet: nothing proves that the motion stays as it is";
+    case Doubt::growth:
+      return "the motion grows, or goes away, without bound: the model has no class from this start";
   }
   return {};
 }
@@ -113,7 +115,8 @@ Json result_json(const Classification& found, const Options& options, const Chos
   if (found.family > 0) json.set("family", found.family);
   if (is_at_rest(found)) json.set("eigenvalues", complex_json(found.eigenvalues)).set("approach", found.approach);
   const bool averaged =
-      !is_cycle(found) && !is_at_rest(found) && options.quick == 0 && found.doubt != Doubt::no_return;
+      !is_cycle(found) && !is_at_rest(found) && options.quick == 0 && found.doubt != Doubt::no_return &&
+      found.doubt != Doubt::growth;
   const bool rest_rate = is_at_rest(found) && (found.sticking || !found.eigenvalues.empty());
   if (averaged || is_cycle(found) || rest_rate) json.set("exponent", has_derivative(found) ? Json(found.exponent) : Json());
   if (averaged) json.set("exponent_error", found.exponent_error).set("birkhoff_digits", found.digits);

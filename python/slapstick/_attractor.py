@@ -105,7 +105,7 @@ class Attractor(Result):
     curves = Given[int]("Quasi-periodic: closed curves that the stroboscopic points lie on in turn.")
     family = Given[int]("Of a cycle: dimensions of the continuum of cycles that it is a member of; 0 if none.")
     doubt = Given[str](
-        "Why there is no class: 'not confirmed', 'approach', 'long cycle', 'exponent', 'no return'; 'none' if there is one."
+        "Why there is no class: 'not confirmed', 'approach', 'long cycle', 'exponent', 'no return', 'growth'; 'none' if there is one."
     )
     option_that_decides = Given[str]("The option of `classify` that would decide; '' if there is a class.")
     periods_used = Given[int]("Forcing periods that the motion was followed.")

@@ -5,7 +5,8 @@
 
 #include "attractor/exponent.hpp"
 #include "base/ranges.hpp"
-#include "section/rest.hpp"
+#include "section/flights.hpp"
+#include "section/outlook.hpp"
 #include "section/settling.hpp"
 #include "flow/contact_state.hpp"
 
@@ -18,12 +19,13 @@ std::string_view name(Attractor attractor) {
 }
 
 std::string_view name(Doubt doubt) {
-  constexpr std::string_view names[] = {"none", "not confirmed", "approach", "long cycle", "exponent", "no return"};
+  constexpr std::string_view names[] = {"none",     "not confirmed", "approach", "long cycle",
+                                        "exponent", "no return",     "growth"};
   return names[static_cast<int>(doubt)];
 }
 
 std::string_view option_that_decides(Doubt doubt) {
-  constexpr std::string_view options[] = {"", "full", "transient", "most_n", "exponent_periods", ""};
+  constexpr std::string_view options[] = {"", "full", "transient", "most_n", "exponent_periods", "", ""};
   return options[static_cast<int>(doubt)];
 }
 
@@ -118,6 +120,16 @@ Classification without_cycle(const section::Settling& settling, const System& sy
   return result;
 }
 
+/// Of a rest modulo translations, per period, by coordinate.
+/// @param least  a speed that cannot be told from none
+std::vector<double> steady_drift(const section::Settling& settling, const section::Outlook& ahead, double least) {
+  const flow::Translations& translations = settling.translations();
+  std::vector<double> by_coordinate = translations.by_coordinate(translations.system().period() * ahead.rate);
+  for (double& length : by_coordinate)
+    if (std::abs(length) <= least * translations.system().period()) length = 0.0;
+  return by_coordinate;
+}
+
 /// What a motion is that has no more events: at rest, or on its way there; round a state of rest; or away for ever.
 Classification without_events(const section::Settling& settling, const System& system, const ClassifyOptions& options) {
   if (const auto& border = settling.shrinks_to()) {
@@ -128,20 +140,22 @@ Classification without_events(const section::Settling& settling, const System& s
     result.state = settling.at_home(flow::user_state(system, *border));
     return result;
   }
-  const auto found = section::rest(settling.translations(), settling.motion(), options.cancel);
-  if (!found || !(found->drawn || found->neutral)) return undecided(Doubt::no_return, settling);
+  const section::Outlook ahead = section::outlook(settling.translations(), settling.motion());
+  if (ahead.no_event && (ahead.goes_away || ahead.grows)) return undecided(Doubt::growth, settling);
+  if (!ahead.no_event || !(ahead.drawn || ahead.neutral)) return undecided(Doubt::no_return, settling);
+  const Eigen::VectorXd scale = settling.scale_with(ahead.rest.cwiseAbs() + ahead.amplitude);
   Classification result;
-  result.attractor = found->drawn ? Attractor::equilibrium : Attractor::family;
+  result.attractor = ahead.drawn ? Attractor::equilibrium : Attractor::family;
   result.label = name(result.attractor);
-  result.eigenvalues = found->eigenvalues;
-  result.family = found->family;
-  result.sticking = found->held;
-  result.sticking_fraction = found->held ? 1.0 : 0.0;
-  result.approach = found->approach;
-  const double largest = found->eigenvalues.empty() ? -INFINITY : found->eigenvalues.front().real();
-  result.exponent = found->family > 0 ? 0.0 : largest * system.period();
-  result.drift = settling.drift(found->advance);
-  result.state = found->drawn ? settling.at_home(flow::user_state(system, found->x)) : settling.at_home(settling.state());
+  result.eigenvalues = ahead.eigenvalues;
+  result.family = ahead.family;
+  result.sticking = section::held(system, settling.motion().mode_id()) > 0;
+  result.sticking_fraction = result.sticking ? 1.0 : 0.0;
+  result.approach = section::distance(ahead.here, ahead.rest, scale);
+  const double largest = ahead.eigenvalues.empty() ? -INFINITY : ahead.eigenvalues.front().real();
+  result.exponent = ahead.family > 0 ? 0.0 : largest * system.period();
+  result.drift = steady_drift(settling, ahead, options.tolerance * scale[scale.size() - 1]);
+  result.state = settling.at_home(ahead.drawn ? flow::user_state(system, ahead.rest) : settling.state());
   return result;
 }
 
@@ -165,7 +179,9 @@ Classification classify(const System& system, const State& state, const Classify
     attractor::describe(system, *cycle, settling.at_home(flow::user_state(system, cycle->x)), options, result);
     result.drift = settling.drift(cycle->advance);
   }
-  if (!cycle && !settling.cancelled())
+  if (!cycle && settling.grows())
+    result = undecided(Doubt::growth, settling);
+  else if (!cycle && !settling.cancelled())
     result = settling.ended() ? without_events(settling, system, options) : without_cycle(settling, system, options);
   result.periods_used = settling.periods();
   result.interrupted = settling.cancelled();

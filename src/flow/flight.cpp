@@ -8,7 +8,9 @@
 
 #include "base/floating_point.hpp"
 #include "base/repeated_difference.hpp"
+#include "base/text.hpp"
 #include "flow/mode_graph.hpp"
+#include "slapstick/base/error.hpp"
 
 namespace slapstick::flow {
 
@@ -16,6 +18,15 @@ namespace {
 
 /// Steps lose less than a guard's rounding bound in so many windows.
 constexpr int windows_per_start = 16;
+
+/// Products of larger numbers with those of a model may overflow, and then no bound of a guard says anything.
+/// @param size  sum of |X|
+void demand_ordinary(double size, Instant now, double period) {
+  constexpr double largest = 1e150;
+  if (size <= largest) return;
+  throw NumericalError("the motion grows beyond " + shown(largest) + " at t = " + shown(now.seconds(period)) +
+                       ": a coordinate or velocity is too large; give less time, or a model that does not grow");
+}
 
 /// More than an instant and its place in a window of H periods can differ, in windows. Whether an event comes before a
 /// cut is decided by the clock, which does not know of the cut.
@@ -83,6 +94,7 @@ double* Flight::stepped_to(double s) const {
 
 /// From the state now, in the mode just selected; `orders_` and `magnitude_` are those of this state.
 void Flight::begin_flight() {
+  demand_ordinary(size_, now_, system_->period());
   place_ = {.start = now_};
   elapsed_ = 0.0;
   clear_lingers();
@@ -189,6 +201,7 @@ void Flight::next_window() {
   mode.pass(X_window_.lanes().data(), clock_sizes_.lanes().data(), fresh, X_next_.lanes().data(), magnitude_.lanes().data(),
             origin_.largest_lanes().data(), sizes.data());
   size_ = sizes[0];
+  demand_ordinary(size_, now_, system_->period());
   origin_.arrive(sizes[1]);
   std::swap(X_window_, X_next_);
   ++counters_.windows;

@@ -250,7 +250,8 @@ Found check_omega(const Model& model) {
   return check.result();
 }
 
-/// How far forces and the start move a model with springs; 0 if it has none, or nothing moves it.
+/// How far forces and the start move a model with springs; 0 if it has none, or no force moves it: one state of a free
+/// motion, which may be zero by chance, says nothing of its size.
 double size_of_motion(const Model& model, const State& state) {
   double stiffness = 0.0, force = 0.0, size = 0.0;
   for (const auto& spring : model.springs) stiffness = std::max(stiffness, std::abs(spring.stiffness));
@@ -261,7 +262,7 @@ double size_of_motion(const Model& model, const State& state) {
   for (const auto& load : model.forces) force = std::max(force, std::abs(load.amplitude));
   for (const auto& friction : model.frictions) force = std::max(force, friction.static_friction * (friction.normal ? std::abs(friction.normal->constant) : 1.0));
   for (std::size_t i = 0; i < state.size(); i += 2) size = std::max(size, std::abs(state[i]));
-  return stiffness > 0.0 ? std::max(size, force / stiffness) : 0.0;
+  return stiffness > 0.0 && force > 0.0 ? std::max(size, force / stiffness) : 0.0;
 }
 
 /// The engine measures displacements from the stop: a stop that is too far away costs the motion all its digits.

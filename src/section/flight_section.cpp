@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "base/ranges.hpp"
 #include "flow/compiled_system.hpp"
 #include "flow/engine.hpp"
 #include "slapstick/base/error.hpp"
@@ -91,21 +92,25 @@ MapValue FlightSection::value(const VectorXd& x, int n, Stop stop) const {
   return value;
 }
 
+/// Of tangents along a flight: what is less, of the whole, is forgotten. A factor that small between two returns cannot
+/// be told from it.
+constexpr double rounding_of_tangents = 1e-14;
+
 /// Without the 0 of the direction along the flow. What stick forgets is 0, too: rounding of the matrix is none of its
 /// eigenvalues.
 std::vector<std::complex<double>> FlightSection::multipliers(const MatrixXd& jacobian) const {
   std::vector<std::complex<double>> all = flow::multipliers_of(jacobian);
-  const double rounding = 1e-14 * std::max(1.0, jacobian.norm());
+  const double rounding = rounding_of_tangents * std::max(1.0, jacobian.norm());
   for (std::complex<double>& multiplier : all)
     if (std::abs(multiplier) <= rounding) multiplier = 0.0;
   if (!all.empty()) all.pop_back();
   return all;
 }
 
-VectorXd FlightSection::on_section(const VectorXd& x, Stop stop) const {
+VectorXd FlightSection::on_section(const VectorXd& x, int n, Stop stop) const {
   const System& system = translations().system();
   Motion motion(system, flow::user_state(system, x));
-  run(motion, 1, stop);
+  run(motion, n, stop);
   VectorXd point = flow::contact_state(motion);
   translations().take_out(point);
   return point;
@@ -114,7 +119,10 @@ VectorXd FlightSection::on_section(const VectorXd& x, Stop stop) const {
 void FlightSection::take_out_flow(const Motion& motion, MatrixXd& tangents) const {
   VectorXd f = rate_of(motion);
   translations().take_out(f);
+  const Eigen::RowVectorXd before = tangents.colwise().norm();
   tangents -= f * (f.transpose() * tangents) / f.squaredNorm();
+  for (Eigen::Index i = 0; i < tangents.cols(); ++i)
+    if (tangents.col(i).norm() <= rounding_of_tangents * before[i]) tangents.col(i).setZero();
 }
 
 namespace {
@@ -126,34 +134,66 @@ struct Seen {
   double time = 0.0;
 };
 
-constexpr long changes_looked_at = 400;
-constexpr long most_changes_between = 64;  ///< of a kind that the motion keeps having
+/// Of so many changes that were looked at, a kind that the motion keeps having waits for no more than a part.
+constexpr long first_looked_at = 400, most_looked_at = 25'600;
+constexpr long most_wait(long looked_at) { return 64 * looked_at / first_looked_at; }
+
+class Survey {
+ public:
+  explicit Survey(const Motion& motion) : system_(motion.system()), motion_(motion) {}
+
+  /// @returns false if the motion has fewer changes
+  bool look(long at, Stop stop) {
+    if (changes_ == 0) kind_ = next_change(motion_, stop);
+    for (; changes_ < at; ++changes_) {
+      if (!kind_) return false;
+      const Instant begin = motion_.time();
+      const std::optional<FlightKind> next = next_change(motion_, stop);
+      note(*kind_, motion_.time().since(begin));
+      kind_ = next;
+    }
+    return true;
+  }
+  [[nodiscard]] bool keeps_one() const {
+    return ranges::any_of(all_, [&](const Seen& one) { return !is_rare(one); });
+  }
+  [[nodiscard]] FlightKind best() const {
+    const auto worth = [&](const Seen& one) {
+      const bool rare = is_rare(one);
+      return std::tuple(rare, held(system_, one.kind.mode), rare ? -one.count : one.count, -one.time);
+    };
+    return ranges::min_element(all_, [&](const Seen& a, const Seen& b) { return worth(a) < worth(b); })->kind;
+  }
+
+ private:
+  void note(const FlightKind& kind, double time) {
+    auto seen = ranges::find(all_, kind, &Seen::kind);
+    if (seen == all_.end()) seen = all_.insert(all_.end(), Seen{kind});
+    ++seen->count;
+    seen->longest_wait = std::max(seen->longest_wait, changes_ + 1 - seen->last);
+    seen->last = changes_ + 1;
+    seen->time += time;
+  }
+  [[nodiscard]] bool is_rare(const Seen& one) const {
+    return one.time <= 0.0 || std::max(one.longest_wait, changes_ - one.last) > most_wait(changes_);
+  }
+
+  System system_;
+  Motion motion_;
+  std::optional<FlightKind> kind_;
+  std::vector<Seen> all_;
+  long changes_ = 0;
+};
 
 }  // namespace
 
 std::optional<FlightKind> choose_flights(Motion motion, Stop stop) {
-  std::vector<Seen> all;
-  const System system = motion.system();
-  std::optional<FlightKind> kind = next_change(motion, stop);
-  for (long change = 1; change <= changes_looked_at; ++change) {
-    if (!kind) return std::nullopt;
-    const Instant begin = motion.time();
-    const std::optional<FlightKind> next = next_change(motion, stop);
-    auto seen = std::find_if(all.begin(), all.end(), [&](const Seen& one) { return one.kind == *kind; });
-    if (seen == all.end()) seen = all.insert(all.end(), Seen{*kind});
-    ++seen->count;
-    seen->longest_wait = std::max(seen->longest_wait, change - seen->last);
-    seen->last = change;
-    seen->time += motion.time().since(begin);
-    kind = next;
+  Survey survey(motion);
+  for (long at = first_looked_at; at <= most_looked_at; at *= 4) {
+    if (!survey.look(at, stop)) return std::nullopt;
+    if (survey.keeps_one()) break;
   }
-  const auto worth = [&](const Seen& one) {
-    const bool rare =
-        one.time <= 0.0 || std::max(one.longest_wait, changes_looked_at - one.last) > most_changes_between;
-    return std::tuple(rare, held(system, one.kind.mode), rare ? -one.count : one.count, -one.time);
-  };
-  return std::min_element(all.begin(), all.end(), [&](const Seen& a, const Seen& b) { return worth(a) < worth(b); })
-      ->kind;
+  return survey.best();
 }
 
 }  // namespace slapstick::section

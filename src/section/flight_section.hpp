@@ -20,7 +20,7 @@ class FlightSection final : public ReturnMap {
   [[nodiscard]] std::optional<Instant> next(const Motion& motion, Stop stop) const override;
   [[nodiscard]] MapValue value(const Eigen::VectorXd& x, int n, Stop stop) const override;
   [[nodiscard]] std::vector<std::complex<double>> multipliers(const Eigen::MatrixXd& jacobian) const override;
-  [[nodiscard]] Eigen::VectorXd on_section(const Eigen::VectorXd& x, Stop stop) const override;
+  [[nodiscard]] Eigen::VectorXd on_section(const Eigen::VectorXd& x, int n, Stop stop) const override;
   void take_out_flow(const Motion& motion, Eigen::MatrixXd& tangents) const override;
 
  private:
@@ -32,7 +32,8 @@ class FlightSection final : public ReturnMap {
 };
 
 /// Of the kinds of flights that a motion keeps having: in which least is held, of these the rarest, so that a cycle has
-/// few points of the section; of equals the longest. Looked at are 400 changes.
+/// few points of the section; of equals the longest. Looked at are 400 changes, and up to 25 600 until there is a kind
+/// that comes back within a sixth of them: a cycle may have thousands of changes.
 /// @returns nothing if the motion has fewer
 [[nodiscard]] std::optional<FlightKind> choose_flights(Motion motion, Stop stop);
 

@@ -24,11 +24,14 @@ struct Flight {
   [[nodiscard]] Instant middle() const { return begin.plus(0.5 * end.since(begin)); }
 };
 
+/// Is a coordinate or velocity beyond 1e100? No machine's is, and the squares of such numbers overflow soon.
+[[nodiscard]] bool beyond_bounds(const Motion& motion);
+
 /// How long a motion is waited for that has no event, in periods: some million windows, a fraction of a second.
 [[nodiscard]] double patience(const System& system);
 
-/// Moves a motion on to the next end of a flight, within `patience`. @returns the kind of the flight that begins there;
-/// nothing if there is none, or it was stopped
+/// Moves a motion on to the next end of a flight. @returns the kind of the flight that begins there; nothing if it is
+/// proven that there is none (section/outlook.hpp), if none comes within `patience`, beyond bounds, or if stopped
 [[nodiscard]] std::optional<FlightKind> next_change(Motion& motion, Stop stop);
 
 /// Moves on to the end of the next flight of positive length that is of the kind, or of any.

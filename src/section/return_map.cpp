@@ -49,7 +49,7 @@ MapValue Stroboscopic::value(const Eigen::VectorXd& x, int n, Stop stop) const {
 namespace {
 
 FixedPoint on_section(const ReturnMap& map, const Eigen::VectorXd& x, const MapValue& value, int n, Stop stop) {
-  FixedPoint found{map.on_section(x, stop), value, {}};
+  FixedPoint found{map.on_section(x, n, stop), value, {}};
   if (found.x != x) found.value = map.value(found.x, n, stop);
   found.multipliers = map.multipliers(found.value.jacobian);
   return found;

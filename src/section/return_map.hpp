@@ -45,9 +45,11 @@ class ReturnMap {
   [[nodiscard]] virtual MapValue value(const Eigen::VectorXd& x, int n, Stop stop) const = 0;
   /// Of a derivative of P_n at a fixed point, largest modulus first.
   [[nodiscard]] virtual std::vector<std::complex<double>> multipliers(const Eigen::MatrixXd& jacobian) const;
-  /// The point of the section to which a fixed point near it belongs.
-  [[nodiscard]] virtual Eigen::VectorXd on_section(const Eigen::VectorXd& x, Stop) const { return x; }
-  /// Takes out of tangents at a point of the section what leads along the motion to other instants only.
+  /// The point of the section to which a fixed point of P_n near it belongs: the motion may stand at it, and at no
+  /// other of the n points.
+  [[nodiscard]] virtual Eigen::VectorXd on_section(const Eigen::VectorXd& x, int /*n*/, Stop) const { return x; }
+  /// Takes out of tangents at a point of the section what leads along the motion to other instants only. One that
+  /// keeps nothing but rounding is zero then: stick has forgotten it.
   virtual void take_out_flow(const Motion&, Eigen::MatrixXd&) const {}
 
  private:

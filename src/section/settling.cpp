@@ -59,7 +59,21 @@ void Settling::choose_section() {
     return;
   }
   ended_ = true;
-  while (next_change(motion_, options_.stop)) ++periods_;
+  for (bool more = true; more && !grows_;) {
+    VectorXd x = flow::contact_state(motion_);
+    translations().take_out(x);
+    record_.note_size(x, omega_);
+    more = next_change(motion_, options_.stop).has_value();
+    periods_ += more;
+    grows_ = beyond_bounds(motion_);
+  }
+}
+
+VectorXd Settling::scale_with(const VectorXd& sizes) const {
+  PointRecord record(sizes.size());
+  record.note_size(record_.scale(), omega_);
+  record.note_size(sizes, omega_);
+  return record.scale();
 }
 
 bool Settling::out_of_time() const { return options_.until && std::chrono::steady_clock::now() >= *options_.until; }
@@ -67,11 +81,11 @@ bool Settling::cancelled() const { return stopped(options_.stop) || out_of_time(
 
 void Settling::discard(long periods) {
   if (ended_ || periods == 0) return;
-  for (long k = 0; k < periods && !cancelled(); ++k) {
+  for (long k = 0; k < periods && !cancelled() && !grows_; ++k) {
     if (!run_period()) break;
     report();
   }
-  choose_section();
+  if (!grows_) choose_section();
 }
 
 /// To the next return; a free motion may have none, as one that comes to rest or to other flights.
@@ -81,6 +95,7 @@ std::optional<PeriodEvents> Settling::run_period() {
   if (!end) return std::nullopt;
   const PeriodEvents events = run_counting(motion_, *end, options_.stop);
   translations().take_out(motion_);
+  grows_ = grows_ || beyond_bounds(motion_);
   ++periods_;
   if (free_) omega_ = 2.0 * std::numbers::pi / (system_.period() * end->since(begin));
   return events;
@@ -133,19 +148,28 @@ bool Settling::note_period() {
   return true;
 }
 
-/// With translations a displacement is zero at every return by definition: what the motion is like in between says how
-/// large it is.
-void Settling::look_between() {
-  if (translations().count() == 0) return;
+/// Of the numbers of the motion, within a return.
+VectorXd Settling::sizes_between() const {
   constexpr int looks = 16;
   Motion trial = motion_;
+  VectorXd sizes = VectorXd::Zero(2 * system_.compiled().frame().n);
   const Instant begin = motion_.time();
   const double period = map_->next(motion_, options_.stop).value_or(begin.plus(1.0)).since(begin);
   for (int k = 1; k < looks; ++k) {
     const Instant next = begin.plus(period * static_cast<double>(k) / looks);
-    if (!run_to(trial, next, options_.stop, [] {})) return;
-    record_.note_size(flow::contact_state(trial), omega_);
+    if (!run_to(trial, next, options_.stop, [] {})) break;
+    sizes = sizes.cwiseMax(flow::contact_state(trial).cwiseAbs());
   }
+  return sizes;
+}
+
+/// With translations a displacement is zero at every return by definition; and all numbers of all points may be zero by
+/// chance. What the motion is like in between says how large it is.
+void Settling::look_between(bool by_chance) {
+  constexpr double nothing = 1e-6;  // of the motion's size: less at every point is chance
+  if (by_chance != (translations().count() == 0)) return;
+  const VectorXd sizes = sizes_between();
+  if (!by_chance || record_.scale().maxCoeff() < nothing * sizes.maxCoeff()) record_.note_size(sizes, omega_);
 }
 
 std::vector<double> Settling::drift(const VectorXd& advance) const {
@@ -165,15 +189,17 @@ void Settling::lose_section() {
 }
 
 std::optional<Cycle> Settling::run(int periods) {
-  look_between();
   constexpr long first_turn = 8;
+  look_between(false);
   long next_newton = first_turn, next_return = 0;
   for (int k = 0; k < periods && !cancelled(); ++k) {
     if (!note_period()) {
       lose_section();
       break;
     }
+    if (grows_) return std::nullopt;
     if (cancelled()) break;
+    if (k == first_turn) look_between(true);
     const auto later = k + first_turn + k / 4;  // what failed is tried again so seldom that the motion costs more
     const bool newton_turn = k >= next_newton;
     if (newton_turn) next_newton = later;

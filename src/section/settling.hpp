@@ -4,7 +4,7 @@
 ///
 /// The section of a driven motion is phase 0. A free one has the section of its flights (section/flight_section.hpp),
 /// chosen at the start and again after the transient; "periods" are then its returns. A free motion that has no more
-/// events has `ended`: section/rest.hpp says where.
+/// events has `ended`: section/outlook.hpp says where. One that `grows` beyond all bounds is followed no further.
 ///
 /// Both `classify` and the search for orbits ask this class, so that what one names the other finds.
 /// docs/explanation/classify.md, section 1, says how it decides.
@@ -45,13 +45,17 @@ class Settling {
   /// Looks for a return in a further round of periods, each four times as long as the one before; the last ends at
   /// most_periods.
   std::optional<Cycle> next_round();
-  [[nodiscard]] bool exhausted() const { return ended_ || done_ >= options_.most_periods; }
+  [[nodiscard]] bool exhausted() const { return ended_ || grows_ || done_ >= options_.most_periods; }
+  /// The motion is beyond bounds (section/flights.hpp).
+  [[nodiscard]] bool grows() const { return grows_; }
   /// A free motion: no more events.
   [[nodiscard]] bool ended() const { return ended_; }
   /// .. or it has events for ever, but shrinks to a state of rest on the border of two modes, as a mass that touches a
   /// compliant stop at rest: the contact state there.
   [[nodiscard]] const std::optional<Eigen::VectorXd>& shrinks_to() const { return shrinks_to_; }
   [[nodiscard]] double distance_from(const Eigen::VectorXd& x) const { return distance(record_.back(0), x, record_.scale()); }
+  /// The size of the motion so far, as of section::distance, if it is to reach numbers of these sizes too.
+  [[nodiscard]] Eigen::VectorXd scale_with(const Eigen::VectorXd& sizes) const;
   [[nodiscard]] bool cancelled() const;
   [[nodiscard]] bool out_of_time() const;
 
@@ -76,7 +80,8 @@ class Settling {
   void note_approach(int k, int periods);
   [[nodiscard]] bool note_period();
   void lose_section();
-  void look_between();
+  [[nodiscard]] Eigen::VectorXd sizes_between() const;
+  void look_between(bool by_chance);
   void report() const {
     if (options_.progress) options_.progress(periods());
   }
@@ -94,7 +99,7 @@ class Settling {
   int round_, done_ = 0;
   bool free_;
   std::optional<Eigen::VectorXd> shrinks_to_;
-  bool approaching_ = false, ended_ = false;
+  bool approaching_ = false, ended_ = false, grows_ = false;
 };
 
 }  // namespace slapstick::section

@@ -139,6 +139,23 @@ TEST(classify, a_period_that_ends_on_the_closed_stop_is_not_taken_for_a_violated
   }
 }
 
+TEST(classify, a_motion_that_is_at_rest_in_the_origin_at_every_return_has_its_size_from_in_between) {
+  // x = sin t - sin(2 t) / 2 is at rest in the origin at phase 0; the force is x'' + c x' + k x.
+  const double c = 0.5, k = 3.0;
+  Model model;
+  model.name = "two harmonics";
+  model.coordinates = {{"x", 1.0}};
+  model.springs = {{0, ground, k}};
+  model.dampers = {{0, ground, c}};
+  model.omega = 1.0;
+  model.forces = {{0, 1, std::hypot(k - 1.0, c), std::atan2(c, k - 1.0)},
+                  {0, 2, -std::hypot(0.5 * k - 2.0, c), std::atan2(c, 0.5 * k - 2.0)}};
+  const Classification found = classify(System(model), {0.3, 0.0});
+  EXPECT_EQ(found.label, "1-0-I");
+  EXPECT_NEAR(found.state[0], 0.0, 1e-14);
+  EXPECT_NEAR(found.state[1], 0.0, 1e-14);
+}
+
 TEST(classify, an_unforced_model_comes_to_rest) {
   Model model = paper_model({});
   model.forces.clear();

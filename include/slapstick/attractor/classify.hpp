@@ -45,11 +45,12 @@ enum class Doubt {
   approach,       ///< the motion still closes in on something: a longer transient or search
   long_cycle,     ///< a negative exponent or a fractional rotation number: a cycle longer than most_n
   exponent,       ///< exponent, averages and rotation number do not agree: a longer exponent run
-  no_return       ///< a free motion has no more events, and comes to no rest: it grows or goes away for ever
+  no_return,      ///< a free motion has had no event for long, but one may come yet
+  growth          ///< the motion grows, or goes away, without bound
 };
 
 /// "periodic", "quasi-periodic", "chaotic", "one of a family", "undecided", "equilibrium"; "none", "incomplete",
-/// "complete"; "not confirmed", "approach", "long cycle", "exponent", "no return".
+/// "complete"; "not confirmed", "approach", "long cycle", "exponent", "no return", "growth".
 std::string_view name(Attractor attractor);
 std::string_view name(Chatter chatter);
 std::string_view name(Doubt doubt);

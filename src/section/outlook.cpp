@@ -260,7 +260,8 @@ Outlook outlook(const flow::Translations& translations, const Motion& motion) {
   MatrixXd units(size, count);
   for (Index j = 0; j < count; ++j)
     units.col(j) = translations.representative(VectorXd::Unit(numbers, at[static_cast<std::size_t>(j)]));
-  Reduced left{MatrixXd(), classes(translations, flow.by * units)(at, Eigen::all), {}, {}};
+  Reduced left;
+  left.Q = classes(translations, flow.by * units)(at, Eigen::all);
   const VectorXd D = balance(left.Q);
   left.basis = D.asDiagonal();
   left.s = classes(translations, flow.by * found.here + flow.constant)(at, 0).cwiseQuotient(D);

@@ -1,6 +1,9 @@
 /// Finds the cycle or the motion that is measured.
 #include "span_options.hpp"
 
+#include <cmath>
+#include <cstdio>
+
 #include "base/text.hpp"
 #include "slapstick/base/error.hpp"
 #include "work.hpp"
@@ -20,7 +23,7 @@ Json span_json(const Span& span) {
 void SpanOptions::declare(Arguments& arguments) {
   model.declare(arguments);
   model.declare_state(arguments);
-  arguments.count("--transient", transient, 0, 1'000'000'000, "forcing periods to leave out first (500)");
+  arguments.number("--transient", transient, "N", "forcing periods to leave out first (500; of a record none)");
   arguments.count("--periods", periods, 1, 1'000'000'000, "measure over N forcing periods instead of a cycle");
   arguments.number("--time", time, "T", "the same by a time in the model's unit");
   orbit.declare_choice(arguments);
@@ -29,6 +32,12 @@ void SpanOptions::declare(Arguments& arguments) {
 }
 
 void SpanOptions::check() const {
+  constexpr double most = 1e9;
+  const bool begins = transient != not_given;
+  if (begins && !(transient >= 0.0 && transient <= most))
+    throw InputError("--transient: " + shown(transient) + " is outside [0, " + shown(most) + "]");
+  if (begins && orbit.any() && transient != std::floor(transient))
+    throw InputError("--transient: " + shown(transient) + " is no whole number, and the search for an orbit counts periods");
   if (periods > 0 && time != 0.0) throw InputError("--time and --periods both give the length: choose one");
   if (time < 0.0) throw InputError("--time: " + shown(time) + " is negative");
   if (orbit.any() && (periods > 0 || time > 0.0))
@@ -36,24 +45,45 @@ void SpanOptions::check() const {
   if (of.empty()) throw InputError("--of is needed: the name of a quantity ('slapstick quantities MODEL' lists them)");
 }
 
-double SpanOptions::whole(const ChosenModel& chosen, long long instead) const {
-  const double length = time > 0.0 ? time / chosen.model.forcing_period() : static_cast<double>(periods > 0 ? periods : instead);
-  return static_cast<double>(transient) + length;
+Stretch SpanOptions::stretch(const ChosenModel& chosen, long long instead) const {
+  const double length = time > 0.0 ? time / chosen.model.forcing_period() : static_cast<double>(periods);
+  const auto begin = transient == not_given ? std::nullopt : std::optional(transient);
+  try {
+    return stretch_of(chosen.model, begin, length, static_cast<double>(instead));
+  } catch (const InputError& error) {
+    throw InputError("--" + error.message() + " (--periods, --time)");
+  }
 }
+
+double SpanOptions::whole(const ChosenModel& chosen, long long instead) const {
+  const Stretch looked = stretch(chosen, instead);
+  return looked.transient + looked.periods;
+}
+
+namespace {
+
+/// A length that was asked for may lie behind the record.
+void say_end_of_record(const Model& model, const Stretch& looked) {
+  const auto record = record_of(model);
+  if (record && looked.transient >= record->end)
+    std::fprintf(stderr, "slapstick: signal '%s' ends before what is measured, and keeps its last value\n", record->signal.c_str());
+}
+
+}  // namespace
 
 std::optional<Span> SpanOptions::span(const ChosenModel& chosen, long long instead, const Context& context,
                                       Progress* bar) const {
   const State start = model.start(chosen);
-  SpanWish wish{static_cast<long>(transient), static_cast<double>(periods), static_cast<double>(instead), &context.stop, {}};
+  const Stretch looked = stretch(chosen, instead);
+  say_end_of_record(chosen.model, looked);
+  SpanWish wish{looked.transient, static_cast<double>(periods), looked.periods, &context.stop, {}};
   if (bar != nullptr) wish.progress = [bar](double now) { bar->update(now); };
   if (time > 0.0) wish.periods = time / chosen.model.forcing_period();
-  const double length = wish.periods > 0.0 ? wish.periods : wish.instead;
-  if (orbit.any()) wish.periods = 1.0;  // not measured
   const System system =
-      affordable_system(chosen, {static_cast<double>(transient) + length, time > 0.0 ? "--time" : "--periods"});
+      affordable_system(chosen, {looked.transient + looked.periods, time > 0.0 ? "--time" : "--periods"});
   if (!orbit.any()) return find_span(chosen.definition, chosen.overrides, system, start, wish);
   OrbitOptions meant = orbit;
-  meant.transient = transient;
+  meant.transient = static_cast<long long>(looked.transient);
   Span span;
   span.problem = orbit::pose(chosen.definition.family({}, chosen.overrides), {});
   span.cycle = std::move(find_orbit(*span.problem, system, start, meant, context.stop).orbit);

@@ -1,6 +1,7 @@
 #pragma once
 /// Over what `measure` and `spectrum` take a quantity: the cycle that the motion settles on, a periodic orbit that the
 /// options of orbit_choice.hpp say, or a time after a transient.
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,16 +19,18 @@ namespace slapstick::app {
 [[nodiscard]] Json span_json(const Span& span);
 
 struct SpanOptions {
+  static constexpr double not_given = std::numeric_limits<double>::infinity();
   ModelOptions model;
   OrbitOptions orbit;
   std::string of;  ///< --of
-  long long transient = 500, periods = 0;
+  double transient = not_given;  ///< forcing periods
+  long long periods = 0;
   double time = 0.0;
   std::string out;
   bool progress = false;
 
   void declare(Arguments& arguments);
-  /// @throws InputError for two lengths, or a length and an orbit
+  /// @throws InputError for a negative transient, two lengths, or a length and an orbit
   void check() const;
   /// The orbit that is meant; without one and without --periods and --time the cycle, or where there is none `instead`
   /// periods.
@@ -35,6 +38,8 @@ struct SpanOptions {
   /// Motion::advance
   [[nodiscard]] std::optional<Span> span(const ChosenModel& chosen, long long instead, const Context& context,
                                          Progress* bar = nullptr) const;
+  /// What of the motion is looked at. @throws InputError naming --transient where it leaves nothing of a record
+  [[nodiscard]] Stretch stretch(const ChosenModel& chosen, long long instead) const;
   /// A bar over the transient and `length` periods; of a cycle the second part is not seen.
   [[nodiscard]] double whole(const ChosenModel& chosen, long long instead) const;
 };

@@ -1,5 +1,6 @@
 /// slapstick diagram MODEL --sweep NAME=A:B:COUNT
 #include <cstdio>
+#include <limits>
 
 #include "axis_text.hpp"
 #include "axis_units.hpp"
@@ -32,7 +33,9 @@ struct Options {
   StopOptions stops;
   InsetOptions insets;
   std::string sweep, direction = "up", start = "carry", y, at, out, plot, plot_size, store;
-  long long transient = 500, impacts = 200, most_periods = 5000, periods = 100, threads = 0;
+  static constexpr double not_given = std::numeric_limits<double>::infinity();
+  double transient = not_given;
+  long long impacts = 200, most_periods = 5000, periods = 0, threads = 0;
   bool resume = false, progress = false;
 
   /// What is computed, one way of many: without MODEL, --set and --threads.
@@ -40,7 +43,8 @@ struct Options {
     const Sweep of = parse_sweep(sweep);
     std::vector<std::string> all{"--sweep", of.name + "=" + number_text(of.from) + ":" + number_text(of.to) + ":" + std::to_string(of.count),
                                  "--direction", direction, "--start", start, "--y", y, "--at", at, "--state", model.state};
-    for (const auto& [name, value] : {std::pair{"--transient", transient}, {"--impacts", impacts}, {"--most-periods", most_periods}, {"--periods", periods}})
+    all.insert(all.end(), {"--transient", transient == not_given ? "500" : number_text(transient)});
+    for (const auto& [name, value] : {std::pair{"--impacts", impacts}, {"--most-periods", most_periods}, {"--periods", periods == 0 ? 100 : periods}})
       all.insert(all.end(), {name, std::to_string(value)});
     for (const std::string& stop : stops.names) all.insert(all.end(), {"--stop", stop});
     return all;
@@ -74,7 +78,7 @@ void check_ends(const Options& options, const ChosenModel& chosen, const Sweep& 
         (chosen.model.forced() ? "`poincare --section stroboscopic` needs none" : "`simulate` needs none"));
   for (const double value : {sweep.from, sweep.to}) {
     try {
-      const Work work{static_cast<double>(options.transient) + 1.0, "--transient"};
+      const Work work{(options.transient == Options::not_given ? 500.0 : options.transient) + 1.0, "--transient"};
       const System system = affordable_system(chosen, work, {{sweep.name, value}});
       validate(system.model(), options.model.start(chosen, {{sweep.name, value}}));
     } catch (const InputError& error) {
@@ -92,11 +96,11 @@ sweep::DiagramProblem problem_of(const Options& options, const ChosenModel& chos
     return options.model.start(chosen, {{sweep.name, value}});
   };
   if (options.y.empty() || !are_statistics(options.y)) problem.stops = options.stops.choice(chosen.model);
-  problem.measured_periods = static_cast<int>(options.periods);
+  problem.measured_periods = static_cast<double>(options.periods);
   problem.from = sweep.from;
   problem.to = sweep.to;
   problem.count = sweep.count;
-  problem.transient_periods = static_cast<int>(options.transient);
+  if (options.transient != Options::not_given) problem.transient_periods = options.transient;
   problem.impacts = static_cast<int>(options.impacts);
   problem.most_periods = static_cast<int>(options.most_periods);
   problem.direction = options.direction == "up"     ? Direction::up
@@ -298,6 +302,8 @@ void check_words(const Options& options, const Arguments& arguments) {
     throw InputError("--periods: only for statistics of --y, and --y names no statistic");
   if (options.y.empty() && arguments.given("--at")) throw InputError("--at: only for --y, and --y is not given");
   options.insets.check_words(options.plot);
+  if (options.transient != Options::not_given && !(options.transient >= 0.0 && options.transient <= 1e9))
+    throw InputError("--transient: " + shown(options.transient) + " is outside [0, 1e9]");
   if (options.store.empty() && options.resume) throw InputError("--resume needs --store F.db");
   if (options.start == "reset" && options.direction == "both")
     throw InputError("--direction both: with --start reset, up and down are the same; choose one, or --start carry");
@@ -315,8 +321,8 @@ Action add_diagram(Arguments& arguments) {
                    "in which the state is carried (up); both shows coexisting attractors");
   arguments.choice("--start", options->start, {"carry", "reset"},
                    "carry the state from value to value, or begin each anew (carry)");
-  arguments.count("--transient", options->transient, 0, 1'000'000'000,
-                  "forcing periods at each value before recording (500)");
+  arguments.number("--transient", options->transient, "N",
+                   "forcing periods at each value before recording (500; of a record none)");
   arguments.count("--impacts", options->impacts, 1, 1'000'000'000, "impacts to record at each value (200)");
   arguments.count("--most-periods", options->most_periods, 1, 1'000'000'000,
                   "end a recording here if impacts are rare (5000)");
@@ -327,7 +333,7 @@ Action add_diagram(Arguments& arguments) {
   arguments.text("--at", options->at, "impact|period|EVENT",
                  "of --y without STAT: before every impact, at phase 0 of every period, or before every event as stick "
                  "or stick:belt (impact; without stops period)");
-  arguments.count("--periods", options->periods, 1, 1'000'000'000, "of --y: forcing periods that are measured (100)");
+  arguments.count("--periods", options->periods, 1, 1'000'000'000, "of --y: forcing periods that are measured (100; of a record all of it)");
   options->stops.declare(arguments, "record the impacts of this stop only; may be repeated (all)");
   arguments.text("--store", options->store, "F.db", "write each value there as it is finished");
   arguments.flag("--resume", options->resume, "of --store: compute only what is not there yet");

@@ -135,12 +135,12 @@ def diagram(
     *,
     direction: str = "up",
     carry: bool = True,
-    transient: int = 500,
+    transient: float | None = None,
     impacts: int = 200,
     most_periods: int = 5000,
     stops: str | Sequence[str] = (),
     y: str | Sequence[str] = (),
-    periods: int = 100,
+    periods: int = 0,
     start: Start = None,
     threads: int = 0,
     progress: Progress = None,
@@ -152,10 +152,10 @@ def diagram(
     The parameter is a keyword: `omega=(0.5, 10, 2400)` are 2400 values, both ends included; an array or a list gives
     the values themselves, increasing.
     direction: 'up', 'down' or 'both', in which the state is carried; carry: False begins each value at the start.
-    transient: forcing periods before the impacts of a value are recorded; impacts: how many; most_periods: the
-    recording ends here if they are rare. stops: whose impacts (all).
-    y: "Q:STAT,.." or a list of such words: statistics over `periods` in place of impacts, as of `slapstick.measure`;
-    then a model needs no stop. threads: 0 for all; the result is the same.
+    transient: forcing periods before the impacts of a value are recorded (None: 500, or what comes before the record of a
+    signal); impacts: how many; most_periods: the recording ends here if they are rare. stops: whose impacts (all).
+    y: "Q:STAT,.." or a list of such words: statistics over `periods` (0: 100, or the record) in place of impacts, as of
+    `slapstick.measure`; then a model needs no stop. threads: 0 for all; the result is the same.
 
     Raises InputError for what can be known to be wrong before the work. A value that fails is left out, stands in
     `failures`, and is a RuntimeWarning.

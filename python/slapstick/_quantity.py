@@ -117,7 +117,7 @@ def measure(
     *,
     periods: float = 0,
     sensitivity: str | Sequence[str] = (),
-    transient: int = 500,
+    transient: float | None = None,
     start: Start = None,
     progress: Progress = None,
     parameters: Values | None = None,
@@ -127,7 +127,8 @@ def measure(
 
     of: "Q[:STAT],.." or a list of such words; STAT is mean, rms, min, max, min_at, max_at, peak_to_peak, crest,
     impulse or number, of quantities at impacts also q05 .. q95. Without one: all that are usual. Where there is no cycle
-    1000 periods are measured. transient: forcing periods that are left out first.
+    1000 periods are measured, or the record of a signal. transient: forcing periods that are left out first; None: 500, or
+    what comes before the record.
 
     sensitivity: names of parameters or groups; the result then has the exact derivative of every number by each, of a
     cycle as long as it keeps its events.
@@ -150,7 +151,7 @@ def measure(
     wanted = wanted_of(of, chosen, fixed)
     names = [quantity.name for quantity, _ in wanted]
     call = (chosen._core, fixed, start_of(start), names, by, transient, float(periods))
-    found = _progress.run(_core.measure, call, "periods", transient, progress)
+    found = _progress.run(_core.measure, call, "periods", 500 if transient is None else transient, progress)
     return Measured(found, wanted, chosen, fixed, options)
 
 
@@ -227,7 +228,7 @@ def spectrum(
     orders: float = 20,
     periods: float = 0,
     stretch: float = 64,
-    transient: int = 500,
+    transient: float | None = None,
     start: Start = None,
     progress: Progress = None,
     parameters: Values | None = None,
@@ -235,9 +236,9 @@ def spectrum(
 ) -> Spectrum:
     """The spectrum of a quantity: exact Fourier lines of the cycle that the motion settles on, impulses included.
 
-    With `periods`, or where there is no cycle (then 2048 of them): a power density by Welch's method over stretches of
-    `stretch` forcing periods, each half in the next one, with the window of Hann. orders: the highest one, in multiples
-    of the forcing.
+    With `periods`, or where there is no cycle (then 2048 of them, or the record of a signal): a power density by Welch's
+    method over stretches of `stretch` forcing periods, each half in the next one, with the window of Hann. orders: the
+    highest one, in multiples of the forcing.
 
     Raises InputError for an unknown quantity or one at impacts, NumericalError if the motion cannot go on.
 
@@ -250,5 +251,5 @@ def spectrum(
     demand_counts(transient=transient, periods=periods, orders=orders, stretch=stretch)
     options = {"of": of, "orders": orders, "periods": periods, "stretch": stretch, "transient": transient, "start": start}
     call = (chosen._core, fixed, start_of(start), of, float(orders), transient, float(periods), float(stretch))
-    found = _progress.run(_core.spectrum, call, "periods", transient, progress)
+    found = _progress.run(_core.spectrum, call, "periods", 500 if transient is None else transient, progress)
     return Spectrum(found, chosen, fixed, options)

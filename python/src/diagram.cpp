@@ -94,7 +94,8 @@ sweep::StartRule rule_of(const std::string& name) {
 
 struct Wish {
   std::string direction, rule;
-  int transient, impacts, most_periods;
+  std::optional<double> transient;
+  int impacts, most_periods;
   std::vector<std::string> stops;
   int threads;
 };
@@ -154,7 +155,7 @@ class Sweep {
 
 std::unique_ptr<Diagram> diagram(const ModelDefinition& definition, const Overrides& fixed, const std::string& name,
                                  const std::vector<double>& values, const std::optional<Start>& start,
-                                 const std::string& direction, const std::string& rule, int transient, int impacts,
+                                 const std::string& direction, const std::string& rule, std::optional<double> transient, int impacts,
                                  int most_periods, const std::vector<std::string>& stops, int threads,
                                  const Measure& measure, nb::object progress) {
   auto into = std::make_unique<Diagram>();
@@ -210,7 +211,7 @@ void bind_diagram(nb::module_& module) {
           },
           "of"_a, "statistics"_a, "periods"_a);
   module.def("diagram", &diagram, "definition"_a, "fixed"_a, "name"_a, "values"_a, "start"_a.none(), "direction"_a,
-             "rule"_a, "transient"_a, "impacts"_a, "most_periods"_a, "stops"_a, "threads"_a, "measure"_a, "progress"_a.none());
+             "rule"_a, "transient"_a.none(), "impacts"_a, "most_periods"_a, "stops"_a, "threads"_a, "measure"_a, "progress"_a.none());
   module.def("sweep_value", &sweep::sweep_value, "begin"_a, "end"_a, "count"_a, "place"_a);
 }
 

@@ -14,7 +14,7 @@ namespace slapstick::python {
 namespace {
 
 struct Wish {
-  long transient;
+  std::optional<double> transient;
   double periods, instead;
 };
 
@@ -65,7 +65,7 @@ std::vector<Measured> rates_of(const ModelDefinition& definition, const Override
 
 std::unique_ptr<Measures> measures(const ModelDefinition& definition, const Overrides& values,
                                    const std::optional<Start>& start, const std::vector<std::string>& of,
-                                   const std::vector<std::string>& by, long transient, double periods,
+                                   const std::vector<std::string>& by, std::optional<double> transient, double periods,
                                    nb::object progress) {
   auto result = std::make_unique<Measures>();
   const std::vector<Quantity> wanted = named(definition, values, of);
@@ -114,7 +114,8 @@ struct Spectra {
 };
 
 std::unique_ptr<Spectra> spectra(const ModelDefinition& definition, const Overrides& values,
-                                 const std::optional<Start>& start, const std::string& of, double orders, long transient,
+                                 const std::optional<Start>& start, const std::string& of, double orders,
+                                 std::optional<double> transient,
                                  double periods, double stretch, nb::object progress) {
   auto result = std::make_unique<Spectra>();
   const std::vector<Quantity> wanted = named(definition, values, {of});
@@ -174,7 +175,7 @@ void bind_measures(nb::module_& module) {
       .def_ro("stops", &Measures::stops, nb::rv_policy::reference_internal)
       .def("statistic", &statistic_of, "k"_a, "quantity"_a, "name"_a)
       .def("rate", &rate_of, "parameter"_a, "k"_a, "name"_a);
-  module.def("measure", &measures, "definition"_a, "values"_a, "start"_a.none(), "of"_a, "sensitivity"_a, "transient"_a,
+  module.def("measure", &measures, "definition"_a, "values"_a, "start"_a.none(), "of"_a, "sensitivity"_a, "transient"_a.none(),
              "periods"_a, "progress"_a.none());
   module.def("measure_orbit", &measures_of_orbit, "orbit"_a, "of"_a, "sensitivity"_a);
 }
@@ -198,7 +199,7 @@ void bind_quantity(nb::module_& module) {
       .def_prop_ro("degrees_of_freedom", [](const Spectra& self) { return self.points.degrees_of_freedom; })
       .def_prop_ro("confidence", [](const Spectra& self) { return std::pair(self.points.low, self.points.high); })
       .def("octaves", &bands, "parts"_a, "unit_of_time"_a);
-  module.def("spectrum", &spectra, "definition"_a, "values"_a, "start"_a.none(), "of"_a, "orders"_a, "transient"_a,
+  module.def("spectrum", &spectra, "definition"_a, "values"_a, "start"_a.none(), "of"_a, "orders"_a, "transient"_a.none(),
              "periods"_a, "stretch"_a, "progress"_a.none());
   module.def("a_weighting", &a_weighting, "hertz"_a);
 }

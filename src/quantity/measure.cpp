@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "flow/compiled_system.hpp"
+#include "quantity/first_extreme.hpp"
 #include "quantity/leg_trace.hpp"
 #include "quantity/quadrature.hpp"
 #include "quantity/tracer.hpp"
@@ -26,15 +27,25 @@ struct LongSum {
   [[nodiscard]] double value() const { return sum + rest; }
 };
 
+/// Both extremes, and where they are.
+struct Extremes {
+  FirstExtreme least = FirstExtreme::least(), greatest = FirstExtreme::greatest();
+  double least_at = 0.0, greatest_at = 0.0;
+
+  void note(double value, double at, double near) {
+    if (least.note(value, at, near)) least_at = at;
+    if (greatest.note(value, at, near)) greatest_at = at;
+  }
+  void write(Statistics& into) const {
+    into.least = least.value(), into.least_at = least_at;
+    into.greatest = greatest.value(), into.greatest_at = greatest_at;
+  }
+};
+
 /// Sums of a quantity.
 struct Sums {
   LongSum integral, square;
-  double least = INFINITY, greatest = -INFINITY, least_at = 0.0, greatest_at = 0.0;
-
-  void note(double value, double at) {
-    if (value < least) least = value, least_at = at;
-    if (value > greatest) greatest = value, greatest_at = at;
-  }
+  Extremes extremes;
 };
 
 void add_step(const Polynomial& f, double begin, double length, Sums& sums) {
@@ -44,10 +55,13 @@ void add_step(const Polynomial& f, double begin, double length, Sums& sums) {
   for (std::size_t k = 0; k < nodes; ++k) square += gauss().weight[k] * values[k] * values[k];
   sums.square.add(length * square);
   const double around = f.size(1);
-  if (f.a[0] - around >= sums.least && f.a[0] + around <= sums.greatest) return;
+  const double least = sums.extremes.least.value(), greatest = sums.extremes.greatest.value();
+  if (f.a[0] - around >= least && f.a[0] + around <= greatest) return;
   const event::Bernstein hull(f);
-  if (hull.least() >= sums.least && hull.most() <= sums.greatest) return;
-  event::possible_extremes(f, [&](double x, double value) { sums.note(value, begin + x * length); });
+  if (hull.least() >= least && hull.most() <= greatest) return;
+  event::possible_extremes(f, [&](double x, double value) {
+    sums.extremes.note(value, begin + x * length, FirstExtreme::part_of_step * length);
+  });
 }
 
 class Statistician : public Listener {
@@ -94,10 +108,7 @@ class Statistician : public Listener {
       }
       one.mean = (sums_[k].integral.value() + one.impulse) / duration;
       one.rms = std::sqrt(sums_[k].square.value() / duration);
-      one.least = sums_[k].least;
-      one.greatest = sums_[k].greatest;
-      one.least_at = sums_[k].least_at;
-      one.greatest_at = sums_[k].greatest_at;
+      sums_[k].extremes.write(one);
     }
     for (StopStatistics& stop : found_.stops)
       for (Statistics* one : {&stop.w, &stop.impulse, &stop.loss}) finish(*one);
@@ -108,8 +119,12 @@ class Statistician : public Listener {
   /// least_at and greatest_at are kept up while values come.
   static void add(double value, double at, Statistics& into) {
     if (std::isnan(value)) return;
-    if (into.values.empty() || value < into.least) into.least = value, into.least_at = at;
-    if (into.values.empty() || value > into.greatest) into.greatest = value, into.greatest_at = at;
+    if (into.values.empty()) into.least = into.greatest = value, into.least_at = into.greatest_at = at;
+    const double tie = FirstExtreme::ties * std::max({std::abs(value), std::abs(into.least), std::abs(into.greatest)});
+    if (into.least - value > tie) into.least_at = at;
+    if (value - into.greatest > tie) into.greatest_at = at;
+    into.least = std::min(into.least, value);
+    into.greatest = std::max(into.greatest, value);
     into.values.push_back(value);
   }
 

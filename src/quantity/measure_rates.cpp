@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/text.hpp"
+#include "quantity/first_extreme.hpp"
 #include "quantity/leg_trace.hpp"
 #include "quantity/quadrature.hpp"
 #include "quantity/tracer.hpp"
@@ -21,11 +22,17 @@ struct Place {
 
 struct Sums {
   Number integral, square, impulse;
-  Place least{{INFINITY, 0.0}, {}}, greatest{{-INFINITY, 0.0}, {}};
+  FirstExtreme least_value = FirstExtreme::least(), greatest_value = FirstExtreme::greatest();
+  Place least, greatest;
 
-  void note(const Place& one) {
-    if (one.value.value < least.value.value) least = one;
-    if (one.value.value > greatest.value.value) greatest = one;
+  /// @param place  of the value, asked for where it is an extreme
+  template <class PlaceOf>
+  void note(double value, double at, double near, const PlaceOf& place) {
+    const bool is_least = least_value.note(value, at, near), is_greatest = greatest_value.note(value, at, near);
+    if (!is_least && !is_greatest) return;
+    const Place one = place();
+    if (is_least) least = one;
+    if (is_greatest) greatest = one;
   }
 };
 
@@ -55,9 +62,10 @@ void add_step(const Polynomial& f, const Polynomial& rate, const Step& step, Sum
                   step.length * square.rate + to * to * step.to_rate - from * from * step.from_rate};
   if (step.length == 0.0) return;  // its values are those beside it
   const double around = f.size(1);
-  if (f.a[0] - around >= sums.least.value.value && f.a[0] + around <= sums.greatest.value.value) return;
+  if (f.a[0] - around >= sums.least_value.value() && f.a[0] + around <= sums.greatest_value.value()) return;
   event::possible_extremes(f, [&](double x, double value) {
-    if (value < sums.least.value.value || value > sums.greatest.value.value) sums.note(extreme(f, rate, step, x));
+    sums.note(value, step.begin + x * step.length, FirstExtreme::part_of_step * step.length,
+              [&] { return extreme(f, rate, step, x); });
   });
 }
 
@@ -137,9 +145,9 @@ class RateStatistician : public Listener {
     Statistics rate;
     rate.mean = rate.rms = rate.least = rate.greatest = unknown;
     if (places.empty()) return rate;
-    const auto less = [](const Place& a, const Place& b) { return a.value.value < b.value.value; };
-    std::stable_sort(places.begin(), places.end(), less);
-    const auto first = std::find_if(places.begin(), places.end(), [&](const Place& one) { return !less(one, places.back()); });
+    Sums extremes;
+    for (const Place& one : places) extremes.note(one.value.value, one.at.value, 0.0, [&] { return one; });
+    std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.value.value < b.value.value; });
     Number sum, square;
     for (const Place& one : places) {
       sum += one.value;
@@ -150,10 +158,10 @@ class RateStatistician : public Listener {
     rate.mean = (sum / count).rate;
     rate.rms = rms_rate(square, count);
     rate.impulse = sum.rate;
-    rate.least = places.front().value.rate;
-    rate.least_at = within(places.front().at, duration);
-    rate.greatest = first->value.rate;
-    rate.greatest_at = within(first->at, duration);
+    rate.least = extremes.least.value.rate;
+    rate.least_at = within(extremes.least.at, duration);
+    rate.greatest = extremes.greatest.value.rate;
+    rate.greatest_at = within(extremes.greatest.at, duration);
     return rate;
   }
 

@@ -30,10 +30,10 @@ void check(const DiagramProblem& problem) {
     at_least("count", problem.count, 2);
     demand(problem.from < problem.to, "from = " + shown(problem.from) + " is not below to = " + shown(problem.to));
   }
-  at_least("transient_periods", problem.transient_periods, 0);
+  demand(problem.transient_periods.value_or(0.0) >= 0.0, "transient_periods = " + shown(problem.transient_periods.value_or(0.0)) + " is negative");
   at_least("impacts", problem.impacts, 1);
   at_least("most_periods", problem.most_periods, 1);
-  at_least("measured_periods", problem.measured_periods, 1);
+  demand(problem.measured_periods >= 0.0, "measured_periods = " + shown(problem.measured_periods) + " is negative");
   at_least("threads", problem.threads, 0);
   demand(problem.start == StartRule::carry || problem.direction != Direction::both,
          "with start = reset, up and down are the same: choose one of them, or start = carry");

@@ -11,6 +11,7 @@
 #include "batch/runner.hpp"
 #include "section/run_impacts.hpp"
 #include "slapstick/quantity/reader.hpp"
+#include "slapstick/quantity/span.hpp"
 
 namespace slapstick::sweep {
 namespace {
@@ -50,6 +51,25 @@ Instant after(const ImpactSection& section, int periods) {
   return {now.period + periods, now.fraction};
 }
 
+/// Whole periods leave the phase as it is, to the last bit.
+Instant later(Instant from, double periods) {
+  const double whole = std::floor(periods);
+  return Instant{from.period + static_cast<std::int64_t>(whole), from.fraction}.plus(periods - whole);
+}
+
+constexpr double usual_transient = 500.0, usual_length = 100.0;
+
+/// A record begins at its own time; else so many periods after the phase at which the value began.
+Instant end_of_transient(const DiagramProblem& problem, const Motion& motion) {
+  const auto record = record_of(motion.system().model());
+  if (record && !problem.transient_periods) return Instant{}.plus(record->begin);
+  return later({0, motion.time().fraction}, problem.transient_periods.value_or(usual_transient));
+}
+
+double measured_length(const DiagramProblem& problem, const Motion& motion) {
+  return stretch_of(motion.system().model(), motion.time().since({}), problem.measured_periods, usual_length).periods;
+}
+
 double x_of(const State& state, int coordinate) {
   return coordinate == ground ? 0.0 : state[2 * static_cast<std::size_t>(coordinate)];
 }
@@ -76,7 +96,7 @@ void undo_rounding(const Model& model, State& state) {
 
 void run_in_lanes(const DiagramProblem& problem, std::span<const DiagramPoint> points, std::span<Carried> begun) {
   constexpr int last_periods = 20;
-  const int periods = problem.transient_periods - last_periods;
+  const int periods = static_cast<int>(problem.transient_periods.value_or(usual_transient)) - last_periods;
   if (periods < 1) return;
   std::size_t next = 0;
   const auto parameter = [&](std::size_t i) { return points[i].parameter; };
@@ -103,7 +123,7 @@ std::optional<Settled> settle(const DiagramProblem& problem, const Carried& carr
     if (impacts && stop_contacts(system->model()).empty())
       throw InputError("model '" + system->model().name + "' has no stop, so there are no impacts to record");
     ImpactSection section(start_motion(problem, carried, *system, point), problem.stops);
-    const Instant end{problem.transient_periods, section.motion().time().fraction};
+    const Instant end = end_of_transient(problem, section.motion());
     interrupted = !run_impacts(section, end, problem.cancel, [](const SectionPoint&) { return true; });
     if (interrupted) return;
     settled.emplace(Settled{std::move(system), std::move(section)});
@@ -155,7 +175,8 @@ void record(const DiagramProblem& problem, Settled settled, DiagramPoint& point)
     ImpactSection& section = settled.section;
     const Instant begin = section.motion().time();
     if (!problem.of.empty()) {
-      Measured found = measure(section.motion(), after(section, problem.measured_periods), problem.of, problem.cancel);
+      const Instant end = later(begin, measured_length(problem, section.motion()));
+      Measured found = measure(section.motion(), end, problem.of, problem.cancel);
       interrupted = !found.complete;
       if (!interrupted) point.of = std::move(found.of);
       return;

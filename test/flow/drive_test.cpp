@@ -128,6 +128,18 @@ TEST(Signal, ThatRepeatsGoesOnAsWrittenOut) {
   EXPECT_NEAR(a.state()[1], b.state()[1], 1e-10);
 }
 
+/// Rounds go on before the first point: points a whole round later are the same signal, and from t = 0 to 1 the
+/// triangle below rises from 0 to 1.
+TEST(Signal, ThatRepeatsDoesSoBeforeItsFirstPoint) {
+  const System late(built(mass + signal("[[1, 1], [2, 0], [3, 1]]", "repeats = true\n")));
+  const System early(built(mass + signal("[[-1, 1], [0, 0], [1, 1]]", "repeats = true\n")));
+  Motion a(late, {0.0, 0.0}), b(early, {0.0, 0.0});
+  (void)run(a, 1.0);
+  (void)run(b, 1.0);
+  EXPECT_NEAR(a.state()[1], 0.5, 1e-15);
+  EXPECT_EQ(a.state(), b.state());
+}
+
 TEST(Signal, CutsChangeNoBit) {
   const System system(built("omega = 1.3\n" + mass + spring +
                             "[[stop]]\nname = 'w'\nbetween = ['x', 'ground']\nclearance = 0.3\nrestitution = 0.5\n"

@@ -122,6 +122,20 @@ TEST(Rates, AgreeWithDifferencesOfCompliantStopsAndCharacteristics) {
   expect_differences("pressed-block", {}, {"belt_speed", "stiffness"});
 }
 
+/// The kinetic energy of a symmetric motion has its greatest value twice in a cycle: value, instant and their
+/// derivatives are those of the first.
+TEST(Rates, OfEqualExtremesBelongToTheOneThatIsNamed) {
+  const ModelDefinition model = load_model("coulomb-oscillator");
+  const SettledCycle cycle(model);
+  const std::vector<Quantity> of = {cycle.named("kinetic_energy")};
+  const orbit::Orbit& orbit = cycle.solution.orbit;
+  const Statistics rate = measure_rates(model, {}, {"omega"}, orbit, of)[0].of[0];
+  constexpr double h = 1e-4;
+  const Statistics above = beside(model, {}, "omega", h, orbit, of).of[0], below = beside(model, {}, "omega", -h, orbit, of).of[0];
+  EXPECT_NEAR(rate.greatest_at, (above.greatest_at - below.greatest_at) / (2.0 * h), 1e-2);  // the other's is 4.9 away
+  EXPECT_NEAR(rate.greatest, (above.greatest - below.greatest) / (2.0 * h), 1e-3);
+}
+
 /// A mass that sticks for ever is one of a family: no derivative, and no number that looks like one.
 TEST(Rates, OfOneOfAFamilyAreRefused) {
   const ModelDefinition model = load_model("coulomb-oscillator");

@@ -61,8 +61,8 @@ struct Force {
 };
 
 /// A function of time that is given by points and straight lines between them, as a measurement is. Before the first
-/// and after the last point it stays as it is there; one that repeats goes on in rounds, and its last value is its
-/// first.
+/// and after the last point it stays as it is there; one that repeats is periodic instead, also before its first point,
+/// and its last value is its first.
 struct Signal {
   struct Knot {
     double time = 0.0, value = 0.0;

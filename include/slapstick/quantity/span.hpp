@@ -9,16 +9,35 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "slapstick/quantity/measure.hpp"
 #include "slapstick/quantity/spectrum.hpp"
 
 namespace slapstick {
 
+/// The stretch of time in which the signals of a model change that do not repeat: from their first point to their last,
+/// as far as a motion from t = 0 on has it, in forcing periods.
+struct Record {
+  double begin = 0.0, end = 0.0;  ///< end <= 0: it is over at the start
+  std::string signal;             ///< that ends last
+};
+/// Nothing of a model without such signals.
+[[nodiscard]] std::optional<Record> record_of(const Model& model);
+
+/// What of a motion is looked at, in forcing periods.
+struct Stretch {
+  double transient = 0.0, periods = 0.0;
+};
+/// @param transient  nothing: 500, or what comes before the record
+/// @param periods  0: what is left of the record, or `instead`
+/// @throws InputError for a negative transient, and where nothing is left of the record
+[[nodiscard]] Stretch stretch_of(const Model& model, std::optional<double> transient, double periods, double instead);
+
 struct SpanWish {
-  long transient = 500;   ///< forcing periods that are left out first
-  double periods = 0.0;   ///< length of the motion in forcing periods; 0: the cycle ..
-  double instead = 1000;  ///< .. or where there is none so many periods
+  std::optional<double> transient = {};  ///< as stretch_of
+  double periods = 0.0;                  ///< length of the motion in forcing periods; 0: the cycle, or the record ..
+  double instead = 1000;                 ///< .. or where there is neither so many periods
   const std::atomic<bool>* stop = nullptr;
   std::function<void(double periods)> progress = {};  ///< called during the transient
 };

@@ -14,6 +14,7 @@
 /// (eq. 8).
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,7 +39,9 @@ struct DiagramProblem {
   std::function<State(double)> start_at;  ///< likewise; the start for `reset`, and of a chain
   double from = 0.0, to = 1.0;  ///< both are values of the diagram; the ones between are equidistant. from < to
   int count = 2;                ///< number of values, >= 2; or 1 if from == to
-  int transient_periods = 500;  ///< forcing periods (units of time for an unforced model) before recording, >= 0
+  /// Forcing periods (units of time for an unforced model) before recording, >= 0; nothing: 500, or of a model with a
+  /// record what comes before that (quantity/span.hpp).
+  std::optional<double> transient_periods = {};
   int impacts = 200;            ///< recorded per value and direction, >= 1
   int most_periods = 5000;      ///< a recording ends here if impacts are too rare, >= 1
   Direction direction = Direction::up;
@@ -46,7 +49,7 @@ struct DiagramProblem {
   StopChoice stops = {};  ///< whose impacts are recorded (section/stop_choice.hpp); those of other stops end no flight
   /// Measured over `measured_periods` after the transient, in place of the impacts; then a model needs no stop.
   std::vector<Quantity> of = {};
-  int measured_periods = 100;
+  double measured_periods = 0.0;  ///< 0: 100, or what is left of a record
   /// Read at instants, in place of the impacts' own table: `impacts` rows at each value. A model needs no stop, but for
   /// `ReadAt::impacts`.
   std::vector<Quantity> values_of = {};

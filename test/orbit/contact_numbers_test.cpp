@@ -10,6 +10,7 @@
 #include "orbit/mode_set.hpp"
 #include "orbit/orbit_rate.hpp"
 #include "slapstick/continuation/branch.hpp"
+#include "slapstick/quantity/cycle_energy.hpp"
 
 namespace slapstick::test {
 namespace {
@@ -50,7 +51,7 @@ TEST(BeltAndStop, TheCycleThatHitsTheStopHasAnOrbit) {
   ASSERT_TRUE(solution);
   EXPECT_EQ(solution->label, "1-1-II");
   EXPECT_TRUE(solution->is_motion);
-  const orbit::Energy energy = orbit::energy(*posed.problem, solution->orbit);
+  const CycleEnergy energy = cycle_energy(*posed.problem, solution->orbit);
   EXPECT_LT(std::abs(energy.balance()), 1e-12 * energy.impacts.at(0));
 }
 

@@ -48,6 +48,15 @@ Orbit without_events(const Motion& motion, int n) {
   return orbit;
 }
 
+/// The next event; none of a motion that cannot be followed any more, as one that has left an unstable orbit for ever.
+std::optional<Seen> next_or_lost(EventReader& reader, Instant end) {
+  try {
+    return reader.next(end);
+  } catch (const NumericalError&) {
+    return std::nullopt;
+  }
+}
+
 std::optional<Orbit> record_autonomous(const Motion& motion, EventReader& reader, std::vector<Seen> events, Instant end) {
   const std::int64_t zero = motion.time().period;
   reader.count_from(zero);
@@ -56,7 +65,7 @@ std::optional<Orbit> record_autonomous(const Motion& motion, EventReader& reader
   std::size_t best = 0;
   double least = 0.1;
   for (long count = 0; count < most_events_autonomous; ++count) {
-    const std::optional<Seen> seen = reader.next(end);
+    const std::optional<Seen> seen = next_or_lost(reader, end);
     if (!seen) break;
     events.push_back(*seen);
     size = size.cwiseMax(seen->x.cwiseAbs());

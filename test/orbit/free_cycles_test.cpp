@@ -82,6 +82,19 @@ TEST(FreeCycle, ItRepelsWhatIsInsideToRestAndWhatIsOutsideForEver) {
   EXPECT_GT(std::abs(motion.state()[0]) + std::abs(motion.state()[1]), 1.1 * fed.A);
 }
 
+/// Without a transient an orbit at the state is meant, though a motion beside it comes to rest, or grows beyond all bounds.
+TEST(FreeCycle, IsFoundFromAStateOnItThoughItRepels) {
+  const FedOscillator fed;
+  for (const double beside : {-1e-4, 1e-4}) {
+    const orbit::Chosen found =
+        find_orbit(*fed.problem, System(fed.model), {(1.0 + beside) * fed.A, 0.0}, {.transient = 0}, nullptr, plain);
+    ASSERT_TRUE(found.orbit);
+    EXPECT_FALSE(found.orbit->stable());
+    EXPECT_FALSE(found.settles);
+    EXPECT_NEAR(orbit::ranges(*fed.problem, found.orbit->orbit)[0].most, fed.A, 1e-10 * fed.A);
+  }
+}
+
 /// Beyond fast_speed the friction is constant and sliding stable; large oscillations come to where it falls. Between
 /// sliding and stick-slip there is a cycle that repels.
 TEST(FreeCycle, BetweenStableSlidingAndStickSlipThereIsOneThatRepels) {

@@ -42,7 +42,7 @@ const ExactFlow& Scene::flow(ModeId mode) {
 
 void Scene::enter(const State& state, double phase, double* X) const {
   system_->compiled().frame().enter(state.data(), X);
-  system_->compiled().frame().set_clock(Instant{0, phase}, X);
+  system_->compiled().frame().set_clock(slapstick::Instant{0, phase}, X);
 }
 
 bool Scene::lawful(const State& state) const {

@@ -91,9 +91,11 @@ Extent extent_around(const Numbers& all, const std::vector<Pair>& pairs, std::si
 }
 
 /// Would this number cost the motion more than ten bits? Ten bits are 1e-13 of the motion; one number more costs time only.
+/// Where nothing else in the model gives a length (a speed), the number's own is the model's.
 bool far(const Number& number, Extent extent) {
   constexpr double bits = 0x1p10;
-  return std::abs(number.shift) > bits * extent.length || std::abs(number.drift) > bits * extent.speed;
+  const auto beyond = [](double size, double own) { return own > 0.0 && std::abs(size) > bits * own; };
+  return beyond(number.shift, extent.length) || beyond(number.drift, extent.speed);
 }
 
 class Order {

@@ -49,14 +49,14 @@ TEST(NeverReached, AStopCostsNoDigitWhereverItIsListed) {
   }
 }
 
-/// The only stop of its pair: x = -cos t all along.
+/// The only stop of its pair; a constant force says how large motions are: x = 1 - 2 cos t all along.
 TEST(NeverReached, AStopAloneOnItsPairCostsNoDigit) {
   for (const std::string& far : far_away) {
-    const System system(model_with(stop_at(far)));
+    const System system(model_with("[[force]]\non = 'x'\nharmonic = 0\namplitude = 1\n" + stop_at(far)));
     Motion motion(system, {-1.0, 0.0});
     EXPECT_TRUE(run(motion, 10.0).empty());
-    EXPECT_NEAR(motion.state()[0], -std::cos(10.0), 1e-14) << far;
-    EXPECT_NEAR(motion.state()[1], std::sin(10.0), 1e-14) << far;
+    EXPECT_NEAR(motion.state()[0], 1.0 - 2.0 * std::cos(10.0), 1e-14) << far;
+    EXPECT_NEAR(motion.state()[1], 2.0 * std::sin(10.0), 1e-14) << far;
   }
 }
 

@@ -119,9 +119,15 @@ class UnitCheck {
     if (bare && with)
       fail(bare->line, "coordinate " + in_quotes(bare->name),
            "'unit' is missing: coordinate " + in_quotes(with->name) + " has one");
-    for (const auto& entry : definition_.parameters)
-      if (!entry.shown.unit.empty())
-        demand_one(seen, entry.shown.unit, entry.value.line, "parameter " + in_quotes(entry.shown.name), false);
+    const bool measured = !seen.empty();
+    for (const auto& entry : definition_.parameters) {
+      const std::string where = "parameter " + in_quotes(entry.shown.name);
+      if (entry.shown.unit.empty()) continue;
+      if (measured)
+        demand_one(seen, entry.shown.unit, entry.value.line, where, false);
+      else
+        (void)parsed(entry.shown.unit, entry.value.line, where);
+    }
   }
 
   void demand_one(std::vector<std::pair<Unit, std::string>>& seen, const std::string& text, int line,

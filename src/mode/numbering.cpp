@@ -33,10 +33,14 @@ ContactRow find_or_add_velocity(Numbers& all, const RowVector& row, double drift
   return find_or_add(all, {row, 0.0, drift});
 }
 
-/// Is a before b: at rest rather than on a belt, near rather than far?
-bool nearer(const Number& a, const Number& b) {
+/// What a shift or a drift in the basis may cost the motion: ten bits, which are 1e-13 of its size.
+constexpr double allowed = 0x1p10;
+
+/// Is a before b, which the file has first: at rest rather than on a belt, and so much nearer that b would cost digits?
+/// @param length  to which the forces move the masses
+bool nearer(const Number& a, const Number& b, double length) {
   const double drift = std::abs(a.drift) - std::abs(b.drift);
-  return drift != 0.0 ? drift < 0.0 : std::abs(a.shift) < std::abs(b.shift);
+  return drift != 0.0 ? drift < 0.0 : allowed * std::max(std::abs(a.shift), length) < std::abs(b.shift);
 }
 
 /// Numbers of one pair, by their indices: the first contact's, and the nearest.
@@ -45,14 +49,14 @@ struct Pair {
   bool plain = false;  ///< the nearest is far: row . q itself carries the motion
 };
 
-std::vector<Pair> pairs_of(const Numbers& all) {
+std::vector<Pair> pairs_of(const Numbers& all, double length) {
   std::vector<Pair> pairs;
   for (int i = 0; i < static_cast<int>(all.size()); ++i) {
     const auto same = [&](const Pair& pair) { return same_direction(all[pair.first].row, all[i].row) != 0; };
     const auto known = ranges::find_if(pairs, same);
     if (known == pairs.end())
       pairs.push_back({i, i});
-    else if (nearer(all[i], all[known->nearest]))
+    else if (nearer(all[i], all[known->nearest], length))
       known->nearest = i;
   }
   return pairs;
@@ -90,11 +94,10 @@ Extent extent_around(const Numbers& all, const std::vector<Pair>& pairs, std::si
   return {std::max(forces.length, others.length), std::max(forces.speed, others.speed)};
 }
 
-/// Would this number cost the motion more than ten bits? Ten bits are 1e-13 of the motion; one number more costs time only.
+/// Would this number cost the motion more than it may? One number more costs time only.
 /// Where nothing else in the model gives a length (a speed), the number's own is the model's.
 bool far(const Number& number, Extent extent) {
-  constexpr double bits = 0x1p10;
-  const auto beyond = [](double size, double own) { return own > 0.0 && std::abs(size) > bits * own; };
+  const auto beyond = [](double size, double own) { return own > 0.0 && std::abs(size) > allowed * own; };
   return beyond(number.shift, extent.length) || beyond(number.drift, extent.speed);
 }
 
@@ -163,9 +166,8 @@ int same_direction(const RowVector& a, const RowVector& b) {
 namespace {
 
 /// By which number the pairs are numbered: as the model says, or by the nearest.
-void choose(const Model& model, const Numbers& all, const std::vector<ContactRow>& contacts, std::vector<Pair>& pairs) {
+void choose(const Model& model, Extent forces, const Numbers& all, const std::vector<ContactRow>& contacts, std::vector<Pair>& pairs) {
   const bool given = !pairs.empty() && model.numbered_by.size() == pairs.size();
-  const Extent forces = given ? Extent{} : extent_of_forces(model);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     pairs[k].plain = given ? model.numbered_by[k] < 0 : far(all[pairs[k].nearest], extent_around(all, pairs, k, forces));
     if (given && !pairs[k].plain) pairs[k].nearest = contacts[model.numbered_by[k]].own;
@@ -182,14 +184,15 @@ Numbering::Numbering(const Model& model) {
     compliant.push_back(find_or_add(all, {pair_row(n, stop.a, stop.b), stop.clearance}));
   for (const FrictionContact& contact : model.frictions)
     frictions.push_back(find_or_add_velocity(all, pair_row(n, contact.a, contact.b), contact.belt_speed));
-  std::vector<Pair> pairs = pairs_of(all);
+  const Extent forces = extent_of_forces(model);
+  std::vector<Pair> pairs = pairs_of(all, forces.length);
   const auto contacts = [&] {
     std::vector<ContactRow> rows = stops;
     rows.insert(rows.end(), compliant.begin(), compliant.end());
     rows.insert(rows.end(), frictions.begin(), frictions.end());
     return rows;
   };
-  choose(model, all, contacts(), pairs);
+  choose(model, forces, all, contacts(), pairs);
   for (ContactRow& contact : frictions) {  // one at rest shares the velocity of the nearest stop of its pair
     for (const Pair& pair : pairs) {
       const double sign = same_direction(all[pair.nearest].row, all[contact.own].row);

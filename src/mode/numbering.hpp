@@ -2,10 +2,11 @@
 /// Which numbers stand for the contacts of a model, and which of them carry the motion (the first n rows of W, the basis).
 ///
 /// A number is row . q - shift, with the rate row . q' - drift. A shift in the basis costs the motion the digits of its size,
-/// whether the contact is ever reached or not. So of the contacts on one pair the nearest one is in the basis: the least
-/// drift, and of equal drifts the least shift. Where even that is far (`far`), row . q itself is in the basis, and all the
-/// pair's contacts follow from it. A contact is far against another length of the model; one that is alone has none to be
-/// far against, and its own is the size that motions are expected to have.
+/// whether the contact is ever reached or not. So of the contacts on one pair the first is in the basis that is not far
+/// beside the nearest: of the least drift, and of a shift within ten bits of the least and of the motion's size. Where even
+/// that is far (`far`), row . q itself is in the basis, and all the pair's contacts follow from it. A contact is far against
+/// another length of the model; one that is alone has none to be far against, and its own is the size that motions are
+/// expected to have.
 ///
 /// The rows of the basis are those of the first contact of each pair, whichever is the nearest: they depend on no parameter.
 /// Shifts do, where a parameter makes another contact the nearest one. A family of orbits keeps the choice that it began with

@@ -96,12 +96,12 @@ TEST(NeverReached, AFarStopThatIsReachedAfterAllIsHit) {
   EXPECT_EQ(motion.state()[0], 1e6);
 }
 
-/// W of the basis belongs to the first contact of each pair, its shift to the nearest one: a parameter that makes another one the
-/// nearest moves no row.
+/// W of the basis belongs to the first contact of each pair, its shift to the nearest one, where the first is far beside that: a
+/// parameter that makes it so moves no row.
 TEST(Numbering, TheBasisKeepsItsRowsWhereAnotherContactBecomesTheNearest) {
   Model model = model_with(stop_at("0.5") + stop_at("2", "two_sided = true\n") + pad_on("0", 1.0));
   const mode::Frame before(model);
-  model.stops[0].clearance = 4.0;
+  model.stops[0].clearance = 4096.0;
   const mode::Frame after(model);
   EXPECT_EQ(before.W.topRows(1), after.W.topRows(1));
   EXPECT_EQ(before.shift[0], 0.5);

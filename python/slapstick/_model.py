@@ -203,10 +203,10 @@ def given_to(verb: Callable[..., Any], model: Model, values: Values, parameters:
     return given
 
 
-def demand_counts(**counts: float) -> None:
+def demand_counts(**counts: float | None) -> None:
     """Raises InputError for a negative number of something. It would be taken for none, and the answer for one."""
     for name, count in counts.items():
-        if not count >= 0:
+        if count is not None and not count >= 0:
             raise InputError(f"{name} = {count!r} is negative")
 
 

@@ -11,7 +11,7 @@ namespace slapstick::app {
 
 [[nodiscard]] const std::atomic<bool>& stop_requested();
 
-/// From here on signals are caught, but for those that the caller has the process ignore (nohup, background job). A
+/// From here on signals are caught. Those that the caller lets the process ignore (nohup, background job) are not. A
 /// file that may not grow any further (ulimit -f) is an error of writing, and no death.
 void catch_signals();
 

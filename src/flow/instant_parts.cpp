@@ -21,7 +21,7 @@ bool coupled(const mode::Frame& frame, const ContactRow& a, const ContactRow& b)
   return frame.mass_inverse(a.own, b.own) != 0.0;
 }
 
-/// The contact of a guard, of all but corners.
+/// The contact of a guard that is no corner.
 const ContactRow& contact_of(const mode::Frame& frame, const Guard& guard) {
   if (guard.kind == GuardKind::gap || guard.kind == GuardKind::press) return frame.stops[guard.contact];
   const bool friction = mode::of_friction(guard.kind) || mode::of_load(guard.kind);
@@ -125,7 +125,7 @@ bool Division::owns(std::size_t k, const ContactRow& contact) const {
   return !mode::of_corner(guard(k).kind) && &contact_of(frame_, guard(k)) == &contact;
 }
 
-/// The first guard whose pair shares a mass with the contact's; the last one if there is none.
+/// The first guard whose pair shares a mass with the contact's; without such a guard the last one.
 std::size_t Division::owner(const ContactRow& contact) const {
   for (std::size_t k = 0; k < hits_.size(); ++k)
     if (owns(k, contact)) return k;
@@ -142,7 +142,7 @@ std::size_t Division::owner(const Motion::Strike& strike) const {
   return first;
 }
 
-/// The guard that is a corner of the characteristic; the last one if there is none.
+/// The guard that is a corner of the characteristic; without such a guard the last one.
 std::size_t Division::owner_of_piece(int characteristic) const {
   for (std::size_t k = 0; k < hits_.size(); ++k)
     if (mode::of_corner(guard(k).kind) && guard(k).contact == characteristic) return k;

@@ -38,7 +38,7 @@ class PileUps {
     if (!known && scales && count_ < static_cast<int>(piles_.size())) piles_[count_++] = {stops, 0, 0};
   }
 
-  /// The largest set with this stop that is known to come to rest after what has disturbed it; 0 if there is none.
+  /// The largest set with this stop that is known to come to rest after what has disturbed it; else 0.
   [[nodiscard]] std::uint32_t known(int stop) const {
     std::uint32_t best = 0;
     for (int i = 0; i < count_; ++i) {

@@ -62,7 +62,7 @@ struct Solution {
   int family = 0;
 
   [[nodiscard]] bool isolated() const { return family == 0; }
-  /// All multipliers are known and inside the unit circle, but for those that lead along the family: a motion beside it
+  /// All multipliers are known, and inside the unit circle except those that lead along the family: a motion beside it
   /// settles on a member.
   [[nodiscard]] bool stable() const;
 };

@@ -8,7 +8,7 @@
 
 namespace slapstick {
 
-/// In the model's units. `input` - all sinks = 0 but for rounding.
+/// In the model's units. `input` is the sum of all sinks, to rounding.
 struct CycleEnergy {
   double input = 0.0;            ///< by forces and belts
   double damping = 0.0;          ///< in dampers, the damping matrix, compliant stops and characteristics

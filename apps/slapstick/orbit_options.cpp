@@ -61,7 +61,7 @@ Json solution_json(const orbit::Solution& solution) {
   json.set("p", solution.chatter ? Json("inf") : Json(solution.impacts)).set("sticking", solution.sticking);
   if (!solution.isolated()) json.set("family", solution.family);
   json.set("stable", std::move(stable)).set("period", solution.cycle).set("multipliers", std::move(multipliers));
-  if (!known) json.set("why_no_multipliers", "contacts that act on each other meet their events at one instant");
+  if (!known) json.set("why_no_multipliers", no_derivative);
   json.set("is_motion", solution.is_motion);
   if (!solution.is_motion) json.set("why", solution.why);
   if (!solution.drift.empty()) json.set("drift", Json::list(solution.drift));

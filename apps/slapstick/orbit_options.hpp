@@ -28,6 +28,9 @@ struct ParameterRange {
 [[nodiscard]] double value_inside(const ChosenModel& chosen, const std::string& argument, const std::string& parameter,
                                   const ParameterRange& range);
 
+/// Why there are no multipliers.
+inline constexpr const char* no_derivative = "contacts that act on each other meet their events at one instant";
+
 /// "class", "n", "p", "sticking", "stable", "multipliers", "period", ..
 [[nodiscard]] Json solution_json(const orbit::Solution& solution);
 /// The same and "state": an orbit of a branch or curve.

@@ -5,6 +5,7 @@
 #include "io/json.hpp"
 #include "measured_json.hpp"
 #include "model_options.hpp"
+#include "orbit_options.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "slapstick/attractor/classify.hpp"
@@ -52,8 +53,6 @@ Json complex_json(const std::vector<std::complex<double>>& numbers) {
   return list;
 }
 
-/// No multipliers: the reason, as `orbit` gives it.
-constexpr const char* no_derivative = "contacts that act on each other meet their events at one instant";
 bool has_derivative(const Classification& found) { return !std::isnan(found.exponent); }
 
 Json cycle_json(const Classification& found, Json json, const Model& model) {

@@ -34,7 +34,7 @@ void CarriedTangents::follow(const Engine& engine, Outcome outcome) {
   flow(engine.segment());
   if (outcome == Outcome::event) {
     if (engine.event().kind != EventKind::graze) pass_event(engine, columns_);
-    hold_still(engine);
+    flow::hold_still(engine, columns_);
   }
 }
 
@@ -67,7 +67,7 @@ void CarriedTangents::come_to_rest(const Engine& engine) {
     if (mode.states().stops[i] == mode::StopState::closed) closed.push_back(frame.stops[i].own);
   hold(held, frame.d);
   hold(closed, 0);
-  hold_still(engine);
+  flow::hold_still(engine, columns_);
 }
 
 /// Takes the rates of these displacements, or the displacements themselves (first row `offset`), out of the tangents;
@@ -76,18 +76,6 @@ void CarriedTangents::hold(const std::vector<int>& rows, Eigen::Index offset) {
   const mode::Frame& frame = system_->frame();
   push_along(frame, rows, Eigen::VectorXd::Ones(static_cast<Eigen::Index>(rows.size())),
              columns_.middleRows(offset, frame.d));
-}
-
-/// What the new mode holds still is exactly zero: the rank loss of stick.
-void CarriedTangents::hold_still(const Engine& engine) {
-  const mode::Frame& frame = system_->frame();
-  const mode::Mode& mode = system_->mode(engine.mode_id());
-  for (int i = 0; i < frame.d; ++i) {
-    if (mode.steady(i)) columns_.row(frame.u(i)).setZero();
-  }
-  for (std::size_t i = 0; i < frame.stops.size(); ++i) {
-    if (mode.states().stops[i] == mode::StopState::closed) columns_.row(frame.stops[i].own).setZero();
-  }
 }
 
 void CarriedTangents::set(const Eigen::MatrixXd& tangents) {

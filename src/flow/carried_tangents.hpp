@@ -31,7 +31,6 @@ class CarriedTangents {
   void flow(const Motion::Segment& segment);
   void come_to_rest(const Engine& engine);
   void hold(const std::vector<int>& rows, Eigen::Index offset);
-  void hold_still(const Engine& engine);
 
   const CompiledSystem* system_;
   Eigen::MatrixXd columns_;  ///< of all d displacements and velocities

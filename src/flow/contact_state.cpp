@@ -17,6 +17,12 @@ Eigen::VectorXd contact_state(const Motion& motion) {
   return state;
 }
 
+Eigen::VectorXd contact_state(const mode::Frame& frame, const Eigen::VectorXd& X) {
+  Eigen::VectorXd state(2 * frame.n);
+  state << X.head(frame.n), X.segment(frame.d, frame.n);
+  return state;
+}
+
 State user_state(const System& system, const Eigen::VectorXd& contact) {
   State state(static_cast<std::size_t>(contact.size()));
   system.compiled().frame().leave(contact.data(), contact.data() + system.compiled().frame().n, state.data());

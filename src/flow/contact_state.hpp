@@ -4,12 +4,15 @@
 #include <complex>
 #include <vector>
 
+#include "mode/frame.hpp"
 #include "slapstick/flow/motion.hpp"
 
 namespace slapstick::flow {
 
 /// The first n of p and the first n of u of a motion's extended state.
 [[nodiscard]] Eigen::VectorXd contact_state(const Motion& motion);
+/// .. and of any extended state.
+[[nodiscard]] Eigen::VectorXd contact_state(const mode::Frame& frame, const Eigen::VectorXd& X);
 /// The user's state of a contact state.
 [[nodiscard]] State user_state(const System& system, const Eigen::VectorXd& contact);
 

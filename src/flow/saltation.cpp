@@ -91,16 +91,6 @@ bool timed(const Engine& engine) {
   return !engine.hits().empty() && ranges::none_of(engine.strikes(), &Motion::Strike::to_rest);
 }
 
-/// What the mode behind the instant holds still is zero; a saltation makes it so but for rounding.
-void hold_still(const Engine& engine, Eigen::MatrixXd& tangents) {
-  const mode::Frame& frame = engine.system().frame();
-  const mode::Mode& mode = engine.system().mode(engine.mode_id());
-  for (int i = 0; i < frame.d; ++i)
-    if (mode.steady(i)) tangents.row(frame.u(i)).setZero();
-  for (std::size_t i = 0; i < frame.stops.size(); ++i)
-    if (mode.states().stops[i] == mode::StopState::closed) tangents.row(frame.stops[i].own).setZero();
-}
-
 /// Are two derivatives the same but for rounding? Their four blocks, displacements and velocities by displacements and
 /// velocities, have a unit each. The state at the instant has no size to go by: all may be at rest there.
 /// @param time  in which a state of the motion changes
@@ -124,6 +114,15 @@ void pass_event(const Engine& engine, Eigen::MatrixXd& tangents) {
   if (engine.hits().empty() && engine.strikes().empty()) return;
   Passage passage(engine, false);
   timed(engine) ? passage.carry(tangents) : passage.carry_at_once(tangents);
+}
+
+void hold_still(const Engine& engine, Eigen::MatrixXd& tangents) {
+  const mode::Frame& frame = engine.system().frame();
+  const mode::Mode& mode = engine.system().mode(engine.mode_id());
+  for (int i = 0; i < frame.d; ++i)
+    if (mode.steady(i)) tangents.row(frame.u(i)).setZero();
+  for (std::size_t i = 0; i < frame.stops.size(); ++i)
+    if (mode.states().stops[i] == mode::StopState::closed) tangents.row(frame.stops[i].own).setZero();
 }
 
 bool differentiable(const Engine& engine) {

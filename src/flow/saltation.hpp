@@ -25,6 +25,10 @@ class Engine;
 /// ended a segment.
 void pass_event(const Engine& engine, Eigen::MatrixXd& tangents);
 
+/// What the mode behind the instant holds still is exactly zero: the rank loss of stick. A saltation makes it so to
+/// rounding only.
+void hold_still(const Engine& engine, Eigen::MatrixXd& tangents);
+
 /// Does the last instant of `engine` have a derivative? It has where the guards that were zero together give the same,
 /// whichever of them comes first: bodies that do not act on each other, or several contacts on one pair.
 [[nodiscard]] bool differentiable(const Engine& engine);

@@ -254,9 +254,10 @@ double deflation(const std::vector<VectorXd>& taken_out, const VectorXd& v, cons
   return 1.0 / (1.0 - slope);
 }
 
-/// A tied leg has no length but for rounding. One that has got a length is a leg as any other.
-void settle_ties(Orbit& orbit) {
-  constexpr double rounding = 1e-11;  // of the cycle; more would hide a coincidence that a parameter takes apart
+/// A tied leg has no length, to what Newton's method leaves. One that has got a length is a leg as any other.
+/// @param left  the last step: a longer leg is no rounding, and a bound far above it would hide what a parameter takes apart
+void settle_ties(Orbit& orbit, double left) {
+  const double rounding = 100.0 * std::max(left, enough);  // of the cycle: an instant gathers the errors of a state
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
     if (!orbit.tied(i)) continue;
     if (std::abs(orbit.duration(i)) > rounding * (orbit.t.back() - orbit.t.front()))
@@ -309,7 +310,7 @@ NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condi
   NewtonResult result;
   try {
     newton(problem, orbit, conditions, most_steps, besides, result);
-    if (result.converged) settle_ties(orbit);
+    if (result.converged) settle_ties(orbit, result.last_step);
   } catch (const InputError& error) {
     result.refusal = error.what();
   } catch (const NumericalError& error) {

@@ -9,6 +9,7 @@
 #include "flow/engine.hpp"
 #include "flow/instant_parts.hpp"
 #include "flow/saltation.hpp"
+#include "slapstick/orbit/special_point.hpp"
 
 namespace slapstick::orbit {
 namespace {
@@ -35,31 +36,14 @@ std::vector<flow::InstantPart> separate_parts(const flow::Engine& engine, bool d
   return apart;
 }
 
-/// The contact of a guard in the numbering of Event.
-int numbered(const Model& model, const mode::Guard& guard) {
-  const auto frictions = static_cast<int>(model.stops.size());
-  const int compliant = frictions + static_cast<int>(model.frictions.size());
-  if (guard.kind == mode::GuardKind::gap || guard.kind == mode::GuardKind::press) return guard.contact;
-  if (mode::of_friction(guard.kind) || mode::of_load(guard.kind)) return frictions + guard.contact;
-  const int first = mode::of_corner(guard.kind) ? compliant + static_cast<int>(model.compliant_stops.size()) : compliant;
-  return first + guard.contact;
-}
-
 /// What the end of a leg is called: by the event of its contact, else by the first of the instant.
 void name_end(const Motion& motion, const mode::Guard& guard, Leg& leg) {
   const auto events = motion.engine().events_of_instant();
-  const int contact = numbered(motion.system().model(), guard);
+  const int contact = contact_index(guard.kind, guard.contact, motion.system().model());
   const auto own = ranges::find(events, contact, &Event::contact);
   const Event& event = own != events.end() ? *own : motion.event();
   leg.event = event.kind;
   leg.event_contact = event.contact;
-}
-
-/// The contact state behind a part: that before the instant, with the impacts so far.
-VectorXd behind(const mode::Frame& frame, const VectorXd& X) {
-  VectorXd x(2 * frame.n);
-  x << X.head(frame.n), X.segment(frame.d, frame.n);
-  return x;
 }
 
 }  // namespace
@@ -98,7 +82,7 @@ void EventReader::read() {
       const flow::Collision collision(system.model(), frame, strike, X);
       flow::push_along(frame, collision.rows, collision.factor, X.segment(frame.d, frame.d));
     }
-    read_.push_back({leg, t, k + 1 == parts.size() ? last : behind(frame, X)});
+    read_.push_back({leg, t, k + 1 == parts.size() ? last : flow::contact_state(frame, X)});
     leg.states = parts[k].after;
     leg.tied = true;
   }

@@ -9,6 +9,7 @@
 
 #include "base/ranges.hpp"
 #include "flow/collision.hpp"
+#include "flow/contact_state.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::orbit {
@@ -262,10 +263,7 @@ std::size_t freest_leg(const ModeSet& set, const Orbit& orbit) {
 }
 
 VectorXd contact_state(const ModeSet& set, const VectorXd& X) {
-  const Index n = set.frame().n, d = set.frame().d;
-  VectorXd x(2 * n);
-  x << X.head(n), X.segment(d, n);
-  return x;
+  return flow::contact_state(set.frame(), X);
 }
 
 LegValue leg_value(const ModeSet& set, const Leg& leg, const Leg& next, const VectorXd& x, double t_begin,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/dense.hpp"
 #include "base/ranges.hpp"
@@ -36,7 +37,8 @@ VectorXd tangent_at(const Problem& problem, const Linearised& at, std::size_t le
 
 /// Each but once.
 std::vector<std::complex<double>> distinct(const std::vector<std::complex<double>>& multipliers) {
-  constexpr double equal = 1e-6;  // of 1 + |mu|: a double one is known to no more where two pairs meet
+  // Half of the digits, of 1 + |mu|: a double one is known to no more where two pairs meet.
+  const double equal = std::sqrt(std::numeric_limits<double>::epsilon());
   std::vector<std::complex<double>> once;
   for (const auto& mu : multipliers)
     if (ranges::none_of(once, [&](const auto& other) { return std::abs(other - mu) <= equal * (1.0 + std::abs(mu)); }))

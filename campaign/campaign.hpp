@@ -51,6 +51,7 @@ Report run_classes(const Options& options);
 Report run_charts(const Options& options);
 Report run_lanes(const Options& options);
 Report run_lane_grazes(const Options& options);
+Report run_neutral(const Options& options);
 Report run_peers(const Options& options);
 
 }  // namespace campaign

@@ -21,6 +21,7 @@ const std::vector<Campaign>& campaigns() {
       {"lanes", "runs of a batch have the events of a motion", "runs", 100'000, run_lanes},
       {"lane-grazes", "near-grazes in the lanes of a batch, against a motion and a certain search", "starts", 1'000'000,
        run_lane_grazes},
+      {"neutral", "edits of a model file that change nothing change no verb's answer", "triples", 100'000, run_neutral},
       {"families", "error near resonance and near defective matrices", "starts", 1'000, run_families},
   };
   return all;

@@ -1,0 +1,56 @@
+#pragma once
+/// What a verb answers of a model file, as words, rows of events and numbers that know which part they are of.
+#include <complex>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "neutral/file.hpp"
+#include "slapstick/flow/motion.hpp"
+
+namespace slapstick::neutral {
+
+struct Number {
+  std::string what, of;  ///< "mean F", "wall"; of the model as a whole: ""
+  double value = 0.0;
+  Dimension dimension;
+  bool odd = false;             ///< changes its sign with the coordinates
+  int sample = -1;              ///< at which instant, or -1
+  double until = 0.0;           ///< the motion's time that it depends on; of an attractor 0
+};
+
+struct Row {
+  EventKind kind = EventKind::impact;
+  std::string contact;
+  double time = 0.0, w = 0.0;
+};
+
+struct Answer {
+  std::string failure, message;  ///< "refused" or "failed", and why
+  std::map<std::string, std::string> words;
+  std::vector<Number> numbers;
+  std::vector<Row> rows;
+  std::vector<std::complex<double>> multipliers, eigenvalues;
+};
+
+enum class Verb { simulate, measure, classify, orbit, branch, curve };
+[[nodiscard]] const char* name(Verb verb);
+/// How many parameters a file must have for the verb.
+[[nodiscard]] std::size_t parameters_of(Verb verb);
+/// Does the verb answer about the motion from the start on? The others are about where it settles.
+[[nodiscard]] bool of_trajectory(Verb verb);
+
+/// @param grid  samples are at multiples of it, in time units; the motion is looked at for `steps` of these
+struct Question {
+  double grid = 1.0;
+  int steps = 20;
+};
+/// As the verb of the program asks the library; what that throws is the answer's `failure`.
+[[nodiscard]] Answer ask(Verb verb, const ModelDefinition& definition, const Question& question);
+/// The command that asks the same of a file.
+[[nodiscard]] std::string command(Verb verb, const ModelDefinition& definition, const std::string& file, const Question& question);
+
+/// The largest factor by which a small change of the start has grown until a time.
+[[nodiscard]] double growth(const ModelDefinition& definition, double until);
+
+}  // namespace slapstick::neutral

@@ -1,0 +1,270 @@
+#include "neutral/laws.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/text.hpp"
+#include "slapstick/attractor/classify.hpp"
+#include "slapstick/base/error.hpp"
+#include "slapstick/orbit/search.hpp"
+#include "slapstick/quantity/measure.hpp"
+#include "slapstick/quantity/reader.hpp"
+#include "slapstick/quantity/span.hpp"
+#include "slapstick/sweep/diagram.hpp"
+
+namespace slapstick::neutral {
+namespace {
+
+using Kind = Quantity::Kind;
+
+constexpr MotionOptions patience{.most_events_per_period = 20'000};
+/// Of integrals and balances, relative to the largest term.
+constexpr double close = 1e-8;
+
+std::string broken(const std::string& what, double one, double other) { return what + ": " + shown(one) + ", " + shown(other); }
+
+std::vector<Quantity> functions_of_time(const Model& model) {
+  std::vector<Quantity> all = quantities(model);
+  std::erase_if(all, [](const Quantity& q) { return q.at_impacts() || q.kind == Kind::parameter; });
+  return all;
+}
+
+/// A motion's quantities by a quadrature of their values: Gauss's rule of four points on short steps between events.
+std::vector<double> integrals(const System& system, Motion motion, const std::vector<Quantity>& of, const Question& question) {
+  constexpr std::array nodes{0.06943184420297371, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629};
+  constexpr std::array weights{0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693};
+  constexpr int cuts = 64;  // of a grid step
+  Reader reader(system, of);
+  std::vector<double> sums(of.size(), 0.0);
+  for (int k = 1; k <= question.steps * cuts; ++k) {
+    const Instant end = Instant{}.plus(k * question.grid / cuts / system.period());
+    for (Outcome outcome = Outcome::event; outcome == Outcome::event;) {
+      outcome = motion.advance(end);
+      const double h = motion.segment().duration;
+      if (h == 0.0) continue;
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const std::vector<double>& read = reader.within(motion, nodes[i] * h);
+        for (std::size_t q = 0; q < of.size(); ++q) sums[q] += weights[i] * h * read[q];
+      }
+    }
+  }
+  return sums;
+}
+
+/// The columns of a trajectory, integrated, and the means of `measure` without their impulses.
+std::optional<std::string> columns_integrate(const ModelDefinition& definition, const Question& question) {
+  const System system(definition.build());
+  const std::vector<Quantity> of = functions_of_time(system.model());
+  const double time = question.grid * question.steps;
+  const Motion motion(system, definition.start(), {}, patience);
+  const Measured found = slapstick::measure(motion, Instant{}.plus(time / system.period()), of);
+  const std::vector<double> sums = integrals(system, motion, of, question);
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    const Statistics& s = found.of[i];
+    const double smooth = s.mean * time - s.impulse, size = time * (1e-3 + std::max(std::abs(s.least), std::abs(s.greatest)));
+    if (!(std::abs(sums[i] - smooth) <= 1e-6 * size)) return broken("integral of " + of[i].name, sums[i], smooth);
+  }
+  return "";
+}
+
+/// Velocities are the integrals of accelerations, positions of velocities.
+std::optional<std::string> accelerations_sum_up(const ModelDefinition& definition, const Question& question) {
+  const System system(definition.build());
+  std::vector<Quantity> of = functions_of_time(system.model());
+  std::erase_if(of, [](const Quantity& q) { return q.kind != Kind::velocity && q.kind != Kind::acceleration; });
+  const double time = question.grid * question.steps;
+  const Instant end = Instant{}.plus(time / system.period());
+  const State start = definition.start();
+  Motion motion(system, start, {}, patience);
+  const Measured found = slapstick::measure(motion, end, of);
+  while (motion.advance(end) == Outcome::event) {
+  }
+  const State last = motion.state();
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    const auto at = 2 * static_cast<std::size_t>(of[i].index) + (of[i].kind == Kind::velocity ? 0 : 1);
+    const Statistics& s = found.of[i];
+    const double size = time * (1e-3 + std::max(std::abs(s.least), std::abs(s.greatest))) + std::abs(s.impulse);
+    if (!(std::abs(last[at] - start[at] - s.mean * time) <= close * size)) return broken("change by " + of[i].name, last[at] - start[at], s.mean * time);
+  }
+  return "";
+}
+
+/// What comes in is lost or stored.
+std::optional<std::string> energy_balances(const ModelDefinition& definition, const Question& question) {
+  const System system(definition.build());
+  const std::vector<Quantity> of = functions_of_time(system.model());
+  const double time = question.grid * question.steps;
+  const Instant end = Instant{}.plus(time / system.period());
+  Motion motion(system, definition.start(), {}, patience);
+  const Measured found = slapstick::measure(motion, end, of);
+  Reader reader(system, of);
+  const std::vector<double> before = reader.now(motion);
+  while (motion.advance(end) == Outcome::event) {
+  }
+  const std::vector<double> after = reader.now(motion);
+  const std::size_t links = system.model().stops.size() + system.model().frictions.size() + system.model().compliant_stops.size() +
+                            system.model().characteristics.size();
+  double in = 0.0, lost = 0.0, stored = 0.0, size = 1e-3;
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    const double flow = found.of[i].mean * time;
+    if (of[i].kind == Kind::input) in += flow;
+    // The powers of dampers by name are parts of the power of all dampers.
+    if (of[i].kind == Kind::damping || (of[i].kind == Kind::power && static_cast<std::size_t>(of[i].index) < links)) lost += flow;
+    if (of[i].kind == Kind::kinetic || of[i].kind == Kind::potential) stored += after[i] - before[i], size += std::abs(after[i]) + std::abs(before[i]);
+    if (of[i].kind == Kind::input || of[i].kind == Kind::damping || of[i].kind == Kind::power)
+      size += time * std::max(std::abs(found.of[i].least), std::abs(found.of[i].greatest)) + std::abs(found.of[i].impulse);
+  }
+  return std::abs(in - lost - stored) <= close * size ? "" : broken("energy that comes in, and is lost or stored", in, lost + stored);
+}
+
+/// What an impact does to a coordinate is the sum of the impulses at its ends: -F on a, +F on b.
+std::optional<std::string> momentum_balances(const ModelDefinition& definition, const Question& question) {
+  const Model model = definition.build();
+  if (!model.mass.empty() || model.stops.empty()) return std::nullopt;
+  const System system(model);
+  std::vector<Quantity> of = functions_of_time(model);
+  std::erase_if(of, [&](const Quantity& q) {
+    return q.kind != Kind::acceleration && !(q.kind == Kind::force && static_cast<std::size_t>(q.index) < model.stops.size());
+  });
+  const Instant end = Instant{}.plus(question.grid * question.steps / system.period());
+  const Measured found = slapstick::measure(Motion(system, definition.start(), {}, patience), end, of);
+  std::vector<double> impulses(model.coordinates.size(), 0.0);
+  double size = 1e-3;
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    if (of[i].kind != Kind::force) continue;
+    const Stop& stop = model.stops[static_cast<std::size_t>(of[i].index)];
+    if (stop.a != ground) impulses[static_cast<std::size_t>(stop.a)] -= found.of[i].impulse;
+    if (stop.b != ground) impulses[static_cast<std::size_t>(stop.b)] += found.of[i].impulse;
+    size += std::abs(found.of[i].impulse);
+  }
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    if (of[i].kind != Kind::acceleration) continue;
+    const auto k = static_cast<std::size_t>(of[i].index);
+    const double jumps = model.coordinates[k].mass * found.of[i].impulse;
+    if (!(std::abs(jumps - impulses[k]) <= close * size)) return broken("jumps of " + model.coordinates[k].name + " and impulses", jumps, impulses[k]);
+  }
+  return "";
+}
+
+/// A value of a diagram begins after its transient, as a motion does.
+std::optional<std::string> diagram_measures(const ModelDefinition& definition, const Question&) {
+  constexpr int transient = 2, periods = 3;
+  const Model model = definition.build();
+  const State start = definition.start();
+  sweep::DiagramProblem problem;
+  problem.model_at = [&](double) { return model; };
+  problem.start_at = [&](double) { return start; };
+  problem.from = problem.to = 1.0, problem.count = 1;
+  problem.transient_periods = transient, problem.measured_periods = periods;
+  problem.of = functions_of_time(model);
+  problem.threads = 1;
+  const sweep::Diagram diagram = sweep::run_diagram(problem);
+  const System system(model);
+  Motion motion(system, start, {}, patience);
+  while (motion.advance({transient, 0.0}) == Outcome::event) {
+  }
+  const Measured found = slapstick::measure(motion, {transient + periods, 0.0}, problem.of);
+  if (diagram.points[0].of.size() != problem.of.size()) return "the diagram says: " + diagram.points[0].failure;
+  for (std::size_t i = 0; i < problem.of.size(); ++i) {
+    const Statistics &one = diagram.points[0].of[i], &other = found.of[i];
+    const double size = 1e-3 + std::max(std::abs(other.least), std::abs(other.greatest)) + std::abs(other.impulse);
+    if (!(std::abs(one.mean - other.mean) <= close * size)) return broken("mean of " + problem.of[i].name, one.mean, other.mean);
+  }
+  return "";
+}
+
+/// The multipliers of `classify` and of the orbit's own equations, each set with the other's order.
+std::optional<std::string> multipliers_agree(const ModelDefinition& definition, const Question&) {
+  const System system(definition.build());
+  if (!system.model().periodic()) return std::nullopt;
+  const Classification found = slapstick::classify(system, definition.start(),
+                                                   {.transient_periods = 100, .most_periods = 500, .most_n = 16, .exponent_periods = 0});
+  if (found.attractor != Attractor::periodic) return std::nullopt;
+  const auto problem = orbit::pose(definition.family({}), {});
+  const orbit::Settled settled = orbit::settle(*problem, system, definition.start(), {.transient = 100, .most_periods = 500, .most_n = 16});
+  if (!settled.orbit) return "classify names " + found.label + ", and orbit finds no orbit";
+  if (settled.orbit->label != found.label) return "classify names " + found.label + ", orbit " + settled.orbit->label;
+  auto others = settled.orbit->multipliers;
+  if (others.size() != found.multipliers.size())
+    return broken("number of multipliers", static_cast<double>(found.multipliers.size()), static_cast<double>(others.size()));
+  for (const auto& one : found.multipliers) {
+    const auto nearest = std::ranges::min_element(others, {}, [&](const auto& other) { return std::abs(other - one); });
+    if (std::abs(*nearest - one) > 1e-5) return broken("multiplier", std::abs(one), std::abs(*nearest));
+    others.erase(nearest);
+  }
+  return "";
+}
+
+/// Derivatives of the means over a cycle, and differences of two cycles beside it.
+std::optional<std::string> sensitivities_are_differences(const ModelDefinition& definition, const Question&) {
+  const System system(definition.build());
+  if (!system.model().periodic() || definition.parameters().empty()) return std::nullopt;
+  const SpanWish wish{.transient = 100, .instead = 1};
+  const auto span = find_span(definition, {}, system, definition.start(), wish);
+  if (!span->cycle || !span->cycle->isolated() || !span->cycle->stable()) return std::nullopt;
+  const std::vector<Quantity> of = functions_of_time(system.model());
+  const Parameter& by = definition.parameters().front();
+  const double h = 1e-5 * std::max(1e-2, std::abs(by.value));
+  const std::vector<Measured> rates = measure_rates(definition, {}, {by.name}, span->cycle->orbit, of);
+  std::array<Measured, 2> beside;
+  for (const int k : {0, 1}) {
+    const Overrides other{{by.name, by.value + (k == 0 ? -h : h)}};
+    const System there(definition.build(other));
+    const auto cycle = find_span(definition, other, there, definition.start(other), wish);
+    if (!cycle->cycle || cycle->cycle->label != span->cycle->label) return std::nullopt;
+    beside[static_cast<std::size_t>(k)] = slapstick::measure(*cycle, of);
+  }
+  const Measured here = slapstick::measure(*span, of);
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    const double rate = rates[0].of[i].mean, slope = (beside[1].of[i].mean - beside[0].of[i].mean) / (2.0 * h);
+    const double size = std::abs(slope) + std::max(std::abs(here.of[i].least), std::abs(here.of[i].greatest)) / std::max(1e-2, std::abs(by.value));
+    if (!(std::abs(rate - slope) <= 1e-3 * size)) return broken("d mean(" + of[i].name + ") / d " + by.name + " and the difference", rate, slope);
+  }
+  return "";
+}
+
+bool breaks(const Definition& file, const Law& law) {
+  const auto found = check(law, read(file));
+  return found && !found->empty() && waiting_for(file, law).empty();
+}
+
+}  // namespace
+
+const std::vector<Law>& laws() {
+  static const std::vector<Law> all = {
+      {"columns-integrate", "columns of simulate integrate to the means of measure", columns_integrate},
+      {"accelerations", "accelerations with their impulses sum up to velocities, velocities to positions", accelerations_sum_up},
+      {"energy", "energy that comes in is lost or stored", energy_balances},
+      {"momentum", "what impacts do to a coordinate is the sum of their impulses", momentum_balances},
+      {"diagram", "a value of a diagram is that of measure", diagram_measures},
+      {"multipliers", "multipliers of classify and of orbit agree", multipliers_agree},
+      {"sensitivities", "sensitivities of measure are differences", sensitivities_are_differences},
+  };
+  return all;
+}
+
+std::optional<std::string> check(const Law& law, const ModelDefinition& definition) {
+  try {
+    return law.check(definition, {sample_grid(definition.build())});
+  } catch (const NumericalError&) {
+    return std::nullopt;
+  }
+}
+
+Definition smallest(const Definition& file, const Law& law, int most_tries) {
+  Definition best = file;
+  for (bool smaller = true; smaller;) {
+    smaller = false;
+    for (const Definition& candidate : simpler(best)) {
+      if (--most_tries < 0) return best;
+      if (!breaks(candidate, law)) continue;
+      best = read_definition(text(candidate), "random.toml");
+      smaller = true;
+      break;
+    }
+  }
+  return best;
+}
+
+}  // namespace slapstick::neutral

@@ -1,0 +1,29 @@
+#pragma once
+/// Laws between verbs: two answers of one file that say the same in two ways.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "neutral/triple.hpp"
+
+namespace slapstick::neutral {
+
+struct Law {
+  const char* name;
+  const char* meaning;
+  /// What breaks it, "" if nothing does; nothing at all where the file has nothing that it speaks of.
+  std::optional<std::string> (*check)(const ModelDefinition& definition, const Question& question);
+};
+
+[[nodiscard]] const std::vector<Law>& laws();
+
+/// What breaks a law of a file; nothing where it speaks of nothing there, or the numerics did not succeed.
+[[nodiscard]] std::optional<std::string> check(const Law& law, const ModelDefinition& definition);
+
+/// The known fault that a broken law is put down to; "" where there is none.
+[[nodiscard]] std::string waiting_for(const Definition& file, const Law& law);
+
+/// The smallest file found that breaks a law.
+[[nodiscard]] Definition smallest(const Definition& file, const Law& law, int most_tries);
+
+}  // namespace slapstick::neutral

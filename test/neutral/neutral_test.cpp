@@ -1,0 +1,93 @@
+/// Laws of nothing in short: edits that change nothing, on some random files (the campaign `neutral` is the long form).
+#include <gtest/gtest.h>
+
+#include "neutral/laws.hpp"
+#include "property/random_file.hpp"
+#include "slapstick/base/error.hpp"
+
+namespace slapstick::neutral {
+namespace {
+
+TEST(Neutral, FilesAreSoundAndHaveEveryFeature) {
+  std::map<std::string, int> seen;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const Definition file = test::random_file(seed);
+    EXPECT_EQ(text(read_definition(text(file), "random.toml")), text(file));
+    for (const auto& [kind, all] : file.parts)
+      for (const Part& part : all) {
+        ++seen[kind];
+        for (const auto& [key, on] : part.flags) ++seen[key];
+        for (const auto& [key, word] : part.texts) ++seen[key];
+        for (const auto& [key, scalar] : part.fields) ++seen[key];
+        seen["stribeck"] += !part.stribeck.empty(), seen["normal_force"] += !part.load.empty();
+        seen[kind + " points"] += !part.points.empty(), seen["within"] += !part.within.empty();
+      }
+    seen["parameter"] += !file.parameters.empty(), seen["matrix"] += !file.matrices.empty(), seen["no drive"] += !has_harmonics(file);
+  }
+  for (const char* feature : {"coordinate", "signal", "base", "spring", "damper", "force", "friction", "stop", "compliant_stop", "two_sided", "repeats",
+                              "frequency", "unloading_stiffness", "coefficient_outside", "stribeck", "normal_force", "spring points", "damper points",
+                              "friction points", "stop points", "within", "parameter", "matrix", "no drive", "belt_speed", "law"})
+    EXPECT_GE(seen[feature], 8) << feature;
+}
+
+TEST(Neutral, SimplerFilesAreSound) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed)
+    for (const Definition& file : simpler(test::random_file(seed))) EXPECT_NO_THROW((void)read(file).build()) << text(file);
+}
+
+/// An edit that does change something is seen: else nothing below means anything.
+TEST(Neutral, SeesASpringThatIsStronger) {
+  int seen = 0, tried = 0;
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    Asked first(test::random_file(seed, {.most_coordinates = 2, .tones = false, .signals = false}));
+    Edited second{first.file(), {}};
+    auto& springs = parts(second.file, "spring");
+    if (springs.empty() || !field(springs[0], "stiffness")) continue;
+    multiply(*field(springs[0], "stiffness"), 1.0 + 1e-6);
+    ++tried;
+    seen += judge(first, find_edit("show"), second, Verb::simulate).verdict == Verdict::different;
+  }
+  EXPECT_GE(seen, tried * 3 / 4);
+}
+
+class OfNothing : public testing::TestWithParam<Verb> {};
+
+TEST_P(OfNothing, EditsChangeNoAnswer) {
+  std::map<Verdict, int> count;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Asked first(test::random_file(seed));
+    for (const Edit& edit : edits()) {
+      campaign::Random random(seed, 0);
+      const auto second = edit.apply(first.file(), random);
+      if (!second) continue;
+      const Judgement outcome = judge(first, edit, *second, GetParam());
+      ++count[outcome.verdict];
+      if (outcome.verdict != Verdict::different) continue;
+      const Definition small = smallest(first.file(), edit, GetParam(), seed, 300);
+      ADD_FAILURE() << edit.name << ", seed " << seed << ": " << outcome.why << '\n' << both_commands(small, edit, GetParam(), seed);
+    }
+  }
+  EXPECT_LE(50 * count[Verdict::excused], count[Verdict::agreed] + count[Verdict::excused]);
+  EXPECT_GE(count[Verdict::agreed], 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, OfNothing, testing::Values(Verb::simulate, Verb::measure, Verb::classify, Verb::orbit), [](const auto& info) { return std::string(name(info.param)); });
+
+TEST(BetweenVerbs, AnswersOfOneFileAgree) {
+  std::map<std::string, int> kept;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const Definition file = test::random_file(seed);
+    const ModelDefinition definition = read(file);
+    for (const Law& law : laws()) {
+      const auto broken = check(law, definition);
+      if (!broken) continue;
+      if (broken->empty()) ++kept[law.name];
+      if (broken->empty() || !waiting_for(file, law).empty()) continue;
+      ADD_FAILURE() << law.name << ", seed " << seed << ": " << *broken << '\n' << text(smallest(file, law, 300));
+    }
+  }
+  for (const Law& law : laws()) EXPECT_GE(kept[law.name], 3) << law.name;
+}
+
+}  // namespace
+}  // namespace slapstick::neutral

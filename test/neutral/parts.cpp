@@ -1,0 +1,155 @@
+/// Edits that add parts without an effect, or say one part in another way.
+#include <algorithm>
+#include <cmath>
+
+#include "neutral/edits.hpp"
+
+namespace slapstick::neutral {
+namespace {
+
+template <class Things>
+auto& any(Things& things, campaign::Random& random) {
+  return things[static_cast<std::size_t>(random.below(static_cast<int>(things.size())))];
+}
+
+/// The parts of a kind that `fits`.
+std::vector<Part*> those(Definition& file, const std::string& kind, const std::function<bool(const Part&)>& fits) {
+  std::vector<Part*> found;
+  for (Part& part : parts(file, kind))
+    if (fits(part)) found.push_back(&part);
+  return found;
+}
+
+/// First or last in its list.
+void put(std::vector<Part>& list, const Part& part, campaign::Random& random) {
+  list.insert(random.one_in(2) ? list.begin() : list.end(), part);
+}
+
+/// Between a coordinate and what it is measured from, or another coordinate that is measured from there.
+Part far_contact(const Definition& file, const std::string& name, campaign::Random& random) {
+  Part part;
+  part.name = name;
+  part.a = random.below(coordinates(file));
+  part.b = random.below(coordinates(file));
+  if (part.b == part.a || home(file, part.b) != home(file, part.a)) part.b = home(file, part.a);
+  if (random.one_in(2)) std::swap(part.a, part.b);
+  return part;
+}
+
+Part far_spring(const Definition& file, campaign::Random& random) {
+  Part part = far_contact(file, "far", random);
+  part.fields = {{"clearance", number(random.decades(2, 6))}, {"stiffness", number(random.decades(0, 2))}, {"damping", number(0.5)}};
+  return part;
+}
+
+std::optional<Edited> with_part(const Definition& file, const std::string& kind, const Part& part, campaign::Random& random) {
+  Edited edited{file, {}};
+  put(parts(edited.file, kind), part, random);
+  return edited;
+}
+
+}  // namespace
+
+std::optional<Edited> parallel_springs(const Definition& file, campaign::Random& random) {
+  Edited edited{file, {}};
+  const auto plain = those(edited.file, "spring", [](const Part& p) { return p.fields.contains("stiffness") && !p.texts.contains("name"); });
+  if (plain.empty()) return std::nullopt;
+  Part& spring = *any(plain, random);
+  Part other = spring;
+  const double share = random.uniform(0.2, 0.8);
+  multiply(*field(spring, "stiffness"), share);
+  multiply(*field(other, "stiffness"), 1.0 - share);
+  put(parts(edited.file, "spring"), other, random);
+  return edited;
+}
+
+std::optional<Edited> collinear_corner(const Definition& file, campaign::Random& random) {
+  Edited edited{file, {}};
+  std::vector<Part*> bent;
+  for (const char* kind : {"spring", "damper", "stop"})
+    for (Part* part : those(edited.file, kind, [](const Part& p) { return p.points.size() > 1; })) bent.push_back(part);
+  if (bent.empty()) return std::nullopt;
+  Part& part = *any(bent, random);
+  const auto k = static_cast<std::size_t>(random.below(static_cast<int>(part.points.size()) - 1));
+  const Point low = part.points[k], high = part.points[k + 1];
+  const double middle = (low.at.number + high.at.number) / 2, force = (low.force.number + high.force.number) / 2;
+  part.points.insert(part.points.begin() + static_cast<std::ptrdiff_t>(k) + 1, {number(middle), number(force)});
+  if (const auto name = part.texts.find("name"); name != part.texts.end()) edited.rule.rows_apart = {name->second};
+  return edited;
+}
+
+/// k (x - x_base) = k x - F with x_base = F / k.
+std::optional<Edited> force_as_base(const Definition& file, campaign::Random& random) {
+  Edited edited{file, {}};
+  const auto forces = those(edited.file, "force", [](const Part& p) { return !p.texts.contains("signal") && p.band.empty(); });
+  if (forces.empty()) return std::nullopt;
+  Part& force = *any(forces, random);
+  const auto springs = those(edited.file, "spring", [&](const Part& p) {
+    const bool other_end = (p.a == force.a && p.b == ground) || (p.b == force.a && p.a == ground);
+    return other_end && p.fields.contains("stiffness") && !p.fields.at("stiffness").expression && std::abs(p.fields.at("stiffness").number) > 0.05;
+  });
+  if (springs.empty()) return std::nullopt;
+  Part& spring = *any(springs, random);
+  Part base, harmonic;
+  harmonic.fields = force.fields;
+  if (!field(harmonic, "harmonic") && !field(harmonic, "frequency")) harmonic.fields["harmonic"] = number(1);
+  multiply(*field(harmonic, "amplitude"), 1.0 / spring.fields.at("stiffness").number);
+  base.name = "moving";
+  base.harmonics = {harmonic};
+  (spring.a == ground ? spring.a : spring.b) = base_end(static_cast<int>(parts(edited.file, "base").size()));
+  parts(edited.file, "force").erase(parts(edited.file, "force").begin() + (&force - parts(edited.file, "force").data()));
+  parts(edited.file, "base").push_back(base);
+  return edited;
+}
+
+std::optional<Edited> far_stop(const Definition& file, campaign::Random& random) {
+  Part part = far_contact(file, "far", random);
+  part.fields = {{"clearance", number(random.decades(2, 6))}, {"restitution", number(0.5)}};
+  return with_part(file, "stop", part, random);
+}
+
+std::optional<Edited> far_compliant_stop(const Definition& file, campaign::Random& random) {
+  return with_part(file, "compliant_stop", far_spring(file, random), random);
+}
+
+/// Pressed by a compliant stop that is never reached.
+std::optional<Edited> far_pad(const Definition& file, campaign::Random& random) {
+  auto edited = far_compliant_stop(file, random);
+  Part pad = far_contact(file, "pad", random);
+  pad.fields = {{"static", number(0.5)}, {"kinetic", number(0.4)}};
+  pad.load_stop = "far";
+  put(parts(edited->file, "friction"), pad, random);
+  return edited;
+}
+
+std::optional<Edited> zero_force(const Definition& file, campaign::Random& random) {
+  Part part;
+  part.a = random.below(coordinates(file));
+  part.fields = {{"amplitude", number(0)}, {"harmonic", number(1 + random.below(3))}};
+  auto edited = with_part(file, "force", part, random);
+  if (!edited->file.omega) edited->file.omega = number(random.uniform(0.5, 3));
+  return edited;
+}
+
+std::optional<Edited> zero_tone(const Definition& file, campaign::Random& random) {
+  Part part;
+  part.a = random.below(coordinates(file));
+  part.fields = {{"amplitude", number(0)}, {"frequency", number(random.uniform(0.5, 3))}};
+  return with_part(file, "force", part, random);
+}
+
+std::optional<Edited> zero_signal(const Definition& file, campaign::Random& random) {
+  Part part, signal;
+  signal.name = "quiet";
+  signal.points = {{number(0.3), number(0)}, {number(1.1), number(random.one_in(2) ? 0.0 : 1.0)}, {number(2.0), number(0)}};
+  part.a = random.below(coordinates(file));
+  const bool silent = signal.points[1].force.number == 0.0;
+  part.fields = {{"amplitude", number(silent ? 1.0 : 0.0)}};
+  part.texts["signal"] = "quiet";
+  auto edited = with_part(file, "force", part, random);
+  parts(edited->file, "signal").push_back(signal);
+  edited->rule.rows_apart = {"quiet"};
+  return edited;
+}
+
+}  // namespace slapstick::neutral

@@ -1,0 +1,206 @@
+#include "property/random_file.hpp"
+
+#include <random>
+#include <sstream>
+
+#include "property/machine.hpp"
+#include "slapstick/base/error.hpp"
+
+namespace slapstick::test {
+namespace {
+
+Scalar number(double value) { return {value, std::nullopt, 0}; }
+
+class FileDraw {
+ public:
+  FileDraw(std::uint64_t seed, const FileShape& shape) : random_(seed), shape_(shape) {}
+
+  Definition file() {
+    file_ = machine();
+    if (shape_.free && one_in(4)) without_drive();
+    if (forced() && one_in(3)) base();
+    if (shape_.tones && one_in(8)) tone();
+    if (shape_.signals && one_in(8)) signal();
+    for (Part& stop : parts("stop")) two_sided(stop, 3);
+    for (Part& stop : parts("compliant_stop")) two_sided(stop, 3), unloading(stop);
+    for (Part& contact : parts("friction")) falling(contact);
+    if (one_in(6)) zones();
+    if (coordinates() > 1 && one_in(4)) gear();
+    for (int k = integer(0, 2); k > 0; --k) parameter(k);
+    return std::move(file_);
+  }
+
+ private:
+  double real(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  int integer(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
+  bool one_in(int n) { return integer(1, n) == 1; }
+  std::vector<Part>& parts(const char* kind) { return file_.parts[kind]; }
+  int coordinates() { return static_cast<int>(parts("coordinate").size()); }
+  Part& any(const char* kind) { return parts(kind)[static_cast<std::size_t>(integer(0, static_cast<int>(parts(kind).size()) - 1))]; }
+
+  /// The machine's zones have coefficients that a file does not: those of a file are made by `zones`.
+  Definition machine() {
+    Shape shape;
+    shape.most_coordinates = shape_.most_coordinates;
+    shape.laws = one_in(2);
+    Machine machine = random_machine(random_(), shape);
+    std::erase_if(machine.model.characteristics, [](const Characteristic& c) { return c.over == Characteristic::Over::zones || c.corners.size() < 2; });
+    std::ostringstream text;
+    text << machine;
+    return read_definition(text.str(), "random.toml");
+  }
+
+  static bool harmonic(const Part& force) {
+    const auto found = force.fields.find("harmonic");
+    return found != force.fields.end() && found->second.number > 0.0;
+  }
+
+  bool forced() {
+    for (const Part& force : parts("force"))
+      if (harmonic(force)) return true;
+    return false;
+  }
+
+  void without_drive() {
+    std::erase_if(parts("force"), harmonic);
+    file_.omega.reset();
+  }
+
+  /// Springs or dampers stand on the base, or every coordinate is measured from it, and then contacts move with it.
+  void base() {
+    Part base;
+    base.name = "floor";
+    for (int k = integer(1, 2); k > 0; --k) {
+      Part harmonic;
+      harmonic.fields = {{"amplitude", number(real(-0.3, 0.3))}, {"harmonic", number(k)}, {"phase", number(real(0, 6))}};
+      base.harmonics.push_back(harmonic);
+    }
+    parts("base").push_back(base);
+    if (!one_in(3)) {
+      Part link;
+      link.a = integer(0, coordinates() - 1), link.b = base_end(0);
+      const bool spring = one_in(2);
+      link.fields = {{spring ? "stiffness" : "coefficient", number(real(0.1, 1))}};
+      parts(spring ? "spring" : "damper").push_back(link);
+      return;
+    }
+    for (Part& coordinate : parts("coordinate")) coordinate.b = base_end(0), coordinate.texts["base"] = "floor";
+    for (const char* kind : {"stop", "friction", "compliant_stop", "spring", "damper"})
+      for (Part& part : parts(kind))
+        for (int* end : {&part.a, &part.b})
+          if (*end == ground) *end = base_end(0);
+  }
+
+  void tone() {
+    Part force;
+    force.a = integer(0, coordinates() - 1);
+    force.fields = {{"amplitude", number(real(-0.5, 0.5))}, {"frequency", number(real(0.4, 3))}, {"phase", number(real(0, 6))}};
+    parts("force").push_back(force);
+  }
+
+  void signal() {
+    Part signal;
+    signal.name = "record";
+    double time = real(0, 1);
+    for (int k = integer(2, 5); k > 0; --k, time += real(0.3, 2)) signal.points.push_back({number(time), number(real(-0.5, 0.5))});
+    if (one_in(3)) signal.flags["repeats"] = true, signal.points.back().force = signal.points.front().force;
+    parts("signal").push_back(signal);
+    if (one_in(2)) {
+      Part force;
+      force.a = integer(0, coordinates() - 1);
+      force.fields = {{"amplitude", number(real(-1, 1))}};
+      force.texts["signal"] = "record";
+      parts("force").push_back(force);
+      return;
+    }
+    Part base, spring;
+    base.name = "road", base.texts["signal"] = "record";
+    parts("base").push_back(base);
+    spring.a = integer(0, coordinates() - 1), spring.b = base_end(static_cast<int>(parts("base").size()) - 1);
+    spring.fields = {{"stiffness", number(real(0.1, 1))}};
+    parts("spring").push_back(spring);
+  }
+
+  void two_sided(Part& stop, int share) {
+    if (!one_in(share)) return;
+    stop.flags["two_sided"] = true;
+    stop.fields["clearance_lower"] = number(real(0.5, 2));
+  }
+
+  void unloading(Part& stop) {
+    if (!one_in(5)) return;
+    stop.fields.erase("damping"), stop.texts.erase("law");
+    stop.fields["unloading_stiffness"] = number(stop.fields["stiffness"].number * real(0.5, 1));
+  }
+
+  void falling(Part& friction) {
+    const bool loaded = !friction.load.empty() || !friction.load_stop.empty();
+    if (loaded || !one_in(5)) return;
+    const double force = friction.fields["static"].number;
+    friction.fields.erase("kinetic");
+    if (one_in(2)) {
+      friction.points = {{number(0), number(force * 0.9)}, {number(0.5), number(force * 0.5)}};
+      return;
+    }
+    friction.fields.erase("static");
+    friction.stribeck = {{"static", number(force)}, {"kinetic", number(force * 0.6)}, {"speed", number(0.4)}, {"corners", number(3)}};
+  }
+
+  void zones() {
+    Part damper;
+    damper.a = integer(0, coordinates() - 1);
+    const auto& coordinate = parts("coordinate")[static_cast<std::size_t>(damper.a)];
+    damper.b = coordinate.b;  // what it is measured from
+    damper.texts["name"] = "oil";
+    damper.fields = {{"coefficient", number(real(0.05, 0.5))}, {"coefficient_outside", number(real(0, 0.3))}};
+    damper.within = {number(real(-1, 0)), number(real(0.1, 1))};
+    parts("damper").push_back(damper);
+  }
+
+  /// The potential of k (x_1 - r x_2)^2 / 2 as a matrix.
+  void gear() {
+    const std::size_t n = parts("coordinate").size();
+    const double k = real(0.2, 2), r = real(-2, 2);
+    MatrixEntry matrix;
+    matrix.entries.assign(n * n, number(0));
+    matrix.entries[0] = number(k), matrix.entries[1] = matrix.entries[n] = number(-r * k), matrix.entries[n + 1] = number(r * r * k);
+    file_.matrices["stiffness"] = matrix;
+  }
+
+  /// A number of a spring, force or friction contact becomes a parameter, or a multiple of one.
+  void parameter(int which) {
+    constexpr const char* kinds[] = {"spring", "force", "friction", "stop"};
+    constexpr const char* keys[] = {"stiffness", "amplitude", "static", "clearance"};
+    const int k = integer(0, 3);
+    if (parts(kinds[k]).empty()) return;
+    Part& part = any(kinds[k]);
+    const auto found = part.fields.find(keys[k]);
+    if (found == part.fields.end() || found->second.expression) return;
+    ParameterEntry entry;
+    entry.shown.name = "p" + std::to_string(which);
+    const bool twice = one_in(2);
+    entry.value = number(twice ? found->second.number / 2 : found->second.number);
+    found->second = {0.0, Expression((twice ? "2 * " : "") + entry.shown.name), 0};
+    file_.parameters.push_back(entry);
+  }
+
+  std::mt19937_64 random_;
+  const FileShape& shape_;
+  Definition file_;
+};
+
+}  // namespace
+
+Definition random_file(std::uint64_t seed, const FileShape& shape) {
+  for (std::uint64_t attempt = 0;; ++attempt) {
+    try {
+      const std::string text = print_definition(FileDraw(seed + (attempt << 40), shape).file(), {});
+      const ModelDefinition sound = ModelDefinition::parse(text, "random.toml");
+      (void)sound.build(), (void)sound.start();
+      return read_definition(text, "random.toml");
+    } catch (const InputError&) {  // stops without room, a start beyond one, a name twice: drawn again
+    }
+  }
+}
+
+}  // namespace slapstick::test

@@ -95,6 +95,10 @@ class Bernstein {
   std::array<double, Polynomial::most + 1> b_{};
 };
 
+/// Is a value beyond the rounding of its sum? Where a velocity comes to rest the slope of its square is zero, on either side but for rounding,
+/// and what looks like a change of sign there would be taken for the one inside.
+inline bool has_sign(const Polynomial& g, double x) { return std::abs(g.at(x)) > 2 * g.degree * 0x1p-53 * g.size(); }
+
 /// Hands every place of (0, 1) to `take` at which g may be zero: each zero but for rounding, and some places that are none.
 /// @param negligible  pieces where |g| times their length is below this are not halved any further
 template <class Take>
@@ -103,7 +107,7 @@ void possible_zeros(const Polynomial& g, Bernstein b, double from, double to, do
   if (changes == 0) return;
   const double middle = 0.5 * (from + to);
   if (b.largest() * (to - from) <= negligible) return take(middle);
-  if (changes == 1 && b.front() != 0.0 && b.back() != 0.0)
+  if (changes == 1 && has_sign(g, from) && has_sign(g, to))
     return take(bracketed_root([&](double x) { return g.at(x); }, from, to, 0x1p-53));
   take(middle);
   const Bernstein left = b.halve();

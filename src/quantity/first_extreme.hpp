@@ -8,6 +8,10 @@
 
 namespace slapstick::quantity {
 
+/// Is a piece shorter than the rounding of its instant? Between two events of one instant a contact may be in a state
+/// for no time, and what is never there for a while is no extreme.
+inline bool has_no_length(double begin, double length) { return length <= 0x1p-50 * (begin + length); }
+
 class FirstExtreme {
  public:
   /// Of the largest value: far above the rounding of a cycle, some 1e-14 of it. A larger bound would give the instant

@@ -54,6 +54,7 @@ void add_step(const Polynomial& f, double begin, double length, Sums& sums) {
   const auto values = at_nodes(f);
   for (std::size_t k = 0; k < nodes; ++k) square += gauss().weight[k] * values[k] * values[k];
   sums.square.add(length * square);
+  if (has_no_length(begin, length)) return;
   const double around = f.size(1);
   const double least = sums.extremes.least.value(), greatest = sums.extremes.greatest.value();
   if (f.a[0] - around >= least && f.a[0] + around <= greatest) return;

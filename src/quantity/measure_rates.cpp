@@ -60,7 +60,7 @@ void add_step(const Polynomial& f, const Polynomial& rate, const Step& step, Sum
     square += {gauss().weight[k] * values[k] * values[k], 2.0 * gauss().weight[k] * values[k] * rates[k]};
   sums.square += {step.length * square.value,
                   step.length * square.rate + to * to * step.to_rate - from * from * step.from_rate};
-  if (step.length == 0.0) return;  // its values are those beside it
+  if (has_no_length(step.begin, step.length)) return;
   const double around = f.size(1);
   if (f.a[0] - around >= sums.least_value.value() && f.a[0] + around <= sums.greatest_value.value()) return;
   event::possible_extremes(f, [&](double x, double value) {

@@ -15,7 +15,8 @@ class Follower {
 
   /// After a call of advance.
   void look(bool event) {
-    const bool flown = motion_.counters().segments != segments_;
+    const bool flown = motion_.counters().segments != segments_ || (event && struck_at_start());
+    first_ = false;
     if (flown) piece(event && motion_.event().kind == EventKind::chatter);
     if (!event) return;
     if (flown) tracer_.arrive(motion_.engine().extended_before().data());
@@ -25,6 +26,12 @@ class Follower {
   }
 
  private:
+  /// A start in contact and approaching: its impact comes after a piece of no length.
+  [[nodiscard]] bool struck_at_start() const {
+    const Motion::Segment segment = motion_.segment();
+    return first_ && segment.duration == 0.0 && segment.start == origin_ && motion_.event().time == origin_;
+  }
+
   /// The impacts that a chatter's limit stands for come before its segment, others after theirs.
   void piece(bool chatter) {
     segments_ = motion_.counters().segments;
@@ -42,6 +49,7 @@ class Follower {
   Tracer& tracer_;
   Instant origin_;
   long segments_;
+  bool first_ = true;
   std::map<ModeId, std::shared_ptr<const mode::Outline>> outlines_;
 };
 

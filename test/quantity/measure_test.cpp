@@ -127,6 +127,23 @@ TEST(Measure, AChatterSummedEarlyHasTheImpulsesOfAllItsImpacts) {
     }
 }
 
+/// A start in contact that approaches is struck at once: the mean of the acceleration is the change of velocity all the same.
+TEST(Measure, AnImpactAtTheFirstInstantCounts) {
+  const ModelDefinition definition = load_model("impact-oscillator");
+  const System system(definition.build());
+  const Stop& stop = system.model().stops[0];
+  const double side = stop.a == ground ? -1.0 : 1.0;
+  const Motion start(system, {side * stop.clearance, side}, {});
+  const Instant end{0, 0.125};
+  Motion motion = start;
+  while (motion.advance(end) == Outcome::event) {
+  }
+  const Measured found = measure(start, end, {find_quantity(quantities(system.model()), "a")});
+  EXPECT_EQ(found.stops[0].w.impulses, 1);
+  EXPECT_NEAR(found.of[0].mean * found.duration, motion.state()[1] - side, 1e-13);
+  EXPECT_NEAR(std::abs(found.of[0].impulse), 1.0 + stop.restitution, 1e-13);
+}
+
 TEST(Measure, RefusesAnEndThatIsNotLater) {
   const ModelDefinition ball = load_model("bouncing-ball");
   const System system(ball.build());

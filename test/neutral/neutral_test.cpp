@@ -10,7 +10,7 @@ namespace {
 
 TEST(Neutral, FilesAreSoundAndHaveEveryFeature) {
   std::map<std::string, int> seen;
-  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
     const Definition file = test::random_file(seed);
     EXPECT_EQ(text(read_definition(text(file), "random.toml")), text(file));
     for (const auto& [kind, all] : file.parts)
@@ -50,32 +50,42 @@ TEST(Neutral, SeesASpringThatIsStronger) {
   EXPECT_GE(seen, tried * 3 / 4);
 }
 
-class OfNothing : public testing::TestWithParam<Verb> {};
+/// A verb, and how many files it is asked about.
+struct Share {
+  Verb verb;
+  std::uint64_t files;
+};
+class OfNothing : public testing::TestWithParam<Share> {};
 
 TEST_P(OfNothing, EditsChangeNoAnswer) {
+  const auto& [verb, files] = GetParam();
   std::map<Verdict, int> count;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+  for (std::uint64_t seed = 0; seed < files; ++seed) {
     Asked first(test::random_file(seed));
+    if (first.definition().parameters().size() < parameters_of(verb)) continue;
     for (const Edit& edit : edits()) {
       campaign::Random random(seed, 0);
       const auto second = edit.apply(first.file(), random);
       if (!second) continue;
-      const Judgement outcome = judge(first, edit, *second, GetParam());
+      const Judgement outcome = judge(first, edit, *second, verb);
       ++count[outcome.verdict];
       if (outcome.verdict != Verdict::different) continue;
-      const Definition small = smallest(first.file(), edit, GetParam(), seed, 300);
-      ADD_FAILURE() << edit.name << ", seed " << seed << ": " << outcome.why << '\n' << both_commands(small, edit, GetParam(), seed);
+      const Definition small = smallest(first.file(), edit, verb, seed, 300);
+      ADD_FAILURE() << edit.name << ", seed " << seed << ": " << outcome.why << '\n' << both_commands(small, edit, verb, seed);
     }
   }
   EXPECT_LE(50 * count[Verdict::excused], count[Verdict::agreed] + count[Verdict::excused]);
-  EXPECT_GE(count[Verdict::agreed], 100);
+  EXPECT_GE(count[Verdict::agreed], 50);
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, OfNothing, testing::Values(Verb::simulate, Verb::measure, Verb::classify, Verb::orbit), [](const auto& info) { return std::string(name(info.param)); });
+INSTANTIATE_TEST_SUITE_P(Laws, OfNothing,
+                         testing::Values(Share{Verb::simulate, 150}, Share{Verb::measure, 150}, Share{Verb::classify, 40}, Share{Verb::orbit, 40},
+                                         Share{Verb::branch, 9}),
+                         [](const auto& info) { return std::string(name(info.param.verb)); });
 
 TEST(BetweenVerbs, AnswersOfOneFileAgree) {
   std::map<std::string, int> kept;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const Definition file = test::random_file(seed);
     const ModelDefinition definition = read(file);
     for (const Law& law : laws()) {

@@ -6,6 +6,7 @@
 
 #include "slapstick/continuation/branch.hpp"
 #include "slapstick/orbit/search.hpp"
+#include "slapstick/quantity/cycle_energy.hpp"
 
 namespace slapstick::neutral {
 namespace {
@@ -15,7 +16,7 @@ const orbit::SettleOptions short_search{.transient = 100, .most_periods = 500, .
 constexpr double reach = 0.2;
 constexpr int most_points = 80;
 
-void add_energy(const System& system, const orbit::Energy& energy, Answer& answer) {
+void add_energy(const System& system, const CycleEnergy& energy, Answer& answer) {
   const Model& m = system.model();
   answer.numbers.push_back({"input", "", energy.input, dim::energy});
   answer.numbers.push_back({"damping", "", energy.damping, dim::energy});
@@ -54,7 +55,7 @@ void answer_orbit(const ModelDefinition& definition, Answer& answer) {
   const System system(definition.build());
   const auto problem = orbit::pose(definition.family({}), {});
   const orbit::Settled settled = orbit::settle(*problem, system, definition.start(), short_search);
-  answer.words["end"] = std::to_string(static_cast<int>(settled.end));
+  answer.words["orbit"] = settled.orbit ? "yes" : "no";
   if (!settled.orbit) return;
   const orbit::Solution& found = *settled.orbit;
   answer.words["class"] = found.label;
@@ -62,7 +63,9 @@ void answer_orbit(const ModelDefinition& definition, Answer& answer) {
   answer.numbers.push_back({"period", "", found.cycle, dim::time});
   answer.numbers.push_back({"family", "", static_cast<double>(found.family), dim::pure});
   if (!found.chatter) answer.numbers.push_back({"p", "", static_cast<double>(found.impacts), dim::pure});
-  add_energy(system, orbit::energy(*problem, found.orbit), answer);
+  add_energy(system, cycle_energy(*problem, found.orbit), answer);
+  for (std::size_t i = 0; i < found.drift.size(); ++i)
+    answer.numbers.push_back({"drift", system.model().coordinates[i].name, found.drift[i], dim::length, true});
   const std::vector<orbit::Range> ranges = orbit::ranges(*problem, found.orbit);
   const auto& bodies = system.model().coordinates;
   for (std::size_t i = 0; i < bodies.size() && found.drift.empty(); ++i)

@@ -7,6 +7,10 @@
 namespace slapstick::neutral {
 namespace {
 
+/// Longer than any name of a file: of contacts that hold together the shortest name is told.
+constexpr const char* never_reached = "a_contact_that_is_never_reached";
+constexpr const char* never_pressed = "a_friction_contact_that_is_never_pressed";
+
 template <class Things>
 auto& any(Things& things, campaign::Random& random) {
   return things[static_cast<std::size_t>(random.below(static_cast<int>(things.size())))];
@@ -37,13 +41,14 @@ Part far_contact(const Definition& file, const std::string& name, campaign::Rand
 }
 
 Part far_spring(const Definition& file, campaign::Random& random) {
-  Part part = far_contact(file, "far", random);
+  Part part = far_contact(file, never_reached, random);
   part.fields = {{"clearance", number(random.decades(2, 6))}, {"stiffness", number(random.decades(0, 2))}, {"damping", number(0.5)}};
   return part;
 }
 
 std::optional<Edited> with_part(const Definition& file, const std::string& kind, const Part& part, campaign::Random& random) {
   Edited edited{file, {}};
+  if (const auto clearance = part.fields.find("clearance"); clearance != part.fields.end()) edited.rule.farthest = clearance->second.number;
   put(parts(edited.file, kind), part, random);
   return edited;
 }
@@ -103,7 +108,7 @@ std::optional<Edited> force_as_base(const Definition& file, campaign::Random& ra
 }
 
 std::optional<Edited> far_stop(const Definition& file, campaign::Random& random) {
-  Part part = far_contact(file, "far", random);
+  Part part = far_contact(file, never_reached, random);
   part.fields = {{"clearance", number(random.decades(2, 6))}, {"restitution", number(0.5)}};
   return with_part(file, "stop", part, random);
 }
@@ -115,9 +120,9 @@ std::optional<Edited> far_compliant_stop(const Definition& file, campaign::Rando
 /// Pressed by a compliant stop that is never reached.
 std::optional<Edited> far_pad(const Definition& file, campaign::Random& random) {
   auto edited = far_compliant_stop(file, random);
-  Part pad = far_contact(file, "pad", random);
+  Part pad = far_contact(file, never_pressed, random);
   pad.fields = {{"static", number(0.5)}, {"kinetic", number(0.4)}};
-  pad.load_stop = "far";
+  pad.load_stop = never_reached;
   put(parts(edited->file, "friction"), pad, random);
   return edited;
 }

@@ -1,15 +1,21 @@
 #include "neutral/triple.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/text.hpp"
+#include "slapstick/attractor/classify.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::neutral {
 namespace {
 
 /// Of a number of a trajectory, relative to the largest of its dimension: some hundred roundings, before growth.
-constexpr double rounding = 0x1p-44;
+constexpr double own_rounding = 0x1p-44;
+/// Of the farthest stop's clearance: some roundings of it.
+constexpr double far_rounding = 0x1p-49;
+/// From the limit of a chatter on: its last impacts are replaced by their sum.
+constexpr double after_chatter = 1e-7;
 /// Where rounding has grown to this, a trajectory is compared no further.
 constexpr double horizon = 1e-6;
 /// Newton's method closes cycles to 1e-10 of their size, and multipliers that meet lose half of their digits.
@@ -31,7 +37,10 @@ std::optional<ModelDefinition> moved(const Definition& file, double part, std::u
 }
 
 Judgement judge_trajectory(Asked& first, const Answer& answer, const Edited& second, Verb verb) {
+  const auto& rows = first.answer(Verb::simulate).rows;
+  const auto limit = std::ranges::find(rows, EventKind::chatter, &Row::kind);
   const auto differs = [&](double tolerance) { return difference(first.answer(verb), answer, second.rule, first.question().grid, tolerance); };
+  const double rounding = std::max(own_rounding, far_rounding * second.rule.farthest);
   auto found = differs(second.rule.bits ? 0.0 : 64 * rounding);
   if (!found) return {};
   if (second.rule.bits) return {Verdict::different, found->what};
@@ -41,7 +50,8 @@ Judgement judge_trajectory(Asked& first, const Answer& answer, const Edited& sec
       const bool early = verb == Verb::simulate && found->time < 0.25 * first.question().grid * first.question().steps;
       return early ? Judgement{Verdict::excused, "rounding grows beyond the horizon early"} : Judgement{};
     }
-    found = differs(std::max(64 * rounding, 16 * grown));
+    const bool chattered = limit != rows.end() && limit->time <= found->time;
+    found = differs(std::max({64 * rounding, 16 * grown, chattered ? after_chatter : 0.0}));
     if (!found) return {};
   } catch (const NumericalError&) {
   }
@@ -53,13 +63,28 @@ Judgement judge_trajectory(Asked& first, const Answer& answer, const Edited& sec
 }
 
 Judgement judge_attractor(Asked& first, const Answer& answer, const Edited& second, Verb verb) {
-  const auto found = difference(first.answer(verb), answer, second.rule, first.question().grid, second.rule.bits ? 0.0 : of_attractors);
+  // Eigenvalues are found to rounding in any units.
+  const bool bits = second.rule.bits && second.rule.length == 1.0 && second.rule.time == 1.0 && second.rule.mass == 1.0;
+  const auto found = difference(first.answer(verb), answer, second.rule, first.question().grid, bits ? 0.0 : of_attractors);
   if (!found) return {};
-  if (second.rule.bits) return {Verdict::different, found->what};
+  if (bits) return {Verdict::different, found->what};
+  for (const Answer* one : {&first.answer(verb), &answer})
+    if (const auto word = one->words.find("attractor"); word != one->words.end() && word->second == name(Attractor::undecided))
+      return {Verdict::excused, "undecided"};
   for (const Answer& beside : first.beside(verb))
     if (const auto noise = difference(first.answer(verb), beside, {}, first.question().grid, of_attractors))
       return {Verdict::excused, "a start 1e-9 away: " + noise->what};
   return {Verdict::different, found->what};
+}
+
+/// What the answers of the first file say about the question.
+std::string excluded(Asked& first, const Edited& second, Verb verb) {
+  if (of_trajectory(verb)) return "";
+  constexpr std::size_t many = 150;
+  if (first.answer(Verb::simulate).rows.size() > many) return "more than 150 events in five periods: a search of minutes";
+  const bool free = std::ranges::any_of(first.answer(verb).numbers, [](const Number& n) { return n.what == "drift" || (n.what == "family" && n.value > 0.0); });
+  if (second.rule.farthest > 1.0 && free) return "a free group is held by a stop, however far it is";
+  return "";
 }
 
 }  // namespace
@@ -87,6 +112,7 @@ const std::vector<Answer>& Asked::beside(Verb verb) {
 
 Judgement judge(Asked& first, const Edit& edit, const Edited& second, Verb verb) {
   if (const std::string why = excluded(first.file(), edit, verb); !why.empty()) return {Verdict::excluded, why};
+  if (const std::string why = excluded(first, second, verb); !why.empty()) return {Verdict::excluded, why};
   Question question = first.question();
   question.grid *= second.rule.time;
   Answer answer;

@@ -6,9 +6,18 @@
 namespace slapstick::neutral {
 namespace {
 
+bool always(const Definition&) { return true; }
 bool without_drive(const Definition& file) { return !has_harmonics(file); }
 bool aperiodic(const Definition& file) {
   return !file.of("signal").empty() || std::ranges::any_of(file.of("force"), [](const Part& p) { return p.fields.contains("frequency"); });
+}
+bool steps_down_twice(const Definition& file) {
+  const auto steps_down = [](const Part& p) {
+    const auto kinetic = p.fields.find("kinetic"), fixed = p.fields.find("static");
+    return kinetic == p.fields.end() || fixed == p.fields.end() || fixed->second.expression || fixed->second.number != kinetic->second.number;
+  };
+  const auto& all = file.of("friction");
+  return all.size() > 1 && std::ranges::any_of(all, steps_down);
 }
 template <class Thing>
 bool among(const std::vector<Thing>& all, const Thing& one) {
@@ -26,7 +35,7 @@ const std::vector<Verb> settled{Verb::classify, Verb::orbit, Verb::branch, Verb:
 
 const std::vector<Exclusion>& exclusions() {
   static const std::vector<Exclusion> all = {
-      {{"clock"}, {Verb::measure}, [](const Definition&) { return true; }, "statistics of another stretch of time"},
+      {{"clock"}, {Verb::measure}, always, "statistics of another stretch of time"},
       {{"twin"}, settled, without_drive, "two free cycles have phases of their own: one of a family"},
   };
   return all;
@@ -36,9 +45,13 @@ const std::vector<Exclusion>& faults() {
   static const std::vector<Exclusion> all = {
       {{"zero-tone", "zero-signal"}, settled, [](const Definition& file) { return !aperiodic(file); },
        "a drive that does nothing is taken for a drive"},
+      {{"order-of-contacts", "twin", "units"}, {Verb::simulate, Verb::measure, Verb::classify, Verb::orbit, Verb::branch, Verb::curve}, steps_down_twice,
+       "several modes fit where static friction is above kinetic, and the file's order decides"},
+      {{"twin"}, {Verb::orbit, Verb::branch, Verb::curve}, always, "a twin's cycle is named, and its equations are not solved"},
+      {{"twin"}, {Verb::classify}, always, "twins in a complete chatter have no multipliers"},
+      {{"far-stop", "far-pad", "far-compliant-stop", "machine-at-rest", "collinear-corner"}, {Verb::orbit, Verb::branch, Verb::curve}, without_drive,
+       "free cycles of a family: the equations are solved or not by rounding"},
       {{"zero-force"}, settled, without_drive, "a drive that does nothing is taken for a drive"},
-      {{"far-stop", "far-pad", "far-compliant-stop"}, {Verb::simulate, Verb::measure}, [](const Definition&) { return true; },
-       "a contact that is never reached takes digits (far-stop-first)"},
   };
   return all;
 }
@@ -55,9 +68,6 @@ std::string excluded(const Definition& file, const Edit& edit, Verb verb) { retu
 
 std::string waiting_for(const Definition& first, const Edit& edit, Verb verb) { return first_of(faults(), first, edit, verb); }
 
-std::string waiting_for(const Definition& file, const Law& law) {
-  if (std::string(law.name) == "columns-integrate" && aperiodic(file)) return "columns under tones and signals are memory that nobody wrote (columns)";
-  return "";
-}
+std::string waiting_for(const Definition&, const Law&) { return ""; }
 
 }  // namespace slapstick::neutral

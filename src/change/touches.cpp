@@ -14,13 +14,13 @@ using mode::FrictionState;
 using mode::GuardKind;
 
 /// Dying legs next to each other: the first, and how many; both modulo the number of legs.
-struct Run {
+struct DyingRun {
   std::size_t first, count;
 };
 
-std::vector<Run> runs(const std::vector<bool>& dying) {
+std::vector<DyingRun> runs(const std::vector<bool>& dying) {
   const std::size_t legs = dying.size();
-  std::vector<Run> all;
+  std::vector<DyingRun> all;
   for (std::size_t i = 0; i < legs; ++i) {
     if (!dying[i] || dying[(i + legs - 1) % legs]) continue;
     std::size_t count = 1;
@@ -44,7 +44,7 @@ class Search {
   Search(const ModeSet& set, const Orbit& near, const Shortened& shorter) : set_(set), near_(near), shorter_(shorter) {}
 
   /// @returns a touch without guards if nothing is left
-  [[nodiscard]] Touch touch(const Run& run) const {
+  [[nodiscard]] Touch touch(const DyingRun& run) const {
     const std::size_t legs = near_.legs();
     Touch touch;
     const Orbit& left = shorter_.orbit;
@@ -100,7 +100,7 @@ class Search {
     if (least != nullptr) add(least->kind, contact, touch);
   }
 
-  [[nodiscard]] Touch at(Touch touch, const Run& run) const {
+  [[nodiscard]] Touch at(Touch touch, const DyingRun& run) const {
     const std::size_t legs = near_.legs();
     const mode::ContactStates& left = shorter_.orbit.shape.legs[touch.leg].states;
     for (std::size_t k = 0; k <= run.count; ++k) {
@@ -127,7 +127,7 @@ std::optional<std::vector<Touch>> touches(const ModeSet& set, const Orbit& near,
                                           const Shortened& shorter) {
   const Search search(set, near, shorter);
   std::vector<Touch> all;
-  for (const Run& run : runs(dying)) {
+  for (const DyingRun& run : runs(dying)) {
     all.push_back(search.touch(run));
     if (all.back().guards.empty()) return std::nullopt;
   }

@@ -109,7 +109,7 @@ bool is_one(SpecialType type, const Watched& there) {
 
 /// Is the product of two multipliers 1 but for rounding, as all along a stretch without damping? A smaller bound takes
 /// rounding for tori; with a larger one a torus within so much of both ends of a step is missed.
-bool on_the_circle(const Watched& there) {
+bool product_is_one(const Watched& there) {
   constexpr double rounding = 1e-10;
   return std::abs(there.torus) <= rounding;
 }
@@ -126,7 +126,7 @@ void look_within(const Problem& problem, const Kind& kind, const Stretch& stretc
   const auto& [from, to, begin] = stretch;
   const double length = arclength(problem, from, to.orbit);
   if (!changes_sign(kind.value(from.watched), kind.value(to.watched))) return;
-  if (kind.type == SpecialType::NS && on_the_circle(from.watched) && on_the_circle(to.watched)) return;
+  if (kind.type == SpecialType::NS && product_is_one(from.watched) && product_is_one(to.watched)) return;
   std::optional<Located> located = locate(problem, from, length, range, kind.value, kind.value(to.watched));
   if (kind.type == SpecialType::BP) located = sharpened(problem, from, std::move(located), length, range);
   if (!located || !is_one(kind.type, located->point.watched)) return;

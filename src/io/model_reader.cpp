@@ -15,9 +15,9 @@ namespace {
 using Kind = TomlNode::Kind;
 
 /// Fills a Definition from a tree.
-class Reader {
+class ModelReader {
  public:
-  explicit Reader(const std::string& source) : tree_(source) { definition_.source = source; }
+  explicit ModelReader(const std::string& source) : tree_(source) { definition_.source = source; }
 
   Definition read(const TomlNode& root) {
     tree_.check_keys(root, "", top_keys());
@@ -191,7 +191,7 @@ class Reader {
 }  // namespace
 
 Definition read_definition(std::string_view text, const std::string& source) {
-  auto definition = Reader(source).read(parse_toml(text, source));
+  auto definition = ModelReader(source).read(parse_toml(text, source));
   check_units(definition);
   return definition;
 }

@@ -11,7 +11,7 @@ struct Factors {
   RowVector displacement, velocity;
 };
 
-Factors factors(const NormalForce& normal, const Frame& frame) {
+Factors factors_of(const NormalForce& normal, const Frame& frame) {
   RowVector k = RowVector::Zero(frame.n), c = RowVector::Zero(frame.n);
   for (const NormalForce::Term& term : normal.terms) {
     k[term.coordinate] += term.stiffness;
@@ -27,7 +27,7 @@ Factors factors(const NormalForce& normal, const Frame& frame) {
 
 /// The terms of a normal force, with the frame's shifts and drifts.
 RowVector linear_row(const NormalForce& normal, const Frame& frame) {
-  const auto [k, c] = factors(normal, frame);
+  const auto [k, c] = factors_of(normal, frame);
   RowVector row = RowVector::Zero(frame.size());
   row.head(frame.n) = k;
   row.segment(frame.d, frame.n) = c;
@@ -56,7 +56,7 @@ RowVector load_rate(const Model& model, const Model& rate, const Frame& frame, c
                     const ContactStates& states, int i) {
   const auto& normal = model.frictions[i].normal;
   if (!normal) return RowVector::Zero(frame.size());
-  const auto [k, c] = factors(*normal, frame);
+  const auto [k, c] = factors_of(*normal, frame);
   RowVector row = load_row(rate, frame, states, i);
   row[frame.one()] += k.dot(change.shift.head(frame.n)) + c.dot(change.drift.head(frame.n));
   return row;

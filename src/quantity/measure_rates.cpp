@@ -20,7 +20,7 @@ struct Place {
   Number value, at;
 };
 
-struct Sums {
+struct RateSums {
   Number integral, square, impulse;
   FirstExtreme least_value = FirstExtreme::least(), greatest_value = FirstExtreme::greatest();
   Place least, greatest;
@@ -51,7 +51,7 @@ Place extreme(const Polynomial& f, const Polynomial& rate, const Step& step, dou
   return {{f.at(x), rate.at(x) + carried}, {step.begin + x * step.length, step.piece_rate + moves}};
 }
 
-void add_step(const Polynomial& f, const Polynomial& rate, const Step& step, Sums& sums) {
+void add_step(const Polynomial& f, const Polynomial& rate, const Step& step, RateSums& sums) {
   const double from = f.at(0.0), to = f.at(1.0);
   sums.integral += {step.length * f.integral(), step.length * rate.integral() + to * step.to_rate - from * step.from_rate};
   Number square;
@@ -128,7 +128,7 @@ class RateStatistician : public Listener {
     return at.rate - duration.rate * std::floor(at.value / duration.value);
   }
 
-  static Statistics of_time(const Sums& sums, Number duration) {
+  static Statistics of_time(const RateSums& sums, Number duration) {
     Statistics rate;
     rate.mean = ((sums.integral + sums.impulse) / duration).rate;
     rate.rms = rms_rate(sums.square, duration);
@@ -145,7 +145,7 @@ class RateStatistician : public Listener {
     Statistics rate;
     rate.mean = rate.rms = rate.least = rate.greatest = unknown;
     if (places.empty()) return rate;
-    Sums extremes;
+    RateSums extremes;
     for (const Place& one : places) extremes.note(one.value.value, one.at.value, 0.0, [&] { return one; });
     std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.value.value < b.value.value; });
     Number sum, square;
@@ -166,7 +166,7 @@ class RateStatistician : public Listener {
   }
 
   const std::vector<Quantity>& of_;
-  std::vector<Sums> sums_;
+  std::vector<RateSums> sums_;
   std::vector<Places> at_impacts_;
   std::vector<OfStop> stops_;
   int rigid_, between_;  ///< stops, and the friction contacts that are numbered behind them

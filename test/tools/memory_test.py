@@ -87,6 +87,7 @@ ran('status 1, not 0', does='sys.exit(1)')
 ran('sanitized: a.cpp:3: runtime error: index 7', sanitized='print("a.cpp:3: runtime error: index 7", file=sys.stderr)')
 ran('ERROR: AddressSanitizer: heap-use-after-free', sanitized='print("=1=ERROR: AddressSanitizer: heap-use-after-free", file=sys.stderr)')
 ran('', does='print(os.getcwd())')  # where a command runs is no difference
+ran('', does='print(os.path.abspath(__file__))')  # nor what the program is called
 ran('', does='print(open("f.txt").read() if verb == "show" else open("f.txt", "w").write("1"))', lines=('simulate a', 'show a'))
 status, said = outcome('run', ['simulate a'], does='print(filling)')
 assert 'WRONG slapstick simulate a' in said and '0 of 1 commands are right' in said, said

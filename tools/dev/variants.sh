@@ -6,14 +6,15 @@ verb_sanitize() {
   test_preset asan "$@"
 }
 
-# verb_memory [-R REGEX]: the commands of test/memory/commands.txt, with two fillings of the heap.
+# verb_memory [-R REGEX]: the commands of test/memory/commands.txt, by the ordinary program and by one with sanitizers.
 verb_memory() {
   need "${packages[@]}"
   group_if_fresh
   build_preset release slapstick
-  step "memory: commands with two fillings of the heap"
+  build_preset memory slapstick
+  step "memory: commands with two fillings of the heap, and with sanitizers"
   tools/memory list build/slapstick
-  tools/memory run build/slapstick '' "$@"
+  tools/memory run build/slapstick build-memory/slapstick "$@"
   step "memory took $SECONDS s"
 }
 

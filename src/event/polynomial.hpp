@@ -95,9 +95,12 @@ class Bernstein {
   std::array<double, Polynomial::most + 1> b_{};
 };
 
-/// Is a value beyond the rounding of its sum? Where a velocity comes to rest the slope of its square is zero, on either side but for rounding,
+/// -1 or 1, or 0 for a value that the rounding of its sum may have made. Where a velocity comes to rest the slope of its square is zero, on either side but for rounding,
 /// and what looks like a change of sign there would be taken for the one inside.
-inline bool has_sign(const Polynomial& g, double x) { return std::abs(g.at(x)) > 2 * g.degree * 0x1p-53 * g.size(); }
+inline int certain_sign(const Polynomial& g, double x) {
+  const double value = g.at(x);
+  return std::abs(value) > 2 * g.degree * 0x1p-53 * g.size() ? value > 0.0 ? 1 : -1 : 0;
+}
 
 /// Hands every place of (0, 1) to `take` at which g may be zero: each zero but for rounding, and some places that are none.
 /// @param negligible  pieces where |g| times their length is below this are not halved any further
@@ -107,7 +110,7 @@ void possible_zeros(const Polynomial& g, Bernstein b, double from, double to, do
   if (changes == 0) return;
   const double middle = 0.5 * (from + to);
   if (b.largest() * (to - from) <= negligible) return take(middle);
-  if (changes == 1 && has_sign(g, from) && has_sign(g, to))
+  if (changes == 1 && certain_sign(g, from) * certain_sign(g, to) < 0)
     return take(bracketed_root([&](double x) { return g.at(x); }, from, to, 0x1p-53));
   take(middle);
   const Bernstein left = b.halve();

@@ -23,6 +23,8 @@ class Engine : public Flight {
   /// Whether the impact that was last may be followed by a complete chatter: the next call looks for a proof.
   [[nodiscard]] bool may_chatter() const;
   /// Whether the next call of `advance` tells another event of this instant.
+  /// Is `event()` the first of those of its instant?
+  [[nodiscard]] bool tells_first() const { return shown_ == 0; }
   [[nodiscard]] bool tells_more() const { return shown_ + 1 < static_cast<int>(pending_.size()); }
 
   [[nodiscard]] const Event& event() const { return pending_.empty() ? last_ : pending_[shown_]; }

@@ -48,13 +48,13 @@ struct Sums {
   Extremes extremes;
 };
 
-void add_step(const Polynomial& f, double begin, double length, Sums& sums) {
+void add_step(const Polynomial& f, double begin, double length, double period, Sums& sums) {
   sums.integral.add(length * f.integral());
   double square = 0.0;
   const auto values = at_nodes(f);
   for (std::size_t k = 0; k < nodes; ++k) square += gauss().weight[k] * values[k] * values[k];
   sums.square.add(length * square);
-  if (has_no_length(begin, length)) return;
+  if (has_no_length(length, period)) return;
   const double around = f.size(1);
   const double least = sums.extremes.least.value(), greatest = sums.extremes.greatest.value();
   if (f.a[0] - around >= least && f.a[0] + around <= greatest) return;
@@ -71,13 +71,14 @@ class Statistician : public Listener {
       : of_(of), sums_(of.size()), found_{0.0, std::vector<Statistics>(of.size()), {}, true} {
     for (const Stop& stop : model.stops) found_.stops.push_back({stop.name, {}, {}, {}});
     for (const CompliantStop& stop : model.compliant_stops) found_.stops.push_back({stop.name, {}, {}, {}, true});
+    period_ = model.forcing_period();
     rigid_ = static_cast<int>(model.stops.size());
     between_ = static_cast<int>(model.frictions.size());
   }
 
   void step(const Step& step) override {
     for (std::size_t k = 0; k < of_.size(); ++k)
-      if (!of_[k].at_impacts()) add_step(step.values[k], step.begin, step.length, sums_[k]);
+      if (!of_[k].at_impacts()) add_step(step.values[k], step.begin, step.length, period_, sums_[k]);
   }
 
   void blow(const Blow& blow) override {
@@ -144,6 +145,7 @@ class Statistician : public Listener {
   const std::vector<Quantity>& of_;
   std::vector<Sums> sums_;
   Measured found_;
+  double period_ = 1.0;
   int rigid_ = 0, between_ = 0;  ///< stops, and the friction contacts that are numbered behind them
 };
 

@@ -51,7 +51,7 @@ Place extreme(const Polynomial& f, const Polynomial& rate, const Step& step, dou
   return {{f.at(x), rate.at(x) + carried}, {step.begin + x * step.length, step.piece_rate + moves}};
 }
 
-void add_step(const Polynomial& f, const Polynomial& rate, const Step& step, RateSums& sums) {
+void add_step(const Polynomial& f, const Polynomial& rate, const Step& step, double period, RateSums& sums) {
   const double from = f.at(0.0), to = f.at(1.0);
   sums.integral += {step.length * f.integral(), step.length * rate.integral() + to * step.to_rate - from * step.from_rate};
   Number square;
@@ -60,7 +60,7 @@ void add_step(const Polynomial& f, const Polynomial& rate, const Step& step, Rat
     square += {gauss().weight[k] * values[k] * values[k], 2.0 * gauss().weight[k] * values[k] * rates[k]};
   sums.square += {step.length * square.value,
                   step.length * square.rate + to * to * step.to_rate - from * from * step.from_rate};
-  if (has_no_length(step.begin, step.length)) return;
+  if (has_no_length(step.length, period)) return;
   const double around = f.size(1);
   if (f.a[0] - around >= sums.least_value.value() && f.a[0] + around <= sums.greatest_value.value()) return;
   event::possible_extremes(f, [&](double x, double value) {
@@ -78,7 +78,7 @@ double rms_rate(Number square, Number size) {
 class RateStatistician : public Listener {
  public:
   RateStatistician(const Model& model, const std::vector<Quantity>& of)
-      : of_(of), sums_(of.size()), at_impacts_(of.size()), rigid_(static_cast<int>(model.stops.size())),
+      : of_(of), sums_(of.size()), at_impacts_(of.size()), period_(model.forcing_period()), rigid_(static_cast<int>(model.stops.size())),
         between_(static_cast<int>(model.frictions.size())) {
     for (const Stop& stop : model.stops) stops_.push_back({stop.name, false, {}, {}, {}});
     for (const CompliantStop& stop : model.compliant_stops) stops_.push_back({stop.name, true, {}, {}, {}});
@@ -86,7 +86,7 @@ class RateStatistician : public Listener {
 
   void step(const Step& step) override {
     for (std::size_t k = 0; k < of_.size(); ++k)
-      if (!of_[k].at_impacts()) add_step(step.values[k], step.rates[k], step, sums_[k]);
+      if (!of_[k].at_impacts()) add_step(step.values[k], step.rates[k], step, period_, sums_[k]);
   }
 
   void blow(const Blow& blow) override {
@@ -169,6 +169,7 @@ class RateStatistician : public Listener {
   std::vector<RateSums> sums_;
   std::vector<Places> at_impacts_;
   std::vector<OfStop> stops_;
+  double period_;
   int rigid_, between_;  ///< stops, and the friction contacts that are numbered behind them
 };
 

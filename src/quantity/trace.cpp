@@ -29,7 +29,7 @@ class Follower {
   /// A start in contact and approaching: its impact comes after a piece of no length.
   [[nodiscard]] bool struck_at_start() const {
     const Motion::Segment segment = motion_.segment();
-    return first_ && segment.duration == 0.0 && segment.start == origin_ && motion_.event().time == origin_;
+    return first_ && motion_.engine().tells_first() && segment.duration == 0.0 && segment.start == origin_ && motion_.event().time == origin_;
   }
 
   /// The impacts that a chatter's limit stands for come before its segment, others after theirs.

@@ -78,9 +78,15 @@ std::vector<int> holding_together(const Model& m, int contact) {
     const int a = c < stops ? m.stops[k].a : m.frictions[k].a, b = c < stops ? m.stops[k].b : m.frictions[k].b;
     return std::minmax({a, b});
   };
+  const auto far = [](double clearance) { return clearance > out_of_reach; };
+  const auto acts = [&](int c) {
+    if (c < stops) return !far(m.stops[static_cast<std::size_t>(c)].clearance);
+    const auto& normal = m.frictions[static_cast<std::size_t>(c - stops)].normal;
+    return !normal || normal->compliant_stop < 0 || !far(m.compliant_stops[static_cast<std::size_t>(normal->compliant_stop)].clearance);
+  };
   std::vector<int> found;
   for (int other = 0; other < holders; ++other)
-    if (ends(other) == ends(contact) && (other >= stops || m.stops[static_cast<std::size_t>(other)].clearance < out_of_reach)) found.push_back(other);
+    if (ends(other) == ends(contact) && acts(other)) found.push_back(other);
   return found.size() > 1 ? found : std::vector<int>{};
 }
 
@@ -107,7 +113,7 @@ Row told(const System& system, const Event& event) {
   if (event.kind == EventKind::stick && of_stop(event.contact)) row.kind = EventKind::chatter;
   if (event.kind == EventKind::slip_minus) row.kind = EventKind::slip_plus;
   const std::vector<int> together = holding_together(m, event.contact);
-  row.held = event.kind == EventKind::release && (of_stop(event.contact) || std::ranges::any_of(together, of_stop));
+  row.held = event.kind == EventKind::release && std::ranges::any_of(together, of_stop);
   for (const int other : together)
     if (of_stop(other) == of_stop(event.contact))
       if (const std::string its = system.contact_name(other); std::pair(its.size(), its) < std::pair(row.contact.size(), row.contact)) row.contact = its;

@@ -73,6 +73,7 @@ class Comparison {
   [[nodiscard]] bool same(double expected, double found, double size) const {
     if (std::isnan(expected) || std::isnan(found)) return std::isnan(expected) == std::isnan(found);
     if (expected == found) return true;
+    if (std::isinf(expected) || std::isinf(found)) return false;
     return std::abs(expected - found) <= tolerance_ * size;
   }
 
@@ -97,6 +98,9 @@ class Comparison {
     std::map<Key, double> others;
     std::set<Key> undetermined;
     std::map<Dimension, double> sizes;
+    const bool same_parts = rule_.bits || rule_.mirrored || rule_.length != 1.0;
+    if (same_parts && first_.numbers.size() != second_.numbers.size())
+      note(std::to_string(first_.numbers.size()) + " numbers, " + std::to_string(second_.numbers.size()), 0.0);
     for (const Number& n : second_.numbers) {
       others[{n.what, n.of, n.sample}] = n.value;
       if (n.undetermined) undetermined.insert({n.what, n.of, n.sample});
@@ -210,7 +214,7 @@ class Comparison {
         const std::complex<double> wanted = one * unit;
         const auto nearest = std::ranges::min_element(second, {}, [&](const auto& other) { return std::abs(other - wanted); });
         const double size = std::max(unit, std::abs(wanted));
-        if (nearest == second.end() || std::abs(*nearest - wanted) > tolerance_ * size) {
+        if (nearest == second.end() || !(std::abs(*nearest - wanted) <= tolerance_ * size)) {
           const std::complex<double> there = nearest == second.end() ? std::complex<double>(NAN, NAN) : *nearest;
           return note(what + ": " + shown(wanted.real()) + (wanted.imag() < 0 ? " - " : " + ") + shown(std::abs(wanted.imag())) + " i, nearest " +
                           shown(there.real()) + (there.imag() < 0 ? " - " : " + ") + shown(std::abs(there.imag())) + " i",

@@ -47,7 +47,8 @@ Judgement judge_trajectory(Asked& first, const Answer& answer, const Edited& sec
   try {
     const double grown = rounding * growth(first.definition(), found->time);
     if (grown > horizon) {
-      const bool early = verb == Verb::simulate && found->time < 0.25 * first.question().grid * first.question().steps;
+      if (verb == Verb::measure) return {Verdict::excluded, "beyond the horizon"};
+      const bool early = found->time < 0.25 * first.question().grid * first.question().steps;
       return early ? Judgement{Verdict::excused, "rounding grows beyond the horizon early"} : Judgement{};
     }
     const bool chattered = limit != rows.end() && limit->time <= found->time;

@@ -50,17 +50,17 @@ TEST(Neutral, SeesASpringThatIsStronger) {
   EXPECT_GE(seen, tried * 3 / 4);
 }
 
-/// A verb, and how many files it is asked about.
+/// A verb, and the files that it is asked about: [from, to).
 struct Share {
   Verb verb;
-  std::uint64_t files;
+  std::uint64_t from, to;
 };
 class OfNothing : public testing::TestWithParam<Share> {};
 
 TEST_P(OfNothing, EditsChangeNoAnswer) {
-  const auto& [verb, files] = GetParam();
+  const auto& [verb, from, to] = GetParam();
   std::map<Verdict, int> count;
-  for (std::uint64_t seed = 0; seed < files; ++seed) {
+  for (std::uint64_t seed = from; seed < to; ++seed) {
     Asked first(test::random_file(seed));
     if (first.definition().parameters().size() < parameters_of(verb)) continue;
     for (const Edit& edit : edits()) {
@@ -79,8 +79,8 @@ TEST_P(OfNothing, EditsChangeNoAnswer) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, OfNothing,
-                         testing::Values(Share{Verb::simulate, 150}, Share{Verb::measure, 150}, Share{Verb::classify, 40}, Share{Verb::orbit, 40},
-                                         Share{Verb::branch, 9}),
+                         testing::Values(Share{Verb::simulate, 0, 150}, Share{Verb::measure, 0, 150}, Share{Verb::classify, 0, 40},
+                                         Share{Verb::orbit, 0, 40}, Share{Verb::branch, 4, 30}),
                          [](const auto& info) { return std::string(name(info.param.verb)); });
 
 TEST(BetweenVerbs, AnswersOfOneFileAgree) {

@@ -95,8 +95,8 @@ class Bernstein {
   std::array<double, Polynomial::most + 1> b_{};
 };
 
-/// -1 or 1, or 0 for a value that the rounding of its sum may have made. Where a velocity comes to rest the slope of its square is zero, on either side but for rounding,
-/// and what looks like a change of sign there would be taken for the one inside.
+/// -1 or 1, or 0 for a value that the rounding of its sum may have made. Where a velocity comes to rest, the slope of
+/// its square is zero, and rounding gives it a sign. Such a sign would be taken for the change of sign inside.
 inline int certain_sign(const Polynomial& g, double x) {
   const double value = g.at(x);
   return std::abs(value) > 2 * g.degree * 0x1p-53 * g.size() ? value > 0.0 ? 1 : -1 : 0;

@@ -255,7 +255,7 @@ double deflation(const std::vector<VectorXd>& taken_out, const VectorXd& v, cons
 }
 
 /// A tied leg has no length, to what Newton's method leaves. One that has got a length is a leg as any other.
-/// @param left  the last step: a longer leg is no rounding, and a bound far above it would hide what a parameter takes apart
+/// @param left  the last step: a longer leg is no rounding. A bound far above it would hide what a parameter takes apart
 void settle_ties(Orbit& orbit, double left) {
   const double rounding = 100.0 * std::max(left, enough);  // of the cycle: an instant gathers the errors of a state
   for (std::size_t i = 0; i < orbit.legs(); ++i) {

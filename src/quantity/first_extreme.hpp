@@ -9,7 +9,8 @@
 namespace slapstick::quantity {
 
 /// Is a piece no longer than some roundings of an instant, which is a part of a period? Between two events of one
-/// instant a contact may be in a state for no time, and what is never there for a while is no extreme.
+/// instant a contact may be in a state for no time, and what is never there for a while is no extreme. A larger bound
+/// would drop states that last, as of a body between two impacts; a smaller one would let rounding's states in.
 inline bool has_no_length(double length, double period) { return length <= 0x1p-50 * period; }
 
 class FirstExtreme {

@@ -52,7 +52,7 @@ std::string label(Kind kind) { return std::string(slapstick::name(kind)) + " (" 
 
 /// The motions of the generator's machines stay below it.
 constexpr double out_of_reach = 50.0;
-/// Of the fastest: slower ones belong to a chatter.
+/// Of the fastest: slower ones belong to a chatter. Less would compare counts that rounding makes.
 constexpr double slow_impact = 1e-4;
 
 bool odd(Kind kind) { return kind == Kind::displacement || kind == Kind::velocity || kind == Kind::acceleration; }
@@ -90,10 +90,6 @@ std::vector<int> holding_together(const Model& m, int contact) {
   return found.size() > 1 ? found : std::vector<int>{};
 }
 
-bool undetermined(const Model& model, const Quantity& q) {
-  return (q.kind == Kind::force || q.kind == Kind::power || q.kind == Kind::loss) && !holding_together(model, q.index).empty();
-}
-
 /// What the model can be asked for; parameters are no answer, and flights count what a period is.
 std::vector<Quantity> asked(const Model& model, bool at_impacts) {
   std::vector<Quantity> all = quantities(model);
@@ -103,8 +99,8 @@ std::vector<Quantity> asked(const Model& model, bool at_impacts) {
   return all;
 }
 
-/// Of contacts on one pair that hold together one is told when they let go (docs/explanation/mode_graph.md), and each has a
-/// sense of its own: the one with the shortest name stands for all. The sense of a slip is seen in its force.
+/// Of contacts on one pair that hold together one is told when they let go (docs/explanation/mode_graph.md). Each has a
+/// sense of its own. The one with the shortest name stands for all. The sense of a slip is seen in its force.
 Row told(const System& system, const Event& event) {
   const Model& m = system.model();
   Row row{event.kind, system.contact_name(event.contact), event.time.seconds(system.period()), event.w};
@@ -140,7 +136,7 @@ class Sampler {
   }
 
  private:
-  /// A slip whose velocity is zero for an instant and which goes on as it was: told of one contact of those that do it together.
+  /// A slip whose velocity is zero for an instant, and which goes on as it was: of several at once one is told.
   [[nodiscard]] bool touches_rest(const Event& event) const {
     if (event.kind != EventKind::slip_plus && event.kind != EventKind::slip_minus) return false;
     const auto k = static_cast<std::size_t>(event.contact) - system_.model().stops.size();
@@ -175,7 +171,7 @@ void simulate(const ModelDefinition& definition, const Question& question, Answe
   Sampler(system, definition.start(), question.grid).run(question.steps, answer);
 }
 
-/// How many impacts a complete chatter has before its limit is a matter of rounding, and with it what is summed over impacts.
+/// Rounding decides how many impacts a complete chatter has before its limit, and so what is summed over impacts.
 void add_statistics(const Number& of_all, const Statistics& found, bool at_impacts, std::vector<Number>& numbers) {
   const auto add = [&](const char* what, double value, bool odd, Dimension d) {
     numbers.push_back(of_all);
@@ -236,6 +232,10 @@ std::string text_of_range(const Parameter& parameter) {
 }
 
 }  // namespace
+
+bool undetermined(const Model& model, const Quantity& q) {
+  return (q.kind == Kind::force || q.kind == Kind::power || q.kind == Kind::loss) && !holding_together(model, q.index).empty();
+}
 
 const char* name(Verb verb) {
   switch (verb) {

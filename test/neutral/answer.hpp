@@ -7,6 +7,7 @@
 
 #include "neutral/file.hpp"
 #include "slapstick/flow/motion.hpp"
+#include "slapstick/model/quantity.hpp"
 
 namespace slapstick::neutral {
 
@@ -21,7 +22,8 @@ struct Number {
 };
 
 struct Row {
-  EventKind kind = EventKind::impact;  ///< of a stop that closes: chatter, whether a limit or an impact without rebound came before
+  /// Of a stop that closes: chatter, whether a limit or an impact without rebound came before.
+  EventKind kind = EventKind::impact;
   std::string contact;
   double time = 0.0, w = 0.0;
   bool held = false;  ///< a stop lets go while friction holds its pair, or with it: which is told first is rounding
@@ -37,6 +39,8 @@ struct Answer {
 
 enum class Verb { simulate, measure, classify, orbit, branch, curve };
 [[nodiscard]] const char* name(Verb verb);
+/// Is it a part of a sum that alone is determined (docs/reference/measure.md)? Contacts on one pair hold it together.
+[[nodiscard]] bool undetermined(const Model& model, const Quantity& quantity);
 /// How many parameters a file must have for the verb.
 [[nodiscard]] std::size_t parameters_of(Verb verb);
 /// Does the verb answer about the motion from the start on? The others are about where it settles.

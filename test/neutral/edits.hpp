@@ -1,5 +1,5 @@
 #pragma once
-/// Edits of a model file that change nothing of its mechanics. docs/developers/campaigns.md has the table that a reader wants.
+/// Edits of a model file that change nothing of its mechanics. docs/developers/campaigns.md has their table.
 #include <functional>
 #include <optional>
 #include <set>
@@ -18,9 +18,9 @@ struct Rule {
   bool mirrored = false;                       ///< displacements and velocities of coordinates have the other sign
   std::string prefix;                          ///< before every name
   std::set<std::string> rows_apart;            ///< parts whose events are not compared
-  std::string twin;                            ///< not "": the model is there twice, the second time with this behind every name
+  std::string twin;                            ///< the model is there twice, once with this behind every name; "": once
   int steps = 0;                               ///< the clock is later by so many instants of `sample_grid`
-  double farthest = 1.0;                       ///< a pair without another stop is measured from one so far away, and rounded as such a number
+  double farthest = 1.0;                       ///< a pair's only stop may be so far away, and the pair is rounded so
   int more_directions = 0;                     ///< multipliers or eigenvalues that the first answer has not
 };
 

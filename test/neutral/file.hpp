@@ -19,7 +19,8 @@ constexpr Dimension pure{}, length{1, 0, 0}, time{0, 1, 0}, mass{0, 0, 1}, speed
     impulse{1, -1, 1}, energy{2, -2, 1}, power{2, -3, 1}, stiffness{0, -2, 1}, damping{0, -1, 1}, rate{0, -1, 0};
 }
 
-/// Calls visit(number, dimension) for every number of a file. Parameters are pure numbers: what they stand in has the dimension.
+/// Calls visit(number, dimension) for every number of a file.
+/// Parameters are pure numbers: what they stand in has the dimension.
 void each_number(Definition& file, const std::function<void(Scalar&, Dimension)>& visit);
 
 [[nodiscard]] Scalar number(double value);

@@ -56,7 +56,9 @@ std::vector<double> integrals(const System& system, Motion motion, const std::ve
 /// The columns of a trajectory, integrated, and the means of `measure` without their impulses.
 std::optional<std::string> columns_integrate(const ModelDefinition& definition, const Question& question) {
   const System system(definition.build());
-  const std::vector<Quantity> of = functions_of_time(system.model());
+  std::vector<Quantity> of = functions_of_time(system.model());
+  // The parts of an undetermined sum have corners where one of them comes to its limit: no events, and no quadrature's.
+  std::erase_if(of, [&](const Quantity& q) { return undetermined(system.model(), q); });
   const double time = question.grid * question.steps;
   const Motion motion(system, definition.start(), {}, patience);
   const Measured found = slapstick::measure(motion, Instant{}.plus(time / system.period()), of);
@@ -228,7 +230,7 @@ std::optional<std::string> sensitivities_are_differences(const ModelDefinition& 
 
 bool breaks(const Definition& file, const Law& law) {
   const auto found = check(law, read(file));
-  return found && !found->empty() && waiting_for(file, law).empty();
+  return found && !found->empty();
 }
 
 }  // namespace

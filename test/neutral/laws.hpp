@@ -20,9 +20,6 @@ struct Law {
 /// What breaks a law of a file; nothing where it speaks of nothing there, or the numerics did not succeed.
 [[nodiscard]] std::optional<std::string> check(const Law& law, const ModelDefinition& definition);
 
-/// The known fault that a broken law is put down to; "" where there is none.
-[[nodiscard]] std::string waiting_for(const Definition& file, const Law& law);
-
 /// The smallest file found that breaks a law.
 [[nodiscard]] Definition smallest(const Definition& file, const Law& law, int most_tries);
 

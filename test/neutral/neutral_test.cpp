@@ -91,8 +91,10 @@ TEST(BetweenVerbs, AnswersOfOneFileAgree) {
     for (const Law& law : laws()) {
       const auto broken = check(law, definition);
       if (!broken) continue;
-      if (broken->empty()) ++kept[law.name];
-      if (broken->empty() || !waiting_for(file, law).empty()) continue;
+      if (broken->empty()) {
+        ++kept[law.name];
+        continue;
+      }
       ADD_FAILURE() << law.name << ", seed " << seed << ": " << *broken << '\n' << text(smallest(file, law, 300));
     }
   }

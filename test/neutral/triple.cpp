@@ -124,7 +124,7 @@ Judgement judge(Asked& first, const Edit& edit, const Edited& second, Verb verb)
   }
   Judgement outcome = of_trajectory(verb) ? judge_trajectory(first, answer, second, verb) : judge_attractor(first, answer, second, verb);
   if (outcome.verdict != Verdict::different) return outcome;
-  if (const std::string fault = waiting_for(first.file(), edit, verb); !fault.empty()) return {Verdict::waiting, fault + ": " + outcome.why};
+  if (const std::string fault = waiting_for(first.file(), edit, verb, outcome.why); !fault.empty()) return {Verdict::waiting, fault + ": " + outcome.why};
   return outcome;
 }
 

@@ -43,8 +43,9 @@ class Asked {
 
 /// What the table of campaigns.md leaves out, and why; "" where nothing.
 [[nodiscard]] std::string excluded(const Definition& file, const Edit& edit, Verb verb);
-/// The known fault that a difference of this triple is put down to, by name; "" where there is none.
-[[nodiscard]] std::string waiting_for(const Definition& first, const Edit& edit, Verb verb);
+/// The known fault that a difference is put down to, by name; "" if there is none.
+/// @param said  the difference in words
+[[nodiscard]] std::string waiting_for(const Definition& first, const Edit& edit, Verb verb, const std::string& said);
 
 /// Files that are simpler by one step, all of them sound.
 [[nodiscard]] std::vector<Definition> simpler(const Definition& file);

@@ -21,8 +21,9 @@ using Eigen::VectorXd;
 /// The stop that chatters, its flight and its rest, in one model.
 class Bounce {
  public:
-  Bounce(const ModeSet& set, int stop, const mode::ContactStates& flight)
-      : set_(set), stop_(stop), row_(set.frame().stops[static_cast<std::size_t>(stop)]), flight_(flight), closed_(flight) {
+  Bounce(const ModeSet& set, int stop, const Leg& flight)
+      : set_(set), stop_(stop), row_(set.frame().stops[static_cast<std::size_t>(stop)]), lines_(flight.lines),
+        flight_(flight.states), closed_(flight.states) {
     closed_.stops[static_cast<std::size_t>(stop)] = mode::StopState::closed;
   }
 
@@ -35,8 +36,9 @@ class Bounce {
     [[nodiscard]] double w() const { return v.value()[0] * j.value()[0] / (a.value()[0] * a.value()[0]); }
   };
   [[nodiscard]] Numbers numbers(const VectorXd& x, double t) const {
-    const Jet before = extended(set_, x, t);
+    const Jet before = extended(set_, lines_, x, t);
     Leg rest;
+    rest.lines = lines_;
     rest.ending = Ending::onset;
     rest.contact = stop_;
     const Jet X = leg_start(set_, rest, x, t);
@@ -74,6 +76,7 @@ class Bounce {
   const ModeSet& set_;
   int stop_;
   const mode::ContactRow& row_;
+  std::vector<int> lines_;  ///< of the signals
   mode::ContactStates flight_, closed_;
 };
 
@@ -99,7 +102,7 @@ std::optional<std::size_t> leg_beyond(const ModeSet& set, const Orbit& orbit, in
       if (orbit.shape.legs[rest].kind != mode::GuardKind::press) return std::nullopt;
       return (rest + 1) % orbit.legs();
     }
-    const auto numbers = Bounce(set, stop, leg.states).numbers(orbit.x[i], orbit.t[i]);
+    const auto numbers = Bounce(set, stop, leg).numbers(orbit.x[i], orbit.t[i]);
     const double a = numbers.a.value()[0], j = numbers.j.value()[0];
     const bool returns = a > 0.0 && j > 0.0 && orbit.duration(i) * set.period() * j < 2.0 * a;  // a graze's flight: 1.5 a / j
     if (!returns) return step == 0 || chattering_stop(orbit) == stop ? std::nullopt : std::optional(i);
@@ -117,7 +120,7 @@ std::optional<Approach> nearest_approach(const ModeSet& set, const Orbit& orbit,
   const auto w_at = [&](std::size_t leg) -> std::optional<double> {
     const Leg& before = orbit.shape.legs[(leg + orbit.legs() - 1) % orbit.legs()];
     if (!is_flight(before, stop, before.states) || before.strikes.empty()) return std::nullopt;
-    const auto numbers = Bounce(set, stop, before.states).numbers(orbit.x[leg], orbit.t[leg]);
+    const auto numbers = Bounce(set, stop, before).numbers(orbit.x[leg], orbit.t[leg]);
     if (!(numbers.a.value()[0] > 0.0 && numbers.j.value()[0] > 0.0)) return std::nullopt;
     return numbers.w();
   };
@@ -138,7 +141,7 @@ Orbit cut_off(const ModeSet& set, Orbit orbit, int stop, const Approach& approac
   const std::size_t legs = orbit.legs(), keep = (approach.from + legs - approach.beyond) % legs;
   rotate(orbit, approach.beyond);
   const Leg flight = orbit.shape.legs[keep - 1];
-  const Bounce bounce(set, stop, flight.states);
+  const Bounce bounce(set, stop, flight);
   Leg rest = flight;
   rest.states = bounce.closed();
   rest.ending = Ending::onset;
@@ -160,7 +163,7 @@ Orbit cut_off(const ModeSet& set, Orbit orbit, int stop, const Approach& approac
 /// More impacts before the closed leg, where the fixed point has them.
 Orbit with_more_impacts(const ModeSet& set, Orbit orbit, int count, const BounceRates& rates) {
   const Leg rest = orbit.shape.legs.back(), flight = orbit.shape.legs.end()[-2];
-  const Bounce bounce(set, rest.contact, flight.states);
+  const Bounce bounce(set, rest.contact, flight);
   const VectorXd x = orbit.x.back();
   const double t = orbit.t.end()[-2], end = orbit.t.back();
   const auto numbers = bounce.numbers(x, t);
@@ -201,7 +204,7 @@ bool solve_onset(const Problem& problem, Orbit& orbit) {
   std::vector<Condition> conditions = fixed_parameters(problem, legs);
   conditions[0].function = [&](const ModeSet& set, const Linearised& at, const Orbit& now) {
     const int stop = now.shape.legs[last].contact;
-    const Bounce::Numbers numbers = Bounce(set, stop, now.shape.legs[last - 1].states).numbers(now.x[last], now.t[last]);
+    const Bounce::Numbers numbers = Bounce(set, stop, now.shape.legs[last - 1]).numbers(now.x[last], now.t[last]);
     const BounceRates rates = bounce_rates(set.model().stops[static_cast<std::size_t>(stop)].restitution);
     const double v = numbers.v.value()[0], a = numbers.a.value()[0], j = numbers.j.value()[0];
     Jet w = numbers.v;  // v j / a^2 - w*

@@ -34,7 +34,7 @@ Model RunUp::continued(Model model) const {
   if (turns_.size() == model.forces.size())
     for (std::size_t i = 0; i < turns_.size(); ++i) model.forces[i].phase += 2.0 * std::numbers::pi * turns_[i];
   for (Signal& signal : model.signals)
-    for (Signal::Knot& knot : signal.knots) knot.time -= begun_;
+    for (Signal::Knot& knot : signal.knots) knot.time -= signal.in_periods ? 0.0 : begun_;
   return model;
 }
 

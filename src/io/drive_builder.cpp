@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 
 #include "base/elementary.hpp"
 #include "base/text.hpp"
@@ -41,16 +42,75 @@ double value_at(const Signal& signal, double time) {
 
 }  // namespace
 
+ModelBuilder::Points ModelBuilder::signal_points(const Part& part) const {
+  Points points;
+  for (const auto& [time, value] : part.samples) points.emplace_back(Dual{time}, Dual{value});
+  for (const Point& point : part.points) {
+    const std::string place = where("points") + ": point " + std::to_string(points.size() + 1);
+    points.emplace_back(dual(point.at, place + ": time"), dual(point.force, place + ": value"));
+  }
+  return points;
+}
+
+namespace {
+
+/// How often one length goes into another, if it is a whole number of times but for rounding; else 0.
+double times_within(double length, double whole) {
+  constexpr double rounding = 0x1p-46;  // of decimal numbers: 0.333333333333333 goes three times into 1
+  const double times = std::nearbyint(whole / length);
+  return std::abs(whole / length - times) <= rounding * times ? times : 0.0;
+}
+
+}  // namespace
+
+std::optional<Dual> ModelBuilder::common_round() {
+  const auto own = [](const Part& part) { return part.fields.contains("frequency"); };
+  const auto& signals = definition_.of("signal");
+  if (definition_.omega || signals.empty()) return std::nullopt;
+  if (std::ranges::any_of(definition_.of("force"), own)) return std::nullopt;
+  for (const Part& base : definition_.of("base"))
+    if (std::ranges::any_of(base.harmonics, own)) return std::nullopt;
+  const auto in_time = [](const Part& part) { return part.flag("repeats") && !part.flag("in_periods"); };
+  if (!std::ranges::all_of(signals, in_time)) return std::nullopt;
+  std::vector<Dual> rounds;
+  each("signal", [&](const Part& part) {
+    const Points points = signal_points(part);
+    rounds.push_back(points.back().first - points.front().first);
+  });
+  const auto shorter = [](const Dual& a, const Dual& b) { return a.value < b.value; };
+  const Dual longest = *std::ranges::max_element(rounds, shorter);
+  const auto fits = [&](const Dual& round) { return round.value > 0.0 && times_within(round.value, longest.value) > 0.0; };
+  return std::ranges::all_of(rounds, fits) ? std::optional(longest) : std::nullopt;
+}
+
+/// Point (t, v) of round j of q is (t_0 / T + (j + (t - t_0) / length) / q, v). Between two rounds there is one point, or
+/// a step.
+ModelBuilder::Points ModelBuilder::over_a_period(const Part& part, const Points& points, const Dual& period) const {
+  const Dual first = points.front().first, length = points.back().first - first;
+  const double rounds = length.value > 0.0 ? times_within(length.value, period.value) : 0.0;
+  if (rounds == 0.0)
+    throw InputError(definition_.place(part.line),
+                     where("in_periods") + ": from the first point to the last there are " + shown(length.value) +
+                         " forcing periods; a period must hold a whole number of rounds (a record over two periods: "
+                         "halve omega, and double the harmonics)");
+  const bool steps = points.back().second.value != points.front().second.value;
+  Points all;
+  for (double round = 0.0; round < rounds; round += 1.0) {
+    if (round > 0.0 && !steps) all.pop_back();
+    for (const auto& [time, value] : points)
+      all.emplace_back(first / period + (Dual{round} + (time - first) / length) / Dual{rounds}, value);
+  }
+  return all;
+}
+
 void ModelBuilder::add_signals(Model& model) {
   each("signal", [&](const Part& part) {
-    Signal signal{part.name, {}, part.flag("repeats")};
-    for (const auto& [time, value] : part.samples)
-      signal.knots.push_back(rates_ == nullptr ? Signal::Knot{time, value} : Signal::Knot{});
-    for (const Point& point : part.points) {
-      const std::string place = where("points") + ": point " + std::to_string(signal.knots.size() + 1);
-      signal.knots.push_back(
-          {written(dual(point.at, place + ": time")), written(dual(point.force, place + ": value"))});
-    }
+    Points points = signal_points(part);
+    Signal signal{part.name, {}, part.flag("repeats"), part.flag("in_periods") || round_.has_value()};
+    if (signal.in_periods && !definition_.omega && !round_)
+      throw InputError(definition_.place(part.line), where("in_periods") + ": the file has no 'omega'");
+    if (signal.in_periods && signal.repeats) points = over_a_period(part, points, round_.value_or(Dual{1.0}));
+    for (const auto& [time, value] : points) signal.knots.push_back({written(time), written(value)});
     origins_["signal"].push_back({kind_, index_});
     model.signals.push_back(std::move(signal));
   });
@@ -121,7 +181,10 @@ double ModelBuilder::base(std::size_t k, double omega, double time) const {
   double sum = 0.0;
   for (const Term& term : bases_[k]) {
     const double turning = term.frequency.value != 0.0 ? term.frequency.value : term.harmonic * omega;
-    sum += term.amplitude.value * (term.signal >= 0  ? value_at(signals_[static_cast<std::size_t>(term.signal)], time)
+    const auto at = [&](const Signal& signal) {
+      return value_at(signal, signal.in_periods ? time * omega / (2.0 * std::numbers::pi) : time);
+    };
+    sum += term.amplitude.value * (term.signal >= 0  ? at(signals_[static_cast<std::size_t>(term.signal)])
                                    : turning == 0.0 ? 1.0
                                                     : fixed::sin(turning * time + term.phase.value));
   }

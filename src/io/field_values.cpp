@@ -107,9 +107,13 @@ void read_signal(const TreeReader& tree, const TomlNode& node, const std::string
     tree.fail(file->line, where + ": file", in_quotes(file->text) + " has no column of values beside the time");
   for (const auto& row : table.rows) {
     const double time = row.numbers[0];
-    if (!part.samples.empty() && !(time > part.samples.back().first))
-      throw InputError(place + line_of(path, row.line) + "time " + shown(time) + " is not above the " +
+    const std::size_t before = part.samples.size();
+    if (before > 0 && time < part.samples.back().first)
+      throw InputError(place + line_of(path, row.line) + "time " + shown(time) + " is below the " +
                        shown(part.samples.back().first) + " of the row before");
+    if (before > 1 && time == part.samples[before - 2].first)
+      throw InputError(place + line_of(path, row.line) + "there are three rows at time " + shown(time) +
+                       "; a step has two");
     part.samples.emplace_back(time, row.numbers[column]);
     part.rows.push_back(row.line);
   }

@@ -233,6 +233,8 @@ Model ModelBuilder::assembled() {
   model.name = definition_.name;
   model.impact_law = definition_.impact_law.value_or(ImpactLaw::moreau);
   if (definition_.omega) omega_ = dual(*definition_.omega, "omega");
+  round_ = common_round();
+  if (round_) omega_ = Dual{2.0 * std::numbers::pi} / *round_;
   model.omega = written(omega_);
   each("coordinate", [&](const Part& part) { model.coordinates.push_back({part.name, written(part, "mass")}); });
   add_signals(model);
@@ -248,7 +250,7 @@ Model ModelBuilder::assembled() {
 
 Model ModelBuilder::model() {
   Model model = assembled();
-  if (!definition_.omega) demand_no_forcing(model);
+  if (!definition_.omega && !round_) demand_no_forcing(model);
   demand_resolved_records(model);
   if (const auto fault = first_fault(model)) throw refusal(*fault, model);
   return model;
@@ -259,9 +261,15 @@ void ModelBuilder::demand_resolved_records(const Model& model) const {
   const auto& parts = definition_.of("signal");
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (parts[k].record.empty()) continue;
-    if (const auto steep = first_steep_piece(model.signals[k], model.forcing_period()))
-      throw InputError(definition_.place(parts[k].line), part_label("signal", k, parts[k]) + ": file: " +
-                                                             line_of(parts[k].record, parts[k].rows[steep->end]) + steep->what);
+    const Signal& signal = model.signals[k];
+    const auto steep = first_steep_piece(signal, signal.in_periods ? 1.0 : model.forcing_period());
+    if (!steep) continue;
+    const auto& rows = parts[k].rows;  // of one round
+    const std::size_t in_round = signal.knots.size() % rows.size() == 0 ? rows.size() : rows.size() - 1;
+    const std::size_t row = steep->end <= in_round ? steep->end : (steep->end - 1) % in_round + 1;
+    throw InputError(definition_.place(parts[k].line),
+                     part_label("signal", k, parts[k]) + ": file: " +
+                         line_of(parts[k].record, rows[std::min(row, rows.size() - 1)]) + steep->what);
   }
 }
 

@@ -104,6 +104,13 @@ class ModelBuilder {
   [[nodiscard]] double written(const Part& part, std::string_view key) const { return written(field(part, key)); }
   [[nodiscard]] Model assembled();
   [[nodiscard]] int harmonic(const Part& part, const LazyText& place) const;
+  using Points = std::vector<std::pair<Dual, Dual>>;
+  /// The points of a [[signal]], in the model's unit of time or in forcing periods.
+  [[nodiscard]] Points signal_points(const Part& part) const;
+  /// The longest round of the signals, if they are all that moves the model and come back together.
+  [[nodiscard]] std::optional<Dual> common_round();
+  /// The points of the rounds that make one period.
+  [[nodiscard]] Points over_a_period(const Part& part, const Points& points, const Dual& period) const;
   void add_signals(Model& model);
   void add_bases();
   void add_forces(Model& model);
@@ -139,6 +146,7 @@ class ModelBuilder {
   std::size_t index_ = 0;
   std::vector<std::vector<Term>> bases_;
   std::vector<Signal> signals_;
+  std::optional<Dual> round_;  ///< the forcing period of a model that signals alone drive
   std::map<std::string, std::vector<Origin>, std::less<>> origins_;  // by Fault::part
 };
 

@@ -40,10 +40,13 @@ class SharedRates {
   const char *shared_, *quantities_;
 };
 
+/// T (1 / T)', T the period of the clock.
+double clock_rate(const Model& model, const Model& rate) { return model.forced() ? rate.omega / model.omega : 0.0; }
+
 Matrix load_rate(const Model& model, const Model& rate, const Frame& frame) {
   Matrix load = Matrix::Zero(frame.n, frame.size());
   for (std::size_t i = 0; i < model.forces.size(); ++i)
-    load.row(model.forces[i].coordinate) += drive_rate(frame, model.forces[i], rate.forces[i]);
+    load.row(model.forces[i].coordinate) += drive_rate(model, rate, frame, i);
   return load;
 }
 
@@ -140,6 +143,8 @@ Matrix Differentiator::system() {
   for (std::size_t i = 0; i < outline_.states.pieces.size(); ++i) piece(static_cast<int>(i), outline_.states.pieces[i]);
   if (!held_.empty()) hold();
   Matrix A = frame_.kinematics(change_.omega);
+  for (std::size_t k = 0; k < frame_.signals.size(); ++k)
+    A(frame_.signal(k), frame_.signal(k) + 1) = clock_rate(model_, rate_) / frame_.period;  // of 1 / T
   for (int i = 0; i < frame_.d; ++i) {
     A(i, frame_.u(i)) = 0.0;  // p' = u + drift
     A(i, frame_.one()) = change_.drift[i];
@@ -226,9 +231,16 @@ RowVector Differentiator::compliant_rate(const Guard& guard) const {
 
 }  // namespace
 
-/// Of amplitude (sin(phase) cos(j theta) + cos(phase) sin(j theta)).
-RowVector drive_rate(const Frame& frame, const Force& force, const Force& rate) {
+/// Of amplitude (sin(phase) cos(j theta) + cos(phase) sin(j theta)), and of amplitude times a signal or its slope / T.
+RowVector drive_rate(const Model& model, const Model& of_model, const Frame& frame, std::size_t i) {
+  const Force &force = model.forces[i], &rate = of_model.forces[i];
   RowVector row = RowVector::Zero(frame.size());
+  if (force.signal >= 0) {
+    const int value = frame.signal(static_cast<std::size_t>(force.signal));
+    if (!force.rate) row[value] = rate.amplitude;
+    if (force.rate) row[value + 1] = (rate.amplitude + force.amplitude * clock_rate(model, of_model)) / frame.period;
+    return row;
+  }
   if (force.harmonic == 0) {
     row[frame.one()] = rate.amplitude;
     return row;

@@ -36,7 +36,7 @@ struct OutlineDerivative {
   Matrix holding;  ///< of Outline::holding
 };
 
-/// Row over X of a force that is constant or a harmonic: the derivative of Frame::drive_row.
-[[nodiscard]] RowVector drive_rate(const Frame& frame, const Force& force, const Force& rate);
+/// The derivative of Frame::drive_row of a force that is constant or repeats with the forcing.
+[[nodiscard]] RowVector drive_rate(const Model& model, const Model& rate, const Frame& frame, std::size_t force);
 
 }  // namespace slapstick::mode

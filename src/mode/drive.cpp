@@ -20,13 +20,16 @@ double Tone::at(Instant t) const {
 
 SignalTable::SignalTable(const Signal& signal, double period) {
   const auto& knots = signal.knots;
+  const double unit = signal.in_periods ? 1.0 : period;
   for (std::size_t i = 0; i < knots.size(); ++i) {
-    knots_.push_back(Instant{}.plus(knots[i].time / period));
+    knots_.push_back(Instant{}.plus(knots[i].time / unit));
     values_.push_back(knots[i].value);
-    if (i + 1 < knots.size())
-      slopes_.push_back((knots[i + 1].value - knots[i].value) / (knots[i + 1].time - knots[i].time) * period);
+    if (i + 1 == knots.size()) break;
+    const double rise = knots[i + 1].value - knots[i].value, apart = knots[i + 1].time - knots[i].time;
+    slopes_.push_back(apart > 0.0 ? rise / apart * unit : 0.0);  // nothing is on a step
   }
-  if (signal.repeats) length_ = (knots.back().time - knots.front().time) / period;
+  in_periods_ = signal.in_periods;
+  if (signal.repeats) length_ = in_periods_ ? 1.0 : (knots.back().time - knots.front().time) / period;
 }
 
 /// Rounds begin where the last knot of the round before was.
@@ -59,6 +62,17 @@ SignalTable::Value SignalTable::at(Instant t) const {
   return {values_[piece] + slopes_[piece] * t.since(knot(round, piece)), slopes_[piece]};
 }
 
+double SignalTable::before(Instant t) const {
+  if (!has_knot(t)) return at(t).value;
+  const auto first_at_its_time = [&](std::size_t i) {
+    while (i > 0 && knots_[i - 1] == knots_[i]) --i;
+    return i;
+  };
+  const std::size_t piece = place(t).piece, last = knots_.size() - 1;
+  const std::size_t i = first_at_its_time(piece == outside ? last : piece);
+  return values_[i == 0 && length_ > 0.0 ? first_at_its_time(last) : i];
+}
+
 Instant SignalTable::next(Instant t) const {
   const auto [round, piece] = place(t);
   if (piece == outside) return t < knots_.front() ? knots_.front() : never;
@@ -70,5 +84,44 @@ bool SignalTable::has_knot(Instant t) const {
   const auto [round, piece] = place(t);
   return piece == outside ? t == knots_.back() : t == knot(round, piece);
 }
+
+namespace {
+
+/// The whole periods that bring a phase within half a period of another one.
+double rounds_to(double phase, double turns) { return std::nearbyint(turns - phase); }
+
+/// Since the first knot of a line, in the round in which the line's middle is nearest.
+double since_begin(const Signal& signal, std::size_t i, double turns) {
+  const double begin = signal.knots[i].time, middle = 0.5 * (begin + signal.knots[i + 1].time);
+  return turns - rounds_to(middle, turns) - begin;
+}
+
+double slope_of(const Signal& signal, std::size_t i) {
+  return (signal.knots[i + 1].value - signal.knots[i].value) / (signal.knots[i + 1].time - signal.knots[i].time);
+}
+
+}  // namespace
+
+SignalTable::Value on_line(const Signal& signal, int line, double turns) {
+  const auto i = static_cast<std::size_t>(line);
+  const double slope = slope_of(signal, i);
+  return {signal.knots[i].value + slope * since_begin(signal, i, turns), slope};
+}
+
+/// value = v_i + slope (t - t_i),  slope = (v_j - v_i) / (t_j - t_i)
+SignalTable::Value line_rate(const Signal& signal, const Signal& rate, int line, double turns) {
+  const auto i = static_cast<std::size_t>(line);
+  const Signal::Knot &from = rate.knots[i], &to = rate.knots[i + 1];
+  const double slope = slope_of(signal, i), length = signal.knots[i + 1].time - signal.knots[i].time;
+  const double change = (to.value - from.value - slope * (to.time - from.time)) / length;
+  return {from.value + change * since_begin(signal, i, turns) - slope * from.time, change};
+}
+
+double line_end(const Signal& signal, int line, double turns) {
+  const double end = signal.knots[static_cast<std::size_t>(line) + 1].time;
+  return end + rounds_to(end, turns);
+}
+
+double line_end_rate(const Signal& rate, int line) { return rate.knots[static_cast<std::size_t>(line) + 1].time; }
 
 }  // namespace slapstick::mode

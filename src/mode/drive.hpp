@@ -2,8 +2,11 @@
 /// What moves by the clock beside the harmonics of omega: tones of other frequencies, and signals.
 ///
 /// In X a tone is a pair (cos, sin) that turns with its own frequency, and a signal a pair (value, slope) with
-/// value' = slope / T, slope' = 0, T the period of the clock. A signal's slope jumps at its knots only, so that between
-/// two knots X' = A X. Both are set by the clock, so neither drifts.
+/// value' = slope / T, slope' = 0, T the period of the clock. A signal's slope jumps at its knots only, at a step its
+/// value too, so that between two knots X' = A X. Both are set by the clock, so neither drifts.
+///
+/// A signal in periods has its place by the phase alone, but for a knot, whose sides differ: the straight lines
+/// between two knots go by the number of the first.
 #include <vector>
 
 #include "slapstick/base/clock.hpp"
@@ -31,10 +34,16 @@ class SignalTable {
   SignalTable(const Signal& signal, double period);
 
   [[nodiscard]] Value at(Instant t) const;
+  /// The value just before t: another one than `at` has where there is a step.
+  [[nodiscard]] double before(Instant t) const;
   /// The first knot after t, or `never`.
   [[nodiscard]] Instant next(Instant t) const;
   /// Is there a knot at t?
   [[nodiscard]] bool has_knot(Instant t) const;
+
+  [[nodiscard]] bool in_periods() const { return in_periods_; }
+  /// The line that holds from t on; of a signal in periods.
+  [[nodiscard]] int line_at(Instant t) const { return static_cast<int>(place(t).piece); }
 
   static constexpr Instant never{INT64_MAX, 0.0};
 
@@ -51,6 +60,17 @@ class SignalTable {
   std::vector<Instant> knots_;
   std::vector<double> values_, slopes_;
   double length_ = 0.0;  ///< of a round, in periods; 0: once
+  bool in_periods_ = false;
 };
+
+/// A straight line of a signal in periods at a phase (periods), in the round in which it is nearest, also beyond its ends:
+/// an orbit's equations know that, whose instants move while the order of its events stays.
+[[nodiscard]] SignalTable::Value on_line(const Signal& signal, int line, double turns);
+/// Its derivative at this phase, `rate` the derivative of the signal's numbers.
+[[nodiscard]] SignalTable::Value line_rate(const Signal& signal, const Signal& rate, int line, double turns);
+/// The end of a line, in the round in which it is nearest to a phase.
+[[nodiscard]] double line_end(const Signal& signal, int line, double turns);
+/// .. and its derivative.
+[[nodiscard]] double line_end_rate(const Signal& rate, int line);
 
 }  // namespace slapstick::mode

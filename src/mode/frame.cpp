@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/dense.hpp"
 #include "base/elementary.hpp"
@@ -210,9 +211,40 @@ void Frame::enter(const double* state, double* X) const {
   }
 }
 
-PeriodicDrive::PeriodicDrive(const Frame& frame) : frame_(frame) {
-  if (!frame.tones.empty() || !frame.signals.empty())
-    throw InputError("a model with a signal or a force of its own frequency has no phase");
+PeriodicDrive::PeriodicDrive(const Model& model, const Frame& frame) : model_(model), frame_(frame) {
+  if (!frame.tones.empty() || !ranges::all_of(frame.signals, &SignalTable::in_periods))
+    throw InputError("a model with a force of its own frequency, or a signal that is not in periods, has no phase");
+}
+
+void PeriodicDrive::set(double turns, const std::vector<int>& lines, double* X) const {
+  frame_.set_phase(turns, X);
+  for (std::size_t k = 0; k < frame_.signals.size(); ++k) {
+    const auto [value, slope] = on_line(model_.signals[k], lines[k], turns);
+    X[frame_.signal(k)] = value;
+    X[frame_.signal(k) + 1] = slope;
+  }
+}
+
+Vector PeriodicDrive::by_turns(const Vector& X) const {
+  Vector rate = Vector::Zero(X.size());
+  for (std::size_t k = 0; k < frame_.harmonics.size(); ++k) {
+    const auto c = static_cast<Eigen::Index>(2 * frame_.d + 2 * k);
+    const double turn = 2.0 * std::numbers::pi * frame_.harmonics[k];
+    rate[c] = -turn * X[c + 1];
+    rate[c + 1] = turn * X[c];
+  }
+  for (std::size_t k = 0; k < frame_.signals.size(); ++k) rate[frame_.signal(k)] = X[frame_.signal(k) + 1];
+  return rate;
+}
+
+Vector PeriodicDrive::by_parameter(const Model& rate, double turns, const std::vector<int>& lines) const {
+  Vector change = Vector::Zero(frame_.size());
+  for (std::size_t k = 0; k < frame_.signals.size(); ++k) {
+    const auto [value, slope] = line_rate(model_.signals[k], rate.signals[k], lines[k], turns);
+    change[frame_.signal(k)] = value;
+    change[frame_.signal(k) + 1] = slope;
+  }
+  return change;
 }
 
 void Frame::set_phase(double turns, double* X) const {
@@ -224,7 +256,7 @@ void Frame::set_phase(double turns, double* X) const {
   X[one()] = 1.0;
 }
 
-void Frame::set_clock(Instant t, double* X, bool slopes) const {
+void Frame::set_clock(Instant t, double* X, bool behind) const {
   set_phase(t.fraction, X);
   for (std::size_t k = 0; k < tones.size(); ++k) {
     const auto [cosine, sine] = of_turns(tones[k].at(t));
@@ -232,10 +264,20 @@ void Frame::set_clock(Instant t, double* X, bool slopes) const {
     X[tone(k) + 1] = sine;
   }
   for (std::size_t k = 0; k < signals.size(); ++k) {
+    if (!behind) {
+      X[signal(k)] = signals[k].before(t);
+      continue;
+    }
     const auto [value, slope] = signals[k].at(t);
     X[signal(k)] = value;
-    if (slopes) X[signal(k) + 1] = slope;
+    X[signal(k) + 1] = slope;
   }
+}
+
+std::vector<int> Frame::lines_at(Instant t) const {
+  std::vector<int> lines;
+  for (const SignalTable& of : signals) lines.push_back(of.line_at(t));
+  return lines;
 }
 
 void Frame::set_clock_sizes(const double* X, double* sizes) const {

@@ -121,11 +121,14 @@ struct Frame {
   /// Writes all of X that moves by the clock, harmonics, tones and signals, and the constant 1. Fixed operations
   /// (base/phase.hpp). At a knot the slope is that behind the knot.
   void set_clock(Instant t, double* X) const { set_clock(t, X, true); }
-  /// The same of a piece of the motion that may end at t: the slopes are those that X has, at a knot those before it.
+  /// The same of a piece of the motion that may end at t: the slopes are those that X has, at a knot those before it,
+  /// and the value at a step is that before the step.
   void set_clock_within(Instant t, double* X) const { set_clock(t, X, false); }
   /// Bounds, by columns from 2 d on, of what is known no better than the clock: 1 of a phase, of a signal's value the
   /// slope that X has.
   void set_clock_sizes(const double* X, double* sizes) const;
+  /// The lines of the signals that hold from t on. @pre all signals are in periods
+  [[nodiscard]] std::vector<int> lines_at(Instant t) const;
   /// The first instant after t at which the slope of a signal jumps, or SignalTable::never.
   [[nodiscard]] Instant next_knot(Instant t) const;
   /// Writes the user's state (x_1, v_1, ..) of X; from the first n displacements and velocities.
@@ -135,22 +138,26 @@ struct Frame {
  private:
   friend class PeriodicDrive;
   void set_phase(double turns, double* X) const;
-  void set_clock(Instant t, double* X, bool slopes) const;
+  void set_clock(Instant t, double* X, bool behind) const;
   void choose_displacements(const Model& model);
   void set_dynamics(const Model& model);
   void set_characteristics(const Model& model);
 };
 
-/// What drives a model whose drives all repeat with the forcing. Its part of X follows from the phase, so that an orbit
-/// needs no clock; of tones and signals it would leave what was there before.
+/// What drives a model whose drives all repeat with the forcing. Its part of X follows from the phase and the lines of
+/// the signals, so that an orbit needs no clock; of tones and other signals it would leave what was there before.
 class PeriodicDrive {
  public:
-  /// Refers to the frame. @throws InputError if that has tones or signals
-  explicit PeriodicDrive(const Frame& frame);
-  /// Writes cos, sin of the harmonics at a phase (periods) and the constant 1 into X.
-  void set(double turns, double* X) const { frame_.set_phase(turns, X); }
+  /// Refers to both. @throws InputError if there are tones, or signals that are not in periods
+  PeriodicDrive(const Model& model, const Frame& frame);
+  /// Writes cos, sin of the harmonics at a phase (periods), the signals and the constant 1 into X.
+  void set(double turns, const std::vector<int>& lines, double* X) const;
+  /// The derivative of X by the phase, and by a parameter at a fixed phase.
+  [[nodiscard]] Vector by_turns(const Vector& X) const;
+  [[nodiscard]] Vector by_parameter(const Model& rate, double turns, const std::vector<int>& lines) const;
 
  private:
+  const Model& model_;
   const Frame& frame_;
 };
 

@@ -71,14 +71,16 @@ double least_of(const Vector& sizes) {
   return least;
 }
 
-/// Of a signal its largest value, or slope; 1 of what is no signal.
+/// Of a signal its largest value, or slope; 1 of what is no signal. A step has no slope.
 double largest_factor(const Model& model, const Force& force) {
   if (force.signal < 0) return 1.0;
-  const std::vector<Signal::Knot>& knots = model.signals[static_cast<std::size_t>(force.signal)].knots;
+  const Signal& signal = model.signals[static_cast<std::size_t>(force.signal)];
+  const std::vector<Signal::Knot>& knots = signal.knots;
+  const double unit = signal.in_periods ? model.forcing_period() : 1.0;
   double largest = force.rate ? 0.0 : std::abs(knots.front().value);
   for (std::size_t i = 1; i < knots.size(); ++i) {
-    const double slope = (knots[i].value - knots[i - 1].value) / (knots[i].time - knots[i - 1].time);
-    largest = std::max(largest, std::abs(force.rate ? slope : knots[i].value));
+    const double apart = unit * (knots[i].time - knots[i - 1].time), rise = knots[i].value - knots[i - 1].value;
+    largest = std::max(largest, std::abs(!force.rate ? knots[i].value : apart > 0.0 ? rise / apart : 0.0));
   }
   return largest;
 }

@@ -119,6 +119,14 @@ Found check_damper(const Damper& damper, int index, const Model& model, std::set
   return check.result();
 }
 
+/// Has it two values at one time?
+bool steps(const Signal& signal) {
+  const auto& knots = signal.knots;
+  const auto at_one_time = [](const Signal::Knot& a, const Signal::Knot& b) { return a.time == b.time; };
+  if (std::adjacent_find(knots.begin(), knots.end(), at_one_time) != knots.end()) return true;
+  return signal.repeats && !knots.empty() && knots.back().value != knots.front().value;
+}
+
 Found check_force(const Force& force, int index, const Model& model) {
   Check check("force", index);
   check.end("on", force.coordinate, model);
@@ -132,6 +140,10 @@ Found check_force(const Force& force, int index, const Model& model) {
   if (force.frequency != 0.0 && force.signal >= 0) check.fail("signal", "a force has a frequency or a signal, not both");
   if (force.signal >= static_cast<int>(model.signals.size()))
     check.fail("signal", "there is no signal " + std::to_string(force.signal));
+  else if (force.signal >= 0 && force.rate && steps(model.signals[static_cast<std::size_t>(force.signal)]))
+    check.fail("signal", "signal " + in_quotes(model.signals[static_cast<std::size_t>(force.signal)].name) +
+                             " has a step, at which its rate of change is not finite: no damper can stand on a base "
+                             "that moves by it; write a ramp");
   return check.result();
 }
 
@@ -144,14 +156,19 @@ Found check_signal(const Signal& signal, int index, double period, std::set<std:
     const std::string point = "point " + std::to_string(i + 1);
     check.sized((point + ": time").c_str(), knots[i].time);
     check.sized((point + ": value").c_str(), knots[i].value);
-    if (i > 0 && !(knots[i].time > knots[i - 1].time))
-      check.fail("points", point + ": time " + shown(knots[i].time) + " is not above " + shown(knots[i - 1].time) +
+    if (i > 0 && knots[i].time < knots[i - 1].time)
+      check.fail("points", point + ": time " + shown(knots[i].time) + " is below " + shown(knots[i - 1].time) +
                                " of the point before");
+    if (i > 1 && knots[i].time == knots[i - 2].time)
+      check.fail("points", point + ": there are three points at time " + shown(knots[i].time) + "; a step has two");
   }
-  if (signal.repeats && knots.size() > 1 && knots.back().value != knots.front().value)
-    check.fail("repeats", "the last value, " + shown(knots.back().value) + ", is not the first one, " +
-                              shown(knots.front().value) + ": a signal that repeats would jump");
-  if (const auto steep = first_steep_piece(signal, period))
+  if (knots.size() > 1 && !(knots.back().time > knots.front().time))
+    check.fail("points", "all points are at one time");
+  if (signal.in_periods && !signal.repeats) check.fail("in_periods", "a signal in periods repeats (repeats = true)");
+  if (signal.in_periods && knots.size() > 1 && std::abs(knots.back().time - knots.front().time - 1.0) > 0x1p-50)
+    check.fail("in_periods", "from the first to the last point there are " +
+                                 shown(knots.back().time - knots.front().time) + " forcing periods, not 1");
+  if (const auto steep = first_steep_piece(signal, signal.in_periods ? 1.0 : period))
     check.fail("points", "point " + std::to_string(steep->end + 1) + ": " + steep->what);
   return check.result();
 }
@@ -316,6 +333,7 @@ std::optional<SteepPiece> first_steep_piece(const Signal& signal, double period)
   const double range = high->value - low->value;
   for (std::size_t i = 1; i < knots.size(); ++i) {
     const double apart = knots[i].time - knots[i - 1].time;
+    if (apart == 0.0) continue;  // a step
     const double least = 0x1p-26 * period * std::abs(knots[i].value - knots[i - 1].value) / range;
     if (apart < least)
       return SteepPiece{i, "time " + shown(knots[i].time) + " is only " + shown(apart) +

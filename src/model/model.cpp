@@ -9,13 +9,19 @@
 
 namespace slapstick {
 
+bool Model::repeats_with_forcing(const Force& force) const {
+  if (force.signal >= 0) return signals[static_cast<std::size_t>(force.signal)].in_periods;
+  return force.harmonic > 0;
+}
+
 bool Model::forced() const {
-  return std::any_of(forces.begin(), forces.end(), [](const Force& force) { return force.harmonic > 0; });
+  return std::any_of(forces.begin(), forces.end(), [&](const Force& force) { return repeats_with_forcing(force); });
 }
 
 bool Model::periodic() const {
-  return std::none_of(forces.begin(), forces.end(),
-                      [](const Force& force) { return force.frequency != 0.0 || force.signal >= 0; });
+  return std::all_of(forces.begin(), forces.end(), [&](const Force& force) {
+    return repeats_with_forcing(force) || (force.frequency == 0.0 && force.signal < 0);
+  });
 }
 
 double Model::forcing_period() const { return forced() ? 2.0 * std::numbers::pi / omega : 1.0; }
@@ -72,11 +78,20 @@ Rebound rebound(const Stop& stop, double speed) {
 
 void demand_period(const Model& model) {
   if (model.periodic()) return;
-  const bool signal = std::any_of(model.forces.begin(), model.forces.end(),
-                                  [](const Force& force) { return force.signal >= 0; });
-  throw InputError("model '" + model.name + "' has " + (signal ? "a signal" : "a frequency beside its forcing") +
-                   ": its motion never repeats, so it has no cycles and no classes; simulate, poincare, diagram, "
-                   "lyapunov, measure and spectrum with --periods are for such models");
+  const auto other = std::find_if(model.forces.begin(), model.forces.end(), [&](const Force& force) {
+    return force.signal >= 0 && !model.repeats_with_forcing(force);
+  });
+  std::string has = "a frequency beside its forcing: its motion never repeats";
+  if (other != model.forces.end()) {
+    const Signal& signal = model.signals[static_cast<std::size_t>(other->signal)];
+    has = "a signal, '" + signal.name + "'" +
+          (signal.repeats ? ", that repeats by a period of its own: give its points in forcing periods (in_periods = "
+                            "true), or its motion never repeats"
+                          : ": its motion never repeats");
+  }
+  throw InputError("model '" + model.name + "' has " + has +
+                   ", so it has no cycles and no classes; simulate, poincare, diagram, lyapunov, measure and spectrum "
+                   "with --periods are for such models");
 }
 
 void validate(const Model& model) {

@@ -36,6 +36,12 @@ std::vector<flow::InstantPart> separate_parts(const flow::Engine& engine, bool d
   return apart;
 }
 
+/// The contact index of the first signal (System::contact_name).
+int first_signal(const Model& model) {
+  return static_cast<int>(model.stops.size() + model.frictions.size() + model.compliant_stops.size() +
+                          model.characteristics.size());
+}
+
 /// What the end of a leg is called: by the event of its contact, else by the first of the instant.
 void name_end(const Motion& motion, const mode::Guard& guard, Leg& leg) {
   const auto events = motion.engine().events_of_instant();
@@ -55,6 +61,7 @@ void EventReader::read() {
   const mode::Mode& before = system.mode(motion_.segment().mode);
   Leg leg;
   leg.states = before.states();
+  leg.lines = system.frame().lines_at(motion_.segment().start);
   leg.event = motion_.event().kind;
   leg.event_contact = leg.contact = motion_.event().contact;
   const double t = motion_.event().time.since({zero_, 0.0});
@@ -62,6 +69,12 @@ void EventReader::read() {
   if (leg.event == EventKind::chatter) {
     leg.strikes.assign(motion_.strikes().begin(), motion_.strikes().end());
     leg.ending = Ending::chatter;
+    read_.push_back({leg, t, last});
+    return;
+  }
+  if (leg.event == EventKind::knot) {
+    leg.ending = Ending::knot;
+    leg.contact -= first_signal(system.model());
     read_.push_back({leg, t, last});
     return;
   }

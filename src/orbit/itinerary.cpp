@@ -11,12 +11,12 @@ bool same_end(const Leg& a, const Leg& b) {
   const auto same_strike = [](const Motion::Strike& p, const Motion::Strike& q) {
     return p.stops == q.stops && p.to_rest == q.to_rest;
   };
-  return a.ending == b.ending &&
-         (a.ending == Ending::cut || (a.kind == b.kind && a.contact == b.contact)) &&
+  const bool of_clock = a.ending == Ending::cut || a.ending == Ending::knot;
+  return a.ending == b.ending && (of_clock || a.kind == b.kind) && (a.ending == Ending::cut || a.contact == b.contact) &&
          ranges::equal(a.strikes, b.strikes, same_strike);
 }
 
-bool operator==(const Leg& a, const Leg& b) { return a.states == b.states && same_end(a, b); }
+bool operator==(const Leg& a, const Leg& b) { return a.states == b.states && a.lines == b.lines && same_end(a, b); }
 
 void rotate(Orbit& orbit, std::size_t first) {
   const std::size_t k = orbit.legs();

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <utility>
 
 #include "base/ranges.hpp"
@@ -104,19 +103,6 @@ Jet contact_jet(const ModeSet& set, const Leg& next, const Jet& X) {
   return x;
 }
 
-/// The rows p' = u + drift and the phases of A X, times the period: the derivative of the phases by the instant.
-VectorXd phase_rate(const ModeSet& set, const VectorXd& X) {
-  const mode::Frame& frame = set.frame();
-  VectorXd rate = VectorXd::Zero(X.size());
-  for (std::size_t k = 0; k < frame.harmonics.size(); ++k) {
-    const auto c = static_cast<Index>(2 * frame.d + 2 * k);
-    const double turn = 2.0 * std::numbers::pi * frame.harmonics[k];
-    rate[c] = -turn * X[c + 1];
-    rate[c + 1] = turn * X[c];
-  }
-  return rate;
-}
-
 /// h of a guard's zero.
 Jet guard_jet(const ModeRates& mode, const Leg& leg, const Jet& X) {
   const std::size_t g = mode.guard(leg.kind, leg.contact);
@@ -124,6 +110,18 @@ Jet guard_jet(const ModeRates& mode, const Leg& leg, const Jet& X) {
   h.all = mode.outline.guards[g].row * X.all;
   for (Index p = 0; p < X.parameters; ++p)
     h.by_parameter()(0, p) += mode.rates[static_cast<std::size_t>(p)].guards[g].dot(X.value());
+  return h;
+}
+
+/// h of the end of a signal's line.
+Jet knot_jet(const ModeSet& set, const Leg& leg, const Jet& X, double t_end) {
+  const auto signal = static_cast<std::size_t>(leg.contact);
+  const int line = leg.lines[signal];
+  Jet h(1, X.states, X.parameters);
+  h.value()[0] = t_end - mode::line_end(set.model().signals[signal], line, t_end);
+  h.by_end()[0] = 1.0;
+  for (Index p = 0; p < X.parameters; ++p)
+    h.by_parameter()(0, p) = -mode::line_end_rate(set.rate(static_cast<std::size_t>(p)).signals[signal], line);
   return h;
 }
 
@@ -185,7 +183,7 @@ Jet chatter_jet(const ModeSet& set, int stop, const Jet& X, double t_begin, doub
 
 }  // namespace
 
-Jet extended(const ModeSet& set, const VectorXd& x, double t) {
+Jet extended(const ModeSet& set, const std::vector<int>& lines, const VectorXd& x, double t) {
   const mode::Frame& frame = set.frame();
   const Index n = frame.n, d = frame.d, count = static_cast<Index>(set.parameters());
   Jet X(frame.size(), 2 * n, count);
@@ -194,13 +192,15 @@ Jet extended(const ModeSet& set, const VectorXd& x, double t) {
   value.segment(d, d) = frame.dependence * (x.tail(n) + frame.drift.head(n)) - frame.drift;
   value.head(n) = x.head(n);  // exactly
   value.segment(d, n) = x.tail(n);
-  mode::PeriodicDrive(frame).set(t, value.data());
+  const mode::PeriodicDrive drive(set.model(), frame);
+  drive.set(t, lines, value.data());
   X.value() = value;
   X.by_state().topLeftCorner(d, n) = frame.dependence;
   X.by_state().block(d, n, d, n) = frame.dependence;
-  X.by_begin() = phase_rate(set, value);
+  X.by_begin() = drive.by_turns(value);
   for (Index p = 0; p < count; ++p) {
     const mode::FrameDerivative& rate = set.frame_rate(static_cast<std::size_t>(p));
+    X.by_parameter().col(p) = drive.by_parameter(set.rate(static_cast<std::size_t>(p)), t, lines);
     X.by_parameter().col(p).head(d) = frame.dependence * rate.shift.head(n) - rate.shift;
     X.by_parameter().col(p).segment(d, d) = frame.dependence * rate.drift.head(n) - rate.drift;
   }
@@ -216,7 +216,7 @@ void flow(const ModeRates& mode, double s, Jet& X) {
 }
 
 Jet leg_start(const ModeSet& set, const Leg& leg, const VectorXd& x, double t_begin) {
-  Jet X = extended(set, x, t_begin);
+  Jet X = extended(set, leg.lines, x, t_begin);
   if (sums_impacts(leg)) push(set, {std::uint32_t{1} << static_cast<unsigned>(leg.contact), true}, X);
   return X;
 }
@@ -279,7 +279,8 @@ LegValue leg_value(const ModeSet& set, const Leg& leg, const Leg& next, const Ve
     X.by_parameter().col(p) += (t_end - t_begin) * set.period_rate(static_cast<std::size_t>(p)) * rate;
   Jet h(1, X.states, X.parameters);
   if (leg.ending == Ending::guard || leg.ending == Ending::onset) h = guard_jet(mode, leg, X);
-  if (leg.ending == Ending::chatter) h = chatter_jet(set, leg.contact, extended(set, x, t_begin), t_begin, t_end);
+  if (leg.ending == Ending::chatter) h = chatter_jet(set, leg.contact, extended(set, leg.lines, x, t_begin), t_begin, t_end);
+  if (leg.ending == Ending::knot) h = knot_jet(set, leg, X, t_end);
   Jet struck = X;
   for (const Motion::Strike& strike : leg.strikes) push(set, strike, struck);
   return {std::move(X), contact_jet(set, next, struck), std::move(h)};

@@ -28,9 +28,19 @@ int displacement(const mode::Frame& frame, GuardKind kind, int contact) {
   return frame.compliant[contact].own;
 }
 
+/// Is a contact's state another one than before, and this guard its own?
+bool of_contact_that_changed(const mode::ContactStates& a, const mode::ContactStates& b, const mode::Guard& guard) {
+  const auto i = static_cast<std::size_t>(guard.contact);
+  if (guard.kind == GuardKind::slip) return a.frictions[i] != b.frictions[i];
+  if (guard.kind == GuardKind::gap) return a.stops[i] != b.stops[i];
+  return false;
+}
+
 /// Is this guard zero at a leg's start because of the event there?
-bool zero_by_event(const mode::Frame& frame, const Leg& before, const mode::Guard& guard) {
+/// At a knot of a signal a force may jump: a contact that lets go there begins at zero.
+bool zero_by_event(const mode::Frame& frame, const Leg& before, const Leg& behind, const mode::Guard& guard) {
   if (before.ending == Ending::cut) return false;
+  if (before.ending == Ending::knot) return of_contact_that_changed(before.states, behind.states, guard);
   const GuardKind kind = before.ending == Ending::chatter ? GuardKind::gap : before.kind;
   if (of_crossing(kind) || of_crossing(guard.kind)) {  // the line just crossed, seen from its other side
     const bool same = (of_corner(kind) && of_corner(guard.kind)) || (of_load(kind) && of_load(guard.kind)) ||
@@ -48,7 +58,7 @@ bool zero_by_event(const mode::Frame& frame, const Leg& before, const mode::Guar
 /// .. because of one of the events there?
 bool zero_by_events(const mode::Frame& frame, const Itinerary& shape, std::size_t leg, const mode::Guard& guard) {
   return ranges::any_of(ended_at_start(shape, leg),
-                        [&](std::size_t before) { return zero_by_event(frame, shape.legs[before], guard); });
+                        [&](std::size_t before) { return zero_by_event(frame, shape.legs[before], shape.legs[leg], guard); });
 }
 
 /// Is this the relative velocity of the pair whose gap ends the leg? Its value there is the speed of the impact, which is watched by itself.

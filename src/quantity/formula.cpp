@@ -115,8 +115,8 @@ Formula Formulas::damping() const {
 /// A force of the model.
 Row Formulas::drive(int i) const {
   const auto at = static_cast<std::size_t>(i);
-  const Force& force = model_.forces[at];
-  return {frame_.drive_row(force), rates_ ? mode::drive_rate(frame_, force, rates_->model.forces[at]) : zero()};
+  const mode::RowVector rates = rates_ ? mode::drive_rate(model_, rates_->model, frame_, at) : zero();
+  return {frame_.drive_row(model_.forces[at]), rates};
 }
 
 /// Forces times the velocities that they act on, and the belts: of the force F of a contact -F belt_speed.

@@ -33,7 +33,12 @@ PeriodEvents run_counting(Motion& motion, Instant end, Stop stop) {
 }
 
 bool driven(const Model& model) {
-  return ranges::any_of(model.forces, [](const Force& force) { return force.harmonic > 0 && force.amplitude != 0.0; });
+  return ranges::any_of(model.forces, [&](const Force& force) {
+    if (force.amplitude == 0.0 || !model.repeats_with_forcing(force)) return false;
+    if (force.signal < 0) return true;
+    const auto& knots = model.signals[static_cast<std::size_t>(force.signal)].knots;
+    return ranges::any_of(knots, [&](const Signal::Knot& knot) { return knot.value != knots.front().value; });
+  });
 }
 
 Settling::Settling(const System& system, const State& state, const SettlingOptions& options)

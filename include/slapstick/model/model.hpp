@@ -61,8 +61,9 @@ struct Force {
 };
 
 /// A function of time that is given by points and straight lines between them, as a measurement is. Before the first
-/// and after the last point it stays as it is there; one that repeats is periodic instead, also before its first point,
-/// and its last value is its first.
+/// and after the last point it stays as it is there; one that repeats is periodic instead, also before its first point.
+/// Two points at one time are a step: from that time on it has the second value. One that repeats with another last
+/// value than its first steps there too.
 struct Signal {
   struct Knot {
     double time = 0.0, value = 0.0;
@@ -70,6 +71,9 @@ struct Signal {
   std::string name;
   std::vector<Knot> knots;  ///< at least two, `time` ascending
   bool repeats = false;
+  /// The times are in forcing periods, from the first to the last knot one period: such a signal is a drive, as a
+  /// harmonic is. It repeats.
+  bool in_periods = false;
 };
 
 /// A normal force that is linear in the state: constant + sum (stiffness x_i + damping v_i) + the force of a compliant
@@ -172,17 +176,19 @@ struct Model {
   std::vector<Signal> signals;
   SymmetricMatrix mass, damping, stiffness;  ///< added to what coordinates, dampers and springs give
   ImpactLaw impact_law = ImpactLaw::moreau;
-  double omega = 0.0;  ///< forcing frequency; 0 only if no force has a harmonic > 0
+  double omega = 0.0;  ///< forcing frequency; 0 only if no force has a harmonic > 0 or a signal in periods
   /// For the engine: the contact that numbers each pair of bodies (mode/numbering.hpp). Empty for the nearest ones. All
   /// models of a family of orbits have the same, so that a state's numbers mean the same at all values.
   std::vector<int> numbered_by = {};
 
   [[nodiscard]] int size() const { return static_cast<int>(coordinates.size()); }
-  /// 2 pi / omega, or 1 for a model without harmonic forcing.
+  /// 2 pi / omega, or 1 for a model that is not forced.
   [[nodiscard]] double forcing_period() const;
-  /// True if some force has a harmonic > 0: only then are there stroboscopic maps and n-p classes.
+  /// Does this force repeat with the forcing: has it a harmonic > 0, or a signal in periods?
+  [[nodiscard]] bool repeats_with_forcing(const Force& force) const;
+  /// True if some force does: only then are there stroboscopic maps and n-p classes.
   [[nodiscard]] bool forced() const;
-  /// False if a force has a frequency of its own, or a signal: then no motion comes back after whole periods.
+  /// False if a force has a frequency of its own, or another signal: then no motion comes back after whole periods.
   [[nodiscard]] bool periodic() const;
 };
 

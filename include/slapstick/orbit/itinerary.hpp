@@ -20,6 +20,7 @@ enum class Ending : std::uint8_t {
   guard,    ///< the zero of a guard of the leg's mode
   chatter,  ///< the limit of a complete chatter whose impacts after the leg's start are summed
   onset,    ///< the release with which such a chatter ends at its onset: the zero of a guard of the leg's mode
+  knot,     ///< the end of a signal's piece: an instant of the clock
   cut       ///< nothing: an orbit without events, cut at phase 0
 };
 
@@ -27,7 +28,8 @@ struct Leg {
   mode::ContactStates states;
   Ending ending = Ending::guard;
   mode::GuardKind kind = mode::GuardKind::gap;  ///< of the guard; its contact is
-  int contact = 0;                              ///< .. this, or the stop that chatters
+  int contact = 0;                              ///< .. this, or the stop that chatters, or the signal
+  std::vector<int> lines;                       ///< of each signal: the straight line that it is on (mode/drive.hpp)
   std::vector<Motion::Strike> strikes;          ///< the impacts at the end, in order
   EventKind event = EventKind::impact;          ///< what the end is called (the first of the events of its instant)
   int event_contact = 0;                        ///< System::contact_name

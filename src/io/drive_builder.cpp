@@ -69,6 +69,7 @@ int ModelBuilder::signal(const Part& part) const {
 ModelBuilder::Term ModelBuilder::term(const Part& part, const std::string& place) const {
   const auto of = [&](const char* key) { return at(part, key, {}, [&] { return place + key; }); };
   Term term{of("amplitude"), 0, of("phase")};
+  term.silent = always_zero(part, "amplitude");
   term.frequency = of("frequency");
   term.signal = signal(part);
   const bool timed = part.fields.contains("frequency") || term.signal >= 0;
@@ -93,6 +94,7 @@ std::vector<ModelBuilder::Term> ModelBuilder::band(const Part& part) const {
   for (double k = 0; k < lines; ++k) {
     const double order = lines == 1 ? from : from + std::floor(k * (to - from) / (lines - 1) + 0.5);
     terms.push_back({amplitude, static_cast<int>(order), Dual{2.0 * std::numbers::pi * draw.next()}});
+    terms.back().silent = always_zero(part.band.at("rms"));
   }
   return terms;
 }
@@ -109,11 +111,10 @@ void ModelBuilder::add_bases() {
 void ModelBuilder::add_forces(Model& model) {
   each("force", [&](const Part& part) {
     const std::vector<Term> terms = part.band.empty() ? std::vector{term(part, where(""))} : band(part);
-    for (const Term& one : terms) {
-      origins_["force"].push_back({kind_, index_});
-      model.forces.push_back({part.a, one.harmonic, written(one.amplitude), written(one.phase), written(one.frequency),
-                              one.signal, false});
-    }
+    for (const Term& one : terms)
+      add_force(model,
+                {part.a, one.harmonic, written(one.amplitude), written(one.phase), written(one.frequency), one.signal},
+                one.silent);
   });
 }
 

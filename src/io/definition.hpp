@@ -20,9 +20,9 @@ struct Scalar {
 
 /// What a key of a [[part]] holds: a Scalar, a Scalar whose expression may name states as well, true or false, one line
 /// of text, a list of tables with fields of their own, a list of points [x, force], a list of two Scalars, a word of
-/// `contact_laws`, a table of `stribeck_keys`, a table of `constant`, states and a `compliant_stop`, or a table of
-/// `band_keys`.
-enum class Holds { number, observed, flag, text, harmonics, points, interval, contact_law, stribeck, load, band };
+/// `contact_laws` or `signal_shapes`, a table of `stribeck_keys`, a table of `constant`, states and a `compliant_stop`,
+/// or a table of `band_keys`.
+enum class Holds { number, observed, flag, text, harmonics, points, interval, contact_law, shape, stribeck, load, band };
 
 struct FieldRule {
   std::string_view key;
@@ -144,6 +144,7 @@ struct Definition {
 [[nodiscard]] const std::vector<std::string>& stribeck_keys();
 [[nodiscard]] const std::vector<std::string>& band_keys();
 [[nodiscard]] const std::vector<std::string>& contact_laws();
+[[nodiscard]] const std::vector<std::string>& signal_shapes();
 /// The words of `impact_law`, in the order of the enumeration.
 [[nodiscard]] const std::vector<std::string>& impact_laws();
 

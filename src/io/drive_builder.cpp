@@ -1,9 +1,8 @@
-/// Builds what drives a model: signals, bases, forces, and bands of harmonics with random phases.
+/// Builds what drives a model: bases, forces, and bands of harmonics with random phases.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <optional>
 
 #include "base/elementary.hpp"
 #include "base/text.hpp"
@@ -42,81 +41,6 @@ double value_at(const Signal& signal, double time) {
 
 }  // namespace
 
-ModelBuilder::Points ModelBuilder::signal_points(const Part& part) const {
-  Points points;
-  for (const auto& [time, value] : part.samples) points.emplace_back(Dual{time}, Dual{value});
-  for (const Point& point : part.points) {
-    const std::string place = where("points") + ": point " + std::to_string(points.size() + 1);
-    points.emplace_back(dual(point.at, place + ": time"), dual(point.force, place + ": value"));
-  }
-  return points;
-}
-
-namespace {
-
-/// How often one length goes into another, if it is a whole number of times but for rounding; else 0.
-double times_within(double length, double whole) {
-  constexpr double rounding = 0x1p-46;  // of decimal numbers: 0.333333333333333 goes three times into 1
-  const double times = std::nearbyint(whole / length);
-  return std::abs(whole / length - times) <= rounding * times ? times : 0.0;
-}
-
-}  // namespace
-
-std::optional<Dual> ModelBuilder::common_round() {
-  const auto own = [](const Part& part) { return part.fields.contains("frequency"); };
-  const auto& signals = definition_.of("signal");
-  if (definition_.omega || signals.empty()) return std::nullopt;
-  if (std::ranges::any_of(definition_.of("force"), own)) return std::nullopt;
-  for (const Part& base : definition_.of("base"))
-    if (std::ranges::any_of(base.harmonics, own)) return std::nullopt;
-  const auto in_time = [](const Part& part) { return part.flag("repeats") && !part.flag("in_periods"); };
-  if (!std::ranges::all_of(signals, in_time)) return std::nullopt;
-  std::vector<Dual> rounds;
-  each("signal", [&](const Part& part) {
-    const Points points = signal_points(part);
-    rounds.push_back(points.back().first - points.front().first);
-  });
-  const auto shorter = [](const Dual& a, const Dual& b) { return a.value < b.value; };
-  const Dual longest = *std::ranges::max_element(rounds, shorter);
-  const auto fits = [&](const Dual& round) { return round.value > 0.0 && times_within(round.value, longest.value) > 0.0; };
-  return std::ranges::all_of(rounds, fits) ? std::optional(longest) : std::nullopt;
-}
-
-/// Point (t, v) of round j of q is (t_0 / T + (j + (t - t_0) / length) / q, v). Between two rounds there is one point, or
-/// a step.
-ModelBuilder::Points ModelBuilder::over_a_period(const Part& part, const Points& points, const Dual& period) const {
-  const Dual first = points.front().first, length = points.back().first - first;
-  const double rounds = length.value > 0.0 ? times_within(length.value, period.value) : 0.0;
-  if (rounds == 0.0)
-    throw InputError(definition_.place(part.line),
-                     where("in_periods") + ": from the first point to the last there are " + shown(length.value) +
-                         " forcing periods; a period must hold a whole number of rounds (a record over two periods: "
-                         "halve omega, and double the harmonics)");
-  const bool steps = points.back().second.value != points.front().second.value;
-  Points all;
-  for (double round = 0.0; round < rounds; round += 1.0) {
-    if (round > 0.0 && !steps) all.pop_back();
-    for (const auto& [time, value] : points)
-      all.emplace_back(first / period + (Dual{round} + (time - first) / length) / Dual{rounds}, value);
-  }
-  return all;
-}
-
-void ModelBuilder::add_signals(Model& model) {
-  each("signal", [&](const Part& part) {
-    Points points = signal_points(part);
-    Signal signal{part.name, {}, part.flag("repeats"), part.flag("in_periods") || round_.has_value()};
-    if (signal.in_periods && !definition_.omega && !round_)
-      throw InputError(definition_.place(part.line), where("in_periods") + ": the file has no 'omega'");
-    if (signal.in_periods && signal.repeats) points = over_a_period(part, points, round_.value_or(Dual{1.0}));
-    for (const auto& [time, value] : points) signal.knots.push_back({written(time), written(value)});
-    origins_["signal"].push_back({kind_, index_});
-    model.signals.push_back(std::move(signal));
-  });
-  signals_ = model.signals;
-}
-
 int ModelBuilder::signal(const Part& part) const {
   const auto named = part.texts.find("signal");
   if (named == part.texts.end()) return -1;
@@ -129,6 +53,7 @@ int ModelBuilder::signal(const Part& part) const {
 ModelBuilder::Term ModelBuilder::term(const Part& part, const std::string& place) const {
   const auto of = [&](const char* key) { return at(part, key, {}, [&] { return place + key; }); };
   Term term{of("amplitude"), 0, of("phase")};
+  term.silent = always_zero(part, "amplitude");
   term.frequency = of("frequency");
   term.signal = signal(part);
   const bool timed = part.fields.contains("frequency") || term.signal >= 0;
@@ -153,6 +78,7 @@ std::vector<ModelBuilder::Term> ModelBuilder::band(const Part& part) const {
   for (double k = 0; k < lines; ++k) {
     const double order = lines == 1 ? from : from + std::floor(k * (to - from) / (lines - 1) + 0.5);
     terms.push_back({amplitude, static_cast<int>(order), Dual{2.0 * std::numbers::pi * draw.next()}});
+    terms.back().silent = always_zero(part.band.at("rms"));
   }
   return terms;
 }
@@ -169,11 +95,10 @@ void ModelBuilder::add_bases() {
 void ModelBuilder::add_forces(Model& model) {
   each("force", [&](const Part& part) {
     const std::vector<Term> terms = part.band.empty() ? std::vector{term(part, where(""))} : band(part);
-    for (const Term& one : terms) {
-      origins_["force"].push_back({kind_, index_});
-      model.forces.push_back({part.a, one.harmonic, written(one.amplitude), written(one.phase), written(one.frequency),
-                              one.signal, false});
-    }
+    for (const Term& one : terms)
+      add_force(model,
+                {part.a, one.harmonic, written(one.amplitude), written(one.phase), written(one.frequency), one.signal},
+                one.silent);
   });
 }
 

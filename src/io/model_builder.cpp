@@ -78,7 +78,7 @@ void ModelBuilder::add_links(Model& model) {
     const Dual stiffness = field(part, "stiffness");
     const auto name = part.texts.find("name");
     model.springs.push_back({end(part.a), end(part.b), written(stiffness), name != part.texts.end() ? name->second : ""});
-    model.springs.back().motion = add_motion(model, part, stiffness, 0);
+    model.springs.back().motion = add_motion(model, part, "stiffness", 0);
   });
   each("damper", [&](const Part& part) {
     if (!part.points.empty()) return add_bends(model, part, Characteristic::Over::velocity);
@@ -88,7 +88,7 @@ void ModelBuilder::add_links(Model& model) {
     const auto name = part.texts.find("name");
     model.dampers.push_back({end(part.a), end(part.b), written(coefficient), part.flag("feeds"),
                              name != part.texts.end() ? name->second : ""});
-    model.dampers.back().motion = add_motion(model, part, coefficient, 1);
+    model.dampers.back().motion = add_motion(model, part, "coefficient", 1);
   });
 }
 
@@ -163,13 +163,15 @@ void ModelBuilder::stand_still(Model& model) {
 }
 
 /// Between two ends the surroundings move apart by x_base of one less x_base of the other.
-BaseMotion ModelBuilder::add_motion(Model& model, const Part& part, const Dual& strength, int order) {
+BaseMotion ModelBuilder::add_motion(Model& model, const Part& part, std::string_view strength, int order) {
   const int first = static_cast<int>(model.forces.size());
   if (home(part.a) == home(part.b)) return {};
+  const Dual size = field(part, strength);
+  const bool silent = always_zero(part, strength);
   for (const auto& [coordinate, other] : {std::pair{part.a, part.b}, std::pair{part.b, part.a}}) {
     if (coordinate < 0) continue;
-    push(model, coordinate, home(other), strength, order);
-    push(model, coordinate, home(coordinate), -strength, order);
+    push(model, coordinate, home(other), size, order, silent);
+    push(model, coordinate, home(coordinate), -size, order, silent);
   }
   return {first, static_cast<int>(model.forces.size()) - first};
 }
@@ -177,32 +179,29 @@ BaseMotion ModelBuilder::add_motion(Model& model, const Part& part, const Dual& 
 /// x_base   = sum amplitude sin(harmonic omega t + phase)
 /// x_base'  = sum amplitude harmonic omega sin(harmonic omega t + phase + pi / 2)
 /// x_base'' = sum -amplitude (harmonic omega)^2 sin(harmonic omega t + phase)
-void ModelBuilder::push(Model& model, int coordinate, int base, const Dual& strength, int order) {
+void ModelBuilder::push(Model& model, int coordinate, int base, const Dual& strength, int order, bool silent) {
   if (!is_base(base)) return;
   for (const Term& term : bases_[static_cast<std::size_t>(base_end(base))]) {
-    origins_["force"].push_back({kind_, index_});
     if (term.signal >= 0) {
-      model.forces.push_back({coordinate, 0, written(strength * term.amplitude), 0.0, 0.0, term.signal, order == 1});
+      add_force(model, {coordinate, 0, written(strength * term.amplitude), 0.0, 0.0, term.signal, order == 1}, silent);
       continue;
     }
     const bool own = term.frequency.value != 0.0;
-    if (order > 0 && term.harmonic == 0 && !own) {  // a constant displacement has no velocity
-      origins_["force"].pop_back();
-      continue;
-    }
+    if (order > 0 && term.harmonic == 0 && !own) continue;  // a constant displacement has no velocity
     const Dual turning = own ? term.frequency : Dual{static_cast<double>(term.harmonic)} * omega_;
     const Dual frequency = order > 0 ? turning : Dual{1.0};
     const Dual phase = order == 1 ? term.phase + Dual{std::numbers::pi / 2} : term.phase;
     const Dual size = order == 2 ? -(strength * term.amplitude * (frequency * frequency))
                                  : strength * frequency * term.amplitude;
-    model.forces.push_back({coordinate, term.harmonic, written(size), written(phase), written(term.frequency)});
+    add_force(model, {coordinate, term.harmonic, written(size), written(phase), written(term.frequency)},
+              silent || term.silent);
   }
 }
 
 void ModelBuilder::add_inertia(Model& model) {
   each("coordinate", [&](const Part& part) {
     const int i = static_cast<int>(index_);
-    if (part.fields.contains("mass")) push(model, i, part.b, -field(part, "mass"), 2);
+    if (part.fields.contains("mass")) push(model, i, part.b, -field(part, "mass"), 2, always_zero(part, "mass"));
     const auto n = definition_.of("coordinate").size();
     for (int order = 0; order < 3; ++order) {
       const char* key = order == 2 ? "mass" : order == 1 ? "damping" : "stiffness";
@@ -211,8 +210,8 @@ void ModelBuilder::add_inertia(Model& model) {
       for (std::size_t j = 0; j < n; ++j) {
         const int base = definition_.of("coordinate")[j].b;
         if (!is_base(base)) continue;
-        const Dual entry = dual(matrix->second.entries[index_ * n + j], std::string("matrix: ") + key);
-        if (entry.value != 0.0 || entry.varies) push(model, i, base, -entry, order);
+        const Scalar& entry = matrix->second.entries[index_ * n + j];
+        if (!always_zero(entry)) push(model, i, base, -dual(entry, std::string("matrix: ") + key), order, false);
       }
     }
   });
@@ -253,6 +252,14 @@ Model ModelBuilder::model() {
   if (!definition_.omega && !round_) demand_no_forcing(model);
   demand_resolved_records(model);
   if (const auto fault = first_fault(model)) throw refusal(*fault, model);
+  if (!leave_out_silent(model)) return model;
+  if (const auto fault = first_fault(model)) throw refusal(*fault, model);  // without drives the clock is another one
+  return model;
+}
+
+Model ModelBuilder::rate() {
+  Model model = assembled();
+  (void)leave_out_silent(model);
   return model;
 }
 

@@ -38,7 +38,7 @@ class ModelBuilder {
   [[nodiscard]] Model model();
   /// The derivative of `model`, a Model of the same shape. @throws InputError with the file's line for a number that
   /// has none
-  [[nodiscard]] Model rate() { return assembled(); }
+  [[nodiscard]] Model rate();
   /// @throws InputError with the file's line
   [[nodiscard]] State start(const Model& model) const;
 
@@ -70,6 +70,7 @@ class ModelBuilder {
     Dual phase;
     Dual frequency = {};
     int signal = -1;
+    bool silent = false;  ///< of a size that the file writes as 0
   };
 
   /// Calls `add(part)` for every part of a kind; kind_ and index_ say which one it is, for messages.
@@ -107,6 +108,9 @@ class ModelBuilder {
   using Points = std::vector<std::pair<Dual, Dual>>;
   /// The points of a [[signal]], in the model's unit of time or in forcing periods.
   [[nodiscard]] Points signal_points(const Part& part) const;
+  [[nodiscard]] Points shape_points(const Part& part) const;
+  /// Does a force or a base follow this signal, and is it not 0 throughout?
+  [[nodiscard]] bool drives(const Part& signal) const;
   /// The longest round of the signals, if they are all that moves the model and come back together.
   [[nodiscard]] std::optional<Dual> common_round();
   /// The points of the rounds that make one period.
@@ -119,9 +123,19 @@ class ModelBuilder {
   [[nodiscard]] int signal(const Part& part) const;
   void add_links(Model& model);
   /// The force that the motion of the surroundings passes on through a spring (`order` 0) or a damper (1).
-  BaseMotion add_motion(Model& model, const Part& part, const Dual& strength, int order);
+  BaseMotion add_motion(Model& model, const Part& part, std::string_view strength, int order);
   /// `strength` times the derivative of a base's motion of this order, as forces on a coordinate.
-  void push(Model& model, int coordinate, int base, const Dual& strength, int order);
+  void push(Model& model, int coordinate, int base, const Dual& strength, int order, bool silent);
+  /// @param silent  its size is 0 at all values of the parameters
+  void add_force(Model& model, const Force& force, bool silent);
+  /// Is it 0 at all values of the parameters?
+  [[nodiscard]] static bool always_zero(const Scalar& scalar);
+  [[nodiscard]] static bool always_zero(const Part& part, std::string_view key);
+  /// Is the signal of this index 0 at all its points?
+  [[nodiscard]] bool silent_signal(int index) const;
+  /// A drive that does nothing is no drive: it would make a model forced, or without a period. Once all is checked.
+  /// @return whether there was one to look for
+  bool leave_out_silent(Model& model);
   /// What a coordinate that is measured from a base feels of its motion: -M x_base'', and of the matrices
   /// -C x_base' and -K x_base.
   void add_inertia(Model& model);
@@ -147,6 +161,7 @@ class ModelBuilder {
   std::vector<std::vector<Term>> bases_;
   std::vector<Signal> signals_;
   std::optional<Dual> round_;  ///< the forcing period of a model that signals alone drive
+  std::vector<bool> silent_;  // of each force of the model, before any is left out
   std::map<std::string, std::vector<Origin>, std::less<>> origins_;  // by Fault::part
 };
 

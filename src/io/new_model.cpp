@@ -74,12 +74,25 @@ phase = "pi / 2"
 #frequency = "2 ^ 0.5"
 
 # A force that follows a signal: points [time, value] and straight lines between them, or the columns of a file.
+# Two points at one time are a step. One that repeats in forcing periods is a drive, as a harmonic is.
 #[[signal]]
 #name = "push"
-#points = [[0, 0], [1, 0.5], [4, 0]]
+#points = [[0, 0], [0.25, 0.5], [0.25, 0.2], [1, 0]]
 #repeats = true
+#in_periods = true
 # file = "push.csv"          # in place of points
 # column = "force"
+
+# A named shape, of a period of its own, or without `period` of the forcing's. `phase` leads, as that of a force does.
+#[[signal]]
+#name = "shape"
+#shape = "trapezoid"
+#duty = 0.4
+#rise = 0.1
+#low = 0
+#high = 1
+#phase = 0
+#period = 3
 
 #[[force]]
 #on = "x2"

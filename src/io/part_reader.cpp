@@ -294,6 +294,9 @@ class PartReader {
       case Holds::contact_law:
         part.texts[key] = contact_laws()[tree_.word(value, place, contact_laws())];
         break;
+      case Holds::shape:
+        part.texts[key] = signal_shapes()[tree_.word(value, place, signal_shapes())];
+        break;
       case Holds::stribeck:
         part.stribeck = read_stribeck(tree_, value, place);
         break;

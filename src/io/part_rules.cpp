@@ -16,8 +16,15 @@ std::vector<PartRule> bodies() {
        {{"points", true, Holds::points},
         {"file", false, Holds::text, "points"},
         {"column", false, Holds::text, {}, "file"},
-        {"repeats", false, Holds::flag},
-        {"in_periods", false, Holds::flag, {}, "repeats"}}},
+        {"shape", false, Holds::shape, "points|file"},
+        {"duty", false, Holds::number, {}, "shape"},
+        {"rise", false, Holds::number, {}, "shape"},
+        {"phase", false, Holds::number, {}, "shape"},
+        {"low", false, Holds::number, {}, "shape"},
+        {"high", false, Holds::number, {}, "shape"},
+        {"period", false, Holds::number, {}, "shape"},
+        {"repeats", false, Holds::flag, "shape"},
+        {"in_periods", false, Holds::flag, "period", "repeats|shape"}}},
       {"base", true, Ends::none,
        {{"harmonics", true, Holds::harmonics},
         {"band", false, Holds::band, "harmonics"},
@@ -147,6 +154,11 @@ const std::vector<std::string>& band_keys() {
 
 const std::vector<std::string>& contact_laws() {
   static const std::vector<std::string> words = {"lets_go", "pulls", "bounded"};
+  return words;
+}
+
+const std::vector<std::string>& signal_shapes() {
+  static const std::vector<std::string> words = {"square", "trapezoid", "triangle", "sawtooth"};
   return words;
 }
 

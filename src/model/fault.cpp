@@ -119,14 +119,6 @@ Found check_damper(const Damper& damper, int index, const Model& model, std::set
   return check.result();
 }
 
-/// Has it two values at one time?
-bool steps(const Signal& signal) {
-  const auto& knots = signal.knots;
-  const auto at_one_time = [](const Signal::Knot& a, const Signal::Knot& b) { return a.time == b.time; };
-  if (std::adjacent_find(knots.begin(), knots.end(), at_one_time) != knots.end()) return true;
-  return signal.repeats && !knots.empty() && knots.back().value != knots.front().value;
-}
-
 Found check_force(const Force& force, int index, const Model& model) {
   Check check("force", index);
   check.end("on", force.coordinate, model);
@@ -324,24 +316,6 @@ std::string part_name(const Fault& fault, const Model& model) {
 }
 
 }  // namespace
-
-std::optional<SteepPiece> first_steep_piece(const Signal& signal, double period) {
-  const auto& knots = signal.knots;
-  if (knots.size() < 2 || !std::isfinite(period)) return std::nullopt;
-  const auto [low, high] =
-      std::minmax_element(knots.begin(), knots.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
-  const double range = high->value - low->value;
-  for (std::size_t i = 1; i < knots.size(); ++i) {
-    const double apart = knots[i].time - knots[i - 1].time;
-    if (apart == 0.0) continue;  // a step
-    const double least = 0x1p-26 * period * std::abs(knots[i].value - knots[i - 1].value) / range;
-    if (apart < least)
-      return SteepPiece{i, "time " + shown(knots[i].time) + " is only " + shown(apart) +
-                               " after that of the point before, and events would be lost in such a steep step: leave " +
-                               shown(least) + " at least"};
-  }
-  return std::nullopt;
-}
 
 bool is_reserved(std::string_view name) { return std::find(reserved.begin(), reserved.end(), name) != reserved.end(); }
 

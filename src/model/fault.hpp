@@ -41,6 +41,9 @@ struct Fault {
 inline constexpr double largest = 1e50;
 inline constexpr double smallest = 1e-50;
 
+/// Has a signal two values at one time?
+[[nodiscard]] bool steps(const Signal& signal);
+
 /// A piece of a signal that is steeper than the clock resolves.
 struct SteepPiece {
   std::size_t end = 0;  ///< the later one of its points, from 0

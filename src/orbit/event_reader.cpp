@@ -75,6 +75,12 @@ void EventReader::read() {
   if (leg.event == EventKind::knot) {
     leg.ending = Ending::knot;
     leg.contact -= first_signal(system.model());
+    for (const Event& event : engine.events_of_instant()) {  // what it makes happen is more than the point itself
+      if (event.kind == EventKind::knot) continue;
+      leg.event = event.kind;
+      leg.event_contact = event.contact;
+      break;
+    }
     read_.push_back({leg, t, last});
     return;
   }

@@ -194,11 +194,10 @@ Least least_value(const Course& course, const mode::Guard& guard, bool with_star
   return least;
 }
 
-/// Static friction is exceeded by so much where a velocity passes zero at the end of a leg and the contact does not stick.
-double beyond_stick(const ModeSet& set, const Orbit& orbit, std::size_t leg, const VectorXd& X_end) {
+/// Static friction is exceeded by so much where a contact slips on behind the end of a leg, and is at rest there.
+double beyond_stick(const ModeSet& set, const Orbit& orbit, std::size_t leg, int contact, const VectorXd& X_end) {
   const std::size_t next = (leg + 1) % orbit.legs();
   mode::ContactStates stuck = orbit.shape.legs[next].states;
-  const int contact = orbit.shape.legs[leg].contact;
   stuck.frictions[contact] = mode::FrictionState::stick;
   const mode::Outline& outline = set.mode(stuck).outline;
   double least = std::numeric_limits<double>::infinity();
@@ -216,6 +215,17 @@ bool passes_without_stick(const Orbit& orbit, std::size_t leg) {
   const Leg& here = orbit.shape.legs[leg];
   if (here.ending != Ending::guard || here.kind != GuardKind::slip) return false;
   return orbit.shape.legs[(leg + 1) % orbit.legs()].states.frictions[here.contact] != mode::FrictionState::stick;
+}
+
+/// The friction contacts that a signal's point lets go: the force jumps past their limit.
+std::vector<int> let_go_at_knot(const Orbit& orbit, std::size_t leg) {
+  std::vector<int> contacts;
+  if (orbit.shape.legs[leg].ending != Ending::knot) return contacts;
+  const auto &before = orbit.shape.legs[leg].states.frictions,
+             &behind = orbit.shape.legs[(leg + 1) % orbit.legs()].states.frictions;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    if (before[i] == mode::FrictionState::stick && behind[i] != before[i]) contacts.push_back(static_cast<int>(i));
+  return contacts;
 }
 
 }  // namespace
@@ -245,8 +255,14 @@ std::vector<TestValue> test_values(const ModeSet& set, const Orbit& orbit) {
       all.push_back({Test::duration, i, leg.kind, leg.contact,
                      leg.tied ? std::numeric_limits<double>::infinity() : orbit.duration(i), orbit.duration(i), starts_at_end});
     if (passes_without_stick(orbit, i))
-      all.push_back({Test::no_stick, i, leg.kind, leg.contact, beyond_stick(set, orbit, i, course.states.back()),
+      all.push_back({Test::no_stick, i, leg.kind, leg.contact,
+                     beyond_stick(set, orbit, i, leg.contact, course.states.back()), orbit.duration(i)});
+    for (const int contact : let_go_at_knot(orbit, i)) {
+      const std::size_t next = (i + 1) % orbit.legs();
+      const VectorXd X = leg_start(set, orbit.shape.legs[next], orbit.x[next], orbit.t[next]).value();
+      all.push_back({Test::no_stick, i, GuardKind::stick_above, contact, beyond_stick(set, orbit, i, contact, X),
                      orbit.duration(i)});
+    }
   }
   return all;
 }

@@ -154,7 +154,7 @@ std::vector<EventOfOrbit> events(const Problem& problem, const Orbit& orbit) {
   std::vector<EventOfOrbit> all;
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
     const Leg& leg = orbit.shape.legs[i];
-    if (leg.ending == Ending::cut || leg.ending == Ending::knot) continue;  // a signal's own: no table has it
+    if (leg.ending == Ending::cut || leg.event == EventKind::knot) continue;  // a point is the signal's own
     const Leg& next = orbit.shape.legs[(i + 1) % orbit.legs()];
     const LegValue value = leg_value(set, leg, next, orbit.x[i], orbit.t[i], orbit.t[i + 1]);
     EventOfOrbit event{leg.event,  leg.event_contact, orbit.t[i + 1], 0.0, State(2 * static_cast<std::size_t>(frame.n)),

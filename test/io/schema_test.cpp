@@ -82,6 +82,7 @@ std::string type_of(Holds holds, std::string_view key) {
       return R"("boolean")";
     case Holds::text:
     case Holds::contact_law:
+    case Holds::shape:
       return R"("string")";
     case Holds::stribeck:
     case Holds::load:

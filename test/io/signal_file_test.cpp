@@ -89,7 +89,8 @@ TEST_F(SignalFile, a_bad_row_is_named_with_its_file) {
     write("road.csv", rows);
     return message(model());
   };
-  EXPECT_NE(said("t,z\n0,1\n1,2\n1,3\n").find("road.csv:4: time 1 is not above the 1 of the row before"), std::string::npos);
+  EXPECT_NE(said("t,z\n0,1\n1,2\n0.5,3\n").find("road.csv:4: time 0.5 is below the 1 of the row before"), std::string::npos);
+  EXPECT_NE(said("t,z\n0,1\n1,2\n1,3\n1,4\n").find("road.csv:5: there are three rows at time 1"), std::string::npos);
   EXPECT_NE(said("0,1\n1,nan\n").find("road.csv:2: 'nan' is not a finite number"), std::string::npos);
   EXPECT_NE(said("0,1\n1,\n").find("road.csv:2: a number is missing"), std::string::npos);
   EXPECT_NE(said("0,1\n1\n").find("road.csv:2: the row has 1 field"), std::string::npos);
@@ -103,12 +104,78 @@ TEST_F(SignalFile, a_bad_row_is_named_with_its_file) {
   EXPECT_NE(message(model()).find("m.toml:8: signal 'road': file: "), std::string::npos) << message(model());
 }
 
+std::string signal(const std::string& text) {
+  return "[[signal]]\nname = 's'\n" + text + "[[force]]\non = 'x'\nsignal = 's'\namplitude = 1\n";
+}
+
+/// A period must hold whole rounds, and a number that the shape does not have would be a promise without effect.
+TEST(PeriodicSignalRefusal, names_key_and_line) {
+  const auto says = [](const std::string& text, const std::string& what) {
+    const std::string told = refusal(text);
+    EXPECT_NE(told.find(what), std::string::npos) << told;
+  };
+  says(head + signal("points = [[0, 1], [0.4, 1]]\nrepeats = true\nin_periods = true\n"), "a whole number of rounds");
+  says(head + signal("points = [[0, 1], [1, 1]]\nin_periods = true\n"), "belongs to a 'repeats'");
+  says("name = 'm'\n[[coordinate]]\nname = 'x'\nmass = 1\n" + signal("shape = 'square'\n"), "the file has no 'omega'");
+  says(head + signal("shape = 'sine'\n"), "f.toml:8: signal 's': shape");
+  says(head + signal("shape = 'sawtooth'\nduty = 0.2\n"), "duty: a sawtooth has none");
+  says(head + signal("shape = 'square'\nduty = 1.2\n"), "f.toml:9: signal 's': duty = 1.2 is not between 0 and 1");
+  says(head + signal("shape = 'trapezoid'\nrise = 0.6\n"), "rise = 0.6 is not between 0 and 0.5");
+  says(head + signal("shape = 'square'\nrepeats = true\n"), "repeats");
+}
+
+/// Rounds that fit a period three times, given by decimal numbers, are three rounds of exactly one period.
+TEST(PeriodicSignal, has_rounds_that_fill_a_period) {
+  const Model model = ModelDefinition::parse(head + signal("points = [[0.1, 1], [0.2, 3], [0.433333333333333, 1]]\n"
+                                                           "repeats = true\nin_periods = true\n"), "f.toml").build();
+  const auto& knots = model.signals[0].knots;
+  ASSERT_EQ(knots.size(), 7U);
+  EXPECT_EQ(knots.back().time - knots.front().time, 1.0);
+  EXPECT_NEAR(knots[2].time, 0.1 + 1.0 / 3.0, 1e-14);
+  EXPECT_EQ(knots[3].value, 3.0);
+  EXPECT_TRUE(model.forced());
+  EXPECT_TRUE(model.periodic());
+}
+
+/// Signals alone give a model their longest round as its period, and shorter ones are counted in it.
+TEST(PeriodicSignal, is_the_clock_where_nothing_else_is) {
+  const std::string body = "name = 'm'\n[[coordinate]]\nname = 'x'\nmass = 1\n";
+  const std::string second = "[[signal]]\nname = 'quick'\nshape = 'triangle'\nperiod = 0.5\n"
+                             "[[force]]\non = 'x'\nsignal = 'quick'\namplitude = 1\n";
+  const std::string slow = signal("points = [[0, 0], [1, 1], [1.5, 0]]\nrepeats = true\n");
+  const Model model = ModelDefinition::parse(body + slow + second, "f.toml").build();
+  EXPECT_NEAR(model.forcing_period(), 1.5, 1e-15);
+  EXPECT_EQ(model.signals[1].knots.size(), 7U);
+  EXPECT_TRUE(model.periodic());
+  const std::string other = "[[force]]\non = 'x'\nfrequency = 2\namplitude = ";
+  EXPECT_FALSE(ModelDefinition::parse(body + slow + other + "1\n", "f.toml").build().periodic());
+  EXPECT_TRUE(ModelDefinition::parse(body + slow + other + "0\n", "f.toml").build().periodic());
+}
+
+/// A shape leads by its phase: a square by a quarter turn is high around its old start.
+TEST(PeriodicSignal, shapes_lead_by_their_phase) {
+  const Model model = ModelDefinition::parse(head + signal("shape = 'square'\nphase = 'pi / 2'\nlow = 0\nhigh = 2\n"),
+                                             "f.toml").build();
+  const auto& knots = model.signals[0].knots;
+  const std::vector<std::pair<double, double>> expected = {{-0.25, 2.0}, {0.25, 2.0}, {0.25, 0.0}, {0.75, 0.0}};
+  ASSERT_EQ(knots.size(), expected.size());
+  for (std::size_t i = 0; i < knots.size(); ++i) {
+    EXPECT_NEAR(knots[i].time, expected[i].first, 1e-16);
+    EXPECT_EQ(knots[i].value, expected[i].second);
+  }
+}
+
 TEST(SignalRefusal, names_the_line) {
   const std::string s = "[[signal]]\nname = 's'\npoints = [[0, 1], [1, 2]]\n";
   EXPECT_EQ(refusal(head + s + "[[force]]\non = 'x'\nsignal = 't'\namplitude = 1\n"),
             "f.toml:11: force 1: signal: unknown signal 't'; known: s");
-  EXPECT_NE(refusal(head + s + "repeats = true\n").find("a signal that repeats would jump"), std::string::npos);
-  EXPECT_NE(refusal(head + "[[signal]]\nname = 's'\npoints = [[0, 1], [0, 2]]\n").find("f.toml:"), std::string::npos);
+  EXPECT_NE(refusal(head + "[[signal]]\nname = 's'\npoints = [[0, 1], [0, 2]]\n").find("all points are at one time"),
+            std::string::npos);
+  EXPECT_NE(refusal(head + "[[signal]]\nname = 's'\npoints = [[0, 1], [1, 2], [0.5, 2]]\n").find("time 0.5 is below 1"),
+            std::string::npos);
+  EXPECT_NE(refusal(head + s + "repeats = true\n[[base]]\nname = 'b'\nsignal = 's'\n[[damper]]\nbetween = ['x', 'b']\ncoefficient = 1\n")
+                .find("has a step, at which its rate of change is not finite"),
+            std::string::npos);
   EXPECT_NE(refusal("name = 'm'\n" + s + "[[base]]\nname = 'b'\nsignal = 's'\n[[coordinate]]\nname = 'x'\nmass = 1\nbase = 'b'\n")
                 .find("whose speed jumps at every point"),
             std::string::npos);

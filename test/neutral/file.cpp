@@ -27,7 +27,7 @@ Dimension dimension(const std::string& kind, const std::string& key, bool loaded
 void visit_points(const std::string& kind, Part& part, const Visit& visit) {
   const bool loaded = !part.load.empty() || !part.load_stop.empty();
   Dimension at = dim::length, height = dim::force;
-  if (kind == "signal") at = dim::time, height = dim::length;
+  if (kind == "signal") at = part.flag("in_periods") ? dim::pure : dim::time, height = dim::length;
   if (kind == "damper") at = dim::speed;
   if (kind == "friction") at = dim::speed, height = loaded ? dim::pure : dim::force;
   if (kind == "stop") at = dim::speed, height = dim::pure;
@@ -97,15 +97,7 @@ std::string velocity_name(const std::string& coordinate) {
   return coordinate.starts_with("x") ? "v" + coordinate.substr(1) : "v_" + coordinate;
 }
 
-bool has_harmonics(const Definition& file) {
-  const auto drives = [](const Part& part) {
-    if (part.texts.contains("signal") || part.fields.contains("frequency")) return false;
-    const auto found = part.fields.find("harmonic");
-    return found == part.fields.end() || found->second.number > 0.0;
-  };
-  if (std::ranges::any_of(file.of("force"), drives)) return true;
-  return std::ranges::any_of(file.of("base"), [&](const Part& base) { return std::ranges::any_of(base.harmonics, drives); });
-}
+bool has_harmonics(const Definition& file) { return read(file).build().forced(); }
 
 std::vector<std::pair<std::string, Scalar>> whole_start(const Definition& file) {
   std::vector<std::pair<std::string, Scalar>> all;

@@ -8,9 +8,6 @@ namespace {
 
 bool always(const Definition&) { return true; }
 bool without_drive(const Definition& file) { return !has_harmonics(file); }
-bool aperiodic(const Definition& file) {
-  return !file.of("signal").empty() || std::ranges::any_of(file.of("force"), [](const Part& p) { return p.fields.contains("frequency"); });
-}
 /// Several friction contacts, of which one has less to slip than to stick.
 bool steps_down_twice(const Definition& file) {
   const auto steps_down = [](const Part& p) {
@@ -46,8 +43,6 @@ const std::vector<Exclusion>& exclusions() {
 
 const std::vector<Exclusion>& faults() {
   static const std::vector<Exclusion> all = {
-      {{"zero-tone", "zero-signal"}, settled, [](const Definition& file) { return !aperiodic(file); },
-       "a drive that does nothing is taken for a drive", {"one is answered, the other not"}},
       {{"order-of-contacts"}, all_verbs, steps_down_twice, "several modes fit where static friction is above kinetic, and the file's order decides"},
       {{"twin"}, {Verb::orbit, Verb::branch, Verb::curve}, always, "a twin's cycle is named, and its equations are not solved",
        {"orbit: yes, no", "branch: yes, no"}},
@@ -55,7 +50,6 @@ const std::vector<Exclusion>& faults() {
       {{"units"}, {Verb::classify}, always, "a motion is one of a family, or not, by rounding", {"family"}},
       {{"far-stop", "far-pad", "far-compliant-stop", "machine-at-rest", "collinear-corner"}, {Verb::orbit, Verb::branch, Verb::curve}, without_drive,
        "free cycles of a family: the equations are solved or not by rounding", {"class: free", "orbit: yes, no", "branch: yes, no"}},
-      {{"zero-force"}, settled, without_drive, "a drive that does nothing is taken for a drive"},
   };
   return all;
 }

@@ -1,0 +1,139 @@
+/// Builds signals: from points, files and named shapes, and those that repeat in forcing periods.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string_view>
+
+#include "base/ranges.hpp"
+#include "base/text.hpp"
+#include "io/model_builder.hpp"
+
+namespace slapstick {
+namespace {
+
+bool has_shape(const Part& part) { return part.texts.contains("shape"); }
+bool repeats(const Part& part) { return part.flag("repeats") || has_shape(part); }
+/// Are its times in forcing periods?
+bool in_periods(const Part& part) {
+  return part.flag("in_periods") || (has_shape(part) && !part.fields.contains("period"));
+}
+
+/// How often one length goes into another, if it is a whole number of times but for rounding; else 0.
+double times_within(double length, double whole) {
+  constexpr double rounding = 0x1p-46;  // of decimal numbers: 0.333333333333333 goes three times into 1
+  const double times = std::nearbyint(whole / length);
+  return std::abs(whole / length - times) <= rounding * times ? times : 0.0;
+}
+
+}  // namespace
+
+/// Over one round, u from 0 to 1. A force sin(theta + phase) leads by its phase, and so does a shape: it begins at
+/// u = -phase / (2 pi).
+ModelBuilder::Points ModelBuilder::shape_points(const Part& part) const {
+  const std::string& shape = part.texts.at("shape");
+  const Dual low = field(part, "low", Dual{-1.0}), high = field(part, "high", Dual{1.0}), none{0.0}, whole{1.0};
+  const Dual duty = field(part, "duty", Dual{0.5}), rise = field(part, "rise", Dual{0.1});
+  const auto demand = [&](const char* key, const Dual& value, double least, double most) {
+    if (value.value > least && value.value < most) return;
+    const auto at = part.fields.find(key);
+    throw InputError(definition_.place(at == part.fields.end() ? part.line : at->second.line),
+                     where(key) + " = " + shown(value.value) + " is not between " + shown(least) + " and " +
+                         shown(most));
+  };
+  for (const auto& [key, shapes] : {std::pair("duty", "square triangle trapezoid"), std::pair("rise", "trapezoid")})
+    if (part.fields.contains(key) && std::string_view(shapes).find(shape) == std::string_view::npos)
+      throw InputError(definition_.place(part.fields.find(key)->second.line),
+                       where(key) + ": a " + shape + " has none (" + shapes + ")");
+  demand("duty", duty, 0.0, 1.0);
+  if (shape == "trapezoid") demand("rise", rise, 0.0, std::min(duty.value, 1.0 - duty.value));
+  Points points;
+  if (shape == "square") points = {{none, high}, {duty, high}, {duty, low}, {whole, low}};
+  if (shape == "triangle") points = {{none, low}, {duty, high}, {whole, low}};
+  if (shape == "sawtooth") points = {{none, low}, {whole, high}};
+  if (shape == "trapezoid") points = {{none, low}, {rise, high}, {duty, high}, {duty + rise, low}, {whole, low}};
+  const Dual round = field(part, "period", whole), shift = field(part, "phase") / Dual{2.0 * std::numbers::pi};
+  for (auto& [time, value] : points) time = (time - shift) * round;
+  return points;
+}
+
+ModelBuilder::Points ModelBuilder::signal_points(const Part& part) const {
+  if (has_shape(part)) return shape_points(part);
+  Points points;
+  for (const auto& [time, value] : part.samples) points.emplace_back(Dual{time}, Dual{value});
+  for (const Point& point : part.points) {
+    const std::string place = where("points") + ": point " + std::to_string(points.size() + 1);
+    points.emplace_back(dual(point.at, place + ": time"), dual(point.force, place + ": value"));
+  }
+  return points;
+}
+
+bool ModelBuilder::drives(const Part& signal) const {
+  const auto follows = [&](const Part& part) {
+    const auto named = part.texts.find("signal");
+    return named != part.texts.end() && named->second == signal.name && !always_zero(part, "amplitude");
+  };
+  if (silent_signal(static_cast<int>(&signal - definition_.of("signal").data()))) return false;
+  return ranges::any_of(definition_.of("force"), follows) || ranges::any_of(definition_.of("base"), follows);
+}
+
+std::optional<Dual> ModelBuilder::common_round() {
+  const auto own = [](const Part& part) {
+    return part.fields.contains("frequency") && !always_zero(part, "amplitude");
+  };
+  const auto has_own = [&](const Part& base) { return ranges::any_of(base.harmonics, own); };
+  if (definition_.omega || ranges::any_of(definition_.of("force"), own)) return std::nullopt;
+  if (ranges::any_of(definition_.of("base"), has_own)) return std::nullopt;
+  std::vector<Dual> rounds;
+  bool in_time = true;
+  each("signal", [&](const Part& part) {
+    if (!drives(part)) return;
+    in_time = in_time && repeats(part) && !in_periods(part);
+    if (!in_time) return;
+    const Points points = signal_points(part);
+    rounds.push_back(points.back().first - points.front().first);
+  });
+  if (!in_time || rounds.empty()) return std::nullopt;
+  const auto shorter = [](const Dual& a, const Dual& b) { return a.value < b.value; };
+  const Dual longest = *std::max_element(rounds.begin(), rounds.end(), shorter);
+  const auto fits = [&](const Dual& round) { return round.value > 0.0 && times_within(round.value, longest.value) > 0.0; };
+  return ranges::all_of(rounds, fits) ? std::optional(longest) : std::nullopt;
+}
+
+/// Point (t, v) of round j of q is (t_0 / T + (j + (t - t_0) / length) / q, v). Between two rounds there is one point,
+/// or a step.
+ModelBuilder::Points ModelBuilder::over_a_period(const Part& part, const Points& points, const Dual& period) const {
+  const Dual first = points.front().first, length = points.back().first - first;
+  const double rounds = length.value > 0.0 ? times_within(length.value, period.value) : 0.0;
+  if (rounds == 0.0)
+    throw InputError(definition_.place(part.line),
+                     where("in_periods") + ": from the first point to the last there are " + shown(length.value) +
+                         " forcing periods; a period must hold a whole number of rounds (a record over two periods: "
+                         "halve omega, and double the harmonics)");
+  const bool steps = points.back().second.value != points.front().second.value;
+  Points all;
+  for (double round = 0.0; round < rounds; round += 1.0) {
+    if (round > 0.0 && !steps) all.pop_back();
+    for (const auto& [time, value] : points)
+      all.emplace_back(first / period + (Dual{round} + (time - first) / length) / Dual{rounds}, value);
+  }
+  return all;
+}
+
+void ModelBuilder::add_signals(Model& model) {
+  each("signal", [&](const Part& part) {
+    Points points = signal_points(part);
+    Signal signal{part.name, {}, repeats(part), in_periods(part) || (round_ && drives(part))};
+    if (signal.in_periods && !definition_.omega && !round_)
+      throw InputError(definition_.place(part.line),
+                       where("in_periods") + ": its times are in forcing periods, and the file has no 'omega'" +
+                           (has_shape(part) ? "; or give its 'period'" : ""));
+    if (signal.in_periods && signal.repeats) points = over_a_period(part, points, round_.value_or(Dual{1.0}));
+    for (const auto& [time, value] : points) signal.knots.push_back({written(time), written(value)});
+    origins_["signal"].push_back({kind_, index_});
+    model.signals.push_back(std::move(signal));
+  });
+  signals_ = model.signals;
+}
+
+}  // namespace slapstick

@@ -1,0 +1,180 @@
+/// Cycles under signals that repeat with the forcing: closed forms, Fourier series, two routes to multipliers and
+/// derivatives, and branches on which an event passes a point of the signal.
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "families.hpp"
+#include "slapstick/attractor/classify.hpp"
+#include "slapstick/quantity/measure.hpp"
+
+namespace slapstick::test {
+namespace {
+
+using std::numbers::pi;
+
+const std::string parameters =
+    "[parameters.omega]\nvalue = 2\n[parameters.duty]\nvalue = 0.5\n[parameters.size]\nvalue = 1\n";
+const std::string oscillator = "name = 'm'\nomega = 'omega'\n" + parameters +
+                               "[[coordinate]]\nname = 'x'\nmass = 1\n"
+                               "[[spring]]\nbetween = ['x', 'ground']\nstiffness = 1\n";
+const std::string damper = "[[damper]]\nbetween = ['x', 'ground']\ncoefficient = 0.1\n";
+const std::string wall = "[[stop]]\nname = 'wall'\nbetween = ['x', 'ground']\nclearance = 0.2\nrestitution = 0.8\n";
+
+std::string push(const std::string& signal) {
+  return "[[signal]]\nname = 'push'\n" + signal + "[[force]]\non = 'x'\nsignal = 'push'\namplitude = 'size'\n";
+}
+
+/// A file's family at its own values, and the orbit that its start settles on.
+struct Driven {
+  Driven(const std::string& text, std::vector<std::string> names, std::vector<double> at)
+      : definition(ModelDefinition::parse(text, "f.toml")),
+        values(std::move(at)),
+        family(definition.family(names, {})),
+        system(family.model(values)),
+        problem(orbit::pose(family, values)),
+        start(definition.start()),
+        orbit(orbit::settle(*problem, system, start).orbit) {}
+
+  [[nodiscard]] Measured of(const std::string& name) const { return measure(*problem, orbit->orbit, {quantity(name)}); }
+  [[nodiscard]] Quantity quantity(const std::string& name) const {
+    return find_quantity(quantities(system.model()), name);
+  }
+
+  ModelDefinition definition;
+  std::vector<double> values;
+  Family family;
+  System system;
+  std::shared_ptr<const orbit::Problem> problem;
+  State start;
+  std::optional<orbit::Solution> orbit;
+};
+
+/// x'' + c x' + x = +1, then -1: half a period later the motion is its opposite, x(T/2) = e + Phi (x_0 - e) = -x_0 with
+/// e = (1, 0) and Phi the free motion over half a period.
+TEST(PeriodicSignal, OfASquareHasTheClosedFormOfTwoHalves) {
+  const Driven square(oscillator + damper + push("shape = 'square'\n"), {}, {});
+  ASSERT_TRUE(square.orbit);
+  const double c = 0.1, T = pi, s = 0.5 * T, w = std::sqrt(1.0 - 0.25 * c * c), decay = std::exp(-0.5 * c * s);
+  Eigen::Matrix2d Phi;
+  Phi << std::cos(w * s) + 0.5 * c / w * std::sin(w * s), std::sin(w * s) / w, -std::sin(w * s) / w,
+      std::cos(w * s) - 0.5 * c / w * std::sin(w * s);
+  Phi *= decay;
+  const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
+  const Eigen::Vector2d expected = -(one + Phi).inverse() * (one - Phi) * Eigen::Vector2d(1.0, 0.0);
+  const State found = orbit::at_phase_zero(*square.problem, square.orbit->orbit);
+  EXPECT_NEAR(found[0], expected[0], 1e-13);
+  EXPECT_NEAR(found[1], expected[1], 1e-13);
+  for (const auto& multiplier : square.orbit->multipliers) EXPECT_NEAR(std::abs(multiplier), decay * decay, 1e-13);
+  EXPECT_TRUE(square.orbit->is_motion) << square.orbit->why;
+}
+
+/// A triangle is the sum of 8 / (pi n)^2 cos n theta over odd n: its response has the mean square that Parseval gives.
+TEST(PeriodicSignal, OfATriangleHasTheMeanSquareOfItsFourierSeries) {
+  const Driven triangle(oscillator + damper + push("shape = 'triangle'\n"), {}, {});
+  ASSERT_TRUE(triangle.orbit);
+  double mean_square = 0.0;
+  for (int n = 1; n < 2001; n += 2) {
+    const double w = 2.0 * n, force = 8.0 / (pi * pi * n * n);
+    mean_square += 0.5 * force * force / ((1.0 - w * w) * (1.0 - w * w) + 0.01 * w * w);
+  }
+  EXPECT_NEAR(statistic(triangle.of("x").of.front(), "rms"), std::sqrt(mean_square), 1e-13);
+}
+
+/// Three rounds in a period are three times the forcing frequency.
+TEST(PeriodicSignal, OfThreeRoundsIsThatOfThreeTimesTheFrequency) {
+  const std::string round = "points = [[0, 0.3], [0.1, 1], [0.2, 1], [0.2, -1], [0.333333333333333, 0.3]]\n"
+                            "repeats = true\nin_periods = true\n";
+  const Driven thrice(oscillator + damper + wall + push(round), {"omega"}, {0.7});
+  const std::string once = "points = [[0, 0.3], [0.3, 1], [0.6, 1], [0.6, -1], [1, 0.3]]\nrepeats = true\nin_periods = true\n";
+  const Driven quick(oscillator + damper + wall + push(once), {"omega"}, {2.1});
+  ASSERT_TRUE(thrice.orbit && quick.orbit);
+  const State a = orbit::at_phase_zero(*thrice.problem, thrice.orbit->orbit);
+  const State b = orbit::at_phase_zero(*quick.problem, quick.orbit->orbit);
+  EXPECT_NEAR(a[0], b[0], 1e-12);
+  EXPECT_NEAR(a[1], b[1], 1e-12);
+}
+
+/// Derivatives by the shape, the size and the frequency, where an impact is near a step.
+TEST(PeriodicSignal, HasDerivativesThatAreDifferences) {
+  const std::string text = oscillator + damper + wall + push("points = [[0, 1], ['duty', 1], ['duty', -1], [1, -0.4]]\n"
+                                                             "repeats = true\nin_periods = true\n");
+  const std::vector<std::string> names = {"omega", "duty", "size"};
+  const std::vector<double> at = {2.0, 0.52, 1.0};
+  const Driven middle(text, names, at);
+  ASSERT_TRUE(middle.orbit);
+  ASSERT_EQ(middle.orbit->label, "1-1-I");
+  const Quantity x = middle.quantity("x");
+  const Statistics value = middle.of("x").of.front();
+  const std::vector<Measured> rates = measure_rates(*middle.problem, middle.orbit->orbit, {x});
+  for (std::size_t j = 0; j < names.size(); ++j) {
+    const double h = 1e-5;
+    const auto mean = [&](double by) {
+      std::vector<double> values = at;
+      values[j] += by;
+      orbit::Orbit guess = middle.orbit->orbit;
+      guess.values = values;
+      const auto problem = orbit::pose(middle.family, values);
+      const auto there = orbit::refine(*problem, guess);
+      EXPECT_TRUE(there);
+      return statistic(measure(*problem, *there, {x}).of.front(), "mean");
+    };
+    const double difference = (mean(h) - mean(-h)) / (2.0 * h);
+    EXPECT_NEAR(statistic_rate(value, rates[j].of.front(), "mean"), difference, 1e-6 * std::abs(difference)) << names[j];
+  }
+}
+
+/// An impact passes the step of a square: the branch has a coincidence there, where the impact's phase is the duty, and
+/// goes on. On both sides the multipliers are those of the motion's own tangents.
+TEST(PeriodicSignal, LetsABranchThroughWhereAnEventPassesAPoint) {
+  const std::string text = oscillator + damper + wall + push("shape = 'square'\nduty = 'duty'\n");
+  const Driven first(text, {"duty"}, {0.5});
+  ASSERT_TRUE(first.orbit);
+  const orbit::Branch branch = orbit::follow(*first.problem, first.orbit->orbit, {.from = 0.45, .to = 0.65});
+  const auto passes = std::find_if(branch.special.begin(), branch.special.end(), [](const orbit::SpecialPoint& point) {
+    return point.type == orbit::SpecialType::CO;
+  });
+  ASSERT_NE(passes, branch.special.end());
+  EXPECT_EQ(passes->passage, orbit::Passage::persistence);
+  const auto events = orbit::events(*first.problem, passes->solution.orbit);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_NEAR(events[0].t - std::floor(events[0].t), passes->value, 1e-9);
+  EXPECT_EQ(branch.points.front().orbit.values[0], 0.45);
+  EXPECT_EQ(branch.points.back().orbit.values[0], 0.65);
+  for (const double duty : {0.5, 0.6}) {
+    const Driven one(text, {"duty"}, {duty});
+    const Classification seen = classify(one.system, one.start);
+    ASSERT_TRUE(one.orbit);
+    EXPECT_EQ(one.orbit->label, seen.label);
+    ASSERT_EQ(one.orbit->multipliers.size(), seen.multipliers.size());
+    for (std::size_t i = 0; i < seen.multipliers.size(); ++i)
+      EXPECT_NEAR(std::abs(one.orbit->multipliers[i] - seen.multipliers[i]), 0.0, 1e-10);
+  }
+}
+
+/// A step that leaves the limit of a dry contact behind lets it go at its instant. It does so as long as the force
+/// behind it exceeds the limit: at a smaller step the branch has a special point, where the holding force
+/// |low - k x| is at the static limit.
+TEST(PeriodicSignal, LetsADryContactGoAtItsStep) {
+  const std::string pad = "[[friction]]\nname = 'pad'\nbetween = ['x', 'ground']\nstatic = 0.6\nkinetic = 0.3\n";
+  const Driven stepped(oscillator + pad + damper + push("shape = 'square'\nduty = 0.7\nhigh = 0.5\nlow = -0.9\n"),
+                       {"size"}, {1.0});
+  ASSERT_TRUE(stepped.orbit);
+  EXPECT_TRUE(stepped.orbit->is_motion) << stepped.orbit->why;
+  EXPECT_EQ(classify(stepped.system, stepped.start).label, stepped.orbit->label);
+  const auto released = [](const Driven& of, const orbit::Orbit& cycle) {
+    std::vector<double> phases;
+    for (const orbit::EventOfOrbit& event : orbit::events(*of.problem, cycle))
+      if (event.kind == EventKind::release) phases.push_back(event.t - std::floor(event.t));
+    return phases;
+  };
+  const std::vector<double> phases = released(stepped, stepped.orbit->orbit);
+  ASSERT_FALSE(phases.empty());
+  EXPECT_NEAR(phases.front(), 0.7, 1e-14);
+}
+
+}  // namespace
+}  // namespace slapstick::test

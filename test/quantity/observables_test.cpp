@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "settled.hpp"
+#include "slapstick/quantity/measure.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::test {

@@ -149,7 +149,7 @@ Classification without_events(const section::Settling& settling, const System& s
   result.label = name(result.attractor);
   result.eigenvalues = ahead.eigenvalues;
   result.family = ahead.family;
-  result.sticking = section::held(system, settling.motion().mode_id()) > 0;
+  result.sticking = mode::rests(system.states(settling.motion().mode_id()));
   result.sticking_fraction = result.sticking ? 1.0 : 0.0;
   result.approach = section::distance(ahead.here, ahead.rest, scale);
   const double largest = ahead.eigenvalues.empty() ? -INFINITY : ahead.eigenvalues.front().real();

@@ -25,14 +25,7 @@ bool has_burst(const std::vector<double>& times, const std::vector<double>& spee
 namespace {
 
 bool holds_still(const Motion& motion, ModeId mode) {
-  const mode::ContactStates& states = motion.system().compiled().mode(mode).states();
-  for (mode::FrictionState s : states.frictions) {
-    if (s == mode::FrictionState::stick) return true;
-  }
-  for (mode::StopState s : states.stops) {
-    if (s == mode::StopState::closed) return true;
-  }
-  return false;
+  return mode::rests(motion.system().compiled().mode(mode).states());
 }
 
 /// How often each kind of change of mode happens; as orbit::returns counts the legs of an orbit.

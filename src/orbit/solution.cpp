@@ -117,7 +117,7 @@ Solution describe(const Problem& problem, Orbit orbit, const System* system) {
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
     const Leg& leg = orbit.shape.legs[i];
     found.impacts += points(leg, orbit.shape.legs[(i + 1) % orbit.legs()]);
-    found.sticking = found.sticking || !held_numbers(set.frame(), set.mode(leg.states).outline).empty();
+    found.sticking = found.sticking || mode::rests(leg.states);
   }
   found.chatters = chatters(orbit);
   found.chatter = found.chatters > 0;

@@ -69,6 +69,47 @@ std::vector<Index> free_numbers(const flow::Translations& translations, ModeId m
   return numbers;
 }
 
+/// What a motion may change in a mode: contact states `units` z, whose classes have z at the numbers `at`.
+struct Free {
+  std::vector<Index> at;
+  MatrixXd units;
+};
+
+/// What a mode holds beside numbers of its own: rows over contact states, of contacts whose displacement depends on
+/// others' (the far side of a pair, a loop of contacts).
+MatrixXd dependent_holds(const System& system, ModeId mode) {
+  const mode::Frame& frame = system.compiled().frame();
+  const mode::ContactStates states = system.states(mode);
+  MatrixXd rows(0, 2 * frame.n);
+  const auto hold = [&](int number, Index from) {
+    rows.conservativeResize(rows.rows() + 1, Eigen::NoChange);
+    rows.bottomRows(1).setZero();
+    rows.bottomRows(1).middleCols(from, frame.n) = frame.dependence.row(number);
+  };
+  for (int i = frame.n; i < frame.d; ++i)
+    if (system.compiled().mode(mode).steady(i)) hold(i, frame.n);
+  for (std::size_t i = 0; i < frame.stops.size(); ++i)
+    if (states.stops[i] == mode::StopState::closed && frame.stops[i].own >= frame.n) hold(frame.stops[i].own, 0);
+  return rows;
+}
+
+Free free_states(const flow::Translations& translations, ModeId mode) {
+  constexpr double rounding = 1e-10;  // of a row that other holds make zero; those of pairs are of order one
+  Free free{free_numbers(translations, mode), {}};
+  const Index n = translations.system().compiled().frame().n, numbers = 2 * n - translations.count();
+  free.units.resize(2 * n, static_cast<Index>(free.at.size()));
+  for (Index j = 0; j < free.units.cols(); ++j)
+    free.units.col(j) = translations.representative(VectorXd::Unit(numbers, free.at[static_cast<std::size_t>(j)]));
+  MatrixXd held = dependent_holds(translations.system(), mode) * free.units;
+  for (Index i = 0; i < held.rows(); ++i)
+    if (held.row(i).norm() < rounding) held.row(i).setZero();
+  if (held.isZero(0.0)) return free;
+  const dense::Kernel left = dense::kernel(held, rounding);
+  std::vector<Index> at;
+  for (const Index k : left.free) at.push_back(free.at[static_cast<std::size_t>(k)]);
+  return {at, free.units * left.basis};
+}
+
 /// The numbers of the classes of columns.
 MatrixXd classes(const flow::Translations& translations, const MatrixXd& columns) {
   MatrixXd all(columns.rows() - translations.count(), columns.cols());
@@ -252,14 +293,11 @@ Outlook outlook(const flow::Translations& translations, const Motion& motion) {
   const mode::Mode& mode = system.compiled().mode(motion.mode_id());
   const Extension all = extension_of(frame);
   const Flow flow = flow_of(frame, mode.system(), all);
-  const std::vector<Index> at = free_numbers(translations, motion.mode_id());
+  const auto [at, units] = free_states(translations, motion.mode_id());
   Outlook found;
   found.here = flow::contact_state(motion);
   translations.take_out(found.here);
-  const Index size = found.here.size(), numbers = size - translations.count(), count = static_cast<Index>(at.size());
-  MatrixXd units(size, count);
-  for (Index j = 0; j < count; ++j)
-    units.col(j) = translations.representative(VectorXd::Unit(numbers, at[static_cast<std::size_t>(j)]));
+  const Index size = found.here.size(), count = static_cast<Index>(at.size());
   Reduced left;
   left.Q = classes(translations, flow.by * units)(at, Eigen::all);
   const VectorXd D = balance(left.Q);

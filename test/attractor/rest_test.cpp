@@ -235,5 +235,45 @@ TEST(Outlook, WhatIsProvenToHaveNoEventHasNone) {
   EXPECT_GT(hit, 50);
 }
 
+/// Two free masses that have met at a stop drift on together: whichever of two stops of the pair the file names first, what may
+/// be displaced is the place of both, and no more.
+TEST(Rest, AStopOfAPairHoldsWhicheverOfThePairComesFirst) {
+  Model model = pair(1.0, 1.0, 0.0, 0.0);
+  model.springs.clear();
+  const Stop near{"near", 0, 1, 1.0, 0.0}, far{"far", 1, 0, 2.0, 0.0};
+  for (const std::vector<Stop>& stops : {std::vector{near, far}, std::vector{far, near}})
+    for (const double speed : {1.0, -1.0}) {
+      model.stops = stops;
+      const Classification found = classify(System(model), {0.0, speed, 0.0, 0.0});
+      EXPECT_EQ(found.attractor, Attractor::equilibrium);
+      EXPECT_EQ(found.family, 1) << stops[0].name << ' ' << speed;
+      EXPECT_TRUE(found.eigenvalues.empty());
+      ASSERT_EQ(found.drift.size(), 2U);
+      EXPECT_NEAR(found.drift[0], 0.5 * speed, 1e-12);
+    }
+}
+
+/// A loop of contacts: each of two masses may meet a wall, and one pushes the other. Held together they are one oscillator of
+/// mass 2, stiffness 2 and damping 2 c, whichever of the three contacts comes first.
+TEST(Rest, AContactThatClosesALoopHoldsItsPair) {
+  constexpr double c = 0.3;
+  Model model = pair(1.0, 1.0, 0.0, 0.0);
+  model.springs = {{0, ground, 1.0}, {1, ground, 1.0}};
+  model.dampers = {{0, ground, c}, {1, ground, c}};
+  model.forces = {{0, 0, 1.0, 0.0}, {1, 0, -1.0, 0.0}};
+  const Stop first{"first", 0, ground, 1.5, 0.0}, second{"second", ground, 1, 1.5, 0.0}, between{"between", 0, 1, 0.0, 0.0};
+  for (const std::vector<Stop>& stops : {std::vector{first, second, between}, std::vector{between, first, second}, std::vector{first, between, second}}) {
+    model.stops = stops;
+    const Classification found = classify(System(model), {-0.2, 0.1, 0.3, 0.0});
+    EXPECT_EQ(found.attractor, Attractor::equilibrium);
+    EXPECT_EQ(found.family, 0);
+    ASSERT_EQ(found.eigenvalues.size(), 2U) << stops[0].name;
+    for (const auto& eigenvalue : found.eigenvalues) {
+      EXPECT_NEAR(eigenvalue.real(), -c / 2.0, 1e-9);
+      EXPECT_NEAR(std::abs(eigenvalue), 1.0, 1e-9);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace slapstick

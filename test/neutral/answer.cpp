@@ -12,12 +12,8 @@
 #include "slapstick/quantity/reader.hpp"
 
 namespace slapstick::neutral {
-namespace {
 
 using Kind = Quantity::Kind;
-
-constexpr MotionOptions patience{.most_events_per_period = 20'000};
-const ClassifyOptions short_search{.transient_periods = 100, .most_periods = 1000, .most_n = 32, .exponent_periods = 400};
 
 Dimension dimension(Kind kind) {
   switch (kind) {
@@ -46,6 +42,11 @@ Dimension dimension(Kind kind) {
       return dim::pure;
   }
 }
+
+namespace {
+
+constexpr MotionOptions patience{.most_events_per_period = 20'000};
+const ClassifyOptions short_search{.transient_periods = 100, .most_periods = 1000, .most_n = 32, .exponent_periods = 400};
 
 /// Kinds share names ("energy", "power"); here each has its own.
 std::string label(Kind kind) { return std::string(slapstick::name(kind)) + " (" + std::to_string(static_cast<int>(kind)) + ")"; }

@@ -39,6 +39,7 @@ struct Answer {
 
 enum class Verb { simulate, measure, classify, orbit, branch, curve };
 [[nodiscard]] const char* name(Verb verb);
+[[nodiscard]] Dimension dimension(Quantity::Kind kind);
 /// Is it a part of a sum that alone is determined (docs/reference/measure.md)? Contacts on one pair hold it together.
 [[nodiscard]] bool undetermined(const Model& model, const Quantity& quantity);
 /// How many parameters a file must have for the verb.

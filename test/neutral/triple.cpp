@@ -45,15 +45,19 @@ Judgement judge_trajectory(Asked& first, const Answer& answer, const Edited& sec
   if (!found) return {};
   if (second.rule.bits) return {Verdict::different, found->what};
   try {
-    const double grown = rounding * growth(first.definition(), found->time);
-    if (grown > horizon) {
-      if (verb == Verb::measure) return {Verdict::excluded, "beyond the horizon"};
-      const bool early = found->time < 0.25 * first.question().grid * first.question().steps;
-      return early ? Judgement{Verdict::excused, "rounding grows beyond the horizon early"} : Judgement{};
+    // What differs more than rounding has grown to by then is looked at again if it comes later: rounding grows on.
+    for (double seen = -1.0; found->time > seen;) {
+      seen = found->time;
+      const double grown = rounding * growth(first.definition(), seen);
+      if (grown > horizon) {
+        if (verb == Verb::measure) return {Verdict::excluded, "beyond the horizon"};
+        const bool early = seen < 0.25 * first.question().grid * first.question().steps;
+        return early ? Judgement{Verdict::excused, "rounding grows beyond the horizon early"} : Judgement{};
+      }
+      const bool chattered = limit != rows.end() && limit->time <= seen;
+      found = differs(std::max({64 * rounding, 16 * grown, chattered ? after_chatter : 0.0}));
+      if (!found) return {};
     }
-    const bool chattered = limit != rows.end() && limit->time <= found->time;
-    found = differs(std::max({64 * rounding, 16 * grown, chattered ? after_chatter : 0.0}));
-    if (!found) return {};
   } catch (const NumericalError&) {
   }
   for (const Answer& beside : first.beside(verb)) {

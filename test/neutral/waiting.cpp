@@ -48,6 +48,8 @@ const std::vector<Exclusion>& faults() {
        {"orbit: yes, no", "branch: yes, no"}},
       {{"twin"}, {Verb::classify}, always, "twins in a complete chatter have no multipliers", {"number of multipliers"}},
       {{"units"}, {Verb::classify}, always, "a motion is one of a family, or not, by rounding", {"family"}},
+      {{"units"}, {Verb::branch}, always, "where two events meet, the point has the name of the one or the other's margin, by rounding (issue 40)",
+       {"special point 1: CO, GR", "special point 1: GR, CO", "special point 2: CO, GR", "special point 2: GR, CO"}},
       {{"far-stop", "far-pad", "far-compliant-stop", "machine-at-rest", "collinear-corner"}, {Verb::orbit, Verb::branch, Verb::curve}, without_drive,
        "free cycles of a family: the equations are solved or not by rounding", {"class: free", "orbit: yes, no", "branch: yes, no"}},
   };

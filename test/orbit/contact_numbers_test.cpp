@@ -10,6 +10,9 @@
 #include "orbit/mode_set.hpp"
 #include "orbit/orbit_rate.hpp"
 #include "slapstick/continuation/branch.hpp"
+#include "slapstick/attractor/classify.hpp"
+#include "slapstick/io/model_file.hpp"
+#include "slapstick/orbit/search.hpp"
 #include "slapstick/quantity/cycle_energy.hpp"
 
 namespace slapstick::test {
@@ -75,6 +78,29 @@ TEST(TwoStops, ABranchGoesOnWhereTheOtherOneBecomesTheNearest) {
   ASSERT_EQ(there.multipliers.size(), expected->multipliers.size());
   for (std::size_t i = 0; i < expected->multipliers.size(); ++i)
     EXPECT_NEAR(std::abs(there.multipliers[i] - expected->multipliers[i]), 0.0, 1e-9);
+}
+
+/// A pad between two masses that slips and sticks: a contact that rests has its cycle named so, also where its number depends on those
+/// of the masses' own pads, as a loop of contacts makes it.
+TEST(LoopOfContacts, APadThatRestsIsNamedWhateverTheOrder) {
+  const std::string head =
+      "name = 'm'\nomega = 1.3\n[[coordinate]]\nname = 'x1'\nmass = 1\n[[coordinate]]\nname = 'x2'\nmass = 0.5\n"
+      "[[spring]]\nbetween = ['x1', 'ground']\nstiffness = 1\n[[damper]]\nbetween = ['x2', 'ground']\ncoefficient = 0.4\n"
+      "[[force]]\non = 'x1'\namplitude = 2\n";
+  const std::vector<std::string> pads{"[[friction]]\nname = 'one'\nbetween = ['x1', 'ground']\nkinetic = 0.1\nstatic = 0.1\n",
+                                      "[[friction]]\nname = 'two'\nbetween = ['x2', 'ground']\nbelt_speed = 9\nkinetic = 0.2\nstatic = 0.2\n",
+                                      "[[friction]]\nname = 'between'\nbetween = ['x1', 'x2']\nkinetic = 0.8\nstatic = 0.8\n"};
+  for (const auto& order : {std::vector{0, 1, 2}, std::vector{2, 0, 1}, std::vector{0, 2, 1}}) {
+    std::string text = head;
+    for (const int k : order) text += pads[static_cast<std::size_t>(k)];
+    const auto definition = ModelDefinition::parse(text, "loop.toml");
+    const System system(definition.build());
+    const auto problem = orbit::pose(definition.family({}), {});
+    const orbit::Settled settled = orbit::settle(*problem, system, definition.start(), {.transient = 100});
+    ASSERT_TRUE(settled.orbit) << order[0];
+    EXPECT_EQ(settled.orbit->label, "1-0-II") << order[0];
+    EXPECT_EQ(classify(system, definition.start(), {.transient_periods = 100}).label, "1-0-II") << order[0];
+  }
 }
 
 }  // namespace

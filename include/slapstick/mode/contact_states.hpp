@@ -41,6 +41,15 @@ struct ContactStates {
   friend bool operator==(const ContactStates&, const ContactStates&) = default;
 };
 
+/// Does a contact rest: does a friction contact stick, or is a stop closed?
+[[nodiscard]] inline bool rests(const ContactStates& states) {
+  for (const FrictionState state : states.frictions)
+    if (state == FrictionState::stick) return true;
+  for (const StopState state : states.stops)
+    if (state == StopState::closed) return true;
+  return false;
+}
+
 /// What a guard measures. w is the relative velocity of a friction contact, s = sgn w; f0 the force that holds it in
 /// stick, f_s its static friction; N the force of a closed stop, or the normal force of a friction contact; delta how
 /// far a compliant stop is beyond its gap.

@@ -78,12 +78,13 @@ bool ModelBuilder::drives(const Part& signal) const {
 }
 
 std::optional<Dual> ModelBuilder::common_round() {
-  const auto own = [](const Part& part) {
-    return part.fields.contains("frequency") && !always_zero(part, "amplitude");
+  const auto turns = [&](const Part& part) {  // a constant does not
+    if (part.texts.contains("signal") || always_zero(part, "amplitude")) return false;
+    return part.fields.contains("frequency") || !part.band.empty() || harmonic(part, [&] { return where("harmonic"); }) != 0;
   };
-  const auto has_own = [&](const Part& base) { return ranges::any_of(base.harmonics, own); };
-  if (definition_.omega || ranges::any_of(definition_.of("force"), own)) return std::nullopt;
-  if (ranges::any_of(definition_.of("base"), has_own)) return std::nullopt;
+  const auto turns_at = [&](const Part& base) { return !base.band.empty() || ranges::any_of(base.harmonics, turns); };
+  if (ranges::any_of(definition_.of("force"), turns)) return std::nullopt;
+  if (ranges::any_of(definition_.of("base"), turns_at)) return std::nullopt;
   std::vector<Dual> rounds;
   bool in_time = true;
   each("signal", [&](const Part& part) {

@@ -19,7 +19,9 @@ double Tone::at(Instant t) const {
 }
 
 SignalTable::SignalTable(const Signal& signal, double period) {
-  const auto& knots = signal.knots;
+  std::vector<Signal::Knot> knots = signal.knots;
+  // The end of a round is the start of the next one, which alone says what it is: two instants for one would differ.
+  if (signal.repeats && knots[knots.size() - 2].time == knots.back().time) knots.pop_back();
   const double unit = signal.in_periods ? 1.0 : period;
   for (std::size_t i = 0; i < knots.size(); ++i) {
     knots_.push_back(Instant{}.plus(knots[i].time / unit));

@@ -2,6 +2,7 @@
 /// written in another way.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -135,6 +136,16 @@ TEST(Signal, ThatRepeatsStepsBetweenItsRounds) {
   run(motion, 3.0);
   EXPECT_NEAR(motion.state()[1], 1.5, 1e-15);          // of x'' = t - floor t
   EXPECT_NEAR(motion.state()[0], 3.0 / 6.0 + 0.5 + 1.0, 1e-15);
+}
+
+/// A round of any length may end with a step: the end of a round and the start of the next are one instant.
+TEST(Signal, ThatRepeatsMayEndARoundWithAStep) {
+  const std::string points = "[[0.1, 0.25], [0.83, 1], [0.83, 0.25]]";
+  const System saw(built("omega = 1\n" + mass + signal(points, "repeats = true\n")));
+  Motion motion(saw, {0.0, 0.0});
+  const std::vector<Event> events = run(motion, 0.1 + 500 * 0.73);
+  EXPECT_EQ(std::count_if(events.begin(), events.end(), [](const Event& e) { return e.kind == EventKind::knot; }), 501);
+  EXPECT_EQ(static_cast<long>(events.size()), 501);
 }
 
 /// Rounds of a signal that repeats are what is written out, and knots fall where they fall.

@@ -98,12 +98,28 @@ class FileDraw {
     parts("force").push_back(force);
   }
 
+  /// A round takes a forcing period, or half of one.
+  void repeat_in_periods(Part& signal) {
+    signal.flags["repeats"] = signal.flags["in_periods"] = true;
+    const double first = signal.points.front().at.number, length = signal.points.back().at.number - first;
+    const double round = one_in(3) ? 0.5 : 1.0;
+    for (Point& point : signal.points) point.at.number = 0.237 + round * ((point.at.number - first) / length);
+    if (one_in(2)) signal.points.back().force = signal.points.front().force;
+  }
+
   void signal() {
     Part signal;
     signal.name = "record";
     double time = real(0, 1);
-    for (int k = integer(2, 5); k > 0; --k, time += real(0.3, 2)) signal.points.push_back({number(time), number(real(-0.5, 0.5))});
-    if (one_in(3)) signal.flags["repeats"] = true, signal.points.back().force = signal.points.front().force;
+    for (int k = integer(2, 5); k > 0; --k, time += real(0.3, 2)) {
+      if (one_in(4)) signal.points.push_back({number(time), number(real(-0.5, 0.5))});  // a step
+      signal.points.push_back({number(time), number(real(-0.5, 0.5))});
+    }
+    if (file_.omega && one_in(2)) {
+      repeat_in_periods(signal);
+    } else if (one_in(3)) {
+      signal.flags["repeats"] = true, signal.points.back().force = signal.points.front().force;
+    }
     parts("signal").push_back(signal);
     if (one_in(2)) {
       Part force;

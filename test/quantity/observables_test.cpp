@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "settled.hpp"
-#include "slapstick/quantity/measure.hpp"
 #include "slapstick/base/error.hpp"
+#include "slapstick/quantity/measure.hpp"
 
 namespace slapstick::test {
 namespace {

@@ -205,6 +205,7 @@ void measure(const ModelDefinition& definition, const Question& question, Answer
 void classify(const ModelDefinition& definition, Answer& answer) {
   const System system(definition.build());
   const Classification found = slapstick::classify(system, definition.start(), short_search);
+  answer.periods_used = found.periods_used;
   answer.words = {{"attractor", std::string(slapstick::name(found.attractor))}, {"class", found.label}, {"doubt", std::string(slapstick::name(found.doubt))}};
   answer.multipliers = found.multipliers;
   answer.eigenvalues = found.eigenvalues;

@@ -35,6 +35,7 @@ struct Answer {
   std::vector<Number> numbers;
   std::vector<Row> rows;
   std::vector<std::complex<double>> multipliers, eigenvalues;
+  long periods_used = 0;  ///< of `classify`: until it knew
 };
 
 enum class Verb { simulate, measure, classify, orbit, branch, curve };

@@ -198,7 +198,8 @@ std::optional<std::string> multipliers_agree(const ModelDefinition& definition, 
     return broken("number of multipliers", static_cast<double>(found.multipliers.size()), static_cast<double>(others.size()));
   for (const auto& one : found.multipliers) {
     const auto nearest = std::ranges::min_element(others, {}, [&](const auto& other) { return std::abs(other - one); });
-    if (std::abs(*nearest - one) > 1e-5) return broken("multiplier", std::abs(one), std::abs(*nearest));
+    const char* what = settled.orbit->chatter ? "multiplier with chatter" : "multiplier";
+    if (std::abs(*nearest - one) > 1e-5) return broken(what, std::abs(one), std::abs(*nearest));
     others.erase(nearest);
   }
   return "";
@@ -240,7 +241,7 @@ std::optional<std::string> sensitivities_are_differences(const ModelDefinition& 
 
 bool breaks(const Definition& file, const Law& law) {
   const auto found = check(law, read(file));
-  return found && !found->empty();
+  return found && !found->empty() && waiting_for(file, law.name, *found).empty();
 }
 
 }  // namespace

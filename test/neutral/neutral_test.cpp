@@ -91,6 +91,7 @@ TEST(BetweenVerbs, AnswersOfOneFileAgree) {
     for (const Law& law : laws()) {
       const auto broken = check(law, definition);
       if (!broken) continue;
+      if (!waiting_for(file, law.name, *broken).empty()) continue;
       if (broken->empty()) {
         ++kept[law.name];
         continue;

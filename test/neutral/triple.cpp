@@ -14,7 +14,7 @@ namespace {
 constexpr double own_rounding = 0x1p-44;
 /// Of the farthest stop's clearance: some roundings of it.
 constexpr double far_rounding = 0x1p-49;
-/// From the limit of a chatter on: its last impacts are replaced by their sum.
+/// Of each limit of a chatter, from then on: its last impacts are replaced by their sum.
 constexpr double after_chatter = 1e-7;
 /// Where rounding has grown to this, a trajectory is compared no further.
 constexpr double horizon = 1e-6;
@@ -38,7 +38,6 @@ std::optional<ModelDefinition> moved(const Definition& file, double part, std::u
 
 Judgement judge_trajectory(Asked& first, const Answer& answer, const Edited& second, Verb verb) {
   const auto& rows = first.answer(Verb::simulate).rows;
-  const auto limit = std::ranges::find(rows, EventKind::chatter, &Row::kind);
   const auto differs = [&](double tolerance) { return difference(first.answer(verb), answer, second.rule, first.question().grid, tolerance); };
   const double rounding = std::max(own_rounding, far_rounding * second.rule.farthest);
   auto found = differs(second.rule.bits ? 0.0 : 64 * rounding);
@@ -54,8 +53,8 @@ Judgement judge_trajectory(Asked& first, const Answer& answer, const Edited& sec
         const bool early = seen < 0.25 * first.question().grid * first.question().steps;
         return early ? Judgement{Verdict::excused, "rounding grows beyond the horizon early"} : Judgement{};
       }
-      const bool chattered = limit != rows.end() && limit->time <= seen;
-      found = differs(std::max({64 * rounding, 16 * grown, chattered ? after_chatter : 0.0}));
+      const auto limits = std::ranges::count_if(rows, [&](const Row& row) { return row.kind == EventKind::chatter && row.time <= seen; });
+      found = differs(std::max({64 * rounding, 16 * grown, after_chatter * static_cast<double>(limits)}));
       if (!found) return {};
     }
   } catch (const NumericalError&) {
@@ -67,6 +66,20 @@ Judgement judge_trajectory(Asked& first, const Answer& answer, const Edited& sec
   return {Verdict::different, found->what};
 }
 
+bool chaotic(const Answer& answer) {
+  const auto word = answer.words.find("attractor");
+  return word != answer.words.end() && word->second == name(Attractor::chaotic);
+}
+
+/// Does the motion settle at another time from starts 1e-9 away? A decay of its own would come within few periods; a chaotic
+/// transient ends by chance, perhaps after all periods that are asked for.
+bool ends_by_chance(Asked& first, Verb verb) {
+  constexpr long few = 8;
+  return std::ranges::any_of(first.beside(verb), [&](const Answer& beside) {
+    return std::abs(beside.periods_used - first.answer(verb).periods_used) > few;
+  });
+}
+
 Judgement judge_attractor(Asked& first, const Answer& answer, const Edited& second, Verb verb) {
   // Eigenvalues are found to rounding in any units.
   const bool bits = second.rule.bits && second.rule.length == 1.0 && second.rule.time == 1.0 && second.rule.mass == 1.0;
@@ -76,6 +89,7 @@ Judgement judge_attractor(Asked& first, const Answer& answer, const Edited& seco
   for (const Answer* one : {&first.answer(verb), &answer})
     if (const auto word = one->words.find("attractor"); word != one->words.end() && word->second == name(Attractor::undecided))
       return {Verdict::excused, "undecided"};
+  if (chaotic(first.answer(verb)) != chaotic(answer) && ends_by_chance(first, verb)) return {Verdict::excused, "a chaotic transient"};
   for (const Answer& beside : first.beside(verb))
     if (const auto noise = difference(first.answer(verb), beside, {}, first.question().grid, of_attractors))
       return {Verdict::excused, "a start 1e-9 away: " + noise->what};
@@ -87,6 +101,9 @@ std::string excluded(Asked& first, const Edited& second, Verb verb) {
   if (of_trajectory(verb)) return "";
   constexpr std::size_t many = 150;
   if (first.answer(Verb::simulate).rows.size() > many) return "more than 150 events in five periods: a search of minutes";
+  const auto word = first.answer(Verb::classify).words.find("attractor");
+  const bool undecided = word != first.answer(Verb::classify).words.end() && word->second == name(Attractor::undecided);
+  if (verb != Verb::classify && undecided) return "undecided: a search of minutes for an orbit";
   const bool free = std::ranges::any_of(first.answer(verb).numbers, [](const Number& n) { return n.what == "drift" || (n.what == "family" && n.value > 0.0); });
   if (second.rule.farthest > 1.0 && free) return "a free group is held by a stop, however far it is";
   return "";

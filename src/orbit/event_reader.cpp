@@ -42,6 +42,17 @@ int first_signal(const Model& model) {
                           model.characteristics.size());
 }
 
+/// The leg is called by what the point makes happen, if that is more than the point itself.
+void end_at_knot(const flow::Engine& engine, Leg& leg) {
+  leg.ending = Ending::knot;
+  leg.contact -= first_signal(engine.system().model());
+  const auto events = engine.events_of_instant();
+  const auto more = ranges::find_if(events, [](const Event& event) { return event.kind != EventKind::knot; });
+  if (more == events.end()) return;
+  leg.event = more->kind;
+  leg.event_contact = more->contact;
+}
+
 /// What the end of a leg is called: by the event of its contact, else by the first of the instant.
 void name_end(const Motion& motion, const mode::Guard& guard, Leg& leg) {
   const auto events = motion.engine().events_of_instant();
@@ -73,14 +84,7 @@ void EventReader::read() {
     return;
   }
   if (leg.event == EventKind::knot) {
-    leg.ending = Ending::knot;
-    leg.contact -= first_signal(system.model());
-    for (const Event& event : engine.events_of_instant()) {  // what it makes happen is more than the point itself
-      if (event.kind == EventKind::knot) continue;
-      leg.event = event.kind;
-      leg.event_contact = event.contact;
-      break;
-    }
+    end_at_knot(engine, leg);
     read_.push_back({leg, t, last});
     return;
   }

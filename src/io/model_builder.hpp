@@ -114,7 +114,7 @@ class ModelBuilder {
   /// The longest round of the signals, if they are all that moves the model and come back together.
   [[nodiscard]] std::optional<Dual> common_round();
   /// The points of the rounds that make one period.
-  [[nodiscard]] Points over_a_period(const Part& part, const Points& points, const Dual& period) const;
+  [[nodiscard]] Points over_a_period(const Part& part, Points points, const Dual& period) const;
   void add_signals(Model& model);
   void add_bases();
   void add_forces(Model& model);

@@ -19,6 +19,13 @@ bool in_periods(const Part& part) {
   return part.flag("in_periods") || (has_shape(part) && !part.fields.contains("period"));
 }
 
+/// Do the times of its points, seen from the first one, depend on no parameter? All models of a family have the same
+/// points.
+bool has_fixed_times(const Part& part) {
+  if (has_shape(part)) return part.texts.at("shape") == "sawtooth";
+  return ranges::all_of(part.points, [](const Point& point) { return !point.at.expression; });
+}
+
 /// How often one length goes into another, if it is a whole number of times but for rounding; else 0.
 double times_within(double length, double whole) {
   constexpr double rounding = 0x1p-46;  // of decimal numbers: 0.333333333333333 goes three times into 1
@@ -80,7 +87,7 @@ bool ModelBuilder::drives(const Part& signal) const {
 std::optional<Dual> ModelBuilder::common_round() {
   const auto turns = [&](const Part& part) {  // a constant does not
     if (part.texts.contains("signal") || always_zero(part, "amplitude")) return false;
-    return part.fields.contains("frequency") || !part.band.empty() || harmonic(part, [&] { return where("harmonic"); }) != 0;
+    return part.fields.contains("frequency") || !part.band.empty() || !always_zero(part, "harmonic");
   };
   const auto turns_at = [&](const Part& base) { return !base.band.empty() || ranges::any_of(base.harmonics, turns); };
   if (ranges::any_of(definition_.of("force"), turns)) return std::nullopt;
@@ -102,8 +109,12 @@ std::optional<Dual> ModelBuilder::common_round() {
 }
 
 /// Point (t, v) of round j of q is (t_0 / T + (j + (t - t_0) / length) / q, v). Between two rounds there is one point,
-/// or a step.
-ModelBuilder::Points ModelBuilder::over_a_period(const Part& part, const Points& points, const Dual& period) const {
+/// or a step. A line that always takes most of the period gets a point in its middle: see mode/drive.hpp.
+ModelBuilder::Points ModelBuilder::over_a_period(const Part& part, Points points, const Dual& period) const {
+  const auto at_one_time = [](const auto& a, const auto& b) { return a.first.value == b.first.value; };
+  // At the ends of a round the step is that between two rounds: its outer values are never taken.
+  if (points.size() > 2 && at_one_time(points[0], points[1])) points.erase(points.begin());
+  if (points.size() > 2 && at_one_time(points.end()[-2], points.back())) points.pop_back();
   const Dual first = points.front().first, length = points.back().first - first;
   const double rounds = length.value > 0.0 ? times_within(length.value, period.value) : 0.0;
   if (rounds == 0.0)
@@ -112,11 +123,16 @@ ModelBuilder::Points ModelBuilder::over_a_period(const Part& part, const Points&
                          " forcing periods; a period must hold a whole number of rounds (a record over two periods: "
                          "halve omega, and double the harmonics)");
   const bool steps = points.back().second.value != points.front().second.value;
+  constexpr double most = 0.75;  // a point more is a coincidence more on branches, so there is none without need
   Points all;
   for (double round = 0.0; round < rounds; round += 1.0) {
     if (round > 0.0 && !steps) all.pop_back();
-    for (const auto& [time, value] : points)
-      all.emplace_back(first / period + (Dual{round} + (time - first) / length) / Dual{rounds}, value);
+    for (const auto& [time, value] : points) {
+      const Dual at = first / period + (Dual{round} + (time - first) / length) / Dual{rounds};
+      if (!all.empty() && has_fixed_times(part) && at.value - all.back().first.value > most)
+        all.emplace_back(Dual{0.5} * (all.back().first + at), Dual{0.5} * (all.back().second + value));
+      all.emplace_back(at, value);
+    }
   }
   return all;
 }
@@ -129,7 +145,8 @@ void ModelBuilder::add_signals(Model& model) {
       throw InputError(definition_.place(part.line),
                        where("in_periods") + ": its times are in forcing periods, and the file has no 'omega'" +
                            (has_shape(part) ? "; or give its 'period'" : ""));
-    if (signal.in_periods && signal.repeats) points = over_a_period(part, points, round_.value_or(Dual{1.0}));
+    if (signal.in_periods && signal.repeats) 
+      points = over_a_period(part, std::move(points), in_periods(part) ? Dual{1.0} : *round_);
     for (const auto& [time, value] : points) signal.knots.push_back({written(time), written(value)});
     origins_["signal"].push_back({kind_, index_});
     model.signals.push_back(std::move(signal));

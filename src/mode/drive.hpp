@@ -63,8 +63,9 @@ class SignalTable {
   bool in_periods_ = false;
 };
 
-/// A straight line of a signal in periods at a phase (periods), in the round in which it is nearest, also beyond its ends:
-/// an orbit's equations know that, whose instants move while the order of its events stays.
+/// A straight line of a signal in periods at a phase (periods), in the round in which it is nearest, also beyond its
+/// ends: an orbit's equations know that, whose instants move while the order of its events stays. No line is longer than
+/// 31/32 of a period, so that its ends are 1/64 of a period from where another round is as near.
 [[nodiscard]] SignalTable::Value on_line(const Signal& signal, int line, double turns);
 /// Its derivative at this phase, `rate` the derivative of the signal's numbers.
 [[nodiscard]] SignalTable::Value line_rate(const Signal& signal, const Signal& rate, int line, double turns);

@@ -160,6 +160,11 @@ Found check_signal(const Signal& signal, int index, double period, std::set<std:
   if (signal.in_periods && knots.size() > 1 && std::abs(knots.back().time - knots.front().time - 1.0) > 0x1p-50)
     check.fail("in_periods", "from the first to the last point there are " +
                                  shown(knots.back().time - knots.front().time) + " forcing periods, not 1");
+  constexpr double longest_line = 0.96875;  // periods; of a longer one an orbit mistakes one end for the other
+  for (std::size_t i = 1; signal.in_periods && i < knots.size(); ++i)
+    if (knots[i].time - knots[i - 1].time > longest_line)
+      check.fail("points", "point " + std::to_string(i + 1) + " is " + shown(knots[i].time - knots[i - 1].time) +
+                               " forcing periods after the one before, more than 31/32: put a point between them");
   if (const auto steep = first_steep_piece(signal, signal.in_periods ? 1.0 : period))
     check.fail("points", "point " + std::to_string(steep->end + 1) + ": " + steep->what);
   return check.result();

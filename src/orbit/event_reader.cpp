@@ -42,15 +42,26 @@ int first_signal(const Model& model) {
                           model.characteristics.size());
 }
 
-/// The leg is called by what the point makes happen, if that is more than the point itself.
-void end_at_knot(const flow::Engine& engine, Leg& leg) {
+/// The points of signals at one instant end a leg each: all but the first are tied.
+std::vector<Leg> ends_at_knots(const flow::Engine& engine, Leg leg) {
+  const mode::Frame& frame = engine.system().frame();
+  const Instant now = engine.event().time;
+  const std::vector<int> behind = frame.lines_at(now);
+  std::vector<Leg> all;
   leg.ending = Ending::knot;
-  leg.contact -= first_signal(engine.system().model());
+  for (std::size_t k = 0; k < frame.signals.size(); ++k) {
+    if (!frame.signals[k].has_knot(now)) continue;
+    leg.contact = static_cast<int>(k);
+    leg.event_contact = first_signal(engine.system().model()) + leg.contact;
+    all.push_back(leg);
+    leg.lines[k] = behind[k];
+    leg.tied = true;
+  }
+  // The last is called by what the points make happen, if that is more than the points themselves.
   const auto events = engine.events_of_instant();
   const auto more = ranges::find_if(events, [](const Event& event) { return event.kind != EventKind::knot; });
-  if (more == events.end()) return;
-  leg.event = more->kind;
-  leg.event_contact = more->contact;
+  if (more != events.end()) all.back().event = more->kind, all.back().event_contact = more->contact;
+  return all;
 }
 
 /// What the end of a leg is called: by the event of its contact, else by the first of the instant.
@@ -84,8 +95,9 @@ void EventReader::read() {
     return;
   }
   if (leg.event == EventKind::knot) {
-    end_at_knot(engine, leg);
-    read_.push_back({leg, t, last});
+    const VectorXd before_all = Eigen::Map<const VectorXd>(engine.extended_before().data(), before.size());
+    for (const Leg& end : ends_at_knots(engine, leg)) read_.push_back({end, t, flow::contact_state(system.frame(), before_all)});
+    read_.back().x = last;
     return;
   }
   touched_ = engine.hit_guard() == nullptr || leg.event == EventKind::graze;

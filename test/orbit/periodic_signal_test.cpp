@@ -98,6 +98,37 @@ TEST(PeriodicSignal, OfThreeRoundsIsThatOfThreeTimesTheFrequency) {
   EXPECT_NEAR(a[1], b[1], 1e-12);
 }
 
+/// A line that is as long as its period has its ends half a period apart: which round an instant is in is not rounding.
+TEST(PeriodicSignal, OfASawtoothDoesNotDependOnItsPhase) {
+  for (const char* phase : {"0", "0.7", "2", "2.5", "3", "6"}) {
+    const Driven saw(oscillator + damper + push("shape = 'sawtooth'\nphase = " + std::string(phase) + "\n"), {}, {});
+    ASSERT_TRUE(saw.orbit) << phase;
+    double mean_square = 0.0;  // of the sum of 2 / (pi n) sin n theta, but for signs
+    for (int n = 1; n < 20001; ++n) {
+      const double w = 2.0 * n, force = 2.0 / (pi * n);
+      mean_square += 0.5 * force * force / ((1.0 - w * w) * (1.0 - w * w) + 0.01 * w * w);
+    }
+    EXPECT_NEAR(statistic(saw.of("x").of.front(), "rms"), std::sqrt(mean_square), 1e-12) << phase;
+  }
+}
+
+/// Two equal halves of a signal have their points at the same instants: the derivative by both duties is shared.
+TEST(PeriodicSignal, HasDerivativesWhereTwoSignalsHaveAPointAtOneInstant) {
+  const auto half = [](const std::string& name, const std::string& duty) {
+    return "[[signal]]\nname = '" + name + "'\nshape = 'square'\nduty = '" + duty + "'\n[[force]]\non = 'x'\nsignal = '" +
+           name + "'\namplitude = 0.5\n";
+  };
+  const std::string second = "[parameters.late]\nvalue = 0.5\n";
+  const Driven one(oscillator + damper + wall + push("shape = 'square'\nduty = 'duty'\n"), {"duty"}, {0.5});
+  const Driven two(oscillator + second + damper + wall + half("a", "duty") + half("b", "late"), {"duty", "late"}, {0.5, 0.5});
+  ASSERT_TRUE(one.orbit && two.orbit);
+  const auto rates = [](const Driven& of) { return measure_rates(*of.problem, of.orbit->orbit, {of.quantity("x")}); };
+  const Statistics whole = one.of("x").of.front(), halves = two.of("x").of.front();
+  const double expected = 0.5 * statistic_rate(whole, rates(one)[0].of.front(), "rms");
+  EXPECT_NEAR(statistic_rate(halves, rates(two)[0].of.front(), "rms"), expected, 1e-9 * std::abs(expected));
+  EXPECT_NEAR(statistic_rate(halves, rates(two)[1].of.front(), "rms"), expected, 1e-9 * std::abs(expected));
+}
+
 /// Derivatives by the shape, the size and the frequency, where an impact is near a step.
 TEST(PeriodicSignal, HasDerivativesThatAreDifferences) {
   const std::string text = oscillator + damper + wall + push("points = [[0, 1], ['duty', 1], ['duty', -1], [1, -0.4]]\n"

@@ -71,8 +71,8 @@ struct Signal {
   std::string name;
   std::vector<Knot> knots;  ///< at least two, `time` ascending
   bool repeats = false;
-  /// The times are in forcing periods, from the first to the last knot one period: such a signal is a drive, as a
-  /// harmonic is. It repeats.
+  /// The times are in forcing periods, from the first to the last knot one period, from knot to knot 31/32 of one
+  /// at most: such a signal is a drive, as a harmonic is. It repeats.
   bool in_periods = false;
 };
 

@@ -138,12 +138,15 @@ TEST(Signal, ThatRepeatsStepsBetweenItsRounds) {
   EXPECT_NEAR(motion.state()[0], 3.0 / 6.0 + 0.5 + 1.0, 1e-15);
 }
 
-/// A round of any length may end with a step: the end of a round and the start of the next are one instant.
+/// A round of any length may end with a step: the end of a round and the start of the next are one instant. Beside a
+/// frequency of its own the round is no period, and its length is no whole number of the clock's.
 TEST(Signal, ThatRepeatsMayEndARoundWithAStep) {
   const std::string points = "[[0.1, 0.25], [0.83, 1], [0.83, 0.25]]";
-  const System saw(built("omega = 1\n" + mass + signal(points, "repeats = true\n")));
+  const std::string tone = "[[force]]\non = 'x'\nfrequency = 1.7\namplitude = 0.1\n";
+  const System saw(built(mass + tone + signal(points, "repeats = true\n")));
+  ASSERT_FALSE(saw.model().periodic());
   Motion motion(saw, {0.0, 0.0});
-  const std::vector<Event> events = run(motion, 0.1 + 500 * 0.73);
+  const std::vector<Event> events = run(motion, 0.1 + 500.5 * 0.73);
   EXPECT_EQ(std::count_if(events.begin(), events.end(), [](const Event& e) { return e.kind == EventKind::knot; }), 501);
   EXPECT_EQ(static_cast<long>(events.size()), 501);
 }

@@ -9,7 +9,6 @@
 #include "base/ranges.hpp"
 #include "base/text.hpp"
 #include "io/model_numbers.hpp"
-#include "io/number_rows.hpp"
 #include "model/fault.hpp"
 
 namespace slapstick {
@@ -261,23 +260,6 @@ Model ModelBuilder::rate() {
   Model model = assembled();
   (void)leave_out_silent(model);
   return model;
-}
-
-/// A piece of a signal that is too steep, with the row of its file.
-void ModelBuilder::demand_resolved_records(const Model& model) const {
-  const auto& parts = definition_.of("signal");
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    if (parts[k].record.empty()) continue;
-    const Signal& signal = model.signals[k];
-    const auto steep = first_steep_piece(signal, signal.in_periods ? 1.0 : model.forcing_period());
-    if (!steep) continue;
-    const auto& rows = parts[k].rows;  // of one round
-    const std::size_t in_round = signal.knots.size() % rows.size() == 0 ? rows.size() : rows.size() - 1;
-    const std::size_t row = steep->end <= in_round ? steep->end : (steep->end - 1) % in_round + 1;
-    throw InputError(definition_.place(parts[k].line),
-                     part_label("signal", k, parts[k]) + ": file: " +
-                         line_of(parts[k].record, rows[std::min(row, rows.size() - 1)]) + steep->what);
-  }
 }
 
 /// Without `omega` there can be no harmonic > 0; the first one is named.

@@ -147,7 +147,7 @@ class ModelBuilder {
   void add_contacts(Model& model);
   void add_matrices(Model& model) const;
   void demand_no_forcing(const Model& model) const;
-  void demand_resolved_records(const Model& model) const;
+  void demand_resolved_records(const Model& model);
   [[nodiscard]] const Origin* origin(const Fault& fault) const;
   [[nodiscard]] InputError refusal(const Fault& fault, const Model& model) const;
 

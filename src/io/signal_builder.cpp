@@ -8,6 +8,8 @@
 #include "base/ranges.hpp"
 #include "base/text.hpp"
 #include "io/model_builder.hpp"
+#include "io/number_rows.hpp"
+#include "model/fault.hpp"
 
 namespace slapstick {
 namespace {
@@ -26,7 +28,14 @@ bool has_fixed_times(const Part& part) {
   return ranges::all_of(part.points, [](const Point& point) { return !point.at.expression; });
 }
 
-/// How often one length goes into another, if it is a whole number of times but for rounding; else 0.
+/// Is the last value the first one, whatever the parameters?
+bool is_continuous(const Part& part, double first, double last) {
+  if (has_shape(part)) return part.texts.at("shape") == "triangle" || part.texts.at("shape") == "trapezoid";
+  const auto fixed = [](const Point& point) { return !point.force.expression; };
+  return first == last && ranges::all_of(part.points, fixed);
+}
+
+/// How often one length goes into another: a whole number up to rounding, or 0.
 double times_within(double length, double whole) {
   constexpr double rounding = 0x1p-46;  // of decimal numbers: 0.333333333333333 goes three times into 1
   const double times = std::nearbyint(whole / length);
@@ -104,7 +113,9 @@ std::optional<Dual> ModelBuilder::common_round() {
   if (!in_time || rounds.empty()) return std::nullopt;
   const auto shorter = [](const Dual& a, const Dual& b) { return a.value < b.value; };
   const Dual longest = *std::max_element(rounds.begin(), rounds.end(), shorter);
-  const auto fits = [&](const Dual& round) { return round.value > 0.0 && times_within(round.value, longest.value) > 0.0; };
+  const auto fits = [&](const Dual& round) {
+    return round.value > 0.0 && times_within(round.value, longest.value) > 0.0;
+  };
   return ranges::all_of(rounds, fits) ? std::optional(longest) : std::nullopt;
 }
 
@@ -122,11 +133,11 @@ ModelBuilder::Points ModelBuilder::over_a_period(const Part& part, Points points
                      where("in_periods") + ": from the first point to the last there are " + shown(length.value) +
                          " forcing periods; a period must hold a whole number of rounds (a record over two periods: "
                          "halve omega, and double the harmonics)");
-  const bool steps = points.back().second.value != points.front().second.value;
+  const bool joins = is_continuous(part, points.front().second.value, points.back().second.value);
   constexpr double most = 0.75;  // a point more is a coincidence more on branches, so there is none without need
   Points all;
   for (double round = 0.0; round < rounds; round += 1.0) {
-    if (round > 0.0 && !steps) all.pop_back();
+    if (round > 0.0 && joins) all.pop_back();
     for (const auto& [time, value] : points) {
       const Dual at = first / period + (Dual{round} + (time - first) / length) / Dual{rounds};
       if (!all.empty() && has_fixed_times(part) && at.value - all.back().first.value > most)
@@ -145,13 +156,26 @@ void ModelBuilder::add_signals(Model& model) {
       throw InputError(definition_.place(part.line),
                        where("in_periods") + ": its times are in forcing periods, and the file has no 'omega'" +
                            (has_shape(part) ? "; or give its 'period'" : ""));
-    if (signal.in_periods && signal.repeats) 
+    if (signal.in_periods && signal.repeats)
       points = over_a_period(part, std::move(points), in_periods(part) ? Dual{1.0} : *round_);
     for (const auto& [time, value] : points) signal.knots.push_back({written(time), written(value)});
     origins_["signal"].push_back({kind_, index_});
     model.signals.push_back(std::move(signal));
   });
   signals_ = model.signals;
+}
+
+/// A piece of a record that is too steep, with the row of its file.
+void ModelBuilder::demand_resolved_records(const Model& model) {
+  each("signal", [&](const Part& part) {
+    if (part.record.empty()) return;
+    Signal round{part.name, {}};
+    for (const auto& [time, value] : signal_points(part)) round.knots.push_back({time.value, value.value});
+    const auto steep = first_steep_piece(round, in_periods(part) ? 1.0 : model.forcing_period());
+    if (steep)
+      throw InputError(definition_.place(part.line),
+                       where("file") + ": " + line_of(part.record, part.rows[steep->end]) + steep->what);
+  });
 }
 
 }  // namespace slapstick

@@ -5,8 +5,8 @@
 /// value' = slope / T, slope' = 0, T the period of the clock. A signal's slope jumps at its knots only, at a step its
 /// value too, so that between two knots X' = A X. Both are set by the clock, so neither drifts.
 ///
-/// A signal in periods has its place by the phase alone, but for a knot, whose sides differ: the straight lines
-/// between two knots go by the number of the first.
+/// The phase says where a signal in periods is. At a knot its two sides differ, so a straight line between two knots has
+/// a name: the number of its first knot.
 #include <vector>
 
 #include "slapstick/base/clock.hpp"
@@ -64,8 +64,8 @@ class SignalTable {
 };
 
 /// A straight line of a signal in periods at a phase (periods), in the round in which it is nearest, also beyond its
-/// ends: an orbit's equations know that, whose instants move while the order of its events stays. No line is longer than
-/// 31/32 of a period, so that its ends are 1/64 of a period from where another round is as near.
+/// ends. An orbit's equations ask for it: their instants move while the order of events stays.
+/// No line is longer than 31/32 of a period: its ends are 1/64 of a period from where another round is as near.
 [[nodiscard]] SignalTable::Value on_line(const Signal& signal, int line, double turns);
 /// Its derivative at this phase, `rate` the derivative of the signal's numbers.
 [[nodiscard]] SignalTable::Value line_rate(const Signal& signal, const Signal& rate, int line, double turns);

@@ -9,8 +9,8 @@ namespace slapstick {
 
 bool steps(const Signal& signal) {
   const auto& knots = signal.knots;
-  const auto at_one_time = [](const Signal::Knot& a, const Signal::Knot& b) { return a.time == b.time; };
-  if (std::adjacent_find(knots.begin(), knots.end(), at_one_time) != knots.end()) return true;
+  const auto step = [](const auto& a, const auto& b) { return a.time == b.time && a.value != b.value; };
+  if (std::adjacent_find(knots.begin(), knots.end(), step) != knots.end()) return true;
   return signal.repeats && !knots.empty() && knots.back().value != knots.front().value;
 }
 
@@ -26,8 +26,8 @@ std::optional<SteepPiece> first_steep_piece(const Signal& signal, double period)
     const double least = 0x1p-26 * period * std::abs(knots[i].value - knots[i - 1].value) / range;
     if (apart < least)
       return SteepPiece{i, "time " + shown(knots[i].time) + " is only " + shown(apart) +
-                               " after that of the point before, and events would be lost in such a steep step: leave " +
-                               shown(least) + " at least"};
+                               " after that of the point before, and events would be lost in such a steep step: " +
+                               "leave " + shown(least) + " at least"};
   }
   return std::nullopt;
 }

@@ -42,7 +42,7 @@ int first_signal(const Model& model) {
                           model.characteristics.size());
 }
 
-/// The points of signals at one instant end a leg each: all but the first are tied.
+/// The points of signals at one instant end a leg each. Those behind the first are tied.
 std::vector<Leg> ends_at_knots(const flow::Engine& engine, Leg leg) {
   const mode::Frame& frame = engine.system().frame();
   const Instant now = engine.event().time;
@@ -95,8 +95,9 @@ void EventReader::read() {
     return;
   }
   if (leg.event == EventKind::knot) {
-    const VectorXd before_all = Eigen::Map<const VectorXd>(engine.extended_before().data(), before.size());
-    for (const Leg& end : ends_at_knots(engine, leg)) read_.push_back({end, t, flow::contact_state(system.frame(), before_all)});
+    const VectorXd X_before = Eigen::Map<const VectorXd>(engine.extended_before().data(), before.size());
+    const VectorXd first = flow::contact_state(system.frame(), X_before);
+    for (const Leg& end : ends_at_knots(engine, leg)) read_.push_back({end, t, first});
     read_.back().x = last;
     return;
   }

@@ -11,8 +11,8 @@ bool same_end(const Leg& a, const Leg& b) {
   const auto same_strike = [](const Motion::Strike& p, const Motion::Strike& q) {
     return p.stops == q.stops && p.to_rest == q.to_rest;
   };
-  const bool of_clock = a.ending == Ending::cut || a.ending == Ending::knot;
-  return a.ending == b.ending && (of_clock || a.kind == b.kind) && (a.ending == Ending::cut || a.contact == b.contact) &&
+  const bool cut = a.ending == Ending::cut, has_guard = !cut && a.ending != Ending::knot;
+  return a.ending == b.ending && (!has_guard || a.kind == b.kind) && (cut || a.contact == b.contact) &&
          ranges::equal(a.strikes, b.strikes, same_strike);
 }
 

@@ -279,7 +279,8 @@ LegValue leg_value(const ModeSet& set, const Leg& leg, const Leg& next, const Ve
     X.by_parameter().col(p) += (t_end - t_begin) * set.period_rate(static_cast<std::size_t>(p)) * rate;
   Jet h(1, X.states, X.parameters);
   if (leg.ending == Ending::guard || leg.ending == Ending::onset) h = guard_jet(mode, leg, X);
-  if (leg.ending == Ending::chatter) h = chatter_jet(set, leg.contact, extended(set, leg.lines, x, t_begin), t_begin, t_end);
+  if (leg.ending == Ending::chatter)
+    h = chatter_jet(set, leg.contact, extended(set, leg.lines, x, t_begin), t_begin, t_end);
   if (leg.ending == Ending::knot) h = knot_jet(set, leg, X, t_end);
   Jet struck = X;
   for (const Motion::Strike& strike : leg.strikes) push(set, strike, struck);

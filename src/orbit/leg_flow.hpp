@@ -1,7 +1,7 @@
 #pragma once
 /// One leg of a cycle in closed form, with all its first derivatives.
 ///
-///     X_end = exp(A s) S X(x, t_0),   s = (t_1 - t_0) T;      h = guard . X_end, or t_1 - t_knot;      x_after = H R X_end
+///     X_end = exp(A s) S X(x, t_0),   s = (t_1 - t_0) T;   h = guard . X_end, or t_1 - t_knot;   x_after = H R X_end
 ///
 /// S: the plastic impact that sums a chatter's tail, else the identity. R: the impacts at the end. H: what the next mode holds still is zero.
 /// The derivative with respect to a parameter follows the motion as Y' = A Y + A_p X; the terms of both series are summed together.

@@ -58,7 +58,9 @@ bool zero_by_event(const mode::Frame& frame, const Leg& before, const Leg& behin
 /// .. because of one of the events there?
 bool zero_by_events(const mode::Frame& frame, const Itinerary& shape, std::size_t leg, const mode::Guard& guard) {
   return ranges::any_of(ended_at_start(shape, leg),
-                        [&](std::size_t before) { return zero_by_event(frame, shape.legs[before], shape.legs[leg], guard); });
+                        [&](std::size_t before) {
+                          return zero_by_event(frame, shape.legs[before], shape.legs[leg], guard);
+                        });
 }
 
 /// Is this the relative velocity of the pair whose gap ends the leg? Its value there is the speed of the impact, which is watched by itself.

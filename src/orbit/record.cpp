@@ -120,8 +120,8 @@ bool in_burst(const Orbit& orbit, std::size_t leg) {
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
     const Leg& next = orbit.shape.legs[(leg + i) % orbit.legs()];
     if (next.ending == Ending::chatter) return true;
-    if (next.ending == Ending::cut || next.ending == Ending::knot || (next.kind != mode::GuardKind::gap && next.kind != mode::GuardKind::slip))
-      return false;
+    if (next.ending == Ending::cut || next.ending == Ending::knot) return false;
+    if (next.kind != mode::GuardKind::gap && next.kind != mode::GuardKind::slip) return false;
   }
   return false;
 }

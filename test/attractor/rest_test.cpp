@@ -235,8 +235,8 @@ TEST(Outlook, WhatIsProvenToHaveNoEventHasNone) {
   EXPECT_GT(hit, 50);
 }
 
-/// Two free masses that have met at a stop drift on together: whichever of two stops of the pair the file names first, what may
-/// be displaced is the place of both, and no more.
+/// Two free masses that have met at a stop drift on together. Whichever of two stops of the pair the file names first,
+/// what may be displaced is the place of both, and no more.
 TEST(Rest, AStopOfAPairHoldsWhicheverOfThePairComesFirst) {
   Model model = pair(1.0, 1.0, 0.0, 0.0);
   model.springs.clear();
@@ -253,8 +253,8 @@ TEST(Rest, AStopOfAPairHoldsWhicheverOfThePairComesFirst) {
     }
 }
 
-/// A loop of contacts: each of two masses may meet a wall, and one pushes the other. Held together they are one oscillator of
-/// mass 2, stiffness 2 and damping 2 c, whichever of the three contacts comes first.
+/// A loop of contacts: each of two masses may meet a wall, and one pushes the other. Held together they are one
+/// oscillator of mass 2, stiffness 2 and damping 2 c, whichever of the three contacts comes first.
 TEST(Rest, AContactThatClosesALoopHoldsItsPair) {
   constexpr double c = 0.3;
   Model model = pair(1.0, 1.0, 0.0, 0.0);

@@ -137,6 +137,22 @@ TEST(PeriodicSignal, has_rounds_that_fill_a_period) {
   EXPECT_TRUE(model.periodic());
 }
 
+/// The number of points is the file's: two rounds whose ends meet at one value of a parameter are those of a step.
+TEST(PeriodicSignal, has_as_many_points_at_every_value_of_a_parameter) {
+  const ModelDefinition definition = ModelDefinition::parse(
+      head + "[parameters]\np = 1\n" + signal("points = [[0, 1], [0.2, 3], [0.5, 'p']]\nrepeats = true\nin_periods = true\n"),
+      "f.toml");
+  const auto points = [&](double p) { return definition.build({{"p", p}}).signals[0].knots.size(); };
+  EXPECT_EQ(points(1.0), points(2.0));
+}
+
+/// A steep piece is told by the row of its file, also where rounds are repeated and a first row is never taken.
+TEST_F(SignalFile, a_steep_piece_of_a_round_has_its_row) {
+  write("road.csv", "t,z\n0,5\n0,1\n0.2,2\n0.200000000001,3\n0.5,1\n");
+  const std::string said = message(model("repeats = true\nin_periods = true\n"));
+  EXPECT_NE(said.find("road.csv:5: time 0.2"), std::string::npos) << said;
+}
+
 /// Signals alone give a model their longest round as its period, and shorter ones are counted in it.
 TEST(PeriodicSignal, is_the_clock_where_nothing_else_is) {
   const std::string body = "name = 'm'\n[[coordinate]]\nname = 'x'\nmass = 1\n";

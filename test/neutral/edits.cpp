@@ -68,7 +68,7 @@ std::optional<Edited> units_of_two(const Definition& file, campaign::Random& ran
   const auto power = [&] { return std::exp2(2 * random.below(5) - 4); };  // of four: square roots are of two
   const double l = power(), t = power(), m = power();
   Edited edited = in_units(file, l, has_harmonics(file) ? t : 1.0, m);
-  // A signal's pieces are rounded in time units, and where a load of displacement and velocity is zero the clock's last tick is.
+  // A signal's pieces are rounded in time units. So is the clock's last tick where a load by a velocity is zero.
   const bool loaded = std::ranges::any_of(file.of("friction"), [](const Part& p) {
     return std::ranges::any_of(p.load, [](const auto& term) { return term.first.starts_with("v"); });
   });

@@ -71,8 +71,8 @@ bool chaotic(const Answer& answer) {
   return word != answer.words.end() && word->second == name(Attractor::chaotic);
 }
 
-/// Does the motion settle at another time from starts 1e-9 away? A decay of its own would come within few periods; a chaotic
-/// transient ends by chance, perhaps after all periods that are asked for.
+/// Does the motion settle at another time from starts 1e-9 away? A decay of its own would come within few periods.
+/// A chaotic transient ends by chance, perhaps after all periods that are asked for.
 bool ends_by_chance(Asked& first, Verb verb) {
   constexpr long few = 8;
   return std::ranges::any_of(first.beside(verb), [&](const Answer& beside) {

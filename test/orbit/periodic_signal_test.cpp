@@ -103,7 +103,7 @@ TEST(PeriodicSignal, OfASawtoothDoesNotDependOnItsPhase) {
   for (const char* phase : {"0", "0.7", "2", "2.5", "3", "6"}) {
     const Driven saw(oscillator + damper + push("shape = 'sawtooth'\nphase = " + std::string(phase) + "\n"), {}, {});
     ASSERT_TRUE(saw.orbit) << phase;
-    double mean_square = 0.0;  // of the sum of 2 / (pi n) sin n theta, but for signs
+    double mean_square = 0.0;  // of the sum of +-2 / (pi n) sin n theta
     for (int n = 1; n < 20001; ++n) {
       const double w = 2.0 * n, force = 2.0 / (pi * n);
       mean_square += 0.5 * force * force / ((1.0 - w * w) * (1.0 - w * w) + 0.01 * w * w);
@@ -186,9 +186,7 @@ TEST(PeriodicSignal, LetsABranchThroughWhereAnEventPassesAPoint) {
   }
 }
 
-/// A step that leaves the limit of a dry contact behind lets it go at its instant. It does so as long as the force
-/// behind it exceeds the limit: at a smaller step the branch has a special point, where the holding force
-/// |low - k x| is at the static limit.
+/// A step that leaves the limit of a dry contact behind lets it go at its instant.
 TEST(PeriodicSignal, LetsADryContactGoAtItsStep) {
   const std::string pad = "[[friction]]\nname = 'pad'\nbetween = ['x', 'ground']\nstatic = 0.6\nkinetic = 0.3\n";
   const Driven stepped(oscillator + pad + damper + push("shape = 'square'\nduty = 0.7\nhigh = 0.5\nlow = -0.9\n"),
@@ -205,6 +203,24 @@ TEST(PeriodicSignal, LetsADryContactGoAtItsStep) {
   const std::vector<double> phases = released(stepped, stepped.orbit->orbit);
   ASSERT_FALSE(phases.empty());
   EXPECT_NEAR(phases.front(), 0.7, 1e-14);
+}
+
+/// .. as long as the force behind the step exceeds the limit: a free mass under steps of size s, -s against a limit of
+/// 0.6 is let go while s > 0.6. There its branch has a special point, and behind it the mass sticks for ever.
+TEST(PeriodicSignal, LetsADryContactGoWhileTheStepExceedsTheLimit) {
+  const std::string pad = "[[friction]]\nname = 'pad'\nbetween = ['x', 'ground']\nstatic = 0.6\nkinetic = 0.3\n";
+  const std::string blows = "points = [[0, 0.5], [0.3, 0.5], [0.3, 1], [0.4, 1], [0.4, 0.3], [0.7, 0.3], [0.7, -1], [0.8, -1], "
+                            "[0.8, 0.5], [1, 0.5]]\nrepeats = true\nin_periods = true\n";
+  const std::string mass = "name = 'm'\nomega = 0.628\n" + parameters + "[[coordinate]]\nname = 'x'\nmass = 1\n";
+  const Driven stepped(mass + pad + push(blows), {"size"}, {1.0});
+  ASSERT_TRUE(stepped.orbit);
+  const orbit::Branch branch = orbit::follow(*stepped.problem, stepped.orbit->orbit, {.from = 0.5, .to = 1.0});
+  const auto stays = std::find_if(branch.special.begin(), branch.special.end(), [](const orbit::SpecialPoint& point) {
+    return point.type == orbit::SpecialType::SL && point.margin.kind == orbit::UsedMargin::Kind::no_stick;
+  });
+  ASSERT_NE(stays, branch.special.end());
+  EXPECT_NEAR(stays->value, 0.6, 1e-12);
+  EXPECT_EQ(branch.points.front().orbit.values[0], 0.5);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include "catalogue/run.hpp"
 #include "flow/compiled_system.hpp"
-#include "flow/runs.hpp"
+#include "flow/oracle_runs.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/section/stroboscopic_section.hpp"
 

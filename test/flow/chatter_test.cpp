@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <random>
 
-#include "flow/runs.hpp"
+#include "flow/oracle_runs.hpp"
 #include "flow/compiled_system.hpp"
 #include "flow/engine.hpp"
 #include "oracle/models.hpp"

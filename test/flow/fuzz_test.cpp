@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "flow/runs.hpp"
+#include "flow/oracle_runs.hpp"
 #include "property/property.hpp"
 
 namespace slapstick {

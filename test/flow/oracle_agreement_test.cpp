@@ -1,7 +1,7 @@
 /// The engine against the independent 50-digit solution: every segment on its own, and whole runs.
 #include <gtest/gtest.h>
 
-#include "flow/runs.hpp"
+#include "flow/oracle_runs.hpp"
 #include "flow/engine.hpp"
 #include "oracle/models.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "flow/runs.hpp"
+#include "flow/oracle_runs.hpp"
 #include "event/first_root.hpp"
 #include "oracle/models.hpp"
 

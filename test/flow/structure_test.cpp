@@ -1,11 +1,11 @@
 /// Models with parts that do not touch each other: what their structure makes zero is zero, and not a rounding that asks for events
 /// or for ever shorter windows.
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "flow/runs.hpp"
+#include "base/dense.hpp"
+#include "flow/oracle_runs.hpp"
 #include "flow/compiled_system.hpp"
 #include "mode/mode.hpp"
 #include "slapstick/base/error.hpp"
@@ -39,7 +39,7 @@ double windows_per_time_scale(const Model& model) {
   double most = 0.0;
   for (ModeId id = 0; id < system.mode_count(); ++id) {
     const mode::Mode& mode = system.compiled().mode(id);
-    const double fastest = mode.system().eigenvalues().cwiseAbs().maxCoeff();
+    const double fastest = dense::eigenvalues(mode.system()).cwiseAbs().maxCoeff();
     most = std::max(most, 1.0 / (fastest * mode.window()));
   }
   return most;

@@ -7,10 +7,12 @@ around=()  # a command that the programs of a preset must run under
 # group_if_fresh: sets `settings`, so that a build/ which is not configured yet compiles sources in groups.
 group_if_fresh() { [ -f build/CMakeCache.txt ] || settings=(-D SLAPSTICK_GROUPED=ON "${settings[@]}"); }
 
-# build_preset PRESET [TARGET...]: configures with `settings`, and builds under `around`.
+# build_preset PRESET [TARGET...]: configures with `settings`, and builds under `around`. SLAPSTICK_BUILT names a preset
+# all of which is built: the parts of ./dev test have one build, which two of them at once may use.
 build_preset() {
   local preset=$1 folder=build
   shift
+  [ "${SLAPSTICK_BUILT:-}" != "$preset" ] || return 0
   [ "$preset" = release ] || folder=build-$preset
   step "configure ($preset) in $folder/"
   quietly "$folder/configure.log" cmake --preset "$preset" "${settings[@]}"

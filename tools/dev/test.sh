@@ -10,16 +10,23 @@ run_part() {
   tools/budget run "$part" -- "$BASH" dev "$@" || failed+=("$part")
 }
 
-# run_parts: all parts of ./dev test. Those that fail are added to the caller's `failed`. Without a build no other runs.
-# The parts of ./dev test-all that do more have names of their own: the budget is that of ./dev test.
-run_parts() {
-  local web=${SLAPSTICK_WEB:-test} rotation=rotation
-  [ "${SLAPSTICK_SLICE:-}" != all ] || rotation=rotation-all
-  run_part build build-all
-  [ ${#failed[@]} = 0 ] || return 0
-  run_part memory memory
-  run_part wasm wasm
-  run_part python python
+# python_beside COMMAND...: the part `python` beside COMMAND, which starts its own parts: most of either is one processor's work.
+# What python prints is in build/python/part.log, and follows.
+python_beside() {
+  local log=build/python/part.log python
+  step "part python: ./dev python, beside the parts that follow"
+  mkdir -p build/python
+  tools/budget run python -- "$BASH" dev python >"$log" 2>&1 </dev/null &
+  python=$!
+  "$@"
+  wait "$python" || failed+=(python)
+  step "part python"
+  cat "$log"
+}
+
+# light_parts: the explorer where npm's registry answers, the documentation, the cluster.
+light_parts() {
+  local web=${SLAPSTICK_WEB:-test}
   if npm_answers; then
     run_part "${web/#test/web}" web "$web"
   else
@@ -27,6 +34,20 @@ run_parts() {
   fi
   run_part docs docs
   run_part cluster cluster
+}
+
+# run_parts: all parts of ./dev test. Those that fail are added to the caller's `failed`. Without a build no other runs,
+# and with it none builds the release again (build_preset).
+# The parts of ./dev test-all that do more have names of their own: the budget is that of ./dev test.
+run_parts() {
+  local rotation=rotation
+  [ "${SLAPSTICK_SLICE:-}" != all ] || rotation=rotation-all
+  run_part build build-all
+  [ ${#failed[@]} = 0 ] || return 0
+  export SLAPSTICK_BUILT=release
+  run_part memory memory
+  run_part wasm wasm
+  python_beside light_parts
   run_part test test -LE '^(slow|campaign)$' --output-junit "$PWD/build/ctest.xml"
   run_part "$rotation" rotation
 }

@@ -2,9 +2,11 @@
 #include "flow/engine.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 
 #include "base/floating_point.hpp"
+#include "flow/impact_law.hpp"
 #include "flow/mode_graph.hpp"
 #include "slapstick/base/error.hpp"
 
@@ -151,7 +153,7 @@ void Engine::look_ahead() {
   note_clock_sizes();
 }
 
-/// The slope of a signal jumps. Its value does not, but a damper's force at a moving base may: the next mode is asked
+/// The slope of a signal jumps, its value at a step, and velocities at a pulse. Forces may jump: the next mode is asked
 /// for.
 void Engine::pass_knot() {
   if (now_ < knot_) at_instant_.forget();
@@ -164,7 +166,43 @@ void Engine::pass_knot() {
   const int first = stops() + frictions() + compliants() + static_cast<int>(system_->model().characteristics.size());
   for (std::size_t k = 0; k < frame.signals.size(); ++k)
     if (frame.signals[k].has_knot(now_)) report(EventKind::knot, first + static_cast<int>(k), 0.0);
+  take_blow();
   settle(Cause::force);
+}
+
+/// The pulses of this instant: first those of forces, then the jumps of a wall's speed, by which stops are hit.
+void Engine::take_blow() {
+  if (kick(false)) bear_blow();
+  kick(true);
+}
+
+/// Takes the pulses of one kind into the velocities; false if there are none.
+bool Engine::kick(bool kinematic) {
+  const mode::Frame& frame = system_->frame();
+  bool any = false;
+  for (std::size_t k = 0; k < frame.signals.size(); ++k) {
+    if (system_->model().signals[k].kinematic != kinematic) continue;
+    const double area = frame.signals[k].pulse(now_);
+    if (area == 0.0) continue;
+    frame.kick(k, area, X_.data());
+    any = true;
+  }
+  return any;
+}
+
+/// Closed stops bear what presses them; friction, whose force is bounded, takes nothing of a blow in no time.
+void Engine::bear_blow() {
+  touching_.clear();
+  for (int s = 0; s < stops(); ++s)
+    if (here_->states().stops[s] == mode::StopState::closed) touching_.push_back(s);
+  if (touching_.empty()) return;
+  std::array<bool, System::most_contacts> borne{};
+  if (!bear(*system_, touching_, X_.data(), std::span(borne).first(touching_.size())))
+    fail("the blow of this instant has no solution");
+  Motion::Strike strike{0, true};
+  for (std::size_t i = 0; i < touching_.size(); ++i)
+    if (borne[i]) strike.stops |= std::uint32_t{1} << touching_[i];
+  if (strike.stops != 0) strikes_.push_back(strike);
 }
 
 }  // namespace slapstick::flow

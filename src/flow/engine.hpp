@@ -50,6 +50,9 @@ class Engine : public Flight {
   void reserve();
   void start();
   void pass_knot();
+  void take_blow();
+  bool kick(bool kinematic);
+  void bear_blow();
   void look_ahead();
   void begin_segment();
   void handle(int guard, bool graze);

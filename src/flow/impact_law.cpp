@@ -128,13 +128,18 @@ void push(const CompiledSystem& system, std::span<const int> stops, const Column
 
 }  // namespace
 
-bool strike_together(const CompiledSystem& system, std::span<const int> stops, double* X, std::span<bool> hit) {
+namespace {
+
+/// Moreau's law with a restitution for each stop, which `law(stop, v)` says.
+template <class Law>
+bool solve_together(const CompiledSystem& system, std::span<const int> stops, double* X, std::span<bool> hit, Law law) {
   Square D;
   Column v, P;
   assemble(system, stops, X, D, v);
-  Column q = v;
+  Column r = v;
   for (std::size_t i = 0; i < stops.size(); ++i)
-    q[static_cast<Eigen::Index>(i)] *= 1.0 + rebound(system.model().stops[stops[i]], v[static_cast<Eigen::Index>(i)]).restitution;
+    r[static_cast<Eigen::Index>(i)] = law(stops[i], v[static_cast<Eigen::Index>(i)]);
+  const Column q = v.cwiseProduct((1.0 + r.array()).matrix());
   // Lemke's method compares entries of D: in units in which its diagonal is one.
   const Column unit = D.diagonal().cwiseSqrt().cwiseInverse();
   if (!Lemke(unit.asDiagonal() * D * unit.asDiagonal(), unit.cwiseProduct(q)).solve(P)) return false;
@@ -143,10 +148,20 @@ bool strike_together(const CompiledSystem& system, std::span<const int> stops, d
   for (std::size_t i = 0; i < stops.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     hit[i] = P[k] > 0.0;
-    const double r = rebound(system.model().stops[stops[i]], v[k]).restitution;
-    if (hit[i]) set_velocity(system.frame(), system.frame().stops[stops[i]], -r * v[k], X);
+    if (hit[i]) set_velocity(system.frame(), system.frame().stops[stops[i]], -r[k] * v[k], X);
   }
   return true;
+}
+
+}  // namespace
+
+bool strike_together(const CompiledSystem& system, std::span<const int> stops, double* X, std::span<bool> hit) {
+  return solve_together(system, stops, X, hit,
+                        [&](int stop, double v) { return rebound(system.model().stops[stop], v).restitution; });
+}
+
+bool bear(const CompiledSystem& system, std::span<const int> stops, double* X, std::span<bool> hit) {
+  return solve_together(system, stops, X, hit, [](int, double) { return 0.0; });
 }
 
 void bring_to_rest(const CompiledSystem& system, std::span<const int> stops, double* X) {

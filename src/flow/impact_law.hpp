@@ -24,6 +24,10 @@ void strike(const CompiledSystem& system, int stop, double restitution, double* 
 /// @returns false if the problem has no solution (then X is unchanged)
 bool strike_together(const CompiledSystem& system, std::span<const int> stops, double* X, std::span<bool> hit);
 
+/// A blow from outside has pushed closed stops: those that it presses bear it, the others are let go. Moreau's law with
+/// r = 0, since none of them was approached; X and `hit` as in `strike_together`.
+bool bear(const CompiledSystem& system, std::span<const int> stops, double* X, std::span<bool> hit);
+
 /// Brings all these stops to rest, separating ones too: the end of their bouncing, D P = v, with P of least norm.
 void bring_to_rest(const CompiledSystem& system, std::span<const int> stops, double* X);
 

@@ -36,7 +36,10 @@ Passage::Passage(const Engine& engine, bool backward)
       frame_(system_.frame()),
       before_(system_.mode(engine.segment().mode)),
       backward_(backward),
-      X_(Eigen::Map<const Eigen::VectorXd>(engine.extended_before().data(), before_.size())) {}
+      X_(Eigen::Map<const Eigen::VectorXd>(engine.extended_before().data(), before_.size())) {
+  for (std::size_t k = 0; k < frame_.signals.size() && engine.hits().empty(); ++k)
+    frame_.kick(k, frame_.signals[k].pulse(engine.time()), X_.data());
+}
 
 /// Of the state now, or of small changes of it.
 // NOLINTNEXTLINE(performance-unnecessary-value-param): a view, through which is written

@@ -11,6 +11,9 @@
 /// Where it does (two bodies that hit a third at once) the motion has none, which `differentiable` says; what
 /// `pass_event` gives is that of the order in which the model has them.
 ///
+/// A pulse of a signal has its instant by the clock, and adds nothing to a tangent: R is that of the stops that bear it
+/// or are hit by it.
+///
 /// Bouncing that a pile-up ends, and a chatter limit, annihilate gaps and their rates and keep the momentum; they have
 /// no time of their own.
 ///

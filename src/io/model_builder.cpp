@@ -182,7 +182,10 @@ void ModelBuilder::push(Model& model, int coordinate, int base, const Dual& stre
   if (!is_base(base)) return;
   for (const Term& term : bases_[static_cast<std::size_t>(base_end(base))]) {
     if (term.signal >= 0) {
-      add_force(model, {coordinate, 0, written(strength * term.amplitude), 0.0, 0.0, term.signal, order == 1}, silent);
+      const std::string& name = definition_.of("base")[static_cast<std::size_t>(base_end(base))].name;
+      const bool still = silent || silent_signal(term.signal);
+      const int signal = order < 2 || still ? term.signal : acceleration_of(model, term.signal, name);
+      add_force(model, {coordinate, 0, written(strength * term.amplitude), 0.0, 0.0, signal, order == 1}, still);
       continue;
     }
     const bool own = term.frequency.value != 0.0;
@@ -238,6 +241,7 @@ Model ModelBuilder::assembled() {
   add_signals(model);
   add_bases();
   add_forces(model);
+  add_impulses(model);
   add_links(model);
   add_inertia(model);
   add_contacts(model);

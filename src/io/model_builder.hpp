@@ -116,6 +116,11 @@ class ModelBuilder {
   /// The points of the rounds that make one period.
   [[nodiscard]] Points over_a_period(const Part& part, Points points, const Dual& period) const;
   void add_signals(Model& model);
+  [[nodiscard]] Points impulse_points(const Part& part) const;
+  [[nodiscard]] Points speed_jumps(int signal) const;
+  /// The second derivative of a signal that a base moves by: pulses where its speed jumps. Made once.
+  int acceleration_of(Model& model, int signal, std::string_view base);
+  void add_impulses(Model& model);
   void add_bases();
   void add_forces(Model& model);
   [[nodiscard]] Term term(const Part& part, const std::string& place) const;
@@ -160,6 +165,8 @@ class ModelBuilder {
   std::size_t index_ = 0;
   std::vector<std::vector<Term>> bases_;
   std::vector<Signal> signals_;
+  std::vector<Points> knots_;           ///< of the file's signals, as the model has them
+  std::map<int, int> accelerations_;    ///< signals of pulses, by the signal whose second derivative they are
   std::optional<Dual> round_;  ///< the forcing period of a model that signals alone drive
   std::vector<bool> silent_;  // of each force of the model, before any is left out
   std::map<std::string, std::vector<Origin>, std::less<>> origins_;  // by Fault::part

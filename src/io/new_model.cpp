@@ -99,6 +99,20 @@ phase = "pi / 2"
 #signal = "push"
 #amplitude = 2
 
+# A blow in no time: at a time, once or with a period, or in each forcing period when omega t is its phase.
+#[[impulse]]
+#name = "hammer"
+#on = "x2"
+#momentum = 0.2
+#time = 1
+#period = 2
+
+#[[impulse]]
+#name = "pile_driver"
+#on = "x2"
+#momentum = 0.1
+#phase = 0.7
+
 # A random force: harmonics 5 to 20 of omega with phases from a seed. lines: so many of them, evenly spread.
 #[[force]]
 #on = "x2"

@@ -112,11 +112,6 @@ class PartReader {
         tree_.fail(part.line, "coordinate " + in_quotes(part.name) + ": base",
                    "unknown base " + in_quotes(text->second) + suggestion(text->second, bases_));
       part.b = base_end(static_cast<int>(base - bases_.begin()));
-      if (definition_.of("base")[static_cast<std::size_t>(base - bases_.begin())].texts.contains("signal"))
-        tree_.fail(part.line, "coordinate " + in_quotes(part.name) + ": base",
-                   "base " + in_quotes(text->second) +
-                       " moves by a signal, whose speed jumps at every point: springs and dampers may stand on it, no "
-                       "coordinate can be measured from it, and no stop can move with it");
     }
   }
 

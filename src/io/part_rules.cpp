@@ -57,6 +57,8 @@ std::vector<PartRule> loads() {
         {"frequency", false, Holds::number, "harmonic"},
         {"signal", false, Holds::text, "harmonic|phase|frequency"},
         {"band", false, Holds::band, "amplitude|harmonic|phase|frequency|signal"}}},
+      {"impulse", true, Ends::on,
+       {{"momentum", true}, {"time", true}, {"phase", false, Holds::number, "time"}, {"period", false, Holds::number, {}, "time"}}},
       {"friction", true, Ends::between,
        {{"static", true},
         {"kinetic"},

@@ -1,4 +1,4 @@
-/// Builds signals: from points, files and named shapes, and those that repeat in forcing periods.
+/// Builds signals: from points, files and named shapes, those that repeat in forcing periods, and those of impulses.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -110,6 +110,11 @@ std::optional<Dual> ModelBuilder::common_round() {
     const Points points = signal_points(part);
     rounds.push_back(points.back().first - points.front().first);
   });
+  each("impulse", [&](const Part& part) {
+    if (always_zero(part, "momentum")) return;
+    in_time = in_time && part.fields.contains("period");
+    if (in_time) rounds.push_back(field(part, "period"));
+  });
   if (!in_time || rounds.empty()) return std::nullopt;
   const auto shorter = [](const Dual& a, const Dual& b) { return a.value < b.value; };
   const Dual longest = *std::max_element(rounds.begin(), rounds.end(), shorter);
@@ -161,8 +166,89 @@ void ModelBuilder::add_signals(Model& model) {
     for (const auto& [time, value] : points) signal.knots.push_back({written(time), written(value)});
     origins_["signal"].push_back({kind_, index_});
     model.signals.push_back(std::move(signal));
+    knots_.push_back(std::move(points));
   });
   signals_ = model.signals;
+}
+
+/// (time, momentum). One that repeats is in the middle of its round, where it is no end of a line: half a round before
+/// and behind it there is nothing. One that comes once has nothing at the start.
+ModelBuilder::Points ModelBuilder::impulse_points(const Part& part) const {
+  const Dual momentum = field(part, "momentum"), none{0.0};
+  if (part.fields.contains("phase")) {
+    Dual turns = field(part, "phase") / Dual{2.0 * std::numbers::pi};
+    turns.value -= std::floor(turns.value);
+    return {{turns - Dual{0.5}, none}, {turns, momentum}, {turns + Dual{0.5}, none}};
+  }
+  const Dual time = field(part, "time"), period = field(part, "period");
+  const auto demand_positive = [&](const char* key, const Dual& number) {
+    if (number.value > 0.0) return;
+    throw InputError(definition_.place(part.fields.find(key)->second.line),
+                     where(key) + " = " + shown(number.value) + " is not positive");
+  };
+  if (!part.fields.contains("period")) {
+    demand_positive("time", time);
+    return {{none, none}, {time, momentum}};
+  }
+  demand_positive("period", period);
+  return {{time - Dual{0.5} * period, none}, {time, momentum}, {time + Dual{0.5} * period, none}};
+}
+
+/// An impulse is a force that follows a signal of pulses.
+void ModelBuilder::add_impulses(Model& model) {
+  each("impulse", [&](const Part& part) {
+    const bool by_phase = part.fields.contains("phase"), comes_back = by_phase || part.fields.contains("period");
+    const bool silent = always_zero(part, "momentum");
+    Points points = impulse_points(part);
+    Signal signal{part.name, {}, comes_back, by_phase || (comes_back && round_ && !silent)};
+    if (signal.in_periods && !definition_.omega && !round_)
+      throw InputError(definition_.place(part.fields.find("phase")->second.line),
+                       where("phase") + ": a phase of the forcing, and the file has no 'omega': give a time and a period");
+    if (signal.in_periods) points = over_a_period(part, std::move(points), by_phase ? Dual{1.0} : *round_);
+    for (const auto& [time, momentum] : points) signal.knots.push_back({written(time), 0.0, written(momentum)});
+    origins_["signal"].push_back({kind_, index_});
+    model.signals.push_back(std::move(signal));
+    const double whole = written(Dual{1.0});
+    add_force(model, {part.a, 0, whole, 0.0, 0.0, static_cast<int>(model.signals.size()) - 1}, silent);
+  });
+}
+
+/// (time, jump of the slope). Of a signal that repeats the round begins and ends within its first line, where there is
+/// none: its own ends have one.
+ModelBuilder::Points ModelBuilder::speed_jumps(int signal) const {
+  const Points& knots = knots_[static_cast<std::size_t>(signal)];
+  const Signal& of = signals_[static_cast<std::size_t>(signal)];
+  const Dual unit = of.in_periods ? Dual{2.0 * std::numbers::pi} / omega_ : Dual{1.0}, none{0.0};
+  const std::size_t lines = knots.size() - 1;
+  const auto slope = [&](std::size_t i) {
+    return (knots[i + 1].second - knots[i].second) / ((knots[i + 1].first - knots[i].first) * unit);
+  };
+  Points jumps;
+  if (!of.repeats) jumps.emplace_back(knots.front().first, slope(0));
+  for (std::size_t i = 1; i < lines; ++i) jumps.emplace_back(knots[i].first, slope(i) - slope(i - 1));
+  jumps.emplace_back(knots.back().first, (of.repeats ? slope(0) : none) - slope(lines - 1));
+  if (!of.repeats) return jumps;
+  const Dual middle = Dual{0.5} * (knots[0].first + knots[1].first);
+  jumps.emplace(jumps.begin(), middle, none);
+  jumps.emplace_back(middle + (knots.back().first - knots.front().first), none);
+  return jumps;
+}
+
+int ModelBuilder::acceleration_of(Model& model, int signal, std::string_view base) {
+  if (const auto made = accelerations_.find(signal); made != accelerations_.end()) return made->second;
+  const Signal& of = signals_[static_cast<std::size_t>(signal)];
+  const auto at_once = [](const auto& a, const auto& b) { return a.first.value == b.first.value; };
+  const Points& points = knots_[static_cast<std::size_t>(signal)];
+  if (std::adjacent_find(points.begin(), points.end(), at_once) != points.end() ||
+      (of.repeats && points.front().second.value != points.back().second.value))
+    throw InputError(definition_.place(definition_.of(kind_)[index_].line),
+                     where("base") + ": " + in_quotes(base) + " moves by signal " + in_quotes(of.name) +
+                         ", which steps: what is measured from it would be elsewhere at once; write a ramp");
+  Signal jumps{of.name + "''", {}, of.repeats, of.in_periods, true};
+  for (const auto& [time, jump] : speed_jumps(signal)) jumps.knots.push_back({written(time), 0.0, written(jump)});
+  origins_["signal"].push_back({kind_, index_});
+  model.signals.push_back(std::move(jumps));
+  return accelerations_[signal] = static_cast<int>(model.signals.size()) - 1;
 }
 
 /// A piece of a record that is too steep, with the row of its file.

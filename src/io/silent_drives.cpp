@@ -20,7 +20,7 @@ bool ModelBuilder::always_zero(const Part& part, std::string_view key) {
 }
 
 bool ModelBuilder::silent_signal(int index) const {
-  if (index < 0) return false;
+  if (index < 0 || index >= static_cast<int>(definition_.of("signal").size())) return false;  // none, or of an impulse
   const Part& part = definition_.of("signal")[static_cast<std::size_t>(index)];
   return ranges::all_of(part.samples, [](const auto& sample) { return sample.second == 0.0; }) &&
          ranges::all_of(part.points, [](const Point& point) { return always_zero(point.force); }) &&

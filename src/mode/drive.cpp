@@ -26,6 +26,7 @@ SignalTable::SignalTable(const Signal& signal, double period) {
   for (std::size_t i = 0; i < knots.size(); ++i) {
     knots_.push_back(Instant{}.plus(knots[i].time / unit));
     values_.push_back(knots[i].value);
+    pulses_.push_back(knots[i].pulse);
     if (i + 1 == knots.size()) break;
     const double rise = knots[i + 1].value - knots[i].value, apart = knots[i + 1].time - knots[i].time;
     slopes_.push_back(apart > 0.0 ? rise / apart * unit : 0.0);  // nothing is on a step
@@ -73,6 +74,12 @@ double SignalTable::before(Instant t) const {
   const std::size_t piece = place(t).piece, last = knots_.size() - 1;
   const std::size_t i = first_at_its_time(piece == outside ? last : piece);
   return values_[i == 0 && length_ > 0.0 ? first_at_its_time(last) : i];
+}
+
+double SignalTable::pulse(Instant t) const {
+  if (!has_knot(t)) return 0.0;
+  const std::size_t piece = place(t).piece;
+  return pulses_[piece == outside ? pulses_.size() - 1 : piece];
 }
 
 Instant SignalTable::next(Instant t) const {

@@ -3,7 +3,8 @@
 ///
 /// In X a tone is a pair (cos, sin) that turns with its own frequency, and a signal a pair (value, slope) with
 /// value' = slope / T, slope' = 0, T the period of the clock. A signal's slope jumps at its knots only, at a step its
-/// value too, so that between two knots X' = A X. Both are set by the clock, so neither drifts.
+/// value too, so that between two knots X' = A X. Both are set by the clock, so neither drifts. A pulse at a knot is
+/// nothing of X: it is a jump of the velocities (Frame::kick).
 ///
 /// The phase says where a signal in periods is. At a knot its two sides differ, so a straight line between two knots has
 /// a name: the number of its first knot.
@@ -36,6 +37,8 @@ class SignalTable {
   [[nodiscard]] Value at(Instant t) const;
   /// The value just before t: another one than `at` has where there is a step.
   [[nodiscard]] double before(Instant t) const;
+  /// The area of the pulse at t, or 0.
+  [[nodiscard]] double pulse(Instant t) const;
   /// The first knot after t, or `never`.
   [[nodiscard]] Instant next(Instant t) const;
   /// Is there a knot at t?
@@ -58,7 +61,7 @@ class SignalTable {
   [[nodiscard]] Instant knot(std::int64_t round, std::size_t i) const;
 
   std::vector<Instant> knots_;
-  std::vector<double> values_, slopes_;
+  std::vector<double> values_, slopes_, pulses_;
   double length_ = 0.0;  ///< of a round, in periods; 0: once
   bool in_periods_ = false;
 };

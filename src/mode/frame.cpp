@@ -276,6 +276,10 @@ void Frame::set_clock(Instant t, double* X, bool behind) const {
   }
 }
 
+void Frame::kick(std::size_t of_signal, double area, double* X) const {
+  for (int i = 0; i < d; ++i) X[u(i)] += free(i, signal(of_signal)) * area;
+}
+
 std::vector<int> Frame::lines_at(Instant t) const {
   std::vector<int> lines;
   for (const SignalTable& of : signals) lines.push_back(of.line_at(t));

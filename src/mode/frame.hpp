@@ -124,6 +124,8 @@ struct Frame {
   /// The same of a piece of the motion that may end at t: the slopes are those that X has, at a knot those before it,
   /// and the value at a step is that before the step.
   void set_clock_within(Instant t, double* X) const { set_clock(t, X, false); }
+  /// What the pulse of a signal of this area does to the velocities: M dv = (the forces that follow it) area.
+  void kick(std::size_t of_signal, double area, double* X) const;
   /// Bounds, by columns from 2 d on, of what is known no better than the clock: 1 of a phase, of a signal's value the
   /// slope that X has.
   void set_clock_sizes(const double* X, double* sizes) const;

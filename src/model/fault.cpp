@@ -136,18 +136,26 @@ Found check_force(const Force& force, int index, const Model& model) {
     check.fail("signal", "signal " + in_quotes(model.signals[static_cast<std::size_t>(force.signal)].name) +
                              " has a step, at which its rate of change is not finite: no damper can stand on a base "
                              "that moves by it; write a ramp");
+  else if (force.signal >= 0 && force.rate && pulses(model.signals[static_cast<std::size_t>(force.signal)]))
+    check.fail("signal", "signal " + in_quotes(model.signals[static_cast<std::size_t>(force.signal)].name) +
+                             " has a pulse, of which there is no rate of change");
   return check.result();
 }
 
 Found check_signal(const Signal& signal, int index, double period, std::set<std::string>& used) {
   Check check("signal", index);
-  check_name(check, signal.name, used);
+  if (!signal.kinematic) check_name(check, signal.name, used);  // the second derivative of another has its name and ''
   const auto& knots = signal.knots;
   if (knots.size() < 2) check.fail("points", "there are fewer than two points");
   for (std::size_t i = 0; i < knots.size(); ++i) {
     const std::string point = "point " + std::to_string(i + 1);
     check.sized((point + ": time").c_str(), knots[i].time);
     check.sized((point + ": value").c_str(), knots[i].value);
+    check.sized((point + ": pulse").c_str(), knots[i].pulse);
+    const bool at_end = signal.repeats && (i == 0 || i + 1 == knots.size());
+    const auto shares_time = [&](std::size_t other) { return other < knots.size() && knots[other].time == knots[i].time; };
+    if (knots[i].pulse != 0.0 && (at_end || shares_time(i - 1) || shares_time(i + 1)))
+      check.fail("points", point + " has a pulse, and must be neither a step nor the end of a round");
     if (i > 0 && knots[i].time < knots[i - 1].time)
       check.fail("points", point + ": time " + shown(knots[i].time) + " is below " + shown(knots[i - 1].time) +
                                " of the point before");

@@ -44,6 +44,9 @@ inline constexpr double smallest = 1e-50;
 /// Has a signal two values at one time?
 [[nodiscard]] bool steps(const Signal& signal);
 
+/// Has it a pulse?
+[[nodiscard]] bool pulses(const Signal& signal);
+
 /// A piece of a signal that is steeper than the clock resolves.
 struct SteepPiece {
   std::size_t end = 0;  ///< the later one of its points, from 0

@@ -1,4 +1,4 @@
-/// Steps and steep pieces of signals.
+/// Steps, pulses and steep pieces of signals.
 #include <algorithm>
 #include <cmath>
 
@@ -12,6 +12,10 @@ bool steps(const Signal& signal) {
   const auto step = [](const auto& a, const auto& b) { return a.time == b.time && a.value != b.value; };
   if (std::adjacent_find(knots.begin(), knots.end(), step) != knots.end()) return true;
   return signal.repeats && !knots.empty() && knots.back().value != knots.front().value;
+}
+
+bool pulses(const Signal& signal) {
+  return std::any_of(signal.knots.begin(), signal.knots.end(), [](const auto& knot) { return knot.pulse != 0.0; });
 }
 
 std::optional<SteepPiece> first_steep_piece(const Signal& signal, double period) {

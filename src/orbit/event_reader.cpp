@@ -99,6 +99,7 @@ void EventReader::read() {
     const VectorXd first = flow::contact_state(system.frame(), X_before);
     for (const Leg& end : ends_at_knots(engine, leg)) read_.push_back({end, t, first});
     read_.back().x = last;
+    read_.back().leg.strikes = flow::separated_strikes(system.frame(), motion_.strikes());
     return;
   }
   touched_ = engine.hit_guard() == nullptr || leg.event == EventKind::graze;

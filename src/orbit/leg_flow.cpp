@@ -125,6 +125,19 @@ Jet knot_jet(const ModeSet& set, const Leg& leg, const Jet& X, double t_end) {
   return h;
 }
 
+/// The blow of a pulse at the end of a signal's line (Frame::kick): K = F area, F the signal's column of the forces.
+void kick(const ModeSet& set, const Leg& leg, Jet& X) {
+  const RowVectorXd area = pulse_area(set, leg);
+  if (area.isZero(0.0)) return;
+  const mode::Frame& frame = set.frame();
+  const int column = frame.signal(static_cast<std::size_t>(leg.contact));
+  const VectorXd per_area = frame.free.col(column);
+  X.value().segment(frame.d, frame.d) += per_area * area[0];
+  for (Index p = 0; p < X.parameters; ++p)
+    X.by_parameter().col(p).segment(frame.d, frame.d) +=
+        per_area * area[1 + p] + set.frame_rate(static_cast<std::size_t>(p)).free.col(column) * area[0];
+}
+
 /// A number and its derivatives, the columns of a jet.
 using NumberJet = RowVectorXd;
 
@@ -207,6 +220,22 @@ Jet extended(const ModeSet& set, const std::vector<int>& lines, const VectorXd& 
   return X;
 }
 
+RowVectorXd pulse_area(const ModeSet& set, const Leg& leg) {
+  RowVectorXd area = RowVectorXd::Zero(1 + static_cast<Index>(set.parameters()));
+  if (leg.ending != Ending::knot) return area;
+  const auto signal = static_cast<std::size_t>(leg.contact), end = static_cast<std::size_t>(leg.lines[signal]) + 1;
+  area[0] = set.model().signals[signal].knots[end].pulse;
+  for (std::size_t p = 0; p < set.parameters(); ++p)
+    area[static_cast<Index>(1 + p)] = set.rate(p).signals[signal].knots[end].pulse;
+  return area;
+}
+
+VectorXd behind_pulse(const ModeSet& set, const Leg& leg, VectorXd X) {
+  const double area = pulse_area(set, leg)[0];
+  if (area != 0.0) set.frame().kick(static_cast<std::size_t>(leg.contact), area, X.data());
+  return X;
+}
+
 void flow(const ModeRates& mode, double s, Jet& X) {
   const auto d = static_cast<Index>(mode.outline.steady.size());
   constexpr double most_steps = 1e4;  // Newton's method may try a mass of next to nothing
@@ -283,6 +312,7 @@ LegValue leg_value(const ModeSet& set, const Leg& leg, const Leg& next, const Ve
     h = chatter_jet(set, leg.contact, extended(set, leg.lines, x, t_begin), t_begin, t_end);
   if (leg.ending == Ending::knot) h = knot_jet(set, leg, X, t_end);
   Jet struck = X;
+  kick(set, leg, struck);
   for (const Motion::Strike& strike : leg.strikes) push(set, strike, struck);
   return {std::move(X), contact_jet(set, next, struck), std::move(h)};
 }

@@ -1,7 +1,8 @@
 #pragma once
 /// One leg of a cycle in closed form, with all its first derivatives.
 ///
-///     X_end = exp(A s) S X(x, t_0),   s = (t_1 - t_0) T;   h = guard . X_end, or t_1 - t_knot;   x_after = H R X_end
+///     X_end = exp(A s) S X(x, t_0),   s = (t_1 - t_0) T;   h = guard . X_end, or t_1 - t_knot;   x_after = H R X_end,
+/// at a pulse of a signal H R (X_end + K)
 ///
 /// S: the plastic impact that sums a chatter's tail, else the identity. R: the impacts at the end. H: what the next mode holds still is zero.
 /// The derivative with respect to a parameter follows the motion as Y' = A Y + A_p X; the terms of both series are summed together.
@@ -55,6 +56,12 @@ struct LegValue {
 
 /// The extended state at the leg's start, after the plastic impact if the leg is the tail of a chatter.
 [[nodiscard]] Jet leg_start(const ModeSet& set, const Leg& leg, const Eigen::VectorXd& x, double t_begin);
+
+/// The area of the pulse at a leg's end and its derivatives by the parameters; zeros of a leg that ends otherwise.
+[[nodiscard]] Eigen::RowVectorXd pulse_area(const ModeSet& set, const Leg& leg);
+
+/// An extended state at a leg's end, and what the pulse there makes of it.
+[[nodiscard]] Eigen::VectorXd behind_pulse(const ModeSet& set, const Leg& leg, Eigen::VectorXd X);
 
 /// The extended state so many periods after the start of one of an orbit's legs; no derivatives.
 [[nodiscard]] Eigen::VectorXd state_within(const ModeSet& set, const Orbit& orbit, std::size_t leg, double after);

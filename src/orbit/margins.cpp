@@ -219,14 +219,26 @@ bool passes_without_stick(const Orbit& orbit, std::size_t leg) {
   return orbit.shape.legs[(leg + 1) % orbit.legs()].states.frictions[here.contact] != mode::FrictionState::stick;
 }
 
+/// Does a blow at the start of a leg move a friction contact? Then it slips at once, whatever its limit.
+bool is_blown(const ModeSet& set, const Itinerary& shape, std::size_t leg, int contact) {
+  const int own = set.frame().frictions[static_cast<std::size_t>(contact)].own;
+  return ranges::any_of(ended_at_start(shape, leg), [&](std::size_t before) {
+    const Leg& end = shape.legs[before];
+    if (pulse_area(set, end)[0] == 0.0) return false;
+    return !end.strikes.empty() || set.frame().free(own, set.frame().signal(static_cast<std::size_t>(end.contact))) != 0.0;
+  });
+}
+
 /// The friction contacts that a signal's point lets go: the force jumps past their limit.
-std::vector<int> let_go_at_knot(const Orbit& orbit, std::size_t leg) {
+std::vector<int> let_go_at_knot(const ModeSet& set, const Orbit& orbit, std::size_t leg) {
   std::vector<int> contacts;
   if (orbit.shape.legs[leg].ending != Ending::knot) return contacts;
   const auto &before = orbit.shape.legs[leg].states.frictions,
              &behind = orbit.shape.legs[(leg + 1) % orbit.legs()].states.frictions;
   for (std::size_t i = 0; i < before.size(); ++i)
-    if (before[i] == mode::FrictionState::stick && behind[i] != before[i]) contacts.push_back(static_cast<int>(i));
+    if (before[i] == mode::FrictionState::stick && behind[i] != before[i] &&
+        !is_blown(set, orbit.shape, (leg + 1) % orbit.legs(), static_cast<int>(i)))
+      contacts.push_back(static_cast<int>(i));
   return contacts;
 }
 
@@ -259,7 +271,7 @@ std::vector<TestValue> test_values(const ModeSet& set, const Orbit& orbit) {
     if (passes_without_stick(orbit, i))
       all.push_back({Test::no_stick, i, leg.kind, leg.contact,
                      beyond_stick(set, orbit, i, leg.contact, course.states.back()), orbit.duration(i)});
-    for (const int contact : let_go_at_knot(orbit, i)) {
+    for (const int contact : let_go_at_knot(set, orbit, i)) {
       const std::size_t next = (i + 1) % orbit.legs();
       const VectorXd X = leg_start(set, orbit.shape.legs[next], orbit.x[next], orbit.t[next]).value();
       all.push_back({Test::no_stick, i, GuardKind::stick_above, contact, beyond_stick(set, orbit, i, contact, X),

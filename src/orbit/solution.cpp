@@ -52,7 +52,8 @@ void drop_kept_direction(std::vector<std::complex<double>>& multipliers) {
 long points(const Leg& leg, const Leg& next) {
   if (leg.ending == Ending::cut) return 0;
   long count = 0;
-  for (const Motion::Strike& strike : leg.strikes) count += std::popcount(strike.stops);
+  for (const Motion::Strike& strike : leg.strikes)  // at a knot one to rest is a blow that stops bear
+    count += leg.ending == Ending::knot && strike.to_rest ? 0 : std::popcount(strike.stops);
   const auto off = mode::CompliantState::off;
   for (std::size_t i = 0; i < leg.states.compliant.size(); ++i)
     count += leg.states.compliant[i] == off && next.states.compliant[i] != off ? 1 : 0;
@@ -159,7 +160,7 @@ std::vector<EventOfOrbit> events(const Problem& problem, const Orbit& orbit) {
     const LegValue value = leg_value(set, leg, next, orbit.x[i], orbit.t[i], orbit.t[i + 1]);
     EventOfOrbit event{leg.event,  leg.event_contact, orbit.t[i + 1], 0.0, State(2 * static_cast<std::size_t>(frame.n)),
                        next.states};
-    Eigen::VectorXd X = value.X_end.value();
+    Eigen::VectorXd X = behind_pulse(set, leg, value.X_end.value());
     land(frame, leg, X);
     frame.leave(X.data(), X.data() + frame.d, event.before.data());
     const auto stops = frame.stops.size(), frictions = frame.frictions.size(),

@@ -32,7 +32,7 @@ void Blows::impact(int stop, double w, const Moving& before) {
   const auto known = std::find_if(impacts_.begin(), impacts_.end(), [&](const Struck& one) { return one.contact == stop; });
   if (known != impacts_.end()) return;
   const RowVector row = frame_.velocity_row(frame_.stops[static_cast<std::size_t>(stop)]);
-  impacts_.push_back(meet(stop, {w, rates_ != nullptr ? row.dot(before.by) : 0.0}));
+  impacts_.push_back(meet(stop, {w, rates_ != nullptr ? row.dot(behind_walls(before).by) : 0.0}));
 }
 
 void Blows::begin_flight(int contact, Number time, Number slid) {
@@ -62,12 +62,15 @@ Struck Blows::meet(int contact, Number w) {
 std::optional<Blow> Blows::between(const mode::Outline& last, const Moving& before, const mode::Outline& next,
                                    const Moving& after) {
   Blow blow{now_, std::vector<Number>(of_.size()), {}};
-  const bool struck = struck_ != 0;
+  const bool struck = struck_ != 0 || !pulses_.empty();
   if (struck) {
-    const Impulses of = impulses(before, after);
-    const bool asked = std::any_of(of_.begin(), of_.end(), [](const Quantity& one) { return one.kind == Quantity::Kind::acceleration; });
+    const Moving behind = behind_walls(before);
+    const Impulses of = impulses(behind, after);
+    const bool asked = std::any_of(of_.begin(), of_.end(), [](const Quantity& one) {
+      return one.kind == Quantity::Kind::acceleration || one.kind == Quantity::Kind::input;
+    });
     std::optional<Formulas> formulas;
-    if (asked) formulas.emplace(model_, frame_, last);  // velocities do not depend on a parameter but by their drift
+    if (asked) formulas.emplace(model_, frame_, last, rates_);  // of velocities alone: they are those of any mode
     for (std::size_t k = 0; k < of_.size(); ++k) {
       blow.impulses[k] = share(of_[k], of_[k].index, of, formulas, before, after);
       if (of_[k].minus >= 0) blow.impulses[k] -= share(of_[k], of_[k].minus, of, formulas, before, after);
@@ -111,12 +114,55 @@ const Matrix& Blows::inverse_coupling(const std::vector<int>& stops) {
   return inverses_.emplace_back(struck_, mode::least_norm_inverse(coupling(stops, frame_.mass_inverse))).second;
 }
 
-/// M dv = -sum_i g_i P_i over the stops that were struck: in contact coordinates dw_i = -sum_j D_ij P_j. Each takes P_i
-/// (w_i- + w_i+) / 2. The derivative of P is -D^+ (dw' + D' P).
+/// What the pulses of one kind give the velocity of a contact number.
+Number Blows::kick(int own, bool kinematic) const {
+  Number sum;
+  for (const auto& [signal, area] : pulses_) {
+    if (model_.signals[static_cast<std::size_t>(signal)].kinematic != kinematic) continue;
+    const int column = frame_.signal(static_cast<std::size_t>(signal));
+    sum += Number{frame_.free(own, column), rates_ != nullptr ? rates_->frame.free(own, column) : 0.0} * area;
+  }
+  return sum;
+}
+
+/// Behind the jumps of a wall's speed, which come before the impacts that they make.
+Moving Blows::behind_walls(const Moving& before) const {
+  Moving behind = before;
+  for (int i = 0; i < frame_.d && !pulses_.empty(); ++i) {
+    const Number given = kick(i, true);
+    behind.X[frame_.u(i)] += given.value;
+    if (rates_ != nullptr) behind.by[frame_.u(i)] += given.rate;
+  }
+  return behind;
+}
+
+/// Of the forces that follow the pulses of one kind: p (v- + v+) / 2, the energy that comes in, also where stops bear
+/// the blow.
+Number Blows::work(const Formulas& formulas, const Moving& before, const Moving& after, bool kinematic) const {
+  Number sum;
+  for (const auto& [signal, area] : pulses_) {
+    if (model_.signals[static_cast<std::size_t>(signal)].kinematic != kinematic) continue;
+    for (std::size_t i = 0; i < model_.forces.size(); ++i) {
+      const Force& force = model_.forces[i];
+      if (force.signal != signal) continue;
+      const Row row = formulas.velocity(force.coordinate);
+      const auto speed = [&](const Moving& at) {
+        return rates_ != nullptr ? row.at(at.X, at.by) : Number{row.value.dot(at.X), 0.0};
+      };
+      const Number amplitude{force.amplitude, rates_ != nullptr ? rates_->model.forces[i].amplitude : 0.0};
+      sum += 0.5 * amplitude * area * (speed(before) + speed(after));
+    }
+  }
+  return sum;
+}
+
+/// M dv = p - sum_i g_i P_i over the stops that were struck, p of the pulses: in contact coordinates dw_i = k_i - sum_j
+/// D_ij P_j. Each takes P_i (w_i- + w_i+) / 2. The derivative of P is -D^+ (dw' - k' + D' P).
 Blows::Impulses Blows::impulses(const Moving& before, const Moving& after) {
   Impulses of;
   for (int i = 0; i < static_cast<int>(model_.stops.size()); ++i)
     if ((struck_ >> static_cast<unsigned>(i) & 1U) != 0) of.stops.push_back(i);
+  if (of.stops.empty()) return of;
   const auto count = static_cast<Eigen::Index>(of.stops.size());
   const auto row = [&](Eigen::Index i) { return frame_.stops[static_cast<std::size_t>(of.stops[static_cast<std::size_t>(i)])]; };
   const auto speeds = [&](const Vector& X) {
@@ -125,12 +171,17 @@ Blows::Impulses Blows::impulses(const Moving& before, const Moving& after) {
     return w;
   };
   const Matrix& inverse = inverse_coupling(of.stops);
-  const Vector jump = speeds(after.X) - speeds(before.X), sum = speeds(after.X) + speeds(before.X);
+  Vector jump = speeds(after.X) - speeds(before.X), jump_rate = Vector::Zero(count);
+  const Vector sum = speeds(after.X) + speeds(before.X);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Number given = row(i).sign * kick(row(i).own, false);
+    jump[i] -= given.value, jump_rate[i] -= given.rate;
+  }
   const Vector P = -inverse * jump;
   Vector P_rate = Vector::Zero(count), sum_rate = P_rate;
   if (rates_ != nullptr) {
     const Vector w = speeds(before.by), v = speeds(after.by);
-    P_rate = -inverse * (v - w + coupling(of.stops, rates_->frame.mass_inverse) * P);
+    P_rate = -inverse * (v - w + jump_rate + coupling(of.stops, rates_->frame.mass_inverse) * P);
     sum_rate = v + w;
   }
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -162,6 +213,10 @@ Number Blows::share(const Quantity& quantity, int index, const Impulses& of, con
       return row.dot(change.segment(frame_.d, frame_.n));
     };
     return {jump(before.X, after.X), rates_ != nullptr ? jump(before.by, after.by) : 0.0};
+  }
+  if (quantity.kind == Quantity::Kind::input) {
+    const Moving behind = behind_walls(before);
+    return work(*formulas, before, behind, true) + work(*formulas, behind, after, false);
   }
   const auto i = static_cast<std::size_t>(std::find(of.stops.begin(), of.stops.end(), index) - of.stops.begin());
   if (i == of.P.size()) return {};

@@ -1,8 +1,9 @@
 #pragma once
 /// What happens at the instants at which velocities jump: impulses of all quantities, and the impacts of stops.
 ///
-/// Impulses follow from the jump between two states, never from the impact law, so that they are what momentum asks
-/// for. Numbers have their derivatives by the parameter of the trace beside them (zero without one).
+/// Impulses follow from the jump between two states, less what pulses of signals give, never from the impact law: so
+/// they are what momentum asks for. Numbers have their derivatives by the parameter of the trace beside them (zero
+/// without one).
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -47,6 +48,8 @@ class Blows {
 
   /// These stops, bit by bit, get an impulse at the next blow ..
   void strike(std::uint32_t stops) { struck_ |= stops; }
+  /// .. or the pulse of a signal comes ..
+  void pulse(int signal, Number area) { pulses_.push_back({signal, area}); }
   /// The tail of a complete chatter of this stop begins at the next blow: its jump is that of an impact, if one is
   /// there, and of a plastic one behind it.
   void chatter(int stop) {
@@ -59,10 +62,10 @@ class Blows {
   void begin_flight(int contact, Number time, Number slid);
   /// The trace has come to an instant; friction slipped on the way so long.
   void go_on(Number time, Number slid);
-  void forget() { struck_ = 0, chatter_ = -1; }
+  void forget() { struck_ = 0, chatter_ = -1, pulses_.clear(); }
   /// Can there be a blow between these modes? If not, no state is needed.
   [[nodiscard]] bool may_come(const mode::Outline& last, const mode::Outline& next) const {
-    return struck_ != 0 || !impacts_.empty() || last.states.compliant != next.states.compliant;
+    return struck_ != 0 || !pulses_.empty() || !impacts_.empty() || last.states.compliant != next.states.compliant;
   }
 
   /// What lies between the end of one piece and the start of the next; nothing if nothing happens.
@@ -81,7 +84,15 @@ class Blows {
 
   [[nodiscard]] Matrix coupling(const std::vector<int>& stops, const Matrix& mass_inverse) const;
   [[nodiscard]] const Matrix& inverse_coupling(const std::vector<int>& stops);
+  struct Pulse {
+    int signal;
+    Number area;
+  };
+
   [[nodiscard]] Impulses impulses(const Moving& before, const Moving& after);
+  [[nodiscard]] Number kick(int own, bool kinematic) const;
+  [[nodiscard]] Moving behind_walls(const Moving& before) const;
+  [[nodiscard]] Number work(const Formulas& formulas, const Moving& before, const Moving& after, bool kinematic) const;
   [[nodiscard]] Number share(const Quantity& quantity, int index, const Impulses& of,
                              const std::optional<Formulas>& formulas, const Moving& before, const Moving& after) const;
   [[nodiscard]] std::pair<Number, Number> plastic(const Struck& impact) const;
@@ -96,6 +107,7 @@ class Blows {
   const std::vector<Quantity>& of_;
   const Rates* rates_;
   std::uint32_t struck_ = 0;
+  std::vector<Pulse> pulses_;
   int chatter_ = -1;  ///< the stop whose chatter begins at the next blow, or -1
   std::vector<Struck> impacts_;
   std::deque<std::pair<std::uint32_t, Matrix>> inverses_;  ///< by the stops that were struck

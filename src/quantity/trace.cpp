@@ -19,6 +19,7 @@ class Follower {
     first_ = false;
     if (flown) piece(event && motion_.event().kind == EventKind::chatter);
     if (!event) return;
+    if (flown && motion_.event().kind == EventKind::knot) pulses();
     if (flown) tracer_.arrive(motion_.engine().extended_before().data());
     const Event& last = motion_.event();
     if (last.kind == EventKind::impact) tracer_.impact(last.contact, last.w);
@@ -43,6 +44,13 @@ class Follower {
     tracer_.piece(outline, system.mode(segment.mode).window(), motion_.engine().extended_at_start().data(),
                   segment.start.since(origin_) * system.period(), segment.duration);
     for (const Motion::Strike& strike : motion_.strikes()) tracer_.strike(strike.stops);
+  }
+
+  void pulses() {
+    const auto& signals = motion_.system().compiled().frame().signals;
+    for (std::size_t k = 0; k < signals.size(); ++k)
+      if (const double area = signals[k].pulse(motion_.time()); area != 0.0)
+        tracer_.pulse(static_cast<int>(k), {area, 0.0});
   }
 
   Motion& motion_;

@@ -67,6 +67,8 @@ class Tracer {
   void arrive(const double* X);
   /// At the end of the last piece: these stops, bit by bit, get an impulse ..
   void strike(std::uint32_t stops) { blows_.strike(stops); }
+  /// .. or the pulse of a signal comes ..
+  void pulse(int signal, Number area) { blows_.pulse(signal, area); }
   /// .. or that next piece is the tail of a complete chatter of this stop, flown with the stop closed. The blow before
   /// comes after the piece, with the impulses of all impacts that the tail stands for ..
   void chatter(int stop) { chatter_ = stop; }

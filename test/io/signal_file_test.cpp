@@ -192,8 +192,8 @@ TEST(SignalRefusal, names_the_line) {
   EXPECT_NE(refusal(head + s + "repeats = true\n[[base]]\nname = 'b'\nsignal = 's'\n[[damper]]\nbetween = ['x', 'b']\ncoefficient = 1\n")
                 .find("has a step, at which its rate of change is not finite"),
             std::string::npos);
-  EXPECT_NE(refusal("name = 'm'\n" + s + "[[base]]\nname = 'b'\nsignal = 's'\n[[coordinate]]\nname = 'x'\nmass = 1\nbase = 'b'\n")
-                .find("whose speed jumps at every point"),
+  EXPECT_NE(refusal("name = 'm'\n[[signal]]\nname = 's'\npoints = [[0, 1], [1, 2], [1, 3]]\n[[base]]\nname = 'b'\nsignal = 's'\n[[coordinate]]\nname = 'x'\nmass = 1\nbase = 'b'\n")
+                .find("which steps: what is measured from it would be elsewhere at once"),
             std::string::npos);
   EXPECT_NE(refusal(head + "[[force]]\non = 'x'\nband = { from = 3, to = 2, rms = 1 }\n").find("to: 2 is below from = 3"),
             std::string::npos);

@@ -26,6 +26,7 @@ const std::vector<Edit>& edits() {
       {"zero-force", "a harmonic force of size zero", zero_force},
       {"zero-tone", "a tone of size zero", zero_tone},
       {"zero-signal", "a signal of size zero", zero_signal},
+      {"zero-impulse", "an impulse of momentum zero", zero_impulse},
       {"machine-at-rest", "an uncoupled machine at rest beside it", machine_at_rest},
       {"twin", "a copy of the machine beside it", twin_machine},
       {"mirror", "the mirrored machine", mirror},
@@ -72,7 +73,7 @@ std::optional<Edited> units_of_two(const Definition& file, campaign::Random& ran
   const bool loaded = std::ranges::any_of(file.of("friction"), [](const Part& p) {
     return std::ranges::any_of(p.load, [](const auto& term) { return term.first.starts_with("v"); });
   });
-  edited.rule.bits = file.of("signal").empty() && !loaded;
+  edited.rule.bits = file.of("signal").empty() && file.of("impulse").empty() && !loaded;
   return edited;
 }
 

@@ -59,6 +59,7 @@ std::optional<Edited> far_compliant_stop(const Definition& file, campaign::Rando
 std::optional<Edited> zero_force(const Definition& file, campaign::Random& random);
 std::optional<Edited> zero_tone(const Definition& file, campaign::Random& random);
 std::optional<Edited> zero_signal(const Definition& file, campaign::Random& random);
+std::optional<Edited> zero_impulse(const Definition& file, campaign::Random& random);
 std::optional<Edited> machine_at_rest(const Definition& file, campaign::Random& random);
 std::optional<Edited> twin_machine(const Definition& file, campaign::Random& random);
 std::optional<Edited> mirror(const Definition& file, campaign::Random& random);

@@ -18,6 +18,8 @@ Dimension dimension(const std::string& kind, const std::string& key, bool loaded
   if (key == "clearance" || key == "clearance_lower") return dim::length;
   if (key == "belt_speed") return dim::speed;
   if (key == "frequency") return dim::rate;
+  if (key == "momentum") return dim::impulse;
+  if (key == "time" || key == "period") return dim::time;
   if (key == "amplitude") return kind == "force" ? dim::force : dim::length;
   if (key == "static" || key == "kinetic") return loaded ? dim::pure : dim::force;
   return dim::pure;

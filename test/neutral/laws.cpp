@@ -126,7 +126,23 @@ std::optional<std::string> energy_balances(const ModelDefinition& definition, co
   return std::abs(in - lost - stored) <= close * size ? "" : broken("energy that comes in, and is lost or stored", in, lost + stored);
 }
 
-/// What an impact does to a coordinate is the sum of the impulses at its ends: -F on a, +F on b.
+/// What the pulses of signals give each coordinate, up to a time.
+std::vector<double> blows(const System& system, const State& start, Instant end) {
+  const Model& model = system.model();
+  std::vector<double> momentum(model.coordinates.size(), 0.0);
+  Motion motion(system, start, {}, patience);
+  for (Instant last{}; motion.advance(end) == Outcome::event;) {
+    if (motion.event().kind != EventKind::knot || motion.event().time == last) continue;
+    last = motion.event().time;
+    for (const Force& force : model.forces)
+      if (force.signal >= 0)
+        momentum[static_cast<std::size_t>(force.coordinate)] +=
+            force.amplitude * system.compiled().frame().signals[static_cast<std::size_t>(force.signal)].pulse(last);
+  }
+  return momentum;
+}
+
+/// What jumps a coordinate's velocity is the sum of the impulses of stops at its ends, -F on a, +F on b, and of blows.
 std::optional<std::string> momentum_balances(const ModelDefinition& definition, const Question& question) {
   const Model model = definition.build();
   if (!model.mass.empty() || model.stops.empty()) return std::nullopt;
@@ -137,7 +153,7 @@ std::optional<std::string> momentum_balances(const ModelDefinition& definition, 
   });
   const Instant end = Instant{}.plus(question.grid * question.steps / system.period());
   const Measured found = slapstick::measure(Motion(system, definition.start(), {}, patience), end, of);
-  std::vector<double> impulses(model.coordinates.size(), 0.0);
+  std::vector<double> impulses = blows(system, definition.start(), end);
   double size = 1e-3;
   for (std::size_t i = 0; i < of.size(); ++i) {
     if (of[i].kind != Kind::force) continue;

@@ -70,7 +70,7 @@ std::optional<Edited> twin_machine(const Definition& file, campaign::Random&) {
   edited.rule.twin = twin;
   Definition& after = edited.file;
   const int n = coordinates(file);
-  for (const char* kind : {"coordinate", "spring", "damper", "force", "friction", "stop", "compliant_stop"})
+  for (const char* kind : {"coordinate", "spring", "damper", "force", "impulse", "friction", "stop", "compliant_stop"})
     for (Part part : file.of(kind)) {
       const bool body = std::string(kind) == "coordinate";
       for (int* end : {&part.a, &part.b})
@@ -94,6 +94,7 @@ std::optional<Edited> mirror(const Definition& file, campaign::Random&) {
   each_linked(edited.file, [&](Part& part) { std::swap(part.a, part.b); });
   for (Part& force : parts(edited.file, "force"))
     if (!force.texts.contains("signal")) negate(*field(force, "amplitude"));
+  for (Part& impulse : parts(edited.file, "impulse")) negate(*field(impulse, "momentum"));
   for (Part& base : parts(edited.file, "base"))
     for (Part& harmonic : base.harmonics) negate(*field(harmonic, "amplitude"));
   for (Part& signal : parts(edited.file, "signal"))
@@ -108,6 +109,8 @@ std::optional<Edited> mirror(const Definition& file, campaign::Random&) {
 std::optional<Edited> later_clock(const Definition& file, campaign::Random& random) {
   for (const Part& signal : file.of("signal"))
     if (signal.flag("repeats")) return std::nullopt;
+  const auto once = [](const Part& impulse) { return impulse.fields.contains("time") && !impulse.fields.contains("period"); };
+  if (std::ranges::any_of(file.of("impulse"), once)) return std::nullopt;  // it may be past then
   Edited edited{file, {}};
   const ModelDefinition definition = read(file);
   const System system(definition.build());
@@ -122,6 +125,10 @@ std::optional<Edited> later_clock(const Definition& file, campaign::Random& rand
   }
   if (!all_moves(system, motion.mode_id())) return std::nullopt;
   const double omega = system.model().omega;
+  for (Part& impulse : parts(edited.file, "impulse")) {
+    if (Scalar* phase = field(impulse, "phase")) add(*phase, -omega * later);
+    if (Scalar* time = field(impulse, "time")) add(*time, -later);
+  }
   for (Part& force : parts(edited.file, "force"))
     if (!force.texts.contains("signal")) advance_phase(edited.file, force, omega, later);
   for (Part& base : parts(edited.file, "base"))

@@ -24,7 +24,7 @@ TEST(Neutral, FilesAreSoundAndHaveEveryFeature) {
       }
     seen["parameter"] += !file.parameters.empty(), seen["matrix"] += !file.matrices.empty(), seen["no drive"] += !has_harmonics(file);
   }
-  for (const char* feature : {"coordinate", "signal", "base", "spring", "damper", "force", "friction", "stop", "compliant_stop", "two_sided", "repeats",
+  for (const char* feature : {"coordinate", "signal", "impulse", "base", "spring", "damper", "force", "friction", "stop", "compliant_stop", "two_sided", "repeats",
                               "frequency", "unloading_stiffness", "coefficient_outside", "stribeck", "normal_force", "spring points", "damper points",
                               "friction points", "stop points", "within", "parameter", "matrix", "no drive", "belt_speed", "law"})
     EXPECT_GE(seen[feature], 8) << feature;

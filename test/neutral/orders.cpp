@@ -51,7 +51,8 @@ std::optional<Edited> other_order_of_coordinates(const Definition& file, campaig
     if (end >= 0) end = place[static_cast<std::size_t>(end)];
   };
   each_linked(edited.file, [&](Part& part) { move(part.a), move(part.b); });
-  for (Part& force : parts(edited.file, "force")) move(force.a);
+  for (const char* kind : {"force", "impulse"})
+    for (Part& load : parts(edited.file, kind)) move(load.a);
   for (auto& [key, matrix] : edited.file.matrices) {
     const std::vector<Scalar> before = matrix.entries;
     for (std::size_t i = 0; i < n; ++i)

@@ -157,4 +157,12 @@ std::optional<Edited> zero_signal(const Definition& file, campaign::Random& rand
   return edited;
 }
 
+std::optional<Edited> zero_impulse(const Definition& file, campaign::Random& random) {
+  Part part;
+  part.name = "quiet";
+  part.a = random.below(coordinates(file));
+  part.fields = {{"momentum", number(0)}, {file.omega && random.one_in(2) ? "phase" : "time", number(random.uniform(0.5, 3))}};
+  return with_part(file, "impulse", part, random);
+}
+
 }  // namespace slapstick::neutral

@@ -7,9 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "families.hpp"
-#include "slapstick/attractor/classify.hpp"
-#include "slapstick/quantity/measure.hpp"
+#include "driven.hpp"
 
 namespace slapstick::test {
 namespace {
@@ -27,31 +25,6 @@ const std::string wall = "[[stop]]\nname = 'wall'\nbetween = ['x', 'ground']\ncl
 std::string push(const std::string& signal) {
   return "[[signal]]\nname = 'push'\n" + signal + "[[force]]\non = 'x'\nsignal = 'push'\namplitude = 'size'\n";
 }
-
-/// A file's family at its own values, and the orbit that its start settles on.
-struct Driven {
-  Driven(const std::string& text, std::vector<std::string> names, std::vector<double> at)
-      : definition(ModelDefinition::parse(text, "f.toml")),
-        values(std::move(at)),
-        family(definition.family(names, {})),
-        system(family.model(values)),
-        problem(orbit::pose(family, values)),
-        start(definition.start()),
-        orbit(orbit::settle(*problem, system, start).orbit) {}
-
-  [[nodiscard]] Measured of(const std::string& name) const { return measure(*problem, orbit->orbit, {quantity(name)}); }
-  [[nodiscard]] Quantity quantity(const std::string& name) const {
-    return find_quantity(quantities(system.model()), name);
-  }
-
-  ModelDefinition definition;
-  std::vector<double> values;
-  Family family;
-  System system;
-  std::shared_ptr<const orbit::Problem> problem;
-  State start;
-  std::optional<orbit::Solution> orbit;
-};
 
 /// x'' + c x' + x = +1, then -1: half a period later the motion is its opposite, x(T/2) = e + Phi (x_0 - e) = -x_0 with
 /// e = (1, 0) and Phi the free motion over half a period.
@@ -142,18 +115,7 @@ TEST(PeriodicSignal, HasDerivativesThatAreDifferences) {
   const Statistics value = middle.of("x").of.front();
   const std::vector<Measured> rates = measure_rates(*middle.problem, middle.orbit->orbit, {x});
   for (std::size_t j = 0; j < names.size(); ++j) {
-    const double h = 1e-5;
-    const auto mean = [&](double by) {
-      std::vector<double> values = at;
-      values[j] += by;
-      orbit::Orbit guess = middle.orbit->orbit;
-      guess.values = values;
-      const auto problem = orbit::pose(middle.family, values);
-      const auto there = orbit::refine(*problem, guess);
-      EXPECT_TRUE(there);
-      return statistic(measure(*problem, *there, {x}).of.front(), "mean");
-    };
-    const double difference = (mean(h) - mean(-h)) / (2.0 * h);
+    const double difference = middle.difference(j, 1e-5, x, "mean");
     EXPECT_NEAR(statistic_rate(value, rates[j].of.front(), "mean"), difference, 1e-6 * std::abs(difference)) << names[j];
   }
 }

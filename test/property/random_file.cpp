@@ -27,6 +27,7 @@ class FileDraw {
     if (one_in(6)) zones();
     if (coordinates() > 1 && one_in(4)) gear();
     for (int k = integer(0, 2); k > 0; --k) parameter(k);
+    if (shape_.signals && one_in(8)) impulse();
     return std::move(file_);
   }
 
@@ -84,11 +85,24 @@ class FileDraw {
       parts(spring ? "spring" : "damper").push_back(link);
       return;
     }
-    for (Part& coordinate : parts("coordinate")) coordinate.b = base_end(0), coordinate.texts["base"] = "floor";
+    carry(0);
+  }
+
+  /// Every coordinate is measured from a base.
+  void carry(int base) {
+    for (Part& coordinate : parts("coordinate"))
+      coordinate.b = base_end(base), coordinate.texts["base"] = parts("base")[static_cast<std::size_t>(base)].name;
     for (const char* kind : {"stop", "friction", "compliant_stop", "spring", "damper"})
       for (Part& part : parts(kind))
         for (int* end : {&part.a, &part.b})
-          if (*end == ground) *end = base_end(0);
+          if (*end == ground) *end = base_end(base);
+  }
+
+  static bool steps(const Part& signal) {
+    const auto& points = signal.points;
+    for (std::size_t i = 1; i < points.size(); ++i)
+      if (points[i].at.number == points[i - 1].at.number) return true;
+    return signal.flag("repeats") && points.front().force.number != points.back().force.number;
   }
 
   void tone() {
@@ -132,9 +146,25 @@ class FileDraw {
     Part base, spring;
     base.name = "road", base.texts["signal"] = "record";
     parts("base").push_back(base);
+    if (parts("base").size() == 1 && !steps(parts("signal").back()) && one_in(2)) return carry(0);
     spring.a = integer(0, coordinates() - 1), spring.b = base_end(static_cast<int>(parts("base").size()) - 1);
     spring.fields = {{"stiffness", number(real(0.1, 1))}};
     parts("spring").push_back(spring);
+  }
+
+  /// Once, or again and again: by the forcing's phase or a period.
+  void impulse() {
+    Part blow;
+    blow.name = "blow";
+    blow.a = integer(0, coordinates() - 1);
+    blow.fields = {{"momentum", number(real(-0.5, 0.5))}};
+    if (file_.omega && one_in(2)) {
+      blow.fields["phase"] = number(real(0, 6));
+    } else {
+      blow.fields["time"] = number(real(0.1, 3));
+      if (one_in(2)) blow.fields["period"] = number(real(1, 4));
+    }
+    parts("impulse").push_back(blow);
   }
 
   void two_sided(Part& stop, int share) {

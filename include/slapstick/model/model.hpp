@@ -49,7 +49,8 @@ struct Damper {
 
 /// amplitude * sin(harmonic * omega * t + phase) on one coordinate; harmonic 0 is a constant force of size `amplitude`.
 /// With a frequency of its own it is amplitude * sin(frequency * t + phase) instead, and with a signal amplitude times
-/// that signal, or times its rate of change. The harmonic is 0 then.
+/// that signal, or times its rate of change. The harmonic is 0 then. Where the signal has a pulse the force is a blow:
+/// it gives its coordinate the momentum amplitude times the pulse's area.
 struct Force {
   int coordinate = 0;
   int harmonic = 1;
@@ -64,9 +65,11 @@ struct Force {
 /// and after the last point it stays as it is there; one that repeats is periodic instead, also before its first point.
 /// Two points at one time are a step: from that time on it has the second value. One that repeats with another last
 /// value than its first steps there too.
+/// At a point there may be a pulse too, the limit of one that is short and high: it takes no time, and has an area.
 struct Signal {
   struct Knot {
     double time = 0.0, value = 0.0;
+    double pulse = 0.0;  ///< its area; no other point has this time, and none that repeats ends here
   };
   std::string name;
   std::vector<Knot> knots;  ///< at least two, `time` ascending
@@ -74,6 +77,9 @@ struct Signal {
   /// The times are in forcing periods, from the first to the last knot one period, from knot to knot 31/32 of one
   /// at most: such a signal is a drive, as a harmonic is. It repeats.
   bool in_periods = false;
+  /// Its pulses are jumps of the speed of what coordinates are measured from, by which a closed stop is hit. Else they
+  /// are blows of a force, which a closed stop bears.
+  bool kinematic = false;
 };
 
 /// A normal force that is linear in the state: constant + sum (stiffness x_i + damping v_i) + the force of a compliant

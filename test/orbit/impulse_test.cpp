@@ -1,0 +1,130 @@
+/// Cycles under blows that come back with the forcing: a closed form, energy, and two routes to multipliers and
+/// derivatives.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "driven.hpp"
+#include "slapstick/quantity/cycle_energy.hpp"
+
+namespace slapstick::test {
+namespace {
+
+using std::numbers::pi;
+
+const std::string oscillator = "name = 'm'\nomega = 'omega'\n[parameters.omega]\nvalue = 2\n[parameters.size]\nvalue = 1\n"
+                               "[parameters.late]\nvalue = 0.7\n"
+                               "[[coordinate]]\nname = 'x'\nmass = 1\n[[spring]]\nbetween = ['x', 'ground']\nstiffness = 1\n"
+                               "[[damper]]\nbetween = ['x', 'ground']\ncoefficient = 0.1\n";
+const std::string blow = "[[impulse]]\nname = 'hammer'\non = 'x'\nmomentum = 'size'\nphase = 'late'\n";
+const std::string wall = "[[stop]]\nname = 'wall'\nbetween = ['x', 'ground']\nclearance = 0.2\nrestitution = 0.8\n";
+const std::string pad = "[[friction]]\nname = 'pad'\nbetween = ['x', 'ground']\nstatic = 0.5\nkinetic = 0.2\n";
+
+/// Just behind the blow x = sum over both roots k of P / (k_1 - k_2) / (1 - exp(k T)), so that after a period of free
+/// motion and a jump by P of the velocity it is there again.
+TEST(PeriodicImpulse, HasTheClosedFormOfAGeometricSeries) {
+  const Driven struck(oscillator + blow, {}, {});
+  ASSERT_TRUE(struck.orbit);
+  EXPECT_TRUE(struck.orbit->is_motion) << struck.orbit->why;
+  const double T = pi, late = 0.7 / 2.0, to_zero = T - late;
+  const std::complex<double> k(-0.05, std::sqrt(1.0 - 0.0025));
+  const std::complex<double> mode = std::exp(k * to_zero) / ((k - std::conj(k)) * (1.0 - std::exp(k * T)));
+  const State found = orbit::at_phase_zero(*struck.problem, struck.orbit->orbit);
+  EXPECT_NEAR(found[0], 2.0 * mode.real(), 1e-13);
+  EXPECT_NEAR(found[1], 2.0 * (k * mode).real(), 1e-13);
+}
+
+/// What comes in by p (v- + v+) / 2 is what damper, friction and impacts take.
+TEST(PeriodicImpulse, BringsWhatDampersFrictionAndImpactsTake) {
+  for (const std::string& contacts : {std::string(), pad, wall, pad + wall}) {
+    const Driven struck(oscillator + contacts + blow, {}, {});
+    ASSERT_TRUE(struck.orbit) << contacts;
+    const CycleEnergy energy = cycle_energy(*struck.problem, struck.orbit->orbit);
+    EXPECT_GT(energy.input, 0.01) << contacts;
+    EXPECT_NEAR(energy.balance(), 0.0, 1e-13 * energy.input) << contacts;
+  }
+}
+
+/// Newton's equations and the motion's own tangents.
+TEST(PeriodicImpulse, HasTheMultipliersOfTheMotion) {
+  for (const std::string& contacts : {std::string(), pad, wall, pad + wall}) {
+    const Driven struck(oscillator + contacts + blow, {}, {});
+    const Classification seen = classify(struck.system, struck.start);
+    ASSERT_TRUE(struck.orbit) << contacts;
+    EXPECT_TRUE(struck.orbit->is_motion) << struck.orbit->why;
+    EXPECT_EQ(struck.orbit->label, seen.label) << contacts;
+    ASSERT_EQ(struck.orbit->multipliers.size(), seen.multipliers.size()) << contacts;
+    for (std::size_t i = 0; i < seen.multipliers.size(); ++i)
+      EXPECT_NEAR(std::abs(struck.orbit->multipliers[i] - seen.multipliers[i]), 0.0, 1e-10) << contacts;
+  }
+}
+
+/// By the frequency, the momentum and the phase.
+TEST(PeriodicImpulse, HasDerivativesThatAreDifferences) {
+  const std::vector<std::string> names = {"omega", "size", "late"};
+  const std::vector<double> at = {2.0, 1.0, 0.7};
+  const std::string other = "[[force]]\non = 'x'\namplitude = 0.3\n";
+  for (const std::string& contacts : {std::string(), wall}) {
+    const Driven struck(oscillator + contacts + other + blow, names, at);
+    ASSERT_TRUE(struck.orbit) << contacts;
+    for (const char* name : {"x", "power_in"}) {
+      const Quantity of = struck.quantity(name);
+      const Statistics value = struck.of(name).of.front();
+      const std::vector<Measured> rates = measure_rates(*struck.problem, struck.orbit->orbit, {of});
+      for (std::size_t j = 0; j < names.size(); ++j) {
+        const double difference = struck.difference(j, 1e-5, of, "mean");
+        EXPECT_NEAR(statistic_rate(value, rates[j].of.front(), "mean"), difference, 1e-6 * std::abs(difference) + 1e-9)
+            << contacts << name << names[j];
+      }
+    }
+  }
+}
+
+/// A branch over the momentum goes through 0, where it is that of another push.
+TEST(PeriodicImpulse, IsFollowedThroughNothing) {
+  const std::string other = "[[force]]\non = 'x'\namplitude = 1\n";
+  const Driven struck(oscillator + other + blow, {"size"}, {0.5});
+  ASSERT_TRUE(struck.orbit);
+  const orbit::Branch branch = orbit::follow(*struck.problem, struck.orbit->orbit, {.from = -0.5, .to = 0.5});
+  EXPECT_EQ(branch.points.front().orbit.values[0], -0.5);
+  EXPECT_EQ(branch.points.back().orbit.values[0], 0.5);
+  EXPECT_TRUE(branch.special.empty() || branch.special.front().type != orbit::SpecialType::LP);
+}
+
+const std::string table = "name = 'm'\nomega = 'omega'\n[parameters.omega]\nvalue = 2\n[parameters.size]\nvalue = 1\n"
+                          "[parameters.late]\nvalue = 0.5\n"
+                          "[[signal]]\nname = 's'\npoints = [[0, 0], ['late', 'size'], [1, 0]]\nrepeats = true\nin_periods = true\n"
+                          "[[base]]\nname = 'table'\nsignal = 's'\n"
+                          "[[coordinate]]\nname = 'x'\nmass = 1\nbase = 'table'\n"
+                          "[[force]]\non = 'x'\nharmonic = 0\namplitude = -0.8\n"
+                          "[[damper]]\nbetween = ['x', 'ground']\ncoefficient = 0.1\n"
+                          "[[stop]]\nname = 'top'\nbetween = ['table', 'x']\nclearance = 0\nrestitution = 0.4\n";
+
+/// A ball on a table that moves by straight lines: what the inertia brings is what damper and impacts take; Newton's
+/// equations and the motion's own tangents; derivatives against differences.
+TEST(WallOfASignal, HasCyclesWithAllThatBelongsToThem) {
+  const std::vector<std::string> names = {"omega", "size", "late"};
+  const std::vector<double> at = {2.0, 1.0, 0.5};
+  const Driven ball(table, names, at);
+  const Classification seen = classify(ball.system, ball.start);
+  ASSERT_TRUE(ball.orbit);
+  EXPECT_TRUE(ball.orbit->is_motion) << ball.orbit->why;
+  EXPECT_EQ(ball.orbit->label, seen.label);
+  ASSERT_EQ(ball.orbit->multipliers.size(), seen.multipliers.size());
+  for (std::size_t i = 0; i < seen.multipliers.size(); ++i)
+    EXPECT_NEAR(std::abs(ball.orbit->multipliers[i] - seen.multipliers[i]), 0.0, 1e-10);
+  const CycleEnergy energy = cycle_energy(*ball.problem, ball.orbit->orbit);
+  EXPECT_NEAR(energy.balance(), 0.0, 1e-12 * std::abs(energy.impacts.front()));
+  const Quantity x = ball.quantity("x");
+  const std::vector<Measured> rates = measure_rates(*ball.problem, ball.orbit->orbit, {x});
+  for (std::size_t j = 0; j < names.size(); ++j) {
+    const double difference = ball.difference(j, 1e-5, x, "mean");
+    EXPECT_NEAR(statistic_rate(ball.of("x").of.front(), rates[j].of.front(), "mean"), difference, 1e-6 * std::abs(difference) + 1e-9)
+        << names[j];
+  }
+}
+
+}  // namespace
+}  // namespace slapstick::test

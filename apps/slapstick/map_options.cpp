@@ -102,6 +102,7 @@ void read_quantities(const MapOptions& options, MapWish& wish) {
   for (const Wanted& one : wish.of) {
     if (one.quantity.kind == Quantity::Kind::parameter)
       throw InputError("--of: " + in_quotes(one.quantity.name) + " is a parameter, which no motion changes");
+    check_of_stretch("--of", one);
     wish.problem.of.push_back(one.quantity);
     wish.problem.statistics.push_back(one.statistic);
   }

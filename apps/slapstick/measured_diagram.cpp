@@ -22,14 +22,17 @@ std::string statistic_axis(const Wanted& wanted) {
   const std::string& statistic = wanted.statistic;
   const bool bare = statistic == "crest" || statistic == "number" || statistic == "min_at" || statistic == "max_at" ||
                     statistic == "impulse";
-  return with_unit(axis_text(wanted.quantity.name + ":" + statistic), bare ? "" : wanted.quantity.unit);
+  const std::string unit = statistic.ends_with(":phase") ? "rad" : bare ? "" : wanted.quantity.unit;
+  return with_unit(axis_text(wanted.quantity.name + ":" + statistic), unit);
 }
 
 MeasuredDiagram::MeasuredDiagram(const ChosenModel& chosen, const std::string& y, const Sweep& sweep)
     : chosen_(chosen), sweep_(sweep), wanted_(parse_statistics("--y", y, chosen)) {
-  for (const Wanted& one : wanted_)
+  for (const Wanted& one : wanted_) {
     if (one.quantity.kind == Quantity::Kind::parameter)
       throw InputError("--y: " + in_quotes(one.quantity.name) + " is a parameter, which no motion changes");
+    check_of_stretch("--y", one);
+  }
 }
 
 std::vector<Quantity> MeasuredDiagram::of() const {

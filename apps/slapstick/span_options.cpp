@@ -90,14 +90,22 @@ std::optional<Span> SpanOptions::span(const ChosenModel& chosen, long long inste
   return span;
 }
 
+void check_of_stretch(const std::string& argument, const Wanted& one) {
+  try {
+    check_statistic_of_stretch(one.quantity, one.statistic);
+  } catch (const InputError& error) {
+    throw InputError(argument + ": " + error.message());
+  }
+}
+
 std::vector<Wanted> parse_wanted(const std::string& argument, const std::string& text, const std::vector<Quantity>& all) {
   std::vector<Wanted> wanted;
   try {
     for (const std::string& word : split(text, ',')) {
       const auto parts = split(word, ':');
-      if (parts.size() > 2 || parts[0].empty()) throw InputError(in_quotes(word) + " is not of the form Q or Q:STAT");
-      wanted.push_back({find_quantity(all, parts[0]), parts.size() == 2 ? parts[1] : ""});
-      if (parts.size() == 2) check_statistic(wanted.back().quantity, parts[1]);
+      if (parts[0].empty()) throw InputError(in_quotes(word) + " is not of the form Q or Q:STAT");
+      wanted.push_back({find_quantity(all, parts[0]), parts.size() > 1 ? word.substr(parts[0].size() + 1) : ""});
+      if (parts.size() > 1) check_statistic(wanted.back().quantity, wanted.back().statistic);
     }
   } catch (const InputError& error) {
     throw InputError(argument + ": " + error.message());

@@ -50,6 +50,9 @@ struct Wanted {
   std::string statistic;
 };
 
+/// @throws InputError naming the argument if only a cycle has the statistic
+void check_of_stretch(const std::string& argument, const Wanted& one);
+
 /// Reads "Q[:STAT],..". @throws InputError naming the argument
 [[nodiscard]] std::vector<Wanted> parse_wanted(const std::string& argument, const std::string& text,
                                                const std::vector<Quantity>& all);

@@ -30,6 +30,8 @@ int run(const Options& all, const Context& context) {
   Progress progress("periods", options.whole(chosen, periods_without_cycle), options.progress);
   const auto span = options.span(chosen, periods_without_cycle, context, &progress);
   if (!span) return interrupted;
+  for (const Wanted& one : wanted)
+    if (!span->cycle && !one.statistic.empty()) check_of_stretch("--of", one);
   const Measured found = measure(*span, quantities_of(wanted), &context.stop, [&](double now) { progress.update(now); });
   if (!(found.duration > 0.0)) return interrupted;  // Ctrl-C before anything was measured
   if (!all.sensitivity.empty() && !span->cycle)
@@ -56,7 +58,7 @@ Action add_measure(Arguments& arguments) {
   options->span.declare(arguments);
   arguments.text("--of", options->span.of, "Q[:STAT],..",
                  "quantities, and of each one statistic or all: mean, rms, min, max, min_at, max_at, peak_to_peak, "
-                 "crest, impulse, number");
+                 "crest, impulse, number; of a cycle h1 .. h16, h1:phase ..");
   arguments.count("--bins", options->bins, 1, 100'000, "histograms of the impacts of every stop, with N bins (none)");
   declare_sensitivity(arguments, options->sensitivity);
   arguments.footer(

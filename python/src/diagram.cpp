@@ -160,7 +160,7 @@ std::unique_ptr<Diagram> diagram(const ModelDefinition& definition, const Overri
                                  const Measure& measure, nb::object progress) {
   auto into = std::make_unique<Diagram>();
   into->measured.resize(measure.of.size());
-  for (std::size_t k = 0; k < measure.of.size(); ++k) check_statistic(measure.of[k], measure.statistics[k]);
+  for (std::size_t k = 0; k < measure.of.size(); ++k) check_statistic_of_stretch(measure.of[k], measure.statistics[k]);
   const Sweep sweep(definition, fixed, name, values, start);
   const Model model = sweep.check(measure.of.empty());
   sweep::DiagramProblem problem = sweep.problem({direction, rule, transient, impacts, most_periods, stops, threads});

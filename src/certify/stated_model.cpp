@@ -105,7 +105,7 @@ std::string not_stated(const Model& model) {
     if (contact.normal && contact.normal->terms.size() > most_corners)
       return "a normal force of more than 1000 terms (" + in_quotes(contact.name) + ")";
   for (const Force& force : model.forces) {
-    if (force.signal >= 0) return "signals (" + in_quotes(model.signals[static_cast<std::size_t>(force.signal)].name) + ")";
+    if (force.signal >= 0) return "signals and impulses (" + in_quotes(model.signals[static_cast<std::size_t>(force.signal)].name) + ")";
   }
   return "";
 }

@@ -302,7 +302,7 @@ InputError ModelBuilder::refusal(const Fault& fault, const Model& model) const {
     if (from && from->lower && fault.field == "clearance" && part.fields.contains("clearance_lower"))
       found = part.fields.find("clearance_lower");
     line = found == part.fields.end() ? part.line : found->second.line;
-    if (fault.part == "force" && kind != fault.part) place += ": with its base's motion, as a force";
+    if (fault.part == "force" && kind != fault.part && kind != "impulse") place += ": with its base's motion, as a force";
   }
   return InputError(definition_.place(line), place + ": " + fault.what);
 }

@@ -85,8 +85,11 @@ void demand_period(const Model& model) {
   if (other != model.forces.end()) {
     const Signal& signal = model.signals[static_cast<std::size_t>(other->signal)];
     has = "a signal, '" + signal.name + "'" +
-          (signal.repeats ? ", that repeats by a period of its own: give its points in forcing periods (in_periods = "
-                            "true), or its motion never repeats"
+          (signal.repeats && pulses(signal) ? ", that repeats by a period of its own: give the impulse a phase, or all "
+                                              "impulses periods of which the longest is a multiple of each other one; "
+                                              "else its motion never repeats"
+           : signal.repeats ? ", that repeats by a period of its own: give its points in forcing periods (in_periods = "
+                              "true), or its motion never repeats"
                           : ": its motion never repeats");
   }
   throw InputError("model '" + model.name + "' has " + has +

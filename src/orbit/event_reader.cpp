@@ -43,20 +43,35 @@ int first_signal(const Model& model) {
 }
 
 /// The points of signals at one instant end a leg each. Those behind the first are tied.
+/// Pulses come at their own ends, and between them no contact holds what the first has moved: the states are those
+/// behind. Where stops bear them or are hit, all come at the last end: together they say which stops.
 std::vector<Leg> ends_at_knots(const flow::Engine& engine, Leg leg) {
   const mode::Frame& frame = engine.system().frame();
   const Instant now = engine.event().time;
   const std::vector<int> behind = frame.lines_at(now);
   std::vector<Leg> all;
+  std::vector<int> pulses;
+  bool moved = false;
   leg.ending = Ending::knot;
   for (std::size_t k = 0; k < frame.signals.size(); ++k) {
     if (!frame.signals[k].has_knot(now)) continue;
     leg.contact = static_cast<int>(k);
     leg.event_contact = first_signal(engine.system().model()) + leg.contact;
+    leg.pulses = {leg.contact};  // which may be none at these values of the parameters
+    pulses.push_back(leg.contact);
+    moved = moved || frame.signals[k].pulse(now) != 0.0;
     all.push_back(leg);
     leg.lines[k] = behind[k];
     leg.tied = true;
   }
+  const mode::ContactStates& after = engine.system().mode(engine.mode_id()).states();
+  const bool together = !engine.strikes().empty();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (together) all[i].pulses.clear();
+    if (moved && !together && i > 0) all[i].states = after;
+  }
+  if (together) all.back().pulses = pulses;
+  all.back().strikes = flow::separated_strikes(frame, engine.strikes());
   // The last is called by what the points make happen, if that is more than the points themselves.
   const auto events = engine.events_of_instant();
   const auto more = ranges::find_if(events, [](const Event& event) { return event.kind != EventKind::knot; });
@@ -99,7 +114,6 @@ void EventReader::read() {
     const VectorXd first = flow::contact_state(system.frame(), X_before);
     for (const Leg& end : ends_at_knots(engine, leg)) read_.push_back({end, t, first});
     read_.back().x = last;
-    read_.back().leg.strikes = flow::separated_strikes(system.frame(), motion_.strikes());
     return;
   }
   touched_ = engine.hit_guard() == nullptr || leg.event == EventKind::graze;

@@ -125,17 +125,30 @@ Jet knot_jet(const ModeSet& set, const Leg& leg, const Jet& X, double t_end) {
   return h;
 }
 
-/// The blow of a pulse at the end of a signal's line (Frame::kick): K = F area, F the signal's column of the forces.
-void kick(const ModeSet& set, const Leg& leg, Jet& X) {
-  const RowVectorXd area = pulse_area(set, leg);
-  if (area.isZero(0.0)) return;
+/// The blow of a pulse (Frame::kick): K = F area, F the signal's column of the forces.
+void kick(const ModeSet& set, const Pulse& pulse, Jet& X) {
   const mode::Frame& frame = set.frame();
-  const int column = frame.signal(static_cast<std::size_t>(leg.contact));
+  const int column = frame.signal(static_cast<std::size_t>(pulse.signal));
   const VectorXd per_area = frame.free.col(column);
-  X.value().segment(frame.d, frame.d) += per_area * area[0];
+  X.value().segment(frame.d, frame.d) += per_area * pulse.area[0];
   for (Index p = 0; p < X.parameters; ++p)
     X.by_parameter().col(p).segment(frame.d, frame.d) +=
-        per_area * area[1 + p] + set.frame_rate(static_cast<std::size_t>(p)).free.col(column) * area[0];
+        per_area * pulse.area[1 + p] + set.frame_rate(static_cast<std::size_t>(p)).free.col(column) * pulse.area[0];
+}
+
+/// What happens to the velocities at a leg's end, as an Engine does it: the blows of forces, which stops bear, then the
+/// jumps of walls, then impacts.
+void strike(const ModeSet& set, const Leg& leg, Jet& X) {
+  const std::vector<Pulse> all = pulses(set, leg);
+  const auto kick_all = [&](bool kinematic) {
+    for (const Pulse& pulse : all)
+      if (pulse.kinematic == kinematic) kick(set, pulse, X);
+  };
+  kick_all(false);
+  auto next = leg.strikes.begin();
+  if (!all.empty() && next != leg.strikes.end() && next->to_rest) push(set, *next++, X);
+  kick_all(true);
+  for (; next != leg.strikes.end(); ++next) push(set, *next, X);
 }
 
 /// A number and its derivatives, the columns of a jet.
@@ -220,19 +233,22 @@ Jet extended(const ModeSet& set, const std::vector<int>& lines, const VectorXd& 
   return X;
 }
 
-RowVectorXd pulse_area(const ModeSet& set, const Leg& leg) {
-  RowVectorXd area = RowVectorXd::Zero(1 + static_cast<Index>(set.parameters()));
-  if (leg.ending != Ending::knot) return area;
-  const auto signal = static_cast<std::size_t>(leg.contact), end = static_cast<std::size_t>(leg.lines[signal]) + 1;
-  area[0] = set.model().signals[signal].knots[end].pulse;
-  for (std::size_t p = 0; p < set.parameters(); ++p)
-    area[static_cast<Index>(1 + p)] = set.rate(p).signals[signal].knots[end].pulse;
-  return area;
+/// Of a signal whose line ends here, or, of a tied end, has ended at this instant.
+std::vector<Pulse> pulses(const ModeSet& set, const Leg& leg) {
+  std::vector<Pulse> all;
+  if (leg.ending != Ending::knot) return all;
+  for (const int signal : leg.pulses) {
+    const auto k = static_cast<std::size_t>(signal), knot = static_cast<std::size_t>(leg.lines[k] + (signal == leg.contact ? 1 : 0));
+    RowVectorXd area(1 + static_cast<Index>(set.parameters()));
+    area[0] = set.model().signals[k].knots[knot].pulse;
+    for (std::size_t p = 0; p < set.parameters(); ++p) area[static_cast<Index>(1 + p)] = set.rate(p).signals[k].knots[knot].pulse;
+    if (!area.isZero(0.0)) all.push_back({signal, set.model().signals[k].kinematic, area});
+  }
+  return all;
 }
 
-VectorXd behind_pulse(const ModeSet& set, const Leg& leg, VectorXd X) {
-  const double area = pulse_area(set, leg)[0];
-  if (area != 0.0) set.frame().kick(static_cast<std::size_t>(leg.contact), area, X.data());
+VectorXd behind_pulses(const ModeSet& set, const Leg& leg, VectorXd X) {
+  for (const Pulse& pulse : pulses(set, leg)) set.frame().kick(static_cast<std::size_t>(pulse.signal), pulse.area[0], X.data());
   return X;
 }
 
@@ -312,8 +328,7 @@ LegValue leg_value(const ModeSet& set, const Leg& leg, const Leg& next, const Ve
     h = chatter_jet(set, leg.contact, extended(set, leg.lines, x, t_begin), t_begin, t_end);
   if (leg.ending == Ending::knot) h = knot_jet(set, leg, X, t_end);
   Jet struck = X;
-  kick(set, leg, struck);
-  for (const Motion::Strike& strike : leg.strikes) push(set, strike, struck);
+  strike(set, leg, struck);
   return {std::move(X), contact_jet(set, next, struck), std::move(h)};
 }
 

@@ -8,6 +8,7 @@
 /// The derivative with respect to a parameter follows the motion as Y' = A Y + A_p X; the terms of both series are summed together.
 /// Relative error: some roundings times the number of steps.
 #include <Eigen/Core>
+#include <vector>
 
 #include "slapstick/orbit/itinerary.hpp"
 #include "orbit/mode_set.hpp"
@@ -57,11 +58,16 @@ struct LegValue {
 /// The extended state at the leg's start, after the plastic impact if the leg is the tail of a chatter.
 [[nodiscard]] Jet leg_start(const ModeSet& set, const Leg& leg, const Eigen::VectorXd& x, double t_begin);
 
-/// The area of the pulse at a leg's end and its derivatives by the parameters; zeros of a leg that ends otherwise.
-[[nodiscard]] Eigen::RowVectorXd pulse_area(const ModeSet& set, const Leg& leg);
+/// The pulse of a signal at a leg's end.
+struct Pulse {
+  int signal;
+  bool kinematic;
+  Eigen::RowVectorXd area;  ///< and its derivatives by the parameters
+};
+[[nodiscard]] std::vector<Pulse> pulses(const ModeSet& set, const Leg& leg);
 
-/// An extended state at a leg's end, and what the pulse there makes of it.
-[[nodiscard]] Eigen::VectorXd behind_pulse(const ModeSet& set, const Leg& leg, Eigen::VectorXd X);
+/// An extended state at a leg's end, and what the pulses there make of it.
+[[nodiscard]] Eigen::VectorXd behind_pulses(const ModeSet& set, const Leg& leg, Eigen::VectorXd X);
 
 /// The extended state so many periods after the start of one of an orbit's legs; no derivatives.
 [[nodiscard]] Eigen::VectorXd state_within(const ModeSet& set, const Orbit& orbit, std::size_t leg, double after);

@@ -219,13 +219,17 @@ bool passes_without_stick(const Orbit& orbit, std::size_t leg) {
   return orbit.shape.legs[(leg + 1) % orbit.legs()].states.frictions[here.contact] != mode::FrictionState::stick;
 }
 
-/// Does a blow at the start of a leg move a friction contact? Then it slips at once, whatever its limit.
+/// Does a blow at the instant at which a leg starts move a friction contact? Then it slips at once, whatever its limit.
 bool is_blown(const ModeSet& set, const Itinerary& shape, std::size_t leg, int contact) {
   const int own = set.frame().frictions[static_cast<std::size_t>(contact)].own;
-  return ranges::any_of(ended_at_start(shape, leg), [&](std::size_t before) {
-    const Leg& end = shape.legs[before];
-    if (pulse_area(set, end)[0] == 0.0) return false;
-    return !end.strikes.empty() || set.frame().free(own, set.frame().signal(static_cast<std::size_t>(end.contact))) != 0.0;
+  const std::size_t last = ended_at_start(shape, leg).front();
+  std::vector<std::size_t> ends = ended_at_start(shape, leg), later = ended_at_end(shape, last);
+  ends.insert(ends.end(), later.begin(), later.end());
+  return ranges::any_of(ends, [&](std::size_t end) {
+    const std::vector<Pulse> all = pulses(set, shape.legs[end]);
+    return ranges::any_of(all, [&](const Pulse& pulse) {
+      return !shape.legs[end].strikes.empty() || set.frame().free(own, set.frame().signal(static_cast<std::size_t>(pulse.signal))) != 0.0;
+    });
   });
 }
 

@@ -160,7 +160,7 @@ std::vector<EventOfOrbit> events(const Problem& problem, const Orbit& orbit) {
     const LegValue value = leg_value(set, leg, next, orbit.x[i], orbit.t[i], orbit.t[i + 1]);
     EventOfOrbit event{leg.event,  leg.event_contact, orbit.t[i + 1], 0.0, State(2 * static_cast<std::size_t>(frame.n)),
                        next.states};
-    Eigen::VectorXd X = behind_pulse(set, leg, value.X_end.value());
+    Eigen::VectorXd X = behind_pulses(set, leg, value.X_end.value());
     land(frame, leg, X);
     frame.leave(X.data(), X.data() + frame.d, event.before.data());
     const auto stops = frame.stops.size(), frictions = frame.frictions.size(),

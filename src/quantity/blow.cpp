@@ -70,7 +70,7 @@ std::optional<Blow> Blows::between(const mode::Outline& last, const Moving& befo
       return one.kind == Quantity::Kind::acceleration || one.kind == Quantity::Kind::input;
     });
     std::optional<Formulas> formulas;
-    if (asked) formulas.emplace(model_, frame_, last, rates_);  // of velocities alone: they are those of any mode
+    if (asked) formulas.emplace(model_, frame_, last);  // of velocities alone, those of any mode
     for (std::size_t k = 0; k < of_.size(); ++k) {
       blow.impulses[k] = share(of_[k], of_[k].index, of, formulas, before, after);
       if (of_[k].minus >= 0) blow.impulses[k] -= share(of_[k], of_[k].minus, of, formulas, before, after);
@@ -145,9 +145,10 @@ Number Blows::work(const Formulas& formulas, const Moving& before, const Moving&
     for (std::size_t i = 0; i < model_.forces.size(); ++i) {
       const Force& force = model_.forces[i];
       if (force.signal != signal) continue;
-      const Row row = formulas.velocity(force.coordinate);
+      const RowVector row = formulas.velocity(force.coordinate).value;
+      const double drifts = rates_ != nullptr ? frame_.W_inverse.row(force.coordinate).dot(rates_->frame.drift.head(frame_.n)) : 0.0;
       const auto speed = [&](const Moving& at) {
-        return rates_ != nullptr ? row.at(at.X, at.by) : Number{row.value.dot(at.X), 0.0};
+        return Number{row.dot(at.X), rates_ != nullptr ? row.dot(at.by) + drifts : 0.0};
       };
       const Number amplitude{force.amplitude, rates_ != nullptr ? rates_->model.forces[i].amplitude : 0.0};
       sum += 0.5 * amplitude * area * (speed(before) + speed(after));

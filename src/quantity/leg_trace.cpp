@@ -45,9 +45,9 @@ Moving Cycle::start(std::size_t i) const {
                          X.by_parameter().col(static_cast<Eigen::Index>(parameter_))};
 }
 
-/// Time at which leg i begins, in a trace that begins with leg `first`.
+/// Time at which leg i begins, in a trace that begins with leg `first`: from phase 0 on, without forcing from event 0.
 Number Cycle::begin(std::size_t i, std::size_t first) const {
-  const Number zero{std::ceil(orbit_.t.front()), 0.0};
+  const Number zero = orbit_.shape.n > 0 ? Number{std::ceil(orbit_.t.front()), 0.0} : instant(0);
   return (instant(i) - zero + (i < first ? instant(orbit_.legs()) - instant(0) : Number{})) * period();
 }
 
@@ -75,8 +75,8 @@ void Cycle::trace(Tracer& tracer) const {
     if (sums_impacts(leg(i))) tracer.chatter(leg(i).contact);
     piece(i, begin, tracer);
     for (const Motion::Strike& strike : leg(i).strikes) tracer.strike(strike.stops);
-    if (const Eigen::RowVectorXd area = orbit::pulse_area(*set_, leg(i)); !area.isZero(0.0))
-      tracer.pulse(leg(i).contact, {area[0], rate_ != nullptr ? area[1 + static_cast<Eigen::Index>(parameter_)] : 0.0});
+    for (const orbit::Pulse& pulse : orbit::pulses(*set_, leg(i)))
+      tracer.pulse(pulse.signal, {pulse.area[0], rate_ != nullptr ? pulse.area[1 + static_cast<Eigen::Index>(parameter_)] : 0.0});
     for (const auto& [contact, w] : met(i))
       if (contact < static_cast<int>(model().stops.size())) tracer.impact(contact, w);
     if (leg(i).ending == orbit::Ending::chatter) tracer.begin_flight(leg(i).contact, begin + lasts(i));
@@ -90,7 +90,7 @@ std::vector<std::pair<int, double>> Cycle::met(std::size_t i) const {
   std::vector<std::pair<int, double>> all;
   const orbit::Leg &before = leg(i), &after = leg((i + 1) % orbit_.legs());
   if (before.strikes.empty() && before.states.compliant == after.states.compliant) return all;
-  const Vector X = orbit::behind_pulse(*set_, before, orbit::state_within(*set_, orbit_, i, orbit_.duration(i)));
+  const Vector X = orbit::behind_pulses(*set_, before, orbit::state_within(*set_, orbit_, i, orbit_.duration(i)));
   const auto add = [&](std::size_t contact, const mode::ContactRow& row) {
     if (const double w = frame().velocity_row(row).dot(X); w > 0.0) all.emplace_back(static_cast<int>(contact), w);
   };

@@ -17,6 +17,8 @@ class Cycle {
   [[nodiscard]] const Model& model() const { return set_->model(); }
   [[nodiscard]] const mode::Frame& frame() const { return set_->frame(); }
   [[nodiscard]] Number period() const { return {set_->period(), rate_ != nullptr ? set_->period_rate(parameter_) : 0.0}; }
+  /// Of harmonics: one over the forcing period, without forcing over the cycle's duration.
+  [[nodiscard]] Number frequency() const { return Number{1.0, 0.0} / (orbit_.shape.n > 0 ? period() : duration()); }
   [[nodiscard]] Number duration() const { return (instant(orbit_.legs()) - instant(0)) * period(); }
   /// From an impact to the same one a cycle later. Times count from the first phase 0 after
   /// event 0 (orbit::at_phase_zero), and may be negative.

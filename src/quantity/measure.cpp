@@ -7,6 +7,7 @@
 
 #include "flow/compiled_system.hpp"
 #include "quantity/first_extreme.hpp"
+#include "quantity/harmonics.hpp"
 #include "quantity/leg_trace.hpp"
 #include "quantity/quadrature.hpp"
 #include "quantity/tracer.hpp"
@@ -67,8 +68,9 @@ void add_step(const Polynomial& f, double begin, double length, double period, S
 
 class Statistician : public Listener {
  public:
-  Statistician(const Model& model, const std::vector<Quantity>& of)
-      : of_(of), sums_(of.size()), found_{0.0, std::vector<Statistics>(of.size()), {}, true} {
+  /// @param frequency  of the harmonics, turns per time; 0: of what is no cycle
+  Statistician(const Model& model, const std::vector<Quantity>& of, double frequency)
+      : of_(of), sums_(of.size()), harmonics_(of.size(), Harmonics({frequency, 0.0})), found_{0.0, std::vector<Statistics>(of.size()), {}, true} {
     for (const Stop& stop : model.stops) found_.stops.push_back({stop.name, {}, {}, {}});
     for (const CompliantStop& stop : model.compliant_stops) found_.stops.push_back({stop.name, {}, {}, {}, true});
     period_ = model.forcing_period();
@@ -77,14 +79,18 @@ class Statistician : public Listener {
   }
 
   void step(const Step& step) override {
-    for (std::size_t k = 0; k < of_.size(); ++k)
-      if (!of_[k].at_impacts()) add_step(step.values[k], step.begin, step.length, period_, sums_[k]);
+    for (std::size_t k = 0; k < of_.size(); ++k) {
+      if (of_[k].at_impacts()) continue;
+      add_step(step.values[k], step.begin, step.length, period_, sums_[k]);
+      harmonics_[k].add(step.values[k], nullptr, step);
+    }
   }
 
   void blow(const Blow& blow) override {
     for (std::size_t k = 0; k < of_.size(); ++k) {
       const double impulse = blow.impulses[k].value;
       if (impulse == 0.0) continue;
+      harmonics_[k].add(blow.impulses[k], blow.time);
       found_.of[k].impulse += impulse;
       ++found_.of[k].impulses;
     }
@@ -111,6 +117,7 @@ class Statistician : public Listener {
       one.mean = (sums_[k].integral.value() + one.impulse) / duration;
       one.rms = std::sqrt(sums_[k].square.value() / duration);
       sums_[k].extremes.write(one);
+      one.harmonics = harmonics_[k].over({duration, 0.0}).value;
     }
     for (StopStatistics& stop : found_.stops)
       for (Statistics* one : {&stop.w, &stop.impulse, &stop.loss}) finish(*one);
@@ -144,6 +151,7 @@ class Statistician : public Listener {
 
   const std::vector<Quantity>& of_;
   std::vector<Sums> sums_;
+  std::vector<Harmonics> harmonics_;
   Measured found_;
   double period_ = 1.0;
   int rigid_ = 0, between_ = 0;  ///< stops, and the friction contacts that are numbered behind them
@@ -157,7 +165,7 @@ Measured measure(Motion motion, Instant end, const std::vector<Quantity>& of, co
   if (end <= motion.time()) throw InputError("measure: the end is not later than the start");
   const Instant start = motion.time();
   const System system = motion.system();
-  quantity::Statistician listener(system.model(), of);
+  quantity::Statistician listener(system.model(), of, 0.0);
   quantity::Tracer tracer(system.model(), system.compiled().frame(), {system.period(), 0.0}, of, listener);
   const bool complete = quantity::trace(motion, end, tracer, stop, progress);
   return listener.result(motion.time().since(start) * system.period(), complete);
@@ -165,7 +173,7 @@ Measured measure(Motion motion, Instant end, const std::vector<Quantity>& of, co
 
 Measured measure(const orbit::Problem& problem, const orbit::Orbit& orbit, const std::vector<Quantity>& of) {
   const quantity::Cycle cycle(problem, orbit);
-  quantity::Statistician listener(cycle.model(), of);
+  quantity::Statistician listener(cycle.model(), of, cycle.frequency().value);
   quantity::Tracer tracer(cycle.model(), cycle.frame(), cycle.period(), of, listener);
   cycle.trace(tracer);
   Measured found = listener.result(cycle.duration().value, true);

@@ -5,6 +5,7 @@
 
 #include "base/text.hpp"
 #include "quantity/first_extreme.hpp"
+#include "quantity/harmonics.hpp"
 #include "quantity/leg_trace.hpp"
 #include "quantity/quadrature.hpp"
 #include "quantity/tracer.hpp"
@@ -77,20 +78,26 @@ double rms_rate(Number square, Number size) {
 
 class RateStatistician : public Listener {
  public:
-  RateStatistician(const Model& model, const std::vector<Quantity>& of)
-      : of_(of), sums_(of.size()), at_impacts_(of.size()), period_(model.forcing_period()), rigid_(static_cast<int>(model.stops.size())),
+  RateStatistician(const Model& model, const std::vector<Quantity>& of, Number frequency)
+      : of_(of), sums_(of.size()), harmonics_(of.size(), Harmonics(frequency)), at_impacts_(of.size()), period_(model.forcing_period()), rigid_(static_cast<int>(model.stops.size())),
         between_(static_cast<int>(model.frictions.size())) {
     for (const Stop& stop : model.stops) stops_.push_back({stop.name, false, {}, {}, {}});
     for (const CompliantStop& stop : model.compliant_stops) stops_.push_back({stop.name, true, {}, {}, {}});
   }
 
   void step(const Step& step) override {
-    for (std::size_t k = 0; k < of_.size(); ++k)
-      if (!of_[k].at_impacts()) add_step(step.values[k], step.rates[k], step, period_, sums_[k]);
+    for (std::size_t k = 0; k < of_.size(); ++k) {
+      if (of_[k].at_impacts()) continue;
+      add_step(step.values[k], step.rates[k], step, period_, sums_[k]);
+      harmonics_[k].add(step.values[k], &step.rates[k], step);
+    }
   }
 
   void blow(const Blow& blow) override {
-    for (std::size_t k = 0; k < of_.size(); ++k) sums_[k].impulse += blow.impulses[k];
+    for (std::size_t k = 0; k < of_.size(); ++k) {
+      sums_[k].impulse += blow.impulses[k];
+      harmonics_[k].add(blow.impulses[k], blow.time);
+    }
     for (const Struck& one : blow.impacts) {
       OfStop& stop = stops_[static_cast<std::size_t>(one.contact < rigid_ ? one.contact : one.contact - between_)];
       add(one.w, blow.time, stop.w);
@@ -104,7 +111,7 @@ class RateStatistician : public Listener {
   [[nodiscard]] Measured result(Number duration) const {
     Measured found{duration.rate, {}, {}, true};
     for (std::size_t k = 0; k < of_.size(); ++k)
-      found.of.push_back(of_[k].at_impacts() ? of_values(at_impacts_[k], duration) : of_time(sums_[k], duration));
+      found.of.push_back(of_[k].at_impacts() ? of_values(at_impacts_[k], duration) : of_time(sums_[k], harmonics_[k], duration));
     for (const OfStop& stop : stops_)
       found.stops.push_back({stop.name, of_values(stop.w, duration), of_values(stop.impulse, duration),
                              of_values(stop.loss, duration), stop.compliant});
@@ -128,7 +135,7 @@ class RateStatistician : public Listener {
     return at.rate - duration.rate * std::floor(at.value / duration.value);
   }
 
-  static Statistics of_time(const RateSums& sums, Number duration) {
+  static Statistics of_time(const RateSums& sums, const Harmonics& harmonics, Number duration) {
     Statistics rate;
     rate.mean = ((sums.integral + sums.impulse) / duration).rate;
     rate.rms = rms_rate(sums.square, duration);
@@ -137,6 +144,7 @@ class RateStatistician : public Listener {
     rate.least_at = within(sums.least.at, duration);
     rate.greatest_at = within(sums.greatest.at, duration);
     rate.impulse = sums.impulse.rate;
+    rate.harmonics = harmonics.over(duration).rate;
     return rate;
   }
 
@@ -167,6 +175,7 @@ class RateStatistician : public Listener {
 
   const std::vector<Quantity>& of_;
   std::vector<RateSums> sums_;
+  std::vector<Harmonics> harmonics_;
   std::vector<Places> at_impacts_;
   std::vector<OfStop> stops_;
   double period_;
@@ -186,7 +195,7 @@ std::vector<Measured> measure_rates(const orbit::Problem& problem, const orbit::
   for (std::size_t j = 0; j < rates.size(); ++j) {
     const quantity::Cycle cycle(set, orbit, rates[j], j);
     const quantity::Rates model{set->rate(j), set->frame_rate(j)};
-    quantity::RateStatistician listener(cycle.model(), of);
+    quantity::RateStatistician listener(cycle.model(), of, cycle.frequency());
     quantity::Tracer tracer(cycle.model(), cycle.frame(), cycle.period(), of, listener, &model);
     cycle.trace(tracer);
     all.push_back(listener.result(cycle.duration()));

@@ -53,7 +53,7 @@ void check_map(const MapProblem& problem) {
   demand_of_map(problem.start == MapStart::carry || problem.direction == Direction::up,
          "direction is for start = carry; else all directions are the same");
   demand_of_map(problem.of.size() == problem.statistics.size(), "every quantity needs a statistic");
-  for (std::size_t k = 0; k < problem.of.size(); ++k) check_statistic(problem.of[k], problem.statistics[k]);
+  for (std::size_t k = 0; k < problem.of.size(); ++k) check_statistic_of_stretch(problem.of[k], problem.statistics[k]);
   demand_of_map(problem.measured_periods >= 1, "measured_periods must be positive");
   demand_of_map(problem.shards >= 1 && problem.shard >= 0 && problem.shard < problem.shards, "shard must be in 0 .. shards - 1");
   demand_of_map(problem.threads >= 0, "threads = " + std::to_string(problem.threads) + " is below 0");

@@ -117,12 +117,77 @@ TEST(WallOfASignal, HasCyclesWithAllThatBelongsToThem) {
     EXPECT_NEAR(std::abs(ball.orbit->multipliers[i] - seen.multipliers[i]), 0.0, 1e-10);
   const CycleEnergy energy = cycle_energy(*ball.problem, ball.orbit->orbit);
   EXPECT_NEAR(energy.balance(), 0.0, 1e-12 * std::abs(energy.impacts.front()));
-  const Quantity x = ball.quantity("x");
-  const std::vector<Measured> rates = measure_rates(*ball.problem, ball.orbit->orbit, {x});
-  for (std::size_t j = 0; j < names.size(); ++j) {
-    const double difference = ball.difference(j, 1e-5, x, "mean");
-    EXPECT_NEAR(statistic_rate(ball.of("x").of.front(), rates[j].of.front(), "mean"), difference, 1e-6 * std::abs(difference) + 1e-9)
-        << names[j];
+  for (const char* name : {"x", "power_in", "F_top"}) {
+    const Quantity of = ball.quantity(name);
+    const std::vector<Measured> rates = measure_rates(*ball.problem, ball.orbit->orbit, {of});
+    for (std::size_t j = 0; j < names.size(); ++j) {
+      const double difference = ball.difference(j, 1e-5, of, "mean");
+      EXPECT_NEAR(statistic_rate(ball.of(name).of.front(), rates[j].of.front(), "mean"), difference, 1e-6 * std::abs(difference) + 1e-9)
+          << name << names[j];
+    }
+  }
+}
+
+/// A body that a closed stop holds, is blown against it and off it: both have derivatives.
+TEST(PeriodicImpulse, OnAClosedStopHasDerivatives) {
+  const std::string pressed = "[[force]]\non = 'x'\nharmonic = 0\namplitude = 0.6\n",
+                    off = "[[impulse]]\nname = 'off'\non = 'x'\nmomentum = '-size'\nphase = 'late'\n",
+                    on = "[[impulse]]\nname = 'on'\non = 'x'\nmomentum = 'size'\nphase = 'late - 0.5'\n",
+                    dead = "[[stop]]\nname = 'wall'\nbetween = ['x', 'ground']\nclearance = 0.2\nrestitution = 0\n";
+  const Driven held(oscillator + pressed + dead + off + on, {"omega", "size"}, {0.5, 0.4});
+  ASSERT_TRUE(held.orbit);
+  EXPECT_TRUE(held.orbit->is_motion) << held.orbit->why;
+  for (const char* name : {"x", "power_in", "a", "F_wall"}) {
+    const Quantity of = held.quantity(name);
+    const std::vector<Measured> rates = measure_rates(*held.problem, held.orbit->orbit, {of});
+    for (std::size_t j = 0; j < 2; ++j) {
+      const double difference = held.difference(j, 1e-5, of, "rms");
+      EXPECT_NEAR(statistic_rate(held.of(name).of.front(), rates[j].of.front(), "rms"), difference, 1e-6 * std::abs(difference) + 1e-8)
+          << name << j;
+    }
+  }
+}
+
+/// Blows at one instant are one blow: on what sticks, and on a stop that is closed, also where one presses and the other
+/// pulls.
+TEST(PeriodicImpulse, AtOneInstantIsTheSum) {
+  const auto blows = [](const std::string& first, const std::string& second) {
+    const auto one = [](const std::string& name, const std::string& momentum) {
+      return "[[impulse]]\nname = '" + name + "'\non = 'x'\nmomentum = '" + momentum + "'\nphase = 0.7\n";
+    };
+    return one("first", first) + (second.empty() ? "" : one("second", second));
+  };
+  const std::string held = "[[force]]\non = 'x'\nharmonic = 0\namplitude = 0.6\n"
+                           "[[stop]]\nname = 'wall'\nbetween = ['x', 'ground']\nclearance = 0.2\nrestitution = 0\n";
+  struct Case {
+    std::string contacts, first, second, sum;
+    double omega;
+  };
+  for (const Case& one : {Case{"", "0.3 * size", "0.7", "0.3 * size + 0.7", 2.0}, Case{pad, "0.01 * size", "0.8", "0.01 * size + 0.8", 2.0},
+                          Case{held, "size", "-1.8", "size - 1.8", 0.5}, Case{held, "0.2 * size", "0.4", "0.2 * size + 0.4", 0.5}}) {
+    const Driven two(oscillator + one.contacts + blows(one.first, one.second), {"size"}, {1.0});
+    const Driven whole(oscillator + one.contacts + blows(one.sum, ""), {"size"}, {1.0});
+    ASSERT_TRUE(two.orbit && whole.orbit) << one.contacts << one.first;
+    for (const char* name : {"x", "v", "power_in"}) {
+      EXPECT_NEAR(two.of(name).of.front().rms, whole.of(name).of.front().rms, 1e-12) << one.contacts << one.first << name;
+      const auto rate = [&](const Driven& of) {
+        return measure_rates(*of.problem, of.orbit->orbit, {of.quantity(name)}).front().of.front().rms;
+      };
+      EXPECT_NEAR(rate(two), rate(whole), 1e-10) << one.contacts << one.first << name;
+    }
+  }
+}
+
+/// A hammer at the instant at which the table turns: the mean force on the table is the weight, less the blows.
+TEST(WallOfASignal, MayTurnAtTheInstantOfABlow) {
+  const std::string hammer = "[[impulse]]\nname = 'hammer'\non = 'x'\nmomentum = 'blow'\nphase = 0\n";
+  for (const char* blow : {"1e-4", "-0.05", "0.3"}) {
+    std::string text = table + hammer;
+    text.replace(text.find("'blow'"), 6, blow);
+    const Driven ball(text, {"omega"}, {2.0});
+    ASSERT_TRUE(ball.orbit) << blow;
+    const double damped = 0.1 * statistic(ball.of("v").of.front(), "mean");
+    EXPECT_NEAR(statistic(ball.of("F_top").of.front(), "mean"), 0.8 + damped - std::stod(blow) * 2.0 / (2.0 * pi), 1e-12) << blow;
   }
 }
 

@@ -32,6 +32,13 @@ TEST(Rates, OfALinearOscillatorAreThoseOfItsAmplitude) {
   EXPECT_NEAR(rate.of[1].mean, 0.5 * A * omega * (A_rate * omega + A), 1e-11);
   EXPECT_NEAR(rate.of[2].mean, 2.0 * zeta * A * omega * (A_rate * omega + A), 1e-11);
   const double lag = std::atan2(lossy, stiff), lag_rate = (2.0 * zeta * stiff + 2.0 * omega * lossy) * A * A;
+  const auto expect_harmonic = [&](const char* name, double value, double by) {
+    EXPECT_NEAR(statistic(found.of[0], name), value, 1e-13) << name;
+    EXPECT_NEAR(statistic_rate(found.of[0], rate.of[0], name), by, 1e-11) << name;
+  };
+  expect_harmonic("h1", A, A_rate);
+  expect_harmonic("h1:phase", -lag, -lag_rate);
+  EXPECT_NEAR(statistic(found.of[0], "h2"), 0.0, 1e-13);
   EXPECT_NEAR(rate.of[0].greatest_at, (lag_rate * omega - lag) / (omega * omega), 1e-9);
 }
 
@@ -65,6 +72,17 @@ Measured beside(const ModelDefinition& model, const Overrides& values, const std
   return measure(*problem, *found, of);
 }
 
+/// The usual ones, and the harmonics that are there: of none the phase is rounding.
+std::vector<std::string> with_harmonics(const Quantity& quantity, const Statistics& here) {
+  std::vector<std::string> all = usual_statistics(quantity);
+  for (const char* name : {"h1", "h2", "h3"}) {
+    if (quantity.at_impacts() || !(statistic(here, name) > 1e-6 * here.rms)) continue;
+    all.emplace_back(name);
+    all.emplace_back(name + std::string(":phase"));
+  }
+  return all;
+}
+
 /// Differences over h and 2h: exact to the fourth order, but for what is left of Newton's method over h.
 void expect_differences(const std::string& name, const Overrides& values, const std::vector<std::string>& parameters) {
   const ModelDefinition model = load_model(name);
@@ -87,8 +105,9 @@ void expect_differences(const std::string& name, const Overrides& values, const 
     };
     compare("time", [](const Measured& m) { return m.duration; }, rates[j].duration, here.duration);
     for (std::size_t k = 0; k < of.size(); ++k)
-      for (const std::string& statistic_name : usual_statistics(of[k])) {
-        const double scale = of[k].at_impacts() || statistic_name != "crest" ? std::abs(here.of[k].rms) : here.of[k].crest();
+      for (const std::string& statistic_name : with_harmonics(of[k], here.of[k])) {
+        double scale = of[k].at_impacts() || statistic_name != "crest" ? std::abs(here.of[k].rms) : here.of[k].crest();
+        if (statistic_name.ends_with(":phase")) scale = 1.0 + scale / statistic(here.of[k], statistic_name.substr(0, 2));
         if (statistic_name == "min_at" || statistic_name == "max_at") continue;  // equal extremes take turns
         if (!(here.of[k].rms > 1e-9) && statistic_name == "crest") continue;     // rounding over rounding
         compare(of[k].name + ":" + statistic_name,

@@ -45,6 +45,35 @@ TEST(Spectrum, OfFrictionIsASquareWave) {
   EXPECT_NEAR(found.mean_square, 0.04, 1e-14);
 }
 
+/// Harmonics of statistics are the lines, also of what sticks for long, of impulses and of a cycle of three periods.
+TEST(Spectrum, HasTheHarmonicsOfTheStatistics) {
+  const auto compare = [](const SettledCycle& cycle, const char* name) {
+    const Quantity of = cycle.named(name);
+    const LineSpectrum lines = spectrum(*cycle.problem, cycle.solution.orbit, of, 16.0);
+    const Statistics found = measure(*cycle.problem, cycle.solution.orbit, {of}).of.front();
+    const std::size_t n = lines.lines.size() / 16;
+    ASSERT_EQ(found.harmonics.size(), 16U);
+    for (std::size_t k = 1; k <= 16; ++k) {
+      const SpectralLine& line = lines.lines[k * n];
+      EXPECT_NEAR(line.order, static_cast<double>(k), 1e-12) << name;
+      EXPECT_NEAR(std::abs(found.harmonics[k - 1] - 2.0 * line.c), 0.0, 1e-12 * (found.rms + line.amplitude())) << name << k;
+    }
+  };
+  compare(SettledCycle(load_model("vibro-impact"), {{"omega", 2.9}}), "x1");
+  compare(SettledCycle(load_model("vibro-impact"), {{"omega", 0.552}}), "a1");
+  compare(SettledCycle(load_model("vibro-impact"), {{"omega", 0.552}}), "F_stop");
+  compare(SettledCycle(load_model("coulomb-oscillator"), {{"omega", 0.8}}), "F_friction");
+  compare(SettledCycle(load_model("belt"), {{"damping_ratio", 0.05}}), "v");
+}
+
+TEST(Spectrum, HasNoHarmonicsOfWhatIsNoCycle) {
+  const SettledCycle cycle(load_model("shaken-table"));
+  EXPECT_NO_THROW(check_statistic(cycle.named("a"), "h3:phase"));
+  EXPECT_THROW(check_statistic(cycle.named("w"), "h1"), InputError);
+  EXPECT_THROW(check_statistic(cycle.named("a"), "h17"), InputError);
+  EXPECT_THROW(check_statistic_of_stretch(cycle.named("a"), "h1"), InputError);
+}
+
 /// The sum of the squares of all lines is the mean square. Of a velocity that jumps the rest falls like 1 / order.
 TEST(Spectrum, ObeysParseval) {
   const SettledCycle cycle(load_model("vibro-impact"), {{"omega", 2.9}});

@@ -1,4 +1,4 @@
-# ./dev test, its parts one after another, and what a release needs besides. Uses `packages` and `manual_packages`.
+# ./dev test, its parts, of which Python runs beside the light ones, and what a release needs besides. Uses `packages` and `manual_packages`.
 . tools/dev/web.sh
 
 # run_part PART WORD...: ./dev WORD... as a process of its own; tools/budget measures it as PART, in build/parts.json.

@@ -30,6 +30,7 @@ struct Leg {
   mode::GuardKind kind = mode::GuardKind::gap;  ///< of the guard; its contact is
   int contact = 0;                              ///< .. this, or the stop that chatters, or the signal
   std::vector<int> lines;                       ///< of each signal: the straight line that it is on (mode/drive.hpp)
+  std::vector<int> pulses;                      ///< of a knot: the signals whose pulses come at the end
   std::vector<Motion::Strike> strikes;          ///< the impacts at the end, in order
   EventKind event = EventKind::impact;          ///< what the end is called (the first of the events of its instant)
   int event_contact = 0;                        ///< System::contact_name

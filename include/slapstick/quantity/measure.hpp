@@ -8,6 +8,7 @@
 /// Source: docs/reference/measure.md; Golub and Welsch (1969) for the quadrature.
 #include <array>
 #include <atomic>
+#include <complex>
 #include <functional>
 #include <optional>
 #include <span>
@@ -21,6 +22,9 @@
 
 namespace slapstick {
 
+/// Harmonics of a cycle that its statistics have.
+inline constexpr int most_harmonics = 16;
+
 /// Of a quantity over a time; of one at impacts over the impacts, each with the same weight.
 struct Statistics {
   double mean = 0.0;  ///< with impulses
@@ -29,6 +33,9 @@ struct Statistics {
   double impulse = 0.0;                      ///< sum of the impulses; of a quantity at impacts of its values
   long impulses = 0;                         ///< how many are not zero; of a quantity at impacts the impacts
   std::vector<double> values = {};           ///< of a quantity at impacts, in order of size
+  /// Of a cycle c_1, c_2, ..: the quantity is its mean and the sum of Re(c_k exp(i k omega t)), impulses included.
+  /// omega is that of the forcing, without forcing 2 pi over the cycle's duration.
+  std::vector<std::complex<double>> harmonics = {};
 
   [[nodiscard]] double peak_to_peak() const { return greatest - least; }
   [[nodiscard]] double crest() const;  ///< largest absolute value over rms
@@ -58,13 +65,16 @@ struct StatisticRule {
 [[nodiscard]] std::span<const StatisticRule> statistic_rules();
 
 /// A statistic by name: "mean", "rms", "min", "max", "min_at", "max_at", "peak_to_peak", "crest", "impulse", "number";
-/// of quantities at impacts also "q05" .. "q95" (part in percent).
+/// of quantities at impacts also "q05" .. "q95" (part in percent); of cycles "h1" .. "h16" and "h1:phase" .., amplitude
+/// and phase of amplitude cos(k omega t + phase), NaN of other motions.
 /// @throws InputError that names the nearest
 [[nodiscard]] double statistic(const Statistics& of, const std::string& name);
 /// Those that `measure` writes of a quantity if none is named.
 [[nodiscard]] std::vector<std::string> usual_statistics(const Quantity& quantity);
 /// @throws InputError unless `statistic` knows the name for the quantity
 void check_statistic(const Quantity& quantity, const std::string& name);
+/// .. and if only a cycle has it: of a stretch of any motion.
+void check_statistic_of_stretch(const Quantity& quantity, const std::string& name);
 
 /// The motion from where it stands to `end`. What happens at its present instant does not count, what happens at `end`
 /// does.

@@ -138,6 +138,7 @@ bool stops_differ(const Orbit& a, const Orbit& b) {
 
 SpecialType type_of(const TestValue& test, const Itinerary& shape) {
   if (test.test == Test::duration) return stick_at_stake(test, shape) >= 0 ? SpecialType::SL : SpecialType::CO;
+  if (test.kind == mode::GuardKind::press) return SpecialType::GR;
   if (test.test == Test::no_stick || mode::of_friction(test.kind)) return SpecialType::SL;
   return SpecialType::GR;
 }
@@ -152,6 +153,7 @@ UsedMargin used(const TestValue& test) {
 }
 
 Sliding kind_of_sliding(const TestValue& test, const Itinerary& shape) {
+  if (test.kind == mode::GuardKind::press) return Sliding::unchanged;
   if (test.test == Test::no_stick) return Sliding::crossing;
   if (test.test == Test::speed) return Sliding::unchanged;
   if (test.test == Test::guard) {

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "base/ranges.hpp"
+#include "change/past_knot.hpp"
 #include "change/without_legs.hpp"
 #include "orbit/leg_flow.hpp"
 #include "slapstick/base/error.hpp"
@@ -196,6 +197,7 @@ std::vector<Orbit> coincident(const Problem& problem, const Orbit& before, const
   for (const Orbit& more : with_impact(set, orbit, test)) add(with_all(set, largest(was, gap), more), more);
   std::vector<bool> gone;
   for (std::size_t i = 0; i < orbit.legs(); ++i) gone.push_back(vanishes(before, orbit, i));
+  ranges::copy(past_knots(set, orbit, gone), std::back_inserter(shapes));
   ranges::copy(without_legs(set, orbit, gone, !impact_speed(test)), std::back_inserter(shapes));
   if (lost > 0 && !impact_speed(test))  // another margin is used up with their speed
     ranges::copy(without_legs(set, orbit, gone, false), std::back_inserter(shapes));

@@ -120,6 +120,21 @@ std::optional<PlaceLimit> chatter_limit(const Problem& problem, const Orbit& orb
   return stop ? as_place(onset_orbit(problem, orbit, *stop)) : std::nullopt;
 }
 
+std::optional<PlaceLimit> knot_limit(const Problem& problem, const Orbit& chattering) {
+  const std::size_t k = chattering.legs();
+  for (std::size_t i = 0; i < k; ++i) {
+    if (!rests_to_knot(chattering.shape, (i + 1) % k)) continue;
+    Orbit orbit = chattering;
+    rotate(orbit, i);  // the chatter's tail, then the rest
+    orbit.t[2] = orbit.t[1];
+    const NewtonResult result = solve(problem, orbit, fixed_length(problem, k, 1), 20);
+    if (!result.converged) continue;
+    const double value = orbit.values[0];
+    return PlaceLimit{value, std::max(result.last_step, 0x1p-52) * std::abs(value)};
+  }
+  return std::nullopt;
+}
+
 void sharpen_onsets(const Problem& problem, const std::vector<Solution>& points, std::vector<SpecialPoint>& special) {
   for (auto onset = special.begin(); onset != special.end(); ++onset) {
     if (onset->type != SpecialType::CH || onset->occurrence != Occurrence::onset) continue;

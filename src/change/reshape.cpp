@@ -33,11 +33,7 @@ std::optional<Orbit> solved(const Problem& problem, const Orbit& guess) {
   if (events.size() > most_held) events.resize(most_held);
   for (const std::size_t event : events) {
     Orbit orbit = guess;
-    std::vector<Condition> conditions = fixed_parameters(problem, orbit.legs());
-    conditions[0].row.setZero();
-    conditions[0].row[problem.instant_column(event)] = 1.0;
-    conditions[0].row[problem.instant_column(event - 1)] = -1.0;
-    if (solve(problem, orbit, conditions, 20).converged && is_motion(problem, orbit)) return orbit;
+    if (solve(problem, orbit, fixed_length(problem, orbit.legs(), event - 1), 20).converged && is_motion(problem, orbit)) return orbit;
   }
   return std::nullopt;
 }
@@ -146,10 +142,13 @@ std::optional<Beginning> beginning(const Problem& problem, const PathPoint& next
 
 bool releases(const TestValue& test) { return test.test == Test::guard && test.kind == mode::GuardKind::press; }
 
-/// The onset of a chatter, of the orbit at a change or of the one beyond it. Followed to where the other one, without chatter, lets a contact go it is known.
+/// The onset of a chatter, of the orbit at a change or of the one beyond it. Where a chatter's limit meets a point of a signal it is the change itself.
+/// Followed to where the other one, without chatter, lets a contact go it is known.
 OnsetInterval onset_between(const PathPoint& change, const std::optional<TestValue>& test, const Orbit& orbit,
                       const std::optional<Beginning>& begins) {
   const double critical = change.orbit.values[0];
+  const bool meets_knot = test && test->test == Test::duration && rests_to_knot(change.orbit.shape, test->leg);
+  if (meets_knot && chatters(orbit) < chatters(change.orbit)) return {critical, critical, false, true};
   if (chatters(orbit) > chatters(change.orbit) && test && releases(*test)) return {critical, critical, true};
   if (!begins) return {critical, orbit.values[0], false};
   const double there = begins->located.point.orbit.values[0];
@@ -213,6 +212,11 @@ void add(std::vector<HalfBranch>& all, std::optional<HalfBranch> next, double ra
 }
 
 }  // namespace
+
+bool rests_to_knot(const Itinerary& shape, std::size_t leg) {
+  const Leg &rest = shape.legs[leg], &before = shape.legs[(leg + shape.legs.size() - 1) % shape.legs.size()];
+  return rest.ending == Ending::knot && before.ending == Ending::chatter;
+}
 
 std::vector<HalfBranch> leavings(const Problem& problem, const PathPoint& change, const std::vector<Orbit>& shapes,
                                double range) {

@@ -9,7 +9,11 @@ namespace slapstick::orbit {
 struct OnsetInterval {
   double from = 0.0, to = 0.0;
   bool release = false;
+  bool knot = false;  ///< a point of a signal meets the chatter's limit: the onset is the change itself
 };
+
+/// Is a leg the rest behind a chatter's limit that a point of a signal ends?
+[[nodiscard]] bool rests_to_knot(const Itinerary& shape, std::size_t leg);
 
 /// Of the range: how well a change is known at worst, where nothing is said.
 constexpr double exactly = 1e-10;

@@ -52,6 +52,9 @@ class Follower {
   void name_by_both_sides(const PathPoint& at, const Change& change, const Orbit& behind, SpecialPoint& special) const;
   void go_on(PathPoint& at, SpecialPoint special, HalfBranch next, std::optional<Branch> between);
   bool leave_chatter(PathPoint& at);
+  [[nodiscard]] std::vector<HalfBranch> clear_of_onset(const PathPoint& at) const;
+  bool leave_knot(PathPoint& at, SpecialPoint special);
+  void place_at_knot(SpecialPoint& special, const Orbit& chattering, double within) const;
   bool leave_clear_of_onset(PathPoint& at);
   bool meet_onset(PathPoint& at);
   [[nodiscard]] bool in_gathering(const PathPoint& at, const Change& change) const;

@@ -309,9 +309,12 @@ void Follower::go_on(PathPoint& at, SpecialPoint special, HalfBranch next, std::
     branch_.special.push_back(std::move(special));
   } else if (next.onset) {
     SpecialPoint here = onset(*next.onset, special.solution);
+    here.error = std::max(here.error, special.error);
+    if (begins) place_at_knot(here, next.point.orbit, here.error);
     here.passage = std::exchange(special.passage, Passage::cascade);
     if (begins) branch_.special.push_back(special);
     if (begins && back_to_ && back_to_->onset) return arrive(std::move(here));
+    if (!begins && next.onset->knot && leave_knot(at, here)) return;
     if (!begins && !next.onset->release && (enter_cascade(at, here, next.point) || leave_clear_of_onset(at))) return;
     add_here(std::move(here));
     if (!begins) branch_.special.push_back(std::move(special));

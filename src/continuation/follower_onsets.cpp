@@ -8,6 +8,7 @@
 #include "continuation/lies_on.hpp"
 #include "change/onset.hpp"
 #include "orbit/record.hpp"
+#include "orbit/same_motion.hpp"
 #include "base/text.hpp"
 
 namespace slapstick::orbit {
@@ -72,12 +73,15 @@ void Follower::add_between(Branch way) {
   std::move(way.points.rbegin(), way.points.rend(), std::back_inserter(branch_.points));
 }
 
-/// Goes on behind the onset of a chatter with the cascade that gathers there, from its end on. @returns false if that is not to be followed
+/// Goes on behind the onset of a chatter with the cascade that gathers there, from its end on. The way to the onset comes
+/// nearer to its orbit: where a chatter's limit meets a step the cascade passes the onset's parameter between any two
+/// changes. @returns false if that is not to be followed
 bool Follower::enter_cascade(PathPoint& at, SpecialPoint special, const PathPoint& from) {
   if (back_to_) return false;
+  const auto off = [&](const Orbit& orbit) { return apart(problem_, special.solution.orbit, orbit); };
   for (const PathPoint& start : {reversed(from), from}) {
     std::optional<Way> way = way_back(start, {special.value, 0.0, true});
-    if (!way) continue;
+    if (!way || off(way->branch.points.back().orbit) > off(from.orbit)) continue;
     if (way->place && way->place->error < special.error) {
       special.value = way->place->value;
       special.error = way->place->error;
@@ -92,11 +96,36 @@ bool Follower::enter_cascade(PathPoint& at, SpecialPoint special, const PathPoin
   return false;
 }
 
+/// Orbits of the cascade of an onset, some way from it.
+std::vector<HalfBranch> Follower::clear_of_onset(const PathPoint& at) const {
+  std::vector<HalfBranch> found = reshape(problem_, at.orbit, at, std::nullopt, range_, options_.stop, clear);
+  std::erase_if(found, [](const HalfBranch& next) { return !next.onset || next.onset->release || next.folds; });
+  return found;
+}
+
+/// Where a chatter's limit meets a point of a signal the changes of the cascade lie to both sides of the onset, each r
+/// times as far from it as the one before: on from an orbit clear of it, in the sense in which orbits differ the more
+/// from that of the onset. @returns false if none is found
+bool Follower::leave_knot(PathPoint& at, SpecialPoint special) {
+  constexpr double beside = 1e-5;  // arclength
+  const auto off = [&](const PathPoint& point) { return apart(problem_, special.solution.orbit, point.orbit); };
+  PathPoint there = at;
+  there.orbit = special.solution.orbit;
+  for (const HalfBranch& next : clear_of_onset(there))
+    for (const PathPoint& start : {next.point, reversed(next.point)}) {
+      const std::optional<PathPoint> ahead = step_to(problem_, start, beside, range_);
+      if (!ahead || !(off(*ahead) > off(start))) continue;
+      add_here(std::move(special));
+      restart(at, start);
+      return true;
+    }
+  return false;
+}
+
 /// Leaves a chatter by its cascade, from an orbit clear of the onset: just behind it impacts are too many and too short for four grazes to be found on the way
 /// back. @returns false if there is none
 bool Follower::leave_clear_of_onset(PathPoint& at) {
-  std::vector<HalfBranch> found = reshape(problem_, at.orbit, at, std::nullopt, range_, options_.stop, clear);
-  std::erase_if(found, [](const HalfBranch& next) { return !next.onset || next.onset->release || next.folds; });
+  const std::vector<HalfBranch> found = clear_of_onset(at);
   if (found.empty()) return false;
   const double reach = shortest_step() * range_;
   SpecialPoint special = onset({value(at) - reach, value(at) + reach, false}, branch_.points.back());
@@ -222,6 +251,14 @@ std::optional<CascadeLimit> Follower::cascade_ends(const PathPoint& at) const {
   return limit;
 }
 
+/// Where the limit of a chatter meets a point of a signal the onset is known by the chatter beyond.
+void Follower::place_at_knot(SpecialPoint& special, const Orbit& chattering, double within) const {
+  const std::optional<PlaceLimit> exact = knot_limit(problem_, chattering);
+  if (!exact || exact->error >= special.error || std::abs(exact->value - special.value) > within) return;
+  special.value = exact->value;
+  special.error = exact->error;
+}
+
 /// The end of a cascade: its limit, and the complete chatter beyond. @returns false if there is none
 bool Follower::end_cascade(PathPoint& at) {
   const std::optional<CascadeLimit> limit = cascade_ends(at);
@@ -238,6 +275,7 @@ bool Follower::end_cascade(PathPoint& at) {
     return true;
   }
   std::optional<HalfBranch> next = beyond_cascade(problem_, at, limit->value, range_, options_.stop);
+  if (next) place_at_knot(special, next->point.orbit, limit->left);
   if (next && lies_on(problem_, branch_, next->point.orbit)) next.reset();
   special.passage = next ? Passage::persistence : Passage::unknown;
   add_here(std::move(special));

@@ -175,6 +175,14 @@ std::vector<Condition> fixed_parameters(const Problem& problem, std::size_t legs
   return conditions;
 }
 
+std::vector<Condition> fixed_length(const Problem& problem, std::size_t legs, std::size_t leg) {
+  std::vector<Condition> conditions = fixed_parameters(problem, legs);
+  conditions[0].row.setZero();
+  conditions[0].row[problem.instant_column(leg + 1)] = 1.0;
+  conditions[0].row[problem.instant_column(leg)] = -1.0;
+  return conditions;
+}
+
 namespace {
 
 /// One step from the linearisation: the change of the unknowns; not finite where the matrix is singular.

@@ -109,6 +109,8 @@ NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condi
 
 /// All parameters are as they are.
 [[nodiscard]] std::vector<Condition> fixed_parameters(const Problem& problem, std::size_t legs);
+/// .. but the first, in place of which the length of a leg is as it is.
+[[nodiscard]] std::vector<Condition> fixed_length(const Problem& problem, std::size_t legs, std::size_t leg);
 
 /// The derivative of the return map at fixed time, from just after event 0 to a cycle later, by the contact state and by the parameters, modulo
 /// translations: (2n - k) x ... As flow/tangent.hpp gives it; there from a motion, here from the orbit's own legs.

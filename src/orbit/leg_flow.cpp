@@ -167,34 +167,50 @@ NumberJet flights_jet(const NumberJet& rise, const NumberJet& fall, const Number
   return q;
 }
 
-/// h = s - v q: the series of all flights that follow a separation at speed v (flow/chatter.hpp).
-Jet chatter_jet(const ModeSet& set, int stop, const Jet& X, double t_begin, double t_end) {
+/// The mode of the flights of a chatter: the stop is open, friction of its pair slips away from the stop or back
+/// (sense -1 or 1), other friction slips as at X. What is at rest there has no force that is known.
+mode::ContactStates in_flight(const mode::Frame& frame, const Leg& leg, const VectorXd& X, double sense) {
+  using mode::FrictionState;
+  mode::ContactStates states = leg.states;
+  const mode::ContactRow& own = frame.stops[leg.contact];
+  states.stops[leg.contact] = mode::StopState::open;
+  for (std::size_t i = 0; i < frame.frictions.size(); ++i) {
+    if (states.frictions[i] == FrictionState::unloaded) continue;
+    const mode::ContactRow& contact = frame.frictions[i];
+    const double w = frame.in_step(own.own, contact.own)
+                         ? sense * own.sign * contact.sign * frame.parallel(own.own, contact.own)
+                         : contact.sign * X[frame.u(contact.own)];
+    states.frictions[i] = w > 0.0   ? FrictionState::slip_plus
+                          : w < 0.0 ? FrictionState::slip_minus
+                                    : FrictionState::unloaded;
+  }
+  return states;
+}
+
+/// The acceleration of the pair of a chatter towards its stop, in the mode of a flight.
+NumberJet towards_stop(const ModeSet& set, const Leg& leg, const Jet& X, double sense) {
   const mode::Frame& frame = set.frame();
+  const mode::ContactRow& own = frame.stops[leg.contact];
+  const ModeRates& mode = set.mode(in_flight(frame, leg, X.value(), sense));
+  const Index row = frame.u(own.own), first = X.all.cols() - X.parameters;
+  NumberJet towards = own.sign * mode.outline.system.row(row) * X.all;
+  for (Index p = 0; p < X.parameters; ++p)
+    towards[first + p] += own.sign * mode.rates[static_cast<std::size_t>(p)].system.row(row).dot(X.value());
+  return towards;
+}
+
+/// h = s - v q: the series of all flights that follow a separation at speed v (flow/chatter.hpp).
+Jet chatter_jet(const ModeSet& set, const Leg& leg, const Jet& X, double t_begin, double t_end) {
+  const mode::Frame& frame = set.frame();
+  const int stop = leg.contact;
   const mode::ContactRow& own = frame.stops[stop];
   const auto rate = [&](std::size_t p) -> const Model& { return set.rate(p); };
-  NumberJet R = own.sign * frame.free.row(own.own) * X.all, phi = NumberJet::Zero(X.all.cols()), r = phi;
+  const NumberJet rise = towards_stop(set, leg, X, -1.0), fall = towards_stop(set, leg, X, 1.0);
+  NumberJet r = NumberJet::Zero(X.all.cols());
   const Index first = X.all.cols() - X.parameters;  // of the parameters
-  for (Index p = 0; p < X.parameters; ++p)
-    R[first + p] += own.sign * set.frame_rate(static_cast<std::size_t>(p)).free.row(own.own).dot(X.value());
-  for (std::size_t i = 0; i < frame.frictions.size(); ++i) {
-    const mode::ContactRow& contact = frame.frictions[i];
-    const double w = contact.sign * X.value()[frame.u(contact.own)], sense = own.sign * contact.sign;
-    NumberJet effect = NumberJet::Zero(X.all.cols());  // kinetic friction times what it does to the pair
-    const double per_force = sense * frame.mass_inverse(own.own, contact.own), kinetic = set.model().frictions[i].kinetic_friction;
-    effect[0] = kinetic * per_force;
-    for (Index p = 0; p < X.parameters; ++p) {
-      const auto which = static_cast<std::size_t>(p);
-      effect[first + p] = rate(which).frictions[i].kinetic_friction * per_force +
-                          kinetic * sense * set.frame_rate(which).mass_inverse(own.own, contact.own);
-    }
-    if (frame.in_step(own.own, contact.own))
-      phi += std::copysign(1.0, per_force) * effect;
-    else if (w != 0.0)
-      R -= std::copysign(1.0, w) * effect;
-  }
   r[0] = set.model().stops[stop].restitution;
   for (Index p = 0; p < X.parameters; ++p) r[first + p] = rate(static_cast<std::size_t>(p)).stops[stop].restitution;
-  const NumberJet q = flights_jet(R + phi, R - phi, r);
+  const NumberJet q = flights_jet(rise, fall, r);
   Jet h(1, X.states, X.parameters);
   const RowVectorXd v = own.sign * X.all.row(frame.u(own.own));  // separating: the pair's velocity towards the stop is -v
   h.all = q[0] * v + v[0] * q;
@@ -325,7 +341,7 @@ LegValue leg_value(const ModeSet& set, const Leg& leg, const Leg& next, const Ve
   Jet h(1, X.states, X.parameters);
   if (leg.ending == Ending::guard || leg.ending == Ending::onset) h = guard_jet(mode, leg, X);
   if (leg.ending == Ending::chatter)
-    h = chatter_jet(set, leg.contact, extended(set, leg.lines, x, t_begin), t_begin, t_end);
+    h = chatter_jet(set, leg, extended(set, leg.lines, x, t_begin), t_begin, t_end);
   if (leg.ending == Ending::knot) h = knot_jet(set, leg, X, t_end);
   Jet struck = X;
   strike(set, leg, struck);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/ranges.hpp"
 #include "orbit/equations.hpp"
@@ -196,21 +197,37 @@ Least least_value(const Course& course, const mode::Guard& guard, bool with_star
   return least;
 }
 
-/// Static friction is exceeded by so much where a contact slips on behind the end of a leg, and is at rest there.
-double beyond_stick(const ModeSet& set, const Orbit& orbit, std::size_t leg, int contact, const VectorXd& X_end) {
-  const std::size_t next = (leg + 1) % orbit.legs();
-  mode::ContactStates stuck = orbit.shape.legs[next].states;
-  stuck.frictions[contact] = mode::FrictionState::stick;
-  const mode::Outline& outline = set.mode(stuck).outline;
+/// What a pair could hold is exceeded by so much at X, where it is at rest and does not stay so.
+/// @param held  the states of the contacts if it stayed
+double beyond_hold(const ModeSet& set, const mode::ContactStates& held, int own, const VectorXd& X) {
+  const mode::Outline& outline = set.mode(held).outline;
   double least = std::numeric_limits<double>::infinity();
-  const int own = set.frame().frictions[contact].own;
   for (const mode::Guard& guard : outline.guards) {
     const bool force =
         guard.kind == GuardKind::stick_above || guard.kind == GuardKind::stick_below || guard.kind == GuardKind::press;
     if (force && set.frame().parallel(displacement(set.frame(), guard.kind, guard.contact), own) != 0)
-      least = std::min(least, guard.row.dot(X_end));
+      least = std::min(least, guard.row.dot(X));
   }
   return -least;
+}
+
+/// Static friction is exceeded by so much where a contact slips on behind the end of a leg, and is at rest there.
+double beyond_stick(const ModeSet& set, const Orbit& orbit, std::size_t leg, int contact, const VectorXd& X_end) {
+  mode::ContactStates stuck = orbit.shape.legs[(leg + 1) % orbit.legs()].states;
+  stuck.frictions[contact] = mode::FrictionState::stick;
+  return beyond_hold(set, stuck, set.frame().frictions[contact].own, X_end);
+}
+
+/// So hard a stop would have to pull that a signal's point lets go, for its pair to stay there. The friction of the pair
+/// would stick as before.
+double beyond_press(const ModeSet& set, const Orbit& orbit, std::size_t leg, int stop, const VectorXd& X_behind) {
+  const mode::Frame& frame = set.frame();
+  const mode::ContactStates& before = orbit.shape.legs[leg].states;
+  mode::ContactStates held = orbit.shape.legs[(leg + 1) % orbit.legs()].states;
+  held.stops[stop] = mode::StopState::closed;
+  for (std::size_t i = 0; i < held.frictions.size(); ++i)
+    if (frame.parallel(frame.stops[stop].own, frame.frictions[i].own) != 0) held.frictions[i] = before.frictions[i];
+  return beyond_hold(set, held, frame.stops[stop].own, X_behind);
 }
 
 bool passes_without_stick(const Orbit& orbit, std::size_t leg) {
@@ -219,9 +236,8 @@ bool passes_without_stick(const Orbit& orbit, std::size_t leg) {
   return orbit.shape.legs[(leg + 1) % orbit.legs()].states.frictions[here.contact] != mode::FrictionState::stick;
 }
 
-/// Does a blow at the instant at which a leg starts move a friction contact? Then it slips at once, whatever its limit.
-bool is_blown(const ModeSet& set, const Itinerary& shape, std::size_t leg, int contact) {
-  const int own = set.frame().frictions[static_cast<std::size_t>(contact)].own;
+/// Does a blow at the instant at which a leg starts move a contact's pair? Then it goes at once, whatever holds it.
+bool is_blown(const ModeSet& set, const Itinerary& shape, std::size_t leg, int own) {
   const std::size_t last = ended_at_start(shape, leg).front();
   std::vector<std::size_t> ends = ended_at_start(shape, leg), later = ended_at_end(shape, last);
   ends.insert(ends.end(), later.begin(), later.end());
@@ -233,17 +249,24 @@ bool is_blown(const ModeSet& set, const Itinerary& shape, std::size_t leg, int c
   });
 }
 
-/// The friction contacts that a signal's point lets go: the force jumps past their limit.
-std::vector<int> let_go_at_knot(const ModeSet& set, const Orbit& orbit, std::size_t leg) {
-  std::vector<int> contacts;
-  if (orbit.shape.legs[leg].ending != Ending::knot) return contacts;
-  const auto &before = orbit.shape.legs[leg].states.frictions,
-             &behind = orbit.shape.legs[(leg + 1) % orbit.legs()].states.frictions;
-  for (std::size_t i = 0; i < before.size(); ++i)
-    if (before[i] == mode::FrictionState::stick && behind[i] != before[i] &&
-        !is_blown(set, orbit.shape, (leg + 1) % orbit.legs(), static_cast<int>(i)))
-      contacts.push_back(static_cast<int>(i));
-  return contacts;
+/// The contacts that a signal's point lets go, since the force jumps past their limit, and by how much.
+std::vector<TestValue> let_go_at_knot(const ModeSet& set, const Orbit& orbit, std::size_t leg) {
+  std::vector<TestValue> all;
+  if (orbit.shape.legs[leg].ending != Ending::knot) return all;
+  const std::size_t next = (leg + 1) % orbit.legs();
+  const mode::ContactStates &before = orbit.shape.legs[leg].states, &behind = orbit.shape.legs[next].states;
+  const VectorXd X = leg_start(set, orbit.shape.legs[next], orbit.x[next], orbit.t[next]).value();
+  const auto add = [&](GuardKind kind, std::size_t contact, double value) {
+    all.push_back({Test::no_stick, leg, kind, static_cast<int>(contact), value, orbit.duration(leg)});
+  };
+  const auto blown = [&](const mode::ContactRow& contact) { return is_blown(set, orbit.shape, next, contact.own); };
+  for (std::size_t i = 0; i < before.frictions.size(); ++i)
+    if (before.frictions[i] == mode::FrictionState::stick && behind.frictions[i] != before.frictions[i] && !blown(set.frame().frictions[i]))
+      add(GuardKind::stick_above, i, beyond_stick(set, orbit, leg, static_cast<int>(i), X));
+  for (std::size_t i = 0; i < before.stops.size(); ++i)
+    if (before.stops[i] == mode::StopState::closed && behind.stops[i] != before.stops[i] && !blown(set.frame().stops[i]))
+      add(GuardKind::press, i, beyond_press(set, orbit, leg, static_cast<int>(i), X));
+  return all;
 }
 
 }  // namespace
@@ -275,12 +298,7 @@ std::vector<TestValue> test_values(const ModeSet& set, const Orbit& orbit) {
     if (passes_without_stick(orbit, i))
       all.push_back({Test::no_stick, i, leg.kind, leg.contact,
                      beyond_stick(set, orbit, i, leg.contact, course.states.back()), orbit.duration(i)});
-    for (const int contact : let_go_at_knot(set, orbit, i)) {
-      const std::size_t next = (i + 1) % orbit.legs();
-      const VectorXd X = leg_start(set, orbit.shape.legs[next], orbit.x[next], orbit.t[next]).value();
-      all.push_back({Test::no_stick, i, GuardKind::stick_above, contact, beyond_stick(set, orbit, i, contact, X),
-                     orbit.duration(i)});
-    }
+    ranges::copy(let_go_at_knot(set, orbit, i), std::back_inserter(all));
   }
   return all;
 }

@@ -128,7 +128,7 @@ bool in_burst(const Orbit& orbit, std::size_t leg) {
 
 bool fades(const Orbit& orbit, std::size_t leg) {
   constexpr double short_flight = 1e-6;  // of a cycle
-  return in_burst(orbit, leg) && orbit.duration(leg) < short_flight * (orbit.t.back() - orbit.t.front());
+  return in_burst(orbit, leg) && std::abs(orbit.duration(leg)) < short_flight * (orbit.t.back() - orbit.t.front());
 }
 
 Motion from_inside(const System& system, const ModeSet& set, const Orbit& orbit, std::size_t leg, double part) {

@@ -25,29 +25,41 @@ Number Formulas::moved_by(int stop, int coordinate) const {
   return {along(frame_.mass_inverse), rates_ ? along(rates_->frame.mass_inverse) : 0.0};
 }
 
+/// Kinetic friction at X, f_k N.
+Number Formulas::kinetic_at(int friction, const Vector& X, const Vector& by) const {
+  const Number kinetic = number(&Model::frictions, friction, &FrictionContact::kinetic_friction);
+  if (!model_.frictions[static_cast<std::size_t>(friction)].normal) return kinetic;
+  const Number N = load(friction).at(X, by);
+  return N.value > 0.0 ? kinetic * N : Number{};
+}
+
 /// Friction f_k helps a flight to return while the pair rises, for T_rise, and hinders for T_fall. With the press f0,
 /// T_rise : T_fall = sqrt(f0 - f_k) : sqrt(f0 + f_k), so that friction bears in the mean
 ///     f_k (T_fall - T_rise) / (T_fall + T_rise) = f0 - sqrt(f0^2 - f_k^2).
-Number Formulas::borne_in_chatter(int stop, const Vector& X, const Vector& by) const {
+/// Each contact has its part of that.
+Formulas::Borne Formulas::borne_in_chatter(int stop, const Vector& X, const Vector& by) const {
+  Borne borne;
   const std::size_t k = pair_of(stop);
-  if (k == held_.size() || held_[k].frictions.empty()) return {};
+  if (k == held_.size() || held_[k].frictions.empty()) return borne;
   Number kinetic;
-  for (const int i : held_[k].frictions) kinetic += number(&Model::frictions, i, &FrictionContact::kinetic_friction);
+  for (const int i : held_[k].frictions) kinetic += kinetic_at(i, X, by);
   const Number f0 = sense(held_[k], frame_.stops[static_cast<std::size_t>(stop)]) *
                     (rates_ ? holding(k).at(X, by) : Number{holding(k).value.dot(X), 0.0});
   const Number square = f0 * f0 - kinetic * kinetic;
-  if (!(square.value > 0.0)) return kinetic;
   const double root = std::sqrt(square.value);
-  return f0 - Number{root, 0.5 * square.rate / root};
+  borne.all = square.value > 0.0 ? f0 - Number{root, 0.5 * square.rate / root} : kinetic;
+  for (const int i : held_[k].frictions)
+    borne.of.push_back(kinetic.value == 0.0 ? Number{} : borne.all * (kinetic_at(i, X, by) / kinetic));
+  return borne;
 }
 
-Row Formulas::press_in_chatter(int stop, Number borne) const {
+Row Formulas::press_in_chatter(int stop, const Borne& borne) const {
   const std::size_t k = pair_of(stop);
   if (k == held_.size()) return none();
-  return sense(held_[k], frame_.stops[static_cast<std::size_t>(stop)]) * holding(k) - borne * one();
+  return sense(held_[k], frame_.stops[static_cast<std::size_t>(stop)]) * holding(k) - borne.all * one();
 }
 
-Row Formulas::single_in_chatter(const Quantity& quantity, int index, const std::vector<bool>& above, int stop, Number borne) const {
+Row Formulas::single_in_chatter(const Quantity& quantity, int index, const std::vector<bool>& above, int stop, const Borne& borne) const {
   const std::size_t k = pair_of(stop);
   if (quantity.kind == Kind::acceleration) {
     Row free = acceleration(index);
@@ -56,16 +68,14 @@ Row Formulas::single_in_chatter(const Quantity& quantity, int index, const std::
   if (index == stop) return none();
   const int friction = index - stops();
   const auto& of_pair = held_[k].frictions;
-  if (std::find(of_pair.begin(), of_pair.end(), friction) == of_pair.end()) return force(index, above);
-  Number kinetic;
-  for (const int i : of_pair) kinetic += number(&Model::frictions, i, &FrictionContact::kinetic_friction);
-  if (kinetic.value == 0.0) return none();
+  const auto at = std::find(of_pair.begin(), of_pair.end(), friction);
+  if (at == of_pair.end()) return force(index, above);
   const double side = sense(held_[k], frame_.stops[static_cast<std::size_t>(stop)]) *
                       sense(held_[k], frame_.frictions[static_cast<std::size_t>(friction)]);
-  return side * borne * (number(&Model::frictions, friction, &FrictionContact::kinetic_friction) / kinetic) * one();
+  return side * borne.of[static_cast<std::size_t>(at - of_pair.begin())] * one();
 }
 
-Formula Formulas::in_chatter(const Quantity& quantity, const std::vector<bool>& above, int stop, Number borne) const {
+Formula Formulas::in_chatter(const Quantity& quantity, const std::vector<bool>& above, int stop, const Borne& borne) const {
   const bool changes = quantity.kind == Kind::acceleration || quantity.kind == Kind::force;
   if (!changes || pair_of(stop) == held_.size()) return of(quantity, above);
   Row row = single_in_chatter(quantity, quantity.index, above, stop, borne);

@@ -36,11 +36,15 @@ class Formulas {
 
   /// The tail of a complete chatter is flown with its stop closed (flow/chatter.hpp), but the stop pushes at impacts
   /// only. What the friction of its pair bears in the mean, from the tail's start at X on ..
-  [[nodiscard]] Number borne_in_chatter(int stop, const Vector& X, const Vector& by) const;
+  struct Borne {
+    Number all;
+    std::vector<Number> of;  ///< of each friction contact of the pair, in the order of HeldPair
+  };
+  [[nodiscard]] Borne borne_in_chatter(int stop, const Vector& X, const Vector& by) const;
   /// .. the mean push of its impacts as a row over X ..
-  [[nodiscard]] Row press_in_chatter(int stop, Number borne) const;
+  [[nodiscard]] Row press_in_chatter(int stop, const Borne& borne) const;
   /// .. a quantity between the impacts, and what it has of their impulses.
-  [[nodiscard]] Formula in_chatter(const Quantity& quantity, const std::vector<bool>& above, int stop, Number borne) const;
+  [[nodiscard]] Formula in_chatter(const Quantity& quantity, const std::vector<bool>& above, int stop, const Borne& borne) const;
   [[nodiscard]] Number share_in_chatter(const Quantity& quantity, int stop) const;
 
   /// Row over X of a coordinate's displacement and velocity, of a contact's velocity.
@@ -66,13 +70,14 @@ class Formulas {
     return {(model_.*parts)[at].*member, rates_ ? (rates_->model.*parts)[at].*member : 0.0};
   }
   [[nodiscard]] Row load(int friction) const;
+  [[nodiscard]] Number kinetic_at(int friction, const Vector& X, const Vector& by) const;
   [[nodiscard]] Row limit(const mode::HeldPair& pair) const;
   [[nodiscard]] Row holding(std::size_t pair) const;
   [[nodiscard]] Number shared_friction(const mode::HeldPair& pair) const;
   [[nodiscard]] std::size_t pair_of(int stop) const;
   [[nodiscard]] Number moved_by(int stop, int coordinate) const;
   [[nodiscard]] Number single_share(const Quantity& quantity, int index, int stop) const;
-  [[nodiscard]] Row single_in_chatter(const Quantity& quantity, int index, const std::vector<bool>& above, int stop, Number borne) const;
+  [[nodiscard]] Row single_in_chatter(const Quantity& quantity, int index, const std::vector<bool>& above, int stop, const Borne& borne) const;
   [[nodiscard]] Formula single(const Quantity& quantity, int index, const std::vector<bool>& above) const;
   [[nodiscard]] Row acceleration(int coordinate) const;
   [[nodiscard]] Row gap(int contact) const;

@@ -218,7 +218,7 @@ void Tracer::begin_tail(const Expansion& mode) {
   const Formulas& formulas = mode.formulas;
   std::vector<bool> above;
   for (const Row& kink : formulas.kinks()) above.push_back(kink.value.dot(at_.X) > 0.0);
-  const Number borne = formulas.borne_in_chatter(chatter_, at_.X, at_.by);
+  const Formulas::Borne borne = formulas.borne_in_chatter(chatter_, at_.X, at_.by);
   std::vector<Formula> all;
   std::vector<Number> shares;
   for (const Quantity& quantity : of_) {

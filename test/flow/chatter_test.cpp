@@ -62,6 +62,88 @@ TEST(Chatter, IsEndedByFrictionAloneAtAStopWithoutLoss) {  // r = 1 once bounced
   }
 }
 
+/// The events of a ball that falls from rest at height 1/2.
+std::vector<Event> dropped(const Model& model, double time = 20.0) {
+  const System system(model);
+  State start(2 * model.coordinates.size(), 0.0);
+  start[0] = 0.5;
+  Motion motion(system, start);
+  return run(motion, time, 2000);
+}
+
+void expect_same_limit(const Model& one, const Model& other) {
+  const auto a = dropped(one), b = dropped(other);
+  ASSERT_EQ(testing::kinds(a), testing::kinds(b));
+  ASSERT_EQ(std::ranges::count(a, EventKind::chatter, &Event::kind), 1);
+  EXPECT_LE(a.size(), 300u);
+  for (std::size_t i = 0; i < a.size(); ++i)
+    EXPECT_NEAR(a[i].time.seconds(1.0), b[i].time.seconds(1.0), 4e-15 * (1.0 + a[i].time.seconds(1.0))) << i;
+}
+
+/// f_k N of a load N that stays as it is, here of a body at rest, is a friction of that size. Once loaded friction let no
+/// limit be proven.
+TEST(Chatter, UnderALoadThatStaysIsThatOfItsProduct) {
+  for (const double r : {0.5, 1.0}) {
+    Model fixed = oracle::ball(r);
+    fixed.coordinates.push_back({"y", 1.0});
+    Model loaded = fixed;
+    fixed.frictions = {{"wall", ground, 0, 0.0, 0.25, 0.125}};
+    loaded.frictions = {{"wall", ground, 0, 0.0, 0.5, 0.25, NormalForce{0.5, {{1, 0.25, 0.0}}, -1}}};
+    expect_same_limit(fixed, loaded);
+  }
+}
+
+/// A compliant stop that is pressed all the while is a spring, a damper and a constant force.
+TEST(Chatter, WithACompliantStopThatIsAlwaysPressedIsThatOfItsSpring) {
+  Model spring = oracle::ball(0.5), pressed = spring;
+  spring.springs = {{ground, 0, 0.25}};
+  spring.dampers = {{ground, 0, 0.125}};
+  spring.forces.push_back({0, 0, -0.5, 0.0});
+  pressed.compliant_stops = {{"clip", 0, ground, -2.0, 0.25, 0.125, true}};
+  expect_same_limit(spring, pressed);
+}
+
+/// A load that is not positive carries no friction, and that of a compliant stop is its spring's.
+TEST(Chatter, UnderTheLoadOfACompliantStopIsThatOfALoadByItsSpring) {
+  Model by_terms = oracle::ball(0.5);
+  by_terms.compliant_stops = {{"clip", 0, ground, -2.0, 0.25, 0.0, true}};
+  by_terms.frictions = {{"wall", ground, 0, 0.0, 0.25, 0.25, NormalForce{0.5, {{0, 0.25, 0.0}}, -1}}};
+  Model by_stop = by_terms;
+  by_stop.frictions[0].normal = NormalForce{0.0, {}, 0};
+  expect_same_limit(by_terms, by_stop);
+  Model without = by_terms, unloaded = by_terms;
+  without.frictions.clear();
+  unloaded.frictions[0].normal = NormalForce{-4.0, {{0, 0.25, 0.0}}, -1};
+  const auto a = dropped(without), b = dropped(unloaded);
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_EQ(a.back().time, b.back().time);
+}
+
+/// A compliant stop whose gap is the rigid one's never acts: the ball's own closed form.
+TEST(Chatter, BesideACompliantStopThatBeginsWhereTheRigidOneDoesIsSummed) {
+  Model model = oracle::ball(0.5);
+  model.compliant_stops = {{"layer", ground, 0, 0.0, 3.0, 0.0}};
+  const auto events = dropped(model);
+  const auto limit = std::ranges::find(events, EventKind::chatter, &Event::kind);
+  ASSERT_NE(limit, events.end());
+  EXPECT_NEAR(limit->time.seconds(1.0), 1.0 + 2.0 * 0.5 / 0.5, 8e-15);
+  EXPECT_LT(events.size(), 60u);
+}
+
+/// A load that goes to zero with the gap may end within the chatter: its limit is proven, and counted as shaken, since
+/// the events of the load are not told.
+TEST(Chatter, UnderALoadThatGoesToZeroWithTheGapIsSummedAndCounted) {
+  Model model = oracle::ball(0.5);
+  model.frictions = {{"wall", ground, 0, 0.0, 0.25, 0.25, NormalForce{0.0, {{0, 0.5, 0.0}}, -1}}};
+  const System system(model);
+  Motion motion(system, {0.5, 0.0});
+  const auto events = run(motion, 20.0, 2000);
+  EXPECT_EQ(std::ranges::count(events, EventKind::chatter, &Event::kind), 1);
+  EXPECT_LT(events.size(), 120u);
+  EXPECT_EQ(motion.counters().shaken, 1);
+  EXPECT_EQ(motion.counters().pile_ups, 0);
+}
+
 TEST(Chatter, WithoutLossOnAReboundingPairThatRubsEndsAsInTheOracle) {
   Model m;
   m.coordinates = {{"x1", 0.69127120414392818}, {"x2", 2.2463262910838058}};

@@ -72,12 +72,7 @@ std::string waiting_for(const Definition& first, const Edit& edit, Verb verb, co
   return first_of(faults(), first, edit, verb, said);
 }
 
-/// The engine proves no limit of a chatter where friction reverses between its impacts. A load that a compliant stop or
-/// a velocity makes is such friction. Then `orbit` has impacts below rounding among its legs, and derivatives divide by
-/// their speeds.
-std::string waiting_for(const Definition& file, std::string_view law, const std::string& said) {
-  const bool chatter = law == "multipliers" && said.starts_with("multiplier with chatter") && !file.of("friction").empty();
-  return chatter ? "multipliers of orbit where a chatter is followed to rounding beside friction" : "";
-}
+/// None is known of laws between verbs.
+std::string waiting_for(const Definition&, std::string_view, const std::string&) { return ""; }
 
 }  // namespace slapstick::neutral

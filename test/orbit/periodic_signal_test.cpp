@@ -185,5 +185,70 @@ TEST(PeriodicSignal, LetsADryContactGoWhileTheStepExceedsTheLimit) {
   EXPECT_EQ(branch.points.front().orbit.values[0], 0.5);
 }
 
+/// A ball under weight 1 that a push of 1 + a lifts for the part D of each period T. It lands at
+/// V = D sqrt(a^2 + a) and comes to rest V (1 + r) / (1 - r) later. So its chatter's limit meets the next step where
+///     T = D (1 + a + (1 + r) / (1 - r) sqrt(a^2 + a)),
+/// and the ball is not lifted at all where a = 0. An orbit of one impact that comes with the step has
+///     r (E - D a) / (1 + r) + a (D^2 / 2 + D E) = E^2 / 2,   E = T - D.
+constexpr double lifted_for = 0.3, bounces_by = 0.3;
+
+Driven lifted_ball(double size) {
+  return Driven("name = 'ball'\nomega = 6.283185307179586\n" + parameters +
+                    "[[coordinate]]\nname = 'x'\nmass = 1\n[[force]]\non = 'x'\nharmonic = 0\namplitude = -1\n"
+                    "[[stop]]\nname = 'floor'\nbetween = ['ground', 'x']\nclearance = 0\nrestitution = 0.3\n" +
+                    push("shape = 'square'\nduty = 0.3\nlow = 0\n"),
+                {"size"}, {size});
+}
+
+/// The a at which the chatter's limit meets the step.
+double limit_meets_step() {
+  const auto late = [](double a) {
+    return lifted_for * (1 + a + (1 + bounces_by) / (1 - bounces_by) * std::sqrt(a * a + a)) - 1.0;
+  };
+  double low = 0.1, high = 2.0;
+  while (0.5 * (low + high) > low && 0.5 * (low + high) < high) (late(0.5 * (low + high)) < 0.0 ? low : high) = 0.5 * (low + high);
+  return low;
+}
+
+/// Where the limit meets the step infinitely many changes gather, and the branch goes on through them: it does not run
+/// back over itself. In the other sense it comes to where nothing lifts the ball.
+TEST(PeriodicSignal, LetsABranchThroughWhereAChattersLimitMeetsAStep) {
+  const Driven ball = lifted_ball(1.5);
+  ASSERT_TRUE(ball.orbit);
+  ASSERT_EQ(ball.orbit->label, "1-inf-II");
+  const orbit::Branch branch = orbit::follow(*ball.problem, ball.orbit->orbit, {.from = 0.5, .to = 2.5});
+  EXPECT_EQ(branch.points.front().orbit.values[0], 0.5);
+  EXPECT_EQ(branch.points.back().orbit.values[0], 2.5);
+  const auto first = [&](orbit::SpecialType type) {
+    return std::ranges::find(branch.special, type, &orbit::SpecialPoint::type);
+  };
+  const auto lifts = first(orbit::SpecialType::GR), meets = first(orbit::SpecialType::CH);
+  ASSERT_NE(lifts, branch.special.end());
+  ASSERT_NE(meets, branch.special.end());
+  EXPECT_NEAR(lifts->value, 1.0, 1e-12);
+  EXPECT_NEAR(meets->value, 1.0 + limit_meets_step(), 1e-13);
+  EXPECT_LE(meets->error, 1e-12);
+  const orbit::SpecialPoint& last = branch.special.back();
+  const double E = 1.0 - lifted_for, r = bounces_by;
+  const double a = (0.5 * E * E - r * E / (1 + r)) / (0.5 * lifted_for * lifted_for + lifted_for * E - r * lifted_for / (1 + r));
+  EXPECT_EQ(last.type, orbit::SpecialType::CO);
+  EXPECT_NEAR(last.value, 1.0 + a, 1e-12);
+}
+
+/// The same places from the other side, from an orbit of one impact.
+TEST(PeriodicSignal, HasItsOnsetOfChatterAtAStepFromEitherSide) {
+  const Driven ball = lifted_ball(2.4);
+  const auto is_meant = [](const orbit::Solution& one) { return one.label == "1-1-I"; };
+  const auto search = orbit::search(*ball.problem, ball.system, ball.start, {.enough = is_meant});
+  const auto found = std::ranges::find_if(search.orbits, is_meant);
+  ASSERT_NE(found, search.orbits.end());
+  const orbit::Branch branch = orbit::follow(*ball.problem, found->orbit, {.from = 1.3, .to = 2.5});
+  const auto meets = std::ranges::find(branch.special, orbit::SpecialType::CH, &orbit::SpecialPoint::type);
+  ASSERT_NE(meets, branch.special.end());
+  EXPECT_NEAR(meets->value, 1.0 + limit_meets_step(), std::max(1e-12, 2.0 * meets->error));
+  EXPECT_LE(meets->error, 1e-11);
+  EXPECT_EQ(branch.points.front().label, "1-inf-II");
+}
+
 }  // namespace
 }  // namespace slapstick::test

@@ -73,7 +73,9 @@ enum class Outcome { event, reached_end };
 struct Counters {
   long events = 0, impacts = 0, segments = 0, windows = 0, evaluations = 0, grazes = 0;
   long pile_ups = 0;  ///< chatters of several stops that were ended, unproven, at one instant of the clock
-  long shaken = 0;    ///< limits of chatter whose impacts may move another friction contact to and fro through its rest
+  /// limits of chatter whose impacts may move another friction contact to and fro through its rest, a load through
+  /// zero or a characteristic past a corner
+  long shaken = 0;
 };
 
 struct MotionOptions {

@@ -46,7 +46,9 @@ struct UsedMargin {
     least,     ///< the least value of a guard along a leg
     speed,     ///< how fast the guard that ends a leg falls through zero; of a gap: the speed of the impact
     duration,  ///< a leg's length
-    no_stick   ///< by how much the holding force exceeds static friction at a reversal
+    /// by how much the holding force exceeds static friction at a reversal, or what holds a contact where a point of a
+    /// signal lets it go
+    no_stick
   };
   Kind kind = Kind::least;
   std::size_t leg = 0;                            ///< of `SpecialPoint::solution.orbit`

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/text.hpp"
+#include "flow/compiled_system.hpp"
 #include "slapstick/attractor/classify.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/orbit/search.hpp"

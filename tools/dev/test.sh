@@ -24,14 +24,7 @@ python_beside() {
   cat "$log"
 }
 
-# light_parts: the explorer where npm's registry answers, the documentation, the cluster.
 light_parts() {
-  local web=${SLAPSTICK_WEB:-test}
-  if npm_answers; then
-    run_part "${web/#test/web}" web "$web"
-  else
-    step "no registry of npm answers: the explorer is not tested"
-  fi
   run_part docs docs
   run_part cluster cluster
 }
@@ -40,7 +33,7 @@ light_parts() {
 # and with it none builds the release again (build_preset).
 # The parts of ./dev test-all that do more have names of their own: the budget is that of ./dev test.
 run_parts() {
-  local rotation=rotation
+  local web=${SLAPSTICK_WEB:-test} rotation=rotation
   [ "${SLAPSTICK_SLICE:-}" != all ] || rotation=rotation-all
   run_part build build-all
   [ ${#failed[@]} = 0 ] || return 0
@@ -48,6 +41,11 @@ run_parts() {
   run_part memory memory
   run_part wasm wasm
   python_beside light_parts
+  if npm_answers; then
+    run_part "${web/#test/web}" web "$web"  # its tests run the Python that the page shows
+  else
+    step "no registry of npm answers: the explorer is not tested"
+  fi
   run_part test test -LE '^(slow|campaign)$' --output-junit "$PWD/build/ctest.xml"
   run_part "$rotation" rotation
 }

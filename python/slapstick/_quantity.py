@@ -126,9 +126,9 @@ def measure(
     """Statistics of quantities, exact but for rounding: over the cycle that the motion settles on, or over `periods`.
 
     of: "Q[:STAT],.." or a list of such words; STAT is mean, rms, min, max, min_at, max_at, peak_to_peak, crest,
-    impulse or number, of a cycle h1 .. h16 and h1:phase .., of quantities at impacts q05 .. q95. Without one: all that are usual. Where there is no cycle
-    1000 periods are measured, or the record of a signal. transient: forcing periods that are left out first; None: 500, or
-    what comes before the record.
+    impulse or number; of a cycle also h1 .. h16 and h1:phase ..; of quantities at impacts also q05 .. q95. Without one:
+    all that are usual. Where there is no cycle 1000 periods are measured, or the record of a signal.
+    transient: forcing periods that are left out first; None: 500, or what comes before the record.
 
     sensitivity: names of parameters or groups; the result then has the exact derivative of every number by each, of a
     cycle as long as it keeps its events.

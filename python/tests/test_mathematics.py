@@ -93,3 +93,33 @@ def test_a_cycle_beside_its_doubling_is_named_and_a_quick_look_agrees():
     assert slapstick.classify("vibro-impact", omega=6.629902, quick=600).label == "3-1-I"
     curve = slapstick.classify("vibro-impact", omega=4.805, quick=600)
     assert (curve.label, curve.doubt) == ("undecided", "not confirmed")
+
+
+def test_harmonics_are_lines_of_the_spectrum_and_their_derivatives_are_differences():
+    at = 2.9
+    lines = slapstick.spectrum("vibro-impact", "x1", orders=3, omega=at)
+    found = slapstick.measure("vibro-impact", "x1:h1,x1:h3,x1:h3:phase", sensitivity="omega", omega=at)
+    for order in (1, 3):
+        [line] = np.flatnonzero(np.isclose(lines.order, order))
+        assert np.isclose(found[f"x1:h{order}"], lines.amplitude[line], rtol=1e-12)
+    assert np.isclose(found["x1:h3:phase"], lines.phase[line], rtol=1e-12)
+    beside = [slapstick.measure("vibro-impact", "x1:h1", omega=at + by)["x1:h1"] for by in (-1e-5, 1e-5)]
+    assert np.isclose(found.sensitivity["omega"]["x1:h1"], np.diff(beside)[0] / 2e-5, rtol=1e-6)
+    with pytest.raises(slapstick.InputError, match="a harmonic is of a cycle"):
+        slapstick.diagram("vibro-impact", omega=[2.5, 2.9], y="x1:h1")
+    with pytest.raises(slapstick.InputError, match="a harmonic is of a cycle"):
+        slapstick.measure("vibro-impact", "x1:h1", periods=20, omega=at)
+
+
+def test_a_kicked_oscillator_has_its_closed_form(tmp_path):
+    model = tmp_path / "kicked.toml"
+    model.write_text(
+        'name = "kicked"\nomega = 2\n[[coordinate]]\nname = "x"\nmass = 1\n'
+        '[[spring]]\nbetween = ["x", "ground"]\nstiffness = 1\n[[damper]]\nbetween = ["x", "ground"]\ncoefficient = 0.1\n'
+        '[[impulse]]\nname = "hammer"\non = "x"\nmomentum = 0.8\nphase = 0\n'
+    )
+    found = slapstick.measure(model, "x:h1,x:mean,power_in:mean,power_damping:mean")
+    # The force is 0.8 / pi (1/2 + sum cos n 2 t) 2: amplitude 1.6 / pi of each harmonic.
+    assert np.isclose(found["x:h1"], 1.6 / np.pi / np.hypot(1 - 4, 0.2), rtol=1e-12)
+    assert np.isclose(found["x:mean"], 0.8 / np.pi, rtol=1e-12)
+    assert np.isclose(found["power_in:mean"], found["power_damping:mean"], rtol=1e-12)

@@ -142,8 +142,9 @@ std::optional<Beginning> beginning(const Problem& problem, const PathPoint& next
 
 bool releases(const TestValue& test) { return test.test == Test::guard && test.kind == mode::GuardKind::press; }
 
-/// The onset of a chatter, of the orbit at a change or of the one beyond it. Where a chatter's limit meets a point of a signal it is the change itself.
-/// Followed to where the other one, without chatter, lets a contact go it is known.
+/// The onset of a chatter, of the orbit at a change or of the one beyond it.
+/// Where a chatter's limit meets a point of a signal the onset is the change itself.
+/// Elsewhere it is known by the other orbit, without chatter, which is followed to where that lets a contact go.
 OnsetInterval onset_between(const PathPoint& change, const std::optional<TestValue>& test, const Orbit& orbit,
                       const std::optional<Beginning>& begins) {
   const double critical = change.orbit.values[0];

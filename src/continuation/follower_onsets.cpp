@@ -73,9 +73,10 @@ void Follower::add_between(Branch way) {
   std::move(way.points.rbegin(), way.points.rend(), std::back_inserter(branch_.points));
 }
 
-/// Goes on behind the onset of a chatter with the cascade that gathers there, from its end on. The way to the onset comes
-/// nearer to its orbit: where a chatter's limit meets a step the cascade passes the onset's parameter between any two
-/// changes. @returns false if that is not to be followed
+/// Goes on behind the onset of a chatter with the cascade that gathers there, from its end on.
+/// The way to the onset comes nearer to its orbit: that tells it where a chatter's limit meets a step, since the cascade
+/// passes the onset's parameter between any two changes there.
+/// @returns false if that is not to be followed
 bool Follower::enter_cascade(PathPoint& at, SpecialPoint special, const PathPoint& from) {
   if (back_to_) return false;
   const auto off = [&](const Orbit& orbit) { return apart(problem_, special.solution.orbit, orbit); };
@@ -107,13 +108,12 @@ std::vector<HalfBranch> Follower::clear_of_onset(const PathPoint& at) const {
 /// times as far from it as the one before: on from an orbit clear of it, in the sense in which orbits differ the more
 /// from that of the onset. @returns false if none is found
 bool Follower::leave_knot(PathPoint& at, SpecialPoint special) {
-  constexpr double beside = 1e-5;  // arclength
   const auto off = [&](const PathPoint& point) { return apart(problem_, special.solution.orbit, point.orbit); };
   PathPoint there = at;
   there.orbit = special.solution.orbit;
   for (const HalfBranch& next : clear_of_onset(there))
     for (const PathPoint& start : {next.point, reversed(next.point)}) {
-      const std::optional<PathPoint> ahead = step_to(problem_, start, beside, range_);
+      const std::optional<PathPoint> ahead = step_to(problem_, start, shortest_step(), range_);
       if (!ahead || !(off(*ahead) > off(start))) continue;
       add_here(std::move(special));
       restart(at, start);

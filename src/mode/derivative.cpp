@@ -231,6 +231,11 @@ RowVector Differentiator::compliant_rate(const Guard& guard) const {
 
 }  // namespace
 
+Vector kick_rate(const Frame& frame, const FrameDerivative& rate, std::size_t signal, double area, double area_rate) {
+  const int column = frame.signal(signal);
+  return rate.free.col(column) * area + frame.free.col(column) * area_rate;
+}
+
 /// Of amplitude (sin(phase) cos(j theta) + cos(phase) sin(j theta)), and of amplitude times a signal or its slope / T.
 RowVector drive_rate(const Model& model, const Model& of_model, const Frame& frame, std::size_t i) {
   const Force &force = model.forces[i], &rate = of_model.forces[i];

@@ -23,6 +23,9 @@ struct FrameDerivative {
   double omega = 0.0;
 };
 
+/// The derivative of what Frame::kick adds to the velocities: (F area)' = F' area + F area'.
+[[nodiscard]] Vector kick_rate(const Frame& frame, const FrameDerivative& rate, std::size_t signal, double area, double area_rate);
+
 /// Derivatives of Outline::system and of each guard's row, in the outline's order. What the outline holds exactly zero stays so.
 ///
 /// One derivative is one-sided: a compliant stop that cannot pull lets go where its force is zero, stiffness delta + damping delta' = 0, which for

@@ -6,8 +6,8 @@
 /// value too, so that between two knots X' = A X. Both are set by the clock, so neither drifts. A pulse at a knot is
 /// nothing of X: it is a jump of the velocities (Frame::kick).
 ///
-/// The phase says where a signal in periods is. At a knot its two sides differ, so a straight line between two knots has
-/// a name: the number of its first knot.
+/// The phase says where a signal in periods is. At a knot its two sides differ. So a straight line between two knots
+/// has a name: the number of its first knot.
 #include <vector>
 
 #include "slapstick/base/clock.hpp"

@@ -125,15 +125,13 @@ Jet knot_jet(const ModeSet& set, const Leg& leg, const Jet& X, double t_end) {
   return h;
 }
 
-/// The blow of a pulse (Frame::kick): K = F area, F the signal's column of the forces.
 void kick(const ModeSet& set, const Pulse& pulse, Jet& X) {
   const mode::Frame& frame = set.frame();
-  const int column = frame.signal(static_cast<std::size_t>(pulse.signal));
-  const VectorXd per_area = frame.free.col(column);
-  X.value().segment(frame.d, frame.d) += per_area * pulse.area[0];
+  const auto signal = static_cast<std::size_t>(pulse.signal);
+  frame.kick(signal, pulse.area[0], X.value().data());
   for (Index p = 0; p < X.parameters; ++p)
     X.by_parameter().col(p).segment(frame.d, frame.d) +=
-        per_area * pulse.area[1 + p] + set.frame_rate(static_cast<std::size_t>(p)).free.col(column) * pulse.area[0];
+        mode::kick_rate(frame, set.frame_rate(static_cast<std::size_t>(p)), signal, pulse.area[0], pulse.area[1 + p]);
 }
 
 /// What happens to the velocities at a leg's end, as an Engine does it: the blows of forces, which stops bear, then the

@@ -218,8 +218,8 @@ double beyond_stick(const ModeSet& set, const Orbit& orbit, std::size_t leg, int
   return beyond_hold(set, stuck, set.frame().frictions[contact].own, X_end);
 }
 
-/// So hard a stop would have to pull that a signal's point lets go, for its pair to stay there. The friction of the pair
-/// would stick as before.
+/// A stop that a signal's point lets go would have to pull so hard for its pair to stay. The pair's friction would then
+/// stick as before.
 double beyond_press(const ModeSet& set, const Orbit& orbit, std::size_t leg, int stop, const VectorXd& X_behind) {
   const mode::Frame& frame = set.frame();
   const mode::ContactStates& before = orbit.shape.legs[leg].states;
@@ -238,9 +238,7 @@ bool passes_without_stick(const Orbit& orbit, std::size_t leg) {
 
 /// Does a blow at the instant at which a leg starts move a contact's pair? Then it goes at once, whatever holds it.
 bool is_blown(const ModeSet& set, const Itinerary& shape, std::size_t leg, int own) {
-  const std::size_t last = ended_at_start(shape, leg).front();
-  std::vector<std::size_t> ends = ended_at_start(shape, leg), later = ended_at_end(shape, last);
-  ends.insert(ends.end(), later.begin(), later.end());
+  const std::vector<std::size_t> ends = ended_at_end(shape, ended_at_start(shape, leg).back());
   return ranges::any_of(ends, [&](std::size_t end) {
     const std::vector<Pulse> all = pulses(set, shape.legs[end]);
     return ranges::any_of(all, [&](const Pulse& pulse) {

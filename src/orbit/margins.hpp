@@ -12,8 +12,8 @@ enum class Test : std::uint8_t {
   guard,  ///< the least value of a guard within a leg, or at its ends where it is not zero there by the events themselves
   speed,     ///< how fast the guard of the leg's end falls through zero; of a gap, the speed of the impact
   duration,  ///< of a leg, in periods
-  /// by how much the holding force exceeds static friction where a contact's velocity passes zero without stick, or what holds a contact, friction or a stop,
-  /// where a point of a signal lets it go
+  /// by how much the holding force exceeds static friction where a contact's velocity passes zero without stick;
+  /// or what holds a contact, friction or a stop, where a point of a signal lets it go
   no_stick
 };
 

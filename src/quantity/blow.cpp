@@ -32,7 +32,7 @@ void Blows::impact(int stop, double w, const Moving& before) {
   const auto known = std::find_if(impacts_.begin(), impacts_.end(), [&](const Struck& one) { return one.contact == stop; });
   if (known != impacts_.end()) return;
   const RowVector row = frame_.velocity_row(frame_.stops[static_cast<std::size_t>(stop)]);
-  impacts_.push_back(meet(stop, {w, rates_ != nullptr ? row.dot(behind_walls(before).by) : 0.0}));
+  impacts_.push_back(meet(stop, {w, rates_ != nullptr ? row.dot(kicked(before, true).by) : 0.0}));
 }
 
 void Blows::begin_flight(int contact, Number time, Number slid) {
@@ -64,7 +64,7 @@ std::optional<Blow> Blows::between(const mode::Outline& last, const Moving& befo
   Blow blow{now_, std::vector<Number>(of_.size()), {}};
   const bool struck = struck_ != 0 || !pulses_.empty();
   if (struck) {
-    const Moving behind = behind_walls(before);
+    const Moving behind = kicked(before, true);
     const Impulses of = impulses(behind, after);
     const bool asked = std::any_of(of_.begin(), of_.end(), [](const Quantity& one) {
       return one.kind == Quantity::Kind::acceleration || one.kind == Quantity::Kind::input;
@@ -114,26 +114,16 @@ const Matrix& Blows::inverse_coupling(const std::vector<int>& stops) {
   return inverses_.emplace_back(struck_, mode::least_norm_inverse(coupling(stops, frame_.mass_inverse))).second;
 }
 
-/// What the pulses of one kind give the velocity of a contact number.
-Number Blows::kick(int own, bool kinematic) const {
-  Number sum;
+/// What the pulses of one kind make of a state. The jumps of a wall's speed come before the impacts that they make.
+Moving Blows::kicked(Moving from, bool kinematic) const {
   for (const auto& [signal, area] : pulses_) {
-    if (model_.signals[static_cast<std::size_t>(signal)].kinematic != kinematic) continue;
-    const int column = frame_.signal(static_cast<std::size_t>(signal));
-    sum += Number{frame_.free(own, column), rates_ != nullptr ? rates_->frame.free(own, column) : 0.0} * area;
+    const auto k = static_cast<std::size_t>(signal);
+    if (model_.signals[k].kinematic != kinematic) continue;
+    frame_.kick(k, area.value, from.X.data());
+    if (rates_ != nullptr)
+      from.by.segment(frame_.d, frame_.d) += mode::kick_rate(frame_, rates_->frame, k, area.value, area.rate);
   }
-  return sum;
-}
-
-/// Behind the jumps of a wall's speed, which come before the impacts that they make.
-Moving Blows::behind_walls(const Moving& before) const {
-  Moving behind = before;
-  for (int i = 0; i < frame_.d && !pulses_.empty(); ++i) {
-    const Number given = kick(i, true);
-    behind.X[frame_.u(i)] += given.value;
-    if (rates_ != nullptr) behind.by[frame_.u(i)] += given.rate;
-  }
-  return behind;
+  return from;
 }
 
 /// Of the forces that follow the pulses of one kind: p (v- + v+) / 2, the energy that comes in, also where stops bear
@@ -172,17 +162,13 @@ Blows::Impulses Blows::impulses(const Moving& before, const Moving& after) {
     return w;
   };
   const Matrix& inverse = inverse_coupling(of.stops);
-  Vector jump = speeds(after.X) - speeds(before.X), jump_rate = Vector::Zero(count);
-  const Vector sum = speeds(after.X) + speeds(before.X);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Number given = row(i).sign * kick(row(i).own, false);
-    jump[i] -= given.value, jump_rate[i] -= given.rate;
-  }
+  const Moving pushed = kicked(before, false);
+  const Vector jump = speeds(after.X) - speeds(pushed.X), sum = speeds(after.X) + speeds(before.X);
   const Vector P = -inverse * jump;
   Vector P_rate = Vector::Zero(count), sum_rate = P_rate;
   if (rates_ != nullptr) {
     const Vector w = speeds(before.by), v = speeds(after.by);
-    P_rate = -inverse * (v - w + jump_rate + coupling(of.stops, rates_->frame.mass_inverse) * P);
+    P_rate = -inverse * (v - speeds(pushed.by) + coupling(of.stops, rates_->frame.mass_inverse) * P);
     sum_rate = v + w;
   }
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -216,7 +202,7 @@ Number Blows::share(const Quantity& quantity, int index, const Impulses& of, con
     return {jump(before.X, after.X), rates_ != nullptr ? jump(before.by, after.by) : 0.0};
   }
   if (quantity.kind == Quantity::Kind::input) {
-    const Moving behind = behind_walls(before);
+    const Moving behind = kicked(before, true);
     return work(*formulas, before, behind, true) + work(*formulas, behind, after, false);
   }
   const auto i = static_cast<std::size_t>(std::find(of.stops.begin(), of.stops.end(), index) - of.stops.begin());

@@ -90,8 +90,7 @@ class Blows {
   };
 
   [[nodiscard]] Impulses impulses(const Moving& before, const Moving& after);
-  [[nodiscard]] Number kick(int own, bool kinematic) const;
-  [[nodiscard]] Moving behind_walls(const Moving& before) const;
+  [[nodiscard]] Moving kicked(Moving from, bool kinematic) const;
   [[nodiscard]] Number work(const Formulas& formulas, const Moving& before, const Moving& after, bool kinematic) const;
   [[nodiscard]] Number share(const Quantity& quantity, int index, const Impulses& of,
                              const std::optional<Formulas>& formulas, const Moving& before, const Moving& after) const;

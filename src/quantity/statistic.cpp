@@ -42,16 +42,18 @@ Harmonic harmonic_of(const std::string& name) {
   return {};
 }
 
+[[noreturn]] void refuse_harmonic(const std::string& name) {
+  throw InputError(in_quotes(name) + ": a harmonic is of a cycle: orbit, continue and measure have it");
+}
+
 /// amplitude cos(k w t + phase) = Re(c exp(i k w t)), as the lines of a spectrum.
 double value_of(const std::vector<std::complex<double>>& harmonics, Harmonic of) {
-  if (harmonics.empty()) return std::numeric_limits<double>::quiet_NaN();
   const std::complex<double> c = harmonics[static_cast<std::size_t>(of.k - 1)];
   return of.phase ? std::arg(c) : std::abs(c);
 }
 
 /// |c|' = Re(conj(c) c') / |c|, arg(c)' = Im(c' / c).
 double rate_of(const std::vector<std::complex<double>>& harmonics, const std::vector<std::complex<double>>& rates, Harmonic of) {
-  if (harmonics.empty() || rates.empty()) return std::numeric_limits<double>::quiet_NaN();
   const auto at = static_cast<std::size_t>(of.k - 1);
   const std::complex<double> part = rates[at] / harmonics[at];
   return of.phase ? part.imag() : part.real() * std::abs(harmonics[at]);
@@ -89,7 +91,10 @@ double Statistics::quantile(double q) const {
 /// Mean, rms, least, greatest, their instants, impulses and values are linear in what they are derivatives of; the
 /// others are not.
 double statistic_rate(const Statistics& of, const Statistics& rate, const std::string& name) {
-  if (const Harmonic harmonic = harmonic_of(name); harmonic.k > 0) return rate_of(of.harmonics, rate.harmonics, harmonic);
+  if (const Harmonic harmonic = harmonic_of(name); harmonic.k > 0) {
+    if (of.harmonics.empty()) refuse_harmonic(name);
+    return rate_of(of.harmonics, rate.harmonics, harmonic);
+  }
   if (name != "crest" && name != "number") return statistic(rate, name);
   if (name == "number") return 0.0;
   const bool below = std::abs(of.least) > std::abs(of.greatest);
@@ -113,7 +118,7 @@ void check_statistic(const Quantity& quantity, const std::string& name) {
 void check_statistic_of_stretch(const Quantity& quantity, const std::string& name) {
   check_statistic(quantity, name);
   if (harmonic_of(name).k > 0)
-    throw InputError(in_quotes(quantity.name + ":" + name) + ": a harmonic is of a cycle: orbit, continue and measure have it");
+    refuse_harmonic(quantity.name + ":" + name);
 }
 
 double statistic(const Statistics& of, const std::string& name) {
@@ -128,7 +133,10 @@ double statistic(const Statistics& of, const std::string& name) {
   if (name == "impulse") return of.impulse;
   if (name == "number") return static_cast<double>(of.impulses);
   if (part_of(name) >= 0.0) return of.quantile(part_of(name));
-  if (const Harmonic harmonic = harmonic_of(name); harmonic.k > 0) return value_of(of.harmonics, harmonic);
+  if (const Harmonic harmonic = harmonic_of(name); harmonic.k > 0) {
+    if (of.harmonics.empty()) refuse_harmonic(name);
+    return value_of(of.harmonics, harmonic);
+  }
   throw InputError("no statistic " + in_quotes(name) + suggestion(name, names()));
 }
 

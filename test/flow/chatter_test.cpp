@@ -80,8 +80,8 @@ void expect_same_limit(const Model& one, const Model& other) {
     EXPECT_NEAR(a[i].time.seconds(1.0), b[i].time.seconds(1.0), 4e-15 * (1.0 + a[i].time.seconds(1.0))) << i;
 }
 
-/// f_k N of a load N that stays as it is, here of a body at rest, is a friction of that size. Once loaded friction let no
-/// limit be proven.
+/// f_k N of a load N that stays as it is, here of a body at rest, is a friction of that size.
+/// Once no limit was proven where friction had a load.
 TEST(Chatter, UnderALoadThatStaysIsThatOfItsProduct) {
   for (const double r : {0.5, 1.0}) {
     Model fixed = oracle::ball(r);

@@ -82,7 +82,7 @@ TEST(PeriodicImpulse, HasDerivativesThatAreDifferences) {
   }
 }
 
-/// A branch over the momentum goes through 0, where it is that of another push.
+/// A branch over the momentum goes through 0, where the orbit is that of the other push: all is linear.
 TEST(PeriodicImpulse, IsFollowedThroughNothing) {
   const std::string other = "[[force]]\non = 'x'\namplitude = 1\n";
   const Driven struck(oscillator + other + blow, {"size"}, {0.5});
@@ -90,7 +90,19 @@ TEST(PeriodicImpulse, IsFollowedThroughNothing) {
   const orbit::Branch branch = orbit::follow(*struck.problem, struck.orbit->orbit, {.from = -0.5, .to = 0.5});
   EXPECT_EQ(branch.points.front().orbit.values[0], -0.5);
   EXPECT_EQ(branch.points.back().orbit.values[0], 0.5);
-  EXPECT_TRUE(branch.special.empty() || branch.special.front().type != orbit::SpecialType::LP);
+  EXPECT_TRUE(branch.special.empty());
+  const auto at = [&](double size) { return Driven(oscillator + other + blow, {"size"}, {size}); };
+  const Driven below = at(-0.5), none = at(0.0), above = at(0.5);
+  const Driven without(oscillator + other, {}, {});
+  ASSERT_TRUE(none.orbit && below.orbit && without.orbit);
+  const auto state = [](const Driven& of, const orbit::Orbit& orbit) { return orbit::at_phase_zero(*of.problem, orbit); };
+  const State first = state(below, branch.points.front().orbit), last = state(above, branch.points.back().orbit),
+              middle = state(none, none.orbit->orbit), alone = state(without, without.orbit->orbit);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(middle[i], alone[i], 1e-13);
+    EXPECT_NEAR(first[i] + last[i], 2.0 * middle[i], 1e-12);
+    EXPECT_GT(std::abs(last[i] - first[i]), 0.1);
+  }
 }
 
 const std::string table = "name = 'm'\nomega = 'omega'\n[parameters.omega]\nvalue = 2\n[parameters.size]\nvalue = 1\n"
@@ -148,8 +160,7 @@ TEST(PeriodicImpulse, OnAClosedStopHasDerivatives) {
   }
 }
 
-/// Blows at one instant are one blow: on what sticks, and on a stop that is closed, also where one presses and the other
-/// pulls.
+/// Blows at one instant are one blow, on what sticks and on a stop that is closed, also where they oppose each other.
 TEST(PeriodicImpulse, AtOneInstantIsTheSum) {
   const auto blows = [](const std::string& first, const std::string& second) {
     const auto one = [](const std::string& name, const std::string& momentum) {

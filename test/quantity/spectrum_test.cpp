@@ -72,6 +72,7 @@ TEST(Spectrum, HasNoHarmonicsOfWhatIsNoCycle) {
   EXPECT_THROW(check_statistic(cycle.named("w"), "h1"), InputError);
   EXPECT_THROW(check_statistic(cycle.named("a"), "h17"), InputError);
   EXPECT_THROW(check_statistic_of_stretch(cycle.named("a"), "h1"), InputError);
+  EXPECT_THROW((void)statistic(Statistics{}, "h1"), InputError);
 }
 
 /// The sum of the squares of all lines is the mean square. Of a velocity that jumps the rest falls like 1 / order.

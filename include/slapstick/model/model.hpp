@@ -69,7 +69,7 @@ struct Force {
 struct Signal {
   struct Knot {
     double time = 0.0, value = 0.0;
-    double pulse = 0.0;  ///< its area; no other point has this time, and none that repeats ends here
+    double pulse = 0.0;  ///< its area; such a point shares its time with no other, and is no end of a round
   };
   std::string name;
   std::vector<Knot> knots;  ///< at least two, `time` ascending

@@ -66,8 +66,8 @@ struct StatisticRule {
 
 /// A statistic by name: "mean", "rms", "min", "max", "min_at", "max_at", "peak_to_peak", "crest", "impulse", "number";
 /// of quantities at impacts also "q05" .. "q95" (part in percent); of cycles "h1" .. "h16" and "h1:phase" .., amplitude
-/// and phase of amplitude cos(k omega t + phase), NaN of other motions.
-/// @throws InputError that names the nearest
+/// and phase of amplitude cos(k omega t + phase).
+/// @throws InputError that names the nearest, and for a harmonic of what is no cycle
 [[nodiscard]] double statistic(const Statistics& of, const std::string& name);
 /// Those that `measure` writes of a quantity if none is named.
 [[nodiscard]] std::vector<std::string> usual_statistics(const Quantity& quantity);

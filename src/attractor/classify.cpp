@@ -5,16 +5,16 @@
 
 #include "attractor/exponent.hpp"
 #include "base/ranges.hpp"
+#include "flow/contact_state.hpp"
 #include "section/flights.hpp"
 #include "section/outlook.hpp"
 #include "section/settling.hpp"
-#include "flow/contact_state.hpp"
 
 namespace slapstick {
 
 std::string_view name(Attractor attractor) {
-  constexpr std::string_view names[] = {"periodic", "quasi-periodic", "chaotic", "one of a family", "undecided",
-                                        "equilibrium"};
+  constexpr std::string_view names[] = {"periodic",        "quasi-periodic", "chaotic",
+                                        "one of a family", "undecided",      "equilibrium"};
   return names[static_cast<int>(attractor)];
 }
 
@@ -49,7 +49,8 @@ bool dissipates(const Model& model) {
   const auto acts = [](double coefficient) { return coefficient != 0.0; };
   return !model.damping.empty() || ranges::any_of(model.dampers, acts, &Damper::coefficient) ||
          ranges::any_of(model.frictions, acts, &FrictionContact::static_friction) ||
-         ranges::any_of(model.stops, [](const Stop& stop) { return stop.restitution != 1.0 || !stop.corners.empty(); }) ||
+         ranges::any_of(model.stops,
+                        [](const Stop& stop) { return stop.restitution != 1.0 || !stop.corners.empty(); }) ||
          ranges::any_of(model.compliant_stops, acts, &CompliantStop::damping) ||
          ranges::any_of(model.characteristics,
                         [](const Characteristic& one_of) { return one_of.over != Characteristic::Over::displacement; });

@@ -8,14 +8,14 @@ namespace slapstick::attractor {
 
 struct RunFigures {
   double exponent = 0.0, exponent_error = 0.0;  ///< per return; -infinity if every tangent dies out (stick)
-  double digits = 0.0;      ///< agreement of the weighted Birkhoff averages of two halves, decimal digits
-  Rotation rotation;        ///< of the points of the section
-  PeriodEvents events;      ///< chatters: of the chosen stops
-  State state;              ///< at the end; its class is represented as in Translations
-  Eigen::VectorXd advance;  ///< mean along each translation, per return
+  double digits = 0.0;       ///< agreement of the weighted Birkhoff averages of two halves, decimal digits
+  Rotation rotation;         ///< of the points of the section
+  PeriodEvents events;       ///< chatters: of the chosen stops
+  State state;               ///< at the end; its class is represented as in Translations
+  Eigen::VectorXd advance;   ///< mean along each translation, per return
   double mean_return = 1.0;  ///< in periods
   bool ended = false;        ///< the motion did not return any more: nothing else is meant but `state`
-  bool burst = false;       ///< an incomplete chatter of the chosen stops
+  bool burst = false;        ///< an incomplete chatter of the chosen stops
   double sticking_fraction = 0.0;
 };
 

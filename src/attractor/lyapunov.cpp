@@ -42,7 +42,8 @@ class Contraction {
     const Motion::Segment& segment = motion.segment();
     const mode::Matrix& A = system_.compiled().mode(segment.mode).system();
     // Dependent velocities follow from the first n: u = dependence u_n, but for a constant.
-    const double rate = A.block(frame_.d, frame_.d, frame_.n, frame_.d).cwiseProduct(frame_.dependence.transpose()).sum();
+    const double rate =
+        A.block(frame_.d, frame_.d, frame_.n, frame_.d).cwiseProduct(frame_.dependence.transpose()).sum();
     const mode::Mode& mode = system_.compiled().mode(segment.mode);
     windows_ = std::ceil(segment.duration / mode.window());
     sum_ = sum_ + rate * segment.duration;
@@ -51,10 +52,10 @@ class Contraction {
   }
   /// After a new start of the motion, which counts its segments anew.
   void begin_at(const Motion& motion) { segments_seen_ = motion.counters().segments; }
-  [[nodiscard]] bool forgets() const { return forgets_; }            ///< a direction: the volume is zero
-  [[nodiscard]] bool differentiable() const { return differentiable_; }  ///< all events so far
+  [[nodiscard]] bool forgets() const { return forgets_; }                 ///< a direction: the volume is zero
+  [[nodiscard]] bool differentiable() const { return differentiable_; }   ///< all events so far
   [[nodiscard]] double sum() const { return static_cast<double>(sum_); }  ///< unless it forgets
-  [[nodiscard]] double windows() const { return windows_; }          ///< of the last segment
+  [[nodiscard]] double windows() const { return windows_; }               ///< of the last segment
   [[nodiscard]] double rounding() const { return rounding_; }
 
  private:
@@ -289,8 +290,9 @@ LyapunovExponents lyapunov(const System& system, const State& state, const Lyapu
   for (long k = 0; k < options.most_periods; ++k) {
     if (!frame->run_period(options.cancel)) return give_up();
     if (!frame->contraction().differentiable())
-      throw NumericalError("the motion has no exponents: contacts that act on each other meet their events at one instant, "
-                           "and what comes first decides; change a parameter or the start a little");
+      throw NumericalError(
+          "the motion has no exponents: contacts that act on each other meet their events at one instant, "
+          "and what comes first decides; change a parameter or the start a little");
     report(options.transient_periods + k + 1);
     const std::vector<double> taken = frame->take_growth();
     for (std::size_t i = 0; i < growth.size(); ++i) growth[i].push_back(taken[i]);

@@ -20,7 +20,9 @@ struct Scaled {
 };
 
 double rounded(Scaled x) { return std::ldexp(x.scaled.hi, x.exponent); }
-DoubleDouble times_power(Scaled x) { return {std::ldexp(x.scaled.hi, x.exponent), std::ldexp(x.scaled.lo, x.exponent)}; }
+DoubleDouble times_power(Scaled x) {
+  return {std::ldexp(x.scaled.hi, x.exponent), std::ldexp(x.scaled.lo, x.exponent)};
+}
 
 /// exp(x), |x| < 800: x = k ln 2 + r, |r| <= 0.35, and r^n / n! < 2^-114 from n = 24 on.
 Scaled exponential(DoubleDouble x) {

@@ -16,9 +16,11 @@
 
 namespace slapstick {
 
-static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<double>::digits == 53 && sizeof(double) == 8,
+static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<double>::digits == 53 &&
+                  sizeof(double) == 8,
               "slapstick needs double to be IEEE 754 binary64");
-static_assert(FLT_EVAL_METHOD == 0, "slapstick needs double to be computed as double: on 32-bit x86 compile with -msse2 -mfpmath=sse");
+static_assert(FLT_EVAL_METHOD == 0,
+              "slapstick needs double to be computed as double: on 32-bit x86 compile with -msse2 -mfpmath=sse");
 
 /// While it lives, this thread computes with subnormal numbers (MXCSR bits FTZ and DAZ off); the destructor restores
 /// what it found. Does nothing on processors without SSE2. Cost: a nanosecond where nothing is to be restored.

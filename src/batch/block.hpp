@@ -14,27 +14,27 @@ struct alignas(64) Block {
 
   // A trajectory at the start of its window
   alignas(64) Row p[most_coordinates], u[most_coordinates];
-  alignas(64) Row fraction, period;          ///< the instant; whole periods as a double
-  alignas(64) Row scale;                     ///< what the window is shorter than the mode's by
-  alignas(64) Row tries;                     ///< how often the window has been halved from the same start
+  alignas(64) Row fraction, period;  ///< the instant; whole periods as a double
+  alignas(64) Row scale;             ///< what the window is shorter than the mode's by
+  alignas(64) Row tries;             ///< how often the window has been halved from the same start
   alignas(64) Row sine[most_streams], cosine[most_streams];  ///< of the streams at the instant, if `in_phase`
   bool in_phase;                             ///< false where an instant has been set by another than the kernel
   alignas(64) Row cut_period, cut_fraction;  ///< the next instant to look at
   alignas(64) Row impacts, speeds;           ///< number of impacts, and the sum of their speeds
-  alignas(64) Row seen;          ///< events of a lane's run that the lane has decided
+  alignas(64) Row seen;                      ///< events of a lane's run that the lane has decided
   int mode[most_lanes];
-  bool tangents;  ///< whether each lane carries a tangent vector ..
+  bool tangents;                                                      ///< whether each lane carries a tangent vector ..
   alignas(64) Row dp[most_coordinates], du[most_coordinates], power;  ///< .. these numbers times 2 to the power
 
   // Words
   alignas(64) Row restitution[most_contacts], let_off[most_contacts], impulse[most_contacts][most_coordinates];
-  Row* active;  ///< [word]: of each lane's mode. Those of slots that no lane's mode has are zero
+  Row* active;                  ///< [word]: of each lane's mode. Those of slots that no lane's mode has are zero
   int active_mode[most_lanes];  ///< whose words those are; the number of modes: none
-  int filled;   ///< the most slots that one of these modes has
-  const Row* all;       ///< [mode][word]
-  const std::uint8_t* ready;  ///< [mode][lane]: whether those words have been made
+  int filled;                   ///< the most slots that one of these modes has
+  const Row* all;               ///< [mode][word]
+  const std::uint8_t* ready;    ///< [mode][lane]: whether those words have been made
   Layout layout;
-  const int* harmonic;          ///< Shape::harmonic, cosine_of, action, open, slots, still
+  const int* harmonic;  ///< Shape::harmonic, cosine_of, action, open, slots, still
   const std::uint8_t* cosine_of;
   const Action* action;
   const std::uint8_t* open;
@@ -45,7 +45,7 @@ struct alignas(64) Block {
   unsigned occupied;  ///< lanes that have a trajectory
   unsigned starting;  ///< those of them that have no mode yet: `start` says which it may be
   Action start[most_lanes];
-  unsigned watched;   ///< lanes whose events are to be seen one by one
+  unsigned watched;                          ///< lanes whose events are to be seen one by one
   unsigned events, cuts, doubtful, wanting;  ///< lanes with an event, at a cut, in doubt, and in want of the words
                                              ///< of a mode ..
   int wanted[most_lanes];                    ///< .. and which

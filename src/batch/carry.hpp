@@ -51,7 +51,8 @@ class Carry : public Follow<width, n> {
   __attribute__((always_inline)) explicit Carry(Block& block) : Base(block) {}
 
  protected:
-  using Base::all, Base::at_, Base::block_, Base::impact_, Base::of, Base::p_, Base::reached_, Base::u_, Base::window_, Base::winner_, Base::word;
+  using Base::all, Base::at_, Base::block_, Base::impact_, Base::of, Base::p_, Base::reached_, Base::u_, Base::window_,
+      Base::winner_, Base::word;
 
   /// To x of the window, in the mode of the window; shown to lanes at a cut.
   __attribute__((always_inline)) void carry(const Real& x) {
@@ -99,7 +100,8 @@ class Carry : public Follow<width, n> {
   __attribute__((always_inline)) void strike_tangent(const Action& action, int own, const Mask& mine) {
     const Real w = du_[own] * static_cast<double>(action.sign);
     for (int j = 0; j < n; ++j) {
-      const Real struck = j == own ? -(load<Real>(block_.restitution[action.stop]) * du_[own]) : du_[j] + load<Real>(block_.impulse[action.stop][j]) * w;
+      const Real struck = j == own ? -(load<Real>(block_.restitution[action.stop]) * du_[own])
+                                   : du_[j] + load<Real>(block_.impulse[action.stop][j]) * w;
       du_[j] = choose(mine, struck, du_[j]);
     }
   }

@@ -53,8 +53,9 @@ struct Tables {
 
  private:
   constexpr void economize() {
-    constexpr std::array<double, 8> x8_remainder = {-1.0 / 32768,     128.0 / 32768,    -2688.0 / 32768,   21504.0 / 32768,
-                                                    -84480.0 / 32768, 180224.0 / 32768, -212992.0 / 32768, 131072.0 / 32768};
+    constexpr std::array<double, 8> x8_remainder = {-1.0 / 32768,      128.0 / 32768,    -2688.0 / 32768,
+                                                    21504.0 / 32768,   -84480.0 / 32768, 180224.0 / 32768,
+                                                    -212992.0 / 32768, 131072.0 / 32768};
     std::array<DoubleDouble, 8> p{1.0};
     DoubleDouble q;
     for (int n = 0; n < terms; ++n) {

@@ -55,7 +55,8 @@ class Flight {
   /// A gap that falls as long as its slot is positive closes before `place_` if it is negative there.
   __attribute__((always_inline)) void first_gap() {
     impact_ = occupied_ & ~occupied_;
-    gap_noise_ = all(1.0) * (window_.scale * longest_window + 4.0) * (window_.scale * growth + 1.0) * step_rounding * window_.size * 8.0;
+    gap_noise_ = all(1.0) * (window_.scale * longest_window + 4.0) * (window_.scale * growth + 1.0) * step_rounding *
+                 window_.size * 8.0;
     for (int s = 0; s < used_; ++s) {
       const Mask linked = less(all(0.5), word(at_.slot_number(s, Layout::linked))) & occupied_ & ~halve_ & ~doubtful_;
       if (!any(linked)) continue;
@@ -86,15 +87,19 @@ class Flight {
     }
     const Real D = place_, change = gap - before, m0 = slope * D, m1 = -(slot.about(D) * window_.H * D);
     const Real c2 = 3.0 * change - (m0 + m0 + m1), c3 = m0 + m1 - (change + change);
-    const Real t = -before / change, f = ((c3 * t + c2) * t + m0) * t + before, f1 = (3.0 * c3 * t + c2 + c2) * t + m0, f2 = 3.0 * c3 * t + c2;
+    const Real t = -before / change, f = ((c3 * t + c2) * t + m0) * t + before, f1 = (3.0 * c3 * t + c2 + c2) * t + m0,
+               f2 = 3.0 * c3 * t + c2;
     Real x = inside(t - f * f1 / (f1 * f1 - f * f2), all(1.0)) * D;
-    for (int k = 0; k < 2; ++k) x = inside(x + (before - window_.H * slot.integral(x)) / (window_.H * slot.about(x)), D);
+    for (int k = 0; k < 2; ++k)
+      x = inside(x + (before - window_.H * slot.integral(x)) / (window_.H * slot.about(x)), D);
     const Mask sooner = closed & (~impact_ | less(x, guess_));
     guess_ = choose(sooner, x, guess_);
     winner_ = choose(sooner, all(s), winner_);
     impact_ = impact_ | closed;
   }
-  static inline __attribute__((always_inline)) Real inside(const Real& x, const Real& most) { return smaller(larger(x, Real{}), most); }
+  static inline __attribute__((always_inline)) Real inside(const Real& x, const Real& most) {
+    return smaller(larger(x, Real{}), most);
+  }
 
   /// Halley's iteration on the whole series of what comes first, and the proof that nothing comes before.
   __attribute__((always_inline)) void refine() {
@@ -109,7 +114,8 @@ class Flight {
       Jet<Real> now;
       jet_at(f.h, x, now);
       now = {-(f.side * now.value), -(f.side * now.slope), -(f.side * now.half_bend)};
-      jet = {choose(open, now.value, jet.value), choose(open, now.slope, jet.slope), choose(open, now.half_bend, jet.half_bend)};
+      jet = {choose(open, now.value, jet.value), choose(open, now.slope, jet.slope),
+             choose(open, now.half_bend, jet.half_bend)};
       const Real move = now.value * now.slope / (now.slope * now.slope - now.value * now.half_bend);
       x = choose(open, x - move, x);
       open = open & ~less(magnitude(move), x * 0x1p-17);  // cubic: the next error is below rounding
@@ -153,7 +159,8 @@ class Flight {
     to.h[0] = to.h[0] - limit;
   }
 
-  __attribute__((always_inline)) void take_series(Real (&h)[terms], int s, const Mask& by_gap, const Mask& mine, bool begun) const {
+  __attribute__((always_inline)) void take_series(Real (&h)[terms], int s, const Mask& by_gap, const Mask& mine,
+                                                  bool begun) const {
     const bool gaps = any(by_gap);
     Real row[n];
     for (int i = 0; i < n; ++i) row[i] = word(at_.gap(s) + i);
@@ -194,7 +201,8 @@ class Flight {
     halve_ = halve_ & occupied_ & ~doubtful_;
     reached_ = reached_ & ~halve_;
     impact_ = impact_ & ~halve_;
-    const Real later = load<Real>(block_.fraction) + x_ * word(Layout::window_periods) * window_.scale, whole = floor_of(later);
+    const Real later = load<Real>(block_.fraction) + x_ * word(Layout::window_periods) * window_.scale,
+               whole = floor_of(later);
     fraction_ = later - whole;
     period_ = load<Real>(block_.period) + whole;
   }

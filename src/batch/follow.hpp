@@ -101,7 +101,8 @@ class Follow : public Flight<width, n> {
 
   /// Sines and cosines of the streams at fraction_.
   __attribute__((always_inline)) void take_phase() {
-    for (int k = 0; k < at_.k; ++k) sine_cosine(fraction_, static_cast<double>(block_.harmonic[k]), sine_[k], cosine_[k]);
+    for (int k = 0; k < at_.k; ++k)
+      sine_cosine(fraction_, static_cast<double>(block_.harmonic[k]), sine_[k], cosine_[k]);
   }
   /// Keeps those of lanes that go on for their next window.
   __attribute__((always_inline)) void keep_phase(const Mask& go) {
@@ -112,7 +113,9 @@ class Follow : public Flight<width, n> {
   }
 
   __attribute__((always_inline)) Real stream(int k) const { return block_.cosine_of[k] != 0 ? cosine_[k] : sine_[k]; }
-  __attribute__((always_inline)) Real stream_rate(int k) const { return block_.cosine_of[k] != 0 ? -sine_[k] : cosine_[k]; }
+  __attribute__((always_inline)) Real stream_rate(int k) const {
+    return block_.cosine_of[k] != 0 ? -sine_[k] : cosine_[k];
+  }
 
   /// row . (p, scaled velocities, f, 1)
   __attribute__((always_inline)) Real product(int row, const Real (&velocity)[n]) const {
@@ -125,7 +128,8 @@ class Follow : public Flight<width, n> {
   /// Its derivative along the motion, per window.
   __attribute__((always_inline)) Real rate_of(int row, const Real (&velocity)[n], const Real (&acceleration)[n]) const {
     Real sum = Real{};
-    for (int i = 0; i < n; ++i) sum = sum + word(row + i) * (velocity[i] + word(at_.drift(i))) + word(row + n + i) * acceleration[i];
+    for (int i = 0; i < n; ++i)
+      sum = sum + word(row + i) * (velocity[i] + word(at_.drift(i))) + word(row + n + i) * acceleration[i];
     for (int k = 0; k < at_.k; ++k) sum = sum + word(row + 2 * n + k) * stream_rate(k) * word(Layout::rates + k);
     return sum;
   }
@@ -156,8 +160,8 @@ class Follow : public Flight<width, n> {
     return verdict;
   }
 
-  __attribute__((always_inline)) void judge_slot(int s, const Real& norm, const Real& size, const Real (&velocity)[n], const Real (&acceleration)[n],
-                                                 Verdict& verdict) const {
+  __attribute__((always_inline)) void judge_slot(int s, const Real& norm, const Real& size, const Real (&velocity)[n],
+                                                 const Real (&acceleration)[n], Verdict& verdict) const {
     const Real start_norm = word(at_.slot_number(s, Layout::start_norm));
     const Real lower = word(at_.slot_number(s, Layout::lower)), upper = word(at_.slot_number(s, Layout::upper));
     const Real value = product(at_.slot(s), velocity), margin = smaller(upper - value, value + lower);
@@ -174,7 +178,8 @@ class Follow : public Flight<width, n> {
       // eight times: twice or half of a bound leaves room for that.
       unsure = at_start & ~(rises & equal(upper, all(no_limit)));
       verdict.falls = verdict.falls | (there & less(margin, -noise)) | (zero & less(rate, -rate_noise));
-      if (any(unsure & single & ~rises)) judge_bend(s, velocity, acceleration, zero & single, rate, rate_noise, unsure, verdict.falls);
+      if (any(unsure & single & ~rises))
+        judge_bend(s, velocity, acceleration, zero & single, rate, rate_noise, unsure, verdict.falls);
     }
     verdict.unsure = verdict.unsure | unsure;
     verdict.falls = verdict.falls | (there & touches(s) & ~unsure);
@@ -182,8 +187,9 @@ class Follow : public Flight<width, n> {
 
   /// Single numbers that are zero, with a rate that is rounding. Where they bend down the mode falls, a displacement
   /// only if its rate is exactly zero. A gap's bend is an acceleration, a velocity's a jerk.
-  __attribute__((noinline)) void judge_bend(int s, const Real (&velocity)[n], const Real (&acceleration)[n], const Mask& zero, const Real& rate,
-                                            const Real& rate_noise, Mask& unsure, Mask& falls) const {
+  __attribute__((noinline)) void judge_bend(int s, const Real (&velocity)[n], const Real (&acceleration)[n],
+                                            const Mask& zero, const Real& rate, const Real& rate_noise, Mask& unsure,
+                                            Mask& falls) const {
     const Real bend_noise = longest_window * rate_noise;
     Real bend = Real{}, turning = Real{};
     for (int i = 0; i < n; ++i) {

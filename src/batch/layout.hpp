@@ -11,13 +11,13 @@ inline constexpr int most_coordinates = 4, most_contacts = 4, most_streams = 4, 
 struct Layout {
   int n = 0, k = 0, slots = 0;
 
-  static constexpr int window = 0;         ///< H, in the model's unit of time
-  static constexpr int window_periods = 1; ///< the same in forcing periods
-  static constexpr int inverse_speed = 2;  ///< the norm of a state is the largest of |p_i|, |u_i| times this, ..
-  static constexpr int least_size = 3;     ///< .. and this, for streams and the constant
-  static constexpr int chatter = 4;        ///< an impact that leaves slower than this times the norm may begin a
-                                           ///< complete chatter that a Motion proves
-  static constexpr int rates = 5;          ///< of the streams: j omega H
+  static constexpr int window = 0;          ///< H, in the model's unit of time
+  static constexpr int window_periods = 1;  ///< the same in forcing periods
+  static constexpr int inverse_speed = 2;   ///< the norm of a state is the largest of |p_i|, |u_i| times this, ..
+  static constexpr int least_size = 3;      ///< .. and this, for streams and the constant
+  static constexpr int chatter = 4;         ///< an impact that leaves slower than this times the norm may begin a
+                                            ///< complete chatter that a Motion proves
+  static constexpr int rates = 5;           ///< of the streams: j omega H
   [[nodiscard, gnu::always_inline]] constexpr int drift(int i) const { return rates + k + i; }  ///< times H
   /// u_i': n of K, n of C, k of F, R.
   [[nodiscard, gnu::always_inline]] constexpr int row(int i) const { return drift(n) + i * row_size(); }
@@ -26,7 +26,9 @@ struct Layout {
   /// over p.
   [[nodiscard, gnu::always_inline]] constexpr int slot(int s) const { return row(n) + s * slot_size(); }
   [[nodiscard, gnu::always_inline]] constexpr int slot_size() const { return row_size() + slot_numbers + n; }
-  [[nodiscard, gnu::always_inline]] constexpr int slot_number(int s, int which) const { return slot(s) + row_size() + which; }
+  [[nodiscard, gnu::always_inline]] constexpr int slot_number(int s, int which) const {
+    return slot(s) + row_size() + which;
+  }
   [[nodiscard, gnu::always_inline]] constexpr int gap(int s) const { return slot(s) + row_size() + slot_numbers; }
   static constexpr int lower = 0, upper = 1;
   static constexpr int norm = 2;        ///< |v| is at most this times the norm of the state; 0: there is no such slot

@@ -52,20 +52,24 @@ Norm norm_of(const mode::Matrix& system, const mode::Frame& frame, double fastes
 }
 
 /// Writes row . (p, u, f, 1) at `out`, each part times its factor.
-void write_row(const mode::RowVector& row, const Shape& shape, const mode::Frame& frame, double p, double u, double f, double* out) {
+void write_row(const mode::RowVector& row, const Shape& shape, const mode::Frame& frame, double p, double u, double f,
+               double* out) {
   const int n = frame.n, k = shape.layout.k;
   for (int i = 0; i < n; ++i) {
     out[i] = p * row[i];
     out[n + i] = u * row[n + i];
   }
   for (int s = 0; s < k; ++s) {
-    const auto h = std::find(frame.harmonics.begin(), frame.harmonics.end(), shape.harmonic[static_cast<std::size_t>(s)]) - frame.harmonics.begin();
+    const auto h =
+        std::find(frame.harmonics.begin(), frame.harmonics.end(), shape.harmonic[static_cast<std::size_t>(s)]) -
+        frame.harmonics.begin();
     out[2 * n + s] = f * row[2 * n + 2 * h + (shape.cosine_of[static_cast<std::size_t>(s)] != 0 ? 0 : 1)];
   }
   out[2 * n + k] = f * row[frame.one()];
 }
 
-void write_slot(const SlotRows& slot, const Shape& shape, const mode::Frame& frame, const Norm& norm, double H, int s, double* words) {
+void write_slot(const SlotRows& slot, const Shape& shape, const mode::Frame& frame, const Norm& norm, double H, int s,
+                double* words) {
   const Layout& at = shape.layout;
   write_row(slot.row, shape, frame, 1.0, 1.0 / H, 1.0, words + at.slot(s));
   const RowSizes sizes = sizes_of(slot.row, frame.n);
@@ -89,7 +93,8 @@ ModelWords model_words(const Model& model, const mode::Frame& frame) {
     const mode::ContactRow& stop = frame.stops[i];
     words.restitution[i] = model.stops[i].restitution;
     for (int j = 0; j < frame.n; ++j)
-      words.impulse[i][j] = -(1.0 + words.restitution[i]) * (stop.sign * frame.mass_inverse(j, stop.own) / frame.mass_inverse(stop.own, stop.own));
+      words.impulse[i][j] = -(1.0 + words.restitution[i]) *
+                            (stop.sign * frame.mass_inverse(j, stop.own) / frame.mass_inverse(stop.own, stop.own));
   }
   for (std::size_t i = 0; i < model.compliant_stops.size(); ++i)
     words.let_off[i] = -model.compliant_stops[i].stiffness / model.compliant_stops[i].damping;
@@ -112,7 +117,9 @@ bool make_words(const Model& model, const mode::Frame& frame, Shape& shape, int 
   words[Layout::window_periods] = H / frame.period;
   words[Layout::inverse_speed] = (1.0 + 0x1p-40) / norm.speed;
   words[Layout::least_size] = norm.least;
-  words[Layout::chatter] = 2.0 * flow::fastest_chatter(MotionOptions{}.chatter_tolerance * frame.period * frame.period) * norm.rate * norm.rate;
+  words[Layout::chatter] = 2.0 *
+                           flow::fastest_chatter(MotionOptions{}.chatter_tolerance * frame.period * frame.period) *
+                           norm.rate * norm.rate;
   for (int s = 0; s < at.k; ++s) {
     const double rate = shape.harmonic[static_cast<std::size_t>(s)] * model.omega * H;
     words[Layout::rates + s] = rate;
@@ -121,7 +128,8 @@ bool make_words(const Model& model, const mode::Frame& frame, Shape& shape, int 
     words[at.drift(i)] = frame.drift[i] * H;
     write_row(outline.system.row(at.n + i), shape, frame, H * H, H, H * H, words + at.row(i));
   }
-  for (int s = 0; s < static_cast<int>(slots.size()); ++s) write_slot(slots[static_cast<std::size_t>(s)], shape, frame, norm, H, s, words);
+  for (int s = 0; s < static_cast<int>(slots.size()); ++s)
+    write_slot(slots[static_cast<std::size_t>(s)], shape, frame, norm, H, s, words);
   return true;
 }
 

@@ -22,25 +22,25 @@ namespace slapstick::batch {
 
 /// Of one slot of one mode.
 struct Slot {
-  std::int8_t own = -1;   ///< the number that the row consists of, or -1: a sum
-  bool speed = false;     ///< that number is u_own, else p_own
-  std::int8_t gap = -1;   ///< the stop whose gap falls with the slot, or -1
+  std::int8_t own = -1;  ///< the number that the row consists of, or -1: a sum
+  bool speed = false;    ///< that number is u_own, else p_own
+  std::int8_t gap = -1;  ///< the stop whose gap falls with the slot, or -1
 };
 
 /// What all parameter values share.
 struct Shape {
   Layout layout;
   int modes = 0, stops = 0, frictions = 0, compliant = 0;
-  std::vector<int> harmonic;      ///< of each stream ..
+  std::vector<int> harmonic;            ///< of each stream ..
   std::vector<std::uint8_t> cosine_of;  ///< .. and whether it is a cosine
-  std::vector<Slot> slot;         ///< [mode][slot]
-  std::vector<std::uint8_t> slots;  ///< how many each mode has; none of a lane without a mode
-  std::vector<Action> action;     ///< [mode][slot][side]
-  std::vector<std::uint8_t> open;    ///< [mode]: bit by bit, the displacements of open stops that no slot watches
-  std::vector<std::uint8_t> still;   ///< [mode]: bit i, a tangent's u_i is zero; bit most_coordinates + i, its p_i
-  std::vector<std::uint8_t> known;   ///< [mode]: whether slots, actions and the two above have been made
+  std::vector<Slot> slot;               ///< [mode][slot]
+  std::vector<std::uint8_t> slots;      ///< how many each mode has; none of a lane without a mode
+  std::vector<Action> action;           ///< [mode][slot][side]
+  std::vector<std::uint8_t> open;       ///< [mode]: bit by bit, the displacements of open stops that no slot watches
+  std::vector<std::uint8_t> still;      ///< [mode]: bit i, a tangent's u_i is zero; bit most_coordinates + i, its p_i
+  std::vector<std::uint8_t> known;      ///< [mode]: whether slots, actions and the two above have been made
 
-  std::vector<int> structure;        ///< what `same_shape` compares
+  std::vector<int> structure;  ///< what `same_shape` compares
 
   [[nodiscard]] const Action& action_of(int mode, int s, int side) const {
     return action[static_cast<std::size_t>((mode * layout.slots + s) * sides + side)];
@@ -50,10 +50,10 @@ struct Shape {
 /// Numbers of a model that no mode changes.
 struct ModelWords {
   double period = 1.0;
-  double restitution[most_contacts] = {};                 ///< of each stop
-  double impulse[most_contacts][most_coordinates] = {};   ///< of each stop: -(1 + r) times u's change per unit of
-                                                          ///< velocity
-  double let_off[most_contacts] = {};                     ///< of each compliant stop: -stiffness / damping
+  double restitution[most_contacts] = {};                ///< of each stop
+  double impulse[most_contacts][most_coordinates] = {};  ///< of each stop: -(1 + r) times u's change per unit of
+                                                         ///< velocity
+  double let_off[most_contacts] = {};                    ///< of each compliant stop: -stiffness / damping
 };
 
 /// True if lanes can run the model: at most four coordinates and contacts, no loads, characteristics, bounded

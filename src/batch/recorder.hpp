@@ -11,7 +11,8 @@ namespace slapstick::batch {
 
 class Recorder {
  public:
-  Recorder(const BatchPlan& plan, Instant begin) : plan_(&plan), begin_(begin), passed_(plan.transient_periods == 0 ? 1 : 0) {}
+  Recorder(const BatchPlan& plan, Instant begin)
+      : plan_(&plan), begin_(begin), passed_(plan.transient_periods == 0 ? 1 : 0) {}
 
   /// The next instant to look at: the recording's start, a period before the first point, the points.
   [[nodiscard]] Instant next() const;
@@ -38,7 +39,7 @@ class Recorder {
  private:
   const BatchPlan* plan_;
   Instant begin_;
-  int passed_;  ///< instants that have been looked at: a recording without a transient has begun
+  int passed_;                   ///< instants that have been looked at: a recording without a transient has begun
   double impacts_before_ = 0.0;  ///< at the one before
   double growth_before_ = 0.0;   ///< at the start of the recording
 };

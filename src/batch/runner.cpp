@@ -13,7 +13,8 @@ namespace slapstick::batch {
 
 /// A run that has begun.
 struct Runner::Entry {
-  Entry(std::size_t index_, const BatchPlan& plan, Model model_) : index(index_), model(std::move(model_)), recorder(plan, {}), frame(model) {}
+  Entry(std::size_t index_, const BatchPlan& plan, Model model_)
+      : index(index_), model(std::move(model_)), recorder(plan, {}), frame(model) {}
 
   std::size_t index;
   Model model;
@@ -36,7 +37,8 @@ struct Runner::Rows {
   [[nodiscard]] Block::Row* at(std::size_t i) { return &rows[i].numbers; }
 };
 
-Runner::Runner(Queue queue, const Kernel& kernel) : queue_(std::move(queue)), kernel_(kernel), block_(std::make_unique<Block>()) {
+Runner::Runner(Queue queue, const Kernel& kernel)
+    : queue_(std::move(queue)), kernel_(kernel), block_(std::make_unique<Block>()) {
   block_->tangents = queue_.plan.exponent;
 }
 
@@ -55,7 +57,8 @@ void Runner::run() {
     if (block_->occupied == 0) return;
     kernel_.run(*block_);
     if (queue_.cancel != nullptr && queue_.cancel->load(std::memory_order_relaxed)) return;
-    for (unsigned left = block_->cuts | block_->doubtful | block_->wanting | block_->events; left != 0; left &= left - 1)
+    for (unsigned left = block_->cuts | block_->doubtful | block_->wanting | block_->events; left != 0;
+         left &= left - 1)
       serve(__builtin_ctz(left));
   }
 }
@@ -152,7 +155,8 @@ void Runner::start(int l) {
     for (int i = 0; i < most_coordinates; ++i) block_->impulse[s][i][l] = words.impulse[s][i];
   }
   for (int m = 0; m < shape_->modes; ++m) ready_[static_cast<std::size_t>(m * most_lanes + l)] = 0;
-  block_->seen[l] = block_->fraction[l] = block_->period[l] = block_->tries[l] = block_->impacts[l] = block_->speeds[l] = block_->power[l] = 0.0;
+  block_->seen[l] = block_->fraction[l] = block_->period[l] = block_->tries[l] = block_->impacts[l] =
+      block_->speeds[l] = block_->power[l] = 0.0;
   block_->scale[l] = 1.0;
   block_->in_phase = false;
   block_->mode[l] = 0;

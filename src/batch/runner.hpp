@@ -26,10 +26,13 @@ struct Queue {
   std::function<std::optional<std::size_t>()> next;  ///< the index of the next run
   std::function<Model(std::size_t)> model_at;
   std::function<State(std::size_t)> start_at;
-  std::function<void(std::size_t, BatchRun&&)> take;      ///< called once for each index, in no order
+  std::function<void(std::size_t, BatchRun&&)> take;  ///< called once for each index, in no order
   BatchPlan plan;
-  enum class Wanted { all, those_of_lanes } wanted = Wanted::all;  ///< whether runs that no lane can carry are left
-                                                                   ///< out, undone
+  enum class Wanted {
+    all,
+    those_of_lanes
+  } wanted = Wanted::all;  ///< whether runs that no lane can carry are left
+                           ///< out, undone
   const std::atomic<bool>* cancel = nullptr;
   /// If set, it is given every point of a run in place of BatchRun::points, while the lanes wait; true ends the run.
   std::function<bool(std::size_t, const PassedPoint&)> watch = {};

@@ -12,7 +12,8 @@ namespace {
 /// of a turn. t is split in two, so that j t less its whole turns is rounded as a part of an eighth only.
 template <class Real>
 SLAPSTICK_INLINE void sine_cosine(const Real& t, double j, Real& sine, Real& cosine) {
-  const Real high = nearest(t * 0x1p26) * 0x1p-26, turns = high * j, low = (t - high) * j, rest = turns - nearest(turns);
+  const Real high = nearest(t * 0x1p26) * 0x1p-26, turns = high * j, low = (t - high) * j,
+             rest = turns - nearest(turns);
   const Real quarter = nearest((rest + low) * 4.0);
   const Real r = ((rest - quarter * 0.25) + low) * 0x1.921fb54442d18p+2, z = r * r;
   Real s = z * -0x1.ae7f3e733b81fp-41 + 0x1.6124613a86d09p-33;
@@ -58,7 +59,8 @@ static __attribute__((noinline)) void values_at(const Real (*a)[terms + 1], cons
 
 /// The same of m <= terms, and their derivatives: with a = e(z) + x o(z), z = x^2,  a' = 2 x e' + o + 2 z o'.
 template <int count, class Real>
-static __attribute__((noinline)) void values_and_slopes_at(const Real (*a)[terms + 1], const Real& x, Real (&value)[count], Real (&slope)[count]) {
+static __attribute__((noinline)) void values_and_slopes_at(const Real (*a)[terms + 1], const Real& x,
+                                                           Real (&value)[count], Real (&slope)[count]) {
   const Real z = x * x;
   Real e[count], o[count], e1[count], o1[count];
   for (int i = 0; i < count; ++i) {
@@ -110,14 +112,18 @@ struct Window {
   using Mask = typename Lanes<width>::Mask;
 
   Real p[n][terms + 1];
-  Real start[n], drift[n];  ///< scale H u at the start; p' = scale H u + drift
+  Real start[n], drift[n];                                         ///< scale H u at the start; p' = scale H u + drift
   Real even[most_streams], odd[most_streams], bend[most_streams];  ///< f^(2j) = even bend^j, f^(2j+1) = odd bend^j
-  Real scale, H;  ///< H times scale
-  Real size;      ///< the norm of the state
+  Real scale, H;                                                   ///< H times scale
+  Real size;                                                       ///< the norm of the state
 
-  static inline __attribute__((always_inline)) Real word(const Block& block, int i) { return load<Real>(block.active[i]); }
+  static inline __attribute__((always_inline)) Real word(const Block& block, int i) {
+    return load<Real>(block.active[i]);
+  }
 
-  __attribute__((always_inline)) void make(const Block& block) { block.layout.k <= 1 ? expand<1>(block) : expand<most_streams>(block); }
+  __attribute__((always_inline)) void make(const Block& block) {
+    block.layout.k <= 1 ? expand<1>(block) : expand<most_streams>(block);
+  }
 
   /// p and u at x.
   __attribute__((always_inline)) void state_at(const Real& x, Real (&p_at)[n], Real (&u_at)[n]) const {
@@ -179,7 +185,7 @@ struct Window {
       f_odd[s] = odd[s];
     }
     // u^(m+1) = K p^(m) + C u^(m) + F f^(m); then p^(m+1) = u^(m)
-    const auto step = [&](int m, const Real (&f)[k]) __attribute__((always_inline)) {
+    const auto step = [&](int m, const Real(&f)[k]) __attribute__((always_inline)) {
       Real a[n];
       for (int i = 0; i < n; ++i) {
         p[i][m] = dp[i] * tables.inverse_factorial[m];

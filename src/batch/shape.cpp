@@ -77,9 +77,7 @@ class EventOffers {
   }
 
  private:
-  static Offer of_stop(StopState state) {
-    return state == StopState::closed ? Offer{{1, 0}, 2} : Offer{{0}, 1};
-  }
+  static Offer of_stop(StopState state) { return state == StopState::closed ? Offer{{1, 0}, 2} : Offer{{0}, 1}; }
 
   /// An impulse may turn the velocity of another pair; which way, the slip guards of both say.
   [[nodiscard]] Offer of_friction(std::size_t i, FrictionState state) const {
@@ -115,16 +113,20 @@ class EventOffers {
 };
 
 /// The modes that may follow. A force at its limit does not leave the mode as it is: it is falling.
-void add_candidates(const Model& model, const mode::Frame& frame, const Shape& shape, int mode, const mode::Guard& guard, Action& action) {
-  Offers(EventOffers(model, frame, action, guard).of(states_of(shape, mode))).each(2, [&](const std::vector<int>& digits) {
-    add(shape, digits, action);
-    const bool stays = action.candidates > 0 && action.candidate[action.candidates - 1] == mode;
-    if (action.jump == Jump::none && stays) --action.candidates;
-  });
+void add_candidates(const Model& model, const mode::Frame& frame, const Shape& shape, int mode,
+                    const mode::Guard& guard, Action& action) {
+  Offers(EventOffers(model, frame, action, guard).of(states_of(shape, mode)))
+      .each(2, [&](const std::vector<int>& digits) {
+        add(shape, digits, action);
+        const bool stays = action.candidates > 0 && action.candidate[action.candidates - 1] == mode;
+        if (action.jump == Jump::none && stays) --action.candidates;
+      });
 }
 
 /// An impact beside a stop in contact is one of several at an instant.
-bool another_closed(const mode::ContactStates& states) { return ranges::find(states.stops, StopState::closed) != states.stops.end(); }
+bool another_closed(const mode::ContactStates& states) {
+  return ranges::find(states.stops, StopState::closed) != states.stops.end();
+}
 
 Action action_of(const Model& model, const mode::Frame& frame, const Shape& shape, int mode, const mode::Guard& guard) {
   Action action;
@@ -191,7 +193,8 @@ std::vector<Offer> start_offers(const Model& model, const mode::Frame& frame, co
 
 }  // namespace
 
-Action start_action(const Model& model, const mode::Frame& frame, const Shape& shape, const double* p, const double* u) {
+Action start_action(const Model& model, const mode::Frame& frame, const Shape& shape, const double* p,
+                    const double* u) {
   Action action;
   std::vector<Offer> given = start_offers(model, frame, p, u);
   if (given.empty() && shape.modes > 1) return action;
@@ -237,7 +240,8 @@ bool fits_lanes(const Model& model, const mode::Frame& frame) {
   };
   std::size_t slots = model.stops.size() + model.frictions.size() + 2 * model.compliant_stops.size();
   return frame.d == frame.n && frame.n <= most_coordinates && contacts <= most_contacts && slots <= most_slots &&
-         2 * frame.harmonics.size() <= most_streams && model.characteristics.empty() && model.periodic() && model.signals.empty() &&
+         2 * frame.harmonics.size() <= most_streams && model.characteristics.empty() && model.periodic() &&
+         model.signals.empty() &&
          ranges::none_of(model.frictions, [](const FrictionContact& contact) { return contact.normal.has_value(); }) &&
          ranges::all_of(model.stops, [](const Stop& stop) { return stop.corners.empty() && stop.restitution > 0.0; }) &&
          ranges::none_of(model.compliant_stops, [](const CompliantStop& stop) { return stop.bounded; }) &&
@@ -259,7 +263,8 @@ std::vector<int> structure_of(const Model& model, const mode::Frame& frame) {
   for (const CompliantStop& stop : model.compliant_stops) all.push_back(!stop.pulls && stop.damping > 0.0 ? 1 : 0);
   for (std::size_t k = 0; k < frame.harmonics.size(); ++k)
     for (const int which : {0, 1})
-      if (!frame.free.col(2 * frame.d + 2 * static_cast<Eigen::Index>(k) + which).isZero(0.0)) all.push_back(2 * frame.harmonics[k] + which);
+      if (!frame.free.col(2 * frame.d + 2 * static_cast<Eigen::Index>(k) + which).isZero(0.0))
+        all.push_back(2 * frame.harmonics[k] + which);
   for (int i = 0; i < frame.n; ++i)
     for (int j = 0; j < frame.n; ++j) all.push_back(frame.mass_inverse(i, j) != 0.0 ? 1 : 0);
   return all;
@@ -267,7 +272,9 @@ std::vector<int> structure_of(const Model& model, const mode::Frame& frame) {
 
 }  // namespace
 
-bool same_shape(const Shape& shape, const Model& model, const mode::Frame& frame) { return shape.structure == structure_of(model, frame); }
+bool same_shape(const Shape& shape, const Model& model, const mode::Frame& frame) {
+  return shape.structure == structure_of(model, frame);
+}
 
 Shape shape_of(const Model& model, const mode::Frame& frame) {
   Shape shape;
@@ -284,8 +291,10 @@ Shape shape_of(const Model& model, const mode::Frame& frame) {
       shape.harmonic.push_back(frame.harmonics[k]);
       shape.cosine_of.push_back(static_cast<std::uint8_t>(cosine));
     }
-  const int doubled = ranges::any_of(model.compliant_stops, [](const CompliantStop& stop) { return !stop.pulls && stop.damping > 0.0; });
-  shape.layout = {frame.n, static_cast<int>(shape.harmonic.size()), shape.stops + shape.frictions + (1 + doubled) * shape.compliant};
+  const int doubled = ranges::any_of(model.compliant_stops,
+                                     [](const CompliantStop& stop) { return !stop.pulls && stop.damping > 0.0; });
+  shape.layout = {frame.n, static_cast<int>(shape.harmonic.size()),
+                  shape.stops + shape.frictions + (1 + doubled) * shape.compliant};
   const auto modes = static_cast<std::size_t>(shape.modes), slots = static_cast<std::size_t>(shape.layout.slots);
   shape.slot.resize(modes * slots);
   shape.slots.resize(modes + 1);
@@ -323,8 +332,8 @@ std::uint8_t held_still(const mode::Outline& outline, const mode::Frame& frame) 
 
 }  // namespace
 
-void add_mode(const Model& model, const mode::Frame& frame, const mode::Outline& outline, const std::vector<SlotRows>& slots, int mode,
-              Shape& shape) {
+void add_mode(const Model& model, const mode::Frame& frame, const mode::Outline& outline,
+              const std::vector<SlotRows>& slots, int mode, Shape& shape) {
   const auto first = static_cast<std::size_t>(mode) * static_cast<std::size_t>(shape.layout.slots);
   unsigned open = 0;
   for (std::size_t i = 0; i < outline.states.stops.size(); ++i)
@@ -335,7 +344,8 @@ void add_mode(const Model& model, const mode::Frame& frame, const mode::Outline&
     shape.slot[first + s] = slots[s].slot;
     for (std::size_t side = 0; side < sides; ++side)
       if (const int g = slots[s].guard[side]; g >= 0) {
-        shape.action[(first + s) * sides + side] = action_of(model, frame, shape, mode, outline.guards[static_cast<std::size_t>(g)]);
+        shape.action[(first + s) * sides + side] =
+            action_of(model, frame, shape, mode, outline.guards[static_cast<std::size_t>(g)]);
       }
   }
   shape.slots[static_cast<std::size_t>(mode)] = static_cast<std::uint8_t>(slots.size());

@@ -11,14 +11,14 @@ struct SlotWindow {
   using Real = typename Lanes<width>::Real;
   using Mask = typename Lanes<width>::Mask;
 
-  Real series[terms];      ///< with a zero of its order at the start divided out
-  Mask first, second;      ///< order at least one, at least two
-  Mask there, doubtful;    ///< the lane's mode has this slot; it starts in doubt or outside its limits
+  Real series[terms];              ///< with a zero of its order at the start divided out
+  Mask first, second;              ///< order at least one, at least two
+  Mask there, doubtful;            ///< the lane's mode has this slot; it starts in doubt or outside its limits
   Real lower, upper, size, noise;  ///< size: no value is more; noise: a bound of the series' errors
-  Real P[8], error;        ///< of the polynomial of degree 7 that is near, and how near
+  Real P[8], error;                ///< of the polynomial of degree 7 that is near, and how near
   Mask undecided, hit;
-  Real side, limit;        ///< the slot is limit - side v; side 1: the upper limit, -1: the lower
-  Real end, root;          ///< of the part of the window that is decided; about where the hull vanishes
+  Real side, limit;  ///< the slot is limit - side v; side 1: the upper limit, -1: the lower
+  Real end, root;    ///< of the part of the window that is decided; about where the hull vanishes
 
   template <int n>
   __attribute__((noinline)) void make(const Block& block, const Window<width, n>& window, int s) {
@@ -29,7 +29,8 @@ struct SlotWindow {
     size = word(Layout::norm) * window.size;
     there = less(Real{}, size);
     bool driven = false;
-    for (int k = 0; k < at.k; ++k) driven = driven || any(~equal(load<Real>(block.active[at.slot(s) + 2 * n + k]), Real{}));
+    for (int k = 0; k < at.k; ++k)
+      driven = driven || any(~equal(load<Real>(block.active[at.slot(s) + 2 * n + k]), Real{}));
     const Real start_size = word(Layout::start_norm) * window.size;
     if (!driven)
       expand(Row<n, 0>(block, window, at.slot(s)), start_size);
@@ -52,7 +53,8 @@ struct SlotWindow {
   __attribute__((always_inline)) Real integral(const Real& x) const {
     Real sum = Real{};
     for (int j = 7; j >= 0; --j) {
-      const Real part = choose(first, choose(second, Real{} + tables.inverse[j + 3], Real{} + tables.inverse[j + 2]), Real{} + tables.inverse[j + 1]);
+      const Real part = choose(first, choose(second, Real{} + tables.inverse[j + 3], Real{} + tables.inverse[j + 2]),
+                               Real{} + tables.inverse[j + 1]);
       sum = sum * x + P[j] * part;
     }
     return sum * choose(first, choose(second, x * x, x), Real{} + 1.0) * x;
@@ -157,13 +159,15 @@ struct SlotWindow {
     left = left + magnitude(shifted(terms - 4, row.term(terms - 1, row.odd)));
     for (int m = terms - 3; m < terms; ++m) left = left + magnitude(shifted(m, Real{}));
     P[0] = p0, P[1] = p1, P[2] = p2, P[3] = p3, P[4] = p4, P[5] = p5, P[6] = p6, P[7] = p7;
-    Real sum = magnitude(p0) + magnitude(p1) + magnitude(p2) + magnitude(p3) + magnitude(p4) + magnitude(p5) + magnitude(p6) + magnitude(p7);
+    Real sum = magnitude(p0) + magnitude(p1) + magnitude(p2) + magnitude(p3) + magnitude(p4) + magnitude(p5) +
+               magnitude(p6) + magnitude(p7);
     error = (left + sum * hull_rounding + noise * 8.0) * (1.0 + 0x1p-40);
   }
 
   /// The first of value, slope and bend at the start that is more than eight times its noise decides; it must be
   /// positive.
-  __attribute__((always_inline)) void find_orders(const Real& scale, const Real& start_size, const Real& value, const Real& slope, const Real& bend) {
+  __attribute__((always_inline)) void find_orders(const Real& scale, const Real& start_size, const Real& value,
+                                                  const Real& slope, const Real& bend) {
     const Real z = scale * longest_window, spread = (z + 4.0) * (scale * growth + 1.0);
     const Real noise_0 = start_size * (8.0 * 3.0 * step_rounding), noise_1 = size * z * (8.0 * 3.0 * step_rounding),
                noise_2 = size * z * z * (8.0 * 3.0 * step_rounding);
@@ -211,7 +215,8 @@ struct SlotWindow {
       least = smaller(least, b[j]);
     }
     const Mask beyond_upper = less(upper - error, most), beyond_lower = less(least, error - lower);
-    const Real one = Real{} + 1.0, now_side = choose(beyond_upper, one, -one), now_limit = choose(beyond_upper, upper, lower);
+    const Real one = Real{} + 1.0, now_side = choose(beyond_upper, one, -one),
+               now_limit = choose(beyond_upper, upper, lower);
     Real before = now_limit - now_side * b[0], whole = Real{}, above = one, drop = one;
     Mask clear = less(error, before), seen = ~clear, open = (beyond_upper & beyond_lower) | ~clear;
     for (int j = 1; j < 8; ++j) {

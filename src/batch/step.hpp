@@ -15,8 +15,10 @@ class Step : Carry<width, n> {
   using Base = Carry<width, n>;
   using Real = typename Base::Real;
   using Mask = typename Base::Mask;
-  using Base::action_, Base::all, Base::at_, Base::block_, Base::doubtful_, Base::fraction_, Base::halve_, Base::follow, Base::impact_, Base::lanes_of, Base::next_, Base::occupied_, Base::of, Base::p_, Base::period_,
-      Base::reached_, Base::slots_, Base::take_phase, Base::take_words, Base::tried_, Base::u_, Base::window_, Base::winner_, Base::word, Base::x_;
+  using Base::action_, Base::all, Base::at_, Base::block_, Base::doubtful_, Base::fraction_, Base::halve_, Base::follow,
+      Base::impact_, Base::lanes_of, Base::next_, Base::occupied_, Base::of, Base::p_, Base::period_, Base::reached_,
+      Base::slots_, Base::take_phase, Base::take_words, Base::tried_, Base::u_, Base::window_, Base::winner_,
+      Base::word, Base::x_;
 
  public:
   __attribute__((always_inline)) explicit Step(Block& block) : Base(block) {}
@@ -47,12 +49,14 @@ class Step : Carry<width, n> {
       u_[i] = load<Real>(block_.u[i]);
     }
     fraction_ = load<Real>(block_.fraction);
-    for (unsigned left = block_.starting; left != 0; left &= left - 1) action_[__builtin_ctz(left)] = &block_.start[__builtin_ctz(left)];
+    for (unsigned left = block_.starting; left != 0; left &= left - 1)
+      action_[__builtin_ctz(left)] = &block_.start[__builtin_ctz(left)];
     block_.events = block_.cuts = block_.wanting = 0;
     take_phase();
     block_.doubtful = follow(block_.starting);
     const unsigned begun = block_.starting & ~(block_.doubtful | block_.wanting);
-    for (unsigned left = begun; left != 0; left &= left - 1) block_.mode[__builtin_ctz(left)] = next_[__builtin_ctz(left)];
+    for (unsigned left = begun; left != 0; left &= left - 1)
+      block_.mode[__builtin_ctz(left)] = next_[__builtin_ctz(left)];
     if constexpr (tangents) Base::begin_tangents(begun);
     block_.starting = block_.wanting;
     return (block_.doubtful | block_.wanting) != 0;
@@ -207,7 +211,8 @@ class Step : Carry<width, n> {
     store<Real>(block_.seen, choose(ended, load<Real>(block_.seen) + 1.0, load<Real>(block_.seen)));
     if constexpr (tangents) Base::keep_tangents(go);
     const unsigned events = bits(ended);
-    for (unsigned left = events; left != 0; left &= left - 1) block_.mode[__builtin_ctz(left)] = next_[__builtin_ctz(left)];
+    for (unsigned left = events; left != 0; left &= left - 1)
+      block_.mode[__builtin_ctz(left)] = next_[__builtin_ctz(left)];
     block_.events = events & block_.watched;
     if (block_.events != 0) store<Real>(block_.event_speed, speed_);
     ++block_.steps;

@@ -23,7 +23,8 @@ double growth_of(std::span<const double> delta, double power) {
   return squares > 0.0 ? 0.5 * fixed::ln(squares) + power * ln_2 : -INFINITY;
 }
 
-EngineTangent::EngineTangent(const flow::CompiledSystem& system) : carried_(system), delta_(2 * static_cast<std::size_t>(system.frame().n)) {}
+EngineTangent::EngineTangent(const flow::CompiledSystem& system)
+    : carried_(system), delta_(2 * static_cast<std::size_t>(system.frame().n)) {}
 
 void EngineTangent::begin(const flow::Engine& engine) {
   for (std::size_t i = 0; i < delta_.size(); ++i) delta_[i] = first_delta(static_cast<int>(i));
@@ -40,7 +41,8 @@ void EngineTangent::take(std::span<const double> delta, double power, const flow
 void EngineTangent::follow(const flow::Engine& engine, Outcome outcome) {
   carried_.follow(engine, outcome);
   keep();
-  const double size = std::abs(*std::max_element(delta_.begin(), delta_.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
+  const double size = std::abs(
+      *std::max_element(delta_.begin(), delta_.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
   if (size == 0.0 || (size > 0x1p-64 && size < 0x1p64)) return;
   const int power = std::ilogb(size);
   for (double& x : delta_) x = std::scalbn(x, -power);

@@ -33,7 +33,7 @@ class Certificate::Writer {
   const flow::Engine& engine_;
   std::function<void(const std::string&)> write_;
   std::string text_;
-  long seen_ = 0;  ///< segments of the motion
+  long seen_ = 0;    ///< segments of the motion
   long shaken_ = 0;  ///< limits of chatter that shake another contact
   Tally tally_;
 };

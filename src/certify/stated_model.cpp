@@ -74,7 +74,10 @@ std::string stated(int friction, const NormalForce& normal) {
 std::string stated(const CompliantStop& stop) {
   const auto& [name, a, b, clearance, stiffness, damping, pulls, bounded] = stop;
   return line("compliant" + number(a) + number(b) + hex(clearance) + hex(stiffness) + hex(damping) +
-              number(pulls ? 1 : bounded ? 2 : 0) + called(name));
+              number(pulls     ? 1
+                     : bounded ? 2
+                               : 0) +
+              called(name));
 }
 
 std::string stated(const Characteristic& bent) {
@@ -105,7 +108,8 @@ std::string not_stated(const Model& model) {
     if (contact.normal && contact.normal->terms.size() > most_corners)
       return "a normal force of more than 1000 terms (" + in_quotes(contact.name) + ")";
   for (const Force& force : model.forces) {
-    if (force.signal >= 0) return "signals and impulses (" + in_quotes(model.signals[static_cast<std::size_t>(force.signal)].name) + ")";
+    if (force.signal >= 0)
+      return "signals and impulses (" + in_quotes(model.signals[static_cast<std::size_t>(force.signal)].name) + ")";
   }
   return "";
 }
@@ -134,7 +138,8 @@ std::string matrix(const char* word, const SymmetricMatrix& entries, int n) {
   std::string text;
   for (int i = 0; i < n && !entries.empty(); ++i) {
     text += word + number(i);
-    for (int j = 0; j < n; ++j) text += hex(entries[static_cast<std::size_t>(i) * static_cast<std::size_t>(n) + static_cast<std::size_t>(j)]);
+    for (int j = 0; j < n; ++j)
+      text += hex(entries[static_cast<std::size_t>(i) * static_cast<std::size_t>(n) + static_cast<std::size_t>(j)]);
     text += "\n";
   }
   return text;
@@ -181,7 +186,7 @@ std::string stated_contacts(const mode::ContactStates& states) {
   std::string text;
   for (const mode::StopState stop : states.stops) text += stop == mode::StopState::closed ? " closed" : " open";
   for (const mode::FrictionState friction : states.frictions)
-    text += friction == mode::FrictionState::stick        ? " stick"
+    text += friction == mode::FrictionState::stick       ? " stick"
             : friction == mode::FrictionState::slip_plus ? " slip+"
             : friction == mode::FrictionState::unloaded  ? " unloaded"
                                                          : " slip-";

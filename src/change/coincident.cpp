@@ -16,9 +16,9 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double vanishing = 1e-2;   ///< of a leg's length, or an impact's speed, at the point before: it vanishes
-constexpr double no_gap = 1e-9;    ///< of the largest margin of a gap at the point before
-constexpr double no_speed = 1e-4;  ///< of the largest speed at the point before: so much is left by rounding
+constexpr double vanishing = 1e-2;  ///< of a leg's length, or an impact's speed, at the point before: it vanishes
+constexpr double no_gap = 1e-9;     ///< of the largest margin of a gap at the point before
+constexpr double no_speed = 1e-4;   ///< of the largest speed at the point before: so much is left by rounding
 
 /// Does a leg shrink to nothing from one orbit to the next?
 bool vanishes(const Orbit& before, const Orbit& orbit, std::size_t leg) {

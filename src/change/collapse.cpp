@@ -148,8 +148,7 @@ std::optional<Collapse> death_at(const Problem& problem, const PathPoint& from, 
   std::vector<bool> dying = gone_legs(from.orbit, change);
   if (test.test == Test::speed && test.kind == mode::GuardKind::gap) {  // a slip may die with its speed, at any length
     const ModeSet set(problem.family(), change.values);
-    for (std::size_t i = 0; i < legs; ++i)
-      dying[i] = dying[i] || comes_to_rest(set, from.orbit, change, i, test.leg);
+    for (std::size_t i = 0; i < legs; ++i) dying[i] = dying[i] || comes_to_rest(set, from.orbit, change, i, test.leg);
   }
   const std::size_t before = (test.leg + legs - 1) % legs, behind = (test.leg + 1) % legs;
   if (!dying[test.leg] && !dying[before] && !dying[behind]) return std::nullopt;

@@ -39,8 +39,7 @@ class Rows {
     by.topLeftCorner(used_, at_.by.cols()) = at_.by;
     for (std::size_t i = 0; i < orbit.legs(); ++i)
       if (orbit.shape.legs[i].ending != Ending::cut)
-        noise[static_cast<Index>(i)] =
-            rounding * at_.legs[i].h.by_state().row(0).cwiseAbs().dot(orbit.x[i].cwiseAbs());
+        noise[static_cast<Index>(i)] = rounding * at_.legs[i].h.by_state().row(0).cwiseAbs().dot(orbit.x[i].cwiseAbs());
     const VectorXd last = at_.legs.back().after.value().cwiseAbs();
     noise.segment(static_cast<Index>(orbit.legs()), problem_.numbers()) =
         rounding * problem_.translations().numbers(last).cwiseAbs();

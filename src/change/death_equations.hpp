@@ -16,7 +16,7 @@ struct DeathEquations {
   Eigen::VectorXd residual, noise;  ///< and the rounding of the residual
   Eigen::MatrixXd by, by_others;    ///< by_others: by the parameters but the first
   Eigen::VectorXd units, units_of_others;
-  Eigen::Index parameter = 0;       ///< the first parameter's column
+  Eigen::Index parameter = 0;  ///< the first parameter's column
 };
 
 }  // namespace slapstick::orbit

@@ -90,8 +90,7 @@ bool settles_elsewhere(const Problem& problem, const PathPoint& change, const Co
 
 }  // namespace
 
-MotionBeyond run_beyond(const Problem& problem, const PathPoint& change, double range,
-                        const std::atomic<bool>* stop) {
+MotionBeyond run_beyond(const Problem& problem, const PathPoint& change, double range, const std::atomic<bool>* stop) {
   const double sense = std::copysign(1.0, change.watched.turn);
   MotionBeyond result;
   for (const double distance : {1e-6, 1e-5, 1e-4}) {
@@ -113,7 +112,8 @@ MotionBeyond run_beyond(const Problem& problem, const PathPoint& change, double 
     const double nearer = sense * 0.01 * distance * range;
     if (!course.gone && !settles_elsewhere(problem, change, course, nearer, stop)) continue;
     const bool stays = course.settled && (course.settled->stable() || result.family);
-    result.jump = stays ? Jump{Jump::Kind::settles, course.settled->label, 0} : Jump{Jump::Kind::wanders, {}, transient};
+    result.jump =
+        stays ? Jump{Jump::Kind::settles, course.settled->label, 0} : Jump{Jump::Kind::wanders, {}, transient};
     return result;
   }
   return result;

@@ -30,7 +30,8 @@ constexpr std::size_t most_used =
 /// The restitution between impacts of a stop when the friction contacts that stick before an impact stick again long before the next one: their slips last
 /// as long as the impact's speed by their friction, which goes to zero faster than a flight. With g the row of the stop, F those of the contacts,
 ///     r' = r - (1 + r) kappa,   kappa = (g M^-1 F^T) (F M^-1 F^T)^-1 (F M^-1 g^T) / (g M^-1 g^T).
-double effective_restitution(const Model& model, const mode::Frame& frame, int stop, const mode::ContactStates& states) {
+double effective_restitution(const Model& model, const mode::Frame& frame, int stop,
+                             const mode::ContactStates& states) {
   std::vector<int> stuck;
   for (std::size_t i = 0; i < frame.frictions.size(); ++i)
     if (states.frictions[i] == mode::FrictionState::stick) stuck.push_back(frame.frictions[i].own);
@@ -75,15 +76,13 @@ Gathering gathering(const std::vector<Solution>& points, const std::vector<const
     found.places.push_back(grazes[i]->value);
     found.errors.push_back(grazes[i]->error);
   }
-  found.is_cascade =
-      added >= 1 && found.places.size() >= fewest && grazes[0]->margin.guard == mode::GuardKind::gap;
+  found.is_cascade = added >= 1 && found.places.size() >= fewest && grazes[0]->margin.guard == mode::GuardKind::gap;
   return found;
 }
 
 /// Empty if the grazes are no cascade: if the limit is not beyond the last graze, or known no better than that graze's distance from it.
 std::optional<CascadeLimit> limit_of(const Problem& problem, const std::vector<Solution>& points,
-                                     const std::vector<const SpecialPoint*>& grazes,
-                                     std::optional<PlaceLimit>& exact) {
+                                     const std::vector<const SpecialPoint*>& grazes, std::optional<PlaceLimit>& exact) {
   Gathering all = gathering(points, grazes);
   if (!all.is_cascade) return std::nullopt;
   const double began = all.places.back();
@@ -110,8 +109,7 @@ std::vector<const SpecialPoint*> grazes_of(Iterator point, Iterator end) {
 }  // namespace
 
 std::optional<CascadeLimit> cascade_limit(const Problem& problem, const std::vector<Solution>& points,
-                                          const std::vector<SpecialPoint>& special,
-                                          std::optional<PlaceLimit>& exact) {
+                                          const std::vector<SpecialPoint>& special, std::optional<PlaceLimit>& exact) {
   return limit_of(problem, points, grazes_of(special.rbegin(), special.rend()), exact);
 }
 

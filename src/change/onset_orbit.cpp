@@ -22,8 +22,12 @@ using Eigen::VectorXd;
 class Bounce {
  public:
   Bounce(const ModeSet& set, int stop, const Leg& flight)
-      : set_(set), stop_(stop), row_(set.frame().stops[static_cast<std::size_t>(stop)]), lines_(flight.lines),
-        flight_(flight.states), closed_(flight.states) {
+      : set_(set),
+        stop_(stop),
+        row_(set.frame().stops[static_cast<std::size_t>(stop)]),
+        lines_(flight.lines),
+        flight_(flight.states),
+        closed_(flight.states) {
     closed_.stops[static_cast<std::size_t>(stop)] = mode::StopState::closed;
   }
 
@@ -45,13 +49,14 @@ class Bounce {
     const ModeRates &flight = set_.mode(flight_), &closed = set_.mode(closed_);
     const RowVectorXd pressing = row_.sign * flight.outline.system.row(velocity());
     const RowVectorXd falling = -pressing * closed.outline.system;
-    Numbers numbers{row_jet(-row_.sign * RowVectorXd::Unit(before.all.rows(), velocity()), before), row_jet(pressing, X),
-                    row_jet(falling, X)};
+    Numbers numbers{row_jet(-row_.sign * RowVectorXd::Unit(before.all.rows(), velocity()), before),
+                    row_jet(pressing, X), row_jet(falling, X)};
     for (Index p = 0; p < X.parameters; ++p) {
       const auto at = static_cast<std::size_t>(p);
       const RowVectorXd rate = row_.sign * flight.rates[at].system.row(velocity());
       numbers.a.by_parameter()(0, p) += rate.dot(X.value());
-      numbers.j.by_parameter()(0, p) -= (rate * closed.outline.system + pressing * closed.rates[at].system).dot(X.value());
+      numbers.j.by_parameter()(0, p) -=
+          (rate * closed.outline.system + pressing * closed.rates[at].system).dot(X.value());
     }
     return numbers;
   }
@@ -104,7 +109,8 @@ std::optional<std::size_t> leg_beyond(const ModeSet& set, const Orbit& orbit, in
     }
     const auto numbers = Bounce(set, stop, leg).numbers(orbit.x[i], orbit.t[i]);
     const double a = numbers.a.value()[0], j = numbers.j.value()[0];
-    const bool returns = a > 0.0 && j > 0.0 && orbit.duration(i) * set.period() * j < 2.0 * a;  // a graze's flight: 1.5 a / j
+    const bool returns =
+        a > 0.0 && j > 0.0 && orbit.duration(i) * set.period() * j < 2.0 * a;  // a graze's flight: 1.5 a / j
     if (!returns) return step == 0 || chattering_stop(orbit) == stop ? std::nullopt : std::optional(i);
     if (!is_flight(leg, stop, orbit.shape.legs[from].states)) return std::nullopt;
   }
@@ -190,7 +196,8 @@ bool is_possible(const Problem& problem, Orbit orbit) {
   rest.ending = Ending::guard;
   const auto of_burst = [&](const TestValue& test) {
     const bool in_burst = test.leg + 1 == orbit.legs() || orbit.shape.legs[test.leg] == flight;
-    return in_burst && test.contact == rest.contact && (test.kind == mode::GuardKind::gap || test.kind == mode::GuardKind::press);
+    return in_burst && test.contact == rest.contact &&
+           (test.kind == mode::GuardKind::gap || test.kind == mode::GuardKind::press);
   };
   for (const TestValue& test : test_values(ModeSet(problem.family(), orbit.values), orbit))
     if (!of_burst(test) && !(test.value > 0.0)) return false;
@@ -210,7 +217,8 @@ bool solve_onset(const Problem& problem, Orbit& orbit) {
     Jet w = numbers.v;  // v j / a^2 - w*
     w.all = (j / (a * a)) * numbers.v.all + (v / (a * a)) * numbers.j.all - (2.0 * v * j / (a * a * a)) * numbers.a.all;
     for (Index p = 0; p < w.parameters; ++p)
-      w.by_parameter()(0, p) -= rates.w_rate * set.rate(static_cast<std::size_t>(p)).stops[static_cast<std::size_t>(stop)].restitution;
+      w.by_parameter()(0, p) -=
+          rates.w_rate * set.rate(static_cast<std::size_t>(p)).stops[static_cast<std::size_t>(stop)].restitution;
     const RowVectorXd by = by_unknowns(problem, w, at.states[last], last, legs);
     return Residual{numbers.w() - rates.w + w.by_state().row(0).dot(at.defects[last]), by};
   };
@@ -254,15 +262,16 @@ bool has_equations(const ModeSet& set, const Orbit& near, int stop) {
       if (steady[static_cast<std::size_t>(i)] && frame.mass_inverse(own, i) != 0.0) return false;
   }
   for (int other = 0; other < static_cast<int>(frame.stops.size()); ++other)  // two onsets at once, as of equal stops
-    if (other != stop && nearest_approach(set, near, other, set.model().stops[static_cast<std::size_t>(other)].restitution))
+    if (other != stop &&
+        nearest_approach(set, near, other, set.model().stops[static_cast<std::size_t>(other)].restitution))
       return false;
   return true;
 }
 
 /// Adds impacts until the parameter stops to change. What is left of the changes then is rounding, by chance small in one of them.
 std::optional<OnsetOrbit> converged(const Problem& problem, Orbit orbit, int stop) {
-  constexpr int at_once = 16;      // halved where Newton's method fails: larger saves steps, and changes no result
-  constexpr double safety = 4.0;   // of rounding, of which the last two changes are but samples
+  constexpr int at_once = 16;     // halved where Newton's method fails: larger saves steps, and changes no result
+  constexpr double safety = 4.0;  // of rounding, of which the last two changes are but samples
   double change = INFINITY, left = 1.0;
   int settled = 0;
   for (int more = at_once; more > 0 && settled < 2 && orbit.legs() < most_legs;) {

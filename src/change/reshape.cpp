@@ -6,14 +6,14 @@
 #include <numeric>
 
 #include "base/ranges.hpp"
-#include "change/jump.hpp"
 #include "change/coincident.hpp"
+#include "change/jump.hpp"
+#include "change/locate_margin.hpp"
+#include "change/nearby_shapes.hpp"
 #include "orbit/cyclic.hpp"
 #include "orbit/extent.hpp"
-#include "change/nearby_shapes.hpp"
 #include "orbit/record.hpp"
 #include "orbit/same_motion.hpp"
-#include "change/locate_margin.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/orbit/search.hpp"
 
@@ -33,7 +33,9 @@ std::optional<Orbit> solved(const Problem& problem, const Orbit& guess) {
   if (events.size() > most_held) events.resize(most_held);
   for (const std::size_t event : events) {
     Orbit orbit = guess;
-    if (solve(problem, orbit, fixed_length(problem, orbit.legs(), event - 1), 20).converged && is_motion(problem, orbit)) return orbit;
+    if (solve(problem, orbit, fixed_length(problem, orbit.legs(), event - 1), 20).converged &&
+        is_motion(problem, orbit))
+      return orbit;
   }
   return std::nullopt;
 }
@@ -146,7 +148,7 @@ bool releases(const TestValue& test) { return test.test == Test::guard && test.k
 /// Where a chatter's limit meets a point of a signal the onset is the change itself.
 /// Elsewhere it is known by the other orbit, without chatter, which is followed to where that lets a contact go.
 OnsetInterval onset_between(const PathPoint& change, const std::optional<TestValue>& test, const Orbit& orbit,
-                      const std::optional<Beginning>& begins) {
+                            const std::optional<Beginning>& begins) {
   const double critical = change.orbit.values[0];
   const bool meets_knot = test && test->test == Test::duration && rests_to_knot(change.orbit.shape, test->leg);
   if (meets_knot && chatters(orbit) < chatters(change.orbit)) return {critical, critical, false, true};
@@ -161,7 +163,7 @@ OnsetInterval onset_between(const PathPoint& change, const std::optional<TestVal
 /// The point of a new orbit, led away from the change; empty if it does not come from there. Between orbits with a complete chatter and without
 /// lie infinitely many changes, which gather where the one with the chatter begins: there the nearest of them stands for all.
 std::optional<HalfBranch> born(const Problem& problem, const PathPoint& change, const std::optional<TestValue>& test,
-                             double sense_before, const Orbit& orbit, double length, double range) {
+                               double sense_before, const Orbit& orbit, double length, double range) {
   constexpr double nearer = 0.5;  // than the orbit itself
   constexpr double gathering = 30.0, much_the_same = 0.01, alike = 0.1;
   const double critical = change.orbit.values[0], away = orbit.values[0] - critical;
@@ -220,7 +222,7 @@ bool rests_to_knot(const Itinerary& shape, std::size_t leg) {
 }
 
 std::vector<HalfBranch> leavings(const Problem& problem, const PathPoint& change, const std::vector<Orbit>& shapes,
-                               double range) {
+                                 double range) {
   std::vector<HalfBranch> all;
   const double sense = std::copysign(1.0, change.watched.turn);
   try {
@@ -234,7 +236,7 @@ std::vector<HalfBranch> leavings(const Problem& problem, const PathPoint& change
 }
 
 std::vector<HalfBranch> leavings(const Problem& problem, const Orbit& before, const PathPoint& change,
-                               const TestValue& test, double range) {
+                                 const TestValue& test, double range) {
   try {
     return leavings(problem, change, coincident(problem, before, change.orbit, test), range);
   } catch (const NumericalError&) {
@@ -244,8 +246,8 @@ std::vector<HalfBranch> leavings(const Problem& problem, const Orbit& before, co
 }
 
 std::vector<HalfBranch> reshape(const Problem& problem, const Orbit& before, const PathPoint& change,
-                              const std::optional<TestValue>& test, double range, const std::atomic<bool>* stop,
-                              double nearest) {
+                                const std::optional<TestValue>& test, double range, const std::atomic<bool>* stop,
+                                double nearest) {
   const double critical = change.orbit.values[0];
   const double sense = std::copysign(1.0, change.watched.turn);  // a secant may span a fold
   std::vector<HalfBranch> all;
@@ -297,7 +299,7 @@ bool begins_family(const Problem& problem, const Orbit& before, const PathPoint&
 }
 
 std::optional<HalfBranch> beyond_cascade(const Problem& problem, const PathPoint& last, double limit, double range,
-                                       const std::atomic<bool>* stop) {
+                                         const std::atomic<bool>* stop) {
   constexpr long few = 5;  // a complete chatter forgets what was before it
   for (const double length : {1e-6, 1e-5, 1e-4, 1e-3}) {
     for (const double side : {1.0, -1.0}) {
@@ -314,12 +316,12 @@ std::optional<HalfBranch> beyond_cascade(const Problem& problem, const PathPoint
         const auto settled = orbit_near(*there, *motion, few, last.orbit.shape.n, stop);
         if (!settled || !settled->chatter || !resembles(problem, settled->orbit, last.orbit, 0.1)) continue;
         HalfBranch next{point_of(problem, settled->orbit, range, {}),
-                      false,
-                      false,
-                      OnsetInterval{limit, values[0], false},
-                      0.0,
-                      0.0,
-                      0.0};
+                        false,
+                        false,
+                        OnsetInterval{limit, values[0], false},
+                        0.0,
+                        0.0,
+                        0.0};
         if (next.point.watched.turn * side < 0.0) next.point = reversed(std::move(next.point));
         return next;
       } catch (const InputError&) {

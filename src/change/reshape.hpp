@@ -21,11 +21,11 @@ constexpr double exactly = 1e-10;
 constexpr double same_change = 1e-7;
 
 struct HalfBranch {
-  PathPoint point;               ///< a motion; its tangent leads away from the change
-  bool folds = false;            ///< it lies on the side of the parameter from which the old branch came
-  bool renewed = false;          ///< the same motion, whose chatter is summed from another impact on: no change
+  PathPoint point;                     ///< a motion; its tangent leads away from the change
+  bool folds = false;                  ///< it lies on the side of the parameter from which the old branch came
+  bool renewed = false;                ///< the same motion, whose chatter is summed from another impact on: no change
   std::optional<OnsetInterval> onset;  ///< of a complete chatter, which begins or ends there
-  double length = 0.0;           ///< from the change to there; 0 where that is not known
+  double length = 0.0;                 ///< from the change to there; 0 where that is not known
   double apart = 0.0;  ///< how far from the change its events begin, in the parameter: else changes lie between ..
   double error = 0.0;  ///< .. and how well that is known
 };
@@ -36,16 +36,16 @@ struct HalfBranch {
 /// @param nearest  how far from the change the motion is first looked at, of the range
 /// @returns the orbits with the events of the motion beyond whose branches, followed back, come to the change, or near it
 [[nodiscard]] std::vector<HalfBranch> reshape(const Problem& problem, const Orbit& before, const PathPoint& change,
-                                            const std::optional<TestValue>& test, double range,
-                                            const std::atomic<bool>* stop, double nearest = 1e-6);
+                                              const std::optional<TestValue>& test, double range,
+                                              const std::atomic<bool>* stop, double nearest = 1e-6);
 
 /// Of these, those of which the orbit at the change is one already: what is left where impacts lose their speed and legs their length.
 [[nodiscard]] std::vector<HalfBranch> leavings(const Problem& problem, const Orbit& before, const PathPoint& change,
-                                             const TestValue& test, double range);
+                                               const TestValue& test, double range);
 
 /// .. of some orbits with other events which the orbit at the change is too.
 [[nodiscard]] std::vector<HalfBranch> leavings(const Problem& problem, const PathPoint& change,
-                                             const std::vector<Orbit>& shapes, double range);
+                                               const std::vector<Orbit>& shapes, double range);
 
 /// Has a branch come to orbits of a family, which lie beside each other at the same parameter, as those of a mass that sticks anywhere in an interval?
 [[nodiscard]] bool one_of_family(const Problem& problem, const PathPoint& point, double range);
@@ -57,6 +57,6 @@ struct HalfBranch {
 /// The orbit with a complete chatter beyond a cascade, whose every change adds an impact.
 /// @param last  a point of the branch near the end of the cascade, or already beyond it: the orbit found is none between the two  @param limit  the value of the parameter where the changes gather
 [[nodiscard]] std::optional<HalfBranch> beyond_cascade(const Problem& problem, const PathPoint& last, double limit,
-                                                     double range, const std::atomic<bool>* stop);
+                                                       double range, const std::atomic<bool>* stop);
 
 }  // namespace slapstick::orbit

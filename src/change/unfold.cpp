@@ -27,9 +27,7 @@ void keep_born(const Change& change, const UnfoldOptions& options, std::vector<H
   const auto error = [&](const HalfBranch& next) {
     return change.special.error + next.error + exactly * options.range;
   };
-  const auto apart = [&](const HalfBranch& next) {
-    return !next.onset && !next.renewed && next.apart > error(next);
-  };
+  const auto apart = [&](const HalfBranch& next) { return !next.onset && !next.renewed && next.apart > error(next); };
   std::stable_partition(found.begin(), found.end(), [&](const HalfBranch& next) { return !apart(next); });
   std::size_t led = 0;
   if (!found.empty() && options.lead_back && apart(found.front()))
@@ -40,9 +38,7 @@ void keep_born(const Change& change, const UnfoldOptions& options, std::vector<H
       std::swap(found[0], found[i]);
       led = 1;
     }
-  const auto far = [&](const HalfBranch& next) {
-    return apart(next) && next.apart > same_change * options.range;
-  };
+  const auto far = [&](const HalfBranch& next) { return apart(next) && next.apart > same_change * options.range; };
   found.erase(std::remove_if(found.begin() + static_cast<std::ptrdiff_t>(led), found.end(), far), found.end());
 }
 
@@ -89,9 +85,9 @@ Unfolding unfold(const Problem& problem, const Orbit& before, const Change& chan
     return found;
   }
   const HalfBranch& next = branches.front();
-  found.passage = next.folds                                  ? Passage::fold
-                  : same_cycle(before, next.point.orbit)      ? Passage::same_events
-                                                              : Passage::persistence;
+  found.passage = next.folds                             ? Passage::fold
+                  : same_cycle(before, next.point.orbit) ? Passage::same_events
+                                                         : Passage::persistence;
   return found;
 }
 

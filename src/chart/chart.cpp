@@ -13,9 +13,12 @@ std::string axis_words(const std::string& name, const sweep::GridAxis& axis) {
 
 std::string start_words(const sweep::MapProblem& problem) {
   switch (problem.start) {
-    case sweep::MapStart::reset: return "reset";
-    case sweep::MapStart::carry: return "carry";
-    case sweep::MapStart::random: break;
+    case sweep::MapStart::reset:
+      return "reset";
+    case sweep::MapStart::carry:
+      return "carry";
+    case sweep::MapStart::random:
+      break;
   }
   return std::to_string(problem.starts);
 }
@@ -33,8 +36,12 @@ Chart over(ModelDefinition definition, Overrides values, std::string x, const sw
     all[y] = of_y;
     return all;
   };
-  chart.problem.model_at = [at, model = chart.definition](double of_x, double of_y) { return model.build(at(of_x, of_y)); };
-  chart.problem.start_at = [at, model = chart.definition](double of_x, double of_y) { return model.start(at(of_x, of_y)); };
+  chart.problem.model_at = [at, model = chart.definition](double of_x, double of_y) {
+    return model.build(at(of_x, of_y));
+  };
+  chart.problem.start_at = [at, model = chart.definition](double of_x, double of_y) {
+    return model.start(at(of_x, of_y));
+  };
   return chart;
 }
 
@@ -46,16 +53,22 @@ std::string state_words(const Overrides& named) {
 
 std::vector<std::string> option_words(const Chart& chart) {
   const sweep::MapProblem& problem = chart.problem;
-  const char* direction = problem.direction == sweep::Direction::up ? "up" : problem.direction == sweep::Direction::down ? "down" : "both";
-  std::vector<std::string> words{"--x", axis_words(chart.x, problem.x), "--y", axis_words(chart.y, problem.y),
-                                 "--level", problem.level == sweep::Level::quick ? "quick" : "full",
-                                 "--start", start_words(problem), "--direction", direction};
+  const char* direction = problem.direction == sweep::Direction::up     ? "up"
+                          : problem.direction == sweep::Direction::down ? "down"
+                                                                        : "both";
+  std::vector<std::string> words{"--x",         axis_words(chart.x, problem.x),
+                                 "--y",         axis_words(chart.y, problem.y),
+                                 "--level",     problem.level == sweep::Level::quick ? "quick" : "full",
+                                 "--start",     start_words(problem),
+                                 "--direction", direction};
   const ClassifyOptions& classify = problem.classify;
-  for (const auto& [name, value] :
-       {std::pair<const char*, long long>{"--periods", problem.periods}, {"--transient", classify.transient_periods},
-        {"--most-periods", classify.most_periods}, {"--exponent-periods", classify.exponent_periods},
-        {"--most-n", classify.most_n}, {"--seed", static_cast<long long>(problem.seed)},
-        {"--measured-periods", problem.measured_periods}}) {
+  for (const auto& [name, value] : {std::pair<const char*, long long>{"--periods", problem.periods},
+                                    {"--transient", classify.transient_periods},
+                                    {"--most-periods", classify.most_periods},
+                                    {"--exponent-periods", classify.exponent_periods},
+                                    {"--most-n", classify.most_n},
+                                    {"--seed", static_cast<long long>(problem.seed)},
+                                    {"--measured-periods", problem.measured_periods}}) {
     words.emplace_back(name);
     words.push_back(std::to_string(value));
   }
@@ -82,8 +95,7 @@ store::StoreFacts run_facts(const std::string& verb, const ModelDefinition& defi
 
 store::StoreFacts facts_of(const Chart& chart) {
   return run_facts("map", chart.definition, chart.values, option_words(chart), sweep::pixel_count(chart.problem),
-                   chart.problem.shard, chart.problem.shards,
-                   sweep::runs_in_lanes(chart.problem) ? "lanes" : "motion");
+                   chart.problem.shard, chart.problem.shards, sweep::runs_in_lanes(chart.problem) ? "lanes" : "motion");
 }
 
 sweep::Map stored_map(const Chart& chart, const std::string& path, bool resume) {

@@ -61,7 +61,9 @@ class Pixels {
   }
 
   /// In pixels from the middle of the first one.
-  [[nodiscard]] double across(double x) const { return (x - map_.x.from) / (map_.x.to - map_.x.from) * (map_.x.count - 1); }
+  [[nodiscard]] double across(double x) const {
+    return (x - map_.x.from) / (map_.x.to - map_.x.from) * (map_.x.count - 1);
+  }
   [[nodiscard]] double up(double y) const { return (y - map_.y.from) / (map_.y.to - map_.y.from) * (map_.y.count - 1); }
   /// The pixel at such a place, or -1.
   [[nodiscard]] int at(double across, double up) const {
@@ -87,8 +89,8 @@ struct Order {
 };
 
 /// The special point that a cycle meets on the way from one pixel to its neighbour.
-std::optional<orbit::SpecialPoint> special_between(const Chart& chart, const Pixels& pixels, const Edge& edge, bool from_a,
-                                                   const Order& order, const std::atomic<bool>* stop) {
+std::optional<orbit::SpecialPoint> special_between(const Chart& chart, const Pixels& pixels, const Edge& edge,
+                                                   bool from_a, const Order& order, const std::atomic<bool>* stop) {
   const int from = from_a ? edge.a : edge.b, to = from_a ? edge.b : edge.a;
   const auto first = [&](int pixel) { return edge.across ? pixels.x(pixel) : pixels.y(pixel); };
   const double second = edge.across ? pixels.y(from) : pixels.x(from), begin = first(from), end = first(to);
@@ -133,7 +135,10 @@ FoundCurve curve_of(const Chart& chart, const orbit::SpecialPoint& special, cons
                     const std::atomic<bool>* stop) {
   const auto problem = orbit::pose(chart.definition.family({order.first.name, order.second.name}, chart.values),
                                    special.solution.orbit.values);
-  orbit::CurveOptions how{.from = order.first.range.from, .to = order.first.range.to, .second_from = order.second.range.from, .second_to = order.second.range.to};
+  orbit::CurveOptions how{.from = order.first.range.from,
+                          .to = order.first.range.to,
+                          .second_from = order.second.range.from,
+                          .second_to = order.second.range.to};
   how.most_points = 400;
   how.stop = stop;
   FoundCurve found{.type = special.type};
@@ -141,7 +146,8 @@ FoundCurve curve_of(const Chart& chart, const orbit::SpecialPoint& special, cons
   return found;
 }
 
-std::optional<FoundCurve> curve_at(const Chart& chart, const Pixels& pixels, const Edge& edge, const std::atomic<bool>* stop) {
+std::optional<FoundCurve> curve_at(const Chart& chart, const Pixels& pixels, const Edge& edge,
+                                   const std::atomic<bool>* stop) {
   const Axis x{chart.x, chart.problem.x}, y{chart.y, chart.problem.y};
   const Order order = edge.across ? Order{x, y} : Order{y, x};
   for (const bool from_a : {true, false}) {
@@ -209,8 +215,8 @@ void compare_sides(FoundCurve& curve, const Pixels& pixels) {
 using Pair = std::pair<std::string, std::string>;
 
 /// The unexplained edges of the pair of classes that has most of them. Pairs in `given_up` are left out.
-std::vector<std::size_t> largest_boundary(const Pixels& pixels, const std::vector<Edge>& edges, const std::set<Pair>& given_up,
-                                          Pair& pair) {
+std::vector<std::size_t> largest_boundary(const Pixels& pixels, const std::vector<Edge>& edges,
+                                          const std::set<Pair>& given_up, Pair& pair) {
   constexpr std::size_t least = 4;  // edges: shorter boundaries are left
   std::map<Pair, std::vector<std::size_t>> all;
   for (std::size_t i = 0; i < edges.size(); ++i)
@@ -240,7 +246,8 @@ Curves find_curves(const Chart& chart, const sweep::Map& map, int most, const st
     if (places.empty()) break;
     std::optional<FoundCurve> curve;
     for (const double share : {0.5, 0.25, 0.75}) {
-      curve = curve_at(chart, pixels, edges[places[static_cast<std::size_t>(share * static_cast<double>(places.size()))]], stop);
+      curve = curve_at(chart, pixels,
+                       edges[places[static_cast<std::size_t>(share * static_cast<double>(places.size()))]], stop);
       if (curve) compare_sides(*curve, pixels);
       if (curve && curve->differ > curve->alike) break;  // else it is hidden where it runs, or is not this boundary
       ++found.without;

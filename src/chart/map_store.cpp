@@ -111,7 +111,8 @@ struct MapStore::Bound {
   std::mutex mutex;
 };
 
-MapStore::MapStore(store::Store of, sweep::MapProblem& problem) : bound_(std::make_unique<Bound>(std::move(of), problem)) {
+MapStore::MapStore(store::Store of, sweep::MapProblem& problem)
+    : bound_(std::make_unique<Bound>(std::move(of), problem)) {
   Bound* bound = bound_.get();
   problem.known = [bound](std::int32_t pixel, Direction direction) {
     return bound->known[static_cast<std::size_t>(number_of(pixel, direction, bound->problem))];

@@ -5,17 +5,17 @@
 #include <cmath>
 
 #include "base/ranges.hpp"
-#include "orbit/extent.hpp"
+#include "base/text.hpp"
+#include "change/onset.hpp"
 #include "continuation/follower.hpp"
 #include "continuation/hidden.hpp"
 #include "continuation/lies_on.hpp"
 #include "continuation/normal_form.hpp"
-#include "change/onset.hpp"
-#include "orbit/same_motion.hpp"
 #include "continuation/special.hpp"
 #include "continuation/two_ways.hpp"
+#include "orbit/extent.hpp"
+#include "orbit/same_motion.hpp"
 #include "slapstick/base/error.hpp"
-#include "base/text.hpp"
 
 namespace slapstick::orbit {
 namespace {

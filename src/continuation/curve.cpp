@@ -3,14 +3,14 @@
 #include <cmath>
 
 #include "base/dense.hpp"
+#include "base/text.hpp"
 #include "change/change_kind.hpp"
 #include "continuation/crossing_curve.hpp"
 #include "continuation/curve_events.hpp"
-#include "orbit/path.hpp"
 #include "continuation/special.hpp"
 #include "continuation/two_ways.hpp"
+#include "orbit/path.hpp"
 #include "slapstick/base/error.hpp"
-#include "base/text.hpp"
 #include "slapstick/continuation/sentences.hpp"
 
 namespace slapstick::orbit {

@@ -17,9 +17,9 @@ struct CurvePlace {
 struct CurveTest {
   Meeting met;  ///< what holds at its zero
   std::function<double(const CurvePlace&)> value;
-  bool falls = false;                               ///< only from positive to negative
-  double noise = 0.0;                               ///< a smaller value has no sign
-  std::function<bool(const Watched&)> holds = {};   ///< is a zero such a point? Empty: each is
+  bool falls = false;                              ///< only from positive to negative
+  double noise = 0.0;                              ///< a smaller value has no sign
+  std::function<bool(const Watched&)> holds = {};  ///< is a zero such a point? Empty: each is
 };
 
 /// The margins that are zero all along (indices of Watched::tests): the point's own, and those that say the same in other words, as the length of a

@@ -3,10 +3,10 @@
 /// onsets of chatter: follower_onsets.cpp.
 #include "change/collapse.hpp"
 #include "change/onset.hpp"
-#include "orbit/path.hpp"
-#include "orbit/record.hpp"
 #include "change/unfold.hpp"
 #include "continuation/special.hpp"
+#include "orbit/path.hpp"
+#include "orbit/record.hpp"
 #include "slapstick/continuation/branch.hpp"
 
 namespace slapstick::orbit {

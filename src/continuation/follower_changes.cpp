@@ -4,17 +4,17 @@
 #include <utility>
 
 #include "base/ranges.hpp"
-#include "change/jump.hpp"
 #include "change/change_kind.hpp"
-#include "orbit/cyclic.hpp"
-#include "orbit/extent.hpp"
+#include "change/jump.hpp"
+#include "change/onset.hpp"
 #include "continuation/follower.hpp"
 #include "continuation/hidden.hpp"
 #include "continuation/lies_on.hpp"
-#include "change/onset.hpp"
+#include "continuation/special.hpp"
+#include "orbit/cyclic.hpp"
+#include "orbit/extent.hpp"
 #include "orbit/record.hpp"
 #include "orbit/same_motion.hpp"
-#include "continuation/special.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::orbit {
@@ -30,9 +30,7 @@ bool is_all_but_gone(const Orbit& orbit) {
 }
 
 /// Does the parameter turn back there?
-bool turns(const SpecialPoint& special) {
-  return special.type == SpecialType::LP || special.passage == Passage::fold;
-}
+bool turns(const SpecialPoint& special) { return special.type == SpecialType::LP || special.passage == Passage::fold; }
 
 }  // namespace
 
@@ -96,8 +94,7 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
     return false;
   }
   // At a touch multipliers are infinite, or 0 / 0: those of the point before say more.
-  special.solution.multipliers =
-      behind_others ? behind_others->watched.multipliers : branch_.points.back().multipliers;
+  special.solution.multipliers = behind_others ? behind_others->watched.multipliers : branch_.points.back().multipliers;
   if (!options_.through_changes) {
     special.passage = Passage::not_followed;
     return end_at(at, std::move(special));
@@ -129,8 +126,7 @@ std::optional<bool> Follower::lead_back(const Change& change, const HalfBranch& 
 /// Does a change lead to where the branch has been? Near its end a cascade, whose folds and grazes are all but one, seems to: it turns back into itself or
 /// goes on with an earlier orbit.
 bool Follower::leads_back(const Unfolding& beyond) const {
-  return !beyond.branches.empty() && cascade() &&
-         lies_on(problem_, branch_, beyond.branches.front().point.orbit);
+  return !beyond.branches.empty() && cascade() && lies_on(problem_, branch_, beyond.branches.front().point.orbit);
 }
 
 /// The type and the kind of sliding by the events on both sides of a change.
@@ -138,9 +134,9 @@ void Follower::name_by_both_sides(const PathPoint& at, const Change& change, con
                                   SpecialPoint& special) const {
   const ChangeOfEvents seen = compare_events(special.solution.orbit, behind);
   special.type = seen.type;
-  special.sliding = seen.type != SpecialType::SL                ? Sliding::unchanged
+  special.sliding = seen.type != SpecialType::SL         ? Sliding::unchanged
                     : seen.sliding != Sliding::unchanged ? seen.sliding
-                                                                : kind_of_sliding(change.test, at.orbit.shape);
+                                                         : kind_of_sliding(change.test, at.orbit.shape);
 }
 
 /// Goes on behind a change. @returns false if the branch ends
@@ -272,8 +268,7 @@ bool Follower::leave_edge(PathPoint& at) {
 
 /// Where no step leads on and no change is found: an end that is known, or a way on. @returns false if there is none
 bool Follower::leave(PathPoint& at) {
-  return leave_edge(at) || leave_chatter(at) || turn_round(at) || clear_onset(at) || end_cascade(at) ||
-         die_out(at);
+  return leave_edge(at) || leave_chatter(at) || turn_round(at) || clear_onset(at) || end_cascade(at) || die_out(at);
 }
 
 /// Goes on from an orbit that the branch has.

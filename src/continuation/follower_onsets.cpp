@@ -4,18 +4,19 @@
 #include <utility>
 
 #include "base/ranges.hpp"
+#include "base/text.hpp"
+#include "change/onset.hpp"
 #include "continuation/follower.hpp"
 #include "continuation/lies_on.hpp"
-#include "change/onset.hpp"
 #include "orbit/record.hpp"
 #include "orbit/same_motion.hpp"
-#include "base/text.hpp"
 
 namespace slapstick::orbit {
 
 namespace {
 constexpr double clear = 1e-3;  ///< of the range: nearer to an onset impacts are too many and too short to be followed
-constexpr double gathered = 1e-2;  ///< of a cascade's length: the changes that are left are as those before, ever nearer to its limit
+constexpr double gathered =
+    1e-2;  ///< of a cascade's length: the changes that are left are as those before, ever nearer to its limit
 }  // namespace
 
 void Follower::add_here(SpecialPoint special) {
@@ -207,7 +208,8 @@ bool Follower::clear_onset(PathPoint& at) {
 
 /// The onset that a branch with a complete chatter runs towards, by the onset's own equations. Looked for again where the chatter has more impacts by far.
 std::optional<PlaceLimit> Follower::onset_ahead(const PathPoint& at) {
-  constexpr double much = 1.2;  // a look costs as much as a step: with fewer legs more they add up, with more the onset comes late
+  constexpr double much =
+      1.2;  // a look costs as much as a step: with fewer legs more they add up, with more the onset comes late
   if (!branch_.points.back().chatter) return std::nullopt;
   if (!ahead_ && static_cast<double>(at.orbit.legs()) >= much * static_cast<double>(looked_from_)) {
     looked_from_ = at.orbit.legs();

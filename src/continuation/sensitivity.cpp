@@ -179,9 +179,9 @@ std::vector<Sensitivity> death_sensitivity(const Problem& problem, Death death, 
   std::vector<Sensitivity> result;
   for (const double rate : death_rates(problem, death)) {
     const std::size_t j = result.size() + 1;
-    const Known known = !std::isfinite(rate)                         ? Known::unsettled
+    const Known known = !std::isfinite(rate)                    ? Known::unsettled
                         : is_model(j, 1.0) && is_model(j, -1.0) ? Known::from_both_sides
-                                                                     : Known::from_one_side;
+                                                                : Known::from_one_side;
     result.push_back({rate, known});
   }
   return result;

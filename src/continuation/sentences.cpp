@@ -172,7 +172,8 @@ std::string describe(const UsedMargin& margin, const Itinerary& shape, const Sys
       return shrinking(margin.leg) + " (" + system.mode_name(system.mode_id(leg.states)) + ") shrinks to nothing";
     case UsedMargin::Kind::no_stick:
       if (margin.guard == mode::GuardKind::press)
-        return "the force that lifts " + system.contact_name(margin.contact) + " off at a point of a signal comes to zero";
+        return "the force that lifts " + system.contact_name(margin.contact) +
+               " off at a point of a signal comes to zero";
       return "the holding force of " +
              system.contact_name(contact_index(mode::GuardKind::slip, margin.contact, system.model())) +
              " comes to static friction at its reversal (" + std::string(name(leg.event)) + ")";

@@ -10,10 +10,10 @@
 #include "change/collapse.hpp"
 #include "change/locate_margin.hpp"
 #include "continuation/crossing.hpp"
+#include "continuation/switching.hpp"
 #include "orbit/extent.hpp"
 #include "orbit/record.hpp"
 #include "orbit/same_motion.hpp"
-#include "continuation/switching.hpp"
 
 namespace slapstick::orbit {
 namespace {

@@ -40,7 +40,8 @@ inline double halving(int n) {
 }
 
 /// t'_n from t'_{n-1}. All arrays have a stride of `parts`.
-inline void step(const Expansion& e, double factor, const Part* high, const Part* low, Part* upper, Part* next_high, Part* next_low) {
+inline void step(const Expansion& e, double factor, const Part* high, const Part* low, Part* upper, Part* next_high,
+                 Part* next_low) {
   for (int k = 0; k < e.m * parts; k += parts) {
     const Part c = 0x8000001p0 * high[k];
     upper[k] = c - (c - high[k]);
@@ -60,7 +61,8 @@ inline void step(const Expansion& e, double factor, const Part* high, const Part
 }
 
 /// The same in doubles, and a bound of its error: `error` of the term before, and what q products and sums round.
-inline void rough_step(const Expansion& e, double factor, const Part* term, const Part* error, Part* next, Part* next_error) {
+inline void rough_step(const Expansion& e, double factor, const Part* term, const Part* error, Part* next,
+                       Part* next_error) {
   for (int j = 0; j < e.m; ++j) {
     Part sum{}, size{}, carried{};
     for (int at = e.column_ends[j]; at < e.column_ends[j + 1]; ++at) {
@@ -115,11 +117,13 @@ void expand_part(const Expansion& e, int group, int part) {
   }
   for (int n = 1; n < error_terms; ++n)
     error_step(e, halving(n), high + (n - 1) * row, errors + (n - 1) * row, errors + n * row);
-  for (std::ptrdiff_t k = 0; k < row; k += parts) scratch[k] = 2.0 * unit_roundoff * size_of(high[(terms - 1) * row + k]);
+  for (std::ptrdiff_t k = 0; k < row; k += parts)
+    scratch[k] = 2.0 * unit_roundoff * size_of(high[(terms - 1) * row + k]);
   Part *error = scratch, *next_error = other;
   for (int n = terms; n < all_terms; ++n) {
     rough_step(e, halving(n), high + (n - 1) * row, error, high + n * row, next_error);
-    for (std::ptrdiff_t k = 0; k < row; k += parts) dropped[(n - terms) * row + k] = size_of(high[n * row + k]) + next_error[k];
+    for (std::ptrdiff_t k = 0; k < row; k += parts)
+      dropped[(n - terms) * row + k] = size_of(high[n * row + k]) + next_error[k];
     Part* const swapped = error;
     error = next_error;
     next_error = swapped;
@@ -190,12 +194,15 @@ double excess(const Expansion& e, const double* weights, double ratio) {
   Part worst{};
   for (int group = 0; group < e.groups; ++group)
     for (int part = 0; part < parts; ++part) {
-      const Part* const dropped = part_of(e.dropped + static_cast<std::ptrdiff_t>(group) * (all_terms - terms) * e.m, part);
+      const Part* const dropped =
+          part_of(e.dropped + static_cast<std::ptrdiff_t>(group) * (all_terms - terms) * e.m, part);
       const Part* const peaks = part_of(e.peaks + static_cast<std::ptrdiff_t>(group) * (terms + 1) * blocks, part);
       const Part* const scales = part_of(e.scales + group * blocks, part);
       const Rest of_rest = rest_of(e, scales, peaks + terms * blocks * parts, ratio, weights[all_terms - 1]);
       const Part none{}, unbounded = none + INFINITY, nu = of_rest.nu, last = of_rest.last;
-      const Part share = last > 0.0 ? (nu < 1.0 * all_terms ? last * (nu / all_terms) / (1.0 - nu / (all_terms + 1)) : unbounded) : none;
+      const Part share =
+          last > 0.0 ? (nu < 1.0 * all_terms ? last * (nu / all_terms) / (1.0 - nu / (all_terms + 1)) : unbounded)
+                     : none;
       for (int b = 0; b < blocks; ++b) {
         const Part scale = scales[b * parts];
         Part most{};
@@ -216,13 +223,17 @@ void enclose_tails(const Expansion& e, const double* weights, double ratio) {
   for (int group = 0; group < e.groups; ++group)
     for (int part = 0; part < parts; ++part) {
       const auto row = static_cast<std::ptrdiff_t>(e.m) * parts;
-      const Part* const dropped = part_of(e.dropped + static_cast<std::ptrdiff_t>(group) * (all_terms - terms) * e.m, part);
+      const Part* const dropped =
+          part_of(e.dropped + static_cast<std::ptrdiff_t>(group) * (all_terms - terms) * e.m, part);
       const Part* const peaks = part_of(e.peaks + static_cast<std::ptrdiff_t>(group) * (terms + 1) * blocks, part);
       const Part* const scales = part_of(e.scales + group * blocks, part);
       Part* const tails = part_of(e.tails + static_cast<std::ptrdiff_t>(group) * 3 * e.m, part);
       const Rest of_rest = rest_of(e, scales, peaks + terms * blocks * parts, ratio, weights[all_terms - 1]);
-      const Part none{}, unbounded = none + INFINITY, nu = of_rest.nu, last = of_rest.last, left = nu / (1.0 - nu / all_terms);
-      const auto bounded = [&](const Part& x) { return last > 0.0 ? (nu < 1.0 * all_terms ? last * x : unbounded) : none; };
+      const Part none{}, unbounded = none + INFINITY, nu = of_rest.nu, last = of_rest.last,
+                         left = nu / (1.0 - nu / all_terms);
+      const auto bounded = [&](const Part& x) {
+        return last > 0.0 ? (nu < 1.0 * all_terms ? last * x : unbounded) : none;
+      };
       const Part value = bounded((nu / all_terms) / (1.0 - nu / (all_terms + 1))), slope = bounded(left),
                  curvature = bounded(nu * (all_terms - 1.0) + nu * left);
       for (int b = 0; b < blocks; ++b)

@@ -35,7 +35,8 @@ struct Weights {
 /// The arrays of a group of four rows lie behind those of the group before.
 struct Expansion {
   int m = 0, groups = 0;
-  const int* column_ends = nullptr;  ///< [m + 1]: the entries of column i are those from column_ends[i] to column_ends[i + 1]
+  const int* column_ends =
+      nullptr;  ///< [m + 1]: the entries of column i are those from column_ends[i] to column_ends[i + 1]
   const MatrixEntry* entries = nullptr;
   int block_ends[blocks + 1] = {};  ///< the columns of block b are those from block_ends[b] to block_ends[b + 1]
   double* reach = nullptr;          ///< [block][m]: sum of |A_ki| over the rows k of a block

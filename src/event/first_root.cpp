@@ -226,7 +226,8 @@ void Search::walk_through_noise(Root& root) {
       return;
     }
     const double bend = std::max(g2_, 0.0) + bound(Bound::curvature_noise);
-    const double d = 0x1.fffffffffep-1 * std::min(std::sqrt(4.0 * noise_ / bend), fixed::cube_root(4.0 * noise_ / third()));
+    const double d =
+        0x1.fffffffffep-1 * std::min(std::sqrt(4.0 * noise_ / bend), fixed::cube_root(4.0 * noise_ / third()));
     if (!(x_ < 1.0)) return restart_or_linger(root);
     evaluate(std::min(x_ + d, 1.0));
     if (!(std::abs(g_) > noise_)) continue;

@@ -12,8 +12,9 @@ namespace {
 using Monomials = std::array<DoubleDouble, 8>;
 
 /// x^8 modulo T, T(x) = cos(16 arccos(sqrt(x))).
-constexpr std::array<double, 8> x8_remainder = {-1.0 / 32768,     128.0 / 32768,    -2688.0 / 32768,   21504.0 / 32768,
-                                                -84480.0 / 32768, 180224.0 / 32768, -212992.0 / 32768, 131072.0 / 32768};
+constexpr std::array<double, 8> x8_remainder = {-1.0 / 32768,      128.0 / 32768,    -2688.0 / 32768,
+                                                21504.0 / 32768,   -84480.0 / 32768, 180224.0 / 32768,
+                                                -212992.0 / 32768, 131072.0 / 32768};
 
 /// b_j = sum_{n<=j} C(j, n) / C(7, n) p_n.
 Monomials to_bernstein(const Monomials& p) {

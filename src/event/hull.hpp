@@ -48,7 +48,8 @@ HullRows hull_rows(double noise_factor, Lane8* bounds);
 
 /// The bounds for a state that carries another rounding beside its own: `more` times that of the bounds b.
 static inline void add_noise(Hull& hull, const Lane8& b, double more) {
-  const double n0 = b[noise_0], n1 = b[noise_1], n2 = b[noise_2], slope = b[slope_noise], curvature = b[curvature_noise];
+  const double n0 = b[noise_0], n1 = b[noise_1], n2 = b[noise_2], slope = b[slope_noise],
+               curvature = b[curvature_noise];
   hull.bounds += more * Lane8{8.0 * (n0 + n1 + n2), n1 + slope, curvature, n0, n1, n2, slope, curvature};
 }
 

@@ -18,7 +18,8 @@ class LaneBlockBuilder {
  public:
   /// Not zeroed.
   explicit LaneBlockBuilder(std::size_t doubles)
-      : block_(static_cast<double*>(::operator new(doubles * sizeof(double), LaneAllocator<Lane8>::alignment))), next_(block_.get()) {}
+      : block_(static_cast<double*>(::operator new(doubles * sizeof(double), LaneAllocator<Lane8>::alignment))),
+        next_(block_.get()) {}
 
   template <class Lane>
   Lane* take(std::ptrdiff_t lanes) {

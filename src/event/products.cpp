@@ -69,8 +69,8 @@ inline void product(const Lane8* rows, int blocks, int m, const double* x, Lane8
 
 void multiply(const Lane8* data, int blocks, int m, const double* x, Lane8* out) { product(data, blocks, m, x, out); }
 
-void pass(const Lane8* step, int blocks, int m, const Lane8* x, const Lane8* floor, bool fresh, Lane8* out, Lane8* size, Lane8* largest,
-          double* sizes) {
+void pass(const Lane8* step, int blocks, int m, const Lane8* x, const Lane8* floor, bool fresh, Lane8* out, Lane8* size,
+          Lane8* largest, double* sizes) {
   product(step, blocks, m, reinterpret_cast<const double*>(x), out);
   Lane8 all{}, most{};
   for (int b = 0; b < blocks; ++b) {
@@ -120,8 +120,8 @@ void gather(const int* places, const Lane8* values, int count, const double* x, 
   *out = i < count ? even + values[i] * x[places[i]] + odd : even + odd;
 }
 
-void spread(const Placed* rows, const Placed* rows_end, const Placed* columns, const Placed* columns_end, double factor, const double* x,
-            Lane8* out) {
+void spread(const Placed* rows, const Placed* rows_end, const Placed* columns, const Placed* columns_end, double factor,
+            const double* x, Lane8* out) {
   Lane8 even{}, odd{};
   for (; columns != columns_end; ++columns) odd += columns->values * x[columns->place];
   for (; rows + 2 <= rows_end; rows += 2) {
@@ -134,7 +134,8 @@ void spread(const Placed* rows, const Placed* rows_end, const Placed* columns, c
 
 /// Of `count` columns from the first on, which share the loads of the rows. Sums over n in one order.
 template <int count>
-inline void enclose_columns(const HullRows& rows, const Lane8* taylor, int order, int m, Lane8* bernstein, Lane8* bounds) {
+inline void enclose_columns(const HullRows& rows, const Lane8* taylor, int order, int m, Lane8* bernstein,
+                            Lane8* bounds) {
   const auto* const hull = reinterpret_cast<const Part*>(rows.bernstein);
   const auto* const error = reinterpret_cast<const Part*>(rows.bounds);
   for (int part = 0; part < parts; ++part) {
@@ -169,9 +170,21 @@ void enclose(const HullRows& rows, const Lane8* taylor, int order, int m, Lane8*
 
 namespace SLAPSTICK_KERNEL {
 extern const Kernels table;
-constinit const Kernels table = {
-    SLAPSTICK_TEXT(SLAPSTICK_KERNEL), first_root, multiply, pass, magnitudes, hull, product_above, evaluate, gather, spread, enclose,
-    expand, excess, enclose_tails, finish};
+constinit const Kernels table = {SLAPSTICK_TEXT(SLAPSTICK_KERNEL),
+                                 first_root,
+                                 multiply,
+                                 pass,
+                                 magnitudes,
+                                 hull,
+                                 product_above,
+                                 evaluate,
+                                 gather,
+                                 spread,
+                                 enclose,
+                                 expand,
+                                 excess,
+                                 enclose_tails,
+                                 finish};
 }  // namespace SLAPSTICK_KERNEL
 
 }  // namespace slapstick::event

@@ -38,15 +38,17 @@ std::string image_part(const std::string& file, const Axis& x, const Axis& y, in
   const bool fill = x.log || y.log;
   const Range across = fill ? Range{0, 1} : x.range, up = fill ? Range{0, 1} : y.range;
   const double dx = (across.max - across.min) / width, dy = (up.max - up.min) / height;
-  return quote_file(file) + " binary filetype=png origin=(" + number(across.min + 0.5 * dx) + "," + number(up.min + 0.5 * dy) +
-         ") dx=" + number(dx) + " dy=" + number(dy) + " using 1:2:3:4" + (fill ? " axes x2y2" : "") + " with rgbalpha notitle";
+  return quote_file(file) + " binary filetype=png origin=(" + number(across.min + 0.5 * dx) + "," +
+         number(up.min + 0.5 * dy) + ") dx=" + number(dx) + " dy=" + number(dy) + " using 1:2:3:4" +
+         (fill ? " axes x2y2" : "") + " with rgbalpha notitle";
 }
 
 void series_parts(const Panel& panel, const PanelSeries& series, const std::string& file,
                   const std::function<std::string(const std::string&)>& title, std::vector<std::string>& parts) {
   std::size_t column = series.first_column;
   const auto columns = [&] {
-    const std::string text = quote_file(file) + " skip 1 using " + std::to_string(column) + ":" + std::to_string(column + 1);
+    const std::string text =
+        quote_file(file) + " skip 1 using " + std::to_string(column) + ":" + std::to_string(column + 1);
     column += 2;
     return text;
   };
@@ -54,11 +56,13 @@ void series_parts(const Panel& panel, const PanelSeries& series, const std::stri
   for (const std::size_t i : series.points) {
     const Points& points = panel.points[i];
     (points.over_lines ? on_top : parts)
-        .push_back(columns() + " with points " + point_style(points.marker, points.diameter_mm, points.colour) + title(points.label));
+        .push_back(columns() + " with points " + point_style(points.marker, points.diameter_mm, points.colour) +
+                   title(points.label));
   }
   for (const std::size_t i : series.lines) {
     const Line& drawn = panel.lines[i];
-    parts.push_back(columns() + " with lines " + line_style(drawn.width_pt, drawn.dash, drawn.colour) + title(drawn.label));
+    parts.push_back(columns() + " with lines " + line_style(drawn.width_pt, drawn.dash, drawn.colour) +
+                    title(drawn.label));
   }
   parts.insert(parts.end(), on_top.begin(), on_top.end());
 }

@@ -12,8 +12,8 @@
 #include <sstream>
 #include <system_error>
 
-#include "slapstick/base/error.hpp"
 #include "figure/figure.hpp"
+#include "slapstick/base/error.hpp"
 
 namespace slapstick::figure {
 namespace {

@@ -13,7 +13,7 @@ namespace {
 
 /// of the frame, by preference: an inset with its numbers
 constexpr std::array<double, 4> shares{0.46, 0.4, 0.33, 0.26};
-constexpr double gap_em = 0.7;                                  ///< to the frame: its ticks stay free
+constexpr double gap_em = 0.7;  ///< to the frame: its ticks stay free
 
 bool overlap(const Box& a, const Box& b) {
   return a.left < b.right && b.left < a.right && a.bottom < b.top && b.bottom < a.top;
@@ -23,8 +23,10 @@ bool overlap(const Box& a, const Box& b) {
 Box source_box(const Inset& inset, const PanelLayout& layout, const std::string& where) {
   const auto share = [](const Axis& axis, double value) { return std::clamp(axis.place(value), 0.0, 1.0); };
   const Box& frame = layout.frame;
-  const Box box{frame.left + share(layout.x, inset.x.min) * frame.width(), frame.left + share(layout.x, inset.x.max) * frame.width(),
-                frame.bottom + share(layout.y, inset.y.min) * frame.height(), frame.bottom + share(layout.y, inset.y.max) * frame.height()};
+  const Box box{frame.left + share(layout.x, inset.x.min) * frame.width(),
+                frame.left + share(layout.x, inset.x.max) * frame.width(),
+                frame.bottom + share(layout.y, inset.y.min) * frame.height(),
+                frame.bottom + share(layout.y, inset.y.max) * frame.height()};
   if (!(box.width() > 0.0 && box.height() > 0.0)) throw InputError(where + " shows nothing of its panel");
   return box;
 }
@@ -34,10 +36,14 @@ Box source_box(const Inset& inset, const PanelLayout& layout, const std::string&
 class Hidden {
  public:
   Hidden(const Panel& panel, const PanelLayout& layout, const Box& box) : taken_(grid * grid, false) {
-    const auto value = [](const Axis& axis, double share) { return axis.range.min + share * (axis.range.max - axis.range.min); };
+    const auto value = [](const Axis& axis, double share) {
+      return axis.range.min + share * (axis.range.max - axis.range.min);
+    };
     const Box& frame = layout.frame;
-    x_ = {value(layout.x, (box.left - frame.left) / frame.width()), value(layout.x, (box.right - frame.left) / frame.width())};
-    y_ = {value(layout.y, (box.bottom - frame.bottom) / frame.height()), value(layout.y, (box.top - frame.bottom) / frame.height())};
+    x_ = {value(layout.x, (box.left - frame.left) / frame.width()),
+          value(layout.x, (box.right - frame.left) / frame.width())};
+    y_ = {value(layout.y, (box.bottom - frame.bottom) / frame.height()),
+          value(layout.y, (box.top - frame.bottom) / frame.height())};
     if (panel.cells) changes(*panel.cells);
     for (const Points& points : panel.points)
       for (std::size_t i = 0; i < points.x.size(); ++i) take(points.x[i], points.y[i]);
@@ -68,7 +74,9 @@ class Hidden {
     const auto place = [](double at, const Range& of, int count) {
       return std::clamp(static_cast<int>(std::floor((at - of.min) / (of.max - of.min) * count)), 0, count - 1);
     };
-    const auto middle = [](int i, const Range& of, int count) { return of.min + (i + 0.5) / count * (of.max - of.min); };
+    const auto middle = [](int i, const Range& of, int count) {
+      return of.min + (i + 0.5) / count * (of.max - of.min);
+    };
     const int left = place(x_.min, cells.x, cells.columns), right = place(x_.max, cells.x, cells.columns);
     const int low = place(y_.min, cells.y, cells.rows), high = place(y_.max, cells.y, cells.rows);
     const auto code = [&](int i, int j) { return cells.codes[static_cast<std::size_t>(j) * cells.columns + i]; };
@@ -128,11 +136,13 @@ std::vector<int> joined_corners(const Box& source, const Box& frame) {
 
 }  // namespace
 
-std::vector<InsetLayout> place_insets(const Panel& panel, const PanelLayout& layout, double em_cm, const std::string& where) {
+std::vector<InsetLayout> place_insets(const Panel& panel, const PanelLayout& layout, double em_cm,
+                                      const std::string& where) {
   std::vector<Box> sources;
   std::vector<InsetLayout> placed;
   const auto named = [&](std::size_t i) { return where + ", inset " + std::to_string(i + 1); };
-  for (std::size_t i = 0; i < panel.insets.size(); ++i) sources.push_back(source_box(panel.insets[i], layout, named(i)));
+  for (std::size_t i = 0; i < panel.insets.size(); ++i)
+    sources.push_back(source_box(panel.insets[i], layout, named(i)));
   const auto fits = [&](const InsetLayout& at, const Box& source) {
     const bool larger = at.frame.width() > 0.0 && at.frame.height() > 0.0 &&
                         at.frame.width() * at.frame.height() > source.width() * source.height();
@@ -151,7 +161,9 @@ std::vector<InsetLayout> place_insets(const Panel& panel, const PanelLayout& lay
         best = at;
         least = hidden;
       }
-    if (!best) throw InputError(named(i) + " finds no corner in which it is larger than what it shows; ask for a smaller rectangle");
+    if (!best)
+      throw InputError(named(i) +
+                       " finds no corner in which it is larger than what it shows; ask for a smaller rectangle");
     best->source = sources[i];
     best->joined = joined_corners(best->source, best->frame);
     placed.push_back(*best);

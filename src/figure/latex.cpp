@@ -8,16 +8,19 @@
 namespace slapstick::figure {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 45> latex_signs = {{
-    {"\u03b1", "\\alpha"},   {"\u03b2", "\\beta"},  {"\u03b3", "\\gamma"},   {"\u03b4", "\\delta"}, {"\u03b5", "\\varepsilon"},
-    {"\u03b6", "\\zeta"},    {"\u03b7", "\\eta"},   {"\u03b8", "\\theta"},   {"\u03b9", "\\iota"},  {"\u03ba", "\\kappa"},
-    {"\u03bb", "\\lambda"},  {"\u03bc", "\\mu"},    {"\u03bd", "\\nu"},      {"\u03be", "\\xi"},    {"\u03c0", "\\pi"},
-    {"\u03c1", "\\rho"},     {"\u03c3", "\\sigma"}, {"\u03c4", "\\tau"},     {"\u03c5", "\\upsilon"}, {"\u03c6", "\\varphi"},
-    {"\u03c7", "\\chi"},     {"\u03c8", "\\psi"},   {"\u03c9", "\\omega"},   {"\u0393", "\\Gamma"}, {"\u0394", "\\Delta"},
-    {"\u0398", "\\Theta"},   {"\u039b", "\\Lambda"}, {"\u039e", "\\Xi"},     {"\u03a0", "\\Pi"},    {"\u03a3", "\\Sigma"},
-    {"\u03a6", "\\Phi"},     {"\u03a8", "\\Psi"},   {"\u03a9", "\\Omega"},   {"\u03d5", "\\phi"},   {"\u2212", "-"},
-    {"\u00d7", "\\times"},   {"\u00b7", "\\cdot"},  {"\u00b5", "\\mathrm{\\mu}"}, {"\u00b0", "^{\\circ}"}, {"\u221e", "\\infty"},
-    {"\u00b2", "^{2}"},      {"\u00b3", "^{3}"},    {"\u2264", "\\leq"},     {"\u2265", "\\geq"},   {"\u00b1", "\\pm"}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 45> latex_signs = {
+    {{"\u03b1", "\\alpha"},      {"\u03b2", "\\beta"},         {"\u03b3", "\\gamma"},   {"\u03b4", "\\delta"},
+     {"\u03b5", "\\varepsilon"}, {"\u03b6", "\\zeta"},         {"\u03b7", "\\eta"},     {"\u03b8", "\\theta"},
+     {"\u03b9", "\\iota"},       {"\u03ba", "\\kappa"},        {"\u03bb", "\\lambda"},  {"\u03bc", "\\mu"},
+     {"\u03bd", "\\nu"},         {"\u03be", "\\xi"},           {"\u03c0", "\\pi"},      {"\u03c1", "\\rho"},
+     {"\u03c3", "\\sigma"},      {"\u03c4", "\\tau"},          {"\u03c5", "\\upsilon"}, {"\u03c6", "\\varphi"},
+     {"\u03c7", "\\chi"},        {"\u03c8", "\\psi"},          {"\u03c9", "\\omega"},   {"\u0393", "\\Gamma"},
+     {"\u0394", "\\Delta"},      {"\u0398", "\\Theta"},        {"\u039b", "\\Lambda"},  {"\u039e", "\\Xi"},
+     {"\u03a0", "\\Pi"},         {"\u03a3", "\\Sigma"},        {"\u03a6", "\\Phi"},     {"\u03a8", "\\Psi"},
+     {"\u03a9", "\\Omega"},      {"\u03d5", "\\phi"},          {"\u2212", "-"},         {"\u00d7", "\\times"},
+     {"\u00b7", "\\cdot"},       {"\u00b5", "\\mathrm{\\mu}"}, {"\u00b0", "^{\\circ}"}, {"\u221e", "\\infty"},
+     {"\u00b2", "^{2}"},         {"\u00b3", "^{3}"},           {"\u2264", "\\leq"},     {"\u2265", "\\geq"},
+     {"\u00b1", "\\pm"}}};
 
 /// One character, or a command that stands for it, from position `at` on.
 class Reader {

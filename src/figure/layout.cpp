@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "base/ranges.hpp"
-#include "slapstick/base/error.hpp"
 #include "figure/raster.hpp"
+#include "slapstick/base/error.hpp"
 #include "text.hpp"
 
 namespace slapstick::figure {

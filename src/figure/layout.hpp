@@ -97,7 +97,8 @@ std::optional<Colour> colour_of_both(const Panel& panel);
 /// The insets of a panel whose frame is known. The size of their images is not set yet.
 /// @param where  what an error calls the panel. @throws InputError if an inset shows nothing of the panel, or has no
 /// corner in which it is larger than what it shows
-std::vector<InsetLayout> place_insets(const Panel& panel, const PanelLayout& layout, double em_cm, const std::string& where);
+std::vector<InsetLayout> place_insets(const Panel& panel, const PanelLayout& layout, double em_cm,
+                                      const std::string& where);
 
 /// Number of entries that the legend would have.
 int legend_entries(const Panel& panel);

@@ -166,8 +166,10 @@ Raster picture_of(const Cells& cells, const Window& window, int width, int heigh
     const int row = place(window.y, (height - j - 0.5) / height, cells.y, cells.rows);
     for (int i = 0; i < width && row >= 0; ++i) {
       if (columns[static_cast<std::size_t>(i)] < 0) continue;
-      const std::uint8_t code = cells.codes[static_cast<std::size_t>(row) * cells.columns + columns[static_cast<std::size_t>(i)]];
-      if (code != Cells::clear) raster.pixels[static_cast<std::size_t>(j) * width + i] = static_cast<std::uint8_t>(code + 1);
+      const std::uint8_t code =
+          cells.codes[static_cast<std::size_t>(row) * cells.columns + columns[static_cast<std::size_t>(i)]];
+      if (code != Cells::clear)
+        raster.pixels[static_cast<std::size_t>(j) * width + i] = static_cast<std::uint8_t>(code + 1);
     }
   }
   return raster;

@@ -44,7 +44,8 @@ class PanelScript {
     legend();
     out_ += source_commands(panel_, at_, whole_);
     plot();
-    for (std::size_t i = 0; i < at_.insets.size(); ++i) out_ += inset_commands({panel_, at_, whole_, series_, name_, index_}, i, font_pt_, latex_);
+    for (std::size_t i = 0; i < at_.insets.size(); ++i)
+      out_ += inset_commands({panel_, at_, whole_, series_, name_, index_}, i, font_pt_, latex_);
     return out_;
   }
 
@@ -153,7 +154,8 @@ class PanelScript {
     std::vector<std::string> parts;
     if (at_.raster) raster_parts(parts);
     if (at_.legend != Legend::none && at_.legend != Legend::below) key_parts(parts);
-    series_parts(panel_, series_, table_name(name_), [&](const std::string& label) { return title(label); }, parts);
+    series_parts(
+        panel_, series_, table_name(name_), [&](const std::string& label) { return title(label); }, parts);
     out_ += plot_command(parts);
   }
 
@@ -215,7 +217,8 @@ std::string terminals(const Figure& figure, const Layout& layout, Formats format
            fixed(layout.height_cm, 3) + "cm" + font + scaled(0.75, 2, pdf_dashes, 1) + " }\n";
   if (formats.tex)
     out += "  if (format eq 'tex') { set terminal cairolatex pdf size " + fixed(layout.width_cm, 3) + "cm," +
-           fixed(layout.height_cm, 3) + "cm font ',8' linewidth 2 dashlength " + fixed(pdf_dashes, 1) + " pointscale 1 }\n";
+           fixed(layout.height_cm, 3) + "cm font ',8' linewidth 2 dashlength " + fixed(pdf_dashes, 1) +
+           " pointscale 1 }\n";
   if (formats.svg)
     out += "  if (format eq 'svg') { set terminal svg size " + pixels(96) + font +
            " fontscale 1.3333 linewidth 1.3333 }\n";
@@ -239,9 +242,8 @@ std::string rename_command(const std::string& from, const std::string& to) {
 
 std::string format_list(Formats formats) {
   std::string out;
-  for (const auto& [wanted, name] :
-       {std::pair{formats.png, "png"}, std::pair{formats.pdf, "pdf"}, std::pair{formats.svg, "svg"},
-        std::pair{formats.tex, "tex"}})
+  for (const auto& [wanted, name] : {std::pair{formats.png, "png"}, std::pair{formats.pdf, "pdf"},
+                                     std::pair{formats.svg, "svg"}, std::pair{formats.tex, "tex"}})
     if (wanted) out += (out.empty() ? "" : " ") + std::string(name);
   return out;
 }
@@ -264,13 +266,15 @@ std::string script(const Figure& figure, const Layout& layout, const Table& tabl
       comment("Written by slapstick. Change it at will and redraw with gnuplot 5.4 or later, in this folder:");
   out += comment("  gnuplot " + name + ".gp");
   if (!figure.caption.empty()) out += comment("\n" + figure.caption);
-  out += std::string("reset\nset encoding utf8\n") + (formats.tex ? "" : "set minussign\n") + "set datafile separator comma\n";
+  out += std::string("reset\nset encoding utf8\n") + (formats.tex ? "" : "set minussign\n") +
+         "set datafile separator comma\n";
   out += "do for [format in " + quote(format_list(formats)) + "] {\n" + terminals(figure, layout, formats);
   out += "  set output " + quote_file(picture + (formats.tex ? "-tex." : ".")) + " . format\n";
   out += "  set border 15 lw 0.5 front; set tics front in scale 0.8, 0.4 mirror; unset x2tics; unset y2tics\n";
   out += "  set style textbox opaque fillcolor rgb '#40ffffff' noborder margins 1, 0.8\n";
   out += "  set multiplot\n";
-  for (std::size_t i = 0; i < figure.panels.size(); ++i) out += PanelScript(figure, layout, table, name, i, formats.tex).text();
+  for (std::size_t i = 0; i < figure.panels.size(); ++i)
+    out += PanelScript(figure, layout, table, name, i, formats.tex).text();
   // The lines lie in a file beside that is called like the text: a-tex.pdf, for a.pdf is the picture of another format.
   const std::string rename = formats.tex ? rename_command("./" + picture + "-tex.tex", "./" + picture + ".tex") : "";
   return out + "\n  unset multiplot\n  unset output\n}\n" + rename;

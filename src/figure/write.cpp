@@ -7,14 +7,14 @@
 #include <fstream>
 
 #include "base/ranges.hpp"
+#include "figure/figure.hpp"
+#include "figure/raster.hpp"
 #include "gnuplot.hpp"
 #include "latex.hpp"
 #include "layout.hpp"
 #include "matplotlib.hpp"
 #include "script.hpp"
 #include "slapstick/base/error.hpp"
-#include "figure/figure.hpp"
-#include "figure/raster.hpp"
 #include "table.hpp"
 
 namespace slapstick::figure {
@@ -70,7 +70,8 @@ void check_cells(const Panel& panel, const std::string& where) {
   check(cells.columns > 0 && cells.rows > 0 &&
             cells.codes.size() == static_cast<std::size_t>(cells.columns) * static_cast<std::size_t>(cells.rows),
         where + ": cells need a code each");
-  check(ranges::all_of(cells.codes, [&](std::uint8_t code) { return code == Cells::clear || code < cells.colours.size(); }) &&
+  check(ranges::all_of(cells.codes,
+                       [&](std::uint8_t code) { return code == Cells::clear || code < cells.colours.size(); }) &&
             cells.colours.size() <= Cells::clear,
         where + ": a cell has a code without a colour");
   check(ranges::none_of(panel.points, in_raster), where + ": points over cells must be discs");
@@ -183,13 +184,15 @@ Files write(const Figure& figure, const fs::path& stem, Formats formats, const s
     if (!at.raster) continue;
     save(raster_name(name, i), draw_raster(figure.panels[i], at.x, at.y, at.raster_width, at.raster_height));
     for (std::size_t k = 0; k < at.insets.size(); ++k)
-      save(inset_raster_name(name, i, k), draw_raster(figure.panels[i], at.insets[k].x, at.insets[k].y, at.insets[k].raster_width, at.insets[k].raster_height));
+      save(inset_raster_name(name, i, k), draw_raster(figure.panels[i], at.insets[k].x, at.insets[k].y,
+                                                      at.insets[k].raster_width, at.insets[k].raster_height));
   }
   const std::size_t raster_count = names.size();
   if (!table.series.empty()) save(table_name(name), to_csv(table));
   if (formats.py) save(picture + ".py", matplotlib_script(figure, layout, table, name, picture));
   if (formats.of_gnuplot()) {
-    save(name + ".gp", script(formats.tex ? translated(figure, Dialect::latex) : figure, layout, table, name, picture, formats));
+    save(name + ".gp",
+         script(formats.tex ? translated(figure, Dialect::latex) : figure, layout, table, name, picture, formats));
     run_gnuplot(scratch.path(), name + ".gp");
   }
   for (const auto& [wanted, ending] :

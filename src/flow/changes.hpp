@@ -164,7 +164,8 @@ class Changes {
 
   [[nodiscard]] bool stop_changes(std::size_t friction) const {
     const int stop = model_.frictions[friction].normal->compliant_stop;
-    return stop >= 0 && old_.compliant[static_cast<std::size_t>(stop)] != now_.compliant[static_cast<std::size_t>(stop)];
+    return stop >= 0 &&
+           old_.compliant[static_cast<std::size_t>(stop)] != now_.compliant[static_cast<std::size_t>(stop)];
   }
 
   /// Whether a friction contact of the pair sticks now.

@@ -156,9 +156,9 @@ double slope_bound(const CompiledSystem& system, const mode::Mode& here, int i, 
 double bend_rate(const CompiledSystem& system, const mode::Mode& here, int i, const double* v) {
   double rate = 0.0;
   for (int k = 0; k < static_cast<int>(system.frame().characteristics.size()); ++k)
-    rate += row_change(system.frame().slope_row(system.model(), k),
-                       system.frame().characteristics[static_cast<std::size_t>(k)].push[i] *
-                           slope_bound(system, here, k, true), v);
+    rate += row_change(
+        system.frame().slope_row(system.model(), k),
+        system.frame().characteristics[static_cast<std::size_t>(k)].push[i] * slope_bound(system, here, k, true), v);
   return rate;
 }
 
@@ -221,7 +221,8 @@ bool others_change(const CompiledSystem& system, const mode::Mode& here, int sto
   for (const mode::Guard& guard : here.guards()) {
     const bool of_force =
         guard.kind == mode::GuardKind::let_go || guard.kind == mode::GuardKind::push || of_bound(guard.kind);
-    if (of_force && acts_on(frame, stop, frame.compliant[guard.contact]) && guard.at(X) <= guard.size(delta)) return true;
+    if (of_force && acts_on(frame, stop, frame.compliant[guard.contact]) && guard.at(X) <= guard.size(delta))
+      return true;
   }
   return false;
 }
@@ -252,9 +253,8 @@ double press(const CompiledSystem& system, const mode::Mode& here, int stop, con
     towards -= own.sign * system.frame().characteristics[i].push[own.own] *
                (piece.slope * row_product(system.frame().slope_row(system.model(), characteristic), X) + piece.offset);
   }
-  for_compliant_forces(system, here, stop, [&](const mode::RowVector& row, double factor) {
-    towards += factor * row_product(row, X);
-  });
+  for_compliant_forces(system, here, stop,
+                       [&](const mode::RowVector& row, double factor) { towards += factor * row_product(row, X); });
   return towards;
 }
 
@@ -268,8 +268,7 @@ double press_change(const CompiledSystem& system, const mode::Mode& here, int st
   const mode::ContactRow& own = system.frame().stops[stop];
   for (std::size_t i = 0; i < here.states().pieces.size(); ++i)
     add(system.frame().slope_row(system.model(), static_cast<int>(i)),
-        system.frame().characteristics[i].push[own.own] *
-            slope_bound(system, here, static_cast<int>(i), any_piece));
+        system.frame().characteristics[i].push[own.own] * slope_bound(system, here, static_cast<int>(i), any_piece));
   for_compliant_forces(system, here, stop, add);
   return change;
 }

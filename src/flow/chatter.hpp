@@ -46,7 +46,8 @@ struct ChatterLimit {
 [[nodiscard]] inline double fastest_chatter(double tolerance) { return 100.0 * std::sqrt(tolerance); }
 
 /// Whether `prove_chatter` looks any further than at the speed.
-[[nodiscard]] bool slow_enough(const CompiledSystem& system, const mode::Mode& here, int stop, const double* X, double tolerance);
+[[nodiscard]] bool slow_enough(const CompiledSystem& system, const mode::Mode& here, int stop, const double* X,
+                               double tolerance);
 
 /// @param here the mode of the flight that begins at X
 /// @param X extended state just after an impact of `stop` (gap = 0, separating).
@@ -56,7 +57,7 @@ struct ChatterLimit {
 /// known
 ///          to `tolerance`: the caller goes on bounce by bounce and asks again. Cost: one row product when the chatter
 ///          is still too high to be summed, else four products with |A|.
-ChatterLimit prove_chatter(const CompiledSystem& system, const mode::Mode& here, int stop, const double* X, double tolerance,
-                           std::span<double> scratch);
+ChatterLimit prove_chatter(const CompiledSystem& system, const mode::Mode& here, int stop, const double* X,
+                           double tolerance, std::span<double> scratch);
 
 }  // namespace slapstick::flow

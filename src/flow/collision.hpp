@@ -23,7 +23,8 @@ struct Collision {
 
 /// P of what is loaded so: one row for each displacement, any columns. If the displacements depend on each other, any
 /// solution gives the same velocities; this is the least.
-[[nodiscard]] Eigen::MatrixXd impulses(const mode::Frame& frame, const std::vector<int>& rows, const Eigen::MatrixXd& load);
+[[nodiscard]] Eigen::MatrixXd impulses(const mode::Frame& frame, const std::vector<int>& rows,
+                                       const Eigen::MatrixXd& load);
 
 /// The rates of some displacements are changed by impulses along them; momentum is kept.
 /// @param rows    the displacements

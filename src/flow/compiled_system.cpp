@@ -44,8 +44,9 @@ mode::Matrix balanced(const mode::Mode& mode, int d) {
 /// The highest forcing frequency.
 double forcing_rate(const mode::Mode& mode, const mode::Frame& frame) {
   const auto oscillators = frame.signal(0) - 2 * frame.d;
-  return oscillators == 0 ? 0.0
-                          : mode.system().block(2 * frame.d, 2 * frame.d, oscillators, oscillators).cwiseAbs().maxCoeff();
+  return oscillators == 0
+             ? 0.0
+             : mode.system().block(2 * frame.d, 2 * frame.d, oscillators, oscillators).cwiseAbs().maxCoeff();
 }
 
 /// A window is never much longer than the shortest time scale of its mode: the tail of its series would not be

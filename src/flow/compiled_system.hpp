@@ -57,9 +57,8 @@ class CompiledSystem {
   [[nodiscard]] int compliant_states(std::size_t i) const { return model_.compliant_stops[i].bounded ? 4 : 3; }
   /// No mode has more guards.
   [[nodiscard]] int most_guards() const {
-    return static_cast<int>(
-        1 + model_.stops.size() + 3 * model_.frictions.size() +
-        2 * (model_.compliant_stops.size() + model_.characteristics.size()));
+    return static_cast<int>(1 + model_.stops.size() + 3 * model_.frictions.size() +
+                            2 * (model_.compliant_stops.size() + model_.characteristics.size()));
   }
 
  private:

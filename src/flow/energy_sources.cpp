@@ -13,14 +13,14 @@ namespace {
 bool feeds(const Characteristic& over_velocity) {
   const auto& corners = over_velocity.corners;
   const bool far = over_velocity.slope_below < 0.0 || over_velocity.slope_above < 0.0;
-  const bool at_corner = std::any_of(corners.begin(), corners.end(),
-                                     [](const Characteristic::Corner& corner) { return corner.force * corner.at < 0.0; });
+  const bool at_corner = std::any_of(corners.begin(), corners.end(), [](const Characteristic::Corner& corner) {
+    return corner.force * corner.at < 0.0;
+  });
   double at_zero = corners.front().force + over_velocity.slope_below * (0.0 - corners.front().at);
   if (corners.back().at <= 0.0) at_zero = corners.back().force - over_velocity.slope_above * corners.back().at;
   for (std::size_t i = 1; i < corners.size(); ++i) {
     const Characteristic::Corner &from = corners[i - 1], &to = corners[i];
-    if (from.at <= 0.0 && to.at > 0.0)
-      at_zero = from.force - (to.force - from.force) / (to.at - from.at) * from.at;
+    if (from.at <= 0.0 && to.at > 0.0) at_zero = from.force - (to.force - from.force) / (to.at - from.at) * from.at;
   }
   return far || at_corner || at_zero != 0.0;
 }
@@ -65,7 +65,8 @@ bool indefinite(const Eigen::MatrixXd& A) {
 bool falls(const Characteristic& bent) {
   if (bent.over != Characteristic::Over::displacement) return false;
   bool some = bent.slope_below < 0.0 || bent.slope_above < 0.0;
-  for (std::size_t i = 1; i < bent.corners.size(); ++i) some = some || bent.corners[i].force < bent.corners[i - 1].force;
+  for (std::size_t i = 1; i < bent.corners.size(); ++i)
+    some = some || bent.corners[i].force < bent.corners[i - 1].force;
   return some;
 }
 
@@ -94,7 +95,8 @@ std::vector<std::string> falling_forces(const Model& model) {
     if (model.springs[i].stiffness < 0.0) all.push_back("spring " + std::to_string(i + 1));
   for (const Characteristic& one_of : model.characteristics)
     if (falls(one_of)) all.push_back("characteristic " + in_quotes(one_of.name));
-  if (!model.stiffness.empty() && indefinite(assembled(model.stiffness, model.springs, &Spring::stiffness, model.size())))
+  if (!model.stiffness.empty() &&
+      indefinite(assembled(model.stiffness, model.springs, &Spring::stiffness, model.size())))
     all.emplace_back("matrix stiffness");
   return all;
 }

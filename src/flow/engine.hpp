@@ -101,7 +101,7 @@ class Engine : public Flight {
 
   MotionOptions options_;
   Instant knot_ = mode::SignalTable::never;  ///< the next one of a signal
-  int chatter_stop_ = -1;  ///< the stop just hit, whose chatter may be complete
+  int chatter_stop_ = -1;                    ///< the stop just hit, whose chatter may be complete
   Extended X_before_;
   std::vector<double> scratch_;   ///< of the proof of a chatter
   std::vector<int> tail_orders_;  ///< of the guards' zeros at the start of a chatter's tail

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "base/ranges.hpp"
+#include "flow/engine.hpp"
 #include "flow/impact_law.hpp"
 #include "flow/mode_graph.hpp"
-#include "flow/engine.hpp"
 
 namespace slapstick::flow {
 namespace {

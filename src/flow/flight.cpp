@@ -198,8 +198,8 @@ void Flight::next_window() {
   const mode::Mode& mode = *here_;
   const bool fresh = origin_.leave(X_window_.lanes());
   std::array<double, 2> sizes{};
-  mode.pass(X_window_.lanes().data(), clock_sizes_.lanes().data(), fresh, X_next_.lanes().data(), magnitude_.lanes().data(),
-            origin_.largest_lanes().data(), sizes.data());
+  mode.pass(X_window_.lanes().data(), clock_sizes_.lanes().data(), fresh, X_next_.lanes().data(),
+            magnitude_.lanes().data(), origin_.largest_lanes().data(), sizes.data());
   size_ = sizes[0];
   demand_ordinary(size_, now_, system_->period());
   origin_.arrive(sizes[1]);

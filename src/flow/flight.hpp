@@ -109,10 +109,10 @@ class Flight {
   double elapsed_ = 0.0;        ///< time from the flight's start to now ..
   double segment_begun_ = 0.0;  ///< .. and to the segment's start
   double segment_duration_ = 0.0;
-  Extended X_;              ///< now
-  Extended X_window_;       ///< at the start of the present window
-  Extended magnitude_;      ///< what its rounding is measured by, see note_magnitude
-  Extended X_next_;         ///< scratch
+  Extended X_;               ///< now
+  Extended X_window_;        ///< at the start of the present window
+  Extended magnitude_;       ///< what its rounding is measured by, see note_magnitude
+  Extended X_next_;          ///< scratch
   std::vector<int> orders_;  ///< of the zeros of the mode's guards at the start of the present window
   Counters counters_;
 

@@ -197,7 +197,9 @@ std::vector<InstantPart> Division::parts() {
 
 }  // namespace
 
-std::vector<InstantPart> parts_of_instant(const Engine& engine, bool backward) { return Division(engine, backward).parts(); }
+std::vector<InstantPart> parts_of_instant(const Engine& engine, bool backward) {
+  return Division(engine, backward).parts();
+}
 
 std::vector<Motion::Strike> separated_strikes(const mode::Frame& frame, std::span<const Motion::Strike> strikes) {
   std::vector<Motion::Strike> all;

@@ -20,7 +20,7 @@ namespace slapstick::flow {
 class Engine;
 
 struct InstantPart {
-  int guard = 0;  ///< of the mode before the instant
+  int guard = 0;                        ///< of the mode before the instant
   std::vector<Motion::Strike> strikes;  ///< in order; stops that do not act on each other are apart
   mode::ContactStates after;            ///< once this part is done, and those before it
 };
@@ -30,7 +30,8 @@ struct InstantPart {
 [[nodiscard]] std::vector<InstantPart> parts_of_instant(const Engine& engine, bool backward = false);
 
 /// Each strike as strikes of stops that do not act on each other.
-[[nodiscard]] std::vector<Motion::Strike> separated_strikes(const mode::Frame& frame, std::span<const Motion::Strike> strikes);
+[[nodiscard]] std::vector<Motion::Strike> separated_strikes(const mode::Frame& frame,
+                                                            std::span<const Motion::Strike> strikes);
 
 /// Does the guard end a piece of a continuous field? Such a crossing owns nothing but its own contact's state.
 [[nodiscard]] bool passes_smoothly(const Model& model, const mode::Guard& guard);

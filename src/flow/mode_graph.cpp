@@ -297,7 +297,8 @@ ModeId select_mode(const CompiledSystem& system, const double* X, const double* 
   do {
     const ModeId id = choice.id();
     const mode::Mode* known = system.known_mode(id);
-    if (known == nullptr && !system.few_modes() && !choice.only_one() && !may_fit(*system.outline(id), X, magnitude)) continue;
+    if (known == nullptr && !system.few_modes() && !choice.only_one() && !may_fit(*system.outline(id), X, magnitude))
+      continue;
     if (fits(known != nullptr ? *known : system.mode(id), X, magnitude, orders)) return id;
   } while (choice.next());
   return -1;

@@ -6,9 +6,9 @@
 namespace slapstick {
 
 std::string_view name(EventKind kind) {
-  constexpr std::string_view names[event_kinds] = {"impact",  "slip+",  "slip-",     "stick",    "release", "graze",
-                                                   "chatter", "engage", "disengage", "separate", "corner",
-                                                   "unload",  "load",   "knot"};
+  constexpr std::string_view names[event_kinds] = {"impact", "slip+",   "slip-",  "stick",     "release",
+                                                   "graze",  "chatter", "engage", "disengage", "separate",
+                                                   "corner", "unload",  "load",   "knot"};
   return names[static_cast<int>(kind)];
 }
 

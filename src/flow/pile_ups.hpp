@@ -43,7 +43,8 @@ class PileUps {
     std::uint32_t best = 0;
     for (int i = 0; i < count_; ++i) {
       const Pile& pile = piles_[i];
-      const bool holds = (pile.stops >> stop & 1U) != 0 && pile.disturbed_by != many && (pile.disturbed_by & pile.taught) != 0;
+      const bool holds =
+          (pile.stops >> stop & 1U) != 0 && pile.disturbed_by != many && (pile.disturbed_by & pile.taught) != 0;
       if (holds && (best & ~pile.stops) == 0) best = pile.stops;
     }
     return best;
@@ -51,7 +52,9 @@ class PileUps {
 
  private:
   static constexpr std::uint32_t many = ~std::uint32_t{0};  ///< more than one impact
-  [[nodiscard]] static bool single(std::uint32_t stops) { return stops != 0 && stops != many && (stops & (stops - 1)) == 0; }
+  [[nodiscard]] static bool single(std::uint32_t stops) {
+    return stops != 0 && stops != many && (stops & (stops - 1)) == 0;
+  }
 
   struct Pile {
     std::uint32_t stops = 0;

@@ -8,10 +8,10 @@
 #include <cerrno>
 #include <system_error>
 
+#include "base/text.hpp"
 #include "io/abandoned_files.hpp"
 #include "io/temporary_files.hpp"
 #include "slapstick/base/error.hpp"
-#include "base/text.hpp"
 
 namespace slapstick {
 namespace {

@@ -53,8 +53,8 @@ void ColumnTable::word(std::string_view text) {
 
 void ColumnTable::end_row() {
   if (cell_ != columns_.size())
-    throw std::logic_error("a table row has " + std::to_string(cell_) + " cells for " + std::to_string(columns_.size()) +
-                           " columns");
+    throw std::logic_error("a table row has " + std::to_string(cell_) + " cells for " +
+                           std::to_string(columns_.size()) + " columns");
   cell_ = 0;
 }
 

@@ -56,7 +56,9 @@ std::vector<LaidLaw> ModelBuilder::laid_laws() {
   each("friction", [&](const Part& part) {
     if (part.stribeck.empty()) return;
     const Law law = stribeck(part);
-    const auto number = [&](const char* key) { return dual(part.stribeck.find(key)->second, where("stribeck") + ": " + key).value; };
+    const auto number = [&](const char* key) {
+      return dual(part.stribeck.find(key)->second, where("stribeck") + ": " + key).value;
+    };
     const double speed = number("speed"), offset = number("kinetic"), height = number("static") - offset;
     const double load = part.load.empty() ? 1.0 : dual(part.load.front().second, where("normal_force: constant")).value;
     double most = law.back().second.value - offset;
@@ -138,8 +140,9 @@ void ModelBuilder::add_friction(Model& model, const Part& part) {
   } else if (!part.load.empty() || !part.load_stop.empty()) {
     if (law.size() > 1)
       throw InputError(definition_.place(part.line),
-                       where("normal_force") + ": the force changes with the state, and friction over the speed too: their "
-                                               "product is not linear in the state; give one number for kinetic");
+                       where("normal_force") +
+                           ": the force changes with the state, and friction over the speed too: their "
+                           "product is not linear in the state; give one number for kinetic");
     normal = load(part, model);
   }
   origins_["friction"].push_back({kind_, index_});
@@ -158,7 +161,8 @@ Stop ModelBuilder::stop(const Part& part) const {
     const Point& point = part.points[stop.corners.size()];
     const std::string place = where("restitution_over_speed") + ": point " + std::to_string(stop.corners.size() + 1);
     if (!(speed.value > 0.0))
-      throw InputError(definition_.place(point.at.line), place + ": speed = " + shown(speed.value) + " is not positive");
+      throw InputError(definition_.place(point.at.line),
+                       place + ": speed = " + shown(speed.value) + " is not positive");
     if (!(restitution.value >= 0.0 && restitution.value <= 1.0))
       throw InputError(definition_.place(point.force.line),
                        place + ": restitution = " + shown(restitution.value) + " is outside [0, 1]");
@@ -176,11 +180,18 @@ CompliantStop ModelBuilder::compliant_stop(const Part& part) const {
     const Dual back = field(part, "unloading_stiffness");
     if (!(back.value > 0.0 && back.value <= stiffness.value))
       throw InputError(definition_.place(part.fields.find("unloading_stiffness")->second.line),
-                       where("unloading_stiffness") + " = " + shown(back.value) + " is outside (0, stiffness]: beyond, each contact would feed energy");
+                       where("unloading_stiffness") + " = " + shown(back.value) +
+                           " is outside (0, stiffness]: beyond, each contact would feed energy");
     stiffness = (stiffness + back) * Dual{0.5};
   }
-  return {part.name, part.a, part.b, written(part, "clearance"), written(stiffness), written(part, "damping"),
-          part.flag("pulls") || law == "pulls", law == "bounded"};
+  return {part.name,
+          part.a,
+          part.b,
+          written(part, "clearance"),
+          written(stiffness),
+          written(part, "damping"),
+          part.flag("pulls") || law == "pulls",
+          law == "bounded"};
 }
 
 /// Stiffness k of loading and k_u of unloading: a spring (k + k_u) / 2 whose force N is the normal force of friction on

@@ -22,7 +22,20 @@ struct Scalar {
 /// of text, a list of tables with fields of their own, a list of points [x, force], a list of two Scalars, a word of
 /// `contact_laws` or `signal_shapes`, a table of `stribeck_keys`, a table of `constant`, states and a `compliant_stop`,
 /// or a table of `band_keys`.
-enum class Holds { number, observed, flag, text, harmonics, points, interval, contact_law, shape, stribeck, load, band };
+enum class Holds {
+  number,
+  observed,
+  flag,
+  text,
+  harmonics,
+  points,
+  interval,
+  contact_law,
+  shape,
+  stribeck,
+  load,
+  band
+};
 
 struct FieldRule {
   std::string_view key;
@@ -58,15 +71,15 @@ struct Part {
   std::map<std::string, bool, std::less<>> flags;
   std::map<std::string, std::string, std::less<>> texts;
   std::vector<Part> harmonics;
-  std::vector<Point> points;  ///< of its characteristic, of its restitution, or of a signal ..
+  std::vector<Point> points;                       ///< of its characteristic, of its restitution, or of a signal ..
   std::vector<std::pair<double, double>> samples;  ///< .. whose file has many
-  std::string record;     ///< the file of a signal ..
-  std::vector<int> rows;  ///< .. and the line in it of each point
+  std::string record;                              ///< the file of a signal ..
+  std::vector<int> rows;                           ///< .. and the line in it of each point
   std::vector<Scalar> within;
-  std::map<std::string, Scalar, std::less<>> stribeck;     // by stribeck_keys()
-  std::map<std::string, Scalar, std::less<>> band;         // by band_keys()
-  std::vector<std::pair<std::string, Scalar>> load;        // of a normal force, in the file's order
-  std::string load_stop;                                   // the compliant stop whose force it is
+  std::map<std::string, Scalar, std::less<>> stribeck;  // by stribeck_keys()
+  std::map<std::string, Scalar, std::less<>> band;      // by band_keys()
+  std::vector<std::pair<std::string, Scalar>> load;     // of a normal force, in the file's order
+  std::string load_stop;                                // the compliant stop whose force it is
   int line = 0;
 
   [[nodiscard]] bool flag(std::string_view key) const {

@@ -109,7 +109,7 @@ double ModelBuilder::base(std::size_t k, double omega, double time) const {
     const auto at = [&](const Signal& signal) {
       return value_at(signal, signal.in_periods ? time * omega / (2.0 * std::numbers::pi) : time);
     };
-    sum += term.amplitude.value * (term.signal >= 0  ? at(signals_[static_cast<std::size_t>(term.signal)])
+    sum += term.amplitude.value * (term.signal >= 0 ? at(signals_[static_cast<std::size_t>(term.signal)])
                                    : turning == 0.0 ? 1.0
                                                     : fixed::sin(turning * time + term.phase.value));
   }

@@ -8,9 +8,9 @@
 #include <numbers>
 #include <optional>
 
-#include "slapstick/base/error.hpp"
 #include "base/decimal.hpp"
 #include "base/text.hpp"
+#include "slapstick/base/error.hpp"
 
 namespace slapstick {
 
@@ -185,7 +185,8 @@ class Reader {
     apply(function.name, count);
   }
 
-  [[noreturn]] void refuse_token(const std::string& what, const std::string& token, const std::string& more = "") const {
+  [[noreturn]] void refuse_token(const std::string& what, const std::string& token,
+                                 const std::string& more = "") const {
     refuse(text_, "unexpected " + what + " \"" + token + "\" found at position " + std::to_string(at_) + more);
   }
   [[nodiscard]] std::string place() const { return std::to_string(at_); }
@@ -193,8 +194,8 @@ class Reader {
   /// Something else stands where a number should.
   [[noreturn]] void unexpected_operand() {
     if (at_end()) refuse(text_, "unexpected end of expression at position " + std::to_string(at_ + 1));
-    const std::string symbol(take_one_of(std::array<std::string_view, 13>{"||", "&&", "<=", ">=", "==", "!=", "<", ">",
-                                                                          "+", "-", "*", "/", "^"}));
+    const std::string symbol(take_one_of(
+        std::array<std::string_view, 13>{"||", "&&", "<=", ">=", "==", "!=", "<", ">", "+", "-", "*", "/", "^"}));
     at_ -= symbol.size();
     if (!symbol.empty()) refuse_token("operator", symbol);
     if (here() == '?' || here() == ':')

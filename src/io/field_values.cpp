@@ -63,13 +63,11 @@ Numbers read_band(const TreeReader& tree, const TomlNode& table, const std::stri
     const Scalar& scalar = found->second;
     const double value = scalar.number;
     if (scalar.expression || !(value >= least && value <= most) || value != std::floor(value))
-      tree.fail(scalar.line, where + ": " + key,
-                "not a whole number in [" + shown(least) + ", " + shown(most) + "]");
+      tree.fail(scalar.line, where + ": " + key, "not a whole number in [" + shown(least) + ", " + shown(most) + "]");
     return value;
   };
   const double from = whole("from", 1, 1e6, 0), to = whole("to", 1, 1e6, 0);
-  if (to < from)
-    tree.fail(band.at("to").line, where + ": to", shown(to) + " is below from = " + shown(from));
+  if (to < from) tree.fail(band.at("to").line, where + ": to", shown(to) + " is below from = " + shown(from));
   const double most = to - from + 1;
   const double lines = whole("lines", 1, std::min(most, 100.0), most);
   if (lines > 100.0)

@@ -2,11 +2,11 @@
 #include <filesystem>
 #include <system_error>
 
+#include "base/nearest.hpp"
 #include "io/builtin.hpp"
 #include "io/read_file.hpp"
 #include "io/toml_tree.hpp"
 #include "slapstick/base/error.hpp"
-#include "base/nearest.hpp"
 #include "slapstick/io/model_file.hpp"
 
 namespace slapstick {
@@ -26,7 +26,8 @@ std::vector<std::string> builtin_models() {
 }
 
 ModelDefinition load_model(const std::string& name_or_path) {
-  if (is_path(name_or_path)) return ModelDefinition::parse(read_file(name_or_path, "model file ", toml_size_limit), name_or_path);
+  if (is_path(name_or_path))
+    return ModelDefinition::parse(read_file(name_or_path, "model file ", toml_size_limit), name_or_path);
   for (const auto& model : builtin_model_files())
     if (model.name == name_or_path) return ModelDefinition::parse(model.text, name_or_path + " (built in)");
   std::error_code error;

@@ -46,8 +46,8 @@ class MatrixReader {
                Definition& definition)
       : tree_(tree), coordinates_(coordinates), rows_(rows.empty() ? coordinates : rows), definition_(definition) {
     for (const auto& row : rows_)
-      place_.push_back(static_cast<std::size_t>(std::find(coordinates.begin(), coordinates.end(), row) -
-                                                coordinates.begin()));
+      place_.push_back(
+          static_cast<std::size_t>(std::find(coordinates.begin(), coordinates.end(), row) - coordinates.begin()));
   }
 
   MatrixEntry read(const TomlNode& node, const std::string& where) const {
@@ -76,11 +76,11 @@ class MatrixReader {
 
   std::vector<Scalar> from_file(const TomlNode& node, const std::string& factor, const std::string& where) const {
     if (!node.text.ends_with(".mtx") && !node.text.ends_with(".csv"))
-      tree_.fail(node.line, where, "expected rows of numbers, or a file whose name ends in .mtx or .csv, found " +
-                                       in_quotes(node.text));
+      tree_.fail(node.line, where,
+                 "expected rows of numbers, or a file whose name ends in .mtx or .csv, found " + in_quotes(node.text));
     const std::string place = definition_.place(node.line) + where + ": ";
-    const FileMatrix matrix = slapstick::from_file(
-        place, [&] { return read_matrix_file(beside(definition_.source, node.text)); });
+    const FileMatrix matrix =
+        slapstick::from_file(place, [&] { return read_matrix_file(beside(definition_.source, node.text)); });
     check(matrix, node, where);
     std::vector<Scalar> entries;
     for (const double entry : matrix.entries) {
@@ -97,13 +97,14 @@ class MatrixReader {
 
   void check(const FileMatrix& matrix, const TomlNode& node, const std::string& where) const {
     if (matrix.n != rows_.size())
-      tree_.fail(node.line, where, "file " + in_quotes(node.text) + " has " + std::to_string(matrix.n) +
-                                       " rows, expected " + std::to_string(rows_.size()) + " (one per coordinate)");
+      tree_.fail(node.line, where,
+                 "file " + in_quotes(node.text) + " has " + std::to_string(matrix.n) + " rows, expected " +
+                     std::to_string(rows_.size()) + " (one per coordinate)");
     for (std::size_t i = 0; i < matrix.names.size(); ++i)
       if (matrix.names[i] != rows_[i])
-        tree_.fail(node.line, where, "file " + in_quotes(node.text) + ": column " + std::to_string(i + 1) + " is " +
-                                         in_quotes(matrix.names[i]) + ", and the coordinate there is " +
-                                         in_quotes(rows_[i]));
+        tree_.fail(node.line, where,
+                   "file " + in_quotes(node.text) + ": column " + std::to_string(i + 1) + " is " +
+                       in_quotes(matrix.names[i]) + ", and the coordinate there is " + in_quotes(rows_[i]));
   }
 
   std::vector<Scalar> written_out(const TomlNode& node, const std::string& where) const {
@@ -155,8 +156,8 @@ std::vector<Part> matrix_rows(const TreeReader& tree, const TomlNode& root, cons
   std::vector<std::string> names;
   if (node->kind == Kind::text) {
     const std::string place = source + ":" + std::to_string(node->line) + ": " + where + ": ";
-    names = names_of(from_file(
-        place, [&] { return read_file(beside(source, node->text), "file of names ", numbers_size_limit); }));
+    names = names_of(
+        from_file(place, [&] { return read_file(beside(source, node->text), "file of names ", numbers_size_limit); }));
   } else {
     tree.expect(*node, Kind::list, where);
     for (const auto& item : node->items) {

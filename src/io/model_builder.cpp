@@ -76,7 +76,8 @@ void ModelBuilder::add_links(Model& model) {
     origins_["spring"].push_back({kind_, index_});
     const Dual stiffness = field(part, "stiffness");
     const auto name = part.texts.find("name");
-    model.springs.push_back({end(part.a), end(part.b), written(stiffness), name != part.texts.end() ? name->second : ""});
+    model.springs.push_back(
+        {end(part.a), end(part.b), written(stiffness), name != part.texts.end() ? name->second : ""});
     model.springs.back().motion = add_motion(model, part, "stiffness", 0);
   });
   each("damper", [&](const Part& part) {
@@ -133,14 +134,19 @@ void ModelBuilder::add_bends(Model& model, const Part& part, Characteristic::Ove
 
 /// A damper of one coefficient within an interval of x_a - x_b, and another outside.
 void ModelBuilder::add_zones(Model& model, const Part& part, const Dual& inside) {
-  const Dual from = dual(part.within[0], where("within") + ": from"), to = dual(part.within[1], where("within") + ": to");
+  const Dual from = dual(part.within[0], where("within") + ": from"),
+             to = dual(part.within[1], where("within") + ": to");
   if (!(from.value < to.value))
-    throw InputError(definition_.place(part.within[0].line), where("within") + ": " + shown(to.value) +
-                                                                 " is not above the " + shown(from.value) + " before it");
+    throw InputError(
+        definition_.place(part.within[0].line),
+        where("within") + ": " + shown(to.value) + " is not above the " + shown(from.value) + " before it");
   const Dual outside = field(part, "coefficient_outside");
   if (!part.flag("feeds"))
     for (const auto& [key, value] : {std::pair("coefficient", inside), std::pair("coefficient_outside", outside)})
-      if (value.value < 0.0) throw InputError(definition_.place(part.line), where(key) + " = " + shown(value.value) + " is negative; a damper that may feed energy says feeds = true");
+      if (value.value < 0.0)
+        throw InputError(
+            definition_.place(part.line),
+            where(key) + " = " + shown(value.value) + " is negative; a damper that may feed energy says feeds = true");
   const auto name = part.texts.find("name");
   const std::string own = std::string(kind_) + std::to_string(index_ + 1);
   add(model, {name != part.texts.end() ? name->second : own, part.a, part.b, Characteristic::Over::zones, {}},
@@ -193,8 +199,8 @@ void ModelBuilder::push(Model& model, int coordinate, int base, const Dual& stre
     const Dual turning = own ? term.frequency : Dual{static_cast<double>(term.harmonic)} * omega_;
     const Dual frequency = order > 0 ? turning : Dual{1.0};
     const Dual phase = order == 1 ? term.phase + Dual{std::numbers::pi / 2} : term.phase;
-    const Dual size = order == 2 ? -(strength * term.amplitude * (frequency * frequency))
-                                 : strength * frequency * term.amplitude;
+    const Dual size =
+        order == 2 ? -(strength * term.amplitude * (frequency * frequency)) : strength * frequency * term.amplitude;
     add_force(model, {coordinate, term.harmonic, written(size), written(phase), written(term.frequency)},
               silent || term.silent);
   }
@@ -302,7 +308,8 @@ InputError ModelBuilder::refusal(const Fault& fault, const Model& model) const {
     if (from && from->lower && fault.field == "clearance" && part.fields.contains("clearance_lower"))
       found = part.fields.find("clearance_lower");
     line = found == part.fields.end() ? part.line : found->second.line;
-    if (fault.part == "force" && kind != fault.part && kind != "impulse") place += ": with its base's motion, as a force";
+    if (fault.part == "force" && kind != fault.part && kind != "impulse")
+      place += ": with its base's motion, as a force";
   }
   return InputError(definition_.place(line), place + ": " + fault.what);
 }

@@ -165,10 +165,10 @@ class ModelBuilder {
   std::size_t index_ = 0;
   std::vector<std::vector<Term>> bases_;
   std::vector<Signal> signals_;
-  std::vector<Points> knots_;           ///< of the file's signals, as the model has them
-  std::map<int, int> accelerations_;    ///< signals of pulses, by the signal whose second derivative they are
-  std::optional<Dual> round_;  ///< the forcing period of a model that signals alone drive
-  std::vector<bool> silent_;  // of each force of the model, before any is left out
+  std::vector<Points> knots_;         ///< of the file's signals, as the model has them
+  std::map<int, int> accelerations_;  ///< signals of pulses, by the signal whose second derivative they are
+  std::optional<Dual> round_;         ///< the forcing period of a model that signals alone drive
+  std::vector<bool> silent_;          // of each force of the model, before any is left out
   std::map<std::string, std::vector<Origin>, std::less<>> origins_;  // by Fault::part
 };
 

@@ -2,14 +2,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/nearest.hpp"
 #include "base/ranges.hpp"
 #include "base/text.hpp"
-#include "io/observed.hpp"
 #include "io/definition.hpp"
 #include "io/model_numbers.hpp"
+#include "io/observed.hpp"
 #include "io/scale.hpp"
 #include "slapstick/base/error.hpp"
-#include "base/nearest.hpp"
 
 namespace slapstick {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "base/elementary.hpp"
 #include "base/ranges.hpp"
+#include "base/text.hpp"
 #include "io/scale.hpp"
 #include "io/unit.hpp"
-#include "base/text.hpp"
 
 namespace slapstick {
 namespace {
@@ -120,7 +120,8 @@ void ModelNumbers::demand_unit(const Scalar& scalar, const Powers& wanted, const
   const auto found = powers(*scalar.expression, {});
   if (found == wanted || found == Powers{}) return;
   throw InputError(definition_.place(scalar.line), where + ": expression " + in_quotes(scalar.expression->text()) +
-                   ": its value is not in " + unit + " (" + with_units(*scalar.expression) + ")");
+                                                       ": its value is not in " + unit + " (" +
+                                                       with_units(*scalar.expression) + ")");
 }
 
 void ModelNumbers::check() const {

@@ -73,8 +73,7 @@ class Printer {
 
   static std::string table_text(const std::vector<std::pair<std::string, Scalar>>& numbers, const std::string& stop) {
     std::string out;
-    for (const auto& [key, number] : numbers)
-      out += (out.empty() ? "" : ", ") + key + " = " + scalar_text(number);
+    for (const auto& [key, number] : numbers) out += (out.empty() ? "" : ", ") + key + " = " + scalar_text(number);
     if (!stop.empty()) out += (out.empty() ? "" : ", ") + std::string("compliant_stop = ") + toml_string(stop);
     return "{ " + out + " }";
   }

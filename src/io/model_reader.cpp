@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <array>
 
+#include "base/nearest.hpp"
 #include "base/ranges.hpp"
 #include "io/matrix_reader.hpp"
 #include "io/part_reader.hpp"
 #include "io/scale.hpp"
 #include "model/fault.hpp"
-#include "base/nearest.hpp"
 
 namespace slapstick {
 namespace {

@@ -140,7 +140,8 @@ void add_texts(Archive& archive, const std::string& name, const std::vector<std:
     text.resize(longest, U'\0');
     data.insert(data.end(), text.begin(), text.end());
   }
-  archive.add(name + ".npy", npy_head("<U" + std::to_string(longest), several ? std::to_string(texts.size()) + "," : ""),
+  archive.add(name + ".npy",
+              npy_head("<U" + std::to_string(longest), several ? std::to_string(texts.size()) + "," : ""),
               bytes_of(data));
 }
 
@@ -171,7 +172,8 @@ void write_npz(const ColumnTable& table, const std::function<void(std::string_vi
     if (const auto* text = std::get_if<std::string>(&attribute.value))
       add_texts(archive, name, {*text}, false);
     else
-      archive.add(name + ".npy", npy_head("<f8", std::string()), bytes_of(std::vector{std::get<double>(attribute.value)}));
+      archive.add(name + ".npy", npy_head("<f8", std::string()),
+                  bytes_of(std::vector{std::get<double>(attribute.value)}));
   }
   archive.end();
 }

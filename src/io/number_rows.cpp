@@ -15,7 +15,8 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 /// As C and Fortran write a number: a leading '+', an exponent with D.
 std::errc read_number(std::string text, double& value) {
-  std::replace_if(text.begin(), text.end(), [](char c) { return c == 'D' || c == 'd'; }, 'e');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == 'D' || c == 'd'; }, 'e');
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.erase(0, 1);
   return read_decimal(text, value);
 }

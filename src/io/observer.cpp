@@ -19,7 +19,8 @@ double displacement(const State& state, int end) {
 }  // namespace
 
 bool names_quantity(const Definition& definition, const std::string& name) {
-  if (std::find(definition.observed.begin(), definition.observed.end(), name) != definition.observed.end()) return false;
+  if (std::find(definition.observed.begin(), definition.observed.end(), name) != definition.observed.end())
+    return false;
   for (const Part& part : definition.of("coordinate"))
     if (name == "a" + velocity_name(part.name).substr(1)) return true;
   const auto& rules = quantity_rules();

@@ -1,6 +1,6 @@
 /// Reads the parts of a model file by the table of part rules.
-#include "io/observed.hpp"
 #include "io/part_reader.hpp"
+#include "io/observed.hpp"
 
 #include <algorithm>
 
@@ -134,7 +134,8 @@ class PartReader {
   /// What an observable may name besides quantities: parameters, the state, bases, the gaps of stops, and time.
   void gather_observed() {
     definition_.observed = tree_.parameters();
-    for (const auto* names : {&states_, &bases_}) definition_.observed.insert(definition_.observed.end(), names->begin(), names->end());
+    for (const auto* names : {&states_, &bases_})
+      definition_.observed.insert(definition_.observed.end(), names->begin(), names->end());
     for (const char* kind : {"stop", "compliant_stop"})
       for (const auto& part : definition_.of(kind)) {
         if (part.flag("two_sided")) definition_.observed.push_back(gap_name(part.name + "_lower"));
@@ -236,7 +237,8 @@ class PartReader {
 
   static bool replaced(const TomlNode& node, const PartRule& rule, std::string_view key) {
     return std::any_of(rule.fields.begin(), rule.fields.end(), [&](const FieldRule& field) {
-      return has(node, field.key) && ("|" + std::string(field.instead_of) + "|").find("|" + std::string(key) + "|") != std::string::npos;
+      return has(node, field.key) &&
+             ("|" + std::string(field.instead_of) + "|").find("|" + std::string(key) + "|") != std::string::npos;
     });
   }
 
@@ -279,9 +281,10 @@ class PartReader {
         part.harmonics = harmonics(value, place);
         break;
       case Holds::points:
-        part.points = read_points(tree_, value, place, key == "restitution_over_speed" ? "[speed, restitution]"
-                                                        : rule.kind == "signal"          ? "[time, value]"
-                                                                                         : "[x, force]");
+        part.points = read_points(tree_, value, place,
+                                  key == "restitution_over_speed" ? "[speed, restitution]"
+                                  : rule.kind == "signal"         ? "[time, value]"
+                                                                  : "[x, force]");
         break;
       case Holds::interval:
         part.within = read_interval(tree_, value, place);
@@ -309,9 +312,10 @@ class PartReader {
     tree_.expect(table, TomlNode::Kind::table, where);
     for (const auto& [key, node] : table.entries)
       if (key == "stop")
-        tree_.fail(node.line, where + ": stop",
-                   "the force of a rigid stop is a constraint force, not a function of the state: friction along a rigid "
-                   "stop is not available; write the stop as a [[compliant_stop]] and name it by compliant_stop");
+        tree_.fail(
+            node.line, where + ": stop",
+            "the force of a rigid stop is a constraint force, not a function of the state: friction along a rigid "
+            "stop is not available; write the stop as a [[compliant_stop]] and name it by compliant_stop");
     std::vector<std::string> known = states_;
     known.emplace_back("constant");
     known.emplace_back("compliant_stop");
@@ -369,7 +373,8 @@ class PartReader {
     const auto base = std::find(bases_.begin(), bases_.end(), node.text);
     if (base != bases_.end()) {
       if (rule.ends == Ends::on)
-        tree_.fail(node.line, where, in_quotes(node.text) + " is a base: its motion is given, a force cannot change it");
+        tree_.fail(node.line, where,
+                   in_quotes(node.text) + " is a base: its motion is given, a force cannot change it");
       return base_end(static_cast<int>(base - bases_.begin()));
     }
     if (coordinates_.empty()) tree_.fail(1, "model", "the model has no coordinates");

@@ -6,9 +6,9 @@
 #include <cstdlib>
 
 #include "base/elementary.hpp"
+#include "base/text.hpp"
 #include "io/unit.hpp"
 #include "model/fault.hpp"
-#include "base/text.hpp"
 
 namespace slapstick {
 namespace {
@@ -188,8 +188,8 @@ std::optional<PhysicalUnits> physical_units(const Definition& definition, const 
     if (found == definition.scale.end()) continue;
     const double value = builder.number(found->second.value, "scale: " + key);
     if (!(value >= smallest && value <= largest))
-      throw InputError(definition.place(found->second.value.line), "scale: " + key + ": value = " + shown(value) +
-                       " is outside [1e-50, 1e50]");
+      throw InputError(definition.place(found->second.value.line),
+                       "scale: " + key + ": value = " + shown(value) + " is outside [1e-50, 1e50]");
     scale[i] = value * parse_unit(found->second.unit).factor;
   }
   const auto column = [&](const std::string& text, int line) {
@@ -197,8 +197,7 @@ std::optional<PhysicalUnits> physical_units(const Definition& definition, const 
     double factor = 1.0 / unit.factor;
     for (std::size_t i = 0; i < 3; ++i) factor *= fixed::power(scale[i], unit.powers[i]);
     if (!(factor >= 1e-200 && factor <= 1e200))
-      throw InputError(definition.place(line), "scale: 1 is " + shown(factor) + " " + text +
-                       ", which is out of range");
+      throw InputError(definition.place(line), "scale: 1 is " + shown(factor) + " " + text + ", which is out of range");
     return PhysicalUnits::Column{text, factor};
   };
   const auto& length = definition.scale.find("length")->second;

@@ -53,9 +53,9 @@ ModelBuilder::Points ModelBuilder::shape_points(const Part& part) const {
   const auto demand = [&](const char* key, const Dual& value, double least, double most) {
     if (value.value > least && value.value < most) return;
     const auto at = part.fields.find(key);
-    throw InputError(definition_.place(at == part.fields.end() ? part.line : at->second.line),
-                     where(key) + " = " + shown(value.value) + " is not between " + shown(least) + " and " +
-                         shown(most));
+    throw InputError(
+        definition_.place(at == part.fields.end() ? part.line : at->second.line),
+        where(key) + " = " + shown(value.value) + " is not between " + shown(least) + " and " + shown(most));
   };
   for (const auto& [key, shapes] : {std::pair("duty", "square triangle trapezoid"), std::pair("rise", "trapezoid")})
     if (part.fields.contains(key) && std::string_view(shapes).find(shape) == std::string_view::npos)
@@ -202,8 +202,9 @@ void ModelBuilder::add_impulses(Model& model) {
     Points points = impulse_points(part);
     Signal signal{part.name, {}, comes_back, by_phase || (comes_back && round_ && !silent)};
     if (signal.in_periods && !definition_.omega && !round_)
-      throw InputError(definition_.place(part.fields.find("phase")->second.line),
-                       where("phase") + ": a phase of the forcing, and the file has no 'omega': give a time and a period");
+      throw InputError(
+          definition_.place(part.fields.find("phase")->second.line),
+          where("phase") + ": a phase of the forcing, and the file has no 'omega': give a time and a period");
     if (signal.in_periods) points = over_a_period(part, std::move(points), by_phase ? Dual{1.0} : *round_);
     for (const auto& [time, momentum] : points) signal.knots.push_back({written(time), 0.0, written(momentum)});
     origins_["signal"].push_back({kind_, index_});

@@ -41,7 +41,8 @@ std::vector<std::pair<double, int>> numbers_of(const Model& model) {
   for (const Characteristic& one_of : model.characteristics) {
     const bool zones = one_of.over == Characteristic::Over::zones;
     const int time = one_of.over == Characteristic::Over::velocity ? -1 : 0;
-    for (const Characteristic::Corner& corner : one_of.corners) add(corner.at, time), add(corner.force, zones ? -1 : -2);
+    for (const Characteristic::Corner& corner : one_of.corners)
+      add(corner.at, time), add(corner.force, zones ? -1 : -2);
     add(one_of.slope_below, zones ? -1 : -2 - time), add(one_of.slope_above, zones ? -1 : -2 - time);
   }
   for (const double number : model.mass) add(number, 0);

@@ -65,8 +65,9 @@ void check_limits(std::string_view text, const std::string& source) {
     }
     depth.add(text[i]);
     if (i + 1 - begin > toml_ordinary_line && depth.most() > toml_deepest_line)
-      throw InputError(place(source, line), "a line longer than " + std::to_string(toml_ordinary_line) + " bytes with more than " +
-                                                std::to_string(toml_deepest_line) + " dots or brackets in one place");
+      throw InputError(place(source, line), "a line longer than " + std::to_string(toml_ordinary_line) +
+                                                " bytes with more than " + std::to_string(toml_deepest_line) +
+                                                " dots or brackets in one place");
   }
 }
 

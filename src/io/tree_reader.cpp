@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "slapstick/base/error.hpp"
 #include "base/nearest.hpp"
+#include "slapstick/base/error.hpp"
 
 namespace slapstick {
 namespace {
@@ -53,8 +53,7 @@ void TreeReader::check_new_name(const std::string& name, int line, const std::st
                      std::all_of(name.begin(), name.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
   if (!plain)
     fail(line, what + " " + in_quotes(name), "a name is 1 to 64 letters, digits and '_', beginning with a letter");
-  if (Expression::reserves(name))
-    fail(line, what + " " + in_quotes(name), "a function or constant has this name");
+  if (Expression::reserves(name)) fail(line, what + " " + in_quotes(name), "a function or constant has this name");
 }
 
 std::string TreeReader::text(const TomlNode& table, const char* key, const std::string& where) const {

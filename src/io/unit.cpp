@@ -6,9 +6,9 @@
 #include <numbers>
 #include <vector>
 
-#include "slapstick/base/error.hpp"
 #include "base/elementary.hpp"
 #include "base/nearest.hpp"
+#include "slapstick/base/error.hpp"
 
 namespace slapstick {
 namespace {

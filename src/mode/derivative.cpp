@@ -160,8 +160,8 @@ std::vector<RowVector> Differentiator::guards() const {
   std::vector<RowVector> rows;
   std::size_t next = 0;
   for (const Guard& guard : outline_.guards) {
-    const bool of_force = guard.kind == GuardKind::stick_above || guard.kind == GuardKind::stick_below ||
-                          guard.kind == GuardKind::press;
+    const bool of_force =
+        guard.kind == GuardKind::stick_above || guard.kind == GuardKind::stick_below || guard.kind == GuardKind::press;
     if (!of_force) {
       rows.push_back(rate_of(guard));
       continue;

@@ -24,7 +24,8 @@ struct FrameDerivative {
 };
 
 /// The derivative of what Frame::kick adds to the velocities: (F area)' = F' area + F area'.
-[[nodiscard]] Vector kick_rate(const Frame& frame, const FrameDerivative& rate, std::size_t signal, double area, double area_rate);
+[[nodiscard]] Vector kick_rate(const Frame& frame, const FrameDerivative& rate, std::size_t signal, double area,
+                               double area_rate);
 
 /// Derivatives of Outline::system and of each guard's row, in the outline's order. What the outline holds exactly zero stays so.
 ///

@@ -220,7 +220,8 @@ void PeriodicDrive::set(double turns, const std::vector<int>& lines, double* X) 
   frame_.set_phase(turns, X);
   for (std::size_t k = 0; k < frame_.signals.size(); ++k) {
     if (static_cast<std::size_t>(lines[k]) + 1 >= model_.signals[k].knots.size())
-      throw NumericalError("orbit: signal '" + model_.signals[k].name + "' has fewer points than where the orbit began");
+      throw NumericalError("orbit: signal '" + model_.signals[k].name +
+                           "' has fewer points than where the orbit began");
     const auto [value, slope] = on_line(model_.signals[k], lines[k], turns);
     X[frame_.signal(k)] = value;
     X[frame_.signal(k) + 1] = slope;

@@ -58,10 +58,10 @@ struct Frame {
   std::vector<int> harmonics;  ///< distinct harmonics j > 0, ascending
   std::vector<Tone> tones;     ///< distinct frequencies that are no harmonics
   std::vector<SignalTable> signals;
-  double period = 1.0;         ///< of the clock
-  Matrix W;                    ///< d x n
-  Matrix W_inverse;            ///< of its first n rows
-  Matrix dependence;           ///< d x n: W = dependence * (first n rows of W)
+  double period = 1.0;  ///< of the clock
+  Matrix W;             ///< d x n
+  Matrix W_inverse;     ///< of its first n rows
+  Matrix dependence;    ///< d x n: W = dependence * (first n rows of W)
   Vector shift, drift;
   /// dependence * shift - shift, the constant between a dependent displacement and those it follows from, and the same of the drifts. Zero
   /// where that is rounding: clearances that add up, as 0.1 + 0.2 and 0.3, let all gaps of a loop close at once.
@@ -87,7 +87,9 @@ struct Frame {
   [[nodiscard]] int parallel(int i, int j) const;
   /// Are the displacements i and j of one pair, and is no belt between their velocities? Then one is the other's, or opposite. A stop
   /// and a friction contact on a belt are of one pair and not in step: the belt's w is no rate of the gap.
-  [[nodiscard]] bool in_step(int i, int j) const { return parallel(i, j) != 0 && drift[i] == parallel(i, j) * drift[j]; }
+  [[nodiscard]] bool in_step(int i, int j) const {
+    return parallel(i, j) != 0 && drift[i] == parallel(i, j) * drift[j];
+  }
   /// Row over X of a contact's velocity, and of a stop's gap.
   [[nodiscard]] RowVector velocity_row(const ContactRow& contact) const;
   [[nodiscard]] RowVector gap_row(const ContactRow& contact) const;

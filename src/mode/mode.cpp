@@ -126,7 +126,8 @@ void Mode::store_bounds(const Series& series, int g, const event::HullRows& rows
   }
   for (int order = 0; order < stored_orders; ++order) {
     const auto at = static_cast<std::ptrdiff_t>(g * stored_orders + order) * m_;
-    kernels_->enclose(rows, taylor_ + static_cast<std::ptrdiff_t>(3 * g) * m_, order, m_, hulls_ + at, hull_bounds_ + at);
+    kernels_->enclose(rows, taylor_ + static_cast<std::ptrdiff_t>(3 * g) * m_, order, m_, hulls_ + at,
+                      hull_bounds_ + at);
     for (int i = 0; i < m_; ++i) hull_bounds_[at + i] += tails_[g * m_ + i];
     store_quick_look(g, order);
   }
@@ -151,16 +152,13 @@ void Mode::store_quick_look(int g, int order) {
   quick_errors_[k] = up * error;
 }
 
-void Mode::step(const double* X, event::Lane8* out) const {
-  kernels_->multiply(step_, state_blocks_, m_, X, out);
-}
+void Mode::step(const double* X, event::Lane8* out) const { kernels_->multiply(step_, state_blocks_, m_, X, out); }
 
 bool Mode::excludes(int g, int order, const double* X, double size, double more) const {
   if (order >= stored_orders) return false;
   const int k = g * stored_orders + order;
   const double bound = quick_errors_[k] * size + more;
-  if (rows_stored())
-    return kernels_->all_above(hulls_ + static_cast<std::ptrdiff_t>(k) * m_, m_, X, bound);
+  if (rows_stored()) return kernels_->all_above(hulls_ + static_cast<std::ptrdiff_t>(k) * m_, m_, X, bound);
   event::Lane8 bernstein;
   near_hulls_.multiply(*kernels_, k, X, bernstein);
   return event::all_above(bernstein, bound);
@@ -177,7 +175,8 @@ bool Mode::enclose(int g, int order, const double* X, const double* magnitude, e
 
 void Mode::bounds(int g, int order, const double* X, const double* magnitude, event::Lane8& out) const {
   if (order < stored_orders)
-    return kernels_->multiply(hull_bounds_ + static_cast<std::ptrdiff_t>(g * stored_orders + order) * m_, 1, m_, magnitude, &out);
+    return kernels_->multiply(hull_bounds_ + static_cast<std::ptrdiff_t>(g * stored_orders + order) * m_, 1, m_,
+                              magnitude, &out);
   event::Hull hull;
   enclose_rare(g, order, X, magnitude, hull);
   out = hull.bounds;

@@ -28,10 +28,10 @@ class Mode {
 
   [[nodiscard]] const ContactStates& states() const { return outline_.states; }
   [[nodiscard]] const std::vector<Guard>& guards() const { return outline_.guards; }
-  [[nodiscard]] const Matrix& system() const { return outline_.system; }  ///< X' = system() X
+  [[nodiscard]] const Matrix& system() const { return outline_.system; }            ///< X' = system() X
   [[nodiscard]] const Matrix& system_size() const { return outline_.system_size; }  ///< see Outline
-  [[nodiscard]] bool steady(int i) const { return outline_.steady[i]; }   ///< u_i is held
-  [[nodiscard]] double window() const { return window_; }                 ///< window length in time
+  [[nodiscard]] bool steady(int i) const { return outline_.steady[i]; }             ///< u_i is held
+  [[nodiscard]] double window() const { return window_; }                           ///< window length in time
   /// The same in forcing periods; at most 24 bits, so that the clock can count windows without loss.
   [[nodiscard]] double window_in_periods() const { return window_in_periods_; }
   [[nodiscard]] int size() const { return m_; }
@@ -41,8 +41,8 @@ class Mode {
   /// One step over a whole window: exp(A window()) X.
   void step(const double* X, event::Lane8* out) const;
   /// The same, with what its rounding is measured by (event::Kernels::pass).
-  void pass(const event::Lane8* X, const event::Lane8* floor, bool fresh, event::Lane8* out, event::Lane8* magnitude, event::Lane8* largest,
-            double* sizes) const {
+  void pass(const event::Lane8* X, const event::Lane8* floor, bool fresh, event::Lane8* out, event::Lane8* magnitude,
+            event::Lane8* largest, double* sizes) const {
     kernels_->pass(step_, state_blocks_, m_, X, floor, fresh, out, magnitude, largest, sizes);
   }
   /// The rounding of a guard at the start is within this times Guard::size.
@@ -89,10 +89,11 @@ class Mode {
   double window_ = 1.0, window_in_periods_ = 1.0, noise_factor_ = 0.0;
   event::LaneBlock lanes_;  ///< holds the arrays that follow
   event::Lane8 *step_ = nullptr, *taylor_ = nullptr;
-  event::Lane8 *coordinates_ = nullptr, *leading_noise_ = nullptr;  ///< of a mode that stores rows: those of the displacements
-  event::Lane8 *hulls_ = nullptr, *hull_bounds_ = nullptr;          ///< [guard][order], see event::Hull
-  event::Lane8* tails_ = nullptr;                                   ///< [guard], what the dropped terms add to the bounds
-  double* quick_errors_ = nullptr;                                  ///< [guard][order], of `excludes`, per unit of any X_i
+  event::Lane8 *coordinates_ = nullptr,
+               *leading_noise_ = nullptr;                   ///< of a mode that stores rows: those of the displacements
+  event::Lane8 *hulls_ = nullptr, *hull_bounds_ = nullptr;  ///< [guard][order], see event::Hull
+  event::Lane8* tails_ = nullptr;                           ///< [guard], what the dropped terms add to the bounds
+  double* quick_errors_ = nullptr;                          ///< [guard][order], of `excludes`, per unit of any X_i
   double *drift_ = nullptr, *coarse_noise_ = nullptr;
   TermSum terms_;  ///< of a mode that stores no rows
   // Larger modes only:

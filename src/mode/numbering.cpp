@@ -168,10 +168,12 @@ int same_direction(const RowVector& a, const RowVector& b) {
 namespace {
 
 /// By which number the pairs are numbered: as the model says, or by the nearest.
-void choose(const Model& model, Extent forces, const Numbers& all, const std::vector<ContactRow>& contacts, std::vector<Pair>& pairs) {
+void choose(const Model& model, Extent forces, const Numbers& all, const std::vector<ContactRow>& contacts,
+            std::vector<Pair>& pairs) {
   const bool given = !pairs.empty() && model.numbered_by.size() == pairs.size();
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    pairs[k].plain = given ? model.numbered_by[k] < 0 : far(all[pairs[k].nearest], extent_around(all, pairs, k, forces));
+    pairs[k].plain =
+        given ? model.numbered_by[k] < 0 : far(all[pairs[k].nearest], extent_around(all, pairs, k, forces));
     if (given && !pairs[k].plain) pairs[k].nearest = contacts[model.numbered_by[k]].own;
   }
 }

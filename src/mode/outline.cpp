@@ -56,8 +56,8 @@ void Builder::select_linear_system() {
     const CompliantState state = out_.states.compliant[i];
     if (state != CompliantState::on && state != CompliantState::bounded) continue;
     const ContactRow& contact = frame_.compliant[i];
-    const Matrix change = contact.sign * frame_.mass_inverse.col(contact.own) *
-                          compliant_row(model_, frame_, static_cast<int>(i), state);
+    const Matrix change =
+        contact.sign * frame_.mass_inverse.col(contact.own) * compliant_row(model_, frame_, static_cast<int>(i), state);
     acceleration -= change;
     size += change.cwiseAbs();
   }
@@ -234,7 +234,9 @@ std::string_view name(GuardKind kind) {
 }
 
 Outline::Outline(const Model& model, const Frame& frame, ContactStates contact_states)
-    : states(std::move(contact_states)), steady(static_cast<std::size_t>(frame.d), false), follows(Matrix::Zero(frame.d, frame.d)) {
+    : states(std::move(contact_states)),
+      steady(static_cast<std::size_t>(frame.d), false),
+      follows(Matrix::Zero(frame.d, frame.d)) {
   Builder builder(model, frame, *this);
   builder.select_linear_system();
   builder.arm_guards();

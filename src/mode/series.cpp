@@ -15,7 +15,8 @@ namespace {
 /// The spectral radius of A: of its motion without forcing, and the frequencies of what turns. Signals are nilpotent, and nothing acts on either.
 double spectral_radius(const Matrix& A, int d) {
   double radius = std::sqrt(dense::eigenvalues(A.topLeftCorner(2 * d, 2 * d)).cwiseAbs2().maxCoeff());
-  for (Eigen::Index c = 2 * d; c + 1 < A.rows(); ++c) radius = std::max(radius, std::sqrt(std::abs(A(c, c + 1) * A(c + 1, c))));
+  for (Eigen::Index c = 2 * d; c + 1 < A.rows(); ++c)
+    radius = std::max(radius, std::sqrt(std::abs(A(c, c + 1) * A(c + 1, c))));
   return radius;
 }
 
@@ -98,7 +99,8 @@ class Negligible {
     for (int k = 0; k < 4; ++k) {
       const double over = excess(length);
       if (!(over > 0x1p-100 && over < 0x1p100)) return;
-      const double root = std::sqrt(std::sqrt(std::sqrt(fixed::cube_root(over)))), log = 2.0 * (root - 1.0) / (root + 1.0);
+      const double root = std::sqrt(std::sqrt(std::sqrt(fixed::cube_root(over)))),
+                   log = 2.0 * (root - 1.0) / (root + 1.0);
       if (k > 0 && std::abs(before) < 0.5) slope = std::clamp(slope * (1.0 - log / before), 0.5, 2.0);
       before = log;
       const double half = 0.5 * log / slope;
@@ -187,7 +189,8 @@ void Series::lay_out(const Outline& outline, int displacements) {
       all_.reach[from * m + i] += std::abs(entries_[at].value);
     }
   for (int r = 0; r < 4 * all_.groups; ++r) {
-    auto* const row = reinterpret_cast<double*>(all_.high + static_cast<std::ptrdiff_t>(r / 4) * event::all_terms * m) + r % 4;
+    auto* const row =
+        reinterpret_cast<double*>(all_.high + static_cast<std::ptrdiff_t>(r / 4) * event::all_terms * m) + r % 4;
     for (int i = 0; i < m; ++i)
       row[4 * i] = r < guards ? outline.guards[r].row[i] : i == r - guards && r < rows ? 1.0 : 0.0;
     reinterpret_cast<double*>(all_.displacements)[r] = r >= guards && r < rows ? 1.0 : 0.0;

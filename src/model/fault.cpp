@@ -129,7 +129,8 @@ Found check_force(const Force& force, int index, const Model& model) {
   if (force.frequency != 0.0) check.positive("frequency", force.frequency);
   const bool timed = force.frequency != 0.0 || force.signal >= 0;
   if (timed && force.harmonic != 0) check.fail("harmonic", "a force with a frequency or a signal has harmonic 0");
-  if (force.frequency != 0.0 && force.signal >= 0) check.fail("signal", "a force has a frequency or a signal, not both");
+  if (force.frequency != 0.0 && force.signal >= 0)
+    check.fail("signal", "a force has a frequency or a signal, not both");
   if (force.signal >= static_cast<int>(model.signals.size()))
     check.fail("signal", "there is no signal " + std::to_string(force.signal));
   else if (force.signal >= 0 && force.rate && steps(model.signals[static_cast<std::size_t>(force.signal)]))
@@ -153,7 +154,9 @@ Found check_signal(const Signal& signal, int index, double period, std::set<std:
     check.sized((point + ": value").c_str(), knots[i].value);
     check.sized((point + ": pulse").c_str(), knots[i].pulse);
     const bool at_end = signal.repeats && (i == 0 || i + 1 == knots.size());
-    const auto shares_time = [&](std::size_t other) { return other < knots.size() && knots[other].time == knots[i].time; };
+    const auto shares_time = [&](std::size_t other) {
+      return other < knots.size() && knots[other].time == knots[i].time;
+    };
     if (knots[i].pulse != 0.0 && (at_end || shares_time(i - 1) || shares_time(i + 1)))
       check.fail("points", point + " has a pulse, and must be neither a step nor the end of a round");
     if (i > 0 && knots[i].time < knots[i - 1].time)
@@ -162,8 +165,7 @@ Found check_signal(const Signal& signal, int index, double period, std::set<std:
     if (i > 1 && knots[i].time == knots[i - 2].time)
       check.fail("points", point + ": there are three points at time " + shown(knots[i].time) + "; a step has two");
   }
-  if (knots.size() > 1 && !(knots.back().time > knots.front().time))
-    check.fail("points", "all points are at one time");
+  if (knots.size() > 1 && !(knots.back().time > knots.front().time)) check.fail("points", "all points are at one time");
   if (signal.in_periods && !signal.repeats) check.fail("in_periods", "a signal in periods repeats (repeats = true)");
   if (signal.in_periods && knots.size() > 1 && std::abs(knots.back().time - knots.front().time - 1.0) > 0x1p-50)
     check.fail("in_periods", "from the first to the last point there are " +
@@ -219,8 +221,8 @@ Found check_stop(const Stop& stop, int index, const Model& model, std::set<std::
     const std::string point = "point " + std::to_string(i + 1) + ": ";
     check.positive((point + "speed").c_str(), speed);
     if (i > 0 && !(speed > stop.corners[i - 1].speed))
-      check.fail("restitution", point + shown(speed) + " is not above " + shown(stop.corners[i - 1].speed) +
-                                    " of the point before");
+      check.fail("restitution",
+                 point + shown(speed) + " is not above " + shown(stop.corners[i - 1].speed) + " of the point before");
     if (!(restitution >= 0.0 && restitution <= 1.0))
       check.fail("restitution", point + assigned("restitution", restitution) + " is outside [0, 1]");
   }
@@ -235,7 +237,8 @@ Found check_compliant_stop(const CompliantStop& stop, int index, const Model& mo
   check.ends(stop.a, stop.b, model);
   check.sized("clearance", stop.clearance);
   if (stop.stiffness == 0.0)
-    check.fail("stiffness", "stiffness = 0 is not positive; a damper alone beyond a gap is a damper that acts within an interval");
+    check.fail("stiffness",
+               "stiffness = 0 is not positive; a damper alone beyond a gap is a damper that acts within an interval");
   check.positive("stiffness", stop.stiffness);
   check.not_negative("damping", stop.damping);
   if (stop.bounded && stop.pulls) check.fail("law", "a stop whose damping force is bounded does not pull");
@@ -282,7 +285,8 @@ double size_of_motion(const Model& model, const State& state) {
     if (one_of.over == Characteristic::Over::displacement)
       stiffness = std::max({stiffness, std::abs(one_of.slope_below), std::abs(one_of.slope_above)});
   for (const auto& load : model.forces) force = std::max(force, std::abs(load.amplitude));
-  for (const auto& friction : model.frictions) force = std::max(force, friction.static_friction * (friction.normal ? std::abs(friction.normal->constant) : 1.0));
+  for (const auto& friction : model.frictions)
+    force = std::max(force, friction.static_friction * (friction.normal ? std::abs(friction.normal->constant) : 1.0));
   for (std::size_t i = 0; i < state.size(); i += 2) size = std::max(size, std::abs(state[i]));
   return stiffness > 0.0 && force > 0.0 ? std::max(size, force / stiffness) : 0.0;
 }

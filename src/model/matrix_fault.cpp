@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string_view>
 
-#include "model/fault.hpp"
 #include "base/text.hpp"
+#include "model/fault.hpp"
 
 namespace slapstick {
 namespace {
@@ -29,7 +29,8 @@ class NamedMatrix {
       }
     for (std::size_t i = 0; i < n_; ++i)
       for (std::size_t j = 0; j < i; ++j)
-        if (at(i, j) != at(j, i)) return wrong("the matrix is not symmetric: " + label(i, j) + " differs from " + label(j, i));
+        if (at(i, j) != at(j, i))
+          return wrong("the matrix is not symmetric: " + label(i, j) + " differs from " + label(j, i));
     return std::nullopt;
   }
 
@@ -56,8 +57,9 @@ Found mass_fault(const Model& model) {
   for (std::size_t i = 0; i < n; ++i) {
     total[i * n + i] += model.coordinates[i].mass;
     if (total[i * n + i] < smallest)
-      return Fault{"coordinate", static_cast<int>(i), "mass",
-                   "the coordinate has no mass: its own and its entry of [matrix] mass add up to " + shown(total[i * n + i])};
+      return Fault{
+          "coordinate", static_cast<int>(i), "mass",
+          "the coordinate has no mass: its own and its entry of [matrix] mass add up to " + shown(total[i * n + i])};
   }
   const double rounding = static_cast<double>(n) * 0x1p-51;
   for (std::size_t k = 0; k < n; ++k) {

@@ -90,7 +90,7 @@ void demand_period(const Model& model) {
                                               "else its motion never repeats"
            : signal.repeats ? ", that repeats by a period of its own: give its points in forcing periods (in_periods = "
                               "true), or its motion never repeats"
-                          : ": its motion never repeats");
+                            : ": its motion never repeats");
   }
   throw InputError("model '" + model.name + "' has " + has +
                    ", so it has no cycles and no classes; simulate, poincare, diagram, lyapunov, measure and spectrum "

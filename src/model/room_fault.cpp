@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "model/fault.hpp"
 #include "base/text.hpp"
+#include "model/fault.hpp"
 
 namespace slapstick {
 namespace {

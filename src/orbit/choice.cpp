@@ -74,9 +74,7 @@ double distance(const Problem& problem, const Orbit& orbit, const State& state) 
   return least;
 }
 
-bool symmetric(const Problem& problem, const Orbit& orbit) {
-  return apart_from_own_image(problem, orbit) < same_orbit;
-}
+bool symmetric(const Problem& problem, const Orbit& orbit) { return apart_from_own_image(problem, orbit) < same_orbit; }
 
 namespace {
 

@@ -72,7 +72,8 @@ Index Problem::parameter_column(std::size_t legs, Index j) const {
   return numbers() + static_cast<Index>(legs) + 1 + j;
 }
 
-MatrixXd by_unknowns(const Problem& problem, const Jet& jet, const MatrixXd& states, std::size_t leg, std::size_t legs) {
+MatrixXd by_unknowns(const Problem& problem, const Jet& jet, const MatrixXd& states, std::size_t leg,
+                     std::size_t legs) {
   MatrixXd by = jet.by_state() * states;
   by.col(problem.instant_column(leg)) += jet.by_begin();
   by.col(problem.instant_column(leg + 1)) += jet.by_end();

@@ -24,8 +24,8 @@ std::vector<flow::InstantPart> separate_parts(const flow::Engine& engine, bool d
   const auto& guards = system.mode(engine.segment().mode).guards();
   for (flow::InstantPart& part : all) {
     const bool joins = !differentiable || ranges::any_of(apart, [&](const flow::InstantPart& other) {
-                         return flow::share_mass(system.frame(), guards[other.guard], guards[part.guard]);
-                       });
+      return flow::share_mass(system.frame(), guards[other.guard], guards[part.guard]);
+    });
     if (apart.empty() || !joins) {
       apart.push_back(std::move(part));
       continue;

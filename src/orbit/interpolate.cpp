@@ -93,7 +93,8 @@ class Interpolant {
 bool has_an_empty_leg(const Orbit& orbit) {
   constexpr double rounding = 1e-13;  // of a cycle
   for (std::size_t leg = 0; leg < orbit.legs(); ++leg)
-    if (!orbit.tied(leg) && !in_burst(orbit, leg) && std::abs(orbit.duration(leg)) < rounding * (orbit.t.back() - orbit.t.front()))
+    if (!orbit.tied(leg) && !in_burst(orbit, leg) &&
+        std::abs(orbit.duration(leg)) < rounding * (orbit.t.back() - orbit.t.front()))
       return true;
   return false;
 }

@@ -64,7 +64,8 @@ void push(const ModeSet& set, const Motion::Strike& strike, Jet& X) {
     for (std::size_t i = 0; i < hit.stops.size() && !strike.to_rest; ++i) {
       const int stop = hit.stops[i];
       const auto row = static_cast<Index>(i);
-      change[row] += rebound_rate(set.model().stops[stop], set.rate(which).stops[stop], hit.speed[row]) * before(row, 0);
+      change[row] +=
+          rebound_rate(set.model().stops[stop], set.rate(which).stops[stop], hit.speed[row]) * before(row, 0);
     }
     X.by_parameter().col(p).segment(d, d) -= S * flow::impulses(frame, hit.rows, change) + S_rate * P.col(0);
   }
@@ -210,7 +211,8 @@ Jet chatter_jet(const ModeSet& set, const Leg& leg, const Jet& X, double t_begin
   for (Index p = 0; p < X.parameters; ++p) r[first + p] = rate(static_cast<std::size_t>(p)).stops[stop].restitution;
   const NumberJet q = flights_jet(rise, fall, r);
   Jet h(1, X.states, X.parameters);
-  const RowVectorXd v = own.sign * X.all.row(frame.u(own.own));  // separating: the pair's velocity towards the stop is -v
+  const RowVectorXd v =
+      own.sign * X.all.row(frame.u(own.own));  // separating: the pair's velocity towards the stop is -v
   h.all = q[0] * v + v[0] * q;
   h.all(0, 0) = q[0] * v[0];
   h.all(0, 0) += (t_end - t_begin) * set.period();
@@ -252,17 +254,20 @@ std::vector<Pulse> pulses(const ModeSet& set, const Leg& leg) {
   std::vector<Pulse> all;
   if (leg.ending != Ending::knot) return all;
   for (const int signal : leg.pulses) {
-    const auto k = static_cast<std::size_t>(signal), knot = static_cast<std::size_t>(leg.lines[k] + (signal == leg.contact ? 1 : 0));
+    const auto k = static_cast<std::size_t>(signal),
+               knot = static_cast<std::size_t>(leg.lines[k] + (signal == leg.contact ? 1 : 0));
     RowVectorXd area(1 + static_cast<Index>(set.parameters()));
     area[0] = set.model().signals[k].knots[knot].pulse;
-    for (std::size_t p = 0; p < set.parameters(); ++p) area[static_cast<Index>(1 + p)] = set.rate(p).signals[k].knots[knot].pulse;
+    for (std::size_t p = 0; p < set.parameters(); ++p)
+      area[static_cast<Index>(1 + p)] = set.rate(p).signals[k].knots[knot].pulse;
     if (!area.isZero(0.0)) all.push_back({signal, set.model().signals[k].kinematic, area});
   }
   return all;
 }
 
 VectorXd behind_pulses(const ModeSet& set, const Leg& leg, VectorXd X) {
-  for (const Pulse& pulse : pulses(set, leg)) set.frame().kick(static_cast<std::size_t>(pulse.signal), pulse.area[0], X.data());
+  for (const Pulse& pulse : pulses(set, leg))
+    set.frame().kick(static_cast<std::size_t>(pulse.signal), pulse.area[0], X.data());
   return X;
 }
 
@@ -321,9 +326,7 @@ std::size_t freest_leg(const ModeSet& set, const Orbit& orbit) {
   return best;
 }
 
-VectorXd contact_state(const ModeSet& set, const VectorXd& X) {
-  return flow::contact_state(set.frame(), X);
-}
+VectorXd contact_state(const ModeSet& set, const VectorXd& X) { return flow::contact_state(set.frame(), X); }
 
 LegValue leg_value(const ModeSet& set, const Leg& leg, const Leg& next, const VectorXd& x, double t_begin,
                    double t_end) {
@@ -338,8 +341,7 @@ LegValue leg_value(const ModeSet& set, const Leg& leg, const Leg& next, const Ve
     X.by_parameter().col(p) += (t_end - t_begin) * set.period_rate(static_cast<std::size_t>(p)) * rate;
   Jet h(1, X.states, X.parameters);
   if (leg.ending == Ending::guard || leg.ending == Ending::onset) h = guard_jet(mode, leg, X);
-  if (leg.ending == Ending::chatter)
-    h = chatter_jet(set, leg, extended(set, leg.lines, x, t_begin), t_begin, t_end);
+  if (leg.ending == Ending::chatter) h = chatter_jet(set, leg, extended(set, leg.lines, x, t_begin), t_begin, t_end);
   if (leg.ending == Ending::knot) h = knot_jet(set, leg, X, t_end);
   Jet struck = X;
   strike(set, leg, struck);

@@ -10,8 +10,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "slapstick/orbit/itinerary.hpp"
 #include "orbit/mode_set.hpp"
+#include "slapstick/orbit/itinerary.hpp"
 
 namespace slapstick::orbit {
 

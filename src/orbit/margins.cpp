@@ -52,16 +52,16 @@ bool zero_by_event(const mode::Frame& frame, const Leg& before, const Leg& behin
   if (frame.parallel(was, is) == 0) return false;
   if (of_gap(guard.kind))
     return of_gap(kind) || kind == GuardKind::press || kind == GuardKind::let_go || kind == GuardKind::push;
-  if (guard.kind == GuardKind::slip) return frame.in_step(was, is) && (mode::of_friction(kind) || kind == GuardKind::press);
+  if (guard.kind == GuardKind::slip)
+    return frame.in_step(was, is) && (mode::of_friction(kind) || kind == GuardKind::press);
   return false;
 }
 
 /// .. because of one of the events there?
 bool zero_by_events(const mode::Frame& frame, const Itinerary& shape, std::size_t leg, const mode::Guard& guard) {
-  return ranges::any_of(ended_at_start(shape, leg),
-                        [&](std::size_t before) {
-                          return zero_by_event(frame, shape.legs[before], shape.legs[leg], guard);
-                        });
+  return ranges::any_of(ended_at_start(shape, leg), [&](std::size_t before) {
+    return zero_by_event(frame, shape.legs[before], shape.legs[leg], guard);
+  });
 }
 
 /// Is this the relative velocity of the pair whose gap ends the leg? Its value there is the speed of the impact, which is watched by itself.
@@ -242,7 +242,8 @@ bool is_blown(const ModeSet& set, const Itinerary& shape, std::size_t leg, int o
   return ranges::any_of(ends, [&](std::size_t end) {
     const std::vector<Pulse> all = pulses(set, shape.legs[end]);
     return ranges::any_of(all, [&](const Pulse& pulse) {
-      return !shape.legs[end].strikes.empty() || set.frame().free(own, set.frame().signal(static_cast<std::size_t>(pulse.signal))) != 0.0;
+      return !shape.legs[end].strikes.empty() ||
+             set.frame().free(own, set.frame().signal(static_cast<std::size_t>(pulse.signal))) != 0.0;
     });
   });
 }
@@ -259,10 +260,12 @@ std::vector<TestValue> let_go_at_knot(const ModeSet& set, const Orbit& orbit, st
   };
   const auto blown = [&](const mode::ContactRow& contact) { return is_blown(set, orbit.shape, next, contact.own); };
   for (std::size_t i = 0; i < before.frictions.size(); ++i)
-    if (before.frictions[i] == mode::FrictionState::stick && behind.frictions[i] != before.frictions[i] && !blown(set.frame().frictions[i]))
+    if (before.frictions[i] == mode::FrictionState::stick && behind.frictions[i] != before.frictions[i] &&
+        !blown(set.frame().frictions[i]))
       add(GuardKind::stick_above, i, beyond_stick(set, orbit, leg, static_cast<int>(i), X));
   for (std::size_t i = 0; i < before.stops.size(); ++i)
-    if (before.stops[i] == mode::StopState::closed && behind.stops[i] != before.stops[i] && !blown(set.frame().stops[i]))
+    if (before.stops[i] == mode::StopState::closed && behind.stops[i] != before.stops[i] &&
+        !blown(set.frame().stops[i]))
       add(GuardKind::press, i, beyond_press(set, orbit, leg, static_cast<int>(i), X));
   return all;
 }
@@ -292,7 +295,8 @@ std::vector<TestValue> test_values(const ModeSet& set, const Orbit& orbit) {
     }
     if (leg.ending != Ending::cut)
       all.push_back({Test::duration, i, leg.kind, leg.contact,
-                     leg.tied ? std::numeric_limits<double>::infinity() : orbit.duration(i), orbit.duration(i), starts_at_end});
+                     leg.tied ? std::numeric_limits<double>::infinity() : orbit.duration(i), orbit.duration(i),
+                     starts_at_end});
     if (passes_without_stick(orbit, i))
       all.push_back({Test::no_stick, i, leg.kind, leg.contact,
                      beyond_stick(set, orbit, i, leg.contact, course.states.back()), orbit.duration(i)});

@@ -3,8 +3,8 @@
 #include <limits>
 #include <vector>
 
-#include "slapstick/orbit/itinerary.hpp"
 #include "orbit/mode_set.hpp"
+#include "slapstick/orbit/itinerary.hpp"
 
 namespace slapstick::orbit {
 

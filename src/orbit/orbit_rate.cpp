@@ -20,7 +20,8 @@ OrbitRate carried(const ModeSet& set, const Orbit& orbit, const std::vector<LegV
     const Leg& leg = orbit.shape.legs[i];
     const LegValue& value = legs[i];
     if (leg.ending != Ending::cut) {
-      const double dh = value.h.by_state().row(0).dot(rate.x[i]) + value.h.by_begin()[0] * rate.t[i] + value.h.by_parameter()(0, j);
+      const double dh =
+          value.h.by_state().row(0).dot(rate.x[i]) + value.h.by_begin()[0] * rate.t[i] + value.h.by_parameter()(0, j);
       if (const double slope = value.h.by_end()[0]; slope != 0.0) rate.t[i + 1] = -dh / slope;
     }
     if (i + 1 == orbit.legs()) break;
@@ -38,8 +39,9 @@ OrbitRate carried(const ModeSet& set, const Orbit& orbit, const std::vector<LegV
 std::vector<OrbitRate> orbit_rates(const Problem& problem, const ModeSet& set, const Orbit& orbit) {
   constexpr double singular = 1e-13;
   if (!differentiable(orbit.shape))
-    throw NumericalError("the orbit has no derivative: contacts that act on each other meet their events at one instant, "
-                         "and what comes first decides; change a parameter a little");
+    throw NumericalError(
+        "the orbit has no derivative: contacts that act on each other meet their events at one instant, "
+        "and what comes first decides; change a parameter a little");
   const std::size_t legs = orbit.legs();
   const Linearised at = linearise(problem, set, orbit);
   const Index own = at.by.cols() - problem.parameters();
@@ -47,8 +49,9 @@ std::vector<OrbitRate> orbit_rates(const Problem& problem, const ModeSet& set, c
   MatrixXd matrix = at.by.leftCols(own) * units.head(own).asDiagonal();
   const VectorXd rows = level_rows(matrix);
   if (!matrix.allFinite() || !(dense::reciprocal_condition(matrix) > singular))
-    throw NumericalError("the orbit has no derivative by a parameter: the orbit is at a fold or one of a family, where the "
-                         "equations are singular; change a parameter a little");
+    throw NumericalError(
+        "the orbit has no derivative by a parameter: the orbit is at a fold or one of a family, where the "
+        "equations are singular; change a parameter a little");
   std::vector<OrbitRate> rates;
   for (Index j = 0; j < problem.parameters(); ++j) {
     const Index column = problem.parameter_column(legs, j);

@@ -57,7 +57,8 @@ std::optional<Seen> next_or_lost(EventReader& reader, Instant end) {
   }
 }
 
-std::optional<Orbit> record_autonomous(const Motion& motion, EventReader& reader, std::vector<Seen> events, Instant end) {
+std::optional<Orbit> record_autonomous(const Motion& motion, EventReader& reader, std::vector<Seen> events,
+                                       Instant end) {
   const std::int64_t zero = motion.time().period;
   reader.count_from(zero);
   events.front().t = motion.time().since({zero, 0.0});
@@ -204,7 +205,8 @@ bool Check::meets_all(EventReader& reader, std::vector<std::size_t> legs, double
   while (!legs.empty()) {
     const std::optional<Seen> seen = reader.next(Instant{}.plus(due + 2.0 * tolerance));
     if (!seen || std::abs(seen->t - due) > tolerance) return false;
-    const auto same = ranges::find_if(legs, [&](std::size_t leg) { return same_end(orbit_.shape.legs[leg], seen->leg); });
+    const auto same =
+        ranges::find_if(legs, [&](std::size_t leg) { return same_end(orbit_.shape.legs[leg], seen->leg); });
     if (same == legs.end()) return false;
     legs.erase(same);
   }

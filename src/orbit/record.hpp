@@ -2,9 +2,9 @@
 /// From motions to orbits: the shape of a cycle as a motion shows it, and whether an orbit is one.
 #include <optional>
 
-#include "slapstick/orbit/itinerary.hpp"
 #include "orbit/event_reader.hpp"
 #include "orbit/mode_set.hpp"
+#include "slapstick/orbit/itinerary.hpp"
 
 namespace slapstick::orbit {
 

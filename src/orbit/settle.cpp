@@ -43,13 +43,12 @@ std::optional<Solution> orbit_of_cycle(const Problem& problem, const section::Se
 }  // namespace
 
 Settled settle(const Problem& problem, const System& system, const State& state, const SettleOptions& options) {
-  section::Settling settling(
-      system, state,
-      {.most_periods = options.most_periods,
-       .most_n = options.most_n,
-       .by_clock = !problem.free(),
-       .stop = options.stop,
-       .until = options.until});
+  section::Settling settling(system, state,
+                             {.most_periods = options.most_periods,
+                              .most_n = options.most_n,
+                              .by_clock = !problem.free(),
+                              .stop = options.stop,
+                              .until = options.until});
   settling.discard(options.transient);
   Settled result;
   std::optional<section::Cycle> cycle;

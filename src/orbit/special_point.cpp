@@ -33,8 +33,8 @@ std::string_view name(Sliding sliding) {
 }
 
 std::string_view name(Passage passage) {
-  return named<Passage, 12>(passage, {"same-events", "persistence", "fold", "jump", "family", "cascade", "merges", "equilibrium",
-                                      "symmetric", "retraced", "not-followed", "unknown"});
+  return named<Passage, 12>(passage, {"same-events", "persistence", "fold", "jump", "family", "cascade", "merges",
+                                      "equilibrium", "symmetric", "retraced", "not-followed", "unknown"});
 }
 
 std::string_view name(Jump::Kind kind) { return named<Jump::Kind, 3>(kind, {"settles", "wanders", "departs"}); }

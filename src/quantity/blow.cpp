@@ -23,13 +23,19 @@ Number value_at(const Quantity& quantity, const Struck& impact) {
   return quantity.kind == Kind::sliding ? since.sliding : unknown;
 }
 
-Blows::Blows(const Model& model, const mode::Frame& frame, Number period, const std::vector<Quantity>& of, const Rates* rates)
-    : model_(model), frame_(frame), period_(period), of_(of), rates_(rates),
+Blows::Blows(const Model& model, const mode::Frame& frame, Number period, const std::vector<Quantity>& of,
+             const Rates* rates)
+    : model_(model),
+      frame_(frame),
+      period_(period),
+      of_(of),
+      rates_(rates),
       marks_(model.stops.size() + model.frictions.size() + model.compliant_stops.size() + 1) {}
 
 void Blows::impact(int stop, double w, const Moving& before) {
   strike(std::uint32_t{1} << static_cast<unsigned>(stop));
-  const auto known = std::find_if(impacts_.begin(), impacts_.end(), [&](const Struck& one) { return one.contact == stop; });
+  const auto known =
+      std::find_if(impacts_.begin(), impacts_.end(), [&](const Struck& one) { return one.contact == stop; });
   if (known != impacts_.end()) return;
   const RowVector row = frame_.velocity_row(frame_.stops[static_cast<std::size_t>(stop)]);
   impacts_.push_back(meet(stop, {w, rates_ != nullptr ? row.dot(kicked(before, true).by) : 0.0}));
@@ -76,7 +82,8 @@ std::optional<Blow> Blows::between(const mode::Outline& last, const Moving& befo
       if (of_[k].minus >= 0) blow.impulses[k] -= share(of_[k], of_[k].minus, of, formulas, before, after);
     }
     for (Struck& impact : impacts_) {
-      const auto i = static_cast<std::size_t>(std::find(of.stops.begin(), of.stops.end(), impact.contact) - of.stops.begin());
+      const auto i =
+          static_cast<std::size_t>(std::find(of.stops.begin(), of.stops.end(), impact.contact) - of.stops.begin());
       impact.impulse = of.P[i];
       impact.loss = of.loss[i];
       if (impact.contact != chatter_) continue;
@@ -100,7 +107,9 @@ std::optional<Blow> Blows::between(const mode::Outline& last, const Moving& befo
 /// What an impulse of one stop adds to the speed of another.
 Matrix Blows::coupling(const std::vector<int>& stops, const Matrix& mass_inverse) const {
   const auto count = static_cast<Eigen::Index>(stops.size());
-  const auto row = [&](Eigen::Index i) { return frame_.stops[static_cast<std::size_t>(stops[static_cast<std::size_t>(i)])]; };
+  const auto row = [&](Eigen::Index i) {
+    return frame_.stops[static_cast<std::size_t>(stops[static_cast<std::size_t>(i)])];
+  };
   Matrix D(count, count);
   for (Eigen::Index i = 0; i < count; ++i)
     for (Eigen::Index j = 0; j < count; ++j) D(i, j) = row(i).sign * row(j).sign * mass_inverse(row(i).own, row(j).own);
@@ -136,7 +145,8 @@ Number Blows::work(const Formulas& formulas, const Moving& before, const Moving&
       const Force& force = model_.forces[i];
       if (force.signal != signal) continue;
       const RowVector row = formulas.velocity(force.coordinate).value;
-      const double drifts = rates_ != nullptr ? frame_.W_inverse.row(force.coordinate).dot(rates_->frame.drift.head(frame_.n)) : 0.0;
+      const double drifts =
+          rates_ != nullptr ? frame_.W_inverse.row(force.coordinate).dot(rates_->frame.drift.head(frame_.n)) : 0.0;
       const auto speed = [&](const Moving& at) {
         return Number{row.dot(at.X), rates_ != nullptr ? row.dot(at.by) + drifts : 0.0};
       };
@@ -155,7 +165,9 @@ Blows::Impulses Blows::impulses(const Moving& before, const Moving& after) {
     if ((struck_ >> static_cast<unsigned>(i) & 1U) != 0) of.stops.push_back(i);
   if (of.stops.empty()) return of;
   const auto count = static_cast<Eigen::Index>(of.stops.size());
-  const auto row = [&](Eigen::Index i) { return frame_.stops[static_cast<std::size_t>(of.stops[static_cast<std::size_t>(i)])]; };
+  const auto row = [&](Eigen::Index i) {
+    return frame_.stops[static_cast<std::size_t>(of.stops[static_cast<std::size_t>(i)])];
+  };
   const auto speeds = [&](const Vector& X) {
     Vector w(count);
     for (Eigen::Index i = 0; i < count; ++i) w[i] = row(i).sign * X[frame_.u(row(i).own)];
@@ -183,7 +195,8 @@ Blows::Impulses Blows::impulses(const Moving& before, const Moving& after) {
 std::pair<Number, Number> Blows::plastic(const Struck& impact) const {
   const auto at = static_cast<std::size_t>(impact.contact);
   const Rebound law = rebound(model_.stops[at], impact.w.value);
-  const double r_rate = rates_ != nullptr ? rebound_rate(model_.stops[at], rates_->model.stops[at], impact.w.value) : 0.0;
+  const double r_rate =
+      rates_ != nullptr ? rebound_rate(model_.stops[at], rates_->model.stops[at], impact.w.value) : 0.0;
   const int own = frame_.stops[at].own;
   const Number back{-law.restitution * impact.w.value, -law.rate * impact.w.rate - r_rate * impact.w.value},
       D{frame_.mass_inverse(own, own), rates_ != nullptr ? rates_->frame.mass_inverse(own, own) : 0.0};
@@ -224,7 +237,8 @@ void Blows::let_go(const mode::Outline& last, const mode::Outline& next, const M
     const double sense = detached(next) - detached(last);
     const int own = frame_.compliant[at].own;
     const Number delta{before.X[own], rates_ != nullptr ? before.by[own] : 0.0},
-        stiffness{model_.compliant_stops[at].stiffness, rates_ != nullptr ? rates_->model.compliant_stops[at].stiffness : 0.0};
+        stiffness{model_.compliant_stops[at].stiffness,
+                  rates_ != nullptr ? rates_->model.compliant_stops[at].stiffness : 0.0};
     blow.impulses[k] += 0.5 * sense * stiffness * delta * delta;
   }
 }
@@ -233,7 +247,8 @@ void Blows::let_go(const mode::Outline& last, const mode::Outline& next, const M
 void Blows::engage(const mode::Outline& last, const mode::Outline& next, const Moving& before, Blow& blow) {
   const int first = static_cast<int>(model_.stops.size() + model_.frictions.size());
   for (std::size_t i = 0; i < model_.compliant_stops.size(); ++i) {
-    const bool met = last.states.compliant[i] == mode::CompliantState::off && next.states.compliant[i] != mode::CompliantState::off;
+    const bool met =
+        last.states.compliant[i] == mode::CompliantState::off && next.states.compliant[i] != mode::CompliantState::off;
     const RowVector row = frame_.velocity_row(frame_.compliant[i]);
     const Number w{met ? row.dot(before.X) : 0.0, rates_ != nullptr ? row.dot(before.by) : 0.0};
     if (!(w.value > 0.0)) continue;

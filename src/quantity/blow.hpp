@@ -44,7 +44,8 @@ struct Moving {
 class Blows {
  public:
   /// Refers to its arguments. @param period  what flights are measured in @param rates  null: no derivatives
-  Blows(const Model& model, const mode::Frame& frame, Number period, const std::vector<Quantity>& of, const Rates* rates);
+  Blows(const Model& model, const mode::Frame& frame, Number period, const std::vector<Quantity>& of,
+        const Rates* rates);
 
   /// These stops, bit by bit, get an impulse at the next blow ..
   void strike(std::uint32_t stops) { struck_ |= stops; }

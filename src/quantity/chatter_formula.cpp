@@ -59,7 +59,8 @@ Row Formulas::press_in_chatter(int stop, const Borne& borne) const {
   return sense(held_[k], frame_.stops[static_cast<std::size_t>(stop)]) * holding(k) - borne.all * one();
 }
 
-Row Formulas::single_in_chatter(const Quantity& quantity, int index, const std::vector<bool>& above, int stop, const Borne& borne) const {
+Row Formulas::single_in_chatter(const Quantity& quantity, int index, const std::vector<bool>& above, int stop,
+                                const Borne& borne) const {
   const std::size_t k = pair_of(stop);
   if (quantity.kind == Kind::acceleration) {
     Row free = acceleration(index);
@@ -75,7 +76,8 @@ Row Formulas::single_in_chatter(const Quantity& quantity, int index, const std::
   return side * borne.of[static_cast<std::size_t>(at - of_pair.begin())] * one();
 }
 
-Formula Formulas::in_chatter(const Quantity& quantity, const std::vector<bool>& above, int stop, const Borne& borne) const {
+Formula Formulas::in_chatter(const Quantity& quantity, const std::vector<bool>& above, int stop,
+                             const Borne& borne) const {
   const bool changes = quantity.kind == Kind::acceleration || quantity.kind == Kind::force;
   if (!changes || pair_of(stop) == held_.size()) return of(quantity, above);
   Row row = single_in_chatter(quantity, quantity.index, above, stop, borne);

@@ -91,7 +91,8 @@ Row Formulas::spring_force(int i) const {
 }
 
 Row Formulas::damper_force(int i) const {
-  return link_force(model_.dampers[static_cast<std::size_t>(i)], number(&Model::dampers, i, &Damper::coefficient), true);
+  return link_force(model_.dampers[static_cast<std::size_t>(i)], number(&Model::dampers, i, &Damper::coefficient),
+                    true);
 }
 
 /// v_a - v_b of a spring or damper; of a damper on a base that moves F / coefficient.
@@ -169,7 +170,8 @@ Row Formulas::force(int contact, const std::vector<bool>& above) const {
   if (contact < frictions()) {
     const FrictionState state = outline_.states.frictions[static_cast<std::size_t>(contact)];
     if (state == FrictionState::stick) return held_friction(contact, above);
-    return mode::direction(state) * number(&Model::frictions, contact, &FrictionContact::kinetic_friction) * load(contact);
+    return mode::direction(state) * number(&Model::frictions, contact, &FrictionContact::kinetic_friction) *
+           load(contact);
   }
   contact -= frictions();
   if (contact < compliants()) {

@@ -150,7 +150,8 @@ void add_quadratic(const Matrix& M, const Matrix* rate, const Row& none, const R
 Formula Formulas::kinetic() const {
   Formula formula{none()};
   const Matrix rate = rates_ ? mode::mass_matrix(rates_->model) : Matrix();
-  add_quadratic(mode::mass_matrix(model_), rates_ ? &rate : nullptr, none(), [&](int i) { return velocity(i); }, formula);
+  add_quadratic(
+      mode::mass_matrix(model_), rates_ ? &rate : nullptr, none(), [&](int i) { return velocity(i); }, formula);
   return formula;
 }
 
@@ -159,7 +160,9 @@ Formula Formulas::kinetic() const {
 Formula Formulas::potential() const {
   Formula formula{none()};
   const Matrix rate = rates_ ? mode::stiffness_matrix(rates_->model) : Matrix();
-  add_quadratic(mode::stiffness_matrix(model_), rates_ ? &rate : nullptr, none(), [&](int i) { return displacement(i); }, formula);
+  add_quadratic(
+      mode::stiffness_matrix(model_), rates_ ? &rate : nullptr, none(), [&](int i) { return displacement(i); },
+      formula);
   for (int i = 0; i < compliants(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     const mode::CompliantState state = outline_.states.compliant[at];
@@ -177,7 +180,8 @@ Number Formulas::energy_offset(int i, int here) const {
   const Characteristic& bend = model_.characteristics[index];
   const auto within = [&](int piece, Number x) {
     const mode::Piece line = mode::piece_of(bend, piece),
-                      rate = rates_ ? mode::piece_rate(bend, rates_->model.characteristics[index], piece) : mode::Piece{};
+                      rate =
+                          rates_ ? mode::piece_rate(bend, rates_->model.characteristics[index], piece) : mode::Piece{};
     return (Number{0.5 * line.slope, 0.5 * rate.slope} * x + Number{line.offset, rate.offset}) * x;
   };
   const auto corner = [&](int k) {

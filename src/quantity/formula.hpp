@@ -44,7 +44,8 @@ class Formulas {
   /// .. the mean push of its impacts as a row over X ..
   [[nodiscard]] Row press_in_chatter(int stop, const Borne& borne) const;
   /// .. a quantity between the impacts, and what it has of their impulses.
-  [[nodiscard]] Formula in_chatter(const Quantity& quantity, const std::vector<bool>& above, int stop, const Borne& borne) const;
+  [[nodiscard]] Formula in_chatter(const Quantity& quantity, const std::vector<bool>& above, int stop,
+                                   const Borne& borne) const;
   [[nodiscard]] Number share_in_chatter(const Quantity& quantity, int stop) const;
 
   /// Row over X of a coordinate's displacement and velocity, of a contact's velocity.
@@ -77,7 +78,8 @@ class Formulas {
   [[nodiscard]] std::size_t pair_of(int stop) const;
   [[nodiscard]] Number moved_by(int stop, int coordinate) const;
   [[nodiscard]] Number single_share(const Quantity& quantity, int index, int stop) const;
-  [[nodiscard]] Row single_in_chatter(const Quantity& quantity, int index, const std::vector<bool>& above, int stop, const Borne& borne) const;
+  [[nodiscard]] Row single_in_chatter(const Quantity& quantity, int index, const std::vector<bool>& above, int stop,
+                                      const Borne& borne) const;
   [[nodiscard]] Formula single(const Quantity& quantity, int index, const std::vector<bool>& above) const;
   [[nodiscard]] Row acceleration(int coordinate) const;
   [[nodiscard]] Row gap(int contact) const;

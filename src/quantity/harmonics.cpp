@@ -30,7 +30,8 @@ void Harmonics::add(const Polynomial& f, const Polynomial* rate, const Step& ste
   for (double i = 0.0; i < parts && step.length > 0.0; i += 1.0) {
     for (std::size_t k = 0; k < nodes; ++k) {
       const double x = (i + gauss().x[k]) * part, weight = gauss().weight[k] * part * step.length;
-      add_at({weight * f.at(x), rate != nullptr ? weight * rate->at(x) : 0.0}, {step.begin + x * step.length, step.piece_rate});
+      add_at({weight * f.at(x), rate != nullptr ? weight * rate->at(x) : 0.0},
+             {step.begin + x * step.length, step.piece_rate});
     }
   }
   if (step.from_rate != 0.0) add_end(-f.at(0.0), step.begin, step.from_rate);

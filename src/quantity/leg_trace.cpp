@@ -24,9 +24,11 @@ bool slips(const orbit::Leg& leg) {
 
 Cycle::Cycle(const orbit::Problem& problem, const orbit::Orbit& orbit)
     : orbit_(orbit),
-      set_(std::make_shared<orbit::ModeSet>(constant_family(problem.family().model(orbit.values)), std::vector<double>{})) {}
+      set_(std::make_shared<orbit::ModeSet>(constant_family(problem.family().model(orbit.values)),
+                                            std::vector<double>{})) {}
 
-Cycle::Cycle(std::shared_ptr<const orbit::ModeSet> set, const orbit::Orbit& orbit, const orbit::OrbitRate& rate, std::size_t parameter)
+Cycle::Cycle(std::shared_ptr<const orbit::ModeSet> set, const orbit::Orbit& orbit, const orbit::OrbitRate& rate,
+             std::size_t parameter)
     : orbit_(orbit), set_(std::move(set)), rate_(&rate), parameter_(parameter) {}
 
 /// The one after an impact, or after the end of a chatter.
@@ -76,7 +78,8 @@ void Cycle::trace(Tracer& tracer) const {
     piece(i, begin, tracer);
     for (const Motion::Strike& strike : leg(i).strikes) tracer.strike(strike.stops);
     for (const orbit::Pulse& pulse : orbit::pulses(*set_, leg(i)))
-      tracer.pulse(pulse.signal, {pulse.area[0], rate_ != nullptr ? pulse.area[1 + static_cast<Eigen::Index>(parameter_)] : 0.0});
+      tracer.pulse(pulse.signal,
+                   {pulse.area[0], rate_ != nullptr ? pulse.area[1 + static_cast<Eigen::Index>(parameter_)] : 0.0});
     for (const auto& [contact, w] : met(i))
       if (contact < static_cast<int>(model().stops.size())) tracer.impact(contact, w);
     if (leg(i).ending == orbit::Ending::chatter) tracer.begin_flight(leg(i).contact, begin + lasts(i));

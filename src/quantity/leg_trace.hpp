@@ -12,11 +12,14 @@ class Cycle {
  public:
   Cycle(const orbit::Problem& problem, const orbit::Orbit& orbit);
   /// With the derivatives by one of the problem's parameters, which all refer to. @param set  of the orbit's values
-  Cycle(std::shared_ptr<const orbit::ModeSet> set, const orbit::Orbit& orbit, const orbit::OrbitRate& rate, std::size_t parameter);
+  Cycle(std::shared_ptr<const orbit::ModeSet> set, const orbit::Orbit& orbit, const orbit::OrbitRate& rate,
+        std::size_t parameter);
 
   [[nodiscard]] const Model& model() const { return set_->model(); }
   [[nodiscard]] const mode::Frame& frame() const { return set_->frame(); }
-  [[nodiscard]] Number period() const { return {set_->period(), rate_ != nullptr ? set_->period_rate(parameter_) : 0.0}; }
+  [[nodiscard]] Number period() const {
+    return {set_->period(), rate_ != nullptr ? set_->period_rate(parameter_) : 0.0};
+  }
   /// Of harmonics: one over the forcing period, without forcing over the cycle's duration.
   [[nodiscard]] Number frequency() const { return Number{1.0, 0.0} / (orbit_.shape.n > 0 ? period() : duration()); }
   [[nodiscard]] Number duration() const { return (instant(orbit_.legs()) - instant(0)) * period(); }
@@ -29,7 +32,9 @@ class Cycle {
   [[nodiscard]] std::size_t first_leg() const;
   [[nodiscard]] Moving start(std::size_t leg) const;
   [[nodiscard]] const orbit::Leg& leg(std::size_t i) const { return orbit_.shape.legs[i]; }
-  [[nodiscard]] Number instant(std::size_t event) const { return {orbit_.t[event], rate_ != nullptr ? rate_->t[event] : 0.0}; }
+  [[nodiscard]] Number instant(std::size_t event) const {
+    return {orbit_.t[event], rate_ != nullptr ? rate_->t[event] : 0.0};
+  }
   [[nodiscard]] Number lasts(std::size_t leg) const { return (instant(leg + 1) - instant(leg)) * period(); }
   [[nodiscard]] Number begin(std::size_t k, std::size_t first) const;
   [[nodiscard]] std::vector<std::pair<int, double>> met(std::size_t i) const;

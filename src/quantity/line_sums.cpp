@@ -12,8 +12,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr std::size_t few = 12;          ///< lines that are summed one by one
-constexpr std::ptrdiff_t half = 16;      ///< points of the grid on either side of a term
+constexpr std::size_t few = 12;            ///< lines that are summed one by one
+constexpr std::ptrdiff_t half = 16;        ///< points of the grid on either side of a term
 constexpr std::size_t points_of_line = 4;  ///< of the grid, at least
 
 Complex phase(double turns) {
@@ -44,7 +44,8 @@ void fourier_transform(std::vector<Complex>& x) {
       for (std::size_t k = 0; k < size / 2; ++k) {
         Complex &a = x[begin + k], &b = x[begin + k + size / 2];
         const Complex& root = roots[k * (N / size)];
-        const Complex turned{b.real() * root.real() - b.imag() * root.imag(), b.real() * root.imag() + b.imag() * root.real()};
+        const Complex turned{b.real() * root.real() - b.imag() * root.imag(),
+                             b.real() * root.imag() + b.imag() * root.real()};
         b = a - turned;
         a += turned;
       }
@@ -61,8 +62,7 @@ LineSums::LineSums(double T, std::size_t count) : T_(T), count_(count) {
   grid_.assign(size, 0.0);
   const double s = static_cast<double>(size) / (2.0 * static_cast<double>(count));
   width_ = static_cast<double>(half) / (std::numbers::pi * std::sqrt(1.0 - 1.0 / s));
-  for (std::ptrdiff_t j = 0; j <= half; ++j)
-    falls_.push_back(std::exp(-static_cast<double>(j * j) / width_));
+  for (std::ptrdiff_t j = 0; j <= half; ++j) falls_.push_back(std::exp(-static_cast<double>(j * j) / width_));
 }
 
 void LineSums::add(double c, double t) {

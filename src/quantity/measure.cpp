@@ -70,7 +70,10 @@ class Statistician : public Listener {
  public:
   /// @param frequency  of the harmonics, turns per time; 0: of what is no cycle
   Statistician(const Model& model, const std::vector<Quantity>& of, double frequency)
-      : of_(of), sums_(of.size()), harmonics_(of.size(), Harmonics({frequency, 0.0})), found_{0.0, std::vector<Statistics>(of.size()), {}, true} {
+      : of_(of),
+        sums_(of.size()),
+        harmonics_(of.size(), Harmonics({frequency, 0.0})),
+        found_{0.0, std::vector<Statistics>(of.size()), {}, true} {
     for (const Stop& stop : model.stops) found_.stops.push_back({stop.name, {}, {}, {}});
     for (const CompliantStop& stop : model.compliant_stops) found_.stops.push_back({stop.name, {}, {}, {}, true});
     period_ = model.forcing_period();
@@ -95,7 +98,8 @@ class Statistician : public Listener {
       ++found_.of[k].impulses;
     }
     for (const Struck& one : blow.impacts) {
-      StopStatistics& stop = found_.stops[static_cast<std::size_t>(one.contact < rigid_ ? one.contact : one.contact - between_)];
+      StopStatistics& stop =
+          found_.stops[static_cast<std::size_t>(one.contact < rigid_ ? one.contact : one.contact - between_)];
       const double time = blow.time.value;
       add(one.w.value, time, stop.w);
       add(one.impulse.value, time, stop.impulse);

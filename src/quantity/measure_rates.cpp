@@ -54,13 +54,14 @@ Place extreme(const Polynomial& f, const Polynomial& rate, const Step& step, dou
 
 void add_step(const Polynomial& f, const Polynomial& rate, const Step& step, double period, RateSums& sums) {
   const double from = f.at(0.0), to = f.at(1.0);
-  sums.integral += {step.length * f.integral(), step.length * rate.integral() + to * step.to_rate - from * step.from_rate};
+  sums.integral +=
+      {step.length * f.integral(), step.length * rate.integral() + to * step.to_rate - from * step.from_rate};
   Number square;
   const auto values = at_nodes(f), rates = at_nodes(rate);
   for (std::size_t k = 0; k < nodes; ++k)
     square += {gauss().weight[k] * values[k] * values[k], 2.0 * gauss().weight[k] * values[k] * rates[k]};
-  sums.square += {step.length * square.value,
-                  step.length * square.rate + to * to * step.to_rate - from * from * step.from_rate};
+  sums.square +=
+      {step.length * square.value, step.length * square.rate + to * to * step.to_rate - from * from * step.from_rate};
   if (has_no_length(step.length, period)) return;
   const double around = f.size(1);
   if (f.a[0] - around >= sums.least_value.value() && f.a[0] + around <= sums.greatest_value.value()) return;
@@ -79,7 +80,12 @@ double rms_rate(Number square, Number size) {
 class RateStatistician : public Listener {
  public:
   RateStatistician(const Model& model, const std::vector<Quantity>& of, Number frequency)
-      : of_(of), sums_(of.size()), harmonics_(of.size(), Harmonics(frequency)), at_impacts_(of.size()), period_(model.forcing_period()), rigid_(static_cast<int>(model.stops.size())),
+      : of_(of),
+        sums_(of.size()),
+        harmonics_(of.size(), Harmonics(frequency)),
+        at_impacts_(of.size()),
+        period_(model.forcing_period()),
+        rigid_(static_cast<int>(model.stops.size())),
         between_(static_cast<int>(model.frictions.size())) {
     for (const Stop& stop : model.stops) stops_.push_back({stop.name, false, {}, {}, {}});
     for (const CompliantStop& stop : model.compliant_stops) stops_.push_back({stop.name, true, {}, {}, {}});
@@ -111,7 +117,8 @@ class RateStatistician : public Listener {
   [[nodiscard]] Measured result(Number duration) const {
     Measured found{duration.rate, {}, {}, true};
     for (std::size_t k = 0; k < of_.size(); ++k)
-      found.of.push_back(of_[k].at_impacts() ? of_values(at_impacts_[k], duration) : of_time(sums_[k], harmonics_[k], duration));
+      found.of.push_back(of_[k].at_impacts() ? of_values(at_impacts_[k], duration)
+                                             : of_time(sums_[k], harmonics_[k], duration));
     for (const OfStop& stop : stops_)
       found.stops.push_back({stop.name, of_values(stop.w, duration), of_values(stop.impulse, duration),
                              of_values(stop.loss, duration), stop.compliant});
@@ -155,7 +162,8 @@ class RateStatistician : public Listener {
     if (places.empty()) return rate;
     RateSums extremes;
     for (const Place& one : places) extremes.note(one.value.value, one.at.value, 0.0, [&] { return one; });
-    std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.value.value < b.value.value; });
+    std::stable_sort(places.begin(), places.end(),
+                     [](const Place& a, const Place& b) { return a.value.value < b.value.value; });
     Number sum, square;
     for (const Place& one : places) {
       sum += one.value;
@@ -185,7 +193,8 @@ class RateStatistician : public Listener {
 }  // namespace
 }  // namespace quantity
 
-std::vector<Measured> measure_rates(const orbit::Problem& problem, const orbit::Orbit& orbit, const std::vector<Quantity>& of) {
+std::vector<Measured> measure_rates(const orbit::Problem& problem, const orbit::Orbit& orbit,
+                                    const std::vector<Quantity>& of) {
   for (const Quantity& one : of)
     if (one.kind == Quantity::Kind::parameter)
       throw InputError(in_quotes(one.name) + " is a parameter: its sensitivity is not one of the motion");

@@ -18,7 +18,9 @@ std::string composed(const StatedUnits& stated, const std::string& length, int a
   const std::string over = length + (a == 2 ? "^2/" : "/") + stated.time + "^" + std::to_string(b);
   const Unit whole = parse_unit(stated.mass + " " + over);
   for (const char* name : {"N", "mN", "kN", "MN", "J", "mJ", "kJ", "W", "kW"})
-    if (const Unit known = parse_unit(name); known.powers == whole.powers && std::abs(known.factor / whole.factor - 1.0) < 1e-12) return name;
+    if (const Unit known = parse_unit(name);
+        known.powers == whole.powers && std::abs(known.factor / whole.factor - 1.0) < 1e-12)
+      return name;
   return stated.mass + " " + over;
 }
 
@@ -70,7 +72,8 @@ std::string unit_of(const Quantity& quantity, const std::string& length, const S
 }
 
 std::string common_unit(const std::vector<std::string>& units) {
-  const bool one = !units.empty() && std::all_of(units.begin(), units.end(), [&](const auto& unit) { return unit == units[0]; });
+  const bool one =
+      !units.empty() && std::all_of(units.begin(), units.end(), [&](const auto& unit) { return unit == units[0]; });
   return one ? units.front() : "";
 }
 
@@ -82,11 +85,13 @@ std::vector<Quantity> quantities(const ModelDefinition& definition, const Overri
   for (Quantity& one : all) {
     const bool own = one.kind <= Kind::acceleration;
     one.unit = quantity::unit_of(
-        one, own ? stated.coordinates[static_cast<std::size_t>(one.index)] : quantity::common_unit(stated.coordinates), stated);
+        one, own ? stated.coordinates[static_cast<std::size_t>(one.index)] : quantity::common_unit(stated.coordinates),
+        stated);
   }
   const auto values = definition.values(overrides);
   for (const Parameter& parameter : definition.parameters())
-    all.push_back({Kind::parameter, -1, -1, values.at(parameter.name), free_name(all, parameter.name), parameter.unit, parameter.description});
+    all.push_back({Kind::parameter, -1, -1, values.at(parameter.name), free_name(all, parameter.name), parameter.unit,
+                   parameter.description});
   return all;
 }
 

@@ -58,7 +58,8 @@ std::vector<Band> octaves(const DensitySpectrum& of, int parts, double unit_of_t
     }
   }
   for (Band& band : all)
-    band.whole = of.frequency.front() / unit_of_time - half <= band.from && of.frequency.back() / unit_of_time + half >= band.to;
+    band.whole =
+        of.frequency.front() / unit_of_time - half <= band.from && of.frequency.back() / unit_of_time + half >= band.to;
   return all;
 }
 

@@ -17,8 +17,8 @@ void check(long hold, const Quantity& of, const OrderMapOptions& options) {
   if (!(options.highest_order > 0.0))
     throw InputError("order map: the highest order " + shown(options.highest_order) + " is not positive");
   if (options.settle < 0 || options.settle >= hold)
-    throw InputError("order map: settle = " + std::to_string(options.settle) + " is outside [0, " + std::to_string(hold) +
-                     "), the periods at each value");
+    throw InputError("order map: settle = " + std::to_string(options.settle) + " is outside [0, " +
+                     std::to_string(hold) + "), the periods at each value");
 }
 
 }  // namespace

@@ -29,7 +29,8 @@ inline const Quadrature& gauss() {
   static const Quadrature rule = [] {
     Quadrature made;
     for (int k = 0; k < nodes / 2; ++k) {
-      const auto left = static_cast<std::size_t>(nodes / 2 - 1 - k), right = static_cast<std::size_t>(nodes / 2 + k), of = static_cast<std::size_t>(k);
+      const auto left = static_cast<std::size_t>(nodes / 2 - 1 - k), right = static_cast<std::size_t>(nodes / 2 + k),
+                 of = static_cast<std::size_t>(k);
       made.x[left] = 0.5 * (1.0 - node[of]);
       made.x[right] = 0.5 * (1.0 + node[of]);
       made.weight[left] = made.weight[right] = 0.5 * weight[of];
@@ -84,7 +85,8 @@ std::array<double, N> at_nodes(const event::Polynomial& f, const std::array<doub
   }();
   std::array<double, N> values{};
   for (int j = f.degree; j >= 0; --j)  // the small terms first
-    for (std::size_t k = 0; k < N; ++k) values[k] += f.a[static_cast<std::size_t>(j)] * powers[static_cast<std::size_t>(j)][k];
+    for (std::size_t k = 0; k < N; ++k)
+      values[k] += f.a[static_cast<std::size_t>(j)] * powers[static_cast<std::size_t>(j)][k];
   return values;
 }
 

@@ -32,7 +32,8 @@ struct Reader::Parts {
 
   Mode& mode(ModeId id) {
     auto& found = modes[id];
-    if (!found) found = std::make_unique<Mode>(system.model(), system.compiled().frame(), system.compiled().outline(id));
+    if (!found)
+      found = std::make_unique<Mode>(system.model(), system.compiled().frame(), system.compiled().outline(id));
     return *found;
   }
 
@@ -74,7 +75,8 @@ struct Reader::Parts {
   std::map<ModeId, std::unique_ptr<Mode>> modes;
 };
 
-Reader::Reader(const System& system, std::vector<Quantity> of) : parts_(std::make_unique<Parts>(system, std::move(of))) {}
+Reader::Reader(const System& system, std::vector<Quantity> of)
+    : parts_(std::make_unique<Parts>(system, std::move(of))) {}
 Reader::~Reader() = default;
 Reader::Reader(Reader&&) noexcept = default;
 Reader& Reader::operator=(Reader&&) noexcept = default;

@@ -68,7 +68,8 @@ std::optional<Span> find_span(const ModelDefinition& definition, const Overrides
 
 Measured measure(const Span& span, const std::vector<Quantity>& of, const std::atomic<bool>* stop,
                  const std::function<void(double periods)>& progress) {
-  return span.cycle ? measure(*span.problem, span.cycle->orbit, of) : measure(*span.motion, span.end, of, stop, progress);
+  return span.cycle ? measure(*span.problem, span.cycle->orbit, of)
+                    : measure(*span.motion, span.end, of, stop, progress);
 }
 
 std::vector<Measured> measure_rates(const ModelDefinition& definition, const Overrides& overrides,
@@ -83,8 +84,8 @@ std::vector<Measured> measure_rates(const ModelDefinition& definition, const Ove
 DensitySpectrum density(const Span& span, const Quantity& of, DensityOptions options) {
   options.stretches = static_cast<int>(std::floor(2.0 * span.periods() / options.stretch)) - 1;
   if (options.stretches < 1)
-    throw InputError("spectrum: a stretch of " + shown(options.stretch) + " forcing periods is longer than the motion, " +
-                     shown(span.periods()) + ": choose a shorter one");
+    throw InputError("spectrum: a stretch of " + shown(options.stretch) +
+                     " forcing periods is longer than the motion, " + shown(span.periods()) + ": choose a shorter one");
   return density(*span.motion, of, options);
 }
 

@@ -17,7 +17,8 @@ namespace {
 
 void check(const Quantity& of, double highest_order) {
   if (of.at_impacts()) throw InputError("spectrum: " + in_quotes(of.name) + " is a quantity at impacts, not of time");
-  if (!(highest_order > 0.0)) throw InputError("spectrum: the highest order " + shown(highest_order) + " is not positive");
+  if (!(highest_order > 0.0))
+    throw InputError("spectrum: the highest order " + shown(highest_order) + " is not positive");
 }
 
 /// The part p of the distribution chi^2 over its degrees of freedom, by Wilson and Hilferty (1931); z: that of the
@@ -31,7 +32,8 @@ double chi_square_part(double freedom, double z) {
 double degrees_of_freedom(double K) { return 2.0 * K / (1.0 + 2.0 * (K - 1.0) / K / 36.0); }
 
 /// |X|^2 of the window of Hann, from the integrals without a window: X_k / 2 - X_{k-1} / 4 - X_{k+1} / 4.
-double windowed(const std::vector<std::complex<double>>& first, const std::vector<std::complex<double>>& second, std::size_t k) {
+double windowed(const std::vector<std::complex<double>>& first, const std::vector<std::complex<double>>& second,
+                std::size_t k) {
   const auto X = [&](std::size_t i) { return i % 2 == 0 ? first[i] + second[i] : first[i] - second[i]; };
   return std::norm(0.5 * X(k) - 0.25 * (X(k - 1) + X(k + 1)));
 }
@@ -39,7 +41,8 @@ double windowed(const std::vector<std::complex<double>>& first, const std::vecto
 }  // namespace
 }  // namespace quantity
 
-LineSpectrum spectrum(const orbit::Problem& problem, const orbit::Orbit& orbit, const Quantity& of, double highest_order) {
+LineSpectrum spectrum(const orbit::Problem& problem, const orbit::Orbit& orbit, const Quantity& of,
+                      double highest_order) {
   quantity::check(of, highest_order);
   const quantity::Cycle cycle(problem, orbit);
   const double T = cycle.duration().value, n = orbit.shape.n > 0 ? orbit.shape.n : 1.0;

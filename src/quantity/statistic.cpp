@@ -24,7 +24,8 @@ const std::vector<std::string>& names() {
 
 /// The part in [0, 1] of "q05" .. "q95", or -1.
 double part_of(const std::string& name) {
-  const bool digits = name.size() == 3 && name[0] == 'q' && std::all_of(name.begin() + 1, name.end(), [](char c) { return c >= '0' && c <= '9'; });
+  const bool digits = name.size() == 3 && name[0] == 'q' &&
+                      std::all_of(name.begin() + 1, name.end(), [](char c) { return c >= '0' && c <= '9'; });
   return digits ? ((name[1] - '0') * 10 + (name[2] - '0')) / 100.0 : -1.0;
 }
 
@@ -38,7 +39,8 @@ Harmonic harmonic_of(const std::string& name) {
   const auto colon = name.find(':');
   const bool phase = colon != std::string::npos;
   for (int k = 1; k <= most_harmonics; ++k)
-    if (name.substr(0, colon) == "h" + std::to_string(k) && (!phase || name.substr(colon) == ":phase")) return {k, phase};
+    if (name.substr(0, colon) == "h" + std::to_string(k) && (!phase || name.substr(colon) == ":phase"))
+      return {k, phase};
   return {};
 }
 
@@ -53,7 +55,8 @@ double value_of(const std::vector<std::complex<double>>& harmonics, Harmonic of)
 }
 
 /// |c|' = Re(conj(c) c') / |c|, arg(c)' = Im(c' / c).
-double rate_of(const std::vector<std::complex<double>>& harmonics, const std::vector<std::complex<double>>& rates, Harmonic of) {
+double rate_of(const std::vector<std::complex<double>>& harmonics, const std::vector<std::complex<double>>& rates,
+               Harmonic of) {
   const auto at = static_cast<std::size_t>(of.k - 1);
   const std::complex<double> part = rates[at] / harmonics[at];
   return of.phase ? part.imag() : part.real() * std::abs(harmonics[at]);
@@ -73,7 +76,8 @@ std::span<const StatisticRule> statistic_rules() {
       StatisticRule{"crest", "largest absolute value over rms"},
       StatisticRule{"impulse", "sum of the impulses"},
       StatisticRule{"number", "how many impulses there are"},
-      StatisticRule{"h1 .. h16", "of cycles: amplitude of a harmonic of omega, without forcing of the cycle's frequency"},
+      StatisticRule{"h1 .. h16",
+                    "of cycles: amplitude of a harmonic of omega, without forcing of the cycle's frequency"},
       StatisticRule{"h1:phase .. h16:phase", "its phase: amplitude cos(k omega t + phase), as in spectrum"},
       StatisticRule{"q05 .. q95", "of quantities at impacts: quantiles, the part in percent"},
   };
@@ -117,8 +121,7 @@ void check_statistic(const Quantity& quantity, const std::string& name) {
 
 void check_statistic_of_stretch(const Quantity& quantity, const std::string& name) {
   check_statistic(quantity, name);
-  if (harmonic_of(name).k > 0)
-    refuse_harmonic(quantity.name + ":" + name);
+  if (harmonic_of(name).k > 0) refuse_harmonic(quantity.name + ":" + name);
 }
 
 double statistic(const Statistics& of, const std::string& name) {
@@ -145,7 +148,8 @@ std::vector<std::string> usual_statistics(const Quantity& quantity) {
   if (quantity.at_impacts()) return {"number", "mean", "rms", "min", "q05", "q25", "q50", "q75", "q95", "max"};
   std::vector<std::string> all = {"mean", "rms", "min", "min_at", "max", "max_at", "peak_to_peak", "crest"};
   using Kind = Quantity::Kind;
-  if (quantity.kind == Kind::acceleration || quantity.kind == Kind::force || quantity.kind == Kind::power) all.emplace_back("impulse");
+  if (quantity.kind == Kind::acceleration || quantity.kind == Kind::force || quantity.kind == Kind::power)
+    all.emplace_back("impulse");
   return all;
 }
 

@@ -23,14 +23,16 @@ class Follower {
     if (flown) tracer_.arrive(motion_.engine().extended_before().data());
     const Event& last = motion_.event();
     if (last.kind == EventKind::impact) tracer_.impact(last.contact, last.w);
-    if (last.kind == EventKind::chatter) tracer_.begin_flight(last.contact, Number{last.time.since(origin_) * motion_.system().period(), 0.0});
+    if (last.kind == EventKind::chatter)
+      tracer_.begin_flight(last.contact, Number{last.time.since(origin_) * motion_.system().period(), 0.0});
   }
 
  private:
   /// A start in contact and approaching: its impact comes after a piece of no length.
   [[nodiscard]] bool struck_at_start() const {
     const Motion::Segment segment = motion_.segment();
-    return first_ && motion_.engine().tells_first() && segment.duration == 0.0 && segment.start == origin_ && motion_.event().time == origin_;
+    return first_ && motion_.engine().tells_first() && segment.duration == 0.0 && segment.start == origin_ &&
+           motion_.event().time == origin_;
   }
 
   /// The impacts that a chatter's limit stands for come before its segment, others after theirs.

@@ -59,7 +59,8 @@ void combine(const Term& term, const std::vector<Polynomial>& rows, Polynomial& 
 }
 
 /// Its derivative: (a b)' = a' b + a b'.
-void combine_rates(const Term& term, const std::vector<Polynomial>& rows, const std::vector<Polynomial>& rates, Polynomial& value) {
+void combine_rates(const Term& term, const std::vector<Polynomial>& rows, const std::vector<Polynomial>& rates,
+                   Polynomial& value) {
   combine({{}, term.linear}, rates, value);
   for (const auto& [a, b] : term.products) {
     add_product(rates[a], rows[b], value);
@@ -73,7 +74,10 @@ void combine_rates(const Term& term, const std::vector<Polynomial>& rows, const 
 struct Tracer::Expansion {
   Expansion(const Model& model, const mode::Frame& frame, std::shared_ptr<const mode::Outline> of, double step,
             const Rates* rates)
-      : kept(std::move(of)), outline(*kept), formulas(model, frame, *kept, rates), longest(step),
+      : kept(std::move(of)),
+        outline(*kept),
+        formulas(model, frame, *kept, rates),
+        longest(step),
         rate(rates != nullptr ? rates->outline : nullptr) {}
 
   /// The quantities where the kinks' rows have these signs; null: not yet known
@@ -110,7 +114,8 @@ Matrix Tracer::Expansion::taylor_of(const std::vector<Row>& rows) const {
   return all;
 }
 
-Tracer::Expansion::Branch& Tracer::Expansion::branch(const std::vector<bool>& above, const std::vector<Quantity>& quantities) {
+Tracer::Expansion::Branch& Tracer::Expansion::branch(const std::vector<bool>& above,
+                                                     const std::vector<Quantity>& quantities) {
   for (Branch& known : branches)
     if (known.above == above) return known;
   std::vector<Formula> all;
@@ -147,15 +152,21 @@ Tracer::Expansion::Branch Tracer::Expansion::branch_of(const std::vector<Formula
 
 /// The tail of a chatter: the quantities between its impacts, and the sum of these, the integral of the mean push.
 struct Tracer::Tail {
-  Expansion::Branch branch;     ///< a term for each quantity, and one for the push
-  std::vector<Number> shares;   ///< of each quantity, in the sum
+  Expansion::Branch branch;    ///< a term for each quantity, and one for the push
+  std::vector<Number> shares;  ///< of each quantity, in the sum
   Number sum;
 };
 
 Tracer::Tracer(const Model& model, const mode::Frame& frame, Number period, const std::vector<Quantity>& of,
                Listener& listener, const Rates* rates)
-    : model_(model), frame_(frame), of_(of), listener_(listener), rates_(rates),
-      blows_(model, frame, period, of, rates), values_(of.size()), value_rates_(rates != nullptr ? of.size() : 0) {}
+    : model_(model),
+      frame_(frame),
+      of_(of),
+      listener_(listener),
+      rates_(rates),
+      blows_(model, frame, period, of, rates),
+      values_(of.size()),
+      value_rates_(rates != nullptr ? of.size() : 0) {}
 
 Tracer::~Tracer() = default;
 
@@ -194,7 +205,8 @@ void Tracer::piece(const std::shared_ptr<const mode::Outline>& outline, double l
   behind_ = nullptr;
   if (chatter_ >= 0) begin_tail(mode);
   // Between two events at one instant a piece has no length, and yet its ends move apart.
-  if (duration == 0.0 && end_rate != 0.0) step(mode, 0.0, {begin, 0.0, values_, value_rates_, begin_rate, 0.0, end_rate});
+  if (duration == 0.0 && end_rate != 0.0)
+    step(mode, 0.0, {begin, 0.0, values_, value_rates_, begin_rate, 0.0, end_rate});
   for (double left = duration; left > 0.0;) {
     catch_up();
     Number length{std::min(left, mode.longest), 0.0};

@@ -19,7 +19,9 @@ struct Number {
 [[nodiscard]] inline Number operator+(Number a, Number b) { return a += b; }
 [[nodiscard]] inline Number operator-(Number a, Number b) { return a -= b; }
 [[nodiscard]] inline Number operator-(Number a) { return {-a.value, -a.rate}; }
-[[nodiscard]] inline Number operator*(Number a, Number b) { return {a.value * b.value, a.rate * b.value + a.value * b.rate}; }
+[[nodiscard]] inline Number operator*(Number a, Number b) {
+  return {a.value * b.value, a.rate * b.value + a.value * b.rate};
+}
 [[nodiscard]] inline Number operator*(double a, Number b) { return {a * b.value, a * b.rate}; }
 [[nodiscard]] inline Number operator/(Number a, Number b) {
   const double q = a.value / b.value;
@@ -32,10 +34,14 @@ struct Row {
   Row& operator+=(const Row& b) { return value += b.value, rate += b.rate, *this; }
   Row& operator-=(const Row& b) { return value -= b.value, rate -= b.rate, *this; }
   /// At X, which moves by `by`.
-  [[nodiscard]] Number at(const Vector& X, const Vector& by) const { return {value.dot(X), rate.dot(X) + value.dot(by)}; }
+  [[nodiscard]] Number at(const Vector& X, const Vector& by) const {
+    return {value.dot(X), rate.dot(X) + value.dot(by)};
+  }
 };
 [[nodiscard]] inline Row operator-(Row a, const Row& b) { return a -= b; }
-[[nodiscard]] inline Row operator*(Number a, const Row& b) { return {a.value * b.value, a.rate * b.value + a.value * b.rate}; }
+[[nodiscard]] inline Row operator*(Number a, const Row& b) {
+  return {a.value * b.value, a.rate * b.value + a.value * b.rate};
+}
 [[nodiscard]] inline Row operator*(double a, const Row& b) { return {a * b.value, a * b.rate}; }
 
 /// The derivatives of a model and of what a mode is made of.

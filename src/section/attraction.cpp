@@ -50,7 +50,8 @@ long cycles_of_stage(double slowest, int n) {
 /// A motion beside a cycle, from stage to stage.
 class Trial {
  public:
-  Trial(const ReturnMap& map, const Followed& followed, const FixedPoint& cycle, int n, const VectorXd& scale, Stop stop)
+  Trial(const ReturnMap& map, const Followed& followed, const FixedPoint& cycle, int n, const VectorXd& scale,
+        Stop stop)
       : map_(map),
         record_(followed.record),
         motion_(followed.motion),
@@ -91,7 +92,9 @@ class Trial {
     constexpr double near = 1e-3;  // of the motion's size, as where Newton's method begins
     if (record_ == nullptr) return;
     const auto is_near = [&](long place) { return section::distance(record_->back(place), cycle_.x, scale_) <= near; };
-    for (long place = 0; place < record_->size() && place <= static_cast<long>(longest_trial) && is_near(place); place += n) ago_ = place;
+    for (long place = 0; place < record_->size() && place <= static_cast<long>(longest_trial) && is_near(place);
+         place += n)
+      ago_ = place;
   }
 
   /// One stage: through the record, and then with the motion.
@@ -124,8 +127,8 @@ class Trial {
 
 }  // namespace
 
-Attraction attraction(const ReturnMap& map, const Followed& followed, const FixedPoint& cycle, int n, const VectorXd& scale,
-                      Stop stop) {
+Attraction attraction(const ReturnMap& map, const Followed& followed, const FixedPoint& cycle, int n,
+                      const VectorXd& scale, Stop stop) {
   constexpr double beside = 0.05;  // of the motion's size: a motion farther away may do anything yet
   if (cycle.multipliers.empty()) return {true, 0.0};
   Trial trial(map, followed, cycle, n, scale, stop);
@@ -155,7 +158,9 @@ class Beside {
   [[nodiscard]] Index size() const { return here_.size(); }
   [[nodiscard]] Index nulls() const { return nulls_; }
   [[nodiscard]] VectorXd direction(Index k) const { return by_.right.col(k); }
-  [[nodiscard]] VectorXd state(const VectorXd& y) const { return map_.translations().representative(here_ + y.cwiseProduct(sizes_)); }
+  [[nodiscard]] VectorXd state(const VectorXd& y) const {
+    return map_.translations().representative(here_ + y.cwiseProduct(sizes_));
+  }
 
   /// By how much the point at y misses its return.
   [[nodiscard]] VectorXd residual(const VectorXd& y) const {

@@ -28,7 +28,7 @@ struct Attraction {
 struct Followed {
   const PointRecord* record = nullptr;  ///< whose last point is where the motion stands
   const Motion& motion;                 ///< at a point of the section; a copy is run
-  double there = 1e-10;  ///< of the motion's size: so near the cycle a trial ends
+  double there = 1e-10;                 ///< of the motion's size: so near the cycle a trial ends
 };
 
 /// A trial lasts for 256 points and one stage at most.

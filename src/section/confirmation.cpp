@@ -79,7 +79,8 @@ std::optional<Cycle> Confirmation::drawn_to(int n, const VectorXd& start) const 
   auto found = fixed_point(map_, start, n, record_.scale(), options_.stop);
   if (!found || !found->stable()) return std::nullopt;
   if (on_a_family(*found, n)) return std::nullopt;  // `member` judges
-  const Attraction seen = attraction(map_, {options_.by_record ? &record_ : nullptr, motion_, options_.there}, *found, n, record_.scale(), options_.stop);
+  const Attraction seen = attraction(map_, {options_.by_record ? &record_ : nullptr, motion_, options_.there}, *found,
+                                     n, record_.scale(), options_.stop);
   if (!seen.drawn) return std::nullopt;
   found = once_round(std::move(*found), n);
   const double missed = distance(found->value.image, found->x, record_.scale());
@@ -124,7 +125,9 @@ std::optional<Cycle> Confirmation::member(int n) const {
     const bool neutral = largest >= 1.0 - known_to;
     if ((dimensions == 0 && !neutral) || largest > 1.0 + repelling) continue;
     const double missed = distance(map.image, here, record_.scale());
-    return Cycle{here, length, map.duration, std::move(multipliers), map.advance, missed, record_.returned(length), dimensions, true};
+    return Cycle{
+        here,       length, map.duration, std::move(multipliers), map.advance, missed, record_.returned(length),
+        dimensions, true};
   }
   return std::nullopt;
 }

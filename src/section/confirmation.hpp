@@ -25,7 +25,7 @@ struct Cycle {
 struct ConfirmationOptions {
   int most_n = 64;                 ///< longest cycle sought, points
   double widest_round = INFINITY;  ///< of the size: a motion that winds more widely is beside no cycle
-  bool free = false;  ///< of a free motion the multiplier 1 along the motion is left out
+  bool free = false;               ///< of a free motion the multiplier 1 along the motion is left out
   /// Whether the approach is seen in the record where the record has it, or by following the motion only; and how near
   /// the cycle the approach has been seen, of the motion's size.
   bool by_record = false;
@@ -38,7 +38,8 @@ struct ConfirmationOptions {
 class Confirmation {
  public:
   /// @param motion  at the last point of the record
-  Confirmation(const ReturnMap& map, const PointRecord& record, const Motion& motion, const ConfirmationOptions& options)
+  Confirmation(const ReturnMap& map, const PointRecord& record, const Motion& motion,
+               const ConfirmationOptions& options)
       : map_(map), record_(record), motion_(motion), options_(options) {}
 
   struct Look {

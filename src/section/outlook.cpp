@@ -145,9 +145,9 @@ VectorXd balance(MatrixXd& Q) {
 /// y = y_0 + basis z, z' = Q z + s, less what is conserved.
 struct Reduced {
   MatrixXd basis, Q;
-  VectorXd s, size;     ///< size: of the terms that s was made of
-  int nulls = 0;        ///< states of rest form a continuum of so many dimensions
-  int more_zeros = 0;   ///< multiple zeros: of what moves at a constant speed if displaced
+  VectorXd s, size;    ///< size: of the terms that s was made of
+  int nulls = 0;       ///< states of rest form a continuum of so many dimensions
+  int more_zeros = 0;  ///< multiple zeros: of what moves at a constant speed if displaced
   bool goes_away = false;
   bool bends = false;  ///< .. and not at a constant speed
   VectorXd speed;      ///< of y, if constant
@@ -220,9 +220,8 @@ struct Term {
 
 /// Abel's summation: see the header.
 bool never_negative(std::vector<Term> terms, double noise) {
-  std::sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) {
-    return a.sigma != b.sigma ? a.sigma > b.sigma : a.c > b.c;
-  });
+  std::sort(terms.begin(), terms.end(),
+            [](const Term& a, const Term& b) { return a.sigma != b.sigma ? a.sigma > b.sigma : a.c > b.c; });
   double sum = 0.0;
   for (const Term& term : terms) {
     sum += term.c;
@@ -264,9 +263,8 @@ bool no_event(const mode::Mode& mode, const Extension& all, const Line& rest, co
 std::vector<std::complex<double>> sorted(const VectorXcd& values, int zeros) {
   std::vector<std::complex<double>> all(values.begin(), values.end());
   all.insert(all.end(), static_cast<std::size_t>(zeros), 0.0);
-  std::sort(all.begin(), all.end(), [](auto a, auto b) {
-    return a.real() != b.real() ? a.real() > b.real() : a.imag() > b.imag();
-  });
+  std::sort(all.begin(), all.end(),
+            [](auto a, auto b) { return a.real() != b.real() ? a.real() > b.real() : a.imag() > b.imag(); });
   return all;
 }
 

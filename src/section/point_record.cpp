@@ -45,13 +45,16 @@ double PointRecord::returned(long n, long cycles_ago) const {
 
 double PointRecord::widest_return(int n) const {
   double widest = 0.0;
-  for (long j = 0; j < returns_compared && j + n < size(); ++j) widest = std::max(widest, distance(back(j), back(j + n), scale_));
+  for (long j = 0; j < returns_compared && j + n < size(); ++j)
+    widest = std::max(widest, distance(back(j), back(j + n), scale_));
   return widest;
 }
 
 bool PointRecord::same_events(long n) const {
   for (long i = 1; i <= n; ++i)
-    if (!(events_[events_.size() - static_cast<std::size_t>(i)] == events_[events_.size() - static_cast<std::size_t>(i + n)])) return false;
+    if (!(events_[events_.size() - static_cast<std::size_t>(i)] ==
+          events_[events_.size() - static_cast<std::size_t>(i + n)]))
+      return false;
   return true;
 }
 

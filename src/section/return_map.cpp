@@ -12,7 +12,8 @@ namespace slapstick::section {
 
 using flow::contact_state, flow::multipliers_of, flow::Translations, flow::user_state;
 
-double distance(const Eigen::Ref<const Eigen::VectorXd>& a, const Eigen::Ref<const Eigen::VectorXd>& b, const Eigen::VectorXd& scale) {
+double distance(const Eigen::Ref<const Eigen::VectorXd>& a, const Eigen::Ref<const Eigen::VectorXd>& b,
+                const Eigen::VectorXd& scale) {
   return ((a - b).array().abs() / scale.array()).maxCoeff();
 }
 
@@ -41,7 +42,8 @@ MapValue Stroboscopic::value(const Eigen::VectorXd& x, int n, Stop stop) const {
   TangentMotion motion(translations().system(), user_state(translations().system(), x),
                        Eigen::MatrixXd::Identity(size, size));
   run_to(motion, {n, 0.0}, stop, [] {});
-  MapValue value{contact_state(motion.motion()), translations().quotient(motion.tangents()), {}, static_cast<double>(n)};
+  MapValue value{
+      contact_state(motion.motion()), translations().quotient(motion.tangents()), {}, static_cast<double>(n)};
   value.advance = translations().take_out(value.image);
   return value;
 }

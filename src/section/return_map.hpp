@@ -16,7 +16,8 @@ namespace slapstick::section {
 using Stop = const std::atomic<bool>*;
 
 /// Distance of two contact states, positions and velocities each relative to `scale` (same layout).
-[[nodiscard]] double distance(const Eigen::Ref<const Eigen::VectorXd>& a, const Eigen::Ref<const Eigen::VectorXd>& b, const Eigen::VectorXd& scale);
+[[nodiscard]] double distance(const Eigen::Ref<const Eigen::VectorXd>& a, const Eigen::Ref<const Eigen::VectorXd>& b,
+                              const Eigen::VectorXd& scale);
 
 struct MapValue {
   Eigen::VectorXd image;     ///< representative of its class

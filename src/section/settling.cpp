@@ -37,7 +37,8 @@ bool driven(const Model& model) {
     if (force.amplitude == 0.0 || !model.repeats_with_forcing(force)) return false;
     if (force.signal < 0) return true;
     const auto& knots = model.signals[static_cast<std::size_t>(force.signal)].knots;
-    return ranges::any_of(knots, [&](const Signal::Knot& knot) { return knot.value != knots.front().value || knot.pulse != 0.0; });
+    return ranges::any_of(
+        knots, [&](const Signal::Knot& knot) { return knot.value != knots.front().value || knot.pulse != 0.0; });
   });
 }
 

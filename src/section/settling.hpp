@@ -53,7 +53,9 @@ class Settling {
   /// .. or it has events for ever, but shrinks to a state of rest on the border of two modes, as a mass that touches a
   /// compliant stop at rest: the contact state there.
   [[nodiscard]] const std::optional<Eigen::VectorXd>& shrinks_to() const { return shrinks_to_; }
-  [[nodiscard]] double distance_from(const Eigen::VectorXd& x) const { return distance(record_.back(0), x, record_.scale()); }
+  [[nodiscard]] double distance_from(const Eigen::VectorXd& x) const {
+    return distance(record_.back(0), x, record_.scale());
+  }
   /// The size of the motion so far, as of section::distance, if it is to reach numbers of these sizes too.
   [[nodiscard]] Eigen::VectorXd scale_with(const Eigen::VectorXd& sizes) const;
   [[nodiscard]] bool cancelled() const;
@@ -91,11 +93,11 @@ class Settling {
   SettlingOptions options_;
   std::unique_ptr<const ReturnMap> map_;
   Motion motion_;
-  Eigen::VectorXd home_;   ///< the start along each translation
+  Eigen::VectorXd home_;  ///< the start along each translation
   PointRecord record_;
   std::vector<double> earlier_;  ///< widest_return of every n, half a round ago
-  double omega_;      ///< of a period: what makes a velocity of a displacement
-  long periods_ = 0;  ///< that have passed
+  double omega_;                 ///< of a period: what makes a velocity of a displacement
+  long periods_ = 0;             ///< that have passed
   int round_, done_ = 0;
   bool free_;
   std::optional<Eigen::VectorXd> shrinks_to_;

@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "base/ranges.hpp"
-#include "slapstick/base/error.hpp"
 #include "base/text.hpp"
+#include "slapstick/base/error.hpp"
 
 namespace slapstick {
 

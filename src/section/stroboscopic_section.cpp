@@ -1,8 +1,8 @@
 /// Walks a motion from period to period at one phase.
 #include "slapstick/section/stroboscopic_section.hpp"
 
-#include "slapstick/base/error.hpp"
 #include "base/text.hpp"
+#include "slapstick/base/error.hpp"
 
 namespace slapstick {
 

@@ -10,7 +10,8 @@ namespace slapstick::store {
 class Checksum {
  public:
   Checksum& add(const void* bytes, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) sum_ = (sum_ ^ static_cast<const unsigned char*>(bytes)[i]) * 0x100000001b3U;
+    for (std::size_t i = 0; i < count; ++i)
+      sum_ = (sum_ ^ static_cast<const unsigned char*>(bytes)[i]) * 0x100000001b3U;
     return *this;
   }
   /// With their number, so that nothing slips from one list into the next.

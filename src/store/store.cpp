@@ -14,8 +14,8 @@
 #include <system_error>
 
 #include "base/text.hpp"
-#include "store/checksum.hpp"
 #include "slapstick/base/error.hpp"
+#include "store/checksum.hpp"
 
 namespace slapstick::store {
 
@@ -26,7 +26,8 @@ namespace {
 constexpr int application = 0x534c4150;  // "SLAP": what `file` shows
 constexpr const char* schema =
     "CREATE TABLE facts(place INTEGER PRIMARY KEY, name TEXT NOT NULL, value TEXT NOT NULL, checksum INTEGER NOT NULL);"
-    "CREATE TABLE cells(number INTEGER PRIMARY KEY, numbers BLOB NOT NULL, failure TEXT NOT NULL, carried BLOB NOT NULL, "
+    "CREATE TABLE cells(number INTEGER PRIMARY KEY, numbers BLOB NOT NULL, failure TEXT NOT NULL, carried BLOB NOT "
+    "NULL, "
     "checksum INTEGER NOT NULL);";
 
 std::int64_t checksum_of(const StoredCell& cell) {
@@ -75,13 +76,15 @@ using Statement = std::unique_ptr<sqlite3_stmt, EndStatement>;
 std::vector<double> numbers_at(sqlite3_stmt* statement, int column) {
   const auto bytes = static_cast<std::size_t>(sqlite3_column_bytes(statement, column));
   std::vector<double> numbers(bytes / sizeof(double));
-  if (!numbers.empty()) std::memcpy(numbers.data(), sqlite3_column_blob(statement, column), numbers.size() * sizeof(double));
+  if (!numbers.empty())
+    std::memcpy(numbers.data(), sqlite3_column_blob(statement, column), numbers.size() * sizeof(double));
   return numbers;
 }
 
 std::string text_at(sqlite3_stmt* statement, int column) {
   const auto* text = sqlite3_column_text(statement, column);
-  return text == nullptr ? "" : std::string(reinterpret_cast<const char*>(text), sqlite3_column_bytes(statement, column));
+  return text == nullptr ? ""
+                         : std::string(reinterpret_cast<const char*>(text), sqlite3_column_bytes(statement, column));
 }
 
 /// Of texts of several lines the first that differs, behind the line before it.
@@ -103,11 +106,11 @@ struct Store::Database {
   StoreFacts facts;
 
   [[noreturn]] void fail(const char* doing) const {
-    throw StorageError(std::string("cannot ") + doing + " " + in_quotes(path) + ": " + in_quotes(sqlite3_errmsg(handle.get())));
+    throw StorageError(std::string("cannot ") + doing + " " + in_quotes(path) + ": " +
+                       in_quotes(sqlite3_errmsg(handle.get())));
   }
   [[noreturn]] void damaged(const std::string& what) const {
-    throw StorageError("store " + in_quotes(path) + " is damaged: " + what +
-                       "; take it from a copy, or begin it anew");
+    throw StorageError("store " + in_quotes(path) + " is damaged: " + what + "; take it from a copy, or begin it anew");
   }
 
   void open(int flags) {
@@ -190,7 +193,8 @@ struct Store::Database {
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       if (i < facts.size() && facts[i] == wanted[i]) continue;
       const std::string there = i < facts.size() && facts[i].first == wanted[i].first ? facts[i].second : "";
-      throw InputError("store: " + in_quotes(path) + " is of another run: " + difference(wanted[i].first, there, wanted[i].second) +
+      throw InputError("store: " + in_quotes(path) +
+                       " is of another run: " + difference(wanted[i].first, there, wanted[i].second) +
                        "; give the store of this run, or another name");
     }
   }

@@ -15,10 +15,12 @@ namespace {
 void check(const BatchProblem& problem) {
   const BatchPlan& plan = problem.plan;
   if (!problem.model_at || !problem.start_at) throw InputError("a batch needs model_at and start_at");
-  if (plan.transient_periods < 0) throw InputError("transient_periods = " + std::to_string(plan.transient_periods) + " is negative");
+  if (plan.transient_periods < 0)
+    throw InputError("transient_periods = " + std::to_string(plan.transient_periods) + " is negative");
   if (plan.periods < 1) throw InputError("periods = " + std::to_string(plan.periods) + " is not at least 1");
   if (plan.points < 0 || plan.points > plan.periods)
-    throw InputError("points = " + std::to_string(plan.points) + " is not between 0 and periods = " + std::to_string(plan.periods));
+    throw InputError("points = " + std::to_string(plan.points) +
+                     " is not between 0 and periods = " + std::to_string(plan.periods));
   if (problem.threads < 0) throw InputError("threads = " + std::to_string(problem.threads) + " is negative");
 }
 
@@ -36,8 +38,12 @@ Batch run_batch(const BatchProblem& problem) {
         const std::size_t index = next.fetch_add(1, std::memory_order_relaxed);
         return index < problem.count ? std::optional(index) : std::nullopt;
       },
-      problem.model_at, problem.start_at,
-      problem.take ? problem.take : [&](std::size_t i, BatchRun&& run) { batch.runs[i] = std::move(run); }, problem.plan, batch::Queue::Wanted::all, problem.cancel};
+      problem.model_at,
+      problem.start_at,
+      problem.take ? problem.take : [&](std::size_t i, BatchRun&& run) { batch.runs[i] = std::move(run); },
+      problem.plan,
+      batch::Queue::Wanted::all,
+      problem.cancel};
   const auto cores = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U));
   const int threads = problem.threads > 0 ? problem.threads : cores;
   for_each_index(threads, threads, [&](int) {

@@ -6,8 +6,8 @@
 #include <mutex>
 #include <optional>
 
-#include "slapstick/base/error.hpp"
 #include "base/text.hpp"
+#include "slapstick/base/error.hpp"
 #include "sweep/diagram_point.hpp"
 #include "sweep/executor.hpp"
 
@@ -30,7 +30,8 @@ void check(const DiagramProblem& problem) {
     at_least("count", problem.count, 2);
     demand(problem.from < problem.to, "from = " + shown(problem.from) + " is not below to = " + shown(problem.to));
   }
-  demand(problem.transient_periods.value_or(0.0) >= 0.0, "transient_periods = " + shown(problem.transient_periods.value_or(0.0)) + " is negative");
+  demand(problem.transient_periods.value_or(0.0) >= 0.0,
+         "transient_periods = " + shown(problem.transient_periods.value_or(0.0)) + " is negative");
   at_least("impacts", problem.impacts, 1);
   at_least("most_periods", problem.most_periods, 1);
   demand(problem.measured_periods >= 0.0, "measured_periods = " + shown(problem.measured_periods) + " is negative");
@@ -68,7 +69,8 @@ class Run {
   bool run_carried() {
     const int length = problem_.count, chains = static_cast<int>(diagram_.points.size()) / length;
     const auto body = [&](const Cell& cell, const Starts& start, const HandOn& hand_on) {
-      run_point(static_cast<std::size_t>(cell.chain * length + cell.step), start.empty() ? Carried{} : start.front(), hand_on);
+      run_point(static_cast<std::size_t>(cell.chain * length + cell.step), start.empty() ? Carried{} : start.front(),
+                hand_on);
     };
     return run_chains({.chains = chains, .length = length}, problem_.threads, body, problem_.cancel);
   }
@@ -81,7 +83,8 @@ class Run {
       const std::size_t begin = static_cast<std::size_t>(cell.chain) * together;
       run_together(begin, std::min(begin + together, all));
     };
-    return run_chains({.chains = static_cast<int>((all + together - 1) / together)}, problem_.threads, body, problem_.cancel);
+    return run_chains({.chains = static_cast<int>((all + together - 1) / together)}, problem_.threads, body,
+                      problem_.cancel);
   }
 
   void run_together(std::size_t begin, std::size_t end) {

@@ -6,10 +6,10 @@
 #include <limits>
 #include <stdexcept>
 
-#include "slapstick/base/error.hpp"
 #include "base/floating_point.hpp"
 #include "batch/runner.hpp"
 #include "section/run_impacts.hpp"
+#include "slapstick/base/error.hpp"
 #include "slapstick/quantity/reader.hpp"
 #include "slapstick/quantity/span.hpp"
 
@@ -151,7 +151,8 @@ bool read_values(const DiagramProblem& problem, const Settled& settled, std::vec
   };
   if (problem.read_at == ReadAt::impacts) {
     ImpactSection section(std::move(motion), problem.stops);
-    return run_impacts(section, end, problem.cancel, [&](const SectionPoint&) { return add(reader.before(section.motion())); });
+    return run_impacts(section, end, problem.cancel,
+                       [&](const SectionPoint&) { return add(reader.before(section.motion())); });
   }
   if (problem.read_at == ReadAt::periods) {
     do {

@@ -82,7 +82,8 @@ class LanePixel {
     return last;
   }
 
-  section::Confirmation::Look confirm(const batch::PassedPoint& point, const std::vector<section::Candidate>& candidates, bool last) {
+  section::Confirmation::Look confirm(const batch::PassedPoint& point,
+                                      const std::vector<section::Candidate>& candidates, bool last) {
     if (finding_.system == nullptr) finding_.system = std::make_unique<System>(point.model);
     const System& system = *finding_.system;
     if (map_ == nullptr) map_ = std::make_unique<section::Stroboscopic>(system);
@@ -100,7 +101,8 @@ class LanePixel {
   }
 
   /// At the end of the periods a Motion goes on from there, as in `classify`, with the same candidates.
-  [[nodiscard]] std::optional<section::Cycle> follow_on(const Motion& motion, const std::vector<section::Candidate>& candidates) const {
+  [[nodiscard]] std::optional<section::Cycle> follow_on(const Motion& motion,
+                                                        const std::vector<section::Candidate>& candidates) const {
     section::ConfirmationOptions options = options_;
     options.by_record = false;
     const section::Confirmation confirmation(*map_, record_, motion, options);

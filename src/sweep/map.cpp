@@ -26,15 +26,17 @@ void check_axis(const char* name, const GridAxis& axis) {
   const std::string of = name;
   demand_of_map(std::isfinite(axis.from) && std::isfinite(axis.to), of + ": from and to must be finite");
   demand_of_map(axis.count >= 1, of + ".count = " + std::to_string(axis.count) + " is below 1");
-  demand_of_map(axis.count == 1 ? axis.from == axis.to : axis.from < axis.to,
-         of + ": from = " + shown(axis.from) + " is not below to = " + shown(axis.to) + " (one value needs from == to)");
+  demand_of_map(
+      axis.count == 1 ? axis.from == axis.to : axis.from < axis.to,
+      of + ": from = " + shown(axis.from) + " is not below to = " + shown(axis.to) + " (one value needs from == to)");
 }
 
 void check_refine(const MapProblem& problem) {
   if (problem.refine == 0) return;
   demand_of_map(problem.refine >= 2, "refine = " + std::to_string(problem.refine) + " is below 2");
-  demand_of_map(problem.start == MapStart::reset, "refine needs start = reset: carried states need every pixel of a row, random ones "
-                                                  "show other attractors at each");
+  demand_of_map(problem.start == MapStart::reset,
+                "refine needs start = reset: carried states need every pixel of a row, random ones "
+                "show other attractors at each");
   demand_of_map(problem.shards == 1, "refine needs shards = 1: what is computed next depends on all pixels before");
   demand_of_map(!problem.known || problem.finding_of, "known needs finding_of");
 }
@@ -49,13 +51,14 @@ void check_map(const MapProblem& problem) {
   demand_of_map(static_cast<double>(problem.x.count) * problem.y.count < most, "more pixels than one map can have");
   demand_of_map(problem.periods >= 20, "periods = " + std::to_string(problem.periods) + " is below 20");
   demand_of_map(problem.starts >= 2 || problem.start != MapStart::random,
-         "starts = " + std::to_string(problem.starts) + " is below 2");
+                "starts = " + std::to_string(problem.starts) + " is below 2");
   demand_of_map(problem.start == MapStart::carry || problem.direction == Direction::up,
-         "direction is for start = carry; else all directions are the same");
+                "direction is for start = carry; else all directions are the same");
   demand_of_map(problem.of.size() == problem.statistics.size(), "every quantity needs a statistic");
   for (std::size_t k = 0; k < problem.of.size(); ++k) check_statistic_of_stretch(problem.of[k], problem.statistics[k]);
   demand_of_map(problem.measured_periods >= 1, "measured_periods must be positive");
-  demand_of_map(problem.shards >= 1 && problem.shard >= 0 && problem.shard < problem.shards, "shard must be in 0 .. shards - 1");
+  demand_of_map(problem.shards >= 1 && problem.shard >= 0 && problem.shard < problem.shards,
+                "shard must be in 0 .. shards - 1");
   demand_of_map(problem.threads >= 0, "threads = " + std::to_string(problem.threads) + " is below 0");
   demand_of_map(!problem.known || problem.carried_of || problem.start != MapStart::carry, "known needs carried_of");
   check_refine(problem);
@@ -95,8 +98,8 @@ class Tiling {
       for (int number = place * run(); number < end; ++number) tasks.push_back({number, Direction::up, {}});
       return tasks;
     }
-    const Direction direction = problem_.direction == Direction::both ? (chain < bands_ ? Direction::up : Direction::down)
-                                                                      : problem_.direction;
+    const Direction direction =
+        problem_.direction == Direction::both ? (chain < bands_ ? Direction::up : Direction::down) : problem_.direction;
     const int ix = direction == Direction::up ? cell.step : problem_.x.count - 1 - cell.step;
     for (int iy = place * band; iy < std::min((place + 1) * band, problem_.y.count); ++iy)
       tasks.push_back({iy * problem_.x.count + ix, direction, {}});
@@ -173,7 +176,9 @@ class MapRun {
   void run_tile(const Tiling& tiling, const Cell& cell, const Starts& start, const HandOn& hand_on) {
     std::vector<PixelTask> tasks = tiling.tile(cell);
     for (std::size_t i = 0; i < tasks.size() && i < start.size(); ++i) tasks[i].start = start[i].state;
-    const auto is_known = [&](const PixelTask& task) { return problem_.known && problem_.known(task.number, task.direction); };
+    const auto is_known = [&](const PixelTask& task) {
+      return problem_.known && problem_.known(task.number, task.direction);
+    };
     std::vector<PixelTask> unknown;
     ranges::copy_if(tasks, std::back_inserter(unknown), [&](const PixelTask& task) { return !is_known(task); });
     const std::vector<Pixel> pixels = analyse(problem_, unknown);
@@ -210,7 +215,9 @@ class MapRun {
 
 }  // namespace
 
-bool runs_in_lanes(const MapProblem& problem) { return problem.level == Level::quick && problem.start != MapStart::random; }
+bool runs_in_lanes(const MapProblem& problem) {
+  return problem.level == Level::quick && problem.start != MapStart::random;
+}
 
 long pixel_count(const MapProblem& problem) {
   const bool both = problem.start == MapStart::carry && problem.direction == Direction::both;

@@ -59,7 +59,8 @@ class Analysis {
   std::optional<Pixel> of(LaneFinding&& lane) {
     return attempt([&] {
       if (problem_.start == MapStart::carry) pixel_.carried = lane.found.state;
-      if (lane.system == nullptr && !problem_.of.empty()) lane.system = std::make_unique<System>(model_at(problem_, task_));
+      if (lane.system == nullptr && !problem_.of.empty())
+        lane.system = std::make_unique<System>(model_at(problem_, task_));
       keep(lane.system.get(), lane.found, 1);
     });
   }
@@ -113,7 +114,8 @@ class Analysis {
       const State one = k == 0 ? start : flow::user_state(system, starts.draw(random, 1.0));
       Classification found = classified(system, one);
       if (interrupted_) return;
-      const auto same = ranges::find_if(all, [&](const Known& known) { return same_attractor(system, known.found, found); });
+      const auto same =
+          ranges::find_if(all, [&](const Known& known) { return same_attractor(system, known.found, found); });
       if (same != all.end())
         ++same->starts;
       else
@@ -184,7 +186,8 @@ bool same_impacts(const Classification& a, const Classification& b) {
   };
   const auto one = speeds(a), other = speeds(b);
   for (std::size_t i = 0; i < one.size(); ++i)
-    if (one[i].first != other[i].first || std::abs(one[i].second - other[i].second) > same * one[i].second) return false;
+    if (one[i].first != other[i].first || std::abs(one[i].second - other[i].second) > same * one[i].second)
+      return false;
   return true;
 }
 
@@ -223,7 +226,9 @@ State start_of(const MapProblem& problem, const PixelTask& task, const Model& mo
 std::vector<Pixel> analyse(const MapProblem& problem, std::span<const PixelTask> tasks) {
   std::vector<std::optional<Pixel>> pixels(tasks.size());
   if (runs_in_lanes(problem))
-    run_quick_in_lanes(problem, tasks, [&](std::size_t i, LaneFinding&& lane) { pixels[i] = Analysis(problem, tasks[i]).of(std::move(lane)); });
+    run_quick_in_lanes(problem, tasks, [&](std::size_t i, LaneFinding&& lane) {
+      pixels[i] = Analysis(problem, tasks[i]).of(std::move(lane));
+    });
   for (std::size_t i = 0; i < tasks.size() && !stopped(problem.cancel); ++i)
     if (!pixels[i]) pixels[i] = Analysis(problem, tasks[i])();
   std::vector<Pixel> done;

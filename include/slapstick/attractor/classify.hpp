@@ -108,7 +108,7 @@ struct Classification {
   /// Largest Lyapunov exponent per period (without a clock per unit of time), but for that along a free motion; the
   /// multipliers give it if periodic, the eigenvalues at rest.
   double exponent = 0.0, exponent_error = 0.0;
-  double digits = 0.0;          ///< agreement of the two weighted Birkhoff averages
+  double digits = 0.0;  ///< agreement of the two weighted Birkhoff averages
   /// Quasi-periodic: turns of a closed curve in `curves` periods, in (0, 0.5] (orientation is not told), and the digits
   /// to which two halves agree.
   double rotation = 0.0, rotation_digits = 0.0;

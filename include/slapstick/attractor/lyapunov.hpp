@@ -39,12 +39,12 @@ struct LyapunovExponents {
   /// Kaplan-Yorke: of the attractor in a stroboscopic section; without forcing of the attractor itself. Exponents
   /// within three standard errors of 0 count as 0.
   double dimension = 0.0;
-  double sum = 0.0;                ///< of per_period
-  double contraction = 0.0;        ///< the other side of the sum rule, per period
-  double rounding = 0.0;           ///< what rounding may put between the two
-  long periods = 0;                ///< used
-  bool reached = true;             ///< every error is below LyapunovOptions::error
-  bool interrupted = false;        ///< by `cancel`: nothing else is meant
+  double sum = 0.0;          ///< of per_period
+  double contraction = 0.0;  ///< the other side of the sum rule, per period
+  double rounding = 0.0;     ///< what rounding may put between the two
+  long periods = 0;          ///< used
+  bool reached = true;       ///< every error is below LyapunovOptions::error
+  bool interrupted = false;  ///< by `cancel`: nothing else is meant
 
   /// Both sides are -infinity, or agree but for rounding.
   [[nodiscard]] bool sum_rule_holds() const;

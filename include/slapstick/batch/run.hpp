@@ -30,12 +30,12 @@ struct BatchPlan {
 
 /// What a run has recorded.
 struct BatchRun {
-  long impacts = 0;        ///< in the recording
-  double speeds = 0.0;     ///< the sum of their speeds
-  State end;               ///< the state at the end, 2 n numbers
-  std::vector<double> points;         ///< BatchPlan::points rows of 2 n numbers, the last one `end`
-  std::vector<long> point_impacts;    ///< impacts in the period before each point
-  std::vector<Event> events;          ///< if they were asked for, in order
+  long impacts = 0;                 ///< in the recording
+  double speeds = 0.0;              ///< the sum of their speeds
+  State end;                        ///< the state at the end, 2 n numbers
+  std::vector<double> points;       ///< BatchPlan::points rows of 2 n numbers, the last one `end`
+  std::vector<long> point_impacts;  ///< impacts in the period before each point
+  std::vector<Event> events;        ///< if they were asked for, in order
   /// If it was asked for: of the recording, per forcing period (unit of time without forcing); -infinity where stick or
   /// chatter forget every small change.
   double exponent = 0.0;

@@ -42,9 +42,9 @@ struct Chart {
 /// What a store says of any run. @param options  words that say what is computed, besides the model and its values
 /// @param kernel  the arithmetic of the cells: "motion", or "lanes" where lanes take the model. Instruction sets have
 /// no part in it: their bits are the same
-[[nodiscard]] store::StoreFacts run_facts(const std::string& verb, const ModelDefinition& definition, const Overrides& values,
-                                          const std::vector<std::string>& options, long cells, int shard = 0, int shards = 1,
-                                          const std::string& kernel = "motion");
+[[nodiscard]] store::StoreFacts run_facts(const std::string& verb, const ModelDefinition& definition,
+                                          const Overrides& values, const std::vector<std::string>& options, long cells,
+                                          int shard = 0, int shards = 1, const std::string& kernel = "motion");
 
 /// Computes what the store does not have, each tile written as it is finished, and gives all that is there then.
 /// @param resume  as of Store::to_write

@@ -16,9 +16,9 @@ namespace slapstick::chart {
 
 struct FoundCurve {
   orbit::SpecialType type = orbit::SpecialType::PD;
-  std::string from{}, to{};  ///< classes of the two pixels between which it was found
+  std::string from{}, to{};      ///< classes of the two pixels between which it was found
   std::vector<double> x{}, y{};  ///< its points that are motions; NaN between pieces
-  long edges = 0;            ///< that it explains, and no curve before
+  long edges = 0;                ///< that it explains, and no curve before
   /// Places along the curve, a pixel apart: where the pixels on both sides differ, and where they are alike.
   long differ = 0, alike = 0;
 };
@@ -35,6 +35,7 @@ struct Curves {
 /// @param most  curves
 /// @param stop  when set, what was found so far comes back
 /// @throws InputError for another start
-[[nodiscard]] Curves find_curves(const Chart& chart, const sweep::Map& map, int most, const std::atomic<bool>* stop = nullptr);
+[[nodiscard]] Curves find_curves(const Chart& chart, const sweep::Map& map, int most,
+                                 const std::atomic<bool>* stop = nullptr);
 
 }  // namespace slapstick::chart

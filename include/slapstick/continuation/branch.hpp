@@ -36,19 +36,19 @@ namespace slapstick::orbit {
 /// Why one way along a branch ends.
 struct BranchEnd {
   enum class Kind : std::uint8_t {
-    range,           ///< the parameter has come to the end of its range
-    closed,          ///< the branch has come round to its first orbit
-    no_model,        ///< the model has no meaning beyond; `detail` says why
-    special,         ///< at a special point: its passage says why
-    over_itself,     ///< it runs over itself
-    unbounded,       ///< the orbit grows without bound as the parameter hardly moves
-    most_points,     ///< as many points as are allowed
-    stopped,         ///< the caller's wish
-    led_back,        ///< failed: what was found beyond the last change of events leads back over the branch
-    too_many_events, ///< failed: a cycle of more events than are followed
-    no_step,         ///< failed: no step leads on; `detail` says why
-    no_change,       ///< failed: the motion has other events than the orbit, and no change was found; `detail`: which
-    refused          ///< failed: an error, in `detail`
+    range,            ///< the parameter has come to the end of its range
+    closed,           ///< the branch has come round to its first orbit
+    no_model,         ///< the model has no meaning beyond; `detail` says why
+    special,          ///< at a special point: its passage says why
+    over_itself,      ///< it runs over itself
+    unbounded,        ///< the orbit grows without bound as the parameter hardly moves
+    most_points,      ///< as many points as are allowed
+    stopped,          ///< the caller's wish
+    led_back,         ///< failed: what was found beyond the last change of events leads back over the branch
+    too_many_events,  ///< failed: a cycle of more events than are followed
+    no_step,          ///< failed: no step leads on; `detail` says why
+    no_change,        ///< failed: the motion has other events than the orbit, and no change was found; `detail`: which
+    refused           ///< failed: an error, in `detail`
   };
   Kind kind = Kind::range;
   bool failed = false;  ///< what is beyond is not known: a step or change was not mastered, or the branch was stopped
@@ -85,11 +85,11 @@ struct ContinuationOptions {
 
 /// Changes that gather at the onset of a complete chatter, each with so many impacts more than the one before.
 struct Cascade {
-  std::size_t onset = 0;            ///< index of the CH among the branch's special points
+  std::size_t onset = 0;  ///< index of the CH among the branch's special points
   /// the special points on the way to it, between the first change and the last, both included
   std::size_t first = 0, last = 0;
-  long changes = 0;                 ///< of events, among these
-  long impacts = 0;                 ///< that each adds
+  long changes = 0;  ///< of events, among these
+  long impacts = 0;  ///< that each adds
 };
 /// At least three changes each, on either side of an onset.
 [[nodiscard]] std::vector<Cascade> cascades(const Branch& branch);
@@ -116,11 +116,11 @@ struct CurvePoint {
 /// One condition more that holds at a point of a curve: a point of codimension two.
 struct Meeting {
   enum class Kind : std::uint8_t {
-    multiplier,   ///< as at a special point of type LP, PD, NS
-    resonance,    ///< 1:1 to 1:4: `order`
-    end_of_torus, ///< the resonance at which an NS curve ends: both multipliers are 1 (`order` 1) or -1 (2)
-    margin,       ///< another margin is used up: the events change
-    turn          ///< the curve turns back in parameter `parameter`
+    multiplier,    ///< as at a special point of type LP, PD, NS
+    resonance,     ///< 1:1 to 1:4: `order`
+    end_of_torus,  ///< the resonance at which an NS curve ends: both multipliers are 1 (`order` 1) or -1 (2)
+    margin,        ///< another margin is used up: the events change
+    turn           ///< the curve turns back in parameter `parameter`
   };
   Kind kind = Kind::margin;
   SpecialType type = SpecialType::GR;  ///< kind multiplier, margin
@@ -150,8 +150,8 @@ struct CurveEnd {
   };
   Kind kind = Kind::range;
   bool failed = false;
-  std::vector<double> values = {};    ///< of the parameters there
-  std::optional<Meeting> near = {};   ///< kind no_step: what comes near zero and may be the cause
+  std::vector<double> values = {};   ///< of the parameters there
+  std::optional<Meeting> near = {};  ///< kind no_step: what comes near zero and may be the cause
   bool infinite_multiplier = false;  ///< .. or a multiplier that grows without bound
 };
 [[nodiscard]] std::string_view name(CurveEnd::Kind kind);

@@ -26,7 +26,8 @@ class Observer {
   /// @param numbers  of `quantities`
   /// @return valid until the next call
   /// @throws InputError unless there are as many numbers as quantities
-  [[nodiscard]] const std::vector<double>& read(double time, const State& state, const std::vector<double>& numbers = {});
+  [[nodiscard]] const std::vector<double>& read(double time, const State& state,
+                                                const std::vector<double>& numbers = {});
 
  private:
   friend class ModelDefinition;

@@ -54,7 +54,18 @@ struct Quantity {
 
 /// What the quantities of a kind of part are called: the one table that names, lists and documents come from.
 struct QuantityRule {
-  enum class Of { coordinate, stop, friction, compliant_stop, characteristic, spring, damper, model, impacts, impacts_of_one };
+  enum class Of {
+    coordinate,
+    stop,
+    friction,
+    compliant_stop,
+    characteristic,
+    spring,
+    damper,
+    model,
+    impacts,
+    impacts_of_one
+  };
   Of of = Of::model;
   Quantity::Kind kind = Quantity::Kind::parameter;
   /// With NAME for the part's name; velocity and acceleration of a coordinate x1 are v1 and a1.

@@ -56,7 +56,7 @@ struct Itinerary {
 /// A periodic orbit, or an approximation to one. A *contact state* is the first n of p and of u (flow/tangent.hpp).
 struct Orbit {
   Itinerary shape;
-  std::vector<double> values;      ///< of the family's parameters
+  std::vector<double> values;  ///< of the family's parameters
   /// Contact state at the start of each leg; `at_phase_zero` and `events` (orbit/periodic_orbit.hpp) give states in the
   /// user's coordinates.
   std::vector<Eigen::VectorXd> x;

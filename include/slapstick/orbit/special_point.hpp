@@ -51,10 +51,10 @@ struct UsedMargin {
     no_stick
   };
   Kind kind = Kind::least;
-  std::size_t leg = 0;                            ///< of `SpecialPoint::solution.orbit`
+  std::size_t leg = 0;                           ///< of `SpecialPoint::solution.orbit`
   mode::GuardKind guard = mode::GuardKind::gap;  ///< kind least, speed: whose value; duration: what ends the leg
-  int contact = 0;                                ///< of the guard, among contacts of its kind
-  bool at_start = false;                          ///< kind least: the least value lies at the leg's start
+  int contact = 0;                               ///< of the guard, among contacts of its kind
+  bool at_start = false;                         ///< kind least: the least value lies at the leg's start
 };
 [[nodiscard]] std::string_view name(UsedMargin::Kind kind);
 
@@ -92,9 +92,9 @@ enum class Passage : std::uint8_t {
 /// Where the motion goes in a jump.
 struct Jump {
   enum class Kind : std::uint8_t {
-    settles,   ///< on the orbit of class `label`
-    wanders,   ///< on no periodic orbit within `cycles` cycles
-    departs    ///< of an unstable orbit: motions to either side differ within a cycle, however near they are
+    settles,  ///< on the orbit of class `label`
+    wanders,  ///< on no periodic orbit within `cycles` cycles
+    departs   ///< of an unstable orbit: motions to either side differ within a cycle, however near they are
   };
   Kind kind = Kind::departs;
   std::string label;  ///< "1-2-I"
@@ -105,8 +105,8 @@ struct Jump {
 /// The first coefficient beyond the linear terms: LP a, PD c, NS l1 (docs/explanation/continuation.md).
 struct NormalForm {
   enum class Verdict : std::uint8_t {
-    none,            ///< not asked for
-    fold,            ///< LP: the coefficient has no sign
+    none,  ///< not asked for
+    fold,  ///< LP: the coefficient has no sign
     supercritical,
     subcritical,
     not_simple,      ///< no coefficient: the critical multiplier is not that of a simple eigenvector
@@ -143,9 +143,9 @@ struct Death {
 
 struct SpecialPoint {
   SpecialType type = SpecialType::LP;
-  double value = 0.0;   ///< of the parameter
-  double error = 0.0;   ///< of it: the last change of the refinement, or what rounding leaves
-  Solution solution;    ///< the orbit there; where legs die one beside it, with these legs
+  double value = 0.0;          ///< of the parameter
+  double error = 0.0;          ///< of it: the last change of the refinement, or what rounding leaves
+  Solution solution;           ///< the orbit there; where legs die one beside it, with these legs
   std::optional<Death> death;  ///< where legs shrink to nothing, as far as that is what makes its equations singular
 
   Occurrence occurrence = Occurrence::fold;

@@ -87,7 +87,8 @@ void check_statistic_of_stretch(const Quantity& quantity, const std::string& nam
 /// The cycle of an orbit, by its legs: also of one that is unstable, or no motion. Times count from phase 0 (without
 /// forcing from event 0).
 /// @throws NumericalError if a leg is too long for the rates of its mode
-[[nodiscard]] Measured measure(const orbit::Problem& problem, const orbit::Orbit& orbit, const std::vector<Quantity>& of);
+[[nodiscard]] Measured measure(const orbit::Problem& problem, const orbit::Orbit& orbit,
+                               const std::vector<Quantity>& of);
 
 /// The derivatives of `measure` of the cycle by each parameter of the problem's family, the others as they are: every
 /// number is that number's derivative, of `values` in the same order; counts are 0. Exact but for rounding, by the

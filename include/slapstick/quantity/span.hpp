@@ -59,7 +59,8 @@ struct Span {
                                             const System& system, const State& start, const SpanWish& wish);
 
 /// Of the cycle or of the motion. @throws as the measures of these
-[[nodiscard]] Measured measure(const Span& span, const std::vector<Quantity>& of, const std::atomic<bool>* stop = nullptr,
+[[nodiscard]] Measured measure(const Span& span, const std::vector<Quantity>& of,
+                               const std::atomic<bool>* stop = nullptr,
                                const std::function<void(double periods)>& progress = {});
 
 /// measure_rates of a cycle of a model by parameters or groups, at their present values.

@@ -44,9 +44,9 @@ struct LineSpectrum {
                                     double highest_order);
 
 struct DensityOptions {
-  double stretch = 64.0;         ///< length of a stretch, forcing periods
-  int stretches = 63;            ///< with half of each in the next one
-  double highest_order = 20.0;   ///< multiples of the forcing; without forcing cycles per unit of time
+  double stretch = 64.0;        ///< length of a stretch, forcing periods
+  int stretches = 63;           ///< with half of each in the next one
+  double highest_order = 20.0;  ///< multiples of the forcing; without forcing cycles per unit of time
   const std::atomic<bool>* stop = nullptr;
   std::function<void(double periods)> progress = {};  ///< called now and then with the motion's time
 };
@@ -55,7 +55,7 @@ struct DensityOptions {
 struct DensitySpectrum {
   std::vector<double> order, frequency, density;  ///< density in unit^2 per unit of frequency
   int stretches = 0;
-  double resolution = 0.0;                        ///< noise bandwidth of the window: 1.5 / stretch, as a frequency
+  double resolution = 0.0;  ///< noise bandwidth of the window: 1.5 / stretch, as a frequency
   double degrees_of_freedom = 0.0;
   double low = 0.0, high = 0.0;  ///< the density is between low and high times the one given, with 95 % confidence
   bool complete = true;
@@ -70,7 +70,7 @@ struct Band {
   double centre = 0.0, from = 0.0, to = 0.0;  ///< Hz
   double mean_square = 0.0;
   double weighted = 0.0;  ///< the same with each line, or frequency, weighted by A
-  bool whole = true;  ///< the spectrum has all of the band: not so of one that the highest or lowest frequency cuts
+  bool whole = true;      ///< the spectrum has all of the band: not so of one that the highest or lowest frequency cuts
 };
 
 /// Mean squares in the bands of what the spectrum has, be it one line. Frequencies are per `unit_of_time` seconds.

@@ -13,9 +13,9 @@ class SampledMotion {
   enum class Item { event, sample, end };
 
   struct Sample {
-    Instant time;     ///< k / samples_per_period exactly
-    ModeId mode = 0;  ///< of the motion up to here; at the start the mode that starts, after impacts due there
-    State state;      ///< user's coordinates; just before an event that falls on this very instant
+    Instant time;         ///< k / samples_per_period exactly
+    ModeId mode = 0;      ///< of the motion up to here; at the start the mode that starts, after impacts due there
+    State state;          ///< user's coordinates; just before an event that falls on this very instant
     double within = 0.0;  ///< time since the start of the motion's last segment, as Motion::sample takes it
   };
 

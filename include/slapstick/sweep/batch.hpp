@@ -45,12 +45,12 @@ struct BatchProblem {
 
 struct Batch {
   std::vector<BatchRun> runs;
-  std::string kernel;     ///< that of the lanes: "scalar", "sse4", "avx2", "avx512"
-  int lanes = 1;          ///< its width
-  long steps = 0;         ///< work: steps of all lanes together ..
-  long lane_steps = 0;    ///< .. of lanes that had a run ..
-  long halved = 0;        ///< .. and those of them that had to be made again with half the window
-  bool complete = true;   ///< false if cancelled
+  std::string kernel;    ///< that of the lanes: "scalar", "sse4", "avx2", "avx512"
+  int lanes = 1;         ///< its width
+  long steps = 0;        ///< work: steps of all lanes together ..
+  long lane_steps = 0;   ///< .. of lanes that had a run ..
+  long halved = 0;       ///< .. and those of them that had to be made again with half the window
+  bool complete = true;  ///< false if cancelled
 };
 
 /// Runs the batch. A run that fails says why and ends no other.

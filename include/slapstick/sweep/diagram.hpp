@@ -42,8 +42,8 @@ struct DiagramProblem {
   /// Forcing periods (units of time for an unforced model) before recording, >= 0; nothing: 500, or of a model with a
   /// record what comes before that (quantity/span.hpp).
   std::optional<double> transient_periods = {};
-  int impacts = 200;            ///< recorded per value and direction, >= 1
-  int most_periods = 5000;      ///< a recording ends here if impacts are too rare, >= 1
+  int impacts = 200;        ///< recorded per value and direction, >= 1
+  int most_periods = 5000;  ///< a recording ends here if impacts are too rare, >= 1
   Direction direction = Direction::up;
   StartRule start = StartRule::carry;
   StopChoice stops = {};  ///< whose impacts are recorded (section/stop_choice.hpp); those of other stops end no flight
@@ -55,7 +55,7 @@ struct DiagramProblem {
   std::vector<Quantity> values_of = {};
   ReadAt read_at = ReadAt::impacts;
   EventChoice event = {};  ///< of ReadAt::events
-  int threads = 0;  ///< 0: all
+  int threads = 0;         ///< 0: all
   /// A point that need not be computed, because a run before has it, by its place in Diagram::points; or null. Called
   /// from several threads at once.
   std::function<const DiagramPoint*(std::size_t place)> known = {};

@@ -53,20 +53,20 @@ enum class MapStart { reset, carry, random };
 
 /// What one motion is at a pixel, or one of the attractors there.
 struct Finding {
-  std::int32_t pixel = 0;                ///< iy * x.count + ix
-  Direction direction = Direction::up;   ///< in which the start was carried; else up
+  std::int32_t pixel = 0;               ///< iy * x.count + ix
+  Direction direction = Direction::up;  ///< in which the start was carried; else up
   Attractor attractor = Attractor::undecided;
   Doubt doubt = Doubt::none;
   Chatter chatter = Chatter::none;
   bool sticking = false;
-  bool failed = false;        ///< the reason is in Map::failures; nothing else is meant
+  bool failed = false;  ///< the reason is in Map::failures; nothing else is meant
   /// Not computed: attractor, n, p, chatter, sticking and failed are what all computed pixels of the cell around have
   /// in common; the rest is not known, its numbers are NaN.
   bool filled = false;
-  std::int32_t n = 0, p = 0;  ///< as of Classification
-  std::int32_t starts = 1;    ///< of `random`: how many of them lead there
-  std::int32_t values = 0;    ///< place of its statistics among Map::values, in rows
-  double exponent = 0.0;      ///< as of Classification; NaN where `quick` knows none
+  std::int32_t n = 0, p = 0;             ///< as of Classification
+  std::int32_t starts = 1;               ///< of `random`: how many of them lead there
+  std::int32_t values = 0;               ///< place of its statistics among Map::values, in rows
+  double exponent = 0.0;                 ///< as of Classification; NaN where `quick` knows none
   std::complex<double> multiplier = {};  ///< of a cycle the largest; else NaN
 
   /// "1-1-II", "chaotic", ..; "failed". @param driven  false: "free-1-I"
@@ -75,11 +75,11 @@ struct Finding {
 
 /// All that is known of one pixel in one direction.
 struct Pixel {
-  std::int32_t number = 0;               ///< iy * x.count + ix
+  std::int32_t number = 0;  ///< iy * x.count + ix
   Direction direction = Direction::up;
-  std::vector<Finding> found;    ///< one; of `random` one for each attractor, the one with most starts first
-  std::vector<double> values;    ///< of each finding each of MapProblem::of; NaN where a measure fails
-  std::string failure;           ///< one line, what the NumericalError or InputError said; else empty
+  std::vector<Finding> found;  ///< one; of `random` one for each attractor, the one with most starts first
+  std::vector<double> values;  ///< of each finding each of MapProblem::of; NaN where a measure fails
+  std::string failure;         ///< one line, what the NumericalError or InputError said; else empty
   State carried;  ///< of `carry`: where the next pixel of the row begins; empty: at the problem's own start
 };
 
@@ -128,11 +128,11 @@ struct MapProblem {
 struct Map {
   GridAxis x, y;
   bool driven = true;
-  std::vector<Finding> findings;  ///< by direction (up first), pixel, and starts
-  std::size_t width = 0;          ///< statistics of each finding
-  std::vector<double> values;     ///< row by row
+  std::vector<Finding> findings;                                 ///< by direction (up first), pixel, and starts
+  std::size_t width = 0;                                         ///< statistics of each finding
+  std::vector<double> values;                                    ///< row by row
   std::map<std::pair<int, std::int32_t>, std::string> failures;  ///< by direction and pixel
-  bool complete = true;           ///< false if cancelled; a shard is complete by itself
+  bool complete = true;                                          ///< false if cancelled; a shard is complete by itself
   /// Of a refined map that is complete: for each pixel the place among `findings` of the computed one that stands for
   /// it. Else empty.
   std::vector<std::int32_t> stands_for;

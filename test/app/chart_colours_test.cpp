@@ -15,16 +15,11 @@ using Triple = std::array<double, 3>;
 using Matrix = std::array<Triple, 3>;
 
 /// Machado, Oliveira and Fernandes (2009): what is seen instead of linear RGB, severity 1; first normal vision.
-constexpr std::array<Matrix, 4> visions{{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
-                                         {{{0.152286, 1.052583, -0.204868},
-                                           {0.114503, 0.786281, 0.099216},
-                                           {-0.003882, -0.048116, 1.051998}}},
-                                         {{{0.367322, 0.860646, -0.227968},
-                                           {0.280085, 0.672501, 0.047413},
-                                           {-0.011820, 0.042940, 0.968881}}},
-                                         {{{1.255528, -0.076749, -0.178779},
-                                           {-0.078411, 0.930809, 0.147602},
-                                           {0.004733, 0.691367, 0.303900}}}}};
+constexpr std::array<Matrix, 4> visions{
+    {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+     {{{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}},
+     {{{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}}},
+     {{{1.255528, -0.076749, -0.178779}, {-0.078411, 0.930809, 0.147602}, {0.004733, 0.691367, 0.303900}}}}};
 
 Triple times(const Matrix& matrix, const Triple& v) {
   Triple out{};
@@ -41,7 +36,8 @@ double linear(std::uint8_t value) {
 /// CIELAB of linear RGB under D65.
 Triple lab(Triple rgb) {
   for (double& c : rgb) c = std::clamp(c, 0.0, 1.0);
-  constexpr Matrix to_xyz{{{0.4124564, 0.3575761, 0.1804375}, {0.2126729, 0.7151522, 0.0721750}, {0.0193339, 0.1191920, 0.9503041}}};
+  constexpr Matrix to_xyz{
+      {{0.4124564, 0.3575761, 0.1804375}, {0.2126729, 0.7151522, 0.0721750}, {0.0193339, 0.1191920, 0.9503041}}};
   const Triple xyz = times(to_xyz, rgb);
   const auto f = [](double t) { return t > 0.008856 ? std::cbrt(t) : 7.787 * t + 16.0 / 116.0; };
   const double x = f(xyz[0] / 0.95047), y = f(xyz[1]), z = f(xyz[2] / 1.08883);
@@ -60,7 +56,8 @@ TEST(ChartColours, AnyTwoCanBeToldApartWithEveryColourVision) {
   for (std::size_t v = 0; v < visions.size(); ++v)
     for (std::size_t i = 0; i < all.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
-        EXPECT_GT(apart(seen(all[i], visions[v]), seen(all[j], visions[v])), 19.0) << "vision " << v << ": " << j << ", " << i;
+        EXPECT_GT(apart(seen(all[i], visions[v]), seen(all[j], visions[v])), 19.0)
+            << "vision " << v << ": " << j << ", " << i;
 }
 
 TEST(ChartColours, ScaleGrowsLighterEvenlyWithEveryColourVision) {

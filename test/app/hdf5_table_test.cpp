@@ -50,7 +50,8 @@ class Opened {
   }
   /// Texts of an attribute of a dataset, or of the file, one after another with their padding.
   std::string text(const char* object, const char* name) const {
-    const hid_t attribute = H5Aopen_by_name(file_, object, name, H5P_DEFAULT, H5P_DEFAULT), type = H5Aget_type(attribute);
+    const hid_t attribute = H5Aopen_by_name(file_, object, name, H5P_DEFAULT, H5P_DEFAULT),
+                type = H5Aget_type(attribute);
     std::string read(H5Aget_storage_size(attribute), '?');
     EXPECT_GE(H5Aread(attribute, type, read.data()), 0);
     H5Tclose(type);

@@ -1,14 +1,14 @@
 #include "slapstick/attractor/classify.hpp"
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include <cmath>
 #include <ostream>
 
+#include "attractor/paper_system.hpp"
 #include "flow/compiled_system.hpp"
 #include "flow/engine.hpp"
-#include "attractor/paper_system.hpp"
 #include "slapstick/flow/tangent.hpp"
 
 namespace slapstick {

@@ -261,8 +261,10 @@ TEST(Rest, AContactThatClosesALoopHoldsItsPair) {
   model.springs = {{0, ground, 1.0}, {1, ground, 1.0}};
   model.dampers = {{0, ground, c}, {1, ground, c}};
   model.forces = {{0, 0, 1.0, 0.0}, {1, 0, -1.0, 0.0}};
-  const Stop first{"first", 0, ground, 1.5, 0.0}, second{"second", ground, 1, 1.5, 0.0}, between{"between", 0, 1, 0.0, 0.0};
-  for (const std::vector<Stop>& stops : {std::vector{first, second, between}, std::vector{between, first, second}, std::vector{first, between, second}}) {
+  const Stop first{"first", 0, ground, 1.5, 0.0}, second{"second", ground, 1, 1.5, 0.0},
+      between{"between", 0, 1, 0.0, 0.0};
+  for (const std::vector<Stop>& stops : {std::vector{first, second, between}, std::vector{between, first, second},
+                                         std::vector{first, between, second}}) {
     model.stops = stops;
     const Classification found = classify(System(model), {-0.2, 0.1, 0.3, 0.0});
     EXPECT_EQ(found.attractor, Attractor::equilibrium);

@@ -3,8 +3,8 @@
 #include <random>
 
 #include "attractor/jacobians.hpp"
-#include "flow/compiled_system.hpp"
 #include "attractor/paper_system.hpp"
+#include "flow/compiled_system.hpp"
 #include "property/machine.hpp"
 
 namespace slapstick {

@@ -91,7 +91,8 @@ TEST(Elementary, PowersAndAnglesOfTwoNumbers) {
   std::mt19937_64 random(12);
   Number value;
   for (int i = 0; i < 8000; ++i) {
-    const double x = std::abs(spread(random, -40, 40)), y = i % 2 == 0 ? uniform(random, -20, 20) : std::round(uniform(random, -20, 20));
+    const double x = std::abs(spread(random, -40, 40)),
+                 y = i % 2 == 0 ? uniform(random, -20, 20) : std::round(uniform(random, -20, 20));
     mpfr_pow(value.value, Number(x).value, Number(y).value, MPFR_RNDN);
     if (std::isnormal(value.rounded())) {
       EXPECT_LE(ulps(fixed::power(x, y), value), stated) << x << " " << y;
@@ -115,7 +116,8 @@ TEST(Elementary, ReductionKeepsItsDigitsAtTheWorstArgument) {
 
 TEST(Elementary, EndsOfTheDomainsAreThoseOfC) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN(), tiny = 0x1p-1074;
-  const double numbers[] = {0.0, -0.0, 1.0, -1.0, 2.0, -2.0, 3.0, -3.0, 0.5, -0.5, 1e3, -1e3, 1e300, -1e300, tiny, -tiny, infinite, -infinite, none};
+  const double numbers[] = {0.0, -0.0, 1.0,   -1.0,   2.0,  -2.0,  3.0,      -3.0,      0.5, -0.5,
+                            1e3, -1e3, 1e300, -1e300, tiny, -tiny, infinite, -infinite, none};
   const auto same = [](double a, double b) {
     return (std::isnan(a) && std::isnan(b)) || (a == b && std::signbit(a) == std::signbit(b)) ||
            std::abs(a - b) <= 0x1p-51 * std::abs(b);
@@ -123,10 +125,18 @@ TEST(Elementary, EndsOfTheDomainsAreThoseOfC) {
   for (const double x : numbers) {
     EXPECT_TRUE(same(fixed::exp(x), std::exp(x))) << x;
     EXPECT_TRUE(same(fixed::ln(x), std::log(x))) << x;
-    EXPECT_TRUE(same(fixed::sin(x), std::sin(x)) && same(fixed::cos(x), std::cos(x)) && same(fixed::tan(x), std::tan(x))) << x;
-    EXPECT_TRUE(same(fixed::asin(x), std::asin(x)) && same(fixed::acos(x), std::acos(x)) && same(fixed::atan(x), std::atan(x))) << x;
-    EXPECT_TRUE(same(fixed::sinh(x), std::sinh(x)) && same(fixed::cosh(x), std::cosh(x)) && same(fixed::tanh(x), std::tanh(x))) << x;
-    EXPECT_TRUE(same(fixed::asinh(x), std::asinh(x)) && same(fixed::acosh(x), std::acosh(x)) && same(fixed::atanh(x), std::atanh(x))) << x;
+    EXPECT_TRUE(same(fixed::sin(x), std::sin(x)) && same(fixed::cos(x), std::cos(x)) &&
+                same(fixed::tan(x), std::tan(x)))
+        << x;
+    EXPECT_TRUE(same(fixed::asin(x), std::asin(x)) && same(fixed::acos(x), std::acos(x)) &&
+                same(fixed::atan(x), std::atan(x)))
+        << x;
+    EXPECT_TRUE(same(fixed::sinh(x), std::sinh(x)) && same(fixed::cosh(x), std::cosh(x)) &&
+                same(fixed::tanh(x), std::tanh(x)))
+        << x;
+    EXPECT_TRUE(same(fixed::asinh(x), std::asinh(x)) && same(fixed::acosh(x), std::acosh(x)) &&
+                same(fixed::atanh(x), std::atanh(x)))
+        << x;
     for (const double y : numbers) {
       EXPECT_TRUE(same(fixed::power(x, y), std::pow(x, y))) << x << " " << y << " " << fixed::power(x, y);
       EXPECT_TRUE(same(fixed::atan2(x, y), std::atan2(x, y))) << x << " " << y << " " << fixed::atan2(x, y);
@@ -140,7 +150,9 @@ TEST(Phase, IsWithinTheStatedErrorAndTurnsExactly) {
   mpfr_const_pi(turn.value, MPFR_RNDN);
   mpfr_mul_2ui(turn.value, turn.value, 1, MPFR_RNDN);
   for (int i = 0; i < 60000; ++i) {
-    const double t = i % 3 == 0 ? uniform(random, 0.0, 1.0) : i % 3 == 1 ? uniform(random, 0.11, 0.14) : std::abs(spread(random, -60, -3));
+    const double t = i % 3 == 0   ? uniform(random, 0.0, 1.0)
+                     : i % 3 == 1 ? uniform(random, 0.11, 0.14)
+                                  : std::abs(spread(random, -60, -3));
     mpfr_mul_d(angle.value, turn.value, t, MPFR_RNDN);
     mpfr_sin_cos(sine.value, cosine.value, angle.value, MPFR_RNDN);
     const auto [c, s] = of_turns(t);

@@ -73,8 +73,9 @@ void expect_the_events_of_a_motion(const std::vector<Pixel>& all, int periods, s
     const std::vector<Event> expected = events_of(all[i].model, all[i].start, periods), &found = batch.runs[i].events;
     const std::size_t agreed = agreeing(expected, found, tolerance);
     if (agreed == expected.size() && agreed == found.size()) continue;
-    const bool stable = agreeing(expected, events_of(all[i].model, all[i].start, periods, 0.03), 1e-3 * tolerance) == expected.size() &&
-                        agreeing(expected, events_of(all[i].model, all[i].start, periods, 0.11), 1e-3 * tolerance) == expected.size();
+    const bool stable =
+        agreeing(expected, events_of(all[i].model, all[i].start, periods, 0.03), 1e-3 * tolerance) == expected.size() &&
+        agreeing(expected, events_of(all[i].model, all[i].start, periods, 0.11), 1e-3 * tolerance) == expected.size();
     EXPECT_FALSE(stable) << "run " << i << " of " << all[i].model.name << ", event " << agreed << ": "
                          << (agreed < expected.size() ? text_of(expected[agreed]) : "none") << " | "
                          << (agreed < found.size() ? text_of(found[agreed]) : "none");
@@ -131,7 +132,8 @@ TEST(Batch, LanesThatGainAndLoseSlotsLeaveTheirNeighboursAlone) {
   const auto between = [&](double a, double b) { return a + (b - a) * static_cast<double>(random() >> 11) * 0x1p-53; };
   std::vector<Pixel> all;
   for (int i = 0; i < 200; ++i) {
-    const Model model = bilinear.build({{"omega", between(0.3, 5.0)}, {"clearance", between(0.1, 1.5)}, {"contact_damping", between(0.1, 2.0)}});
+    const Model model = bilinear.build(
+        {{"omega", between(0.3, 5.0)}, {"clearance", between(0.1, 1.5)}, {"contact_damping", between(0.1, 2.0)}});
     all.push_back({model, {between(-1.0, 0.0), between(-1.0, 1.0)}});
   }
   BatchProblem problem = problem_of(all, {.periods = 3, .events = true});
@@ -151,7 +153,8 @@ TEST(Batch, LanesThatGainAndLoseSlotsLeaveTheirNeighboursAlone) {
 
 TEST(Batch, CutsChangeNothing) {
   const std::vector<Pixel> all = pixels(16, 0.6, 6.0);
-  const Batch whole = run_batch(problem_of(all, {.periods = 40})), cut = run_batch(problem_of(all, {.periods = 40, .points = 40})),
+  const Batch whole = run_batch(problem_of(all, {.periods = 40})),
+              cut = run_batch(problem_of(all, {.periods = 40, .points = 40})),
               late = run_batch(problem_of(all, {.transient_periods = 39, .periods = 1}));
   for (std::size_t i = 0; i < all.size(); ++i) {
     EXPECT_EQ(whole.runs[i].end, cut.runs[i].end);
@@ -170,9 +173,11 @@ TEST(Batch, PointsAreTheStatesOfAMotion) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     Motion motion(System(all[i].model), all[i].start);
     for (int k = 0; k < 4; ++k) {
-      while (motion.advance({7 + k, 0.0}) == Outcome::event) {}
+      while (motion.advance({7 + k, 0.0}) == Outcome::event) {
+      }
       const State state = motion.state();
-      for (std::size_t j = 0; j < 4; ++j) EXPECT_NEAR(batch.runs[i].points[4 * static_cast<std::size_t>(k) + j], state[j], 1e-10) << i;
+      for (std::size_t j = 0; j < 4; ++j)
+        EXPECT_NEAR(batch.runs[i].points[4 * static_cast<std::size_t>(k) + j], state[j], 1e-10) << i;
     }
     EXPECT_TRUE(std::equal(batch.runs[i].end.begin(), batch.runs[i].end.end(), batch.runs[i].points.end() - 4));
   }
@@ -182,7 +187,8 @@ TEST(Batch, PointsAreTheStatesOfAMotion) {
 TEST(Batch, ABallFallsByTheClosedForm) {
   const ModelDefinition definition = load_model("bouncing-ball");
   const Model model = definition.build();
-  const double g = -model.forces.at(0).amplitude / model.coordinates.at(0).mass, h = 0.7, r = model.stops.at(0).restitution;
+  const double g = -model.forces.at(0).amplitude / model.coordinates.at(0).mass, h = 0.7,
+               r = model.stops.at(0).restitution;
   const std::vector<Pixel> one = {{model, {h, 0.0}}};
   const Batch batch = run_batch(problem_of(one, {.periods = 4, .events = true}));
   ASSERT_TRUE(batch.runs[0].in_lanes);
@@ -201,7 +207,8 @@ TEST(Batch, ABallFallsByTheClosedForm) {
 TEST(Batch, AStartInContactIsAMotions) {
   const ModelDefinition definition = load_model("vibro-impact");
   const Model model = definition.build({{"omega", 2.2}});
-  const std::vector<Pixel> all = {{model, {0.0, 0.0, 0.0, 0.0}}, {model, {0.1, 0.3, 0.1, 0.0}}, {model, {-0.5, 0.0, 0.0, 0.0}}};
+  const std::vector<Pixel> all = {
+      {model, {0.0, 0.0, 0.0, 0.0}}, {model, {0.1, 0.3, 0.1, 0.0}}, {model, {-0.5, 0.0, 0.0, 0.0}}};
   expect_the_events_of_a_motion(all, 20, 0);
   const Batch batch = run_batch(problem_of(all, {.periods = 20}));
   EXPECT_GE(batch.runs[0].motion_events, 1);
@@ -218,13 +225,15 @@ TEST(Batch, ABodyThatIsLetGoPassesThroughNoOther) {
   model.springs = {{1, ground, 1.0}};
   model.forces = {{0, 0, -0.75}, {1, 1, 2.0}};
   model.stops = {{"stop", 1, 0, 0.0, 0.5}};
-  model.frictions = {{"within", 1, 0, 0.0, 0.15, 0.15}, {"first", 1, ground, 0.0, 0.75, 0.7}, {"second", 1, ground, 0.0, 0.3, 0.3}};
+  model.frictions = {
+      {"within", 1, 0, 0.0, 0.15, 0.15}, {"first", 1, ground, 0.0, 0.75, 0.7}, {"second", 1, ground, 0.0, 0.3, 0.3}};
   model.omega = 0.5;
   const std::vector<Pixel> one = {{model, {0.0, 0.0, 0.0, 0.0}}};
   expect_the_events_of_a_motion(one, 10, 0);
   const Batch batch = run_batch(problem_of(one, {.periods = 10, .events = true}));
   ASSERT_TRUE(batch.runs[0].in_lanes);
-  for (const Event& event : batch.runs[0].events) EXPECT_FALSE(event.kind == EventKind::release && event.contact < 2) << text_of(event);
+  for (const Event& event : batch.runs[0].events)
+    EXPECT_FALSE(event.kind == EventKind::release && event.contact < 2) << text_of(event);
 }
 
 /// A tie is a motion's to decide, and both stops have their rows.
@@ -256,7 +265,8 @@ TEST(Batch, AModelThatNoLaneCanRunHasTheBitsOfAMotion) {
 
 TEST(Batch, ModelsOfSeveralShapesShareABatch) {
   std::vector<Pixel> all;
-  for (const std::string name : {"vibro-impact", "bouncing-ball", "two-sided-rattle", "coulomb-oscillator", "vibro-impact", "bouncing-ball"}) {
+  for (const std::string name :
+       {"vibro-impact", "bouncing-ball", "two-sided-rattle", "coulomb-oscillator", "vibro-impact", "bouncing-ball"}) {
     const ModelDefinition definition = load_model(name);
     all.push_back({definition.build(), definition.start()});
   }

@@ -3,8 +3,8 @@
 
 #include <cmath>
 #include <cstring>
-#include <numbers>
 #include <iostream>
+#include <numbers>
 #include <random>
 
 #include "batch/same_events.hpp"
@@ -30,7 +30,9 @@ std::vector<BatchRun> run(const Runs& all, const BatchPlan& plan, int lanes = 0,
   return run_batch(problem).runs;
 }
 
-BatchRun run_one(const Model& model, const State& start, const BatchPlan& plan) { return run({{model, start}}, plan).front(); }
+BatchRun run_one(const Model& model, const State& start, const BatchPlan& plan) {
+  return run({{model, start}}, plan).front();
+}
 
 Runs paper(std::size_t count, double least_omega, double most_omega) {
   static const ModelDefinition definition = load_model("vibro-impact");
@@ -54,7 +56,8 @@ double exponent_of_tangents(const test::Machine& machine, int transient, int per
   for (int k = 0; k < transient + periods; ++k) {
     if (k == transient) growth = 0.0;
     const double before = motion.tangents().norm();
-    while (motion.advance({k + 1, 0.0}) == Outcome::event) {}
+    while (motion.advance({k + 1, 0.0}) == Outcome::event) {
+    }
     const double after = motion.tangents().norm();
     growth += std::log(after / before);
     if (after > 0.0) motion.set_tangents(motion.tangents() / after);
@@ -67,25 +70,27 @@ double exponent_of_tangents(const test::Machine& machine, int transient, int per
 TEST(BatchExponent, IsThatOfALinearOscillator) {
   const ModelDefinition definition = load_model("impact-oscillator");
   for (const double omega : {0.7, 2.0, 9.0}) {
-    const BatchRun found = run_one(definition.build({{"damping_ratio", 2.0}, {"omega", omega}, {"clearance", 50.0}}), {0.1, 0.0},
-                                   {.transient_periods = 30, .periods = 40, .exponent = true});
+    const BatchRun found = run_one(definition.build({{"damping_ratio", 2.0}, {"omega", omega}, {"clearance", 50.0}}),
+                                   {0.1, 0.0}, {.transient_periods = 30, .periods = 40, .exponent = true});
     ASSERT_TRUE(found.in_lanes);
     const double T = 2.0 * pi / omega;
     EXPECT_NEAR(found.exponent, (std::sqrt(3.0) - 2.0) * T, 1e-13 * T);
   }
   const double D = 0.1, omega = 2.0 * std::sqrt(1.0 - D * D);
-  const BatchRun found = run_one(definition.build({{"damping_ratio", D}, {"omega", omega}, {"clearance", 50.0}}), {0.1, 0.0},
-                                 {.periods = 100, .exponent = true});
+  const BatchRun found = run_one(definition.build({{"damping_ratio", D}, {"omega", omega}, {"clearance", 50.0}}),
+                                 {0.1, 0.0}, {.periods = 100, .exponent = true});
   EXPECT_NEAR(found.exponent, -D * 2.0 * pi / omega, 1e-13);
 }
 
 /// One bounce a period on a shaken table: the multipliers are the roots of mu^2 - s mu + r^2 with s = 1 + r^2 - (1 + r)^2 a sin(phi), where
 /// the table is at phase phi at the impact, cos(phi) = pi (1 - r) / (a (1 + r)).
 TEST(BatchExponent, IsTheLogarithmOfTheLargestMultiplierOfABouncingCycle) {
-  const double a = 1.49, r = 0.5, phi = std::acos(pi * (1.0 - r) / (a * (1.0 + r))), s = 1.0 + r * r - (1.0 + r) * (1.0 + r) * a * std::sin(phi);
+  const double a = 1.49, r = 0.5, phi = std::acos(pi * (1.0 - r) / (a * (1.0 + r))),
+               s = 1.0 + r * r - (1.0 + r) * (1.0 + r) * a * std::sin(phi);
   const double largest = 0.5 * (std::abs(s) + std::sqrt(s * s - 4.0 * r * r));
   const double later = 1.0, V = pi;  // the start is `later` after an impact, that leaves at g T / 2
-  const State start = {a * std::sin(phi) + V * later - 0.5 * later * later - a * std::sin(phi + later), V - later - a * std::cos(phi + later)};
+  const State start = {a * std::sin(phi) + V * later - 0.5 * later * later - a * std::sin(phi + later),
+                       V - later - a * std::cos(phi + later)};
   const Model model = load_model("shaken-table").build({{"acceleration", a}, {"phase", phi + later}});
   const BatchRun found = run_one(model, start, {.transient_periods = 200, .periods = 300, .exponent = true});
   ASSERT_TRUE(found.in_lanes);
@@ -102,7 +107,8 @@ TEST(BatchExponent, IsMinusInfinityWhereEveryDirectionIsLost) {
 }
 
 /// Stable motions forget their errors; a chaotic one parts from the Motion's, and its exponent with it.
-void expect_the_exponents_of_tangents(const Runs& all, int transient, int periods, double bound, std::size_t least_compared) {
+void expect_the_exponents_of_tangents(const Runs& all, int transient, int periods, double bound,
+                                      std::size_t least_compared) {
   const std::vector<BatchRun> found = run(all, {.transient_periods = transient, .periods = periods, .exponent = true});
   std::size_t compared = 0;
   double worst = 0.0;
@@ -121,16 +127,21 @@ void expect_the_exponents_of_tangents(const Runs& all, int transient, int period
       continue;
     }
     worst = std::max(worst, std::abs(found[i].exponent - expected));
-    EXPECT_NEAR(found[i].exponent, expected, bound) << "run " << i << " of " << all[i].model.name << ", seed " << all[i].seed;
+    EXPECT_NEAR(found[i].exponent, expected, bound)
+        << "run " << i << " of " << all[i].model.name << ", seed " << all[i].seed;
   }
   testing::Test::RecordProperty("worst", std::to_string(worst));
   std::cout << compared << " compared, worst " << worst << "\n";
   EXPECT_GE(compared, least_compared);
 }
 
-TEST(BatchExponent, IsThatOfAMotionsTangents) { expect_the_exponents_of_tangents(paper(60, 1.0, 6.0), 150, 50, 1e-9, 20); }
+TEST(BatchExponent, IsThatOfAMotionsTangents) {
+  expect_the_exponents_of_tangents(paper(60, 1.0, 6.0), 150, 50, 1e-9, 20);
+}
 
-TEST(BatchExponent, IsThatOfAMotionsTangentsThroughChatter) { expect_the_exponents_of_tangents(paper(16, 0.4, 1.0), 20, 10, 1e-9, 5); }
+TEST(BatchExponent, IsThatOfAMotionsTangentsThroughChatter) {
+  expect_the_exponents_of_tangents(paper(16, 0.4, 1.0), 20, 10, 1e-9, 5);
+}
 
 /// No start sticks: of such a start a lane leaves out what is held, a TangentMotion keeps the momentum.
 TEST(BatchExponent, IsThatOfAMotionsTangentsForRandomMachines) {
@@ -159,7 +170,8 @@ TEST(BatchExponent, HasTheSameBitsForEveryWidthOrderAndNumberOfThreads) {
       const std::vector<BatchRun> found = run(reversed, plan, lanes, threads);
       for (std::size_t i = 0; i < all.size(); ++i) {
         const BatchRun &one = found[all.size() - 1 - i], &other = reference[i];
-        ASSERT_TRUE(same(one.exponent, other.exponent)) << lanes << " lanes, run " << i << ": " << one.exponent << ", " << other.exponent;
+        ASSERT_TRUE(same(one.exponent, other.exponent))
+            << lanes << " lanes, run " << i << ": " << one.exponent << ", " << other.exponent;
         ASSERT_EQ(one.end, other.end);
       }
     }
@@ -167,7 +179,8 @@ TEST(BatchExponent, HasTheSameBitsForEveryWidthOrderAndNumberOfThreads) {
 
 TEST(BatchExponent, IsAskedForWithoutChangingTheMotion) {
   const Runs all = paper(40, 0.5, 6.0);
-  const std::vector<BatchRun> plain = run(all, {.transient_periods = 5, .periods = 25}), asked = run(all, {.transient_periods = 5, .periods = 25, .exponent = true});
+  const std::vector<BatchRun> plain = run(all, {.transient_periods = 5, .periods = 25}),
+                              asked = run(all, {.transient_periods = 5, .periods = 25, .exponent = true});
   for (std::size_t i = 0; i < all.size(); ++i) {
     EXPECT_EQ(plain[i].end, asked[i].end);
     EXPECT_TRUE(same(plain[i].speeds, asked[i].speeds));

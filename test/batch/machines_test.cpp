@@ -35,9 +35,11 @@ void compare(const test::Machine& machine, const BatchRun& run, int periods, Cou
   if (agreed == expected.size() && agreed == run.events.size()) return;
   ++count.unstable;
   if (!events_at(machine, periods, 0.03, narrow) || !events_at(machine, periods, 0.11, narrower)) return;
-  const bool stable = agreeing(expected, narrow, 1e-3 * tolerance) == expected.size() && agreeing(expected, narrower, 1e-3 * tolerance) == expected.size();
-  EXPECT_FALSE(stable) << "event " << agreed << ": " << (agreed < expected.size() ? text_of(expected[agreed]) : "none") << " | "
-                       << (agreed < run.events.size() ? text_of(run.events[agreed]) : "none") << " " << run.failure << "\n"
+  const bool stable = agreeing(expected, narrow, 1e-3 * tolerance) == expected.size() &&
+                      agreeing(expected, narrower, 1e-3 * tolerance) == expected.size();
+  EXPECT_FALSE(stable) << "event " << agreed << ": " << (agreed < expected.size() ? text_of(expected[agreed]) : "none")
+                       << " | " << (agreed < run.events.size() ? text_of(run.events[agreed]) : "none") << " "
+                       << run.failure << "\n"
                        << machine;
 }
 
@@ -62,8 +64,8 @@ TEST(BatchMachines, HaveTheEventsOfAMotion) {
     compare(machines[i], run, periods, count);
   }
   RecordProperty("in_lanes", static_cast<int>(count.in_lanes));
-  std::cout << count.in_lanes << " in lanes, " << count.compared << " compared, " << count.unstable << " not stable, " << count.motion_events
-            << " events by motions, " << count.lane_events << " in lanes\n";
+  std::cout << count.in_lanes << " in lanes, " << count.compared << " compared, " << count.unstable << " not stable, "
+            << count.motion_events << " events by motions, " << count.lane_events << " in lanes\n";
   EXPECT_GE(count.in_lanes, machines.size() / 4);
   EXPECT_EQ(count.compared, count.in_lanes);
   EXPECT_LE(count.unstable, count.compared / 10);

@@ -21,13 +21,16 @@ inline std::vector<Event> events_of(const Model& model, const State& start, int 
 /// How many events agree in kind, contact and time, to `tolerance` periods, before the first that does not.
 inline std::size_t agreeing(const std::vector<Event>& a, const std::vector<Event>& b, double tolerance) {
   std::size_t i = 0;
-  while (i < a.size() && i < b.size() && a[i].kind == b[i].kind && a[i].contact == b[i].contact && std::abs(a[i].time.since(b[i].time)) <= tolerance) ++i;
+  while (i < a.size() && i < b.size() && a[i].kind == b[i].kind && a[i].contact == b[i].contact &&
+         std::abs(a[i].time.since(b[i].time)) <= tolerance)
+    ++i;
   return i;
 }
 
 inline std::string text_of(const Event& event) {
-  return std::string(name(event.kind)) + " of " + std::to_string(event.contact) + " at " + std::to_string(event.time.period) + " + " +
-         std::to_string(event.time.fraction) + " w " + std::to_string(event.w);
+  return std::string(name(event.kind)) + " of " + std::to_string(event.contact) + " at " +
+         std::to_string(event.time.period) + " + " + std::to_string(event.time.fraction) + " w " +
+         std::to_string(event.w);
 }
 
 }  // namespace slapstick

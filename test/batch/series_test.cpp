@@ -22,7 +22,8 @@ TEST(BatchSeries, SinesOfHarmonicsAreWithinTheirBound) {
       const long double turns = static_cast<long double>(t) * j, angle = (turns - std::round(turns)) * two_pi;
       double sine = 0.0, cosine = 0.0;
       sine_cosine(t, static_cast<double>(j), sine, cosine);
-      worst = std::max({worst, static_cast<double>(std::abs(sine - std::sin(angle))), static_cast<double>(std::abs(cosine - std::cos(angle)))});
+      worst = std::max({worst, static_cast<double>(std::abs(sine - std::sin(angle))),
+                        static_cast<double>(std::abs(cosine - std::cos(angle)))});
     }
   RecordProperty("worst_in_units", std::to_string(worst * 0x1p53));
   EXPECT_LE(worst, 4.0 * 0x1p-53);

@@ -30,13 +30,14 @@ void add(Hash& hash, const BatchRun& run) {
 }
 
 /// Runs a model at `count` values of a parameter, with exponents or without.
-std::string line(const std::string& model, const std::string& parameter, double from, double to, std::size_t count, int periods, sweep::Batch& batch,
-                 bool exponent = false) {
+std::string line(const std::string& model, const std::string& parameter, double from, double to, std::size_t count,
+                 int periods, sweep::Batch& batch, bool exponent = false) {
   const ModelDefinition definition = load_model(model);
   sweep::BatchProblem problem;
   problem.count = count;
   problem.model_at = [&](std::size_t i) {
-    return definition.build({{parameter, from + (to - from) * static_cast<double>(i) / static_cast<double>(count - 1)}});
+    return definition.build(
+        {{parameter, from + (to - from) * static_cast<double>(i) / static_cast<double>(count - 1)}});
   };
   problem.start_at = [&](std::size_t) { return definition.start(); };
   problem.plan = {.periods = periods, .events = true, .exponent = exponent};
@@ -50,16 +51,19 @@ std::string line(const std::string& model, const std::string& parameter, double 
     lanes += run.lane_events;
     motions += run.motion_events;
   }
-  if (lanes < 10 * static_cast<long>(count)) throw NumericalError("hardly an event of " + model + " was decided in a lane");
+  if (lanes < 10 * static_cast<long>(count))
+    throw NumericalError("hardly an event of " + model + " was decided in a lane");
   char text[160];
-  std::snprintf(text, sizeof text, "%s %s=%g..%g periods %d%s lane events %ld motion events %ld bits %016llx", model.c_str(), parameter.c_str(), from, to,
-                periods, exponent ? " exponents" : "", lanes, motions, static_cast<unsigned long long>(hash.value()));
+  std::snprintf(text, sizeof text, "%s %s=%g..%g periods %d%s lane events %ld motion events %ld bits %016llx",
+                model.c_str(), parameter.c_str(), from, to, periods, exponent ? " exponents" : "", lanes, motions,
+                static_cast<unsigned long long>(hash.value()));
   return text;
 }
 
 int run(int arguments, char** values) {
   sweep::Batch batch;
-  const std::vector<std::string> lines = {line("vibro-impact", "omega", 1.0, 6.0, 60, 100, batch), line("vibro-impact", "omega", 0.5, 1.0, 20, 30, batch),
+  const std::vector<std::string> lines = {line("vibro-impact", "omega", 1.0, 6.0, 60, 100, batch),
+                                          line("vibro-impact", "omega", 0.5, 1.0, 20, 30, batch),
                                           line("stick-slip-impact", "omega", 0.8, 3.0, 20, 60, batch),
                                           line("two-blocks-on-belt", "belt_speed", 0.2, 1.0, 10, 60, batch),
                                           line("vibro-impact", "omega", 0.5, 6.0, 60, 60, batch, true)};

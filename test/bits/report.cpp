@@ -47,7 +47,8 @@ std::string chain() {
 }
 
 Summary summary_of(const Run& run) {
-  const ModelDefinition definition = run.model == "chain" ? ModelDefinition::parse(chain(), "chain") : load_model(run.model);
+  const ModelDefinition definition =
+      run.model == "chain" ? ModelDefinition::parse(chain(), "chain") : load_model(run.model);
   const System system(definition.build(run.set));
   Motion motion(system, definition.start(run.set));
   Summary summary;
@@ -91,8 +92,8 @@ std::string line(const Run& run, const Summary& summary) {
     std::snprintf(numbers, sizeof numbers, " %s=%g", name.c_str(), value);
     text += numbers;
   }
-  std::snprintf(numbers, sizeof numbers, " periods %d events %ld chatters %ld bits %016llx", run.periods, summary.events, summary.chatters,
-                static_cast<unsigned long long>(summary.hash));
+  std::snprintf(numbers, sizeof numbers, " periods %d events %ld chatters %ld bits %016llx", run.periods,
+                summary.events, summary.chatters, static_cast<unsigned long long>(summary.hash));
   return text + numbers;
 }
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/floating_point.hpp"
 #include "catalogue/run.hpp"
 #include "slapstick/base/error.hpp"
-#include "base/floating_point.hpp"
 #include "slapstick/sweep/parallel.hpp"
 #if defined(__SSE2__)
 #include <immintrin.h>

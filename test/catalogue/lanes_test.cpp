@@ -31,7 +31,8 @@ constexpr double most_windows = 1e7;
 std::vector<Event> events_up_to(const Setup& setup, int periods, double cap, long most) {
   Motion motion(System(setup.system.model(), {cap}), setup.start);
   std::vector<Event> events;
-  while (static_cast<long>(events.size()) < most && motion.advance({periods, 0.0}) == Outcome::event) events.push_back(motion.event());
+  while (static_cast<long>(events.size()) < most && motion.advance({periods, 0.0}) == Outcome::event)
+    events.push_back(motion.event());
   return events;
 }
 
@@ -39,7 +40,8 @@ std::vector<Event> events_up_to(const Setup& setup, int periods, double cap, lon
 int periods_of(const Entry& entry, const Setup& setup) {
   if (!entry.contains("run") || entry.contains("fails")) return 0;
   const auto length = [&](const Entry& duration) {
-    return duration.is_object() ? number(duration.at("periods"), setup.values) : number(duration, setup.values) / setup.system.period();
+    return duration.is_object() ? number(duration.at("periods"), setup.values)
+                                : number(duration, setup.values) / setup.system.period();
   };
   const double all = length(entry["run"]) + (entry.contains("settle") ? length(entry["settle"]) : 0.0);
   return static_cast<int>(std::ceil(std::min(all, static_cast<double>(most_periods))));
@@ -67,15 +69,19 @@ std::vector<Event> beside_grazes(std::vector<Event> events, const std::vector<Ev
     return std::any_of(grazes.begin(), grazes.end(), [&](Instant graze) { return together(event.time, graze); });
   });
   for (auto first = events.begin(); first != events.end();) {
-    const auto last = std::find_if(first, events.end(), [&](const Event& event) { return !together(event.time, first->time); });
-    std::sort(first, last, [](const Event& a, const Event& b) { return std::tuple(a.kind, a.contact) < std::tuple(b.kind, b.contact); });
+    const auto last =
+        std::find_if(first, events.end(), [&](const Event& event) { return !together(event.time, first->time); });
+    std::sort(first, last, [](const Event& a, const Event& b) {
+      return std::tuple(a.kind, a.contact) < std::tuple(b.kind, b.contact);
+    });
     first = last;
   }
   return events;
 }
 
 /// Where the motion does not depend on its own windows, the lane has its events. @returns whether it does
-bool compare(const Member& member, const Setup& setup, int periods, const BatchRun& run, const std::vector<Event>& all) {
+bool compare(const Member& member, const Setup& setup, int periods, const BatchRun& run,
+             const std::vector<Event>& all) {
   const auto most = static_cast<long>(all.size());
   const bool whole = most < most_of(member);
   const std::vector<Event> expected = beside_grazes(all, run.events), told = beside_grazes(run.events, all);
@@ -85,9 +91,11 @@ bool compare(const Member& member, const Setup& setup, int periods, const BatchR
   bool stable = true;
   for (const double cap : {0.03, 0.11}) {
     const std::vector<Event> other = beside_grazes(events_up_to(setup, periods, cap, most), run.events);
-    stable = stable && other.size() == expected.size() && agreeing(expected, other, 1e-3 * tolerance) == expected.size();
+    stable =
+        stable && other.size() == expected.size() && agreeing(expected, other, 1e-3 * tolerance) == expected.size();
   }
-  EXPECT_FALSE(stable) << member.name << ", event " << agreed << ": " << (agreed < expected.size() ? text_of(expected[agreed]) : "none") << " | "
+  EXPECT_FALSE(stable) << member.name << ", event " << agreed << ": "
+                       << (agreed < expected.size() ? text_of(expected[agreed]) : "none") << " | "
                        << (agreed < found.size() ? text_of(found[agreed]) : "none") << " " << run.failure;
   return false;
 }
@@ -100,7 +108,8 @@ void examine(const Member& member, Tally& tally) {
   if (setup.system.windows_per_period() > most_windows) return void(++tally.too_stiff);
   if (setup.begin != Instant{}) return void(++tally.begins_later);
   const std::vector<Event> expected = events_up_to(setup, periods, INFINITY, most_of(member));
-  if (static_cast<long>(expected.size()) == most_of(member)) periods = static_cast<int>(expected.back().time.period) + 1;
+  if (static_cast<long>(expected.size()) == most_of(member))
+    periods = static_cast<int>(expected.back().time.period) + 1;
   sweep::BatchProblem problem;
   problem.count = 1;
   problem.model_at = [&](std::size_t) { return setup.system.model(); };
@@ -125,9 +134,11 @@ TEST(CatalogueInLanes, has_the_events_of_its_motions) {
       ADD_FAILURE() << error.what();
     }
   }
-  std::cout << tally.in_lanes << " of " << all_members().size() << " members in lanes (" << tally.lane_events << " events by lanes, "
-            << tally.motion_events << " by motions), " << tally.unstable << " not stable; " << tally.no_run << " run nothing, " << tally.begins_later
-            << " begin later than phase 0, " << tally.too_stiff << " are too stiff for a period, " << tally.of_other_models << " have models of no lane\n";
+  std::cout << tally.in_lanes << " of " << all_members().size() << " members in lanes (" << tally.lane_events
+            << " events by lanes, " << tally.motion_events << " by motions), " << tally.unstable << " not stable; "
+            << tally.no_run << " run nothing, " << tally.begins_later << " begin later than phase 0, "
+            << tally.too_stiff << " are too stiff for a period, " << tally.of_other_models
+            << " have models of no lane\n";
   EXPECT_GE(3 * tally.in_lanes, static_cast<int>(all_members().size()));
   EXPECT_LE(20 * tally.unstable, tally.in_lanes);
 }

@@ -6,9 +6,9 @@
 
 #include "flow/compiled_system.hpp"
 #include "flow/engine.hpp"
-#include "mode/mode.hpp"
-#include "mode/exact_flow.hpp"
 #include "flow/mode_graph.hpp"
+#include "mode/exact_flow.hpp"
+#include "mode/mode.hpp"
 
 namespace slapstick::catalogue {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <unistd.h>
+#include <cmath>
 
 #include <filesystem>
 
@@ -21,7 +21,8 @@ class InAFolder : public ::testing::Test {
   [[nodiscard]] std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
  private:
-  std::filesystem::path folder_ = std::filesystem::temp_directory_path() / ("slapstick_chart_" + std::to_string(::getpid()));
+  std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("slapstick_chart_" + std::to_string(::getpid()));
 };
 using ChartStore = InAFolder;
 
@@ -55,8 +56,9 @@ TEST_F(ChartStore, HoldsWhatTheMapIsAndGoesOnWhereItWasLeft) {
 TEST_F(ChartStore, RefusesAnotherChart) {
   static_cast<void>(stored_map(paper(), file("a.db"), false));
   EXPECT_THROW(static_cast<void>(stored_map(paper(), file("a.db"), false)), InputError);
-  for (const auto& change : {+[](Chart& chart) { chart.problem.periods = 299; }, +[](Chart& chart) { chart.values["clearance"] = 0.3; },
-                             +[](Chart& chart) { chart.problem.refine = 4; }, +[](Chart& chart) { chart.state = "x1=0"; }}) {
+  for (const auto& change :
+       {+[](Chart& chart) { chart.problem.periods = 299; }, +[](Chart& chart) { chart.values["clearance"] = 0.3; },
+        +[](Chart& chart) { chart.problem.refine = 4; }, +[](Chart& chart) { chart.state = "x1=0"; }}) {
     Chart other = paper();
     change(other);
     EXPECT_THROW(static_cast<void>(stored_map(other, file("a.db"), true)), InputError);
@@ -66,7 +68,8 @@ TEST_F(ChartStore, RefusesAnotherChart) {
 /// Without impacts the amplitude is 1 / sqrt((1 - omega^2)^2 + (2 zeta omega)^2): there the stop is touched. A refined map
 /// has all edges of the whole one.
 TEST(ChartCurves, OfARefinedMapAreThoseOfTheWhole) {
-  Chart chart = over(load_model("impact-oscillator"), {{"damping_ratio", 0.8}}, "omega", {0.5, 1.5, 33}, "clearance", {0.3, 1.0, 33});
+  Chart chart = over(load_model("impact-oscillator"), {{"damping_ratio", 0.8}}, "omega", {0.5, 1.5, 33}, "clearance",
+                     {0.3, 1.0, 33});
   const Curves whole = find_curves(chart, sweep::run_map(chart.problem), 1);
   chart.problem.refine = 8;
   const sweep::Map map = sweep::run_map(chart.problem);

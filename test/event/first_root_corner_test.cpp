@@ -8,9 +8,9 @@
 #include <thread>
 #include <vector>
 
+#include "event/first_root.hpp"
 #include "event/guard_polynomials.hpp"
 #include "oracle/real.hpp"
-#include "event/first_root.hpp"
 
 namespace slapstick::event {
 namespace {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <thread>
 
-#include "slapstick/base/error.hpp"
 #include "figure/figure.hpp"
+#include "slapstick/base/error.hpp"
 #include "workshop.hpp"
 
 namespace slapstick::figure {

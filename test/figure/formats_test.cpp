@@ -26,7 +26,8 @@ std::vector<std::string> lines_with(const std::string& text, const std::string& 
   std::vector<std::string> found;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = text.find('\n', begin);
-    if (text.substr(begin, end - begin).find(part) != std::string::npos) found.push_back(text.substr(begin, end - begin));
+    if (text.substr(begin, end - begin).find(part) != std::string::npos)
+      found.push_back(text.substr(begin, end - begin));
     begin = end + 1;
   }
   return found;
@@ -78,7 +79,8 @@ TEST_F(FormatsTest, a_script_for_matplotlib_needs_no_gnuplot_and_is_python) {
   setenv("PATH", before.c_str(), 1);
   EXPECT_TRUE(files.script.empty());
   EXPECT_EQ(files.data, folder / "a-py-plot.csv");
-  EXPECT_EQ(std::system(("python3 -B -c \"import ast; ast.parse(open('" + files.py.string() + "').read())\"").c_str()), 0);
+  EXPECT_EQ(std::system(("python3 -B -c \"import ast; ast.parse(open('" + files.py.string() + "').read())\"").c_str()),
+            0);
   EXPECT_NE(workshop::read(files.py).find("'a-py-plot.csv'"), std::string::npos);
 }
 

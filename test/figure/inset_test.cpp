@@ -19,7 +19,12 @@ namespace fs = std::filesystem;
 
 /// Cells in a square of side 1, a colour for each code.
 Panel chart(int side, const std::function<int(int, int)>& code) {
-  Cells cells{.x = {0, 1}, .y = {0, 1}, .columns = side, .rows = side, .codes = {}, .colours = {{200, 0, 0}, {0, 200, 0}, {0, 0, 200}, {90, 90, 90}}};
+  Cells cells{.x = {0, 1},
+              .y = {0, 1},
+              .columns = side,
+              .rows = side,
+              .codes = {},
+              .colours = {{200, 0, 0}, {0, 200, 0}, {0, 0, 200}, {90, 90, 90}}};
   for (int j = 0; j < side; ++j)
     for (int i = 0; i < side; ++i) cells.codes.push_back(static_cast<std::uint8_t>(code(i, j)));
   return {.x_label = "x", .y_label = "y", .x_range = Range{0, 1}, .y_range = Range{0, 1}, .cells = std::move(cells)};
@@ -28,7 +33,8 @@ Panel chart(int side, const std::function<int(int, int)>& code) {
 Figure one(Panel panel) { return {.panels = {std::move(panel)}, .width_cm = 12, .row_cm = 8.5}; }
 
 bool within(const Box& inner, const Box& outer) {
-  return inner.left >= outer.left && inner.right <= outer.right && inner.bottom >= outer.bottom && inner.top <= outer.top;
+  return inner.left >= outer.left && inner.right <= outer.right && inner.bottom >= outer.bottom &&
+         inner.top <= outer.top;
 }
 bool apart(const Box& a, const Box& b) {
   return a.right <= b.left || b.right <= a.left || a.top <= b.bottom || b.top <= a.bottom;
@@ -76,8 +82,10 @@ TEST(Inset, lies_in_the_corner_that_hides_least) {
     const InsetLayout at = lay_out(one(panel)).panels[0].insets[0];
     EXPECT_EQ(2 * at.top + at.right, empty);
   }
-  Panel curve{.x_range = Range{0, 1}, .y_range = Range{0, 1}, .lines = {{.x = {0, 1}, .y = {0, 1}}}, .insets = {middle}};
-  curve.points = {{.x = std::vector<double>(1000, 0.9), .y = std::vector<double>(1000, 0.1)}};  // many at one place hide one place
+  Panel curve{
+      .x_range = Range{0, 1}, .y_range = Range{0, 1}, .lines = {{.x = {0, 1}, .y = {0, 1}}}, .insets = {middle}};
+  curve.points = {
+      {.x = std::vector<double>(1000, 0.9), .y = std::vector<double>(1000, 0.1)}};  // many at one place hide one place
   const InsetLayout at = lay_out(one(curve)).panels[0].insets[0];
   EXPECT_FALSE(at.right);
   EXPECT_TRUE(at.top);
@@ -106,7 +114,8 @@ TEST_F(InsetFiles, shows_the_same_cells_enlarged) {
     const int code = (2 * pixel.column >= width ? 1 : 0) + (2 * pixel.row >= height ? 2 : 0);
     const Colour& wanted = colours[static_cast<std::size_t>(code)];
     if (std::abs(2 * pixel.column - width) <= 2 || std::abs(2 * pixel.row - height) <= 2) continue;
-    ASSERT_EQ(std::tie(pixel.red, pixel.green, pixel.blue), std::make_tuple(wanted.red, wanted.green, wanted.blue)) << pixel.column << ' ' << pixel.row;
+    ASSERT_EQ(std::tie(pixel.red, pixel.green, pixel.blue), std::make_tuple(wanted.red, wanted.green, wanted.blue))
+        << pixel.column << ' ' << pixel.row;
   }
 }
 
@@ -121,9 +130,11 @@ TEST_F(InsetFiles, are_drawn_in_every_format_and_leave_the_next_panel_as_it_was)
   without.panels[0].insets.clear();
   const Files all = write(figure, folder / "a", {.svg = true}), plain = write(without, folder / "b", {.svg = true});
   std::string second = rest(workshop::read(plain.script));
-  for (std::size_t at = second.find("./b-plot"); at != std::string::npos; at = second.find("./b-plot")) second.replace(at, 8, "./a-plot");
+  for (std::size_t at = second.find("./b-plot"); at != std::string::npos; at = second.find("./b-plot"))
+    second.replace(at, 8, "./a-plot");
   EXPECT_EQ(rest(workshop::read(all.script)), second);
-  for (const Formats formats : {Formats{.png = false, .pdf = false, .tex = true}, Formats{.png = false, .pdf = false, .py = true}}) {
+  for (const Formats formats :
+       {Formats{.png = false, .pdf = false, .tex = true}, Formats{.png = false, .pdf = false, .py = true}}) {
     const Files files = write(figure, folder / "c", formats);
     EXPECT_TRUE(fs::exists(formats.tex ? files.tex : files.py));
   }
@@ -134,7 +145,11 @@ TEST_F(InsetFiles, are_drawn_in_every_format_and_leave_the_next_panel_as_it_was)
 
 TEST(Inset, is_refused_where_it_cannot_be_drawn) {
   const auto refused = [](const Inset& inset, const std::string& why, bool log = false) {
-    Panel panel{.x_range = Range{1, 2}, .y_range = Range{1, 2}, .log_x = log, .lines = {{.x = {1, 2}, .y = {1, 2}}}, .insets = {inset}};
+    Panel panel{.x_range = Range{1, 2},
+                .y_range = Range{1, 2},
+                .log_x = log,
+                .lines = {{.x = {1, 2}, .y = {1, 2}}},
+                .insets = {inset}};
     try {
       demand_room(one(panel));
       ADD_FAILURE() << why;
@@ -147,7 +162,8 @@ TEST(Inset, is_refused_where_it_cannot_be_drawn) {
   refused({{3, 4}, {1, 1.2}}, "shows nothing");
   refused({{1.2, 1.1}, {1, 1.2}}, "min < max");
   refused({{1.1, 1.2}, {1.1, 1.2}}, "linear axes", true);
-  Panel five{.x_range = Range{0, 1}, .y_range = Range{0, 1}, .insets = std::vector<Inset>(5, {{0.5, 0.51}, {0.5, 0.51}})};
+  Panel five{
+      .x_range = Range{0, 1}, .y_range = Range{0, 1}, .insets = std::vector<Inset>(5, {{0.5, 0.51}, {0.5, 0.51}})};
   EXPECT_THROW(demand_room(one(five)), InputError);
 }
 

@@ -179,18 +179,25 @@ TEST(Raster, another_program_reads_back_every_pixel_of_the_png) {
 }
 
 Cells two_by_three() {
-  return {.x = {0, 2}, .y = {0, 3}, .columns = 2, .rows = 3, .codes = {0, 1, 2, Cells::clear, 1, 0}, .colours = {{255, 0, 0}, {0, 255, 0}, {0, 0, 255}}};
+  return {.x = {0, 2},
+          .y = {0, 3},
+          .columns = 2,
+          .rows = 3,
+          .codes = {0, 1, 2, Cells::clear, 1, 0},
+          .colours = {{255, 0, 0}, {0, 255, 0}, {0, 0, 255}}};
 }
 
 TEST(Raster, cells_stand_where_their_rectangle_says_with_the_lowest_row_below) {
   const Raster r = picture_of(two_by_three(), {{0, 2}, {0, 3}}, 4, 6);
-  EXPECT_EQ(r.pixels, (std::vector<std::uint8_t>{2, 2, 1, 1, 2, 2, 1, 1, 3, 3, 0, 0, 3, 3, 0, 0, 1, 1, 2, 2, 1, 1, 2, 2}));
+  EXPECT_EQ(r.pixels,
+            (std::vector<std::uint8_t>{2, 2, 1, 1, 2, 2, 1, 1, 3, 3, 0, 0, 3, 3, 0, 0, 1, 1, 2, 2, 1, 1, 2, 2}));
   EXPECT_EQ(r.inks.at(3), (Ink{{0, 0, 255}, 255}));
 }
 
 TEST(Raster, a_window_beyond_the_cells_shows_paper_there) {
   const Raster r = picture_of(two_by_three(), {{-2, 2}, {0, 6}}, 4, 6);
-  EXPECT_EQ(r.pixels, (std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 1, 0, 0, 3, 0, 0, 0, 1, 2}));
+  EXPECT_EQ(r.pixels,
+            (std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 1, 0, 0, 3, 0, 0, 0, 1, 2}));
 }
 
 TEST(Raster, cells_that_are_no_chart_are_refused) {

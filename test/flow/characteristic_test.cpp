@@ -132,14 +132,15 @@ TEST(Characteristic, SteadySlidingIsUnstableWhereFrictionFallsFasterThanDampingR
 /// Two blocks that static friction holds together are drawn apart by forces that kinetic friction could not bear. A corner over the
 /// velocity of one of them is no reason to let go: beyond it 2 v' = 2 - 0.1 (v - 0.5).
 TEST(Characteristic, ACornerDoesNotEndStick) {
-  const System system(ModelDefinition::parse(
-                          "name = 'm'\n[[coordinate]]\nname = 'x1'\nmass = 1\n[[coordinate]]\nname = 'x2'\nmass = 1\n"
-                          "[[force]]\non = 'x1'\namplitude = -1\nharmonic = 0\n[[force]]\non = 'x2'\namplitude = 3\nharmonic = 0\n"
-                          "[[friction]]\nname = 'pad'\nbetween = ['x1', 'x2']\nstatic = 10\nkinetic = 0\n"
-                          "[[damper]]\nname = 'air'\nbetween = ['x1', 'ground']\ncharacteristic = [[-1, 0], [0.5, 0]]\n"
-                          "slope_above = 0.1\n",
-                          "f.toml")
-                          .build());
+  const System system(
+      ModelDefinition::parse(
+          "name = 'm'\n[[coordinate]]\nname = 'x1'\nmass = 1\n[[coordinate]]\nname = 'x2'\nmass = 1\n"
+          "[[force]]\non = 'x1'\namplitude = -1\nharmonic = 0\n[[force]]\non = 'x2'\namplitude = 3\nharmonic = 0\n"
+          "[[friction]]\nname = 'pad'\nbetween = ['x1', 'x2']\nstatic = 10\nkinetic = 0\n"
+          "[[damper]]\nname = 'air'\nbetween = ['x1', 'ground']\ncharacteristic = [[-1, 0], [0.5, 0]]\n"
+          "slope_above = 0.1\n",
+          "f.toml")
+          .build());
   Motion motion(system, {0.0, 0.0, 0.0, 0.0});
   ASSERT_EQ(kinds(run(motion, 2.5)), "corner");
   EXPECT_NEAR(motion.state()[1], 0.5 + 20.0 * (1.0 - std::exp(-0.1)), 1e-14);

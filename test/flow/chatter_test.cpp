@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <random>
 
-#include "flow/oracle_runs.hpp"
+#include "flow/chatter.hpp"
 #include "flow/compiled_system.hpp"
 #include "flow/engine.hpp"
+#include "flow/oracle_runs.hpp"
 #include "oracle/models.hpp"
-#include "flow/chatter.hpp"
 
 namespace slapstick {
 namespace {
@@ -251,7 +251,9 @@ TEST(Chatter, IsNotProvenWhereStaticFrictionMightHoldThePairOff) {
     const System system(m);
     const Motion motion(system, {0.0, -0.1});
     std::vector<double> scratch(4 * static_cast<std::size_t>(system.compiled().frame().size()));
-    return flow::prove_chatter(system.compiled(), system.compiled().mode(motion.mode_id()), 0, motion.engine().extended().data(), 1.0, scratch).proven;
+    return flow::prove_chatter(system.compiled(), system.compiled().mode(motion.mode_id()), 0,
+                               motion.engine().extended().data(), 1.0, scratch)
+        .proven;
   };
   EXPECT_TRUE(proven(0.1));
   EXPECT_FALSE(proven(0.999));

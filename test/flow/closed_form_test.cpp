@@ -3,8 +3,8 @@
 
 #include <numbers>
 
-#include "flow/runs.hpp"
 #include "flow/compiled_system.hpp"
+#include "flow/runs.hpp"
 #include "oracle/models.hpp"
 
 namespace slapstick {

@@ -51,14 +51,16 @@ TEST(ContactLaw, ABoundedDampingForceSetsInWithoutAJump) {
 }
 
 ModelDefinition two_masses(const std::string& parts) {
-  return ModelDefinition::parse("name = 'm'\n[[coordinate]]\nname = 'x1'\nmass = 2\n[[coordinate]]\nname = 'x2'\nmass = 3\n" + parts, "f.toml");
+  return ModelDefinition::parse(
+      "name = 'm'\n[[coordinate]]\nname = 'x1'\nmass = 2\n[[coordinate]]\nname = 'x2'\nmass = 3\n" + parts, "f.toml");
 }
 
 /// Two blocks: the reduced mass 6/5 meets the bumper, whatever the speed of either, and the centre goes on.
 TEST(ContactLaw, ABoundedBumperBetweenTwoBlocksSeesTheReducedMass) {
   const double m = 1.2;
   const System system(two_masses("[[compliant_stop]]\nname = 'bumper'\nbetween = ['x1', 'x2']\nclearance = 0\n"
-                                 "stiffness = 100\ndamping = 6\nlaw = 'bounded'\n").build());
+                                 "stiffness = 100\ndamping = 6\nlaw = 'bounded'\n")
+                          .build());
   for (const double v : {1e-6, 1.0, 1e4}) {
     const BoundedImpact impact(100.0 / m, 6.0 / m, v);
     Motion motion(system, {-0.5 * v, 2.0 * v, 0.0, v});
@@ -100,7 +102,8 @@ TEST(ContactLaw, ABoundedStopThatThrowsAMassIsADampedSpring) {
 /// A load of 10 pushes a mass into a stop of 100 on the way in and 60 on the way out: it turns at 2 * 10 / 100, goes out, turns at
 /// 2 * 10 / 60 - 0.2 and stays, because 60 * 2 / 15 < 10 < 100 * 2 / 15.
 TEST(ContactLaw, AMassComesToRestBetweenTwoStiffnesses) {
-  const System system(one_mass(bumper("unloading_stiffness = 60") + "[[force]]\non = 'x'\namplitude = 10\nharmonic = 0\n").build());
+  const System system(
+      one_mass(bumper("unloading_stiffness = 60") + "[[force]]\non = 'x'\namplitude = 10\nharmonic = 0\n").build());
   Motion motion(system, {0.0, 0.0});
   const std::vector<Event> events = run(motion, 5.0);
   ASSERT_FALSE(events.empty());
@@ -137,7 +140,8 @@ TEST(ContactLaw, TheWordsMeanWhatTheFlagMeant) {
 
 std::string ball(const std::string& law) {
   return "[[force]]\non = 'x'\namplitude = -10\nharmonic = 0\n[[stop]]\nname = 'floor'\nbetween = ['ground', 'x']\n"
-         "clearance = 0\n" + law + "\n";
+         "clearance = 0\n" +
+         law + "\n";
 }
 
 /// Each bounce by the restitution of its own speed; below the lowest corner the bounces end at a geometric limit.
@@ -161,8 +165,11 @@ TEST(ContactLaw, RestitutionFallsWithTheSpeed) {
 
 /// A wall at the spring's rest: impacts are pi apart, each at r(v) v of the one before.
 TEST(ContactLaw, RestitutionAtAWallWhereASpringIsAtRest) {
-  const System system(one_mass("[[spring]]\nbetween = ['x', 'ground']\nstiffness = 1\n[[stop]]\nname = 'wall'\nbetween = ['x', 'ground']\n"
-                               "clearance = 0\nrestitution_over_speed = [[0.5, 0.9], [2, 0.3]]\n").build());
+  const System system(
+      one_mass(
+          "[[spring]]\nbetween = ['x', 'ground']\nstiffness = 1\n[[stop]]\nname = 'wall'\nbetween = ['x', 'ground']\n"
+          "clearance = 0\nrestitution_over_speed = [[0.5, 0.9], [2, 0.3]]\n")
+          .build());
   Motion motion(system, {-3.0, 0.0});
   double v = 3.0;
   const std::vector<Event> events = run(motion, 10.0 * std::numbers::pi);
@@ -177,7 +184,8 @@ TEST(ContactLaw, RestitutionAtAWallWhereASpringIsAtRest) {
 /// Momentum is kept, and the relative speed u becomes r(u) u.
 TEST(ContactLaw, RestitutionOfTwoBlocksIsThatOfTheirRelativeSpeed) {
   const System system(two_masses("[[stop]]\nname = 'gap'\nbetween = ['x1', 'x2']\nclearance = 0\n"
-                                 "restitution_over_speed = [[1, 0.8], [2, 0.6], [4, 0.5]]\n").build());
+                                 "restitution_over_speed = [[1, 0.8], [2, 0.6], [4, 0.5]]\n")
+                          .build());
   for (const auto& [u, r] : {std::pair(0.5, 0.8), std::pair(1.5, 0.7), std::pair(3.0, 0.55), std::pair(9.0, 0.5)}) {
     Motion motion(system, {-1.0, 7.0 + u, 0.0, 7.0});
     ASSERT_EQ(kinds(run(motion, 2.5)), "impact");
@@ -188,9 +196,11 @@ TEST(ContactLaw, RestitutionOfTwoBlocksIsThatOfTheirRelativeSpeed) {
 
 /// d v+ / d v- = -(r + r' v): two neighbours after a bounce.
 TEST(ContactLaw, ATangentSeesTheSlopeOfTheRestitution) {
-  const Model model = one_mass("[[spring]]\nbetween = ['x', 'ground']\nstiffness = 1\n[[force]]\non = 'x'\namplitude = 1\n"
-                               "[[stop]]\nname = 'wall'\nbetween = ['x', 'ground']\nclearance = 0.2\n"
-                               "restitution_over_speed = [[0.2, 0.9], [3, 0.3]]\n").build();
+  const Model model = one_mass(
+                          "[[spring]]\nbetween = ['x', 'ground']\nstiffness = 1\n[[force]]\non = 'x'\namplitude = 1\n"
+                          "[[stop]]\nname = 'wall'\nbetween = ['x', 'ground']\nclearance = 0.2\n"
+                          "restitution_over_speed = [[0.2, 0.9], [3, 0.3]]\n")
+                          .build();
   const System system(model);
   const State start = {0.0, 1.5};
   const double time = 1.0, step = 1e-6;
@@ -200,7 +210,8 @@ TEST(ContactLaw, ATangentSeesTheSlopeOfTheRestitution) {
     return motion.state();
   };
   TangentMotion motion(system, start, Eigen::MatrixXd::Identity(2, 2));
-  while (motion.advance(Instant{}.plus(time / model.forcing_period())) == Outcome::event) {}
+  while (motion.advance(Instant{}.plus(time / model.forcing_period())) == Outcome::event) {
+  }
   for (int j = 0; j < 2; ++j) {
     State above = start, below = start;
     above[j] += step, below[j] -= step;
@@ -211,7 +222,8 @@ TEST(ContactLaw, ATangentSeesTheSlopeOfTheRestitution) {
 
 /// v = v0 - c x in the interval, whatever the time: a mass that passes, and one that stays there.
 TEST(ContactLaw, ADamperThatActsInAnInterval) {
-  const System system(one_mass("[[damper]]\nname = 'grease'\nbetween = ['x', 'ground']\ncoefficient = 2\nwithin = [1, 2]\n").build());
+  const System system(
+      one_mass("[[damper]]\nname = 'grease'\nbetween = ['x', 'ground']\ncoefficient = 2\nwithin = [1, 2]\n").build());
   Motion passes(system, {0.0, 5.0});
   const std::vector<Event> events = run(passes, 3.0);
   ASSERT_EQ(kinds(events), "corner corner");
@@ -248,7 +260,8 @@ TEST(ContactLaw, AnEdgeOfAZoneShearsTangents) {
 }
 
 std::string falling(int corners) {
-  return "[[friction]]\nname = 'f'\nbetween = ['x', 'ground']\nstribeck = { static = 3, kinetic = 1, speed = 0.5, corners = " +
+  return "[[friction]]\nname = 'f'\nbetween = ['x', 'ground']\nstribeck = { static = 3, kinetic = 1, speed = 0.5, "
+         "corners = " +
          std::to_string(corners) + " }\n";
 }
 
@@ -285,7 +298,8 @@ TEST(ContactLaw, AMassThatAStribeckLawStopsDoesSoInTime) {
     Motion motion(system, {0.0, 2.0});
     const std::vector<Event> events = run(motion, 3.0);
     ASSERT_EQ(events.back().kind, EventKind::stick);
-    const double early = time - seconds(events.back(), motion), stated = 2.0 / std::pow(1.0 + std::sqrt(2.0) * corners, 2);
+    const double early = time - seconds(events.back(), motion),
+                 stated = 2.0 / std::pow(1.0 + std::sqrt(2.0) * corners, 2);
     EXPECT_GT(early, 0.0);
     EXPECT_LT(early, 1.03 * stated * time) << corners;
     EXPECT_GT(early, 0.1 * stated * time) << corners;
@@ -296,8 +310,10 @@ TEST(ContactLaw, AMassThatAStribeckLawStopsDoesSoInTime) {
 TEST(ContactLaw, TheSlopeOfAStribeckLawIsThatOfItsPiece) {
   const double law = 4.0 * std::exp(-0.5);
   for (const int corners : {5, 20, 80}) {
-    const Model model = one_mass(falling(corners) + "belt_speed = 0.25\n[[spring]]\nbetween = ['x', 'ground']\nstiffness = 1\n"
-                                 "[[damper]]\nbetween = ['x', 'ground']\ncoefficient = 0.5\n").build();
+    const Model model = one_mass(falling(corners) +
+                                 "belt_speed = 0.25\n[[spring]]\nbetween = ['x', 'ground']\nstiffness = 1\n"
+                                 "[[damper]]\nbetween = ['x', 'ground']\ncoefficient = 0.5\n")
+                            .build();
     const auto& points = model.characteristics[0].corners;  // below the belt's speed in falling order of the speed
     std::size_t i = 0;
     while (points[i + 1].at < 0.0) ++i;
@@ -305,7 +321,8 @@ TEST(ContactLaw, TheSlopeOfAStribeckLawIsThatOfItsPiece) {
     const double friction = 3.0 - points[i].force + slope * points[i].at;
     const System system(model);
     TangentMotion motion(system, {friction, 0.0}, Eigen::MatrixXd::Identity(2, 2));
-    while (motion.advance(after(motion.motion(), 0.1)) == Outcome::event) {}
+    while (motion.advance(after(motion.motion(), 0.1)) == Outcome::event) {
+    }
     const Eigen::MatrixXd tangents = motion.tangents();
     const double grows = std::log(tangents(0, 0) * tangents(1, 1) - tangents(0, 1) * tangents(1, 0)) / 0.1;
     EXPECT_NEAR(grows + 0.5, law, 1.0 / (corners * std::exp(-0.25)) * law) << corners;

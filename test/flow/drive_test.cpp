@@ -24,7 +24,8 @@ const std::string spring = "[[spring]]\nbetween = ['x', 'ground']\nstiffness = 1
 Model built(const std::string& text) { return ModelDefinition::parse("name = 'm'\n" + text, "f.toml").build(); }
 
 std::string signal(const std::string& points, const std::string& more = "") {
-  return "[[signal]]\nname = 's'\npoints = " + points + "\n" + more + "[[force]]\non = 'x'\nsignal = 's'\namplitude = 1\n";
+  return "[[signal]]\nname = 's'\npoints = " + points + "\n" + more +
+         "[[force]]\non = 'x'\nsignal = 's'\namplitude = 1\n";
 }
 
 /// As run, without the knots.
@@ -134,7 +135,7 @@ TEST(Signal, ThatRepeatsStepsBetweenItsRounds) {
   const System saw(built("omega = 1\n" + mass + signal("[[0, 0], [1, 1]]", "repeats = true\n")));
   Motion motion(saw, {0.0, 0.0});
   run(motion, 3.0);
-  EXPECT_NEAR(motion.state()[1], 1.5, 1e-15);          // of x'' = t - floor t
+  EXPECT_NEAR(motion.state()[1], 1.5, 1e-15);  // of x'' = t - floor t
   EXPECT_NEAR(motion.state()[0], 3.0 / 6.0 + 0.5 + 1.0, 1e-15);
 }
 
@@ -158,8 +159,8 @@ TEST(Signal, ThatRepeatsGoesOnAsWrittenOut) {
     for (const auto& [time, value] : {std::pair(0.0, 0.2), std::pair(0.7, 1.0), std::pair(0.9, -0.4)})
       points += "[" + std::to_string(1.3 * round + time) + ", " + std::to_string(value) + "], ";
   const std::string stop = "[[stop]]\nname = 'w'\nbetween = ['x', 'ground']\nclearance = 0.3\nrestitution = 0.7\n";
-  const System repeated(built(mass + spring + stop + signal("[[0, 0.2], [0.7, 1], [0.9, -0.4], [1.3, 0.2]]",
-                                                               "repeats = true\n")));
+  const System repeated(
+      built(mass + spring + stop + signal("[[0, 0.2], [0.7, 1], [0.9, -0.4], [1.3, 0.2]]", "repeats = true\n")));
   const System written(built(mass + spring + stop + signal(points + "[39, 0.2]]")));
   Motion a(repeated, {0.0, 0.0}), b(written, {0.0, 0.0});
   const std::vector<Event> one = run(a, 38.0), other = run(b, 38.0);
@@ -214,8 +215,9 @@ TEST(Signal, ABaseWhoseSpeedJumpsLetsGoAtTheKnot) {
 /// A ball that comes to rest by infinitely many bounces does so at the same instant where a signal of nothing has its
 /// knots in between; a knot after which the ball is lifted comes first.
 TEST(Signal, KnotsInAChatterAreKnotsInAChatter) {
-  const std::string ball = mass + "[[force]]\non = 'x'\nharmonic = 0\namplitude = -1\n"
-                                  "[[stop]]\nname = 'floor'\nbetween = ['ground', 'x']\nclearance = 0\nrestitution = 0.5\n";
+  const std::string ball = mass +
+                           "[[force]]\non = 'x'\nharmonic = 0\namplitude = -1\n"
+                           "[[stop]]\nname = 'floor'\nbetween = ['ground', 'x']\nclearance = 0\nrestitution = 0.5\n";
   const System plain(built(ball)), knots(built(ball + signal("[[0, 0], [1, 0], [3.99, 0], [3.999, 0], [9, 0]]")));
   Motion a(plain, {0.5, 0.0}), b(knots, {0.5, 0.0});
   const std::vector<Event> expected = run(a, 8.0), events = run_without_knots(b, 8.0);
@@ -261,7 +263,8 @@ TEST(Signal, TangentsPassKnotsUnchanged) {
 
 TEST(Band, HasTheRootMeanSquareThatIsAskedForAndPhasesFromItsSeed) {
   const auto band = [](const std::string& more) {
-    return built("omega = 0.5\n" + mass + "[[force]]\non = 'x'\nband = { from = 10, to = 40, rms = 0.7" + more + " }\n").forces;
+    return built("omega = 0.5\n" + mass + "[[force]]\non = 'x'\nband = { from = 10, to = 40, rms = 0.7" + more + " }\n")
+        .forces;
   };
   const std::vector<Force> all = band(""), nine = band(", lines = 9"), other = band(", lines = 9, seed = 4");
   ASSERT_EQ(all.size(), 31U);
@@ -343,8 +346,9 @@ TEST(RunUp, ATonesPhaseIsContinuousWhereItsFrequencyClimbs) {
 }
 
 TEST(Drive, WhatNeedsAPeriodSaysThatThereIsNone) {
-  const System system(built("omega = 1\n" + mass + spring +
-                            "[[force]]\non = 'x'\namplitude = 1\n[[force]]\non = 'x'\namplitude = 1\nfrequency = 1.7\n"));
+  const System system(
+      built("omega = 1\n" + mass + spring +
+            "[[force]]\non = 'x'\namplitude = 1\n[[force]]\non = 'x'\namplitude = 1\nfrequency = 1.7\n"));
   try {
     (void)classify(system, {0.0, 0.0});
     FAIL();

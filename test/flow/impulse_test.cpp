@@ -88,8 +88,9 @@ TEST(Impulse, MovesWhatIsPushedTogether) {
 
 /// A pulse of length h and area P becomes the blow: the motions differ by O(h), in any state of the contacts.
 TEST(Impulse, IsTheLimitOfAShortPulse) {
-  const std::string second = "[[coordinate]]\nname = 'y'\nmass = 1\n[[spring]]\nbetween = ['x', 'y']\nstiffness = 3\n"
-                             "[[damper]]\nbetween = ['y', 'ground']\ncoefficient = 0.1\n";
+  const std::string second =
+      "[[coordinate]]\nname = 'y'\nmass = 1\n[[spring]]\nbetween = ['x', 'y']\nstiffness = 3\n"
+      "[[damper]]\nbetween = ['y', 'ground']\ncoefficient = 0.1\n";
   for (const std::string& contacts : {std::string(), pad, wall + pressed, pad + wall + pressed}) {
     for (const double momentum : {2.0, -2.0}) {
       const std::string machine = mass + second + spring + contacts;
@@ -99,8 +100,9 @@ TEST(Impulse, IsTheLimitOfAShortPulse) {
       std::vector<double> errors;
       for (const double h : {1e-3, 1e-4}) {
         const std::string at = std::to_string(1.0 + h), size = std::to_string(momentum / h);
-        const System pushed(built(machine + "[[signal]]\nname = 's'\npoints = [[1, 0], [1, " + size + "], [" + at + ", " +
-                                  size + "], [" + at + ", 0]]\n[[force]]\non = 'x'\nsignal = 's'\namplitude = 1\n"));
+        const System pushed(built(machine + "[[signal]]\nname = 's'\npoints = [[1, 0], [1, " + size + "], [" + at +
+                                  ", " + size + "], [" + at +
+                                  ", 0]]\n[[force]]\non = 'x'\nsignal = 's'\namplitude = 1\n"));
         Motion motion(pushed, {0.0, 0.0, 0.1, 0.0});
         run(motion, 3.0);
         double error = 0.0;
@@ -153,7 +155,8 @@ TEST(Impulse, ThatCannotBeIsRefusedInOneLine) {
 std::string ball(double g, const std::string& table) {
   return "[[base]]\nname = 'table'\nsignal = 's'\n[[signal]]\nname = 's'\npoints = " + table +
          "\n[[coordinate]]\nname = 'x'\nmass = 2\nbase = 'table'\n[[force]]\non = 'x'\nharmonic = 0\namplitude = " +
-         std::to_string(-2.0 * g) + "\n[[stop]]\nname = 'top'\nbetween = ['table', 'x']\nclearance = 0\nrestitution = 0.7\n";
+         std::to_string(-2.0 * g) +
+         "\n[[stop]]\nname = 'top'\nbetween = ['table', 'x']\nclearance = 0\nrestitution = 0.7\n";
 }
 
 /// In the room's frame the ball falls freely, and the table's corners are nothing to it.
@@ -200,9 +203,7 @@ TEST(WallOfASignal, HitsWhatRestsOnIt) {
   EXPECT_NEAR(left.state()[1], 1.0 - 0.1, 1e-14);
 }
 
-TEST(WallOfASignal, MayNotStep) {
-  EXPECT_THROW(built(ball(1.0, "[[0, 0], [1, -0.5], [1, 1], [2, 0]]")), InputError);
-}
+TEST(WallOfASignal, MayNotStep) { EXPECT_THROW(built(ball(1.0, "[[0, 0], [1, -0.5], [1, 1], [2, 0]]")), InputError); }
 
 }  // namespace
 }  // namespace slapstick::testing

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "flow/runs.hpp"
 #include "event/first_root.hpp"
+#include "flow/runs.hpp"
 #include "oracle/models.hpp"
 
 extern long allocations;  // count_allocations.cpp

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "flow/compiled_system.hpp"
-#include "mode/mode.hpp"
 #include "flow/runs.hpp"
+#include "mode/mode.hpp"
 
 namespace slapstick {
 namespace {
@@ -146,7 +146,8 @@ TEST(Stop, LetsGoAtOnceOfAPullThatComesAlongAChain) {  // was: held for a window
     Motion motion(system, State(2 * static_cast<std::size_t>(masses), 0.0));
     testing::run(motion, 0.3);
     const double exact = end_of_free_chain(masses, -1.0, 0.3);
-    EXPECT_NEAR(motion.state()[2 * static_cast<std::size_t>(masses) - 2], exact, 1e-12 * std::abs(exact) + 1e-32) << masses;  // 1e-32: dropped terms
+    EXPECT_NEAR(motion.state()[2 * static_cast<std::size_t>(masses) - 2], exact, 1e-12 * std::abs(exact) + 1e-32)
+        << masses;  // 1e-32: dropped terms
   }
 }
 

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "flow/runs.hpp"
 #include "flow/compiled_system.hpp"
+#include "flow/runs.hpp"
 #include "oracle/models.hpp"
 
 namespace slapstick {

@@ -17,7 +17,8 @@ const std::string table =
     "name = 'm'\nomega = 'omega'\n[parameters]\nomega = 1\nacceleration = 1.2\nphase = 0\nrestitution = 0.5\n"
     "[[base]]\nname = 'table'\nharmonics = [{ amplitude = 'acceleration / omega^2', phase = 'phase' }]\n"
     "[[coordinate]]\nname = 'x'\nmass = 1\nbase = 'table'\n[[force]]\non = 'x'\nharmonic = 0\namplitude = -1\n";
-const std::string top = "[[stop]]\nname = 'top'\nbetween = ['table', 'x']\nclearance = 0\nrestitution = 'restitution'\n";
+const std::string top =
+    "[[stop]]\nname = 'top'\nbetween = ['table', 'x']\nclearance = 0\nrestitution = 'restitution'\n";
 
 Motion run(const Model& model, const State& start, double time) {
   Motion motion(System(model), start);
@@ -70,7 +71,8 @@ TEST(MovingContact, a_shaken_belt_lets_go_where_its_acceleration_exceeds_frictio
   EXPECT_NEAR(t, std::asin(9 / (3 * 2 * 1.5 * 1.5)) / 1.5, 1e-14);
   (void)motion.advance(Instant{}.plus((t + 0.2) / model.forcing_period()));
   const double belt = 0.7 + 2 * 1.5 * std::cos(1.5 * (t + 0.2));
-  EXPECT_NEAR(motion.state()[1] - 0.7 + belt, 0.7 + 3 * std::cos(1.5 * t) - 0.2 * 5 / 3, 1e-13);  // decelerates by f_k / m
+  EXPECT_NEAR(motion.state()[1] - 0.7 + belt, 0.7 + 3 * std::cos(1.5 * t) - 0.2 * 5 / 3,
+              1e-13);  // decelerates by f_k / m
 }
 
 /// Full matrices, springs and dampers to the ground, to the base and between coordinates: x1 + base is the x1 that is
@@ -80,7 +82,8 @@ TEST(MovingContact, inertia_and_links_are_those_of_the_coordinates_that_stand_st
     std::string all =
         "name = 'm'\nomega = 1.3\n[parameters]\na = 0.4\n[[base]]\nname = 'b'\nharmonics = [{ amplitude = 'a', phase = "
         "0.3 }, { amplitude = 0.1, harmonic = 3 }, { amplitude = 0.2, harmonic = 0 }]\n"
-        "[matrix]\nmass = [[1, 0.3], [0.3, 0.5]]\ndamping = [[0.2, 0.1], [0.1, 0.3]]\nstiffness = [[2, 0.4], [0.4, 1]]\n"
+        "[matrix]\nmass = [[1, 0.3], [0.3, 0.5]]\ndamping = [[0.2, 0.1], [0.1, 0.3]]\nstiffness = [[2, 0.4], [0.4, "
+        "1]]\n"
         "[[coordinate]]\nname = 'x1'\nmass = 0.7\n";
     if (moving) all += "base = 'b'\n";
     all += "[[coordinate]]\nname = 'x2'\nmass = 1.1\n";
@@ -90,9 +93,7 @@ TEST(MovingContact, inertia_and_links_are_those_of_the_coordinates_that_stand_st
     return ModelDefinition::parse(all, "f.toml");
   };
   const Model still = text(false).build(), moving = text(true).build();
-  const auto base = [](double t) {
-    return 0.4 * std::sin(1.3 * t + 0.3) + 0.1 * std::sin(3.9 * t) + 0.2;
-  };
+  const auto base = [](double t) { return 0.4 * std::sin(1.3 * t + 0.3) + 0.1 * std::sin(3.9 * t) + 0.2; };
   const auto speed = [](double t) { return 0.52 * std::cos(1.3 * t + 0.3) + 0.39 * std::cos(3.9 * t); };
   const State start = {0.5, -0.2, 0.1, 0.3};
   for (const double t : {0.4, 2.0, 7.7, 31.0}) {
@@ -109,7 +110,8 @@ TEST(MovingContact, rates_are_those_of_differences) {
   const auto definition = ModelDefinition::parse(table + top, "f.toml");
   for (const std::string name : {"omega", "acceleration", "phase"}) {
     const double at = definition.values().at(name), h = 1e-6;
-    const Model rate = definition.rate(name), up = definition.build({{name, at + h}}), down = definition.build({{name, at - h}});
+    const Model rate = definition.rate(name), up = definition.build({{name, at + h}}),
+                down = definition.build({{name, at - h}});
     ASSERT_EQ(rate.forces.size(), 2U);
     for (std::size_t i = 0; i < 2; ++i) {
       EXPECT_NEAR(rate.forces[i].amplitude, (up.forces[i].amplitude - down.forces[i].amplitude) / (2 * h), 1e-8);
@@ -123,9 +125,10 @@ TEST(MovingContact, what_is_written_reads_back) {
   const auto again = ModelDefinition::parse(definition.to_toml(), "g.toml");
   EXPECT_EQ(again.to_toml(), definition.to_toml());
   EXPECT_EQ(again.build().forces.size(), 2U);
-  EXPECT_EQ(refusal(table + "[[stop]]\nname = 's'\nbetween = ['x', 'ground']\nclearance = 0\nrestitution = 1\n"),
-            "f.toml:21: stop 's': between: its sides move with 'table' and with the ground: the gap or the sliding would "
-            "depend on time. Measure the coordinates from the base: base = \"table\" in [[coordinate]]");
+  EXPECT_EQ(
+      refusal(table + "[[stop]]\nname = 's'\nbetween = ['x', 'ground']\nclearance = 0\nrestitution = 1\n"),
+      "f.toml:21: stop 's': between: its sides move with 'table' and with the ground: the gap or the sliding would "
+      "depend on time. Measure the coordinates from the base: base = \"table\" in [[coordinate]]");
   EXPECT_EQ(refusal("name = 'm'\n[[coordinate]]\nname = 'x'\nmass = 1\nbase = 'b'\n"),
             "f.toml:2: coordinate 'x': base: unknown base 'b'");
 }

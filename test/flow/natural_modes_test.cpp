@@ -16,9 +16,7 @@ std::vector<NaturalMode> modes_of(const std::string& text) {
   return natural_modes(System(definition.build()), definition.start());
 }
 
-std::string body(const std::string& more) {
-  return "name = \"test\"\n[[coordinate]]\nname = \"x\"\nmass = 2\n" + more;
-}
+std::string body(const std::string& more) { return "name = \"test\"\n[[coordinate]]\nname = \"x\"\nmass = 2\n" + more; }
 const std::string spring = "[[spring]]\nbetween = [\"x\", \"ground\"]\nstiffness = 18\n";
 
 std::string damper(double c) {
@@ -77,7 +75,9 @@ TEST(NaturalModes, TakeTheSlopeOfThePieceAtTheState) {
   const ModelDefinition definition = ModelDefinition::parse(
       body("[[spring]]\nbetween = [\"x\", \"ground\"]\ncharacteristic = [[-1, -2], [1, 2], [2, 10]]\n[start]\nx = 0\n"),
       "test");
-  const auto frequency_at = [&](double x) { return natural_modes(System(definition.build()), {x, 0.0}).at(0).frequency; };
+  const auto frequency_at = [&](double x) {
+    return natural_modes(System(definition.build()), {x, 0.0}).at(0).frequency;
+  };
   EXPECT_NEAR(frequency_at(0.0), 1.0, 1e-14);  // slope 2
   EXPECT_NEAR(frequency_at(1.5), 2.0, 1e-14);  // slope 8
 }

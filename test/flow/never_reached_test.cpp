@@ -20,7 +20,8 @@ std::string named_by(std::string kind, const std::string& number) {
 }
 
 std::string stop_at(const std::string& clearance, const std::string& more = "") {
-  return "[[stop]]\n" + named_by("stop_", clearance) + "between = ['x', 'ground']\nclearance = " + clearance + "\nrestitution = 0.5\n" + more;
+  return "[[stop]]\n" + named_by("stop_", clearance) + "between = ['x', 'ground']\nclearance = " + clearance +
+         "\nrestitution = 0.5\n" + more;
 }
 
 std::string pad_on(const std::string& belt, double friction) {

@@ -30,8 +30,7 @@ std::string dry(const std::string& more) {
 
 /// Slip to the left lowers the stiffness by mu k, slip to the right raises it: half circles of other frequencies.
 TEST(NormalForce, ASpringThatPressesMoreAsTheMassMovesOut) {
-  const System system(
-      file(one_mass + dry("static = 0.1\nnormal_force = { constant = 10, x = 4 }")).build());
+  const System system(file(one_mass + dry("static = 0.1\nnormal_force = { constant = 10, x = 4 }")).build());
   Motion motion(system, {5.0, 0.0});
   const std::vector<Event> events = run(motion, 10.0);
   ASSERT_EQ(kinds(events), "slip+ stick");
@@ -108,11 +107,12 @@ TEST(NormalForce, AConstantOneGivesTheBitsOfFixedLimits) {
 
 /// A brake pad that a gap switches on: the stop is hit at pi / 2 with speed 1 and pushes with 100 delta for pi / 10.05..
 TEST(NormalForce, ACompliantStopPressesAContactWhileItTouches) {
-  const System system(file(coordinate("x") + coordinate("y") +
-                           "[[spring]]\nbetween = ['y', 'ground']\nstiffness = 1\n"
-                           "[[compliant_stop]]\nname = 'pad'\nbetween = ['y', 'ground']\nclearance = 0\nstiffness = 99\n" +
-                           dry("static = 0.2\nnormal_force = { compliant_stop = 'pad' }"))
-                          .build());
+  const System system(
+      file(coordinate("x") + coordinate("y") +
+           "[[spring]]\nbetween = ['y', 'ground']\nstiffness = 1\n"
+           "[[compliant_stop]]\nname = 'pad'\nbetween = ['y', 'ground']\nclearance = 0\nstiffness = 99\n" +
+           dry("static = 0.2\nnormal_force = { compliant_stop = 'pad' }"))
+          .build());
   Motion motion(system, {0.0, 3.0, -1.0, 0.0});
   EXPECT_EQ(system.mode_name(motion.mode_id()), "unloaded");
   const std::vector<Event> events = run(motion, 3.0);
@@ -125,10 +125,11 @@ TEST(NormalForce, ACompliantStopPressesAContactWhileItTouches) {
 
 /// k on the way in and k_u on the way out: the mass comes back with sqrt(k_u / k) of its speed.
 TEST(NormalForce, AStopOfTwoStiffnessesHasARestitution) {
-  const System system(file(coordinate("x") +
-                           "[[compliant_stop]]\nname = 'wall'\nbetween = ['x', 'ground']\nclearance = 1\nstiffness = 100\n"
-                           "unloading_stiffness = 36\n")
-                          .build());
+  const System system(
+      file(coordinate("x") +
+           "[[compliant_stop]]\nname = 'wall'\nbetween = ['x', 'ground']\nclearance = 1\nstiffness = 100\n"
+           "unloading_stiffness = 36\n")
+          .build());
   Motion motion(system, {0.0, 2.0});
   const std::vector<Event> events = run(motion, 3.0);
   ASSERT_EQ(kinds(events), "engage slip- disengage");
@@ -139,11 +140,12 @@ TEST(NormalForce, AStopOfTwoStiffnessesHasARestitution) {
 
 /// A pressed stop of two stiffnesses holds still wherever the press is between k_u delta and k delta.
 TEST(NormalForce, AStopOfTwoStiffnessesHoldsAWeight) {
-  const System system(file(coordinate("x") +
-                           "[[force]]\non = 'x'\namplitude = 5\nharmonic = 0\n"
-                           "[[compliant_stop]]\nname = 'wall'\nbetween = ['x', 'ground']\nclearance = 0\nstiffness = 100\n"
-                           "unloading_stiffness = 36\n")
-                          .build());
+  const System system(
+      file(coordinate("x") +
+           "[[force]]\non = 'x'\namplitude = 5\nharmonic = 0\n"
+           "[[compliant_stop]]\nname = 'wall'\nbetween = ['x', 'ground']\nclearance = 0\nstiffness = 100\n"
+           "unloading_stiffness = 36\n")
+          .build());
   Motion motion(system, {0.08, 0.0});
   EXPECT_TRUE(run(motion, 10.0).empty());
   EXPECT_EQ(motion.state()[0], 0.08);

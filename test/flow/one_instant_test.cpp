@@ -101,7 +101,8 @@ TEST(OneInstant, ARowOfPlasticBallsEndsTogetherWhateverItsLength) {
       for (int i = 0; i < count; ++i) momentum += end[2 * i + 1];
       EXPECT_NEAR(momentum, 1.0, 1e-12) << r << " " << count;
       for (int i = 0; i + 1 < count; ++i) {
-        EXPECT_LE(end[2 * i + 1], end[2 * i + 3] + 1e-12) << "ball " << i << " of " << count << " approaches, r = " << r;
+        EXPECT_LE(end[2 * i + 1], end[2 * i + 3] + 1e-12)
+            << "ball " << i << " of " << count << " approaches, r = " << r;
         const double together = r == 0.0 ? 1.0 / count : end[2 * i + 1];
         EXPECT_NEAR(end[2 * i + 1], together, 1e-12) << i << " of " << count;
       }
@@ -189,7 +190,8 @@ TEST(OneInstant, TwoEqualStopsHaveARowEachRigidOrNot) {
   const State start = {-0.2, 0.1, -0.2, 0.1};
   expect_pairs(events_of(with_stops(twins()), start, 20), EventKind::impact, 0, 20);
   const std::vector<Event> soft = events_of(with_buffers(twins()), start, 20);
-  for (const EventKind kind : {EventKind::engage, EventKind::disengage, EventKind::separate}) expect_pairs(soft, kind, 0, 15);
+  for (const EventKind kind : {EventKind::engage, EventKind::disengage, EventKind::separate})
+    expect_pairs(soft, kind, 0, 15);
 }
 
 TEST(OneInstant, TwoEqualFrictionContactsLetGoTogetherInTwoRows) {
@@ -203,7 +205,9 @@ TEST(OneInstant, TwoEqualFrictionContactsLetGoTogetherInTwoRows) {
 
 TEST(OneInstant, TwoEqualSpringsPassTheirCornersInTwoRows) {
   Model model = twins();
-  for (const int i : {0, 1}) model.characteristics.push_back({i == 0 ? "l" : "r", i, ground, Characteristic::Over::displacement, {{0.2, 0.2}}, 1.0, 4.0});
+  for (const int i : {0, 1})
+    model.characteristics.push_back(
+        {i == 0 ? "l" : "r", i, ground, Characteristic::Over::displacement, {{0.2, 0.2}}, 1.0, 4.0});
   expect_pairs(events_of(model, {-0.1, 0, -0.1, 0}, 20), EventKind::corner, 0, 20);
 }
 

@@ -1,8 +1,8 @@
 /// The engine against the independent 50-digit solution: every segment on its own, and whole runs.
 #include <gtest/gtest.h>
 
-#include "flow/oracle_runs.hpp"
 #include "flow/engine.hpp"
+#include "flow/oracle_runs.hpp"
 #include "oracle/models.hpp"
 
 namespace slapstick {
@@ -32,7 +32,8 @@ void move_on(const Model& model, oracle::SegmentStart& start, const Real& s) {
 std::optional<oracle::OracleEvent> exact_event(const Model& model, const System& system, const Motion& motion,
                                                bool after_release) {
   const Motion::Segment segment = motion.segment();
-  oracle::SegmentStart start = testing::oracle_start(system, motion.engine().extended_at_start().data(), segment.mode, segment.start.fraction);
+  oracle::SegmentStart start =
+      testing::oracle_start(system, motion.engine().extended_at_start().data(), segment.mode, segment.start.fraction);
   Real moved = 0;
   if (after_release) {
     moved = std::min<Real>(Real(segment.duration) / 1000, oracle::Mechanics(model).longest_step());

@@ -51,7 +51,8 @@ inline std::vector<Seen> engine_events(Motion& motion, double time, std::size_t 
   Instant last{-1, 0.0};
   for (std::size_t all = 0; all < most + 100 && seen.size() < most && motion.advance(end) == Outcome::event; ++all) {
     const Event& event = motion.event();
-    const bool force = motion.engine().hit_guard() != nullptr && motion.engine().hit_guard()->kind != mode::GuardKind::gap &&
+    const bool force = motion.engine().hit_guard() != nullptr &&
+                       motion.engine().hit_guard()->kind != mode::GuardKind::gap &&
                        motion.engine().hit_guard()->kind != mode::GuardKind::slip;
     if ((event.time == last && event.kind != EventKind::chatter) || (event.kind == EventKind::graze && force)) continue;
     last = event.time;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "flow/impact_law.hpp"
 #include "flow/compiled_system.hpp"
+#include "flow/impact_law.hpp"
 #include "flow/mode_graph.hpp"
 #include "slapstick/flow/motion.hpp"
 

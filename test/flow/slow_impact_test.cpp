@@ -4,8 +4,8 @@
 
 #include <random>
 
-#include "flow/oracle_runs.hpp"
 #include "event/first_root.hpp"
+#include "flow/oracle_runs.hpp"
 #include "oracle/models.hpp"
 
 namespace slapstick {

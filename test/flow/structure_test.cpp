@@ -5,8 +5,8 @@
 #include <random>
 
 #include "base/dense.hpp"
-#include "flow/oracle_runs.hpp"
 #include "flow/compiled_system.hpp"
+#include "flow/oracle_runs.hpp"
 #include "mode/mode.hpp"
 #include "slapstick/base/error.hpp"
 

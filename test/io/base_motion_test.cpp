@@ -52,7 +52,9 @@ TEST(Base, springs_and_dampers_pass_on_its_motion) {
 TEST(Base, refusals_say_what_to_write_instead) {
   const auto base = [](const std::string& more) { return refusal(head + shaker + more); };
   const auto at = [](int line) { return "f.toml:" + std::to_string(line) + ": "; };
-  EXPECT_EQ(base(""), at(next) + "base 'shaker': no spring or damper is attached to it and no coordinate measured from it, so it moves nothing");
+  EXPECT_EQ(base(""), at(next) +
+                          "base 'shaker': no spring or damper is attached to it and no coordinate measured from it, so "
+                          "it moves nothing");
   const std::string measured =
       " would depend on time. Measure the coordinates from the base: base = \"shaker\" in [[coordinate]]";
   const std::string pair = "its sides move with the ground and with 'shaker': ";

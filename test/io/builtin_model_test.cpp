@@ -111,14 +111,33 @@ TEST(VibroImpact, friction_sets_both_and_kinetic_follows_static) {
 }
 
 TEST(BuiltinModels, print_parse_print_is_a_fixed_point) {
-  ASSERT_EQ(builtin_models(),
-            (std::vector<std::string>{"belt", "bilinear-oscillator", "bouncing-ball", "buffers", "bump-stop",
-                                      "colliding-blocks", "coulomb-oscillator", "drill-string", "falling-friction",
-                                      "friction-rattle", "gear-pair", "gear-rattle", "impact-absorber",
-                                      "impact-friction-oscillator", "impact-oscillator", "impact-pair",
-                                      "mode-coupling-brake", "pressed-block", "shaken-belt", "shaken-table",
-                                      "sliding-block", "sliding-pair", "spool", "stick-slip-impact",
-                                      "two-blocks-on-belt", "two-sided-rattle", "vibro-impact"}));
+  ASSERT_EQ(builtin_models(), (std::vector<std::string>{"belt",
+                                                        "bilinear-oscillator",
+                                                        "bouncing-ball",
+                                                        "buffers",
+                                                        "bump-stop",
+                                                        "colliding-blocks",
+                                                        "coulomb-oscillator",
+                                                        "drill-string",
+                                                        "falling-friction",
+                                                        "friction-rattle",
+                                                        "gear-pair",
+                                                        "gear-rattle",
+                                                        "impact-absorber",
+                                                        "impact-friction-oscillator",
+                                                        "impact-oscillator",
+                                                        "impact-pair",
+                                                        "mode-coupling-brake",
+                                                        "pressed-block",
+                                                        "shaken-belt",
+                                                        "shaken-table",
+                                                        "sliding-block",
+                                                        "sliding-pair",
+                                                        "spool",
+                                                        "stick-slip-impact",
+                                                        "two-blocks-on-belt",
+                                                        "two-sided-rattle",
+                                                        "vibro-impact"}));
   for (const auto& name : builtin_models()) {
     const auto definition = load_model(name);
     EXPECT_EQ(definition.name(), name);

@@ -62,7 +62,8 @@ TEST(Expression, arithmetic) {
   EXPECT_EQ(Expression("b + a").names(), (std::vector<std::string>{"a", "b"}));
 }
 
-TEST(Expression, fractions_are_true_among_constants_too) {  // a parser that joins constants as integers makes 0.5 && 2 zero
+TEST(Expression,
+     fractions_are_true_among_constants_too) {  // a parser that joins constants as integers makes 0.5 && 2 zero
   const std::vector<std::string> numbers = {"0", "0.5", "-0.25", "1e-300", "1e300", "2"};
   for (const auto& p : numbers)
     for (const auto& q : numbers) {

@@ -65,7 +65,8 @@ TEST(MatrixFile, every_fault_has_its_line) {
             "K.mtx:1: 'skew-symmetric' is not available: the matrix must be general or symmetric");
   const std::string symmetric = banner + "coordinate real symmetric\n";
   EXPECT_EQ(market(symmetric + "2 3 1\n"), "K.mtx:2: the matrix is not square: 2 x 3");
-  EXPECT_EQ(market(symmetric + "1e9 1e9 1\n"), "K.mtx:2: the number of rows = 1000000000 is not a whole number in [1, 1000]");
+  EXPECT_EQ(market(symmetric + "1e9 1e9 1\n"),
+            "K.mtx:2: the number of rows = 1000000000 is not a whole number in [1, 1000]");
   EXPECT_EQ(market(symmetric + "2 2 1\n% here\n3 1 1\n"), "K.mtx:4: the row = 3 is not a whole number in [1, 2]");
   EXPECT_EQ(market(symmetric + "2 2 2\n2 1 1\n1 2 1\n"), "K.mtx:4: entry (1, 2) was given before, in line 3");
   EXPECT_EQ(market(symmetric + "2 2 2\n2 1 1\n"), "K.mtx:4: the file ends, and row, column, value are expected");
@@ -82,7 +83,8 @@ TEST(MatrixFile, every_fault_has_its_line) {
 class Folder : public ::testing::Test {
  protected:
   void SetUp() override {
-    path_ = std::filesystem::path(::testing::TempDir()) / ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    path_ =
+        std::filesystem::path(::testing::TempDir()) / ::testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::create_directories(path_);
   }
   void TearDown() override { std::filesystem::remove_all(path_); }
@@ -97,9 +99,9 @@ class Folder : public ::testing::Test {
 TEST_F(Folder, files_are_beside_the_model_and_a_factor_follows_parameters) {
   put("K.mtx", banner + "array real symmetric\n2 2\n3\n-1\n2\n");
   put("names.txt", "# nodes\na\nb\n");
-  const auto definition =
-      model("name = 'm'\n[parameters]\nbeta = 0.5\n[matrix]\ncoordinates = 'names.txt'\nmass = [[1, 0], [0, 'beta']]\n"
-            "stiffness = 'K.mtx'\ndamping = { file = 'K.mtx', factor = 'beta^2' }\n");
+  const auto definition = model(
+      "name = 'm'\n[parameters]\nbeta = 0.5\n[matrix]\ncoordinates = 'names.txt'\nmass = [[1, 0], [0, 'beta']]\n"
+      "stiffness = 'K.mtx'\ndamping = { file = 'K.mtx', factor = 'beta^2' }\n");
   const Model built = definition.build();
   EXPECT_EQ(state_names(built), (std::vector<std::string>{"a", "v_a", "b", "v_b"}));
   EXPECT_EQ(built.stiffness, (SymmetricMatrix{3, -1, -1, 2}));
@@ -112,8 +114,9 @@ TEST_F(Folder, files_are_beside_the_model_and_a_factor_follows_parameters) {
 
 TEST_F(Folder, rows_may_be_some_of_the_coordinates) {
   put("K.csv", "b,c\n3,-1\n-1,2\n");
-  const auto built = model("name = 'm'\n[[coordinate]]\nname = 'c'\nmass = 1\n[[coordinate]]\nname = 'a'\nmass = 1\n"
-                           "[matrix]\ncoordinates = 'K.csv'\nstiffness = 'K.csv'\nmass = [[1, 0], [0, 0]]\n")
+  const auto built = model(
+                         "name = 'm'\n[[coordinate]]\nname = 'c'\nmass = 1\n[[coordinate]]\nname = 'a'\nmass = 1\n"
+                         "[matrix]\ncoordinates = 'K.csv'\nstiffness = 'K.csv'\nmass = [[1, 0], [0, 0]]\n")
                          .build();
   EXPECT_EQ(state_names(built), (std::vector<std::string>{"c", "v_c", "a", "v_a", "b", "v_b"}));
   EXPECT_EQ(built.stiffness, (SymmetricMatrix{2, 0, -1, 0, 0, 0, -1, 0, 3}));
@@ -137,13 +140,15 @@ TEST_F(Folder, a_fault_of_a_file_names_both_places) {
   put("one.csv", "y\n1\n");
   EXPECT_EQ(fault(x + "stiffness = 'K.mtx'\n"), "m.toml:6: matrix: stiffness: matrix file 'K.mtx': no such file");
   EXPECT_EQ(fault(x + "stiffness = 'K.txt'\n"),
-            "m.toml:6: matrix: stiffness: expected rows of numbers, or a file whose name ends in .mtx or .csv, found 'K.txt'");
+            "m.toml:6: matrix: stiffness: expected rows of numbers, or a file whose name ends in .mtx or .csv, found "
+            "'K.txt'");
   EXPECT_EQ(fault(x + "stiffness = 'two.csv'\n"),
             "m.toml:6: matrix: stiffness: file 'two.csv' has 2 rows, expected 1 (one per coordinate)");
   EXPECT_EQ(fault(x + "stiffness = 'one.csv'\n"),
             "m.toml:6: matrix: stiffness: file 'one.csv': column 1 is 'y', and the coordinate there is 'x'");
   EXPECT_EQ(fault("[matrix]\ncoordinates = ['a', 'a']\n"), "m.toml:3: matrix: coordinates: name 'a' is used twice");
-  EXPECT_EQ(fault("[matrix]\ncoordinates = ['a']\nstiffness = [[1]]\n"), "m.toml:3: coordinate 'a': mass = 0 is not positive");
+  EXPECT_EQ(fault("[matrix]\ncoordinates = ['a']\nstiffness = [[1]]\n"),
+            "m.toml:3: coordinate 'a': mass = 0 is not positive");
 }
 
 }  // namespace

@@ -136,7 +136,8 @@ TEST(HostileFile, deep_nesting_ends_in_an_error) {
     return text;
   };
   for (const char* piece : {"[", "{b=", "[{b="})  // unbounded, tables in tables take minutes
-    EXPECT_NE(outcome("a = " + repeated(piece, 200000)).find("dots or brackets in one place"), std::string::npos) << piece;
+    EXPECT_NE(outcome("a = " + repeated(piece, 200000)).find("dots or brackets in one place"), std::string::npos)
+        << piece;
   EXPECT_NE(outcome("a = " + repeated("[\n", 400000)).substr(0, 7), "accepted");
   EXPECT_NE(outcome("a = " + repeated("{a=", 1000)), "accepted");
   EXPECT_NE(outcome("a" + repeated(".a", 400000) + " = 1").find("dots or brackets in one place"), std::string::npos);

@@ -53,7 +53,8 @@ TEST(ModelNumbers, a_ratio_of_physical_numbers_is_the_models_however_much_cancel
 
 TEST(ModelNumbers, a_sum_of_both_kinds_is_refused) {
   EXPECT_EQ(belt("'flow + speed'"),
-            "f.toml:19: friction 'b': belt_speed: expression 'flow + speed': the expression mixes numbers that have a unit (speed "
+            "f.toml:19: friction 'b': belt_speed: expression 'flow + speed': the expression mixes numbers that have a "
+            "unit (speed "
             "in mm/s) with numbers "
             "of the model: divide each by scale_length, scale_time or scale_mass first");
 }
@@ -79,8 +80,9 @@ TEST(ModelNumbers, what_1_is_has_names_that_nothing_else_has) {
   EXPECT_EQ(belt("0", "[groups]\ng = ['scale_length']\n").find("f.toml:9: group 'g': unknown parameter 'scale_length'"),
             0U);
   EXPECT_NE(belt("0", "", {{"scale_length", 2}}).find("has no parameter 'scale_length'"), std::string::npos);
-  EXPECT_NE(refusal(with("", "", "'2 * scale_length'")).find("the value depends on itself: scale_length -> scale_length"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal(with("", "", "'2 * scale_length'")).find("the value depends on itself: scale_length -> scale_length"),
+      std::string::npos);
   EXPECT_EQ(refusal("name = 'm'\n[parameters]\nscale_length = 2\n[[coordinate]]\nname = 'x'\nmass = 'scale_length'\n"),
             "accepted");
 }

@@ -90,7 +90,9 @@ TEST(CompliantStop, refusals) {
     return refusal(two + "[[compliant_stop]]\nname = 'b'\n" + between + "clearance = 0\n" + keys);
   };
   EXPECT_EQ(stop(""), at(next) + "compliant_stop 'b': 'stiffness' is missing");
-  EXPECT_EQ(stop("stiffness = 0\n"), at(next + 4) + "compliant_stop 'b': stiffness = 0 is not positive; a damper alone beyond a gap is a damper that acts within an interval");
+  EXPECT_EQ(stop("stiffness = 0\n"), at(next + 4) +
+                                         "compliant_stop 'b': stiffness = 0 is not positive; a damper alone beyond a "
+                                         "gap is a damper that acts within an interval");
   EXPECT_EQ(stop("stiffness = 1\ndamping = -1\n"), at(next + 5) + "compliant_stop 'b': damping = -1 is negative");
   EXPECT_EQ(stop("stiffness = 1\npulls = 'no'\n"),
             at(next + 5) + "compliant_stop 'b': pulls: expected true or false, found a string");
@@ -138,8 +140,9 @@ TEST(Matrix, refusals_name_the_entries) {
             at(next + 1) +
                 "matrix: mass: with the coordinates' masses it is not positive definite: some motion of the "
                 "coordinates up to 'x2' has no positive mass");
-  EXPECT_EQ(matrix("mass = [[0, 0], [0, -2]]\n"),
-            at(next - 1) + "coordinate 'x2': the coordinate has no mass: its own and its entry of [matrix] mass add up to 0");
+  EXPECT_EQ(
+      matrix("mass = [[0, 0], [0, -2]]\n"),
+      at(next - 1) + "coordinate 'x2': the coordinate has no mass: its own and its entry of [matrix] mass add up to 0");
   const auto bare = std::string("name='m'\n[[coordinate]]\nname='a'\n");
   EXPECT_EQ(refusal(bare + "[matrix]\nstiffness = [[1]]\n"), at(2) + "coordinate 'a': 'mass' is missing");
   EXPECT_EQ(refusal(bare + "[matrix]\nmass = [[0]]\n"),

@@ -65,20 +65,24 @@ TEST(ModelFile, friction_over_the_speed_begins_at_rest) {
 }
 
 TEST(ModelFile, an_interval_of_a_damper_has_an_inside) {
-  const std::string damper = good + "[[damper]]\nbetween = ['x1', 'ground']\ncoefficient = 1\n", here = "f.toml:9: damper 1: ";
+  const std::string damper = good + "[[damper]]\nbetween = ['x1', 'ground']\ncoefficient = 1\n",
+                    here = "f.toml:9: damper 1: ";
   EXPECT_EQ(refusal(damper + "within = [0, 'm']\n"), "accepted");
   EXPECT_EQ(refusal(damper + "within = [1, 0]\n"), here + "within: 0 is not above the 1 before it");
   EXPECT_EQ(refusal(damper + "within = [2, 'm']\n"), here + "within: 2 is not above the 2 before it");
   EXPECT_EQ(refusal(damper + "within = [1]\n"), here + "within: expected [from, to], found 1 numbers");
   EXPECT_EQ(refusal(damper + "within = 1\n"), here + "within: expected a list, found a number");
-  EXPECT_EQ(refusal(damper + "within = [0, 'n']\n"), here + "within: to: expression 'n': unknown parameter 'n'; known: m");
-  EXPECT_EQ(refusal(damper + "coefficient_outside = 1\n"), here + "coefficient_outside: this key belongs to a 'within', and the part has no such key");
+  EXPECT_EQ(refusal(damper + "within = [0, 'n']\n"),
+            here + "within: to: expression 'n': unknown parameter 'n'; known: m");
+  EXPECT_EQ(refusal(damper + "coefficient_outside = 1\n"),
+            here + "coefficient_outside: this key belongs to a 'within', and the part has no such key");
   EXPECT_EQ(refusal(damper + "characteristic = [[0, 0], [1, 1], [2, 0]]\n"),
             here + "characteristic: this key stands in place of 'coefficient': give one of the two");
 }
 
 TEST(ModelFile, a_stribeck_law_falls_to_a_friction_that_there_is) {
-  const std::string friction = good + "[[friction]]\nname = 'f'\nbetween = ['x1', 'ground']\n", here = "f.toml:9: friction 'f': stribeck: ";
+  const std::string friction = good + "[[friction]]\nname = 'f'\nbetween = ['x1', 'ground']\n",
+                    here = "f.toml:9: friction 'f': stribeck: ";
   EXPECT_EQ(refusal(friction + "stribeck = { static = 'm', kinetic = 1, speed = 0.5 }\n"), "accepted");
   const std::pair<const char*, const char*> cases[] = {
       {"static = 1, kinetic = 'm', speed = 0.5", "kinetic = 2 exceeds static = 1"},
@@ -95,18 +99,22 @@ TEST(ModelFile, a_stribeck_law_falls_to_a_friction_that_there_is) {
 }
 
 TEST(ModelFile, laws_of_stops_name_the_number_that_is_none) {
-  const std::string soft = good + "[[compliant_stop]]\nname = 'c'\nbetween = ['x1', 'ground']\nclearance = 0\nstiffness = 4\n";
+  const std::string soft =
+      good + "[[compliant_stop]]\nname = 'c'\nbetween = ['x1', 'ground']\nclearance = 0\nstiffness = 4\n";
   EXPECT_EQ(refusal(soft + "unloading_stiffness = 'm'\n"), "accepted");
   for (const char* value : {"5", "0", "-1"})
     EXPECT_EQ(refusal(soft + "unloading_stiffness = " + value + "\n"),
               "f.toml:11: compliant_stop 'c': unloading_stiffness = " + std::string(value) +
                   " is outside (0, stiffness]: beyond, each contact would feed energy");
-  EXPECT_EQ(refusal(soft + "damping = 1\nunloading_stiffness = 2\n"),
-            "f.toml:12: compliant_stop 'c': unloading_stiffness: this key stands in place of 'damping': give one of the two");
-  EXPECT_EQ(refusal(soft + "law = 'bound'\n"), "f.toml:11: compliant_stop 'c': law: unknown word 'bound'; did you mean 'bounded'?");
+  EXPECT_EQ(
+      refusal(soft + "damping = 1\nunloading_stiffness = 2\n"),
+      "f.toml:12: compliant_stop 'c': unloading_stiffness: this key stands in place of 'damping': give one of the two");
+  EXPECT_EQ(refusal(soft + "law = 'bound'\n"),
+            "f.toml:11: compliant_stop 'c': law: unknown word 'bound'; did you mean 'bounded'?");
   EXPECT_EQ(refusal(soft + "law = 'bounded'\npulls = true\n"),
             "f.toml:11: compliant_stop 'c': law: this key stands in place of 'pulls': give one of the two");
-  const std::string rigid = good + "[[stop]]\nname = 's'\nbetween = ['x1', 'ground']\nclearance = 0\n", key = "restitution_over_speed";
+  const std::string rigid = good + "[[stop]]\nname = 's'\nbetween = ['x1', 'ground']\nclearance = 0\n",
+                    key = "restitution_over_speed";
   const std::pair<const char*, const char*> cases[] = {
       {"[[0, 0.5], ['m', 0.4]]", "point 1: speed = 0 is not positive"},
       {"[[1, 0.5], [1, 0.4]]", "point 2: 1 is not above the 1 of the point before"},
@@ -144,8 +152,7 @@ TEST(ModelFile, wrong_types_and_missing_keys) {
             "f.toml:2: parameter 'm': expected a number or an expression, found a boolean");
   EXPECT_EQ(refusal(head + "parameters.m = {}\n"), "f.toml:2: parameter 'm': 'value' is missing");
   EXPECT_EQ(refusal(head + "parameters.m = inf\n"), "f.toml:2: parameter 'm': inf is not a finite number");
-  EXPECT_EQ(refusal(head + "parameters.sin = 1\n"),
-            "f.toml:2: parameter 'sin': a function or constant has this name");
+  EXPECT_EQ(refusal(head + "parameters.sin = 1\n"), "f.toml:2: parameter 'sin': a function or constant has this name");
   EXPECT_EQ(refusal(head + "parameters.'a b' = 1\n"),
             "f.toml:2: parameter 'a b': a name is 1 to 64 letters, digits and '_', beginning with a letter");
   EXPECT_EQ(refusal(head + "[[coordinate]]\nname = 'pi'\nmass = 1\n"),

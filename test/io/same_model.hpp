@@ -37,8 +37,8 @@ inline void expect_same(const Model& a, const Model& b) {
            same_load(p.normal, q.normal);
   });
   same(a.stops, b.stops, [](const auto& p, const auto& q) {
-    return p.name == q.name && p.a == q.a && p.b == q.b && p.clearance == q.clearance && p.restitution == q.restitution &&
-           std::ranges::equal(p.corners, q.corners, [](const auto& c, const auto& d) {
+    return p.name == q.name && p.a == q.a && p.b == q.b && p.clearance == q.clearance &&
+           p.restitution == q.restitution && std::ranges::equal(p.corners, q.corners, [](const auto& c, const auto& d) {
              return c.speed == d.speed && c.restitution == d.restitution;
            });
   });
@@ -48,9 +48,9 @@ inline void expect_same(const Model& a, const Model& b) {
   });
   same(a.characteristics, b.characteristics, [](const auto& p, const auto& q) {
     return p.name == q.name && p.a == q.a && p.b == q.b && p.over == q.over && p.slope_below == q.slope_below &&
-           p.slope_above == q.slope_above &&
-           std::ranges::equal(p.corners, q.corners,
-                              [](const auto& c, const auto& d) { return c.at == d.at && c.force == d.force; });
+           p.slope_above == q.slope_above && std::ranges::equal(p.corners, q.corners, [](const auto& c, const auto& d) {
+             return c.at == d.at && c.force == d.force;
+           });
   });
   EXPECT_EQ(a.mass, b.mass);
   EXPECT_EQ(a.damping, b.damping);

@@ -58,11 +58,9 @@ Names required(const JsonValue& object) { return object.at("required").get<Names
 
 /// By another key of the part; the schema says so in `anyOf`.
 bool replaceable(const PartRule& rule, std::string_view key) {
-  return std::any_of(rule.fields.begin(), rule.fields.end(),
-                     [&](const auto& field) {
-                       return ("|" + std::string(field.instead_of) + "|").find("|" + std::string(key) + "|") !=
-                              std::string::npos;
-                     });
+  return std::any_of(rule.fields.begin(), rule.fields.end(), [&](const auto& field) {
+    return ("|" + std::string(field.instead_of) + "|").find("|" + std::string(key) + "|") != std::string::npos;
+  });
 }
 
 Names required(const PartRule& rule) {

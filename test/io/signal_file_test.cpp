@@ -89,7 +89,8 @@ TEST_F(SignalFile, a_bad_row_is_named_with_its_file) {
     write("road.csv", rows);
     return message(model());
   };
-  EXPECT_NE(said("t,z\n0,1\n1,2\n0.5,3\n").find("road.csv:4: time 0.5 is below the 1 of the row before"), std::string::npos);
+  EXPECT_NE(said("t,z\n0,1\n1,2\n0.5,3\n").find("road.csv:4: time 0.5 is below the 1 of the row before"),
+            std::string::npos);
   EXPECT_NE(said("t,z\n0,1\n1,2\n1,3\n1,4\n").find("road.csv:5: there are three rows at time 1"), std::string::npos);
   EXPECT_NE(said("0,1\n1,nan\n").find("road.csv:2: 'nan' is not a finite number"), std::string::npos);
   EXPECT_NE(said("0,1\n1,\n").find("road.csv:2: a number is missing"), std::string::npos);
@@ -127,7 +128,9 @@ TEST(PeriodicSignalRefusal, names_key_and_line) {
 /// Rounds that fit a period three times, given by decimal numbers, are three rounds of exactly one period.
 TEST(PeriodicSignal, has_rounds_that_fill_a_period) {
   const Model model = ModelDefinition::parse(head + signal("points = [[0.1, 1], [0.2, 3], [0.433333333333333, 1]]\n"
-                                                           "repeats = true\nin_periods = true\n"), "f.toml").build();
+                                                           "repeats = true\nin_periods = true\n"),
+                                             "f.toml")
+                          .build();
   const auto& knots = model.signals[0].knots;
   ASSERT_EQ(knots.size(), 7U);
   EXPECT_EQ(knots.back().time - knots.front().time, 1.0);
@@ -139,9 +142,10 @@ TEST(PeriodicSignal, has_rounds_that_fill_a_period) {
 
 /// The number of points is the file's: two rounds whose ends meet at one value of a parameter are those of a step.
 TEST(PeriodicSignal, has_as_many_points_at_every_value_of_a_parameter) {
-  const ModelDefinition definition = ModelDefinition::parse(
-      head + "[parameters]\np = 1\n" + signal("points = [[0, 1], [0.2, 3], [0.5, 'p']]\nrepeats = true\nin_periods = true\n"),
-      "f.toml");
+  const ModelDefinition definition =
+      ModelDefinition::parse(head + "[parameters]\np = 1\n" +
+                                 signal("points = [[0, 1], [0.2, 3], [0.5, 'p']]\nrepeats = true\nin_periods = true\n"),
+                             "f.toml");
   const auto points = [&](double p) { return definition.build({{"p", p}}).signals[0].knots.size(); };
   EXPECT_EQ(points(1.0), points(2.0));
 }
@@ -156,8 +160,9 @@ TEST_F(SignalFile, a_steep_piece_of_a_round_has_its_row) {
 /// Signals alone give a model their longest round as its period, and shorter ones are counted in it.
 TEST(PeriodicSignal, is_the_clock_where_nothing_else_is) {
   const std::string body = "name = 'm'\n[[coordinate]]\nname = 'x'\nmass = 1\n";
-  const std::string second = "[[signal]]\nname = 'quick'\nshape = 'triangle'\nperiod = 0.5\n"
-                             "[[force]]\non = 'x'\nsignal = 'quick'\namplitude = 1\n";
+  const std::string second =
+      "[[signal]]\nname = 'quick'\nshape = 'triangle'\nperiod = 0.5\n"
+      "[[force]]\non = 'x'\nsignal = 'quick'\namplitude = 1\n";
   const std::string slow = signal("points = [[0, 0], [1, 1], [1.5, 0]]\nrepeats = true\n");
   const Model model = ModelDefinition::parse(body + slow + second, "f.toml").build();
   EXPECT_NEAR(model.forcing_period(), 1.5, 1e-15);
@@ -170,8 +175,9 @@ TEST(PeriodicSignal, is_the_clock_where_nothing_else_is) {
 
 /// A shape leads by its phase: a square by a quarter turn is high around its old start.
 TEST(PeriodicSignal, shapes_lead_by_their_phase) {
-  const Model model = ModelDefinition::parse(head + signal("shape = 'square'\nphase = 'pi / 2'\nlow = 0\nhigh = 2\n"),
-                                             "f.toml").build();
+  const Model model =
+      ModelDefinition::parse(head + signal("shape = 'square'\nphase = 'pi / 2'\nlow = 0\nhigh = 2\n"), "f.toml")
+          .build();
   const auto& knots = model.signals[0].knots;
   const std::vector<std::pair<double, double>> expected = {{-0.25, 2.0}, {0.25, 2.0}, {0.25, 0.0}, {0.75, 0.0}};
   ASSERT_EQ(knots.size(), expected.size());
@@ -189,18 +195,23 @@ TEST(SignalRefusal, names_the_line) {
             std::string::npos);
   EXPECT_NE(refusal(head + "[[signal]]\nname = 's'\npoints = [[0, 1], [1, 2], [0.5, 2]]\n").find("time 0.5 is below 1"),
             std::string::npos);
-  EXPECT_NE(refusal(head + s + "repeats = true\n[[base]]\nname = 'b'\nsignal = 's'\n[[damper]]\nbetween = ['x', 'b']\ncoefficient = 1\n")
-                .find("has a step, at which its rate of change is not finite"),
-            std::string::npos);
-  EXPECT_NE(refusal("name = 'm'\n[[signal]]\nname = 's'\npoints = [[0, 1], [1, 2], [1, 3]]\n[[base]]\nname = 'b'\nsignal = 's'\n[[coordinate]]\nname = 'x'\nmass = 1\nbase = 'b'\n")
+  EXPECT_NE(
+      refusal(head + s +
+              "repeats = true\n[[base]]\nname = 'b'\nsignal = 's'\n[[damper]]\nbetween = ['x', 'b']\ncoefficient = 1\n")
+          .find("has a step, at which its rate of change is not finite"),
+      std::string::npos);
+  EXPECT_NE(refusal("name = 'm'\n[[signal]]\nname = 's'\npoints = [[0, 1], [1, 2], [1, 3]]\n[[base]]\nname = "
+                    "'b'\nsignal = 's'\n[[coordinate]]\nname = 'x'\nmass = 1\nbase = 'b'\n")
                 .find("which steps: what is measured from it would be elsewhere at once"),
             std::string::npos);
-  EXPECT_NE(refusal(head + "[[force]]\non = 'x'\nband = { from = 3, to = 2, rms = 1 }\n").find("to: 2 is below from = 3"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal(head + "[[force]]\non = 'x'\nband = { from = 3, to = 2, rms = 1 }\n").find("to: 2 is below from = 3"),
+      std::string::npos);
   EXPECT_NE(refusal(head + "[[force]]\non = 'x'\nband = { from = 1, to = 200, rms = 1 }\n").find("200 harmonics"),
             std::string::npos);
-  EXPECT_NE(refusal(head + "[[force]]\non = 'x'\namplitude = 1\nfrequency = -2\n").find("f.toml:9: force 1: frequency = -2"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal(head + "[[force]]\non = 'x'\namplitude = 1\nfrequency = -2\n").find("f.toml:9: force 1: frequency = -2"),
+      std::string::npos);
   EXPECT_NE(refusal(head + "[[force]]\non = 'x'\namplitude = 1\nfrequency = 2\nharmonic = 1\n").find("in place of"),
             std::string::npos);
 }

@@ -16,24 +16,27 @@ const std::string road = "[[signal]]\nname = 'road'\npoints = [[0, 0], [1, 1]]\n
 
 std::string force(const std::string& keys) { return "[[force]]\non = 'x'\n" + keys + "\n"; }
 std::string shaken(const std::string& base, const std::string& stiffness = "10") {
-  return "[[base]]\nname = 'shaker'\n" + base + "\n[[spring]]\nname = 'k2'\nbetween = ['x', 'shaker']\nstiffness = " + stiffness + "\n";
+  return "[[base]]\nname = 'shaker'\n" + base +
+         "\n[[spring]]\nname = 'k2'\nbetween = ['x', 'shaker']\nstiffness = " + stiffness + "\n";
 }
 Model built(const std::string& more) { return ModelDefinition::parse(head + more, "f.toml").build(); }
 
 TEST(SilentDrive, a_size_of_zero_makes_no_model_forced_or_aperiodic) {
   const Model free = built("");
   for (const std::string& more :
-       {force("amplitude = 0"), force("amplitude = -0.0\nharmonic = 2"), force("amplitude = '2 - 2'"), force("amplitude = 0\nfrequency = 1.7"),
-        force("amplitude = 0\nharmonic = 0"), force("band = { from = 1, to = 3, rms = 0 }"), road + force("amplitude = 0\nsignal = 'road'"),
-        quiet + force("amplitude = 1\nsignal = 'quiet'"), road + force("amplitude = 0\nsignal = 'road'") + force("amplitude = 0")}) {
+       {force("amplitude = 0"), force("amplitude = -0.0\nharmonic = 2"), force("amplitude = '2 - 2'"),
+        force("amplitude = 0\nfrequency = 1.7"), force("amplitude = 0\nharmonic = 0"),
+        force("band = { from = 1, to = 3, rms = 0 }"), road + force("amplitude = 0\nsignal = 'road'"),
+        quiet + force("amplitude = 1\nsignal = 'quiet'"),
+        road + force("amplitude = 0\nsignal = 'road'") + force("amplitude = 0")}) {
     const Model model = built(more);
     EXPECT_TRUE(!model.forced() && model.periodic()) << more;
     EXPECT_EQ(model.signals.size(), 0U) << more;
     expect_same(model, free);
   }
-  for (const std::string& more :
-       {shaken("harmonics = [{ amplitude = 0 }, { amplitude = 0, frequency = 3 }]"), shaken("harmonics = [{ amplitude = 1 }]", "0"),
-        shaken("band = { from = 1, to = 3, rms = 0 }"), quiet + shaken("signal = 'quiet'")}) {
+  for (const std::string& more : {shaken("harmonics = [{ amplitude = 0 }, { amplitude = 0, frequency = 3 }]"),
+                                  shaken("harmonics = [{ amplitude = 1 }]", "0"),
+                                  shaken("band = { from = 1, to = 3, rms = 0 }"), quiet + shaken("signal = 'quiet'")}) {
     const Model model = built(more);
     EXPECT_EQ(model.forces.size(), 0U) << more;
     EXPECT_TRUE(model.springs.back().motion.none()) << more;
@@ -42,8 +45,10 @@ TEST(SilentDrive, a_size_of_zero_makes_no_model_forced_or_aperiodic) {
 
 /// A branch over the size must not change what kind of model it is.
 TEST(SilentDrive, a_parameter_of_value_zero_keeps_the_structure) {
-  for (const std::string& more : {force("amplitude = 'p'"), force("amplitude = 'p'\nfrequency = 1.7"), road + force("amplitude = '3 * p'\nsignal = 'road'"),
-                                  shaken("harmonics = [{ amplitude = 'p' }]"), shaken("harmonics = [{ amplitude = 1 }]", "'p'")}) {
+  for (const std::string& more :
+       {force("amplitude = 'p'"), force("amplitude = 'p'\nfrequency = 1.7"),
+        road + force("amplitude = '3 * p'\nsignal = 'road'"), shaken("harmonics = [{ amplitude = 'p' }]"),
+        shaken("harmonics = [{ amplitude = 1 }]", "'p'")}) {
     const auto definition = ModelDefinition::parse(head + more, "f.toml");
     const Model at_zero = definition.build(), beside = definition.build({{"p", 0.5}}), rate = definition.rate("p");
     EXPECT_EQ(at_zero.forces.size(), 1U) << more;
@@ -57,10 +62,12 @@ TEST(SilentDrive, a_parameter_of_value_zero_keeps_the_structure) {
 /// Forces and signals have other numbers than in the file: who refers to them must follow, in the derivative too.
 TEST(SilentDrive, what_stays_keeps_its_springs_and_signals) {
   const std::string both = quiet + road + "[[signal]]\nname = 'idle'\npoints = [[0, 0], [1, 5]]\n";
-  const auto definition = ModelDefinition::parse(
-      head + both + force("amplitude = 0") + force("amplitude = 2\nsignal = 'road'") + force("amplitude = 1\nsignal = 'quiet'") +
-          shaken("harmonics = [{ amplitude = 0 }, { amplitude = 'p + 1' }, { amplitude = 0, harmonic = 3 }, { amplitude = 3, harmonic = 2 }]"),
-      "f.toml");
+  const auto definition =
+      ModelDefinition::parse(head + both + force("amplitude = 0") + force("amplitude = 2\nsignal = 'road'") +
+                                 force("amplitude = 1\nsignal = 'quiet'") +
+                                 shaken("harmonics = [{ amplitude = 0 }, { amplitude = 'p + 1' }, { amplitude = 0, "
+                                        "harmonic = 3 }, { amplitude = 3, harmonic = 2 }]"),
+                             "f.toml");
   for (const Model& model : {definition.build(), definition.rate("p")}) {
     ASSERT_EQ(model.signals.size(), 1U);
     EXPECT_EQ(model.signals[0].name, "road");
@@ -106,8 +113,8 @@ TEST(SilentDrive, what_is_wrong_with_it_is_told) {
 
 /// Without its harmonic the clock counts units of time: a piece that a faster clock resolves is too steep for it.
 TEST(SilentDrive, steep_pieces_are_measured_by_the_clock_that_is_left) {
-  const std::string steep = road + "[[signal]]\nname = 'step'\npoints = [[0, 0], [1e-10, 1]]\n" + force("amplitude = 0\nsignal = 'road'") +
-                            force("amplitude = 1\nsignal = 'step'");
+  const std::string steep = road + "[[signal]]\nname = 'step'\npoints = [[0, 0], [1e-10, 1]]\n" +
+                            force("amplitude = 0\nsignal = 'road'") + force("amplitude = 1\nsignal = 'step'");
   const std::string fast = "name = 'm'\nomega = 1e6\n[[coordinate]]\nname = 'x'\nmass = 1\n" + steep;
   EXPECT_NO_THROW((void)ModelDefinition::parse(fast + force("amplitude = 1"), "f.toml").build());
   try {

@@ -57,7 +57,8 @@ TEST(StatedUnits, AreNoneWhereTheFileStatesNone) {
   none.unit = "";
   EXPECT_EQ(stated(none).coordinates, std::vector<std::string>{""});
   for (const std::string& name : builtin_models())
-    for (const std::string& unit : load_model(name).stated_units().coordinates) EXPECT_EQ(unit, name == "gear-rattle" ? "m" : "") << name;
+    for (const std::string& unit : load_model(name).stated_units().coordinates)
+      EXPECT_EQ(unit, name == "gear-rattle" ? "m" : "") << name;
   EXPECT_EQ(load_model("gear-rattle").stated_units().time, "s");
 }
 

@@ -12,8 +12,8 @@
 #include <random>
 #include <stdexcept>
 
-#include "slapstick/base/error.hpp"
 #include "io/json.hpp"
+#include "slapstick/base/error.hpp"
 
 namespace slapstick {
 namespace {

@@ -169,7 +169,8 @@ TEST(CoordinateUnit, without_scale_all_or_none_and_one_per_dimension) {
             "f.toml:3: parameter 'gap': unit 'm' is mixed with 'mm' of a coordinate");
   EXPECT_TRUE(with("", "", "[parameters.gap]\nvalue = 1\nunit = 'whatever'\n")
                   .starts_with("f.toml:3: parameter 'gap': unknown unit 'whatever'; known: m km"));
-  EXPECT_EQ(with("", "", "[parameters.gap]\nvalue = 1\nunit = 'm'\n[parameters.way]\nvalue = 1\nunit = 'mm'\n"), "accepted");
+  EXPECT_EQ(with("", "", "[parameters.gap]\nvalue = 1\nunit = 'm'\n[parameters.way]\nvalue = 1\nunit = 'mm'\n"),
+            "accepted");
 }
 
 }  // namespace

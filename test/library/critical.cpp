@@ -1,8 +1,8 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 
-#include "section/return_map.hpp"
 #include "library/published_cases.hpp"
+#include "section/return_map.hpp"
 
 namespace slapstick::library {
 namespace {

@@ -2,11 +2,11 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "section/return_map.hpp"
 #include "flow/compiled_system.hpp"
 #include "io/expression.hpp"
 #include "library/notes.hpp"
 #include "library/published_cases.hpp"
+#include "section/return_map.hpp"
 #include "slapstick/flow/tangent.hpp"
 
 namespace slapstick::library {

@@ -4,8 +4,8 @@
 
 #include <set>
 
-#include "library/published_cases.hpp"
 #include "io/table.hpp"
+#include "library/published_cases.hpp"
 
 namespace slapstick::library {
 namespace {

@@ -146,7 +146,8 @@ double excess(const Mode& mode, int d, double window) {
     for (int i = 0; i < m; ++i) {
       const auto b = static_cast<std::size_t>(i == m - 1 ? 3 : i >= 2 * d ? 2 : i / d);
       const double scale = std::max(row.scale[b], share * common[b]);
-      if (scale > 0.0) most = std::max(most, row.dropped[static_cast<std::size_t>(i)] / (0.25 * event::unit_roundoff * scale));
+      if (scale > 0.0)
+        most = std::max(most, row.dropped[static_cast<std::size_t>(i)] / (0.25 * event::unit_roundoff * scale));
     }
   }
   return most;
@@ -155,7 +156,8 @@ double excess(const Mode& mode, int d, double window) {
 /// The built-in models, and those that have every law of force.
 std::vector<std::string> models() {
   std::vector<std::string> all = builtin_models();
-  for (const char* file : {"pressed-pair.toml", "every-stop.toml"}) all.push_back(std::string(SLAPSTICK_ORBIT_MODELS) + file);
+  for (const char* file : {"pressed-pair.toml", "every-stop.toml"})
+    all.push_back(std::string(SLAPSTICK_ORBIT_MODELS) + file);
   return all;
 }
 
@@ -189,7 +191,7 @@ TEST(Window, IsAsLongAsWhatItDropsAllows) {
     for (const ContactStates& states : all_states(model)) {
       const Mode mode(model, frame, states);
       EXPECT_LE(excess(mode, frame.d, mode.window()), 1.0 + 1e-9) << name;
-      const double longer = excess(mode, frame.d, 1.002 * mode.window());  // a step of its bisection is 0.07 %
+      const double longer = excess(mode, frame.d, 1.002 * mode.window());   // a step of its bisection is 0.07 %
       EXPECT_TRUE(longer > 1.0 || longer == 0.0) << name << ' ' << longer;  // 0: its series ends by itself
       bounded += longer > 1.0;
     }

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "oracle/real.hpp"
 #include "mode/mode.hpp"
+#include "oracle/real.hpp"
 
 namespace slapstick::mode::testing {
 

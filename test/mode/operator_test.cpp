@@ -5,8 +5,8 @@
 #include <array>
 #include <random>
 
-#include "mode/exact_flow.hpp"
 #include "event/first_root.hpp"
+#include "mode/exact_flow.hpp"
 #include "oracle/models.hpp"
 
 namespace slapstick::mode {

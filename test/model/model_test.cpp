@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
-#include "slapstick/base/error.hpp"
 #include "base/nearest.hpp"
+#include "slapstick/base/error.hpp"
 
 namespace slapstick {
 namespace {
@@ -102,7 +102,8 @@ TEST(Model, every_refusal_names_part_and_value) {
       {[](Model& m) { m.springs[1].b = -2; }, "spring 2: coordinate index -2 is outside [0, 1]"},
       {[](Model& m) { m.springs[0].b = 0; }, "spring 1: both ends are 'x1'"},
       {[](Model& m) { m.dampers[1].a = ground; }, "damper 2: both ends are the ground"},
-      {[](Model& m) { m.dampers[1].coefficient = -0.1; }, "damper 2: coefficient = -0.1 is negative; a damper that may feed energy says feeds = true"},
+      {[](Model& m) { m.dampers[1].coefficient = -0.1; },
+       "damper 2: coefficient = -0.1 is negative; a damper that may feed energy says feeds = true"},
       {[](Model& m) { m.forces[0].coordinate = ground; }, "force 1: a force acts on a coordinate, not on the ground"},
       {[](Model& m) { m.forces[0].coordinate = 9; }, "force 1: coordinate index 9 is outside [0, 1]"},
       {[](Model& m) { m.forces[0].harmonic = -1; }, "force 1: harmonic = -1 is negative"},
@@ -142,7 +143,8 @@ TEST(Model, refusals_of_compliant_stops_and_matrices) {
        "stop 'back': clearance = 0 leaves no room opposite stop 'stop' with clearance = 0: their sum must be positive"},
       {[](Model& m) { m.compliant_stops[0].name = "stop"; }, "compliant_stop 'stop': name 'stop' is used twice"},
       {[](Model& m) { m.compliant_stops[0].stiffness = 0.0; },
-       "compliant_stop 'bumper': stiffness = 0 is not positive; a damper alone beyond a gap is a damper that acts within an interval"},
+       "compliant_stop 'bumper': stiffness = 0 is not positive; a damper alone beyond a gap is a damper that acts "
+       "within an interval"},
       {[](Model& m) { m.compliant_stops[0].damping = -1.0; }, "compliant_stop 'bumper': damping = -1 is negative"},
       {[](Model& m) { m.compliant_stops[0].b = 1; }, "compliant_stop 'bumper': both ends are 'x2'"},
       {[](Model& m) {

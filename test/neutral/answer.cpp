@@ -46,10 +46,13 @@ Dimension dimension(Kind kind) {
 namespace {
 
 constexpr MotionOptions patience{.most_events_per_period = 20'000};
-const ClassifyOptions short_search{.transient_periods = 100, .most_periods = 1000, .most_n = 32, .exponent_periods = 400};
+const ClassifyOptions short_search{
+    .transient_periods = 100, .most_periods = 1000, .most_n = 32, .exponent_periods = 400};
 
 /// Kinds share names ("energy", "power"); here each has its own.
-std::string label(Kind kind) { return std::string(slapstick::name(kind)) + " (" + std::to_string(static_cast<int>(kind)) + ")"; }
+std::string label(Kind kind) {
+  return std::string(slapstick::name(kind)) + " (" + std::to_string(static_cast<int>(kind)) + ")";
+}
 
 /// The motions of the generator's machines stay below it.
 constexpr double out_of_reach = 50.0;
@@ -64,7 +67,8 @@ std::string part_of(const System& system, const Quantity& quantity) {
   if (quantity.index < 0) return "";
   auto k = static_cast<std::size_t>(quantity.index);
   if (quantity.kind <= Kind::acceleration) return m.coordinates[k].name;
-  const std::size_t contacts = m.stops.size() + m.frictions.size() + m.compliant_stops.size() + m.characteristics.size();
+  const std::size_t contacts =
+      m.stops.size() + m.frictions.size() + m.compliant_stops.size() + m.characteristics.size();
   if (k < contacts) return system.contact_name(quantity.index);
   k -= contacts;
   return k < m.springs.size() ? m.springs[k].name : m.dampers[k - m.springs.size()].name;
@@ -83,7 +87,8 @@ std::vector<int> holding_together(const Model& m, int contact) {
   const auto acts = [&](int c) {
     if (c < stops) return !far(m.stops[static_cast<std::size_t>(c)].clearance);
     const auto& normal = m.frictions[static_cast<std::size_t>(c - stops)].normal;
-    return !normal || normal->compliant_stop < 0 || !far(m.compliant_stops[static_cast<std::size_t>(normal->compliant_stop)].clearance);
+    return !normal || normal->compliant_stop < 0 ||
+           !far(m.compliant_stops[static_cast<std::size_t>(normal->compliant_stop)].clearance);
   };
   std::vector<int> found;
   for (int other = 0; other < holders; ++other)
@@ -95,7 +100,8 @@ std::vector<int> holding_together(const Model& m, int contact) {
 std::vector<Quantity> asked(const Model& model, bool at_impacts) {
   std::vector<Quantity> all = quantities(model);
   std::erase_if(all, [&](const Quantity& q) {
-    return q.kind == Kind::parameter || q.kind == Kind::flight || q.kind == Kind::sliding || (q.at_impacts() && !at_impacts);
+    return q.kind == Kind::parameter || q.kind == Kind::flight || q.kind == Kind::sliding ||
+           (q.at_impacts() && !at_impacts);
   });
   return all;
 }
@@ -113,7 +119,9 @@ Row told(const System& system, const Event& event) {
   row.held = event.kind == EventKind::release && std::ranges::any_of(together, of_stop);
   for (const int other : together)
     if (of_stop(other) == of_stop(event.contact))
-      if (const std::string its = system.contact_name(other); std::pair(its.size(), its) < std::pair(row.contact.size(), row.contact)) row.contact = its;
+      if (const std::string its = system.contact_name(other);
+          std::pair(its.size(), its) < std::pair(row.contact.size(), row.contact))
+        row.contact = its;
   return row;
 }
 
@@ -121,12 +129,16 @@ Row told(const System& system, const Event& event) {
 class Sampler {
  public:
   Sampler(const System& system, const State& start, double grid)
-      : system_(system), grid_(grid), reader_(system, asked(system.model(), false)), motion_(system, start, {}, patience) {}
+      : system_(system),
+        grid_(grid),
+        reader_(system, asked(system.model(), false)),
+        motion_(system, start, {}, patience) {}
 
   void run(int steps, Answer& answer) {
     const double T = system_.period();
     for (int k = 1; k <= steps; ++k) {
-      for (ModeId here = motion_.mode_id(); motion_.advance(Instant{}.plus(k * grid_ / T)) == Outcome::event; here = motion_.mode_id()) {
+      for (ModeId here = motion_.mode_id(); motion_.advance(Instant{}.plus(k * grid_ / T)) == Outcome::event;
+           here = motion_.mode_id()) {
         const Event& e = motion_.event();
         if (!(e.time == instant_)) before_ = here, instant_ = e.time;
         if (e.kind == EventKind::knot || touches_rest(e)) continue;
@@ -155,7 +167,8 @@ class Sampler {
     for (std::size_t i = 0; i < read.size(); ++i) {
       const Quantity& q = reader_.of()[i];
       if (q.kind > Kind::velocity)
-        answer.numbers.push_back({label(q.kind), part_of(system_, q), read[i], dimension(q.kind), odd(q.kind), k, k * grid_, undetermined(system_.model(), q)});
+        answer.numbers.push_back({label(q.kind), part_of(system_, q), read[i], dimension(q.kind), odd(q.kind), k,
+                                  k * grid_, undetermined(system_.model(), q)});
     }
   }
 
@@ -194,10 +207,17 @@ void measure(const ModelDefinition& definition, const Question& question, Answer
   const System system(definition.build());
   const std::vector<Quantity> of = asked(system.model(), true);
   const double until = question.grid * question.steps;
-  const Measured found = slapstick::measure(Motion(system, definition.start(), {}, patience), Instant{}.plus(until / system.period()), of);
+  const Measured found =
+      slapstick::measure(Motion(system, definition.start(), {}, patience), Instant{}.plus(until / system.period()), of);
   for (std::size_t i = 0; i < of.size(); ++i) {
-    const Number all{label(of[i].kind) + (of[i].at_impacts() ? " at impacts" : ""), part_of(system, of[i]), 0.0, dimension(of[i].kind), odd(of[i].kind), -1,
-                     until, undetermined(system.model(), of[i])};
+    const Number all{label(of[i].kind) + (of[i].at_impacts() ? " at impacts" : ""),
+                     part_of(system, of[i]),
+                     0.0,
+                     dimension(of[i].kind),
+                     odd(of[i].kind),
+                     -1,
+                     until,
+                     undetermined(system.model(), of[i])};
     add_statistics(all, found.of[i], of[i].at_impacts(), answer.numbers);
   }
 }
@@ -206,7 +226,9 @@ void classify(const ModelDefinition& definition, Answer& answer) {
   const System system(definition.build());
   const Classification found = slapstick::classify(system, definition.start(), short_search);
   answer.periods_used = found.periods_used;
-  answer.words = {{"attractor", std::string(slapstick::name(found.attractor))}, {"class", found.label}, {"doubt", std::string(slapstick::name(found.doubt))}};
+  answer.words = {{"attractor", std::string(slapstick::name(found.attractor))},
+                  {"class", found.label},
+                  {"doubt", std::string(slapstick::name(found.doubt))}};
   answer.multipliers = found.multipliers;
   answer.eigenvalues = found.eigenvalues;
   const bool settled = found.n > 0 || found.attractor == Attractor::equilibrium;
@@ -216,7 +238,8 @@ void classify(const ModelDefinition& definition, Answer& answer) {
   answer.numbers.push_back({"period", "", found.period, dim::time});
   const bool by_time = found.n == 0 && !system.model().forced();  // of an equilibrium without a clock
   for (std::size_t i = 0; i < found.drift.size(); ++i)
-    answer.numbers.push_back({"drift", system.model().coordinates[i].name, found.drift[i], by_time ? dim::speed : dim::length, true});
+    answer.numbers.push_back(
+        {"drift", system.model().coordinates[i].name, found.drift[i], by_time ? dim::speed : dim::length, true});
   if (found.chatter == Chatter::complete) return;
   answer.numbers.push_back({"p", "", static_cast<double>(found.p), dim::pure});
   std::map<std::string, std::vector<double>> speeds;
@@ -236,7 +259,8 @@ std::string text_of_range(const Parameter& parameter) {
 }  // namespace
 
 bool undetermined(const Model& model, const Quantity& q) {
-  return (q.kind == Kind::force || q.kind == Kind::power || q.kind == Kind::loss) && !holding_together(model, q.index).empty();
+  return (q.kind == Kind::force || q.kind == Kind::power || q.kind == Kind::loss) &&
+         !holding_together(model, q.index).empty();
 }
 
 const char* name(Verb verb) {
@@ -263,7 +287,8 @@ bool of_trajectory(Verb verb) { return verb == Verb::simulate || verb == Verb::m
 
 Answer ask(Verb verb, const ModelDefinition& definition, const Question& question) {
   Answer answer;
-  if (definition.parameters().size() < parameters_of(verb)) return {"refused", "too few parameters", {}, {}, {}, {}, {}};
+  if (definition.parameters().size() < parameters_of(verb))
+    return {"refused", "too few parameters", {}, {}, {}, {}, {}};
   try {
     if (verb == Verb::simulate) simulate(definition, question, answer);
     if (verb == Verb::measure) measure(definition, question, answer);
@@ -284,12 +309,15 @@ std::string command(Verb verb, const ModelDefinition& definition, const std::str
   const auto& parameters = definition.parameters();
   const auto range = [&](std::size_t k) { return text_of_range(parameters[k]); };
   if (verb == Verb::simulate) return "slapstick simulate " + file + " --time " + time + " --events events.csv";
-  if (verb == Verb::measure) return "slapstick measure " + file + " --transient 0 --time " + time + " --of kinetic_energy";
-  if (verb == Verb::classify) return "slapstick classify " + file + " --transient 100 --most-periods 1000 --most-n 32 --exponent-periods 400";
+  if (verb == Verb::measure)
+    return "slapstick measure " + file + " --transient 0 --time " + time + " --of kinetic_energy";
+  if (verb == Verb::classify)
+    return "slapstick classify " + file + " --transient 100 --most-periods 1000 --most-n 32 --exponent-periods 400";
   if (verb == Verb::orbit) return "slapstick orbit " + file + " --transient 100";
-  if (verb == Verb::branch) return "slapstick continue " + file + " --transient 100 --param " + parameters[0].name + " --range " + range(0);
-  return "slapstick curve " + file + " --params " + parameters[0].name + "," + parameters[1].name + " --range " + parameters[0].name + "=" + range(0) +
-         " --range " + parameters[1].name + "=" + range(1);
+  if (verb == Verb::branch)
+    return "slapstick continue " + file + " --transient 100 --param " + parameters[0].name + " --range " + range(0);
+  return "slapstick curve " + file + " --params " + parameters[0].name + "," + parameters[1].name + " --range " +
+         parameters[0].name + "=" + range(0) + " --range " + parameters[1].name + "=" + range(1);
 }
 
 double growth(const ModelDefinition& definition, double until) {

@@ -15,10 +15,10 @@ struct Number {
   std::string what, of;  ///< "mean F", "wall"; of the model as a whole: ""
   double value = 0.0;
   Dimension dimension;
-  bool odd = false;             ///< changes its sign with the coordinates
-  int sample = -1;              ///< at which instant, or -1
-  double until = 0.0;           ///< the motion's time that it depends on; of an attractor 0
-  bool undetermined = false;    ///< contacts on one pair hold together, and only the sum of their forces is determined
+  bool odd = false;           ///< changes its sign with the coordinates
+  int sample = -1;            ///< at which instant, or -1
+  double until = 0.0;         ///< the motion's time that it depends on; of an attractor 0
+  bool undetermined = false;  ///< contacts on one pair hold together, and only the sum of their forces is determined
 };
 
 struct Row {
@@ -56,7 +56,8 @@ struct Question {
 /// As the verb of the program asks the library; what that throws is the answer's `failure`.
 [[nodiscard]] Answer ask(Verb verb, const ModelDefinition& definition, const Question& question);
 /// The command that asks the same of a file.
-[[nodiscard]] std::string command(Verb verb, const ModelDefinition& definition, const std::string& file, const Question& question);
+[[nodiscard]] std::string command(Verb verb, const ModelDefinition& definition, const std::string& file,
+                                  const Question& question);
 
 /// The largest factor by which a small change of the start has grown until a time.
 [[nodiscard]] double growth(const ModelDefinition& definition, double until);

@@ -117,7 +117,8 @@ class Comparison {
         const Key key{turned ? swapped_extreme(n.what) : n.what, renamed(n.of, twin), sample};
         if (n.undetermined || undetermined.contains(key)) continue;
         const auto other = others.find(key);
-        const std::string what = n.what + (n.of.empty() ? "" : " of " + n.of) + (n.sample < 0 ? "" : " at " + std::to_string(n.sample));
+        const std::string what =
+            n.what + (n.of.empty() ? "" : " of " + n.of) + (n.sample < 0 ? "" : " at " + std::to_string(n.sample));
         if (other == others.end()) {
           if (rule_.steps == 0) note(what + " is not in the second", n.until);
           continue;
@@ -145,11 +146,16 @@ class Comparison {
           out.push_back(rows[i]);
         else
           first.try_emplace(rows[i].contact, rows[i]), last[rows[i].contact] = rows[i];
-      std::stable_sort(out.begin() + impacts, out.end(), [](const Row& a, const Row& b) { return a.contact < b.contact; });
+      std::stable_sort(out.begin() + impacts, out.end(),
+                       [](const Row& a, const Row& b) { return a.contact < b.contact; });
       // That an impact frees a contact is told where another impact of the instant comes between.
-      const bool struck = std::ranges::any_of(std::span(rows).subspan(begin, end - begin), [](const Row& row) { return row.kind == EventKind::impact; });
+      const bool struck = std::ranges::any_of(std::span(rows).subspan(begin, end - begin),
+                                              [](const Row& row) { return row.kind == EventKind::impact; });
       for (const auto& [contact, row] : last)
-        if (!row.held && (row.kind == EventKind::release ? !struck : row.kind != EventKind::stick || first[contact].kind != EventKind::release)) out.push_back(row);
+        if (!row.held && (row.kind == EventKind::release
+                              ? !struck
+                              : row.kind != EventKind::stick || first[contact].kind != EventKind::release))
+          out.push_back(row);
     }
     return out;
   }
@@ -162,7 +168,8 @@ class Comparison {
     double last = -INFINITY;
     for (Row& row : rows) {
       if (row.kind == EventKind::impact && row.w < slow * fastest) last = row.time;
-      if (row.kind == EventKind::stick && row.time - last <= tail * rule_.time) row.kind = EventKind::chatter;  // of friction on the pair
+      if (row.kind == EventKind::stick && row.time - last <= tail * rule_.time)
+        row.kind = EventKind::chatter;  // of friction on the pair
       if (row.kind != EventKind::chatter) continue;
       row.contact.clear();  // of several that close the pair
       limits.push_back(row.time);
@@ -178,7 +185,8 @@ class Comparison {
   [[nodiscard]] std::vector<Row> rows_of_second(const std::string& twin) const {
     std::vector<Row> rows = second_.rows;
     if (!rule_.twin.empty())
-      std::erase_if(rows, [&](const Row& row) { return (row.contact.find(rule_.twin) != std::string::npos) == twin.empty(); });
+      std::erase_if(
+          rows, [&](const Row& row) { return (row.contact.find(rule_.twin) != std::string::npos) == twin.empty(); });
     return compared(std::move(rows));
   }
 
@@ -186,7 +194,8 @@ class Comparison {
     std::vector<Row> expected = first_.rows;
     if (rule_.steps > 0) std::erase_if(expected, [&](const Row& row) { return row.time <= later_; });
     for (Row& row : expected)
-      row = {row.kind, renamed(row.contact, twin), (row.time - later_) * rule_.time, row.w * rule_.length / rule_.time, row.held};
+      row = {row.kind, renamed(row.contact, twin), (row.time - later_) * rule_.time, row.w * rule_.length / rule_.time,
+             row.held};
     expected = compared(std::move(expected));
     const std::vector<Row> found = rows_of_second(twin);
     double fastest = 0.0, latest = 0.0;
@@ -211,19 +220,23 @@ class Comparison {
   }
 
   /// As sets: each of the first has its own among the second, twice where there are twins.
-  void spectrum(const std::string& what, const std::vector<std::complex<double>>& first, std::vector<std::complex<double>> second, double unit) {
-    const std::size_t expected = first.size() * twins().size(), most = expected + static_cast<std::size_t>(rule_.more_directions);
+  void spectrum(const std::string& what, const std::vector<std::complex<double>>& first,
+                std::vector<std::complex<double>> second, double unit) {
+    const std::size_t expected = first.size() * twins().size(),
+                      most = expected + static_cast<std::size_t>(rule_.more_directions);
     if (second.size() < expected || second.size() > most)
       return note("number of " + what + ": " + std::to_string(expected) + ", " + std::to_string(second.size()), 0.0);
     for (const auto& one : first)
       for (std::size_t k = 0; k < twins().size(); ++k) {
         const std::complex<double> wanted = one * unit;
-        const auto nearest = std::ranges::min_element(second, {}, [&](const auto& other) { return std::abs(other - wanted); });
+        const auto nearest =
+            std::ranges::min_element(second, {}, [&](const auto& other) { return std::abs(other - wanted); });
         const double size = std::max(unit, std::abs(wanted));
         if (nearest == second.end() || !(std::abs(*nearest - wanted) <= tolerance_ * size)) {
           const std::complex<double> there = nearest == second.end() ? std::complex<double>(NAN, NAN) : *nearest;
-          return note(what + ": " + shown(wanted.real()) + (wanted.imag() < 0 ? " - " : " + ") + shown(std::abs(wanted.imag())) + " i, nearest " +
-                          shown(there.real()) + (there.imag() < 0 ? " - " : " + ") + shown(std::abs(there.imag())) + " i",
+          return note(what + ": " + shown(wanted.real()) + (wanted.imag() < 0 ? " - " : " + ") +
+                          shown(std::abs(wanted.imag())) + " i, nearest " + shown(there.real()) +
+                          (there.imag() < 0 ? " - " : " + ") + shown(std::abs(there.imag())) + " i",
                       0.0);
         }
         second.erase(nearest);
@@ -238,7 +251,8 @@ class Comparison {
 
 }  // namespace
 
-std::optional<Difference> difference(const Answer& first, const Answer& second, const Rule& rule, double grid, double tolerance) {
+std::optional<Difference> difference(const Answer& first, const Answer& second, const Rule& rule, double grid,
+                                     double tolerance) {
   return Comparison(first, second, rule, grid, tolerance).run();
 }
 

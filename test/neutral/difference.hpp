@@ -15,6 +15,7 @@ struct Difference {
 
 /// The earliest difference of the second answer from the first, transformed by the rule; nothing if they agree.
 /// @param tolerance  as a part of the largest number of the same dimension; 0: the same bits
-[[nodiscard]] std::optional<Difference> difference(const Answer& first, const Answer& second, const Rule& rule, double grid, double tolerance);
+[[nodiscard]] std::optional<Difference> difference(const Answer& first, const Answer& second, const Rule& rule,
+                                                   double grid, double tolerance);
 
 }  // namespace slapstick::neutral

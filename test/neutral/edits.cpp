@@ -89,7 +89,8 @@ std::optional<Edited> other_names(const Definition& file, campaign::Random&) {
   edited.rule.bits = true;
   Definition& after = edited.file;
   each_number(after, [&](Scalar& scalar, Dimension) { rename(scalar, file.parameters, prefix); });
-  for (ParameterEntry& entry : after.parameters) rename(entry.value, file.parameters, prefix), entry.shown.name = prefix + entry.shown.name;
+  for (ParameterEntry& entry : after.parameters)
+    rename(entry.value, file.parameters, prefix), entry.shown.name = prefix + entry.shown.name;
   const auto state_name = [&](const std::string& name) {
     for (const Part& coordinate : file.of("coordinate"))
       if (name == velocity_name(coordinate.name)) return velocity_name(prefix + coordinate.name);

@@ -13,15 +13,15 @@ namespace slapstick::neutral {
 
 /// How the answers of the second file follow from those of the first.
 struct Rule {
-  bool bits = false;                           ///< to the last bit; else to rounding
-  double length = 1.0, time = 1.0, mass = 1.0; ///< a number of the second file is that of the first times these
-  bool mirrored = false;                       ///< displacements and velocities of coordinates have the other sign
-  std::string prefix;                          ///< before every name
-  std::set<std::string> rows_apart;            ///< parts whose events are not compared
-  std::string twin;                            ///< the model is there twice, once with this behind every name; "": once
-  int steps = 0;                               ///< the clock is later by so many instants of `sample_grid`
-  double farthest = 1.0;                       ///< a pair's only stop may be so far away, and the pair is rounded so
-  int more_directions = 0;                     ///< multipliers or eigenvalues that the first answer has not
+  bool bits = false;                            ///< to the last bit; else to rounding
+  double length = 1.0, time = 1.0, mass = 1.0;  ///< a number of the second file is that of the first times these
+  bool mirrored = false;                        ///< displacements and velocities of coordinates have the other sign
+  std::string prefix;                           ///< before every name
+  std::set<std::string> rows_apart;             ///< parts whose events are not compared
+  std::string twin;         ///< the model is there twice, once with this behind every name; "": once
+  int steps = 0;            ///< the clock is later by so many instants of `sample_grid`
+  double farthest = 1.0;    ///< a pair's only stop may be so far away, and the pair is rounded so
+  int more_directions = 0;  ///< multipliers or eigenvalues that the first answer has not
 };
 
 struct Edited {

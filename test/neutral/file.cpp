@@ -39,13 +39,16 @@ void visit_points(const std::string& kind, Part& part, const Visit& visit) {
 void visit_part(const std::string& kind, Part& part, const Visit& visit) {
   const bool loaded = !part.load.empty() || !part.load_stop.empty();
   for (auto& [key, scalar] : part.fields)
-    visit(scalar, kind == "force" && key == "amplitude" && part.texts.contains("signal") ? dim::stiffness : dimension(kind, key, loaded));
+    visit(scalar, kind == "force" && key == "amplitude" && part.texts.contains("signal")
+                      ? dim::stiffness
+                      : dimension(kind, key, loaded));
   for (Part& harmonic : part.harmonics) visit_part(kind, harmonic, visit);
   visit_points(kind, part, visit);
   for (Scalar& end : part.within) visit(end, dim::length);
   for (auto& [key, scalar] : part.stribeck)
     visit(scalar, key == "speed" ? dim::speed : key == "corners" || loaded ? dim::pure : dim::force);
-  for (auto& [key, scalar] : part.band) visit(scalar, key != "rms" ? dim::pure : kind == "force" ? dim::force : dim::length);
+  for (auto& [key, scalar] : part.band)
+    visit(scalar, key != "rms" ? dim::pure : kind == "force" ? dim::force : dim::length);
   for (auto& [key, scalar] : part.load)
     visit(scalar, key == "constant" ? dim::force : key.starts_with("v") ? dim::damping : dim::stiffness);
 }
@@ -58,19 +61,22 @@ void each_number(Definition& file, const Visit& visit) {
     for (Part& part : all)
       if (kind != "observable") visit_part(kind, part, visit);
   for (auto& [key, matrix] : file.matrices)
-    for (Scalar& entry : matrix.entries) visit(entry, key == "mass" ? dim::mass : key == "damping" ? dim::damping : dim::stiffness);
+    for (Scalar& entry : matrix.entries)
+      visit(entry, key == "mass" ? dim::mass : key == "damping" ? dim::damping : dim::stiffness);
   for (auto& [name, scalar] : file.start) visit(scalar, name.starts_with("v") ? dim::speed : dim::length);
 }
 
 Scalar number(double value) { return {value, std::nullopt, 0}; }
 
 void multiply(Scalar& scalar, double factor) {
-  if (scalar.expression) scalar.expression = Expression("(" + scalar.expression->text() + ") * " + shortest_decimal(factor));
+  if (scalar.expression)
+    scalar.expression = Expression("(" + scalar.expression->text() + ") * " + shortest_decimal(factor));
   scalar.number *= factor;
 }
 
 void add(Scalar& scalar, double summand) {
-  if (scalar.expression) scalar.expression = Expression(scalar.expression->text() + " + (" + shortest_decimal(summand) + ")");
+  if (scalar.expression)
+    scalar.expression = Expression(scalar.expression->text() + " + (" + shortest_decimal(summand) + ")");
   scalar.number += summand;
 }
 
@@ -93,7 +99,9 @@ Scalar* field(Part& part, const std::string& key) {
 
 int coordinates(const Definition& file) { return static_cast<int>(file.of("coordinate").size()); }
 
-int home(const Definition& file, int coordinate) { return file.of("coordinate")[static_cast<std::size_t>(coordinate)].b; }
+int home(const Definition& file, int coordinate) {
+  return file.of("coordinate")[static_cast<std::size_t>(coordinate)].b;
+}
 
 std::string velocity_name(const std::string& coordinate) {
   return coordinate.starts_with("x") ? "v" + coordinate.substr(1) : "v_" + coordinate;

@@ -15,8 +15,9 @@ struct Dimension {
 
 /// Of what a file has. The force of a signal has the rest: a signal is a length.
 namespace dim {
-constexpr Dimension pure{}, length{1, 0, 0}, time{0, 1, 0}, mass{0, 0, 1}, speed{1, -1, 0}, acceleration{1, -2, 0}, force{1, -2, 1},
-    impulse{1, -1, 1}, energy{2, -2, 1}, power{2, -3, 1}, stiffness{0, -2, 1}, damping{0, -1, 1}, rate{0, -1, 0};
+constexpr Dimension pure{}, length{1, 0, 0}, time{0, 1, 0}, mass{0, 0, 1}, speed{1, -1, 0}, acceleration{1, -2, 0},
+    force{1, -2, 1}, impulse{1, -1, 1}, energy{2, -2, 1}, power{2, -3, 1}, stiffness{0, -2, 1}, damping{0, -1, 1},
+    rate{0, -1, 0};
 }
 
 /// Calls visit(number, dimension) for every number of a file.

@@ -27,7 +27,9 @@ constexpr double rounding = 0x1p-44;
 /// Of integrals and balances, relative to the largest term.
 constexpr double close = 1e-8;
 
-std::string broken(const std::string& what, double one, double other) { return what + ": " + shown(one) + ", " + shown(other); }
+std::string broken(const std::string& what, double one, double other) {
+  return what + ": " + shown(one) + ", " + shown(other);
+}
 
 std::vector<Quantity> functions_of_time(const Model& model) {
   std::vector<Quantity> all = quantities(model);
@@ -36,7 +38,8 @@ std::vector<Quantity> functions_of_time(const Model& model) {
 }
 
 /// A motion's quantities by a quadrature of their values: Gauss's rule of four points on short steps between events.
-std::vector<double> integrals(const System& system, Motion motion, const std::vector<Quantity>& of, const Question& question) {
+std::vector<double> integrals(const System& system, Motion motion, const std::vector<Quantity>& of,
+                              const Question& question) {
   constexpr std::array nodes{0.06943184420297371, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629};
   constexpr std::array weights{0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693};
   constexpr int cuts = 64;  // of a grid step
@@ -70,7 +73,8 @@ std::optional<std::string> columns_integrate(const ModelDefinition& definition, 
   const std::vector<double> sums = integrals(system, motion, of, question);
   for (std::size_t i = 0; i < of.size(); ++i) {
     const Statistics& s = found.of[i];
-    const double smooth = s.mean * time - s.impulse, size = time * (1e-3 + std::max(std::abs(s.least), std::abs(s.greatest)));
+    const double smooth = s.mean * time - s.impulse,
+                 size = time * (1e-3 + std::max(std::abs(s.least), std::abs(s.greatest)));
     if (!(std::abs(sums[i] - smooth) <= 1e-6 * size)) return broken("integral of " + of[i].name, sums[i], smooth);
   }
   return "";
@@ -93,7 +97,8 @@ std::optional<std::string> accelerations_sum_up(const ModelDefinition& definitio
     const auto at = 2 * static_cast<std::size_t>(of[i].index) + (of[i].kind == Kind::velocity ? 0 : 1);
     const Statistics& s = found.of[i];
     const double size = time * (1e-3 + std::max(std::abs(s.least), std::abs(s.greatest))) + std::abs(s.impulse);
-    if (!(std::abs(last[at] - start[at] - s.mean * time) <= close * size)) return broken("change by " + of[i].name, last[at] - start[at], s.mean * time);
+    if (!(std::abs(last[at] - start[at] - s.mean * time) <= close * size))
+      return broken("change by " + of[i].name, last[at] - start[at], s.mean * time);
   }
   return "";
 }
@@ -108,23 +113,29 @@ std::optional<std::string> energy_balances(const ModelDefinition& definition, co
   const Measured found = slapstick::measure(motion, end, of);
   Reader reader(system, of);
   std::vector<double> before = reader.now(motion);
-  if (motion.advance(end) == Outcome::event && motion.event().time == Instant{}) before = reader.before(motion);  // a start that is struck
+  if (motion.advance(end) == Outcome::event && motion.event().time == Instant{})
+    before = reader.before(motion);  // a start that is struck
   while (motion.advance(end) == Outcome::event) {
   }
   const std::vector<double> after = reader.now(motion);
-  const std::size_t links = system.model().stops.size() + system.model().frictions.size() + system.model().compliant_stops.size() +
-                            system.model().characteristics.size();
+  const std::size_t links = system.model().stops.size() + system.model().frictions.size() +
+                            system.model().compliant_stops.size() + system.model().characteristics.size();
   double in = 0.0, lost = 0.0, stored = 0.0, size = 1e-3;
   for (std::size_t i = 0; i < of.size(); ++i) {
     const double flow = found.of[i].mean * time;
     if (of[i].kind == Kind::input) in += flow;
     // The powers of dampers by name are parts of the power of all dampers.
-    if (of[i].kind == Kind::damping || (of[i].kind == Kind::power && static_cast<std::size_t>(of[i].index) < links)) lost += flow;
-    if (of[i].kind == Kind::kinetic || of[i].kind == Kind::potential) stored += after[i] - before[i], size += std::abs(after[i]) + std::abs(before[i]);
+    if (of[i].kind == Kind::damping || (of[i].kind == Kind::power && static_cast<std::size_t>(of[i].index) < links))
+      lost += flow;
+    if (of[i].kind == Kind::kinetic || of[i].kind == Kind::potential)
+      stored += after[i] - before[i], size += std::abs(after[i]) + std::abs(before[i]);
     if (of[i].kind == Kind::input || of[i].kind == Kind::damping || of[i].kind == Kind::power)
-      size += time * std::max(std::abs(found.of[i].least), std::abs(found.of[i].greatest)) + std::abs(found.of[i].impulse);
+      size +=
+          time * std::max(std::abs(found.of[i].least), std::abs(found.of[i].greatest)) + std::abs(found.of[i].impulse);
   }
-  return std::abs(in - lost - stored) <= close * size ? "" : broken("energy that comes in, and is lost or stored", in, lost + stored);
+  return std::abs(in - lost - stored) <= close * size
+             ? ""
+             : broken("energy that comes in, and is lost or stored", in, lost + stored);
 }
 
 /// What the pulses of signals give each coordinate, up to a time.
@@ -150,7 +161,8 @@ std::optional<std::string> momentum_balances(const ModelDefinition& definition, 
   const System system(model);
   std::vector<Quantity> of = functions_of_time(model);
   std::erase_if(of, [&](const Quantity& q) {
-    return q.kind != Kind::acceleration && !(q.kind == Kind::force && static_cast<std::size_t>(q.index) < model.stops.size());
+    return q.kind != Kind::acceleration &&
+           !(q.kind == Kind::force && static_cast<std::size_t>(q.index) < model.stops.size());
   });
   const Instant end = Instant{}.plus(question.grid * question.steps / system.period());
   const Measured found = slapstick::measure(Motion(system, definition.start(), {}, patience), end, of);
@@ -167,7 +179,8 @@ std::optional<std::string> momentum_balances(const ModelDefinition& definition, 
     if (of[i].kind != Kind::acceleration) continue;
     const auto k = static_cast<std::size_t>(of[i].index);
     const double jumps = model.coordinates[k].mass * found.of[i].impulse;
-    if (!(std::abs(jumps - impulses[k]) <= close * size)) return broken("jumps of " + model.coordinates[k].name + " and impulses", jumps, impulses[k]);
+    if (!(std::abs(jumps - impulses[k]) <= close * size))
+      return broken("jumps of " + model.coordinates[k].name + " and impulses", jumps, impulses[k]);
   }
   return "";
 }
@@ -194,7 +207,8 @@ std::optional<std::string> diagram_measures(const ModelDefinition& definition, c
   for (std::size_t i = 0; i < problem.of.size(); ++i) {
     const Statistics &one = diagram.points[0].of[i], &other = found.of[i];
     const double size = 1e-3 + std::max(std::abs(other.least), std::abs(other.greatest)) + std::abs(other.impulse);
-    if (!(std::abs(one.mean - other.mean) <= close * size)) return broken("mean of " + problem.of[i].name, one.mean, other.mean);
+    if (!(std::abs(one.mean - other.mean) <= close * size))
+      return broken("mean of " + problem.of[i].name, one.mean, other.mean);
   }
   return "";
 }
@@ -203,16 +217,18 @@ std::optional<std::string> diagram_measures(const ModelDefinition& definition, c
 std::optional<std::string> multipliers_agree(const ModelDefinition& definition, const Question&) {
   const System system(definition.build());
   if (!system.model().periodic()) return std::nullopt;
-  const Classification found = slapstick::classify(system, definition.start(),
-                                                   {.transient_periods = 100, .most_periods = 500, .most_n = 16, .exponent_periods = 0});
+  const Classification found = slapstick::classify(
+      system, definition.start(), {.transient_periods = 100, .most_periods = 500, .most_n = 16, .exponent_periods = 0});
   if (found.attractor != Attractor::periodic) return std::nullopt;
   const auto problem = orbit::pose(definition.family({}), {});
-  const orbit::Settled settled = orbit::settle(*problem, system, definition.start(), {.transient = 100, .most_periods = 500, .most_n = 16});
+  const orbit::Settled settled =
+      orbit::settle(*problem, system, definition.start(), {.transient = 100, .most_periods = 500, .most_n = 16});
   if (!settled.orbit) return std::nullopt;  // its equations are not solved, and orbit says so
   if (settled.orbit->label != found.label) return "classify names " + found.label + ", orbit " + settled.orbit->label;
   auto others = settled.orbit->multipliers;
   if (others.size() != found.multipliers.size())
-    return broken("number of multipliers", static_cast<double>(found.multipliers.size()), static_cast<double>(others.size()));
+    return broken("number of multipliers", static_cast<double>(found.multipliers.size()),
+                  static_cast<double>(others.size()));
   for (const auto& one : found.multipliers) {
     const auto nearest = std::ranges::min_element(others, {}, [&](const auto& other) { return std::abs(other - one); });
     const char* what = settled.orbit->chatter ? "multiplier with chatter" : "multiplier";
@@ -249,9 +265,11 @@ std::optional<std::string> sensitivities_are_differences(const ModelDefinition& 
   }
   for (std::size_t i = 0; i < of.size(); ++i) {
     const double rate = rates[0].of[i].mean, slope = (beside[1].of[i].mean - beside[0].of[i].mean) / (2.0 * h);
-    const double size = std::abs(slope) + std::max(std::abs(here.of[i].least), std::abs(here.of[i].greatest)) / std::max(1e-2, std::abs(by.value));
+    const double size = std::abs(slope) + std::max(std::abs(here.of[i].least), std::abs(here.of[i].greatest)) /
+                                              std::max(1e-2, std::abs(by.value));
     const double resolved = rounding * largest[dimension(of[i].kind)] / h;  // by the difference of two means
-    if (!(std::abs(rate - slope) <= 1e-3 * size + resolved)) return broken("d mean(" + of[i].name + ") / d " + by.name + " and the difference", rate, slope);
+    if (!(std::abs(rate - slope) <= 1e-3 * size + resolved))
+      return broken("d mean(" + of[i].name + ") / d " + by.name + " and the difference", rate, slope);
   }
   return "";
 }
@@ -266,7 +284,8 @@ bool breaks(const Definition& file, const Law& law) {
 const std::vector<Law>& laws() {
   static const std::vector<Law> all = {
       {"columns-integrate", "columns of simulate integrate to the means of measure", columns_integrate},
-      {"accelerations", "accelerations with their impulses sum up to velocities, velocities to positions", accelerations_sum_up},
+      {"accelerations", "accelerations with their impulses sum up to velocities, velocities to positions",
+       accelerations_sum_up},
       {"energy", "energy that comes in is lost or stored", energy_balances},
       {"momentum", "what impacts do to a coordinate is the sum of their impulses", momentum_balances},
       {"diagram", "a value of a diagram is that of measure", diagram_measures},

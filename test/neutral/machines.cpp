@@ -1,10 +1,10 @@
 /// Edits of the machine as a whole: another one beside it, its mirror image, a later start.
 #include <algorithm>
 
-#include "slapstick/mode/contact_states.hpp"
 #include "neutral/edits.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/flow/motion.hpp"
+#include "slapstick/mode/contact_states.hpp"
 
 namespace slapstick::neutral {
 namespace {
@@ -33,7 +33,6 @@ bool all_moves(const System& system, ModeId id) {
          std::ranges::none_of(states.frictions, [](auto s) { return s == mode::FrictionState::stick; }) &&
          std::ranges::none_of(states.compliant, [](auto s) { return s == mode::CompliantState::detached; });
 }
-
 
 /// Phase of a harmonic, or of a tone, `later` time units on.
 void advance_phase(Definition& file, Part& term, double omega, double later) {
@@ -109,7 +108,9 @@ std::optional<Edited> mirror(const Definition& file, campaign::Random&) {
 std::optional<Edited> later_clock(const Definition& file, campaign::Random& random) {
   for (const Part& signal : file.of("signal"))
     if (signal.flag("repeats")) return std::nullopt;
-  const auto once = [](const Part& impulse) { return impulse.fields.contains("time") && !impulse.fields.contains("period"); };
+  const auto once = [](const Part& impulse) {
+    return impulse.fields.contains("time") && !impulse.fields.contains("period");
+  };
   if (std::ranges::any_of(file.of("impulse"), once)) return std::nullopt;  // it may be past then
   Edited edited{file, {}};
   const ModelDefinition definition = read(file);

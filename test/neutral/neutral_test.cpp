@@ -22,17 +22,43 @@ TEST(Neutral, FilesAreSoundAndHaveEveryFeature) {
         seen["stribeck"] += !part.stribeck.empty(), seen["normal_force"] += !part.load.empty();
         seen[kind + " points"] += !part.points.empty(), seen["within"] += !part.within.empty();
       }
-    seen["parameter"] += !file.parameters.empty(), seen["matrix"] += !file.matrices.empty(), seen["no drive"] += !has_harmonics(file);
+    seen["parameter"] += !file.parameters.empty(), seen["matrix"] += !file.matrices.empty(),
+        seen["no drive"] += !has_harmonics(file);
   }
-  for (const char* feature : {"coordinate", "signal", "impulse", "base", "spring", "damper", "force", "friction", "stop", "compliant_stop", "two_sided", "repeats",
-                              "frequency", "unloading_stiffness", "coefficient_outside", "stribeck", "normal_force", "spring points", "damper points",
-                              "friction points", "stop points", "within", "parameter", "matrix", "no drive", "belt_speed", "law"})
+  for (const char* feature : {"coordinate",
+                              "signal",
+                              "impulse",
+                              "base",
+                              "spring",
+                              "damper",
+                              "force",
+                              "friction",
+                              "stop",
+                              "compliant_stop",
+                              "two_sided",
+                              "repeats",
+                              "frequency",
+                              "unloading_stiffness",
+                              "coefficient_outside",
+                              "stribeck",
+                              "normal_force",
+                              "spring points",
+                              "damper points",
+                              "friction points",
+                              "stop points",
+                              "within",
+                              "parameter",
+                              "matrix",
+                              "no drive",
+                              "belt_speed",
+                              "law"})
     EXPECT_GE(seen[feature], 8) << feature;
 }
 
 TEST(Neutral, SimplerFilesAreSound) {
   for (std::uint64_t seed = 0; seed < 20; ++seed)
-    for (const Definition& file : simpler(test::random_file(seed))) EXPECT_NO_THROW((void)read(file).build()) << text(file);
+    for (const Definition& file : simpler(test::random_file(seed)))
+      EXPECT_NO_THROW((void)read(file).build()) << text(file);
 }
 
 /// An edit that does change something is seen: else nothing below means anything.
@@ -71,7 +97,8 @@ TEST_P(OfNothing, EditsChangeNoAnswer) {
       ++count[outcome.verdict];
       if (outcome.verdict != Verdict::different) continue;
       const Definition small = smallest(first.file(), edit, verb, seed, 300);
-      ADD_FAILURE() << edit.name << ", seed " << seed << ": " << outcome.why << '\n' << both_commands(small, edit, verb, seed);
+      ADD_FAILURE() << edit.name << ", seed " << seed << ": " << outcome.why << '\n'
+                    << both_commands(small, edit, verb, seed);
     }
   }
   EXPECT_LE(50 * count[Verdict::excused], count[Verdict::agreed] + count[Verdict::excused]);
@@ -79,8 +106,9 @@ TEST_P(OfNothing, EditsChangeNoAnswer) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, OfNothing,
-                         testing::Values(Share{Verb::simulate, 0, 150}, Share{Verb::measure, 0, 150}, Share{Verb::classify, 0, 40},
-                                         Share{Verb::orbit, 0, 40}, Share{Verb::branch, 4, 30}),
+                         testing::Values(Share{Verb::simulate, 0, 150}, Share{Verb::measure, 0, 150},
+                                         Share{Verb::classify, 0, 40}, Share{Verb::orbit, 0, 40},
+                                         Share{Verb::branch, 4, 30}),
                          [](const auto& info) { return std::string(name(info.param.verb)); });
 
 TEST(BetweenVerbs, AnswersOfOneFileAgree) {

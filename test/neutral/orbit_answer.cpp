@@ -20,8 +20,10 @@ void add_energy(const System& system, const CycleEnergy& energy, Answer& answer)
   const Model& m = system.model();
   answer.numbers.push_back({"input", "", energy.input, dim::energy});
   answer.numbers.push_back({"damping", "", energy.damping, dim::energy});
-  for (std::size_t i = 0; i < energy.friction.size(); ++i) answer.numbers.push_back({"friction", m.frictions[i].name, energy.friction[i], dim::energy});
-  for (std::size_t i = 0; i < energy.impacts.size(); ++i) answer.numbers.push_back({"impacts", m.stops[i].name, energy.impacts[i], dim::energy});
+  for (std::size_t i = 0; i < energy.friction.size(); ++i)
+    answer.numbers.push_back({"friction", m.frictions[i].name, energy.friction[i], dim::energy});
+  for (std::size_t i = 0; i < energy.impacts.size(); ++i)
+    answer.numbers.push_back({"impacts", m.stops[i].name, energy.impacts[i], dim::energy});
 }
 
 struct Followed {
@@ -37,10 +39,12 @@ Followed follow(const ModelDefinition& definition, std::size_t count) {
   for (const Parameter& parameter : definition.parameters())
     if (names.size() < count) names.push_back(parameter.name), values.push_back(parameter.value);
   found.problem = orbit::pose(definition.family(names), values);
-  const orbit::Settled settled = orbit::settle(*found.problem, System(definition.build()), definition.start(), short_search);
+  const orbit::Settled settled =
+      orbit::settle(*found.problem, System(definition.build()), definition.start(), short_search);
   if (!settled.orbit || !settled.orbit->isolated()) return found;
   const auto [from, to] = range_of(values[0]);
-  found.branch = orbit::follow(*found.problem, settled.orbit->orbit, {.from = from, .to = to, .most_points = most_points, .longest_step = 0.05});
+  found.branch = orbit::follow(*found.problem, settled.orbit->orbit,
+                               {.from = from, .to = to, .most_points = most_points, .longest_step = 0.05});
   return found;
 }
 
@@ -102,7 +106,12 @@ void answer_curve(const ModelDefinition& definition, Answer& answer) {
   std::vector<orbit::SpecialPoint> special = found.branch->special;
   std::ranges::stable_sort(special, {}, &orbit::SpecialPoint::value);
   const orbit::Curve curve = orbit::locus(*found.problem, special[0],
-                                          {.from = from, .to = to, .second_from = second_from, .second_to = second_to, .longest_step = 0.05, .most_points = 40});
+                                          {.from = from,
+                                           .to = to,
+                                           .second_from = second_from,
+                                           .second_to = second_to,
+                                           .longest_step = 0.05,
+                                           .most_points = 40});
   std::vector<orbit::CurveEvent> met = curve.met;
   std::ranges::stable_sort(met, {}, [](const orbit::CurveEvent& event) { return event.values[1]; });
   answer.words["curve"] = orbit::name(special[0].type);

@@ -24,7 +24,8 @@ void reorder(std::vector<Thing>& things, const std::vector<std::size_t>& order) 
   things = std::move(after);
 }
 
-std::optional<Edited> reordered(const Definition& file, campaign::Random& random, std::initializer_list<const char*> kinds) {
+std::optional<Edited> reordered(const Definition& file, campaign::Random& random,
+                                std::initializer_list<const char*> kinds) {
   Edited edited{file, {}};
   bool changed = false;
   for (const char* kind : kinds) {

@@ -42,13 +42,17 @@ Part far_contact(const Definition& file, const std::string& name, campaign::Rand
 
 Part far_spring(const Definition& file, campaign::Random& random) {
   Part part = far_contact(file, never_reached, random);
-  part.fields = {{"clearance", number(random.decades(2, 6))}, {"stiffness", number(random.decades(0, 2))}, {"damping", number(0.5)}};
+  part.fields = {{"clearance", number(random.decades(2, 6))},
+                 {"stiffness", number(random.decades(0, 2))},
+                 {"damping", number(0.5)}};
   return part;
 }
 
-std::optional<Edited> with_part(const Definition& file, const std::string& kind, const Part& part, campaign::Random& random) {
+std::optional<Edited> with_part(const Definition& file, const std::string& kind, const Part& part,
+                                campaign::Random& random) {
   Edited edited{file, {}};
-  if (const auto clearance = part.fields.find("clearance"); clearance != part.fields.end()) edited.rule.farthest = clearance->second.number;
+  if (const auto clearance = part.fields.find("clearance"); clearance != part.fields.end())
+    edited.rule.farthest = clearance->second.number;
   put(parts(edited.file, kind), part, random);
   return edited;
 }
@@ -57,7 +61,8 @@ std::optional<Edited> with_part(const Definition& file, const std::string& kind,
 
 std::optional<Edited> parallel_springs(const Definition& file, campaign::Random& random) {
   Edited edited{file, {}};
-  const auto plain = those(edited.file, "spring", [](const Part& p) { return p.fields.contains("stiffness") && !p.texts.contains("name"); });
+  const auto plain = those(edited.file, "spring",
+                           [](const Part& p) { return p.fields.contains("stiffness") && !p.texts.contains("name"); });
   if (plain.empty()) return std::nullopt;
   Part& spring = *any(plain, random);
   Part other = spring;
@@ -86,12 +91,14 @@ std::optional<Edited> collinear_corner(const Definition& file, campaign::Random&
 /// k (x - x_base) = k x - F with x_base = F / k.
 std::optional<Edited> force_as_base(const Definition& file, campaign::Random& random) {
   Edited edited{file, {}};
-  const auto forces = those(edited.file, "force", [](const Part& p) { return !p.texts.contains("signal") && p.band.empty(); });
+  const auto forces =
+      those(edited.file, "force", [](const Part& p) { return !p.texts.contains("signal") && p.band.empty(); });
   if (forces.empty()) return std::nullopt;
   Part& force = *any(forces, random);
   const auto springs = those(edited.file, "spring", [&](const Part& p) {
     const bool other_end = (p.a == force.a && p.b == ground) || (p.b == force.a && p.a == ground);
-    return other_end && p.fields.contains("stiffness") && !p.fields.at("stiffness").expression && std::abs(p.fields.at("stiffness").number) > 0.05;
+    return other_end && p.fields.contains("stiffness") && !p.fields.at("stiffness").expression &&
+           std::abs(p.fields.at("stiffness").number) > 0.05;
   });
   if (springs.empty()) return std::nullopt;
   Part& spring = *any(springs, random);
@@ -102,7 +109,8 @@ std::optional<Edited> force_as_base(const Definition& file, campaign::Random& ra
   base.name = "moving";
   base.harmonics = {harmonic};
   (spring.a == ground ? spring.a : spring.b) = base_end(static_cast<int>(parts(edited.file, "base").size()));
-  parts(edited.file, "force").erase(parts(edited.file, "force").begin() + (&force - parts(edited.file, "force").data()));
+  parts(edited.file, "force")
+      .erase(parts(edited.file, "force").begin() + (&force - parts(edited.file, "force").data()));
   parts(edited.file, "base").push_back(base);
   return edited;
 }
@@ -146,7 +154,8 @@ std::optional<Edited> zero_tone(const Definition& file, campaign::Random& random
 std::optional<Edited> zero_signal(const Definition& file, campaign::Random& random) {
   Part part, signal;
   signal.name = "quiet";
-  signal.points = {{number(0.3), number(0)}, {number(1.1), number(random.one_in(2) ? 0.0 : 1.0)}, {number(2.0), number(0)}};
+  signal.points = {
+      {number(0.3), number(0)}, {number(1.1), number(random.one_in(2) ? 0.0 : 1.0)}, {number(2.0), number(0)}};
   part.a = random.below(coordinates(file));
   const bool silent = signal.points[1].force.number == 0.0;
   part.fields = {{"amplitude", number(silent ? 1.0 : 0.0)}};
@@ -161,7 +170,8 @@ std::optional<Edited> zero_impulse(const Definition& file, campaign::Random& ran
   Part part;
   part.name = "quiet";
   part.a = random.below(coordinates(file));
-  part.fields = {{"momentum", number(0)}, {file.omega && random.one_in(2) ? "phase" : "time", number(random.uniform(0.5, 3))}};
+  part.fields = {{"momentum", number(0)},
+                 {file.omega && random.one_in(2) ? "phase" : "time", number(random.uniform(0.5, 3))}};
   return with_part(file, "impulse", part, random);
 }
 

@@ -80,11 +80,13 @@ class Simpler {
       for (Part& part : all) {
         if (part.a > gone) --part.a;
         if (part.b > gone) --part.b;
-        std::erase_if(part.load, [&](const auto& term) { return term.first == name || term.first == velocity_name(name); });
+        std::erase_if(part.load,
+                      [&](const auto& term) { return term.first == name || term.first == velocity_name(name); });
       }
     }
     parts(other, "coordinate").erase(parts(other, "coordinate").begin() + gone);
-    std::erase_if(other.start, [&](const auto& entry) { return entry.first == name || entry.first == velocity_name(name); });
+    std::erase_if(other.start,
+                  [&](const auto& entry) { return entry.first == name || entry.first == velocity_name(name); });
     other.matrices.clear();
     drop_unused_bases(other);
     return other;
@@ -96,8 +98,10 @@ class Simpler {
         const auto simplify = [&, kind = kind](auto change) {
           offer_changed([&](Definition& other) { change(parts(other, kind)[i]); });
         };
-        if (all[i].flag("two_sided")) simplify([](Part& p) { p.flags.erase("two_sided"), p.fields.erase("clearance_lower"); });
-        if (!all[i].load.empty() || !all[i].load_stop.empty()) simplify([](Part& p) { p.load.clear(), p.load_stop.clear(); });
+        if (all[i].flag("two_sided"))
+          simplify([](Part& p) { p.flags.erase("two_sided"), p.fields.erase("clearance_lower"); });
+        if (!all[i].load.empty() || !all[i].load_stop.empty())
+          simplify([](Part& p) { p.load.clear(), p.load_stop.clear(); });
         if (all[i].points.size() > 2) simplify([](Part& p) { p.points.pop_back(); });
         if (all[i].harmonics.size() > 1) simplify([](Part& p) { p.harmonics.pop_back(); });
       }
@@ -124,7 +128,9 @@ class Simpler {
         if (changed) offer(std::move(candidate));
       }
     for (std::size_t i = 0; i < file_.parameters.size(); ++i)
-      offer_changed([&](Definition& other) { other.parameters.erase(other.parameters.begin() + static_cast<std::ptrdiff_t>(i)); });
+      offer_changed([&](Definition& other) {
+        other.parameters.erase(other.parameters.begin() + static_cast<std::ptrdiff_t>(i));
+      });
   }
 
   const Definition& file_;

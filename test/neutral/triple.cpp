@@ -38,7 +38,9 @@ std::optional<ModelDefinition> moved(const Definition& file, double part, std::u
 
 Judgement judge_trajectory(Asked& first, const Answer& answer, const Edited& second, Verb verb) {
   const auto& rows = first.answer(Verb::simulate).rows;
-  const auto differs = [&](double tolerance) { return difference(first.answer(verb), answer, second.rule, first.question().grid, tolerance); };
+  const auto differs = [&](double tolerance) {
+    return difference(first.answer(verb), answer, second.rule, first.question().grid, tolerance);
+  };
   const double rounding = std::max(own_rounding, far_rounding * second.rule.farthest);
   auto found = differs(second.rule.bits ? 0.0 : 64 * rounding);
   if (!found) return {};
@@ -53,7 +55,8 @@ Judgement judge_trajectory(Asked& first, const Answer& answer, const Edited& sec
         const bool early = seen < 0.25 * first.question().grid * first.question().steps;
         return early ? Judgement{Verdict::excused, "rounding grows beyond the horizon early"} : Judgement{};
       }
-      const auto limits = std::ranges::count_if(rows, [&](const Row& row) { return row.kind == EventKind::chatter && row.time <= seen; });
+      const auto limits = std::ranges::count_if(
+          rows, [&](const Row& row) { return row.kind == EventKind::chatter && row.time <= seen; });
       found = differs(std::max({64 * rounding, 16 * grown, after_chatter * static_cast<double>(limits)}));
       if (!found) return {};
     }
@@ -61,7 +64,8 @@ Judgement judge_trajectory(Asked& first, const Answer& answer, const Edited& sec
   }
   for (const Answer& beside : first.beside(verb)) {
     const auto noise = difference(first.answer(verb), beside, {}, first.question().grid, 1e-7);
-    if (noise && noise->time <= found->time * (1.0 + 1e-6)) return {Verdict::excused, "an event within noise: " + noise->what};
+    if (noise && noise->time <= found->time * (1.0 + 1e-6))
+      return {Verdict::excused, "an event within noise: " + noise->what};
   }
   return {Verdict::different, found->what};
 }
@@ -83,13 +87,16 @@ bool ends_by_chance(Asked& first, Verb verb) {
 Judgement judge_attractor(Asked& first, const Answer& answer, const Edited& second, Verb verb) {
   // Eigenvalues are found to rounding in any units.
   const bool bits = second.rule.bits && second.rule.length == 1.0 && second.rule.time == 1.0 && second.rule.mass == 1.0;
-  const auto found = difference(first.answer(verb), answer, second.rule, first.question().grid, bits ? 0.0 : of_attractors);
+  const auto found =
+      difference(first.answer(verb), answer, second.rule, first.question().grid, bits ? 0.0 : of_attractors);
   if (!found) return {};
   if (bits) return {Verdict::different, found->what};
   for (const Answer* one : {&first.answer(verb), &answer})
-    if (const auto word = one->words.find("attractor"); word != one->words.end() && word->second == name(Attractor::undecided))
+    if (const auto word = one->words.find("attractor");
+        word != one->words.end() && word->second == name(Attractor::undecided))
       return {Verdict::excused, "undecided"};
-  if (chaotic(first.answer(verb)) != chaotic(answer) && ends_by_chance(first, verb)) return {Verdict::excused, "a chaotic transient"};
+  if (chaotic(first.answer(verb)) != chaotic(answer) && ends_by_chance(first, verb))
+    return {Verdict::excused, "a chaotic transient"};
   for (const Answer& beside : first.beside(verb))
     if (const auto noise = difference(first.answer(verb), beside, {}, first.question().grid, of_attractors))
       return {Verdict::excused, "a start 1e-9 away: " + noise->what};
@@ -100,11 +107,14 @@ Judgement judge_attractor(Asked& first, const Answer& answer, const Edited& seco
 std::string excluded(Asked& first, const Edited& second, Verb verb) {
   if (of_trajectory(verb)) return "";
   constexpr std::size_t many = 150;
-  if (first.answer(Verb::simulate).rows.size() > many) return "more than 150 events in five periods: a search of minutes";
+  if (first.answer(Verb::simulate).rows.size() > many)
+    return "more than 150 events in five periods: a search of minutes";
   const auto word = first.answer(Verb::classify).words.find("attractor");
   const bool undecided = word != first.answer(Verb::classify).words.end() && word->second == name(Attractor::undecided);
   if (verb != Verb::classify && undecided) return "undecided: a search of minutes for an orbit";
-  const bool free = std::ranges::any_of(first.answer(verb).numbers, [](const Number& n) { return n.what == "drift" || (n.what == "family" && n.value > 0.0); });
+  const bool free = std::ranges::any_of(first.answer(verb).numbers, [](const Number& n) {
+    return n.what == "drift" || (n.what == "family" && n.value > 0.0);
+  });
   if (second.rule.farthest > 1.0 && free) return "a free group is held by a stop, however far it is";
   return "";
 }
@@ -116,11 +126,13 @@ const char* name(Verdict verdict) {
   return names[static_cast<std::size_t>(verdict)];
 }
 
-Asked::Asked(const Definition& file) : file_(file), definition_(read(file)), question_{sample_grid(definition_.build())} {}
+Asked::Asked(const Definition& file)
+    : file_(file), definition_(read(file)), question_{sample_grid(definition_.build())} {}
 
 const Answer& Asked::answer(Verb verb) {
   const auto found = answers_.find(verb);
-  return found != answers_.end() ? found->second : answers_.emplace(verb, ask(verb, definition_, question_)).first->second;
+  return found != answers_.end() ? found->second
+                                 : answers_.emplace(verb, ask(verb, definition_, question_)).first->second;
 }
 
 const std::vector<Answer>& Asked::beside(Verb verb) {
@@ -128,7 +140,8 @@ const std::vector<Answer>& Asked::beside(Verb verb) {
   if (found != beside_.end()) return found->second;
   std::vector<Answer> answers;
   for (const std::uint64_t direction : {1u, 2u})
-    if (const auto there = moved(file_, of_trajectory(verb) ? 1e-11 : 1e-9, direction)) answers.push_back(ask(verb, *there, question_));
+    if (const auto there = moved(file_, of_trajectory(verb) ? 1e-11 : 1e-9, direction))
+      answers.push_back(ask(verb, *there, question_));
   return beside_.emplace(verb, std::move(answers)).first->second;
 }
 
@@ -143,9 +156,11 @@ Judgement judge(Asked& first, const Edit& edit, const Edited& second, Verb verb)
   } catch (const InputError& error) {
     return {Verdict::different, std::string("the second file is refused: ") + error.what()};
   }
-  Judgement outcome = of_trajectory(verb) ? judge_trajectory(first, answer, second, verb) : judge_attractor(first, answer, second, verb);
+  Judgement outcome = of_trajectory(verb) ? judge_trajectory(first, answer, second, verb)
+                                          : judge_attractor(first, answer, second, verb);
   if (outcome.verdict != Verdict::different) return outcome;
-  if (const std::string fault = waiting_for(first.file(), edit, verb, outcome.why); !fault.empty()) return {Verdict::waiting, fault + ": " + outcome.why};
+  if (const std::string fault = waiting_for(first.file(), edit, verb, outcome.why); !fault.empty())
+    return {Verdict::waiting, fault + ": " + outcome.why};
   return outcome;
 }
 
@@ -153,10 +168,12 @@ std::string both_commands(const Definition& first, const Edit& edit, Verb verb, 
   campaign::Random random(seed, 0);
   const auto second = edit.apply(first, random);
   Question question = Asked(first).question();
-  std::string out = "cat > first.toml <<'END'\n" + text(first) + "END\n" + command(verb, read(first), "first.toml", question) + "\n";
+  std::string out =
+      "cat > first.toml <<'END'\n" + text(first) + "END\n" + command(verb, read(first), "first.toml", question) + "\n";
   if (!second) return out;
   question.grid *= second->rule.time;
-  return out + "cat > second.toml <<'END'\n" + text(second->file) + "END\n" + command(verb, read(second->file), "second.toml", question) + "\n";
+  return out + "cat > second.toml <<'END'\n" + text(second->file) + "END\n" +
+         command(verb, read(second->file), "second.toml", question) + "\n";
 }
 
 }  // namespace slapstick::neutral

@@ -8,9 +8,9 @@ namespace slapstick::neutral {
 
 enum class Verdict {
   agreed,
-  excluded,   ///< by the table: the verb does not answer both files alike, for a reason that stands in campaigns.md
-  excused,    ///< by a rule about the first file: its answer hangs on less than rounding
-  waiting,    ///< for a known fault (waiting.cpp)
+  excluded,  ///< by the table: the verb does not answer both files alike, for a reason that stands in campaigns.md
+  excused,   ///< by a rule about the first file: its answer hangs on less than rounding
+  waiting,   ///< for a known fault (waiting.cpp)
   different
 };
 [[nodiscard]] const char* name(Verdict verdict);
@@ -53,7 +53,8 @@ class Asked {
 /// Files that are simpler by one step, all of them sound.
 [[nodiscard]] std::vector<Definition> simpler(const Definition& file);
 /// The smallest file found for which the triple is still different, with the edit's own random numbers of `seed`.
-[[nodiscard]] Definition smallest(const Definition& file, const Edit& edit, Verb verb, std::uint64_t seed, int most_tries);
+[[nodiscard]] Definition smallest(const Definition& file, const Edit& edit, Verb verb, std::uint64_t seed,
+                                  int most_tries);
 
 /// Both files and both commands, as a shell runs them.
 [[nodiscard]] std::string both_commands(const Definition& first, const Edit& edit, Verb verb, std::uint64_t seed);

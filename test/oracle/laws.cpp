@@ -303,16 +303,19 @@ std::vector<LawOracle::Guard> LawOracle::guards(const Series& series) const {
     const Row row = load_row(i, cell_);
     const Polynomial load = along(row, series);
     // The force of a stop alone ends with the stop: two polynomials of one zero would be two events at an instant.
-    const bool of_stop = f.normal && f.normal->compliant_stop >= 0 && f.normal->terms.empty() && f.normal->constant == 0.0 &&
+    const bool of_stop = f.normal && f.normal->compliant_stop >= 0 && f.normal->terms.empty() &&
+                         f.normal->constant == 0.0 &&
                          !model_.compliant_stops[static_cast<std::size_t>(f.normal->compliant_stop)].pulls;
-    if (f.normal && !row.zero && state != 0 && !of_stop) all.push_back({times(load, Real(state == 2 ? -1 : 1)), {Said::Of::load, i, state == 2 ? 0 : 1}});
+    if (f.normal && !row.zero && state != 0 && !of_stop)
+      all.push_back({times(load, Real(state == 2 ? -1 : 1)), {Said::Of::load, i, state == 2 ? 0 : 1}});
     if (state == 2) continue;
     Row w = pair(f.a, f.b, true, Real(1));
     w.constant = -Real(f.belt_speed);
     if (state != 0) all.push_back({times(along(w, series), Real(state)), {}});
     if (state != 0) continue;
     for (const int side : {1, -1})
-      all.push_back({sum(times(load, Real(f.static_friction)), series.holding, Real(-side)), {Said::Of::slip, i, side}});
+      all.push_back(
+          {sum(times(load, Real(f.static_friction)), series.holding, Real(-side)), {Said::Of::slip, i, side}});
   }
   return all;
 }

@@ -1,8 +1,8 @@
 /// Normal forms of cycles without forcing: the map is from just after an event to just after it a cycle later, and the period is free.
 #include <gtest/gtest.h>
 
-#include "flow/contact_state.hpp"
 #include "beside.hpp"
+#include "flow/contact_state.hpp"
 #include "orbit/record.hpp"
 
 namespace slapstick::test {

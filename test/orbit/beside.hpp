@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "families.hpp"
 #include "continuation/normal_form.hpp"
+#include "families.hpp"
 
 namespace slapstick::test {
 
@@ -22,8 +22,9 @@ inline orbit::Branch branch_of(const Posed& posed, double from, double to, doubl
 }
 
 inline const orbit::SpecialPoint& only(const orbit::Branch& branch, SpecialType type) {
-  const auto found = std::ranges::find_if(
-      branch.special, [&](const orbit::SpecialPoint& point) { return point.type == type && point.occurrence != orbit::Occurrence::end_of_doubled; });
+  const auto found = std::ranges::find_if(branch.special, [&](const orbit::SpecialPoint& point) {
+    return point.type == type && point.occurrence != orbit::Occurrence::end_of_doubled;
+  });
   if (found == branch.special.end()) throw std::runtime_error("the branch has no such point: " + ended(branch));
   return *found;
 }

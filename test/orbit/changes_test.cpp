@@ -93,8 +93,7 @@ TEST(Branch, WithTheSameStatesAtAnotherPhaseIsAnotherOne) {
 /// Constant Coulomb friction makes the equations a monotone inclusion: an isolated motion cannot jump. Here both halves of a symmetric cycle change at once.
 TEST(Change, OfBothHalvesOfASymmetricCycleIsPassed) {
   const orbit::Branch branch = branch_of("coulomb-oscillator", {}, "omega", 0.3, {.from = 0.25, .to = 0.35});
-  for (const orbit::SpecialPoint& point : branch.special)
-    EXPECT_NE(point.passage, Passage::jump) << point.value;
+  for (const orbit::SpecialPoint& point : branch.special) EXPECT_NE(point.passage, Passage::jump) << point.value;
   EXPECT_LT(branch.points.front().orbit.values[0], 0.2575) << ended(branch);
 }
 

@@ -124,7 +124,8 @@ TEST(ShakenTable, SensitivityIsTheFormulasDerivative) {
   const auto pd = std::ranges::find(branch.special, orbit::SpecialType::PD, &orbit::SpecialPoint::type);
   ASSERT_NE(pd, branch.special.end());
   const orbit::Branch doubled = orbit::follow(*posed.problem, pd->born.at(0), {.from = 1.0, .to = 1.6});
-  const auto birth = std::ranges::find(doubled.special, orbit::Occurrence::end_of_doubled, &orbit::SpecialPoint::occurrence);
+  const auto birth =
+      std::ranges::find(doubled.special, orbit::Occurrence::end_of_doubled, &orbit::SpecialPoint::occurrence);
   ASSERT_NE(birth, doubled.special.end());
   special.push_back(*birth);  // the same point, as the doubled orbit sees it
   for (const orbit::SpecialPoint& point : special) {
@@ -233,7 +234,8 @@ TEST(StickSlipImpact, GrazesWhereTheHeldFrameSays) {
     ASSERT_TRUE(graze->death) << c.parameter;
     EXPECT_LT(graze->error, 1e-14) << c.parameter;
     if (c.parameter != "drive") continue;  // V is a root of the clearance, and neither impacts nor slips are left
-    const Posed others("stick-slip-impact", {}, {"drive", "clearance", "restitution", "friction"}, {drive, 0.5, 0.8, 3.17});
+    const Posed others("stick-slip-impact", {}, {"drive", "clearance", "restitution", "friction"},
+                       {drive, 0.5, 0.8, 3.17});
     const auto rates = orbit::sensitivity(others.family, {graze->value, 0.5, 0.8, 3.17}, *graze);
     EXPECT_NEAR(rates[0], graze->value / (2.0 * clearance), 1e-13);
     EXPECT_NEAR(rates[1], 0.0, 1e-13);

@@ -9,8 +9,8 @@
 #include "families.hpp"
 #include "orbit/mode_set.hpp"
 #include "orbit/orbit_rate.hpp"
-#include "slapstick/continuation/branch.hpp"
 #include "slapstick/attractor/classify.hpp"
+#include "slapstick/continuation/branch.hpp"
 #include "slapstick/io/model_file.hpp"
 #include "slapstick/orbit/search.hpp"
 #include "slapstick/quantity/cycle_energy.hpp"
@@ -28,11 +28,13 @@ double stick_slip_period(double V, double f_s, double f_k) {
 TEST(BeltAndStop, AWallThatIsNeverReachedLeavesThePeriodOfStickSlip) {
   for (const double wall : {1.3, 5.0, 1e3, 1e6, 1e9}) {
     const double V = 0.5, f_s = 1.0, f_k = 0.5, h = 1e-5;
-    const Posed posed(SLAPSTICK_ORBIT_MODELS "belt-and-wall.toml", {}, {"wall", "belt_speed", "static", "kinetic"}, {wall, V, f_s, f_k});
+    const Posed posed(SLAPSTICK_ORBIT_MODELS "belt-and-wall.toml", {}, {"wall", "belt_speed", "static", "kinetic"},
+                      {wall, V, f_s, f_k});
     const auto solution = posed.settled();
     ASSERT_TRUE(solution) << wall;
     EXPECT_TRUE(solution->is_motion);
-    constexpr double ten_bits = 0x1p10;  // that a wall may cost before the pair is numbered without one (mode/numbering.cpp)
+    constexpr double ten_bits =
+        0x1p10;  // that a wall may cost before the pair is numbered without one (mode/numbering.cpp)
     EXPECT_NEAR(solution->cycle, stick_slip_period(V, f_s, f_k), 4.0 * ten_bits * 0x1p-53) << wall;
     ASSERT_EQ(solution->multipliers.size(), 1U);
     EXPECT_EQ(std::abs(solution->multipliers[0]), 0.0);  // stick forgets all, exactly
@@ -61,8 +63,8 @@ TEST(BeltAndStop, TheCycleThatHitsTheStopHasAnOrbit) {
 /// On the branch the upper stop is nearest first, then the lower one. Behind the change it has the orbit that a motion settles on there.
 TEST(TwoStops, ABranchGoesOnWhereTheOtherOneBecomesTheNearest) {
   const auto posed_at = [](double lower) {
-    return std::make_unique<Posed>("two-sided-rattle", Overrides{{"omega", 1.5}}, std::vector<std::string>{"clearance_lower"},
-                                   std::vector<double>{lower});
+    return std::make_unique<Posed>("two-sided-rattle", Overrides{{"omega", 1.5}},
+                                   std::vector<std::string>{"clearance_lower"}, std::vector<double>{lower});
   };
   const auto before = posed_at(0.52), behind = posed_at(0.48);
   const auto first = before->settled();
@@ -85,11 +87,13 @@ TEST(TwoStops, ABranchGoesOnWhereTheOtherOneBecomesTheNearest) {
 TEST(LoopOfContacts, APadThatRestsIsNamedWhateverTheOrder) {
   const std::string head =
       "name = 'm'\nomega = 1.3\n[[coordinate]]\nname = 'x1'\nmass = 1\n[[coordinate]]\nname = 'x2'\nmass = 0.5\n"
-      "[[spring]]\nbetween = ['x1', 'ground']\nstiffness = 1\n[[damper]]\nbetween = ['x2', 'ground']\ncoefficient = 0.4\n"
+      "[[spring]]\nbetween = ['x1', 'ground']\nstiffness = 1\n[[damper]]\nbetween = ['x2', 'ground']\ncoefficient = "
+      "0.4\n"
       "[[force]]\non = 'x1'\namplitude = 2\n";
-  const std::vector<std::string> pads{"[[friction]]\nname = 'one'\nbetween = ['x1', 'ground']\nkinetic = 0.1\nstatic = 0.1\n",
-                                      "[[friction]]\nname = 'two'\nbetween = ['x2', 'ground']\nbelt_speed = 9\nkinetic = 0.2\nstatic = 0.2\n",
-                                      "[[friction]]\nname = 'between'\nbetween = ['x1', 'x2']\nkinetic = 0.8\nstatic = 0.8\n"};
+  const std::vector<std::string> pads{
+      "[[friction]]\nname = 'one'\nbetween = ['x1', 'ground']\nkinetic = 0.1\nstatic = 0.1\n",
+      "[[friction]]\nname = 'two'\nbetween = ['x2', 'ground']\nbelt_speed = 9\nkinetic = 0.2\nstatic = 0.2\n",
+      "[[friction]]\nname = 'between'\nbetween = ['x1', 'x2']\nkinetic = 0.8\nstatic = 0.8\n"};
   for (const auto& order : {std::vector{0, 1, 2}, std::vector{2, 0, 1}, std::vector{0, 2, 1}}) {
     std::string text = head;
     for (const int k : order) text += pads[static_cast<std::size_t>(k)];

@@ -107,7 +107,9 @@ TEST(Curve, IsNoTorusAtANeutralSaddleAndNoDoublingAtAPole) {
     return watched;
   };
   const std::vector<orbit::CurveTest> tests = orbit::curve_tests(point, {}, {});
-  const auto of = [&](const std::string& type) { return *std::ranges::find_if(tests, [&](const orbit::CurveTest& test) { return name(test.met) == type; }); };
+  const auto of = [&](const std::string& type) {
+    return *std::ranges::find_if(tests, [&](const orbit::CurveTest& test) { return name(test.met) == type; });
+  };
   EXPECT_FALSE(of("NS").holds(with({2.0, 0.5, 0.1})));
   EXPECT_FALSE(of("NS").holds(with({-2.0, -0.5})));
   EXPECT_TRUE(of("NS").holds(with({std::polar(1.0, 1.3), std::polar(1.0, -1.3), 0.1})));

@@ -1,13 +1,13 @@
 /// The derivatives that Newton's method and the multipliers are made of, by second routes.
-#include <Eigen/LU>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include <cmath>
 #include <numbers>
 
-#include "section/return_map.hpp"
 #include "families.hpp"
 #include "orbit/path.hpp"
+#include "section/return_map.hpp"
 #include "slapstick/attractor/classify.hpp"
 #include "slapstick/quantity/cycle_energy.hpp"
 

@@ -111,7 +111,8 @@ TEST(DyingMotion, OfAnImpactLeavesAHeldToolAnywhere) {
                    {graze->value, 0.004, 30.0, 0.5});
   const auto rates = orbit::sensitivity(both.family, {graze->value, 0.004, 30.0, 0.5}, *graze);
   const double d = 6000.0 - 1.5 * omega * omega;  // amplitude = 120 / hypot(d, 12 omega)
-  const double by_frequency = -amplitude / (d * d + 144.0 * omega * omega) * (144.0 - 3.0 * d) * omega * 2.0 * std::numbers::pi;
+  const double by_frequency =
+      -amplitude / (d * d + 144.0 * omega * omega) * (144.0 - 3.0 * d) * omega * 2.0 * std::numbers::pi;
   EXPECT_NEAR(rates[0] * by_frequency, 1.0, 1e-11);
   EXPECT_NEAR(rates[1] * by_frequency, 1.0 / 40000.0, 1e-15);
   EXPECT_NEAR(rates[2], 0.0, 1e-11);

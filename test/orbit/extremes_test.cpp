@@ -25,7 +25,8 @@ TEST(Extremes, OfALinearOscillatorAreItsAmplitudes) {
     const double zeta = 0.1, amplitude = 1.0 / std::hypot(1.0 - omega * omega, 2.0 * zeta * omega);
     EXPECT_NEAR(all[0].most.value, amplitude, 1e-12 * amplitude) << omega;
     EXPECT_NEAR(all[0].least.value, -amplitude, 1e-12 * amplitude) << omega;
-    const double terms = std::max(1.0, omega) * amplitude;  // of which the velocity is the sum: the oscillator's own rate is 1
+    const double terms =
+        std::max(1.0, omega) * amplitude;  // of which the velocity is the sum: the oscillator's own rate is 1
     EXPECT_NEAR(all[1].largest(), omega * amplitude, 1e-12 * terms) << omega;
     const double lag = std::atan2(2.0 * zeta * omega, 1.0 - omega * omega) / (2.0 * std::numbers::pi);
     EXPECT_NEAR(std::remainder(found->orbit.t[0] + all[0].most.at - lag, 1.0), 0.0, 1e-7) << omega;

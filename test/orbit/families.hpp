@@ -1,7 +1,7 @@
 #pragma once
 /// Model files as families, for tests.
-#include "slapstick/io/model_file.hpp"
 #include "slapstick/continuation/sentences.hpp"
+#include "slapstick/io/model_file.hpp"
 #include "slapstick/orbit/search.hpp"
 
 namespace slapstick::orbit {

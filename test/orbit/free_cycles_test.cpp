@@ -101,15 +101,12 @@ TEST(FreeCycle, BetweenStableSlidingAndStickSlipThereIsOneThatRepels) {
   const Overrides values = {{"belt_speed", 1.2}, {"damping_ratio", 0.05}, {"static_friction", 1.0}};
   const Posed posed("falling-friction", values, {}, {});
   const State start = {0.6, 0.0};
-  const orbit::Chosen found =
-      find_orbit(*posed.problem, posed.system, start, {.stable = false}, nullptr, plain);
+  const orbit::Chosen found = find_orbit(*posed.problem, posed.system, start, {.stable = false}, nullptr, plain);
   ASSERT_TRUE(found.orbit);
   EXPECT_EQ(found.orbit->label, "free-0-I");
   EXPECT_GT(std::abs(found.orbit->multipliers.at(0)), 1.0);
   const State at = orbit::at_phase_zero(*posed.problem, found.orbit->orbit);
-  const auto scaled = [&](double by) {
-    return State{0.6 + by * (at[0] - 0.6), by * at[1]};
-  };
+  const auto scaled = [&](double by) { return State{0.6 + by * (at[0] - 0.6), by * at[1]}; };
   EXPECT_EQ(classify(posed.system, scaled(0.97)).label, "equilibrium");
   EXPECT_EQ(classify(posed.system, scaled(1.03)).label, "free-0-II");
 }
@@ -124,9 +121,9 @@ TEST(FreeCycle, SearchesFindWhatMotionsSettleOnByItsClass) {
     EXPECT_TRUE(found.settles) << wish;
     EXPECT_EQ(orbit::returns(found.orbit->orbit.shape), 1) << wish;
   }
-  EXPECT_THROW((void)find_orbit(*posed.problem, posed.system, posed.start(), {.orbit = "3-7-I", .starts = 2}, nullptr,
-                                plain),
-               std::runtime_error);
+  EXPECT_THROW(
+      (void)find_orbit(*posed.problem, posed.system, posed.start(), {.orbit = "3-7-I", .starts = 2}, nullptr, plain),
+      std::runtime_error);
 }
 
 TEST(FreeCycle, TheNearestIsMeasuredAlongTheCycle) {

@@ -14,10 +14,11 @@ namespace {
 
 using std::numbers::pi;
 
-const std::string oscillator = "name = 'm'\nomega = 'omega'\n[parameters.omega]\nvalue = 2\n[parameters.size]\nvalue = 1\n"
-                               "[parameters.late]\nvalue = 0.7\n"
-                               "[[coordinate]]\nname = 'x'\nmass = 1\n[[spring]]\nbetween = ['x', 'ground']\nstiffness = 1\n"
-                               "[[damper]]\nbetween = ['x', 'ground']\ncoefficient = 0.1\n";
+const std::string oscillator =
+    "name = 'm'\nomega = 'omega'\n[parameters.omega]\nvalue = 2\n[parameters.size]\nvalue = 1\n"
+    "[parameters.late]\nvalue = 0.7\n"
+    "[[coordinate]]\nname = 'x'\nmass = 1\n[[spring]]\nbetween = ['x', 'ground']\nstiffness = 1\n"
+    "[[damper]]\nbetween = ['x', 'ground']\ncoefficient = 0.1\n";
 const std::string blow = "[[impulse]]\nname = 'hammer'\non = 'x'\nmomentum = 'size'\nphase = 'late'\n";
 const std::string wall = "[[stop]]\nname = 'wall'\nbetween = ['x', 'ground']\nclearance = 0.2\nrestitution = 0.8\n";
 const std::string pad = "[[friction]]\nname = 'pad'\nbetween = ['x', 'ground']\nstatic = 0.5\nkinetic = 0.2\n";
@@ -95,7 +96,9 @@ TEST(PeriodicImpulse, IsFollowedThroughNothing) {
   const Driven below = at(-0.5), none = at(0.0), above = at(0.5);
   const Driven without(oscillator + other, {}, {});
   ASSERT_TRUE(none.orbit && below.orbit && without.orbit);
-  const auto state = [](const Driven& of, const orbit::Orbit& orbit) { return orbit::at_phase_zero(*of.problem, orbit); };
+  const auto state = [](const Driven& of, const orbit::Orbit& orbit) {
+    return orbit::at_phase_zero(*of.problem, orbit);
+  };
   const State first = state(below, branch.points.front().orbit), last = state(above, branch.points.back().orbit),
               middle = state(none, none.orbit->orbit), alone = state(without, without.orbit->orbit);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -105,14 +108,15 @@ TEST(PeriodicImpulse, IsFollowedThroughNothing) {
   }
 }
 
-const std::string table = "name = 'm'\nomega = 'omega'\n[parameters.omega]\nvalue = 2\n[parameters.size]\nvalue = 1\n"
-                          "[parameters.late]\nvalue = 0.5\n"
-                          "[[signal]]\nname = 's'\npoints = [[0, 0], ['late', 'size'], [1, 0]]\nrepeats = true\nin_periods = true\n"
-                          "[[base]]\nname = 'table'\nsignal = 's'\n"
-                          "[[coordinate]]\nname = 'x'\nmass = 1\nbase = 'table'\n"
-                          "[[force]]\non = 'x'\nharmonic = 0\namplitude = -0.8\n"
-                          "[[damper]]\nbetween = ['x', 'ground']\ncoefficient = 0.1\n"
-                          "[[stop]]\nname = 'top'\nbetween = ['table', 'x']\nclearance = 0\nrestitution = 0.4\n";
+const std::string table =
+    "name = 'm'\nomega = 'omega'\n[parameters.omega]\nvalue = 2\n[parameters.size]\nvalue = 1\n"
+    "[parameters.late]\nvalue = 0.5\n"
+    "[[signal]]\nname = 's'\npoints = [[0, 0], ['late', 'size'], [1, 0]]\nrepeats = true\nin_periods = true\n"
+    "[[base]]\nname = 'table'\nsignal = 's'\n"
+    "[[coordinate]]\nname = 'x'\nmass = 1\nbase = 'table'\n"
+    "[[force]]\non = 'x'\nharmonic = 0\namplitude = -0.8\n"
+    "[[damper]]\nbetween = ['x', 'ground']\ncoefficient = 0.1\n"
+    "[[stop]]\nname = 'top'\nbetween = ['table', 'x']\nclearance = 0\nrestitution = 0.4\n";
 
 /// A ball on a table that moves by straight lines: what the inertia brings is what damper and impacts take; Newton's
 /// equations and the motion's own tangents; derivatives against differences.
@@ -134,7 +138,8 @@ TEST(WallOfASignal, HasCyclesWithAllThatBelongsToThem) {
     const std::vector<Measured> rates = measure_rates(*ball.problem, ball.orbit->orbit, {of});
     for (std::size_t j = 0; j < names.size(); ++j) {
       const double difference = ball.difference(j, 1e-5, of, "mean");
-      EXPECT_NEAR(statistic_rate(ball.of(name).of.front(), rates[j].of.front(), "mean"), difference, 1e-6 * std::abs(difference) + 1e-9)
+      EXPECT_NEAR(statistic_rate(ball.of(name).of.front(), rates[j].of.front(), "mean"), difference,
+                  1e-6 * std::abs(difference) + 1e-9)
           << name << names[j];
     }
   }
@@ -154,7 +159,8 @@ TEST(PeriodicImpulse, OnAClosedStopHasDerivatives) {
     const std::vector<Measured> rates = measure_rates(*held.problem, held.orbit->orbit, {of});
     for (std::size_t j = 0; j < 2; ++j) {
       const double difference = held.difference(j, 1e-5, of, "rms");
-      EXPECT_NEAR(statistic_rate(held.of(name).of.front(), rates[j].of.front(), "rms"), difference, 1e-6 * std::abs(difference) + 1e-8)
+      EXPECT_NEAR(statistic_rate(held.of(name).of.front(), rates[j].of.front(), "rms"), difference,
+                  1e-6 * std::abs(difference) + 1e-8)
           << name << j;
     }
   }
@@ -168,19 +174,23 @@ TEST(PeriodicImpulse, AtOneInstantIsTheSum) {
     };
     return one("first", first) + (second.empty() ? "" : one("second", second));
   };
-  const std::string held = "[[force]]\non = 'x'\nharmonic = 0\namplitude = 0.6\n"
-                           "[[stop]]\nname = 'wall'\nbetween = ['x', 'ground']\nclearance = 0.2\nrestitution = 0\n";
+  const std::string held =
+      "[[force]]\non = 'x'\nharmonic = 0\namplitude = 0.6\n"
+      "[[stop]]\nname = 'wall'\nbetween = ['x', 'ground']\nclearance = 0.2\nrestitution = 0\n";
   struct Case {
     std::string contacts, first, second, sum;
     double omega;
   };
-  for (const Case& one : {Case{"", "0.3 * size", "0.7", "0.3 * size + 0.7", 2.0}, Case{pad, "0.01 * size", "0.8", "0.01 * size + 0.8", 2.0},
-                          Case{held, "size", "-1.8", "size - 1.8", 0.5}, Case{held, "0.2 * size", "0.4", "0.2 * size + 0.4", 0.5}}) {
+  for (const Case& one :
+       {Case{"", "0.3 * size", "0.7", "0.3 * size + 0.7", 2.0},
+        Case{pad, "0.01 * size", "0.8", "0.01 * size + 0.8", 2.0}, Case{held, "size", "-1.8", "size - 1.8", 0.5},
+        Case{held, "0.2 * size", "0.4", "0.2 * size + 0.4", 0.5}}) {
     const Driven two(oscillator + one.contacts + blows(one.first, one.second), {"size"}, {1.0});
     const Driven whole(oscillator + one.contacts + blows(one.sum, ""), {"size"}, {1.0});
     ASSERT_TRUE(two.orbit && whole.orbit) << one.contacts << one.first;
     for (const char* name : {"x", "v", "power_in"}) {
-      EXPECT_NEAR(two.of(name).of.front().rms, whole.of(name).of.front().rms, 1e-12) << one.contacts << one.first << name;
+      EXPECT_NEAR(two.of(name).of.front().rms, whole.of(name).of.front().rms, 1e-12)
+          << one.contacts << one.first << name;
       const auto rate = [&](const Driven& of) {
         return measure_rates(*of.problem, of.orbit->orbit, {of.quantity(name)}).front().of.front().rms;
       };
@@ -198,7 +208,9 @@ TEST(WallOfASignal, MayTurnAtTheInstantOfABlow) {
     const Driven ball(text, {"omega"}, {2.0});
     ASSERT_TRUE(ball.orbit) << blow;
     const double damped = 0.1 * statistic(ball.of("v").of.front(), "mean");
-    EXPECT_NEAR(statistic(ball.of("F_top").of.front(), "mean"), 0.8 + damped - std::stod(blow) * 2.0 / (2.0 * pi), 1e-12) << blow;
+    EXPECT_NEAR(statistic(ball.of("F_top").of.front(), "mean"), 0.8 + damped - std::stod(blow) * 2.0 / (2.0 * pi),
+                1e-12)
+        << blow;
   }
 }
 

@@ -14,16 +14,19 @@ namespace {
 
 /// A shaken ball that comes to rest once a period, and a body y beside it that never does.
 const std::string shaken =
-    "name = 'm'\nomega = 6.283185307179586\n[parameters]\nacceleration = 1.3\nrestitution = 0.4\nmu = 0.2\nstiff = 0.5\n"
+    "name = 'm'\nomega = 6.283185307179586\n[parameters]\nacceleration = 1.3\nrestitution = 0.4\nmu = 0.2\nstiff = "
+    "0.5\n"
     "[[coordinate]]\nname = 'x'\nmass = 1\n[[coordinate]]\nname = 'y'\nmass = 1\n"
     "[[spring]]\nbetween = ['y', 'ground']\nstiffness = 30\n[[damper]]\nbetween = ['y', 'ground']\ncoefficient = 2\n"
-    "[[force]]\non = 'y'\nharmonic = 1\namplitude = 20\nphase = 0.4\n[[force]]\non = 'x'\nharmonic = 0\namplitude = -1\n"
+    "[[force]]\non = 'y'\nharmonic = 1\namplitude = 20\nphase = 0.4\n[[force]]\non = 'x'\nharmonic = 0\namplitude = "
+    "-1\n"
     "[[force]]\non = 'x'\nharmonic = 1\namplitude = 'acceleration'\n"
     "[[stop]]\nname = 'floor'\nbetween = ['ground', 'x']\nclearance = 0\nrestitution = 'restitution'\n";
 const std::string on_wall = "[[friction]]\nname = 'rub'\nbetween = ['x', 'ground']\nstatic = 'mu'\nkinetic = 'mu'\n",
                   on_body = "[[friction]]\nname = 'rub'\nbetween = ['x', 'y']\nstatic = 'mu'\nkinetic = 'mu'\n",
-                  layer = "[[compliant_stop]]\nname = 'layer'\nbetween = ['ground', 'x']\nclearance = -0.02\n"
-                          "stiffness = 'stiff'\ndamping = 0.3\n";
+                  layer =
+                      "[[compliant_stop]]\nname = 'layer'\nbetween = ['ground', 'x']\nclearance = -0.02\n"
+                      "stiffness = 'stiff'\ndamping = 0.3\n";
 
 struct Beside {
   const char* name;
@@ -33,11 +36,16 @@ const std::vector<Beside> all = {
     {"load on the ball", on_wall + "normal_force = { constant = 0.7, y = 0.6 }\n"},
     {"load on another pair", on_body + "normal_force = { constant = 0.7, y = 0.6, v_y = 0.05 }\n"},
     {"layer that loads", layer + on_wall + "normal_force = { compliant_stop = 'layer' }\n"},
-    {"layer of two stiffnesses", "[[compliant_stop]]\nname = 'layer'\nbetween = ['y', 'x']\nclearance = -0.4\n"
-                                 "stiffness = 'stiff'\nunloading_stiffness = 0.2\n"},
-    {"bend at the floor", "[[spring]]\nname = 'bend'\nbetween = ['x', 'ground']\ncharacteristic = [[-1, -0.2], [0, 0], [1, 'stiff']]\n"},
-    {"damper that turns at rest", "[[damper]]\nbetween = ['x', 'ground']\ncharacteristic = [[-1, -0.8], [0, 0], [1, 'stiff']]\n"},
-    {"bend", "[[spring]]\nname = 'bend'\nbetween = ['x', 'ground']\ncharacteristic = [[-1, -0.2], [0.05, 0.1], [1, 'stiff']]\n"},
+    {"layer of two stiffnesses",
+     "[[compliant_stop]]\nname = 'layer'\nbetween = ['y', 'x']\nclearance = -0.4\n"
+     "stiffness = 'stiff'\nunloading_stiffness = 0.2\n"},
+    {"bend at the floor",
+     "[[spring]]\nname = 'bend'\nbetween = ['x', 'ground']\ncharacteristic = [[-1, -0.2], [0, 0], [1, 'stiff']]\n"},
+    {"damper that turns at rest",
+     "[[damper]]\nbetween = ['x', 'ground']\ncharacteristic = [[-1, -0.8], [0, 0], [1, 'stiff']]\n"},
+    {"bend",
+     "[[spring]]\nname = 'bend'\nbetween = ['x', 'ground']\ncharacteristic = [[-1, -0.2], [0.05, 0.1], [1, "
+     "'stiff']]\n"},
 };
 
 struct Cycle {
@@ -91,7 +99,8 @@ TEST(LoadedChatter, HasALimitWhoseDerivativesAreDifferences) {
         return there ? mean(*problem, *there) : NAN;
       };
       const double difference = (beside(h) - beside(-h)) / (2.0 * h);
-      EXPECT_NEAR(rates[j].of.front().mean, difference, 1e-6 * (1e-2 + std::abs(difference))) << one.name << " " << names[j];
+      EXPECT_NEAR(rates[j].of.front().mean, difference, 1e-6 * (1e-2 + std::abs(difference)))
+          << one.name << " " << names[j];
     }
   }
 }

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flow/contact_state.hpp"
 #include "beside.hpp"
+#include "flow/contact_state.hpp"
 
 namespace slapstick::test {
 namespace {

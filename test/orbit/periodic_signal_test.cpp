@@ -59,10 +59,12 @@ TEST(PeriodicSignal, OfATriangleHasTheMeanSquareOfItsFourierSeries) {
 
 /// Three rounds in a period are three times the forcing frequency.
 TEST(PeriodicSignal, OfThreeRoundsIsThatOfThreeTimesTheFrequency) {
-  const std::string round = "points = [[0, 0.3], [0.1, 1], [0.2, 1], [0.2, -1], [0.333333333333333, 0.3]]\n"
-                            "repeats = true\nin_periods = true\n";
+  const std::string round =
+      "points = [[0, 0.3], [0.1, 1], [0.2, 1], [0.2, -1], [0.333333333333333, 0.3]]\n"
+      "repeats = true\nin_periods = true\n";
   const Driven thrice(oscillator + damper + wall + push(round), {"omega"}, {0.7});
-  const std::string once = "points = [[0, 0.3], [0.3, 1], [0.6, 1], [0.6, -1], [1, 0.3]]\nrepeats = true\nin_periods = true\n";
+  const std::string once =
+      "points = [[0, 0.3], [0.3, 1], [0.6, 1], [0.6, -1], [1, 0.3]]\nrepeats = true\nin_periods = true\n";
   const Driven quick(oscillator + damper + wall + push(once), {"omega"}, {2.1});
   ASSERT_TRUE(thrice.orbit && quick.orbit);
   const State a = orbit::at_phase_zero(*thrice.problem, thrice.orbit->orbit);
@@ -88,12 +90,13 @@ TEST(PeriodicSignal, OfASawtoothDoesNotDependOnItsPhase) {
 /// Two equal halves of a signal have their points at the same instants: the derivative by both duties is shared.
 TEST(PeriodicSignal, HasDerivativesWhereTwoSignalsHaveAPointAtOneInstant) {
   const auto half = [](const std::string& name, const std::string& duty) {
-    return "[[signal]]\nname = '" + name + "'\nshape = 'square'\nduty = '" + duty + "'\n[[force]]\non = 'x'\nsignal = '" +
-           name + "'\namplitude = 0.5\n";
+    return "[[signal]]\nname = '" + name + "'\nshape = 'square'\nduty = '" + duty +
+           "'\n[[force]]\non = 'x'\nsignal = '" + name + "'\namplitude = 0.5\n";
   };
   const std::string second = "[parameters.late]\nvalue = 0.5\n";
   const Driven one(oscillator + damper + wall + push("shape = 'square'\nduty = 'duty'\n"), {"duty"}, {0.5});
-  const Driven two(oscillator + second + damper + wall + half("a", "duty") + half("b", "late"), {"duty", "late"}, {0.5, 0.5});
+  const Driven two(oscillator + second + damper + wall + half("a", "duty") + half("b", "late"), {"duty", "late"},
+                   {0.5, 0.5});
   ASSERT_TRUE(one.orbit && two.orbit);
   const auto rates = [](const Driven& of) { return measure_rates(*of.problem, of.orbit->orbit, {of.quantity("x")}); };
   const Statistics whole = one.of("x").of.front(), halves = two.of("x").of.front();
@@ -104,8 +107,10 @@ TEST(PeriodicSignal, HasDerivativesWhereTwoSignalsHaveAPointAtOneInstant) {
 
 /// Derivatives by the shape, the size and the frequency, where an impact is near a step.
 TEST(PeriodicSignal, HasDerivativesThatAreDifferences) {
-  const std::string text = oscillator + damper + wall + push("points = [[0, 1], ['duty', 1], ['duty', -1], [1, -0.4]]\n"
-                                                             "repeats = true\nin_periods = true\n");
+  const std::string text = oscillator + damper + wall +
+                           push(
+                               "points = [[0, 1], ['duty', 1], ['duty', -1], [1, -0.4]]\n"
+                               "repeats = true\nin_periods = true\n");
   const std::vector<std::string> names = {"omega", "duty", "size"};
   const std::vector<double> at = {2.0, 0.52, 1.0};
   const Driven middle(text, names, at);
@@ -116,7 +121,8 @@ TEST(PeriodicSignal, HasDerivativesThatAreDifferences) {
   const std::vector<Measured> rates = measure_rates(*middle.problem, middle.orbit->orbit, {x});
   for (std::size_t j = 0; j < names.size(); ++j) {
     const double difference = middle.difference(j, 1e-5, x, "mean");
-    EXPECT_NEAR(statistic_rate(value, rates[j].of.front(), "mean"), difference, 1e-6 * std::abs(difference)) << names[j];
+    EXPECT_NEAR(statistic_rate(value, rates[j].of.front(), "mean"), difference, 1e-6 * std::abs(difference))
+        << names[j];
   }
 }
 
@@ -171,8 +177,9 @@ TEST(PeriodicSignal, LetsADryContactGoAtItsStep) {
 /// 0.6 is let go while s > 0.6. There its branch has a special point, and behind it the mass sticks for ever.
 TEST(PeriodicSignal, LetsADryContactGoWhileTheStepExceedsTheLimit) {
   const std::string pad = "[[friction]]\nname = 'pad'\nbetween = ['x', 'ground']\nstatic = 0.6\nkinetic = 0.3\n";
-  const std::string blows = "points = [[0, 0.5], [0.3, 0.5], [0.3, 1], [0.4, 1], [0.4, 0.3], [0.7, 0.3], [0.7, -1], [0.8, -1], "
-                            "[0.8, 0.5], [1, 0.5]]\nrepeats = true\nin_periods = true\n";
+  const std::string blows =
+      "points = [[0, 0.5], [0.3, 0.5], [0.3, 1], [0.4, 1], [0.4, 0.3], [0.7, 0.3], [0.7, -1], [0.8, -1], "
+      "[0.8, 0.5], [1, 0.5]]\nrepeats = true\nin_periods = true\n";
   const std::string mass = "name = 'm'\nomega = 0.628\n" + parameters + "[[coordinate]]\nname = 'x'\nmass = 1\n";
   const Driven stepped(mass + pad + push(blows), {"size"}, {1.0});
   ASSERT_TRUE(stepped.orbit);
@@ -206,7 +213,8 @@ double limit_meets_step() {
     return lifted_for * (1 + a + (1 + bounces_by) / (1 - bounces_by) * std::sqrt(a * a + a)) - 1.0;
   };
   double low = 0.1, high = 2.0;
-  while (0.5 * (low + high) > low && 0.5 * (low + high) < high) (late(0.5 * (low + high)) < 0.0 ? low : high) = 0.5 * (low + high);
+  while (0.5 * (low + high) > low && 0.5 * (low + high) < high)
+    (late(0.5 * (low + high)) < 0.0 ? low : high) = 0.5 * (low + high);
   return low;
 }
 
@@ -230,7 +238,8 @@ TEST(PeriodicSignal, LetsABranchThroughWhereAChattersLimitMeetsAStep) {
   EXPECT_LE(meets->error, 1e-12);
   const orbit::SpecialPoint& last = branch.special.back();
   const double E = 1.0 - lifted_for, r = bounces_by;
-  const double a = (0.5 * E * E - r * E / (1 + r)) / (0.5 * lifted_for * lifted_for + lifted_for * E - r * lifted_for / (1 + r));
+  const double a =
+      (0.5 * E * E - r * E / (1 + r)) / (0.5 * lifted_for * lifted_for + lifted_for * E - r * lifted_for / (1 + r));
   EXPECT_EQ(last.type, orbit::SpecialType::CO);
   EXPECT_NEAR(last.value, 1.0 + a, 1e-12);
 }

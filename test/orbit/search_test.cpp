@@ -249,7 +249,8 @@ TEST(Continuum, OfAFreeConservativeOscillatorHasAnAmplitude) {
   for (const double period : {named.period, found.orbit->cycle})
     EXPECT_NEAR(period, 4.0 / 3.0 * std::numbers::pi, 1e-9);
   const auto events = orbit::events(*posed.problem, found.orbit->orbit);
-  for (const auto& event : events) EXPECT_NEAR(std::abs(event.w), std::hypot(0.7, 0.1), 1e-9);  // the energy of the start
+  for (const auto& event : events)
+    EXPECT_NEAR(std::abs(event.w), std::hypot(0.7, 0.1), 1e-9);  // the energy of the start
 }
 
 /// At a fold, and where a symmetry breaks, a multiplier is 1 and the equations are singular: there is one orbit all the

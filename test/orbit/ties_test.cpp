@@ -114,7 +114,8 @@ TEST_P(Ties, MultipliersAreThoseOfOneMachineTwice) {
   std::vector<std::complex<double>> left = both_->multipliers;
   for (int copy = 0; copy < 2; ++copy)
     for (const std::complex<double> mu : single_->multipliers) {
-      const auto nearest = std::min_element(left.begin(), left.end(), [&](auto a, auto b) { return std::abs(a - mu) < std::abs(b - mu); });
+      const auto nearest = std::min_element(left.begin(), left.end(),
+                                            [&](auto a, auto b) { return std::abs(a - mu) < std::abs(b - mu); });
       EXPECT_LT(std::abs(*nearest - mu), 1e-7) << mu;  // a double multiplier is known to half the digits
       left.erase(nearest);
     }
@@ -140,8 +141,10 @@ TEST_P(Ties, RowsImpactsAndEnergiesAreDoubled) {
   EXPECT_NEAR(both.input, 2.0 * single.input, size);
   EXPECT_NEAR(both.damping, 2.0 * single.damping, size);
   EXPECT_NEAR(both.balance(), 0.0, size);
-  for (std::size_t i = 0; i < both.impacts.size(); ++i) EXPECT_NEAR(both.impacts[i], single.impacts[i % single.impacts.size()], size);
-  for (std::size_t i = 0; i < both.friction.size(); ++i) EXPECT_NEAR(both.friction[i], single.friction[i % single.friction.size()], size);
+  for (std::size_t i = 0; i < both.impacts.size(); ++i)
+    EXPECT_NEAR(both.impacts[i], single.impacts[i % single.impacts.size()], size);
+  for (std::size_t i = 0; i < both.friction.size(); ++i)
+    EXPECT_NEAR(both.friction[i], single.friction[i % single.friction.size()], size);
 }
 
 TEST_P(Ties, SensitivitiesAreThoseOfOneMachine) {
@@ -172,18 +175,19 @@ TEST_P(Ties, ClassifyAgrees) {
 std::string models(const std::string& file) { return SLAPSTICK_ORBIT_MODELS + file; }
 
 INSTANTIATE_TEST_SUITE_P(Machines, Ties,
-                         ::testing::Values(Machine{"impact-oscillator", {{"omega", 2.2}}, "omega"},          // impacts
-                                           Machine{"vibro-impact", {{"omega", 2.2}}, "omega"},               // and reversals
-                                           Machine{"vibro-impact", {{"omega", 1.5}}, "omega"},               // stick, releases
-                                           Machine{"bilinear-oscillator", {}, "omega"},                      // compliant stops
-                                           Machine{"coulomb-oscillator", {}, "omega"},                       // stick
-                                           Machine{"two-sided-rattle", {}, "omega"},                         // both sides
-                                           Machine{models("pressed-pair.toml"), {}, "omega"},                // loads
-                                           Machine{models("every-stop.toml"), {}, "omega"}),                 // zones, bounds
+                         ::testing::Values(Machine{"impact-oscillator", {{"omega", 2.2}}, "omega"},  // impacts
+                                           Machine{"vibro-impact", {{"omega", 2.2}}, "omega"},       // and reversals
+                                           Machine{"vibro-impact", {{"omega", 1.5}}, "omega"},       // stick, releases
+                                           Machine{"bilinear-oscillator", {}, "omega"},              // compliant stops
+                                           Machine{"coulomb-oscillator", {}, "omega"},               // stick
+                                           Machine{"two-sided-rattle", {}, "omega"},                 // both sides
+                                           Machine{models("pressed-pair.toml"), {}, "omega"},        // loads
+                                           Machine{models("every-stop.toml"), {}, "omega"}),         // zones, bounds
                          [](const auto& info) {
                            std::string name = info.param.file.substr(info.param.file.rfind('/') + 1);
                            std::erase_if(name, [](char c) { return c == '-' || c == '.'; });
-                           for (const auto& [key, value] : info.param.at) name += std::to_string(static_cast<int>(10 * value));
+                           for (const auto& [key, value] : info.param.at)
+                             name += std::to_string(static_cast<int>(10 * value));
                            return name;
                          });
 

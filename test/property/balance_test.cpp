@@ -3,15 +3,15 @@
 /// Rounding is counted in units of 2^-53 of the greatest energy (momentum) that the segment's greatest coordinate and velocity could have: a
 /// stored number is a sum of m terms that is rounded m + 16 times in every window (docs/developers/proofs.md, section 3), and the terms of a
 /// window's sum are together at most e^|A H| < 8 times what they start from.
-#include <Eigen/QR>
 #include <gtest/gtest.h>
+#include <Eigen/QR>
 
 #include <cmath>
 #include <numbers>
 
-#include "property/newton.hpp"
 #include "flow/compiled_system.hpp"
 #include "mode/mode.hpp"
+#include "property/newton.hpp"
 #include "property/property.hpp"
 #include "slapstick/flow/motion.hpp"
 
@@ -64,7 +64,9 @@ class Ledger {
     wrong_ = text;
   }
 
-  [[nodiscard]] double roundings(double windows) const { return 0x1p-50 * (system_.compiled().frame().size() + 16) * windows; }
+  [[nodiscard]] double roundings(double windows) const {
+    return 0x1p-50 * (system_.compiled().frame().size() + 16) * windows;
+  }
 
   /// Between two events: what the forcing gave, and what dampers, friction and compliant stops took, is the change of energy.
   void settle_segment() {
@@ -152,7 +154,8 @@ class Ledger {
   void one_impact(const State& before, double loss, double rounding_of_w, double rounding_of_loss) {
     impacts += static_cast<long>(motion_.strikes().size());
     const auto& stops = system_.model().stops;
-    const bool alike = std::ranges::all_of(stops, [&](const Stop& s) { return s.restitution == stops[0].restitution && s.corners.empty(); });
+    const bool alike = std::ranges::all_of(
+        stops, [&](const Stop& s) { return s.restitution == stops[0].restitution && s.corners.empty(); });
     if (alike) expect("energy made by an impact", std::min(loss, 0.0), rounding_of_loss);
     const bool one = motion_.strikes().size() == 1 && motion_.event().kind == EventKind::impact;
     if (!one || motion_.strikes()[0].stops != std::uint32_t{1} << motion_.event().contact) return;

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "property/newton.hpp"
 #include "flow/compiled_system.hpp"
 #include "flow/engine.hpp"
 #include "mode/mode.hpp"
+#include "property/newton.hpp"
 #include "property/property.hpp"
 #include "slapstick/flow/motion.hpp"
 
@@ -115,7 +115,8 @@ class Watchman {
       expect("depth of " + c.name, state == CompliantState::off ? -delta : delta, x);
       if (c.pulls || state == CompliantState::off) continue;
       if (c.bounded && c.damping > 0.0) {
-        bounds(c, state, c.stiffness * delta, c.damping * Newton::difference(x_, c.a, c.b, 1), c.stiffness * x + c.damping * v);
+        bounds(c, state, c.stiffness * delta, c.damping * Newton::difference(x_, c.a, c.b, 1),
+               c.stiffness * x + c.damping * v);
         continue;
       }
       expect("push of " + c.name, state == CompliantState::on ? force : -force, c.stiffness * x + c.damping * v);
@@ -131,7 +132,8 @@ class Watchman {
     for (const NormalForce::Term& term : f.normal->terms)
       allowed += std::abs(term.stiffness) * x + std::abs(term.damping) * v;
     if (const int stop = f.normal->compliant_stop; stop >= 0)
-      allowed += 2.0 * (system_.model().compliant_stops[stop].stiffness * x + system_.model().compliant_stops[stop].damping * v);
+      allowed += 2.0 * (system_.model().compliant_stops[stop].stiffness * x +
+                        system_.model().compliant_stops[stop].damping * v);
     expect("load of " + f.name, sign * newton_.load(x_, contacts, i), allowed);
     loads += f.normal.has_value();
   }

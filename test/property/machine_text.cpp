@@ -38,14 +38,16 @@ void normal_force(std::ostream& out, const Model& m, const NormalForce& normal) 
                   names[at + 1].c_str(), term.damping);
     out << text;
   }
-  if (normal.compliant_stop >= 0) out << ", compliant_stop = \"" << m.compliant_stops[normal.compliant_stop].name << '"';
+  if (normal.compliant_stop >= 0)
+    out << ", compliant_stop = \"" << m.compliant_stops[normal.compliant_stop].name << '"';
   out << " }\n";
 }
 
 /// Zones of more than one edge are not in a file: their numbers are there as a comment.
 void characteristic(std::ostream& out, const Model& m, const Characteristic& c) {
   const bool zones = c.over == Characteristic::Over::zones;
-  out << (c.over == Characteristic::Over::displacement ? "[[spring]]\n" : "[[damper]]\n") << "name = \"" << c.name << "\"\n";
+  out << (c.over == Characteristic::Over::displacement ? "[[spring]]\n" : "[[damper]]\n") << "name = \"" << c.name
+      << "\"\n";
   between(out, m, c.a, c.b);
   out << (zones ? "#zones = [" : "characteristic = [");
   for (const Characteristic::Corner& corner : c.corners) point(out, corner.at, corner.force);

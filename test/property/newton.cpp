@@ -77,7 +77,8 @@ Eigen::VectorXd Newton::force(std::span<const double> state, const mode::Contact
 }
 
 /// That of a bounded stop needs no state but its depth.
-double Newton::compliant_force(std::span<const double> state, const mode::ContactStates& contacts, std::size_t i) const {
+double Newton::compliant_force(std::span<const double> state, const mode::ContactStates& contacts,
+                               std::size_t i) const {
   const CompliantStop& s = model_.compliant_stops[i];
   const double spring = s.stiffness * (difference(state, s.a, s.b, 0) - s.clearance);
   const double damper = s.damping * difference(state, s.a, s.b, 1);
@@ -91,7 +92,8 @@ double Newton::bent_force(std::span<const double> state, const mode::ContactStat
   const auto& corners = c.corners;
   const double v = difference(state, c.a, c.b, 1);
   if (c.over == Characteristic::Over::zones)
-    return v * (contacts.pieces[i] == 0 ? c.slope_below : corners[static_cast<std::size_t>(contacts.pieces[i] - 1)].force);
+    return v *
+           (contacts.pieces[i] == 0 ? c.slope_below : corners[static_cast<std::size_t>(contacts.pieces[i] - 1)].force);
   const double at = c.over == Characteristic::Over::velocity ? v : difference(state, c.a, c.b, 0);
   if (at <= corners.front().at) return corners.front().force + c.slope_below * (at - corners.front().at);
   if (at >= corners.back().at) return corners.back().force + c.slope_above * (at - corners.back().at);
@@ -202,7 +204,8 @@ Eigen::VectorXd Newton::force_size(const Sizes& sizes) const {
         force = std::max(force, std::abs(corner.force) * v);
         continue;
       }
-      const double slope = k == 0 ? 0.0 : std::abs((corner.force - c.corners[k - 1].force) / (corner.at - c.corners[k - 1].at));
+      const double slope =
+          k == 0 ? 0.0 : std::abs((corner.force - c.corners[k - 1].force) / (corner.at - c.corners[k - 1].at));
       force = std::max(force, std::abs(corner.force) + slope * (at + std::abs(corner.at)));
     }
     add(c.a, force), add(c.b, force);

@@ -47,7 +47,8 @@ class Newton {
   [[nodiscard]] double load(std::span<const double> state, const mode::ContactStates& contacts, std::size_t i) const;
   [[nodiscard]] double load_size(const Sizes& sizes, std::size_t i) const;
   /// The force of a compliant stop that pushes b.
-  [[nodiscard]] double compliant_force(std::span<const double> state, const mode::ContactStates& contacts, std::size_t i) const;
+  [[nodiscard]] double compliant_force(std::span<const double> state, const mode::ContactStates& contacts,
+                                       std::size_t i) const;
 
   /// The force on a of a pair that is held, along x_a - x_b, from G v' = 0; all contacts of the pair together.
   struct Held {
@@ -66,7 +67,8 @@ class Newton {
   [[nodiscard]] Eigen::VectorXd force(std::span<const double> state, const mode::ContactStates& contacts,
                                       double theta) const;
   [[nodiscard]] std::vector<Held> held_pairs(std::span<const double> state, const mode::ContactStates& contacts) const;
-  [[nodiscard]] double bent_force(std::span<const double> state, const mode::ContactStates& contacts, std::size_t i) const;
+  [[nodiscard]] double bent_force(std::span<const double> state, const mode::ContactStates& contacts,
+                                  std::size_t i) const;
 
   const Model& model_;
   Eigen::MatrixXd M_, M_inverse_, C_, K_;

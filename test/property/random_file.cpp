@@ -37,7 +37,9 @@ class FileDraw {
   bool one_in(int n) { return integer(1, n) == 1; }
   std::vector<Part>& parts(const char* kind) { return file_.parts[kind]; }
   int coordinates() { return static_cast<int>(parts("coordinate").size()); }
-  Part& any(const char* kind) { return parts(kind)[static_cast<std::size_t>(integer(0, static_cast<int>(parts(kind).size()) - 1))]; }
+  Part& any(const char* kind) {
+    return parts(kind)[static_cast<std::size_t>(integer(0, static_cast<int>(parts(kind).size()) - 1))];
+  }
 
   /// The machine's zones have coefficients that a file does not: those of a file are made by `zones`.
   Definition machine() {
@@ -45,7 +47,9 @@ class FileDraw {
     shape.most_coordinates = shape_.most_coordinates;
     shape.laws = one_in(2);
     Machine machine = random_machine(random_(), shape);
-    std::erase_if(machine.model.characteristics, [](const Characteristic& c) { return c.over == Characteristic::Over::zones || c.corners.size() < 2; });
+    std::erase_if(machine.model.characteristics, [](const Characteristic& c) {
+      return c.over == Characteristic::Over::zones || c.corners.size() < 2;
+    });
     std::ostringstream text;
     text << machine;
     return read_definition(text.str(), "random.toml");
@@ -73,7 +77,8 @@ class FileDraw {
     base.name = "floor";
     for (int k = integer(1, 2); k > 0; --k) {
       Part harmonic;
-      harmonic.fields = {{"amplitude", number(real(-0.3, 0.3))}, {"harmonic", number(k)}, {"phase", number(real(0, 6))}};
+      harmonic.fields = {
+          {"amplitude", number(real(-0.3, 0.3))}, {"harmonic", number(k)}, {"phase", number(real(0, 6))}};
       base.harmonics.push_back(harmonic);
     }
     parts("base").push_back(base);
@@ -108,7 +113,8 @@ class FileDraw {
   void tone() {
     Part force;
     force.a = integer(0, coordinates() - 1);
-    force.fields = {{"amplitude", number(real(-0.5, 0.5))}, {"frequency", number(real(0.4, 3))}, {"phase", number(real(0, 6))}};
+    force.fields = {
+        {"amplitude", number(real(-0.5, 0.5))}, {"frequency", number(real(0.4, 3))}, {"phase", number(real(0, 6))}};
     parts("force").push_back(force);
   }
 
@@ -189,7 +195,8 @@ class FileDraw {
       return;
     }
     friction.fields.erase("static");
-    friction.stribeck = {{"static", number(force)}, {"kinetic", number(force * 0.6)}, {"speed", number(0.4)}, {"corners", number(3)}};
+    friction.stribeck = {
+        {"static", number(force)}, {"kinetic", number(force * 0.6)}, {"speed", number(0.4)}, {"corners", number(3)}};
   }
 
   void zones() {
@@ -209,7 +216,8 @@ class FileDraw {
     const double k = real(0.2, 2), r = real(-2, 2);
     MatrixEntry matrix;
     matrix.entries.assign(n * n, number(0));
-    matrix.entries[0] = number(k), matrix.entries[1] = matrix.entries[n] = number(-r * k), matrix.entries[n + 1] = number(r * r * k);
+    matrix.entries[0] = number(k), matrix.entries[1] = matrix.entries[n] = number(-r * k),
+    matrix.entries[n + 1] = number(r * r * k);
     file_.matrices["stiffness"] = matrix;
   }
 

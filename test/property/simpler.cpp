@@ -92,7 +92,8 @@ class Simpler {
     for (int i = m.size() - 1; i >= 0 && m.size() > 1; --i) offer(without_coordinate(machine_, i));
     without_each(&Model::stops);
     without_each(&Model::frictions);
-    if (std::ranges::none_of(m.frictions, [](const FrictionContact& f) { return f.normal && f.normal->compliant_stop >= 0; }))
+    if (std::ranges::none_of(m.frictions,
+                             [](const FrictionContact& f) { return f.normal && f.normal->compliant_stop >= 0; }))
       without_each(&Model::compliant_stops);
     without_each(&Model::characteristics);
     without_laws();
@@ -114,7 +115,8 @@ class Simpler {
     for (std::size_t i = 0; i < machine_.model.frictions.size(); ++i)
       if (machine_.model.frictions[i].normal) offer_changed([i](Model& m) { m.frictions[i].normal.reset(); });
     for (std::size_t i = 0; i < machine_.model.compliant_stops.size(); ++i)
-      if (machine_.model.compliant_stops[i].bounded) offer_changed([i](Model& m) { m.compliant_stops[i].bounded = false; });
+      if (machine_.model.compliant_stops[i].bounded)
+        offer_changed([i](Model& m) { m.compliant_stops[i].bounded = false; });
     for (std::size_t i = 0; i < machine_.model.stops.size(); ++i)
       if (!machine_.model.stops[i].corners.empty()) offer_changed([i](Model& m) { m.stops[i].corners.clear(); });
     for (std::size_t i = 0; i < machine_.model.characteristics.size(); ++i)

@@ -15,7 +15,8 @@ void expect_energy_balance(const ModelDefinition& definition, const Overrides& v
   const auto all = quantities(definition, values);
   std::vector<Quantity> of;
   for (const Quantity& one : all)
-    if (one.kind == Quantity::Kind::power || one.kind == Quantity::Kind::damping || one.kind == Quantity::Kind::input) of.push_back(one);
+    if (one.kind == Quantity::Kind::power || one.kind == Quantity::Kind::damping || one.kind == Quantity::Kind::input)
+      of.push_back(one);
   const System system(definition.build(values));
   const auto energy = [&](const State& state) {  // by what is measured over next to nothing
     const std::vector<Quantity> both = {find_quantity(all, "kinetic_energy"), find_quantity(all, "potential_energy")};
@@ -55,9 +56,10 @@ TEST(Balance, OfEnergyHoldsWithEveryKindOfContact) {
 TEST(Balance, OfMomentumHoldsOverACycleOfTheTwoBlocks) {
   for (const double omega : {0.552, 1.5, 2.9}) {
     const SettledCycle cycle(load_model("vibro-impact"), {{"omega", omega}});
-    const Measured found = measure(*cycle.problem, cycle.solution.orbit,
-                                   {cycle.named("F_stop"), cycle.named("F_friction"), cycle.named("x1-x2"), cycle.named("a1"),
-                                    cycle.named("a2"), cycle.named("power_stop"), cycle.named("w_stop")});
+    const Measured found =
+        measure(*cycle.problem, cycle.solution.orbit,
+                {cycle.named("F_stop"), cycle.named("F_friction"), cycle.named("x1-x2"), cycle.named("a1"),
+                 cycle.named("a2"), cycle.named("power_stop"), cycle.named("w_stop")});
     const double size = found.of[0].rms + found.of[2].rms;
     EXPECT_NEAR(found.of[0].mean + found.of[1].mean + found.of[2].mean, 0.0, 1e-10 * size) << omega;
     EXPECT_NEAR(found.of[3].mean, 0.0, 1e-9 * found.of[3].rms) << omega;
@@ -70,8 +72,8 @@ TEST(Balance, OfMomentumHoldsOverACycleOfTheTwoBlocks) {
 /// Where stop and friction hold one pair, friction bears what it can and the stop what is beyond: |F_friction| <= f_s, F_stop >= 0.
 TEST(Balance, ForcesOfAClosedStopWithFrictionStayWithinTheirLaws) {
   const SettledCycle cycle(load_model("vibro-impact"), {{"omega", 0.552}});
-  const Measured found =
-      measure(*cycle.problem, cycle.solution.orbit, {cycle.named("F_stop"), cycle.named("F_friction"), cycle.named("gap_stop")});
+  const Measured found = measure(*cycle.problem, cycle.solution.orbit,
+                                 {cycle.named("F_stop"), cycle.named("F_friction"), cycle.named("gap_stop")});
   EXPECT_TRUE(cycle.solution.chatter);
   EXPECT_GE(found.of[0].least, -1e-14);
   EXPECT_GT(found.of[0].greatest, 0.01);
@@ -83,7 +85,8 @@ TEST(Balance, ForcesOfAClosedStopWithFrictionStayWithinTheirLaws) {
 /// P = (1 + r) m w and E = (1 - r^2) m w^2 / 2 of a ball of mass 1 on the table.
 TEST(Balance, ImpulseAndLossOfAnImpactAreNewtons) {
   const SettledCycle cycle(load_model("shaken-table"));
-  const Measured found = measure(*cycle.problem, cycle.solution.orbit, {cycle.named("w"), cycle.named("impulse"), cycle.named("energy_lost")});
+  const Measured found = measure(*cycle.problem, cycle.solution.orbit,
+                                 {cycle.named("w"), cycle.named("impulse"), cycle.named("energy_lost")});
   ASSERT_EQ(found.of[0].impulses, 1);
   const double w = found.of[0].mean, r = 0.5;
   EXPECT_NEAR(found.of[1].mean, (1.0 + r) * w, 1e-13 * w);

@@ -30,7 +30,8 @@ struct Points {
 
 void expect_same(const std::vector<double>& found, const std::vector<double>& expected, const std::string& what) {
   ASSERT_EQ(found.size(), expected.size()) << what;
-  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-9 * std::max(1.0, expected[i])) << what;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    EXPECT_NEAR(found[i], expected[i], 1e-9 * std::max(1.0, expected[i])) << what;
 }
 
 /// A motion of 60 periods after 200: what the section counts, `measure` counts, by all stops and by each.
@@ -74,7 +75,8 @@ TEST(Impacts, OfACycleHaveFlightsThatFillIt) {
   for (const auto& [name, values] : cases) {
     const SettledCycle cycle(load_model(name), values);
     std::vector<Quantity> of = {cycle.named("flight")};
-    for (const int contact : stop_contacts(cycle.model)) of.push_back(cycle.named("flight_" + stop_name(cycle.model, contact)));
+    for (const int contact : stop_contacts(cycle.model))
+      of.push_back(cycle.named("flight_" + stop_name(cycle.model, contact)));
     const Measured found = measure(*cycle.problem, cycle.solution.orbit, of);
     EXPECT_GT(found.of[0].impulses, 0) << name;
     for (std::size_t k = 0; k < of.size(); ++k) {
@@ -90,9 +92,10 @@ TEST(Impacts, OfACycleHaveFlightsThatFillIt) {
 /// The impulses and losses of single stops are those of all, told apart.
 TEST(Impacts, OfEachStopAreThoseOfAll) {
   const SettledCycle cycle(load_model("gear-rattle"));
-  const Measured found = measure(*cycle.problem, cycle.solution.orbit,
-                                 {cycle.named("impulse"), cycle.named("impulse_teeth_upper"), cycle.named("impulse_teeth_lower"),
-                                  cycle.named("energy_lost_teeth_upper"), cycle.named("power_teeth_upper")});
+  const Measured found =
+      measure(*cycle.problem, cycle.solution.orbit,
+              {cycle.named("impulse"), cycle.named("impulse_teeth_upper"), cycle.named("impulse_teeth_lower"),
+               cycle.named("energy_lost_teeth_upper"), cycle.named("power_teeth_upper")});
   EXPECT_EQ(found.of[1].impulses, 3);
   EXPECT_EQ(found.of[2].impulses, 1);
   EXPECT_NEAR(found.of[1].impulse + found.of[2].impulse, found.of[0].impulse, 1e-12 * found.of[0].impulse);

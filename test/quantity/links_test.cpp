@@ -60,7 +60,9 @@ TEST(Links, TogetherAreTheForceOnTheMass) {
   const Measured found = of(cycle, {"a", "F_coil-F_oil"});
   EXPECT_NEAR(2.0 * found.of[0].greatest, found.of[1].greatest, 1e-11);
   EXPECT_NEAR(2.0 * found.of[0].rms, found.of[1].rms, 1e-11);
-  const Measured rate = measure_rates(definition, {}, {"k"}, cycle.solution.orbit, {cycle.named("a"), cycle.named("F_coil-F_oil")}).front();
+  const Measured rate =
+      measure_rates(definition, {}, {"k"}, cycle.solution.orbit, {cycle.named("a"), cycle.named("F_coil-F_oil")})
+          .front();
   EXPECT_NEAR(2.0 * rate.of[0].rms, rate.of[1].rms, 1e-11);
 }
 

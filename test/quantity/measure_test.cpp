@@ -19,8 +19,9 @@ TEST(Measure, OfALinearOscillatorAreThoseOfACosine) {
   for (const double omega : {0.05, 1.0, 6.0}) {
     const SettledCycle cycle(load_model("impact-oscillator"), {{"clearance", 100.0}, {"omega", omega}});
     const double zeta = 0.1, A = 1.0 / std::hypot(1.0 - omega * omega, 2.0 * zeta * omega);
-    const Measured found = measure(*cycle.problem, cycle.solution.orbit,
-                                   {cycle.named("x"), cycle.named("a"), cycle.named("kinetic_energy"), cycle.named("power_in")});
+    const Measured found =
+        measure(*cycle.problem, cycle.solution.orbit,
+                {cycle.named("x"), cycle.named("a"), cycle.named("kinetic_energy"), cycle.named("power_in")});
     EXPECT_NEAR(found.of[0].rms, A / std::numbers::sqrt2, 1e-12 * A) << omega;
     EXPECT_NEAR(found.of[0].crest(), std::numbers::sqrt2, 1e-12 * std::max(1.0, 1.0 / A)) << omega;
     EXPECT_NEAR(found.of[0].mean, 0.0, 1e-12 * std::max(1.0, A)) << omega;
@@ -34,12 +35,15 @@ TEST(Measure, OfALinearOscillatorAreThoseOfACosine) {
 
 /// The certified simulator from phase 0, and the legs of the orbit's equations.
 TEST(Measure, OfACycleIsTheSameByTheMotionAndByTheLegs) {
-  for (const char* name : {"vibro-impact", "two-sided-rattle", "stick-slip-impact", "gear-pair", "impact-absorber", "belt", "falling-friction"}) {
+  for (const char* name : {"vibro-impact", "two-sided-rattle", "stick-slip-impact", "gear-pair", "impact-absorber",
+                           "belt", "falling-friction"}) {
     const SettledCycle cycle(load_model(name));
     std::vector<Quantity> of;
     for (const Quantity& one : cycle.all)
-      if (!one.at_impacts() && (cycle.solution.drift.empty() || one.kind != Quantity::Kind::displacement)) of.push_back(one);
-    const Measured legs = measure(*cycle.problem, cycle.solution.orbit, of), motion = measure(cycle.motion(), cycle.end(), of);
+      if (!one.at_impacts() && (cycle.solution.drift.empty() || one.kind != Quantity::Kind::displacement))
+        of.push_back(one);
+    const Measured legs = measure(*cycle.problem, cycle.solution.orbit, of),
+                   motion = measure(cycle.motion(), cycle.end(), of);
     for (std::size_t k = 0; k < of.size(); ++k) {
       const double size = std::max(legs.of[k].rms, 1e-3);
       EXPECT_NEAR(motion.of[k].mean, legs.of[k].mean, 1e-8 * size) << name << " " << of[k].name;
@@ -74,8 +78,9 @@ TEST(Measure, CountsTheImpactsOfABallOneByOne) {
   const auto all = quantities(ball);
   const System system(ball.build());
   const double v = std::sqrt(2.0 * 9.81), first = v / 9.81;
-  const Measured found = measure(Motion(system, ball.start()), Instant{}.plus(first * (1.0 + 2.0 * 0.8) + 0.1),
-                                 {find_quantity(all, "w"), find_quantity(all, "flight"), find_quantity(all, "F_floor")});
+  const Measured found =
+      measure(Motion(system, ball.start()), Instant{}.plus(first * (1.0 + 2.0 * 0.8) + 0.1),
+              {find_quantity(all, "w"), find_quantity(all, "flight"), find_quantity(all, "F_floor")});
   ASSERT_EQ(found.of[0].impulses, 2);
   EXPECT_NEAR(found.of[0].greatest, v, 1e-13 * v);
   EXPECT_NEAR(found.of[0].least, 0.8 * v, 1e-13 * v);
@@ -92,7 +97,8 @@ TEST(Measure, AChatterTakesAllMomentumAndEnergy) {
   const auto all = quantities(ball);
   const System system(ball.build());
   const double T = 10.0, g = 9.81;
-  const Measured found = measure(Motion(system, ball.start()), Instant{}.plus(T), {find_quantity(all, "F_floor"), find_quantity(all, "power_floor")});
+  const Measured found = measure(Motion(system, ball.start()), Instant{}.plus(T),
+                                 {find_quantity(all, "F_floor"), find_quantity(all, "power_floor")});
   EXPECT_NEAR(found.of[0].mean, g, 1e-12 * g);  // momentum: 0 at both ends
   EXPECT_NEAR(found.of[0].greatest, g, 1e-12 * g);
   EXPECT_NEAR(found.of[1].mean * T, g, 1e-9 * g);  // energy: m g h
@@ -110,13 +116,15 @@ TEST(Measure, AChatterSummedEarlyHasTheImpulsesOfAllItsImpacts) {
       if (f > 0.0) model.frictions = {{"pad", 0, ground, 0.0, 2.0 * f, 2.0 * f}};
       const auto all = quantities(model);
       const System system(model);
-      const double v = std::sqrt(2.0 * (9.81 - f) * h), rho = 0.5 * std::sqrt((9.81 - f) / (9.81 + f)), T = 20.0 * v / 9.81;
+      const double v = std::sqrt(2.0 * (9.81 - f) * h), rho = 0.5 * std::sqrt((9.81 - f) / (9.81 + f)),
+                   T = 20.0 * v / 9.81;
       const double sum = 2.0 * v * 1.5 / (1.0 - rho);
       const Measured found = measure(Motion(system, {h, 0.0}), Instant{}.plus(T / system.period()),
-                                     {find_quantity(all, "F_floor"), find_quantity(all, "a_z"), find_quantity(all, "impulse"), find_quantity(all, "energy_lost")});
+                                     {find_quantity(all, "F_floor"), find_quantity(all, "a_z"),
+                                      find_quantity(all, "impulse"), find_quantity(all, "energy_lost")});
       EXPECT_NEAR(found.of[0].impulse, sum, 1e-6 * sum) << h << " " << f;
       EXPECT_NEAR(2.0 * found.of[1].impulse, found.of[0].impulse, 1e-14 * sum) << h << " " << f;  // m dv of all blows
-      EXPECT_NEAR(found.of[1].mean * T, 0.0, 1e-13 * v);                                        // from rest to rest
+      EXPECT_NEAR(found.of[1].mean * T, 0.0, 1e-13 * v);                                          // from rest to rest
       const auto& values = found.of[2].values;  // sorted: r^n of the first, down to where the tail begins
       ASSERT_FALSE(values.empty());
       EXPECT_NEAR(values.back(), 3.0 * v, 1e-9 * v);

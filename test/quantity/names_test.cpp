@@ -20,9 +20,29 @@ std::string message(const std::vector<Quantity>& all, const std::string& name) {
 
 TEST(Quantities, FollowTheNamesOfCoordinatesAndContacts) {
   const auto all = quantities(load_model("vibro-impact"));
-  for (const char* name : {"x1", "v1", "a1", "x2", "v2", "a2", "gap_stop", "w_stop", "F_stop", "power_stop", "w_friction", "F_friction",
-                           "power_friction", "kinetic_energy", "potential_energy", "power_in", "power_damping", "w", "impulse",
-                           "energy_lost", "flight", "sliding", "omega"})
+  for (const char* name : {"x1",
+                           "v1",
+                           "a1",
+                           "x2",
+                           "v2",
+                           "a2",
+                           "gap_stop",
+                           "w_stop",
+                           "F_stop",
+                           "power_stop",
+                           "w_friction",
+                           "F_friction",
+                           "power_friction",
+                           "kinetic_energy",
+                           "potential_energy",
+                           "power_in",
+                           "power_damping",
+                           "w",
+                           "impulse",
+                           "energy_lost",
+                           "flight",
+                           "sliding",
+                           "omega"})
     EXPECT_EQ(find_quantity(all, name).name, name);
   std::set<std::string> names;
   for (const Quantity& one : all) EXPECT_TRUE(names.insert(one.name).second) << one.name;
@@ -64,10 +84,13 @@ TEST(Quantities, HaveTheUnitsOfTheFile) {
 
 /// A ball on a floor, with a parameter that has the name of the speed at impacts.
 std::string ball(const std::string& length, const std::string& mass, const std::string& weight) {
-  return "name = \"ball\"\n[parameters]\nw = { value = 3, unit = \"" + weight + "\" }\nm = { value = 2, unit = \"" + mass +
-         "\" }\nk = { value = 5, unit = \"" + weight + "/" + length + "\" }\n[[coordinate]]\nname = \"x\"\nmass = \"m\"\nunit = \"" + length +
-         "\"\n[[force]]\non = \"x\"\nharmonic = 0\namplitude = \"-w\"\n[[spring]]\nbetween = [\"x\", \"ground\"]\nstiffness = \"k\"\n"
-         "[[stop]]\nname = \"floor\"\nbetween = [\"ground\", \"x\"]\nclearance = 0\nrestitution = 0.5\n[start]\nx = 1\n";
+  return "name = \"ball\"\n[parameters]\nw = { value = 3, unit = \"" + weight + "\" }\nm = { value = 2, unit = \"" +
+         mass + "\" }\nk = { value = 5, unit = \"" + weight + "/" + length +
+         "\" }\n[[coordinate]]\nname = \"x\"\nmass = \"m\"\nunit = \"" + length +
+         "\"\n[[force]]\non = \"x\"\nharmonic = 0\namplitude = \"-w\"\n[[spring]]\nbetween = [\"x\", "
+         "\"ground\"]\nstiffness = \"k\"\n"
+         "[[stop]]\nname = \"floor\"\nbetween = [\"ground\", \"x\"]\nclearance = 0\nrestitution = 0.5\n[start]\nx = "
+         "1\n";
 }
 
 TEST(Quantities, ThatShareANameAreBothThere) {
@@ -81,7 +104,9 @@ TEST(Quantities, ThatShareANameAreBothThere) {
 TEST(Quantities, HaveTheUnitsOfTheFilesOwnSystem) {
   const auto unit = [](const std::vector<Quantity>& all, const char* name) { return find_quantity(all, name).unit; };
   const auto si = quantities(ModelDefinition::parse(ball("m", "kg", "N"), "ball"));
-  EXPECT_EQ(unit(si, "F_floor") + "," + unit(si, "kinetic_energy") + "," + unit(si, "power_in") + "," + unit(si, "impulse"), "N,J,W,N s");
+  EXPECT_EQ(
+      unit(si, "F_floor") + "," + unit(si, "kinetic_energy") + "," + unit(si, "power_in") + "," + unit(si, "impulse"),
+      "N,J,W,N s");
   const auto small = quantities(ModelDefinition::parse(ball("mm", "t", "N"), "ball"));
   EXPECT_EQ(unit(small, "F_floor") + "," + unit(small, "kinetic_energy"), "N,mJ");
   const auto odd = quantities(ModelDefinition::parse(ball("mm", "g", "g mm/ms^2"), "ball"));

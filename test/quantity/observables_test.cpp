@@ -29,7 +29,8 @@ std::string refused(const std::string& expression) {
 TEST(Observables, OfQuantitiesAreThoseOfTheirValues) {
   const ModelDefinition definition = ModelDefinition::parse(
       with("[[observable]]\nname = \"lost\"\nvalue = \"F_friction * w_friction - power_friction\"\n"
-           "[[observable]]\nname = \"balance\"\nvalue = \"F_stop + 2 * a1 + omega * x1\"\n"), "m.toml");
+           "[[observable]]\nname = \"balance\"\nvalue = \"F_stop + 2 * a1 + omega * x1\"\n"),
+      "m.toml");
   const System system(definition.build());
   const auto all = quantities(definition);
   Observables observables(system, definition.observer());
@@ -104,7 +105,8 @@ TEST(Observables, KnowTonesAndSignals) {
 /// A damper on a base whose speed jumps from 0.1 to 2: the force before the knot is that of the speed before.
 TEST(Observables, AtAKnotAreThoseOfTheSideThatIsAskedFor) {
   const ModelDefinition definition = ModelDefinition::parse(
-      "name = 'm'\n[[signal]]\nname = 's'\npoints = [[0, 0], [1, 0.1], [3, 4.1]]\n[[coordinate]]\nname = 'x'\nmass = 1\n"
+      "name = 'm'\n[[signal]]\nname = 's'\npoints = [[0, 0], [1, 0.1], [3, 4.1]]\n[[coordinate]]\nname = 'x'\nmass = "
+      "1\n"
       "[[base]]\nname = 'b'\nsignal = 's'\n[[damper]]\nbetween = ['x', 'b']\ncoefficient = 0.5\n",
       "m.toml");
   const System system(definition.build());
@@ -139,7 +141,8 @@ TEST(Observables, UnknownQuantitiesAreAnsweredWithTheNearestAndTheLine) {
 }
 
 TEST(Observables, NeedTheQuantitiesThatTheyName) {
-  const ModelDefinition definition = ModelDefinition::parse(with("[[observable]]\nname = \"o\"\nvalue = \"F_stop\"\n"), "m.toml");
+  const ModelDefinition definition =
+      ModelDefinition::parse(with("[[observable]]\nname = \"o\"\nvalue = \"F_stop\"\n"), "m.toml");
   Observer observer = definition.observer();
   ASSERT_EQ(observer.quantities().size(), 1U);
   EXPECT_THROW((void)observer.read(0.0, {0, 0, 0, 0}), InputError);

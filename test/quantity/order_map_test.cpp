@@ -38,7 +38,9 @@ TEST(OrderMap, OfASlowRunUpAreTheStationarySpectra) {
 /// x'' + 2 zeta x' + x = cos(omega t): after the transient 1 / |1 - omega^2 + 2 i zeta omega|.
 TEST(OrderMap, OfALinearOscillatorIsItsResonanceCurve) {
   const ModelDefinition definition = load_model("impact-oscillator");
-  RunUp run({[&definition](double omega) { return definition.build({{"omega", omega}, {"clearance", 1e6}}); }},
+  RunUp run({[&definition](double omega) {
+              return definition.build({{"omega", omega}, {"clearance", 1e6}});
+            }},
             {0.5, 1.5, 5, 80}, {0.0, 0.0});
   const OrderMap map = order_map(run, find_quantity(quantities(definition), "x"), {2.0, 70, nullptr, {}});
   for (std::size_t i = 0; i < 5; ++i) {

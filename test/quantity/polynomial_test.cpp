@@ -18,7 +18,8 @@ Polynomial with_zeros(const std::vector<double>& zeros) {
   f.a[0] = 1.0;
   for (const double zero : zeros) {
     ++f.degree;
-    for (int j = f.degree; j > 0; --j) f.a[static_cast<std::size_t>(j)] = f.a[static_cast<std::size_t>(j) - 1] - zero * f.a[static_cast<std::size_t>(j)];
+    for (int j = f.degree; j > 0; --j)
+      f.a[static_cast<std::size_t>(j)] = f.a[static_cast<std::size_t>(j) - 1] - zero * f.a[static_cast<std::size_t>(j)];
     f.a[0] *= -zero;
   }
   return f;
@@ -58,7 +59,8 @@ TEST(Polynomial, AnExtremeBeforeAnEndAtRestIsNotMissed) {
     f.degree = slope.degree + 1;
     for (int j = 1; j <= f.degree; ++j) f.a[static_cast<std::size_t>(j)] = slope.a[static_cast<std::size_t>(j) - 1] / j;
     double nearest = 1.0;
-    event::possible_extremes(f, [&](double, double value) { nearest = std::min(nearest, std::abs(value - f.at(place))); });
+    event::possible_extremes(f,
+                             [&](double, double value) { nearest = std::min(nearest, std::abs(value - f.at(place))); });
     missed += nearest > 0x1p-50 * f.size();
   }
   EXPECT_EQ(missed, 0);
@@ -68,7 +70,8 @@ TEST(Polynomial, AnExtremeBeforeAnEndAtRestIsNotMissed) {
 TEST(Quadrature, IsExactToDegree31AndNoFurther) {
   const auto error = [](int k) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < quantity::nodes; ++i) sum += quantity::gauss().weight[i] * std::pow(quantity::gauss().x[i], k);
+    for (std::size_t i = 0; i < quantity::nodes; ++i)
+      sum += quantity::gauss().weight[i] * std::pow(quantity::gauss().x[i], k);
     return std::abs(sum * (k + 1) - 1.0);
   };
   for (int k = 0; k <= 31; ++k) EXPECT_LT(error(k), 4e-15) << k;
@@ -77,7 +80,8 @@ TEST(Quadrature, IsExactToDegree31AndNoFurther) {
 
 TEST(Quadrature, OfTenRadiansIsExactToRounding) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < quantity::nodes; ++i) sum += quantity::gauss().weight[i] * std::cos(10.0 * quantity::gauss().x[i]);
+  for (std::size_t i = 0; i < quantity::nodes; ++i)
+    sum += quantity::gauss().weight[i] * std::cos(10.0 * quantity::gauss().x[i]);
   EXPECT_NEAR(sum, std::sin(10.0) / 10.0, 1e-15);
 }
 

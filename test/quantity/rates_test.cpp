@@ -51,7 +51,7 @@ TEST(Rates, OfABounceAreThoseOfItsSpeed) {
                                     cycle.named("flight"), cycle.named("F_table")};
   const auto rates = measure_rates(model, {}, {"restitution", "gravity", "omega"}, cycle.solution.orbit, of);
   EXPECT_NEAR(rates[0].of[0].mean, -w / (1.0 + r), 1e-11);
-  EXPECT_NEAR(rates[0].of[1].mean, 0.0, 1e-11);  // the impulse is the weight times the period
+  EXPECT_NEAR(rates[0].of[1].mean, 0.0, 1e-11);     // the impulse is the weight times the period
   EXPECT_NEAR(rates[0].of[2].mean, -w * w, 1e-10);  // of (1 - r) / (1 + r) (gravity T)^2 / 2
   EXPECT_NEAR(rates[0].of[3].mean, 0.0, 1e-12);
   EXPECT_NEAR(rates[1].of[0].mean, w, 1e-11);
@@ -89,7 +89,8 @@ void expect_differences(const std::string& name, const Overrides& values, const 
   const SettledCycle cycle(model, values);
   std::vector<Quantity> of;
   for (const Quantity& one : cycle.all)
-    if (one.kind != Quantity::Kind::parameter && (cycle.solution.drift.empty() || one.kind != Quantity::Kind::displacement))
+    if (one.kind != Quantity::Kind::parameter &&
+        (cycle.solution.drift.empty() || one.kind != Quantity::Kind::displacement))
       of.push_back(one);
   const Measured here = measure(*cycle.problem, cycle.solution.orbit, of);
   const auto rates = measure_rates(model, values, parameters, cycle.solution.orbit, of);
@@ -103,22 +104,26 @@ void expect_differences(const std::string& name, const Overrides& values, const 
       EXPECT_NEAR(found, expected, 1e-6 * std::abs(expected) + 3e-12 * scale / h)
           << name << " " << what << " by " << parameters[j];
     };
-    compare("time", [](const Measured& m) { return m.duration; }, rates[j].duration, here.duration);
+    compare(
+        "time", [](const Measured& m) { return m.duration; }, rates[j].duration, here.duration);
     for (std::size_t k = 0; k < of.size(); ++k)
       for (const std::string& statistic_name : with_harmonics(of[k], here.of[k])) {
         double scale = of[k].at_impacts() || statistic_name != "crest" ? std::abs(here.of[k].rms) : here.of[k].crest();
-        if (statistic_name.ends_with(":phase")) scale = 1.0 + scale / statistic(here.of[k], statistic_name.substr(0, 2));
+        if (statistic_name.ends_with(":phase"))
+          scale = 1.0 + scale / statistic(here.of[k], statistic_name.substr(0, 2));
         if (statistic_name == "min_at" || statistic_name == "max_at") continue;  // equal extremes take turns
         if (!(here.of[k].rms > 1e-9) && statistic_name == "crest") continue;     // rounding over rounding
-        compare(of[k].name + ":" + statistic_name,
-                [&](const Measured& m) { return statistic(m.of[k], statistic_name); },
-                statistic_rate(here.of[k], rates[j].of[k], statistic_name), std::isnan(scale) ? 1e-6 : std::max(scale, 1e-6));
+        compare(
+            of[k].name + ":" + statistic_name, [&](const Measured& m) { return statistic(m.of[k], statistic_name); },
+            statistic_rate(here.of[k], rates[j].of[k], statistic_name),
+            std::isnan(scale) ? 1e-6 : std::max(scale, 1e-6));
       }
   }
 }
 
 TEST(Rates, AgreeWithDifferencesOfImpactsAndFriction) {
-  expect_differences("vibro-impact", {{"omega", 2.6}}, {"omega", "friction", "restitution", "clearance", "mass_ratio", "damping_ratio"});
+  expect_differences("vibro-impact", {{"omega", 2.6}},
+                     {"omega", "friction", "restitution", "clearance", "mass_ratio", "damping_ratio"});
 }
 
 TEST(Rates, AgreeWithDifferencesThroughStickAndCompleteChatter) {
@@ -150,7 +155,8 @@ TEST(Rates, OfEqualExtremesBelongToTheOneThatIsNamed) {
   const orbit::Orbit& orbit = cycle.solution.orbit;
   const Statistics rate = measure_rates(model, {}, {"omega"}, orbit, of)[0].of[0];
   constexpr double h = 1e-4;
-  const Statistics above = beside(model, {}, "omega", h, orbit, of).of[0], below = beside(model, {}, "omega", -h, orbit, of).of[0];
+  const Statistics above = beside(model, {}, "omega", h, orbit, of).of[0],
+                   below = beside(model, {}, "omega", -h, orbit, of).of[0];
   EXPECT_NEAR(rate.greatest_at, (above.greatest_at - below.greatest_at) / (2.0 * h), 1e-2);  // the other's is 4.9 away
   EXPECT_NEAR(rate.greatest, (above.greatest - below.greatest) / (2.0 * h), 1e-3);
 }

@@ -50,7 +50,8 @@ TEST(Span, BehindARecordIsRefusedUnlessALengthIsAskedFor) {
     (void)stretch_of(model, 500.0, 0.0, 1000.0);
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("signal 'push' ends after 3 units of time"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("signal 'push' ends after 3 units of time"), std::string::npos)
+        << error.what();
   }
   EXPECT_EQ(stretch_of(model, 500.0, 7.0, 1000.0).periods, 7.0);
   EXPECT_THROW((void)stretch_of(model, 3.0, 0.0, 1000.0), InputError);

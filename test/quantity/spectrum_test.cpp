@@ -56,7 +56,8 @@ TEST(Spectrum, HasTheHarmonicsOfTheStatistics) {
     for (std::size_t k = 1; k <= 16; ++k) {
       const SpectralLine& line = lines.lines[k * n];
       EXPECT_NEAR(line.order, static_cast<double>(k), 1e-12) << name;
-      EXPECT_NEAR(std::abs(found.harmonics[k - 1] - 2.0 * line.c), 0.0, 1e-12 * (found.rms + line.amplitude())) << name << k;
+      EXPECT_NEAR(std::abs(found.harmonics[k - 1] - 2.0 * line.c), 0.0, 1e-12 * (found.rms + line.amplitude()))
+          << name << k;
     }
   };
   compare(SettledCycle(load_model("vibro-impact"), {{"omega", 2.9}}), "x1");
@@ -101,7 +102,8 @@ TEST(Spectrum, SumsOverSamplesConvergeToIt) {
       if (item != SampledMotion::Item::sample || !(sampled.sample().time < cycle.end())) continue;
       const double turns = sampled.sample().time.since({}) * cycle.system.period() / exact.duration;
       for (std::size_t k = 0; k < sums.size(); ++k)
-        sums[k] += sampled.sample().state[0] * std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(k) * turns);
+        sums[k] +=
+            sampled.sample().state[0] * std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(k) * turns);
       ++count;
     }
     double worst = 0.0;

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "slapstick/base/error.hpp"
 #include "section/run_impacts.hpp"
+#include "slapstick/base/error.hpp"
 #include "slapstick/section/stroboscopic_section.hpp"
 
 extern long allocations;  // count_allocations.cpp

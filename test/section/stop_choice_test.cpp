@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "slapstick/base/error.hpp"
 #include "section/run_impacts.hpp"
+#include "slapstick/base/error.hpp"
 
 namespace slapstick {
 namespace {

@@ -98,7 +98,8 @@ TEST(Executor, CancelledRunBeginsNoFurtherCellAndSaysSo) {
       },
       &cancel));
   EXPECT_LE(calls, 11);
-  EXPECT_FALSE(run_chains({2, 2}, 1, [&](const Cell&, const Starts&, const HandOn&) { ADD_FAILURE(); }, &cancel));
+  EXPECT_FALSE(run_chains(
+      {2, 2}, 1, [&](const Cell&, const Starts&, const HandOn&) { ADD_FAILURE(); }, &cancel));
 }
 
 TEST(Executor, RefusesNegativeNumbers) {

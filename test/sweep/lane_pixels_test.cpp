@@ -60,7 +60,8 @@ struct Comparison {
 /// Whether starts nearer than any measurement find this class too: then the pixel lies where two basins meet, and rounding
 /// decides which attractor is found.
 template <class Classify>
-bool where_basins_meet(const System& system, const State& start, const std::string& label, const Classify& classify_alone) {
+bool where_basins_meet(const System& system, const State& start, const std::string& label,
+                       const Classify& classify_alone) {
   for (int k = 1; k <= 12; ++k) {
     State near = start;
     near[0] += k * 5e-13;
@@ -90,16 +91,20 @@ Comparison compare(int count, unsigned seed, const Classify& classify_alone) {
       continue;
     }
     ++result.differ;
-    ADD_FAILURE() << "omega = " << omega << ", friction = " << friction << ": " << found.label() << " in lanes, " << alone.label << " alone";
+    ADD_FAILURE() << "omega = " << omega << ", friction = " << friction << ": " << found.label() << " in lanes, "
+                  << alone.label << " alone";
   }
-  std::printf("%d pixels: %d decided by both, %d differ, %d more where basins meet, %d undecided in lanes, exponents within %.1e\n", count, result.both, result.differ,
-              result.border, result.undecided, result.exponent);
+  std::printf(
+      "%d pixels: %d decided by both, %d differ, %d more where basins meet, %d undecided in lanes, exponents within "
+      "%.1e\n",
+      count, result.both, result.differ, result.border, result.undecided, result.exponent);
   return result;
 }
 
 TEST(LanePixels, AgreeWithTheSerialScalarRouteWhereBothDecide) {
   const int count = 500 * times();
-  const Comparison found = compare(count, 27, [](const System& system, const State& start) { return classify_quickly(system, start, 300); });
+  const Comparison found =
+      compare(count, 27, [](const System& system, const State& start) { return classify_quickly(system, start, 300); });
   EXPECT_GT(found.both, 85 * count / 100);
   EXPECT_LE(found.border, count / 1000);
   EXPECT_LT(found.exponent, 1e-6);
@@ -107,7 +112,8 @@ TEST(LanePixels, AgreeWithTheSerialScalarRouteWhereBothDecide) {
 
 TEST(LanePixels, AgreeWithTheFullLevelWhereBothDecide) {
   const int count = 100 * times();
-  const Comparison found = compare(count, 28, [](const System& system, const State& start) { return classify(system, start); });
+  const Comparison found =
+      compare(count, 28, [](const System& system, const State& start) { return classify(system, start); });
   EXPECT_GT(found.both, 85 * count / 100);
   EXPECT_LE(found.border, count / 1000);
   EXPECT_LT(found.exponent, 1e-6);
@@ -128,7 +134,9 @@ TEST(LanePixels, WhatRunsBesideAPixelChangesNoBit) {
     const double x = map.x_of(found), y = map.y_of(found);
     const Map alone = run_map(paper_chart({x, x, 1}, {y, y, 1}));
     EXPECT_EQ(found.label(), alone.findings[0].label());
-    if (found.n > 0) { EXPECT_EQ(found.multiplier, alone.findings[0].multiplier) << found.label(); }
+    if (found.n > 0) {
+      EXPECT_EQ(found.multiplier, alone.findings[0].multiplier) << found.label();
+    }
   }
 }
 

@@ -129,13 +129,21 @@ TEST(Map, PixelIsWhatClassifySaysOfItAlone) {
                                                          : classify(system, problem.start_at(x, y));
       EXPECT_EQ(found.label(), alone.label);
       const bool same_bits = level == Level::full;
-      if (alone.n > 0 && same_bits) { EXPECT_EQ(found.exponent, alone.exponent); }
-      if (alone.n > 0) { EXPECT_NEAR(found.exponent, alone.exponent, 1e-8); }
+      if (alone.n > 0 && same_bits) {
+        EXPECT_EQ(found.exponent, alone.exponent);
+      }
+      if (alone.n > 0) {
+        EXPECT_NEAR(found.exponent, alone.exponent, 1e-8);
+      }
       const Motion motion(system, alone.state);
       const Instant end{alone.n > 0 ? alone.n : 100, 0.0};
       const double rms = statistic(measure(motion, end, problem.of).of[0], "rms");
-      if (same_bits) { EXPECT_EQ(map.values_of(found)[0], rms); }
-      if (alone.n > 0) { EXPECT_NEAR(map.values_of(found)[0], rms, 1e-9 * rms); }
+      if (same_bits) {
+        EXPECT_EQ(map.values_of(found)[0], rms);
+      }
+      if (alone.n > 0) {
+        EXPECT_NEAR(map.values_of(found)[0], rms, 1e-9 * rms);
+      }
     }
   }
 }
@@ -220,9 +228,13 @@ TEST(Map, RefinedMapIsTheWholeOne) {
       const Finding found = map.row(i);
       EXPECT_EQ(common(found), common(whole.findings[i])) << i;
       if (!found.filled) ++computed;
-      if (!found.filled) { EXPECT_TRUE(same(found, whole.findings[i])) << i; }
+      if (!found.filled) {
+        EXPECT_TRUE(same(found, whole.findings[i])) << i;
+      }
       EXPECT_EQ(std::isnan(map.values_of(found)[0]), found.filled);
-      if (found.filled) { EXPECT_TRUE(std::isnan(found.exponent) && std::isnan(found.multiplier.real())); }
+      if (found.filled) {
+        EXPECT_TRUE(std::isnan(found.exponent) && std::isnan(found.multiplier.real()));
+      }
     }
     EXPECT_EQ(computed, map.findings.size());
   }
@@ -283,7 +295,9 @@ TEST(Map, FailureStaysAtItsPixelWithItsReason) {
     EXPECT_EQ(map.failures.size(), 3U);
     for (const Finding& found : map.findings) {
       EXPECT_EQ(found.failed, found.pixel % 5 == 2);
-      if (found.failed) { EXPECT_EQ(found.label(), "failed"); }
+      if (found.failed) {
+        EXPECT_EQ(found.label(), "failed");
+      }
     }
     EXPECT_EQ(map.failures.at({0, 7}), "no model here");
   }

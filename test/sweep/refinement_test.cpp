@@ -81,12 +81,17 @@ int expect_the_promise(const Picture& picture, int cell) {
   for (int pixel = 0; pixel < picture.size(); ++pixel) {
     const int source = result.sources[pixel];
     EXPECT_TRUE(result.computed[source]);
-    if (result.computed[pixel]) { EXPECT_EQ(source, pixel); }
-    if (known[pixel]) { EXPECT_EQ(picture.kinds[source], picture.kinds[pixel]) << pixel; }
+    if (result.computed[pixel]) {
+      EXPECT_EQ(source, pixel);
+    }
+    if (known[pixel]) {
+      EXPECT_EQ(picture.kinds[source], picture.kinds[pixel]) << pixel;
+    }
     wrong += picture.kinds[source] != picture.kinds[pixel] ? 1 : 0;
     for (const int next : neighbours(picture, pixel)) {
       const bool boundary = picture.kinds[source] != picture.kinds[result.sources[next]];
-      EXPECT_TRUE(!boundary || (result.computed[pixel] && result.computed[next])) << "a boundary that is only filled in";
+      EXPECT_TRUE(!boundary || (result.computed[pixel] && result.computed[next]))
+          << "a boundary that is only filled in";
     }
   }
   return wrong;
@@ -139,7 +144,8 @@ TEST(Refinement, AnIslandBetweenCoarsePixelsIsMissed) {
 /// The price of an edge: pixels computed grow with the length of boundaries, not with the area.
 TEST(Refinement, CostsItsEdges) {
   const auto disc = [](int size) {
-    return drawn(size, size, [size](int x, int y) { return std::hypot(x - 0.5 * size, y - 0.5 * size) < 0.3 * size ? 1 : 0; });
+    return drawn(size, size,
+                 [size](int x, int y) { return std::hypot(x - 0.5 * size, y - 0.5 * size) < 0.3 * size ? 1 : 0; });
   };
   const long coarse = refined(disc(513), 16).count(), fine = refined(disc(1025), 16).count();
   const auto nodes = [](long size) { return (size / 16 + 1) * (size / 16 + 1); };

@@ -72,7 +72,8 @@ TEST(SizeOfACertificate, PerEventStaysAsItIsTold) {
     machine.start = definition.start();
     const System system(machine.model);
     long bytes = 0;
-    certify::Certificate certificate(system, machine.start, [&](const std::string& lines) { bytes += static_cast<long>(lines.size()); });
+    certify::Certificate certificate(system, machine.start,
+                                     [&](const std::string& lines) { bytes += static_cast<long>(lines.size()); });
     certificate.run(Instant{}.plus(2000.0), [](Instant) { return true; });
     certificate.finish();
     Motion motion(system, machine.start);

@@ -21,12 +21,15 @@ void print(const char* what, double seconds, const slapstick::sweep::Batch& batc
     motion_events += static_cast<double>(run.motion_events);
     failed += run.failure.empty() ? 0 : 1;
   }
-  std::printf("%s: %s, %d lanes, %zu runs, %.4f us a period, %.1f ns a lane step, %.3f lane steps, %.4f halved, %.5f doubtful events, "
-              "of %.3f, %.4f impacts a period, %.0f%% of the lanes full, %zu failed\n",
-              what, batch.kernel.c_str(), batch.lanes, batch.runs.size(), 1e6 * seconds / periods, 1e9 * seconds / static_cast<double>(batch.lane_steps),
-              static_cast<double>(batch.lane_steps) / periods, static_cast<double>(batch.halved) / periods, motion_events / periods,
-              (lane_events + motion_events) / periods, impacts / periods,
-              100.0 * static_cast<double>(batch.lane_steps) / static_cast<double>(batch.steps) / batch.lanes, failed);
+  std::printf(
+      "%s: %s, %d lanes, %zu runs, %.4f us a period, %.1f ns a lane step, %.3f lane steps, %.4f halved, %.5f doubtful "
+      "events, "
+      "of %.3f, %.4f impacts a period, %.0f%% of the lanes full, %zu failed\n",
+      what, batch.kernel.c_str(), batch.lanes, batch.runs.size(), 1e6 * seconds / periods,
+      1e9 * seconds / static_cast<double>(batch.lane_steps), static_cast<double>(batch.lane_steps) / periods,
+      static_cast<double>(batch.halved) / periods, motion_events / periods, (lane_events + motion_events) / periods,
+      impacts / periods, 100.0 * static_cast<double>(batch.lane_steps) / static_cast<double>(batch.steps) / batch.lanes,
+      failed);
 }
 
 }  // namespace
@@ -35,8 +38,9 @@ int main(int arguments, char** values) {
   using namespace slapstick;
   const std::string what = arguments > 1 ? values[1] : "chart";
   const int periods = arguments > 3 ? std::atoi(values[3]) : 300;
-  sweep::BatchProblem problem = what == "omega" ? bench::lanes_of_starts(std::atof(values[2]), periods)
-                                                : bench::lanes_of_chart(arguments > 2 ? std::atoi(values[2]) : 80, periods);
+  sweep::BatchProblem problem = what == "omega"
+                                    ? bench::lanes_of_starts(std::atof(values[2]), periods)
+                                    : bench::lanes_of_chart(arguments > 2 ? std::atoi(values[2]) : 80, periods);
   problem.lanes = arguments > 4 ? std::atoi(values[4]) : 0;
   problem.plan.exponent = arguments > 5 && std::string_view(values[5]) == "tangents";
   const double begun = bench::cpu_time();

@@ -37,8 +37,8 @@ void count_multiply(const Lane8* data, int blocks, int m, const double* x, Lane8
   operations += product(blocks, m);
   scalar::table.multiply(data, blocks, m, x, out);
 }
-void count_pass(const Lane8* step, int blocks, int m, const Lane8* x, const Lane8* floor, bool fresh, Lane8* out, Lane8* magnitude, Lane8* largest,
-                double* sizes) {
+void count_pass(const Lane8* step, int blocks, int m, const Lane8* x, const Lane8* floor, bool fresh, Lane8* out,
+                Lane8* magnitude, Lane8* largest, double* sizes) {
   operations += product(blocks, m) + 6.0 * lanes * blocks;
   scalar::table.pass(step, blocks, m, x, floor, fresh, out, magnitude, largest, sizes);
 }
@@ -46,7 +46,8 @@ double count_magnitudes(const Lane8* x, const Lane8* floor, int blocks, Lane8* m
   operations += 3.0 * lanes * blocks;
   return scalar::table.magnitudes(x, floor, blocks, magnitude);
 }
-bool count_hull(const Lane8* rows, const Lane8* errors, int m, const double* x, const double* magnitude, double more, Hull* out) {
+bool count_hull(const Lane8* rows, const Lane8* errors, int m, const double* x, const double* magnitude, double more,
+                Hull* out) {
   operations += 2.0 * product(1, m) + lanes;
   return scalar::table.hull(rows, errors, m, x, magnitude, more, out);
 }
@@ -76,7 +77,9 @@ const Kernels& kernels() {
   return counting;
 }
 
-Root first_root(const GuardWindow& guard, double x_end, long& evaluations) { return kernels().first_root(guard, x_end, evaluations); }
+Root first_root(const GuardWindow& guard, double x_end, long& evaluations) {
+  return kernels().first_root(guard, x_end, evaluations);
+}
 
 }  // namespace slapstick::event
 
@@ -126,7 +129,8 @@ int main() {
   constexpr int periods = 500;
   for (const char* omega : {"2.2", "1.5", "4.9", "0.552"}) {
     slapstick::event::operations = 0.0;
-    (void)run_slapstick({"slapstick", omega, std::to_string(periods), "1"});  // the motion runs twice: once for its modes
+    (void)run_slapstick(
+        {"slapstick", omega, std::to_string(periods), "1"});  // the motion runs twice: once for its modes
     std::printf("omega=%s operations=%.6g\n", omega, slapstick::event::operations / (2.0 * periods));
   }
   return 0;

@@ -102,7 +102,9 @@ Answer run_system(const Words& words) {
     const System system(model);
     for (const ModeId id : met) (void)system.compiled().mode(id);
   }
-  return {{"cpu", (alone - begun) / repeats}, {"with_modes", (cpu_time() - alone) / repeats}, {"modes", static_cast<double>(met.size())}};
+  return {{"cpu", (alone - begun) / repeats},
+          {"with_modes", (cpu_time() - alone) / repeats},
+          {"modes", static_cast<double>(met.size())}};
 }
 
 sweep::BatchProblem lanes_of_starts(double omega, int periods) {
@@ -122,7 +124,8 @@ sweep::BatchProblem lanes_of_chart(int rows, int periods) {
   problem.count = static_cast<std::size_t>(rows) * static_cast<std::size_t>(rows);
   problem.model_at = [rows, definition = load_model("vibro-impact")](std::size_t i) {
     const auto k = static_cast<int>(i);
-    return definition.build({{"omega", 1.0 + 5.0 * (k % rows) / (rows - 1)}, {"friction", 0.05 + 0.25 * (k / rows) / (rows - 1)}});
+    return definition.build(
+        {{"omega", 1.0 + 5.0 * (k % rows) / (rows - 1)}, {"friction", 0.05 + 0.25 * (k / rows) / (rows - 1)}});
   };
   problem.start_at = [](std::size_t) { return start; };
   return problem;
@@ -138,8 +141,11 @@ Answer run_lanes_of(const sweep::BatchProblem& problem) {
   const double cpu = cpu_time() - begun;
   double impacts = 0.0;
   for (const BatchRun& run : batch.runs) impacts += static_cast<double>(run.impacts);
-  return {{"cpu", cpu}, {"wall", wall.count()}, {"trajectories", static_cast<double>(problem.count)},
-          {"impacts", impacts}, {"lane_steps", static_cast<double>(batch.lane_steps)}};
+  return {{"cpu", cpu},
+          {"wall", wall.count()},
+          {"trajectories", static_cast<double>(problem.count)},
+          {"impacts", impacts},
+          {"lane_steps", static_cast<double>(batch.lane_steps)}};
 }
 
 }  // namespace

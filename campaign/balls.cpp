@@ -4,11 +4,11 @@
 #include <map>
 #include <sstream>
 
+#include "base/text.hpp"
 #include "batches.hpp"
 #include "near_graze.hpp"
-#include "verdict.hpp"
-#include "base/text.hpp"
 #include "slapstick/certify/certificate.hpp"
+#include "verdict.hpp"
 
 namespace campaign {
 namespace {
@@ -104,9 +104,7 @@ Report run_balls(const Options& options) {
   for (const auto& [name, kind] : all.kinds)
     refused.set(name, Json::object().set("count", kind.count).set("example", kind.example));
   report.figures.set("segments", all.segments).set("motions", all.motions).set("near_grazes", all.near_grazes);
-  report.figures.set("events", all.events)
-      .set("impacts", all.impacts)
-      .set("conditions", all.conditions);
+  report.figures.set("events", all.events).set("impacts", all.impacts).set("conditions", all.conditions);
   report.figures.set("undecided_signs", all.touches)
       .set("pile_ups", all.pile_ups)
       .set("choices", all.choices)

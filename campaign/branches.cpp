@@ -96,9 +96,7 @@ bool goes_past(const Problem& problem, const Branch& branch, const Branch& other
 }
 
 /// Onsets of chatter, and what gathers there: their places are limits.
-bool is_limit(const SpecialPoint& point) {
-  return point.type == SpecialType::CH || point.passage == Passage::cascade;
-}
+bool is_limit(const SpecialPoint& point) { return point.type == SpecialType::CH || point.passage == Passage::cascade; }
 
 /// Where a motion dies out several margins vanish together: which of them is named may depend on the start.
 bool may_have_another_name(const SpecialPoint& point) {

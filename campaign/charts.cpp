@@ -37,10 +37,12 @@ constexpr std::array<Wanted, 7> gallery{{{"vibro-impact", "omega", 1.0, 6.0, "fr
                                          {"two-sided-rattle", "omega", 0.6, 3.0, "clearance", 0.1, 1.0}}};
 
 struct ChartTally {
-  long boundary = 0, anywhere = 0, agree = 0, one_undecided = 0, differ = 0, decided_by_both = 0, contradictions = 0, failed = 0;
+  long boundary = 0, anywhere = 0, agree = 0, one_undecided = 0, differ = 0, decided_by_both = 0, contradictions = 0,
+       failed = 0;
   std::vector<std::string> notes;
   void add(const ChartTally& o) {
-    boundary += o.boundary, anywhere += o.anywhere, agree += o.agree, one_undecided += o.one_undecided, differ += o.differ;
+    boundary += o.boundary, anywhere += o.anywhere, agree += o.agree, one_undecided += o.one_undecided,
+        differ += o.differ;
     decided_by_both += o.decided_by_both, contradictions += o.contradictions, failed += o.failed;
     notes.insert(notes.end(), o.notes.begin(), o.notes.end());
   }
@@ -50,7 +52,9 @@ struct ChartTally {
 class Questions {
  public:
   Questions(const Wanted& wanted, int columns, const Options& options, ChartTally& tally)
-      : wanted_(wanted), options_(options), tally_(tally),
+      : wanted_(wanted),
+        options_(options),
+        tally_(tally),
         chart_(chart::over(load_model(wanted.model), {}, wanted.x, {wanted.x_from, wanted.x_to, columns}, wanted.y,
                            {wanted.y_from, wanted.y_to, columns * 11 / 16})) {
     chart_.problem.threads = 1;
@@ -64,7 +68,9 @@ class Questions {
     const auto label = [&](std::size_t i) { return map_.findings[i].label(map_.driven); };
     std::vector<std::size_t> found;
     for (std::size_t i = 0; map_.complete && i < map_.findings.size(); ++i)
-      if (((i + 1) % columns != 0 && label(i) != label(i + 1)) || (i + columns < map_.findings.size() && label(i) != label(i + columns))) found.push_back(i);
+      if (((i + 1) % columns != 0 && label(i) != label(i + 1)) ||
+          (i + columns < map_.findings.size() && label(i) != label(i + columns)))
+        found.push_back(i);
     return found;
   }
   [[nodiscard]] std::size_t size() const { return map_.complete ? map_.findings.size() : 0; }
@@ -75,7 +81,8 @@ class Questions {
     const sweep::Finding& found = map_.findings[place];
     if (found.failed) return ++tally_.failed, std::nullopt;
     const System system = system_at(found);
-    const Classification alone = classify_quickly(system, start_at(found), chart_.problem.periods, {.cancel = options_.stop});
+    const Classification alone =
+        classify_quickly(system, start_at(found), chart_.problem.periods, {.cancel = options_.stop});
     if (options_.stopped()) return std::nullopt;
     const bool same = alone.label == found.label(map_.driven);
     const bool both = alone.attractor != Attractor::undecided && found.attractor != Attractor::undecided;
@@ -96,12 +103,17 @@ class Questions {
   }
 
  private:
-  [[nodiscard]] System system_at(const sweep::Finding& found) const { return System(chart_.problem.model_at(map_.x_of(found), map_.y_of(found))); }
-  [[nodiscard]] State start_at(const sweep::Finding& found) const { return chart_.problem.start_at(map_.x_of(found), map_.y_of(found)); }
+  [[nodiscard]] System system_at(const sweep::Finding& found) const {
+    return System(chart_.problem.model_at(map_.x_of(found), map_.y_of(found)));
+  }
+  [[nodiscard]] State start_at(const sweep::Finding& found) const {
+    return chart_.problem.start_at(map_.x_of(found), map_.y_of(found));
+  }
 
   void note(const sweep::Finding& found, const std::string& what) {
-    tally_.notes.push_back(std::string(wanted_.model) + ", " + wanted_.x + " = " + shown(map_.x_of(found)) + ", " + wanted_.y + " = " + shown(map_.y_of(found)) +
-                           ": the chart has " + found.label(map_.driven) + ", " + what);
+    tally_.notes.push_back(std::string(wanted_.model) + ", " + wanted_.x + " = " + shown(map_.x_of(found)) + ", " +
+                           wanted_.y + " = " + shown(map_.y_of(found)) + ": the chart has " + found.label(map_.driven) +
+                           ", " + what);
   }
 
   const Wanted& wanted_;
@@ -128,8 +140,11 @@ ChartTally examine_chart(const Options& options, long chart, long count) {
     tally.boundary += same ? 1 : 0;
     boundary.erase(drawn);
   }
-  for (long i = 0; i < std::lround(anywhere_for_each * static_cast<double>(count)) && questions.size() > 0 && !options.stopped(); ++i)
-    tally.anywhere += questions.ask(static_cast<std::size_t>(random.below(static_cast<int>(questions.size())))).has_value() ? 1 : 0;
+  for (long i = 0;
+       i < std::lround(anywhere_for_each * static_cast<double>(count)) && questions.size() > 0 && !options.stopped();
+       ++i)
+    tally.anywhere +=
+        questions.ask(static_cast<std::size_t>(random.below(static_cast<int>(questions.size())))).has_value() ? 1 : 0;
   return tally;
 }
 
@@ -144,9 +159,15 @@ Report run_charts(const Options& options) {
   report.done = work.done() / static_cast<long>(gallery.size());
   // A chaotic transient ends on one of several attractors by the rounding of its kernel: few pixels may differ.
   const long asked = all.agree + all.one_undecided + all.differ;
-  report.passed = all.boundary > 0 && static_cast<double>(all.differ) <= may_differ * static_cast<double>(asked) && all.contradictions == 0 && all.failed == 0;
-  report.figures.set("charts", static_cast<long>(gallery.size())).set("boundary_pixels", all.boundary).set("pixels_anywhere", all.anywhere);
-  report.figures.set("agree", all.agree).set("one_undecided", all.one_undecided).set("differ", all.differ).set("failed", all.failed);
+  report.passed = all.boundary > 0 && static_cast<double>(all.differ) <= may_differ * static_cast<double>(asked) &&
+                  all.contradictions == 0 && all.failed == 0;
+  report.figures.set("charts", static_cast<long>(gallery.size()))
+      .set("boundary_pixels", all.boundary)
+      .set("pixels_anywhere", all.anywhere);
+  report.figures.set("agree", all.agree)
+      .set("one_undecided", all.one_undecided)
+      .set("differ", all.differ)
+      .set("failed", all.failed);
   report.figures.set("decided_by_the_whole_search_too", all.decided_by_both).set("contradictions", all.contradictions);
   Json notes = Json::list();
   for (const std::string& note : all.notes) notes.push(note);

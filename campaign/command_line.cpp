@@ -5,10 +5,10 @@
 #include <csignal>
 #include <cstdio>
 
-#include "campaign.hpp"
-#include "slapstick/base/error.hpp"
 #include "base/nearest.hpp"
+#include "campaign.hpp"
 #include "io/atomic_file.hpp"
+#include "slapstick/base/error.hpp"
 
 namespace campaign {
 namespace {

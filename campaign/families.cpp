@@ -6,9 +6,9 @@
 #include <functional>
 
 #include "batches.hpp"
+#include "exact_flow.hpp"
 #include "flow/compiled_system.hpp"
 #include "flow/engine.hpp"
-#include "exact_flow.hpp"
 #include "random.hpp"
 #include "slapstick/flow/motion.hpp"
 

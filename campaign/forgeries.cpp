@@ -68,9 +68,8 @@ struct Refused : std::runtime_error {
 std::optional<std::string> refusal(const std::string& text) {
   std::istringstream in(text);
   try {
-    (void)verify::check(in, [](long line, const std::string& what) {
-      throw Refused("line " + std::to_string(line) + ": " + what);
-    });
+    (void)verify::check(
+        in, [](long line, const std::string& what) { throw Refused("line " + std::to_string(line) + ": " + what); });
   } catch (const Refused& refused) {
     return refused.what();
   }
@@ -101,9 +100,7 @@ std::string of_mixed_machine(Random& random) {
 std::string original(Random& random, long batch) {
   if (batch % 2 == 1) return of_mixed_machine(random);
   std::vector<std::string> models = builtin_models();
-  std::erase_if(models, [](const std::string& name) {
-    return !certify::not_stated(load_model(name).build()).empty();
-  });
+  std::erase_if(models, [](const std::string& name) { return !certify::not_stated(load_model(name).build()).empty(); });
   const ModelDefinition definition = load_model(models[static_cast<std::size_t>(batch / 2) % models.size()]);
   const Model model = definition.build();
   State start = definition.start();

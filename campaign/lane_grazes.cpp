@@ -24,13 +24,15 @@ constexpr double same = 1e-11;
 constexpr double lane_noise = 20.0 * 0x1p-53 * (4.0 + 3.875) * 48.2;
 
 struct LaneTally {
-  long scenes = 0, starts = 0, near_grazes = 0, in_lanes = 0, agreed = 0, in_noise = 0, unjudged = 0, differ = 0, failed = 0;
+  long scenes = 0, starts = 0, near_grazes = 0, in_lanes = 0, agreed = 0, in_noise = 0, unjudged = 0, differ = 0,
+       failed = 0;
   long lane_events = 0, motion_events = 0;
   std::vector<std::string> faults;
 
   void add(const LaneTally& other) {
     scenes += other.scenes, starts += other.starts, near_grazes += other.near_grazes, in_lanes += other.in_lanes;
-    agreed += other.agreed, in_noise += other.in_noise, unjudged += other.unjudged, differ += other.differ, failed += other.failed;
+    agreed += other.agreed, in_noise += other.in_noise, unjudged += other.unjudged, differ += other.differ,
+        failed += other.failed;
     lane_events += other.lane_events, motion_events += other.motion_events;
     for (const std::string& fault : other.faults)
       if (faults.size() < 20) faults.push_back(fault);
@@ -63,7 +65,8 @@ bool agree(const First& motion, const First& lane, double tolerance) {
 /// What the search says of the guard in which the two differ.
 class Difference {
  public:
-  Difference(Scene& scene, const Start& start, const First& motion, const First& lane, const std::string& where, LaneTally& tally)
+  Difference(Scene& scene, const Start& start, const First& motion, const First& lane, const std::string& where,
+             LaneTally& tally)
       : scene_(scene), start_(start), motion_(motion), lane_(lane), where_(where), tally_(tally) {}
 
   /// The guard that the start nearly grazes, and the one that the motion has hit: the rate of a gap has its zero where
@@ -78,7 +81,8 @@ class Difference {
       const std::optional<int> order = guard >= 0 && guard < flow.guards() ? start_order(flow, guard, X) : std::nullopt;
       if (!order) continue;
       known = true;
-      if (is_noise(first_zero(flow, guard, X, *order, up_to_the_earlier(flow), Method::quick))) return void(++tally_.in_noise);
+      if (is_noise(first_zero(flow, guard, X, *order, up_to_the_earlier(flow), Method::quick)))
+        return void(++tally_.in_noise);
     }
     if (!known) return void(++tally_.unjudged);
     ++tally_.differ;
@@ -91,17 +95,20 @@ class Difference {
     double periods = INFINITY;
     for (const First* first : {&motion_, &lane_})
       if (first->event) periods = std::min(periods, first->event->time.since({}));
-    return static_cast<int>(std::min(std::ceil(periods * scene_.system().period() / flow.spacing()) + 1.0, static_cast<double>(flow.count())));
+    return static_cast<int>(std::min(std::ceil(periods * scene_.system().period() / flow.spacing()) + 1.0,
+                                     static_cast<double>(flow.count())));
   }
 
   [[nodiscard]] bool is_noise(const Truth& truth) const {
-    return depth(truth) <= graze_depth || agree(motion_, lane_, 2.0 * blur(truth, scene_.duration(), lane_noise) / scene_.system().period());
+    return depth(truth) <= graze_depth ||
+           agree(motion_, lane_, 2.0 * blur(truth, scene_.duration(), lane_noise) / scene_.system().period());
   }
 
   static std::string text_of(const First& first) {
     if (!first.event) return "none";
     char text[120];
-    std::snprintf(text, sizeof text, "%s of %d at %.17g", std::string(name(first.event->kind)).c_str(), first.event->contact, first.event->time.since({}));
+    std::snprintf(text, sizeof text, "%s of %d at %.17g", std::string(name(first.event->kind)).c_str(),
+                  first.event->contact, first.event->time.since({}));
     return text;
   }
 
@@ -161,7 +168,8 @@ LaneTally examine(const Options& options, long batch, long count) {
   Random random(options.seed, static_cast<std::uint64_t>(batch));
   LaneTally tally;
   for (long done = 0; done < count; done += starts_of_a_scene) {
-    const std::string where = "batch " + std::to_string(batch) + ", scene " + std::to_string(done / starts_of_a_scene) + ", ";
+    const std::string where =
+        "batch " + std::to_string(batch) + ", scene " + std::to_string(done / starts_of_a_scene) + ", ";
     examine_scene(random, std::min(count - done, starts_of_a_scene), where, tally);
   }
   return tally;
@@ -174,11 +182,15 @@ Report run_lane_grazes(const Options& options) {
   const LaneTally all = batches.run([&](long k, long n) { return examine(options, k, n); });
   Report out;
   out.done = batches.done();
-  out.passed = all.differ == 0 && all.failed == 0 && 2 * all.near_grazes >= all.starts && 2 * all.in_lanes >= all.starts && all.lane_events > 0 &&
-               20 * all.unjudged <= all.in_lanes && 2 * all.agreed >= all.in_lanes;
+  out.passed = all.differ == 0 && all.failed == 0 && 2 * all.near_grazes >= all.starts &&
+               2 * all.in_lanes >= all.starts && all.lane_events > 0 && 20 * all.unjudged <= all.in_lanes &&
+               2 * all.agreed >= all.in_lanes;
   Json faults = Json::list();
   for (const std::string& fault : all.faults) faults.push(fault);
-  out.figures.set("systems", all.scenes).set("starts", all.starts).set("near_grazes", all.near_grazes).set("in_lanes", all.in_lanes);
+  out.figures.set("systems", all.scenes)
+      .set("starts", all.starts)
+      .set("near_grazes", all.near_grazes)
+      .set("in_lanes", all.in_lanes);
   out.figures.set("agreed", all.agreed).set("within_the_noise", all.in_noise).set("unjudged", all.unjudged);
   out.figures.set("differ", all.differ).set("failed", all.failed);
   out.figures.set("lane_events", all.lane_events).set("motion_events", all.motion_events).set("faults", faults);

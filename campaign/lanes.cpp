@@ -38,8 +38,15 @@ struct Share {
 
   [[nodiscard]] Json figures() const {
     Json json = Json::object();
-    json.set("runs", runs).set("in_lanes", in_lanes).set("agreed", agreed).set("unstable", unstable).set("differ", differ);
-    json.set("failed", failed).set("lane_events", lane_events).set("motion_events", motion_events).set("worst_time_in_periods", worst);
+    json.set("runs", runs)
+        .set("in_lanes", in_lanes)
+        .set("agreed", agreed)
+        .set("unstable", unstable)
+        .set("differ", differ);
+    json.set("failed", failed)
+        .set("lane_events", lane_events)
+        .set("motion_events", motion_events)
+        .set("worst_time_in_periods", worst);
     return json;
   }
 };
@@ -155,7 +162,8 @@ Tally examine(const Options& options, long batch, long count) {
     if (!run.in_lanes) continue;
     try {
       const std::string fault = compare(drawn[i].machine, run, share);
-      if (!fault.empty()) tally.faults.push_back("batch " + std::to_string(batch) + ", run " + std::to_string(i) + ": " + fault);
+      if (!fault.empty())
+        tally.faults.push_back("batch " + std::to_string(batch) + ", run " + std::to_string(i) + ": " + fault);
     } catch (const NumericalError&) {
       ++share.failed;  // a motion's own
     }

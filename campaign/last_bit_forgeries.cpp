@@ -22,7 +22,9 @@ bool insert_nothing(Lines& lines, std::size_t i, const char* end) {
   return true;
 }
 
-bool event_made_up(Lines& lines, Random& random) { return insert_nothing(lines, one(lines, random, {"segment"}), "event"); }
+bool event_made_up(Lines& lines, Random& random) {
+  return insert_nothing(lines, one(lines, random, {"segment"}), "event");
+}
 
 /// One of the words of a segment that say `from`, or 0.
 std::size_t contact_that_is(const Words& line, const std::string& from, Random& random) {
@@ -53,7 +55,8 @@ bool rest_off_by_a_bit(Lines& lines, Random& random) {
   for (std::size_t j = 1; j < state.size(); ++j)
     if (value(state[j]) == 0.0) zeros.push_back(j);
   if (zeros.empty()) return false;
-  state[zeros[static_cast<std::size_t>(random.below(static_cast<int>(zeros.size())))]] = hex(random.sign() * std::ldexp(1.0, -60));
+  state[zeros[static_cast<std::size_t>(random.below(static_cast<int>(zeros.size())))]] =
+      hex(random.sign() * std::ldexp(1.0, -60));
   return true;
 }
 
@@ -97,12 +100,9 @@ bool number_without_need(Lines& lines, Random& random) {
 
 std::vector<Kind> of_the_last_bit() {
   return {
-      {"event made up", event_made_up},
-      {"slip behind a segment without duration", slip_behind_nothing},
-      {"rest off by a bit", rest_off_by_a_bit},
-      {"impact made up", impact_made_up},
-      {"pile-up made up", pile_up_made_up},
-      {"number without need", number_without_need},
+      {"event made up", event_made_up},         {"slip behind a segment without duration", slip_behind_nothing},
+      {"rest off by a bit", rest_off_by_a_bit}, {"impact made up", impact_made_up},
+      {"pile-up made up", pile_up_made_up},     {"number without need", number_without_need},
   };
 }
 

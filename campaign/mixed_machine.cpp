@@ -33,15 +33,19 @@ void add_forces(Model& model, Random& random) {
   for (const int harmonic : {0, 1, 1 + random.below(3)})
     model.forces.push_back({random.below(model.size()), harmonic, random.uniform(-1.5, 1.5), random.uniform(0.0, 6.0)});
   if (random.one_in(3))
-    model.forces.push_back({random.below(model.size()), 0, random.uniform(-0.7, 0.7), random.uniform(0.0, 6.0), random.decades(-0.5, 0.8)});
+    model.forces.push_back({random.below(model.size()), 0, random.uniform(-0.7, 0.7), random.uniform(0.0, 6.0),
+                            random.decades(-0.5, 0.8)});
 }
 
 void add_stops(Model& model, Random& random) {
   for (int k = random.below(4); k > 0; --k) {
     const auto [a, b] = any_pair(random, model.size());
-    const double gap = random.one_in(3) ? 0.0 : random.uniform(0.0, 0.5), r = random.one_in(4) ? 0.0 : random.uniform(0.2, 0.9);
+    const double gap = random.one_in(3) ? 0.0 : random.uniform(0.0, 0.5),
+                 r = random.one_in(4) ? 0.0 : random.uniform(0.2, 0.9);
     model.stops.push_back({name("stop", model.stops.size()), a, b, gap, r});
-    if (random.one_in(4)) model.stops.back().corners = {{random.uniform(0.05, 0.3), r}, {random.uniform(0.4, 1.5), r * random.uniform(0.4, 1.0)}};
+    if (random.one_in(4))
+      model.stops.back().corners = {{random.uniform(0.05, 0.3), r},
+                                    {random.uniform(0.4, 1.5), r * random.uniform(0.4, 1.0)}};
     if (k == 3) model.stops.push_back({name("stop", model.stops.size()), b, a, random.uniform(0.1, 0.5), r});
   }
   model.impact_law = random.one_in(3) ? ImpactLaw::sequence : ImpactLaw::moreau;
@@ -64,7 +68,8 @@ void add_frictions(Model& model, Random& random) {
     if (!model.stops.empty() && random.one_in(2)) pair = {model.stops.front().a, model.stops.front().b};
     const double kinetic = random.uniform(0.0, 0.6), more = random.one_in(2) ? 1.0 : random.uniform(1.0, 1.6);
     const double belt = random.one_in(4) ? random.uniform(-0.4, 0.4) : 0.0;
-    model.frictions.push_back({name("friction", model.frictions.size()), pair.a, pair.b, belt, kinetic * more, kinetic});
+    model.frictions.push_back(
+        {name("friction", model.frictions.size()), pair.a, pair.b, belt, kinetic * more, kinetic});
     if (random.one_in(4)) model.frictions.back().normal = normal_force(model, random);
   }
 }
@@ -85,10 +90,17 @@ void add_polylines(Model& model, Random& random) {
     const auto over = random.one_in(3)   ? Characteristic::Over::zones
                       : random.one_in(2) ? Characteristic::Over::displacement
                                          : Characteristic::Over::velocity;
-    Characteristic bent{name("polyline", model.characteristics.size()), a, b, over, {}, random.uniform(-0.3, 2.0), random.uniform(-0.3, 2.0)};
+    Characteristic bent{name("polyline", model.characteristics.size()),
+                        a,
+                        b,
+                        over,
+                        {},
+                        random.uniform(-0.3, 2.0),
+                        random.uniform(-0.3, 2.0)};
     double at = random.uniform(-0.5, 0.0);
     for (int corners = 1 + random.below(3); corners > 0; --corners, at += random.uniform(0.1, 0.5))
-      bent.corners.push_back({at, over == Characteristic::Over::zones ? random.uniform(0.0, 0.5) : random.uniform(-0.3, 0.3)});
+      bent.corners.push_back(
+          {at, over == Characteristic::Over::zones ? random.uniform(0.0, 0.5) : random.uniform(-0.3, 0.3)});
     if (over == Characteristic::Over::zones) bent.slope_below = bent.slope_above = random.uniform(0.0, 0.5);
     model.characteristics.push_back(bent);
   }

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "flow/compiled_system.hpp"
-#include "mode/frame.hpp"
 #include "flow/mode_graph.hpp"
+#include "mode/frame.hpp"
 
 namespace campaign {
 namespace {

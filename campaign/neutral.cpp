@@ -57,8 +57,8 @@ void count(const Judgement& outcome, Asked& first, const Edit& edit, Verb verb, 
   if (outcome.verdict != Verdict::different) return;
   constexpr int most_tries = 400;
   const Definition small = smallest(first.file(), edit, verb, seed, most_tries);
-  tally.failures.push_back("# " + std::string(edit.name) + ", file " + std::to_string(seed) + ": " + outcome.why + "\n" +
-                           both_commands(small, edit, verb, seed));
+  tally.failures.push_back("# " + std::string(edit.name) + ", file " + std::to_string(seed) + ": " + outcome.why +
+                           "\n" + both_commands(small, edit, verb, seed));
 }
 
 /// Draws an edit that the file admits.
@@ -81,7 +81,8 @@ void examine_laws(const Definition& file, std::uint64_t seed, Tally& tally) {
     if (verdict == Verdict::waiting) ++tally.reasons[fault];
     if (verdict != Verdict::different) continue;
     constexpr int most_tries = 400;
-    tally.failures.push_back("# law " + std::string(law.name) + ", file " + std::to_string(seed) + ": " + *broken + "\n" + text(smallest(file, law, most_tries)));
+    tally.failures.push_back("# law " + std::string(law.name) + ", file " + std::to_string(seed) + ": " + *broken +
+                             "\n" + text(smallest(file, law, most_tries)));
   }
 }
 
@@ -97,7 +98,9 @@ Tally one_file(long number, long triples, const Options& options) {
       if (done++ < triples) count(judge(first, *edit, second, verb), first, *edit, verb, seed, tally);
   }
   for (const auto& [verb, every, times] : dearer)
-    for (int k = 0; k < times && number % every == 0 && first.definition().parameters().size() >= parameters_of(verb) && !options.stopped(); ++k) {
+    for (int k = 0; k < times && number % every == 0 && first.definition().parameters().size() >= parameters_of(verb) &&
+                    !options.stopped();
+         ++k) {
       const auto [edit, second] = draw(first.file(), seed, order);
       count(judge(first, *edit, second, verb), first, *edit, verb, seed, tally);
     }
@@ -112,7 +115,8 @@ Report run_neutral(const Options& options) {
   const Tally all = batches.run([&](long k, long n) { return one_file(k, n, options); });
   Report report;
   report.done = batches.done();
-  Json verbs = Json::object(), between = Json::object(), edits = Json::object(), reasons = Json::object(), failures = Json::list();
+  Json verbs = Json::object(), between = Json::object(), edits = Json::object(), reasons = Json::object(),
+       failures = Json::list();
   long agreed = 0, excused = 0;
   for (const auto& [name, counts] : all.verbs) {
     verbs.set(name, counts.figures());
@@ -122,7 +126,11 @@ Report run_neutral(const Options& options) {
   for (const auto& [name, counts] : all.laws) between.set(name, counts.figures());
   for (const auto& [why, number] : all.reasons) reasons.set(why, number);
   for (const std::string& failure : all.failures) failures.push(failure);
-  report.figures.set("verbs", verbs).set("edits", edits).set("laws", between).set("reasons", reasons).set("failures", failures);
+  report.figures.set("verbs", verbs)
+      .set("edits", edits)
+      .set("laws", between)
+      .set("reasons", reasons)
+      .set("failures", failures);
   report.passed = all.failures.empty() && agreed > 0 && 50 * excused <= agreed + excused;
   return report;
 }

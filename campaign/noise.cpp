@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "batches.hpp"
-#include "flow/compiled_system.hpp"
 #include "event/first_root.hpp"
+#include "flow/compiled_system.hpp"
+#include "flow/mode_graph.hpp"
 #include "mode/mode.hpp"
 #include "scene.hpp"
-#include "flow/mode_graph.hpp"
 
 namespace campaign {
 namespace {

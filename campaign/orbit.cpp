@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.hpp"
 #include "campaign.hpp"
 #include "progress.hpp"
 #include "slapstick/base/error.hpp"
-#include "base/text.hpp"
 #include "slapstick/flow/motion.hpp"
 #include "slapstick/io/model_file.hpp"
 

@@ -43,7 +43,8 @@ Told read(const std::string& text) {
   verify::Segment before;
   for (verify::Segment segment; reader.next(segment); before = segment) {
     const bool none = before.end == verify::EndKind::event && before.duration == 0.0 && before.blows.empty();
-    if (none && segment.number > 0 && before.states == segment.states) told.impossible = "an event that changes nothing";
+    if (none && segment.number > 0 && before.states == segment.states)
+      told.impossible = "an event that changes nothing";
     for (const verify::Impact& impact : segment.impacts)
       if (!(impact.w > 0.0)) told.impossible = "an impact without speed";
     if (!cut || told.segments.empty()) {
@@ -76,7 +77,8 @@ Model model_of(const verify::Model& told) {
     model.coordinates.push_back({"x" + std::to_string(i + 1), told.masses[i]});
   for (const auto& [pair, k] : told.springs) model.springs.push_back({pair.a, pair.b, k});
   for (const auto& [pair, c] : told.dampers) model.dampers.push_back({pair.a, pair.b, c, c < 0.0});
-  for (const verify::Force& f : told.forces) model.forces.push_back({f.coordinate, f.harmonic, f.amplitude, f.phase, f.frequency});
+  for (const verify::Force& f : told.forces)
+    model.forces.push_back({f.coordinate, f.harmonic, f.amplitude, f.phase, f.frequency});
   int k = 0;
   const auto name = [&k](const char* of) { return of + std::to_string(k++); };
   for (const verify::Stop& s : told.stops) {
@@ -95,7 +97,8 @@ Model model_of(const verify::Model& told) {
     model.compliant_stops.push_back({name("compliant"), s.pair.a, s.pair.b, s.clearance, s.stiffness, s.damping,
                                      s.law == verify::Compliant::Law::pulls, s.law == verify::Compliant::Law::bounded});
   for (const verify::Polyline& p : told.polylines) {
-    constexpr std::array overs = {Characteristic::Over::displacement, Characteristic::Over::velocity, Characteristic::Over::zones};
+    constexpr std::array overs = {Characteristic::Over::displacement, Characteristic::Over::velocity,
+                                  Characteristic::Over::zones};
     const auto over = overs[static_cast<std::size_t>(p.over)];
     model.characteristics.push_back({name("polyline"), p.pair.a, p.pair.b, over, {}, p.slope_below, p.slope_above});
     for (const auto& [at, force] : p.corners) model.characteristics.back().corners.push_back({at, force});
@@ -185,7 +188,8 @@ void begin_at_zero(Told& told) {
 }
 
 void leave_out_nothing(Told& told, double scale) {
-  while (told.segments.size() > 1 && apart(told.segments.back().start, told.done.at) < near_end) told.segments.pop_back();
+  while (told.segments.size() > 1 && apart(told.segments.back().start, told.done.at) < near_end)
+    told.segments.pop_back();
   const double period = told.model.forced() ? 2.0 * std::acos(-1.0) / told.model.omega : 1.0;
   std::vector<verify::Segment> kept;
   for (const verify::Segment& segment : told.segments) {
@@ -204,7 +208,7 @@ void leave_out_nothing(Told& told, double scale) {
 }
 
 /// The number of a pair with a constant part: shift of a stop, drift of a friction contact.
-std::size_t number_of(const Told& told, const verify::Pair& pair, double verify::Number::* part, double constant) {
+std::size_t number_of(const Told& told, const verify::Pair& pair, double verify::Number::*part, double constant) {
   std::size_t own = 0;
   for (std::size_t i = 0; i < told.model.numbers.size(); ++i) {
     const verify::Number& number = told.model.numbers[i];

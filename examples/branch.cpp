@@ -1,5 +1,5 @@
-#include <cstdio>
 #include "slapstick/continuation/branch.hpp"
+#include <cstdio>
 #include "slapstick/io/model_file.hpp"
 #include "slapstick/orbit/search.hpp"
 

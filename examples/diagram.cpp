@@ -1,6 +1,6 @@
+#include "slapstick/sweep/diagram.hpp"
 #include <cstdio>
 #include "slapstick/io/model_file.hpp"
-#include "slapstick/sweep/diagram.hpp"
 
 int main() {
   const slapstick::ModelDefinition definition = slapstick::load_model("vibro-impact");

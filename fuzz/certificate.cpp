@@ -13,8 +13,7 @@ void demand_one_line(const std::string& message) {
 
 void check(std::string_view text) {
   std::istringstream in{std::string(text)};
-  const verify::Verdict verdict =
-      verify::check(in, [](long, const std::string& what) { demand_one_line(what); });
+  const verify::Verdict verdict = verify::check(in, [](long, const std::string& what) { demand_one_line(what); });
   demand_one_line(verify::sentence(verdict));
 }
 

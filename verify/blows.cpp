@@ -104,13 +104,18 @@ void Checker::report(const Blow& blow, std::vector<bool>& found) {
       if (found[i] || impact.stop != k || !(abs(w - Ball(impact.w)) <= allowed)) continue;
       reported = found[i] = true;
       ++tally_.impacts;
-      if (!(impact.w > 0.0)) refuse_(impact.line, "an impact at " + name(k) + " that does not approach");
-      else if (!(w > Ball(0.0))) ++unsure;
+      if (!(impact.w > 0.0))
+        refuse_(impact.line, "an impact at " + name(k) + " that does not approach");
+      else if (!(w > Ball(0.0)))
+        ++unsure;
     }
-    if (!reported && w > allowed) refuse_(blow.line, "the impact at " + name(k) + " with w = " + digits(w.near()) + " is not listed");
+    if (!reported && w > allowed)
+      refuse_(blow.line, "the impact at " + name(k) + " with w = " + digits(w.near()) + " is not listed");
   }
-  if (!certain && !possible) refuse_(blow.line, "no stop of this blow approaches");
-  else tally_.open.undecided += !certain && unsure == 0 ? 1 : unsure;
+  if (!certain && !possible)
+    refuse_(blow.line, "no stop of this blow approaches");
+  else
+    tally_.open.undecided += !certain && unsure == 0 ? 1 : unsure;
 }
 
 void Checker::impact(const Blow& blow, std::vector<bool>& found) {
@@ -128,7 +133,8 @@ void Checker::impact(const Blow& blow, std::vector<bool>& found) {
     Bodies joined(m_.model().n);
     std::vector<int> chosen;
     for (std::size_t i = 0; i < n; ++i)
-      if ((set >> i & 1U) != 0 && joined.join(m_.model().numbers[p(blow.stops[i])].pair)) chosen.push_back(blow.stops[i]);
+      if ((set >> i & 1U) != 0 && joined.join(m_.model().numbers[p(blow.stops[i])].pair))
+        chosen.push_back(blow.stops[i]);
     last_->X = before;
     lawful = strike(blow, chosen);
   }
@@ -198,7 +204,8 @@ void Checker::apply(const std::vector<int>& stops, const Balls& P) {
     const Place& place = m_.stop(static_cast<std::size_t>(stops[i]));
     double off = 0.0;
     const bool again = last_->struck[static_cast<std::size_t>(stops[i])];
-    const double speed = again ? 0.0 : grown[i] * before[m_.d() + place.own] / m_.inertia()[place.own][place.own].near();
+    const double speed =
+        again ? 0.0 : grown[i] * before[m_.d() + place.own] / m_.inertia()[place.own][place.own].near();
     last_->struck[static_cast<std::size_t>(stops[i])] = true;
     for (std::size_t j = 0; j < m_.d(); ++j) {
       const Ball& inertia = m_.inertia()[j][place.own];
@@ -251,8 +258,8 @@ void Checker::pile_up(const Blow& blow) {
     if (fastest == 0.0)
       refuse_(blow.line, "stop " + name(k) + " comes to rest, and no impact of the instant was at it or acts on it");
     else if (!again && instant_.blows < many_blows && !(abs(v) <= Ball(slow * fastest)))
-      refuse_(blow.line, "stop " + name(k) + " with w = " + digits(v.near()) + " is not slow beside the fastest impact of the instant, " +
-                             digits(fastest));
+      refuse_(blow.line, "stop " + name(k) + " with w = " + digits(v.near()) +
+                             " is not slow beside the fastest impact of the instant, " + digits(fastest));
   }
   if (!approaches) refuse_(blow.line, "no stop of this pile-up approaches");
   bring_to_rest(blow);

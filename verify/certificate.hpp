@@ -116,7 +116,7 @@ struct Clock {
 struct ContactStates {
   std::vector<bool> closed;
   static constexpr int unloaded = 2;
-  std::vector<int> slip;                  ///< -1, 0 (stick), 1, or unloaded
+  std::vector<int> slip;  ///< -1, 0 (stick), 1, or unloaded
   [[nodiscard]] bool slips(std::size_t friction) const { return slip[friction] == 1 || slip[friction] == -1; }
   enum class Spring { off, on, detached, bounded };
   std::vector<Spring> compliant;

@@ -14,7 +14,7 @@ constexpr double stored_clock = 0x1p-51, clock_rounding = 0x1p-48, flight_roundi
 constexpr double start_of_run = 0x1p-48;  ///< of W q - shift, in units of its terms
 /// all jumps of the clock together, in such radians, but for what each stored fraction is
 constexpr double most_of_clock = 0x1p-24;
-constexpr double most_behind = 0x1p-10;       ///< radians behind an event in which its condition has fallen
+constexpr double most_behind = 0x1p-10;  ///< radians behind an event in which its condition has fallen
 
 }  // namespace
 
@@ -37,8 +37,7 @@ void Checker::segment(const Segment& segment) {
   begin(segment);
   const FlownMode& mode = flown(segment.states);
   fastest_ = std::max(fastest_, mode.flow.nu);
-  Flight flight(mode, segment, m_.extended(segment.p, segment.u, segment.start), period_, tally_.flight,
-                refuse_);
+  Flight flight(mode, segment, m_.extended(segment.p, segment.u, segment.start), period_, tally_.flight, refuse_);
   flight.fly();
   ends(segment, flight, mode);
   jumps_.raise(flight.coordinates, flight.size);
@@ -101,9 +100,11 @@ void Checker::done(const Done& done) {
   tally_.open.still = jumps_.check(done.line, refuse_);
   tally_.displacement = {jumps_.largest(false), jumps_.sum(false)};
   tally_.velocity = {jumps_.largest(true), jumps_.sum(true)};
-  const double most = most_of_clock * std::min(1.0, 1.0 / (fastest_ * period_)) + stored_clock * static_cast<double>(tally_.segments);
+  const double most =
+      most_of_clock * std::min(1.0, 1.0 / (fastest_ * period_)) + stored_clock * static_cast<double>(tally_.segments);
   if (!(tally_.clock.sum <= most))
-    refuse_(done.line, "all jumps of the clock together are " + digits(tally_.clock.sum) + " periods, rounding explains " + digits(most));
+    refuse_(done.line, "all jumps of the clock together are " + digits(tally_.clock.sum) +
+                           " periods, rounding explains " + digits(most));
 }
 
 /// What happens at the end of the segment before leads to this state.
@@ -117,8 +118,8 @@ void Checker::arrive(long line, const Clock& at, const std::vector<double>& p, c
 void Checker::clock(long line, const Clock& at) {
   const Segment& before = last_->segment;
   const Ball flown = Ball(before.duration) / m_.period();
-  const Ball shown = Ball(static_cast<double>(at.period - before.start.period)) + Ball(at.fraction) -
-                     Ball(before.start.fraction);
+  const Ball shown =
+      Ball(static_cast<double>(at.period - before.start.period)) + Ball(at.fraction) - Ball(before.start.fraction);
   const Ball off = abs(shown - flown);
   tally_.clock.largest = std::max(tally_.clock.largest, off.highest());
   tally_.clock.sum += off.highest();
@@ -198,7 +199,8 @@ void Checker::dependence(long line, const Balls& X, const std::vector<double>& s
       const std::size_t j = m_.basis(velocity)[l];
       const Ball& c = m_.dependence(velocity)[k][l];
       sum.add_product(c, X[block + j] + offset(j));
-      const double part = std::abs(X[block + j].near()) + std::abs(offset(j).near()) + (size.empty() ? 0.0 : size[block + j]);
+      const double part =
+          std::abs(X[block + j].near()) + std::abs(offset(j).near()) + (size.empty() ? 0.0 : size[block + j]);
       allowed += std::abs(c.near()) * part;
     }
     if (!(abs(sum) <= Ball(rounding * allowed)))
@@ -234,7 +236,8 @@ void Checker::rest(const Segment& segment) {
 void Checker::ends(const Segment& segment, const Flight& flight, const FlownMode& mode) {
   fallen_.clear();
   const bool event = segment.end == EndKind::event;
-  if (segment.end == EndKind::cut && !segment.blows.empty()) refuse_(segment.end_line, "something happens at `end cut`");
+  if (segment.end == EndKind::cut && !segment.blows.empty())
+    refuse_(segment.end_line, "something happens at `end cut`");
   if (event && (segment.duration > 0.0 || !segment.blows.empty())) ++tally_.events;
   if (event && flight.zeros.empty() && !flight.failed())
     refuse_(segment.end_line, "nothing ends the segment: no condition of its mode is zero");
@@ -305,8 +308,7 @@ void Checker::chatter(const Segment& segment, const std::vector<double>& sizes) 
     return refuse_(segment.end_line, "stop " + name(segment.chatter) + " is not at rest at the limit of its chatter");
   const Limit::Modes modes{flown(with_pair(segment, 1)), flown(with_pair(segment, -1)), flown(with_pair(segment, 0)),
                            flown(segment.states)};
-  Limit limit(m_, segment, modes, m_.extended(segment.p, segment.u, segment.start), -last_->rests_from,
-              refuse_);
+  Limit limit(m_, segment, modes, m_.extended(segment.p, segment.u, segment.start), -last_->rests_from, refuse_);
   tally_.limit_error = std::max(tally_.limit_error, limit.check(sizes) / period_);
 }
 

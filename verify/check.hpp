@@ -119,9 +119,9 @@ class Checker {
   double period_, fastest_ = 0.0;  ///< the greatest norm of a mode that was flown
   std::map<ContactStates, std::unique_ptr<FlownMode>> flown_;
   std::unique_ptr<Departure> last_;
-  bool cut_ = false;         ///< the segment goes on where the one before was cut
+  bool cut_ = false;                 ///< the segment goes on where the one before was cut
   std::vector<std::size_t> fallen_;  ///< conditions that are zero at the end of the last segment, and fall
-  bool choice_due_ = false;  ///< no segment that lasts has been flown in the mode since it was chosen
+  bool choice_due_ = false;          ///< no segment that lasts has been flown in the mode since it was chosen
   Jumps jumps_;
   Instant instant_;
   Tally tally_;

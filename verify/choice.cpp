@@ -46,8 +46,8 @@ bool moves_otherwise(const FlownMode& a, const FlownMode& b, const Balls& X) {
 struct Checker::Candidates {
   std::vector<std::size_t> stops, frictions;
   std::vector<std::size_t> off_stops, off_frictions;  ///< those whose state is not zero, and that the motion leads to
-  bool several = false;          ///< static friction is greater than kinetic somewhere
-  std::vector<int> offered;  ///< states of each friction contact: 3, or 4 with a normal force
+  bool several = false;                               ///< static friction is greater than kinetic somewhere
+  std::vector<int> offered;                           ///< states of each friction contact: 3, or 4 with a normal force
 
   [[nodiscard]] long count() const {
     long product = 1;

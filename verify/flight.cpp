@@ -128,7 +128,8 @@ void Flight::piece(const Expansion& about, double from, double to, bool first) {
       walk({i, f, drop, from, to - from, allowed, f.most(2, Ball(L))});
     } else if (const Ball most = f.most(0, Ball(L)); !(most <= Ball(allowed))) {
       failed_ = true;
-      refuse(i, "does not stay zero: the value is up to " + digits(most.near()) + ", rounding explains " + digits(allowed));
+      refuse(i, "does not stay zero: the value is up to " + digits(most.near()) + ", rounding explains " +
+                    digits(allowed));
     }
   }
 }
@@ -183,8 +184,9 @@ double Flight::through_band(const Piece& piece, double t) {
     if (most * power(Ball(t) + D, piece.drop) <= Ball(piece.allowed)) return d;
   }
   failed_ = true;
-  refuse(piece.condition, "fails at s = " + digits(piece.begin + t) + " of " + digits(segment_.duration) + ": the value is " +
-                              digits(piece.f.value(0, Ball(t)).near()) + ", rounding explains " + digits(piece.allowed));
+  refuse(piece.condition, "fails at s = " + digits(piece.begin + t) + " of " + digits(segment_.duration) +
+                              ": the value is " + digits(piece.f.value(0, Ball(t)).near()) + ", rounding explains " +
+                              digits(piece.allowed));
   return 0.0;
 }
 

@@ -39,12 +39,13 @@ struct FlownMode {
 struct Order {
   int order = 0;
   bool rests = false;
-  bool rises = true;  ///< it is positive; else it is negative, and `value` says what
+  bool rises = true;    ///< it is positive; else it is negative, and `value` says what
   bool certain = true;  ///< false: one before is positive, if only by rounding, and is `order`
   double value = 0.0;
 };
 /// @param h  with `terms_at_start` terms at least
-[[nodiscard]] Order order_at(const Flow& flow, std::size_t condition, const Series& h, const std::vector<double>& sizes);
+[[nodiscard]] Order order_at(const Flow& flow, std::size_t condition, const Series& h,
+                             const std::vector<double>& sizes);
 
 [[nodiscard]] inline std::size_t terms_at_start(const Balls& X) { return std::max<std::size_t>(X.size(), 8) + 8; }
 
@@ -62,8 +63,8 @@ class Flight {
   /// At the end the condition has not been certainly positive since it last was no more than rounding.
   [[nodiscard]] bool in_band(std::size_t condition) const { return proofs_[condition].in_band; }
 
-  Balls X;                         ///< at the end
-  std::vector<double> size;        ///< of what X was added up from: the most along the segment
+  Balls X;                          ///< at the end
+  std::vector<double> size;         ///< of what X was added up from: the most along the segment
   std::vector<double> coordinates;  ///< the same of q and q'
   std::vector<std::size_t> zeros;   ///< conditions that are zero at the end, but for rounding
 

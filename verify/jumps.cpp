@@ -33,7 +33,8 @@ void Jumps::raise(const std::vector<double>& sizes, const std::vector<double>& o
     const bool velocity = i >= m_.n();
     double reach = 0.0;
     for (std::size_t j = 0; j < m_.n(); ++j)
-      reach += std::abs(m_.to_coordinates(velocity)[i % m_.n()][j].near()) * of_numbers[(velocity ? m_.d() : 0) + m_.basis(velocity)[j]];
+      reach += std::abs(m_.to_coordinates(velocity)[i % m_.n()][j].near()) *
+               of_numbers[(velocity ? m_.d() : 0) + m_.basis(velocity)[j]];
     reach_[i] = std::max(reach_[i], reach);
   }
 }

@@ -135,8 +135,8 @@ void Limit::conditions(const FlownMode& mode, const char* way) const {
     if (of_pair(condition)) continue;
     const Ball middle = dot(mode.flow.rows[i], S_), spread = dot(magnitudes(mode.flow.rows[i]), delta_);
     if (!(middle > spread || (spread.is_zero() && middle >= Ball(0.0))))
-      refuse(condition.name + " may fail on the way " + way + " the stop: the value is " + digits(middle.near()) + " to " +
-             digits(spread.near()));
+      refuse(condition.name + " may fail on the way " + way + " the stop: the value is " + digits(middle.near()) +
+             " to " + digits(spread.near()));
   }
 }
 
@@ -145,8 +145,8 @@ void Limit::holds_not() const {
   for (std::size_t i = 0; i < modes_.hold.mode.conditions.size(); ++i) {
     const Balls& row = modes_.hold.flow.rows[i];
     const Condition& condition = modes_.hold.mode.conditions[i];
-    const bool of_stick = condition.kind == Condition::Kind::stick &&
-                          m_.parallel(m_.friction(condition.contact).own, place_.own) != 0.0;
+    const bool of_stick =
+        condition.kind == Condition::Kind::stick && m_.parallel(m_.friction(condition.contact).own, place_.own) != 0.0;
     exceeded = exceeded || (of_stick && dot(row, S_) + dot(magnitudes(row), delta_) < Ball(0.0));
   }
   if (!exceeded) refuse("friction may hold the pair off the stop");

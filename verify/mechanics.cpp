@@ -31,7 +31,8 @@ bool is_needed(const Model& model, const Number& number) {
     return sign != 0.0 && number.shift == sign * shift && number.drift == sign * drift;
   };
   const auto is_gap = [&](const auto& stop) { return is(stop.pair, stop.clearance, 0.0); };
-  if (number.shift == 0.0 && number.drift == 0.0 && (number.pair.b == ground || has_contact(model, number.pair))) return true;
+  if (number.shift == 0.0 && number.drift == 0.0 && (number.pair.b == ground || has_contact(model, number.pair)))
+    return true;
   return std::any_of(model.stops.begin(), model.stops.end(), is_gap) ||
          std::any_of(model.compliant.begin(), model.compliant.end(), is_gap) ||
          std::any_of(model.frictions.begin(), model.frictions.end(),
@@ -59,12 +60,15 @@ Mechanics::Mechanics(const Model& model, long line) : model_(model), line_(line)
   keep_each_once(tones_);
   constexpr std::size_t most_numbers = 2000;  // matrices of balls: 1 GB
   if (size() > most_numbers)
-    throw Unreadable(line_, "a state of the model has " + std::to_string(size()) + " numbers (displacements, velocities, two for each frequency); the verifier takes at most " +
-                                std::to_string(most_numbers));
+    throw Unreadable(line_,
+                     "a state of the model has " + std::to_string(size()) +
+                         " numbers (displacements, velocities, two for each frequency); the verifier takes at most " +
+                         std::to_string(most_numbers));
   if (!harmonics_.empty()) period_ = times(Ball::pi(), 2) / Ball(model.omega);
   place_contacts();
   for (const Number& number : model.numbers)
-    if (!is_needed(model, number)) throw Unreadable(line_, "no contact and no coordinate has the number of " + words_of(number));
+    if (!is_needed(model, number))
+      throw Unreadable(line_, "no contact and no coordinate has the number of " + words_of(number));
   invert();
   for (const bool velocity : {false, true}) find_loops(velocity);
   set_free();
@@ -89,8 +93,7 @@ void Mechanics::place_contacts() {
   for (const Stop& stop : model_.stops) stops_.push_back(find(stop.pair, &stop.clearance, 0.0, stop.name));
   for (const Friction& friction : model_.frictions)
     frictions_.push_back(find(friction.pair, nullptr, friction.belt_speed, friction.name));
-  for (const Compliant& stop : model_.compliant)
-    compliant_.push_back(find(stop.pair, &stop.clearance, 0.0, stop.name));
+  for (const Compliant& stop : model_.compliant) compliant_.push_back(find(stop.pair, &stop.clearance, 0.0, stop.name));
 }
 
 Balls Mechanics::pair_row(const Pair& pair) const {
@@ -127,7 +130,9 @@ void Mechanics::invert() {
 void Mechanics::choose_basis(bool velocity) {
   std::vector<std::size_t> order(d());
   std::iota(order.begin(), order.end(), 0U);
-  const auto size = [&](std::size_t i) { return std::abs(velocity ? model_.numbers[i].drift : model_.numbers[i].shift); };
+  const auto size = [&](std::size_t i) {
+    return std::abs(velocity ? model_.numbers[i].drift : model_.numbers[i].shift);
+  };
   std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return size(i) < size(j); });
   Bodies bodies(model_.n);
   std::vector<std::size_t>& basis = bases_[velocity ? 1 : 0];

@@ -263,7 +263,8 @@ void ModeBuilder::load_conditions() {
     if (std::all_of(load.begin(), load.end(), [](const Ball& x) { return x.is_zero(); })) load.back() = Ball(-1.0);
     for (Ball& x : load) x = loaded ? x : -x;
     demand(loaded ? Condition::Kind::load : Condition::Kind::unloaded, i,
-           (loaded ? "load of friction contact " : "missing load of friction contact ") + friction.name, std::move(load));
+           (loaded ? "load of friction contact " : "missing load of friction contact ") + friction.name,
+           std::move(load));
   }
 }
 

@@ -42,20 +42,26 @@ std::string usage() {
   std::string text = std::string("slapstick-verify FILE    ") + summary + "\n\n" + input + "\n";
   for (const char* line : notes) text += std::string(line) + "\n";
   text += "\n";
-  for (const Option& option : options) text += std::string("  ") + option.name + std::string(12 - std::string(option.name).size(), ' ') + option.meaning + "\n";
+  for (const Option& option : options)
+    text += std::string("  ") + option.name + std::string(12 - std::string(option.name).size(), ' ') + option.meaning +
+            "\n";
   text += "\nExit status:";
-  for (const Status& status : statuses) text += (status.value == 0 ? " " : ", ") + std::to_string(status.value) + " " + status.meaning;
+  for (const Status& status : statuses)
+    text += (status.value == 0 ? " " : ", ") + std::to_string(status.value) + " " + status.meaning;
   return text + ".\n";
 }
 
 std::string manual() {
-  std::string text = ".TH SLAPSTICK\\-VERIFY 1 \"\" \"slapstick " SLAPSTICK_VERSION "\" \"User Commands\"\n.SH NAME\nslapstick\\-verify \\- " + roff(summary) +
-                     "\n.SH SYNOPSIS\n.B slapstick\\-verify\n.I FILE\n.SH DESCRIPTION\n" + roff(input) + "\n";
+  std::string text = ".TH SLAPSTICK\\-VERIFY 1 \"\" \"slapstick " SLAPSTICK_VERSION
+                     "\" \"User Commands\"\n.SH NAME\nslapstick\\-verify \\- " +
+                     roff(summary) + "\n.SH SYNOPSIS\n.B slapstick\\-verify\n.I FILE\n.SH DESCRIPTION\n" + roff(input) +
+                     "\n";
   for (const char* line : notes) text += roff(line) + "\n";
   text += ".SH OPTIONS\n";
   for (const Option& option : options) text += ".TP\n.B " + roff(option.name) + "\n" + roff(option.meaning) + "\n";
   text += ".SH EXIT STATUS\n";
-  for (const Status& status : statuses) text += ".TP\n" + std::to_string(status.value) + "\n" + roff(status.meaning) + "\n";
+  for (const Status& status : statuses)
+    text += ".TP\n" + std::to_string(status.value) + "\n" + roff(status.meaning) + "\n";
   return text + ".SH SEE ALSO\n.BR slapstick (1),\n.BR slapstick\\-simulate (1)\n";
 }
 

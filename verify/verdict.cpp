@@ -68,8 +68,9 @@ std::string report(const Verdict& verdict) {
   text += line("undecided signs  %ld (rounding decides whether there is an event)\n", t.open.undecided);
   text += line("choices          %ld (the laws allow another motion from there too)\n", t.open.choices);
   text += line("still            %ld (coordinates that rounding alone moves)\n", t.open.still);
-  text += line("bands            %.2g periods the longest in which a condition is no more than rounding, %ld beyond 2^-30\n",
-               t.flight.band, t.flight.flats);
+  text += line(
+      "bands            %.2g periods the longest in which a condition is no more than rounding, %ld beyond 2^-30\n",
+      t.flight.band, t.flight.flats);
   text += jumps_of("displacements", t.displacement) + jumps_of("velocities", t.velocity);
   text += line("largest jump     %.2g of what rounding is allowed, %.2g periods of the clock (%.2g all together)\n",
                t.of_allowed, t.clock.largest, t.clock.sum);

@@ -1,10 +1,10 @@
 /// Continued branches over the brute-force diagram; the bounds of windows over friction.
 #include <cmath>
 
+#include "io/table.hpp"
 #include "reproduce/branches.hpp"
 #include "reproduce/diagrams.hpp"
 #include "reproduce/figures.hpp"
-#include "io/table.hpp"
 
 namespace slapstick::paper {
 namespace {
@@ -66,10 +66,8 @@ constexpr Sign signs[] = {{orbit::SpecialType::LP, figure::Marker::square},
 /// The special points of a type at their fastest impact; in the legend if there are any.
 void add_special_points(figure::Panel& panel, const Branches& branches, const Sign& sign) {
   constexpr double diameter_mm = 1.3;
-  figure::Points points{.drawing = figure::Drawing::discs,
-                        .diameter_mm = diameter_mm,
-                        .marker = sign.marker,
-                        .over_lines = true};
+  figure::Points points{
+      .drawing = figure::Drawing::discs, .diameter_mm = diameter_mm, .marker = sign.marker, .over_lines = true};
   points.colour = figure::colours::black;
   for (const NBranch& of : branches.all)
     for (const orbit::SpecialPoint& point : of.branch.special) {

@@ -1,9 +1,9 @@
 #pragma once
 /// Beyond the paper: the branches of n-1 orbits continued through stability and instability, what bounds its windows,
 /// and how friction moves that.
+#include "reproduce/claim.hpp"
 #include "reproduce/study.hpp"
 #include "slapstick/continuation/branch.hpp"
-#include "reproduce/claim.hpp"
 
 namespace slapstick::paper {
 

@@ -1,8 +1,8 @@
 /// C4: chatter below the 1-1 window.
 #include <cmath>
 
-#include "reproduce/claims.hpp"
 #include "base/text.hpp"
+#include "reproduce/claims.hpp"
 
 namespace slapstick::paper {
 namespace {
@@ -92,15 +92,15 @@ Claim claim_4(const Evidence& evidence) {
       "where the paper's interval ends. "
       "0.55 is no lower limit of chatter: chatter is complete at every lower frequency computed (to 0.3). 0.55 marks "
       "where complete chatter ends.";
-  claim.quantities = {class_quantity("class at 0.552", "chatter until stick", at),
-                      number_quantity("impacts at 0.552 before the limit is known to rounding", "", burst.impacts, 0),
-                      number_quantity("limit at 0.552, periods after the first impact", "", burst.limit - burst.first,
-                                      6, "error of the limit time at most " + shown(burst.error) + " time units"),
-                      number_quantity("rest on the stop after it, periods", "", burst.release - burst.limit, 6),
-                      number_quantity("ratio of the last two impact speeds", "", burst.ratio, 6,
-                                      "r sqrt((R - F)/(R + F))"),
-                      edge_quantity("upper edge of complete chatter", "", upper),
-                      edge_quantity("lower edge of complete chatter", "0.55", lower)};
+  claim.quantities = {
+      class_quantity("class at 0.552", "chatter until stick", at),
+      number_quantity("impacts at 0.552 before the limit is known to rounding", "", burst.impacts, 0),
+      number_quantity("limit at 0.552, periods after the first impact", "", burst.limit - burst.first, 6,
+                      "error of the limit time at most " + shown(burst.error) + " time units"),
+      number_quantity("rest on the stop after it, periods", "", burst.release - burst.limit, 6),
+      number_quantity("ratio of the last two impact speeds", "", burst.ratio, 6, "r sqrt((R - F)/(R + F))"),
+      edge_quantity("upper edge of complete chatter", "", upper),
+      edge_quantity("lower edge of complete chatter", "0.55", lower)};
   add_ladder(study, upper.outside, claim);
   return claim;
 }

@@ -1,6 +1,6 @@
 /// Writes the claims as JSON.
-#include "reproduce/report.hpp"
 #include "io/json.hpp"
+#include "reproduce/report.hpp"
 
 namespace slapstick::paper {
 

@@ -146,7 +146,8 @@ Claim claim_6(const Evidence& evidence) {
   const bool good = edges.size() >= 3 && chaos && std::abs(edges[0].omega() - 2.84) < 0.01;
   claim.agreement = good ? Agreement::yes : Agreement::partly;
   claim.explanation =
-      "A multiplier passes -1 at each step. The intervals do not shrink at Feigenbaum's rate, 4.67, throughout. This rate "
+      "A multiplier passes -1 at each step. The intervals do not shrink at Feigenbaum's rate, 4.67, throughout. This "
+      "rate "
       "is the law of smooth maps, and a return map through impacts and friction is only piecewise smooth (the branches "
       "have a kink near 2.90).";
   return claim;

@@ -51,9 +51,10 @@ Claim claim_2(const Evidence& evidence) {
       share(evidence.surveys.paper().survey, 1.12, 2.84, [](const Classification& what) { return what.sticking; });
   const bool both = confirms(window, 1.47, 1.60);
   claim.agreement = both ? Agreement::yes : Agreement::no;
-  claim.explanation = std::string(both ? as_a_grid : "An edge differs from the print.") +
-                      " The caption of Fig. 3 calls ω = 1.5 a 1-1-I motion, the text a sticking one. The motion sticks. "
-                      "The orbit passes both edges unchanged; only its stick phase appears and vanishes there.";
+  claim.explanation =
+      std::string(both ? as_a_grid : "An edge differs from the print.") +
+      " The caption of Fig. 3 calls ω = 1.5 a 1-1-I motion, the text a sticking one. The motion sticks. "
+      "The orbit passes both edges unchanged; only its stick phase appears and vanishes there.";
   claim.quantities = {
       edge_quantity("lower edge of the 1-1-II window", "1.47", window.lower),
       edge_quantity("upper edge of the 1-1-II window", "1.6", window.upper),

@@ -1,9 +1,9 @@
 /// Figures 2, 6, 8 and the comparison with the print: bifurcation diagrams along omega.
-#include "reproduce/diagrams.hpp"
-#include "reproduce/figures.hpp"
 #include "base/decimal.hpp"
 #include "base/text.hpp"
 #include "io/table.hpp"
+#include "reproduce/diagrams.hpp"
+#include "reproduce/figures.hpp"
 
 namespace slapstick::paper {
 

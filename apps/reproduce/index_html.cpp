@@ -24,7 +24,8 @@ constexpr Shown figures[] = {
      "between two adjacent n-1 motions",
      "Flight time between impacts and relative velocity just before the impact. Grey: the edges 0.55, 1.12, 2.84 and "
      "the window [1.47, 1.60] that the "
-     "paper prints. Blue: ω going up; orange: down; where both find the same they mix to black. Blue without orange, or the "
+     "paper prints. Blue: ω going up; orange: down; where both find the same they mix to black. Blue without orange, "
+     "or the "
      "reverse, is a coexisting attractor."},
     {"fig2-sliding", "Fig. 2, the other reading of t_f",
      "t_f denotes the time of sliding motion of two masses between successive impacts",

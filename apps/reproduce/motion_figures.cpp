@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "base/ranges.hpp"
-#include "reproduce/figures.hpp"
 #include "io/table.hpp"
+#include "reproduce/figures.hpp"
 
 namespace slapstick::paper {
 namespace {

@@ -1,12 +1,12 @@
 /// Runs the study: figures, claims, page.
 #include "reproduce/reproduce.hpp"
 
+#include "io/atomic_file.hpp"
 #include "reproduce/branches.hpp"
 #include "reproduce/claims.hpp"
 #include "reproduce/figures.hpp"
 #include "reproduce/report.hpp"
 #include "slapstick/base/error.hpp"
-#include "io/atomic_file.hpp"
 
 namespace slapstick::paper {
 namespace {

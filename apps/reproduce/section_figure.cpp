@@ -1,7 +1,7 @@
 /// Figure 7: points of the impact section at 4.801 (two fixed points) and 4.805 (two closed invariant curves).
-#include "reproduce/figures.hpp"
 #include "base/text.hpp"
 #include "io/table.hpp"
+#include "reproduce/figures.hpp"
 #include "slapstick/section/impact_section.hpp"
 
 namespace slapstick::paper {

@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <functional>
 
-#include "reproduce/course.hpp"
-#include "slapstick/attractor/classify.hpp"
 #include "figure/figure.hpp"
-#include "slapstick/io/model_file.hpp"
+#include "reproduce/course.hpp"
 #include "reproduce/reproduce.hpp"
+#include "slapstick/attractor/classify.hpp"
+#include "slapstick/io/model_file.hpp"
 
 namespace slapstick::paper {
 

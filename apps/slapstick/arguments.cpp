@@ -10,16 +10,16 @@
 #include <string_view>
 #include <system_error>
 
-#include "slapstick/base/error.hpp"
 #include "base/decimal.hpp"
 #include "base/nearest.hpp"
 #include "io/expression.hpp"
+#include "slapstick/base/error.hpp"
 
 namespace slapstick::app {
 
 struct Arguments::Parser {
   CLI::App app;
-  std::vector<std::string> names;                  // of the options, with dashes
+  std::vector<std::string> names;  // of the options, with dashes
   std::vector<ArgumentFact> facts;
   std::string notes;
   std::vector<std::function<void()>> conversions;  // texts into numbers, after parsing
@@ -128,7 +128,8 @@ const std::vector<ArgumentFact>& Arguments::facts() const { return parser_->fact
 const std::string& Arguments::notes() const { return parser_->notes; }
 
 std::string_view name(ArgumentFact::Kind kind) {
-  constexpr std::array<std::string_view, 7> words = {"positional", "text", "repeated", "number", "count", "choice", "flag"};
+  constexpr std::array<std::string_view, 7> words = {"positional", "text",   "repeated", "number",
+                                                     "count",      "choice", "flag"};
   return words[static_cast<std::size_t>(kind)];
 }
 

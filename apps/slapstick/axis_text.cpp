@@ -20,13 +20,14 @@ std::string axis_text(const std::string& name) {
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 34> greek = {{
-    {"alpha", "\u03b1"}, {"beta", "\u03b2"},  {"gamma", "\u03b3"},   {"delta", "\u03b4"}, {"epsilon", "\u03b5"}, {"zeta", "\u03b6"},
-    {"eta", "\u03b7"},   {"theta", "\u03b8"}, {"iota", "\u03b9"},    {"kappa", "\u03ba"}, {"lambda", "\u03bb"},  {"mu", "\u03bc"},
-    {"nu", "\u03bd"},    {"xi", "\u03be"},    {"pi", "\u03c0"},      {"rho", "\u03c1"},   {"sigma", "\u03c3"},   {"tau", "\u03c4"},
-    {"upsilon", "\u03c5"}, {"phi", "\u03c6"}, {"chi", "\u03c7"},     {"psi", "\u03c8"},   {"omega", "\u03c9"},   {"Gamma", "\u0393"},
-    {"Delta", "\u0394"}, {"Theta", "\u0398"}, {"Lambda", "\u039b"},  {"Xi", "\u039e"},    {"Pi", "\u03a0"},      {"Sigma", "\u03a3"},
-    {"Phi", "\u03a6"},   {"Psi", "\u03a8"},   {"Omega", "\u03a9"},   {"varphi", "\u03d5"}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 34> greek = {
+    {{"alpha", "\u03b1"},  {"beta", "\u03b2"},   {"gamma", "\u03b3"}, {"delta", "\u03b4"},   {"epsilon", "\u03b5"},
+     {"zeta", "\u03b6"},   {"eta", "\u03b7"},    {"theta", "\u03b8"}, {"iota", "\u03b9"},    {"kappa", "\u03ba"},
+     {"lambda", "\u03bb"}, {"mu", "\u03bc"},     {"nu", "\u03bd"},    {"xi", "\u03be"},      {"pi", "\u03c0"},
+     {"rho", "\u03c1"},    {"sigma", "\u03c3"},  {"tau", "\u03c4"},   {"upsilon", "\u03c5"}, {"phi", "\u03c6"},
+     {"chi", "\u03c7"},    {"psi", "\u03c8"},    {"omega", "\u03c9"}, {"Gamma", "\u0393"},   {"Delta", "\u0394"},
+     {"Theta", "\u0398"},  {"Lambda", "\u039b"}, {"Xi", "\u039e"},    {"Pi", "\u03a0"},      {"Sigma", "\u03a3"},
+     {"Phi", "\u03a6"},    {"Psi", "\u03a8"},    {"Omega", "\u03a9"}, {"varphi", "\u03d5"}}};
 
 /// The letter of a symbol: of a Greek name, or a single letter; "" for a word.
 std::string letter(std::string_view name) {
@@ -43,7 +44,8 @@ std::string parameter_symbol(const std::string& name) {
   if (sign.empty()) {
     const std::size_t digits = name.find_first_of("0123456789");
     const std::string before = letter(name.substr(0, digits));
-    if (digits != std::string::npos && !before.empty() && name.find_first_not_of("0123456789", digits) == std::string::npos)
+    if (digits != std::string::npos && !before.empty() &&
+        name.find_first_not_of("0123456789", digits) == std::string::npos)
       return "{/:Italic " + before + "}_{" + name.substr(digits) + "}";
     std::string words = name;
     std::replace(words.begin(), words.end(), '_', ' ');

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "settled_motions.hpp"
 #include "figure/figure.hpp"
+#include "settled_motions.hpp"
 #include "slapstick/continuation/branch.hpp"
 
 namespace slapstick::app {

@@ -42,7 +42,8 @@ Json typed_json(const orbit::SpecialPoint& special, const System& system) {
   if (special.jump) {
     Json jump = Json::object().set("kind", std::string(name(special.jump->kind)));
     if (special.jump->kind == orbit::Jump::Kind::settles) jump.set("class", special.jump->label);
-    if (special.jump->kind == orbit::Jump::Kind::wanders) jump.set("cycles", static_cast<long long>(special.jump->cycles));
+    if (special.jump->kind == orbit::Jump::Kind::wanders)
+      jump.set("cycles", static_cast<long long>(special.jump->cycles));
     json.set("jump", std::move(jump));
   }
   return json;

@@ -36,7 +36,9 @@ Json quantities_json() {
   Json list = Json::list();
   for (const QuantityRule& rule : quantity_rules()) {
     Json one = Json::object();
-    one.set("of", std::string(name(rule.of))).set("name", std::string(rule.name)).set("kind", std::string(name(rule.kind)));
+    one.set("of", std::string(name(rule.of)))
+        .set("name", std::string(rule.name))
+        .set("kind", std::string(name(rule.kind)));
     list.push(one.set("meaning", std::string(rule.meaning)));
   }
   return list;
@@ -56,7 +58,9 @@ std::string cell(const std::string& text) {
   return safe;
 }
 
-std::string row(const std::string& first, const std::string& second) { return "| `" + cell(first) + "` | " + cell(second) + " |\n"; }
+std::string row(const std::string& first, const std::string& second) {
+  return "| `" + cell(first) + "` | " + cell(second) + " |\n";
+}
 
 }  // namespace
 
@@ -78,7 +82,8 @@ std::string catalogue_json() {
 
 std::string catalogue_markdown() {
   std::string text =
-      "# All options\n\nThis page is `slapstick describe --markdown`: the program writes it from what its verbs declare.\n"
+      "# All options\n\nThis page is `slapstick describe --markdown`: the program writes it from what its verbs "
+      "declare.\n"
       "[command_line.md](command_line.md) explains the verbs, [measure.md](measure.md) the quantities.\n";
   for (const VerbFacts& verb : catalogue()) {
     text += "\n## " + verb.name + "\n\n" + verb.summary + "\n";
@@ -88,7 +93,8 @@ std::string catalogue_markdown() {
   }
   text += "\n## Quantities\n\n| of a | name | |\n|---|---|---|\n";
   for (const QuantityRule& rule : quantity_rules())
-    text += "| " + std::string(name(rule.of)) + " | `" + std::string(rule.name) + "` | " + cell(std::string(rule.meaning)) + " |\n";
+    text += "| " + std::string(name(rule.of)) + " | `" + std::string(rule.name) + "` | " +
+            cell(std::string(rule.meaning)) + " |\n";
   text += "\n## Statistics\n\n| | |\n|---|---|\n";
   for (const StatisticRule& rule : statistic_rules()) text += row(std::string(rule.name), std::string(rule.meaning));
   return text;

@@ -2,9 +2,9 @@
 /// --certify F: the run again, written down as a certificate (docs/reference/certificate.md).
 #include <string>
 
+#include "io/json.hpp"
 #include "output.hpp"
 #include "slapstick/certify/certificate.hpp"
-#include "io/json.hpp"
 #include "verb.hpp"
 
 namespace slapstick::app {

@@ -79,7 +79,8 @@ class ClassColours {
   explicit ClassColours(const sweep::Map& map) {
     std::map<std::string, std::int32_t> known;
     for (const Finding& found : map.findings) {
-      const auto [place, is_new] = known.try_emplace(found.label(map.driven), static_cast<std::int32_t>(classes_.size()));
+      const auto [place, is_new] =
+          known.try_emplace(found.label(map.driven), static_cast<std::int32_t>(classes_.size()));
       if (is_new) classes_.push_back({place->first});
       class_of_.push_back(place->second);
     }
@@ -129,7 +130,9 @@ class ClassColours {
   std::vector<Class*> by_area() {
     std::vector<Class*> sorted;
     for (Class& one : classes_) sorted.push_back(&one);
-    ranges::sort(sorted, [](const Class* a, const Class* b) { return a->area != b->area ? a->area > b->area : a->label < b->label; });
+    ranges::sort(sorted, [](const Class* a, const Class* b) {
+      return a->area != b->area ? a->area > b->area : a->label < b->label;
+    });
     return sorted;
   }
 
@@ -215,7 +218,8 @@ void draw_scale(const std::vector<double>& values, bool whole, const char* none,
   const double step = std::max(round_step(range.max - range.min), whole ? 1.0 : 0.0);
   const auto [least, most] = std::minmax_element(finite.begin(), finite.end());
   text(range.min, *least < range.min ? "\u2264 %.3g" : "%.3g");
-  for (double tick = std::floor(range.min / step + 1.2) * step; tick < range.max - 0.2 * step; tick += step) text(tick, "%.6g");
+  for (double tick = std::floor(range.min / step + 1.2) * step; tick < range.max - 0.2 * step; tick += step)
+    text(tick, "%.6g");
   text(range.max, *most > range.max ? "\u2265 %.3g" : "%.3g");
   if (finite.size() < values.size()) panel.keys.push_back(swatch(none, undecided_colour));
 }
@@ -261,7 +265,8 @@ void fill(const MapWish& wish, const sweep::Map& map, ClassColours& colours, con
           sweep::Direction direction, figure::Panel& panel) {
   const std::vector<Shown> pixels = shown_pixels(map, direction);
   if (column == "class" || column == "computed") add_to_title(share_computed(map), panel);
-  if (wish.problem.direction == sweep::Direction::both) add_to_title(direction == sweep::Direction::up ? "up" : "down", panel);
+  if (wish.problem.direction == sweep::Direction::both)
+    add_to_title(direction == sweep::Direction::up ? "up" : "down", panel);
   Cells cells = empty_cells(map);
   if (column == "class") {
     draw_classes(colours, pixels, cells, panel);
@@ -316,7 +321,8 @@ figure::Figure chart_figure(const MapWish& wish, const sweep::Map& map, const Ch
   figure::Figure figure = chart_outline(wish, look);
   std::size_t panel = 0;
   for (const std::string& column : look.columns)
-    for (const sweep::Direction direction : directions_of(wish)) fill(wish, map, colours, column, direction, figure.panels[panel++]);
+    for (const sweep::Direction direction : directions_of(wish))
+      fill(wish, map, colours, column, direction, figure.panels[panel++]);
   return figure;
 }
 

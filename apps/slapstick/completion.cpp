@@ -34,7 +34,8 @@ std::vector<std::string> option_names(const VerbFacts& verb) {
 }
 
 bool takes_model(const VerbFacts& verb) {
-  return std::any_of(verb.arguments.begin(), verb.arguments.end(), [](const ArgumentFact& fact) { return fact.name == "MODEL"; });
+  return std::any_of(verb.arguments.begin(), verb.arguments.end(),
+                     [](const ArgumentFact& fact) { return fact.name == "MODEL"; });
 }
 
 /// What the value of an option names: quantities of the model, its parameters, its stops, or nothing that is known.
@@ -54,24 +55,33 @@ constexpr const char* names_program =
     R"( $2 == "kind" && k == "stops" && sub("^gap_", "", n) { print n }')";
 
 std::string shell_names() {
-  return std::string("_slapstick_names() {\n  slapstick quantities \"$1\" 2>/dev/null |\n    awk -F'\"' -v k=\"$2\" ") + names_program + "\n}\n";
+  return std::string("_slapstick_names() {\n  slapstick quantities \"$1\" 2>/dev/null |\n    awk -F'\"' -v k=\"$2\" ") +
+         names_program + "\n}\n";
 }
 
 std::string bash(const std::vector<VerbFacts>& verbs) {
   std::string text = "# bash completion of slapstick: source <(slapstick completion bash)\n";
   text += shell_names();
-  text += "_slapstick() {\n  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} verb=${COMP_WORDS[1]} model=${COMP_WORDS[2]}\n"
-          "  local options='' positional='' models=" + quoted(joined(builtin_models())) + "\n  local before=''\n  [[ $cur == *,* ]] && before=${cur%,*},\n  COMPREPLY=()\n"
-          "  if ((COMP_CWORD == 1)); then\n    COMPREPLY=($(compgen -W " + quoted(joined(verb_names(verbs)) + " --help --version") + " -- \"$cur\"))\n    return\n  fi\n"
-          "  case \"$verb $prev\" in\n";
+  text +=
+      "_slapstick() {\n  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} verb=${COMP_WORDS[1]} "
+      "model=${COMP_WORDS[2]}\n"
+      "  local options='' positional='' models=" +
+      quoted(joined(builtin_models())) +
+      "\n  local before=''\n  [[ $cur == *,* ]] && before=${cur%,*},\n  COMPREPLY=()\n"
+      "  if ((COMP_CWORD == 1)); then\n    COMPREPLY=($(compgen -W " +
+      quoted(joined(verb_names(verbs)) + " --help --version") +
+      " -- \"$cur\"))\n    return\n  fi\n"
+      "  case \"$verb $prev\" in\n";
   for (const VerbFacts& verb : verbs)
     for (const ArgumentFact& fact : verb.arguments) {
       const std::string names = names_of(fact), here = "    " + quoted(verb.name + " " + fact.name) + ") ";
-      if (fact.kind == Kind::choice) text += here + "COMPREPLY=($(compgen -W " + quoted(joined(fact.words)) + " -- \"$cur\")); return ;;\n";
+      if (fact.kind == Kind::choice)
+        text += here + "COMPREPLY=($(compgen -W " + quoted(joined(fact.words)) + " -- \"$cur\")); return ;;\n";
       if (names.empty()) continue;
-      text += here + "before=" + (is_list(fact) ? "$before" : "''") + "; COMPREPLY=($(compgen -P \"$before\"" + (is_assignment(fact) ? " -S =" : "") +
-              " -W \"$(_slapstick_names \"$model\" " + names + ")\" -- \"${cur#\"$before\"}\"))" +
-              (is_assignment(fact) ? "; compopt -o nospace 2>/dev/null" : "") + "; return ;;\n";
+      text += here + "before=" + (is_list(fact) ? "$before" : "''") + "; COMPREPLY=($(compgen -P \"$before\"" +
+              (is_assignment(fact) ? " -S =" : "") + " -W \"$(_slapstick_names \"$model\" " + names +
+              ")\" -- \"${cur#\"$before\"}\"))" + (is_assignment(fact) ? "; compopt -o nospace 2>/dev/null" : "") +
+              "; return ;;\n";
     }
   text += "  esac\n  case \"$verb\" in\n";
   for (const VerbFacts& verb : verbs) {
@@ -100,8 +110,8 @@ std::string zsh_value(const ArgumentFact& fact) {
   const std::string names = names_of(fact), what = ":" + zsh_text(fact.value) + ":";
   if (fact.kind == Kind::choice) return what + "(" + joined(fact.words) + ")";
   if (!names.empty())
-    return what + "{" + (is_list(fact) ? "compset -P \"*,\"; " : "") + "compadd " + (is_assignment(fact) ? "-S= " : "") +
-           "-- $(_slapstick_names \"$words[2]\" " + names + ")}";
+    return what + "{" + (is_list(fact) ? "compset -P \"*,\"; " : "") + "compadd " +
+           (is_assignment(fact) ? "-S= " : "") + "-- $(_slapstick_names \"$words[2]\" " + names + ")}";
   return what + (fact.value.starts_with("F") ? "_files" : "");
 }
 
@@ -110,24 +120,30 @@ std::string zsh(const std::vector<VerbFacts>& verbs) {
   text += shell_names();
   text += "_slapstick() {\n  local -a verbs\n  verbs=(\n";
   for (const VerbFacts& verb : verbs) text += "    " + quoted(verb.name + ":" + verb.summary) + "\n";
-  text += "  )\n  if ((CURRENT == 2)); then\n    _describe verb verbs\n    return\n  fi\n  local verb=$words[2]\n  shift words\n  ((CURRENT--))\n  case $verb in\n";
+  text +=
+      "  )\n  if ((CURRENT == 2)); then\n    _describe verb verbs\n    return\n  fi\n  local verb=$words[2]\n  shift "
+      "words\n  ((CURRENT--))\n  case $verb in\n";
   for (const VerbFacts& verb : verbs) {
     text += "    " + verb.name + ")\n      _arguments";
     if (takes_model(verb)) text += " \\\n        " + quoted("1:MODEL:(" + joined(builtin_models()) + ")");
     for (const ArgumentFact& fact : verb.arguments)
       if (fact.kind != Kind::positional)
-        text += " \\\n        " + quoted((fact.kind == Kind::repeated ? "*" : "") + fact.name + "[" + zsh_text(fact.help) + "]" + zsh_value(fact));
+        text += " \\\n        " + quoted((fact.kind == Kind::repeated ? "*" : "") + fact.name + "[" +
+                                         zsh_text(fact.help) + "]" + zsh_value(fact));
     text += " \\\n        '*:file:_files'\n      ;;\n";
   }
-  return text + "  esac\n}\nif [[ $zsh_eval_context[-1] == loadautofunc ]]; then\n  _slapstick \"$@\"\nelse\n  compdef _slapstick slapstick\nfi\n";
+  return text +
+         "  esac\n}\nif [[ $zsh_eval_context[-1] == loadautofunc ]]; then\n  _slapstick \"$@\"\nelse\n  compdef "
+         "_slapstick slapstick\nfi\n";
 }
 
 std::string fish(const std::vector<VerbFacts>& verbs) {
-  std::string text = "# fish completion of slapstick: slapstick completion fish | source\n"
-                     "# __slapstick_names KIND SUFFIX [list]: with what stands before the last comma, of a list\n"
-                     "function __slapstick_names\n  set -l words (commandline -opc)\n  set -l before ''\n"
-                     "  test \"$argv[3]\" = list; and set before (string match -r '^.*,' -- (commandline -ct); or echo '')\n"
-                     "  for name in (slapstick quantities $words[3] 2>/dev/null | awk -F'\"' -v k=\"$argv[1]\" ";
+  std::string text =
+      "# fish completion of slapstick: slapstick completion fish | source\n"
+      "# __slapstick_names KIND SUFFIX [list]: with what stands before the last comma, of a list\n"
+      "function __slapstick_names\n  set -l words (commandline -opc)\n  set -l before ''\n"
+      "  test \"$argv[3]\" = list; and set before (string match -r '^.*,' -- (commandline -ct); or echo '')\n"
+      "  for name in (slapstick quantities $words[3] 2>/dev/null | awk -F'\"' -v k=\"$argv[1]\" ";
   text += std::string(names_program) + ")\n    echo $before$name$argv[2]\n  end\nend\n";
   for (const VerbFacts& verb : verbs) {
     text += "complete -c slapstick -n __fish_use_subcommand -f -a " + verb.name + " -d " + quoted(verb.summary) + "\n";
@@ -138,7 +154,9 @@ std::string fish(const std::vector<VerbFacts>& verbs) {
       const std::string names = names_of(fact);
       text += here + " -l " + fact.name.substr(2) + (fact.kind == Kind::flag ? "" : " -r") + " -d " + quoted(fact.help);
       if (fact.kind == Kind::choice) text += " -f -a " + quoted(joined(fact.words));
-      if (!names.empty()) text += " -f -a '(__slapstick_names " + names + (is_assignment(fact) ? " =" : " \"\"") + (is_list(fact) ? " list" : "") + ")'";
+      if (!names.empty())
+        text += " -f -a '(__slapstick_names " + names + (is_assignment(fact) ? " =" : " \"\"") +
+                (is_list(fact) ? " list" : "") + ")'";
       text += "\n";
     }
   }

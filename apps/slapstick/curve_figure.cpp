@@ -80,7 +80,8 @@ void add_met(figure::Panel& panel, const std::vector<const orbit::CurveEvent*>& 
         met_first.kind == orbit::Meeting::Kind::resonance || met_first.kind == orbit::Meeting::Kind::end_of_torus;
     dots.x.push_back(event->values[0]);
     dots.y.push_back(event->values[1]);
-    names.push_back({event->values[0], event->values[1], resonance ? "1:" + std::to_string(met_first.order) : name(met_first)});
+    names.push_back(
+        {event->values[0], event->values[1], resonance ? "1:" + std::to_string(met_first.order) : name(met_first)});
   }
   if (!names.empty()) panel.points.push_back(std::move(dots));
   add_names(panel, names);

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "figure/figure.hpp"
-#include "slapstick/io/model_file.hpp"
 #include "slapstick/continuation/branch.hpp"
+#include "slapstick/io/model_file.hpp"
 
 namespace slapstick::app {
 

@@ -1,7 +1,6 @@
 /// Puts the points of a diagram into a store, and takes them out.
 #include "diagram_store.hpp"
 
-
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::app {
@@ -53,14 +52,16 @@ class Reader {
 };
 
 void write(const Statistics& of, Writer& to) {
-  for (const double value : {of.mean, of.rms, of.least, of.greatest, of.least_at, of.greatest_at, of.impulse, static_cast<double>(of.impulses)})
+  for (const double value : {of.mean, of.rms, of.least, of.greatest, of.least_at, of.greatest_at, of.impulse,
+                             static_cast<double>(of.impulses)})
     to.number(value);
   to.list(of.values);
 }
 
 Statistics statistics(Reader& from) {
   Statistics of;
-  for (double* value : {&of.mean, &of.rms, &of.least, &of.greatest, &of.least_at, &of.greatest_at, &of.impulse}) *value = from.number();
+  for (double* value : {&of.mean, &of.rms, &of.least, &of.greatest, &of.least_at, &of.greatest_at, &of.impulse})
+    *value = from.number();
   of.impulses = static_cast<long>(from.number());
   of.values = from.list();
   return of;

@@ -40,8 +40,8 @@ Kinds kinds_of(const Model& model, std::size_t contact) {
 
 /// The kinds of event that the chosen contact can have, or any contact, in the order of their enumeration.
 Kinds possible(const EventChoice& events, const Model& model) {
-  const std::size_t contacts = model.stops.size() + model.frictions.size() + model.compliant_stops.size() +
-                               model.characteristics.size();
+  const std::size_t contacts =
+      model.stops.size() + model.frictions.size() + model.compliant_stops.size() + model.characteristics.size();
   std::set<EventKind> all;
   for (std::size_t contact = 0; contact < contacts; ++contact) {
     if (events.contact && static_cast<std::size_t>(*events.contact) != contact) continue;

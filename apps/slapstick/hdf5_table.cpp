@@ -147,11 +147,14 @@ void fill_grid(hid_t group, const ColumnTable& table, const Extent& extent, std:
     stride /= axis.count;
     const auto column = ranges::find_if(table.columns(), [&](const Column& one) { return one.name == axis.column; });
     const std::vector<double> values = values_along(*column, axis.count, stride);
-    scales.emplace_back(add_array(group, axis.name, column->unit, {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.data()}, {axis.count}), H5Dclose);
+    scales.emplace_back(
+        add_array(group, axis.name, column->unit, {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.data()}, {axis.count}),
+        H5Dclose);
     demand(H5DSset_scale(scales.back(), axis.name.c_str()));
   }
   for (const Column& column : table.columns()) {
-    const bool is_axis = ranges::any_of(table.axes(), [&](const TableAxis& axis) { return axis.column == column.name; });
+    const bool is_axis =
+        ranges::any_of(table.axes(), [&](const TableAxis& axis) { return axis.column == column.name; });
     if (is_axis || column.name == table.layers().column) continue;
     const Handle set(add_array(group, column.name, column.unit, from_row(data_of(column), first), extent), H5Dclose);
     for (unsigned k = 0; k < scales.size(); ++k) demand(H5DSattach_scale(set, scales[k], k));
@@ -168,10 +171,13 @@ void add_grid(hid_t file, const ColumnTable& table) {
   }
   const std::vector<std::string>& layers = table.layers().names;
   if (extent.empty() || points * std::max<std::size_t>(layers.size(), 1) != rows_of(table.columns().front())) return;
-  const auto grouped = [](hid_t in, const std::string& name) { return H5Gcreate2(in, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT); };
+  const auto grouped = [](hid_t in, const std::string& name) {
+    return H5Gcreate2(in, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  };
   const Handle grid(grouped(file, "grid"), H5Gclose);
   if (layers.empty()) return fill_grid(grid, table, extent, points, 0);
-  for (std::size_t k = 0; k < layers.size(); ++k) fill_grid(Handle(grouped(grid, layers[k]), H5Gclose), table, extent, points, k * points);
+  for (std::size_t k = 0; k < layers.size(); ++k)
+    fill_grid(Handle(grouped(grid, layers[k]), H5Gclose), table, extent, points, k * points);
 }
 
 }  // namespace

@@ -14,8 +14,8 @@ const std::string argument = "--inset";
 
 void check_within(const std::string& text, const NamedAxis& axis, const figure::Range& wanted) {
   if (!axis.range || (wanted.min >= axis.range->min && wanted.max <= axis.range->max)) return;
-  throw InputError(argument + ": " + in_quotes(text) + " leaves the picture, in which " + in_quotes(axis.name) + " runs from " +
-                   shown(axis.range->min) + " to " + shown(axis.range->max));
+  throw InputError(argument + ": " + in_quotes(text) + " leaves the picture, in which " + in_quotes(axis.name) +
+                   " runs from " + shown(axis.range->min) + " to " + shown(axis.range->max));
 }
 
 std::string names_of(const std::vector<NamedAxis>& axes) {
@@ -35,13 +35,16 @@ NamedInset read_inset(const std::string& text, const NamedAxis& x, const std::ve
     const bool is_x = name == x.name;
     const auto axis = ranges::find(y, name, &NamedAxis::name);
     if (!is_x && axis == y.end())
-      throw InputError(argument + ": " + in_quotes(name) + " is no axis of the picture; give " + in_quotes(x.name) + " and " + names_of(y));
+      throw InputError(argument + ": " + in_quotes(name) + " is no axis of the picture; give " + in_quotes(x.name) +
+                       " and " + names_of(y));
     (is_x ? found.inset.x : found.inset.y) = {wanted.from, wanted.to};
     if (!is_x) found.y = name;
     ++(is_x ? given_x : given_y);
     check_within(text, is_x ? x : *axis, {wanted.from, wanted.to});
   }
-  if (given_x != 1 || given_y != 1) throw InputError(argument + ": " + in_quotes(text) + " needs a range of " + in_quotes(x.name) + " and one of " + names_of(y));
+  if (given_x != 1 || given_y != 1)
+    throw InputError(argument + ": " + in_quotes(text) + " needs a range of " + in_quotes(x.name) + " and one of " +
+                     names_of(y));
   return found;
 }
 
@@ -49,18 +52,21 @@ NamedInset read_inset(const std::string& text, const NamedAxis& x, const std::ve
 
 void InsetOptions::declare(Arguments& arguments) {
   arguments.repeated(argument, texts, "X=A:B,Y=A:B",
-                     "of --plot: show this rectangle of the axes enlarged, in the corner where it hides least; may be repeated, up to four in a panel");
+                     "of --plot: show this rectangle of the axes enlarged, in the corner where it hides least; may be "
+                     "repeated, up to four in a panel");
 }
 
 void InsetOptions::check_words(const std::string& plot) const {
-  if (!texts.empty() && plot.empty()) throw InputError(argument + ": only for the picture of --plot, and --plot is not given");
+  if (!texts.empty() && plot.empty())
+    throw InputError(argument + ": only for the picture of --plot, and --plot is not given");
 }
 
 std::vector<NamedInset> read_insets(const InsetOptions& options, const NamedAxis& x, const std::vector<NamedAxis>& y) {
   std::vector<NamedInset> all;
   for (const std::string& text : options.texts) all.push_back(read_inset(text, x, y));
   for (const NamedInset& one : all)
-    if (ranges::count_if(all, [&](const NamedInset& other) { return other.y == one.y; }) > static_cast<std::ptrdiff_t>(figure::most_insets))
+    if (ranges::count_if(all, [&](const NamedInset& other) { return other.y == one.y; }) >
+        static_cast<std::ptrdiff_t>(figure::most_insets))
       throw InputError(argument + ": a panel has at most four insets");
   return all;
 }

@@ -31,7 +31,8 @@ struct NamedInset {
 
 /// Reads `options`: the x axis and one of the y axes, in either order.
 /// @throws InputError naming --inset, also for a rectangle outside of a range
-[[nodiscard]] std::vector<NamedInset> read_insets(const InsetOptions& options, const NamedAxis& x, const std::vector<NamedAxis>& y);
+[[nodiscard]] std::vector<NamedInset> read_insets(const InsetOptions& options, const NamedAxis& x,
+                                                  const std::vector<NamedAxis>& y);
 
 /// Gives each panel its insets. @param y  the name of the y axis of each panel, or one for all
 void add_insets(const std::vector<NamedInset>& insets, const std::vector<std::string>& y, figure::Figure& figure);

@@ -54,7 +54,8 @@ extern "C" void on_tick(int) {
   const long now = used(), since_tick = now - used_before;
   used_before = now;
   if (++ticks < last_tick || (now - used_at_signal < enough_ms && since_tick > idle_ms)) return;
-  constexpr char text[] = "slapstick: ended in the middle of a computation that does not look up; its results are not written\n";
+  constexpr char text[] =
+      "slapstick: ended in the middle of a computation that does not look up; its results are not written\n";
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text, sizeof text - 1);
   end_at_once();
 }

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "base/floating_point.hpp"
+#include "base/nearest.hpp"
+#include "base/ranges.hpp"
 #include "interruption.hpp"
 #include "output.hpp"
 #include "slapstick/base/error.hpp"
-#include "base/floating_point.hpp"
-#include "base/ranges.hpp"
-#include "base/nearest.hpp"
 #include "slapstick/io/model_file.hpp"
 #include "verb.hpp"
 
@@ -62,9 +62,9 @@ const Verb& find_verb(const std::string& word) {
     names.emplace_back(verb.name);
   }
   const bool option = !word.empty() && word[0] == '-';
-  const bool model = word.ends_with(".toml") || ranges::any_of(builtin_models(), [&](const std::string& name) { return name == word; });
-  if (model)
-    throw InputError("a verb comes before the model: slapstick simulate " + word + " (see slapstick --help)");
+  const bool model = word.ends_with(".toml") ||
+                     ranges::any_of(builtin_models(), [&](const std::string& name) { return name == word; });
+  if (model) throw InputError("a verb comes before the model: slapstick simulate " + word + " (see slapstick --help)");
   throw InputError((option ? "the verb comes first, not option " : "unknown verb ") + in_quotes(word) +
                    suggestion(word, names));
 }

@@ -1,8 +1,8 @@
 /// Writes the manual pages slapstick(1) and slapstick-VERB(1), in the man macros of groff and mandoc.
 #include <algorithm>
 
-#include "catalogue.hpp"
 #include "base/nearest.hpp"
+#include "catalogue.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::app {
@@ -14,13 +14,26 @@ std::string roff(const std::string& text) {
   for (const char c : text) {
     if ((c == '.' || c == '\'') && (safe.empty() || safe.back() == '\n')) safe += "\\&";
     switch (c) {
-      case '-': safe += "\\-"; break;
-      case '\\': safe += "\\e"; break;
-      case '^': safe += "\\(ha"; break;
-      case '~': safe += "\\(ti"; break;
-      case '`': safe += "\\(ga"; break;
-      case '\'': safe += "\\(aq"; break;
-      default: safe += c;
+      case '-':
+        safe += "\\-";
+        break;
+      case '\\':
+        safe += "\\e";
+        break;
+      case '^':
+        safe += "\\(ha";
+        break;
+      case '~':
+        safe += "\\(ti";
+        break;
+      case '`':
+        safe += "\\(ga";
+        break;
+      case '\'':
+        safe += "\\(aq";
+        break;
+      default:
+        safe += c;
     }
   }
   return safe;
@@ -45,7 +58,9 @@ std::string page_head(const std::string& page, const std::string& summary) {
 }
 
 /// An entry of a list: what it is called, and below what it is.
-std::string list_entry(const std::string& term, const std::string& text) { return ".TP\n" + term + "\n" + roff(text) + "\n"; }
+std::string list_entry(const std::string& term, const std::string& text) {
+  return ".TP\n" + term + "\n" + roff(text) + "\n";
+}
 
 std::string option_entry(const ArgumentFact& fact) {
   if (fact.value.empty()) return list_entry(".B " + roff(fact.name), fact.help);
@@ -81,7 +96,8 @@ constexpr const char* status_section =
 
 std::string see_also(const std::vector<std::string>& pages) {
   std::string text = ".SH SEE ALSO\n";
-  for (std::size_t i = 0; i < pages.size(); ++i) text += ".BR " + roff(pages[i]) + (i + 1 < pages.size() ? " (1),\n" : " (1)\n");
+  for (std::size_t i = 0; i < pages.size(); ++i)
+    text += ".BR " + roff(pages[i]) + (i + 1 < pages.size() ? " (1),\n" : " (1)\n");
   return text;
 }
 
@@ -91,7 +107,8 @@ std::string verb_page(const VerbFacts& verb) {
   std::string arguments, options;
   for (const ArgumentFact& fact : verb.arguments) {
     if (positional(fact)) text += (fact.required ? ".I " + roff(fact.name) : ".RI [ " + roff(fact.name) + " ]") + "\n";
-    (positional(fact) ? arguments : options) += positional(fact) ? list_entry(".I " + roff(fact.name), fact.help) : option_entry(fact);
+    (positional(fact) ? arguments : options) +=
+        positional(fact) ? list_entry(".I " + roff(fact.name), fact.help) : option_entry(fact);
   }
   text += "[options]\n";
   if (!arguments.empty()) text += ".SH ARGUMENTS\n" + arguments;
@@ -101,10 +118,11 @@ std::string verb_page(const VerbFacts& verb) {
 }
 
 std::string program_page(const std::vector<VerbFacts>& verbs) {
-  std::string text = page_head("slapstick", "exact simulation of oscillators that stick, slip and hit stops") +
-                     ".B slapstick\n.I VERB MODEL\n[\\fB\\-\\-set\\fR \\fINAME\\fR=\\fIVALUE\\fR]... [options]\n.SH DESCRIPTION\n"
-                     "A model is a built\\-in name or the path of a .toml model file.\n"
-                     "Results go to standard output or to the file of\n.BR \\-\\-out ,\nmessages to standard error.\n.SH VERBS\n";
+  std::string text =
+      page_head("slapstick", "exact simulation of oscillators that stick, slip and hit stops") +
+      ".B slapstick\n.I VERB MODEL\n[\\fB\\-\\-set\\fR \\fINAME\\fR=\\fIVALUE\\fR]... [options]\n.SH DESCRIPTION\n"
+      "A model is a built\\-in name or the path of a .toml model file.\n"
+      "Results go to standard output or to the file of\n.BR \\-\\-out ,\nmessages to standard error.\n.SH VERBS\n";
   std::vector<std::string> pages;
   for (const VerbFacts& verb : verbs) {
     text += list_entry(".B " + roff(verb.name), verb.summary);
@@ -112,9 +130,12 @@ std::string program_page(const std::vector<VerbFacts>& verbs) {
   }
   pages.emplace_back("slapstick-verify");
   std::sort(pages.begin(), pages.end());
-  text += ".SH OPTIONS\n" + list_entry(".B \\-\\-version", "print the version") + list_entry(".BR \\-h \", \" \\-\\-help", "list the verbs");
-  text += ".SH EXAMPLES\n" + note_lines("  slapstick show vibro-impact\n  slapstick simulate vibro-impact --periods 50 --plot motion.png\n"
-                                  "  slapstick diagram vibro-impact --sweep omega=0.5:10:1000 --plot diagram.png --out impacts.csv\n");
+  text += ".SH OPTIONS\n" + list_entry(".B \\-\\-version", "print the version") +
+          list_entry(".BR \\-h \", \" \\-\\-help", "list the verbs");
+  text += ".SH EXAMPLES\n" +
+          note_lines(
+              "  slapstick show vibro-impact\n  slapstick simulate vibro-impact --periods 50 --plot motion.png\n"
+              "  slapstick diagram vibro-impact --sweep omega=0.5:10:1000 --plot diagram.png --out impacts.csv\n");
   return text + status_section + see_also(pages);
 }
 

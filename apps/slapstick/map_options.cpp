@@ -14,26 +14,31 @@ void MapOptions::declare(Arguments& arguments) {
   model.declare_state(arguments);
   arguments.text("--x", x, "NAME=A:B:COUNT", "the parameter across, its range and the number of values (required)");
   arguments.text("--y", y, "NAME=A:B:COUNT", "the parameter upwards (required)");
-  arguments.choice("--level", level, {"quick", "full"},
-                   "quick: a cycle that Newton's method confirms within --periods, or undecided; full: as `classify` (quick)");
-  arguments.text("--start", start, "reset|carry|N",
-                 "begin each pixel anew, or where its neighbour in the row ended up, or at N random states and keep every "
-                 "attractor (reset)");
+  arguments.choice(
+      "--level", level, {"quick", "full"},
+      "quick: a cycle that Newton's method confirms within --periods, or undecided; full: as `classify` (quick)");
+  arguments.text(
+      "--start", start, "reset|carry|N",
+      "begin each pixel anew, or where its neighbour in the row ended up, or at N random states and keep every "
+      "attractor (reset)");
   arguments.choice("--direction", direction, {"up", "down", "both"},
                    "of --start carry: through the values of x; both shows coexisting attractors (up)");
-  arguments.count("--periods", periods, 20, 1'000'000'000, "of quick: forcing periods within which a cycle is to be confirmed (300)");
+  arguments.count("--periods", periods, 20, 1'000'000'000,
+                  "of quick: forcing periods within which a cycle is to be confirmed (300)");
   arguments.count("--transient", transient, 0, 1'000'000'000, "of full: as `classify` (500)");
   arguments.count("--most-periods", most_periods, 10, 1'000'000'000, "of full: as `classify` (20000)");
   arguments.count("--exponent-periods", exponent_periods, 400, 100'000'000, "of full: as `classify` (4000)");
   arguments.count("--most-n", most_n, 1, 4096, "longest cycle sought, in forcing periods or returns (64)");
   arguments.count("--seed", seed, 0, 4'294'967'295, "of --start N: the number that chooses the random states (1)");
-  arguments.text("--of", of, "Q:STAT,..", "statistics of quantities over the cycle, or without one over --measured-periods");
+  arguments.text("--of", of, "Q:STAT,..",
+                 "statistics of quantities over the cycle, or without one over --measured-periods");
   arguments.count("--measured-periods", measured_periods, 1, 1'000'000'000, "of --of: where there is no cycle (100)");
   stops.declare(arguments, "count the impacts of this stop only; may be repeated (all)");
   arguments.count("--threads", threads, 0, 1024, "0: all cores; the result is the same for any number (0)");
-  arguments.count("--refine", refine, 2, 1024,
-                  "compute every N-th pixel of every N-th row, and beyond that only where classes differ; the others are "
-                  "filled in, and marked (every pixel is computed)");
+  arguments.count(
+      "--refine", refine, 2, 1024,
+      "compute every N-th pixel of every N-th row, and beyond that only where classes differ; the others are "
+      "filled in, and marked (every pixel is computed)");
   arguments.text("--shard", shard, "I/N", "only every N-th tile, beginning with the I-th (1 to N); needs --store");
 }
 
@@ -110,8 +115,9 @@ void read_quantities(const MapOptions& options, MapWish& wish) {
 
 /// The corners of the chart.
 void check_corners(const MapOptions& options, const MapWish& wish) {
-  const Work work{options.level == "quick" ? static_cast<double>(options.periods) : static_cast<double>(options.transient) + 10.0,
-                  options.level == "quick" ? "--periods" : "--transient"};
+  const Work work{
+      options.level == "quick" ? static_cast<double>(options.periods) : static_cast<double>(options.transient) + 10.0,
+      options.level == "quick" ? "--periods" : "--transient"};
   for (const double x : {wish.x.from, wish.x.to}) {
     for (const double y : {wish.y.from, wish.y.to}) {
       try {
@@ -120,7 +126,8 @@ void check_corners(const MapOptions& options, const MapWish& wish) {
         demand_period(system.model());
         validate(system.model(), options.model.start(wish.chosen, here));
       } catch (const InputError& error) {
-        throw InputError("--x " + wish.x.name + "=" + shown(x) + " --y " + wish.y.name + "=" + shown(y) + ": " + error.message());
+        throw InputError("--x " + wish.x.name + "=" + shown(x) + " --y " + wish.y.name + "=" + shown(y) + ": " +
+                         error.message());
       }
     }
   }
@@ -132,7 +139,8 @@ void check_names(const MapWish& wish) {
     if (wish.chosen.overrides.count(name) != 0)
       throw InputError(std::string(argument) + ": " + in_quotes(name) + " is given by --set too");
   const double pixels = static_cast<double>(wish.x.count) * wish.y.count;
-  if (pixels > 1e9) throw InputError("--x and --y give " + shown(pixels) + " pixels, more than the 1e9 that a map may have");
+  if (pixels > 1e9)
+    throw InputError("--x and --y give " + shown(pixels) + " pixels, more than the 1e9 that a map may have");
 }
 
 }  // namespace
@@ -140,8 +148,13 @@ void check_names(const MapWish& wish) {
 std::unique_ptr<MapWish> map_wish(const MapOptions& options) { return map_wish(options, options.model.load()); }
 
 std::unique_ptr<MapWish> map_wish(const MapOptions& options, ChosenModel chosen) {
-  auto wish = std::make_unique<MapWish>(
-      MapWish{std::move(chosen), parse_sweep(options.x, "--x"), parse_sweep(options.y, "--y"), {}, options.model.state, options.stops.names, {}});
+  auto wish = std::make_unique<MapWish>(MapWish{std::move(chosen),
+                                                parse_sweep(options.x, "--x"),
+                                                parse_sweep(options.y, "--y"),
+                                                {},
+                                                options.model.state,
+                                                options.stops.names,
+                                                {}});
   check_names(*wish);
   sweep::MapProblem& problem = wish->problem;
   read_start(options, problem);

@@ -29,9 +29,9 @@ struct MapWish {
   ChosenModel chosen;
   Sweep x, y;
   std::vector<Wanted> of;
-  std::string state;                      ///< --state
-  std::vector<std::string> stops;         ///< --stop
-  sweep::MapProblem problem;  ///< without threads, known, finished, progress, cancel; refers to this wish
+  std::string state;               ///< --state
+  std::vector<std::string> stops;  ///< --stop
+  sweep::MapProblem problem;       ///< without threads, known, finished, progress, cancel; refers to this wish
 
   /// As the library has it; refers to this wish.
   [[nodiscard]] chart::Chart chart() const {

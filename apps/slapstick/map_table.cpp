@@ -50,7 +50,8 @@ TableFacts map_facts(const MapWish& wish) {
   TableFacts facts = table_facts(wish.chosen, wish.x.name);
   const std::string parameter = "parameter_" + wish.y.name;
   const auto varies = [&](const Attribute& one) { return one.name == parameter; };
-  facts.attributes.erase(std::remove_if(facts.attributes.begin(), facts.attributes.end(), varies), facts.attributes.end());
+  facts.attributes.erase(std::remove_if(facts.attributes.begin(), facts.attributes.end(), varies),
+                         facts.attributes.end());
   for (const auto& [column, sweep] : {std::pair{"x", &wish.x}, std::pair{"y", &wish.y}}) {
     facts.attributes.push_back({std::string(column) + "_parameter", sweep->name});
     for (const Parameter& parameter_of : wish.chosen.definition.parameters())
@@ -59,7 +60,8 @@ TableFacts map_facts(const MapWish& wish) {
   if (is_refined(wish)) facts.attributes.push_back({"refined_from_cells_of", static_cast<double>(wish.problem.refine)});
   if (has_directions(wish)) facts.layers = {"direction", {"up", "down"}};
   if (!has_starts(wish))
-    facts.axes = {{"y", wish.y.name, static_cast<std::size_t>(wish.y.count)}, {"x", wish.x.name, static_cast<std::size_t>(wish.x.count)}};
+    facts.axes = {{"y", wish.y.name, static_cast<std::size_t>(wish.y.count)},
+                  {"x", wish.x.name, static_cast<std::size_t>(wish.x.count)}};
   for (const Wanted& one : wish.of) facts.units[one.quantity.name + ":" + one.statistic] = one.quantity.unit;
   return facts;
 }

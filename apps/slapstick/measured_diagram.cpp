@@ -13,8 +13,8 @@ std::vector<Wanted> parse_statistics(const std::string& argument, const std::str
   std::vector<Wanted> wanted = parse_wanted(argument, text, quantities(chosen.definition, chosen.overrides));
   for (const Wanted& one : wanted)
     if (one.statistic.empty())
-      throw InputError(argument + ": " + in_quotes(one.quantity.name) + " has no statistic; one number a value is wanted, as " +
-                       one.quantity.name + ":rms");
+      throw InputError(argument + ": " + in_quotes(one.quantity.name) +
+                       " has no statistic; one number a value is wanted, as " + one.quantity.name + ":rms");
   return wanted;
 }
 

@@ -27,7 +27,8 @@ template <class Of>
 Json by_statistic(const std::vector<Wanted>& wanted, const Of& of) {
   Json values = Json::object();
   for (std::size_t k = 0; k < wanted.size(); ++k) {
-    const auto names = wanted[k].statistic.empty() ? usual_statistics(wanted[k].quantity) : std::vector{wanted[k].statistic};
+    const auto names =
+        wanted[k].statistic.empty() ? usual_statistics(wanted[k].quantity) : std::vector{wanted[k].statistic};
     for (const std::string& name : names) values.set(wanted[k].quantity.name + ":" + name, of(k, name));
   }
   return values;
@@ -66,7 +67,8 @@ Json impact_rates_json(const Measured& found, const Measured& rate) {
     for (const auto& [key, of] : impact_keys) {
       if (found.stops[i].compliant && of != &StopStatistics::w) continue;
       Json values = Json::object();
-      for (const char* name : impact_names) values.set(name, statistic_rate(found.stops[i].*of, rate.stops[i].*of, name));
+      for (const char* name : impact_names)
+        values.set(name, statistic_rate(found.stops[i].*of, rate.stops[i].*of, name));
       one.set(key, std::move(values));
     }
     stops.set(found.stops[i].stop, std::move(one));
@@ -82,8 +84,8 @@ Json sensitivity_json(const std::vector<Wanted>& wanted, const Measured& found, 
     const Measured& rate = sensitivity.rates[j];
     Json one = Json::object();
     one.set("time", rate.duration).set("values", by_statistic(wanted, [&](std::size_t k, const std::string& name) {
-      return statistic_rate(found.of[k], rate.of[k], name);
-    }));
+                                         return statistic_rate(found.of[k], rate.of[k], name);
+                                       }));
     if (!found.stops.empty()) one.set("impacts", impact_rates_json(found, rate));
     json.set(sensitivity.parameters[j], std::move(one));
   }
@@ -103,7 +105,8 @@ Json histogram_json(const Statistics& of, int bins) {
   if (of.values.empty()) bins = 0;
   if (bins > 0 && of.values.front() == of.values.back()) bins = 1;
   for (int i = 0; i <= bins && bins > 0; ++i)
-    edges.push_back(i == bins ? of.values.back() : of.values.front() + (of.values.back() - of.values.front()) * i / bins);
+    edges.push_back(i == bins ? of.values.back()
+                              : of.values.front() + (of.values.back() - of.values.front()) * i / bins);
   for (int i = 0; i < bins; ++i) {
     const auto at = static_cast<std::size_t>(i);
     const auto to = i + 1 == bins ? end : std::lower_bound(begin, end, edges[at + 1]);

@@ -14,7 +14,8 @@ namespace slapstick::app {
 /// {"Q:STAT": number, ..}: of each quantity the statistic that is wanted, or all that are usual.
 [[nodiscard]] Json values_json(const std::vector<Wanted>& wanted, const Measured& found);
 /// The same of the cycle of an orbit, stable or not. @throws NumericalError as measure
-[[nodiscard]] Json values_json(const std::vector<Wanted>& wanted, const orbit::Problem& problem, const orbit::Orbit& orbit);
+[[nodiscard]] Json values_json(const std::vector<Wanted>& wanted, const orbit::Problem& problem,
+                               const orbit::Orbit& orbit);
 
 /// The derivatives of what is measured on a cycle by parameters or groups (--sensitivity).
 struct Sensitivity {
@@ -26,7 +27,8 @@ void declare_sensitivity(Arguments& arguments, std::vector<std::string>& names);
 [[nodiscard]] Sensitivity sensitivity_of(const std::vector<std::string>& names, const ChosenModel& chosen,
                                          const orbit::Orbit& cycle, const std::vector<Wanted>& wanted);
 /// {NAME: {"time": d duration, "values": {"Q:STAT": ..}, "impacts": {STOP: {"w": {"mean": ..}, ..}}}, ..}
-[[nodiscard]] Json sensitivity_json(const std::vector<Wanted>& wanted, const Measured& found, const Sensitivity& sensitivity);
+[[nodiscard]] Json sensitivity_json(const std::vector<Wanted>& wanted, const Measured& found,
+                                    const Sensitivity& sensitivity);
 
 /// {"Q": unit, ..}
 [[nodiscard]] Json units_json(const std::vector<Wanted>& wanted);

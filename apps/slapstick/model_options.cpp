@@ -5,9 +5,9 @@
 #include <set>
 #include <utility>
 
-#include "slapstick/base/error.hpp"
 #include "base/nearest.hpp"
 #include "base/text.hpp"
+#include "slapstick/base/error.hpp"
 
 namespace slapstick::app {
 
@@ -81,7 +81,8 @@ State ModelOptions::start(const ChosenModel& chosen, const Overrides& more) cons
                        number_advice("0," + part));
     const auto [name, text] = name_and_text("--state", part, "NAME=NUMBER,..");
     const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) throw InputError("--state: unknown name " + in_quotes(name) + state_suggestion(name, names));
+    if (found == names.end())
+      throw InputError("--state: unknown name " + in_quotes(name) + state_suggestion(name, names));
     if (!seen.insert(name).second) throw InputError("--state: " + in_quotes(name) + " is given twice");
     start[static_cast<std::size_t>(found - names.begin())] = parse_number("--state " + name, text);
   }

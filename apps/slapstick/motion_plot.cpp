@@ -23,8 +23,8 @@ struct MomentSign {
   double diameter_mm;
 };
 constexpr std::array moment_signs{MomentSign{EventKind::impact, "impact", Marker::disc, 0.8},
-                           MomentSign{EventKind::graze, "graze", Marker::diamond, 1.1},
-                           MomentSign{EventKind::chatter, "end of a chatter", Marker::triangle, 1.1}};
+                                  MomentSign{EventKind::graze, "graze", Marker::diamond, 1.1},
+                                  MomentSign{EventKind::chatter, "end of a chatter", Marker::triangle, 1.1}};
 
 /// The coordinates of one panel.
 class View {
@@ -74,8 +74,11 @@ class View {
   }
 
   [[nodiscard]] figure::Points marked(const MomentSign& sign) const {
-    figure::Points points{.colour = colours::vermillion, .drawing = figure::Drawing::discs,
-                          .diameter_mm = sign.diameter_mm, .marker = sign.marker, .over_lines = true};
+    figure::Points points{.colour = colours::vermillion,
+                          .drawing = figure::Drawing::discs,
+                          .diameter_mm = sign.diameter_mm,
+                          .marker = sign.marker,
+                          .over_lines = true};
     for (const MotionRecord::Moment& moment : record_.moments()) {
       if (!moment.ours || moment.kind != sign.kind) continue;
       points.x.push_back(x(moment.t, moment.before));
@@ -132,9 +135,11 @@ figure::Panel panel_of(const MotionRecord& record, const ShownPanel& shown) {
   if (view.over_time()) {
     panel.x_label = record.shown().time;
     if (View::named_base(record)) panel.x_label += " \u2212 " + std::to_string(record.base());
-    if (record.end() > record.begin()) panel.x_range = figure::Range{view.time(record.begin()), view.time(record.end())};
+    if (record.end() > record.begin())
+      panel.x_range = figure::Range{view.time(record.begin()), view.time(record.end())};
     for (const MotionRecord::Stretch& stretch : record.stretches())
-      panel.marks.push_back({.x = view.time(stretch.from), .x_end = view.time(stretch.to),
+      panel.marks.push_back({.x = view.time(stretch.from),
+                             .x_end = view.time(stretch.to),
                              .colour = stretch.phase == Phase::sticks ? stick_colour : touch_colour});
   } else {
     const ShownNumber& x = numbers[static_cast<std::size_t>(shown.x)];

@@ -49,7 +49,8 @@ MotionRecord::Phase MotionRecord::phase(ModeId mode) {
     } else if (index -= states.stops.size(); index < states.frictions.size()) {
       sticks = states.frictions[index] == mode::FrictionState::stick;
     } else if (index -= states.frictions.size(); index < states.compliant.size()) {
-      touches = states.compliant[index] == mode::CompliantState::on || states.compliant[index] == mode::CompliantState::bounded;
+      touches = states.compliant[index] == mode::CompliantState::on ||
+                states.compliant[index] == mode::CompliantState::bounded;
     }
     if (touches) found = Phase::touches;
     if (sticks && found == Phase::apart) found = Phase::sticks;
@@ -145,7 +146,8 @@ void MotionRecord::add_event(const Motion& motion) {
   const Event& event = motion.event();
   if (event.time < from_ || event.time > to_) return;
   const auto before = motion.before();
-  const bool known = event.kind == EventKind::impact || event.kind == EventKind::graze || event.kind == EventKind::chatter;
+  const bool known =
+      event.kind == EventKind::impact || event.kind == EventKind::graze || event.kind == EventKind::chatter;
   const bool ours = known && ranges::find(shown_.contacts, event.contact) != shown_.contacts.end();
   Moment moment{event.kind, ours, time(event.time), numbers(State(before.begin(), before.end())),
                 numbers(motion.state())};

@@ -45,7 +45,9 @@ class MotionRecord {
   /// The times of the points; NaN where a number jumps.
   [[nodiscard]] const std::vector<double>& times() const { return t_; }
   /// A number at them.
-  [[nodiscard]] const std::vector<double>& values(int number) const { return values_[static_cast<std::size_t>(number)]; }
+  [[nodiscard]] const std::vector<double>& values(int number) const {
+    return values_[static_cast<std::size_t>(number)];
+  }
   [[nodiscard]] const std::vector<Stretch>& stretches() const { return stretches_; }
   [[nodiscard]] const std::vector<Moment>& moments() const { return moments_; }
 

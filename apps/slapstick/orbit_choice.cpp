@@ -16,16 +16,19 @@ std::string spelled(std::string_view option) { return "--" + std::string(option 
 void OrbitOptions::declare(Arguments& arguments) {
   declare_choice(arguments);
   arguments.count("--transient", transient, 0, 1'000'000'000,
-                  "forcing periods to leave out before the first try (500); of a motion without a drive its returns; 0: an orbit at --state is taken first");
+                  "forcing periods to leave out before the first try (500); of a motion without a drive its returns; "
+                  "0: an orbit at --state is taken first");
 }
 
 void OrbitOptions::declare_choice(Arguments& arguments) {
   arguments.text("--orbit", orbit, "N-P",
-                 "forcing periods (without a drive returns) and impacts per cycle, e.g. 1-1 or 2-inf; 1-1-I without stick, 1-1-II with; N alone "
+                 "forcing periods (without a drive returns) and impacts per cycle, e.g. 1-1 or 2-inf; 1-1-I without "
+                 "stick, 1-1-II with; N alone "
                  "for any impacts (what the motion settles on)");
   arguments.flag("--stable", stable, "a stable orbit");
   arguments.flag("--unstable", unstable, "an unstable orbit");
-  arguments.flag("--symmetric", symmetric, "an orbit that is its own image half a forcing period later (without a drive half a cycle)");
+  arguments.flag("--symmetric", symmetric,
+                 "an orbit that is its own image half a forcing period later (without a drive half a cycle)");
   arguments.flag("--nearest", nearest, "of the orbits that a search finds, the nearest to --state");
   arguments.count("--starts", starts, 1, 1'000'000, "motions that a search looks through, however long it takes (64)");
   arguments.number("--seconds", seconds, "S", "end the search after this time (10; with --starts no limit)");

@@ -12,9 +12,9 @@
 namespace slapstick::app {
 namespace {
 
-constexpr std::size_t most_lines = 60;    ///< in a picture: of more values every so many-th is drawn
-constexpr double shown_decibels = 60.0;   ///< below the largest level
-constexpr double lines_high = 4.0;        ///< the largest level stands so many lines high
+constexpr std::size_t most_lines = 60;   ///< in a picture: of more values every so many-th is drawn
+constexpr double shown_decibels = 60.0;  ///< below the largest level
+constexpr double lines_high = 4.0;       ///< the largest level stands so many lines high
 
 /// Heights in [0, 1] of all amplitudes: of the largest one, or of a level.
 std::vector<double> heights(const OrderMap& map, bool decibels) {
@@ -71,7 +71,8 @@ int order_map_run(const OrderMapWish& wish, const ChosenModel& chosen, const Sta
                   const SpectrumLabels& labels, const Context& context) {
   const Climb climb = wish.range.climb(chosen);
   if (wish.settle >= wish.range.hold)
-    throw InputError("--settle: " + std::to_string(wish.settle) + " periods are all of --hold " + std::to_string(wish.range.hold));
+    throw InputError("--settle: " + std::to_string(wish.settle) + " periods are all of --hold " +
+                     std::to_string(wish.range.hold));
   TableFacts facts = table_facts(chosen, climb.name);
   facts.units["amplitude"] = of.unit;
   TableOutput table(wish.out, {climb.name, "time", "order", "frequency", "amplitude"}, facts);

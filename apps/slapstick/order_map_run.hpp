@@ -20,6 +20,7 @@ int order_map_run(const OrderMapWish& wish, const ChosenModel& chosen, const Sta
                   const SpectrumLabels& labels, const Context& context);
 
 /// A waterfall: the spectrum of each value stands on a line at the height of the value.
-[[nodiscard]] figure::Figure waterfall_figure(const OrderMap& map, const SpectrumLabels& labels, const std::string& parameter);
+[[nodiscard]] figure::Figure waterfall_figure(const OrderMap& map, const SpectrumLabels& labels,
+                                              const std::string& parameter);
 
 }  // namespace slapstick::app

@@ -7,12 +7,12 @@
 #include <system_error>
 #include <utility>
 
-#include "slapstick/base/error.hpp"
-#include "base/text.hpp"
 #include "arguments.hpp"
+#include "base/text.hpp"
 #include "hdf5_table.hpp"
 #include "interruption.hpp"
 #include "io/table.hpp"
+#include "slapstick/base/error.hpp"
 #include "unit_prefix.hpp"
 #include "verb.hpp"
 
@@ -56,11 +56,14 @@ bool ends_as_hdf5(const std::string& path) {
 /// A table of another format under such a name would only be found out when it is read.
 const std::string& checked_table(const std::string& path) {
   const std::string ending = ending_of(path);
-  for (const char* other : {".npy", ".mat", ".nc", ".parquet", ".feather", ".arrow", ".xlsx", ".xls", ".ods", ".gz", ".zip"})
+  for (const char* other :
+       {".npy", ".mat", ".nc", ".parquet", ".feather", ".arrow", ".xlsx", ".xls", ".ods", ".gz", ".zip"})
     if (ending == other)
-      throw InputError("cannot write " + in_quotes(path) + ": tables are .csv, .npz or .h5, and " + ending + " is not one of them");
+      throw InputError("cannot write " + in_quotes(path) + ": tables are .csv, .npz or .h5, and " + ending +
+                       " is not one of them");
   if (ends_as_hdf5(path) && !has_hdf5())
-    throw InputError("cannot write " + in_quotes(path) + ": this program was built without HDF5; .npz and .csv are there");
+    throw InputError("cannot write " + in_quotes(path) +
+                     ": this program was built without HDF5; .npz and .csv are there");
   return path;
 }
 
@@ -75,7 +78,8 @@ std::string name_beside(const fs::path& picture) {
 double centimetres(const std::string& text, const std::string& unit, const std::string& whole) {
   const double factor = unit == "mm" ? 0.1 : unit == "cm" ? 1.0 : unit == "in" ? 2.54 : 0.0;
   const std::string wanted = "--plot-size: " + in_quotes(whole) + " is no size; write 85mm, 8.5cm or 85x60mm";
-  if (factor == 0.0 || text.empty() || text.find_first_not_of("0123456789.") != std::string::npos) throw InputError(wanted);
+  if (factor == 0.0 || text.empty() || text.find_first_not_of("0123456789.") != std::string::npos)
+    throw InputError(wanted);
   const double length = factor * parse_number("--plot-size", text);
   constexpr double least = 3.0, most = 100.0;
   if (!(length >= least && length <= most))
@@ -145,7 +149,8 @@ void TableOutput::commit() {
 }
 
 Plot::Plot(const std::string& path, const std::string& size) {
-  if (path.empty() && !size.empty()) throw InputError("--plot-size: only for the picture of --plot, and --plot is not given");
+  if (path.empty() && !size.empty())
+    throw InputError("--plot-size: only for the picture of --plot, and --plot is not given");
   if (path.empty()) return;
   const fs::path file(path);
   const std::string ending = file.extension().string();
@@ -157,7 +162,8 @@ Plot::Plot(const std::string& path, const std::string& size) {
   if (!formats_.of_gnuplot() && !formats_.py)
     throw InputError("--plot: " + in_quotes(path) + " must end in .png, .pdf, .svg, .tex or .py");
   if (!size.empty()) {
-    const std::size_t unit = std::min(size.find_first_not_of("0123456789.x"), size.size()), by = size.substr(0, unit).find('x');
+    const std::size_t unit = std::min(size.find_first_not_of("0123456789.x"), size.size()),
+                      by = size.substr(0, unit).find('x');
     width_cm_ = centimetres(size.substr(0, std::min(by, unit)), size.substr(unit), size);
     if (by != std::string::npos) height_cm_ = centimetres(size.substr(by + 1, unit - by - 1), size.substr(unit), size);
   }
@@ -203,7 +209,8 @@ int Plot::write_or_say(figure::Figure figure, bool empty, int status) const {
 }
 
 void declare_plot_size(Arguments& arguments, std::string& target) {
-  arguments.text("--plot-size", target, "85mm", "width of the picture on paper, or width and height: 85x60mm (also cm, in)");
+  arguments.text("--plot-size", target, "85mm",
+                 "width of the picture on paper, or width and height: 85x60mm (also cm, in)");
 }
 
 void FileRoles::add(const std::string& argument, const std::string& path) {
@@ -222,7 +229,8 @@ void FileRoles::add(const std::string& argument, const std::string& path) {
 void FileRoles::add_plot(const std::string& path) {
   if (path.empty()) return;
   add("--plot", path);
-  if (path.ends_with(".tex")) add("--plot " + path + " (its lines)", fs::path(path).replace_filename(name_beside(path) + ".pdf").string());
+  if (path.ends_with(".tex"))
+    add("--plot " + path + " (its lines)", fs::path(path).replace_filename(name_beside(path) + ".pdf").string());
   for (const char* ending : {"-plot.csv", ".gp"})
     add("--plot " + path + " (its data and script lie beside it)",
         fs::path(path).replace_filename(name_beside(path) + ending).string());

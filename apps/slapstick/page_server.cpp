@@ -95,10 +95,13 @@ void serve_page(const Served& served, int port, const std::atomic<bool>& stop,
     response.status = 403;
     return httplib::Server::HandlerResponse::Handled;
   });
-  server.Get(".*", [&](const httplib::Request& request, httplib::Response& response) { answer(served, root, request, response); });
+  server.Get(".*", [&](const httplib::Request& request, httplib::Response& response) {
+    answer(served, root, request, response);
+  });
   if (port == 0) heard = server.bind_to_any_port(loopback);
   if (heard < 0 || (port != 0 && !server.bind_to_port(loopback, port)))
-    throw StorageError("port " + std::to_string(port) + " of " + loopback + " cannot be listened to: choose another --port");
+    throw StorageError("port " + std::to_string(port) + " of " + loopback +
+                       " cannot be listened to: choose another --port");
   std::promise<void> ended;
   std::thread listening([&server, &ended] {
     server.listen_after_bind();

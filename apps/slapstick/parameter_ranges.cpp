@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "base/ranges.hpp"
-#include "slapstick/base/error.hpp"
 #include "base/text.hpp"
+#include "slapstick/base/error.hpp"
 
 namespace slapstick::app {
 
@@ -34,7 +34,8 @@ std::array<ParameterRange, 2> two_ranges(const std::vector<std::string>& texts, 
     const auto [name, range] = name_and_text("--range", text, "NAME=A:B");
     const auto place = ranges::find(names, name) - names.begin();
     if (place == 2)
-      throw InputError("--range: " + in_quotes(name) + " is not one of --params " + in_quotes(names[0] + "," + names[1]));
+      throw InputError("--range: " + in_quotes(name) + " is not one of --params " +
+                       in_quotes(names[0] + "," + names[1]));
     auto& of_name = found[static_cast<std::size_t>(place)];
     if (of_name) throw InputError("--range: " + in_quotes(name) + " is given twice");
     of_name = parse_range("--range " + name, range);

@@ -19,7 +19,8 @@ TableUnits::TableUnits(const ChosenModel& chosen, bool physical) : states_(state
   if (!physical) return;
   const auto units = blaming(chosen.overrides, [&](const Overrides& sets) { return chosen.definition.physical(sets); });
   if (!units)
-    throw InputError("--physical: model " + in_quotes(chosen.model.name) + " has no [scale] (see docs/reference/model_file.md)");
+    throw InputError("--physical: model " + in_quotes(chosen.model.name) +
+                     " has no [scale] (see docs/reference/model_file.md)");
   units_ = *units;
 }
 

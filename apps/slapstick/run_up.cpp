@@ -105,7 +105,8 @@ Climb RunUpRange::climb(const ChosenModel& chosen) const {
   if (climb.options.from == climb.options.to) throw InputError("--sweep: both ends are " + parts[0]);
   climb.options.steps = over / hold;
   if (climb.options.steps < 2 || over % hold != 0)
-    throw InputError("--over: " + std::to_string(over) + " periods are not two or more steps of --hold " + std::to_string(hold));
+    throw InputError("--over: " + std::to_string(over) + " periods are not two or more steps of --hold " +
+                     std::to_string(hold));
   for (const double value : {climb.options.from, climb.options.to}) {
     (void)blaming({{name, value}}, [&](const Overrides& sets) {
       Overrides all = chosen.overrides;

@@ -11,11 +11,11 @@
 #include "event_options.hpp"
 #include "progress.hpp"
 #include "relative_motion.hpp"
-#include "span_options.hpp"
-#include "slapstick/base/error.hpp"
 #include "section/creep_watch.hpp"
 #include "section/run_impacts.hpp"
+#include "slapstick/base/error.hpp"
 #include "slapstick/section/stroboscopic_section.hpp"
+#include "span_options.hpp"
 
 namespace slapstick::app {
 namespace {

@@ -24,7 +24,7 @@ struct PoincareOptions {
 struct Found {
   long long points = 0;
   bool whole = true;  ///< false: stopped before its end
-  bool map = false;  ///< the picture is a return map
+  bool map = false;   ///< the picture is a return map
   figure::Panel panel;
 };
 
@@ -55,6 +55,6 @@ class PointQuantities {
                                   const Context& context);
 [[nodiscard]] Found event_points(const PoincareOptions& options, const EventChoice& events, Motion motion,
                                  TableOutput& table, const AxisUnits& units, PointQuantities& of,
-                                  const Context& context);
+                                 const Context& context);
 
 }  // namespace slapstick::app

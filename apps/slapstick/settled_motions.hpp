@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
-#include "orbit_options.hpp"
 #include "figure/figure.hpp"
+#include "orbit_options.hpp"
 
 namespace slapstick::app {
 

@@ -73,7 +73,8 @@ ShownNumber number_of(const std::string& name, const std::vector<Quantity>& all,
       };
     if (quantity.kind == Kind::gap) shown.limits = {0.0};
   } else {
-    throw InputError("--show: " + in_quotes(name) + " is no displacement, velocity or gap; `measure` and the tables know the others");
+    throw InputError("--show: " + in_quotes(name) +
+                     " is no displacement, velocity or gap; `measure` and the tables know the others");
   }
   return shown;
 }
@@ -101,7 +102,8 @@ ShownMotion shown_pair(const RelativeMotion& pair, const ChosenModel& chosen) {
   shown.numbers.push_back({with_unit(pair.displacement, units.displacement(pair.a, pair.b)),
                            [pair](const State& state) { return pair.y(state); }, pair.limits});
   shown.numbers.push_back({with_unit(pair.velocity, units.velocity(pair.a, pair.b)),
-                           [pair](const State& state) { return pair.w(state); }, {}});
+                           [pair](const State& state) { return pair.w(state); },
+                           {}});
   shown.panels = {{0, 1}, {ShownPanel::time, 0}, {ShownPanel::time, 1}};
   return shown;
 }

@@ -12,9 +12,9 @@
 namespace slapstick::app {
 
 struct ShownNumber {
-  std::string label{};                        ///< of its axis, with its unit
+  std::string label{};  ///< of its axis, with its unit
   std::function<double(const State&)> of{};
-  std::vector<double> limits{};               ///< where a stop touches
+  std::vector<double> limits{};  ///< where a stop touches
 };
 
 struct ShownPanel {

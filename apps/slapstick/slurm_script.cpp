@@ -1,7 +1,10 @@
 /// Writes the script of a job array.
 #include "slurm_script.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <map>
+#include <string_view>
 #include <system_error>
 
 #include "base/text.hpp"
@@ -16,7 +19,9 @@ namespace fs = std::filesystem;
 std::string quoted(const std::string& word) {
   if (word.find('\n') != std::string::npos || word.find('\0') != std::string::npos)
     throw InputError("--slurm: " + in_quotes(word) + " has a line break, which a script cannot have there");
-  if (!word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./") == std::string::npos)
+  if (!word.empty() &&
+      word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./") ==
+          std::string::npos)
     return word;
   std::string text = "'";
   for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -38,7 +43,8 @@ std::string map_words(const MapOptions& options, const std::vector<std::string>&
   // Of each level and start only what `map` takes with it.
   const auto belongs = [&](const std::string& name) {
     if (name == "--periods") return options.level == "quick";
-    if (name == "--transient" || name == "--most-periods" || name == "--exponent-periods") return options.level == "full";
+    if (name == "--transient" || name == "--most-periods" || name == "--exponent-periods")
+      return options.level == "full";
     if (name == "--direction") return options.start == "carry";
     if (name == "--seed") return options.start != "carry" && options.start != "reset";
     return name != "--measured-periods" || !options.of.empty();
@@ -58,48 +64,77 @@ std::string export_line(const SlurmWish& wish) {
   return line + "\n";
 }
 
+/// What stands between @ is filled in.
+constexpr std::string_view script = R"sh(#!/bin/bash
+#SBATCH --job-name=slapstick-map
+#SBATCH --array=1-@tasks@
+#SBATCH --cpus-per-task=1
+#SBATCH --requeue
+#SBATCH --open-mode=append
+#SBATCH --signal=B:TERM@60
+#SBATCH --output=@stem@-%a.log
+# sbatch THIS computes the map in @tasks@ tasks; each goes on where it was ended. The last one joins the stores.
+# Without Slurm: seq @tasks@ | parallel bash THIS {}
+set -u
+slapstick=@slapstick@
+stem=@stem@
+whole=@whole@
+task=${SLURM_ARRAY_TASK_ID:-${1:?the number of a task is wanted, 1 to @tasks@}}
+rm -f "$stem-$task.done"
+"$slapstick" @map@ \
+  --shard "$task/@tasks@" --store "$stem-$task.db" --resume --threads "${SLURM_CPUS_PER_TASK:-1}" &
+program=$!
+trap 'kill -TERM "$program"' TERM  # the time is nearly over: the program keeps what is complete
+wait "$program"; status=$?
+while kill -0 "$program" 2>/dev/null; do wait "$program"; status=$?; done
+case $status in
+  0) touch "$stem-$task.done" ;;
+  130 | 143) [ -z "${SLURM_JOB_ID:-}" ] || scontrol requeue "$SLURM_JOB_ID"; exit $status ;;
+  *) exit $status ;;
+esac
+for each in $(seq @tasks@); do [ -e "$stem-$each.done" ] || exit 0; done
+parts=()
+for each in $(seq @tasks@); do parts+=("$stem-$each.db"); done
+exec 9>"$stem.lock"
+flock 9  # of those that see all others done one joins the stores
+if [ ! -e "$whole" ]; then
+  rm -f "$stem-merged.db"
+  "$slapstick" store merge "${parts[@]}" --out "$stem-merged.db" | grep -q '"complete": true' || exit 1
+  mv "$stem-merged.db" "$whole"
+@export@fi
+)sh";
+
+/// The text with each @name@ replaced by its value. Other @ stay.
+std::string filled(std::string_view text, const std::map<std::string_view, std::string>& values) {
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t at = std::min(text.find('@'), text.size());
+    result += text.substr(0, at);
+    text.remove_prefix(at);
+    if (text.empty()) break;
+    const std::size_t end = text.find('@', 1);
+    const auto value = values.find(text.substr(1, end == std::string_view::npos ? end : end - 1));
+    if (value == values.end()) {
+      result += '@';
+      text.remove_prefix(1);
+    } else {
+      result += value->second;
+      text.remove_prefix(end + 1);
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 std::string slurm_script(const MapOptions& options, const std::vector<std::string>& words, const SlurmWish& wish) {
   const std::string whole = absolute(wish.store), stem = fs::path(whole).replace_extension().string();
-  const std::string tasks = std::to_string(wish.tasks);
-  return "#!/bin/bash\n"
-         "#SBATCH --job-name=slapstick-map\n"
-         "#SBATCH --array=1-" + tasks + "\n"
-         "#SBATCH --cpus-per-task=1\n"
-         "#SBATCH --requeue\n"
-         "#SBATCH --open-mode=append\n"
-         "#SBATCH --signal=B:TERM@60\n"
-         "#SBATCH --output=" + quoted(stem) + "-%a.log\n"
-         "# sbatch THIS computes the map in " + tasks + " tasks; each goes on where it was ended. The last one joins the stores.\n"
-         "# Without Slurm: seq " + tasks + " | parallel bash THIS {}\n"
-         "set -u\n"
-         "slapstick=" + quoted(this_program()) + "\n"
-         "stem=" + quoted(stem) + "\n"
-         "whole=" + quoted(whole) + "\n"
-         "task=${SLURM_ARRAY_TASK_ID:-${1:?the number of a task is wanted, 1 to " + tasks + "}}\n"
-         "rm -f \"$stem-$task.done\"\n"
-         "\"$slapstick\" " + map_words(options, words) + " \\\n"
-         "  --shard \"$task/" + tasks + "\" --store \"$stem-$task.db\" --resume --threads \"${SLURM_CPUS_PER_TASK:-1}\" &\n"
-         "program=$!\n"
-         "trap 'kill -TERM \"$program\"' TERM  # the time is nearly over: the program keeps what is complete\n"
-         "wait \"$program\"; status=$?\n"
-         "while kill -0 \"$program\" 2>/dev/null; do wait \"$program\"; status=$?; done\n"
-         "case $status in\n"
-         "  0) touch \"$stem-$task.done\" ;;\n"
-         "  130 | 143) [ -z \"${SLURM_JOB_ID:-}\" ] || scontrol requeue \"$SLURM_JOB_ID\"; exit $status ;;\n"
-         "  *) exit $status ;;\n"
-         "esac\n"
-         "for each in $(seq " + tasks + "); do [ -e \"$stem-$each.done\" ] || exit 0; done\n"
-         "parts=()\n"
-         "for each in $(seq " + tasks + "); do parts+=(\"$stem-$each.db\"); done\n"
-         "exec 9>\"$stem.lock\"\n"
-         "flock 9  # of those that see all others done one joins the stores\n"
-         "if [ ! -e \"$whole\" ]; then\n"
-         "  rm -f \"$stem-merged.db\"\n"
-         "  \"$slapstick\" store merge \"${parts[@]}\" --out \"$stem-merged.db\" | grep -q '\"complete\": true' || exit 1\n"
-         "  mv \"$stem-merged.db\" \"$whole\"\n" +
-         export_line(wish) + "fi\n";
+  return filled(script, {{"tasks", std::to_string(wish.tasks)},
+                         {"slapstick", quoted(this_program())},
+                         {"stem", quoted(stem)},
+                         {"whole", quoted(whole)},
+                         {"map", map_words(options, words)},
+                         {"export", export_line(wish)}});
 }
 
 }  // namespace slapstick::app

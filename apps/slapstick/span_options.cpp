@@ -37,11 +37,13 @@ void SpanOptions::check() const {
   if (begins && !(transient >= 0.0 && transient <= most))
     throw InputError("--transient: " + shown(transient) + " is outside [0, " + shown(most) + "]");
   if (begins && orbit.any() && transient != std::floor(transient))
-    throw InputError("--transient: " + shown(transient) + " is no whole number, and the search for an orbit counts periods");
+    throw InputError("--transient: " + shown(transient) +
+                     " is no whole number, and the search for an orbit counts periods");
   if (periods > 0 && time != 0.0) throw InputError("--time and --periods both give the length: choose one");
   if (time < 0.0) throw InputError("--time: " + shown(time) + " is negative");
   if (orbit.any() && (periods > 0 || time > 0.0))
-    throw InputError(std::string(time > 0.0 ? "--time" : "--periods") + ": a periodic orbit is measured over its own cycle");
+    throw InputError(std::string(time > 0.0 ? "--time" : "--periods") +
+                     ": a periodic orbit is measured over its own cycle");
   if (of.empty()) throw InputError("--of is needed: the name of a quantity ('slapstick quantities MODEL' lists them)");
 }
 
@@ -66,7 +68,8 @@ namespace {
 void say_end_of_record(const Model& model, const Stretch& looked) {
   const auto record = record_of(model);
   if (record && looked.transient >= record->end)
-    std::fprintf(stderr, "slapstick: signal '%s' ends before what is measured, and keeps its last value\n", record->signal.c_str());
+    std::fprintf(stderr, "slapstick: signal '%s' ends before what is measured, and keeps its last value\n",
+                 record->signal.c_str());
 }
 
 }  // namespace
@@ -98,7 +101,8 @@ void check_of_stretch(const std::string& argument, const Wanted& one) {
   }
 }
 
-std::vector<Wanted> parse_wanted(const std::string& argument, const std::string& text, const std::vector<Quantity>& all) {
+std::vector<Wanted> parse_wanted(const std::string& argument, const std::string& text,
+                                 const std::vector<Quantity>& all) {
   std::vector<Wanted> wanted;
   try {
     for (const std::string& word : split(text, ',')) {
@@ -113,13 +117,16 @@ std::vector<Wanted> parse_wanted(const std::string& argument, const std::string&
   return wanted;
 }
 
-std::vector<Quantity> functions_of_time(const std::string& argument, const std::string& text, const ChosenModel& chosen) {
+std::vector<Quantity> functions_of_time(const std::string& argument, const std::string& text,
+                                        const ChosenModel& chosen) {
   std::vector<Quantity> of;
   if (text.empty()) return of;
   for (const Wanted& one : parse_wanted(argument, text, quantities(chosen.definition, chosen.overrides))) {
     const std::string& name = one.quantity.name;
-    if (!one.statistic.empty()) throw InputError(argument + ": " + in_quotes(name + ":" + one.statistic) + ": values are wanted, not statistics");
-    if (one.quantity.at_impacts()) throw InputError(argument + ": " + in_quotes(name) + " is a quantity at impacts: no function of time");
+    if (!one.statistic.empty())
+      throw InputError(argument + ": " + in_quotes(name + ":" + one.statistic) + ": values are wanted, not statistics");
+    if (one.quantity.at_impacts())
+      throw InputError(argument + ": " + in_quotes(name) + " is a quantity at impacts: no function of time");
     of.push_back(one.quantity);
   }
   return of;

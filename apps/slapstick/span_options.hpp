@@ -22,7 +22,7 @@ struct SpanOptions {
   static constexpr double not_given = std::numeric_limits<double>::infinity();
   ModelOptions model;
   OrbitOptions orbit;
-  std::string of;  ///< --of
+  std::string of;                ///< --of
   double transient = not_given;  ///< forcing periods
   long long periods = 0;
   double time = 0.0;

@@ -82,7 +82,8 @@ figure::Figure lines_figure(const LineSpectrum& found, const SpectrumLabels& lab
 }
 
 figure::Figure density_figure(const DensitySpectrum& found, const SpectrumLabels& labels) {
-  figure::Panel made = panel(labels, "power density", labels.unit.empty() ? "" : "(" + labels.unit + ")^2 per unit of frequency");
+  figure::Panel made =
+      panel(labels, "power density", labels.unit.empty() ? "" : "(" + labels.unit + ")^2 per unit of frequency");
   figure::Line line;
   line.colour = figure::colours::dark_blue;
   line.x = found.order;

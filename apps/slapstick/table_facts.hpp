@@ -12,8 +12,8 @@ namespace slapstick::app {
 struct TableFacts {
   std::vector<Attribute> attributes{};
   std::map<std::string, std::string> units{};  ///< of columns by name; headings with a unit need none
-  std::vector<TableAxis> axes{};                ///< of a table that is a grid
-  TableLayers layers{};                         ///< .. or several
+  std::vector<TableAxis> axes{};               ///< of a table that is a grid
+  TableLayers layers{};                        ///< .. or several
 };
 
 /// @param varied  the parameter that is a column, or ""

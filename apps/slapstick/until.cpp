@@ -13,7 +13,8 @@ namespace slapstick::app {
 Until::Until(const std::string& text, const System& system) : event_(text) {
   const auto colon = text.rfind(':');
   const std::string last = colon == std::string::npos ? "" : text.substr(colon + 1);
-  const bool digits = !last.empty() && std::all_of(last.begin(), last.end(), [](char c) { return c >= '0' && c <= '9'; });
+  const bool digits =
+      !last.empty() && std::all_of(last.begin(), last.end(), [](char c) { return c >= '0' && c <= '9'; });
   if (digits) {
     event_ = text.substr(0, colon);
     wanted_ = parse_integer("--until K", last, 1, 1'000'000'000'000);
@@ -30,8 +31,9 @@ Json Until::json() const { return Json::object().set("event", event_).set("numbe
 
 void Until::demand_met(double periods) const {
   if (met()) return;
-  throw NumericalError("--until " + event_ + ": " + (seen_ == 0 ? "no such event" : "only " + std::to_string(seen_) + " such events") +
-                       " in " + shown(periods) + " periods; a longer --periods may bring " + (wanted_ == 1 ? "one" : "more"));
+  throw NumericalError("--until " + event_ + ": " +
+                       (seen_ == 0 ? "no such event" : "only " + std::to_string(seen_) + " such events") + " in " +
+                       shown(periods) + " periods; a longer --periods may bring " + (wanted_ == 1 ? "one" : "more"));
 }
 
 }  // namespace slapstick::app

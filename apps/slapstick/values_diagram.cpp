@@ -18,10 +18,12 @@ using sweep::ReadAt;
 
 bool are_statistics(const std::string& y) {
   const std::vector<std::string> words = split(y, ',');
-  const auto with = ranges::count_if(words, [](const std::string& word) { return word.find(':') != std::string::npos; });
+  const auto with =
+      ranges::count_if(words, [](const std::string& word) { return word.find(':') != std::string::npos; });
   if (with == 0) return false;
   if (static_cast<std::size_t>(with) != words.size())
-    throw InputError("--y: " + in_quotes(y) + " mixes statistics (Q:STAT, a number a value) with values at instants (Q): choose one");
+    throw InputError("--y: " + in_quotes(y) +
+                     " mixes statistics (Q:STAT, a number a value) with values at instants (Q): choose one");
   return true;
 }
 
@@ -34,7 +36,8 @@ ValuesDiagram::ValuesDiagram(const ChosenModel& chosen, const std::string& y, co
       throw InputError("--y: " + in_quotes(quantity.name) + " is a parameter, which no motion changes");
     const bool speed = quantity.kind == Quantity::Kind::speed && at_ == ReadAt::impacts;
     if (quantity.at_impacts() && !speed)
-      throw InputError("--y: " + in_quotes(quantity.name) + " is a quantity at impacts: give it a statistic, as " + quantity.name + ":mean");
+      throw InputError("--y: " + in_quotes(quantity.name) + " is a quantity at impacts: give it a statistic, as " +
+                       quantity.name + ":mean");
     of_.push_back(quantity);
   }
 }

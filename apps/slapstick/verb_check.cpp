@@ -62,9 +62,11 @@ Action add_check(Arguments& arguments) {
     for (const std::string& part : energy_sources(chosen.model)) feeds.push(part);
     for (const std::string& part : falling_forces(chosen.model)) falls.push(part);
     for (const LaidLaw& law : chosen.definition.laid_laws(chosen.overrides)) laid.set(law.friction, law.largest_error);
-    for (const int stop : struck_together(chosen.model, start)) rows.push(chosen.model.stops[static_cast<std::size_t>(stop)].name);
+    for (const int stop : struck_together(chosen.model, start))
+      rows.push(chosen.model.stops[static_cast<std::size_t>(stop)].name);
     result.set("impact_law", chosen.model.impact_law == ImpactLaw::sequence ? "sequence" : "moreau");
-    if (!std::get<Json::List>(rows.value()).empty()) result.set("struck_together", std::move(rows)).set("note", how_rows_are_struck);
+    if (!std::get<Json::List>(rows.value()).empty())
+      result.set("struck_together", std::move(rows)).set("note", how_rows_are_struck);
     result.set("period", chosen.model.forcing_period())
         .set("forced", chosen.model.forced())
         .set("feeds_energy", std::move(feeds))

@@ -113,15 +113,16 @@ Json result_json(const Classification& found, const Options& options, const Chos
   if (is_cycle(found)) json = cycle_json(found, std::move(json), chosen.model);
   if (found.family > 0) json.set("family", found.family);
   if (is_at_rest(found)) json.set("eigenvalues", complex_json(found.eigenvalues)).set("approach", found.approach);
-  const bool averaged =
-      !is_cycle(found) && !is_at_rest(found) && options.quick == 0 && found.doubt != Doubt::no_return &&
-      found.doubt != Doubt::growth;
+  const bool averaged = !is_cycle(found) && !is_at_rest(found) && options.quick == 0 &&
+                        found.doubt != Doubt::no_return && found.doubt != Doubt::growth;
   const bool rest_rate = is_at_rest(found) && (found.sticking || !found.eigenvalues.empty());
-  if (averaged || is_cycle(found) || rest_rate) json.set("exponent", has_derivative(found) ? Json(found.exponent) : Json());
+  if (averaged || is_cycle(found) || rest_rate)
+    json.set("exponent", has_derivative(found) ? Json(found.exponent) : Json());
   if (averaged) json.set("exponent_error", found.exponent_error).set("birkhoff_digits", found.digits);
   if (found.curves > 0)
     json.set("rotation", found.rotation).set("rotation_digits", found.rotation_digits).set("curves", found.curves);
-  if (found.doubt != Doubt::none) json.set("doubt", std::string(name(found.doubt))).set("missing", missing(found, options));
+  if (found.doubt != Doubt::none)
+    json.set("doubt", std::string(name(found.doubt))).set("missing", missing(found, options));
   if (!found.drift.empty()) {
     Json drift = Json::object();
     for (std::size_t i = 0; i < found.drift.size(); ++i) drift.set(chosen.model.coordinates[i].name, found.drift[i]);
@@ -148,7 +149,8 @@ bool add_values(const std::vector<Wanted>& wanted, const Classification& found, 
 void declare(Arguments& arguments, Options* options) {
   options->model.declare(arguments);
   options->model.declare_state(arguments);
-  arguments.count("--transient", options->transient, 0, 1'000'000'000, "forcing periods to leave out first (500); of a motion without a drive its returns");
+  arguments.count("--transient", options->transient, 0, 1'000'000'000,
+                  "forcing periods to leave out first (500); of a motion without a drive its returns");
   arguments.count("--most-periods", options->most_periods, 10, 1'000'000'000, "search for a cycle this long (20000)");
   arguments.count("--most-n", options->most_n, 1, 4096, "longest cycle sought, in forcing periods or returns (64)");
   arguments.count("--exponent-periods", options->exponent_periods, 400, 100'000'000,
@@ -163,8 +165,10 @@ void declare(Arguments& arguments, Options* options) {
   arguments.footer(
       "The class n-p-I or n-p-II: n forcing periods, p impacts (inf with complete chatter), II if the blocks stick.\n"
       "A compliant stop counts by its engagements.\n"
-      "Without a drive a motion comes to rest (equilibrium), or to a cycle free-p-I or free-p-II; periods are returns.\n"
-      "A motion without a cycle is quasi-periodic, chaotic or undecided; docs/explanation/classify.md says how that is decided.\n"
+      "Without a drive a motion comes to rest (equilibrium), or to a cycle free-p-I or free-p-II; periods are "
+      "returns.\n"
+      "A motion without a cycle is quasi-periodic, chaotic or undecided; docs/explanation/classify.md says how that is "
+      "decided.\n"
       "  slapstick classify vibro-impact --set omega=1.5");
 }
 

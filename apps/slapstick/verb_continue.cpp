@@ -237,8 +237,8 @@ void draw(const Plot& plot, const std::vector<orbit::Branch>& branches, const Ch
     std::fprintf(stderr, "slapstick: %ld values of --diagram failed and are left out, first: %s\n", settled.failed,
                  settled.failure.c_str());
   const AxisUnits units(chosen.definition, chosen.model);
-  BranchAxes axes{parameter_axis(chosen.definition, options.parameter), range,
-                  units.speed(stop_contacts(chosen.model)), units.displacement(0, ground)};
+  BranchAxes axes{parameter_axis(chosen.definition, options.parameter), range, units.speed(stop_contacts(chosen.model)),
+                  units.displacement(0, ground)};
   if (!options.plot_range.empty()) {
     const std::size_t comma = options.plot_range.find(',');
     axes.range = parse_range("--plot-range", options.plot_range.substr(0, comma));
@@ -261,7 +261,9 @@ int run(const Options& options, const Context& context) {
   roles.add_plot(options.plot);
   for (const char* ending : {".json", ".npz", ".h5", ".hdf5"})
     if (options.table && options.out.ends_with(ending))
-      throw InputError("--out: " + in_quotes(options.out) + " names another format than the text that --table asks for: leave --table out, or end the name in .txt");
+      throw InputError(
+          "--out: " + in_quotes(options.out) +
+          " names another format than the text that --table asks for: leave --table out, or end the name in .txt");
   const bool file = is_table_file(options.out) && !options.table;
   if (file) const AtomicFile writable(options.out);  // goes away without a trace
   Output out(file ? "" : options.out);
@@ -327,7 +329,8 @@ Action add_continue(Arguments& arguments) {
   arguments.footer(
       "Special points: LP fold; PD period doubling; NS torus; BP branches cross; GR a stop is grazed; SL stick gained "
       "or lost;\n"
-      "CH complete chatter begins or ends; CO two events meet. docs/explanation/continuation.md says how they are found.\n"
+      "CH complete chatter begins or ends; CO two events meet. docs/explanation/continuation.md says how they are "
+      "found.\n"
       "  slapstick continue vibro-impact --set omega=2.2 --orbit 1-1 --param omega --range 1:4 --table");
   return [options](const Context& context) { return run(*options, context); };
 }

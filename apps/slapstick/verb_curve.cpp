@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/ranges.hpp"
+#include "base/text.hpp"
 #include "branch_json.hpp"
 #include "curve_figure.hpp"
 #include "orbit_choice.hpp"
@@ -14,7 +15,6 @@
 #include "parameter_ranges.hpp"
 #include "progress.hpp"
 #include "slapstick/base/error.hpp"
-#include "base/text.hpp"
 #include "slapstick/continuation/sentences.hpp"
 #include "verb.hpp"
 #include "work.hpp"
@@ -55,10 +55,9 @@ orbit::SpecialPoint special_point(const Options& options, const ChosenModel& cho
     seen += (seen.empty() ? "" : ", ") + std::string(name(special.type)) + " at " + shown(special.value);
     if (name(special.type) == type && ++count == options.which) return special;
   }
-  throw NumericalError("curve: no " + type +
-                       (options.which > 1 ? " number " + std::to_string(options.which) : "") + " on the branch of " +
-                       first.label + " in " + names[0] + " (found: " + (seen.empty() ? "none" : seen) + "; " +
-                       orbit::sentence(branch) + ")");
+  throw NumericalError("curve: no " + type + (options.which > 1 ? " number " + std::to_string(options.which) : "") +
+                       " on the branch of " + first.label + " in " + names[0] +
+                       " (found: " + (seen.empty() ? "none" : seen) + "; " + orbit::sentence(branch) + ")");
 }
 
 Json curve_json(const orbit::Curve& curve, const std::vector<std::string>& names, const orbit::Problem& problem,
@@ -90,7 +89,8 @@ void check(const Options& options) {
     throw InputError("--step: " + shown(options.step) + " is outside (0, 0.2]");
   for (const std::string& type : options.from)
     if (ranges::find(types, type) == types.end())
-      throw InputError("--from: " + in_quotes(type) + " is no type of special point; there are LP, PD, NS, BP, GR, SL, CH and CO");
+      throw InputError("--from: " + in_quotes(type) +
+                       " is no type of special point; there are LP, PD, NS, BP, GR, SL, CH and CO");
   if (options.which > 1 && options.from.size() > 1)
     throw InputError("--which: only for the points of one type, and --from is given more than once");
 }
@@ -103,12 +103,13 @@ struct FollowedCurve {
 };
 
 FollowedCurve followed(const Options& options, const ChosenModel& chosen, const std::vector<std::string>& names,
-                   const std::string& type, const std::atomic<bool>& stop) {
+                       const std::string& type, const std::atomic<bool>& stop) {
   const auto ranges = two_ranges(options.ranges, names);
   const double second = value_inside(chosen, "--params", names[1], ranges[1]);
   orbit::SpecialPoint special = special_point(options, chosen, names, ranges[0], type, stop);
   special.solution.orbit.values = {special.value, second};
-  FollowedCurve one{type, orbit::pose(chosen.definition.family(names, chosen.overrides), special.solution.orbit.values), {}};
+  FollowedCurve one{
+      type, orbit::pose(chosen.definition.family(names, chosen.overrides), special.solution.orbit.values), {}};
   Progress progress("points at most", 2.0 * static_cast<double>(options.points), options.progress);
   orbit::CurveOptions how{
       .from = ranges[0].from, .to = ranges[0].to, .second_from = ranges[1].from, .second_to = ranges[1].to};
@@ -191,7 +192,8 @@ Action add_curve(Arguments& arguments) {
   arguments.number("--step", options->step, "S", "longest step along the curve, as a part of the ranges (0.01)");
   arguments.count("--points", options->points, 2, 1'000'000, "most points each way (500)");
   arguments.text("--plot", options->plot, "F.png", "draw the curve (.png, .pdf or .svg)");
-  arguments.text("--out", options->out, "FILE", "write the JSON there, or a table (.csv, .npz, .h5), instead of to standard output");
+  arguments.text("--out", options->out, "FILE",
+                 "write the JSON there, or a table (.csv, .npz, .h5), instead of to standard output");
   declare_plot_size(arguments, options->plot_size);
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(

@@ -15,7 +15,9 @@ struct Options {
 int run(const Options& options) {
   if (options.json + options.markdown + !options.page.empty() > 1)
     throw InputError("choose one of --json, --markdown and --man");
-  const std::string text = options.markdown ? catalogue_markdown() : options.page.empty() ? catalogue_json() : manual(options.page);
+  const std::string text = options.markdown       ? catalogue_markdown()
+                           : options.page.empty() ? catalogue_json()
+                                                  : manual(options.page);
   Output out(options.out);
   out.write(text);
   out.commit();

@@ -5,18 +5,18 @@
 #include "axis_text.hpp"
 #include "axis_units.hpp"
 #include "base/ranges.hpp"
+#include "base/text.hpp"
 #include "contact_clouds.hpp"
 #include "diagram_store.hpp"
 #include "fine_dots.hpp"
 #include "inset_options.hpp"
+#include "io/table.hpp"
+#include "measured_diagram.hpp"
 #include "model_options.hpp"
 #include "output.hpp"
-#include "measured_diagram.hpp"
 #include "parameter_ranges.hpp"
 #include "progress.hpp"
 #include "slapstick/base/error.hpp"
-#include "base/text.hpp"
-#include "io/table.hpp"
 #include "slapstick/sweep/diagram.hpp"
 #include "stop_options.hpp"
 #include "values_diagram.hpp"
@@ -41,10 +41,17 @@ struct Options {
   /// What is computed, one way of many: without MODEL, --set and --threads.
   [[nodiscard]] std::vector<std::string> words() const {
     const Sweep of = parse_sweep(sweep);
-    std::vector<std::string> all{"--sweep", of.name + "=" + number_text(of.from) + ":" + number_text(of.to) + ":" + std::to_string(of.count),
-                                 "--direction", direction, "--start", start, "--y", y, "--at", at, "--state", model.state};
+    std::vector<std::string> all{
+        "--sweep",     of.name + "=" + number_text(of.from) + ":" + number_text(of.to) + ":" + std::to_string(of.count),
+        "--direction", direction,
+        "--start",     start,
+        "--y",         y,
+        "--at",        at,
+        "--state",     model.state};
     all.insert(all.end(), {"--transient", transient == not_given ? "500" : number_text(transient)});
-    for (const auto& [name, value] : {std::pair{"--impacts", impacts}, {"--most-periods", most_periods}, {"--periods", periods == 0 ? 100 : periods}})
+    for (const auto& [name, value] : {std::pair{"--impacts", impacts},
+                                      {"--most-periods", most_periods},
+                                      {"--periods", periods == 0 ? 100 : periods}})
       all.insert(all.end(), {name, std::to_string(value)});
     for (const std::string& stop : stops.names) all.insert(all.end(), {"--stop", stop});
     return all;
@@ -74,7 +81,8 @@ void check_ends(const Options& options, const ChosenModel& chosen, const Sweep& 
     throw InputError("--sweep: " + in_quotes(sweep.name) + " is given by --set too");
   if (options.y.empty() && stop_contacts(chosen.model).empty())
     throw InputError(
-        "model " + in_quotes(chosen.model.name) + " has no stop, so a diagram has no impacts to show; `--y` shows statistics of quantities, and " +
+        "model " + in_quotes(chosen.model.name) +
+        " has no stop, so a diagram has no impacts to show; `--y` shows statistics of quantities, and " +
         (chosen.model.forced() ? "`poincare --section stroboscopic` needs none" : "`simulate` needs none"));
   for (const double value : {sweep.from, sweep.to}) {
     try {
@@ -163,7 +171,8 @@ figure::Figure picture(const sweep::Diagram& diagram, const Sweep& sweep, const 
 class PanelInsets {
  public:
   /// @param shown  what is shown upwards in each panel
-  PanelInsets(const InsetOptions& options, const Sweep& sweep, std::vector<std::string> shown) : shown_(std::move(shown)) {
+  PanelInsets(const InsetOptions& options, const Sweep& sweep, std::vector<std::string> shown)
+      : shown_(std::move(shown)) {
     std::vector<NamedAxis> y;
     for (const std::string& name : shown_) y.push_back({name});
     insets_ = read_insets(options, {sweep.name, figure::Range{sweep.from, sweep.to}}, y);
@@ -192,7 +201,8 @@ void report(const sweep::Diagram& diagram, const Sweep& sweep, const std::string
   for (const sweep::DiagramPoint& point : diagram.points) {
     if (!point.note.empty() && notes++ == 0) note = &point;
     if (!point.failure.empty() && failures++ == 0) failure = &point;
-    if (!point.done || !point.failure.empty() || point.impacts.size() > 0 || !point.values.empty() || of_measures) continue;
+    if (!point.done || !point.failure.empty() || point.impacts.size() > 0 || !point.values.empty() || of_measures)
+      continue;
     if (without == nullptr) without = &point;
     ++empty[point.direction == Direction::up ? 0 : 1];
   }
@@ -213,12 +223,13 @@ void report(const sweep::Diagram& diagram, const Sweep& sweep, const std::string
                          ", first " + at(*failure) + ": " + failure->failure);
 }
 
-sweep::Diagram run(sweep::DiagramProblem& problem, const Options& options, const ChosenModel& chosen, const Context& context) {
+sweep::Diagram run(sweep::DiagramProblem& problem, const Options& options, const ChosenModel& chosen,
+                   const Context& context) {
   std::optional<DiagramStore> store;
   if (!options.store.empty()) {
     const int values = problem.count * (problem.direction == Direction::both ? 2 : 1);
-    const StoreFacts facts = chart::run_facts("diagram", chosen.definition, chosen.overrides, options.words(), values, 0, 1,
-                                              problem.start == sweep::StartRule::reset ? "lanes" : "motion");
+    const StoreFacts facts = chart::run_facts("diagram", chosen.definition, chosen.overrides, options.words(), values,
+                                              0, 1, problem.start == sweep::StartRule::reset ? "lanes" : "motion");
     store.emplace(open_store(options.store, facts, options.resume), problem);
   }
   Progress progress("values", problem.count * (problem.direction == Direction::both ? 2.0 : 1.0), options.progress);
@@ -272,7 +283,8 @@ int diagram(const Options& options, const Context& context) {
   roles.add("--store", options.store);
   roles.add_plot(options.plot);
   if (!options.y.empty())
-    return are_statistics(options.y) ? measured(options, chosen, sweep, context) : values(options, chosen, sweep, context);
+    return are_statistics(options.y) ? measured(options, chosen, sweep, context)
+                                     : values(options, chosen, sweep, context);
   const PanelInsets insets(options.insets, sweep, {"w", "flight"});
   const Plot plot(options.plot, options.plot_size);
   std::vector<std::string> columns{sweep.name, "direction", "w", "flight", "sliding", "phase"};
@@ -333,11 +345,13 @@ Action add_diagram(Arguments& arguments) {
   arguments.text("--at", options->at, "impact|period|EVENT",
                  "of --y without STAT: before every impact, at phase 0 of every period, or before every event as stick "
                  "or stick:belt (impact; without stops period)");
-  arguments.count("--periods", options->periods, 1, 1'000'000'000, "of --y: forcing periods that are measured (100; of a record all of it)");
+  arguments.count("--periods", options->periods, 1, 1'000'000'000,
+                  "of --y: forcing periods that are measured (100; of a record all of it)");
   options->stops.declare(arguments, "record the impacts of this stop only; may be repeated (all)");
   arguments.text("--store", options->store, "F.db", "write each value there as it is finished");
   arguments.flag("--resume", options->resume, "of --store: compute only what is not there yet");
-  arguments.text("--out", options->out, "F.csv", "write the impacts there (.csv, .npz or .h5) instead of to standard output");
+  arguments.text("--out", options->out, "F.csv",
+                 "write the impacts there (.csv, .npz or .h5) instead of to standard output");
   arguments.text("--plot", options->plot, "F.png",
                  "diagrams of w and flight: .png, .pdf or .svg; its data and script lie beside it");
   declare_plot_size(arguments, options->plot_size);

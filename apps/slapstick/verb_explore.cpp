@@ -63,7 +63,8 @@ int run(const Options& options, const Context& context) {
 Action add_explore(Arguments& arguments) {
   auto options = std::make_shared<Options>();
   arguments.optional_positional("MODEL", options->model, "a built-in model or a .toml file (vibro-impact)");
-  arguments.text("--page", options->page, "FOLDER", "the explorer's files, as ./dev web builds them; else beside the program");
+  arguments.text("--page", options->page, "FOLDER",
+                 "the explorer's files, as ./dev web builds them; else beside the program");
   arguments.count("--port", options->port, 0, 65535, "of 127.0.0.1; 0: any that is free");
   arguments.flag("--no-browser", options->no_browser, "print the address only");
   arguments.footer(

@@ -167,7 +167,8 @@ Action add_lyapunov(Arguments& arguments) {
   options->model.declare(arguments);
   options->model.declare_state(arguments);
   arguments.count("--transient", options->transient, 0, 1'000'000'000, "forcing periods to leave out first (500)");
-  arguments.count("--periods", options->periods, 20, 1'000'000'000, "periods that the exponents are averaged over; with --error their greatest number (20000)");
+  arguments.count("--periods", options->periods, 20, 1'000'000'000,
+                  "periods that the exponents are averaged over; with --error their greatest number (20000)");
   arguments.number("--error", options->error, "E", "end as soon as every standard error per period is below E");
   arguments.text("--sweep", options->sweep, "NAME=A:B:COUNT", "curves of exponents: a CSV row for each value");
   arguments.count("--threads", options->threads, 0, 1024, "of --sweep; 0: all. The result is the same (0)");
@@ -176,7 +177,8 @@ Action add_lyapunov(Arguments& arguments) {
   arguments.footer(
       "All Lyapunov exponents, largest first, per unit of time and, if forced, per forcing period; -inf where stick, "
       "a\n"
-      "closed stop or complete chatter forgets a direction. docs/explanation/lyapunov.md says how, and what checks the numbers.\n"
+      "closed stop or complete chatter forgets a direction. docs/explanation/lyapunov.md says how, and what checks the "
+      "numbers.\n"
       "  slapstick lyapunov vibro-impact --set omega=6.69");
   return [options, &arguments](const Context& context) {
     FileRoles roles;

@@ -39,17 +39,19 @@ void report(const MapWish& wish, const sweep::Map& map) {
   if (map.failures.empty()) return;
   const auto& [place, why] = *map.failures.begin();
   const sweep::Finding first{.pixel = place.second};
-  const std::string text = std::to_string(map.failures.size()) + " of " + std::to_string(all) + " pixels failed, first " +
-                           wish.x.name + " = " + shown(map.x_of(first)) + ", " + wish.y.name + " = " +
-                           shown(map.y_of(first)) + ": " + why;
-  if (ranges::none_of(map.findings, [](const sweep::Finding& found) { return !found.failed; })) throw NumericalError(text);
+  const std::string text = std::to_string(map.failures.size()) + " of " + std::to_string(all) +
+                           " pixels failed, first " + wish.x.name + " = " + shown(map.x_of(first)) + ", " +
+                           wish.y.name + " = " + shown(map.y_of(first)) + ": " + why;
+  if (ranges::none_of(map.findings, [](const sweep::Finding& found) { return !found.failed; }))
+    throw NumericalError(text);
   std::fprintf(stderr, "slapstick: %s\n", text.c_str());
 }
 
 /// @returns whether it is complete
 bool run(MapWish& wish, const Options& options, const Context& context) {
   const bool refined = wish.problem.refine > 0;
-  Progress progress(refined ? "pixels wanted so far" : "pixels", static_cast<double>(sweep::pixel_count(wish.problem)) / wish.problem.shards, options.progress);
+  Progress progress(refined ? "pixels wanted so far" : "pixels",
+                    static_cast<double>(sweep::pixel_count(wish.problem)) / wish.problem.shards, options.progress);
   wish.problem.progress = [&](long done, long total) {
     if (refined) return progress.update(static_cast<double>(done), static_cast<double>(total));
     progress.update(static_cast<double>(done));
@@ -78,7 +80,9 @@ sweep::Map gathered(MapWish& wish, const Options& options, const Context& contex
 int only_store(MapWish& wish, const Options& options, const Context& context) {
   const chart::MapStore store(open_store(options.store, chart::facts_of(wish.chart()), options.resume), wish.problem);
   const bool complete = run(wish, options, context);
-  if (!complete) std::fprintf(stderr, "slapstick: stopped before the end; %s has what is complete, and --resume goes on\n", options.store.c_str());
+  if (!complete)
+    std::fprintf(stderr, "slapstick: stopped before the end; %s has what is complete, and --resume goes on\n",
+                 options.store.c_str());
   Output out("");
   out.write(store_info(store.kept()).dump() + "\n");
   out.commit();
@@ -94,13 +98,14 @@ int print_script(const Options& options) {
   const std::unique_ptr<MapWish> wish = map_wish(options.map);
   static_cast<void>(look_of(*wish, options));
   Output out("");
-  out.write(slurm_script(options.map, chart::option_words(wish->chart()), {.tasks = static_cast<int>(options.slurm),
-                                       .store = options.store,
-                                       .out = options.out,
-                                       .plot = options.plot,
-                                       .plot_size = options.plot_size,
-                                       .show = options.show,
-                                       .insets = options.insets.texts}));
+  out.write(slurm_script(options.map, chart::option_words(wish->chart()),
+                         {.tasks = static_cast<int>(options.slurm),
+                          .store = options.store,
+                          .out = options.out,
+                          .plot = options.plot,
+                          .plot_size = options.plot_size,
+                          .show = options.show,
+                          .insets = options.insets.texts}));
   out.commit();
   return done;
 }
@@ -123,12 +128,12 @@ int map(const Options& options, const Context& context) {
   figure::Figure picture;
   if (plot.wanted()) picture = chart_figure(*wish, found, look);
   if (options.curves > 0 && !context.stop) {
-    const chart::Curves curves = chart::find_curves(wish->chart(), found, static_cast<int>(options.curves), &context.stop);
+    const chart::Curves curves =
+        chart::find_curves(wish->chart(), found, static_cast<int>(options.curves), &context.stop);
     draw_curves(curves, picture);
     report_curves(curves);
   }
-  const int status = plot.write_or_say(std::move(picture), found.findings.empty(),
-                                       found.complete ? done : interrupted);
+  const int status = plot.write_or_say(std::move(picture), found.findings.empty(), found.complete ? done : interrupted);
   report(*wish, found);
   return status;
 }
@@ -138,7 +143,8 @@ int map(const Options& options, const Context& context) {
 Action add_map(Arguments& arguments) {
   auto options = std::make_shared<Options>();
   options->map.declare(arguments);
-  arguments.text("--out", options->out, "F.csv", "write the table there (.csv, .npz or .h5) instead of to standard output");
+  arguments.text("--out", options->out, "F.csv",
+                 "write the table there (.csv, .npz or .h5) instead of to standard output");
   arguments.text("--plot", options->plot, "F.png", "draw the chart (.png, .pdf, .svg, .tex or .py)");
   declare_plot_size(arguments, options->plot_size);
   arguments.text("--show", options->show, "class,..",
@@ -164,7 +170,8 @@ Action add_map(Arguments& arguments) {
     if (options->curves > 0 && (options->plot.empty() || options->map.start != "reset" || options->slurm > 0))
       throw InputError("--curves needs --plot and --start reset, and is not for --slurm");
     for (const char* other : {"--shard", "--resume", "--threads"})
-      if (options->slurm > 0 && arguments.given(other)) throw InputError(std::string(other) + ": the script of --slurm has its own");
+      if (options->slurm > 0 && arguments.given(other))
+        throw InputError(std::string(other) + ": the script of --slurm has its own");
     for (const char* name : {"--resume", "--shard", "--slurm"})
       if (options->store.empty() && arguments.given(name)) throw InputError(std::string(name) + " needs --store F.db");
     return map(*options, context);

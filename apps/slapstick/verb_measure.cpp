@@ -22,8 +22,8 @@ int run(const Options& all, const Context& context) {
   roles.add("--out", options.out);
   options.check();
   if (!all.sensitivity.empty() && (options.periods > 0 || options.time > 0.0))
-    throw InputError(std::string("--sensitivity: only for a cycle, and ") + (options.periods > 0 ? "--periods" : "--time") +
-                     " measures over a time");
+    throw InputError(std::string("--sensitivity: only for a cycle, and ") +
+                     (options.periods > 0 ? "--periods" : "--time") + " measures over a time");
   const ChosenModel chosen = options.model.load();
   const std::vector<Wanted> wanted = parse_wanted("--of", options.of, quantities(chosen.definition, chosen.overrides));
   Output out(options.out);
@@ -32,10 +32,12 @@ int run(const Options& all, const Context& context) {
   if (!span) return interrupted;
   for (const Wanted& one : wanted)
     if (!span->cycle && !one.statistic.empty()) check_of_stretch("--of", one);
-  const Measured found = measure(*span, quantities_of(wanted), &context.stop, [&](double now) { progress.update(now); });
+  const Measured found =
+      measure(*span, quantities_of(wanted), &context.stop, [&](double now) { progress.update(now); });
   if (!(found.duration > 0.0)) return interrupted;  // Ctrl-C before anything was measured
   if (!all.sensitivity.empty() && !span->cycle)
-    throw InputError("--sensitivity: only for a cycle, and the motion settles on none: choose an orbit, as by --orbit 1-1");
+    throw InputError(
+        "--sensitivity: only for a cycle, and the motion settles on none: choose an orbit, as by --orbit 1-1");
   const Sensitivity rates =
       span->cycle ? sensitivity_of(all.sensitivity, chosen, span->cycle->orbit, wanted) : Sensitivity{};
   Json json = Json::object(), parameters = Json::object();
@@ -64,8 +66,10 @@ Action add_measure(Arguments& arguments) {
   arguments.footer(
       "Statistics without sampling: integrals and extremes of the closed forms. Over the cycle that the motion settles "
       "on,\n"
-      "or over --periods after the transient (1000 where there is no cycle). 'slapstick quantities MODEL' lists names.\n"
-      "With --orbit, --stable, --unstable, --symmetric or --nearest over the periodic orbit that they say, as of `orbit`.\n"
+      "or over --periods after the transient (1000 where there is no cycle). 'slapstick quantities MODEL' lists "
+      "names.\n"
+      "With --orbit, --stable, --unstable, --symmetric or --nearest over the periodic orbit that they say, as of "
+      "`orbit`.\n"
       "  slapstick measure vibro-impact --set omega=2.9 --of F_stop:mean,a1,power_in:mean");
   return [options](const Context& context) { return run(*options, context); };
 }

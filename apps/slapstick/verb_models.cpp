@@ -1,8 +1,8 @@
 /// slapstick models
 #include <unistd.h>
 
-#include "output.hpp"
 #include "io/json.hpp"
+#include "output.hpp"
 #include "slapstick/io/model_file.hpp"
 #include "verb.hpp"
 

@@ -1,10 +1,10 @@
 /// slapstick new NAME
 #include <filesystem>
 
-#include "output.hpp"
-#include "slapstick/base/error.hpp"
 #include "base/text.hpp"
 #include "io/json.hpp"
+#include "output.hpp"
+#include "slapstick/base/error.hpp"
 #include "slapstick/io/model_file.hpp"
 #include "verb.hpp"
 

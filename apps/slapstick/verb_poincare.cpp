@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.hpp"
 #include "event_options.hpp"
 #include "fine_dots.hpp"
 #include "model_options.hpp"
 #include "output.hpp"
 #include "section_points.hpp"
 #include "slapstick/base/error.hpp"
-#include "base/text.hpp"
 #include "verb.hpp"
 #include "work.hpp"
 
@@ -52,8 +52,11 @@ void make_map(figure::Panel& panel, figure::Figure& figure) {
   const double margin = 0.04 * (high - low);
   if (!(margin > 4e-8 * std::max(std::abs(low), std::abs(high)))) return;
   panel.x_range = panel.y_range = figure::Range{low - margin, high + margin};
-  panel.lines.push_back({.x = {low - margin, high + margin}, .y = {low - margin, high + margin},
-                         .colour = figure::colours::grey, .dash = figure::Dash::dashed, .width_pt = 0.5});
+  panel.lines.push_back({.x = {low - margin, high + margin},
+                         .y = {low - margin, high + margin},
+                         .colour = figure::colours::grey,
+                         .dash = figure::Dash::dashed,
+                         .width_pt = 0.5});
   figure.width_cm = 9.5;
 }
 
@@ -101,11 +104,13 @@ int poincare(const PoincareOptions& options, const Context& context) {
   TableOutput table(options.out, columns(options.section, chosen.model, of.of()), table_facts(chosen));
   const AxisUnits units(chosen.definition, chosen.model);
   Motion motion(system, start);
-  Found found = strobe                       ? strobe_points(options, stops, std::move(motion), table, units, of, context)
-                : options.section == "event" ? event_points(options, events, std::move(motion), table, units, of, context)
-                                             : impact_points(options, stops, std::move(motion), table, units, of, context);
+  Found found = strobe ? strobe_points(options, stops, std::move(motion), table, units, of, context)
+                : options.section == "event"
+                    ? event_points(options, events, std::move(motion), table, units, of, context)
+                    : impact_points(options, stops, std::move(motion), table, units, of, context);
   if (found.points > 0) table.commit();
-  return plot.write_or_say(found.points > 0 ? picture(found) : figure::Figure{}, found.points == 0, found.whole ? done : interrupted);
+  return plot.write_or_say(found.points > 0 ? picture(found) : figure::Figure{}, found.points == 0,
+                           found.whole ? done : interrupted);
 }
 
 }  // namespace
@@ -124,10 +129,12 @@ Action add_poincare(Arguments& arguments) {
   arguments.count("--points", options->points, 1, 1'000'000'000, "points to record (1000)");
   arguments.count("--most-periods", options->most_periods, 1, 1'000'000'000,
                   "end here if points are rare (1000000, and after 10000 without a point)");
-  arguments.text("--of", options->of, "Q,..",
-                 "quantities as further columns; two or more are the axes of the picture ('slapstick quantities MODEL')");
+  arguments.text(
+      "--of", options->of, "Q,..",
+      "quantities as further columns; two or more are the axes of the picture ('slapstick quantities MODEL')");
   options->stops.declare(arguments, "points are the impacts of this stop only; may be repeated (all)");
-  arguments.text("--out", options->out, "F.csv", "write the points there (.csv, .npz or .h5) instead of to standard output");
+  arguments.text("--out", options->out, "F.csv",
+                 "write the points there (.csv, .npz or .h5) instead of to standard output");
   arguments.text("--plot", options->plot, "F.png",
                  "picture of the points: .png, .pdf or .svg; its data and script lie beside it");
   declare_plot_size(arguments, options->plot_size);

@@ -22,7 +22,10 @@ int run(const Options& options) {
   Json list = Json::list();
   for (const Quantity& one : quantities(chosen.definition, chosen.overrides)) {
     Json item = Json::object();
-    item.set("name", one.name).set("unit", one.unit).set("kind", std::string(name(one.kind))).set("meaning", one.meaning);
+    item.set("name", one.name)
+        .set("unit", one.unit)
+        .set("kind", std::string(name(one.kind)))
+        .set("meaning", one.meaning);
     list.push(std::move(item));
   }
   out.write(list.dump() + "\n");
@@ -37,7 +40,8 @@ Action add_quantities(Arguments& arguments) {
   options->model.declare(arguments);
   arguments.text("--out", options->out, "FILE", "write the JSON there instead of to standard output");
   arguments.footer(
-      "What `measure` and `spectrum` can measure on a model: names, units and meanings. docs/reference/measure.md defines them.\n"
+      "What `measure` and `spectrum` can measure on a model: names, units and meanings. docs/reference/measure.md "
+      "defines them.\n"
       "  slapstick quantities vibro-impact");
   return [options](const Context&) { return run(*options); };
 }

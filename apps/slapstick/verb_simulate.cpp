@@ -175,13 +175,14 @@ class Run {
     const Model& model = system_.model();
     const bool compliant = !model.compliant_stops.empty(),
                bent = !model.characteristics.empty() || ranges::any_of(model.compliant_stops, &CompliantStop::bounded),
-               loaded = ranges::any_of(model.frictions, [](const FrictionContact& one) { return one.normal.has_value(); });
+               loaded =
+                   ranges::any_of(model.frictions, [](const FrictionContact&one) { return one.normal.has_value(); });
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
       const auto event = static_cast<EventKind>(kind);
-      const bool possible = event == EventKind::knot    ? !model.signals.empty()
+      const bool possible = event == EventKind::knot     ? !model.signals.empty()
                             : event == EventKind::corner ? bent
-                            : event > EventKind::corner ? loaded
-                                                        : event < EventKind::engage || compliant;
+                            : event > EventKind::corner  ? loaded
+                                                         : event < EventKind::engage || compliant;
       if (possible) events.set(name(event), kinds_[kind]);
     }
     const Counters& counters = motion.counters();
@@ -226,19 +227,23 @@ Instant end_of(const Options& options, bool by_time, const Model& model) {
 /// What the picture shows of the time. @throws InputError naming --window
 std::pair<Instant, Instant> window_of(const Options& options, Instant end) {
   const double length = end.since({});
-  if (options.window.empty()) return {end.period >= plotted_periods ? Instant{end.period - plotted_periods, end.fraction} : Instant{}, end};
+  if (options.window.empty())
+    return {end.period >= plotted_periods ? Instant{end.period - plotted_periods, end.fraction} : Instant{}, end};
   const ParameterRange window = parse_range("--window", options.window);
   if (!(window.from >= 0.0 && window.from < length))
-    throw InputError("--window: the run has the periods 0 to " + shown(length) + ", and " + shown(window.from) + " is not one of them");
+    throw InputError("--window: the run has the periods 0 to " + shown(length) + ", and " + shown(window.from) +
+                     " is not one of them");
   if (window.to - window.from > most_plotted_periods)
-    throw InputError("--window: " + shown(window.to - window.from) + " periods are more than a picture shows (" + shown(most_plotted_periods) + ")");
+    throw InputError("--window: " + shown(window.to - window.from) + " periods are more than a picture shows (" +
+                     shown(most_plotted_periods) + ")");
   return {Instant{}.plus(window.from), std::min(end, Instant{}.plus(window.to))};
 }
 
 ShownMotion shown_motion(const Options& options, const ChosenModel& chosen) {
   const RelativeMotion pair(chosen.model, shown_contact(chosen.model, options.stop.choice(chosen.model)));
   if (options.show.empty()) return shown_pair(pair, chosen);
-  return shown_by_name(options.show, options.stop.names.empty() ? all_contacts(chosen.model) : contacts_of(pair, chosen.model), chosen);
+  return shown_by_name(
+      options.show, options.stop.names.empty() ? all_contacts(chosen.model) : contacts_of(pair, chosen.model), chosen);
 }
 
 int simulate(const Options& options, bool by_time, const Context& context) {

@@ -58,7 +58,10 @@ Json lines_json(const LineSpectrum& found) {
   Json list = Json::list();
   for (const SpectralLine& line : found.lines) {
     Json one = Json::object();
-    one.set("order", line.order).set("frequency", line.frequency).set("amplitude", line.amplitude()).set("phase", line.phase());
+    one.set("order", line.order)
+        .set("frequency", line.frequency)
+        .set("amplitude", line.amplitude())
+        .set("phase", line.phase());
     list.push(std::move(one));
   }
   Json json = Json::object();
@@ -74,7 +77,10 @@ Json density_json(const DensitySpectrum& found, double stretch) {
     list.push(std::move(one));
   }
   Json json = Json::object();
-  json.set("kind", "density").set("stretch", stretch).set("stretches", found.stretches).set("resolution", found.resolution);
+  json.set("kind", "density")
+      .set("stretch", stretch)
+      .set("stretches", found.stretches)
+      .set("resolution", found.resolution);
   json.set("degrees_of_freedom", found.degrees_of_freedom).set("confidence", Json::list({found.low, found.high}));
   return json.set("points", std::move(list));
 }
@@ -86,8 +92,8 @@ struct Found {
   bool complete = true, any = true;  ///< any: of an interrupted density, a stretch at least
 };
 
-Found analyse(const Options& options, const ChosenModel& chosen, const Span& span, const Quantity& of, const Context& context,
-              Progress& progress) {
+Found analyse(const Options& options, const ChosenModel& chosen, const Span& span, const Quantity& of,
+              const Context& context, Progress& progress) {
   const SpectrumLabels labels{of.name, of.unit, options.scale == "db", options.reference, chosen.model.forced()};
   const int parts = options.octaves == "none" ? 0 : options.octaves == "1" ? 1 : 3;
   const double highest = highest_order(options, chosen, span);
@@ -99,7 +105,8 @@ Found analyse(const Options& options, const ChosenModel& chosen, const Span& spa
     found.json = lines_json(lines);
     found.figure = lines_figure(lines, labels);
   } else {
-    const DensitySpectrum density = slapstick::density(span, of, {options.stretch, 1, highest, &context.stop, [&](double now) { progress.update(now); }});
+    const DensitySpectrum density = slapstick::density(
+        span, of, {options.stretch, 1, highest, &context.stop, [&](double now) { progress.update(now); }});
     if (parts > 0) bands = octaves(density, parts, unit_of_time(chosen));
     found.complete = density.complete;
     found.any = density.stretches > 0;
@@ -115,11 +122,13 @@ Found analyse(const Options& options, const ChosenModel& chosen, const Span& spa
 
 void check(const Options& options) {
   options.span.check();
-  if (!(options.highest_order > 0.0)) throw InputError("--orders: " + shown(options.highest_order) + " is not positive");
+  if (!(options.highest_order > 0.0))
+    throw InputError("--orders: " + shown(options.highest_order) + " is not positive");
   if (!(options.highest >= 0.0)) throw InputError("--to: " + shown(options.highest) + " is negative");
   if (!(options.stretch > 0.0)) throw InputError("--stretch: " + shown(options.stretch) + " is not positive");
   if (!(options.reference > 0.0)) throw InputError("--reference: " + shown(options.reference) + " is not positive");
-  if (options.weighted && options.octaves == "none") throw InputError("--a-weighting: only for the levels of --octaves, and --octaves is not given");
+  if (options.weighted && options.octaves == "none")
+    throw InputError("--a-weighting: only for the levels of --octaves, and --octaves is not given");
 }
 
 int run(const Options& options, const Context& context) {
@@ -129,10 +138,12 @@ int run(const Options& options, const Context& context) {
   roles.add("--out", options.span.out);
   roles.add_plot(options.plot);
   const ChosenModel chosen = options.span.model.load();
-  const std::vector<Wanted> wanted = parse_wanted("--of", options.span.of, quantities(chosen.definition, chosen.overrides));
+  const std::vector<Wanted> wanted =
+      parse_wanted("--of", options.span.of, quantities(chosen.definition, chosen.overrides));
   if (wanted.size() != 1 || !wanted[0].statistic.empty()) throw InputError("--of: a spectrum is of one quantity");
   const Quantity& of = wanted[0].quantity;
-  if (of.at_impacts()) throw InputError("--of: " + in_quotes(of.name) + " is a quantity at impacts: no function of time");
+  if (of.at_impacts())
+    throw InputError("--of: " + in_quotes(of.name) + " is a quantity at impacts: no function of time");
   if (!options.climb.sweep.empty()) {
     const SpectrumLabels labels{of.name, of.unit, options.scale == "db", options.reference, chosen.model.forced()};
     return order_map_run({options.climb, options.settle, options.highest_order, options.span.out, options.plot,
@@ -166,18 +177,21 @@ Action add_spectrum(Arguments& arguments) {
   arguments.number("--to", options->highest, "HZ",
                    "the same as a frequency, in Hz (where the file states no unit of time, cycles per unit of time)");
   arguments.number("--stretch", options->stretch, "P", "of a density: forcing periods in a stretch (64)");
-  arguments.choice("--octaves", options->octaves, {"none", "1", "3"}, "mean squares in bands of an octave or a third of it");
+  arguments.choice("--octaves", options->octaves, {"none", "1", "3"},
+                   "mean squares in bands of an octave or a third of it");
   arguments.flag("--a-weighting", options->weighted, "weight the levels of --octaves by A (IEC 61672)");
   arguments.choice("--scale", options->scale, {"db", "linear"}, "of the picture (db)");
   arguments.number("--reference", options->reference, "R", "0 dB, in the quantity's unit (1)");
   options->climb.declare(arguments);
-  arguments.count("--settle", options->settle, 0, 1'000'000'000, "of a run-up: periods at each value that are not measured (0)");
+  arguments.count("--settle", options->settle, 0, 1'000'000'000,
+                  "of a run-up: periods at each value that are not measured (0)");
   arguments.text("--plot", options->plot, "F.png", "picture: .png, .pdf or .svg; its data and script lie beside it");
   declare_plot_size(arguments, options->plot_size);
   arguments.footer(
       "Fourier lines of the cycle that the motion settles on, as exact integrals, impulses of impacts included.\n"
       "With --periods, or where there is no cycle (then 2048 of them): a power density, by Welch's method.\n"
-      "With --sweep: the lines at each value of a run-up, as a table of order, frequency and amplitude, and a waterfall.\n"
+      "With --sweep: the lines at each value of a run-up, as a table of order, frequency and amplitude, and a "
+      "waterfall.\n"
       "  slapstick spectrum vibro-impact --set omega=2.9 --of a1 --plot a1.png\n"
       "  slapstick spectrum vibro-impact --sweep omega=2:4 --over 800 --hold 20 --of a1 --out map.csv --plot map.png");
   return [options, &arguments](const Context& context) {

@@ -55,7 +55,8 @@ int merge(const Options& options, const Context& context) {
   for (const std::string& file : options.files) {
     const Store from = Store::to_read(file);
     if (whole_facts(from) != facts)
-      throw InputError("store merge: " + in_quotes(file) + " is of another run than " + in_quotes(options.files.front()));
+      throw InputError("store merge: " + in_quotes(file) + " is of another run than " +
+                       in_quotes(options.files.front()));
     std::vector<StoredCell> some;
     constexpr std::size_t at_once = 1000;
     from.for_each([&](const StoredCell& cell) {
@@ -86,8 +87,10 @@ int write_out(const Options& options) {
   TableOutput table(options.out, map_columns(*wish), map_facts(*wish));
   const sweep::Map map = chart::read_map(store, wish->problem);
   if (map.complete && wish->problem.refine > 0)
-    std::fprintf(stderr, "slapstick: %ld of %s pixels were computed, the others are filled in\n", store.count(), store.fact("cells").c_str());
-  if (!map.complete) std::fprintf(stderr, "slapstick: the store has %ld of %s cells\n", store.count(), store.fact("cells").c_str());
+    std::fprintf(stderr, "slapstick: %ld of %s pixels were computed, the others are filled in\n", store.count(),
+                 store.fact("cells").c_str());
+  if (!map.complete)
+    std::fprintf(stderr, "slapstick: the store has %ld of %s cells\n", store.count(), store.fact("cells").c_str());
   if (options.plot.empty() || !options.out.empty()) write_map(*wish, map, table);
   return plot.wanted() ? plot.write_or_say(chart_figure(*wish, map, look), map.findings.empty(), done) : done;
 }
@@ -96,9 +99,11 @@ int write_out(const Options& options) {
 
 Action add_store(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  arguments.positional("ACTION", options->action, "info: what it holds, every cell looked at; merge: joins stores; export: a table or picture");
+  arguments.positional("ACTION", options->action,
+                       "info: what it holds, every cell looked at; merge: joins stores; export: a table or picture");
   arguments.positionals("FILES", options->files, "the store, or for merge the stores");
-  arguments.text("--out", options->out, "FILE", "of merge: the new store; of export: the table (.csv, .npz or .h5), else standard output");
+  arguments.text("--out", options->out, "FILE",
+                 "of merge: the new store; of export: the table (.csv, .npz or .h5), else standard output");
   arguments.text("--plot", options->plot, "F.png", "of export: draw the chart");
   declare_plot_size(arguments, options->plot_size);
   arguments.text("--show", options->show, "class,..", "of export: what the panels are, as of `map`");

@@ -23,7 +23,8 @@ const std::vector<Verb>& verbs() {
       {"spectrum", "Fourier lines of a cycle, or the power density of a motion, impulses included", add_spectrum},
       {"store", "what is in the store of a long run; join stores; write tables and pictures of them", add_store},
       {"reproduce", "every figure and claim of the paper, into a folder", add_reproduce},
-      {"describe", "all verbs and options, quantities and statistics: as JSON, or as the page of the documents", add_describe},
+      {"describe", "all verbs and options, quantities and statistics: as JSON, or as the page of the documents",
+       add_describe},
       {"completion", "the script by which a shell completes verbs, options, models and names", add_completion},
 #ifdef SLAPSTICK_HTTP
       {"explore", "the explorer in the browser, served to this machine", add_explore},

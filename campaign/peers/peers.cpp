@@ -7,11 +7,11 @@
 #include <numbers>
 
 #include "batches.hpp"
+#include "contact_query.hpp"
+#include "first_zero.hpp"
 #include "flow/compiled_system.hpp"
 #include "mode/frame.hpp"
 #include "mode/mode.hpp"
-#include "contact_query.hpp"
-#include "first_zero.hpp"
 #include "near_graze.hpp"
 #include "slapstick/flow/motion.hpp"
 

@@ -83,8 +83,11 @@ void demand_a_start(std::size_t count, const std::function<State(std::size_t)>& 
 }
 
 std::unique_ptr<Runs> batch(const ModelDefinition& definition, const std::vector<Overrides>& values,
-                            const std::vector<std::optional<Start>>& starts, const BatchWish& wish, nb::object progress) {
-  const auto start_at = [&](std::size_t i) { return start_of(definition, values[i], starts[starts.size() == 1 ? 0 : i]); };
+                            const std::vector<std::optional<Start>>& starts, const BatchWish& wish,
+                            nb::object progress) {
+  const auto start_at = [&](std::size_t i) {
+    return start_of(definition, values[i], starts[starts.size() == 1 ? 0 : i]);
+  };
   demand_a_start(values.size(), start_at);
   sweep::BatchProblem problem;
   problem.count = values.size();

@@ -44,7 +44,8 @@ void add_measured(Diagram& into, const sweep::DiagramPoint& point, double value,
   if (point.of.empty()) return;
   into.measured_at.push_back(value);
   into.measured_direction.push_back(point.direction == sweep::Direction::up ? 0 : 1);
-  for (std::size_t k = 0; k < measure.of.size(); ++k) into.measured[k].push_back(statistic(point.of[k], measure.statistics[k]));
+  for (std::size_t k = 0; k < measure.of.size(); ++k)
+    into.measured[k].push_back(statistic(point.of[k], measure.statistics[k]));
 }
 
 void add_rows(Diagram& into, const sweep::DiagramPoint& point, double value, std::int32_t index) {
@@ -75,7 +76,8 @@ void add_points(Diagram& into, const sweep::Diagram& found, const Measure& measu
     into.directions.push_back(direction);
     if (!point.failure.empty()) into.failures.emplace_back(value, point.failure);
     if (!point.note.empty()) into.notes.emplace_back(value, point.note);
-    if (point.failure.empty() && point.impacts.size() == 0 && measure.of.empty()) into.empty.emplace_back(value, direction);
+    if (point.failure.empty() && point.impacts.size() == 0 && measure.of.empty())
+      into.empty.emplace_back(value, direction);
   }
 }
 
@@ -155,8 +157,8 @@ class Sweep {
 
 std::unique_ptr<Diagram> diagram(const ModelDefinition& definition, const Overrides& fixed, const std::string& name,
                                  const std::vector<double>& values, const std::optional<Start>& start,
-                                 const std::string& direction, const std::string& rule, std::optional<double> transient, int impacts,
-                                 int most_periods, const std::vector<std::string>& stops, int threads,
+                                 const std::string& direction, const std::string& rule, std::optional<double> transient,
+                                 int impacts, int most_periods, const std::vector<std::string>& stops, int threads,
                                  const Measure& measure, nb::object progress) {
   auto into = std::make_unique<Diagram>();
   into->measured.resize(measure.of.size());
@@ -201,7 +203,8 @@ void bind_diagram(nb::module_& module) {
       .def_ro("empty", &Diagram::empty)
       .def_prop_ro("measured_at", [](Diagram& self) { return column(self.measured_at); })
       .def_prop_ro("measured_direction_codes", [](Diagram& self) { return column(self.measured_direction); })
-      .def("measured", [](Diagram& self, std::size_t k) { return column(self.measured.at(k)); }, "k"_a)
+      .def(
+          "measured", [](Diagram& self, std::size_t k) { return column(self.measured.at(k)); }, "k"_a)
       .def_ro("complete", &Diagram::complete);
   nb::class_<Measure>(module, "DiagramMeasure", "Statistics that a diagram shows in place of impacts.")
       .def(
@@ -211,7 +214,8 @@ void bind_diagram(nb::module_& module) {
           },
           "of"_a, "statistics"_a, "periods"_a);
   module.def("diagram", &diagram, "definition"_a, "fixed"_a, "name"_a, "values"_a, "start"_a.none(), "direction"_a,
-             "rule"_a, "transient"_a.none(), "impacts"_a, "most_periods"_a, "stops"_a, "threads"_a, "measure"_a, "progress"_a.none());
+             "rule"_a, "transient"_a.none(), "impacts"_a, "most_periods"_a, "stops"_a, "threads"_a, "measure"_a,
+             "progress"_a.none());
   module.def("sweep_value", &sweep::sweep_value, "begin"_a, "end"_a, "count"_a, "place"_a);
 }
 

@@ -91,9 +91,11 @@ sweep::MapProblem problem_of(const Wish& wish, const Model& model) {
   };
   problem.x = axis(wish.x);
   problem.y = axis(wish.y);
-  problem.level = one_of<sweep::Level>("level", wish.level, {{"quick", sweep::Level::quick}, {"full", sweep::Level::full}});
+  problem.level =
+      one_of<sweep::Level>("level", wish.level, {{"quick", sweep::Level::quick}, {"full", sweep::Level::full}});
   problem.start = one_of<sweep::MapStart>(
-      "rule", wish.rule, {{"reset", sweep::MapStart::reset}, {"carry", sweep::MapStart::carry}, {"random", sweep::MapStart::random}});
+      "rule", wish.rule,
+      {{"reset", sweep::MapStart::reset}, {"carry", sweep::MapStart::carry}, {"random", sweep::MapStart::random}});
   problem.direction = one_of<sweep::Direction>(
       "direction", wish.direction,
       {{"up", sweep::Direction::up}, {"down", sweep::Direction::down}, {"both", sweep::Direction::both}});
@@ -138,9 +140,12 @@ std::unique_ptr<Map> map(const ModelDefinition& definition, const Overrides& fix
     for (const double y : {std::get<0>(wish.y), std::get<1>(wish.y)})
       static_cast<void>(start_of(definition, at(x, y), start));
   const Model model = build(definition, at(std::get<0>(wish.x), std::get<0>(wish.y)));
-  auto into = std::make_unique<Map>(chart::Chart{definition, fixed, wish.x_name, wish.y_name, words_of(start, model), wish.stops, problem_of(wish, model)});
+  auto into = std::make_unique<Map>(chart::Chart{definition, fixed, wish.x_name, wish.y_name, words_of(start, model),
+                                                 wish.stops, problem_of(wish, model)});
   into->chart.problem.model_at = [definition, at](double x, double y) { return build(definition, at(x, y)); };
-  into->chart.problem.start_at = [definition, at, start](double x, double y) { return start_of(definition, at(x, y), start); };
+  into->chart.problem.start_at = [definition, at, start](double x, double y) {
+    return start_of(definition, at(x, y), start);
+  };
   chart::Chart chart = into->chart;
   sweep::MapProblem& problem = chart.problem;
   Watch watch(std::move(progress));
@@ -203,7 +208,8 @@ void bind_found(nb::module_& module) {
       .def_prop_ro("doubt_codes", [](Map& self) { return column(self.doubt.codes); })
       .def_prop_ro("doubt_names", [](const Map& self) { return self.doubt.names; })
       .def_prop_ro("direction_codes", [](Map& self) { return column(self.direction.codes); })
-      .def("measured", [](Map& self, std::size_t k) { return column(self.measured.at(k)); }, "k"_a)
+      .def(
+          "measured", [](Map& self, std::size_t k) { return column(self.measured.at(k)); }, "k"_a)
       .def_ro("failures", &Map::failures)
       .def_ro("complete", &Map::complete);
 }

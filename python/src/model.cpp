@@ -1,10 +1,10 @@
 /// Models and the table of their parameters.
 #include "bind.hpp"
 #include "chosen.hpp"
-#include "slapstick/flow/motion.hpp"
-#include "slapstick/flow/struck_together.hpp"
-#include "slapstick/flow/natural_modes.hpp"
 #include "slapstick/flow/energy_sources.hpp"
+#include "slapstick/flow/motion.hpp"
+#include "slapstick/flow/natural_modes.hpp"
+#include "slapstick/flow/struck_together.hpp"
 #include "slapstick/section/stop_choice.hpp"
 
 namespace slapstick::python {
@@ -99,7 +99,8 @@ void bind_model(nb::module_& module) {
                      return names;
                    })
       .def("values", &ModelDefinition::values, "values"_a)
-      .def("check", &check, "values"_a, nb::sig("def check(self, values: Mapping[str, float]) -> dict[str, typing.Any]"))
+      .def("check", &check, "values"_a,
+           nb::sig("def check(self, values: Mapping[str, float]) -> dict[str, typing.Any]"))
       .def(
           "start", [](const ModelDefinition& self, const Overrides& values) { return start_of(self, values, {}); },
           "values"_a)

@@ -162,7 +162,8 @@ void bind_orbit(nb::module_& module) {
   nb::class_<O>(module, "Orbit", "A periodic orbit.")
       .def_prop_ro("values", &O::values)
       .def_prop_ro("label", [](const O& self) { return self.solution.label; })
-      .def_prop_ro("n", [](const O& self) {
+      .def_prop_ro("n",
+                   [](const O& self) {
                      const orbit::Itinerary& shape = self.solution.orbit.shape;
                      return shape.n > 0 ? shape.n : orbit::returns(shape);
                    })
@@ -172,7 +173,8 @@ void bind_orbit(nb::module_& module) {
       .def_prop_ro("sticks", [](const O& self) { return self.solution.sticks; })
       .def_prop_ro("reversals", [](const O& self) { return self.solution.reversals; })
       .def_prop_ro("chatters", [](const O& self) { return self.solution.chatters; })
-      .def_prop_ro("stable", [](const O& self) -> std::optional<bool> {
+      .def_prop_ro("stable",
+                   [](const O& self) -> std::optional<bool> {
                      if (!orbit::differentiable(self.solution.orbit.shape)) return std::nullopt;
                      return self.solution.stable();
                    })

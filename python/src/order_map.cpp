@@ -13,9 +13,9 @@ namespace slapstick::python {
 namespace {
 
 std::unique_ptr<OrderMap> order_map_of(const ModelDefinition& definition, const Overrides& values,
-                                       const std::optional<Start>& start, const std::string& of, const std::string& parameter,
-                                       double from, double to, long over, long hold, long settle, double orders,
-                                       nb::object progress) {
+                                       const std::optional<Start>& start, const std::string& of,
+                                       const std::string& parameter, double from, double to, long over, long hold,
+                                       long settle, double orders, nb::object progress) {
   auto result = std::make_unique<OrderMap>();
   const Quantity quantity = find_quantity(quantities(definition, values), of);
   RunUp run(
@@ -27,8 +27,9 @@ std::unique_ptr<OrderMap> order_map_of(const ModelDefinition& definition, const 
       {from, to, over / hold, hold}, start_of(definition, values, start));
   Watch watch(std::move(progress));
   watch.run_aside([&] {
-    *result = order_map(run, quantity,
-                        {orders, settle, watch.cancel(), [&](long steps) { watch.note(static_cast<double>(steps * hold)); }});
+    *result =
+        order_map(run, quantity,
+                  {orders, settle, watch.cancel(), [&](long steps) { watch.note(static_cast<double>(steps * hold)); }});
   });
   watch.finish(result->complete);
   return result;

@@ -38,7 +38,8 @@ struct Measures {
   std::string label;  ///< of the cycle, or ""
 };
 
-std::vector<Quantity> named(const ModelDefinition& definition, const Overrides& values, const std::vector<std::string>& names) {
+std::vector<Quantity> named(const ModelDefinition& definition, const Overrides& values,
+                            const std::vector<std::string>& names) {
   const std::vector<Quantity> all = quantities(definition, values);
   std::vector<Quantity> of;
   for (const std::string& name : names) of.push_back(find_quantity(all, name));
@@ -51,11 +52,13 @@ void add_stops(Measures& measures) {
 }
 
 /// Derivatives of a cycle's statistics. @param cycle  null: there is none
-std::vector<Measured> rates_of(const ModelDefinition& definition, const Overrides& values, const std::vector<std::string>& by,
-                               const orbit::Orbit* cycle, const std::vector<Quantity>& of) {
+std::vector<Measured> rates_of(const ModelDefinition& definition, const Overrides& values,
+                               const std::vector<std::string>& by, const orbit::Orbit* cycle,
+                               const std::vector<Quantity>& of) {
   if (by.empty()) return {};
   if (cycle == nullptr)
-    throw InputError("sensitivity: only for a cycle, and here a motion is measured: choose an orbit, as by orbit(..).measure");
+    throw InputError(
+        "sensitivity: only for a cycle, and here a motion is measured: choose an orbit, as by orbit(..).measure");
   try {
     return measure_rates(definition, values, by, *cycle, of);
   } catch (const InputError& error) {
@@ -115,8 +118,7 @@ struct Spectra {
 
 std::unique_ptr<Spectra> spectra(const ModelDefinition& definition, const Overrides& values,
                                  const std::optional<Start>& start, const std::string& of, double orders,
-                                 std::optional<double> transient,
-                                 double periods, double stretch, nb::object progress) {
+                                 std::optional<double> transient, double periods, double stretch, nb::object progress) {
   auto result = std::make_unique<Spectra>();
   const std::vector<Quantity> wanted = named(definition, values, {of});
   Watch watch(std::move(progress));
@@ -148,7 +150,8 @@ std::unique_ptr<Spectra> spectra(const ModelDefinition& definition, const Overri
 }
 
 std::vector<std::vector<double>> bands(const Spectra& self, int parts, double unit_of_time) {
-  const std::vector<Band> found = self.lines ? octaves(*self.lines, parts, unit_of_time) : octaves(self.points, parts, unit_of_time);
+  const std::vector<Band> found =
+      self.lines ? octaves(*self.lines, parts, unit_of_time) : octaves(self.points, parts, unit_of_time);
   std::vector<std::vector<double>> rows;
   for (const Band& band : found) rows.push_back({band.centre, band.from, band.to, band.mean_square});
   return rows;
@@ -161,7 +164,8 @@ void bind_measures(nb::module_& module) {
       .def_prop_ro("kind", [](const Quantity& self) { return std::string(name(self.kind)); })
       .def_ro("meaning", &Quantity::meaning)
       .def("__repr__", [](const Quantity& self) { return "<Quantity " + self.name + ": " + self.meaning + ">"; });
-  module.def("quantities", nb::overload_cast<const ModelDefinition&, const Overrides&>(&quantities), "definition"_a, "values"_a);
+  module.def("quantities", nb::overload_cast<const ModelDefinition&, const Overrides&>(&quantities), "definition"_a,
+             "values"_a);
   module.def("find_quantity", &find_quantity, "all"_a, "name"_a);
   module.def("usual_statistics", &usual_statistics, "quantity"_a);
   nb::class_<StopColumns>(module, "StopImpacts", "The impacts of a stop, each column in order of size.")
@@ -175,8 +179,8 @@ void bind_measures(nb::module_& module) {
       .def_ro("stops", &Measures::stops, nb::rv_policy::reference_internal)
       .def("statistic", &statistic_of, "k"_a, "quantity"_a, "name"_a)
       .def("rate", &rate_of, "parameter"_a, "k"_a, "name"_a);
-  module.def("measure", &measures, "definition"_a, "values"_a, "start"_a.none(), "of"_a, "sensitivity"_a, "transient"_a.none(),
-             "periods"_a, "progress"_a.none());
+  module.def("measure", &measures, "definition"_a, "values"_a, "start"_a.none(), "of"_a, "sensitivity"_a,
+             "transient"_a.none(), "periods"_a, "progress"_a.none());
   module.def("measure_orbit", &measures_of_orbit, "orbit"_a, "of"_a, "sensitivity"_a);
 }
 
@@ -194,13 +198,14 @@ void bind_quantity(nb::module_& module) {
       .def_prop_ro("density", [](Spectra& self) { return column(self.points.density); })
       .def_prop_ro("impulses", [](const Spectra& self) { return self.lines ? self.lines->impulses : 0; })
       .def_prop_ro("mean_square", [](const Spectra& self) { return self.lines ? self.lines->mean_square : 0.0; })
-      .def_prop_ro("mean_square_of_lines", [](const Spectra& self) { return self.lines ? self.lines->mean_square_of_lines : 0.0; })
+      .def_prop_ro("mean_square_of_lines",
+                   [](const Spectra& self) { return self.lines ? self.lines->mean_square_of_lines : 0.0; })
       .def_prop_ro("resolution", [](const Spectra& self) { return self.points.resolution; })
       .def_prop_ro("degrees_of_freedom", [](const Spectra& self) { return self.points.degrees_of_freedom; })
       .def_prop_ro("confidence", [](const Spectra& self) { return std::pair(self.points.low, self.points.high); })
       .def("octaves", &bands, "parts"_a, "unit_of_time"_a);
-  module.def("spectrum", &spectra, "definition"_a, "values"_a, "start"_a.none(), "of"_a, "orders"_a, "transient"_a.none(),
-             "periods"_a, "stretch"_a, "progress"_a.none());
+  module.def("spectrum", &spectra, "definition"_a, "values"_a, "start"_a.none(), "of"_a, "orders"_a,
+             "transient"_a.none(), "periods"_a, "stretch"_a, "progress"_a.none());
   module.def("a_weighting", &a_weighting, "hertz"_a);
 }
 

@@ -86,7 +86,8 @@ class Session {
     });
   }
   std::string born(int branch, int special) {
-    return attempt([&] { return study().follow_born(static_cast<std::size_t>(branch), static_cast<std::size_t>(special)); });
+    return attempt(
+        [&] { return study().follow_born(static_cast<std::size_t>(branch), static_cast<std::size_t>(special)); });
   }
   std::string curve(int branch, int special, val wish) {
     return attempt([&] {

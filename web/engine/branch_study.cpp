@@ -61,7 +61,10 @@ double ShownOfOrbit::value(const std::vector<orbit::EventOfOrbit>& impacts, std:
 }
 
 BranchStudy::BranchStudy(const Choice& choice, const BranchWish& wish, Progress progress)
-    : choice_(choice), system_(choice.model()), shown_(system_.model(), wish), progress_(std::move(progress)),
+    : choice_(choice),
+      system_(choice.model()),
+      shown_(system_.model(), wish),
+      progress_(std::move(progress)),
       parameter_(wish.parameter) {
   const double now = choice.definition.present_value(parameter_, choice.set);
   problem_ = orbit::pose(choice.definition.family({parameter_}, choice.set), {now});
@@ -96,7 +99,8 @@ Json BranchStudy::branch_json(const orbit::Branch& branch) const {
   }
   Json json = Json::object();
   json.set("points", std::move(points)).set("special", std::move(special));
-  json.set("whole", branch.down.kind == orbit::BranchEnd::Kind::range && branch.up.kind == orbit::BranchEnd::Kind::range);
+  json.set("whole",
+           branch.down.kind == orbit::BranchEnd::Kind::range && branch.up.kind == orbit::BranchEnd::Kind::range);
   return json.set("ended", sentence(branch));
 }
 
@@ -118,7 +122,8 @@ Json BranchStudy::curve(std::size_t branch, std::size_t special, const CurveWish
   orbit::SpecialPoint start = point(branch, special);
   const double now = choice_.definition.present_value(wish.second, choice_.set);
   start.solution.orbit.values = {start.value, now};
-  const auto problem = orbit::pose(choice_.definition.family({parameter_, wish.second}, choice_.set), {start.value, now});
+  const auto problem =
+      orbit::pose(choice_.definition.family({parameter_, wish.second}, choice_.set), {start.value, now});
   orbit::CurveOptions how{
       .from = wish.from, .to = wish.to, .second_from = wish.second_from, .second_to = wish.second_to};
   how.progress = progress_;

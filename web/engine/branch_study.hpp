@@ -22,7 +22,7 @@ namespace slapstick::web {
 struct BranchWish {
   std::string parameter;
   double from = 0.0, to = 1.0;
-  std::string shown = "w";     ///< as DiagramWish
+  std::string shown = "w";  ///< as DiagramWish
   std::string at = "impacts";
 };
 

@@ -82,8 +82,7 @@ Json couplings_of(const Model& model) {
     double row = 0.0;
     for (std::size_t j = 0; j < n; ++j) row += model.stiffness[i * n + j];
     for (std::size_t j = i + 1; j < n; ++j)
-      if (model.stiffness[i * n + j] != 0.0)
-        list.push(between(Spring{static_cast<int>(i), static_cast<int>(j), 0.0}));
+      if (model.stiffness[i * n + j] != 0.0) list.push(between(Spring{static_cast<int>(i), static_cast<int>(j), 0.0}));
     if (row != 0.0) list.push(between(Spring{static_cast<int>(i), ground, 0.0}));
   }
   return list;
@@ -92,10 +91,14 @@ Json couplings_of(const Model& model) {
 Json mechanism_of(const Choice& choice, const Model& model) {
   Json all = Json::object();
   all.set("coordinates", coordinates_of(choice, model)).set("forces", forces_of(model));
-  all.set("springs", parts_of(model.springs, [](Json& item, const Spring& spring) { item.set("stiffness", spring.stiffness); }));
+  all.set("springs",
+          parts_of(model.springs, [](Json& item, const Spring& spring) { item.set("stiffness", spring.stiffness); }));
   all.set("couplings", couplings_of(model));
-  all.set("dampers", parts_of(model.dampers, [](Json& item, const Damper& damper) { item.set("coefficient", damper.coefficient); }));
-  all.set("stops", parts_of(model.stops, [](Json& item, const Stop& stop) { item.set("name", stop.name).set("clearance", stop.clearance); }));
+  all.set("dampers", parts_of(model.dampers,
+                              [](Json& item, const Damper& damper) { item.set("coefficient", damper.coefficient); }));
+  all.set("stops", parts_of(model.stops, [](Json& item, const Stop& stop) {
+            item.set("name", stop.name).set("clearance", stop.clearance);
+          }));
   all.set("frictions", parts_of(model.frictions, [](Json& item, const FrictionContact& contact) {
             item.set("name", contact.name).set("belt", contact.belt_speed);
           }));

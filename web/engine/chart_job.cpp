@@ -7,9 +7,7 @@
 
 namespace slapstick::web {
 
-ChartJob::ChartJob(const Choice& choice, const ChartWish& wish) : choice_(choice), wish_(wish) {
-  width_ = 6;
-}
+ChartJob::ChartJob(const Choice& choice, const ChartWish& wish) : choice_(choice), wish_(wish) { width_ = 6; }
 
 bool ChartJob::work(const Deadline& deadline) {
   for (; next_ < wish_.pixels.size(); ++next_) {

@@ -60,12 +60,15 @@ void DiagramJob::run_value(int index) {
     events_.insert(events_.end(), carried_.state.begin(), carried_.state.end());
     sweep::record(problem_, std::move(*settled), point);
   }
-  if (!point.failure.empty() && note_.empty()) note_ = wish_.parameter + " = " + shown(point.parameter) + ": " + point.failure;
+  if (!point.failure.empty() && note_.empty())
+    note_ = wish_.parameter + " = " + shown(point.parameter) + ": " + point.failure;
   add(index, point);
 }
 
 void DiagramJob::add(int index, const sweep::DiagramPoint& point) {
-  const auto add_row = [&](double value) { rows_.insert(rows_.end(), {static_cast<double>(index), point.parameter, value}); };
+  const auto add_row = [&](double value) {
+    rows_.insert(rows_.end(), {static_cast<double>(index), point.parameter, value});
+  };
   for (std::size_t i = 0; i < point.impacts.size(); ++i) add_row(column(point.impacts[i], wish_.shown));
   for (const double value : point.values) add_row(value);
 }

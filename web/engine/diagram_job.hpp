@@ -15,8 +15,8 @@ struct DiagramWish {
   double from = 0.0, to = 1.0;
   int count = 2, transient = 100, points = 60;
   bool down = false;
-  std::string shown = "w";      ///< w, flight, sliding or phase of impacts, or the name of a quantity
-  std::string at = "impacts";   ///< impacts, periods, or an event as "stick:belt": when the quantity is read
+  std::string shown = "w";     ///< w, flight, sliding or phase of impacts, or the name of a quantity
+  std::string at = "impacts";  ///< impacts, periods, or an event as "stick:belt": when the quantity is read
 };
 
 class DiagramJob : public Job {

@@ -36,7 +36,7 @@ class Job {
   [[nodiscard]] const std::vector<double>& rows() { return hand_over(rows_, given_rows_); }
   /// A second table, likewise: events of a motion, states of a diagram.
   [[nodiscard]] const std::vector<double>& events() { return hand_over(events_, given_events_); }
-  [[nodiscard]] int width() const { return width_; }         ///< numbers in a row
+  [[nodiscard]] int width() const { return width_; }  ///< numbers in a row
   [[nodiscard]] int event_width() const { return event_width_; }
   [[nodiscard]] const std::string& failure() const { return failure_; }  ///< one line, or empty
 

@@ -4,8 +4,11 @@
 namespace slapstick::web {
 
 MotionJob::MotionJob(const Choice& choice, const MotionWish& wish)
-    : wish_(wish), system_(choice.model()), reader_(system_, quantities_of(choice, wish.of)),
-      transient_(Motion(system_, choice.start_at())), begin_{wish.transient, 0.0} {
+    : wish_(wish),
+      system_(choice.model()),
+      reader_(system_, quantities_of(choice, wish.of)),
+      transient_(Motion(system_, choice.start_at())),
+      begin_{wish.transient, 0.0} {
   width_ = static_cast<int>(2 + 2 * system_.model().coordinates.size() + reader_.of().size());
   event_width_ = static_cast<int>(4 + 2 * system_.model().coordinates.size());
 }
@@ -61,7 +64,8 @@ double MotionJob::at_rest(ModeId mode) {
   };
   for (const auto state : states.stops) add(state == mode::StopState::closed);
   for (const auto state : states.frictions) add(state == mode::FrictionState::stick);
-  for (const auto state : states.compliant) add(state == mode::CompliantState::on || state == mode::CompliantState::bounded);
+  for (const auto state : states.compliant)
+    add(state == mode::CompliantState::on || state == mode::CompliantState::bounded);
   at_rest_[mode] = bits;
   return bits;
 }

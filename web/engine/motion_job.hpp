@@ -17,10 +17,10 @@
 namespace slapstick::web {
 
 struct MotionWish {
-  int transient = 0;   ///< periods before the first window
-  int periods = 4;     ///< length of a window
-  int samples = 200;   ///< a period
-  std::string of;      ///< quantities, separated by commas
+  int transient = 0;  ///< periods before the first window
+  int periods = 4;    ///< length of a window
+  int samples = 200;  ///< a period
+  std::string of;     ///< quantities, separated by commas
 };
 
 class MotionJob : public Job {

@@ -31,14 +31,17 @@ bool SectionJob::work(const Deadline& deadline) {
       if (!next_period(deadline)) return false;
     } else if (auto* const impacts = std::get_if<ImpactSection>(&section_)) {
       const Instant stage = next_stage(system_, impacts->motion().time(), end);
-      if (impacts->next(stage, impact_)) add(impact_);
-      else if (!(stage < end)) return true;
+      if (impacts->next(stage, impact_))
+        add(impact_);
+      else if (!(stage < end))
+        return true;
     } else {
       auto& events = std::get<EventSection>(section_);
       const Instant stage = next_stage(system_, events.motion().time(), end);
       if (events.next(stage, point_))
         add({point_.time, point_.w, not_there, not_there, point_.time.fraction, point_.contact, point_.state});
-      else if (!(stage < end)) return true;
+      else if (!(stage < end))
+        return true;
     }
     if (looks % 16 == 0 && deadline.passed()) return false;
   }

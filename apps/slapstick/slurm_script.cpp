@@ -64,25 +64,25 @@ std::string export_line(const SlurmWish& wish) {
   return line + "\n";
 }
 
-/// What stands between @ is filled in.
+/// A ~name~ is filled in; no other ~ stands here.
 constexpr std::string_view script = R"sh(#!/bin/bash
 #SBATCH --job-name=slapstick-map
-#SBATCH --array=1-@tasks@
+#SBATCH --array=1-~tasks~
 #SBATCH --cpus-per-task=1
 #SBATCH --requeue
 #SBATCH --open-mode=append
 #SBATCH --signal=B:TERM@60
-#SBATCH --output=@stem@-%a.log
-# sbatch THIS computes the map in @tasks@ tasks; each goes on where it was ended. The last one joins the stores.
-# Without Slurm: seq @tasks@ | parallel bash THIS {}
+#SBATCH --output=~stem~-%a.log
+# sbatch THIS computes the map in ~tasks~ tasks; each goes on where it was ended. The last one joins the stores.
+# Without Slurm: seq ~tasks~ | parallel bash THIS {}
 set -u
-slapstick=@slapstick@
-stem=@stem@
-whole=@whole@
-task=${SLURM_ARRAY_TASK_ID:-${1:?the number of a task is wanted, 1 to @tasks@}}
+slapstick=~slapstick~
+stem=~stem~
+whole=~whole~
+task=${SLURM_ARRAY_TASK_ID:-${1:?the number of a task is wanted, 1 to ~tasks~}}
 rm -f "$stem-$task.done"
-"$slapstick" @map@ \
-  --shard "$task/@tasks@" --store "$stem-$task.db" --resume --threads "${SLURM_CPUS_PER_TASK:-1}" &
+"$slapstick" ~map~ \
+  --shard "$task/~tasks~" --store "$stem-$task.db" --resume --threads "${SLURM_CPUS_PER_TASK:-1}" &
 program=$!
 trap 'kill -TERM "$program"' TERM  # the time is nearly over: the program keeps what is complete
 wait "$program"; status=$?
@@ -92,37 +92,28 @@ case $status in
   130 | 143) [ -z "${SLURM_JOB_ID:-}" ] || scontrol requeue "$SLURM_JOB_ID"; exit $status ;;
   *) exit $status ;;
 esac
-for each in $(seq @tasks@); do [ -e "$stem-$each.done" ] || exit 0; done
+for each in $(seq ~tasks~); do [ -e "$stem-$each.done" ] || exit 0; done
 parts=()
-for each in $(seq @tasks@); do parts+=("$stem-$each.db"); done
+for each in $(seq ~tasks~); do parts+=("$stem-$each.db"); done
 exec 9>"$stem.lock"
 flock 9  # of those that see all others done one joins the stores
 if [ ! -e "$whole" ]; then
   rm -f "$stem-merged.db"
   "$slapstick" store merge "${parts[@]}" --out "$stem-merged.db" | grep -q '"complete": true' || exit 1
   mv "$stem-merged.db" "$whole"
-@export@fi
+~export~fi
 )sh";
 
-/// The text with each @name@ replaced by its value. Other @ stay.
+/// The text with the value of each ~name~ in its place. A ~ in a value stays.
 std::string filled(std::string_view text, const std::map<std::string_view, std::string>& values) {
   std::string result;
-  while (!text.empty()) {
-    const std::size_t at = std::min(text.find('@'), text.size());
-    result += text.substr(0, at);
-    text.remove_prefix(at);
-    if (text.empty()) break;
-    const std::size_t end = text.find('@', 1);
-    const auto value = values.find(text.substr(1, end == std::string_view::npos ? end : end - 1));
-    if (value == values.end()) {
-      result += '@';
-      text.remove_prefix(1);
-    } else {
-      result += value->second;
-      text.remove_prefix(end + 1);
-    }
+  for (bool name = false;; name = !name) {
+    const std::size_t end = std::min(text.find('~'), text.size());
+    const std::string_view piece = text.substr(0, end);
+    result += name ? values.at(piece) : std::string(piece);
+    if (end == text.size()) return result;
+    text.remove_prefix(end + 1);
   }
-  return result;
 }
 
 }  // namespace

@@ -5,6 +5,11 @@
 #include <cmath>
 
 namespace slapstick {
+
+const char* const how_rows_are_struck =
+    "these stops touch in a row: impact_law \"moreau\" shares a blow among all, \"sequence\" hands it on, as in "
+    "Newton's cradle";
+
 namespace {
 
 double place(int coordinate, const State& state) {

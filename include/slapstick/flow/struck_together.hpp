@@ -7,9 +7,7 @@
 namespace slapstick {
 
 /// What `check` says where there are any.
-inline constexpr const char* how_rows_are_struck =
-    "these stops touch in a row: impact_law \"moreau\" shares a blow among all, \"sequence\" hands it on, as in "
-    "Newton's cradle";
+extern const char* const how_rows_are_struck;
 
 /// Stops, as indices of Model::stops, that touch in this state beside another one on the same body. A blow on such a
 /// row is another one by each law. Of five equal balls without loss, the first with speed 1, Moreau's law leaves

@@ -17,6 +17,6 @@ verb_build_all() {
 
 verb_clean() {
   step "remove dist/, build/, build-*/ and web/node_modules"
-  rm -rf dist build web/node_modules build-debug build-try build-asan build-tsan build-clang build-bench build-fuzz \
+  rm -rf dist build web/node_modules build-debug build-try build-asan build-tsan build-lint build-bench build-fuzz \
     build-coverage build-planted build-wasm build-memory
 }

@@ -6,10 +6,16 @@ format_files() {
     xargs -0 -r -n 16 -P "$(nproc)" clang-format "$@"
 }
 
+# verb_format [--check]
 verb_format() {
   need clang-format
-  step "clang-format in place"
-  format_files -i
+  if [ "${1:-}" = --check ]; then
+    step "check the format"
+    format_files --dry-run -Werror || fail "the format differs: run ./dev format"
+  else
+    step "clang-format in place"
+    format_files -i
+  fi
 }
 
 verb_lint() {
@@ -17,10 +23,10 @@ verb_lint() {
   step "check the pages"
   tools/check_english
   tools/check_links
-  step "check the format"
-  format_files --dry-run -Werror || fail "the format differs: run ./dev format"
-  build_preset clang
+  verb_format --check
+  step "configure (lint) in build-lint/"
+  quietly build-lint/configure.log cmake --preset lint
   step "clang-tidy"
   find src apps verify campaign -name '*.cpp' ! -path '*/peers/*' -print0 |
-    xargs -0 -r -n 1 -P "$(nproc)" clang-tidy -p build-clang --quiet
+    xargs -0 -r -n 1 -P "$(nproc)" clang-tidy -p build-lint --quiet
 }

@@ -25,6 +25,7 @@ python_beside() {
 }
 
 light_parts() {
+  run_part format format --check
   run_part docs docs
   run_part cluster cluster
 }
@@ -55,7 +56,7 @@ verb_test() {
   local failed=() counts
   # What the parts need is installed before the first: no part is charged for it.
   need "${packages[@]}" "${manual_packages[@]}"
-  [ $# != 0 ] || need "${wasm_packages[@]}" "${web_test_packages[@]}" "${cluster_packages[@]}" "${docs_packages[@]}"
+  [ $# != 0 ] || need "${wasm_packages[@]}" "${web_test_packages[@]}" "${cluster_packages[@]}" "${docs_packages[@]}" clang-format
   if [ $# != 0 ]; then
     group_if_fresh
     test_preset release "$@"
@@ -79,7 +80,7 @@ verb_rotation() {
 
 verb_test_all() {
   local part
-  for part in test package clang sanitize tsan lint; do
+  for part in test package sanitize tsan lint; do
     step "./dev $part"
     SLAPSTICK_SLICE=all SLAPSTICK_WEB=test-all ./dev "$part"
   done

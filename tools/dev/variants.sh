@@ -1,8 +1,10 @@
-# Builds of other kinds, each with its tests: sanitizers, memory, clang, WebAssembly, coverage.
+# Builds of other kinds, each with its tests: sanitizers, memory, WebAssembly, coverage.
 # Uses the lists of packages.sh, and `around` of presets.sh.
 
+# verb_sanitize [CTEST ARGUMENT...]: without arguments all tests but the slow ones, which take an hour under sanitizers.
 verb_sanitize() {
-  need "${packages[@]}"
+  need "${packages[@]}" "${clang_packages[@]}"
+  [ $# != 0 ] || set -- -LE '^(slow|campaign)$'
   test_preset asan "$@"
 }
 
@@ -18,16 +20,16 @@ verb_memory() {
   step "memory took $SECONDS s"
 }
 
+# verb_tsan [CTEST ARGUMENT...]: without arguments the folders whose tests start threads.
 verb_tsan() {
+  local folders=(event io batch sweep chart catalogue app)
   need "${packages[@]}"
   # GCC 12's ThreadSanitizer does not start where the kernel randomises addresses widely.
   if setarch -R true 2>/dev/null; then around=(setarch -R); fi
-  test_preset tsan "$@"
-}
-
-verb_clang() {
-  need "${packages[@]}" "${clang_packages[@]}"
-  test_preset clang "$@"
+  build_preset tsan "${folders[@]/#/try_}"
+  [ $# != 0 ] || set -- -L "^($(IFS='|'; echo "${folders[*]}"))\$" -LE '^(slow|campaign)$'
+  step "test (tsan)"
+  exec "${around[@]}" ctest --preset tsan --parallel "$(nproc)" "$@"
 }
 
 verb_wasm() {

@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "io/same_model.hpp"
+#include "slapstick/io/observer.hpp"
 
 namespace slapstick {
 namespace {

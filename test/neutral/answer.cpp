@@ -38,9 +38,12 @@ Dimension dimension(Kind kind) {
       return dim::energy;
     case Kind::impulse:
       return dim::impulse;
-    default:
+    case Kind::flight:
+    case Kind::sliding:
+    case Kind::parameter:
       return dim::pure;
   }
+  return dim::pure;
 }
 
 namespace {

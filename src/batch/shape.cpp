@@ -149,10 +149,12 @@ Action action_of(const Model& model, const mode::Frame& frame, const Shape& shap
       break;
     case GuardKind::stick_above:
     case GuardKind::stick_below:
+      if (guard.single >= 0) return {};  // Engine::land_on_limit
       of(Jump::none, frame.frictions[guard.contact]);
       action.contact = static_cast<std::int8_t>(shape.stops + guard.contact);
       break;
     case GuardKind::press:
+      if (guard.single >= 0) return {};
       of(Jump::none, frame.stops[guard.contact]);
       break;
     case GuardKind::engage:

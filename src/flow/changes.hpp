@@ -72,14 +72,15 @@ class Changes {
     }
   }
 
-  /// One that held and is unloaded now has been released; one that holds at once sticks. Both are told below. A
+  /// One that held alone and is unloaded now has been released; one that holds at once sticks. Both are told below. A
   /// compliant stop that begins or ends to act speaks for what it presses.
   void of_loads() {
     for (std::size_t i = 0; i < now_.frictions.size(); ++i) {
       const bool free = now_.frictions[i] == Friction::unloaded, was_free = old_.frictions[i] == Friction::unloaded;
       if (is_own(i, mode::of_load)) tell_own(first_friction() + static_cast<int>(i));
       if (free == was_free || is_own(i, mode::of_load) || is_reversed(i)) continue;
-      const bool told_below = old_.frictions[i] == Friction::stick || now_.frictions[i] == Friction::stick;
+      const bool told_below =
+          (old_.frictions[i] == Friction::stick && !loses_its_share(i)) || now_.frictions[i] == Friction::stick;
       if (told_below || stop_changes(i)) continue;
       tell_(free ? EventKind::unload : EventKind::load, first_friction() + static_cast<int>(i));
     }
@@ -114,7 +115,7 @@ class Changes {
       const int contact = first_friction() + static_cast<int>(i);
       if (is_own(i, of_hold))
         tell_own(contact);
-      else if (released && !of_pair(frame_.frictions[i]))
+      else if (released && !loses_its_share(i) && !of_pair(frame_.frictions[i]))
         tell_(EventKind::release, contact);
     }
     for (std::size_t i = 0; i < now_.stops.size(); ++i) {
@@ -160,6 +161,14 @@ class Changes {
     if (ended_.reversal && ended_.kind == mode::GuardKind::slip && ended_.contact == static_cast<int>(i)) return true;
     const bool asked = ended_.reversal || (ended_.rested >> i & 1U) != 0;
     return asked && old_.frictions[i] != now_.frictions[i] && old_.frictions[i] != Friction::stick;
+  }
+
+  /// A contact that held its pair with others has lost its normal force.
+  [[nodiscard]] bool loses_its_share(std::size_t i) const {
+    if (old_.frictions[i] != Friction::stick || now_.frictions[i] != Friction::unloaded) return false;
+    for (std::size_t k = 0; k < now_.frictions.size(); ++k)
+      if (k != i && frame_.parallel(frame_.frictions[k].own, frame_.frictions[i].own) != 0) return true;
+    return false;
   }
 
   [[nodiscard]] bool stop_changes(std::size_t friction) const {

@@ -75,6 +75,7 @@ class Engine : public Flight {
   [[nodiscard]] int stop_touched_at_rest(int friction) const;
   void force_limit(int guard, int contact, bool graze);
   void land_on_crossing(const mode::Guard& guard);
+  void land_on_limit(const mode::Guard& guard);
   void cross(int guard, bool graze);
   void touch(int stop, bool graze);
   bool end_chatter(double limit);

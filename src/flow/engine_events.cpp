@@ -18,6 +18,11 @@ namespace {
 
 constexpr long most_events_at_one_instant = 20'000;
 
+/// True for the guards of the force that a contact at rest needs.
+bool of_holding(GuardKind kind) {
+  return kind == GuardKind::stick_above || kind == GuardKind::stick_below || kind == GuardKind::press;
+}
+
 }  // namespace
 
 void Engine::handle(int guard, bool graze) {
@@ -26,6 +31,7 @@ void Engine::handle(int guard, bool graze) {
   const mode::Frame& frame = system_->frame();
   if (hit.kind == GuardKind::gap) land(frame.stops[hit.contact]);  // so that x- can be started from
   if (of_crossing(hit.kind)) land_on_crossing(hit);
+  if (of_holding(hit.kind)) land_on_limit(hit);
   X_before_ = X_;
   gather_ties(guard);
   switch (hit.kind) {
@@ -162,18 +168,30 @@ void Engine::compliant_limit(int compliant, GuardKind kind) {
 }
 
 /// The displacement (velocity) of a characteristic made that of its corner, or a force made zero, but for the rounding
-/// of a sum: by the number that has most of it and is not held at zero.
+/// of a sum: by the number that has most of it, is not zero, and of a pair that is not held. A displacement of a pair
+/// at a closed stop would open the stop by its rounding.
 void Engine::land_on_crossing(const mode::Guard& guard) {
+  const int d = system_->frame().d;
   const mode::Guard::Entry* most = nullptr;
   for (const mode::Guard::Entry& entry : guard.entries) {
-    if (entry.column >= 2 * system_->frame().d || X_.data()[entry.column] == 0.0) continue;
+    if (entry.column >= 2 * d || X_.data()[entry.column] == 0.0 || here_->steady(entry.column % d)) continue;
     if (most == nullptr || std::abs(entry.value) > std::abs(most->value)) most = &entry;
   }
   if (most == nullptr) return;
-  const int d = system_->frame().d, own = most->column < d ? most->column : most->column - d;
+  const int own = most->column % d;
   X_.data()[most->column] -= guard.at(X_.data()) / most->value;
   most->column < d ? system_->frame().match_displacements(own, X_.data())
                    : system_->frame().match_velocities(own, X_.data());
+}
+
+/// A holding force that is one number times a factor made exactly zero. Rounding derived from that number would hardly
+/// be any near its zero, and what the motion has left of it would be taken for a force that holds.
+void Engine::land_on_limit(const mode::Guard& guard) {
+  if (guard.single < 0) return;
+  const mode::Frame& frame = system_->frame();
+  X_.data()[guard.single] = 0.0;
+  guard.single < frame.d ? frame.match_displacements(guard.single, X_.data())
+                         : frame.match_velocities(guard.single - frame.d, X_.data());
 }
 
 /// A characteristic passes a corner, a normal force or the excess of a spring force its zero; or touches it.

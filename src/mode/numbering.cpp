@@ -35,12 +35,18 @@ ContactRow find_or_add_velocity(Numbers& all, const RowVector& row, double drift
 
 /// What a shift or a drift in the basis may cost the motion: ten bits, which are 1e-13 of its size.
 constexpr double allowed = 0x1p10;
+/// How much farther the basis may be than another contact of the pair. A contact state has the numbers of the basis
+/// only. At a contact of clearance c that shift leaves the displacement c with the rounding of twice c, so that the
+/// contact is found closed again (Frame::enter: four roundings). At c = 0 the displacement is exact by any shift.
+constexpr double found_again = 2.0;
 
-/// Is a before b, which the file has first: at rest rather than on a belt, and so much nearer that b would cost digits?
+/// Is a before b, which the file has first: at rest rather than on a belt, or so much nearer that b would lose it, or
+/// cost digits?
 /// @param length  to which the forces move the masses
 bool nearer(const Number& a, const Number& b, double length) {
-  const double drift = std::abs(a.drift) - std::abs(b.drift);
-  return drift != 0.0 ? drift < 0.0 : allowed * std::max(std::abs(a.shift), length) < std::abs(b.shift);
+  const double drift = std::abs(a.drift) - std::abs(b.drift), near = std::abs(a.shift), first = std::abs(b.shift);
+  if (drift != 0.0) return drift < 0.0;
+  return (near > 0.0 && found_again * near < first) || allowed * std::max(near, length) < first;
 }
 
 /// Numbers of one pair, by their indices: the first contact's, and the nearest.

@@ -158,15 +158,12 @@ class Beside {
   [[nodiscard]] Index size() const { return here_.size(); }
   [[nodiscard]] Index nulls() const { return nulls_; }
   [[nodiscard]] VectorXd direction(Index k) const { return by_.right.col(k); }
-  [[nodiscard]] VectorXd state(const VectorXd& y) const {
-    return map_.translations().representative(here_ + y.cwiseProduct(sizes_));
-  }
+  [[nodiscard]] VectorXd state(const VectorXd& y) const { return map_.translations().representative(at(y)); }
 
   /// By how much the point at y misses its return.
   [[nodiscard]] VectorXd residual(const VectorXd& y) const {
-    const VectorXd at = here_ + y.cwiseProduct(sizes_);
-    const VectorXd image = map_.value(map_.translations().representative(at), n_, stop_).image;
-    return (map_.translations().numbers(image) - at).cwiseQuotient(sizes_);
+    const VectorXd image = map_.value(state(y), n_, stop_).image;
+    return (map_.translations().numbers(image) - at(y)).cwiseQuotient(sizes_);
   }
 
   /// The part of a residual that moves of no null direction can mend is left; the rest is mended in the least move.
@@ -177,6 +174,12 @@ class Beside {
   }
 
  private:
+  /// The numbers at y. What is rounding moves none: a coordinate that rests at a stop is not put behind it.
+  [[nodiscard]] VectorXd at(const VectorXd& y) const {
+    constexpr double rounding = 0x1p-40;  // of singular vectors; far below what a fold leaves
+    return here_ + (y.array().abs() > rounding).select(y, 0.0).cwiseProduct(sizes_);
+  }
+
   const ReturnMap& map_;
   int n_;
   Stop stop_;

@@ -3,8 +3,10 @@
 
 #include <cmath>
 
+#include "base/text.hpp"
 #include "mode/numbering.hpp"
 #include "runs.hpp"
+#include "slapstick/attractor/classify.hpp"
 #include "slapstick/io/model_file.hpp"
 
 namespace slapstick::testing {
@@ -95,6 +97,50 @@ TEST(NeverReached, AFarStopThatIsReachedAfterAllIsHit) {
   const double f = 0.125, A = 3e6 - f;  // x = -f - A cos t: friction is against the motion
   EXPECT_NEAR(seconds(events[0], motion), std::acos(-(1e6 + f) / A), 4e-15);
   EXPECT_EQ(motion.state()[0], 1e6);
+}
+
+/// A mass comes to rest at a stop and sticks there. A stop that is a thousand times as far, and first in the file, must
+/// not carry the displacement: the rest at the nearer one would not be found again by a state.
+TEST(NeverReached, ARestAtAStopIsFoundAgainBesideAFarOne) {
+  const std::string mass =
+      "name = 'm'\nomega = 1\n[[coordinate]]\nname = 'x'\nmass = 1\n"
+      "[[spring]]\nbetween = ['x', 'ground']\nstiffness = 0.5\n"
+      "[[force]]\non = 'x'\namplitude = 1\n"
+      "[[friction]]\nname = 'pad'\nbetween = ['x', 'ground']\nstatic = 2\nkinetic = 0\n";
+  const auto stop = [](const std::string& name, const std::string& clearance) {
+    return "[[stop]]\nname = '" + name + "'\nbetween = ['x', 'ground']\nclearance = " + clearance +
+           "\nrestitution = 0\n";
+  };
+  for (const std::string& far : {std::string(), stop("far", "1150.9979070572376")}) {
+    const System system(ModelDefinition::parse(mass + far + stop("near", "0.3"), "m").build());
+    const Classification found = classify(system, {0.0, 1.0}, {.transient_periods = 100});
+    EXPECT_EQ(found.attractor, Attractor::periodic) << far;
+    EXPECT_EQ(found.state[0], 0.3) << far;
+  }
+}
+
+/// One mass rests at its stop, another swings about any place beyond the buffer: one of a family. What looks for members
+/// moves the first mass by rounding, and must not put it behind its stop.
+TEST(NeverReached, AMemberOfAFamilyMayRestAtAStop) {
+  for (const double length : {1.0, 0.5788534805276381, 0.3, 7.0}) {
+    const auto scaled = [&](const std::string& key, double value) {
+      return key + " = " + shown(length * value) + "\n";
+    };
+    const std::string text =
+        "name = 'm'\nomega = 1\n[[coordinate]]\nname = 'x'\nmass = 0.4\n[[coordinate]]\nname = 'y'\nmass = 1\n"
+        "[[base]]\nname = 'floor'\n[[base.harmonics]]\n" +
+        scaled("amplitude", 1.0) + "[[damper]]\nbetween = ['y', 'floor']\ncoefficient = 1\n[[force]]\non = 'x'\n" +
+        scaled("amplitude", 0.5) +
+        "harmonic = 0\n[[stop]]\nname = 'wall'\nbetween = ['x', 'ground']\nrestitution = 0\n" +
+        scaled("clearance", -0.0443152808) +
+        "[[compliant_stop]]\nname = 'buffer'\nbetween = ['y', 'x']\nclearance = 0\nstiffness = 1\n"
+        "damping = 0\nlaw = 'lets_go'\n[start]\n" +
+        scaled("x", -0.75) + scaled("y", -1.7);
+    const ModelDefinition definition = ModelDefinition::parse(text, "m");
+    const System system(definition.build());
+    const Classification found = classify(system, definition.start(), {.transient_periods = 100});
+    EXPECT_EQ(found.attractor, Attractor::family) << length;
+  }
 }
 
 /// W of the basis belongs to the first contact of each pair, its shift to the nearest one, where the first is far beside that: a

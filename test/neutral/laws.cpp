@@ -260,8 +260,12 @@ std::optional<std::string> sensitivities_are_differences(const ModelDefinition& 
   const Measured here = slapstick::measure(*span, of);
   std::map<Dimension, double> largest;
   for (std::size_t i = 0; i < of.size(); ++i) {
+    const double greatest = std::max(std::abs(here.of[i].least), std::abs(here.of[i].greatest));
     double& size = largest[dimension(of[i].kind)];
-    size = std::max({size, std::abs(here.of[i].least), std::abs(here.of[i].greatest)});
+    size = std::max(size, greatest);
+    if (of[i].kind != Quantity::Kind::acceleration) continue;  // M x'': also where no part that moves x has a name
+    double& force = largest[dim::force];
+    force = std::max(force, greatest * system.model().coordinates[static_cast<std::size_t>(of[i].index)].mass);
   }
   for (std::size_t i = 0; i < of.size(); ++i) {
     const double rate = rates[0].of[i].mean, slope = (beside[1].of[i].mean - beside[0].of[i].mean) / (2.0 * h);

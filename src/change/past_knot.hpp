@@ -13,4 +13,8 @@ namespace slapstick::orbit {
 /// @param gone  of each leg: has it no length?
 [[nodiscard]] std::vector<Orbit> past_knots(const ModeSet& set, const Orbit& orbit, const std::vector<bool>& gone);
 
+/// Does nothing happen at the point of a signal that ends a leg: no pulse, no step, and the same slope on both sides?
+/// Such points are there so that no line is too long (mode/drive.hpp), or stand on a straight line of a file.
+[[nodiscard]] bool is_idle_knot(const Model& model, const Itinerary& shape, std::size_t leg);
+
 }  // namespace slapstick::orbit

@@ -84,6 +84,7 @@ class Follower {
   bool end_at_boundary(PathPoint& at);
   bool end_of_model(const PathPoint& at);
   [[nodiscard]] bool comes_to_rest(const SpecialPoint& special) const;
+  [[nodiscard]] bool passes_nothing(const SpecialPoint& special) const;
   [[nodiscard]] bool stays_in_one_mode(const Orbit& orbit) const;
   bool runs_over_itself();
   bool grows_without_bound(const PathPoint& at);

@@ -7,6 +7,7 @@
 #include "change/change_kind.hpp"
 #include "change/jump.hpp"
 #include "change/onset.hpp"
+#include "change/past_knot.hpp"
 #include "continuation/follower.hpp"
 #include "continuation/hidden.hpp"
 #include "continuation/lies_on.hpp"
@@ -288,6 +289,14 @@ void Follower::restart(PathPoint& at, PathPoint from) {
   step_ = options_.step;
 }
 
+/// Do an event and a point of a signal change places at which nothing happens?
+bool Follower::passes_nothing(const SpecialPoint& special) const {
+  if (special.margin.kind != UsedMargin::Kind::duration) return false;
+  const Orbit& orbit = special.solution.orbit;
+  const Model model = problem_.family().model(orbit.values);
+  return ranges::any_of(events_at(special), [&](std::size_t leg) { return is_idle_knot(model, orbit.shape, leg); });
+}
+
 /// The branch goes on behind a change, with new events.
 /// @param between  followed back from there to the change, if other changes lie between
 void Follower::go_on(PathPoint& at, SpecialPoint special, HalfBranch next, std::optional<Branch> between) {
@@ -314,7 +323,7 @@ void Follower::go_on(PathPoint& at, SpecialPoint special, HalfBranch next, std::
     add_here(std::move(here));
     if (!begins) branch_.special.push_back(std::move(special));
   } else if (!next.renewed) {
-    branch_.special.push_back(std::move(special));
+    if (next.folds || !passes_nothing(special)) branch_.special.push_back(std::move(special));
     if (between) {
       add_between(std::move(*between));
       return set_out(at, std::move(next.point));

@@ -108,6 +108,29 @@ TEST(PeriodicImpulse, IsFollowedThroughNothing) {
   }
 }
 
+/// Half a period from a blow the signal of the blow has a point at which nothing happens: an impact that passes it is no
+/// change of events.
+TEST(PeriodicImpulse, HasNothingHalfAPeriodFromItsBlow) {
+  const Driven struck(
+      "name = 'm'\nomega = 'omega'\n[parameters.omega]\nvalue = 1\n[[coordinate]]\nname = 'x'\nmass = 1\n"
+      "[[spring]]\nbetween = ['x', 'ground']\nstiffness = 1\n"
+      "[[damper]]\nbetween = ['x', 'ground']\ncoefficient = 0.2\n"
+      "[[impulse]]\nname = 'blow'\non = 'x'\nmomentum = -1\nphase = 0\n"
+      "[[stop]]\nname = 'wall'\nbetween = ['x', 'ground']\nclearance = 0.3\nrestitution = 0.5\n",
+      {"omega"}, {1.1});
+  ASSERT_TRUE(struck.orbit);
+  const orbit::Branch branch = orbit::follow(*struck.problem, struck.orbit->orbit, {.from = 0.75, .to = 1.2});
+  EXPECT_TRUE(branch.special.empty());
+  EXPECT_EQ(branch.points.front().orbit.values[0], 0.75);
+  EXPECT_EQ(branch.points.back().orbit.values[0], 1.2);
+  const auto phase_of_impact = [&](const orbit::Orbit& orbit) {
+    const auto events = orbit::events(*struck.problem, orbit);
+    return events.empty() ? -1.0 : events[0].t - std::floor(events[0].t);
+  };
+  EXPECT_LT(phase_of_impact(branch.points.front().orbit), 0.5);
+  EXPECT_GT(phase_of_impact(branch.points.back().orbit), 0.5);
+}
+
 const std::string table =
     "name = 'm'\nomega = 'omega'\n[parameters.omega]\nvalue = 2\n[parameters.size]\nvalue = 1\n"
     "[parameters.late]\nvalue = 0.5\n"

@@ -7,28 +7,16 @@
 #include "base/ranges.hpp"
 #include "base/text.hpp"
 #include "io/model_builder.hpp"
+#include "io/stribeck_law.hpp"
 
 namespace slapstick {
 namespace {
 
 using Law = std::vector<std::pair<Dual, Dual>>;
 
-/// exp(-v / speed) as a polyline of K corners beyond 0, with nearly the same error in each piece and beyond the last:
-/// sqrt(exp(-v)) falls by the same step U / K from corner to corner, and the tail is as far off as a chord, (1 - U)^2 =
-/// (U / K)^2 / 2.
-Law exponential(int corners, const Dual& height, const Dual& offset, const Dual& speed) {
-  const double U = 1.0 / (1.0 + 1.0 / (corners * std::sqrt(2.0)));
-  Law law = {{Dual{0.0}, offset + height}};
-  for (int j = 1; j <= corners; ++j) {
-    const double root = 1.0 - j * U / corners;
-    law.emplace_back(speed * Dual{-2.0 * fixed::ln(root)}, offset + height * Dual{root * root});
-  }
-  return law;
-}
-
 }  // namespace
 
-Law ModelBuilder::stribeck(const Part& part) const {
+Law ModelBuilder::stribeck(const Part& part, double* error) const {
   constexpr int most = 100;
   const auto number = [&](const char* key, const Dual& fallback) {
     const auto found = part.stribeck.find(key);
@@ -39,35 +27,30 @@ Law ModelBuilder::stribeck(const Part& part) const {
     throw InputError(definition_.place(found == part.stribeck.end() ? part.line : found->second.line),
                      where("stribeck") + ": " + key + " = " + shown(value.value) + what);
   };
-  const Dual corners = number("corners", Dual{20.0}), speed = number("speed", {}), high = number("static", {}),
-             low = number("kinetic", {});
+  const Dual corners = number("corners", Dual{20.0}), exponent = number("exponent", Dual{1.0}),
+             speed = number("speed", {}), high = number("static", {}), low = number("kinetic", {});
   if (corners.varies || !(corners.value >= 1.0 && corners.value <= most && corners.value == std::floor(corners.value)))
     refuse("corners", corners, " is not a fixed whole number in [1, 100]");
+  if (exponent.varies || !(exponent.value >= 0.5 && exponent.value <= 10.0))
+    refuse("exponent", exponent, " is not a fixed number in [0.5, 10]");
   if (!(speed.value > 0.0)) refuse("speed", speed, " is not positive");
   if (!(low.value >= 0.0)) refuse("kinetic", low, " is negative");
   if (!(high.value >= low.value)) refuse("kinetic", low, " exceeds static = " + shown(high.value));
-  return exponential(static_cast<int>(corners.value), high - low, low, speed);
+  const StribeckFall fall = stribeck_fall(static_cast<int>(corners.value), exponent.value);
+  Law law = {{Dual{0.0}, low + (high - low)}};
+  for (std::size_t j = 0; j < fall.at.size(); ++j)
+    law.emplace_back(speed * Dual{fall.at[j]}, low + (high - low) * Dual{fall.left[j]});
+  if (error != nullptr) *error = (high.value - low.value) * fall.error;
+  return law;
 }
 
-/// The chord from v0 to v1 is farthest above offset + height exp(-v / speed) where the slopes agree, and the tail is
-/// off by the last point.
 std::vector<LaidLaw> ModelBuilder::laid_laws() {
   std::vector<LaidLaw> all;
   each("friction", [&](const Part& part) {
     if (part.stribeck.empty()) return;
-    const Law law = stribeck(part);
-    const auto number = [&](const char* key) {
-      return dual(part.stribeck.find(key)->second, where("stribeck") + ": " + key).value;
-    };
-    const double speed = number("speed"), offset = number("kinetic"), height = number("static") - offset;
+    double most = 0.0;
+    static_cast<void>(stribeck(part, &most));
     const double load = part.load.empty() ? 1.0 : dual(part.load.front().second, where("normal_force: constant")).value;
-    double most = law.back().second.value - offset;
-    for (std::size_t i = 1; i < law.size() && height > 0.0; ++i) {
-      const double v0 = law[i - 1].first.value, f0 = law[i - 1].second.value;
-      const double slope = (law[i].second.value - f0) / (law[i].first.value - v0);
-      const double v = -speed * fixed::ln(-slope * speed / height);
-      most = std::max(most, f0 + slope * (v - v0) - (offset - slope * speed));
-    }
     all.push_back({part.name, load * most});
   });
   return all;

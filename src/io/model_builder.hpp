@@ -96,7 +96,8 @@ class ModelBuilder {
   void add_friction(Model& model, const Part& part);
   void add_falling_friction(Model& model, const Part& part, const std::vector<std::pair<Dual, Dual>>& law);
   [[nodiscard]] std::vector<std::pair<Dual, Dual>> friction_law(const Part& part) const;
-  [[nodiscard]] std::vector<std::pair<Dual, Dual>> stribeck(const Part& part) const;
+  /// @param error  takes the largest error of the polyline, unless null
+  [[nodiscard]] std::vector<std::pair<Dual, Dual>> stribeck(const Part& part, double* error = nullptr) const;
   [[nodiscard]] NormalForce load(const Part& part, const Model& model) const;
   [[nodiscard]] Stop stop(const Part& part) const;
   [[nodiscard]] CompliantStop compliant_stop(const Part& part) const;

@@ -179,7 +179,7 @@ phase = "pi / 2"
 #[[friction]]
 #name = "lubricated"
 #between = ["x1", "x2"]
-#stribeck = { static = 0.2, kinetic = 0.1, speed = 0.3, corners = 12 }
+#stribeck = { static = 0.2, kinetic = 0.1, speed = 0.3, exponent = 2, corners = 12 }
 
 # Friction with a normal force: static and kinetic are coefficients. N = constant + stiffness x + damping v + a stop's force.
 #[[friction]]

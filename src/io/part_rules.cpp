@@ -166,7 +166,7 @@ const std::vector<std::string>& quantity_keys() {
 }
 
 const std::vector<std::string>& stribeck_keys() {
-  static const std::vector<std::string> keys = {"static", "kinetic", "speed", "corners"};
+  static const std::vector<std::string> keys = {"static", "kinetic", "speed", "exponent", "corners"};
   return keys;
 }
 

@@ -90,6 +90,7 @@ TEST(ModelFile, a_stribeck_law_falls_to_a_friction_that_there_is) {
       {"static = 2, kinetic = 1", "'speed' is missing"},
       {"static = 2, kinetic = 1, speed = 0", "speed = 0 is not positive"},
       {"static = 2, kinetic = 1, sped = 1", "unknown key 'sped'; did you mean 'speed'?"},
+      {"static = 2, kinetic = 1, speed = 1, exponent = 0.4", "exponent = 0.4 is not a fixed number in [0.5, 10]"},
       {"static = 2, kinetic = 1, speed = 1, corners = 0", "corners = 0 is not a fixed whole number in [1, 100]"},
       {"static = 2, kinetic = 1, speed = 1, corners = 101", "corners = 101 is not a fixed whole number in [1, 100]"},
       {"static = 2, kinetic = 1, speed = 1, corners = 2.5", "corners = 2.5 is not a fixed whole number in [1, 100]"}};

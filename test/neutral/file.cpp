@@ -46,7 +46,9 @@ void visit_part(const std::string& kind, Part& part, const Visit& visit) {
   visit_points(kind, part, visit);
   for (Scalar& end : part.within) visit(end, dim::length);
   for (auto& [key, scalar] : part.stribeck)
-    visit(scalar, key == "speed" ? dim::speed : key == "corners" || loaded ? dim::pure : dim::force);
+    visit(scalar, key == "speed"                                    ? dim::speed
+                  : key == "corners" || key == "exponent" || loaded ? dim::pure
+                                                                    : dim::force);
   for (auto& [key, scalar] : part.band)
     visit(scalar, key != "rms" ? dim::pure : kind == "force" ? dim::force : dim::length);
   for (auto& [key, scalar] : part.load)

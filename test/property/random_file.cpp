@@ -195,8 +195,11 @@ class FileDraw {
       return;
     }
     friction.fields.erase("static");
-    friction.stribeck = {
-        {"static", number(force)}, {"kinetic", number(force * 0.6)}, {"speed", number(0.4)}, {"corners", number(3)}};
+    friction.stribeck = {{"static", number(force)},
+                         {"kinetic", number(force * 0.6)},
+                         {"speed", number(0.4)},
+                         {"exponent", number(coordinates() % 2 == 0 ? 1.0 : 1.5)},
+                         {"corners", number(3)}};
   }
 
   void zones() {

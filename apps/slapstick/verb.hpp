@@ -33,6 +33,7 @@ Action add_models(Arguments& arguments);
 Action add_new(Arguments& arguments);
 Action add_show(Arguments& arguments);
 Action add_check(Arguments& arguments);
+Action add_modes(Arguments& arguments);
 Action add_simulate(Arguments& arguments);
 Action add_classify(Arguments& arguments);
 Action add_lyapunov(Arguments& arguments);

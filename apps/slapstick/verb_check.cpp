@@ -26,7 +26,7 @@ Json units(const ChosenModel& chosen) {
 
 Json natural(const System& system, const State& start) {
   Json list = Json::list();
-  for (const NaturalMode& mode : natural_modes(system, start)) {
+  for (const NaturalMode& mode : natural_modes(system, sliding_states(system, start))) {
     Json entry = Json::object();
     if (mode.oscillates()) entry.set("frequency", mode.frequency).set("damping_ratio", mode.damping_ratio());
     list.push(std::move(entry.set("decay", mode.decay)));

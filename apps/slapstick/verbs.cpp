@@ -9,6 +9,7 @@ const std::vector<Verb>& verbs() {
       {"new", "write a commented model file to start from", add_new},
       {"show", "print a model as TOML: its parameters, equations and start", add_show},
       {"check", "read and check a model file", add_check},
+      {"modes", "natural frequencies, damping and shapes, with contacts stuck or closed", add_modes},
       {"simulate", "one exact trajectory: events, samples, a picture", add_simulate},
       {"classify", "what the motion is after its transient: n-p-I, n-p-II, quasi-periodic, chaotic", add_classify},
       {"lyapunov", "all Lyapunov exponents, through impacts, stick and chatter", add_lyapunov},

@@ -21,6 +21,7 @@ from ._locus import Locus, Meeting, locus
 from ._lyapunov import Exponents, lyapunov
 from ._map import ChartCurve, ChartCurves, Map, map  # noqa: A004 (the verb is called so)
 from ._model import Model, Parameters, load, models, new
+from ._modes import Modes, modes
 from ._motion import Events, Motion, simulate
 from ._orbit import Orbit, OrbitEvents, orbit, orbits
 from ._order_map import OrderMap, order_map
@@ -48,6 +49,7 @@ __all__ = [
     "Meeting",
     "Measured",
     "Model",
+    "Modes",
     "Motion",
     "NumericalError",
     "Orbit",
@@ -73,6 +75,7 @@ __all__ = [
     "map",
     "measure",
     "models",
+    "modes",
     "new",
     "orbit",
     "orbits",

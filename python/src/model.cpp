@@ -1,4 +1,9 @@
-/// Models and the table of their parameters.
+/// Models, the table of their parameters, their natural modes.
+#include <nanobind/stl/complex.h>
+
+#include <complex>
+#include <limits>
+
 #include "bind.hpp"
 #include "chosen.hpp"
 #include "slapstick/flow/energy_sources.hpp"
@@ -32,7 +37,7 @@ std::vector<std::string> stop_names(const ModelDefinition& definition) {
 
 nb::list natural(const System& system, const State& start) {
   nb::list all;
-  for (const NaturalMode& mode : natural_modes(system, start)) {
+  for (const NaturalMode& mode : natural_modes(system, sliding_states(system, start))) {
     nb::dict entry;
     if (mode.oscillates()) {
       entry["frequency"] = mode.frequency;
@@ -72,10 +77,42 @@ nb::dict check(const ModelDefinition& definition, const Overrides& values) {
   return result;
 }
 
+std::vector<NaturalMode> modes(const ModelDefinition& definition, const Overrides& values,
+                               const std::optional<Start>& start, const std::vector<std::string>& stuck,
+                               const std::vector<std::string>& closed) {
+  const System system(build(definition, values));
+  return natural_modes(system, sliding_states(system, start_of(definition, values, start), stuck, closed));
+}
+
+void bind_modes(nb::module_& module) {
+  nb::class_<NaturalMode>(module, "NaturalMode", "An eigenvalue of a machine, and its shape.")
+      .def_ro("frequency", &NaturalMode::frequency)
+      .def_ro("decay", &NaturalMode::decay)
+      .def_prop_ro("damping_ratio",
+                   [](const NaturalMode& self) {
+                     return self.oscillates() ? self.damping_ratio() : std::numeric_limits<double>::quiet_NaN();
+                   })
+      .def_prop_ro("cycles", &NaturalMode::cycles)
+      .def_ro("shape", &NaturalMode::shape)
+      .def_prop_ro("amplitude",
+                   [](const NaturalMode& self) {
+                     std::vector<double> sizes;
+                     for (const std::complex<double>& part : self.shape) sizes.push_back(std::abs(part));
+                     return sizes;
+                   })
+      .def_prop_ro("phase", [](const NaturalMode& self) {
+        std::vector<double> phases;
+        for (const std::complex<double>& part : self.shape) phases.push_back(std::arg(part));
+        return phases;
+      });
+  module.def("modes", &modes, "definition"_a, "values"_a, "start"_a.none(), "stuck"_a, "closed"_a);
+}
+
 }  // namespace
 
 void bind_model(nb::module_& module) {
   bind_parameter(module);
+  bind_modes(module);
   nb::class_<ModelDefinition>(module, "Definition", "A model file that has been read and checked. Immutable.")
       .def_prop_ro("name", &ModelDefinition::name)
       .def_prop_ro("summary", &ModelDefinition::summary)

@@ -18,13 +18,14 @@ def results():
         "attractor": slapstick.classify(MODEL, omega=1.5),
         "section": slapstick.poincare(MODEL, points=20, omega=1.5),
         "diagram": slapstick.diagram(MODEL, omega=(2, 3, 5), impacts=5),
+        "modes": slapstick.modes(MODEL, omega=1.5),
         "orbit": slapstick.orbit(MODEL, "1-1", starts=64, omega=2.2),
         "branch": branch,
         "locus": branch.special[0].locus("omega", "friction", (2.6, 3), (0.1, 0.2)),
     }
 
 
-NAMES = ["motion", "attractor", "section", "diagram", "orbit", "branch", "locus"]
+NAMES = ["motion", "attractor", "section", "diagram", "modes", "orbit", "branch", "locus"]
 
 
 @pytest.mark.parametrize("name", NAMES)

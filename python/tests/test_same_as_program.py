@@ -98,6 +98,27 @@ def test_poincare_has_the_points_of_the_program(program, model, words, options):
     assert_same_table(slapstick.poincare(model, **options).to_pandas(), program.table(ran.stdout))
 
 
+@pytest.mark.parametrize(
+    ("model", "words", "options"),
+    [
+        ("vibro-impact", [], {}),
+        ("gear-rattle", [], {}),
+        ("vibro-impact", ["--stuck", "friction", "--closed", "stop"], {"stuck": "friction", "closed": ["stop"]}),
+        ("mode-coupling-brake", ["--closed", "belt", "--set", "friction=0.3"], {"closed": ["belt"], "friction": 0.3}),
+    ],
+)
+def test_modes_have_the_rows_of_the_program(program, model, words, options):
+    ran = program("modes", model, *words)
+    assert ran.returncode == 0, ran.stderr
+    assert_same_table(slapstick.modes(model, **options).to_pandas(), program.table(ran.stdout))
+
+
+def test_modes_over_a_parameter_are_those_of_its_values(program):
+    ran = program("modes", "mode-coupling-brake", "--closed", "belt", "--sweep", "friction=0.1:0.6:3")
+    found = slapstick.modes("mode-coupling-brake", closed="belt", friction=(0.1, 0.6, 3))
+    assert program.table(ran.stdout)["decay"].tolist() == [decay for one in found for decay in one.decay]
+
+
 @pytest.mark.parametrize("direction", ["up", "down", "both"])
 def test_diagram_has_the_rows_of_the_program(program, direction):
     ran = program("diagram", "vibro-impact", "--sweep", "omega=2.6:5.3:7", "--direction", direction, "--impacts", 20)

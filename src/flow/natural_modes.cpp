@@ -1,27 +1,22 @@
-/// Computes the eigenvalues of a machine without contact.
+/// Computes eigenvalues and shapes of a machine in one combination of contact states.
 #include "slapstick/flow/natural_modes.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <optional>
 #include <tuple>
 
 #include "base/dense.hpp"
+#include "base/text.hpp"
 #include "flow/compiled_system.hpp"
+#include "mode/outline.hpp"
+#include "slapstick/base/error.hpp"
 #include "slapstick/flow/motion.hpp"
 
 namespace slapstick {
 namespace {
-
-/// The contact states at a state, without stops and without stick.
-mode::ContactStates without_contact(const System& system, const State& state) {
-  mode::ContactStates states = system.states(Motion(system, state).mode_id());
-  std::fill(states.stops.begin(), states.stops.end(), mode::StopState::open);
-  std::fill(states.compliant.begin(), states.compliant.end(), mode::CompliantState::off);
-  std::replace(states.frictions.begin(), states.frictions.end(), mode::FrictionState::stick,
-               mode::FrictionState::slip_plus);
-  return states;
-}
 
 /// A over the first n displacements and velocities: those that depend on them follow them.
 Eigen::MatrixXd independent(const mode::Frame& frame, const mode::Matrix& A) {
@@ -35,24 +30,120 @@ Eigen::MatrixXd independent(const mode::Frame& frame, const mode::Matrix& A) {
   return result;
 }
 
+/// Columns Z: the directions of the first n displacements in which no held contact moves, G Z = 0.
+Eigen::MatrixXd free_directions(const mode::Frame& frame, const mode::ContactStates& states) {
+  std::vector<int> held;
+  for (std::size_t i = 0; i < states.stops.size(); ++i)
+    if (states.stops[i] == mode::StopState::closed) held.push_back(frame.stops[i].own);
+  for (std::size_t i = 0; i < states.frictions.size(); ++i)
+    if (states.frictions[i] == mode::FrictionState::stick) held.push_back(frame.frictions[i].own);
+  if (held.empty()) return Eigen::MatrixXd::Identity(frame.n, frame.n);
+  Eigen::MatrixXd G(static_cast<Eigen::Index>(held.size()), frame.n);
+  for (std::size_t i = 0; i < held.size(); ++i) G.row(static_cast<Eigen::Index>(i)) = frame.dependence.row(held[i]);
+  constexpr double dependent = 0x1p-40;  // rows of a loop of contacts, but for the rounding of W
+  return dense::kernel(G, dependent).basis;
+}
+
+/// (a, a') -> (Z a, Z a')
+Eigen::MatrixXd of_pairs(const Eigen::MatrixXd& Z) {
+  Eigen::MatrixXd both = Eigen::MatrixXd::Zero(2 * Z.rows(), 2 * Z.cols());
+  both.topLeftCorner(Z.rows(), Z.cols()) = both.bottomRightCorner(Z.rows(), Z.cols()) = Z;
+  return both;
+}
+
+/// Displacements of the coordinates, scaled: the largest becomes 1.
+std::vector<std::complex<double>> scaled(const Eigen::VectorXcd& shape) {
+  Eigen::Index largest = 0;
+  shape.cwiseAbs2().maxCoeff(&largest);
+  std::vector<std::complex<double>> result(static_cast<std::size_t>(shape.size()));
+  for (Eigen::Index i = 0; i < shape.size(); ++i)
+    result[static_cast<std::size_t>(i)] = i == largest ? 1.0 : shape[i] / shape[largest];
+  return result;
+}
+
+/// The place of a name in a list of contacts of a model.
+template <class Contacts>
+std::optional<std::size_t> place_of(const std::string& name, const Contacts& contacts) {
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    if (contacts[i].name == name) return i;
+  return std::nullopt;
+}
+
+template <class Contacts>
+std::string names_of(const Contacts& contacts) {
+  std::string names;
+  for (const auto& contact : contacts) names += (names.empty() ? "" : ", ") + contact.name;
+  return names;
+}
+
+/// The sense in which a contact slips at a state; w > 0 where w is zero.
+mode::FrictionState sense(const FrictionContact& friction, const State& state) {
+  const auto velocity = [&](int end) { return end == ground ? 0.0 : state[2 * static_cast<std::size_t>(end) + 1]; };
+  const double w = velocity(friction.a) - velocity(friction.b) - friction.belt_speed;
+  return w < 0.0 ? mode::FrictionState::slip_minus : mode::FrictionState::slip_plus;
+}
+
+[[noreturn]] void refuse(const Model& model, const std::string& name, const char* kind, const std::string& known) {
+  throw InputError("model " + in_quotes(model.name) + " has no " + kind + " " + in_quotes(name) +
+                   (known.empty() ? ", nor any other" : "; the model has " + known));
+}
+
 }  // namespace
 
-std::vector<NaturalMode> natural_modes(const System& system, const State& state) {
-  const ModeId id = system.mode_id(without_contact(system, state));
-  const Eigen::MatrixXd A = independent(system.compiled().frame(), system.compiled().mode(id).system());
-  const Eigen::VectorXcd lambdas = dense::eigenvalues(A);
+double NaturalMode::cycles() const {
+  return std::sqrt(std::max(0.0, (frequency - decay) * (frequency + decay))) / (2.0 * std::numbers::pi);
+}
+
+mode::ContactStates sliding_states(const System& system, const State& state, const std::vector<std::string>& stuck,
+                                   const std::vector<std::string>& closed) {
+  const Model& model = system.model();
+  mode::ContactStates states = system.states(Motion(system, state).mode_id());
+  std::fill(states.stops.begin(), states.stops.end(), mode::StopState::open);
+  std::fill(states.compliant.begin(), states.compliant.end(), mode::CompliantState::off);
+  for (std::size_t i = 0; i < states.frictions.size(); ++i)
+    if (states.frictions[i] == mode::FrictionState::stick) states.frictions[i] = sense(model.frictions[i], state);
+  for (const std::string& name : closed) {
+    if (const auto stop = place_of(name, model.stops)) {
+      states.stops[*stop] = mode::StopState::closed;
+    } else if (const auto pad = place_of(name, model.compliant_stops)) {
+      states.compliant[*pad] = mode::CompliantState::on;
+      for (std::size_t i = 0; i < model.frictions.size(); ++i)
+        if (states.frictions[i] == mode::FrictionState::unloaded &&
+            model.frictions[i].normal->compliant_stop == static_cast<int>(*pad))
+          states.frictions[i] = sense(model.frictions[i], state);
+    } else {
+      const std::string rigid = names_of(model.stops), compliant = names_of(model.compliant_stops);
+      refuse(model, name, "stop", rigid + (rigid.empty() || compliant.empty() ? "" : ", ") + compliant);
+    }
+  }
+  for (const std::string& name : stuck) {
+    const auto friction = place_of(name, model.frictions);
+    if (!friction) refuse(model, name, "friction contact", names_of(model.frictions));
+    states.frictions[*friction] = mode::FrictionState::stick;
+  }
+  return states;
+}
+
+/// With displacements Z a and velocities Z a' the mode is a'' = Z^+ (A_21 Z a + A_22 Z a').
+std::vector<NaturalMode> natural_modes(const System& system, const mode::ContactStates& states) {
+  const mode::Frame& frame = system.compiled().frame();
+  const Eigen::MatrixXd Z = free_directions(frame, states);
+  if (Z.cols() == 0) return {};
+  const Eigen::MatrixXd A = independent(frame, mode::Outline(system.model(), frame, states).system);
+  const Eigen::MatrixXd back = dense::LeastNorm(Z).pseudo_inverse();
+  const dense::Eigenpairs pairs = dense::eigenpairs(of_pairs(back) * A * of_pairs(Z));
   // A double eigenvalue, as the zero of a free translation, is known to the square root of rounding only.
   const double rounding = static_cast<double>(A.rows()) * std::numeric_limits<double>::epsilon();
-  const double zero = std::sqrt(rounding * lambdas.cwiseAbs2().maxCoeff());
+  const double largest = std::sqrt(pairs.values.cwiseAbs2().maxCoeff()), zero = std::sqrt(rounding) * largest;
   std::vector<NaturalMode> modes;
-  for (const std::complex<double>& lambda : lambdas) {
+  for (Eigen::Index i = 0; i < pairs.values.size(); ++i) {
+    const std::complex<double> lambda = pairs.values[i];
     const double size = std::sqrt(std::norm(lambda));
-    if (size <= zero)
-      modes.push_back({});
-    else if (lambda.imag() == 0.0)
-      modes.push_back({.decay = -lambda.real()});
-    else if (lambda.imag() > 0.0)
-      modes.push_back({.decay = -lambda.real(), .frequency = size});
+    if (size > zero && lambda.imag() < 0.0) continue;
+    NaturalMode mode{.shape = scaled(frame.W_inverse * (Z * pairs.vectors.col(i).head(Z.cols())))};
+    if (size > zero && std::abs(lambda.real()) > rounding * largest) mode.decay = -lambda.real();
+    if (size > zero && lambda.imag() > 0.0) mode.frequency = size;
+    modes.push_back(std::move(mode));
   }
   std::sort(modes.begin(), modes.end(), [](const NaturalMode& a, const NaturalMode& b) {
     return std::tie(a.frequency, a.decay) < std::tie(b.frequency, b.decay);

@@ -227,13 +227,13 @@ Motion random_start(const System& system, const Starts& starts, std::mt19937& ra
 /// Somewhere near the mean, or far away: what a free motion is like at first may be next to rest.
 Motion free_start(const System& system, const Starts& starts, std::mt19937& random, double spread) {
   const double wider = std::exp2(std::uniform_real_distribution<double>(-3.0, 3.0)(random));
-  return Motion(system, flow::user_state(system, starts.draw(random, wider * spread)));
+  return {system, flow::user_state(system, starts.draw(random, wider * spread))};
 }
 
 /// What stands for a period of a free motion, in periods of the clock: that of its slowest oscillation without contact.
 std::optional<double> free_unit(const Problem& problem, const System& system, const State& state) {
   if (!problem.free()) return std::nullopt;
-  for (const NaturalMode& mode : natural_modes(system, state))
+  for (const NaturalMode& mode : natural_modes(system, sliding_states(system, state)))
     if (mode.oscillates()) return 2.0 * std::numbers::pi / (mode.frequency * system.period());
   return 1.0;
 }

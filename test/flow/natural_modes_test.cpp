@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
+#include "slapstick/base/error.hpp"
 #include "slapstick/io/model_file.hpp"
 
 namespace slapstick {
@@ -13,7 +16,8 @@ namespace {
 
 std::vector<NaturalMode> modes_of(const std::string& text) {
   const ModelDefinition definition = ModelDefinition::parse(text, "test");
-  return natural_modes(System(definition.build()), definition.start());
+  const System system(definition.build());
+  return natural_modes(system, sliding_states(system, definition.start()));
 }
 
 std::string body(const std::string& more) { return "name = \"test\"\n[[coordinate]]\nname = \"x\"\nmass = 2\n" + more; }
@@ -66,7 +70,8 @@ TEST(NaturalModes, OfAChainAreItsSines) {  // omega_j = 2 sin(j pi / (2 (n + 1))
 /// Falling friction: the slope 0.4 of the friction exceeds the damping 0.2.
 TEST(NaturalModes, OfFallingFrictionGrow) {
   const ModelDefinition squeal = load_model("falling-friction");
-  const auto modes = natural_modes(System(squeal.build()), {0.8, 0.0});
+  const System system(squeal.build());
+  const auto modes = natural_modes(system, sliding_states(system, {0.8, 0.0}));
   ASSERT_EQ(modes.size(), 1u);
   EXPECT_NEAR(modes[0].decay, -0.1, 1e-14);
 }
@@ -76,10 +81,102 @@ TEST(NaturalModes, TakeTheSlopeOfThePieceAtTheState) {
       body("[[spring]]\nbetween = [\"x\", \"ground\"]\ncharacteristic = [[-1, -2], [1, 2], [2, 10]]\n[start]\nx = 0\n"),
       "test");
   const auto frequency_at = [&](double x) {
-    return natural_modes(System(definition.build()), {x, 0.0}).at(0).frequency;
+    const System system(definition.build());
+    return natural_modes(system, sliding_states(system, {x, 0.0})).at(0).frequency;
   };
   EXPECT_NEAR(frequency_at(0.0), 1.0, 1e-14);  // slope 2
   EXPECT_NEAR(frequency_at(1.5), 2.0, 1e-14);  // slope 8
+}
+
+std::string body(const std::string& name, double mass) {
+  return "[[coordinate]]\nname = \"" + name + "\"\nmass = " + std::to_string(mass) + "\n";
+}
+std::string link(const std::string& kind, const std::string& a, const std::string& b, const std::string& more) {
+  return "[[" + kind + "]]\nbetween = [\"" + a + "\", \"" + b + "\"]\n" + more + "\n";
+}
+
+/// Three bodies in a row between springs and dampers, with a contact of each kind between neighbours.
+struct Row {
+  System system = System(
+      ModelDefinition::parse(
+          "name = \"row\"\n" + body("a", 1) + body("b", 2) + body("c", 3) +
+              link("spring", "a", "ground", "stiffness = 5") + link("spring", "b", "a", "stiffness = 7") +
+              link("spring", "c", "b", "stiffness = 11") + link("damper", "b", "ground", "coefficient = 0.3") +
+              link("friction", "b", "a", "name = \"pad\"\nstatic = 1") +
+              link("friction", "c", "a", "name = \"arm\"\nstatic = 1") +
+              link("stop", "c", "b", "name = \"tooth\"\nclearance = 1\nrestitution = 1") +
+              link("compliant_stop", "c", "ground", "name = \"buffer\"\nclearance = 1\nstiffness = 13\ndamping = 0.2"),
+          "test")
+          .build());
+  std::vector<NaturalMode> modes(const std::vector<std::string>& stuck, const std::vector<std::string>& closed) const {
+    return natural_modes(system, sliding_states(system, State(6, 0.0), stuck, closed));
+  }
+};
+
+/// (lambda^2 M + lambda C + K) phi = 0, written out for the row: another route than the eigenvalues of A.
+double residual(const NaturalMode& mode, double buffer) {
+  using Number = std::complex<double>;
+  const double omega = 2 * std::numbers::pi * mode.cycles();
+  const Number s(-mode.decay, omega), a = mode.shape[0], b = mode.shape[1], c = mode.shape[2];
+  const Number on_a = s * s * a + 5.0 * a + 7.0 * (a - b);
+  const Number on_b = 2.0 * s * s * b + 7.0 * (b - a) + 11.0 * (b - c) + 0.3 * s * b;
+  const Number on_c = 3.0 * s * s * c + 11.0 * (c - b) + buffer * (13.0 + 0.2 * s) * c;
+  return std::max({std::abs(on_a), std::abs(on_b), std::abs(on_c)});
+}
+
+TEST(NaturalModes, HaveShapesThatSolveTheEquations) {
+  const Row row;
+  for (const bool on : {false, true}) {
+    const auto modes = row.modes({}, on ? std::vector<std::string>{"buffer"} : std::vector<std::string>{});
+    ASSERT_EQ(modes.size(), 3u);
+    for (const NaturalMode& mode : modes) {
+      EXPECT_LT(residual(mode, on ? 1.0 : 0.0), 1e-12);
+      double largest = 0.0;
+      for (const auto& part : mode.shape) largest = std::max(largest, std::abs(part));
+      EXPECT_EQ(largest, 1.0);
+    }
+  }
+}
+
+/// Contacts that hold make one body of two; a loop of them holds no more than its independent rows.
+TEST(NaturalModes, OfHeldContactsAreThoseOfTheBodiesTheyMake) {
+  const Row row;
+  const auto expect_one_body = [&](const std::vector<NaturalMode>& modes) {  // 6 x'' + 0.3 x' + 5 x
+    ASSERT_EQ(modes.size(), 1u);
+    EXPECT_NEAR(modes[0].frequency, std::sqrt(5.0 / 6.0), 1e-14);
+    EXPECT_NEAR(modes[0].decay, 0.3 / 12.0, 1e-14);
+    for (const auto& part : modes[0].shape) EXPECT_LT(std::abs(part - 1.0), 1e-14);
+  };
+  expect_one_body(row.modes({"pad"}, {"tooth"}));
+  expect_one_body(row.modes({"pad", "arm"}, {}));
+  expect_one_body(row.modes({"pad", "arm"}, {"tooth"}));
+  const auto two = row.modes({}, {"tooth"});  // a, and b with c
+  ASSERT_EQ(two.size(), 2u);
+  for (const NaturalMode& mode : two) EXPECT_EQ(mode.shape[1], mode.shape[2]);
+  const double product = two[0].frequency * two[1].frequency;  // det K / det M
+  EXPECT_NEAR(product * product, (12.0 * 7.0 - 49.0) / 5.0, 1e-12);
+}
+
+TEST(NaturalModes, RefuseNamesOfNoSuchContact) {
+  const Row row;
+  EXPECT_THROW((void)row.modes({"tooth"}, {}), InputError);
+  EXPECT_THROW((void)row.modes({}, {"pad"}), InputError);
+}
+
+/// The two frequencies of the sliding brake meet at mu = 3 sqrt(3) / 11, and one mode grows beyond.
+TEST(NaturalModes, OfASlidingBrakeFlutterFromTheClosedFormOn) {
+  const ModelDefinition brake = load_model("mode-coupling-brake");
+  const auto at = [&](double mu) {
+    const Overrides values{{"friction", mu}};
+    const System system(brake.build(values));
+    return natural_modes(system, sliding_states(system, brake.start(values), {}, {"belt"}));
+  };
+  const double critical = 3 * std::sqrt(3.0) / 11;
+  for (const NaturalMode& mode : at(critical * (1 - 1e-6))) EXPECT_LT(std::abs(mode.decay), 1e-11);
+  const auto beyond = at(critical * (1 + 1e-6));
+  ASSERT_EQ(beyond.size(), 2u);
+  EXPECT_LT(beyond[0].decay, -1e-4);
+  EXPECT_NEAR(beyond[0].decay, -beyond[1].decay, 1e-10);
 }
 
 }  // namespace

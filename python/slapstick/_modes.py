@@ -17,8 +17,9 @@ from ._result import Floats, Result, axes
 class Modes(Result):
     """Natural modes phi exp(lambda t) of a machine, by rising frequency; arrays with an entry for each of m modes.
 
-    frequency: |lambda| of what oscillates, else 0; damping_ratio: NaN of what does not; decay: -Re lambda, negative where
-    the motion grows; cycles: Im lambda / (2 pi). shape: the displacements phi, complex, shape (m, n); the largest is 1.
+    frequency: abs(lambda) of what oscillates, else 0; damping_ratio: NaN of what does not; decay: -Re lambda, negative
+    where the motion grows; cycles: Im lambda / (2 pi). shape: the displacements phi, complex, shape (m, n), the largest
+    of which is 1.
     amplitude, phase: of these, shape (m, n).
     """
 

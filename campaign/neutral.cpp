@@ -10,7 +10,7 @@ namespace {
 using namespace slapstick;
 using namespace slapstick::neutral;
 
-constexpr long triples_of_a_file = 30;  // of the first three verbs
+constexpr long triples_of_a_file = 30;  // of the first four verbs
 /// A dearer verb is asked about a few edits of some files. Beside 1e5 triples of the others these are 5000, 500 and 50.
 struct Dearer {
   Verb verb;
@@ -94,7 +94,7 @@ Tally one_file(long number, long triples, const Options& options) {
   Random order(seed, 1);
   for (long done = 0; done < triples && !options.stopped();) {
     const auto [edit, second] = draw(first.file(), seed, order);
-    for (const Verb verb : {Verb::simulate, Verb::measure, Verb::classify})
+    for (const Verb verb : {Verb::simulate, Verb::measure, Verb::classify, Verb::modes})
       if (done++ < triples) count(judge(first, *edit, second, verb), first, *edit, verb, seed, tally);
   }
   for (const auto& [verb, every, times] : dearer)

@@ -1,9 +1,6 @@
 /// Lets an event and a point of a signal that meet change places.
 #include "change/past_knot.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "orbit/leg_flow.hpp"
 
 namespace slapstick::orbit {
@@ -64,19 +61,12 @@ std::vector<Orbit> past_knots(const ModeSet& set, const Orbit& orbit, const std:
 }
 
 bool is_idle_knot(const Model& model, const Itinerary& shape, std::size_t leg) {
-  constexpr double rounding = 0x1p-46;  // of a value in the middle of two others, of a slope by their difference
   const Leg &before = shape.legs[leg], &behind = shape.legs[(leg + 1) % shape.legs.size()];
   if (before.ending != Ending::knot) return false;
-  for (std::size_t k = 0; k < model.signals.size(); ++k) {
-    const int line = before.lines[k], next = behind.lines[k];
-    if (line == next) continue;
-    const Signal& signal = model.signals[k];
-    const Signal::Knot& end = signal.knots[static_cast<std::size_t>(line) + 1];
-    if (end.pulse != 0.0) return false;
-    const auto from = mode::on_line(signal, line, end.time), to = mode::on_line(signal, next, end.time);
-    const double length = std::abs(from.value) + std::abs(to.value) + std::abs(from.slope) + std::abs(to.slope);
-    if (std::max(std::abs(from.slope - to.slope), std::abs(from.value - to.value)) > rounding * length) return false;
-  }
+  for (std::size_t k = 0; k < model.signals.size(); ++k)
+    if (before.lines[k] != behind.lines[k] &&
+        !mode::goes_straight_on(model.signals[k], before.lines[k], behind.lines[k]))
+      return false;
   return true;
 }
 

@@ -1,4 +1,4 @@
-/// Contact states from motions and back, and sorted multipliers.
+/// Contact states from motions and back, their linear motion in a mode, and sorted multipliers.
 #include "flow/contact_state.hpp"
 
 #include <algorithm>
@@ -27,6 +27,24 @@ State user_state(const System& system, const Eigen::VectorXd& contact) {
   State state(static_cast<std::size_t>(contact.size()));
   system.compiled().frame().leave(contact.data(), contact.data() + system.compiled().frame().n, state.data());
   return state;
+}
+
+Extension extension_of(const mode::Frame& frame) {
+  const Eigen::Index n = frame.n, d = frame.d;
+  Extension all{Eigen::MatrixXd::Zero(2 * d, 2 * n), Eigen::VectorXd(2 * d)};
+  all.by.topLeftCorner(d, n) = all.by.bottomRightCorner(d, n) = frame.dependence;
+  all.constant << frame.shift_slack, frame.drift_slack;
+  return all;
+}
+
+ContactFlow contact_flow(const mode::Frame& frame, const mode::Matrix& A, const Extension& all) {
+  const Eigen::Index n = frame.n, d = frame.d;
+  const Eigen::MatrixXd by = A.topLeftCorner(2 * d, 2 * d) * all.by;
+  const Eigen::VectorXd constant = A.topLeftCorner(2 * d, 2 * d) * all.constant + A.col(frame.one()).head(2 * d);
+  ContactFlow flow{Eigen::MatrixXd(2 * n, 2 * n), Eigen::VectorXd(2 * n)};
+  flow.by << by.topRows(n), by.middleRows(d, n);
+  flow.constant << constant.head(n), constant.segment(d, n);
+  return flow;
 }
 
 std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& jacobian) {

@@ -10,25 +10,15 @@
 
 #include "base/dense.hpp"
 #include "base/text.hpp"
-#include "flow/compiled_system.hpp"
+#include "flow/contact_state.hpp"
+#include "flow/engine.hpp"
+#include "flow/mode_graph.hpp"
 #include "mode/outline.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/flow/motion.hpp"
 
 namespace slapstick {
 namespace {
-
-/// A over the first n displacements and velocities: those that depend on them follow them.
-Eigen::MatrixXd independent(const mode::Frame& frame, const mode::Matrix& A) {
-  const Eigen::Index n = frame.n, d = frame.d;
-  Eigen::MatrixXd follow = Eigen::MatrixXd::Zero(2 * d, 2 * n);
-  follow.topLeftCorner(d, n) = frame.dependence;
-  follow.bottomRightCorner(d, n) = frame.dependence;
-  const Eigen::MatrixXd all = A.topLeftCorner(2 * d, 2 * d) * follow;
-  Eigen::MatrixXd result(2 * n, 2 * n);
-  result << all.topRows(n), all.middleRows(d, n);
-  return result;
-}
 
 /// Columns Z: the directions of the first n displacements in which no held contact moves, G Z = 0.
 Eigen::MatrixXd free_directions(const mode::Frame& frame, const mode::ContactStates& states) {
@@ -77,9 +67,9 @@ std::string names_of(const Contacts& contacts) {
 }
 
 /// The sense in which a contact slips at a state; w > 0 where w is zero.
-mode::FrictionState sense(const FrictionContact& friction, const State& state) {
-  const auto velocity = [&](int end) { return end == ground ? 0.0 : state[2 * static_cast<std::size_t>(end) + 1]; };
-  const double w = velocity(friction.a) - velocity(friction.b) - friction.belt_speed;
+mode::FrictionState sense(const Motion& motion, std::size_t contact) {
+  const double* X = motion.engine().extended().data();
+  const double w = flow::sliding_velocity(motion.system().compiled(), static_cast<int>(contact), X);
   return w < 0.0 ? mode::FrictionState::slip_minus : mode::FrictionState::slip_plus;
 }
 
@@ -97,11 +87,12 @@ double NaturalMode::cycles() const {
 mode::ContactStates sliding_states(const System& system, const State& state, const std::vector<std::string>& stuck,
                                    const std::vector<std::string>& closed) {
   const Model& model = system.model();
-  mode::ContactStates states = system.states(Motion(system, state).mode_id());
+  const Motion motion(system, state);
+  mode::ContactStates states = system.states(motion.mode_id());
   std::fill(states.stops.begin(), states.stops.end(), mode::StopState::open);
   std::fill(states.compliant.begin(), states.compliant.end(), mode::CompliantState::off);
   for (std::size_t i = 0; i < states.frictions.size(); ++i)
-    if (states.frictions[i] == mode::FrictionState::stick) states.frictions[i] = sense(model.frictions[i], state);
+    if (states.frictions[i] == mode::FrictionState::stick) states.frictions[i] = sense(motion, i);
   for (const std::string& name : closed) {
     if (const auto stop = place_of(name, model.stops)) {
       states.stops[*stop] = mode::StopState::closed;
@@ -110,7 +101,7 @@ mode::ContactStates sliding_states(const System& system, const State& state, con
       for (std::size_t i = 0; i < model.frictions.size(); ++i)
         if (states.frictions[i] == mode::FrictionState::unloaded &&
             model.frictions[i].normal->compliant_stop == static_cast<int>(*pad))
-          states.frictions[i] = sense(model.frictions[i], state);
+          states.frictions[i] = sense(motion, i);
     } else {
       const std::string rigid = names_of(model.stops), compliant = names_of(model.compliant_stops);
       refuse(model, name, "stop", rigid + (rigid.empty() || compliant.empty() ? "" : ", ") + compliant);
@@ -129,7 +120,8 @@ std::vector<NaturalMode> natural_modes(const System& system, const mode::Contact
   const mode::Frame& frame = system.compiled().frame();
   const Eigen::MatrixXd Z = free_directions(frame, states);
   if (Z.cols() == 0) return {};
-  const Eigen::MatrixXd A = independent(frame, mode::Outline(system.model(), frame, states).system);
+  const mode::Matrix whole = mode::Outline(system.model(), frame, states).system;
+  const Eigen::MatrixXd A = flow::contact_flow(frame, whole, flow::extension_of(frame)).by;
   const Eigen::MatrixXd back = dense::LeastNorm(Z).pseudo_inverse();
   const dense::Eigenpairs pairs = dense::eigenpairs(of_pairs(back) * A * of_pairs(Z));
   // A double eigenvalue, as the zero of a free translation, is known to the square root of rounding only.

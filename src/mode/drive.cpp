@@ -117,6 +117,20 @@ SignalTable::Value on_line(const Signal& signal, int line, double turns) {
   return {signal.knots[i].value + slope * since_begin(signal, i, turns), slope};
 }
 
+/// A value and an instant are each off by 2^-53 of themselves, and so are sums of them: a slope of two points is off by
+/// no more than four such roundings of (|v_i| + |v_j| + |slope| (|t_i| + |t_j|)) / (t_j - t_i).
+bool goes_straight_on(const Signal& signal, int line, int next) {
+  const auto i = static_cast<std::size_t>(line), j = static_cast<std::size_t>(next);
+  const Signal::Knot &end = signal.knots[i + 1], &begin = signal.knots[j];
+  const auto rounding = [&](std::size_t of) {
+    const Signal::Knot &from = signal.knots[of], &to = signal.knots[of + 1];
+    const double times = std::abs(from.time) + std::abs(to.time), values = std::abs(from.value) + std::abs(to.value);
+    return 0x1p-51 * (values + std::abs(slope_of(signal, of)) * times) / (to.time - from.time);
+  };
+  return end.pulse == 0.0 && end.value == begin.value &&
+         std::abs(slope_of(signal, i) - slope_of(signal, j)) <= rounding(i) + rounding(j);
+}
+
 /// value = v_i + slope (t - t_i),  slope = (v_j - v_i) / (t_j - t_i)
 SignalTable::Value line_rate(const Signal& signal, const Signal& rate, int line, double turns) {
   const auto i = static_cast<std::size_t>(line);

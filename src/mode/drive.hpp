@@ -72,6 +72,9 @@ class SignalTable {
 [[nodiscard]] SignalTable::Value on_line(const Signal& signal, int line, double turns);
 /// Its derivative at this phase, `rate` the derivative of the signal's numbers.
 [[nodiscard]] SignalTable::Value line_rate(const Signal& signal, const Signal& rate, int line, double turns);
+/// Is there no pulse between two neighbouring lines, no step, and one slope? Slopes are one within the rounding of the
+/// points that they are made of: a point in the middle of a line has a value and an instant that are rounded.
+[[nodiscard]] bool goes_straight_on(const Signal& signal, int line, int next);
 /// The end of a line, in the round in which it is nearest to a phase.
 [[nodiscard]] double line_end(const Signal& signal, int line, double turns);
 /// .. and its derivative.

@@ -20,37 +20,6 @@ using Eigen::VectorXd;
 
 constexpr double unit_roundoff = std::numeric_limits<double>::epsilon();
 
-/// X = by x + constant of a contact state x, for the first 2 d numbers of X.
-struct Extension {
-  MatrixXd by;
-  VectorXd constant;
-};
-
-/// What depends on the first n follows them: p = dependence (p + shift) - shift, u likewise with the drift.
-Extension extension_of(const mode::Frame& frame) {
-  const Index n = frame.n, d = frame.d;
-  Extension all{MatrixXd::Zero(2 * d, 2 * n), VectorXd(2 * d)};
-  all.by.topLeftCorner(d, n) = all.by.bottomRightCorner(d, n) = frame.dependence;
-  all.constant << frame.shift_slack, frame.drift_slack;
-  return all;
-}
-
-/// x' = by x + constant of a contact state x in one mode.
-struct Flow {
-  MatrixXd by;
-  VectorXd constant;
-};
-
-Flow flow_of(const mode::Frame& frame, const mode::Matrix& A, const Extension& all) {
-  const Index n = frame.n, d = frame.d;
-  const MatrixXd by = A.topLeftCorner(2 * d, 2 * d) * all.by;
-  const VectorXd constant = A.topLeftCorner(2 * d, 2 * d) * all.constant + A.col(frame.one()).head(2 * d);
-  Flow flow{MatrixXd(2 * n, 2 * n), VectorXd(2 * n)};
-  flow.by << by.topRows(n), by.middleRows(d, n);
-  flow.constant << constant.head(n), constant.segment(d, n);
-  return flow;
-}
-
 /// The numbers of a class that the mode does not hold.
 std::vector<Index> free_numbers(const flow::Translations& translations, ModeId mode) {
   const System& system = translations.system();
@@ -236,7 +205,7 @@ struct Line {
 };
 
 /// Guards of a motion about `rest`, which the columns of `modes` (over contact states) take it from.
-bool no_event(const mode::Mode& mode, const Extension& all, const Line& rest, const Amplitudes& swings,
+bool no_event(const mode::Mode& mode, const flow::Extension& all, const Line& rest, const Amplitudes& swings,
               const MatrixXcd& modes) {
   const Index d2 = all.by.rows();
   const VectorXd X = all.by * rest.x + all.constant, away = all.by * rest.speed;
@@ -289,8 +258,8 @@ Outlook outlook(const flow::Translations& translations, const Motion& motion) {
   const System& system = translations.system();
   const mode::Frame& frame = system.compiled().frame();
   const mode::Mode& mode = system.compiled().mode(motion.mode_id());
-  const Extension all = extension_of(frame);
-  const Flow flow = flow_of(frame, mode.system(), all);
+  const flow::Extension all = flow::extension_of(frame);
+  const flow::ContactFlow flow = flow::contact_flow(frame, mode.system(), all);
   const auto [at, units] = free_states(translations, motion.mode_id());
   Outlook found;
   found.here = flow::contact_state(motion);

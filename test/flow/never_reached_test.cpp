@@ -119,8 +119,8 @@ TEST(NeverReached, ARestAtAStopIsFoundAgainBesideAFarOne) {
   }
 }
 
-/// One mass rests at its stop, another swings about any place beyond the buffer: one of a family. What looks for members
-/// moves the first mass by rounding, and must not put it behind its stop.
+/// One mass rests at its stop, another swings about any place beyond the buffer: one of a family.
+/// What looks for members moves the first mass by rounding, and must not put it behind its stop.
 TEST(NeverReached, AMemberOfAFamilyMayRestAtAStop) {
   for (const double length : {1.0, 0.5788534805276381, 0.3, 7.0}) {
     const auto scaled = [&](const std::string& key, double value) {

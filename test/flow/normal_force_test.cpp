@@ -42,8 +42,8 @@ TEST(NormalForce, ASpringThatPressesMoreAsTheMassMovesOut) {
   EXPECT_EQ(motion.state()[1], 0.0);
 }
 
-/// Body x at its stop is pressed by k (y - x) alone, where y - x = a cos(2 t) - sin(2 t) / 2 while x rests: the stop lets
-/// go at tan(2 t) = 2 a. The friction contact numbers y - x, so that this force is one number times a factor.
+/// Body x at its stop is pressed by k (y - x) alone. While x rests, y - x = a cos(2 t) - sin(2 t) / 2: the stop lets go
+/// at tan(2 t) = 2 a. The friction contact numbers y - x, so that this force is one number times a factor.
 TEST(NormalForce, AForceThatIsOneNumberIsLetGoOnce) {
   const System system(file(coordinate("x") + coordinate("y") +
                            "[[spring]]\nbetween = ['y', 'x']\nstiffness = 4\n"

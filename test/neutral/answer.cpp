@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/text.hpp"
 #include "neutral/orbit_answer.hpp"
@@ -254,6 +255,13 @@ void classify(const ModelDefinition& definition, Answer& answer) {
   }
 }
 
+/// Those of the sliding machine: which contacts a file has that an edit does not change, a verb does not know.
+void modes(const ModelDefinition& definition, Answer& answer) {
+  const System system(definition.build());
+  for (const NaturalMode& mode : natural_modes(system, sliding_states(system, definition.start())))
+    for (const std::complex<double>& lambda : eigenvalues(mode)) answer.eigenvalues.push_back(lambda);
+}
+
 std::string text_of_range(const Parameter& parameter) {
   const auto [from, to] = range_of(parameter.value);
   return shown(from) + ":" + shown(to);
@@ -274,6 +282,8 @@ const char* name(Verb verb) {
       return "measure";
     case Verb::classify:
       return "classify";
+    case Verb::modes:
+      return "modes";
     case Verb::orbit:
       return "orbit";
     case Verb::branch:
@@ -296,6 +306,7 @@ Answer ask(Verb verb, const ModelDefinition& definition, const Question& questio
     if (verb == Verb::simulate) simulate(definition, question, answer);
     if (verb == Verb::measure) measure(definition, question, answer);
     if (verb == Verb::classify) classify(definition, answer);
+    if (verb == Verb::modes) modes(definition, answer);
     if (verb == Verb::orbit) answer_orbit(definition, answer);
     if (verb == Verb::branch) answer_branch(definition, answer);
     if (verb == Verb::curve) answer_curve(definition, answer);
@@ -316,11 +327,18 @@ std::string command(Verb verb, const ModelDefinition& definition, const std::str
     return "slapstick measure " + file + " --transient 0 --time " + time + " --of kinetic_energy";
   if (verb == Verb::classify)
     return "slapstick classify " + file + " --transient 100 --most-periods 1000 --most-n 32 --exponent-periods 400";
+  if (verb == Verb::modes) return "slapstick modes " + file;
   if (verb == Verb::orbit) return "slapstick orbit " + file + " --transient 100";
   if (verb == Verb::branch)
     return "slapstick continue " + file + " --transient 100 --param " + parameters[0].name + " --range " + range(0);
   return "slapstick curve " + file + " --params " + parameters[0].name + "," + parameters[1].name + " --range " +
          parameters[0].name + "=" + range(0) + " --range " + parameters[1].name + "=" + range(1);
+}
+
+std::vector<std::complex<double>> eigenvalues(const NaturalMode& mode) {
+  const std::complex<double> lambda(-mode.decay, 2.0 * std::numbers::pi * mode.cycles());
+  if (!mode.oscillates()) return {lambda};
+  return {lambda, std::conj(lambda)};
 }
 
 double growth(const ModelDefinition& definition, double until) {

@@ -7,6 +7,7 @@
 
 #include "neutral/file.hpp"
 #include "slapstick/flow/motion.hpp"
+#include "slapstick/flow/natural_modes.hpp"
 #include "slapstick/model/quantity.hpp"
 
 namespace slapstick::neutral {
@@ -38,7 +39,7 @@ struct Answer {
   long periods_used = 0;  ///< of `classify`: until it knew
 };
 
-enum class Verb { simulate, measure, classify, orbit, branch, curve };
+enum class Verb { simulate, measure, classify, modes, orbit, branch, curve };
 [[nodiscard]] const char* name(Verb verb);
 [[nodiscard]] Dimension dimension(Quantity::Kind kind);
 /// Is it a part of a sum that alone is determined (docs/reference/measure.md)? Contacts on one pair hold it together.
@@ -58,6 +59,9 @@ struct Question {
 /// The command that asks the same of a file.
 [[nodiscard]] std::string command(Verb verb, const ModelDefinition& definition, const std::string& file,
                                   const Question& question);
+
+/// lambda and, where it oscillates, its conjugate.
+[[nodiscard]] std::vector<std::complex<double>> eigenvalues(const NaturalMode& mode);
 
 /// The largest factor by which a small change of the start has grown until a time.
 [[nodiscard]] double growth(const ModelDefinition& definition, double until);

@@ -238,6 +238,34 @@ std::optional<std::string> multipliers_agree(const ModelDefinition& definition, 
   return "";
 }
 
+/// Where a motion stays in one mode, at rest or on a cycle of period T without events, its eigenvalues, or multipliers
+/// exp(lambda T), are those of the mode with the contacts held that it holds. Those of what is held, of translations
+/// and of families (0, or 1) are left out; the two ways share A, and nothing behind it.
+std::optional<std::string> modes_agree(const ModelDefinition& definition, const Question&) {
+  constexpr double nothing = 1e-6, close = 1e-6;  // a double eigenvalue is known to half of its digits
+  const System system(definition.build());
+  const Classification found = slapstick::classify(
+      system, definition.start(), {.transient_periods = 100, .most_periods = 500, .most_n = 16, .exponent_periods = 0});
+  const bool rests = found.attractor == Attractor::equilibrium;
+  if (!rests && !(found.n > 0 && found.p == 0)) return std::nullopt;
+  Motion motion(system, found.state);
+  const mode::ContactStates states = system.states(motion.mode_id());
+  const double period = found.n * system.period();
+  if (!rests && motion.advance({found.n, 0.0}) == Outcome::event) return std::nullopt;
+  std::vector<std::complex<double>> all;
+  for (const NaturalMode& mode : natural_modes(system, states))
+    for (const auto& lambda : eigenvalues(mode)) all.push_back(rests ? lambda : std::exp(lambda * period));
+  for (const auto& one : rests ? found.eigenvalues : found.multipliers) {
+    if (std::abs(one) < nothing || (!rests && std::abs(one - 1.0) < nothing)) continue;
+    const auto nearest = std::ranges::min_element(all, {}, [&](const auto& other) { return std::abs(other - one); });
+    if (nearest == all.end()) return broken("a mode more than there are", std::abs(one), 0.0);
+    if (std::abs(*nearest - one) > close * (1.0 + std::abs(one)))
+      return broken(rests ? "eigenvalue" : "multiplier without events", std::abs(one), std::abs(*nearest));
+    all.erase(nearest);
+  }
+  return "";
+}
+
 /// Derivatives of the means over a cycle, and differences of two cycles beside it.
 std::optional<std::string> sensitivities_are_differences(const ModelDefinition& definition, const Question&) {
   const System system(definition.build());
@@ -294,6 +322,7 @@ const std::vector<Law>& laws() {
       {"momentum", "what impacts do to a coordinate is the sum of their impulses", momentum_balances},
       {"diagram", "a value of a diagram is that of measure", diagram_measures},
       {"multipliers", "multipliers of classify and of orbit agree", multipliers_agree},
+      {"modes", "eigenvalues of rests, and multipliers without events, are those of modes", modes_agree},
       {"sensitivities", "sensitivities of measure are differences", sensitivities_are_differences},
   };
   return all;

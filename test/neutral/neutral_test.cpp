@@ -107,8 +107,8 @@ TEST_P(OfNothing, EditsChangeNoAnswer) {
 
 INSTANTIATE_TEST_SUITE_P(Laws, OfNothing,
                          testing::Values(Share{Verb::simulate, 0, 150}, Share{Verb::measure, 0, 150},
-                                         Share{Verb::classify, 0, 40}, Share{Verb::orbit, 0, 40},
-                                         Share{Verb::branch, 4, 30}),
+                                         Share{Verb::classify, 0, 40}, Share{Verb::modes, 0, 150},
+                                         Share{Verb::orbit, 0, 40}, Share{Verb::branch, 4, 30}),
                          [](const auto& info) { return std::string(name(info.param.verb)); });
 
 TEST(BetweenVerbs, AnswersOfOneFileAgree) {

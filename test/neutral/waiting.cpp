@@ -31,13 +31,14 @@ struct Exclusion {
   std::vector<std::string> says = {""};  ///< a difference that begins otherwise is not put down to it
 };
 
-const std::vector<Verb> all_verbs{Verb::simulate, Verb::measure, Verb::classify,
+const std::vector<Verb> all_verbs{Verb::simulate, Verb::measure, Verb::classify, Verb::modes,
                                   Verb::orbit,    Verb::branch,  Verb::curve};
 const std::vector<Verb> settled{Verb::classify, Verb::orbit, Verb::branch, Verb::curve};
 
 const std::vector<Exclusion>& exclusions() {
   static const std::vector<Exclusion> all = {
       {{"clock"}, {Verb::measure}, always, "statistics of another stretch of time"},
+      {{"clock"}, {Verb::modes}, always, "the start decides which pieces of the characteristics act"},
       {{"twin"}, settled, without_drive, "two free cycles have phases of their own: one of a family"},
   };
   return all;
@@ -59,7 +60,6 @@ const std::vector<Exclusion>& faults() {
        always,
        "twins in a complete chatter have no multipliers",
        {"number of multipliers"}},
-      {{"units"}, {Verb::classify}, always, "a motion is one of a family, or not, by rounding", {"family"}},
       {{"units"},
        {Verb::branch},
        always,

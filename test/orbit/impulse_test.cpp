@@ -108,8 +108,8 @@ TEST(PeriodicImpulse, IsFollowedThroughNothing) {
   }
 }
 
-/// Half a period from a blow the signal of the blow has a point at which nothing happens: an impact that passes it is no
-/// change of events.
+/// Half a period from a blow its signal has a point at which nothing happens.
+/// An impact that passes it is no change of events.
 TEST(PeriodicImpulse, HasNothingHalfAPeriodFromItsBlow) {
   const Driven struck(
       "name = 'm'\nomega = 'omega'\n[parameters.omega]\nvalue = 1\n[[coordinate]]\nname = 'x'\nmass = 1\n"

@@ -149,7 +149,7 @@ void ExactFlow::state(int j, const double* X, T* out) const {
 
 template <class T>
 void ExactFlow::polynomial(int guard, const T* X_j, T* out) const {
-  const T* D;
+  const T* D = nullptr;
   if constexpr (std::is_same_v<T, Quad>)
     D = guards_[guard].taylor.data();
   else

@@ -55,8 +55,8 @@ void count(const Judgement& outcome, Asked& first, const Edit& edit, Verb verb, 
   ++tally.verbs[neutral::name(verb)].by_verdict[k];
   if (outcome.verdict == Verdict::excused || outcome.verdict == Verdict::waiting) ++tally.reasons[reason(outcome.why)];
   if (outcome.verdict != Verdict::different) return;
-  constexpr int most_tries = 400;
-  const Definition small = smallest(first.file(), edit, verb, seed, most_tries);
+  const int most_tries = verb == Verb::branch || verb == Verb::curve ? 20 : 400;  // a branch takes seconds
+  const Definition small = smallest(first.file(), edit, verb, seed, outcome.why, most_tries);
   tally.failures.push_back("# " + std::string(edit.name) + ", file " + std::to_string(seed) + ": " + outcome.why +
                            "\n" + both_commands(small, edit, verb, seed));
 }

@@ -30,7 +30,7 @@ void Reader::advance() {
   words_.clear();
   next_word_ = 1;
   if (!std::getline(in_, text)) fail(in_.eof() ? "the file ends here, without `done`" : "cannot be read");
-  for (std::size_t begin = 0, end; begin <= text.size(); begin = end + 1) {
+  for (std::size_t begin = 0, end = 0; begin <= text.size(); begin = end + 1) {
     end = std::min(text.find(' ', begin), text.size());
     words_.push_back(text.substr(begin, end - begin));
     if (words_.back().empty()) fail("words and numbers are separated by one space");

@@ -185,7 +185,7 @@ class Reader {
   std::string rest_of_line();
   double real();
   double real_from(double least);
-  long count(long least, long most);
+  long count(long least, long greatest);
   std::vector<double> reals(int n);
   Pair pair();
   Clock clock();

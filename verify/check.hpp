@@ -66,7 +66,7 @@ class Checker {
   void begin(const Segment& segment);
   void arrive(long line, const Clock& at, const std::vector<double>& p, const std::vector<double>& u);
   void clock(long line, const Clock& at);
-  void land(const std::vector<double>& p);
+  void land(const std::vector<double>& next);
   void continuity(long line, const std::vector<double>& p, const std::vector<double>& u);
   void dependence(long line, const Balls& X, const std::vector<double>& size);
   void jump(long line, std::size_t i, const Ball& by, double allowed);

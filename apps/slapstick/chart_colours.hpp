@@ -1,6 +1,7 @@
 #pragma once
 /// The colours of charts.
 #include <array>
+#include <cmath>
 
 #include "figure/figure.hpp"
 
@@ -39,7 +40,7 @@ inline constexpr std::array<figure::Colour, 10> scale_anchors{{{0, 32, 77},
   const auto below = static_cast<std::size_t>(place < scale_anchors.size() - 1 ? place : scale_anchors.size() - 2);
   const double rest = place - static_cast<double>(below);
   const auto between = [&](std::uint8_t a, std::uint8_t b) {
-    return static_cast<std::uint8_t>(a + rest * (static_cast<double>(b) - a) + 0.5);
+    return static_cast<std::uint8_t>(std::lround(a + rest * (static_cast<double>(b) - a)));
   };
   const figure::Colour &a = scale_anchors[below], &b = scale_anchors[below + 1];
   return {between(a.red, b.red), between(a.green, b.green), between(a.blue, b.blue)};

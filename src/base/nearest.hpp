@@ -55,7 +55,7 @@ namespace slapstick {
       least = distance;
       best = candidate;
     }
-    if (!word.empty() && candidate.size() > word.size() && candidate.compare(0, word.size(), word) == 0) {
+    if (!word.empty() && candidate.size() > word.size() && candidate.starts_with(word)) {
       longer = candidate;
       ++continued;
     }

@@ -99,7 +99,7 @@ std::optional<CascadeLimit> limit_of(const Problem& problem, const std::vector<S
 
 /// The grazes of a range of special points.
 template <class Iterator>
-std::vector<const SpecialPoint*> grazes_of(Iterator point, Iterator end) {
+std::vector<const SpecialPoint*> grazes_of(Iterator point, const Iterator& end) {
   std::vector<const SpecialPoint*> grazes;
   for (; point != end; ++point)
     if (point->type == SpecialType::GR) grazes.push_back(&*point);

@@ -37,11 +37,11 @@ MatrixXd seen_displacements(const Model& model) {
     if (!contact.normal) continue;
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(n);
     for (const NormalForce::Term& term : contact.normal->terms) row[term.coordinate] += term.stiffness;
-    if (const double largest = row.cwiseAbs().maxCoeff(); largest > 0.0) rows.push_back(row / largest);
+    if (const double largest = row.cwiseAbs().maxCoeff(); largest > 0.0) rows.emplace_back(row / largest);
   }
   for (std::size_t i = 0; i < model.stiffness.size(); i += static_cast<std::size_t>(n)) {
     const Eigen::Map<const Eigen::RowVectorXd> row(&model.stiffness[i], n);
-    if (const double largest = row.cwiseAbs().maxCoeff(); largest > 0.0) rows.push_back(row / largest);
+    if (const double largest = row.cwiseAbs().maxCoeff(); largest > 0.0) rows.emplace_back(row / largest);
   }
   MatrixXd all(static_cast<Index>(rows.size()), n);
   for (Index i = 0; i < all.rows(); ++i) all.row(i) = rows[static_cast<std::size_t>(i)];

@@ -16,6 +16,6 @@ struct Unit {
 /// factor (* | / | space factor)..., a factor being a known name with an optional whole power: "m^2". '/' is for the
 /// next factor only; µ is u.
 /// @throws InputError with the reason only: "unknown unit 'furlong'; ..."
-[[nodiscard]] Unit parse_unit(const std::string& text);
+[[nodiscard]] Unit parse_unit(const std::string& given);
 
 }  // namespace slapstick

@@ -89,7 +89,7 @@ struct Tracer::Expansion {
   };
 
   Branch& branch(const std::vector<bool>& above, const std::vector<Quantity>& quantities);
-  [[nodiscard]] Branch branch_of(const std::vector<Formula>& formulas) const;
+  [[nodiscard]] Branch branch_of(const std::vector<Formula>& all) const;
   [[nodiscard]] Matrix taylor_of(const std::vector<Row>& rows) const;
 
   std::shared_ptr<const mode::Outline> kept;
@@ -119,6 +119,7 @@ Tracer::Expansion::Branch& Tracer::Expansion::branch(const std::vector<bool>& ab
   for (Branch& known : branches)
     if (known.above == above) return known;
   std::vector<Formula> all;
+  all.reserve(quantities.size());
   for (const Quantity& quantity : quantities) all.push_back(formulas.of(quantity, above));
   branches.push_back(branch_of(all));
   branches.back().above = above;
@@ -331,7 +332,7 @@ void Tracer::evaluate(Expansion& mode, double length) {
   coefficients_.noalias() = branch.taylor * at_.X;
   scale_rows(coefficients_, ratio, rows_);
   for (std::size_t k = 0; k < of_.size(); ++k) combine(branch.terms[k], rows_, values_[k]);
-  if (rates_ == nullptr) return;
+  if (mode.rate == nullptr) return;
   expand(mode);
   rate_coefficients_.resize(coefficients_.size());
   for (std::size_t r = 0; r < branch.rows.size(); ++r)

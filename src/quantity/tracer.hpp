@@ -61,7 +61,7 @@ class Tracer {
 
   /// The motion in one mode, from X at time `begin` on. The blow before it is told first.
   /// @param longest  time over which the Taylor polynomial of degree 23 is exact but for rounding
-  void piece(const std::shared_ptr<const mode::Outline>& mode, double longest, const double* X, double begin,
+  void piece(const std::shared_ptr<const mode::Outline>& outline, double longest, const double* X, double begin,
              double duration, const PieceRates* rates = nullptr);
   /// X at the end of the last piece, where the caller has it: otherwise it is computed when a blow asks for it.
   void arrive(const double* X);

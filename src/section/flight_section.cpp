@@ -187,7 +187,7 @@ class Survey {
 
 }  // namespace
 
-std::optional<FlightKind> choose_flights(Motion motion, Stop stop) {
+std::optional<FlightKind> choose_flights(const Motion& motion, Stop stop) {
   Survey survey(motion);
   for (long at = first_looked_at; at <= most_looked_at; at *= 4) {
     if (!survey.look(at, stop)) return std::nullopt;

@@ -35,6 +35,6 @@ class FlightSection final : public ReturnMap {
 /// few points of the section; of equals the longest. Looked at are 400 changes, and up to 25 600 until there is a kind
 /// that comes back within a sixth of them: a cycle may have thousands of changes.
 /// @returns nothing if the motion has fewer
-[[nodiscard]] std::optional<FlightKind> choose_flights(Motion motion, Stop stop);
+[[nodiscard]] std::optional<FlightKind> choose_flights(const Motion& motion, Stop stop);
 
 }  // namespace slapstick::section

@@ -96,7 +96,7 @@ TEST_P(OfNothing, EditsChangeNoAnswer) {
       const Judgement outcome = judge(first, edit, *second, verb);
       ++count[outcome.verdict];
       if (outcome.verdict != Verdict::different) continue;
-      const Definition small = smallest(first.file(), edit, verb, seed, 300);
+      const Definition small = smallest(first.file(), edit, verb, seed, outcome.why, 300);
       ADD_FAILURE() << edit.name << ", seed " << seed << ": " << outcome.why << '\n'
                     << both_commands(small, edit, verb, seed);
     }

@@ -137,13 +137,21 @@ class Simpler {
   std::vector<Definition> out_;
 };
 
-bool still_differs(const Definition& file, const Edit& edit, Verb verb, std::uint64_t seed) {
+/// What differs: what stands before the values, without numbers of rows.
+std::string respect(const std::string& why) {
+  std::string what = why.substr(0, why.find(':'));
+  std::erase_if(what, [](char c) { return c >= '0' && c <= '9'; });
+  return what;
+}
+
+bool still_differs(const Definition& file, const Edit& edit, Verb verb, std::uint64_t seed, const std::string& why) {
   try {
     campaign::Random random(seed, 0);
     const auto edited = edit.apply(file, random);
     if (!edited || file.parameters.size() < parameters_of(verb)) return false;
     Asked asked(file);
-    return judge(asked, edit, *edited, verb).verdict == Verdict::different;
+    const Judgement judged = judge(asked, edit, *edited, verb);
+    return judged.verdict == Verdict::different && respect(judged.why) == respect(why);
   } catch (const std::exception&) {
     return false;
   }
@@ -153,13 +161,14 @@ bool still_differs(const Definition& file, const Edit& edit, Verb verb, std::uin
 
 std::vector<Definition> simpler(const Definition& file) { return Simpler(file).all(); }
 
-Definition smallest(const Definition& file, const Edit& edit, Verb verb, std::uint64_t seed, int most_tries) {
+Definition smallest(const Definition& file, const Edit& edit, Verb verb, std::uint64_t seed, const std::string& why,
+                    int most_tries) {
   Definition best = file;
   for (bool smaller = true; smaller;) {
     smaller = false;
     for (const Definition& candidate : simpler(best)) {
       if (--most_tries < 0) return best;
-      if (!still_differs(candidate, edit, verb, seed)) continue;
+      if (!still_differs(candidate, edit, verb, seed, why)) continue;
       best = read_definition(text(candidate), "random.toml");
       smaller = true;
       break;

@@ -105,17 +105,20 @@ Judgement judge_attractor(Asked& first, const Answer& answer, const Edited& seco
 
 /// What the answers of the first file say about the question.
 std::string excluded(Asked& first, const Edited& second, Verb verb) {
-  if (of_trajectory(verb)) return "";
+  if (of_trajectory(verb) || verb == Verb::modes) return "";
   constexpr std::size_t many = 150;
   if (first.answer(Verb::simulate).rows.size() > many)
     return "more than 150 events in five periods: a search of minutes";
   const auto word = first.answer(Verb::classify).words.find("attractor");
   const bool undecided = word != first.answer(Verb::classify).words.end() && word->second == name(Attractor::undecided);
   if (verb != Verb::classify && undecided) return "undecided: a search of minutes for an orbit";
-  const bool free = std::ranges::any_of(first.answer(verb).numbers, [](const Number& n) {
-    return n.what == "drift" || (n.what == "family" && n.value > 0.0);
-  });
-  if (second.rule.farthest > 1.0 && free) return "a free group is held by a stop, however far it is";
+  const auto free = [&](Verb of) {  // a branch does not tell
+    return std::ranges::any_of(first.answer(of).numbers, [](const Number& n) {
+      return n.what == "drift" || (n.what == "family" && n.value > 0.0);
+    });
+  };
+  if (second.rule.farthest > 1.0 && (free(verb) || free(Verb::classify)))
+    return "a free group is held by a stop, however far it is";
   return "";
 }
 

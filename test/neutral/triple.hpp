@@ -52,9 +52,10 @@ class Asked {
 
 /// Files that are simpler by one step, all of them sound.
 [[nodiscard]] std::vector<Definition> simpler(const Definition& file);
-/// The smallest file found for which the triple is still different, with the edit's own random numbers of `seed`.
+/// The smallest file found for which the triple is still different, with the edit's own random numbers of `seed`, and
+/// in the same respect as `why` says: another difference may be another fault, or none.
 [[nodiscard]] Definition smallest(const Definition& file, const Edit& edit, Verb verb, std::uint64_t seed,
-                                  int most_tries);
+                                  const std::string& why, int most_tries);
 
 /// Both files and both commands, as a shell runs them.
 [[nodiscard]] std::string both_commands(const Definition& first, const Edit& edit, Verb verb, std::uint64_t seed);

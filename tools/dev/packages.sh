@@ -14,7 +14,7 @@ cluster_packages=(slurmctld slurmd slurm-client munge parallel)
 python_packages=(python3-dev python3-venv)
 manual_packages=(groff-base mandoc zsh fish)  # the pages of man and the completion are tried with them, where they are
 deb_packages=(dpkg-dev lintian debootstrap python3-numpy)
-lint_packages=(clang clang-format clang-tidy)
+lint_packages=(clang clang-format)
 
 # missing_of PACKAGE...: those of them that are not installed, one on a line. One question to dpkg for all.
 missing_of() {

@@ -48,12 +48,12 @@ class Batches {
       const long n = std::min(size_, options_.count - k * size_);
       try {
         Tally tally = work(k, n);
-        const std::lock_guard lock(mutex_);
+        const std::scoped_lock lock(mutex_);
         waiting_.emplace(k, std::move(tally));
         done_ += n;
         add_what_is_due();
       } catch (...) {
-        const std::lock_guard lock(mutex_);
+        const std::scoped_lock lock(mutex_);
         error_ = std::current_exception();
       }
     }

@@ -23,7 +23,7 @@ std::string altered(const std::string& word, Random& random) {
   return hex(x * factors[static_cast<std::size_t>(random.below(static_cast<int>(factors.size())))]);
 }
 
-std::string raised(const std::string& count) { return std::to_string(std::atol(count.c_str()) + 1); }
+std::string raised(const std::string& count) { return std::to_string(std::stol(count) + 1); }
 
 std::vector<std::size_t> all(const Lines& lines, std::initializer_list<const char*> words) {
   std::vector<std::size_t> found;

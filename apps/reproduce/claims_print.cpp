@@ -62,7 +62,7 @@ std::set<std::string> together(const Classification& a, const Classification& b,
   }
   const auto periodic = [](const Classification& what) { return what.attractor == Attractor::periodic; };
   if (!periodic(a) && !periodic(b) && !periodic(c)) return {};
-  if (labels.count("undecided") != 0) return {};
+  if (labels.contains("undecided")) return {};
   if (labels.size() == 1 && same_cycle(a, b) && same_cycle(b, c)) return {};
   return labels;
 }

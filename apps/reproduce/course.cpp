@@ -25,7 +25,7 @@ void Course::next() {
 
 void Course::step(int done, int total) {
   if (!options_.progress) return;
-  const std::lock_guard lock(report_);
+  const std::scoped_lock lock(report_);
   const PlannedPart& part = plan_.at(static_cast<std::size_t>(current_));
   Progress progress{part.name, 0.0, elapsed(), 0.0};
   progress.fraction = (weight_before_ + part.weight * done / total) / total_weight_;
@@ -43,7 +43,7 @@ double Course::elapsed() const { return seconds_since(begin_); }
 
 void Course::end_part() {
   if (current_ < 0) return;
-  const std::lock_guard lock(report_);
+  const std::scoped_lock lock(report_);
   const PlannedPart& part = plan_.at(static_cast<std::size_t>(current_));
   parts_.push_back({part.name, seconds_since(part_begin_)});
   weight_before_ += part.weight;

@@ -217,7 +217,8 @@ figure::Figure in_rows(std::vector<figure::Panel> panels, const std::string& cap
   figure::Figure picture;
   picture.columns = 3;
   picture.width_cm = 17.5;
-  picture.height_cm = 5.8 * static_cast<double>(panels.size() / 3);
+  const std::size_t rows = (panels.size() + 2) / 3;
+  picture.height_cm = 5.8 * static_cast<double>(rows);
   picture.panels = std::move(panels);
   picture.caption = caption;
   return picture;

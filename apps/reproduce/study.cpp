@@ -35,7 +35,7 @@ void Study::each(int count, const std::function<void(int)>& body) const {
   int done = 0;
   const auto counted = [&](int i) {
     body(i);
-    const std::lock_guard lock(counting);
+    const std::scoped_lock lock(counting);
     course_.step(++done, count);
   };
   if (!sweep::for_each_index(count, options_.threads, counted, options_.cancel)) throw Interrupted{};

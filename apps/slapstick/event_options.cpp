@@ -66,7 +66,7 @@ EventChoice event_choice(const std::string& text, const System& system, const st
   throw InputError(argument + ": " +
                    (events.contact ? "contact " + in_quotes(system.contact_name(*events.contact))
                                    : "model " + in_quotes(system.model().name)) +
-                   " cannot have " + in_quotes(std::string(name(events.kind))) +
+                   " cannot have " + in_quotes(name(events.kind)) +
                    (known.empty() ? ", and the model has no contacts" : "; the model can have " + known));
 }
 

@@ -136,7 +136,7 @@ void check_corners(const MapOptions& options, const MapWish& wish) {
 void check_names(const MapWish& wish) {
   if (wish.x.name == wish.y.name) throw InputError("--y: " + in_quotes(wish.y.name) + " is the parameter of --x too");
   for (const auto& [argument, name] : {std::pair{"--x", wish.x.name}, std::pair{"--y", wish.y.name}})
-    if (wish.chosen.overrides.count(name) != 0)
+    if (wish.chosen.overrides.contains(name))
       throw InputError(std::string(argument) + ": " + in_quotes(name) + " is given by --set too");
   const double pixels = static_cast<double>(wish.x.count) * wish.y.count;
   if (pixels > 1e9)

@@ -24,7 +24,7 @@ std::vector<Quantity> quantities_of(const std::vector<Wanted>& wanted) {
 
 /// {"Q:STAT": of(k, STAT), ..}
 template <class Of>
-Json by_statistic(const std::vector<Wanted>& wanted, const Of& of) {
+static Json by_statistic(const std::vector<Wanted>& wanted, const Of& of) {
   Json values = Json::object();
   for (std::size_t k = 0; k < wanted.size(); ++k) {
     const auto names =

@@ -178,7 +178,7 @@ Plot::Plot(const std::string& path, const std::string& size) {
 void Plot::fit(figure::Figure& figure) const {
   if (width_cm_ && figure.height_cm && !height_cm_) figure.height_cm = *figure.height_cm * *width_cm_ / figure.width_cm;
   if (width_cm_) figure.width_cm = *width_cm_;
-  if (height_cm_) figure.height_cm = *height_cm_;
+  if (height_cm_) figure.height_cm = height_cm_;
   use_prefixes(figure);
 }
 

@@ -63,8 +63,8 @@ void answer(const Served& served, const fs::path& root, const httplib::Request& 
     response.status = 404;
     return;
   }
-  std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  response.set_content(std::move(bytes), type_of(file));
+  const std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  response.set_content(bytes, type_of(file));
 }
 
 }  // namespace

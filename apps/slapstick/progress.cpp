@@ -31,9 +31,9 @@ void Progress::update(double amount) {
   const double seconds = std::chrono::duration<double>(now - begin_).count();
   const double rate = amount / seconds;
   const double left = rate > 0.0 ? std::min((total_ - amount) / rate, 1e8) : 1e8;
-  std::fprintf(stderr, "%s%.0f/%.0f %s (%.0f %%), %.3g/s, %.0f:%02d left%s", terminal_ ? "\r\033[K" : "", amount,
-               total_, what_.c_str(), 100.0 * amount / total_, rate, static_cast<double>(static_cast<long>(left) / 60),
-               static_cast<int>(static_cast<long>(left) % 60), terminal_ ? "" : "\n");
+  const auto whole = static_cast<long>(left);
+  std::fprintf(stderr, "%s%.0f/%.0f %s (%.0f %%), %.3g/s, %ld:%02ld left%s", terminal_ ? "\r\033[K" : "", amount,
+               total_, what_.c_str(), 100.0 * amount / total_, rate, whole / 60, whole % 60, terminal_ ? "" : "\n");
   std::fflush(stderr);
 }
 

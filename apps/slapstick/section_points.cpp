@@ -130,7 +130,8 @@ void PointQuantities::label(figure::Panel& panel) const {
 
 Found impact_points(const PoincareOptions& options, const StopChoice& stops, Motion motion, TableOutput& table,
                     const AxisUnits& units, PointQuantities& of, const Context& context) {
-  return ImpactPoints(options, motion.system(), stops, table, units, of)(std::move(motion), context);
+  const System system = motion.system();
+  return ImpactPoints(options, system, stops, table, units, of)(std::move(motion), context);
 }
 
 Found strobe_points(const PoincareOptions& options, const StopChoice& stops, Motion motion, TableOutput& table,
@@ -167,13 +168,14 @@ Found strobe_points(const PoincareOptions& options, const StopChoice& stops, Mot
 }
 
 /// One coordinate of the return map.
-double mapped(Mapped quantity, const RelativeMotion& relative, const EventPoint& point) {
+static double mapped(Mapped quantity, const RelativeMotion& relative, const EventPoint& point) {
   if (quantity == Mapped::displacement) return relative.y(point.state);
   return quantity == Mapped::w ? point.w : point.return_time;
 }
 
 /// The axes of the return map of a kind of event.
-figure::Panel map_axes(std::string_view kind, Mapped quantity, const RelativeMotion& relative, const AxisUnits& units) {
+static figure::Panel map_axes(std::string_view kind, Mapped quantity, const RelativeMotion& relative,
+                              const AxisUnits& units) {
   const std::string label = quantity == Mapped::displacement ? relative.displacement
                             : quantity == Mapped::w          ? "w"
                                                              : "return time";

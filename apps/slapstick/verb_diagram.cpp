@@ -77,7 +77,7 @@ void check_size(const Options& options, const Sweep& sweep) {
 
 /// What can be known to be wrong before hours of work.
 void check_ends(const Options& options, const ChosenModel& chosen, const Sweep& sweep) {
-  if (chosen.overrides.count(sweep.name) != 0)
+  if (chosen.overrides.contains(sweep.name))
     throw InputError("--sweep: " + in_quotes(sweep.name) + " is given by --set too");
   if (options.y.empty() && stop_contacts(chosen.model).empty())
     throw InputError(

@@ -135,7 +135,7 @@ void write_rows(const Options& options, const Sweep& sweep, const std::vector<Ro
 
 int many(const Options& options, const ChosenModel& chosen, const Context& context) {
   const Sweep sweep = parse_sweep(options.sweep);
-  if (chosen.overrides.count(sweep.name) != 0)
+  if (chosen.overrides.contains(sweep.name))
     throw InputError("--sweep: " + in_quotes(sweep.name) + " is given by --set too");
   const Work work{static_cast<double>(options.transient + options.periods), "--periods"};
   for (const double value : {sweep.from, sweep.to})

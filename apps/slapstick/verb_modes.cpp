@@ -56,7 +56,7 @@ std::vector<NaturalMode> modes_at(const Options& options, const ChosenModel& cho
 std::vector<Row> rows_of(const Options& options, const ChosenModel& chosen, const Sweep& sweep,
                          const std::atomic<bool>& stop) {
   if (sweep.name.empty()) return {{0.0, modes_at(options, chosen, {})}};
-  if (chosen.overrides.count(sweep.name) != 0)
+  if (chosen.overrides.contains(sweep.name))
     throw InputError("--sweep: " + in_quotes(sweep.name) + " is given by --set too");
   std::vector<Row> rows;
   for (int i = 0; i < sweep.count && !stop.load(); ++i) {

@@ -96,7 +96,7 @@ int poincare(const PoincareOptions& options, const Context& context) {
   roles.add("--out", options.out);
   roles.add_plot(options.plot);
   const bool strobe = options.section == "stroboscopic";
-  const double periods = static_cast<double>(options.transient + (strobe ? options.points : 1));
+  const auto periods = static_cast<double>(options.transient + (strobe ? options.points : 1));
   const System system = affordable_system(chosen, {periods, strobe ? "--transient or --points" : "--transient"});
   const Plot plot(options.plot, options.plot_size);
   const EventChoice events = options.section == "event" ? event_choice(options.event, system) : EventChoice{};

@@ -26,7 +26,7 @@ class Display {
                  left / 60, left % 60);
     std::fflush(stderr);
   }
-  void finished(const paper::Part& part) {
+  void finished(const paper::Part& part) const {
     std::fprintf(stderr, "%s%-28s %6.1f s\n", terminal_ ? "\r\033[K" : "", part.name.c_str(), part.seconds);
   }
   void clear() const {

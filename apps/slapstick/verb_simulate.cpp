@@ -46,9 +46,9 @@ struct Options {
 /// Everything a run writes to, opened before it starts.
 class Run {
  public:
-  Run(const Options& options, const ChosenModel& chosen, System system, const State& start, Instant end,
+  Run(const Options& options, const ChosenModel& chosen, const System& system, const State& start, Instant end,
       ShownMotion shown, std::pair<Instant, Instant> window)
-      : system_(std::move(system)),
+      : system_(system),
         options_(options),
         end_(end),
         result_(options.out),
@@ -263,8 +263,8 @@ int simulate(const Options& options, bool by_time, const Context& context) {
   ShownMotion shown = shown_motion(options, chosen);
   const auto window = window_of(options, end);
   if (!options.certify.empty()) certify::demand_stated(chosen.model);
-  System system = affordable_system(chosen, {end.since({}), by_time ? "--time" : "--periods"});
-  Run run(options, chosen, std::move(system), start, end, std::move(shown), window);
+  const System system = affordable_system(chosen, {end.since({}), by_time ? "--time" : "--periods"});
+  Run run(options, chosen, system, start, end, std::move(shown), window);
   const bool complete = run(context) && run.certify(start, context);
   return run.write(complete, chosen, start);
 }

@@ -61,7 +61,7 @@ class Watch {
       } catch (...) {
         failure = std::current_exception();
       }
-      const std::lock_guard lock(mutex_);
+      const std::scoped_lock lock(mutex_);
       ended_ = true;
       wake_.notify_one();
     });

@@ -75,7 +75,7 @@ std::string shortest_decimal(double value) {
     scientific = printed("%.*e", ++decimals, value);
   } while (decimals < 16 && std::strtod(scientific.c_str(), nullptr) != value);
   if (!std::isfinite(value)) return scientific;
-  const int exponent = std::atoi(scientific.c_str() + scientific.find('e') + 1);
+  const int exponent = static_cast<int>(std::strtol(scientific.c_str() + scientific.find('e') + 1, nullptr, 10));
   const std::string fixed = printed("%.*f", decimals > exponent ? decimals - exponent : 0, value);
   return scientific.size() < fixed.size() ? scientific : fixed;
 }
@@ -86,7 +86,7 @@ void append_digits(std::string& out, double value, int digits) { out += printed(
 
 std::errc read_decimal(std::string_view text, double& value) {
   const std::string copy(text);  // strtod wants an end
-  const std::size_t sign = text.substr(0, 1) == "-" ? 1 : 0;
+  const std::size_t sign = text.starts_with("-") ? 1 : 0;
   if (text.size() == sign || std::string_view("0123456789.iInN").find(text[sign]) == std::string_view::npos ||
       text.find_first_of("xX") != std::string_view::npos)
     return std::errc::invalid_argument;

@@ -94,7 +94,8 @@ class NearbyShapes {
       std::optional<Orbit> next;
       for (const double part : parts) {
         const std::optional<Motion> motion = motion_from(system_, set_, orbit, 0, part);
-        if (motion && (next = spliced(orbit, *motion))) break;
+        if (motion) next = spliced(orbit, *motion);
+        if (next) break;
       }
       if (!next) return std::nullopt;
       orbit = std::move(*next);

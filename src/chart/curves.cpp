@@ -223,7 +223,7 @@ std::vector<std::size_t> largest_boundary(const Pixels& pixels, const std::vecto
     if (!edges[i].explained) all[std::minmax(pixels.label(edges[i].a), pixels.label(edges[i].b))].push_back(i);
   std::vector<std::size_t> largest;
   for (auto& [classes, places] : all) {
-    if (given_up.count(classes) != 0 || places.size() < std::max(least, largest.size() + 1)) continue;
+    if (given_up.contains(classes) || places.size() < std::max(least, largest.size() + 1)) continue;
     largest = places;
     pair = classes;
   }

@@ -94,14 +94,14 @@ struct MapStore::Bound {
   }
 
   [[nodiscard]] std::optional<StoredCell> find(std::int32_t pixel, Direction direction) {
-    const std::lock_guard lock(mutex);
+    const std::scoped_lock lock(mutex);
     return kept.find(number_of(pixel, direction, problem));
   }
 
   void note(std::span<const sweep::Pixel> pixels) {
     std::vector<StoredCell> cells;
     for (const sweep::Pixel& pixel : pixels) cells.push_back(cell_of(pixel, problem));
-    const std::lock_guard lock(mutex);
+    const std::scoped_lock lock(mutex);
     kept.add(cells);
   }
 

@@ -19,7 +19,7 @@ typedef double Part __attribute__((vector_size(32), may_alias));
 #else
 typedef double Part __attribute__((vector_size(16), may_alias));
 #endif
-constexpr int parts = sizeof(Lane8) / sizeof(Part);  // NOLINT(bugprone-sizeof-expression): registers in eight numbers
+constexpr int parts = sizeof(Lane8) / sizeof(Part);
 
 /// out[b] = sum_i data[b * m + i] * x[i], for m known to the compiler.
 template <int m>

@@ -143,7 +143,7 @@ std::string encode_png(const Raster& raster) {
       palette.push_back(static_cast<char>(channel));
     opacities.push_back(static_cast<char>(ink.opacity));
   }
-  const std::size_t width = static_cast<std::size_t>(raster.width);
+  const auto width = static_cast<std::size_t>(raster.width);
   rows.reserve(raster.pixels.size() + raster.height);
   for (std::size_t at = 0; at < raster.pixels.size(); at += width) {
     rows.push_back(0);  // filter of this row: none

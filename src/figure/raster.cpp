@@ -109,7 +109,7 @@ void spread_one_pixel(Counts& counts) {
     const auto* here = wide.data() + static_cast<std::size_t>(j) * width;
     const auto* below = wide.data() + static_cast<std::size_t>(std::min(j + 1, height - 1)) * width;
     auto* out = counts.values.data() + static_cast<std::size_t>(j) * width;
-    for (int i = 0; i < width; ++i) out[i] = std::max(std::max(above[i], here[i]), below[i]);
+    for (int i = 0; i < width; ++i) out[i] = std::max({above[i], here[i], below[i]});
   }
 }
 

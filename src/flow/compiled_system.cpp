@@ -107,8 +107,7 @@ CompiledSystem::CompiledSystem(Model model, SystemOptions options)
   for (const mode::ContactRow& stop : frame_.stops) {
     impulses_.emplace_back(stop.sign * frame_.mass_inverse.col(stop.own) / frame_.mass_inverse(stop.own, stop.own));
     presses_.emplace_back(stop.sign * frame_.free.row(stop.own));
-    for (std::size_t i = 0; i < frame_.frictions.size(); ++i) {
-      const mode::ContactRow& friction = frame_.frictions[i];
+    for (const mode::ContactRow& friction : frame_.frictions) {
       couplings_.push_back({stop.sign * friction.sign * frame_.mass_inverse(stop.own, friction.own),
                             frame_.in_step(stop.own, friction.own)});
     }

@@ -1,7 +1,7 @@
 /// Names temporary files after their process, and removes those whose process is gone.
 #include "io/abandoned_files.hpp"
 
-#include <signal.h>
+#include <signal.h>  // NOLINT(modernize-deprecated-headers): kill is of POSIX
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -40,16 +40,16 @@ const std::string& mark() {
 }
 
 bool is_number(std::string_view text) {
-  return !text.empty() && text.size() <= 10 && text.find_first_not_of("0123456789") == text.npos;
+  return !text.empty() && text.size() <= 10 && text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
 /// Is this the name of a temporary file of this machine, of a process that is gone?
 bool abandoned(const std::string& name) {
   const std::size_t at = name.rfind(mark());
-  if (at == name.npos || at == 0) return false;
+  if (at == std::string::npos || at == 0) return false;
   const std::string rest = name.substr(at + mark().size());
   const std::size_t end = rest.find('-');
-  if (end == rest.npos || !is_number(rest.substr(0, end)) || !is_number(rest.substr(end + 1))) return false;
+  if (end == std::string::npos || !is_number(rest.substr(0, end)) || !is_number(rest.substr(end + 1))) return false;
   const long long process = std::stoll(rest);
   if (process == 0 || process > std::numeric_limits<pid_t>::max()) return false;
   return ::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH;

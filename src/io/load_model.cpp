@@ -12,10 +12,7 @@
 namespace slapstick {
 namespace {
 
-bool is_path(const std::string& text) {
-  constexpr std::string_view ending = ".toml";
-  return text.size() >= ending.size() && text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
-}
+bool is_path(const std::string& text) { return text.ends_with(".toml"); }
 
 }  // namespace
 

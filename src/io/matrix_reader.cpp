@@ -42,8 +42,8 @@ std::vector<std::string> names_of(const std::string& text) {
 
 class MatrixReader {
  public:
-  MatrixReader(const TreeReader& tree, const std::vector<std::string>& coordinates, std::vector<std::string> rows,
-               Definition& definition)
+  MatrixReader(const TreeReader& tree, const std::vector<std::string>& coordinates,
+               const std::vector<std::string>& rows, Definition& definition)
       : tree_(tree), coordinates_(coordinates), rows_(rows.empty() ? coordinates : rows), definition_(definition) {
     for (const auto& row : rows_)
       place_.push_back(
@@ -188,7 +188,7 @@ void read_matrices(const TreeReader& tree, const TomlNode& root, const std::vect
   tree.check_keys(*table, "matrix", matrix_keys());
   std::vector<std::string> rows;
   for (const auto& row : matrix_rows(tree, root, definition.source)) rows.push_back(row.name);
-  const MatrixReader reader(tree, coordinates, std::move(rows), definition);
+  const MatrixReader reader(tree, coordinates, rows, definition);
   for (const auto& [key, node] : table->entries)
     if (key != "coordinates") definition.matrices[key] = reader.read(node, "matrix: " + key);
 }

@@ -31,7 +31,7 @@ class Evaluation {
 
  private:
   void need(const std::string& name) {
-    if (values_.count(name) != 0) return;
+    if (values_.contains(name)) return;
     const auto& entry = *entries_.at(name);
     const auto given = overrides_.find(name);
     if (given != overrides_.end()) {

@@ -40,7 +40,7 @@ class PartReader {
     if (kind == "observable") gather_observed();
     auto& parts = definition_.parts[kind];
     for (std::size_t i = 0; i < list->items.size(); ++i) parts.push_back(part(list->items[i], rule, i));
-    if (kind == "coordinate") read_coordinates(std::move(parts));
+    if (kind == "coordinate") return read_coordinates(std::move(parts));
     if (kind == "base") keep_bases(parts);
     if (kind == "observable") check_observables(parts);
   }
@@ -223,7 +223,7 @@ class PartReader {
                  "unknown signal " + in_quotes(named->text) + suggestion(named->text, known));
   }
 
-  static bool has(const TomlNode& node, std::string_view key) { return node.find(std::string(key)) != nullptr; }
+  static bool has(const TomlNode& node, std::string_view key) { return node.find(key) != nullptr; }
 
   /// The first of keys with '|' between them that a table has, or "".
   static std::string first_present(const TomlNode& node, std::string_view keys) {
@@ -255,7 +255,7 @@ class PartReader {
         tree_.fail(value->line, place, "this key stands in place of " + in_quotes(other) + ": give one of the two");
       if (!field.needs.empty() && first_present(node, field.needs).empty())
         tree_.fail(value->line, place,
-                   "this key belongs to a " + in_quotes(std::string(field.needs.substr(0, field.needs.find('|')))) +
+                   "this key belongs to a " + in_quotes(field.needs.substr(0, field.needs.find('|'))) +
                        ", and the part has no such key");
       read_value(node, rule, field, *value, where, part);
     }

@@ -162,7 +162,7 @@ void check_units(const Definition& definition) { UnitCheck(definition).check(); 
 
 /// The unit of the coordinates that contacts act on, if they agree: the column w holds relative velocities of all
 /// contacts.
-std::string common_length(const Definition& definition) {
+static std::string common_length(const Definition& definition) {
   const auto& fallback = definition.scale.find("length")->second.unit;
   const auto& coordinates = definition.of("coordinate");
   std::optional<std::string> common;

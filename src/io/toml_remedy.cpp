@@ -96,7 +96,7 @@ std::string toml_remedy(std::string_view line) {
     if (const auto number = with_point(value))
       return std::string(key) + ": write " + *number + ", not " + std::string(value);
     if (readable(value)) continue;
-    const std::string what = std::string(key) + ": " + in_quotes(std::string(value)) + " is no number";
+    const std::string what = std::string(key) + ": " + in_quotes(value) + " is no number";
     if (has_unit(value)) return what + ": a number has no unit; a parameter may have a key 'unit'";
     if (value.find_first_of("\"'") != std::string_view::npos) return {};
     return what + ": an expression or text stands in quotes, " + std::string(key) + " = \"" + std::string(value) + "\"";

@@ -98,7 +98,7 @@ class Converter {
 
   TomlNode convert(const toml::node& from, std::size_t line, int depth) const {
     TomlNode node;
-    if (from.source().begin.line > line) line = from.source().begin.line;
+    line = std::max<std::size_t>(line, from.source().begin.line);
     node.line = static_cast<int>(line);
     if (depth > deepest)
       throw InputError(place(source_, line), "nested more than " + std::to_string(deepest) + " deep");

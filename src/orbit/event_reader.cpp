@@ -70,7 +70,7 @@ std::vector<Leg> ends_at_knots(const flow::Engine& engine, Leg leg) {
     if (together) all[i].pulses.clear();
     if (moved && !together && i > 0) all[i].states = after;
   }
-  if (together) all.back().pulses = pulses;
+  if (together) all.back().pulses = std::move(pulses);
   all.back().strikes = flow::separated_strikes(frame, engine.strikes());
   // The last is called by what the points make happen, if that is more than the points themselves.
   const auto events = engine.events_of_instant();

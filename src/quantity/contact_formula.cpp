@@ -8,7 +8,6 @@ namespace slapstick::quantity {
 
 using mode::CompliantState;
 using mode::FrictionState;
-using mode::StopState;
 
 Formulas::Formulas(const Model& model, const mode::Frame& frame, const mode::Outline& outline, const Rates* rates)
     : model_(model),

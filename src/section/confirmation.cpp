@@ -24,9 +24,11 @@ Confirmation::Look Confirmation::first_of(const std::vector<Candidate>& candidat
   for (const Candidate& candidate : candidates) {
     const bool multiple = candidate.returns && look.refused_return != 0 && candidate.n % look.refused_return == 0;
     if (multiple) continue;
-    if ((look.cycle = confirm(candidate.n))) return look;
+    look.cycle = confirm(candidate.n);
+    if (look.cycle) return look;
     if (!candidate.returns) continue;
-    if ((look.cycle = member(candidate.n))) return look;
+    look.cycle = member(candidate.n);
+    if (look.cycle) return look;
     if (look.refused_return == 0) look.refused_return = candidate.n;
   }
   return look;

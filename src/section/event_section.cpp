@@ -15,7 +15,7 @@ EventKind parse_kind(std::string_view word) {
     if (name(kind) == word) return kind;
     known += (k == 0 ? "" : ", ") + std::string(name(kind));
   }
-  throw InputError(in_quotes(std::string(word)) + " is no kind of event; there are " + known);
+  throw InputError(in_quotes(word) + " is no kind of event; there are " + known);
 }
 
 }  // namespace

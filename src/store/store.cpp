@@ -149,7 +149,7 @@ struct Store::Database {
 
   [[nodiscard]] bool is_empty() const { return number_of("SELECT count(*) FROM sqlite_master") == 0; }
 
-  void begin(const StoreFacts& of) {
+  void begin(const StoreFacts& of) const {
     run("PRAGMA journal_mode = WAL");
     run("BEGIN IMMEDIATE");
     run(schema);

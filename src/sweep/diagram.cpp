@@ -114,7 +114,7 @@ class Run {
   }
 
   void report(std::size_t i, bool known) {
-    const std::lock_guard lock(progress_);
+    const std::scoped_lock lock(progress_);
     if (problem_.finished && !known) problem_.finished(i, diagram_.points[i]);
     if (problem_.progress) problem_.progress(++done_, static_cast<int>(diagram_.points.size()));
   }

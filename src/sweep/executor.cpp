@@ -44,21 +44,21 @@ class Queue {
   /// The next cell of a chain may begin.
   void hand_on(const Cell& of, Starts start) {
     if (of.step + 1 == chains_.length) return;
-    const std::lock_guard lock(mutex_);
+    const std::scoped_lock lock(mutex_);
     --may_hand_on_;
     ready_.push_back({{of.chain, of.step + 1}, std::move(start)});
     changed_.notify_one();
   }
 
   void note_end() {
-    const std::lock_guard lock(mutex_);
+    const std::scoped_lock lock(mutex_);
     ++run_;
     changed_.notify_all();  // the last of a chain: who waits may go
   }
 
   /// No further cell begins.
   void end(std::exception_ptr why) {
-    const std::lock_guard lock(mutex_);
+    const std::scoped_lock lock(mutex_);
     if (!failure_) failure_ = std::move(why);
     ended_ = true;
     changed_.notify_all();

@@ -198,7 +198,7 @@ class MapRun {
   }
 
   void deliver(const std::vector<Pixel>& pixels, std::size_t done) {
-    const std::lock_guard lock(delivery_);
+    const std::scoped_lock lock(delivery_);
     if (problem_.finished && !pixels.empty()) problem_.finished(pixels);
     if (refinement_ != nullptr)
       for (const Pixel& pixel : pixels) refinement_->set(pixel.number, kinds_.number(pixel.found.front()));

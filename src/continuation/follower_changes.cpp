@@ -289,12 +289,15 @@ void Follower::restart(PathPoint& at, PathPoint from) {
   step_ = options_.step;
 }
 
-/// Do an event and a point of a signal change places at which nothing happens?
+/// Do one event and points of signals change places, at which nothing happens?
 bool Follower::passes_nothing(const SpecialPoint& special) const {
   if (special.margin.kind != UsedMargin::Kind::duration) return false;
   const Orbit& orbit = special.solution.orbit;
   const Model model = problem_.family().model(orbit.values);
-  return ranges::any_of(events_at(special), [&](std::size_t leg) { return is_idle_knot(model, orbit.shape, leg); });
+  const auto events = events_at(special);
+  const auto idle = std::count_if(events.begin(), events.end(),
+                                  [&](std::size_t leg) { return is_idle_knot(model, orbit.shape, leg); });
+  return idle > 0 && static_cast<std::size_t>(idle) + 1 >= events.size();
 }
 
 /// The branch goes on behind a change, with new events.

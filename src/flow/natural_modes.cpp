@@ -12,7 +12,9 @@
 #include "base/text.hpp"
 #include "flow/contact_state.hpp"
 #include "flow/engine.hpp"
+#include "flow/linear_motion.hpp"
 #include "flow/mode_graph.hpp"
+#include "mode/contact_force.hpp"
 #include "mode/outline.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/flow/motion.hpp"
@@ -32,13 +34,6 @@ Eigen::MatrixXd free_directions(const mode::Frame& frame, const mode::ContactSta
   for (std::size_t i = 0; i < held.size(); ++i) G.row(static_cast<Eigen::Index>(i)) = frame.dependence.row(held[i]);
   constexpr double dependent = 0x1p-40;  // rows of a loop of contacts, but for the rounding of W
   return dense::kernel(G, dependent).basis;
-}
-
-/// (a, a') -> (Z a, Z a')
-Eigen::MatrixXd of_pairs(const Eigen::MatrixXd& Z) {
-  Eigen::MatrixXd both = Eigen::MatrixXd::Zero(2 * Z.rows(), 2 * Z.cols());
-  both.topLeftCorner(Z.rows(), Z.cols()) = both.bottomRightCorner(Z.rows(), Z.cols()) = Z;
-  return both;
 }
 
 /// Displacements of the coordinates, scaled: the largest becomes 1.
@@ -73,6 +68,20 @@ mode::FrictionState sense(const Motion& motion, std::size_t contact) {
   return w < 0.0 ? mode::FrictionState::slip_minus : mode::FrictionState::slip_plus;
 }
 
+/// Has a contact a normal force in these states? One that a closed compliant stop presses has, and others by what the
+/// load is at the state of the motion.
+bool presses(const Motion& motion, const mode::ContactStates& states, std::size_t contact) {
+  const Model& model = motion.system().model();
+  const std::optional<NormalForce>& normal = model.frictions[contact].normal;
+  if (!normal) return true;
+  const int pad = normal->compliant_stop;
+  if (pad >= 0 && states.compliant[static_cast<std::size_t>(pad)] == mode::CompliantState::on) return true;
+  const mode::RowVector load =
+      mode::load_row(model, motion.system().compiled().frame(), states, static_cast<int>(contact));
+  const auto X = motion.engine().extended();
+  return load.dot(Eigen::Map<const Eigen::VectorXd>(X.data(), load.size())) > 0.0;
+}
+
 [[noreturn]] void refuse(const Model& model, const std::string& name, const char* kind, const std::string& known) {
   throw InputError("model " + in_quotes(model.name) + " has no " + kind + " " + in_quotes(name) +
                    (known.empty() ? ", nor any other" : "; the model has " + known));
@@ -91,21 +100,23 @@ mode::ContactStates sliding_states(const System& system, const State& state, con
   mode::ContactStates states = system.states(motion.mode_id());
   std::fill(states.stops.begin(), states.stops.end(), mode::StopState::open);
   std::fill(states.compliant.begin(), states.compliant.end(), mode::CompliantState::off);
-  for (std::size_t i = 0; i < states.frictions.size(); ++i)
-    if (states.frictions[i] == mode::FrictionState::stick) states.frictions[i] = sense(motion, i);
   for (const std::string& name : closed) {
     if (const auto stop = place_of(name, model.stops)) {
       states.stops[*stop] = mode::StopState::closed;
     } else if (const auto pad = place_of(name, model.compliant_stops)) {
       states.compliant[*pad] = mode::CompliantState::on;
-      for (std::size_t i = 0; i < model.frictions.size(); ++i)
-        if (states.frictions[i] == mode::FrictionState::unloaded &&
-            model.frictions[i].normal->compliant_stop == static_cast<int>(*pad))
-          states.frictions[i] = sense(motion, i);
     } else {
       const std::string rigid = names_of(model.stops), compliant = names_of(model.compliant_stops);
       refuse(model, name, "stop", rigid + (rigid.empty() || compliant.empty() ? "" : ", ") + compliant);
     }
+  }
+  for (std::size_t i = 0; i < states.frictions.size(); ++i) {
+    const bool slips =
+        states.frictions[i] == mode::FrictionState::slip_plus || states.frictions[i] == mode::FrictionState::slip_minus;
+    if (!presses(motion, states, i))
+      states.frictions[i] = mode::FrictionState::unloaded;
+    else if (!slips)
+      states.frictions[i] = sense(motion, i);
   }
   for (const std::string& name : stuck) {
     const auto friction = place_of(name, model.frictions);
@@ -123,18 +134,14 @@ std::vector<NaturalMode> natural_modes(const System& system, const mode::Contact
   const mode::Matrix whole = mode::Outline(system.model(), frame, states).system;
   const Eigen::MatrixXd A = flow::contact_flow(frame, whole, flow::extension_of(frame)).by;
   const Eigen::MatrixXd back = dense::LeastNorm(Z).pseudo_inverse();
-  const dense::Eigenpairs pairs = dense::eigenpairs(of_pairs(back) * A * of_pairs(Z));
-  // A double eigenvalue, as the zero of a free translation, is known to the square root of rounding only.
-  const double rounding = static_cast<double>(A.rows()) * std::numeric_limits<double>::epsilon();
-  const double largest = std::sqrt(pairs.values.cwiseAbs2().maxCoeff()), zero = std::sqrt(rounding) * largest;
+  const Eigen::Index n = frame.n;
   std::vector<NaturalMode> modes;
-  for (Eigen::Index i = 0; i < pairs.values.size(); ++i) {
-    const std::complex<double> lambda = pairs.values[i];
-    const double size = std::sqrt(std::norm(lambda));
-    if (size > zero && lambda.imag() < 0.0) continue;
-    NaturalMode mode{.shape = scaled(frame.W_inverse * (Z * pairs.vectors.col(i).head(Z.cols())))};
-    if (size > zero && std::abs(lambda.real()) > rounding * largest) mode.decay = -lambda.real();
-    if (size > zero && lambda.imag() > 0.0) mode.frequency = size;
+  for (const flow::LinearMotion& motion :
+       flow::linear_motions(back * A.bottomLeftCorner(n, n) * Z, back * A.bottomRightCorner(n, n) * Z)) {
+    if (motion.lambda.imag() < 0.0) continue;
+    NaturalMode mode{.shape = scaled(frame.W_inverse * (Z * motion.shape))};
+    if (motion.lambda.imag() > 0.0) mode.frequency = std::abs(motion.lambda);
+    if (!(std::abs(motion.lambda.real()) <= motion.error)) mode.decay = -motion.lambda.real();
     modes.push_back(std::move(mode));
   }
   std::sort(modes.begin(), modes.end(), [](const NaturalMode& a, const NaturalMode& b) {

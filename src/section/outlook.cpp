@@ -8,6 +8,7 @@
 #include "base/dense.hpp"
 #include "flow/compiled_system.hpp"
 #include "flow/contact_state.hpp"
+#include "flow/linear_motion.hpp"
 
 namespace slapstick::section {
 namespace {
@@ -88,27 +89,6 @@ MatrixXd classes(const flow::Translations& translations, const MatrixXd& columns
     all.col(j) = translations.numbers(x);
   }
   return all;
-}
-
-/// Powers of two D that make rows and columns of D^-1 Q D alike in size (Osborne).
-VectorXd balance(MatrixXd& Q) {
-  constexpr int most_rounds = 40;
-  constexpr double gain = 0.95;
-  VectorXd D = VectorXd::Ones(Q.rows());
-  bool changed = true;
-  for (int round = 0; round < most_rounds && changed; ++round) {
-    changed = false;
-    for (Index i = 0; i < Q.rows(); ++i) {
-      const double own = std::abs(Q(i, i));
-      const double column = Q.col(i).cwiseAbs().sum() - own, row = Q.row(i).cwiseAbs().sum() - own;
-      if (!(column > 0.0 && row > 0.0)) continue;
-      const double f = std::exp2(std::round(0.5 * std::log2(row / column)));
-      if (f == 1.0 || column * f + row / f >= gain * (column + row)) continue;
-      Q.col(i) *= f, Q.row(i) /= f, D[i] *= f;
-      changed = true;
-    }
-  }
-  return D;
 }
 
 /// y = y_0 + basis z, z' = Q z + s, less what is conserved.
@@ -267,7 +247,7 @@ Outlook outlook(const flow::Translations& translations, const Motion& motion) {
   const Index size = found.here.size(), count = static_cast<Index>(at.size());
   Reduced left;
   left.Q = classes(translations, flow.by * units)(at, Eigen::all);
-  const VectorXd D = balance(left.Q);
+  const VectorXd D = flow::balance(left.Q);
   left.basis = D.asDiagonal();
   left.s = classes(translations, flow.by * found.here + flow.constant)(at, 0).cwiseQuotient(D);
   const VectorXd terms = flow.by.cwiseAbs() * found.here.cwiseAbs() + flow.constant.cwiseAbs();

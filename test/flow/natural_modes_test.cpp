@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
+#include <iomanip>
 #include <numbers>
+#include <sstream>
 
 #include "slapstick/base/error.hpp"
 #include "slapstick/io/model_file.hpp"
@@ -65,6 +68,107 @@ TEST(NaturalModes, OfAChainAreItsSines) {  // omega_j = 2 sin(j pi / (2 (n + 1))
     EXPECT_NEAR(mode.frequency, 2 * std::sin(j * std::numbers::pi / (2 * (n + 1))), 1e-14) << j;
     EXPECT_NEAR(mode.decay, 0.0, 1e-14) << j;
   }
+}
+
+std::string number(double value) {
+  std::ostringstream text;
+  text << std::setprecision(17) << value;
+  return text.str();
+}
+
+/// omega_j^2 = 2 (k / m) (1 - cos(j pi / n)), j = 0 .. n-1, of a free chain; its translation is exact, twice.
+TEST(NaturalModes, OfAFreeChainAreExactInAnyUnits) {
+  constexpr int n = 5;
+  for (const double k : {1e-16, 1e-8, 1.0, 1e6, 1e12}) {
+    std::string text = "name = \"chain\"\n";
+    for (int i = 1; i <= n; ++i) text += "[[coordinate]]\nname = \"q" + std::to_string(i) + "\"\nmass = 1e-3\n";
+    for (int i = 1; i < n; ++i)
+      text += "[[spring]]\nbetween = [\"q" + std::to_string(i) + "\", \"q" + std::to_string(i + 1) +
+              "\"]\nstiffness = " + number(k) + "\n";
+    const auto modes = modes_of(text);
+    ASSERT_EQ(modes.size(), static_cast<std::size_t>(n + 1)) << k;
+    for (const NaturalMode& mode : modes) EXPECT_EQ(mode.decay, 0.0) << k;
+    for (const std::size_t i : {0U, 1U}) {
+      EXPECT_EQ(modes[i].frequency, 0.0);
+      for (const auto& part : modes[i].shape) EXPECT_NEAR(std::abs(part - 1.0), 0.0, 1e-14);
+    }
+    for (int j = 1; j < n; ++j) {
+      const double omega = 2.0 * std::sqrt(k / 1e-3) * std::sin(j * std::numbers::pi / (2.0 * n));
+      EXPECT_NEAR(modes[static_cast<std::size_t>(j + 1)].frequency / omega, 1.0, 1e-14) << k << ", " << j;
+    }
+  }
+}
+
+/// lambda^2 m + lambda c + k = 0: the slow root is k / c but for parts of k m / c^2 = 1e-9.
+TEST(NaturalModes, ThatAreSlowBesideFastOnesKeepTheirDigits) {
+  const std::string heavy = "name = \"over\"\n[[coordinate]]\nname = \"x\"\nmass = 1e-3\n" + damper(1e3);
+  for (const double k : {1.0, -1.0}) {
+    const auto modes = modes_of(heavy + "[[spring]]\nbetween = [\"x\", \"ground\"]\nstiffness = " + number(k) + "\n");
+    ASSERT_EQ(modes.size(), 2U);
+    const double slow = k / 1e3 * (1.0 + 1e-9 * k), fast = 1e6 - slow;
+    const auto& [first, second] = std::pair(modes[0], modes[1]);
+    EXPECT_NEAR(std::min(first.decay, second.decay) / slow, 1.0, 1e-14);
+    EXPECT_NEAR(std::max(first.decay, second.decay) / fast, 1.0, 1e-14);
+  }
+}
+
+/// A node of 1e-6 that a contact of 1e8 holds to a body: the body's frequency is that of both together.
+/// Two orders of the coordinates, and one answer.
+TEST(NaturalModes, OfABodyAreNotSpoiltByAStiffContact) {
+  for (const char* growth : {"0.5", "-0.5"}) {
+    std::array<NaturalMode, 2> slow;
+    for (const bool first : {true, false}) {
+      const std::string x = "[[coordinate]]\nname = \"x\"\nmass = 1\n",
+                        node = "[[coordinate]]\nname = \"node\"\nmass = 1e-6\n";
+      const auto modes = modes_of("name = \"stiff\"\n" + (first ? x + node : node + x) +
+                                  "[[spring]]\nbetween = [\"x\", \"ground\"]\nstiffness = 1\n" +
+                                  "[[damper]]\nbetween = [\"x\", \"ground\"]\nfeeds = true\ncoefficient = " + growth +
+                                  "\n" + "[[spring]]\nbetween = [\"node\", \"x\"]\nstiffness = 1e8\n");
+      ASSERT_EQ(modes.size(), 2U);
+      slow[first ? 0 : 1] = modes[0];
+    }
+    const double mass = 1.0 + 1e-6;
+    constexpr double known = 1e8 * 0x1p-53;  // what the sum of both springs leaves of the weak one
+    EXPECT_NEAR(slow[0].frequency, 1.0 / std::sqrt(mass), known);
+    EXPECT_NEAR(slow[0].decay, std::stod(growth) / (2.0 * mass), known);
+    EXPECT_NEAR(slow[0].frequency, slow[1].frequency, known);
+    EXPECT_NEAR(slow[0].decay, slow[1].decay, known);
+  }
+}
+
+/// What has no damper neither decays nor grows, whatever rounding says.
+TEST(NaturalModes, WithoutDampersDoNotGrow) {
+  const ModelDefinition brake = load_model("mode-coupling-brake");
+  for (const double friction : {0.05, 0.15, 0.25, 0.35}) {
+    for (const double stiffer : {1.0, 1e6, 1e12}) {
+      Overrides values{{"friction", friction}};
+      for (const char* k : {"k1", "k2", "k3"}) values[k] = stiffer * brake.values().at(k);
+      const System system(brake.build(values));
+      for (const NaturalMode& mode : natural_modes(system, sliding_states(system, brake.start(values), {}, {"belt"})))
+        EXPECT_EQ(mode.decay, 0.0) << friction << ", " << stiffer;
+    }
+  }
+}
+
+/// N = -1 + 3 x at x = 0, whatever the compliant stop did before it was opened.
+TEST(NaturalModes, OfAContactWithoutLoadAreThoseWithoutIt) {
+  const ModelDefinition definition = ModelDefinition::parse(
+      "name = \"n\"\n[[coordinate]]\nname = \"x\"\nmass = 1\n[[coordinate]]\nname = \"y\"\nmass = 1\n"
+      "[[spring]]\nbetween = [\"x\", \"ground\"]\nstiffness = 1\n"
+      "[[spring]]\nbetween = [\"y\", \"ground\"]\nstiffness = 4\n"
+      "[[compliant_stop]]\nname = \"q\"\nbetween = [\"y\", \"ground\"]\nclearance = 0.1\nstiffness = 50\n"
+      "[[friction]]\nname = \"f\"\nbetween = [\"x\", \"ground\"]\nstatic = 0.2\n"
+      "normal_force = { constant = -1, compliant_stop = \"q\", x = 3 }\n",
+      "test");
+  const System system(definition.build());
+  const auto frequency = [&](const State& state, const std::vector<std::string>& closed) {
+    return natural_modes(system, sliding_states(system, state, {}, closed)).at(0).frequency;
+  };
+  EXPECT_NEAR(frequency({0.0, 0.0, 0.0, 0.0}, {}), 1.0, 1e-14);
+  EXPECT_NEAR(frequency({0.0, 0.0, 0.15, 0.0}, {}), 1.0, 1e-14);
+  EXPECT_NEAR(frequency({0.0, -1.0, 0.15, 0.0}, {}), 1.0, 1e-14);
+  EXPECT_NEAR(frequency({1.0, 1.0, 0.0, 0.0}, {}), std::sqrt(1.6), 1e-14);  // k + 0.2 * 3
+  EXPECT_NEAR(frequency({0.0, 1.0, 0.0, 0.0}, {"q"}), std::sqrt(1.6), 1e-14);
 }
 
 /// Falling friction: the slope 0.4 of the friction exceeds the damping 0.2.

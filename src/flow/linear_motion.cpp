@@ -44,7 +44,7 @@ MatrixXd complement(const MatrixXd& basis) {
 
 /// a = both alpha + slow gamma + seen beta: K sees beta only, C gamma' and beta'.
 struct Directions {
-  explicit Directions(const MatrixXd& K, const MatrixXd& C) {
+  explicit Directions(const MatrixXd& K, const MatrixXd& C) : both(K.rows(), 0), slow(K.rows(), 0) {
     const MatrixXd unseen = kernel_of(K, K.cwiseAbs());
     seen = complement(unseen);
     if (unseen.cols() == 0) return;

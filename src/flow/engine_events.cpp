@@ -168,15 +168,14 @@ void Engine::compliant_limit(int compliant, GuardKind kind) {
 }
 
 /// The displacement (velocity) of a characteristic made that of its corner, or a force made zero, but for the rounding
-/// of a sum: by the number that has most of it, whatever the units, is not zero, and of a pair that is not held. A
-/// displacement of a pair at a closed stop would open the stop by its rounding.
+/// of a sum: by the number that has most of it, is not zero, and of a pair that is not held. A displacement of a pair
+/// at a closed stop would open the stop by its rounding.
 void Engine::land_on_crossing(const mode::Guard& guard) {
   const int d = system_->frame().d;
-  const auto share = [&](const mode::Guard::Entry& entry) { return std::abs(entry.value * X_.data()[entry.column]); };
   const mode::Guard::Entry* most = nullptr;
   for (const mode::Guard::Entry& entry : guard.entries) {
-    if (entry.column >= 2 * d || share(entry) == 0.0 || here_->steady(entry.column % d)) continue;
-    if (most == nullptr || share(entry) > share(*most)) most = &entry;
+    if (entry.column >= 2 * d || X_.data()[entry.column] == 0.0 || here_->steady(entry.column % d)) continue;
+    if (most == nullptr || std::abs(entry.value) > std::abs(most->value)) most = &entry;
   }
   if (most == nullptr) return;
   const int own = most->column % d;

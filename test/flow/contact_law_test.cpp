@@ -1,7 +1,6 @@
 /// Laws of stops, dampers that act in an interval, and friction laid as a polyline, against closed forms.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -112,29 +111,6 @@ TEST(ContactLaw, AMassComesToRestBetweenTwoStiffnesses) {
   EXPECT_NEAR(seconds(events.back(), motion), std::numbers::pi * (0.1 + 1.0 / std::sqrt(60.0)), 1e-14);
   EXPECT_NEAR(motion.state()[0], 2.0 / 15.0, 1e-15);
   EXPECT_EQ(motion.state()[1], 0.0);
-}
-
-/// Where c delta' reaches k delta, the one or the other is moved to make the instant exact: which, is no matter of units.
-TEST(ContactLaw, TheCornerOfABoundedStopIsOneInAllUnits) {
-  // time in units of a quarter: stiffness and force are a sixteenth, the rate of the forcing and the damping a quarter
-  const auto visits = [](double quarter) {
-    const ModelDefinition definition = ModelDefinition::parse(
-        "name = 'm'\nomega = 'w'\n[parameters]\nw = 1\nk = 1\nc = 1\nF = 1\n[[coordinate]]\nname = 'x'\nmass = 1\n"
-        "[[force]]\non = 'x'\namplitude = 'F'\nphase = 2\n[[compliant_stop]]\nname = 'wall'\nbetween = ['ground', "
-        "'x']\n"
-        "clearance = 0\nstiffness = 'k'\ndamping = 'c'\nlaw = 'bounded'\n",
-        "f.toml");
-    const double sixteenth = quarter * quarter;
-    const System system(definition.build({{"w", quarter}, {"c", quarter}, {"k", sixteenth}, {"F", sixteenth}}));
-    Motion motion(system, {0.0, 0.0});
-    std::vector<std::array<double, 3>> all;
-    while (motion.advance({20, 0.0}) == Outcome::event)
-      all.push_back({motion.time().seconds(1.0), motion.state()[0], motion.state()[1] / quarter});
-    return all;
-  };
-  const auto first = visits(1.0), second = visits(0.25);
-  EXPECT_GE(first.size(), 4U);
-  EXPECT_EQ(first, second);
 }
 
 /// The force never jumps and never pulls, and the energy falls.

@@ -17,6 +17,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
+double size_of(Complex z) { return std::sqrt(std::norm(z)); }
+
 /// Of a sum of k products whose terms have sizes that add up to 1: some sixty roundings each.
 double rounding(Index k) { return 64.0 * static_cast<double>(k) * std::numeric_limits<double>::epsilon(); }
 
@@ -67,7 +69,7 @@ struct Pencil {
   Pencil(const MatrixXd& K, const MatrixXd& C, Complex lambda)
       : T(-lambda * C - K.cast<Complex>()),
         rate(-C.cast<Complex>()),
-        size(std::abs(lambda) * C.cwiseAbs() + K.cwiseAbs()) {
+        size(size_of(lambda) * C.cwiseAbs() + K.cwiseAbs()) {
     T.diagonal().array() += lambda * lambda;
     rate.diagonal().array() += 2.0 * lambda;
     size.diagonal().array() += std::norm(lambda);
@@ -93,8 +95,8 @@ Step newton(const Pencil& pencil, const VectorXcd& shape, Index fixed) {
   left_over.head(k) = -(row.asDiagonal() * (pencil.T * shape));
   const VectorXcd step = dense::solve_complex(bordered, left_over);
   const VectorXcd left = dense::solve_complex(bordered.adjoint(), VectorXcd::Unit(k + 1, k));
-  const VectorXd terms = row.asDiagonal() * (pencil.size * shape.cwiseAbs());
-  return {step[k], step.head(k), rounding(k) / 8.0 * left.head(k).cwiseAbs().dot(terms)};
+  const VectorXd terms = row.asDiagonal() * (pencil.size * shape.cwiseAbs2().cwiseSqrt());
+  return {step[k], step.head(k), rounding(k) / 8.0 * left.head(k).cwiseAbs2().cwiseSqrt().dot(terms)};
 }
 
 /// What Newton's method makes of a first guess, or nothing where it does not stay with it.
@@ -110,11 +112,11 @@ std::optional<LinearMotion> improved(const MatrixXd& K, const MatrixXd& C, Linea
     motion.lambda += step.lambda;
     motion.shape += step.shape;
     motion.error = step.error;
-    if (!std::isfinite(std::abs(motion.lambda)) || !motion.shape.allFinite() || !std::isfinite(step.error))
+    if (!std::isfinite(size_of(motion.lambda)) || !motion.shape.allFinite() || !std::isfinite(step.error))
       return std::nullopt;
-    if (std::abs(step.lambda) <= std::numeric_limits<double>::epsilon() * std::abs(motion.lambda)) break;
+    if (size_of(step.lambda) <= std::numeric_limits<double>::epsilon() * size_of(motion.lambda)) break;
   }
-  if (std::abs(motion.lambda - first) > stays * std::abs(first)) return std::nullopt;
+  if (size_of(motion.lambda - first) > stays * size_of(first)) return std::nullopt;
   return motion;
 }
 
@@ -131,7 +133,9 @@ VectorXd balance(MatrixXd& Q) {
       const double own = std::abs(Q(i, i));
       const double column = Q.col(i).cwiseAbs().sum() - own, row = Q.row(i).cwiseAbs().sum() - own;
       if (!(column > 0.0 && row > 0.0)) continue;
-      const double f = std::exp2(std::round(0.5 * std::log2(row / column)));
+      double f = 1.0;  // f^2 is row / column within a factor of two
+      while (2.0 * f * f < row / column) f *= 2.0;
+      while (f * f > 2.0 * row / column) f *= 0.5;
       if (f == 1.0 || column * f + row / f >= gain * (column + row)) continue;
       Q.col(i) *= f, Q.row(i) /= f, D[i] *= f;
       changed = true;
@@ -163,7 +167,7 @@ std::vector<LinearMotion> linear_motions(const MatrixXd& K, const MatrixXd& C) {
     VectorXcd a(k);
     a << (K_seen.topRows(u) * state.head(b) + C_seen.topRows(u) * rates) / (lambda * lambda), rates.head(s) / lambda,
         state.head(b);
-    const LinearMotion guess{lambda, std::sqrt(rounding(k)) * std::abs(lambda), T * a};
+    const LinearMotion guess{lambda, std::sqrt(rounding(k)) * size_of(lambda), T * a};
     all.push_back(improved(K, C, guess).value_or(guess));
   }
   return all;

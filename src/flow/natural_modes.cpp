@@ -140,7 +140,7 @@ std::vector<NaturalMode> natural_modes(const System& system, const mode::Contact
        flow::linear_motions(back * A.bottomLeftCorner(n, n) * Z, back * A.bottomRightCorner(n, n) * Z)) {
     if (motion.lambda.imag() < 0.0) continue;
     NaturalMode mode{.shape = scaled(frame.W_inverse * (Z * motion.shape))};
-    if (motion.lambda.imag() > 0.0) mode.frequency = std::abs(motion.lambda);
+    if (motion.lambda.imag() > 0.0) mode.frequency = std::sqrt(std::norm(motion.lambda));
     if (!(std::abs(motion.lambda.real()) <= motion.error)) mode.decay = -motion.lambda.real();
     modes.push_back(std::move(mode));
   }

@@ -78,7 +78,7 @@ constexpr const char* not_found = "gnuplot not found: install gnuplot-nox";
 }  // namespace
 
 void demand_gnuplot() {
-  const char* path = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): nothing changes the environment
+  const char* path = std::getenv("PATH");
   std::stringstream folders(path != nullptr ? path : "/bin:/usr/bin");
   for (std::string folder; std::getline(folders, folder, ':');) {
     const std::filesystem::path program = std::filesystem::path(folder.empty() ? "." : folder) / "gnuplot";

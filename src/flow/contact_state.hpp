@@ -26,7 +26,7 @@ struct Extension {
 /// What depends on the first n follows them: p = dependence (p + shift) - shift, u likewise with the drift.
 [[nodiscard]] Extension extension_of(const mode::Frame& frame);
 
-/// x' = by x + constant of a contact state x where X' = A X, but for the drives.
+/// x' = by x + constant of a contact state x where X' = A X. The drives come on top.
 struct ContactFlow {
   Eigen::MatrixXd by;
   Eigen::VectorXd constant;

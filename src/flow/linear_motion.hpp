@@ -20,8 +20,9 @@ struct LinearMotion {
 /// does not see them either.
 ///
 /// Such directions are taken out first. The others come from the balanced eigenvalue problem of first order. Each is
-/// then improved by Newton's method on (lambda^2 - lambda C - K) phi = 0, whose rows are scaled: so it is as exact as
-/// the numbers of K and C say, however fast other parts of the machine are.
+/// then improved by Newton's method on (lambda^2 - lambda C - K) phi = 0, whose rows are scaled: then it is as exact as
+/// the numbers of K and C say, however fast other parts of the machine are. Where Newton's method finds nothing near,
+/// as where eigenvalues meet, the first guess stays.
 /// Cost: 2k eigenvalue problem, and 2k times two linear systems of k + 1 rows.
 /// Source: Tisseur, Meerbergen, The quadratic eigenvalue problem, SIAM Review 43 (2001), sections 3 and 5.
 [[nodiscard]] std::vector<LinearMotion> linear_motions(const Eigen::MatrixXd& K, const Eigen::MatrixXd& C);

@@ -99,7 +99,7 @@ TEST(NaturalModes, OfAFreeChainAreExactInAnyUnits) {
   }
 }
 
-/// lambda^2 m + lambda c + k = 0: the slow root is k / c but for parts of k m / c^2 = 1e-9.
+/// lambda^2 m + lambda c + k = 0: the slow root is k / c (1 + k m / c^2), and k m / c^2 is 1e-9.
 TEST(NaturalModes, ThatAreSlowBesideFastOnesKeepTheirDigits) {
   const std::string heavy = "name = \"over\"\n[[coordinate]]\nname = \"x\"\nmass = 1e-3\n" + damper(1e3);
   for (const double k : {1.0, -1.0}) {

@@ -5,8 +5,8 @@
 /// A friction force that is constant in slip changes no eigenvalue; one that follows a normal force or the speed does.
 /// A compliant stop that acts adds its spring and damper. Contacts that are held (stuck, closed) let their two sides
 /// move as one. Units: those of the model, rates and frequencies per unit of time.
-/// Each eigenvalue is exact to its own rounding, in any units, however fast other parts of the machine are. Where two
-/// meet, half of the digits hold, and their shapes are two of many.
+/// Each eigenvalue has the digits that its own rounding leaves, in any units, however fast other parts of the machine
+/// are. Where two meet, half of the digits hold, and their shapes are two of many.
 /// Cost: one dense eigenvalue problem of 2n rows, and some 8 linear systems of n rows for each mode. Threads: safe to
 /// call at once.
 /// Source: Meirovitch, Fundamentals of Vibrations (2001), chapter 7; of sliding friction Hoffmann et al. (2002).

@@ -240,8 +240,7 @@ std::optional<std::string> multipliers_agree(const ModelDefinition& definition, 
 
 /// Where a motion stays in one mode, at rest or on a cycle of period T without events, its eigenvalues, or multipliers
 /// exp(lambda T), are those of the mode with the contacts held that it holds. Those of what is held, of translations
-/// and of families (0, or 1) are left out; the two ways share A, balanced
-/// alike, and the eigenvalues of Eigen.
+/// and of families (0, or 1) are left out. The two ways share A, the balance, and the eigenvalues of Eigen.
 std::optional<std::string> modes_agree(const ModelDefinition& definition, const Question&) {
   constexpr double nothing = 1e-6, close = 1e-6;  // a double eigenvalue is known to half of its digits
   const System system(definition.build());

@@ -1,6 +1,7 @@
 /// slapstick modes MODEL
 #include <cmath>
 #include <complex>
+#include <cstdio>
 
 #include "axis_text.hpp"
 #include "axis_units.hpp"
@@ -61,13 +62,39 @@ std::vector<Row> rows_of(const Options& options, const ChosenModel& chosen, cons
   std::vector<Row> rows;
   for (int i = 0; i < sweep.count && !stop.load(); ++i) {
     const double value = sweep::sweep_value(sweep.from, sweep.to, sweep.count, i);
-    rows.push_back({value, modes_at(options, chosen, {{sweep.name, value}})});
+    try {
+      rows.push_back({value, modes_at(options, chosen, {{sweep.name, value}})});
+    } catch (const InputError& error) {
+      throw InputError("--sweep " + sweep.name + "=" + shown(value) + ": " + error.message());
+    }
   }
   return rows;
 }
 
-TableFacts facts_of(const ChosenModel& chosen, const Sweep& sweep) {
+/// Says what is easily taken for a machine that is stable: friction without its normal force, and nothing that moves.
+void say(const Options& options, const ChosenModel& chosen, const std::vector<Row>& rows) {
+  const System system(chosen.definition.build(chosen.overrides));
+  const Model& model = system.model();
+  const mode::ContactStates states =
+      sliding_states(system, options.model.start(chosen), names_of(options.stuck), names_of(options.closed));
+  for (std::size_t i = 0; i < model.frictions.size(); ++i) {
+    const FrictionContact& friction = model.frictions[i];
+    if (states.frictions[i] != mode::FrictionState::unloaded || !friction.normal) continue;
+    const int pad = friction.normal->compliant_stop;
+    const std::string advice =
+        pad < 0 ? "at this --state"
+                : "--closed " + model.compliant_stops[static_cast<std::size_t>(pad)].name + " makes it press";
+    std::fprintf(stderr, "slapstick: friction '%s' has no normal force, and does nothing: %s\n", friction.name.c_str(),
+                 advice.c_str());
+  }
+  if (ranges::all_of(rows, [](const Row& row) { return row.modes.empty(); }))
+    std::fprintf(stderr, "slapstick: nothing can move with these contacts held: there are no modes\n");
+}
+
+TableFacts facts_of(const Options& options, const ChosenModel& chosen, const Sweep& sweep) {
   TableFacts facts = table_facts(chosen, sweep.name);
+  for (const auto& [name, held] : {std::pair{"stuck", &options.stuck}, std::pair{"closed", &options.closed}})
+    if (!held->empty()) facts.attributes.push_back({name, *held});
   for (const Coordinate& coordinate : chosen.model.coordinates) facts.units.erase(coordinate.name);  // of a shape
   if (const std::string time = facts.units["time"]; !time.empty()) {
     facts.units["frequency"] = "rad/" + time;
@@ -101,18 +128,21 @@ std::vector<std::string> columns_of(const Model& model, const Sweep& sweep) {
   return columns;
 }
 
-/// Frequencies above decays, over the parameter. What does not oscillate has no point above.
+/// Frequencies above decays, over the parameter, in another colour where the motion grows.
+/// What does not oscillate has no point above.
 figure::Figure picture(const std::vector<Row>& rows, const ChosenModel& chosen, const Sweep& sweep) {
   figure::Points frequencies{.diameter_mm = 0.5}, decays = frequencies, growing = frequencies;
   growing.colour = figure::colours::vermillion;
+  figure::Points squealing = growing;
   for (const Row& row : rows) {
     for (const NaturalMode& mode : row.modes) {
       figure::Points& of = mode.decay < 0.0 ? growing : decays;
       of.x.push_back(row.value);
       of.y.push_back(mode.decay);
       if (!mode.oscillates()) continue;
-      frequencies.x.push_back(row.value);
-      frequencies.y.push_back(mode.frequency);
+      figure::Points& above = mode.decay < 0.0 ? squealing : frequencies;
+      above.x.push_back(row.value);
+      above.y.push_back(mode.frequency);
     }
   }
   const std::string time = AxisUnits(chosen.definition, chosen.model).time();
@@ -122,7 +152,8 @@ figure::Figure picture(const std::vector<Row>& rows, const ChosenModel& chosen, 
   const std::string axis = parameter_axis(chosen.definition, sweep.name);
   figure.panels = {{.x_label = axis, .y_label = with_unit("frequency", per("rad")), .x_range = reach},
                    {.x_label = axis, .y_label = with_unit("decay", per("1")), .x_range = reach}};
-  if (!frequencies.x.empty()) figure.panels[0].points.push_back(std::move(frequencies));
+  for (figure::Points* of : {&frequencies, &squealing})
+    if (!of->x.empty()) figure.panels[0].points.push_back(std::move(*of));
   for (figure::Points* of : {&decays, &growing})
     if (!of->x.empty()) figure.panels[1].points.push_back(std::move(*of));
   figure.panels[1].marks.push_back({.y = 0.0});
@@ -139,11 +170,12 @@ int run(const Options& options, const Context& context) {
   const ChosenModel chosen = options.model.load();
   const Sweep sweep = options.sweep.empty() ? Sweep{} : parse_sweep(options.sweep);
   const Plot plot(options.plot, options.plot_size);
-  TableOutput table(options.out, columns_of(chosen.model, sweep), facts_of(chosen, sweep));
+  TableOutput table(options.out, columns_of(chosen.model, sweep), facts_of(options, chosen, sweep));
   const std::vector<Row> rows = rows_of(options, chosen, sweep, context.stop);
   const int status = context.stop.load() ? interrupted : done;
   write_table(rows, sweep, table);
   table.commit();
+  say(options, chosen, rows);
   if (!plot.wanted()) return status;
   const bool empty = ranges::all_of(rows, [](const Row& row) { return row.modes.empty(); });
   return plot.write_or_say(empty ? figure::Figure{} : picture(rows, chosen, sweep), empty, status);

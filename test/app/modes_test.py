@@ -2,7 +2,7 @@
 import math
 import os
 
-from program import good, main, refused, says, table
+from program import good, main, refused, run, says, table
 
 ROW = """name = 'row'
 [parameters]
@@ -50,7 +50,6 @@ def test_modes_of_held_contacts_are_those_of_what_is_left():
     assert abs(stuck[1] - math.sqrt(2)) < 1e-14 and abs(stuck[5] - stuck[7]) < 1e-15
     (closed,) = row_modes('--closed', 'wall')[1]
     assert abs(closed[1] - math.sqrt(2)) < 1e-14 and closed[5] == 0 and closed[7] == 1
-    assert row_modes('--closed', 'wall', '--stuck', 'pad')[1] == []
 
 
 def test_modes_over_a_parameter_are_those_of_each_value():
@@ -60,6 +59,59 @@ def test_modes_over_a_parameter_are_those_of_each_value():
         assert [row[1:] for row in rows if row[0] == k] == row_modes('--set', 'k=%d' % k)[1]
     good('modes', 'row.toml', '--sweep', 'k=1:9:5', '--out', 'modes.csv', '--plot', 'modes.png')
     assert os.path.exists('modes.png') and os.path.exists('modes.gp')
+
+
+SQUEAL = """name = 'pad'
+omega = 1
+[parameters]
+mu = 0.3
+[[coordinate]]
+name = 'x'
+mass = 1
+[[coordinate]]
+name = 'y'
+mass = 1
+[[spring]]
+between = ['x', 'ground']
+stiffness = 1
+[[compliant_stop]]
+name = 'disc'
+between = ['y', 'ground']
+clearance = 0
+stiffness = 2
+[[friction]]
+name = 'shoe'
+between = ['x', 'ground']
+static = 'mu'
+belt_speed = -1
+normal_force = { compliant_stop = 'disc' }
+[[force]]
+on = 'y'
+amplitude = 1
+harmonic = 0
+"""
+
+
+def test_modes_say_that_friction_without_its_normal_force_does_nothing():
+    with open('squeal.toml', 'w', encoding='utf-8') as file:
+        file.write(SQUEAL)
+    outcome = run('modes', 'squeal.toml')
+    assert outcome.status == 0
+    says(outcome.err, "friction 'shoe' has no normal force, and does nothing: --closed disc makes it press")
+    good('modes', 'squeal.toml', '--closed', 'disc')
+
+
+def test_modes_say_that_nothing_can_move():
+    row_modes()
+    outcome = run('modes', 'row.toml', '--closed', 'wall', '--stuck', 'pad')
+    assert outcome.status == 0 and table(outcome.out)[1] == []
+    says(outcome.err, 'nothing can move')
+
+
+def test_modes_name_the_value_of_a_sweep_that_the_model_refuses():
+    with open('mass.toml', 'w', encoding='utf-8') as file:
+        file.write(ROW.replace('mass = 2', "mass = 'k'"))
+    says(refused(2, 'modes', 'mass.toml', '--sweep', 'k=-1:1:3'), '--sweep k=-1', 'mass')
 
 
 def test_modes_refuse_what_they_cannot_be():

@@ -2,7 +2,6 @@
 #include "axis_units.hpp"
 
 #include "axis_text.hpp"
-#include "relative_motion.hpp"
 
 namespace slapstick::app {
 
@@ -23,8 +22,7 @@ std::string AxisUnits::over_time(const std::string& displacement) const {
 std::string AxisUnits::speed(const std::vector<int>& contacts) const {
   std::string common;
   for (const int contact : contacts) {
-    const auto [a, b] = sides_of(model_, contact);
-    const std::string unit = velocity(a, b);
+    const std::string unit = velocity(sides_of(model_, contact));
     if (unit.empty() || (!common.empty() && common != unit)) return "";
     common = unit;
   }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "relative_motion.hpp"
 #include "slapstick/io/model_file.hpp"
 
 namespace slapstick::app {
@@ -18,6 +19,11 @@ class AxisUnits {
   /// Of the displacement between two coordinates, of which one may be the ground; empty where it is not stated.
   [[nodiscard]] std::string displacement(int a, int b) const;
   [[nodiscard]] std::string velocity(int a, int b) const { return over_time(displacement(a, b)); }
+  /// Of y between these sides: a ratio may have any unit.
+  [[nodiscard]] std::string displacement(const Sides& of) const {
+    return has_ratio(of) ? "" : displacement(of.a, of.b);
+  }
+  [[nodiscard]] std::string velocity(const Sides& of) const { return over_time(displacement(of)); }
   /// Of w at these contacts (System::contact_name), if it is the same at all.
   [[nodiscard]] std::string speed(const std::vector<int>& contacts) const;
   [[nodiscard]] const std::string& time() const { return stated_.time; }

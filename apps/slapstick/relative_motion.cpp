@@ -1,17 +1,17 @@
 /// Says which pair a picture shows, and where its stops are.
 #include "relative_motion.hpp"
 
-#include <tuple>
+#include <cmath>
 #include <utility>
 
 #include "axis_text.hpp"
+#include "base/text.hpp"
 
 namespace slapstick::app {
 
-std::pair<int, int> sides_of(
-    const Model& model,
-    int contact) {  // stops first, then friction contacts, then compliant stops, then characteristics
-  const auto of = [](const auto& part) { return std::pair(part.a, part.b); };
+// Stops first, then friction contacts, then compliant stops, then characteristics.
+Sides sides_of(const Model& model, int contact) {
+  const auto of = [](const auto& part) { return Sides{part.a, part.b, part.ratio}; };
   auto index = static_cast<std::size_t>(contact);
   if (index < model.stops.size()) return of(model.stops[index]);
   index -= model.stops.size();
@@ -21,11 +21,10 @@ std::pair<int, int> sides_of(
   return of(model.characteristics.at(index - model.compliant_stops.size()));
 }
 
-std::vector<double> limits_of(const Model& model, int a, int b) {
+std::vector<double> limits_of(const Model& model, const Sides& sides) {
   std::vector<double> limits;
   const auto note = [&](const auto& stop) {
-    if (stop.a == a && stop.b == b) limits.push_back(stop.clearance);
-    if (stop.a == b && stop.b == a) limits.push_back(-stop.clearance);
+    if (const int sense = same_pair(stop, sides); sense != 0) limits.push_back(sense * stop.clearance);
   };
   for (const auto& stop : model.stops) note(stop);
   for (const auto& stop : model.compliant_stops) note(stop);
@@ -33,15 +32,23 @@ std::vector<double> limits_of(const Model& model, int a, int b) {
 }
 
 RelativeMotion::RelativeMotion(const Model& model, int contact) {
-  if (contact >= 0) std::tie(a, b) = sides_of(model, contact);
-  if (a == ground) std::swap(a, b);
+  if (contact >= 0) static_cast<Sides&>(*this) = sides_of(model, contact);
+  if (a == ground) {
+    std::swap(a, b);
+    std::swap(ratio.a, ratio.b);
+  }
   const auto names = state_names(model);
-  const auto name = [&](int coordinate, int offset) {
-    return axis_symbol(names[2 * static_cast<std::size_t>(coordinate) + offset]);
+  const auto name = [&](int coordinate, double by, int offset) {
+    return (by == 1.0 ? "" : shown(by) + " ") + axis_symbol(names[2 * static_cast<std::size_t>(coordinate) + offset]);
   };
-  displacement = name(a, 0) + (b == ground ? "" : " \u2212 " + name(b, 0));
-  velocity = name(a, 1) + (b == ground ? "" : " \u2212 " + name(b, 1));
-  limits = limits_of(model, a, b);
+  const auto difference = [&](int offset) {
+    const std::string first = name(a, ratio.a, offset);
+    if (b == ground) return first;
+    return first + (ratio.b < 0.0 ? " + " : " \u2212 ") + name(b, std::abs(ratio.b), offset);
+  };
+  displacement = difference(0);
+  velocity = difference(1);
+  limits = limits_of(model, *this);
 }
 
 }  // namespace slapstick::app

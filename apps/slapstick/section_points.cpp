@@ -138,8 +138,8 @@ Found strobe_points(const PoincareOptions& options, const StopChoice& stops, Mot
                     const AxisUnits& units, PointQuantities& of, const Context& context) {
   const System& system = motion.system();
   const RelativeMotion relative(system.model(), shown_contact(system.model(), stops));
-  Found found{.panel = {.x_label = with_unit(relative.displacement, units.displacement(relative.a, relative.b)),
-                        .y_label = with_unit(relative.velocity, units.velocity(relative.a, relative.b))}};
+  Found found{.panel = {.x_label = with_unit(relative.displacement, units.displacement(relative)),
+                        .y_label = with_unit(relative.velocity, units.velocity(relative))}};
   for (const double limit : relative.limits) found.panel.marks.push_back({.x = limit});
   of.label(found.panel);
   figure::Points cloud;
@@ -179,8 +179,8 @@ static figure::Panel map_axes(std::string_view kind, Mapped quantity, const Rela
   const std::string label = quantity == Mapped::displacement ? relative.displacement
                             : quantity == Mapped::w          ? "w"
                                                              : "return time";
-  const std::string unit = quantity == Mapped::displacement ? units.displacement(relative.a, relative.b)
-                           : quantity == Mapped::w          ? units.velocity(relative.a, relative.b)
+  const std::string unit = quantity == Mapped::displacement ? units.displacement(relative)
+                           : quantity == Mapped::w          ? units.velocity(relative)
                                                             : units.time();
   const std::string at = label + " at " + axis_text(std::string(kind));
   return {.x_label = with_unit(at + " k", unit), .y_label = with_unit(at + " k + 1", unit)};

@@ -40,14 +40,12 @@ double belt_speed_of(const Model& model, int contact) {
 
 /// The number of a contact that is a gap or a relative velocity.
 std::function<double(const State&)> of_contact(const Model& model, const Quantity& quantity, int contact) {
-  const auto [a, b] = sides_of(model, contact);
+  const Sides sides = sides_of(model, contact);
   if (quantity.kind == Quantity::Kind::gap)
-    return [a = a, b = b, clearance = clearance_of(model, contact)](const State& state) {
-      return clearance - (entry(state, a, 0) - entry(state, b, 0));
+    return [sides, clearance = clearance_of(model, contact)](const State& state) {
+      return clearance - relative(sides, state, 0);
     };
-  return [a = a, b = b, belt = belt_speed_of(model, contact)](const State& state) {
-    return entry(state, a, 1) - entry(state, b, 1) - belt;
-  };
+  return [sides, belt = belt_speed_of(model, contact)](const State& state) { return relative(sides, state, 1) - belt; };
 }
 
 ShownNumber number_of(const std::string& name, const std::vector<Quantity>& all, const Model& model) {
@@ -64,7 +62,7 @@ ShownNumber number_of(const std::string& name, const std::vector<Quantity>& all,
     shown.of = [a = quantity.index, b = quantity.minus, offset](const State& state) {
       return entry(state, a, offset) - entry(state, b, offset);
     };
-    if (offset == 0) shown.limits = limits_of(model, quantity.index, quantity.minus < 0 ? ground : quantity.minus);
+    if (offset == 0) shown.limits = limits_of(model, {quantity.index, quantity.minus < 0 ? ground : quantity.minus});
   } else if (quantity.kind == Kind::gap || quantity.kind == Kind::relative) {
     shown.of = of_contact(model, quantity, quantity.index);
     if (quantity.minus >= 0)
@@ -89,21 +87,17 @@ std::vector<int> all_contacts(const Model& model) {
 
 std::vector<int> contacts_of(const RelativeMotion& pair, const Model& model) {
   std::vector<int> contacts = all_contacts(model);
-  std::erase_if(contacts, [&](int contact) {
-    const auto sides = sides_of(model, contact);
-    return sides != std::pair(pair.a, pair.b) && sides != std::pair(pair.b, pair.a);
-  });
+  std::erase_if(contacts, [&](int contact) { return same_pair(sides_of(model, contact), pair) == 0; });
   return contacts;
 }
 
 ShownMotion shown_pair(const RelativeMotion& pair, const ChosenModel& chosen) {
   const AxisUnits units(chosen.definition, chosen.model);
   ShownMotion shown{.contacts = contacts_of(pair, chosen.model), .time = time_axis(chosen)};
-  shown.numbers.push_back({with_unit(pair.displacement, units.displacement(pair.a, pair.b)),
+  shown.numbers.push_back({with_unit(pair.displacement, units.displacement(pair)),
                            [pair](const State& state) { return pair.y(state); }, pair.limits});
-  shown.numbers.push_back({with_unit(pair.velocity, units.velocity(pair.a, pair.b)),
-                           [pair](const State& state) { return pair.w(state); },
-                           {}});
+  shown.numbers.push_back(
+      {with_unit(pair.velocity, units.velocity(pair)), [pair](const State& state) { return pair.w(state); }, {}});
   shown.panels = {{0, 1}, {ShownPanel::time, 0}, {ShownPanel::time, 1}};
   return shown;
 }

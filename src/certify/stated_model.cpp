@@ -34,12 +34,12 @@ std::string called(std::string name) {
 }
 
 std::string stated(const Spring& spring) {
-  const auto& [a, b, stiffness, name, motion] = spring;  // the last two are for tables
+  const auto& [a, b, stiffness, name, motion, ratio] = spring;  // name and motion are for tables, ratios are refused
   return line("spring" + number(a) + number(b) + hex(stiffness));
 }
 
 std::string stated(const Damper& damper) {
-  const auto& [a, b, coefficient, feeds, name, motion] = damper;  // the last two are for tables
+  const auto& [a, b, coefficient, feeds, name, motion, ratio] = damper;  // likewise
   return line("damper" + number(a) + number(b) + hex(coefficient));
 }
 
@@ -50,7 +50,7 @@ std::string stated(const Force& force) {
 }
 
 std::string stated(const Stop& stop) {
-  const auto& [name, a, b, clearance, restitution, corners] = stop;
+  const auto& [name, a, b, clearance, restitution, corners, ratio] = stop;
   std::string text = "stop" + number(a) + number(b) + hex(clearance) + hex(restitution);
   text += number(static_cast<long>(corners.size()));
   for (const auto& [speed, there] : corners) text += hex(speed) + hex(there);
@@ -58,7 +58,7 @@ std::string stated(const Stop& stop) {
 }
 
 std::string stated(const FrictionContact& friction) {
-  const auto& [name, a, b, belt_speed, static_friction, kinetic_friction, normal] = friction;
+  const auto& [name, a, b, belt_speed, static_friction, kinetic_friction, normal, ratio] = friction;
   return line("friction" + number(a) + number(b) + hex(belt_speed) + hex(static_friction) + hex(kinetic_friction) +
               called(name));
 }
@@ -72,7 +72,7 @@ std::string stated(int friction, const NormalForce& normal) {
 }
 
 std::string stated(const CompliantStop& stop) {
-  const auto& [name, a, b, clearance, stiffness, damping, pulls, bounded] = stop;
+  const auto& [name, a, b, clearance, stiffness, damping, pulls, bounded, ratio] = stop;
   return line("compliant" + number(a) + number(b) + hex(clearance) + hex(stiffness) + hex(damping) +
               number(pulls     ? 1
                      : bounded ? 2
@@ -81,7 +81,7 @@ std::string stated(const CompliantStop& stop) {
 }
 
 std::string stated(const Characteristic& bent) {
-  const auto& [name, a, b, over, corners, slope_below, slope_above] = bent;
+  const auto& [name, a, b, over, corners, slope_below, slope_above, ratio] = bent;
   std::string text = "polyline" + number(a) + number(b);
   text += over == Characteristic::Over::displacement ? " displacement"
           : over == Characteristic::Over::velocity   ? " velocity"
@@ -98,6 +98,12 @@ std::string not_stated(const Model& model) {
   constexpr int most_coordinates = 400, most_harmonic = 1'000'000;
   constexpr std::size_t most_corners = 1000;
   if (model.size() > most_coordinates) return "more than 400 coordinates";
+  const auto has_ratio = [](const auto& links) {
+    return std::any_of(links.begin(), links.end(), [](const auto& link) { return link.ratio != Ratio{}; });
+  };
+  if (has_ratio(model.springs) || has_ratio(model.dampers) || has_ratio(model.frictions) || has_ratio(model.stops) ||
+      has_ratio(model.compliant_stops) || has_ratio(model.characteristics))
+    return "ratios";
   for (const Force& force : model.forces)
     if (force.harmonic > most_harmonic) return "forces of a harmonic beyond 1000000";
   for (const Characteristic& bent : model.characteristics)

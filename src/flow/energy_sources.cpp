@@ -5,6 +5,7 @@
 
 #include "base/dense.hpp"
 #include "base/text.hpp"
+#include "mode/assembly.hpp"
 
 namespace slapstick {
 namespace {
@@ -36,7 +37,7 @@ bool couples(const FrictionContact& contact, const Model& model) {
   if (!contact.normal) return false;
   if (!contact.normal->terms.empty() || contact.normal->compliant_stop < 0) return true;
   const CompliantStop& stop = model.compliant_stops[static_cast<std::size_t>(contact.normal->compliant_stop)];
-  return !((stop.a == contact.a && stop.b == contact.b) || (stop.a == contact.b && stop.b == contact.a));
+  return same_pair(stop, contact) == 0;
 }
 
 /// The symmetric matrix of parts k (v_a - v_b), on top of a matrix by rows or none.
@@ -46,10 +47,8 @@ Eigen::MatrixXd assembled(const SymmetricMatrix& rows, const Parts& parts, doubl
   for (int i = 0; i < n && !rows.empty(); ++i)
     for (int j = 0; j < n; ++j) sum(i, j) = rows[static_cast<std::size_t>(i * n + j)];
   for (const auto& part : parts) {
-    Eigen::VectorXd along = Eigen::VectorXd::Zero(n);
-    if (part.a != ground) along[part.a] += 1.0;
-    if (part.b != ground) along[part.b] -= 1.0;
-    sum += part.*number * along * along.transpose();
+    const Eigen::RowVectorXd along = mode::pair_row(n, part);
+    sum += part.*number * along.transpose() * along;
   }
   return sum;
 }

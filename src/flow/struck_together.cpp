@@ -12,14 +12,10 @@ const char* const how_rows_are_struck =
 
 namespace {
 
-double place(int coordinate, const State& state) {
-  return coordinate == ground ? 0.0 : state[2 * static_cast<std::size_t>(coordinate)];
-}
-
 bool touches(const Stop& stop, const State& state) {
   constexpr double rounding = 0x1p-50;
-  const double a = place(stop.a, state), b = place(stop.b, state);
-  return std::abs(stop.clearance - (a - b)) <= rounding * (std::abs(stop.clearance) + std::abs(a) + std::abs(b));
+  return std::abs(stop.clearance - relative(stop, state, 0)) <=
+         rounding * (std::abs(stop.clearance) + relative_size(stop, state));
 }
 
 bool share_a_body(const Stop& one, const Stop& other) {

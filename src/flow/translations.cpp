@@ -5,6 +5,7 @@
 #include "base/ranges.hpp"
 #include "flow/compiled_system.hpp"
 #include "flow/contact_state.hpp"
+#include "mode/assembly.hpp"
 
 namespace slapstick::flow {
 namespace {
@@ -20,19 +21,17 @@ constexpr double dependent = 1e-12;
 MatrixXd seen_displacements(const Model& model) {
   const int n = model.size();
   std::vector<Eigen::RowVectorXd> rows(1, Eigen::RowVectorXd::Zero(n));
-  const auto add = [&](int a, int b) {
-    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(n);
-    if (a != ground) row[a] += 1.0;
-    if (b != ground) row[b] -= 1.0;
-    rows.push_back(row);
+  const auto add = [&](const auto& link) {
+    const Eigen::RowVectorXd row = mode::pair_row(n, link);
+    rows.emplace_back(row / row.cwiseAbs().maxCoeff());
   };
   for (const Spring& spring : model.springs) {
-    if (spring.stiffness != 0.0) add(spring.a, spring.b);
+    if (spring.stiffness != 0.0) add(spring);
   }
-  for (const slapstick::Stop& stop : model.stops) add(stop.a, stop.b);
-  for (const CompliantStop& stop : model.compliant_stops) add(stop.a, stop.b);
+  for (const slapstick::Stop& stop : model.stops) add(stop);
+  for (const CompliantStop& stop : model.compliant_stops) add(stop);
   for (const Characteristic& one_of : model.characteristics)
-    if (one_of.over != Characteristic::Over::velocity) add(one_of.a, one_of.b);
+    if (one_of.over != Characteristic::Over::velocity) add(one_of);
   for (const FrictionContact& contact : model.frictions) {
     if (!contact.normal) continue;
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(n);

@@ -7,8 +7,8 @@
 /// directions.
 ///
 /// Contact states (p, u) of the quotient are represented by the one whose `k` free displacements are zero, one for each
-/// translation. Springs and stops give rows of 0 and +-1, whose rank is exact; rows of a stiffness matrix, scaled to a
-/// largest entry of 1, count as dependent below 1e-12.
+/// translation. Springs and stops without ratios give rows of 0 and +-1, whose rank is exact; others, and those of a
+/// stiffness matrix, scaled to a largest entry of 1, count as dependent below 1e-12.
 #include <Eigen/Core>
 #include <vector>
 

@@ -80,7 +80,7 @@ void ModelBuilder::add_falling_friction(Model& model, const Part& part, const La
     bends.corners.emplace_back(belt_speed - law[i].first, law[0].second - law[i].second);
   for (std::size_t i = 1; i < law.size(); ++i)
     bends.corners.emplace_back(belt_speed + law[i].first, law[i].second - law[0].second);
-  add(model, {part.name + "_speed", part.a, part.b, Characteristic::Over::velocity, {}}, bends);
+  add(model, bent(part, part.name + "_speed", Characteristic::Over::velocity), bends);
 }
 
 NormalForce ModelBuilder::load(const Part& part, const Model& model) const {
@@ -130,12 +130,13 @@ void ModelBuilder::add_friction(Model& model, const Part& part) {
   }
   origins_["friction"].push_back({kind_, index_});
   model.frictions.push_back({part.name, part.a, part.b, written(part, "belt_speed"), written(limit),
-                             written(law.front().second), std::move(normal)});
+                             written(law.front().second), std::move(normal), ratio_of(part)});
   if (law.size() > 1) add_falling_friction(model, part, law);
 }
 
 Stop ModelBuilder::stop(const Part& part) const {
   Stop stop{part.name, part.a, part.b, written(part, "clearance"), 0.0};
+  stop.ratio = ratio_of(part);
   if (part.points.empty()) {
     stop.restitution = written(part, "restitution");
     return stop;
@@ -174,7 +175,8 @@ CompliantStop ModelBuilder::compliant_stop(const Part& part) const {
           written(stiffness),
           written(part, "damping"),
           part.flag("pulls") || law == "pulls",
-          law == "bounded"};
+          law == "bounded",
+          ratio_of(part)};
 }
 
 /// Stiffness k of loading and k_u of unloading: a spring (k + k_u) / 2 whose force N is the normal force of friction on
@@ -192,7 +194,8 @@ void ModelBuilder::add_hysteresis(Model& model) {
     NormalForce normal;
     normal.compliant_stop = static_cast<int>(i);
     origins_["friction"].push_back({kind_, index_});
-    model.frictions.push_back({stop.name + "_hysteresis", stop.a, stop.b, 0.0, coefficient, coefficient, normal});
+    model.frictions.push_back(
+        {stop.name + "_hysteresis", stop.a, stop.b, 0.0, coefficient, coefficient, normal, stop.ratio});
   }
 }
 
@@ -206,6 +209,7 @@ void ModelBuilder::add_contacts(Model& model) {
     stops.back().name += "_upper";
     stop.name += "_lower";
     std::swap(stop.a, stop.b);
+    std::swap(stop.ratio.a, stop.ratio.b);
     stop.clearance = written(field(part, "clearance_lower", field(part, "clearance")));
     origins.push_back({kind_, index_, true});
     stops.push_back(stop);

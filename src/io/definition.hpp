@@ -21,7 +21,7 @@ struct Scalar {
 /// What a key of a [[part]] holds: a Scalar, a Scalar whose expression may name states as well, true or false, one line
 /// of text, a list of tables with fields of their own, a list of points [x, force], a list of two Scalars, a word of
 /// `contact_laws` or `signal_shapes`, a table of `stribeck_keys`, a table of `constant`, states and a `compliant_stop`,
-/// or a table of `band_keys`.
+/// a table of `band_keys`, or two plain numbers.
 enum class Holds {
   number,
   observed,
@@ -34,7 +34,8 @@ enum class Holds {
   shape,
   stribeck,
   load,
-  band
+  band,
+  ratio
 };
 
 struct FieldRule {
@@ -76,6 +77,7 @@ struct Part {
   std::string record;                              ///< the file of a signal ..
   std::vector<int> rows;                           ///< .. and the line in it of each point
   std::vector<Scalar> within;
+  std::optional<Ratio> ratio;  ///< no parameters: which contacts are on one pair must not depend on them
   std::map<std::string, Scalar, std::less<>> stribeck;  // by stribeck_keys()
   std::map<std::string, Scalar, std::less<>> band;      // by band_keys()
   std::vector<std::pair<std::string, Scalar>> load;     // of a normal force, in the file's order

@@ -2,6 +2,7 @@
 #include "io/field_values.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -34,6 +35,47 @@ std::vector<Scalar> read_interval(const TreeReader& tree, const TomlNode& list, 
   if (list.items.size() != 2)
     tree.fail(list.line, where, "expected [from, to], found " + std::to_string(list.items.size()) + " numbers");
   return {tree.scalar(list.items[0], where + ": from"), tree.scalar(list.items[1], where + ": to")};
+}
+
+Ratio read_ratio(const TreeReader& tree, const TomlNode& list, const std::string& where, bool still) {
+  tree.expect(list, TomlNode::Kind::list, where);
+  if (list.items.size() != 2)
+    tree.fail(list.line, where, "expected [r_a, r_b], found " + std::to_string(list.items.size()) + " numbers");
+  std::array<double, 2> of_end{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Scalar scalar = tree.scalar(list.items[i], where);
+    of_end[i] = scalar.number;
+    if (scalar.expression)
+      tree.fail(list.line, where,
+                "a ratio is a plain number: a parameter would decide whether contacts are on one pair");
+  }
+  if (!still)
+    tree.fail(list.line, where,
+              "a ratio is between coordinates that stand still with the ground: one of the ends is a base, or measured "
+              "from one");
+  return {of_end[0], of_end[1]};
+}
+
+/// The stops of a file come after its friction contacts: they are looked up when the model is built.
+void read_load(const TreeReader& tree, const TomlNode& table, const std::string& where,
+               const std::vector<std::string>& states, Part& part) {
+  tree.expect(table, TomlNode::Kind::table, where);
+  for (const auto& [key, node] : table.entries)
+    if (key == "stop")
+      tree.fail(node.line, where + ": stop",
+                "the force of a rigid stop is a constraint force, not a function of the state: friction along a rigid "
+                "stop is not available; write the stop as a [[compliant_stop]] and name it by compliant_stop");
+  std::vector<std::string> known = states;
+  known.emplace_back("constant");
+  known.emplace_back("compliant_stop");
+  tree.check_keys(table, where, known);
+  for (const auto& [key, node] : table.entries) {
+    if (key == "compliant_stop")
+      part.load_stop = tree.text(table, "compliant_stop", where);
+    else
+      part.load.emplace_back(key, tree.scalar(node, where + ": " + key));
+  }
+  if (table.entries.empty()) tree.fail(table.line, where, "nothing is in it");
 }
 
 namespace {

@@ -1,5 +1,6 @@
 #pragma once
-/// Values of a part's keys that are lists or tables of numbers: polylines, intervals, Stribeck curves, bands.
+/// Values of a part's keys that are lists or tables of numbers: polylines, intervals, ratios, loads, Stribeck curves,
+/// bands.
 #include <map>
 #include <string>
 #include <vector>
@@ -18,6 +19,13 @@ using Numbers = std::map<std::string, Scalar, std::less<>>;
 
 /// [from, to]
 [[nodiscard]] std::vector<Scalar> read_interval(const TreeReader& tree, const TomlNode& list, const std::string& where);
+
+/// [r_a, r_b]. @param still  do both ends stand still with the ground, and not with a base?
+[[nodiscard]] Ratio read_ratio(const TreeReader& tree, const TomlNode& list, const std::string& where, bool still);
+
+/// The normal force of a friction contact. @param states  names of displacements and velocities
+void read_load(const TreeReader& tree, const TomlNode& table, const std::string& where,
+               const std::vector<std::string>& states, Part& part);
 
 /// By stribeck_keys().
 [[nodiscard]] Numbers read_stribeck(const TreeReader& tree, const TomlNode& table, const std::string& where);

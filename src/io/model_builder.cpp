@@ -79,6 +79,7 @@ void ModelBuilder::add_links(Model& model) {
     model.springs.push_back(
         {end(part.a), end(part.b), written(stiffness), name != part.texts.end() ? name->second : ""});
     model.springs.back().motion = add_motion(model, part, "stiffness", 0);
+    model.springs.back().ratio = ratio_of(part);
   });
   each("damper", [&](const Part& part) {
     if (!part.points.empty()) return add_bends(model, part, Characteristic::Over::velocity);
@@ -89,6 +90,7 @@ void ModelBuilder::add_links(Model& model) {
     model.dampers.push_back({end(part.a), end(part.b), written(coefficient), part.flag("feeds"),
                              name != part.texts.end() ? name->second : ""});
     model.dampers.back().motion = add_motion(model, part, "coefficient", 1);
+    model.dampers.back().ratio = ratio_of(part);
   });
 }
 
@@ -129,7 +131,7 @@ void ModelBuilder::add_bends(Model& model, const Part& part, Characteristic::Ove
         where("characteristic") + ": two points are a straight line: give a third one, or slope_below or slope_above");
   const auto name = part.texts.find("name");
   const std::string own = std::string(kind_) + std::to_string(index_ + 1);
-  add(model, {name != part.texts.end() ? name->second : own, part.a, part.b, over, {}}, bends);
+  add(model, bent(part, name != part.texts.end() ? name->second : own, over), bends);
 }
 
 /// A damper of one coefficient within an interval of x_a - x_b, and another outside.
@@ -149,7 +151,7 @@ void ModelBuilder::add_zones(Model& model, const Part& part, const Dual& inside)
             where(key) + " = " + shown(value.value) + " is negative; a damper that may feed energy says feeds = true");
   const auto name = part.texts.find("name");
   const std::string own = std::string(kind_) + std::to_string(index_ + 1);
-  add(model, {name != part.texts.end() ? name->second : own, part.a, part.b, Characteristic::Over::zones, {}},
+  add(model, bent(part, name != part.texts.end() ? name->second : own, Characteristic::Over::zones),
       {{{from, inside}, {to, outside}}, outside, outside});
 }
 

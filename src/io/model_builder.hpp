@@ -91,6 +91,11 @@ class ModelBuilder {
   [[nodiscard]] double written(const Dual& number) const { return rates_ == nullptr ? number.value : number.rate; }
   [[nodiscard]] std::vector<std::pair<Dual, Dual>> points(const Part& part,
                                                           std::string_view key = "characteristic") const;
+  [[nodiscard]] static Ratio ratio_of(const Part& part) { return part.ratio.value_or(Ratio{}); }
+  /// A characteristic between the ends of a part, without its polyline.
+  [[nodiscard]] static Characteristic bent(const Part& part, const std::string& name, Characteristic::Over over) {
+    return {name, part.a, part.b, over, {}, 0.0, 0.0, ratio_of(part)};
+  }
   void add_bends(Model& model, const Part& part, Characteristic::Over over);
   void add_zones(Model& model, const Part& part, const Dual& inside);
   void add_friction(Model& model, const Part& part);

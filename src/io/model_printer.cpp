@@ -132,6 +132,8 @@ class Printer {
       if (field.holds == Holds::points && !part.points.empty()) line(field.key, points_text(part.points));
       if (field.holds == Holds::interval && !part.within.empty())
         line(field.key, "[" + scalar_text(part.within[0]) + ", " + scalar_text(part.within[1]) + "]");
+      if (field.holds == Holds::ratio && part.ratio)
+        line(field.key, "[" + toml_number(part.ratio->a) + ", " + toml_number(part.ratio->b) + "]");
       if (field.holds == Holds::stribeck && !part.stribeck.empty())
         line(field.key, table_text({part.stribeck.begin(), part.stribeck.end()}, ""));
       if (field.holds == Holds::band && !part.band.empty())

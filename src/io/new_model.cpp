@@ -148,6 +148,7 @@ phase = "pi / 2"
 #[[spring]]
 #name = "bump_stop"
 #between = ["x1", "x2"]
+#ratio = [1, -2.5]          # gears, levers: r_a x_a - r_b x_b in place of x_a - x_b
 #characteristic = [[-0.5, 0], [0.5, 0], [1, 2]]
 #slope_below = 1
 #slope_above = 8
@@ -155,6 +156,7 @@ phase = "pi / 2"
 #[[damper]]
 #name = "valve"
 #between = ["x1", "x2"]
+#ratio = [1, 1]
 #characteristic = [[-1, -0.5], [0, 0], [1, 0.2]]
 #slope_below = 0.1
 #slope_above = 0.05
@@ -172,6 +174,7 @@ phase = "pi / 2"
 #[[friction]]
 #name = "falling"
 #between = ["x1", "x2"]
+#ratio = [1, 1]
 #static = 0.2
 #characteristic = [[0, 0.2], [0.5, 0.1], [1, 0.12]]
 
@@ -210,6 +213,7 @@ restitution = "restitution"
 #[[stop]]
 #name = "post"
 #between = ["x1", "x2"]
+#ratio = [1, 1]
 #clearance = 3
 #restitution_over_speed = [[0.1, 0.9], [2, 0.6]]
 
@@ -217,6 +221,7 @@ restitution = "restitution"
 #[[compliant_stop]]
 #name = "bumper"
 #between = ["x1", "x2"]
+#ratio = [1, 1]
 #clearance = 0.5
 #stiffness = 100
 #damping = 1

@@ -10,13 +10,6 @@
 #include "slapstick/base/error.hpp"
 
 namespace slapstick {
-namespace {
-
-double displacement(const State& state, int end) {
-  return end == ground ? 0.0 : state[2 * static_cast<std::size_t>(end)];
-}
-
-}  // namespace
 
 bool names_quantity(const Definition& definition, const std::string& name) {
   if (std::find(definition.observed.begin(), definition.observed.end(), name) != definition.observed.end())
@@ -86,12 +79,13 @@ struct Observer::Parts {
 
   template <class AnyStop>
   void gap(const AnyStop& stop) {
-    gaps.push_back({&names[gap_name(stop.name)], stop.a, stop.b, stop.clearance});
+    gaps.push_back({&names[gap_name(stop.name)], stop.a, stop.b, stop.ratio, stop.clearance});
   }
 
   struct Gap {
     double* value;
     int a, b;
+    Ratio ratio;
     double clearance;
   };
 
@@ -124,8 +118,7 @@ const std::vector<double>& Observer::read(double time, const State& state, const
   const auto& observables = parts.definition->of("observable");
   for (std::size_t i = 0; i < parts.states.size(); ++i) *parts.states[i] = state[i];
   for (std::size_t k = 0; k < parts.bases.size(); ++k) *parts.bases[k] = parts.builder.base(k, parts.model.omega, time);
-  for (const auto& gap : parts.gaps)
-    *gap.value = gap.clearance - (displacement(state, gap.a) - displacement(state, gap.b));
+  for (const auto& gap : parts.gaps) *gap.value = gap.clearance - relative(gap, state, 0);
   *parts.time = time;
   for (std::size_t i = 0; i < observables.size(); ++i) {
     const auto& scalar = observables[i].fields.find("value")->second;

@@ -302,31 +302,12 @@ class PartReader {
         part.band = read_band(tree_, value, place);
         break;
       case Holds::load:
-        read_load(value, place, part);
+        read_load(tree_, value, place, states_, part);
+        break;
+      case Holds::ratio:
+        part.ratio = read_ratio(tree_, value, place, home(part.a) == ground && home(part.b) == ground);
         break;
     }
-  }
-
-  /// The stops of a file, which come after its friction contacts, are looked up in the tree.
-  void read_load(const TomlNode& table, const std::string& where, Part& part) const {
-    tree_.expect(table, TomlNode::Kind::table, where);
-    for (const auto& [key, node] : table.entries)
-      if (key == "stop")
-        tree_.fail(
-            node.line, where + ": stop",
-            "the force of a rigid stop is a constraint force, not a function of the state: friction along a rigid "
-            "stop is not available; write the stop as a [[compliant_stop]] and name it by compliant_stop");
-    std::vector<std::string> known = states_;
-    known.emplace_back("constant");
-    known.emplace_back("compliant_stop");
-    tree_.check_keys(table, where, known);
-    for (const auto& [key, node] : table.entries) {
-      if (key == "compliant_stop")
-        part.load_stop = tree_.text(table, "compliant_stop", where);
-      else
-        part.load.emplace_back(key, tree_.scalar(node, where + ": " + key));
-    }
-    if (table.entries.empty()) tree_.fail(table.line, where, "nothing is in it");
   }
 
   std::vector<Part> harmonics(const TomlNode& list, const std::string& where) const {

@@ -8,7 +8,7 @@ namespace {
 
 /// Bodies and what links them.
 std::vector<PartRule> bodies() {
-  const FieldRule below{"slope_below", false, Holds::number, {}, "characteristic"},
+  const FieldRule ratio{"ratio", false, Holds::ratio}, below{"slope_below", false, Holds::number, {}, "characteristic"},
       above{"slope_above", false, Holds::number, {}, "characteristic"};
   return {
       {"coordinate", true, Ends::none, {{"mass"}, {"unit", false, Holds::text}, {"base", false, Holds::text}}},
@@ -36,7 +36,8 @@ std::vector<PartRule> bodies() {
       {"spring",
        false,
        Ends::moving,
-       {{"stiffness", true},
+       {ratio,
+        {"stiffness", true},
         {"characteristic", false, Holds::points, "stiffness"},
         below,
         above,
@@ -44,7 +45,8 @@ std::vector<PartRule> bodies() {
       {"damper",
        false,
        Ends::moving,
-       {{"coefficient", true},
+       {ratio,
+        {"coefficient", true},
         {"feeds", false, Holds::flag, {}, "coefficient"},
         {"within", false, Holds::interval, {}, "coefficient"},
         {"coefficient_outside", false, Holds::number, {}, "within"},
@@ -55,7 +57,6 @@ std::vector<PartRule> bodies() {
   };
 }
 
-/// Forces, contacts, and what is looked at.
 std::vector<PartRule> loads() {
   return {
       {"force",
@@ -74,10 +75,18 @@ std::vector<PartRule> loads() {
         {"time", true},
         {"phase", false, Holds::number, "time"},
         {"period", false, Holds::number, {}, "time"}}},
+  };
+}
+
+/// Contacts, and what is looked at.
+std::vector<PartRule> contacts() {
+  const FieldRule ratio{"ratio", false, Holds::ratio};
+  return {
       {"friction",
        true,
        Ends::between,
-       {{"static", true},
+       {ratio,
+        {"static", true},
         {"kinetic"},
         {"characteristic", false, Holds::points, "kinetic"},
         {"stribeck", false, Holds::stribeck, "static|kinetic|characteristic"},
@@ -86,7 +95,8 @@ std::vector<PartRule> loads() {
       {"stop",
        true,
        Ends::between,
-       {{"two_sided", false, Holds::flag},
+       {ratio,
+        {"two_sided", false, Holds::flag},
         {"clearance", true},
         {"clearance_lower"},
         {"restitution", true},
@@ -94,7 +104,8 @@ std::vector<PartRule> loads() {
       {"compliant_stop",
        true,
        Ends::between,
-       {{"two_sided", false, Holds::flag},
+       {ratio,
+        {"two_sided", false, Holds::flag},
         {"clearance", true},
         {"clearance_lower"},
         {"stiffness", true},
@@ -111,7 +122,8 @@ std::vector<PartRule> loads() {
 const std::vector<PartRule>& part_rules() {
   static const std::vector<PartRule> rules = [] {
     std::vector<PartRule> all = bodies();
-    for (PartRule& rule : loads()) all.push_back(std::move(rule));
+    for (auto* more : {loads, contacts})
+      for (PartRule& rule : more()) all.push_back(std::move(rule));
     return all;
   }();
   return rules;

@@ -7,8 +7,9 @@ namespace slapstick::mode {
 namespace {
 
 /// Adds coefficient * row^T row to a matrix: the stiffness or damping of one element.
-void add_element(Matrix& matrix, int a, int b, double coefficient) {
-  const RowVector row = pair_row(static_cast<int>(matrix.rows()), a, b);
+template <class Link>
+void add_element(Matrix& matrix, const Link& link, double coefficient) {
+  const RowVector row = pair_row(static_cast<int>(matrix.rows()), link);
   matrix += coefficient * row.transpose() * row;
 }
 
@@ -19,13 +20,6 @@ Matrix symmetric(const SymmetricMatrix& entries, int n) {
 
 }  // namespace
 
-RowVector pair_row(int n, int a, int b) {
-  RowVector row = RowVector::Zero(n);
-  if (a != ground) row[a] += 1.0;
-  if (b != ground) row[b] -= 1.0;
-  return row;
-}
-
 Matrix mass_matrix(const Model& model) {
   Matrix M = symmetric(model.mass, model.size());
   for (int i = 0; i < model.size(); ++i) M(i, i) += model.coordinates[i].mass;
@@ -34,13 +28,13 @@ Matrix mass_matrix(const Model& model) {
 
 Matrix damping_matrix(const Model& model) {
   Matrix C = symmetric(model.damping, model.size());
-  for (const Damper& damper : model.dampers) add_element(C, damper.a, damper.b, damper.coefficient);
+  for (const Damper& damper : model.dampers) add_element(C, damper, damper.coefficient);
   return C;
 }
 
 Matrix stiffness_matrix(const Model& model) {
   Matrix K = symmetric(model.stiffness, model.size());
-  for (const Spring& spring : model.springs) add_element(K, spring.a, spring.b, spring.stiffness);
+  for (const Spring& spring : model.springs) add_element(K, spring, spring.stiffness);
   return K;
 }
 

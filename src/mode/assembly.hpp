@@ -5,8 +5,14 @@
 
 namespace slapstick::mode {
 
-/// Row over q of x_a - x_b.
-[[nodiscard]] RowVector pair_row(int n, int a, int b);
+/// Row over q of y = r_a x_a - r_b x_b, of a link between a and b.
+template <class Link>
+[[nodiscard]] RowVector pair_row(int n, const Link& link) {
+  RowVector row = RowVector::Zero(n);
+  if (link.a != ground) row[link.a] += link.ratio.a;
+  if (link.b != ground) row[link.b] -= link.ratio.b;
+  return row;
+}
 
 [[nodiscard]] Matrix mass_matrix(const Model& model);
 [[nodiscard]] Matrix damping_matrix(const Model& model);

@@ -284,7 +284,7 @@ FrameDerivative::FrameDerivative(const Model& model, const Model& rate, const Fr
   mass_inverse = -W_over_M * M_rate * W_over_M.transpose();
   free = W_over_M * (force - M_rate * (frame.W_inverse * frame.free.topRows(n)));
   for (const Characteristic& one_of : model.characteristics)
-    push.emplace_back(-W_over_M * (M_rate * (inverse_mass(model) * pair_row(frame.n, one_of.a, one_of.b).transpose())));
+    push.emplace_back(-W_over_M * (M_rate * (inverse_mass(model) * pair_row(frame.n, one_of).transpose())));
 }
 
 OutlineDerivative::OutlineDerivative(const Model& model, const Model& rate, const Frame& frame,

@@ -11,6 +11,7 @@
 #include "base/ranges.hpp"
 #include "mode/assembly.hpp"
 #include "mode/numbering.hpp"
+#include "model/fault.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::mode {
@@ -86,7 +87,7 @@ void Frame::set_characteristics(const Model& model) {
   if (model.characteristics.empty()) return;
   const Matrix to_velocity = W * inverse_mass(model), size = W.cwiseAbs() * inverse_mass(model).cwiseAbs();
   for (const Characteristic& one_of : model.characteristics) {
-    const RowVector pair = pair_row(n, one_of.a, one_of.b);
+    const RowVector pair = pair_row(n, one_of);
     Matrix row = pair * W_inverse;
     drop_rounding(row, pair.cwiseAbs() * W_inverse.cwiseAbs());
     PairRows rows{RowVector::Zero(this->size()), RowVector::Zero(this->size()), {}};
@@ -197,7 +198,9 @@ Matrix Frame::kinematics(double omega) const {
 void Frame::enter(const double* state, double* X) const {
   for (int i = 0; i < d; ++i) {
     double p = 0.0, rate = 0.0, size = std::abs(shift[i]), speed = std::abs(drift[i]);
+    bool ratio = false;
     for (int j = 0; j < n; ++j) {
+      ratio = ratio || (W(i, j) != 0.0 && std::abs(W(i, j)) != 1.0);
       p += W(i, j) * state[2 * j];
       rate += W(i, j) * state[2 * j + 1];
       size += std::abs(W(i, j) * state[2 * j]);
@@ -205,9 +208,10 @@ void Frame::enter(const double* state, double* X) const {
     }
     X[i] = p - shift[i];
     // A gap below the rounding of the coordinates it comes from is contact: a state written out on a closed stop reads back as one.
-    if (shift[i] != 0.0 && std::abs(X[i]) <= 0x1p-51 * size) X[i] = 0.0;
+    const double error = reading_error(n, ratio);
+    if ((ratio || shift[i] != 0.0) && std::abs(X[i]) <= error * size) X[i] = 0.0;
     X[u(i)] = rate - drift[i];
-    if (drift[i] != 0.0 && std::abs(X[u(i)]) <= 0x1p-51 * speed) X[u(i)] = 0.0;  // so is rest on a belt
+    if ((ratio || drift[i] != 0.0) && std::abs(X[u(i)]) <= error * speed) X[u(i)] = 0.0;  // so is rest on a belt
   }
 }
 

@@ -189,11 +189,11 @@ void choose(const Model& model, Extent forces, const Numbers& all, const std::ve
 Numbering::Numbering(const Model& model) {
   const int n = model.size();
   Numbers all;
-  for (const Stop& stop : model.stops) stops.push_back(find_or_add(all, {pair_row(n, stop.a, stop.b), stop.clearance}));
+  for (const Stop& stop : model.stops) stops.push_back(find_or_add(all, {pair_row(n, stop), stop.clearance}));
   for (const CompliantStop& stop : model.compliant_stops)
-    compliant.push_back(find_or_add(all, {pair_row(n, stop.a, stop.b), stop.clearance}));
+    compliant.push_back(find_or_add(all, {pair_row(n, stop), stop.clearance}));
   for (const FrictionContact& contact : model.frictions)
-    frictions.push_back(find_or_add_velocity(all, pair_row(n, contact.a, contact.b), contact.belt_speed));
+    frictions.push_back(find_or_add_velocity(all, pair_row(n, contact), contact.belt_speed));
   const Extent forces = extent_of_forces(model);
   std::vector<Pair> pairs = pairs_of(all, forces.length);
   const auto contacts = [&] {

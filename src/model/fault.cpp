@@ -316,10 +316,6 @@ Found first_of(const std::vector<Part>& parts, CheckPart check) {
   return std::nullopt;
 }
 
-double displacement(const State& state, int coordinate) {
-  return coordinate == ground ? 0.0 : state[static_cast<std::size_t>(2 * coordinate)];
-}
-
 /// The name of a part, or "" where parts of that kind have none.
 std::string part_name(const Fault& fault, const Model& model) {
   const auto i = static_cast<std::size_t>(fault.index);
@@ -360,6 +356,7 @@ std::optional<Fault> first_fault(const Model& model) {
   look(model.stops, [&](const auto& part, int i) { return check_stop(part, i, model, contacts); });
   look(model.compliant_stops, [&](const auto& part, int i) { return check_compliant_stop(part, i, model, contacts); });
   look(model.characteristics, [&](const auto& part, int i) { return check_characteristic(part, i, model, contacts); });
+  if (!fault) fault = first_ratio_fault(model);
   if (!fault) fault = first_room_fault(model);
   return fault ? fault : check_omega(model);
 }
@@ -378,17 +375,20 @@ std::optional<Fault> first_fault(const Model& model, const State& state) {
   if (auto fault = far_stop("stop", model.stops, size)) return fault;
   if (auto fault = far_stop("compliant_stop", model.compliant_stops, size)) return fault;
   for (const auto& stop : model.stops) {
-    const double xa = displacement(state, stop.a), xb = displacement(state, stop.b), gap = xa - xb;
+    const double gap = relative(stop, state, 0);
     // A state written out on a closed stop may come back rounded beyond it (Frame::enter takes it as contact).
+    const bool exact = stop.clearance == 0.0 && !has_ratio(stop);
     const double rounding =
-        stop.clearance == 0.0 ? 0.0 : 0x1p-51 * (std::abs(xa) + std::abs(xb) + std::abs(stop.clearance));
+        exact ? 0.0
+              : reading_error(model.size(), has_ratio(stop)) * (relative_size(stop, state) + std::abs(stop.clearance));
     if (gap <= stop.clearance + rounding) continue;
-    const auto end = [&](int i) {
-      return i == ground ? std::string("ground") : names[static_cast<std::size_t>(2 * i)];
+    const auto end = [&](int i, double by) {
+      const std::string times = by == 1.0 ? "" : by < 0.0 ? "(" + shown(by) + ") " : shown(by) + " ";
+      return i == ground ? std::string("ground") : times + names[static_cast<std::size_t>(2 * i)];
     };
     return Fault{"state", -1, names[static_cast<std::size_t>(2 * (stop.a == ground ? stop.b : stop.a))],
-                 "stop " + in_quotes(stop.name) + " is violated: " + end(stop.a) + " - " + end(stop.b) + " = " +
-                     shown(gap) + " > clearance = " + shown(stop.clearance),
+                 "stop " + in_quotes(stop.name) + " is violated: " + end(stop.a, stop.ratio.a) + " - " +
+                     end(stop.b, stop.ratio.b) + " = " + shown(gap) + " > clearance = " + shown(stop.clearance),
                  true};
   }
   return std::nullopt;

@@ -31,6 +31,17 @@ struct Fault {
 /// definite.
 [[nodiscard]] std::optional<Fault> first_matrix_fault(const Model& model);
 
+/// The same for ratios: their size, and contacts between the same ends whose y are multiples of each other, which the
+/// engine would not take for one pair.
+[[nodiscard]] std::optional<Fault> first_ratio_fault(const Model& model);
+
+/// The part of the size of its terms that y may have been moved by rounding, where a state of n coordinates is written
+/// out and read back: at most n + 2 roundings out of contact coordinates and n + 2 into them. A difference of two
+/// numbers that are rounded once has four.
+[[nodiscard]] inline double reading_error(int n, bool with_ratio) {
+  return with_ratio ? (2.0 * n + 4.0) * 0x1p-53 : 0x1p-51;
+}
+
 /// The same for the stops together (each of them sound): two that face each other, or a loop of them, with no position
 /// that obeys all.
 [[nodiscard]] std::optional<Fault> first_room_fault(const Model& model);

@@ -22,7 +22,7 @@ Found facing_stops(const Model& model) {
     for (std::size_t j = 0; j < i; ++j) {
       const Stop &stop = model.stops[i], &other = model.stops[j];
       const double room = stop.clearance + other.clearance;
-      if (stop.a != other.b || stop.b != other.a || room > 0.0) continue;
+      if (same_pair(stop, other) >= 0 || room > 0.0) continue;
       return Fault{"stop", static_cast<int>(i), "clearance",
                    "clearance = " + shown(stop.clearance) + " leaves no room opposite stop " + in_quotes(other.name) +
                        " with clearance = " + shown(other.clearance) + ": their sum must be positive"};
@@ -59,6 +59,7 @@ class Bounds {
     bool any = false;
     for (std::size_t i = 0; i < model_.stops.size(); ++i) {
       const Stop& stop = model_.stops[i];
+      if (stop.ratio != Ratio{}) continue;  // no difference of coordinates
       const std::size_t node = node_of(stop.a);
       const double bound = highest_[node_of(stop.b)] + stop.clearance + roundings * std::abs(stop.clearance);
       if (!(bound < highest_[node])) continue;

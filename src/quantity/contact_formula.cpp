@@ -73,7 +73,7 @@ Row Formulas::relative(int contact) const {
 /// strength (x_a - x_b), or of the velocities, between ends that bases may move (BaseMotion).
 template <class Link>
 Row Formulas::link_force(const Link& link, Number strength, bool velocities) const {
-  Row row = strength * difference(link.a, link.b, velocities);
+  Row row = strength * difference(link, velocities);
   const bool of_a = link.a != ground;
   for (int i = link.motion.first; i < link.motion.first + link.motion.count; ++i) {
     if (model_.forces[static_cast<std::size_t>(i)].coordinate != (of_a ? link.a : link.b)) continue;
@@ -98,10 +98,10 @@ Row Formulas::damper_force(int i) const {
 Row Formulas::link_speed(int i) const {
   if (i < springs()) {
     const Spring& spring = model_.springs[static_cast<std::size_t>(i)];
-    return difference(spring.a, spring.b, true);
+    return difference(spring, true);
   }
   const Damper& damper = model_.dampers[static_cast<std::size_t>(i - springs())];
-  if (damper.motion.none()) return difference(damper.a, damper.b, true);
+  if (damper.motion.none()) return difference(damper, true);
   const Number coefficient = number(&Model::dampers, i - springs(), &Damper::coefficient);
   if (coefficient.value == 0.0) return none();
   return Number{1.0, 0.0} / coefficient * damper_force(i - springs());

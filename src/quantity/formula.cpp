@@ -43,14 +43,6 @@ Row Formulas::acceleration(int coordinate) const {
   return {row_of(outline_.system), rates_ ? row_of(rates_->outline->system) : zero()};
 }
 
-/// x_a - x_b, or v_a - v_b
-Row Formulas::difference(int a, int b, bool velocities) const {
-  Row row = none();
-  if (a != ground) row += velocities ? velocity(a) : displacement(a);
-  if (b != ground) row -= velocities ? velocity(b) : displacement(b);
-  return row;
-}
-
 Formula Formulas::of(const Quantity& quantity, const std::vector<bool>& above) const {
   Formula formula = single(quantity, quantity.index, above);
   if (quantity.minus >= 0) formula.linear -= single(quantity, quantity.minus, above).linear;
@@ -98,7 +90,7 @@ Formula Formulas::damping() const {
   Formula formula{none()};
   for (int i = 0; i < static_cast<int>(model_.dampers.size()); ++i) {
     const Damper& damper = model_.dampers[static_cast<std::size_t>(i)];
-    const Row rate = difference(damper.a, damper.b, true);
+    const Row rate = difference(damper, true);
     formula.products.emplace_back(number(&Model::dampers, i, &Damper::coefficient) * rate, rate);
   }
   for (int i = 0; i < frame_.n && !model_.damping.empty(); ++i) {
@@ -203,7 +195,7 @@ void Formulas::add_bend(int i, Formula& energy) const {
   const int here = outline_.states.pieces[index];
   const mode::Piece line = mode::piece_of(bend, here),
                     rate = rates_ ? mode::piece_rate(bend, rates_->model.characteristics[index], here) : mode::Piece{};
-  const Row x = difference(bend.a, bend.b, false);
+  const Row x = difference(bend, false);
   energy.products.emplace_back(Number{0.5 * line.slope, 0.5 * rate.slope} * x, x);
   energy.linear += Number{line.offset, rate.offset} * x;
   energy.linear += energy_offset(i, here) * one();

@@ -95,7 +95,14 @@ class Formulas {
   [[nodiscard]] Row link_speed(int link) const;
   [[nodiscard]] double beyond(std::size_t pair, const std::vector<bool>& above) const;
   [[nodiscard]] double sense(const mode::HeldPair& pair, const mode::ContactRow& contact) const;
-  [[nodiscard]] Row difference(int a, int b, bool velocities) const;
+  template <class Link>
+  [[nodiscard]] Row difference(const Link& link, bool velocities) const {
+    Row row = none();
+    const auto of = [&](int end) { return velocities ? velocity(end) : displacement(end); };
+    if (link.a != ground) row += link.ratio.a * of(link.a);
+    if (link.b != ground) row -= link.ratio.b * of(link.b);
+    return row;
+  }
   [[nodiscard]] Formula power(int contact, const std::vector<bool>& above) const;
   [[nodiscard]] Formula damping() const;
   [[nodiscard]] Formula input(const std::vector<bool>& above) const;

@@ -77,16 +77,25 @@ std::string common_unit(const std::vector<std::string>& units) {
   return one ? units.front() : "";
 }
 
+/// Of some link: the lengths of its y then may have any unit.
+bool has_ratios(const Model& model) {
+  const auto some = [](const auto& links) {
+    return std::any_of(links.begin(), links.end(), [](const auto& link) { return has_ratio(link); });
+  };
+  return some(model.springs) || some(model.dampers) || some(model.frictions) || some(model.stops) ||
+         some(model.compliant_stops) || some(model.characteristics);
+}
+
 }  // namespace quantity
 
 std::vector<Quantity> quantities(const ModelDefinition& definition, const Overrides& overrides) {
-  std::vector<Quantity> all = quantities(definition.build(overrides));
+  const Model model = definition.build(overrides);
+  std::vector<Quantity> all = quantities(model);
   const StatedUnits stated = definition.stated_units();
+  const std::string common = quantity::has_ratios(model) ? "" : quantity::common_unit(stated.coordinates);
   for (Quantity& one : all) {
     const bool own = one.kind <= Kind::acceleration;
-    one.unit = quantity::unit_of(
-        one, own ? stated.coordinates[static_cast<std::size_t>(one.index)] : quantity::common_unit(stated.coordinates),
-        stated);
+    one.unit = quantity::unit_of(one, own ? stated.coordinates[static_cast<std::size_t>(one.index)] : common, stated);
   }
   const auto values = definition.values(overrides);
   for (const Parameter& parameter : definition.parameters())

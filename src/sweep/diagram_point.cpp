@@ -70,10 +70,6 @@ double measured_length(const DiagramProblem& problem, const Motion& motion) {
   return stretch_of(motion.system().model(), motion.time().since({}), problem.measured_periods, usual_length).periods;
 }
 
-double x_of(const State& state, int coordinate) {
-  return coordinate == ground ? 0.0 : state[2 * static_cast<std::size_t>(coordinate)];
-}
-
 }  // namespace
 
 double sweep_value(double from, double to, int count, int i) {
@@ -84,12 +80,12 @@ double sweep_value(double from, double to, int count, int i) {
 void undo_rounding(const Model& model, State& state) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const Stop& stop : model.stops) {
-    const auto excess = [&] { return x_of(state, stop.a) - x_of(state, stop.b) - stop.clearance; };
-    const double scale =
-        std::max({std::abs(x_of(state, stop.a)), std::abs(x_of(state, stop.b)), std::abs(stop.clearance)});
+    const auto excess = [&] { return relative(stop, state, 0) - stop.clearance; };
+    const double scale = std::max(relative_size(stop, state), std::abs(stop.clearance));
     if (excess() > 4.0 * std::numeric_limits<double>::epsilon() * scale) continue;  // a violation, not a rounding error
-    double& x = state[2 * static_cast<std::size_t>(stop.a == ground ? stop.b : stop.a)];
-    const double outwards = stop.a == ground ? infinity : -infinity;
+    const bool of_a = stop.a != ground;
+    double& x = state[2 * static_cast<std::size_t>(of_a ? stop.a : stop.b)];
+    const double outwards = (of_a ? stop.ratio.a < 0.0 : stop.ratio.b > 0.0) ? infinity : -infinity;
     for (int i = 0; i < 16 && excess() > 0.0; ++i) x = std::nextafter(x, outwards);
   }
 }

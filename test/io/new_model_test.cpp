@@ -38,6 +38,7 @@ TEST(NewModel, every_key_has_an_example) {
       for (const auto& part : parts)
         given = given || (field.holds == Holds::points && !part.points.empty()) ||
                 (field.holds == Holds::interval && !part.within.empty()) ||
+                (field.holds == Holds::ratio && part.ratio) ||
                 (field.holds == Holds::stribeck && !part.stribeck.empty()) ||
                 (field.holds == Holds::band && !part.band.empty()) ||
                 (field.holds == Holds::load && !part.load.empty() && !part.load_stop.empty()) ||

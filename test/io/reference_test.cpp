@@ -43,7 +43,7 @@ TEST(Reference, the_worked_example_is_a_model) {
   EXPECT_TRUE(model.forced());
 }
 
-TEST(Reference, every_example_is_a_model) { EXPECT_EQ(examples().size(), 8U); }
+TEST(Reference, every_example_is_a_model) { EXPECT_EQ(examples().size(), 9U); }
 
 TEST(Reference, every_key_is_there) {
   const auto text = reference();

@@ -87,6 +87,7 @@ std::string type_of(Holds holds, std::string_view key) {
     case Holds::band:
       return R"("object")";
     case Holds::interval:
+    case Holds::ratio:
     case Holds::harmonics:
     case Holds::points:
       return R"("array")";

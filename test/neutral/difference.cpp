@@ -96,6 +96,13 @@ class Comparison {
     return number.dimension.mass == 1 ? 2.0 : 1.0;
   }
 
+  /// Of a number of the coordinate that is scaled: a displacement, a velocity, an acceleration, or of a statistic of one.
+  [[nodiscard]] double scale(const Number& number) const {
+    if (rule_.scaled.empty() || number.of != rule_.scaled || number.dimension.length != 1 || number.dimension.mass != 0)
+      return 1.0;
+    return number.odd ? rule_.by : std::abs(rule_.by);
+  }
+
   void numbers() {
     std::map<Key, double> others;
     std::set<Key> undetermined;
@@ -110,8 +117,9 @@ class Comparison {
     }
     for (const Number& n : first_.numbers)
       for (const std::string& twin : twins()) {
-        const bool turned = rule_.mirrored && n.odd;
-        const double expected = n.value * factor(n.dimension) * copies(n) * (turned ? -1.0 : 1.0);
+        const bool turned = n.odd && (rule_.mirrored || scale(n) < 0.0);
+        const double sign = rule_.mirrored && n.odd ? -1.0 : 1.0;
+        const double expected = n.value * factor(n.dimension) * copies(n) * scale(n) * sign;
         if (n.sample >= 0 && n.until > 0.0 && n.sample <= rule_.steps) continue;
         const int sample = n.until > 0.0 && n.sample >= 0 ? n.sample - rule_.steps : n.sample;
         const Key key{turned ? swapped_extreme(n.what) : n.what, renamed(n.of, twin), sample};

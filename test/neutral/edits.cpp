@@ -30,6 +30,7 @@ const std::vector<Edit>& edits() {
       {"machine-at-rest", "an uncoupled machine at rest beside it", machine_at_rest},
       {"twin", "a copy of the machine beside it", twin_machine},
       {"mirror", "the mirrored machine", mirror},
+      {"lever", "a coordinate at the other end of a lever", lever},
       {"clock", "another phase and a clock that is later by as much", later_clock},
       {"show", "the file that `show` writes", written_by_show},
   };
@@ -42,8 +43,6 @@ const Edit& find_edit(const std::string& name) {
   return *found;
 }
 
-namespace {
-
 Edited in_units(const Definition& file, double l, double t, double m) {
   Edited edited{file, {}};
   edited.rule.length = l, edited.rule.time = t, edited.rule.mass = m;
@@ -53,6 +52,8 @@ Edited in_units(const Definition& file, double l, double t, double m) {
   });
   return edited;
 }
+
+namespace {
 
 /// An expression with a prefix before each of these names.
 void rename(Scalar& scalar, const std::vector<ParameterEntry>& parameters, const std::string& prefix) {

@@ -22,6 +22,8 @@ struct Rule {
   int steps = 0;            ///< the clock is later by so many instants of `sample_grid`
   double farthest = 1.0;    ///< a pair's only stop may be so far away, and the pair is rounded so
   int more_directions = 0;  ///< multipliers or eigenvalues that the first answer has not
+  std::string scaled;       ///< the displacement and velocity of this coordinate ..
+  double by = 1.0;          ///< .. are those of the first times this
 };
 
 struct Edited {
@@ -37,6 +39,9 @@ struct Edit {
 };
 
 [[nodiscard]] const std::vector<Edit>& edits();
+
+/// Lengths, times and masses are these times those of the file.
+[[nodiscard]] Edited in_units(const Definition& file, double length, double time, double mass);
 /// @throws std::out_of_range
 [[nodiscard]] const Edit& find_edit(const std::string& name);
 
@@ -63,6 +68,7 @@ std::optional<Edited> zero_impulse(const Definition& file, campaign::Random& ran
 std::optional<Edited> machine_at_rest(const Definition& file, campaign::Random& random);
 std::optional<Edited> twin_machine(const Definition& file, campaign::Random& random);
 std::optional<Edited> mirror(const Definition& file, campaign::Random& random);
+std::optional<Edited> lever(const Definition& file, campaign::Random& random);
 std::optional<Edited> later_clock(const Definition& file, campaign::Random& random);
 std::optional<Edited> written_by_show(const Definition& file, campaign::Random& random);
 

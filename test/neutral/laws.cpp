@@ -171,8 +171,8 @@ std::optional<std::string> momentum_balances(const ModelDefinition& definition, 
   for (std::size_t i = 0; i < of.size(); ++i) {
     if (of[i].kind != Kind::force) continue;
     const Stop& stop = model.stops[static_cast<std::size_t>(of[i].index)];
-    if (stop.a != ground) impulses[static_cast<std::size_t>(stop.a)] -= found.of[i].impulse;
-    if (stop.b != ground) impulses[static_cast<std::size_t>(stop.b)] += found.of[i].impulse;
+    if (stop.a != ground) impulses[static_cast<std::size_t>(stop.a)] -= stop.ratio.a * found.of[i].impulse;
+    if (stop.b != ground) impulses[static_cast<std::size_t>(stop.b)] += stop.ratio.b * found.of[i].impulse;
     size += std::abs(found.of[i].impulse);
   }
   for (std::size_t i = 0; i < of.size(); ++i) {

@@ -1,5 +1,6 @@
 /// Edits of the machine as a whole: another one beside it, its mirror image, a later start.
 #include <algorithm>
+#include <array>
 
 #include "neutral/edits.hpp"
 #include "slapstick/base/error.hpp"
@@ -90,7 +91,10 @@ std::optional<Edited> twin_machine(const Definition& file, campaign::Random&) {
 std::optional<Edited> mirror(const Definition& file, campaign::Random&) {
   Edited edited{file, {}};
   edited.rule.mirrored = true;
-  each_linked(edited.file, [&](Part& part) { std::swap(part.a, part.b); });
+  each_linked(edited.file, [&](Part& part) {
+    std::swap(part.a, part.b);
+    if (part.ratio) std::swap(part.ratio->a, part.ratio->b);
+  });
   for (Part& force : parts(edited.file, "force"))
     if (!force.texts.contains("signal")) negate(*field(force, "amplitude"));
   for (Part& impulse : parts(edited.file, "impulse")) negate(*field(impulse, "momentum"));
@@ -102,6 +106,43 @@ std::optional<Edited> mirror(const Definition& file, campaign::Random&) {
     for (auto& [name, scalar] : contact.load)
       if (name != "constant") negate(scalar);
   for (auto& [name, scalar] : edited.file.start) negate(scalar);
+  return edited;
+}
+
+/// x_j = s y: the mass is s^2 m, forces on y and what is linear in x_j are s times those of x_j, and links have ratios.
+std::optional<Edited> lever(const Definition& file, campaign::Random& random) {
+  const int j = random.below(coordinates(file));
+  constexpr std::array ratios{2.0, -0.5, 3.0, -1.7};
+  const double s = ratios[static_cast<std::size_t>(random.below(static_cast<int>(ratios.size())))];
+  Edited edited{file, {}};
+  const std::string name = file.of("coordinate")[static_cast<std::size_t>(j)].name;
+  bool still = file.matrices.empty() && home(file, j) == ground;
+  each_linked(edited.file, [&](Part& part) {
+    if (part.a != j && part.b != j) return;
+    for (const int end : {part.a, part.b})
+      still = still && !is_base(end) && (end == ground || home(file, end) == ground);
+    Ratio ratio = part.ratio.value_or(Ratio{});
+    if (part.a == j) ratio.a *= s;
+    if (part.b == j) ratio.b *= s;
+    part.ratio = ratio;
+  });
+  if (!still) return std::nullopt;  // a ratio is between coordinates that stand still with the ground
+  edited.rule.scaled = name;
+  edited.rule.by = 1.0 / s;
+  multiply(*field(parts(edited.file, "coordinate")[static_cast<std::size_t>(j)], "mass"), s * s);
+  for (const char* kind : {"force", "impulse"})
+    for (Part& load : parts(edited.file, kind)) {
+      if (load.a != j) continue;
+      for (const char* size : {"amplitude", "momentum"})
+        if (Scalar* number = field(load, size)) multiply(*number, s);
+      if (const auto rms = load.band.find("rms"); rms != load.band.end()) multiply(rms->second, std::abs(s));
+      if (!load.band.empty() && s < 0.0) return std::nullopt;  // a band has no sign
+    }
+  for (Part& contact : parts(edited.file, "friction"))
+    for (auto& [of, scalar] : contact.load)
+      if (of == name || of == velocity_name(name)) multiply(scalar, s);
+  for (auto& [of, scalar] : edited.file.start)
+    if (of == name || of == velocity_name(name)) multiply(scalar, 1.0 / s);
   return edited;
 }
 

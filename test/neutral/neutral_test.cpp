@@ -1,6 +1,9 @@
 /// Laws of nothing in short: edits that change nothing, on some random files (the campaign `neutral` is the long form).
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <complex>
+
 #include "neutral/laws.hpp"
 #include "property/random_file.hpp"
 #include "slapstick/base/error.hpp"
@@ -20,6 +23,7 @@ TEST(Neutral, FilesAreSoundAndHaveEveryFeature) {
         for (const auto& [key, word] : part.texts) ++seen[key];
         for (const auto& [key, scalar] : part.fields) ++seen[key];
         seen["stribeck"] += !part.stribeck.empty(), seen["normal_force"] += !part.load.empty();
+        seen["ratio"] += part.ratio.has_value();
         seen[kind + " points"] += !part.points.empty(), seen["within"] += !part.within.empty();
       }
     seen["parameter"] += !file.parameters.empty(), seen["matrix"] += !file.matrices.empty(),
@@ -49,6 +53,7 @@ TEST(Neutral, FilesAreSoundAndHaveEveryFeature) {
                               "within",
                               "parameter",
                               "matrix",
+                              "ratio",
                               "no drive",
                               "belt_speed",
                               "law"})
@@ -74,6 +79,29 @@ TEST(Neutral, SeesASpringThatIsStronger) {
     seen += judge(first, find_edit("show"), second, Verb::simulate).verdict == Verdict::different;
   }
   EXPECT_GE(seen, tried * 3 / 4);
+}
+
+/// Each to its own digits, half of them where two meet: a slow one beside a fast one is neither lost nor made of rounding.
+TEST(Neutral, EigenvaluesHaveTheSameDigitsInAllUnits) {
+  constexpr double half_the_digits = 1e-6;
+  long compared = 0;
+  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+    Asked first(test::random_file(seed));
+    if (!has_harmonics(first.file())) continue;  // the clock has a unit of time then
+    const auto& wanted = first.answer(Verb::modes).eigenvalues;
+    for (const double unit : {0x1p-20, 0x1p20}) {
+      const Answer answer = Asked(in_units(first.file(), 1.0, unit, 1.0 / unit).file).answer(Verb::modes);
+      auto found = answer.eigenvalues;
+      ASSERT_EQ(found.size(), wanted.size()) << seed << ' ' << answer.message;
+      for (const std::complex<double>& one : wanted) {
+        const auto nearest =
+            std::ranges::min_element(found, {}, [&](const auto& other) { return std::abs(other * unit - one); });
+        EXPECT_LE(std::abs(*nearest * unit - one), half_the_digits * std::abs(one)) << seed << ", " << unit;
+        found.erase(nearest), ++compared;
+      }
+    }
+  }
+  EXPECT_GE(compared, 800);
 }
 
 /// A verb, and the files that it is asked about: [from, to).

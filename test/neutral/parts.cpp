@@ -1,6 +1,7 @@
 /// Edits that add parts without an effect, or say one part in another way.
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "neutral/edits.hpp"
 
@@ -37,6 +38,15 @@ Part far_contact(const Definition& file, const std::string& name, campaign::Rand
   part.b = random.below(coordinates(file));
   if (part.b == part.a || home(file, part.b) != home(file, part.a)) part.b = home(file, part.a);
   if (random.one_in(2)) std::swap(part.a, part.b);
+  for (const char* kind : {"spring", "damper", "friction", "stop", "compliant_stop"})
+    for (const Part& other : file.of(kind)) {  // contacts between the same ends have one ratio
+      const bool linear = other.fields.contains("stiffness") || other.fields.contains("coefficient");
+      if (linear && std::string_view(kind) != "compliant_stop" && other.within.empty()) continue;
+      const Ratio ratio = other.ratio.value_or(Ratio{});
+      if (other.a == part.a && other.b == part.b) part.ratio = ratio;
+      if (other.a == part.b && other.b == part.a) part.ratio = Ratio{ratio.b, ratio.a};
+    }
+  if (part.ratio == Ratio{}) part.ratio.reset();
   return part;
 }
 
@@ -97,7 +107,7 @@ std::optional<Edited> force_as_base(const Definition& file, campaign::Random& ra
   Part& force = *any(forces, random);
   const auto springs = those(edited.file, "spring", [&](const Part& p) {
     const bool other_end = (p.a == force.a && p.b == ground) || (p.b == force.a && p.a == ground);
-    return other_end && p.fields.contains("stiffness") && !p.fields.at("stiffness").expression &&
+    return other_end && !p.ratio && p.fields.contains("stiffness") && !p.fields.at("stiffness").expression &&
            std::abs(p.fields.at("stiffness").number) > 0.05;
   });
   if (springs.empty()) return std::nullopt;

@@ -100,6 +100,7 @@ class Simpler {
         };
         if (all[i].flag("two_sided"))
           simplify([](Part& p) { p.flags.erase("two_sided"), p.fields.erase("clearance_lower"); });
+        if (all[i].ratio) simplify([](Part& p) { p.ratio.reset(); });
         if (!all[i].load.empty() || !all[i].load_stop.empty())
           simplify([](Part& p) { p.load.clear(), p.load_stop.clear(); });
         if (all[i].points.size() > 2) simplify([](Part& p) { p.points.pop_back(); });

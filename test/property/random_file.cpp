@@ -28,6 +28,7 @@ class FileDraw {
     if (coordinates() > 1 && one_in(4)) gear();
     for (int k = integer(0, 2); k > 0; --k) parameter(k);
     if (shape_.signals && one_in(8)) impulse();
+    if (one_in(5)) ratio();
     return std::move(file_);
   }
 
@@ -222,6 +223,22 @@ class FileDraw {
     matrix.entries[0] = number(k), matrix.entries[1] = matrix.entries[n] = number(-r * k),
     matrix.entries[n + 1] = number(r * r * k);
     file_.matrices["stiffness"] = matrix;
+  }
+
+  /// Of a link, or of a stop and friction on one pair: both ends stand still with the ground.
+  void ratio() {
+    constexpr const char* kinds[] = {"stop", "compliant_stop", "friction", "spring", "damper"};
+    const char* kind = kinds[integer(0, 4)];
+    if (parts(kind).empty()) return;
+    const Part link = any(kind);
+    const auto still = [&](int end) {
+      return end == ground || (end >= 0 && parts("coordinate")[static_cast<std::size_t>(end)].b == ground);
+    };
+    if (!still(link.a) || !still(link.b)) return;
+    const Ratio of_ends{one_in(2) ? 2.0 : real(0.4, 2), one_in(2) ? 1.0 : real(-2, -0.4)};
+    for (const char* other : kinds)
+      for (Part& part : parts(other))
+        if (part.a == link.a && part.b == link.b) part.ratio = of_ends;
   }
 
   /// A number of a spring, force or friction contact becomes a parameter, or a multiple of one.

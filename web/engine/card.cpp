@@ -35,6 +35,11 @@ template <class Part>
 Json between(const Part& part) {
   Json item = Json::object();
   item.set("a", part.a).set("b", part.b);
+  if (part.ratio != Ratio{}) {
+    Json ratio = Json::list();
+    ratio.push(part.ratio.a).push(part.ratio.b);
+    item.set("ratio", std::move(ratio));
+  }
   return item;
 }
 

@@ -24,6 +24,8 @@ export interface Parameter {
 export interface Link {
   a: number;
   b: number;
+  /** It acts on ratio[0] x_a - ratio[1] x_b; absent: on x_a - x_b. */
+  ratio?: [number, number];
 }
 
 export interface Mechanism {

@@ -6,6 +6,7 @@
 /// M, C, K: the coordinates' masses, the dampers and the springs, plus the model's own matrices.
 /// Nothing here assumes a number of coordinates or contacts. Units are the user's; the paper's system is dimensionless.
 /// Plain data: no function but `validate` throws. Source: docs/reference/notation.md; Glocker (2001) for contacts.
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -30,12 +31,21 @@ struct BaseMotion {
   [[nodiscard]] bool none() const { return count == 0; }
 };
 
+/// By what the displacements of the two ends of a link are multiplied, as by gears, levers, a rack and its pinion: it
+/// acts on y = a x_a - b x_b, and a force F of the link pulls with a F at its one end and with b F at the other. Where
+/// the texts below say x_a - x_b and v_a - v_b, they mean y and y'.
+struct Ratio {
+  double a = 1.0, b = 1.0;
+  friend bool operator==(const Ratio&, const Ratio&) = default;
+};
+
 /// Force stiffness * (x_a - x_b) pulling a and b together; stiffness may be any finite number.
 struct Spring {
   int a = 0, b = ground;
   double stiffness = 0.0;
   std::string name = {};  ///< of the quantities of this spring; "": it has none
   BaseMotion motion = {};
+  Ratio ratio = {};
 };
 
 /// Force coefficient * (v_a - v_b); coefficient >= 0, or of either sign for one that may feed energy.
@@ -45,6 +55,7 @@ struct Damper {
   bool feeds = false;
   std::string name = {};  ///< as of a spring
   BaseMotion motion = {};
+  Ratio ratio = {};
 };
 
 /// amplitude * sin(harmonic * omega * t + phase) on one coordinate; harmonic 0 is a constant force of size `amplitude`.
@@ -104,6 +115,7 @@ struct FrictionContact {
   double static_friction = 0.0;
   double kinetic_friction = 0.0;
   std::optional<NormalForce> normal = std::nullopt;
+  Ratio ratio = {};
 };
 
 /// A rigid stop that demands x_a - x_b <= clearance; Newton impact with restitution in [0, 1].
@@ -118,6 +130,7 @@ struct Stop {
     double speed = 0.0, restitution = 0.0;
   };
   std::vector<Corner> corners = {};
+  Ratio ratio = {};
 };
 
 /// Restitution of an impact at speed v, and d(r v)/dv there (of the piece above, at a corner).
@@ -140,6 +153,7 @@ struct CompliantStop {
   double damping = 0.0;
   bool pulls = false;
   bool bounded = false;
+  Ratio ratio = {};
 };
 
 /// A force that is a polyline over the relative displacement x_a - x_b or the relative velocity v_a - v_b, continuous
@@ -158,7 +172,50 @@ struct Characteristic {
   Over over = Over::displacement;
   std::vector<Corner> corners;  ///< at least one, `at` ascending
   double slope_below = 0.0, slope_above = 0.0;
+  Ratio ratio = {};
 };
+
+/// By what x_i is multiplied in the y of a link.
+template <class Link>
+[[nodiscard]] double share(const Link& link, int i) {
+  return i == ground ? 0.0 : (link.a == i ? link.ratio.a : 0.0) - (link.b == i ? link.ratio.b : 0.0);
+}
+
+/// Is y another number than a difference of coordinates?
+template <class Link>
+[[nodiscard]] bool has_ratio(const Link& link) {
+  const auto other = [](int end, double by) { return end != ground && std::abs(by) != 1.0; };
+  return other(link.a, link.ratio.a) || other(link.b, link.ratio.b);
+}
+
+/// Do two links act on one y, or on opposite ones (-1)? Else 0.
+template <class Link, class Other>
+[[nodiscard]] int same_pair(const Link& link, const Other& other) {
+  const int ends[] = {link.a, link.b, other.a, other.b};
+  bool same = true, opposite = true;
+  for (const int i : ends) {
+    same = same && share(link, i) == share(other, i);
+    opposite = opposite && share(link, i) == -share(other, i);
+  }
+  return same ? 1 : opposite ? -1 : 0;
+}
+
+/// y (order 0) or y' (1) of a link at a user's state (x_1, v_1, x_2, v_2, ..).
+template <class Link>
+[[nodiscard]] double relative(const Link& link, const std::vector<double>& state, std::size_t order) {
+  const auto part = [&](int end, double by) {
+    return end == ground ? 0.0 : by * state[2 * static_cast<std::size_t>(end) + order];
+  };
+  return part(link.a, link.ratio.a) - part(link.b, link.ratio.b);
+}
+/// |a x_a| + |b x_b|, the size of the terms of y.
+template <class Link>
+[[nodiscard]] double relative_size(const Link& link, const std::vector<double>& state) {
+  const auto part = [&](int end, double by) {
+    return end == ground ? 0.0 : std::abs(by * state[2 * static_cast<std::size_t>(end)]);
+  };
+  return part(link.a, link.ratio.a) + part(link.b, link.ratio.b);
+}
 
 /// What happens when several stops are hit or touched at one instant.
 enum class ImpactLaw : std::uint8_t {

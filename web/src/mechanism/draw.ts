@@ -182,7 +182,8 @@ class Drawing {
   /** The face of a body that a stop acts on, and the plate that the face meets. */
   stopAt(part: Part): { face: number; plate: number; side: number } {
     const { scale } = this.stage, to = (x: number): number => scale.factor * x;
-    const gap = part.clearance - ((part.a === ground ? 0 : this.instant.x[part.a] ?? 0) - (part.b === ground ? 0 : this.instant.x[part.b] ?? 0));
+    const [ofA, ofB] = part.ratio ?? [1, 1], x = (end: number): number => end === ground ? 0 : this.instant.x[end] ?? 0;
+    const gap = part.clearance - (ofA * x(part.a) - ofB * x(part.b));
     if (part.a === ground) {
       const face = (this.at[part.b] ?? 0) - this.half;
       return { face, plate: face - to(gap), side: -1 };

@@ -40,7 +40,7 @@ export function partsOf(mechanism: Mechanism): Part[] {
     ...frictions.map((one) => ({ ...plain, ...one, kind: "friction" as const, contact: contact++ })),
     ...compliant.map((one) => ({ ...plain, ...one, kind: "compliant" as const, contact: contact++ })),
     ...characteristics.map((one) => ({ ...plain, ...one, kind: "polyline" as const, contact: contact++ })),
-  ].map(({ a, b, kind, name, contact: number, clearance, belt }) => ({ a, b, kind, name, contact: number, clearance, belt }));
+  ].map(({ a, b, ratio, kind, name, contact: number, clearance, belt }) => ({ a, b, ...(ratio && { ratio }), kind, name, contact: number, clearance, belt }));
 }
 
 function* orders(list: readonly number[]): Generator<number[]> {

@@ -120,14 +120,9 @@ bool is_continuous(const CompiledSystem& system, int characteristic) {
 
 /// May a characteristic pass a corner while X stays within delta?
 bool passes_corner(const CompiledSystem& system, int characteristic, const double* X, const double* delta) {
-  const mode::RowVector& row = system.frame().value_row(system.model(), characteristic);
-  double value = 0.0, change = 0.0;
-  for (Eigen::Index j = 0; j < row.size(); ++j) {
-    value += row[j] * X[j];
-    change += std::abs(row[j]) * delta[j];
-  }
-  return ranges::any_of(system.model().characteristics[characteristic].corners,
-                        [&](const Characteristic::Corner& corner) { return std::abs(value - corner.at) <= change; });
+  return ranges::any_of(system.frame().characteristics[characteristic].corners, [&](const mode::RowVector& row) {
+    return std::abs(row_product(row, X)) <= row_change(row, 1.0, delta);
+  });
 }
 
 /// The steepest of its pieces.

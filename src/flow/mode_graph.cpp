@@ -47,9 +47,8 @@ Candidates compliant_candidates(double depth, const CompliantStop& stop) {
   return can_detach ? Candidates{{1, 2}, 2} : Candidates{{1}, 1};
 }
 
-/// What a characteristic is a polyline over, at X.
-double value_of(const CompiledSystem& system, int i, const double* X) {
-  const mode::RowVector& row = system.frame().value_row(system.model(), i);
+/// How far a characteristic is above a corner, at X.
+double above_corner(const mode::RowVector& row, const double* X) {
   double value = 0.0;
   for (Eigen::Index j = 0; j < row.size(); ++j) value += row[j] * X[j];
   return value;
@@ -57,16 +56,14 @@ double value_of(const CompiledSystem& system, int i, const double* X) {
 
 /// At a corner, within twice the bound that `start_order` allows, also the piece on its other side.
 Candidates piece_candidates(const CompiledSystem& system, int i, const double* X, const double* magnitude) {
-  const mode::RowVector& row = system.frame().value_row(system.model(), i);
-  const auto& corners = system.model().characteristics[i].corners;
+  const auto& corners = system.frame().characteristics[static_cast<std::size_t>(i)].corners;
   const auto piece = static_cast<std::size_t>(piece_at(system, i, X));
-  const double value = value_of(system, i, X);
-  double size = 0.0;
-  for (Eigen::Index j = 0; j < row.size(); ++j) size += std::abs(row[j]) * magnitude[j];
   const auto near = [&](std::size_t corner) {
-    const double noise =
-        mode::Mode::noise_factor_of(static_cast<int>(row.size())) * (size + std::abs(corners[corner].at));
-    return std::abs(value - corners[corner].at) <= 2.0 * rest_factor * noise;
+    const mode::RowVector& row = corners[corner];
+    double size = 0.0;
+    for (Eigen::Index j = 0; j < row.size(); ++j) size += std::abs(row[j]) * magnitude[j];
+    const double noise = mode::Mode::noise_factor_of(static_cast<int>(row.size())) * size;
+    return std::abs(above_corner(row, X)) <= 2.0 * rest_factor * noise;
   };
   const auto digit = static_cast<std::int16_t>(piece);
   if (piece < corners.size() && near(piece)) return {{digit, static_cast<std::int16_t>(digit + 1)}, 2};
@@ -285,10 +282,10 @@ ModeId approaching_mode(const CompiledSystem& system, const double* X) {
 }
 
 int piece_at(const CompiledSystem& system, int characteristic, const double* X) {
-  const auto& corners = system.model().characteristics[characteristic].corners;
-  const double value = value_of(system, characteristic, X);
+  const auto& corners = system.frame().characteristics[static_cast<std::size_t>(characteristic)].corners;
   int piece = 0;
-  while (piece < static_cast<int>(corners.size()) && value > corners[static_cast<std::size_t>(piece)].at) ++piece;
+  while (piece < static_cast<int>(corners.size()) && above_corner(corners[static_cast<std::size_t>(piece)], X) > 0.0)
+    ++piece;
   return piece;
 }
 

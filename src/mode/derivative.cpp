@@ -93,10 +93,9 @@ void Differentiator::push_away(const ContactRow& contact, const RowVector& force
   acceleration_rate_ -= column * force_rate + contact.sign * change_.mass_inverse.col(contact.own) * force;
 }
 
-/// Of a row over displacements and velocities: q = W^{-1} (p + shift), q' = W^{-1} (u + drift).
+/// Of a row over displacements p + shift and velocities u + drift.
 RowVector Differentiator::moved(const RowVector& row) const {
-  const double change = row.head(frame_.n).dot(change_.shift.head(frame_.n)) +
-                        row.segment(frame_.d, frame_.n).dot(change_.drift.head(frame_.n));
+  const double change = row.head(frame_.d).dot(change_.shift) + row.segment(frame_.d, frame_.d).dot(change_.drift);
   return change * RowVector::Unit(frame_.size(), frame_.one());
 }
 
@@ -208,7 +207,7 @@ RowVector Differentiator::limit_rate(const HeldPair& pair) const {
 RowVector Differentiator::corner_rate(const Guard& guard) const {
   const bool above = guard.kind == GuardKind::corner_above;
   const int k = outline_.states.pieces[guard.contact] - (above ? 0 : 1);
-  RowVector row = -moved(frame_.value_row(model_, guard.contact));
+  RowVector row = -moved(frame_.characteristics[static_cast<std::size_t>(guard.contact)].corners[k]);
   row[frame_.one()] += rate_.characteristics[guard.contact].corners[k].at;
   return above ? row : RowVector(-row);
 }

@@ -90,7 +90,7 @@ void Frame::set_characteristics(const Model& model) {
     const RowVector pair = pair_row(n, one_of);
     Matrix row = pair * W_inverse;
     drop_rounding(row, pair.cwiseAbs() * W_inverse.cwiseAbs());
-    PairRows rows{RowVector::Zero(this->size()), RowVector::Zero(this->size()), {}};
+    PairRows rows{RowVector::Zero(this->size()), RowVector::Zero(this->size()), {}, {}};
     rows.displacement.head(n) = row;
     rows.displacement[one()] = row.row(0).dot(shift.head(n));
     rows.velocity.segment(d, n) = row;
@@ -98,8 +98,21 @@ void Frame::set_characteristics(const Model& model) {
     Matrix push = to_velocity * pair.transpose();
     drop_rounding(push, size * pair.cwiseAbs().transpose());
     rows.push = push;
+    const bool rated = one_of.over == Characteristic::Over::velocity;
+    for (const Characteristic::Corner& corner : one_of.corners)
+      rows.corners.push_back(corner_row(pair, rated ? rows.velocity : rows.displacement, rated, corner.at));
     characteristics.push_back(std::move(rows));
   }
+}
+
+/// Of y - at, or y' - at: y = sign (p + shift), y' = sign (u + drift) by each number of the pair.
+RowVector Frame::corner_row(const RowVector& pair, const RowVector& value, bool rated, double at) const {
+  for (int i = 0; i < d; ++i) {
+    const int sign = same_direction(W.row(i), pair);
+    if (sign != 0 && at == sign * (rated ? drift[i] : shift[i]))
+      return sign * RowVector::Unit(size(), rated ? u(i) : i);
+  }
+  return value - at * RowVector::Unit(size(), one());
 }
 
 void Frame::drop_rounding(Matrix& matrix, const Matrix& size) {

@@ -37,9 +37,12 @@ struct ContactRow {
 
 /// A pair of bodies without a number of its own in contact coordinates: rows over X, and u' per unit force on a against
 /// one on b.
+/// Rows of corners are those of what the characteristic is a polyline over, less the corner's place. Where a contact of the
+/// pair has its place there, the row is that contact's number, which is exactly zero in contact or at rest.
 struct PairRows {
   RowVector displacement, velocity;
   Vector push;
+  std::vector<RowVector> corners;
 };
 
 /// One piece of a characteristic: force = slope value + offset; in a zone slope times the velocity.
@@ -95,23 +98,19 @@ struct Frame {
   [[nodiscard]] RowVector gap_row(const ContactRow& contact) const;
   /// Row over X of the force of a compliant stop, stiffness delta + damping delta'.
   [[nodiscard]] RowVector push_row(const Model& model, int i) const;
-  /// Row over X of what a characteristic is a polyline over, and of its force in a piece.
-  [[nodiscard]] const RowVector& value_row(const Model& model, int i) const {
-    const bool rated = model.characteristics[i].over == Characteristic::Over::velocity;
-    return rated ? characteristics[i].velocity : characteristics[i].displacement;
-  }
   /// What the slope of a piece multiplies.
   [[nodiscard]] const RowVector& slope_row(const Model& model, int i) const {
     const bool displaced = model.characteristics[i].over == Characteristic::Over::displacement;
     return displaced ? characteristics[i].displacement : characteristics[i].velocity;
   }
+  /// Row over X of the force of a characteristic in a piece.
   [[nodiscard]] RowVector force_row(const Model& model, int i, int piece) const;
   /// Row over X of a force.
   [[nodiscard]] RowVector drive_row(const Force& force) const;
   /// The rows p' = u + drift, the forcing oscillators and the signals of A; the rows u' are left zero.
   [[nodiscard]] Matrix kinematics(double omega) const;
 
-  /// Writes p and u of a user's state (x_1, v_1, x_2, v_2, ..) into X. A gap of at most four roundings of its coordinates is zero.
+  /// Writes p and u of a user's state (x_1, v_1, x_2, v_2, ..) into X. A gap below `reading_error` is zero.
   void enter(const double* state, double* X) const;
   /// Sets the velocities (displacements) of all numbers of the pair of displacement i by that of i.
   void match_velocities(int i, double* X) const;
@@ -146,6 +145,7 @@ struct Frame {
   void choose_displacements(const Model& model);
   void set_dynamics(const Model& model);
   void set_characteristics(const Model& model);
+  [[nodiscard]] RowVector corner_row(const RowVector& pair, const RowVector& value, bool rated, double at) const;
 };
 
 /// What drives a model whose drives all repeat with the forcing. Its part of X follows from the phase and the lines of

@@ -180,11 +180,10 @@ void Builder::arm_compliant(int i) {
 
 /// The corners on both sides of the piece that is in force.
 void Builder::arm_corners(int i) {
-  const auto& corners = model_.characteristics[i].corners;
+  const auto& corners = frame_.characteristics[static_cast<std::size_t>(i)].corners;
   const auto piece = static_cast<std::size_t>(out_.states.pieces[i]);
-  const RowVector value = frame_.value_row(model_, i), one = RowVector::Unit(m_, frame_.one());
-  if (piece < corners.size()) out_.guards.push_back({GuardKind::corner_above, i, corners[piece].at * one - value});
-  if (piece > 0) out_.guards.push_back({GuardKind::corner_below, i, value - corners[piece - 1].at * one});
+  if (piece < corners.size()) out_.guards.push_back({GuardKind::corner_above, i, -corners[piece]});
+  if (piece > 0) out_.guards.push_back({GuardKind::corner_below, i, corners[piece - 1]});
 }
 
 void Builder::note_guard_structure() {

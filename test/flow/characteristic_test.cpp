@@ -1,6 +1,7 @@
 /// Piecewise-linear springs, dampers and friction against closed forms, and against the same physics written otherwise.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -223,6 +224,29 @@ TEST(Characteristic, ASelfExcitedOscillatorSettlesOnACycle) {
   ASSERT_GE(corners.size(), 12U);
   for (std::size_t i = 0; i + 8 < corners.size(); ++i)
     EXPECT_NEAR(corners[i + 8] - corners[i + 4], corners[i + 4] - corners[i], 1e-11);
+}
+
+/// The mass cannot go beyond the stop, and so not beyond a corner there, whichever contact numbers the pair: rounding of
+/// one number less another may not tell that it does.
+TEST(Characteristic, ACornerAtAStopIsNeverPassed) {
+  const auto corners = [](const std::string& points, const std::string& upper, const std::string& lower) {
+    const std::string pair = "between = ['x', 'ground']\n";
+    const std::string text =
+        "name = 'm'\nomega = 1.3\n[[coordinate]]\nname = 'x'\nmass = 1\n[[force]]\non = 'x'\namplitude = 1.5\n"
+        "[[damper]]\n" +
+        pair + "coefficient = 0.1\n[[spring]]\n" + pair + "characteristic = " + points + "\n[[stop]]\nname = 'w'\n" +
+        pair + "two_sided = true\nrestitution = 0.7\nclearance = " + upper + "\nclearance_lower = " + lower +
+        "\n[[friction]]\nname = 'f'\n" + pair + "static = 0.1\n";
+    const System system(ModelDefinition::parse(text, "f.toml").build());
+    Motion motion(system, {0.0, 0.0});
+    const std::vector<Event> events = run(motion, 200.0 * system.period());
+    EXPECT_GT(std::ranges::count(events, EventKind::impact, &Event::kind), 200);
+    return std::ranges::count(events, EventKind::corner, &Event::kind);
+  };
+  for (const std::string near : {"0.05", "0.1", "0.12", "0.14", "0.15", "0.3"}) {
+    EXPECT_EQ(corners("[[-1, -1], [0.3, 0.3], [1, 3]]", "0.3", near), 0) << near;
+    EXPECT_EQ(corners("[[-1, -3], [-0.3, -0.3], [1, 1]]", near, "0.3"), 0) << near;
+  }
 }
 
 }  // namespace

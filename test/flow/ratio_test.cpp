@@ -113,6 +113,20 @@ TEST(Ratio, OfBodiesThatAreHeldIsReadBackAsHeld) {
     }
 }
 
+/// A closed stop bears blows on a body, and friction on it stays at rest, although 3 x and the stop's share are rounded.
+TEST(Ratio, OfAClosedStopBearsABlowWhole) {
+  const ModelDefinition held = ModelDefinition::parse(
+      "name = 'held'\nomega = 0\n[[coordinate]]\nname = 'x1'\nmass = 24.18292231253241\n[[coordinate]]\nname = 'x2'\n"
+      "mass = 1\n[[impulse]]\nname = 'blow'\non = 'x1'\nmomentum = 0.6\ntime = 1\nperiod = 3\n[[friction]]\nname = "
+      "'pad'\nbetween = ['x1', 'x2']\nratio = [3, 1]\nstatic = 1\nkinetic = 0.5\n[[stop]]\nname = 'wall'\nbetween = "
+      "['x1', 'ground']\nratio = [3, 1]\nclearance = 0\nrestitution = 0\n",
+      "f.toml");
+  const System system(held.build());
+  Motion motion(system, {0.0, 0.0, -0.13660288195821463, 0.0});
+  for (const Event& event : run(motion, 15.0)) EXPECT_EQ(event.kind, EventKind::knot);
+  EXPECT_EQ(motion.state()[3], 0.0);
+}
+
 TEST(Ratio, ThatMeansNothingIsRefusedInOneLine) {
   const auto refused = [](const std::string& parts, const std::string& says) {
     try {

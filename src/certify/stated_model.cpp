@@ -98,11 +98,11 @@ std::string not_stated(const Model& model) {
   constexpr int most_coordinates = 400, most_harmonic = 1'000'000;
   constexpr std::size_t most_corners = 1000;
   if (model.size() > most_coordinates) return "more than 400 coordinates";
-  const auto has_ratio = [](const auto& links) {
+  const auto multiplied = [](const auto& links) {  // also by -1
     return std::any_of(links.begin(), links.end(), [](const auto& link) { return link.ratio != Ratio{}; });
   };
-  if (has_ratio(model.springs) || has_ratio(model.dampers) || has_ratio(model.frictions) || has_ratio(model.stops) ||
-      has_ratio(model.compliant_stops) || has_ratio(model.characteristics))
+  if (multiplied(model.springs) || multiplied(model.dampers) || multiplied(model.frictions) ||
+      multiplied(model.stops) || multiplied(model.compliant_stops) || multiplied(model.characteristics))
     return "ratios";
   for (const Force& force : model.forces)
     if (force.harmonic > most_harmonic) return "forces of a harmonic beyond 1000000";

@@ -11,12 +11,6 @@
 namespace slapstick::flow {
 namespace {
 
-double row_product(const mode::RowVector& row, const double* X) {
-  double sum = 0.0;
-  for (Eigen::Index j = 0; j < row.size(); ++j) sum += row[j] * X[j];
-  return sum;
-}
-
 /// The most that factor * (row . X) can change while X changes by delta.
 double row_change(const mode::RowVector& row, double factor, const double* delta) {
   double change = 0.0;

@@ -192,7 +192,7 @@ bool Engine::kick(bool kinematic) {
 }
 
 /// Closed stops bear what presses them; friction, whose force is bounded, takes nothing of a blow in no time.
-/// A velocity that loses what the blow gave it, but for rounding, is what it was: a contact at rest stays at rest.
+/// A velocity that keeps nothing of the blow except rounding is what it was: a contact at rest stays at rest.
 void Engine::bear_blow() {
   touching_.clear();
   for (int s = 0; s < stops(); ++s)
@@ -202,11 +202,10 @@ void Engine::bear_blow() {
   std::array<bool, System::most_contacts> borne{};
   if (!bear(*system_, touching_, X_.data(), std::span(borne).first(touching_.size())))
     fail("the blow of this instant has no solution");
-  constexpr double roundings = 0x1p-47;  // 64 units, as Frame::drop_rounding
   const double *before = X_before_.data(), *given = X_next_.data();
   for (int i = system_->frame().d; i < 2 * system_->frame().d; ++i) {
     double& u = X_.data()[i];
-    if (std::abs(u - before[i]) <= roundings * std::abs(given[i] - before[i])) u = before[i];
+    if (std::abs(u - before[i]) <= mode::Frame::structural_zero * std::abs(given[i] - before[i])) u = before[i];
   }
   Motion::Strike strike{0, true};
   for (std::size_t i = 0; i < touching_.size(); ++i)

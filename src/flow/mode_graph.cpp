@@ -47,13 +47,6 @@ Candidates compliant_candidates(double depth, const CompliantStop& stop) {
   return can_detach ? Candidates{{1, 2}, 2} : Candidates{{1}, 1};
 }
 
-/// How far a characteristic is above a corner, at X.
-double above_corner(const mode::RowVector& row, const double* X) {
-  double value = 0.0;
-  for (Eigen::Index j = 0; j < row.size(); ++j) value += row[j] * X[j];
-  return value;
-}
-
 /// At a corner, within twice the bound that `start_order` allows, also the piece on its other side.
 Candidates piece_candidates(const CompiledSystem& system, int i, const double* X, const double* magnitude) {
   const auto& corners = system.frame().characteristics[static_cast<std::size_t>(i)].corners;
@@ -63,7 +56,7 @@ Candidates piece_candidates(const CompiledSystem& system, int i, const double* X
     double size = 0.0;
     for (Eigen::Index j = 0; j < row.size(); ++j) size += std::abs(row[j]) * magnitude[j];
     const double noise = mode::Mode::noise_factor_of(static_cast<int>(row.size())) * size;
-    return std::abs(above_corner(row, X)) <= 2.0 * rest_factor * noise;
+    return std::abs(row_product(row, X)) <= 2.0 * rest_factor * noise;
   };
   const auto digit = static_cast<std::int16_t>(piece);
   if (piece < corners.size() && near(piece)) return {{digit, static_cast<std::int16_t>(digit + 1)}, 2};
@@ -281,10 +274,16 @@ ModeId approaching_mode(const CompiledSystem& system, const double* X) {
   return system.mode_id(states);
 }
 
+double row_product(const mode::RowVector& row, const double* X) {
+  double sum = 0.0;
+  for (Eigen::Index j = 0; j < row.size(); ++j) sum += row[j] * X[j];
+  return sum;
+}
+
 int piece_at(const CompiledSystem& system, int characteristic, const double* X) {
   const auto& corners = system.frame().characteristics[static_cast<std::size_t>(characteristic)].corners;
   int piece = 0;
-  while (piece < static_cast<int>(corners.size()) && above_corner(corners[static_cast<std::size_t>(piece)], X) > 0.0)
+  while (piece < static_cast<int>(corners.size()) && row_product(corners[static_cast<std::size_t>(piece)], X) > 0.0)
     ++piece;
   return piece;
 }

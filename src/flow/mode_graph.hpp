@@ -53,6 +53,9 @@ ModeId select_mode(const CompiledSystem& system, const double* X, const double* 
 /// velocities.
 ModeId approaching_mode(const CompiledSystem& system, const double* X);
 
+/// row . X
+double row_product(const mode::RowVector& row, const double* X);
+
 /// The piece of a characteristic that the stored value lies in.
 int piece_at(const CompiledSystem& system, int characteristic, const double* X);
 

@@ -116,8 +116,7 @@ RowVector Frame::corner_row(const RowVector& pair, const RowVector& value, bool 
 }
 
 void Frame::drop_rounding(Matrix& matrix, const Matrix& size) {
-  constexpr double roundings = 0x1p-47;  // 64 units
-  matrix = (matrix.array().abs() > roundings * size.array()).select(matrix, 0.0);
+  matrix = (matrix.array().abs() > structural_zero * size.array()).select(matrix, 0.0);
 }
 
 int Frame::parallel(int i, int j) const { return same_direction(W.row(i), W.row(j)); }

@@ -37,8 +37,8 @@ struct ContactRow {
 
 /// A pair of bodies without a number of its own in contact coordinates: rows over X, and u' per unit force on a against
 /// one on b.
-/// Rows of corners are those of what the characteristic is a polyline over, less the corner's place. Where a contact of the
-/// pair has its place there, the row is that contact's number, which is exactly zero in contact or at rest.
+/// The row of a corner is that of what the characteristic is a polyline over, less the corner's place. Where a contact
+/// of the pair has its place there, the row is that contact's number, which is exactly zero in contact or at rest.
 struct PairRows {
   RowVector displacement, velocity;
   Vector push;
@@ -75,6 +75,9 @@ struct Frame {
   Matrix free;          ///< d x m: u' = free . X with no contact force
   Matrix free_size;     ///< the sums of the sizes of the terms that each of its entries was made of
 
+  /// A sum below this part of the sizes of its terms is zero by structure, as of two forces that cancel: 64 roundings,
+  /// one for each of its products. With less, rounding lets contacts at rest go; with more, small real numbers are lost.
+  static constexpr double structural_zero = 0x1p-47;
   /// Sets entries to exactly zero that are nothing but rounding of terms of the given sizes: a force that the structure of the model makes
   /// zero shall not be taken for one that is certainly negative.
   static void drop_rounding(Matrix& matrix, const Matrix& size);

@@ -226,8 +226,8 @@ TEST(Characteristic, ASelfExcitedOscillatorSettlesOnACycle) {
     EXPECT_NEAR(corners[i + 8] - corners[i + 4], corners[i + 4] - corners[i], 1e-11);
 }
 
-/// The mass cannot go beyond the stop, and so not beyond a corner there, whichever contact numbers the pair: rounding of
-/// one number less another may not tell that it does.
+/// The mass cannot go beyond the stop, and so not beyond a corner there, whichever contact numbers the pair.
+/// Rounding of one number less another may not tell that it does.
 TEST(Characteristic, ACornerAtAStopIsNeverPassed) {
   const auto corners = [](const std::string& points, const std::string& upper, const std::string& lower) {
     const std::string pair = "between = ['x', 'ground']\n";

@@ -82,7 +82,8 @@ TEST(Ratio, OfATwoSidedStopHoldsOnBothSides) {
   for (std::size_t i = 0; i < at.size(); ++i) EXPECT_NEAR(at[i], i % 2 == 0 ? 1.0 : -0.5, 1e-14);
 }
 
-/// A press that holds two bodies together by a ratio whose y is rounded: x1 and x2, or 0.7 x1 and 0.3 x2 as coordinates.
+/// A press that holds two bodies together by a ratio whose y is rounded.
+/// @param scaled  0.7 x1 and 0.3 x2 are the coordinates, and the stop has no ratio
 ModelDefinition press(bool scaled, double amplitude, double clearance) {
   const auto number = [](double value) { return std::to_string(value); };
   const double a = scaled ? 0.7 : 1.0, b = scaled ? 0.3 : 1.0;
@@ -109,11 +110,12 @@ TEST(Ratio, OfBodiesThatAreHeldIsReadBackAsHeld) {
         const System system(press(scaled, amplitude, clearance).build());
         return classify(system, {0.0, 0.0, 0.0, 0.0}).label;
       };
-      EXPECT_EQ(settles(false), settles(true)) << amplitude << ", " << clearance;
+      EXPECT_EQ(settles(true), "1-0-II") << amplitude << ", " << clearance;
+      EXPECT_EQ(settles(false), "1-0-II") << amplitude << ", " << clearance;
     }
 }
 
-/// A closed stop bears blows on a body, and friction on it stays at rest, although 3 x and the stop's share are rounded.
+/// A closed stop bears blows on a body, and friction on it stays at rest, although 3 x is rounded.
 TEST(Ratio, OfAClosedStopBearsABlowWhole) {
   const ModelDefinition held = ModelDefinition::parse(
       "name = 'held'\nomega = 0\n[[coordinate]]\nname = 'x1'\nmass = 24.18292231253241\n[[coordinate]]\nname = 'x2'\n"
@@ -123,7 +125,9 @@ TEST(Ratio, OfAClosedStopBearsABlowWhole) {
       "f.toml");
   const System system(held.build());
   Motion motion(system, {0.0, 0.0, -0.13660288195821463, 0.0});
-  for (const Event& event : run(motion, 15.0)) EXPECT_EQ(event.kind, EventKind::knot);
+  const std::vector<Event> events = run(motion, 15.0);
+  EXPECT_GE(events.size(), 5U);  // the blows at 1, 4, 7, 10 and 13
+  for (const Event& event : events) EXPECT_EQ(event.kind, EventKind::knot);
   EXPECT_EQ(motion.state()[3], 0.0);
 }
 

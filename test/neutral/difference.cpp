@@ -96,7 +96,7 @@ class Comparison {
     return number.dimension.mass == 1 ? 2.0 : 1.0;
   }
 
-  /// Of a number of the coordinate that is scaled: a displacement, a velocity, an acceleration, or of a statistic of one.
+  /// Of a displacement, velocity or acceleration of the coordinate that is scaled, or of a statistic of one.
   [[nodiscard]] double scale(const Number& number) const {
     if (rule_.scaled.empty() || number.of != rule_.scaled || number.dimension.length != 1 || number.dimension.mass != 0)
       return 1.0;

@@ -81,7 +81,7 @@ TEST(Neutral, SeesASpringThatIsStronger) {
   EXPECT_GE(seen, tried * 3 / 4);
 }
 
-/// Each to its own digits, half of them where two meet: a slow one beside a fast one is neither lost nor made of rounding.
+/// Each to its own digits, half of them where two meet: a slow one beside a fast one is neither lost nor rounding.
 TEST(Neutral, EigenvaluesHaveTheSameDigitsInAllUnits) {
   constexpr double half_the_digits = 1e-6;
   long compared = 0;

@@ -16,14 +16,19 @@ using Multipliers = std::vector<std::complex<double>>;
 
 constexpr double without_bound = 1e6;  ///< a multiplier
 
-/// prod (mu - target) / (1 + |mu|) without the factor nearest to zero, which is zero all along: the sign changes where a second multiplier comes there.
-double product_of_others(const Multipliers& multipliers, double target) {
+/// prod (mu - target) / (1 + |mu|): the sign changes where a multiplier passes the target.
+double product(const Multipliers& multipliers, double target) {
+  std::complex<double> all = 1.0;
+  for (const std::complex<double>& mu : multipliers) all *= (mu - target) / (1.0 + std::abs(mu));
+  return all.real();
+}
+
+/// Without the factor nearest to zero, which is zero all along: the sign changes where a second multiplier comes there.
+double product_of_others(Multipliers multipliers, double target) {
   const auto off = [target](const std::complex<double>& mu) { return std::abs(mu - target); };
   const auto own = ranges::min_element(multipliers, {}, off);
-  std::complex<double> product = 1.0;
-  for (auto mu = multipliers.begin(); mu != multipliers.end(); ++mu)
-    if (mu != own) product *= (*mu - target) / (1.0 + std::abs(*mu));
-  return product.real();
+  if (own != multipliers.end()) multipliers.erase(own);
+  return product(multipliers, target);
 }
 
 Meeting multiplier(SpecialType type) { return {.kind = Meeting::Kind::multiplier, .type = type}; }
@@ -64,6 +69,9 @@ bool on_the_circle(const Watched& at) {
          std::abs(sum_of_pair(at)) < 2.0;
 }
 
+/// A multiplier passes 1 where the branch turns back; where branches cross it does not.
+bool at_a_fold(const Watched& at) { return multipliers_at(1.0, 1)(at) && std::abs(at.turn) < at_zero; }
+
 void add_multipliers(std::vector<CurveTest>& tests, SpecialType type) {
   const auto add = [&](const Meeting& met, double (*value)(const Watched&), std::function<bool(const Watched&)> holds) {
     tests.push_back({met, of_multipliers(value), false, 0.0, std::move(holds)});
@@ -79,7 +87,8 @@ void add_multipliers(std::vector<CurveTest>& tests, SpecialType type) {
     add(
         resonance(1), [](const Watched& at) { return product_of_others(at.multipliers, 1.0); }, multipliers_at(1.0, 2));
   else
-    tests.push_back({multiplier(SpecialType::LP), [](const CurvePlace& at) { return at.watched.turn; }});
+    add(
+        multiplier(SpecialType::LP), [](const Watched& at) { return product(at.multipliers, 1.0); }, at_a_fold);
   if (type == SpecialType::NS) return add_resonances(tests);
   if (type != SpecialType::PD && type != SpecialType::LP)
     add(

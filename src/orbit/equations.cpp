@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/dense.hpp"
 #include "mode/numbering.hpp"
@@ -328,6 +329,17 @@ NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condi
   return result;
 }
 
+namespace {
+
+/// How fast the function of a leg's end goes to zero. Where it only touches zero, what rounding would leave: the rates of
+/// the orbits beside it have no bound, and what a stick takes out of them is still zero.
+double rate_of_end(const LegValue& leg) {
+  const double rate = leg.h.by_end()[0];
+  return rate != 0.0 ? rate : std::numeric_limits<double>::epsilon() * leg.X_end.by_end().cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
 ReturnRates return_rates(const Problem& problem, const ModeSet& set, const Orbit& orbit,
                          const std::vector<LegValue>& legs) {
   const std::size_t k = orbit.legs();
@@ -341,7 +353,7 @@ ReturnRates return_rates(const Problem& problem, const ModeSet& set, const Orbit
     if (orbit.shape.legs[i].ending != Ending::cut) {
       RowVectorXd dh = leg.h.by_state() * dx + leg.h.by_begin() * dt;
       dh.tail(problem.parameters()) += leg.h.by_parameter();
-      dt_end = -dh / leg.h.by_end()[0];
+      dt_end = -dh / rate_of_end(leg);
     }
     dx = leg.after.by_state() * dx + leg.after.by_begin() * dt + leg.after.by_end() * dt_end;
     dx.rightCols(problem.parameters()) += leg.after.by_parameter();

@@ -31,6 +31,16 @@ orbit::Curve curve_of(const std::string& model, const std::vector<std::string>& 
                       {.from = in.from, .to = in.to, .second_from = in.second_from, .second_to = in.second_to});
 }
 
+/// A mass that sticks once a cycle forgets all else: its multiplier is zero, and no curve of its cycles has a fold.
+TEST(Curve, OfACycleWithoutMemoryHasNoFolds) {
+  const orbit::Curve curve = curve_of("falling-friction", {"belt_speed", "damping_ratio"}, {0.5, 0.05}, 0,
+                                      SpecialType::SL, {0.4, 1.8, 0.05, 0.055});
+  ASSERT_GT(curve.points.size(), 5U) << ended(curve);
+  for (const orbit::CurvePoint& point : curve.points) EXPECT_EQ(std::abs(point.solution.multipliers.front()), 0.0);
+  for (const orbit::CurveEvent& event : curve.met)
+    EXPECT_NE(event.met.front().type, SpecialType::LP) << event.values[0] << " " << event.values[1];
+}
+
 /// Beyond the resonance 1:2 the product of two real multipliers is 1: a zero of the same function, and no torus.
 TEST(Curve, OfATorusEndsWhereItsMultipliersBecomeReal) {
   const orbit::Curve curve =

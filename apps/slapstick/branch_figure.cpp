@@ -108,7 +108,7 @@ void add_lines(figure::Panel& panel, const orbit::Branch& branch, figure::Colour
     lines.add(here.orbit.values[0], heights_of(here), here);
     for (; special != branch.special.end() && special->after == i; ++special) {
       const bool before = special->solution.orbit.legs() == here.orbit.legs();
-      if (classes_around(branch, *special))
+      if (goes_on(branch, *special))
         add(*special, before ? here : branch.points[i + 1]);
       else if (before && i + 1 == branch.points.size())
         add(*special, here);

@@ -89,10 +89,18 @@ std::string birth_line(std::size_t branch, const Birth& birth, const std::string
 
 }  // namespace
 
+bool goes_on(const orbit::Branch& branch, const orbit::SpecialPoint& special) {
+  return orbit::goes_on(special.passage) && special.after + 1 < branch.points.size();
+}
+
 std::optional<std::pair<std::string, std::string>> classes_around(const orbit::Branch& branch,
                                                                   const orbit::SpecialPoint& special) {
-  if (!orbit::goes_on(special.passage) || special.after + 1 >= branch.points.size()) return std::nullopt;
-  return std::pair(branch.points[special.after].label, branch.points[special.after + 1].label);
+  const std::string& here = branch.points[special.after].label;
+  if (goes_on(branch, special)) return std::pair(here, branch.points[special.after + 1].label);
+  const bool ends_in_another =
+      special.passage == orbit::Passage::merges || special.passage == orbit::Passage::symmetric;
+  if (!ends_in_another || !orbit::changes_events(special.type) || special.born.empty()) return std::nullopt;
+  return std::pair(here, orbit::class_name(special.born.front()));
 }
 
 bool begins_at(const orbit::Branch& branch, const orbit::SpecialPoint& special) {
@@ -100,7 +108,7 @@ bool begins_at(const orbit::Branch& branch, const orbit::SpecialPoint& special) 
   const double first = branch.points[0].orbit.values[0];
   double next = branch.points[1].orbit.values[0];
   for (const orbit::SpecialPoint& change : branch.special)  // where it may turn back
-    if (change.after == 0 && classes_around(branch, change)) next = change.value;
+    if (change.after == 0 && goes_on(branch, change)) next = change.value;
   return (special.value - first) * (next - first) < 0.0;
 }
 

@@ -10,6 +10,7 @@
 #include "change/without_legs.hpp"
 #include "orbit/leg_flow.hpp"
 #include "slapstick/base/error.hpp"
+#include "slapstick/orbit/special_point.hpp"
 
 namespace slapstick::orbit {
 namespace {
@@ -51,7 +52,26 @@ bool comes_to_rest(const ModeSet& set, const Orbit& before, const Orbit& orbit, 
 
 namespace {
 
-/// An impact whose speed goes to zero is no more: its leg and the next are one, or a velocity of the same pair passes zero there instead.
+/// The impact at the end of the first leg as the corner of a polyline over a velocity, which that passes there instead.
+std::optional<Orbit> with_corner(const ModeSet& set, const Orbit& orbit) {
+  const mode::ContactStates &before = orbit.shape.legs[0].states, &behind = orbit.shape.legs[1].states;
+  for (std::size_t i = 0; i < before.pieces.size(); ++i) {
+    mode::ContactStates next = before;
+    next.pieces[i] = behind.pieces[i];
+    if (std::abs(behind.pieces[i] - before.pieces[i]) != 1 || !(next == behind)) continue;
+    Orbit crossed = orbit;
+    Leg& leg = crossed.shape.legs[0];
+    leg.kind = behind.pieces[i] > before.pieces[i] ? mode::GuardKind::corner_above : mode::GuardKind::corner_below;
+    leg.contact = static_cast<int>(i);
+    leg.strikes.clear();
+    leg.event = EventKind::corner;
+    leg.event_contact = contact_index(leg.kind, leg.contact, set.model());
+    return crossed;
+  }
+  return std::nullopt;
+}
+
+/// An impact whose speed goes to zero is no more: its leg and the next are one, or a velocity passes zero, or a corner, there instead.
 std::vector<Orbit> without_impact(const ModeSet& set, const Orbit& before, const Orbit& orbit, const TestValue& test) {
   std::vector<Orbit> shapes;
   if (test.test != Test::speed || test.kind != mode::GuardKind::gap) return shapes;
@@ -79,6 +99,7 @@ std::vector<Orbit> without_impact(const ModeSet& set, const Orbit& before, const
     leg.event_contact = static_cast<int>(frame.stops.size() + i);
     shapes.push_back(std::move(reversed));
   }
+  if (auto crossed = with_corner(set, turned)) shapes.push_back(std::move(*crossed));
   if (turned.shape.legs[0].states == turned.shape.legs[1].states) {
     leave_out(turned, 0, 1);
     shapes.push_back(std::move(turned));

@@ -2,7 +2,9 @@
 #include "change/unfold.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "base/ranges.hpp"
 #include "change/jump.hpp"
 #include "orbit/cyclic.hpp"
 #include "orbit/extent.hpp"
@@ -27,7 +29,12 @@ void keep_born(const Change& change, const UnfoldOptions& options, std::vector<H
   const auto error = [&](const HalfBranch& next) {
     return change.special.error + next.error + exactly * options.range;
   };
-  const auto apart = [&](const HalfBranch& next) { return !next.onset && !next.renewed && next.apart > error(next); };
+  // A place that is known worse than `most` may be none. Where no orbit begins at a better one, it is led back to it.
+  double most = same_change * options.range;
+  const auto apart = [&](const HalfBranch& next) {
+    return !next.onset && !next.renewed && next.apart > std::min(error(next), most);
+  };
+  if (!options.lead_back || !ranges::all_of(found, apart)) most = INFINITY;
   std::stable_partition(found.begin(), found.end(), [&](const HalfBranch& next) { return !apart(next); });
   std::size_t led = 0;
   if (!found.empty() && options.lead_back && apart(found.front()))
@@ -58,6 +65,19 @@ void explain(const Problem& problem, const Orbit& before, const Change& change, 
 
 }  // namespace
 
+void find_met(const Problem& problem, const Orbit& before, Unfolding& found) {
+  constexpr double rounding = 1e-6, own_rounding = 1e-7;
+  const auto ends_in = [&](const HalfBranch& next) {
+    const Orbit& orbit = next.point.orbit;
+    const bool shorter = times_over(problem, orbit, rounding) > times_over(problem, before, own_rounding);
+    if (!shorter && !breaks_symmetry(problem, before, orbit)) return false;
+    found.passage = shorter ? Passage::merges : Passage::symmetric;
+    found.others.push_back(once(problem, orbit, rounding));
+    return true;
+  };
+  std::erase_if(found.branches, ends_in);
+}
+
 Unfolding unfold(const Problem& problem, const Orbit& before, const Change& change, const UnfoldOptions& options) {
   Unfolding found;
   std::vector<HalfBranch>& branches = found.branches;
@@ -66,22 +86,28 @@ Unfolding unfold(const Problem& problem, const Orbit& before, const Change& chan
   bool family = std::erase_if(branches, of_family) > 0;
   std::erase_if(branches, [&](const HalfBranch& next) { return is_chatter_as_it_came(problem, before, next); });
   keep_born(change, options, branches);
-  if (branches.empty() && !family && options.simulate) {
+  // A symmetric branch goes on with symmetric orbits; others are born there.
+  const auto breaks = [&](const HalfBranch& next) { return breaks_symmetry(problem, next.point.orbit, before); };
+  std::stable_partition(branches.begin(), branches.end(), [&](const HalfBranch& next) { return !breaks(next); });
+  const bool own = !branches.empty() && !breaks(branches.front());
+  if (!own && !family && options.simulate) {
     MotionBeyond motion = run_beyond(problem, change.at, options.range, options.stop);
     found.jump = std::move(motion.jump);
     family = motion.family || (motion.next && of_family(*motion.next));
-    if (motion.next && !family) branches.push_back(std::move(*motion.next));
+    if (motion.next && !family && (branches.empty() || !breaks(*motion.next)))
+      branches.insert(branches.begin(), std::move(*motion.next));
+  }
+  find_met(problem, before, found);
+  if (!found.others.empty()) return found;
+  if (found.jump && !family && !branches.empty()) {
+    constexpr double some_way_off = 1e-4;  // from where they can be followed
+    std::vector<HalfBranch> farther =
+        reshape(problem, before, change.at, change.test, options.range, options.stop, some_way_off);
+    for (HalfBranch& next : farther.empty() ? branches : farther) found.others.push_back(std::move(next.point.orbit));
+    branches.clear();
   }
   if (branches.empty()) {
     explain(problem, before, change, options.range, family, found);
-    return found;
-  }
-  constexpr double rounding = 1e-6;
-  const auto repeated = [&](const HalfBranch& next) {
-    return becomes_shorter(problem, before, next.point.orbit, rounding);
-  };
-  if (std::erase_if(branches, repeated) > 0) {
-    found.passage = Passage::merges;
     return found;
   }
   const HalfBranch& next = branches.front();

@@ -14,6 +14,8 @@ struct Unfolding {
   /// Passage same_events: the motion beyond says that nothing changes; its orbit.
   std::vector<HalfBranch> branches;
   std::optional<Jump> jump;  ///< passage jump
+  /// Where the branch ends: orbits of others there. Passages merges and symmetric: first that in which it ends.
+  std::vector<Orbit> others;
 };
 
 struct UnfoldOptions {
@@ -24,6 +26,10 @@ struct UnfoldOptions {
   /// @returns whether the branch, so led, begins in the sense of the parameter from which the old one came; empty if it does not lead there
   std::function<std::optional<bool>(const HalfBranch& found, double error)> lead_back = {};
 };
+
+/// Does the branch end in an orbit of another one: in a shorter one several times over, or in one that is its own image
+/// where the branch's are not? Images of the branch end there too. Moves such orbits from `branches` to `others`, once over.
+void find_met(const Problem& problem, const Orbit& before, Unfolding& found);
 
 /// @param before  a point of the branch on the way to the change
 [[nodiscard]] Unfolding unfold(const Problem& problem, const Orbit& before, const Change& change,

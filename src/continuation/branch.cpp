@@ -84,7 +84,8 @@ void Follower::add(std::vector<SpecialPoint> smooth, std::size_t after) {
       special.born.clear();
     } else if (special.type != SpecialType::BP)
       special.normal_form = normal_form(problem_, special);
-    if (special.type == SpecialType::BP && images_begin(problem_, branch_.points.back().orbit, special.solution.orbit))
+    if (special.type == SpecialType::BP &&
+        breaks_symmetry(problem_, branch_.points.back().orbit, special.solution.orbit))
       special.passage = Passage::symmetric;
     branch_.special.push_back(std::move(special));
     if (branch_.special.back().passage != Passage::same_events) return end(BranchEnd::Kind::special);

@@ -48,6 +48,7 @@ class Follower {
                                               std::optional<Branch>& way) const;
   [[nodiscard]] bool leads_back(const Unfolding& beyond) const;
   bool pass(PathPoint& at, Change change);
+  bool end_at_others(const PathPoint& at, SpecialPoint special, Unfolding beyond);
   bool end_at(const PathPoint& at, SpecialPoint special);
   void name_by_both_sides(const PathPoint& at, const Change& change, const Orbit& behind, SpecialPoint& special) const;
   void go_on(PathPoint& at, SpecialPoint special, HalfBranch next, std::optional<Branch> between);

@@ -30,6 +30,13 @@ bool is_all_but_gone(const Orbit& orbit) {
   return false;
 }
 
+/// The type of a change and how sliding changes, by the events on both sides.
+void name_change(const Orbit& behind, SpecialPoint& special) {
+  const ChangeOfEvents seen = compare_events(special.solution.orbit, behind);
+  special.type = seen.type;
+  special.sliding = seen.sliding;
+}
+
 /// Does the parameter turn back there?
 bool turns(const SpecialPoint& special) { return special.type == SpecialType::LP || special.passage == Passage::fold; }
 
@@ -130,14 +137,20 @@ bool Follower::leads_back(const Unfolding& beyond) const {
   return !beyond.branches.empty() && cascade() && lies_on(problem_, branch_, beyond.branches.front().point.orbit);
 }
 
-/// The type and the kind of sliding by the events on both sides of a change.
+/// .. where those do not tell how sliding changes, by the margin that is used up.
 void Follower::name_by_both_sides(const PathPoint& at, const Change& change, const Orbit& behind,
                                   SpecialPoint& special) const {
-  const ChangeOfEvents seen = compare_events(special.solution.orbit, behind);
-  special.type = seen.type;
-  special.sliding = seen.type != SpecialType::SL         ? Sliding::unchanged
-                    : seen.sliding != Sliding::unchanged ? seen.sliding
-                                                         : kind_of_sliding(change.test, at.orbit.shape);
+  name_change(behind, special);
+  if (special.type == SpecialType::SL && special.sliding == Sliding::unchanged)
+    special.sliding = kind_of_sliding(change.test, at.orbit.shape);
+}
+
+/// The branch ends where others are. @returns false
+bool Follower::end_at_others(const PathPoint& at, SpecialPoint special, Unfolding beyond) {
+  special.passage = beyond.passage;
+  special.born = std::move(beyond.others);
+  for (const HalfBranch& other : beyond.branches) special.born.push_back(other.point.orbit);
+  return end_at(at, std::move(special));
 }
 
 /// Goes on behind a change. @returns false if the branch ends
@@ -148,15 +161,13 @@ bool Follower::pass(PathPoint& at, Change change) {
   special.passage = beyond.passage;
   special.jump = std::move(beyond.jump);
   if (leads_back(beyond) && end_cascade(at)) return !ended_;
+  if (!beyond.others.empty()) return end_at_others(at, std::move(special), std::move(beyond));
   if (beyond.branches.empty()) {
     const bool family = beyond.passage == Passage::family;
     if (!family && end_cascade_with(at, special)) return !ended_;
     return end_at(at, std::move(special));
   }
-  const bool merges = beyond.passage == Passage::merges;
-  for (std::size_t i = merges ? 0 : 1; i < beyond.branches.size(); ++i)
-    special.born.push_back(beyond.branches[i].point.orbit);
-  if (merges) return end_at(at, std::move(special));
+  for (std::size_t i = 1; i < beyond.branches.size(); ++i) special.born.push_back(beyond.branches[i].point.orbit);
   HalfBranch& next = beyond.branches.front();
   if (beyond.passage == Passage::same_events) {  // the motion beyond says that nothing changes
     restart(at, std::move(next.point));
@@ -167,7 +178,8 @@ bool Follower::pass(PathPoint& at, Change change) {
     return end_at(at, std::move(special));
   }
   if (next.onset && next.folds && turn_round(at)) return true;  // back to the chatter that it has just left
-  if (!next.renewed && !next.onset && special.type != SpecialType::GR)
+  const bool chatter = chatters(at.orbit) + chatters(next.point.orbit) > 0;
+  if (!next.renewed && !next.onset && !(chatter && special.type == SpecialType::GR))
     name_by_both_sides(at, change, way ? way->points.back().orbit : next.point.orbit, special);
   go_on(at, std::move(special), std::move(next), std::move(way));
   return true;
@@ -235,12 +247,18 @@ bool Follower::die_out(PathPoint& at) {
   special.test = static_cast<std::size_t>(ranges::find_if(tests, length) - tests.begin());
   PathPoint there = at;
   there.orbit.values[0] = special.value;
-  std::vector<HalfBranch> left = leavings(problem_, there, {special.death->orbit}, range_);
+  Unfolding found;
+  std::vector<HalfBranch>& left = found.branches;
+  left = leavings(problem_, there, {special.death->orbit}, range_);
   std::erase_if(left, [&](const HalfBranch& next) { return one_of_family(problem_, next.point, range_); });
+  find_met(problem_, at.orbit, found);
+  if (!found.others.empty()) {
+    name_change(found.others.front(), special);
+    end_at_others(at, std::move(special), std::move(found));
+    return true;
+  }
   if (!left.empty()) {
-    const ChangeOfEvents seen = compare_events(special.solution.orbit, left.front().point.orbit);
-    special.type = seen.type;
-    special.sliding = seen.sliding;
+    name_change(left.front().point.orbit, special);
     go_on(at, std::move(special), std::move(left.front()), std::nullopt);
     return true;
   }

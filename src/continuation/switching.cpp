@@ -56,7 +56,7 @@ std::vector<Orbit> doubled(const Problem& problem, const Orbit& pd, double range
   for (const double amplitude : amplitudes) {
     Orbit orbit = two;
     move(problem, at, amplitude * direction.cwiseProduct(units), 0.0, orbit);
-    if (!solve(problem, orbit, conditions, 12).converged || repeats(problem, orbit, 0.01 * amplitude)) break;
+    if (!solve(problem, orbit, conditions, 12).converged || equal_parts(problem, orbit, 0.01 * amplitude) > 1) break;
     if (is_motion(problem, orbit)) return {orbit};
     if (found.empty()) found.push_back(std::move(orbit));
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace slapstick::orbit {
 
@@ -43,7 +44,7 @@ double Extent::distance(VectorXd a, VectorXd b) const {
                   part(left.tail(velocities_), right.tail(velocities_), velocity_));
 }
 
-std::optional<std::size_t> repeats(const Problem& problem, const Orbit& orbit, double tolerance) {
+int equal_parts(const Problem& problem, const Orbit& orbit, double tolerance) {
   const std::size_t legs = orbit.legs();
   const double cycle = orbit.t.back() - orbit.t.front();
   std::optional<Extent> extent;
@@ -58,19 +59,21 @@ std::optional<std::size_t> repeats(const Problem& problem, const Orbit& orbit, d
       if (!extent) extent.emplace(problem, orbit);
       same = extent->distance(orbit.x[i], orbit.x[i + part]) <= tolerance;
     }
-    if (same) return part;
+    if (same) return static_cast<int>(legs / part);
   }
-  return std::nullopt;
+  return 1;
+}
+
+int times_over(const Problem& problem, const Orbit& orbit, double tolerance) {
+  return std::gcd(equal_parts(problem, orbit, tolerance), orbit.shape.n);  // without forcing n is 0: all of them
 }
 
 Orbit once(const Problem& problem, Orbit orbit, double tolerance) {
-  const std::optional<std::size_t> part = repeats(problem, orbit, tolerance);
-  if (!part) return orbit;
-  const auto times = static_cast<int>(orbit.legs() / *part);
-  if (orbit.shape.n % times != 0) return orbit;
-  orbit.shape.legs.resize(*part);
-  orbit.x.resize(*part);
-  orbit.t.resize(*part + 1);
+  const int times = times_over(problem, orbit, tolerance);
+  const std::size_t legs = orbit.legs() / static_cast<std::size_t>(times);
+  orbit.shape.legs.resize(legs);
+  orbit.x.resize(legs);
+  orbit.t.resize(legs + 1);
   orbit.shape.n /= times;
   return orbit;
 }
@@ -78,7 +81,7 @@ Orbit once(const Problem& problem, Orbit orbit, double tolerance) {
 bool becomes_shorter(const Problem& problem, const Orbit& before, const Orbit& orbit, double tolerance) {
   constexpr double rounding = 1e-7;
   if (before.shape.legs[0].ending == Ending::cut) return false;  // one without events has no legs that could be equal
-  return repeats(problem, orbit, tolerance) && !repeats(problem, before, rounding);
+  return equal_parts(problem, orbit, tolerance) > equal_parts(problem, before, rounding);
 }
 
 }  // namespace slapstick::orbit

@@ -23,14 +23,18 @@ class Extent {
   double displacement_ = 0.0, velocity_ = 0.0;
 };
 
-/// The legs of which an orbit is a whole number of equal cycles, one after another, if there are fewer than its own.
+/// Of how many equal parts, one after another, an orbit is made: 1 of most.
+/// Forced at even harmonics only, an orbit of one period may be two equal halves.
 /// @param tolerance  of distances between states, and of instants against the cycle
-[[nodiscard]] std::optional<std::size_t> repeats(const Problem& problem, const Orbit& orbit, double tolerance);
+[[nodiscard]] int equal_parts(const Problem& problem, const Orbit& orbit, double tolerance);
+
+/// How many times over an orbit is a shorter one, of whole forcing periods.
+[[nodiscard]] int times_over(const Problem& problem, const Orbit& orbit, double tolerance);
 
 /// Of an orbit that is a shorter one several times over, that one.
 [[nodiscard]] Orbit once(const Problem& problem, Orbit orbit, double tolerance);
 
-/// Has an orbit become one of equal cycles that another of its branch is not? Forced at even harmonics only, every orbit may be two equal halves.
+/// Has an orbit become one of more equal parts than another of its branch?
 [[nodiscard]] bool becomes_shorter(const Problem& problem, const Orbit& before, const Orbit& orbit, double tolerance);
 
 }  // namespace slapstick::orbit

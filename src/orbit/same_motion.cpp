@@ -7,7 +7,10 @@
 #include <numeric>
 
 #include "base/ranges.hpp"
+#include "flow/contact_state.hpp"
 #include "orbit/extent.hpp"
+#include "orbit/record.hpp"
+#include "slapstick/base/error.hpp"
 
 namespace slapstick::orbit {
 namespace {
@@ -102,6 +105,51 @@ double least_misfit(const Problem& problem, const Orbit& a, const Orbit& b, doub
   return least;
 }
 
+/// Where the image of an orbit would be, as a symmetric orbit tells: c - x half a period later, or x half a period later.
+struct Image {
+  double sense = 1.0;
+  VectorXd c;  ///< of the contact state
+};
+
+Image image_about(const Problem& problem, const Orbit& symmetric) {
+  Image image;
+  double least = INFINITY, later = 0.5;
+  for (const double sense : {1.0, -1.0})
+    for (int period = 0; period < symmetric.shape.n; ++period) {
+      const double left = least_misfit(problem, symmetric, symmetric, sense, 0.5 + period, 0);
+      if (left >= least) continue;
+      least = left;
+      later = 0.5 + period;
+      image.sense = sense;
+    }
+  const States states(problem, symmetric);
+  const double t = instants(symmetric).front();
+  image.c = states.state_at(t) + image.sense * states.state_at(t + later);
+  image.c.tail(image.c.size() / 2).setZero();
+  return image;
+}
+
+/// The motion from where the image of an orbit would be: does it stay with the image?
+bool has_image(const Problem& problem, const Orbit& orbit, const Orbit& symmetric) {
+  constexpr double nearer = 0.1;  // than the orbit itself
+  const Image image = image_about(problem, symmetric);
+  const ModeSet set(constant_family(problem.family().model(orbit.values)), {});
+  const std::size_t leg = freest_leg(set, orbit);
+  const double t = orbit.t[leg] + 0.5 * orbit.duration(leg);
+  const VectorXd x = contact_state(set, state_within(set, orbit, leg, 0.5 * orbit.duration(leg)));
+  try {
+    const System system(set.model());
+    const Motion motion(system, flow::user_state(system, image.c - image.sense * x), Instant{}.plus(t + 0.5));
+    std::optional<Orbit> seen = record(motion, orbit.shape.n);
+    if (!seen) return false;
+    seen->values = orbit.values;
+    return apart_from_image(problem, orbit, *seen) < nearer * apart_from_image(problem, orbit, orbit);
+  } catch (const InputError&) {  // behind a stop
+  } catch (const NumericalError&) {
+  }
+  return false;
+}
+
 }  // namespace
 
 double apart(const Problem& problem, const Orbit& a, const Orbit& b) {
@@ -156,10 +204,12 @@ double apart_from_own_image(const Problem& problem, const Orbit& orbit) {
   return now.empty() ? INFINITY : misfit(now, later, 1.0, problem.base().compiled().frame().n);
 }
 
-bool images_begin(const Problem& problem, const Orbit& before, const Orbit& crossing) {
-  constexpr double symmetric = 1e-4, rounding = 1e-6;  // at a crossing states are known to 1e-5
-  const double left = apart_from_image(problem, crossing, crossing);
-  return left < symmetric && apart_from_image(problem, before, before) > std::max(10.0 * left, rounding);
+bool breaks_symmetry(const Problem& problem, const Orbit& orbit, const Orbit& symmetric) {
+  constexpr double alike = 1e-4, rounding = 1e-6;  // at a crossing states are known to 1e-5
+  const double left = apart_from_image(problem, symmetric, symmetric);
+  if (!(left < alike)) return false;
+  if (!(apart_from_image(problem, orbit, orbit) > std::max(10.0 * left, rounding))) return false;
+  return has_image(problem, orbit, symmetric);
 }
 
 }  // namespace slapstick::orbit

@@ -25,7 +25,8 @@ namespace slapstick::orbit {
 /// .. of an orbit and its own image; of a free motion its mirror image half a cycle later.
 [[nodiscard]] double apart_from_own_image(const Problem& problem, const Orbit& orbit);
 
-/// Does a branch of asymmetric orbits cross one of symmetric orbits? Behind the crossing it has the mirror images of its own.
-[[nodiscard]] bool images_begin(const Problem& problem, const Orbit& before, const Orbit& crossing);
+/// Is an orbit beside a symmetric one not its own image? Then its image lies there too.
+/// The model must have images: without an impact an orbit of a linear system is its own, whatever the stops are.
+[[nodiscard]] bool breaks_symmetry(const Problem& problem, const Orbit& orbit, const Orbit& symmetric);
 
 }  // namespace slapstick::orbit

@@ -29,8 +29,7 @@ constexpr int from_one_guess = 4;    ///< orbits at most
 
 /// Is it a shorter cycle several times over?
 bool is_multiple(const Problem& problem, const Orbit& orbit) {
-  const std::optional<std::size_t> part = repeats(problem, orbit, same_orbit);
-  if (part && orbit.shape.n % static_cast<int>(orbit.legs() / *part) == 0) return true;
+  if (times_over(problem, orbit, same_orbit) > 1) return true;
   for (int periods = 1; 2 * periods <= orbit.shape.n; ++periods)
     if (orbit.shape.n % periods == 0 && apart_from_later(problem, orbit, periods) < same_orbit) return true;
   return false;

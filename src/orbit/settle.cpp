@@ -22,7 +22,7 @@ std::optional<Solution> orbit_from(const Problem& problem, const Motion& motion,
   Orbit start = *guess;
   start.values = problem.values();
   std::optional<Orbit> orbit = refine_in_place(problem, start);
-  if (orbit && repeats(problem, *orbit, same_orbit))
+  if (orbit && times_over(problem, *orbit, same_orbit) > 1)
     orbit = refine_in_place(problem, once(problem, *orbit, same_orbit));
   if (!orbit || Extent(problem, *orbit).distance(orbit->x[0], start.x[0]) > within) return std::nullopt;
   Solution solution = describe(problem, *orbit, &motion.system());

@@ -60,6 +60,17 @@ long points(const Leg& leg, const Leg& next) {
   return count;
 }
 
+long impacts(const Itinerary& shape) {
+  long count = 0;
+  for (std::size_t i = 0; i < shape.legs.size(); ++i)
+    count += points(shape.legs[i], shape.legs[(i + 1) % shape.legs.size()]);
+  return count;
+}
+
+bool sticks(const Itinerary& shape) {
+  return ranges::any_of(shape.legs, [](const Leg& leg) { return mode::rests(leg.states); });
+}
+
 /// What the friction contacts do at the end of each leg.
 void count_changes(Solution& found, const Orbit& orbit) {
   using mode::FrictionState;
@@ -111,22 +122,23 @@ std::shared_ptr<const Problem> pose(const Family& family, const std::vector<doub
   return std::make_shared<const Problem>(family, values);
 }
 
+std::string class_name(const Orbit& orbit) {
+  const std::string n = orbit.shape.n > 0 ? std::to_string(orbit.shape.n) : "free";
+  const std::string p = chatters(orbit) > 0 ? "inf" : std::to_string(impacts(orbit.shape));
+  return n + "-" + p + (sticks(orbit.shape) ? "-II" : "-I");
+}
+
 Solution describe(const Problem& problem, Orbit orbit, const System* system) {
   const ModeSet set(problem.family(), orbit.values);
   Solution found;
   found.multipliers = multipliers(problem, set, orbit, linearise(problem, set, orbit).legs);
-  for (std::size_t i = 0; i < orbit.legs(); ++i) {
-    const Leg& leg = orbit.shape.legs[i];
-    found.impacts += points(leg, orbit.shape.legs[(i + 1) % orbit.legs()]);
-    found.sticking = found.sticking || mode::rests(leg.states);
-  }
+  found.impacts = impacts(orbit.shape);
+  found.sticking = sticks(orbit.shape);
   found.chatters = chatters(orbit);
   found.chatter = found.chatters > 0;
   count_changes(found, orbit);
   found.family = continuum(problem, orbit, found.multipliers);
-  const std::string p = found.chatter ? "inf" : std::to_string(found.impacts);
-  const std::string n = orbit.shape.n > 0 ? std::to_string(orbit.shape.n) : "free";
-  found.label = n + "-" + p + (found.sticking ? "-II" : "-I");
+  found.label = class_name(orbit);
   found.cycle = (orbit.t.back() - orbit.t.front()) * set.period();
   if (problem.translations().count() > 0) found.drift = problem.translations().by_coordinate(orbit.advance);
   if (system != nullptr) {

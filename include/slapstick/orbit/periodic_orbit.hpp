@@ -67,6 +67,9 @@ struct Solution {
   [[nodiscard]] bool stable() const;
 };
 
+/// The class of an orbit, from its events: "1-1-II"; without forcing "free-1-II".
+[[nodiscard]] std::string class_name(const Orbit& orbit);
+
 /// What an orbit that solves its equations is. With a System of its own parameters it is verified; null: is_motion is
 /// left false.
 [[nodiscard]] Solution describe(const Problem& problem, Orbit orbit, const System* system);

@@ -78,7 +78,7 @@ enum class Passage : std::uint8_t {
   cascade,       ///< one of infinitely many changes that gather at the onset of a chatter
   merges,        ///< the orbit becomes a shorter one, run through more than once
   equilibrium,   ///< the orbit shrinks to a state of rest, at a corner of a characteristic
-  symmetric,     ///< BP: behind a symmetric orbit are the images of the branch's own orbits
+  symmetric,     ///< the orbit becomes its own image: behind it are the images of the branch's orbits
   retraced,      ///< the branch as it came
   not_followed,  ///< the events change, and the caller wanted them to stay
   unknown        ///< no orbit was found beyond: a jump, or a failure of the search
@@ -157,10 +157,12 @@ struct SpecialPoint {
   Passage passage = Passage::same_events;
   std::optional<Jump> jump;  ///< passage jump
 
-  double rotation = 0.0;    ///< NS: rho in (0, 1/2)
-  std::vector<Orbit> born;  ///< orbits from which other branches that begin here or cross can be followed
-  std::size_t after = 0;    ///< it lies behind this point of the branch
-  std::size_t test = 0;     ///< GR, SL, CH, CO: the index of the margin among all margins of the orbit
+  double rotation = 0.0;  ///< NS: rho in (0, 1/2)
+  /// Orbits from which other branches that begin here or cross can be followed; with passages merges and symmetric the
+  /// first is that in which the branch ends.
+  std::vector<Orbit> born;
+  std::size_t after = 0;  ///< it lies behind this point of the branch
+  std::size_t test = 0;   ///< GR, SL, CH, CO: the index of the margin among all margins of the orbit
 
   NormalForm normal_form;  ///< of LP, PD, NS
 };

@@ -70,7 +70,7 @@ bool on_the_circle(const Watched& at) {
 }
 
 /// A multiplier passes 1 where the branch turns back; where branches cross it does not.
-bool at_a_fold(const Watched& at) { return multipliers_at(1.0, 1)(at) && std::abs(at.turn) < at_zero; }
+bool is_a_fold(const Watched& at) { return multipliers_at(1.0, 1)(at) && std::abs(at.turn) < at_zero; }
 
 void add_multipliers(std::vector<CurveTest>& tests, SpecialType type) {
   const auto add = [&](const Meeting& met, double (*value)(const Watched&), std::function<bool(const Watched&)> holds) {
@@ -88,7 +88,7 @@ void add_multipliers(std::vector<CurveTest>& tests, SpecialType type) {
         resonance(1), [](const Watched& at) { return product_of_others(at.multipliers, 1.0); }, multipliers_at(1.0, 2));
   else
     add(
-        multiplier(SpecialType::LP), [](const Watched& at) { return product(at.multipliers, 1.0); }, at_a_fold);
+        multiplier(SpecialType::LP), [](const Watched& at) { return product(at.multipliers, 1.0); }, is_a_fold);
   if (type == SpecialType::NS) return add_resonances(tests);
   if (type != SpecialType::PD && type != SpecialType::LP)
     add(

@@ -71,7 +71,8 @@ std::optional<Orbit> with_corner(const ModeSet& set, const Orbit& orbit) {
   return std::nullopt;
 }
 
-/// An impact whose speed goes to zero is no more: its leg and the next are one, or a velocity passes zero, or a corner, there instead.
+/// An impact whose speed goes to zero is no more: its leg and the next are one, or a velocity of the same pair passes
+/// zero or a corner there instead.
 std::vector<Orbit> without_impact(const ModeSet& set, const Orbit& before, const Orbit& orbit, const TestValue& test) {
   std::vector<Orbit> shapes;
   if (test.test != Test::speed || test.kind != mode::GuardKind::gap) return shapes;

@@ -66,10 +66,10 @@ void explain(const Problem& problem, const Orbit& before, const Change& change, 
 }  // namespace
 
 void find_met(const Problem& problem, const Orbit& before, Unfolding& found) {
-  constexpr double rounding = 1e-6, own_rounding = 1e-7;
+  constexpr double rounding = 1e-6;  // of orbits that Newton's method gave
   const auto ends_in = [&](const HalfBranch& next) {
     const Orbit& orbit = next.point.orbit;
-    const bool shorter = times_over(problem, orbit, rounding) > times_over(problem, before, own_rounding);
+    const bool shorter = times_over(problem, orbit, rounding) > times_over(problem, before, rounding);
     if (!shorter && !breaks_symmetry(problem, before, orbit)) return false;
     found.passage = shorter ? Passage::merges : Passage::symmetric;
     found.others.push_back(once(problem, orbit, rounding));
@@ -100,9 +100,9 @@ Unfolding unfold(const Problem& problem, const Orbit& before, const Change& chan
   find_met(problem, before, found);
   if (!found.others.empty()) return found;
   if (found.jump && !family && !branches.empty()) {
-    constexpr double some_way_off = 1e-4;  // from where they can be followed
+    // Orbits some way off, from where they can be followed: right beside a graze Newton's method leads nowhere.
     std::vector<HalfBranch> farther =
-        reshape(problem, before, change.at, change.test, options.range, options.stop, some_way_off);
+        reshape(problem, before, change.at, change.test, options.range, options.stop, 1e3 * same_change);
     for (HalfBranch& next : farther.empty() ? branches : farther) found.others.push_back(std::move(next.point.orbit));
     branches.clear();
   }

@@ -27,8 +27,9 @@ struct UnfoldOptions {
   std::function<std::optional<bool>(const HalfBranch& found, double error)> lead_back = {};
 };
 
-/// Does the branch end in an orbit of another one: in a shorter one several times over, or in one that is its own image
-/// where the branch's are not? Images of the branch end there too. Moves such orbits from `branches` to `others`, once over.
+/// Does the branch end in an orbit of another one? That is a shorter orbit several times over, or one that is its own
+/// image where the branch's are not: images of the branch end there too.
+/// Moves such orbits from `branches` to `others`, once over.
 void find_met(const Problem& problem, const Orbit& before, Unfolding& found);
 
 /// @param before  a point of the branch on the way to the change

@@ -331,8 +331,9 @@ NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condi
 
 namespace {
 
-/// How fast the function of a leg's end goes to zero. Where it only touches zero, what rounding would leave: the rates of
-/// the orbits beside it have no bound, and what a stick takes out of them is still zero.
+/// How fast the function of a leg's end goes to zero.
+/// Where it only touches zero, what rounding would leave: the rates have no bound there, and with 0 they would be no
+/// numbers, also where a stick takes them out.
 double rate_of_end(const LegValue& leg) {
   const double rate = leg.h.by_end()[0];
   return rate != 0.0 ? rate : std::numeric_limits<double>::epsilon() * leg.X_end.by_end().cwiseAbs().maxCoeff();

@@ -105,7 +105,7 @@ double least_misfit(const Problem& problem, const Orbit& a, const Orbit& b, doub
   return least;
 }
 
-/// Where the image of an orbit would be, as a symmetric orbit tells: c - x half a period later, or x half a period later.
+/// Where the image of an orbit would be, as a symmetric orbit tells: c - x, or x, half a period later.
 struct Image {
   double sense = 1.0;
   VectorXd c;  ///< of the contact state
@@ -131,7 +131,6 @@ Image image_about(const Problem& problem, const Orbit& symmetric) {
 
 /// The motion from where the image of an orbit would be: does it stay with the image?
 bool has_image(const Problem& problem, const Orbit& orbit, const Orbit& symmetric) {
-  constexpr double nearer = 0.1;  // than the orbit itself
   const Image image = image_about(problem, symmetric);
   const ModeSet set(constant_family(problem.family().model(orbit.values)), {});
   const std::size_t leg = freest_leg(set, orbit);
@@ -143,7 +142,7 @@ bool has_image(const Problem& problem, const Orbit& orbit, const Orbit& symmetri
     std::optional<Orbit> seen = record(motion, orbit.shape.n);
     if (!seen) return false;
     seen->values = orbit.values;
-    return apart_from_image(problem, orbit, *seen) < nearer * apart_from_image(problem, orbit, orbit);
+    return 10.0 * apart_from_image(problem, orbit, *seen) < apart_from_image(problem, orbit, orbit);
   } catch (const InputError&) {  // behind a stop
   } catch (const NumericalError&) {
   }

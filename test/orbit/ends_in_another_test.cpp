@@ -1,4 +1,4 @@
-/// Where a branch ends in an orbit of another one: in a shorter one several times over, or in one that is symmetric.
+/// Where a branch ends in an orbit of another one, and where it goes on whichever side it comes from.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ const orbit::SpecialPoint* at(const orbit::Branch& branch, double value) {
   return found == branch.special.end() ? nullptr : &*found;
 }
 
-/// The orbit without a graze that touches a stop there is found by itself, as an orbit of one period that the motion settles on.
+/// The shorter orbit is found by itself: the motion settles on it, and its branch touches the stop at the same place.
 TEST(Branch, EndsWhereItRunsThroughAShorterOrbitThreeTimes) {
   const Posed triple(SLAPSTICK_ORBIT_MODELS "even-harmonic.toml", {}, {"fk"}, {0.5552}),
       single(SLAPSTICK_ORBIT_MODELS "even-harmonic.toml", {}, {"fk"}, {0.6});
@@ -35,8 +35,9 @@ TEST(Branch, EndsWhereItRunsThroughAShorterOrbitThreeTimes) {
   EXPECT_EQ(orbit::class_name(point->born.front()), "1-2-I");
 }
 
-/// Two equal walls: the symmetric orbit touches both at one instant of each half. An orbit that touches one of them ends
-/// there, as its image does; the symmetric branch goes on with an impact more at each wall.
+/// Two equal walls: the symmetric orbit touches both, half a period apart.
+/// An orbit that touches one of them ends there, as its image does.
+/// The symmetric branch goes on with an impact more at each wall.
 TEST(Branch, ThatBreaksASymmetryEndsAtASymmetricGraze) {
   const Posed posed(SLAPSTICK_ORBIT_MODELS "two-walls.toml", {}, {"A"}, {2.0});
   const auto symmetric = posed.settled();
@@ -56,8 +57,8 @@ TEST(Branch, ThatBreaksASymmetryEndsAtASymmetricGraze) {
   EXPECT_EQ(end, &branches[1].special.back());
 }
 
-/// Without an impact a linear system's orbit is its own image, but the model with its one stop has no images: the branch
-/// with an impact is that without, beyond a fold.
+/// Without an impact a linear system's orbit is its own image, but the model with its one stop has no images.
+/// The branch without impact goes on with one, back behind a fold.
 TEST(Branch, OfOneStopGoesOnBehindAnOrbitThatIsItsOwnImage) {
   const double omega = 0.5, graze = std::hypot(1.0 - omega * omega, 0.04 * omega);
   const Posed posed("impact-oscillator",

@@ -94,6 +94,19 @@ TEST(Change, OfAnImpactIntoTheCornerOfADamperIsTheSameFromBothSides) {
   EXPECT_EQ(graze(down).passage, Passage::persistence);
 }
 
+/// Static friction above the kinetic one makes a stick that begins at a touch of finite length: a jump.
+/// An unstable orbit near by is there on both sides, and is no orbit that begins there.
+TEST(Change, IntoAStickOfFiniteLengthIsAJump) {
+  const Posed posed(SLAPSTICK_ORBIT_MODELS "gear-clutch.toml", {{"T", 200.0}}, {"rpm"}, {2420.0});
+  const auto first = posed.settled(1, 5000);
+  ASSERT_TRUE(first);
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 2400.0, .to = 2500.0});
+  const orbit::SpecialPoint* point = at(branch, 2432.54844287);
+  ASSERT_NE(point, nullptr) << ended(branch);
+  EXPECT_EQ(point->type, SpecialType::SL);
+  EXPECT_EQ(point->passage, Passage::jump);
+}
+
 /// Two events that change places, whichever of them comes from behind.
 TEST(Change, HasTheSameNameFromBothSidesWhereTwoEventsMeet) {
   for (const double start : {2.15, 2.2}) {

@@ -54,6 +54,7 @@ void check_map(const MapProblem& problem) {
                 "starts = " + std::to_string(problem.starts) + " is below 2");
   demand_of_map(problem.start == MapStart::carry || problem.direction == Direction::up,
                 "direction is for start = carry; else all directions are the same");
+  demand_of_map(!problem.keep_states || problem.start != MapStart::random, "keep_states is not for start = random");
   demand_of_map(problem.of.size() == problem.statistics.size(), "every quantity needs a statistic");
   for (std::size_t k = 0; k < problem.of.size(); ++k) check_statistic_of_stretch(problem.of[k], problem.statistics[k]);
   demand_of_map(problem.measured_periods >= 1, "measured_periods must be positive");

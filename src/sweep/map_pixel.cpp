@@ -14,6 +14,7 @@
 #include "section/settling.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/flow/stage.hpp"
+#include "sweep/attractors.hpp"
 #include "sweep/diagram_point.hpp"
 #include "sweep/lane_pixels.hpp"
 
@@ -58,7 +59,7 @@ class Analysis {
   /// The same of what lanes have found.
   std::optional<Pixel> of(LaneFinding&& lane) {
     return attempt([&] {
-      if (problem_.start == MapStart::carry) pixel_.carried = lane.found.state;
+      if (keeps_state()) pixel_.carried = lane.found.state;
       if (lane.system == nullptr && !problem_.of.empty())
         lane.system = std::make_unique<System>(model_at(problem_, task_));
       keep(lane.system.get(), lane.found, 1);
@@ -85,7 +86,7 @@ class Analysis {
     if (problem_.start == MapStart::random) return run_all(system, start);
     const Classification found = classified(system, start);
     if (interrupted_) return;
-    if (problem_.start == MapStart::carry) pixel_.carried = found.state;
+    if (keeps_state()) pixel_.carried = found.state;
     keep(&system, found, 1);
   }
 
@@ -107,6 +108,7 @@ class Analysis {
       int starts;
     };
     std::vector<Known> all;
+    Attractors known(system);
     const flow::Translations translations(system);
     const orbit::Starts starts(translations, Motion(system, start), problem_.cancel);
     std::mt19937 random(static_cast<std::mt19937::result_type>(problem_.seed));
@@ -114,16 +116,20 @@ class Analysis {
       const State one = k == 0 ? start : flow::user_state(system, starts.draw(random, 1.0));
       Classification found = classified(system, one);
       if (interrupted_) return;
-      const auto same =
-          ranges::find_if(all, [&](const Known& known) { return same_attractor(system, known.found, found); });
-      if (same != all.end())
-        ++same->starts;
-      else
+      known.reach(one);
+      const int place = known.find(found.attractor, found.label, found.state);
+      if (place >= 0) {
+        ++all[static_cast<std::size_t>(place)].starts;
+      } else {
+        (void)known.add(found);
         all.push_back({std::move(found), 1});
+      }
     }
     std::stable_sort(all.begin(), all.end(), [](const Known& a, const Known& b) { return a.starts > b.starts; });
-    for (const Known& known : all) keep(&system, known.found, known.starts);
+    for (const Known& one : all) keep(&system, one.found, one.starts);
   }
+
+  [[nodiscard]] bool keeps_state() const { return problem_.start == MapStart::carry || problem_.keep_states; }
 
   /// @param system  null if nothing is measured
   void keep(const System* system, const Classification& found, int starts) {
@@ -164,47 +170,7 @@ class Analysis {
   bool interrupted_ = false;
 };
 
-/// The largest difference of two states against the largest number of a.
-double apart(const State& a, const State& b) {
-  double difference = 0.0, size = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    difference = std::max(difference, std::abs(a[i] - b[i]));
-    size = std::max(size, std::abs(a[i]));
-  }
-  return size > 0.0 ? difference / size : difference;
-}
-
-constexpr double same = 1e-6;  ///< relative; Newton's method leaves 1e-10
-
-bool same_impacts(const Classification& a, const Classification& b) {
-  if (a.impacts.size() != b.impacts.size() || std::abs(a.period - b.period) > same * a.period) return false;
-  const auto speeds = [](const Classification& of) {
-    std::vector<std::pair<int, double>> all;
-    for (const CycleImpact& impact : of.impacts) all.emplace_back(impact.contact, impact.w);
-    std::sort(all.begin(), all.end());
-    return all;
-  };
-  const auto one = speeds(a), other = speeds(b);
-  for (std::size_t i = 0; i < one.size(); ++i)
-    if (one[i].first != other[i].first || std::abs(one[i].second - other[i].second) > same * one[i].second)
-      return false;
-  return true;
-}
-
 }  // namespace
-
-bool same_attractor(const System& system, const Classification& a, const Classification& b) {
-  if (a.attractor != b.attractor || a.label != b.label) return false;
-  if (a.attractor == Attractor::equilibrium) return apart(a.state, b.state) < same;
-  if (a.n == 0) return true;
-  if (!section::driven(system)) return same_impacts(a, b);
-  Motion motion(system, a.state);
-  for (int k = 0; k < a.n; ++k) {
-    if (apart(motion.state(), b.state) < same) return true;
-    (void)run_to(motion, {k + 1, 0.0}, nullptr, [] {});
-  }
-  return false;
-}
 
 Model model_at(const MapProblem& problem, const PixelTask& task) {
   return problem.model_at(problem.x_at(task.number), problem.y_at(task.number));

@@ -20,8 +20,4 @@ struct PixelTask {
 /// @returns as many as there was time for before the problem was cancelled, in the order of the tasks
 [[nodiscard]] std::vector<Pixel> analyse(const MapProblem& problem, std::span<const PixelTask> tasks);
 
-/// Are two motions of one system the same attractor? Cycles are compared by their states, or without a phase by period
-/// and impacts; of motions without a cycle the kind is all that is compared.
-[[nodiscard]] bool same_attractor(const System& system, const Classification& a, const Classification& b);
-
 }  // namespace slapstick::sweep

@@ -80,7 +80,9 @@ struct Pixel {
   std::vector<Finding> found;  ///< one; of `random` one for each attractor, the one with most starts first
   std::vector<double> values;  ///< of each finding each of MapProblem::of; NaN where a measure fails
   std::string failure;         ///< one line, what the NumericalError or InputError said; else empty
-  State carried;  ///< of `carry`: where the next pixel of the row begins; empty: at the problem's own start
+  /// Where the motion ended up, on its attractor at phase 0: of `carry`, for the next pixel of the row, and of
+  /// `keep_states`. Empty: not known.
+  State carried;
 };
 
 struct MapProblem {
@@ -93,6 +95,7 @@ struct MapProblem {
   ClassifyOptions classify = {};
   MapStart start = MapStart::reset;
   Direction direction = Direction::up;  ///< of `carry`
+  bool keep_states = false;             ///< each pixel has its Pixel::carried; not of `random`
   int starts = 2;                       ///< of `random`, >= 2
   std::uint64_t seed = 1;
   /// Measured over the cycle, or where there is none over `measured_periods` on; a statistic of each.

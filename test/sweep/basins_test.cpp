@@ -1,0 +1,218 @@
+/// Basins: two starts are of one colour exactly if their motions come to one attractor; the boundary's numbers.
+#include "slapstick/sweep/basins.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "slapstick/base/error.hpp"
+#include "slapstick/io/model_file.hpp"
+
+namespace slapstick::sweep {
+namespace {
+
+/// A plane without mechanics.
+Basins plane(int columns, int rows, const std::function<std::int32_t(int ix, int iy)>& basin) {
+  Basins basins;
+  basins.x = {0.0, 1.0, columns};
+  basins.y = {0.0, 1.0, rows};
+  for (int iy = 0; iy < rows; ++iy)
+    for (int ix = 0; ix < columns; ++ix) basins.of.push_back(basin(ix, iy));
+  return basins;
+}
+
+TEST(BasinBoundary, AStraightLineHasTheExponentOne) {
+  const Uncertainty found = uncertainty(plane(160, 160, [](int ix, int) { return ix < 71 ? 0 : 1; }));
+  EXPECT_EQ(found.distances, (std::vector<int>{1, 2, 4, 8, 16}));
+  EXPECT_NEAR(found.exponent, 1.0, 1e-12);
+  EXPECT_NEAR(found.error, 0.0, 1e-12);
+}
+
+/// The gaps of Cantor's set, each of a basin by the toss of a coin: a boundary of dimension ln 2 / ln 3 across.
+TEST(BasinBoundary, ACantorSetHasItsExponent) {
+  constexpr int size = 2187;  // 3^7
+  std::vector<std::int32_t> basin(size, -1);
+  std::mt19937 coin(1);
+  const auto cut = [&](const auto& self, int from, int width) -> void {
+    if (width == 1) {
+      basin[static_cast<std::size_t>(from)] = static_cast<std::int32_t>(coin() % 2);
+      return;
+    }
+    const auto third = width / 3;
+    std::fill_n(basin.begin() + from + third, third, static_cast<std::int32_t>(coin() % 2));
+    self(self, from, third);
+    self(self, from + 2 * third, third);
+  };
+  cut(cut, 0, size);
+  const Uncertainty found =
+      uncertainty(plane(size, 512, [&](int ix, int) { return basin[static_cast<std::size_t>(ix)]; }));
+  ASSERT_EQ(found.distances.size(), 7U);
+  EXPECT_NEAR(found.exponent, 1.0 - std::log(2.0) / std::log(3.0), 0.06);
+}
+
+TEST(BasinBoundary, NoBoundaryHasNoExponent) {
+  const Basins one = plane(40, 40, [](int, int) { return 0; });
+  EXPECT_TRUE(std::isnan(uncertainty(one).exponent));
+  EXPECT_TRUE(std::isnan(basin_entropy(one).boundary));
+  EXPECT_EQ(basin_entropy(one).whole, 0.0);
+}
+
+/// Boxes of halves have ln 2; one with a start that belongs to no basin is none.
+TEST(BasinBoundary, TheEntropyIsThatOfTheShares) {
+  const Basins halves = plane(8, 4, [](int ix, int iy) { return ix >= 4 && iy < 2 ? 1 : 0; });
+  const BasinEntropy found = basin_entropy(halves, 4);
+  EXPECT_EQ(found.boxes, 2);
+  EXPECT_EQ(found.on_boundary, 1);
+  EXPECT_DOUBLE_EQ(found.boundary, std::log(2.0));
+  EXPECT_DOUBLE_EQ(found.whole, 0.5 * std::log(2.0));
+  const Basins holed = plane(8, 4, [](int ix, int iy) { return ix == 0 && iy == 0 ? Basins::inadmissible : ix % 2; });
+  EXPECT_EQ(basin_entropy(holed, 4).boxes, 1);
+  EXPECT_THROW(static_cast<void>(basin_entropy(halves, 1)), InputError);
+}
+
+State start_of(const ModelDefinition& definition, const Overrides& values = {}) { return definition.start(values); }
+
+MapProblem paper(int columns, int rows) {
+  static const ModelDefinition definition = load_model("vibro-impact");
+  const Overrides values{{"omega", 2.82}};
+  return starts_over(definition.build(values), start_of(definition, values), {0, {-0.6, 0.02, columns}},
+                     {1, {-1.2, 1.2, rows}});
+}
+
+TEST(Basins, SameForAnyNumberOfThreads) {
+  MapProblem problem = paper(14, 12);
+  problem.threads = 1;
+  const Basins one = run_basins(problem);
+  problem.threads = 3;
+  const Basins three = run_basins(problem);
+  EXPECT_EQ(one.of, three.of);
+  ASSERT_EQ(one.basins.size(), three.basins.size());
+  for (std::size_t i = 0; i < one.basins.size(); ++i)
+    EXPECT_EQ(one.basins[i].attractor.state, three.basins[i].attractor.state);
+}
+
+/// The paper's system has two attractors at omega = 2.82: each start is what `classify` says of it alone.
+TEST(Basins, AreWhatClassifySaysOfEachStart) {
+  const MapProblem problem = paper(14, 12);
+  const Basins found = run_basins(problem);
+  std::set<std::string> labels;
+  for (const Basin& basin : found.basins) labels.insert(basin.attractor.label);
+  EXPECT_EQ(labels, (std::set<std::string>{"1-1-I", "4-3-II"}));
+  EXPECT_EQ(found.basins.size(), 2U);
+  const System system(problem.model_at(0.0, 0.0));
+  for (std::int32_t pixel = 0; pixel < 14 * 12; pixel += 5) {
+    const std::int32_t of = found.of[static_cast<std::size_t>(pixel)];
+    const State start = problem.start_at(problem.x_at(pixel), problem.y_at(pixel));
+    if (start[0] > 0.0) {  // beyond the stop
+      EXPECT_EQ(of, Basins::inadmissible) << pixel;
+    } else if (of >= 0) {
+      EXPECT_EQ(classify(system, start).label, found.basins[static_cast<std::size_t>(of)].attractor.label) << pixel;
+    }
+  }
+  EXPECT_LE(found.count(Basins::undecided), 1);
+  EXPECT_EQ(found.count(Basins::inadmissible), 12);
+}
+
+ModelDefinition two_wells() {
+  return ModelDefinition::parse(R"(
+name = "two-wells"
+[[coordinate]]
+name = "x"
+mass = 1
+[[spring]]
+between = ["x", "ground"]
+characteristic = [[-2, -1], [-1, 0], [-0.5, 0.5], [0.5, -0.5], [1, 0], [2, 1]]
+[[damper]]
+between = ["x", "ground"]
+coefficient = 0.2
+)",
+                                "two-wells.toml");
+}
+
+/// A machine that is its own mirror image rests at 1 and -1: the basins are mirror images of one another, and the start
+/// between them is in neither.
+TEST(Basins, OfAMirroredStartIsTheMirroredOne) {
+  const ModelDefinition definition = two_wells();
+  const int size = 21;
+  const MapProblem problem =
+      starts_over(definition.build(), start_of(definition), {0, {-2.0, 2.0, size}}, {1, {-1.5, 1.5, size}});
+  const Basins found = run_basins(problem);
+  ASSERT_EQ(found.basins.size(), 2U);
+  const auto rest = [&](std::size_t i) { return found.basins[i].attractor.state[0]; };
+  EXPECT_NEAR(std::abs(rest(0)), 1.0, 1e-12);
+  EXPECT_NEAR(rest(0) + rest(1), 0.0, 1e-12);
+  const auto middle = static_cast<std::size_t>(size * size / 2);
+  EXPECT_EQ(found.of[middle], Basins::undecided);
+  for (std::size_t i = 0; i < middle; ++i) EXPECT_EQ(found.of[i] + found.of[found.of.size() - 1 - i], 1) << i;
+  EXPECT_EQ(found.basins[0].starts, found.basins[1].starts);
+}
+
+/// Wilson's interval for 10 of 100: 0.0552 to 0.1744, as tables have it.
+TEST(Basins, SharesHaveTheirInterval) {
+  const ModelDefinition definition = two_wells();
+  const MapProblem problem =
+      starts_over(definition.build(), start_of(definition), {0, {-1.1, 0.9, 10}}, {1, {-0.01, 0.01, 10}});
+  BasinBuilder builder(problem);
+  for (std::int32_t i = 0; i < 100; ++i) {
+    Pixel pixel;
+    pixel.number = i;
+    pixel.found = {{.pixel = i, .attractor = Attractor::equilibrium}};
+    pixel.carried = {i < 10 ? 1.0 : -1.0, 0.0};
+    builder.add(pixel);
+  }
+  const Basins found = builder.take();
+  ASSERT_EQ(found.basins.size(), 2U);
+  EXPECT_DOUBLE_EQ(found.basins[1].share, 0.1);
+  EXPECT_NEAR(found.basins[1].share_from, 0.0552, 5e-5);
+  EXPECT_NEAR(found.basins[1].share_to, 0.1744, 5e-5);
+}
+
+/// A free cycle has no phase: the states that different starts leave behind are all on one and the same.
+TEST(Basins, AFreeCycleIsOneWhereverItsMotionsStand) {
+  const ModelDefinition definition = load_model("falling-friction");
+  const Basins found =
+      run_basins(starts_over(definition.build(), start_of(definition), {0, {-2.0, 3.0, 9}}, {1, {-2.0, 2.0, 9}}));
+  ASSERT_EQ(found.basins.size(), 1U);
+  EXPECT_EQ(found.basins[0].attractor.label, "free-0-II");
+  EXPECT_EQ(found.basins[0].starts, 81);
+}
+
+/// What friction holds at rest anywhere in an interval is one basin, not one for each start.
+TEST(Basins, AContinuumOfStatesOfRestIsOne) {
+  const ModelDefinition definition = ModelDefinition::parse(R"(
+name = "rest"
+[[coordinate]]
+name = "x"
+mass = 1
+[[spring]]
+between = ["x", "ground"]
+stiffness = 1
+[[friction]]
+name = "floor"
+between = ["x", "ground"]
+static = 0.3
+kinetic = 0.2
+)",
+                                                            "rest.toml");
+  const Basins found =
+      run_basins(starts_over(definition.build(), start_of(definition), {0, {-2.0, 2.0, 7}}, {1, {-1.0, 1.0, 7}}));
+  ASSERT_EQ(found.basins.size(), 1U);
+  EXPECT_EQ(found.basins[0].starts, 49);
+}
+
+TEST(Basins, RefuseAxesThatAreNone) {
+  const ModelDefinition definition = two_wells();
+  const Model model = definition.build();
+  const State start = start_of(definition);
+  EXPECT_THROW(static_cast<void>(starts_over(model, start, {0, {}}, {0, {}})), InputError);
+  EXPECT_THROW(static_cast<void>(starts_over(model, start, {0, {}}, {2, {}})), InputError);
+  MapProblem random = starts_over(model, start, {0, {}}, {1, {}});
+  random.start = MapStart::random;
+  EXPECT_THROW(static_cast<void>(run_basins(random)), InputError);
+}
+
+}  // namespace
+}  // namespace slapstick::sweep

@@ -12,6 +12,7 @@
 #include "base/ranges.hpp"
 #include "base/text.hpp"
 #include "chart_colours.hpp"
+#include "chart_parts.hpp"
 #include "measured_diagram.hpp"
 #include "slapstick/base/error.hpp"
 
@@ -40,12 +41,6 @@ std::vector<Shown> shown_pixels(const sweep::Map& map, sweep::Direction directio
   return all;
 }
 
-/// The rectangle of pixels whose middles are the values of the axis.
-figure::Range edges(const sweep::GridAxis& axis) {
-  const double half = 0.5 * (axis.to - axis.from) / (axis.count - 1);
-  return {axis.from - half, axis.to + half};
-}
-
 Cells empty_cells(const sweep::Map& map) {
   return {.x = edges(map.x), .y = edges(map.y), .columns = map.x.count, .rows = map.y.count};
 }
@@ -53,24 +48,6 @@ Cells empty_cells(const sweep::Map& map) {
 std::vector<sweep::Direction> directions_of(const MapWish& wish) {
   if (wish.problem.direction == sweep::Direction::both) return {sweep::Direction::up, sweep::Direction::down};
   return {wish.problem.direction};
-}
-
-constexpr double swatch_mm = 2.2;
-
-figure::Key swatch(const std::string& label, figure::Colour colour) {
-  const bool paper = colour == undecided_colour;  // white on white: only its rim is seen
-  return {.label = label,
-          .colour = paper ? figure::colours::black : colour,
-          .marker = paper ? figure::Marker::box : figure::Marker::square,
-          .size = swatch_mm};
-}
-
-/// "12.3 %", and no zero for what is there.
-std::string percent(long part, long whole) {
-  char text[32];
-  const double share = 100.0 * static_cast<double>(part) / static_cast<double>(whole);
-  std::snprintf(text, sizeof text, share >= 10.0 ? "%.0f %%" : share >= 0.095 ? "%.1f %%" : "< 0.1 %%", share);
-  return text;
 }
 
 /// Colours of the classes of a map, the same in all of its panels. Takes 4 bytes a finding.

@@ -5,7 +5,6 @@
 #include "base/text.hpp"
 #include "measured_diagram.hpp"
 #include "slapstick/base/error.hpp"
-#include "work.hpp"
 
 namespace slapstick::app {
 
@@ -14,26 +13,17 @@ void MapOptions::declare(Arguments& arguments) {
   model.declare_state(arguments);
   arguments.text("--x", x, "NAME=A:B:COUNT", "the parameter across, its range and the number of values (required)");
   arguments.text("--y", y, "NAME=A:B:COUNT", "the parameter upwards (required)");
-  arguments.choice(
-      "--level", level, {"quick", "full"},
-      "quick: a cycle that Newton's method confirms within --periods, or undecided; full: as `classify` (quick)");
+  analysis.declare(arguments);
   arguments.text(
       "--start", start, "reset|carry|N",
       "begin each pixel anew, or where its neighbour in the row ended up, or at N random states and keep every "
       "attractor (reset)");
   arguments.choice("--direction", direction, {"up", "down", "both"},
                    "of --start carry: through the values of x; both shows coexisting attractors (up)");
-  arguments.count("--periods", periods, 20, 1'000'000'000,
-                  "of quick: forcing periods within which a cycle is to be confirmed (300)");
-  arguments.count("--transient", transient, 0, 1'000'000'000, "of full: as `classify` (500)");
-  arguments.count("--most-periods", most_periods, 10, 1'000'000'000, "of full: as `classify` (20000)");
-  arguments.count("--exponent-periods", exponent_periods, 400, 100'000'000, "of full: as `classify` (4000)");
-  arguments.count("--most-n", most_n, 1, 4096, "longest cycle sought, in forcing periods or returns (64)");
   arguments.count("--seed", seed, 0, 4'294'967'295, "of --start N: the number that chooses the random states (1)");
   arguments.text("--of", of, "Q:STAT,..",
                  "statistics of quantities over the cycle, or without one over --measured-periods");
   arguments.count("--measured-periods", measured_periods, 1, 1'000'000'000, "of --of: where there is no cycle (100)");
-  stops.declare(arguments, "count the impacts of this stop only; may be repeated (all)");
   arguments.count("--threads", threads, 0, 1024, "0: all cores; the result is the same for any number (0)");
   arguments.count(
       "--refine", refine, 2, 1024,
@@ -45,9 +35,7 @@ void MapOptions::declare(Arguments& arguments) {
 void MapOptions::check_words(const Arguments& arguments) const {
   for (const char* name : {"--x", "--y"})
     if (!arguments.given(name)) throw InputError(std::string(name) + " NAME=A:B:COUNT is required");
-  if (level == "full" && arguments.given("--periods")) throw InputError("--periods: only for --level quick");
-  for (const char* name : {"--transient", "--most-periods", "--exponent-periods"})
-    if (level == "quick" && arguments.given(name)) throw InputError(std::string(name) + ": only for --level full");
+  analysis.check_words(arguments);
   if (start != "carry" && arguments.given("--direction")) throw InputError("--direction: only for --start carry");
   if ((start == "carry" || start == "reset") && arguments.given("--seed"))
     throw InputError("--seed: only for --start N");
@@ -91,16 +79,6 @@ void read_shard(const std::string& text, sweep::MapProblem& problem) {
   problem.shard = static_cast<int>(parse_integer("--shard I", parts[0], 1, problem.shards)) - 1;
 }
 
-void read_level(const MapOptions& options, const Model& model, sweep::MapProblem& problem) {
-  problem.level = options.level == "quick" ? sweep::Level::quick : sweep::Level::full;
-  problem.periods = static_cast<int>(options.periods);
-  problem.classify.transient_periods = static_cast<int>(options.transient);
-  problem.classify.most_periods = static_cast<int>(options.most_periods);
-  problem.classify.exponent_periods = static_cast<int>(options.exponent_periods);
-  problem.classify.most_n = static_cast<int>(options.most_n);
-  problem.classify.stops = options.stops.choice(model);
-}
-
 void read_quantities(const MapOptions& options, MapWish& wish) {
   if (options.of.empty()) return;
   wish.of = parse_statistics("--of", options.of, wish.chosen);
@@ -115,9 +93,7 @@ void read_quantities(const MapOptions& options, MapWish& wish) {
 
 /// The corners of the chart.
 void check_corners(const MapOptions& options, const MapWish& wish) {
-  const Work work{
-      options.level == "quick" ? static_cast<double>(options.periods) : static_cast<double>(options.transient) + 10.0,
-      options.level == "quick" ? "--periods" : "--transient"};
+  const Work work = options.analysis.work();
   for (const double x : {wish.x.from, wish.x.to}) {
     for (const double y : {wish.y.from, wish.y.to}) {
       try {
@@ -153,14 +129,14 @@ std::unique_ptr<MapWish> map_wish(const MapOptions& options, ChosenModel chosen)
                                                 parse_sweep(options.y, "--y"),
                                                 {},
                                                 options.model.state,
-                                                options.stops.names,
+                                                options.analysis.stops.names,
                                                 {}});
   check_names(*wish);
   sweep::MapProblem& problem = wish->problem;
   read_start(options, problem);
   read_shard(options.shard, problem);
   check_corners(options, *wish);
-  read_level(options, wish->chosen.model, problem);
+  options.analysis.apply(wish->chosen.model, problem);
   read_quantities(options, *wish);
   problem.x = {wish->x.from, wish->x.to, wish->x.count};
   problem.y = {wish->y.from, wish->y.to, wish->y.count};

@@ -4,19 +4,18 @@
 #include <string>
 #include <vector>
 
+#include "analysis_options.hpp"
 #include "model_options.hpp"
 #include "parameter_ranges.hpp"
 #include "slapstick/chart/chart.hpp"
 #include "span_options.hpp"
-#include "stop_options.hpp"
 
 namespace slapstick::app {
 
 struct MapOptions {
   ModelOptions model;
-  StopOptions stops;
-  std::string x, y, level = "quick", start = "reset", direction = "up", of, shard;
-  long long periods = 300, transient = 500, most_periods = 20'000, most_n = 64, exponent_periods = 4000;
+  AnalysisOptions analysis;
+  std::string x, y, start = "reset", direction = "up", of, shard;
   long long measured_periods = 100, seed = 1, threads = 0, refine = 0;
 
   void declare(Arguments& arguments);

@@ -23,7 +23,7 @@ Store open_store(const std::string& path, const StoreFacts& facts, bool resume) 
 std::unique_ptr<MapWish> wish_of(const Store& store) {
   if (store.fact("verb") != "map")
     throw InputError("store export: the store is of " + in_quotes(store.fact("verb")) +
-                     ", not of a map; the verb itself with --store, --resume and --out writes its table");
+                     ", not of a map; the verb itself with --store and --resume writes its tables");
   MapOptions options;
   Arguments arguments("map", "");
   options.declare(arguments);

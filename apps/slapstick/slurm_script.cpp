@@ -42,9 +42,9 @@ std::string map_words(const MapOptions& options, const std::vector<std::string>&
   for (const std::string& set : options.model.sets) words += " --set " + quoted(set);
   // Of each level and start only what `map` takes with it.
   const auto belongs = [&](const std::string& name) {
-    if (name == "--periods") return options.level == "quick";
+    if (name == "--periods") return options.analysis.level == "quick";
     if (name == "--transient" || name == "--most-periods" || name == "--exponent-periods")
-      return options.level == "full";
+      return options.analysis.level == "full";
     if (name == "--direction") return options.start == "carry";
     if (name == "--seed") return options.start != "carry" && options.start != "reset";
     return name != "--measured-periods" || !options.of.empty();

@@ -43,6 +43,7 @@ Action add_curve(Arguments& arguments);
 Action add_poincare(Arguments& arguments);
 Action add_diagram(Arguments& arguments);
 Action add_map(Arguments& arguments);
+Action add_basins(Arguments& arguments);
 Action add_quantities(Arguments& arguments);
 Action add_measure(Arguments& arguments);
 Action add_spectrum(Arguments& arguments);

@@ -19,6 +19,7 @@ const std::vector<Verb>& verbs() {
       {"poincare", "points of a section: at every impact, or once per forcing period", add_poincare},
       {"diagram", "bifurcation diagram over a parameter, on all cores", add_diagram},
       {"map", "two-parameter chart: class, attractor, exponent and quantities at every pixel", add_map},
+      {"basins", "basins of attraction: the attractor that each start of a plane comes to, and shares", add_basins},
       {"quantities", "what can be measured on a model: names, units, meanings", add_quantities},
       {"measure", "statistics of forces, accelerations, energies and impacts, exact", add_measure},
       {"spectrum", "Fourier lines of a cycle, or the power density of a motion, impulses included", add_spectrum},

@@ -7,7 +7,7 @@
 ///   flow          compiled models, their motions, tangents, natural frequencies
 ///   section       motions as sequences of points
 ///   attractor     what a motion settles on
-///   sweep         bifurcation diagrams
+///   sweep         bifurcation diagrams, charts, basins of attraction
 ///   orbit         periodic orbits, stable or not
 ///   continuation  branches of orbits and loci of special points
 ///   quantity      forces, accelerations, energies: statistics and spectra
@@ -22,6 +22,7 @@
 #include "slapstick/certify/certificate.hpp"
 #include "slapstick/chart/chart.hpp"
 #include "slapstick/chart/curves.hpp"
+#include "slapstick/chart/start_plane.hpp"
 #include "slapstick/continuation/branch.hpp"
 #include "slapstick/continuation/sentences.hpp"
 #include "slapstick/flow/energy_sources.hpp"
@@ -57,6 +58,7 @@
 #include "slapstick/section/stop_choice.hpp"
 #include "slapstick/section/stroboscopic_section.hpp"
 #include "slapstick/store/store.hpp"
+#include "slapstick/sweep/basins.hpp"
 #include "slapstick/sweep/batch.hpp"
 #include "slapstick/sweep/diagram.hpp"
 #include "slapstick/sweep/map.hpp"

@@ -11,6 +11,7 @@ tolerances to choose. Errors are InputError (a ValueError), NumericalError and S
 """
 
 from ._attractor import Attractor, Attractors, classify
+from ._basins import Basin, Basins, basins
 from ._batch import Batch, BatchEvents, batch
 from ._branch import Branch, continuation
 from ._certificate import Certificate, certify
@@ -33,6 +34,8 @@ from ._special import SpecialPoint
 __all__ = [
     "Attractor",
     "Attractors",
+    "Basin",
+    "Basins",
     "Batch",
     "BatchEvents",
     "Branch",
@@ -64,6 +67,7 @@ __all__ = [
     "Spectrum",
     "StorageError",
     "__version__",
+    "basins",
     "batch",
     "certify",
     "classify",

@@ -17,7 +17,7 @@ CURVE_STYLES |= {"CO": ("-.", "#aa0000"), "PD": ("-", "black"), "NS": ("-", "#aa
 
 # As the program's charts (apps/slapstick/chart_colours.hpp).
 CLASS_COLOURS = "#2288ee #ff8800 #ffbb88 #004455 #00ccff #774400 #aa66aa #ff2244 #4400bb #550077".split()
-KINDS = {"chaotic": "#191919", "quasi-periodic": "#787878", "undecided": "#ffffff", "": "#ffffff"}
+KINDS = {"chaotic": "#191919", "quasi-periodic": "#787878", "undecided": "#ffffff", "not admissible": "#e1e1e1", "": "#ffffff"}
 OTHERS = "#c8c8c8"
 
 

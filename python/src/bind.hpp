@@ -26,6 +26,7 @@ void bind_orbit(nb::module_& module);
 void bind_branch(nb::module_& module);
 void bind_locus(nb::module_& module);
 void bind_map(nb::module_& module);
+void bind_basins(nb::module_& module);
 void bind_batch(nb::module_& module);
 void bind_quantity(nb::module_& module);
 void bind_order_map(nb::module_& module);

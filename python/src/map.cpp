@@ -9,6 +9,7 @@
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "chosen.hpp"
+#include "map_wish.hpp"
 #include "names.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/chart/curves.hpp"
@@ -30,22 +31,6 @@ struct Map {
   std::vector<std::vector<double>> measured;
   std::vector<std::tuple<int, std::string>> failures;  ///< pixel, reason
   bool complete = true;
-};
-
-/// What is asked for, as the caller has it.
-struct Wish {
-  std::string x_name, y_name;
-  std::tuple<double, double, int> x, y;
-  std::string level, rule, direction;
-  int periods, starts;
-  std::uint64_t seed;
-  int most_n, transient, most_periods, exponent_periods, measured_periods;
-  std::vector<std::string> stops;
-  std::vector<Quantity> of;
-  std::vector<std::string> statistics;
-  int shard, shards, threads, refine;
-  std::string store;
-  bool resume;
 };
 
 void add_word(Words& words, std::string_view word) {
@@ -74,45 +59,24 @@ void add(Map& into, const sweep::Map& map, const sweep::Finding& found) {
   for (std::size_t k = 0; k < map.width; ++k) into.measured[k].push_back(map.values_of(found)[k]);
 }
 
-template <class T>
-T one_of(const std::string& argument, const std::string& word, const std::vector<std::pair<std::string, T>>& words) {
-  std::string known;
-  for (const auto& [name, value] : words) {
-    if (name == word) return value;
-    known += (known.empty() ? "" : ", ") + name;
-  }
-  throw InputError(argument + ": '" + word + "' is none of " + known);
-}
-
 sweep::MapProblem problem_of(const Wish& wish, const Model& model) {
   sweep::MapProblem problem;
-  const auto axis = [](const std::tuple<double, double, int>& of) {
-    return sweep::GridAxis{std::get<0>(of), std::get<1>(of), std::get<2>(of)};
-  };
-  problem.x = axis(wish.x);
-  problem.y = axis(wish.y);
-  problem.level =
-      one_of<sweep::Level>("level", wish.level, {{"quick", sweep::Level::quick}, {"full", sweep::Level::full}});
+  problem.x = axis_of(wish.x);
+  problem.y = axis_of(wish.y);
+  analyse_as(wish, model, problem);
   problem.start = one_of<sweep::MapStart>(
       "rule", wish.rule,
       {{"reset", sweep::MapStart::reset}, {"carry", sweep::MapStart::carry}, {"random", sweep::MapStart::random}});
   problem.direction = one_of<sweep::Direction>(
       "direction", wish.direction,
       {{"up", sweep::Direction::up}, {"down", sweep::Direction::down}, {"both", sweep::Direction::both}});
-  problem.periods = wish.periods;
   problem.starts = wish.starts;
   problem.seed = wish.seed;
-  problem.classify.most_n = wish.most_n;
-  problem.classify.transient_periods = wish.transient;
-  problem.classify.most_periods = wish.most_periods;
-  problem.classify.exponent_periods = wish.exponent_periods;
-  problem.classify.stops = StopChoice(model, wish.stops);
   problem.measured_periods = wish.measured_periods;
   problem.of = wish.of;
   problem.statistics = wish.statistics;
   problem.shard = wish.shard;
   problem.shards = wish.shards;
-  problem.threads = wish.threads;
   problem.refine = wish.refine;
   return problem;
 }

@@ -30,6 +30,7 @@ NB_MODULE(_core, module) {
   bind_branch(module);
   bind_locus(module);
   bind_map(module);
+  bind_basins(module);
   bind_batch(module);
   bind_quantity(module);
   bind_order_map(module);

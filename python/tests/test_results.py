@@ -1,6 +1,7 @@
 """Results remember where they come from, show themselves, and share their memory."""
 
 import gc
+import math
 import pickle
 
 import numpy as np
@@ -19,13 +20,14 @@ def results():
         "section": slapstick.poincare(MODEL, points=20, omega=1.5),
         "diagram": slapstick.diagram(MODEL, omega=(2, 3, 5), impacts=5),
         "modes": slapstick.modes(MODEL, omega=1.5),
+        "basins": slapstick.basins(MODEL, ("x1", -0.6, 0, 4), ("v1", -1, 1, 3), omega=2.82),
         "orbit": slapstick.orbit(MODEL, "1-1", starts=64, omega=2.2),
         "branch": branch,
         "locus": branch.special[0].locus("omega", "friction", (2.6, 3), (0.1, 0.2)),
     }
 
 
-NAMES = ["motion", "attractor", "section", "diagram", "modes", "orbit", "branch", "locus"]
+NAMES = ["motion", "attractor", "section", "diagram", "modes", "basins", "orbit", "branch", "locus"]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -51,7 +53,8 @@ def test_tables_and_datasets_have_a_row_for_every_entry(results, name):
     rows = len(result.t) if hasattr(result, "t") else len(result)
     table, data = result.to_pandas(), result.to_xarray()
     assert len(table) == rows > 0
-    assert rows in data.sizes.values()
+    sizes = list(data.sizes.values())
+    assert rows in (*sizes, math.prod(sizes))  # of a plane all starts
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name != "attractor"])

@@ -2,14 +2,11 @@
 #include "slapstick/chart/chart.hpp"
 
 #include "base/text.hpp"
+#include "chart/words.hpp"
 #include "io/table.hpp"
 
 namespace slapstick::chart {
 namespace {
-
-std::string axis_words(const std::string& name, const sweep::GridAxis& axis) {
-  return name + "=" + number_text(axis.from) + ":" + number_text(axis.to) + ":" + std::to_string(axis.count);
-}
 
 std::string start_words(const sweep::MapProblem& problem) {
   switch (problem.start) {
@@ -24,6 +21,23 @@ std::string start_words(const sweep::MapProblem& problem) {
 }
 
 }  // namespace
+
+std::string axis_words(const std::string& name, const sweep::GridAxis& axis) {
+  return name + "=" + number_text(axis.from) + ":" + number_text(axis.to) + ":" + std::to_string(axis.count);
+}
+
+void add_analysis_words(const sweep::MapProblem& problem, std::vector<std::string>& words) {
+  const ClassifyOptions& classify = problem.classify;
+  words.insert(words.end(), {"--level", problem.level == sweep::Level::quick ? "quick" : "full"});
+  for (const auto& [name, value] : {std::pair<const char*, int>{"--periods", problem.periods},
+                                    {"--transient", classify.transient_periods},
+                                    {"--most-periods", classify.most_periods},
+                                    {"--exponent-periods", classify.exponent_periods},
+                                    {"--most-n", classify.most_n}}) {
+    words.emplace_back(name);
+    words.push_back(std::to_string(value));
+  }
+}
 
 Chart over(ModelDefinition definition, Overrides values, std::string x, const sweep::GridAxis& x_axis, std::string y,
            const sweep::GridAxis& y_axis) {
@@ -56,22 +70,12 @@ std::vector<std::string> option_words(const Chart& chart) {
   const char* direction = problem.direction == sweep::Direction::up     ? "up"
                           : problem.direction == sweep::Direction::down ? "down"
                                                                         : "both";
-  std::vector<std::string> words{"--x",         axis_words(chart.x, problem.x),
-                                 "--y",         axis_words(chart.y, problem.y),
-                                 "--level",     problem.level == sweep::Level::quick ? "quick" : "full",
-                                 "--start",     start_words(problem),
-                                 "--direction", direction};
-  const ClassifyOptions& classify = problem.classify;
-  for (const auto& [name, value] : {std::pair<const char*, long long>{"--periods", problem.periods},
-                                    {"--transient", classify.transient_periods},
-                                    {"--most-periods", classify.most_periods},
-                                    {"--exponent-periods", classify.exponent_periods},
-                                    {"--most-n", classify.most_n},
-                                    {"--seed", static_cast<long long>(problem.seed)},
-                                    {"--measured-periods", problem.measured_periods}}) {
-    words.emplace_back(name);
-    words.push_back(std::to_string(value));
-  }
+  std::vector<std::string> words{"--x", axis_words(chart.x, problem.x), "--y", axis_words(chart.y, problem.y)};
+  const auto level_ends = static_cast<std::ptrdiff_t>(words.size()) + 2;  // in the order of the stores that are there
+  add_analysis_words(problem, words);
+  words.insert(words.begin() + level_ends, {"--start", start_words(problem), "--direction", direction});
+  words.insert(words.end(), {"--seed", std::to_string(problem.seed), "--measured-periods",
+                             std::to_string(problem.measured_periods)});
   if (problem.refine > 0) words.insert(words.end(), {"--refine", std::to_string(problem.refine)});
   std::vector<std::string> of;
   for (std::size_t k = 0; k < problem.of.size(); ++k) of.push_back(problem.of[k].name + ":" + problem.statistics[k]);

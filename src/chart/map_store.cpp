@@ -74,11 +74,16 @@ sweep::Pixel pixel_of(const StoredCell& cell, const sweep::MapProblem& problem) 
 
 }  // namespace
 
+void for_each_pixel(const store::Store& store, const sweep::MapProblem& problem,
+                    const std::function<void(const sweep::Pixel&)>& use) {
+  store.for_each([&](const StoredCell& cell) { use(pixel_of(cell, problem)); });
+}
+
 sweep::Map read_map(const store::Store& store, const sweep::MapProblem& problem) {
   sweep::MapBuilder builder(problem);
   long cells = 0;
-  store.for_each([&](const StoredCell& cell) {
-    builder.add(pixel_of(cell, problem));
+  for_each_pixel(store, problem, [&](const sweep::Pixel& pixel) {
+    builder.add(pixel);
     ++cells;
   });
   return builder.take(problem.refine > 0 || cells == sweep::pixel_count(problem));

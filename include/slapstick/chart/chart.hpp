@@ -7,6 +7,7 @@
 ///
 /// A store that one of the faces (program, C++, Python) has begun another one may resume: what a store says of itself
 /// depends on the chart only. Source: docs/howto/charts.md.
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -53,6 +54,10 @@ struct Chart {
 
 /// All that a store has, as a map of that problem. @throws StorageError for cells that are none of the problem
 [[nodiscard]] sweep::Map read_map(const store::Store& store, const sweep::MapProblem& problem);
+
+/// use(pixel) for each that a store has, in no order. @throws StorageError for cells that are none of the problem
+void for_each_pixel(const store::Store& store, const sweep::MapProblem& problem,
+                    const std::function<void(const sweep::Pixel&)>& use);
 
 /// Binds a problem to a store: what is there is not computed again, and what is computed is written. The problem must
 /// not outlive this object.

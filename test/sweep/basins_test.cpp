@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 #include <set>
+#include <sstream>
 
 #include "slapstick/base/error.hpp"
 #include "slapstick/io/model_file.hpp"
@@ -116,20 +117,31 @@ TEST(Basins, AreWhatClassifySaysOfEachStart) {
   EXPECT_EQ(found.count(Basins::inadmissible), 12);
 }
 
-ModelDefinition two_wells() {
-  return ModelDefinition::parse(R"(
-name = "two-wells"
-[[coordinate]]
-name = "x"
-mass = 1
-[[spring]]
-between = ["x", "ground"]
-characteristic = [[-2, -1], [-1, 0], [-0.5, 0.5], [0.5, -0.5], [1, 0], [2, 1]]
-[[damper]]
-between = ["x", "ground"]
-coefficient = 0.2
-)",
-                                "two-wells.toml");
+/// @param length, time  the units are so much smaller
+ModelDefinition two_wells(double length = 1.0, double time = 1.0) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "name = \"two-wells\"\n[[coordinate]]\nname = \"x\"\nmass = 1\n"
+       << "[[spring]]\nbetween = [\"x\", \"ground\"]\ncharacteristic = [";
+  for (const auto& [x, force] : {std::pair{-2.0, -1.0}, {-1.0, 0.0}, {-0.5, 0.5}, {0.5, -0.5}, {1.0, 0.0}, {2.0, 1.0}})
+    text << "[" << x * length << ", " << force * length / (time * time) << "], ";
+  text << "]\n[[damper]]\nbetween = [\"x\", \"ground\"]\ncoefficient = " << 0.2 / time << "\n";
+  return ModelDefinition::parse(text.str(), "two-wells.toml");
+}
+
+Basins of_two_wells(double length, double time) {
+  const ModelDefinition definition = two_wells(length, time);
+  return run_basins(starts_over(definition.build(), start_of(definition), {0, {-2.0 * length, 2.0 * length, 9}},
+                                {1, {-1.5 * length / time, 1.5 * length / time, 8}}));
+}
+
+/// Powers of two change no bit of a motion, and so no basin.
+TEST(Basins, AreTheSameInAnyUnits) {
+  const Basins found = of_two_wells(1.0, 1.0);
+  EXPECT_EQ(found.basins.size(), 2U);
+  for (const int length : {-40, 40})
+    for (const int time : {-6, 6})
+      EXPECT_EQ(of_two_wells(std::ldexp(1.0, length), std::ldexp(1.0, time)).of, found.of) << length << " " << time;
 }
 
 /// A machine that is its own mirror image rests at 1 and -1: the basins are mirror images of one another, and the start

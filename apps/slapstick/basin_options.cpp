@@ -22,13 +22,31 @@ void BasinOptions::check_words(const Arguments& arguments) const {
   analysis.check_words(arguments);
 }
 
+namespace {
+
+/// The start, whose numbers along the axes are replaced: the model's own, with them, may be behind a stop.
+State start_beside(const ModelOptions& options, const ChosenModel& chosen, const Sweep& x, const Sweep& y) {
+  for (const double of_x : {x.from, x.to})
+    for (const double of_y : {y.from, y.to}) {
+      ModelOptions there = options;
+      there.state += (there.state.empty() ? "" : ",") + chart::state_words({{x.name, of_x}, {y.name, of_y}});
+      try {
+        return there.start(chosen);
+      } catch (const InputError&) {
+      }
+    }
+  return options.start(chosen);  // says why
+}
+
+}  // namespace
+
 BasinWish basin_wish(const BasinOptions& options) {
   ChosenModel chosen = options.model.load();
   const Sweep x = parse_sweep(options.x, "--x"), y = parse_sweep(options.y, "--y");
   if (const double starts = static_cast<double>(x.count) * y.count; starts > 1e8)
     throw InputError("--x and --y give " + shown(starts) + " starts, more than the 1e8 that a plane may have");
   demand_period(affordable_system(chosen, options.analysis.work()).model());
-  const State start = options.model.start(chosen);
+  const State start = start_beside(options.model, chosen, x, y);
   try {
     chart::StartPlane plane = chart::starts_over(chosen.definition, chosen.overrides, start, x.name,
                                                  {x.from, x.to, x.count}, y.name, {y.from, y.to, y.count});

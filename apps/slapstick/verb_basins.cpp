@@ -107,13 +107,13 @@ TableFacts facts_of(const BasinWish& wish) {
 }
 
 /// Says what numbers may hide. @throws NumericalError if every start failed
-void report(const BasinWish& wish, const Basins& found) {
+void report(const BasinWish& wish, const Basins& found, bool stored) {
   const long all = sweep::pixel_count(wish.plane.problem), missing = found.count(Basins::missing);
   if (found.count(Basins::inadmissible) == all)
     throw InputError("--x and --y: the stops forbid every start of the plane");
   if (missing > 0)
-    std::fprintf(stderr, "slapstick: stopped after %ld of %ld starts; the finished ones are written\n", all - missing,
-                 all);
+    std::fprintf(stderr, "slapstick: stopped after %ld of %ld starts; shares are those of the finished ones%s\n",
+                 all - missing, all, stored ? ", and --resume goes on" : "");
   if (const long undecided = found.count(Basins::undecided); undecided > 0)
     std::fprintf(stderr, "slapstick: %ld of %ld starts are undecided: %s\n", undecided, all,
                  wish.plane.problem.level == sweep::Level::quick ? "more --periods, or --level full, names more of them"
@@ -142,7 +142,7 @@ int run(const Options& options, const Context& context) {
   if (!options.table.empty())
     table.emplace(options.table, std::vector<std::string>{"x", "y", "basin", "class"}, facts_of(wish));
   const Basins found = gathered(wish, options, context);
-  report(wish, found);
+  report(wish, found, !options.store.empty());
   if (table) write_table(wish, found, *table);
   out.write(result_json(wish, found, static_cast<int>(options.box)).dump() + "\n");
   out.commit();

@@ -57,9 +57,9 @@ class Basins(Result):
     for each attractor, that with most starts first. of: shape (ny, nx), of each start the place of its basin in `basins`,
     or -1 undecided, -2 forbidden by a stop, -3 failed.
     entropy: the mean basin entropy of boxes of `box` starts a side, boundary_entropy: that of the boxes with several basins,
-    NaN if there is none; above ln 2 the boundary is fractal. boxes, boxes_on_boundary: how many there are.
+    NaN if there is none. boxes, boxes_on_boundary: how many there are.
     uncertain: the shares of pairs of starts that are `distances` pixels apart and belong to different basins;
-    uncertainty_exponent: the slope of their logarithms, with its standard error uncertainty_error; the boundary's dimension
+    uncertainty_exponent: the slope of their logarithms, with the standard error of the fit uncertainty_error; the boundary's dimension
     in the plane is 2 - uncertainty_exponent.
     """
 

@@ -32,10 +32,28 @@ struct Basins {
   bool complete = true;
 };
 
+/// The start, whose numbers along the axes are replaced: the model's own, with them, may be behind a stop.
+State start_beside(const ModelDefinition& definition, const Overrides& fixed, const std::optional<Start>& start,
+                   const Wish& wish) {
+  const Overrides* named = start ? std::get_if<Overrides>(&*start) : nullptr;
+  if (start && named == nullptr) return start_of(definition, fixed, start);
+  for (const double x : {std::get<0>(wish.x), std::get<1>(wish.x)})
+    for (const double y : {std::get<0>(wish.y), std::get<1>(wish.y)}) {
+      Overrides there = named == nullptr ? Overrides{} : *named;
+      there[wish.x_name] = x;
+      there[wish.y_name] = y;
+      try {
+        return start_of(definition, fixed, Start(there));
+      } catch (const InputError&) {
+      }
+    }
+  return start_of(definition, fixed, start);  // says why
+}
+
 std::unique_ptr<Basins> basins(const ModelDefinition& definition, const Overrides& fixed,
                                const std::optional<Start>& start, const Wish& wish, int box, nb::object progress) {
-  chart::StartPlane plane = chart::starts_over(definition, fixed, start_of(definition, fixed, start), wish.x_name,
-                                               axis_of(wish.x), wish.y_name, axis_of(wish.y));
+  chart::StartPlane plane = chart::starts_over(definition, fixed, start_beside(definition, fixed, start, wish),
+                                               wish.x_name, axis_of(wish.x), wish.y_name, axis_of(wish.y));
   analyse_as(wish, build(definition, fixed), plane.problem);
   plane.stops = wish.stops;
   Watch watch(std::move(progress));

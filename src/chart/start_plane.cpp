@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/ranges.hpp"
 #include "base/text.hpp"
 #include "chart/words.hpp"
 #include "slapstick/base/error.hpp"
@@ -11,12 +12,15 @@ namespace slapstick::chart {
 namespace {
 
 sweep::StartAxis axis_of(const char* argument, const std::string& name, const sweep::GridAxis& values,
-                         const Model& model) {
+                         const ModelDefinition& definition, const Model& model) {
   const std::vector<std::string> names = state_names(model);
   const auto found = std::find(names.begin(), names.end(), name);
+  const auto is_it = [&](const Parameter& one) { return one.name == name; };
+  const bool is_parameter = ranges::any_of(definition.parameters(), is_it);
   if (found == names.end())
     throw InputError(std::string(argument) + ": " + in_quotes(name) +
-                     " is no displacement or velocity of the model, which has " + joined(names, ", "));
+                     " is no displacement or velocity of the model, which has " + joined(names, ", ") +
+                     (is_parameter ? "; a chart over a parameter is a map" : ""));
   return {static_cast<std::size_t>(found - names.begin()), values};
 }
 
@@ -39,7 +43,8 @@ std::vector<std::string> option_words(const StartPlane& plane) {
 StartPlane starts_over(ModelDefinition definition, Overrides values, State start, std::string x,
                        const sweep::GridAxis& x_axis, std::string y, const sweep::GridAxis& y_axis) {
   const Model model = definition.build(values);
-  const sweep::StartAxis across = axis_of("x", x, x_axis, model), up = axis_of("y", y, y_axis, model);
+  const sweep::StartAxis across = axis_of("x", x, x_axis, definition, model),
+                         up = axis_of("y", y, y_axis, definition, model);
   if (across.place == up.place) throw InputError("y: " + in_quotes(y) + " is the axis of x too");
   sweep::MapProblem problem = sweep::starts_over(model, start, across, up);
   return {std::move(definition), std::move(values), std::move(x), std::move(y), std::move(start), {},

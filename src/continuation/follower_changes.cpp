@@ -37,6 +37,22 @@ void name_change(const Orbit& behind, SpecialPoint& special) {
   special.sliding = seen.sliding;
 }
 
+/// Of what was before: what a place that is known to 1e-9 of a step leaves of a speed or a length that is zero there.
+constexpr double as_good_as_none = 1e-4;
+
+/// Has the orbit at a change multipliers of its own? Where a guard comes to zero within a leg the orbit is as it was.
+/// Where an impact loses its speed, or a leg its length, they are infinite, or 0 / 0.
+bool has_multipliers(const PathPoint& before, const Change& change) {
+  if (change.special.margin.kind != UsedMargin::Kind::least || change.special.death) return false;
+  const std::vector<TestValue>&was = before.watched.tests, &is = change.at.watched.tests;
+  for (std::size_t i = 0; i < std::min(was.size(), is.size()); ++i) {
+    const bool ends_leg = is[i].test == Test::speed || is[i].test == Test::duration;
+    if (ends_leg && !(is[i].value > as_good_as_none * was[i].value)) return false;
+  }
+  const auto finite = [](const std::complex<double>& one) { return std::isfinite(std::abs(one)); };
+  return ranges::all_of(change.special.solution.multipliers, finite);
+}
+
 /// Does the parameter turn back there?
 bool turns(const SpecialPoint& special) { return special.type == SpecialType::LP || special.passage == Passage::fold; }
 
@@ -101,8 +117,9 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
     arrive(std::move(special));
     return false;
   }
-  // At a touch multipliers are infinite, or 0 / 0: those of the point before say more.
-  special.solution.multipliers = behind_others ? behind_others->watched.multipliers : branch_.points.back().multipliers;
+  if (!has_multipliers(at, *change))  // those of the point before say more
+    special.solution.multipliers =
+        behind_others ? behind_others->watched.multipliers : branch_.points.back().multipliers;
   if (!options_.through_changes) {
     special.passage = Passage::not_followed;
     return end_at(at, std::move(special));
@@ -188,16 +205,14 @@ bool Follower::pass(PathPoint& at, Change change) {
 /// Has a cycle without forcing shrunk to a point? Beside a corner the laws are linear on either side: a cycle about a
 /// state of rest there has a size in proportion to the distance of the two, and ends as they meet.
 bool Follower::comes_to_rest(const SpecialPoint& special) const {
-  constexpr double small = 1e-4;  // of the point before; a place known to 1e-9 of a step leaves less
   if (special.solution.orbit.shape.n > 0 || branch_.points.empty()) return false;
   return Extent(problem_, special.solution.orbit).velocity() <=
-         small * Extent(problem_, branch_.points.back().orbit).velocity();
+         as_good_as_none * Extent(problem_, branch_.points.back().orbit).velocity();
 }
 
 /// Does a cycle without forcing stay in one mode, but for legs that are all but gone? A closed curve of a linear system
 /// is one of a family: all that lie about the state of rest like it, nearer or farther.
 bool Follower::stays_in_one_mode(const Orbit& orbit) const {
-  constexpr double gone = 1e-4;  // of the cycle: a leg at a graze that is known to 1e-9 of a step is shorter
   if (orbit.shape.n > 0) return false;
   std::size_t longest = 0;
   for (std::size_t i = 0; i < orbit.legs(); ++i)
@@ -205,7 +220,7 @@ bool Follower::stays_in_one_mode(const Orbit& orbit) const {
   double elsewhere = 0.0;
   for (std::size_t i = 0; i < orbit.legs(); ++i)
     if (orbit.shape.legs[i].states != orbit.shape.legs[longest].states) elsewhere += orbit.duration(i);
-  return elsewhere <= gone * (orbit.t.back() - orbit.t.front());
+  return elsewhere <= as_good_as_none * (orbit.t.back() - orbit.t.front());
 }
 
 /// The branch ends where its events change: its passage says why. @returns false

@@ -61,11 +61,17 @@ def test_the_picture_has_the_shares():
     says(read('a.gp'), 'not admissible', 'initial')
 
 
+def test_the_own_start_may_be_behind_the_stop_where_the_axes_have_others():
+    found = basins('basins', 'impact-oscillator', '--set', 'clearance=-0.5', '--set', 'omega=1', '--x', 'x=-2:-1:3', '--y', 'v=0:1:3')
+    assert found['not_admissible'] == 0 and found['starts'] == 9
+
+
 def test_bad_input_is_named():
     before = os.listdir('.')
     says(refused(2, *PAPER[:4], '--y', 'v1=0:1:3'), '--x', 'required')
     says(refused(2, *PAPER[:6], '--y', 'w1=0:1:3'), "--y: 'w1'", 'x1, v1, x2, v2')
     says(refused(2, *PAPER[:6], '--y', 'x1=0:1:3'), "--y: 'x1'", 'axis')
+    says(refused(2, *PAPER[:6], '--y', 'omega=1:2:3'), "--y: 'omega'", 'a map')
     says(refused(2, *PAPER[:6], '--y', 'v1=1:0:3'), '--y', 'below')
     says(refused(2, *PAPER[:6], '--y', 'v1=0:1:10000000'), '--x and --y', '1e8')
     says(refused(2, *PAPER, '--transient', '7'), '--transient', '--level full')

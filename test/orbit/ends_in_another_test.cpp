@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <numbers>
 
 #include "families.hpp"
 
@@ -71,6 +73,29 @@ TEST(Branch, OfOneStopGoesOnBehindAnOrbitThatIsItsOwnImage) {
   ASSERT_NE(point, nullptr) << ended(branch);
   EXPECT_EQ(point->passage, Passage::fold);
   EXPECT_EQ(branch.points.front().label, "1-0-I");
+}
+
+/// An orbit without impact that comes to touch the stop is linear: its multipliers there are exp(lambda T), whatever the
+/// range and the steps were.
+TEST(Branch, HasAtATouchTheMultipliersOfTheOrbitThere) {
+  constexpr double damping = 0.1;
+  const Posed posed("impact-oscillator", {{"damping_ratio", damping}, {"clearance", 2.0}}, {"omega"}, {1.6});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first && first->impacts == 0);
+  for (const double from : {1.1, 1.15}) {
+    const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = from, .to = 2.0});
+    const auto touches = [](const orbit::SpecialPoint& point) { return point.type == SpecialType::GR; };
+    const auto graze = std::ranges::find_if(branch.special, touches);
+    ASSERT_NE(graze, branch.special.end()) << ended(branch);
+    const double omega = graze->value, x = std::hypot(1.0 - omega * omega, 2.0 * damping * omega);
+    EXPECT_NEAR(2.0 * x, 1.0, 1e-9);
+    const std::complex<double> lambda(-damping, std::sqrt(1.0 - damping * damping));
+    ASSERT_EQ(graze->solution.multipliers.size(), 2U);
+    const std::complex<double> found = graze->solution.multipliers[0],
+                               expected = std::exp(lambda * 2.0 * std::numbers::pi / omega);
+    EXPECT_NEAR(found.real(), expected.real(), 1e-9);
+    EXPECT_NEAR(std::abs(found.imag()), std::abs(expected.imag()), 1e-9);
+  }
 }
 
 /// An impact of no speed at a stop whose pair has a damper of two rates is the passage of the damper's corner.

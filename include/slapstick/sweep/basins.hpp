@@ -33,7 +33,7 @@ struct Basin {
   std::int32_t first = 0;  ///< its first pixel
   long starts = 0;         ///< how many pixels it has
   double share = 0.0;      ///< of the starts that are admissible and were looked at
-  /// Of independent starts in the plane's rectangle the share lies in here with 95 % (Wilson). A grid does better.
+  /// Where the share of so many independent starts lies with 95 % (Wilson).
   double share_from = 0.0, share_to = 1.0;
 };
 
@@ -80,7 +80,7 @@ struct BasinEntropy {
   long boxes = 0;         ///< whole ones, every pixel of which belongs to a basin
   long on_boundary = 0;   ///< .. to several
   double whole = 0.0;     ///< mean over all boxes
-  double boundary = 0.0;  ///< .. over those with several basins: above ln 2 the boundary is fractal; NaN if none has
+  double boundary = 0.0;  ///< .. over those with several basins, at most ln of how many a box meets; NaN if none has
 };
 /// @param box  >= 2
 [[nodiscard]] BasinEntropy basin_entropy(const Basins& basins, int box = 5);
@@ -91,7 +91,7 @@ struct Uncertainty {
   std::vector<int> distances;  ///< in pixels: 1, 2, 4, ..
   std::vector<double> shares;  ///< pairs of starts that far apart, along an axis, that belong to different basins
   double exponent = 0.0;       ///< of the straight line of least squares through the logarithms; NaN below three shares
-  double error = 0.0;          ///< its standard error
+  double error = 0.0;          ///< standard error of that fit: how the shares scatter, no bound
 };
 [[nodiscard]] Uncertainty uncertainty(const Basins& basins);
 

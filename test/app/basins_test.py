@@ -61,6 +61,37 @@ def test_the_picture_has_the_shares():
     says(read('a.gp'), 'not admissible', 'initial')
 
 
+WALLS = '''name = "walls"
+omega = 1.9
+[[coordinate]]
+name = "x"
+mass = 1
+[[spring]]
+between = ["x", "ground"]
+stiffness = 1
+[[damper]]
+between = ["x", "ground"]
+coefficient = 0.1
+[[force]]
+on = "x"
+amplitude = 3.2
+[[stop]]
+name = "wall"
+between = ["x", "ground"]
+clearance = 1
+restitution = 0.7
+two_sided = true
+'''
+
+
+def test_cycles_of_one_class_that_are_mirror_images_are_two():
+    with open('walls.toml', 'w') as file:
+        file.write(WALLS)
+    found = basins('basins', 'walls.toml', '--x', 'x=-0.9:0.9:6', '--y', 'v=-3:3:6', '--table', 'a.csv')
+    names = [basin['name'] for basin in found['basins']]
+    assert names == ['1-2-I (1)', '1-2-I (2)']
+
+
 def test_the_own_start_may_be_behind_the_stop_where_the_axes_have_others():
     found = basins('basins', 'impact-oscillator', '--set', 'clearance=-0.5', '--set', 'omega=1', '--x', 'x=-2:-1:3', '--y', 'v=0:1:3')
     assert found['not_admissible'] == 0 and found['starts'] == 9

@@ -59,6 +59,8 @@ void BasinBuilder::add(const Pixel& pixel) {
     if (kind == Basins::failed) basins_.failures[pixel.number] = pixel.failure;
     return;
   }
+  if (pixel.carried.size() != 2 * static_cast<std::size_t>(model_.size()))
+    throw InputError("basins: a pixel has no state; keep_states must be set where it is computed");
   found_.push_back(found);
   found_.back().values = static_cast<std::int32_t>(found_.size() - 1);  // place of its state
   states_.insert(states_.end(), pixel.carried.begin(), pixel.carried.end());
@@ -66,18 +68,19 @@ void BasinBuilder::add(const Pixel& pixel) {
 
 namespace {
 
-/// What a state on an attractor is, for its numbers: those of the pixel are its class alone.
-Classification classified(const MapProblem& problem, const System& system, const State& state) {
+/// What a state on an attractor is, for its numbers: those of the pixel are its class alone. Also of a run that was
+/// stopped: it is short.
+Classification classified(const MapProblem& problem, const System& system, const Finding& found, const State& state) {
+  constexpr int rounds = 5;  // of the cycle: half of the periods are left out
   ClassifyOptions options = problem.classify;
-  options.cancel = problem.cancel;
+  options.cancel = nullptr;
   options.progress = {};
-  return problem.level == Level::quick ? classify_quickly(system, state, problem.periods, options)
-                                       : classify(system, state, options);
+  return classify_quickly(system, state, std::max(problem.periods, rounds * found.n), options);
 }
 
 /// Its class stays that of the pixel: near the border of two classes rounding may name another.
 Classification attractor_of(const MapProblem& problem, const System& system, const Finding& found, const State& state) {
-  Classification attractor = classified(problem, system, state);
+  Classification attractor = classified(problem, system, found, state);
   const std::string label = found.label(section::driven(system));
   if (attractor.label != label) {
     attractor = {};

@@ -24,6 +24,12 @@ void BasinOptions::check_words(const Arguments& arguments) const {
 
 namespace {
 
+void refuse_axes_in_state(const BasinOptions& options, const Sweep& x, const Sweep& y) {
+  for (const std::string& part : split(options.model.state, ','))
+    for (const auto& [axis, name] : {std::pair{"--x", x.name}, std::pair{"--y", y.name}})
+      if (part.starts_with(name + "=")) throw InputError("--state: " + in_quotes(name) + " has the values of " + axis);
+}
+
 /// The start, whose numbers along the axes are replaced: the model's own, with them, may be behind a stop.
 State start_beside(const ModelOptions& options, const ChosenModel& chosen, const Sweep& x, const Sweep& y) {
   for (const double of_x : {x.from, x.to})
@@ -46,6 +52,7 @@ BasinWish basin_wish(const BasinOptions& options) {
   if (const double starts = static_cast<double>(x.count) * y.count; starts > 1e8)
     throw InputError("--x and --y give " + shown(starts) + " starts, more than the 1e8 that a plane may have");
   demand_period(affordable_system(chosen, options.analysis.work()).model());
+  refuse_axes_in_state(options, x, y);
   const State start = start_beside(options.model, chosen, x, y);
   try {
     chart::StartPlane plane = chart::starts_over(chosen.definition, chosen.overrides, start, x.name,

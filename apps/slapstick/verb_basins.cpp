@@ -39,7 +39,7 @@ Json basin_json(std::size_t number, const std::string& title, const sweep::Basin
   Json multipliers = Json::list(), json = Json::object();
   for (const auto& one : found.multipliers) multipliers.push(Json::list(std::vector<double>{one.real(), one.imag()}));
   json.set("basin", number).set("name", title).set("class", found.label);
-  json.set("attractor", std::string(name(found.attractor)));
+  json.set("attractor", std::string(name(found.attractor))).set("by_class", basin.by_class);
   json.set("starts", basin.starts).set("share", basin.share);
   json.set("share_from", basin.share_from).set("share_to", basin.share_to);
   if (found.n > 0) {

@@ -28,8 +28,8 @@ class Basin:
 
     name: its class, with a number where several attractors have it; label: '1-1-II', 'equilibrium', ..; attractor: as of
     `Attractor`; n, p: of a cycle, else 0 and NaN; exponent: the largest, per period; multipliers: complex, of a cycle;
-    state: on the attractor, at phase 0; starts: how many; share: of the admissible starts; share_from, share_to: where the
-    share of independent starts lies with 95 % (Wilson).
+    by_class: all that have this class, as what friction holds; state: on the attractor, at phase 0; starts: how many; share:
+    of the admissible starts; share_from, share_to: where the share of independent starts lies with 95 % (Wilson).
     """
 
     def __init__(self, core: _core.Basin, name: str) -> None:
@@ -41,6 +41,7 @@ class Basin:
         self.exponent: float = core.exponent
         self.multipliers: NDArray[np.complex128] = np.array(core.multipliers, dtype=np.complex128)
         self.state: Floats = np.array(core.state, dtype=np.float64)
+        self.by_class: bool = core.by_class
         self.starts: int = core.starts
         self.share: float = core.share
         self.share_from: float = core.share_from
@@ -58,7 +59,7 @@ class Basins(Result):
     or -1 undecided, -2 forbidden by a stop, -3 failed.
     entropy: the mean basin entropy of boxes of `box` starts a side, boundary_entropy: that of the boxes with several basins,
     NaN if there is none. boxes, boxes_on_boundary: how many there are.
-    uncertain: the shares of pairs of starts that are `distances` pixels apart and belong to different basins;
+    uncertain: the shares of pairs of starts, `distances` steps apart along an axis, that belong to different basins;
     uncertainty_exponent: the slope of their logarithms, with the standard error of the fit uncertainty_error; the boundary's dimension
     in the plane is 2 - uncertainty_exponent.
     """

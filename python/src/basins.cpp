@@ -88,6 +88,7 @@ void bind_basins(nb::module_& module) {
       .def_prop_ro("exponent", [](const sweep::Basin& self) { return self.attractor.exponent; })
       .def_prop_ro("multipliers", [](const sweep::Basin& self) { return self.attractor.multipliers; })
       .def_prop_ro("state", [](const sweep::Basin& self) { return self.attractor.state; })
+      .def_ro("by_class", &sweep::Basin::by_class)
       .def_ro("starts", &sweep::Basin::starts)
       .def_ro("share", &sweep::Basin::share)
       .def_ro("share_from", &sweep::Basin::share_from)

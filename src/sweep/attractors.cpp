@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/ranges.hpp"
 #include "flow/contact_state.hpp"
@@ -13,32 +14,24 @@
 namespace slapstick::sweep {
 namespace {
 
-/// Of the scale. Newton's method leaves 1e-10 of it. Wider: two cycles beside a fold are one; narrower: rounding makes
-/// two of one.
-constexpr double same = 1e-6;
-
-double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b, Eigen::Index velocities, double displacement,
-                double velocity) {
-  const Eigen::VectorXd off = (a - b).cwiseAbs();
-  const auto against = [](double difference, double scale) {
-    return difference == 0.0 ? 0.0 : scale > 0.0 ? difference / scale : INFINITY;
-  };
-  return std::max(against(off.head(velocities).maxCoeff(), displacement),
-                  against(off.tail(velocities).maxCoeff(), velocity));
-}
+/// Of the range of a number over the cycle. Wider: two cycles beside a fold are one; narrower: rounding makes two of one.
+constexpr double same_range = 1e-6;
+/// Of the largest displacement, or velocity over omega, however far from zero: what Newton's method and rounding leave.
+constexpr double newton_leaves = 1e-10;
 
 Motion motion_from(const System& system, State state) {
   undo_rounding(system.model(), state);
   return Motion(system, state);
 }
 
-bool is_one_of_many(const Classification& found) {
-  const bool held = found.attractor == Attractor::equilibrium && (found.sticking || found.family > 0);
-  const bool cycle = found.attractor == Attractor::periodic || found.attractor == Attractor::equilibrium;
-  return held || !cycle;
-}
-
 }  // namespace
+
+bool Attractors::by_class(const Classification& found) {
+  const bool held = found.attractor == Attractor::equilibrium && (found.sticking || found.family > 0);
+  const bool single = found.attractor == Attractor::periodic || found.attractor == Attractor::equilibrium;
+  const bool unknown = single && found.n > 0 && !(found.period > 0.0);
+  return held || !single || unknown;
+}
 
 Attractors::Attractors(const System& system) : translations_(system), driven_(section::driven(system)) {}
 
@@ -57,47 +50,44 @@ Eigen::VectorXd Attractors::point(const Motion& motion) const {
 }
 
 /// What is compared of a state: of a free cycle where its next event is, since it may stand anywhere.
-Eigen::VectorXd Attractors::on_section(const State& state, Attractor kind) const {
+Eigen::VectorXd Attractors::on_section(const State& state, const Known& known) const {
   Motion motion = motion_from(translations_.system(), state);
-  if (!driven_ && kind != Attractor::equilibrium) {
-    constexpr double long_enough = 1e6;  // units of time: a cycle has an event before
-    (void)motion.advance(motion.time().plus(long_enough));
-  }
+  if (!driven_ && known.kind != Attractor::equilibrium)
+    (void)motion.advance(motion.time().plus(2.0 * known.cycle));  // an event comes before
   return point(motion);
 }
 
-Attractors::Scale Attractors::scale_of(const Known& known) const {
-  if (known.kind != Attractor::equilibrium) return known.scale;
+/// How far starts are from each other: displacements, and what a velocity moves about a place of rest.
+double Attractors::reach_at_rest(const Known& known) const {
   double apart = 0.0, faster = 0.0;
   for (std::size_t i = 0; i + 1 < least_.size(); i += 2) {  // x1, v1, x2, ..
     apart = std::max(apart, most_[i] - least_[i]);
     faster = std::max(faster, most_[i + 1] - least_[i + 1]);
   }
-  if (known.rate > 0.0) {  // what a velocity of the starts moves, and what a displacement lets come
-    apart = std::max(apart, faster / known.rate);
-    faster = std::max(faster, apart * known.rate);
-  }
-  return {std::max(apart, known.scale.displacement), std::max(faster, known.scale.velocity)};
+  return known.rate > 0.0 ? std::max(apart, faster / known.rate) : apart;
+}
+
+bool Attractors::same(const Known& known, const Vector& here) const {
+  const Eigen::Index compared = known.tolerance.size();
+  Vector tolerance = known.tolerance;
+  if (known.kind == Attractor::equilibrium) tolerance.array() += newton_leaves * reach_at_rest(known);
+  const auto is_here = [&](const Vector& there) {
+    return ((here - there).head(compared).cwiseAbs().array() <= tolerance.array()).all();
+  };
+  return ranges::any_of(known.points, is_here);
 }
 
 int Attractors::find(Attractor kind, std::string_view label, const State& state) const {
-  Vector here;
   for (std::size_t i = 0; i < all_.size(); ++i) {
     const Known& known = all_[i];
     if (known.kind != kind || known.label != label) continue;
-    if (known.by_class) return static_cast<int>(i);
-    if (here.size() == 0) here = on_section(state, kind);
-    const Scale scale = scale_of(known);
-    const auto is_here = [&](const Vector& there) {
-      return distance(here, there, here.size() / 2, scale.displacement, scale.velocity) < same;
-    };
-    if (ranges::any_of(known.points, is_here)) return static_cast<int>(i);
+    if (known.by_class || same(known, on_section(state, known))) return static_cast<int>(i);
   }
   return -1;
 }
 
 int Attractors::add(const Classification& found) {
-  Known known{found.attractor, found.label, is_one_of_many(found)};
+  Known known{found.attractor, found.label, by_class(found)};
   for (const std::complex<double>& eigenvalue : found.eigenvalues)
     known.rate = std::max(known.rate, std::abs(eigenvalue));
   if (!known.by_class) follow(found, known);
@@ -105,7 +95,7 @@ int Attractors::add(const Classification& found) {
   return static_cast<int>(all_.size()) - 1;
 }
 
-/// The points of a cycle, and how far its displacements and velocities range; at rest its only point and its size.
+/// The points of a cycle, and how far each of its numbers ranges; at rest its only point.
 void Attractors::follow(const Classification& found, Known& known) const {
   const System& system = translations_.system();
   Motion motion = motion_from(system, found.state);
@@ -113,7 +103,7 @@ void Attractors::follow(const Classification& found, Known& known) const {
   const Eigen::Index n = first.size() / 2;
   if (found.attractor == Attractor::equilibrium) {
     known.points = {first};
-    known.scale = {first.head(n).cwiseAbs().maxCoeff(), first.tail(n).cwiseAbs().maxCoeff()};
+    known.tolerance = Vector::Constant(n, newton_leaves * first.head(n).cwiseAbs().maxCoeff());
     return;
   }
   Vector least = first, most = first;
@@ -124,7 +114,7 @@ void Attractors::follow(const Classification& found, Known& known) const {
     return x;
   };
   constexpr int looks = 16;  // of each period, for the range alone
-  const double cycle = driven_ ? found.n : found.period / system.period();
+  const double cycle = known.cycle = driven_ ? found.n : found.period / system.period();
   const int steps = driven_ ? looks * found.n : looks;
   const auto instant = [&](int k) {
     return driven_ ? Instant{k / looks, static_cast<double>(k % looks) / looks} : Instant{}.plus(cycle * k / steps);
@@ -138,8 +128,12 @@ void Attractors::follow(const Classification& found, Known& known) const {
     const Vector x = look();
     if (driven_ && k % looks == 0) known.points.push_back(x);
   }
-  const Vector range = most - least;
-  known.scale = {range.head(n).maxCoeff(), range.tail(n).maxCoeff()};
+  const Vector size = least.cwiseAbs().cwiseMax(most.cwiseAbs());
+  known.tolerance = same_range * (most - least);
+  const double omega = 2.0 * std::numbers::pi / (system.period() * (driven_ ? 1.0 : cycle));
+  const double largest = std::max(size.head(n).maxCoeff(), size.tail(n).maxCoeff() / omega);
+  known.tolerance.head(n).array() += newton_leaves * largest;
+  known.tolerance.tail(n).array() += newton_leaves * largest * omega;
 }
 
 }  // namespace slapstick::sweep

@@ -7,7 +7,7 @@
 ///     if (place < 0) place = known.add(found);
 ///
 /// Two cycles are the same if one's state lies on the other: of a driven motion at one of its instants of phase 0, of a
-/// free one where its next event is. Two states of rest are the same if they are near against the reach of the starts.
+/// free one where its next event is. Two states of rest are the same if their displacements are.
 /// Of motions without a cycle, of members of a continuum and of what friction holds at rest the class is all that is
 /// compared: the starts that end on one continuum are one set.
 #include <Eigen/Core>
@@ -24,32 +24,32 @@ class Attractors {
  public:
   explicit Attractors(const System& system);
 
-  /// Notes a start: sizes at rest are measured by how far starts are from each other.
+  /// Notes a start: a motion leaves a place of rest to rounding of how far it has come.
   void reach(const State& start);
   /// @param state  on the attractor, as Classification::state
   /// @returns the place of the attractor; -1: none of them
   [[nodiscard]] int find(Attractor kind, std::string_view label, const State& state) const;
   /// @returns its place. @throws NumericalError as Motion::advance
   int add(const Classification& found);
+  /// Is a class all that is compared? Then several attractors may have one place.
+  [[nodiscard]] static bool by_class(const Classification& found);
 
  private:
   using Vector = Eigen::VectorXd;
-  /// By which distances are measured; each > 0, or 0 where nothing differs.
-  struct Scale {
-    double displacement = 0.0, velocity = 0.0;
-  };
   struct Known {
     Attractor kind;
     std::string label;
     bool by_class = false;
     std::vector<Vector> points{};  ///< of its section: contact states modulo translations
-    Scale scale{};
-    double rate = 0.0;  ///< at rest: the largest modulus of an eigenvalue
+    Vector tolerance{};            ///< of each of their numbers; at rest of displacements
+    double rate = 0.0;             ///< at rest: the largest modulus of an eigenvalue
+    double cycle = 0.0;            ///< of a free cycle, in periods of the clock
   };
 
   [[nodiscard]] Vector point(const Motion& motion) const;
-  [[nodiscard]] Vector on_section(const State& state, Attractor kind) const;
-  [[nodiscard]] Scale scale_of(const Known& known) const;
+  [[nodiscard]] Vector on_section(const State& state, const Known& known) const;
+  [[nodiscard]] bool same(const Known& known, const Vector& here) const;
+  [[nodiscard]] double reach_at_rest(const Known& known) const;
   void follow(const Classification& found, Known& known) const;
 
   flow::Translations translations_;

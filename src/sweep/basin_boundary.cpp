@@ -56,34 +56,49 @@ BasinEntropy basin_entropy(const Basins& basins, int box) {
 
 namespace {
 
-/// Pairs of pixels at a distance along one axis, and those of two basins.
-struct Pairs {
-  long all = 0, differ = 0;
-
-  void add(std::int32_t a, std::int32_t b) {
-    if (a < 0 || b < 0) return;
-    ++all;
-    differ += a != b ? 1 : 0;
-  }
+/// A line of pixels: their basins, and how many changes of the basin lie before each, but for those near the ends.
+struct Row {
+  std::vector<std::int32_t> basin;
+  std::vector<int> changes;
 };
 
-/// @param margin  so many pixels at the end of each axis begin no pair: the same pixels begin those of all distances
-Pairs pairs_at(const Basins& basins, int distance, int margin) {
-  Pairs pairs;
-  for (int iy = 0; iy < basins.y.count; ++iy)
-    for (int ix = 0; ix < basins.x.count; ++ix) {
-      const std::int32_t here = basin_at(basins, ix, iy);
-      if (ix + margin < basins.x.count) pairs.add(here, basin_at(basins, ix + distance, iy));
-      if (iy + margin < basins.y.count) pairs.add(here, basin_at(basins, ix, iy + distance));
-    }
+/// @param margin  pixels: changes nearer to an end are left out. Of all others every pair that they part is in the row
+template <class BasinAt>
+Row row_of(int count, int margin, const BasinAt& basin_of) {
+  Row row;
+  for (int k = 0; k < count; ++k) {
+    row.basin.push_back(basin_of(k));
+    const bool change = k > 0 && row.basin[static_cast<std::size_t>(k) - 1] != row.basin.back();
+    const int before = row.changes.empty() ? 0 : row.changes.back();
+    row.changes.push_back(before + (change && k >= margin && k <= count - margin ? 1 : 0));
+  }
+  return row;
+}
+
+/// Pairs of pixels so far apart that belong to different basins, with a change between them.
+long parted(const Row& row, int distance) {
+  long pairs = 0;
+  for (std::size_t i = 0, j = static_cast<std::size_t>(distance); j < row.basin.size(); ++i, ++j)
+    if (row.basin[i] >= 0 && row.basin[j] >= 0 && row.basin[i] != row.basin[j] && row.changes[i] != row.changes[j])
+      ++pairs;
   return pairs;
+}
+
+/// Along both axes.
+std::vector<Row> rows_of(const Basins& basins, int margin) {
+  std::vector<Row> rows;
+  for (int iy = 0; iy < basins.y.count; ++iy)
+    rows.push_back(row_of(basins.x.count, margin, [&](int ix) { return basin_at(basins, ix, iy); }));
+  for (int ix = 0; ix < basins.x.count; ++ix)
+    rows.push_back(row_of(basins.y.count, margin, [&](int iy) { return basin_at(basins, ix, iy); }));
+  return rows;
 }
 
 /// The slope of ln f over ln e by least squares, and its standard error.
 void fit(Uncertainty& of) {
   std::vector<double> x, y;
   for (std::size_t i = 0; i < of.distances.size(); ++i) {
-    if (!(of.shares[i] > 0.0)) continue;
+    if (!(of.shares[i] > 0.0)) continue;  // then none is
     x.push_back(std::log(of.distances[i]));
     y.push_back(std::log(of.shares[i]));
   }
@@ -109,14 +124,14 @@ void fit(Uncertainty& of) {
 Uncertainty uncertainty(const Basins& basins) {
   constexpr int part = 8;  // the largest distance is at most so much of the shorter axis
   Uncertainty found;
-  const int most = std::min(basins.x.count, basins.y.count) / part;
-  int margin = 1;
-  while (2 * margin <= most) margin *= 2;
-  for (int distance = 1; distance <= std::max(most, 1) && distance <= margin; distance *= 2) {
-    const Pairs pairs = pairs_at(basins, distance, margin);
-    if (pairs.all == 0) continue;
+  int most = 1;
+  while (2 * most * part <= std::min(basins.x.count, basins.y.count)) most *= 2;
+  const std::vector<Row> rows = rows_of(basins, most);
+  for (int distance = 1; distance <= most; distance *= 2) {
+    long uncertain = 0;
+    for (const Row& row : rows) uncertain += parted(row, distance);
     found.distances.push_back(distance);
-    found.shares.push_back(static_cast<double>(pairs.differ) / static_cast<double>(pairs.all));
+    found.shares.push_back(static_cast<double>(uncertain) / (2.0 * static_cast<double>(basins.of.size())));
   }
   fit(found);
   return found;

@@ -44,12 +44,9 @@ BasinBuilder::BasinBuilder(const MapProblem& problem)
 /// A start that the stops forbid is no failure.
 std::int32_t BasinBuilder::kind_of(std::int32_t pixel, const Finding& found) const {
   if (!found.failed) return Basins::undecided;
-  try {
-    validate(model_, problem_.start_at(problem_.x_at(pixel), problem_.y_at(pixel)));
-    return Basins::failed;
-  } catch (const InputError&) {
-    return Basins::inadmissible;
-  }
+  const State start = problem_.start_at(problem_.x_at(pixel), problem_.y_at(pixel));
+  const auto forbids = [&](const Stop& stop) { return relative(stop, start, 0) > stop.clearance; };
+  return ranges::any_of(model_.stops, forbids) ? Basins::inadmissible : Basins::failed;
 }
 
 void BasinBuilder::add(const Pixel& pixel) {
@@ -91,7 +88,7 @@ Classification attractor_of(const MapProblem& problem, const System& system, con
     attractor.chatter = found.chatter;
     attractor.label = label;
     attractor.exponent = found.exponent;
-    attractor.period = found.n * system.period();
+    attractor.period = section::driven(system) ? found.n * system.period() : 0.0;
   }
   attractor.state = state;
   return attractor;
@@ -142,7 +139,9 @@ Basins BasinBuilder::take() {
     int place = known.find(found.attractor, found.label(basins_.driven), state);
     if (place < 0) {
       basins_.basins.push_back({attractor_of(problem_, system, found, state), found.pixel});
-      place = known.add(basins_.basins.back().attractor);
+      Basin& basin = basins_.basins.back();
+      basin.by_class = Attractors::by_class(basin.attractor);
+      place = known.add(basin.attractor);
     }
     ++basins_.basins[static_cast<std::size_t>(place)].starts;
     basins_.of[static_cast<std::size_t>(found.pixel)] = place;

@@ -54,6 +54,17 @@ TEST(BasinBoundary, ACantorSetHasItsExponent) {
   EXPECT_NEAR(found.exponent, 1.0 - std::log(2.0) / std::log(3.0), 0.06);
 }
 
+/// One line has one exponent wherever it is, or none where it is too near the rim; so has its mirror image.
+TEST(BasinBoundary, AnExponentDoesNotDependOnWhereTheLineIs) {
+  for (const int place : {1, 3, 7, 8, 20, 32, 55, 56, 57, 61, 63}) {
+    const Uncertainty found = uncertainty(plane(64, 64, [&](int ix, int) { return ix < place ? 0 : 1; }));
+    if (place >= 8 && place <= 56)
+      EXPECT_NEAR(found.exponent, 1.0, 1e-12) << place;
+    else
+      EXPECT_TRUE(std::isnan(found.exponent)) << place;
+  }
+}
+
 TEST(BasinBoundary, NoBoundaryHasNoExponent) {
   const Basins one = plane(40, 40, [](int, int) { return 0; });
   EXPECT_TRUE(std::isnan(uncertainty(one).exponent));
@@ -160,6 +171,85 @@ TEST(Basins, OfAMirroredStartIsTheMirroredOne) {
   EXPECT_EQ(found.of[middle], Basins::undecided);
   for (std::size_t i = 0; i < middle; ++i) EXPECT_EQ(found.of[i] + found.of[found.of.size() - 1 - i], 1) << i;
   EXPECT_EQ(found.basins[0].starts, found.basins[1].starts);
+}
+
+/// The wells at 1 and -1, beside a coordinate of another size: an angle beside a play, or a weight that rests far off.
+Basins of_wells_beside(double size, bool driven) {
+  std::ostringstream text;
+  text << R"(name = "beside"
+omega = 1.3
+[[coordinate]]
+name = "x"
+mass = 1
+[[coordinate]]
+name = "far"
+mass = 1
+[[spring]]
+between = ["x", "ground"]
+characteristic = [[-2, -1], [-1, 0], [-0.5, 0.5], [0.5, -0.5], [1, 0], [2, 1]]
+[[damper]]
+between = ["x", "ground"]
+coefficient = 0.2
+[[spring]]
+between = ["far", "ground"]
+stiffness = 1
+[[damper]]
+between = ["far", "ground"]
+coefficient = 0.5
+[[force]]
+on = "far"
+harmonic = )"
+       << (driven ? 1 : 0) << "\namplitude = " << size << "\n";
+  const ModelDefinition definition = ModelDefinition::parse(text.str(), "beside.toml");
+  return run_basins(starts_over(definition.build(), start_of(definition), {0, {-2.0, 2.0, 6}}, {1, {-1.0, 1.0, 6}}));
+}
+
+TEST(Basins, AreNotMergedBesideALargeCoordinate) {
+  for (const double size : {1.0, 3e6, 1e7})
+    for (const bool driven : {false, true}) {
+      const Basins found = of_wells_beside(size, driven);
+      ASSERT_EQ(found.basins.size(), 2U) << size << " " << driven;
+      EXPECT_EQ(found.basins[0].starts, 18);
+    }
+}
+
+/// What rounding leaves of a small motion far from zero is no attractor of its own.
+TEST(Basins, AreNotSplitWhereAMotionIsSmallAgainstItsOffset) {
+  for (const double amplitude : {1e-12, 1e-10, 1e-7, 1e-3}) {
+    std::ostringstream text;
+    text << R"(name = "offset"
+omega = 1.3
+[[coordinate]]
+name = "x"
+mass = 1
+[[spring]]
+between = ["x", "ground"]
+characteristic = [[998, -1], [999, 0], [999.5, 0.5], [1000.5, -0.5], [1001, 0], [1002, 1]]
+[[damper]]
+between = ["x", "ground"]
+coefficient = 0.2
+[[force]]
+on = "x"
+amplitude = )"
+         << amplitude << "\n";
+    const ModelDefinition definition = ModelDefinition::parse(text.str(), "offset.toml");
+    const Basins found =
+        run_basins(starts_over(definition.build(), start_of(definition), {0, {998.0, 1002.0, 6}}, {1, {-2.0, 2.0, 6}}));
+    ASSERT_EQ(found.basins.size(), 2U) << amplitude;
+    EXPECT_EQ(found.basins[0].starts, 18) << amplitude;
+  }
+}
+
+/// A wide plane leaves places of rest apart; a start that is too large for the arithmetic is no stop's doing.
+TEST(Basins, OfAWidePlaneAreThoseOfANarrowOne) {
+  const ModelDefinition definition = two_wells();
+  const Model model = definition.build();
+  const Basins wide = run_basins(starts_over(model, start_of(definition), {0, {-3e6, 3e6, 8}}, {1, {-1.0, 1.0, 2}}));
+  EXPECT_EQ(wide.basins.size(), 2U);
+  const Basins large =
+      run_basins(starts_over(model, start_of(definition), {0, {-1e155, 1e155, 3}}, {1, {1.0, 2.0, 2}}));
+  EXPECT_EQ(large.count(Basins::failed), 4);
+  EXPECT_EQ(large.failures.size(), 4U);
 }
 
 /// Wilson's interval for 10 of 100: 0.0552 to 0.1744, as tables have it.

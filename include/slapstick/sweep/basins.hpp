@@ -9,7 +9,7 @@
 /// A pixel is a start: the axes give two numbers of the state, `start` the others. Each start is analysed as a pixel of
 /// a map is (sweep/map.hpp): a cycle counts once Newton's method confirms it and the motion closes in on it at the rate
 /// of its multipliers. Starts belong to one basin if they come to one attractor. Two cycles are one if a state of the
-/// first lies on the second to 1e-6 of its range. Members of a continuum of cycles, what friction holds at rest and
+/// first lies on the second (docs, section 1). Members of a continuum of cycles, what friction holds at rest and
 /// chaotic motions are told apart by their class only.
 ///
 /// Nothing depends on threads. Cost: that of a map of as many pixels, and some microseconds a pixel for the comparison.
@@ -31,6 +31,7 @@ struct StartAxis {
 struct Basin {
   Classification attractor;
   std::int32_t first = 0;  ///< its first pixel
+  bool by_class = false;   ///< all that have this class: a continuum, what friction holds, chaos
   long starts = 0;         ///< how many pixels it has
   double share = 0.0;      ///< of the starts that are admissible and were looked at
   /// Where the share of so many independent starts lies with 95 % (Wilson).
@@ -89,9 +90,11 @@ struct BasinEntropy {
 /// the plane is 2 - exponent; a smooth one has exponent 1.
 struct Uncertainty {
   std::vector<int> distances;  ///< in pixels: 1, 2, 4, ..
-  std::vector<double> shares;  ///< pairs of starts that far apart, along an axis, that belong to different basins
-  double exponent = 0.0;       ///< of the straight line of least squares through the logarithms; NaN below three shares
-  double error = 0.0;          ///< standard error of that fit: how the shares scatter, no bound
+  /// Pairs of starts so far apart along an axis that belong to different basins, but for those that only a change within
+  /// the largest distance of the rim parts: of as many pairs as there are starts, along both axes.
+  std::vector<double> shares;
+  double exponent = 0.0;  ///< of the straight line of least squares through the logarithms; NaN below three shares
+  double error = 0.0;     ///< standard error of that fit: how the shares scatter, no bound
 };
 [[nodiscard]] Uncertainty uncertainty(const Basins& basins);
 

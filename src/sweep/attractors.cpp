@@ -14,7 +14,7 @@
 namespace slapstick::sweep {
 namespace {
 
-/// Of the range of a number over the cycle. Wider: two cycles beside a fold are one; narrower: rounding makes two of one.
+/// Of the range of a number over the cycle. Wider: two cycles beside a fold are one; narrower: rounding parts one.
 constexpr double same_range = 1e-6;
 /// Of the largest displacement, or velocity over omega, however far from zero: what Newton's method and rounding leave.
 constexpr double newton_leaves = 1e-10;

@@ -90,8 +90,8 @@ struct BasinEntropy {
 /// the plane is 2 - exponent; a smooth one has exponent 1.
 struct Uncertainty {
   std::vector<int> distances;  ///< in pixels: 1, 2, 4, ..
-  /// Pairs of starts so far apart along an axis that belong to different basins, but for those that only a change within
-  /// the largest distance of the rim parts: of as many pairs as there are starts, along both axes.
+  /// Pairs of starts so far apart along an axis that belong to different basins, of as many as there are starts, along
+  /// both axes. Not counted is a pair that only a boundary within the largest distance of the rim parts.
   std::vector<double> shares;
   double exponent = 0.0;  ///< of the straight line of least squares through the logarithms; NaN below three shares
   double error = 0.0;     ///< standard error of that fit: how the shares scatter, no bound

@@ -86,7 +86,7 @@ std::string_view class_of(const Basins& basins, std::int32_t of) {
                                       : "not-computed";
 }
 
-/// A row for each start; basin 0 is none.
+/// A row for each start. One that belongs to no basin has the number 0.
 void write_table(const BasinWish& wish, const Basins& basins, TableOutput& table) {
   for (std::size_t i = 0; i < basins.of.size(); ++i) {
     const auto pixel = static_cast<std::int32_t>(i);

@@ -56,7 +56,7 @@ BasinEntropy basin_entropy(const Basins& basins, int box) {
 
 namespace {
 
-/// A line of pixels: their basins, and how many changes of the basin lie before each, but for those near the ends.
+/// A line of pixels: their basins, and how many changes of the basin lie before each. Those near the ends do not count.
 struct Row {
   std::vector<std::int32_t> basin;
   std::vector<int> changes;
@@ -96,13 +96,13 @@ std::vector<Row> rows_of(const Basins& basins, int margin) {
 
 /// The slope of ln f over ln e by least squares, and its standard error.
 void fit(Uncertainty& of) {
+  of.exponent = of.error = none;
   std::vector<double> x, y;
   for (std::size_t i = 0; i < of.distances.size(); ++i) {
-    if (!(of.shares[i] > 0.0)) continue;  // then none is
+    if (!(of.shares[i] > 0.0)) return;  // no boundary, or stripes of the grid's own step: no power of the distance
     x.push_back(std::log(of.distances[i]));
     y.push_back(std::log(of.shares[i]));
   }
-  of.exponent = of.error = none;
   if (x.size() < 3) return;
   const auto n = static_cast<double>(x.size());
   double mean_x = 0.0, mean_y = 0.0, xx = 0.0, xy = 0.0, left = 0.0;

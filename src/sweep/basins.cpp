@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "base/ranges.hpp"
+#include "model/fault.hpp"
 #include "section/settling.hpp"
 #include "slapstick/base/error.hpp"
 #include "sweep/attractors.hpp"
@@ -45,8 +47,8 @@ BasinBuilder::BasinBuilder(const MapProblem& problem)
 std::int32_t BasinBuilder::kind_of(std::int32_t pixel, const Finding& found) const {
   if (!found.failed) return Basins::undecided;
   const State start = problem_.start_at(problem_.x_at(pixel), problem_.y_at(pixel));
-  const auto forbids = [&](const Stop& stop) { return relative(stop, start, 0) > stop.clearance; };
-  return ranges::any_of(model_.stops, forbids) ? Basins::inadmissible : Basins::failed;
+  const std::optional<Fault> fault = first_fault(model_, start);
+  return fault && fault->behind_stop ? Basins::inadmissible : Basins::failed;
 }
 
 void BasinBuilder::add(const Pixel& pixel) {

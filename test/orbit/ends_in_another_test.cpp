@@ -75,8 +75,8 @@ TEST(Branch, OfOneStopGoesOnBehindAnOrbitThatIsItsOwnImage) {
   EXPECT_EQ(branch.points.front().label, "1-0-I");
 }
 
-/// An orbit without impact that comes to touch the stop is linear: its multipliers there are exp(lambda T), whatever the
-/// range and the steps were.
+/// An orbit without impact that comes to touch the stop is linear: its multipliers there are exp(lambda T).
+/// Range and steps do not matter.
 TEST(Branch, HasAtATouchTheMultipliersOfTheOrbitThere) {
   constexpr double damping = 0.1;
   const Posed posed("impact-oscillator", {{"damping_ratio", damping}, {"clearance", 2.0}}, {"omega"}, {1.6});

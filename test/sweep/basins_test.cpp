@@ -67,12 +67,14 @@ TEST(BasinBoundary, AnExponentDoesNotDependOnWhereTheLineIs) {
 
 TEST(BasinBoundary, NoBoundaryHasNoExponent) {
   const Basins one = plane(40, 40, [](int, int) { return 0; });
+  // Stripes of one start have no pairs that differ two starts apart.
+  EXPECT_TRUE(std::isnan(uncertainty(plane(64, 64, [](int ix, int) { return ix % 2; })).exponent));
   EXPECT_TRUE(std::isnan(uncertainty(one).exponent));
   EXPECT_TRUE(std::isnan(basin_entropy(one).boundary));
   EXPECT_EQ(basin_entropy(one).whole, 0.0);
 }
 
-/// Boxes of halves have ln 2; one with a start that belongs to no basin is none.
+/// Boxes of halves have ln 2. A box with a start that belongs to no basin does not count.
 TEST(BasinBoundary, TheEntropyIsThatOfTheShares) {
   const Basins halves = plane(8, 4, [](int ix, int iy) { return ix >= 4 && iy < 2 ? 1 : 0; });
   const BasinEntropy found = basin_entropy(halves, 4);

@@ -34,7 +34,7 @@ struct Basin {
   bool by_class = false;   ///< all that have this class: a continuum, what friction holds, chaos
   long starts = 0;         ///< how many pixels it has
   double share = 0.0;      ///< of the starts that are admissible and were looked at
-  /// Where the share of so many independent starts lies with 95 % (Wilson).
+  /// Wilson's interval of 95 %, as if the starts were independent.
   double share_from = 0.0, share_to = 1.0;
 };
 
@@ -93,8 +93,9 @@ struct Uncertainty {
   /// Pairs of starts so far apart along an axis that belong to different basins, of as many as there are starts, along
   /// both axes. Not counted is a pair that only a boundary within the largest distance of the rim parts.
   std::vector<double> shares;
-  double exponent = 0.0;  ///< of the straight line of least squares through the logarithms; NaN below three shares
-  double error = 0.0;     ///< standard error of that fit: how the shares scatter, no bound
+  double exponent =
+      0.0;  ///< of the straight line of least squares through the logarithms; NaN below three, or if one is 0
+  double error = 0.0;  ///< standard error of that fit: how the shares scatter, no bound
 };
 [[nodiscard]] Uncertainty uncertainty(const Basins& basins);
 

@@ -11,15 +11,28 @@
 
 namespace slapstick::batch {
 
+/// A model, and what follows from it alone.
+struct Runner::Machine {
+  explicit Machine(Model of)
+      : model(std::move(of)),
+        frame(model),
+        fits(fits_lanes(model, frame)),
+        words(fits ? model_words(model, frame) : ModelWords{}) {}
+
+  Model model;
+  mode::Frame frame;
+  bool fits;
+  ModelWords words;  ///< of one that fits
+};
+
 /// A run that has begun.
 struct Runner::Entry {
-  Entry(std::size_t index_, const BatchPlan& plan, Model model_)
-      : index(index_), model(std::move(model_)), recorder(plan, {}), frame(model) {}
+  Entry(std::size_t index_, const BatchPlan& plan, std::shared_ptr<const Machine> machine_)
+      : index(index_), machine(std::move(machine_)), recorder(plan, {}) {}
 
   std::size_t index;
-  Model model;
+  std::shared_ptr<const Machine> machine;
   Recorder recorder;
-  mode::Frame frame;
   std::vector<double> X;  ///< at the start: p and u
   std::unique_ptr<flow::CompiledSystem> system;
   std::unique_ptr<flow::Engine> engine;
@@ -63,32 +76,42 @@ void Runner::run() {
   }
 }
 
+/// @throws InputError for a model without meaning
+std::shared_ptr<const Runner::Machine> Runner::machine_of(std::size_t index) {
+  if (machine_ != nullptr) return machine_;
+  Model model = queue_.model_at(index);
+  validate(model);
+  auto machine = std::make_shared<const Machine>(std::move(model));
+  if (queue_.one_model) machine_ = machine;
+  return machine;
+}
+
 /// The next run that lanes can carry; those that they cannot, and those that fail at once, are done on the way.
 std::unique_ptr<Runner::Entry> Runner::next_entry() {
   while (const std::optional<std::size_t> index = queue_.next()) {
     BatchRun failed;
     try {
-      Model model = queue_.model_at(*index);
-      const State state = queue_.start_at(*index);
-      validate(model);
+      const std::shared_ptr<const Machine> machine = machine_of(*index);
+      const Model& model = machine->model;
+      const State state = queue_.start_at(*index, model);
       validate(model, state);
-      auto entry = std::make_unique<Entry>(*index, queue_.plan, std::move(model));
+      auto entry = std::make_unique<Entry>(*index, queue_.plan, machine);
       Recorder& recorder = entry->recorder;
       if (queue_.watch)
         recorder.watch = [this, &of = *entry](const double* p, const double* u, long impacts) {
-          return queue_.watch(of.index, {of.model, of.frame, p, u, impacts});
+          return queue_.watch(of.index, {of.machine->model, of.machine->frame, p, u, impacts});
         };
-      if (fits_lanes(entry->model, entry->frame)) {
+      if (machine->fits) {
         recorder.run.in_lanes = true;
-        entry->X.resize(static_cast<std::size_t>(entry->frame.size()));
-        entry->frame.enter(state.data(), entry->X.data());
+        entry->X.resize(static_cast<std::size_t>(machine->frame.size()));
+        machine->frame.enter(state.data(), entry->X.data());
         return entry;
       }
       if (queue_.wanted == Queue::Wanted::those_of_lanes) {
         queue_.take(*index, {});
         continue;
       }
-      const flow::CompiledSystem system(entry->model, {});
+      const flow::CompiledSystem system(model, {});
       flow::Engine engine(system, state, {}, {});
       std::optional<EngineTangent> tangent;
       if (recorder.wants_exponent()) {
@@ -109,7 +132,7 @@ std::unique_ptr<Runner::Entry> Runner::next_entry() {
 }
 
 bool Runner::finds_place(const Entry& entry) {
-  if (shape_ && same_shape(*shape_, entry.model, entry.frame)) return true;
+  if (shape_ && same_shape(*shape_, entry.machine->model, entry.machine->frame)) return true;
   if (block_->occupied != 0) return false;
   make_room(entry);
   return true;
@@ -117,12 +140,13 @@ bool Runner::finds_place(const Entry& entry) {
 
 /// New lanes, for models of another shape.
 void Runner::make_room(const Entry& entry) {
-  shape_ = shape_of(entry.model, entry.frame);
+  shape_ = shape_of(entry.machine->model, entry.machine->frame);
   const auto size = static_cast<std::size_t>(shape_->layout.size()), modes = static_cast<std::size_t>(shape_->modes);
   active_ = std::make_unique<Rows>(size);
   all_ = std::make_unique<Rows>(size * modes);
   ready_.assign(modes * most_lanes, 0);
   words_.assign(size, 0.0);
+  words_of_one_.assign(modes, {});
   block_->active = active_->at(0);
   block_->all = all_->at(0);
   block_->ready = ready_.data();
@@ -139,7 +163,8 @@ void Runner::make_room(const Entry& entry) {
 
 void Runner::start(int l) {
   Entry& entry = *entry_[l];
-  const int n = entry.frame.n;
+  const mode::Frame& frame = entry.machine->frame;
+  const int n = frame.n;
   double delta[2 * most_coordinates];
   for (int i = 0; i < n; ++i) {
     block_->p[i][l] = entry.X[static_cast<std::size_t>(i)];
@@ -148,7 +173,7 @@ void Runner::start(int l) {
     block_->du[i][l] = delta[n + i] = first_delta(n + i);
   }
   entry.recorder.begin_growth(growth_of({delta, 2 * static_cast<std::size_t>(n)}, 0.0));
-  const ModelWords words = model_words(entry.model, entry.frame);
+  const ModelWords& words = entry.machine->words;
   for (int s = 0; s < most_contacts; ++s) {
     block_->restitution[s][l] = words.restitution[s];
     block_->let_off[s][l] = words.let_off[s];
@@ -160,7 +185,7 @@ void Runner::start(int l) {
   block_->scale[l] = 1.0;
   block_->in_phase = false;
   block_->mode[l] = 0;
-  block_->start[l] = start_action(entry.model, entry.frame, *shape_, entry.X.data(), entry.X.data() + n);
+  block_->start[l] = start_action(entry.machine->model, frame, *shape_, entry.X.data(), entry.X.data() + n);
   block_->occupied |= 1U << l;
   block_->starting |= 1U << l;
   set_cut(l);
@@ -178,7 +203,8 @@ void Runner::serve(int l) {
   for (int i = 0; i < block_->layout.n; ++i) u[i] = block_->u[i][l];
   const Ending ending{block_->event_mode[l], block_->event_slot[l], block_->event_side[l], block_->event_speed[l]};
   Entry& entry = *entry_[l];
-  report(*shape_, entry.model, entry.frame, ending, block_->mode[l], now(l), u, entry.recorder.run.events);
+  report(*shape_, entry.machine->model, entry.machine->frame, ending, block_->mode[l], now(l), u,
+         entry.recorder.run.events);
 }
 
 Instant Runner::now(int l) const { return {static_cast<std::int64_t>(block_->period[l]), block_->fraction[l]}; }
@@ -206,7 +232,7 @@ void Runner::look(int l) {
   }
   recorder.impacts = block_->impacts[l];
   recorder.speeds = block_->speeds[l];
-  if (recorder.look(entry_[l]->frame, p, u, block_->tangents ? growth_at_cut(l) : 0.0)) return finish(l);
+  if (recorder.look(entry_[l]->machine->frame, p, u, block_->tangents ? growth_at_cut(l) : 0.0)) return finish(l);
   block_->impacts[l] = recorder.impacts;
   block_->speeds[l] = recorder.speeds;
   set_cut(l);
@@ -248,12 +274,22 @@ void Runner::finish(int l) {
   queue_.take(index, std::move(run));
 }
 
+/// Null: the mode has another structure than the shape.
+const double* Runner::words_of(const Entry& entry, int mode) {
+  std::vector<double>* const kept = queue_.one_model ? &words_of_one_[static_cast<std::size_t>(mode)] : nullptr;
+  if (kept != nullptr && !kept->empty()) return kept->data();
+  if (!make_words(entry.machine->model, entry.machine->frame, *shape_, mode, words_.data())) return nullptr;
+  if (kept != nullptr) *kept = words_;
+  return words_.data();
+}
+
 bool Runner::make_mode(int l, int mode) {
   std::uint8_t& ready = ready_[static_cast<std::size_t>(mode * most_lanes + l)];
   if (ready != 0) return true;
-  if (!make_words(entry_[l]->model, entry_[l]->frame, *shape_, mode, words_.data())) return false;
+  const double* const words = words_of(*entry_[l], mode);
+  if (words == nullptr) return false;
   Block::Row* const rows = all_->at(static_cast<std::size_t>(mode) * words_.size());
-  for (std::size_t w = 0; w < words_.size(); ++w) rows[w][l] = words_[w];
+  for (std::size_t w = 0; w < words_.size(); ++w) rows[w][l] = words[w];
   ready = 1;
   return true;
 }
@@ -281,7 +317,7 @@ void Runner::ask_engine(int l, bool to_the_end) {
 /// engine: that knows more of what has happened than the state says.
 void Runner::put_engine(int l) {
   Entry& entry = *entry_[l];
-  const int n = entry.frame.n;
+  const int n = entry.machine->frame.n;
   double X[2 * most_coordinates];
   for (int i = 0; i < n; ++i) {
     X[i] = block_->p[i][l];
@@ -289,7 +325,7 @@ void Runner::put_engine(int l) {
   }
   const std::span<const double> coordinates(X, 2 * static_cast<std::size_t>(n));
   if (entry.engine == nullptr) {
-    entry.system = std::make_unique<flow::CompiledSystem>(entry.model, SystemOptions{});
+    entry.system = std::make_unique<flow::CompiledSystem>(entry.machine->model, SystemOptions{});
     entry.engine = std::make_unique<flow::Engine>(*entry.system, coordinates, now(l), MotionOptions{});
   } else if (!entry.stands || entry.engine->time() != now(l)) {
     entry.engine->restart(coordinates, now(l));
@@ -306,7 +342,7 @@ void Runner::put_engine(int l) {
 /// The lane goes on from where its engine stands; in a mode of another structure the engine goes on to the end.
 void Runner::to_lane(int l) {
   Entry& entry = *entry_[l];
-  const int n = entry.frame.n;
+  const int n = entry.machine->frame.n;
   const std::span<const double> X = entry.engine->extended();
   for (int i = 0; i < n; ++i) {
     block_->p[i][l] = X[static_cast<std::size_t>(i)];

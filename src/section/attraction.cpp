@@ -2,9 +2,9 @@
 #include "section/attraction.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/dense.hpp"
+#include "section/approach.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/flow/stage.hpp"
 
@@ -13,39 +13,7 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-using Eigen::VectorXcd;
 using Eigen::VectorXd;
-
-/// |w . (x - x*)| for the left eigenvector of the leading multiplier, of norm 1 over |x_i| <= scale_i.
-class Amplitude {
- public:
-  Amplitude(const flow::Translations& translations, const FixedPoint& cycle, const VectorXd& scale)
-      : translations_(translations), at_(translations.numbers(cycle.x)) {
-    const dense::Eigenpairs left = dense::eigenpairs(cycle.value.jacobian.transpose());
-    Index leading = 0;
-    if (left.values.size() > 0) left.values.cwiseAbs().maxCoeff(&leading);
-    w_ = left.vectors.col(leading);
-    w_ /= w_.cwiseAbs().dot(translations.numbers(scale));
-  }
-  [[nodiscard]] double operator()(const VectorXd& x) const {
-    const VectorXd away = translations_.numbers(x) - at_;
-    return std::abs((w_.transpose() * away.cast<std::complex<double>>())(0));
-  }
-
- private:
-  const flow::Translations& translations_;
-  VectorXd at_;
-  VectorXcd w_;
-};
-
-constexpr double longest_trial = 256.0;  ///< points of the section
-
-/// As many as the slowest multiplier needs to halve an amplitude, but no more than a trial may last. An even number: a
-/// motion that alternates beside the cycle is farther away on one side than on the other.
-long cycles_of_stage(double slowest, int n) {
-  const double halving = slowest > 0.5 ? std::ceil(std::log(0.5) / std::log(slowest)) : 1.0;
-  return 2 * static_cast<long>(std::max(1.0, std::min(std::ceil(halving / 2.0), std::floor(longest_trial / n / 2.0))));
-}
 
 /// A motion beside a cycle, from stage to stage.
 class Trial {
@@ -55,35 +23,22 @@ class Trial {
       : map_(map),
         record_(followed.record),
         motion_(followed.motion),
-        cycle_(cycle),
-        scale_(scale),
         there_(followed.there),
         stop_(stop),
-        amplitude_(map.translations(), cycle, scale),
-        slowest_(std::abs(cycle.multipliers.front())),
-        cycles_(cycles_of_stage(slowest_, n)),
-        periods_(cycles_ * n) {
+        approach_(map.translations(), cycle, n, scale) {
     go_back(n);
-    look();
+    seen_ = look();
   }
 
-  [[nodiscard]] double distance() const { return distance_; }
-  [[nodiscard]] long periods() const { return periods_; }
+  [[nodiscard]] double distance() const { return seen_.distance; }
+  [[nodiscard]] long periods() const { return approach_.stage(); }
 
   /// Follows the motion for one stage. Has it lost what a motion loses that is drawn to the cycle?
   bool loses() {
-    constexpr double share = 0.5;             // of the linear loss, see attraction.hpp
-    constexpr double linear = 1e-2;           // farther away the loss must be near the linear one, from both sides
-    constexpr double above_rounding = 1e-13;  // a loss below is that of some hundred roundings
-    const double away = distance_, first = size_;
+    const Approach::Look before = seen_;
     if (!go_on()) return false;
-    look();
-    // what is left is of faster directions, which fall by themselves
-    if (first <= there_) return distance_ <= 0.8 * away;
-    const double lost = first - size_;
-    const double expected = first * (1.0 - std::pow(slowest_, static_cast<double>(cycles_)));
-    const bool turns = cycle_.multipliers.front().imag() != 0.0;
-    return lost >= share * expected && lost > above_rounding && (!turns || away <= linear || lost * share <= expected);
+    seen_ = look();
+    return approach_.loses(before, seen_, there_);
   }
 
  private:
@@ -91,7 +46,7 @@ class Trial {
   void go_back(int n) {
     constexpr double near = 1e-3;  // of the motion's size, as where Newton's method begins
     if (record_ == nullptr) return;
-    const auto is_near = [&](long place) { return section::distance(record_->back(place), cycle_.x, scale_) <= near; };
+    const auto is_near = [&](long place) { return approach_.distance(record_->back(place)) <= near; };
     for (long place = 0; place < record_->size() && place <= static_cast<long>(longest_trial) && is_near(place);
          place += n)
       ago_ = place;
@@ -99,30 +54,25 @@ class Trial {
 
   /// One stage: through the record, and then with the motion.
   [[nodiscard]] bool go_on() {
-    const long in_record = std::min(ago_, periods_);
+    const long in_record = std::min(ago_, periods());
     ago_ -= in_record;
-    return in_record == periods_ || map_.run(motion_, periods_ - in_record, stop_);
+    return in_record == periods() || map_.run(motion_, periods() - in_record, stop_);
   }
 
-  void look() {
+  [[nodiscard]] Approach::Look look() const {
     VectorXd x = ago_ > 0 ? VectorXd(record_->back(ago_)) : flow::contact_state(motion_);
     map_.translations().take_out(x);
-    distance_ = section::distance(x, cycle_.x, scale_);
-    size_ = amplitude_(x);
+    return approach_.at(x);
   }
 
   const ReturnMap& map_;
   const PointRecord* record_;
   long ago_ = 0;  ///< points of the record that are left
   Motion motion_;
-  const FixedPoint& cycle_;
-  const VectorXd& scale_;
   double there_;
   Stop stop_;
-  Amplitude amplitude_;
-  double slowest_;
-  long cycles_, periods_;
-  double distance_ = 0.0, size_ = 0.0;  ///< from the cycle; along the slowest direction
+  Approach approach_;
+  Approach::Look seen_;
 };
 
 }  // namespace

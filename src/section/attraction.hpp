@@ -2,16 +2,9 @@
 /// Is a motion drawn to a cycle? Decided by the rate at which the motion approaches, not by how near it has come:
 /// beside a multiplier -1 + 1e-9 a motion comes no nearer for a million periods, and still has that cycle ahead.
 ///
-/// Let x* be a fixed point of the map of one cycle, J its Jacobian there, and w the left eigenvector of the multiplier
-/// mu of largest modulus. In the linear part of the map the amplitude a_k = |w . (x_k - x*)| falls by |mu| each cycle,
-/// however other directions fall. After M cycles a motion that is drawn has lost
-///     a_0 - a_M = a_0 (1 - |mu|^M) (1 + O(a_0^2 / (1 - |mu|)));
-/// beside an orbit that repels and bounds the basin the loss is smaller and changes its sign there, on an invariant
-/// curve it is zero. So half of the linear loss is asked for. Round a cycle with complex multipliers a curve may lie
-/// between the motion and the cycle: farther away than 1e-2 of its size the motion may lose no more than twice as much.
-/// One such loss may be chance: a chaotic motion comes nearer now and then. So stage after stage is asked for, each
-/// until the amplitude should have halved, up to 256 periods (points of the section) in all or until the motion is
-/// there; and at the end it must be beside the cycle, within a twentieth of its size.
+/// section/approach.hpp says what a motion that is drawn loses in a stage. Stage after stage is asked for, up to 256
+/// periods (points of the section) in all or until the motion is there; and at the end it must be beside the cycle,
+/// within a twentieth of its size.
 #include "section/point_record.hpp"
 #include "section/return_map.hpp"
 

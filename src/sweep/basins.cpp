@@ -22,6 +22,7 @@ MapProblem starts_over(const Model& model, const State& start, const StartAxis& 
   problem.x = x.values;
   problem.y = y.values;
   problem.keep_states = true;
+  problem.one_model = true;
   problem.model_at = [model](double, double) { return model; };
   problem.start_at = [start, x = x.place, y = y.place](double of_x, double of_y) {
     State state = start;

@@ -33,17 +33,16 @@ Batch run_batch(const BatchProblem& problem) {
   if (!problem.take) batch.runs.resize(problem.count);
   std::atomic<std::size_t> next{0};
   std::mutex adding;
-  const batch::Queue queue{
-      [&]() -> std::optional<std::size_t> {
-        const std::size_t index = next.fetch_add(1, std::memory_order_relaxed);
-        return index < problem.count ? std::optional(index) : std::nullopt;
-      },
-      problem.model_at,
-      problem.start_at,
-      problem.take ? problem.take : [&](std::size_t i, BatchRun&& run) { batch.runs[i] = std::move(run); },
-      problem.plan,
-      batch::Queue::Wanted::all,
-      problem.cancel};
+  batch::Queue queue;
+  queue.next = [&]() -> std::optional<std::size_t> {
+    const std::size_t index = next.fetch_add(1, std::memory_order_relaxed);
+    return index < problem.count ? std::optional(index) : std::nullopt;
+  };
+  queue.model_at = problem.model_at;
+  queue.start_at = [&](std::size_t i, const Model&) { return problem.start_at(i); };
+  queue.take = problem.take ? problem.take : [&](std::size_t i, BatchRun&& run) { batch.runs[i] = std::move(run); };
+  queue.plan = problem.plan;
+  queue.cancel = problem.cancel;
   const auto cores = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U));
   const int threads = problem.threads > 0 ? problem.threads : cores;
   for_each_index(threads, threads, [&](int) {

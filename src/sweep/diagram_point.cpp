@@ -99,7 +99,7 @@ void run_in_lanes(const DiagramProblem& problem, std::span<const DiagramPoint> p
   batch::Queue queue;
   queue.next = [&] { return next < points.size() ? std::optional(next++) : std::nullopt; };
   queue.model_at = [&](std::size_t i) { return problem.model_at(parameter(i)); };
-  queue.start_at = [&](std::size_t i) { return problem.start_at(parameter(i)); };
+  queue.start_at = [&](std::size_t i, const Model&) { return problem.start_at(parameter(i)); };
   queue.wanted = batch::Queue::Wanted::those_of_lanes;
   queue.plan.periods = periods;
   queue.cancel = problem.cancel;

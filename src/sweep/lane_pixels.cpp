@@ -20,13 +20,15 @@ namespace {
 /// A pixel while its lane runs.
 class LanePixel {
  public:
-  LanePixel(const MapProblem& problem, const batch::PassedPoint& first)
+  LanePixel(const MapProblem& problem, const KnownCycles* known, const batch::PassedPoint& first)
       : problem_(problem),
         options_(options_of(problem)),
         wish_{problem.classify.most_n, returned, problem.classify.newton_start, waves},
         record_(2 * first.frame.n),
         omega_(2.0 * std::numbers::pi / first.model.forcing_period()),
-        fits_(section::driven(first.model) && flow::translation_count(first.model, first.frame) == 0) {}
+        fits_(section::driven(first.model) && flow::translation_count(first.model, first.frame) == 0) {
+    if (known != nullptr) known_.emplace(*known);
+  }
 
   /// @returns true if nothing more is to be seen
   bool see(const batch::PassedPoint& point) {
@@ -37,6 +39,12 @@ class LanePixel {
     std::copy_n(point.u, n, x.data() + n);
     // lanes tell no sticks: the cycle's own record does
     record_.add(x, {static_cast<int>(point.impacts), 0, 0}, omega_);
+    if (known_) {
+      if (const Classification* found = known_->see(x)) {
+        finding_.found = *found;
+        return decided_ = true;
+      }
+    }
     try {
       return decides(point);
     } catch (const NumericalError&) {  // a Motion says what is wrong
@@ -70,7 +78,7 @@ class LanePixel {
     constexpr long every = 4;
     const long points = record_.size();
     const bool last = points >= problem_.periods;
-    if (!last && (points % every != 0 || points < next_return_)) return false;
+    if (!last && (points % every != 0 || points < next_return_ || (known_ && known_->beside()))) return false;
     const auto candidates = record_.candidates(wish_, true, last);
     if (!candidates.empty() || last) {
       const section::Confirmation::Look look = confirm(point, candidates, last);
@@ -140,28 +148,25 @@ class LanePixel {
   long next_return_ = 0;
   LaneFinding finding_;
   std::unique_ptr<section::Stroboscopic> map_;
+  std::optional<KnownCycles::Watch> known_;
 };
 
 }  // namespace
 
-void run_quick_in_lanes(const MapProblem& problem, std::span<const PixelTask> tasks,
+void run_quick_in_lanes(const MapProblem& problem, std::span<const PixelTask> tasks, const KnownCycles* known,
                         const std::function<void(std::size_t, LaneFinding&&)>& take) {
   std::vector<std::unique_ptr<LanePixel>> pixels(tasks.size());
   std::size_t next = 0;
-  State start;
   batch::Queue queue;
   queue.next = [&] { return next < tasks.size() ? std::optional(next++) : std::nullopt; };
-  queue.model_at = [&](std::size_t i) {
-    Model model = model_at(problem, tasks[i]);
-    start = start_of(problem, tasks[i], model);
-    return model;
-  };
-  queue.start_at = [&](std::size_t) { return start; };
+  queue.model_at = [&](std::size_t i) { return model_at(problem, tasks[i]); };
+  queue.start_at = [&](std::size_t i, const Model& model) { return start_of(problem, tasks[i], model); };
   queue.plan = {.transient_periods = 0, .periods = problem.periods, .points = problem.periods};
   queue.wanted = batch::Queue::Wanted::those_of_lanes;
+  queue.one_model = problem.one_model;
   queue.cancel = problem.cancel;
   queue.watch = [&](std::size_t i, const batch::PassedPoint& point) {
-    if (pixels[i] == nullptr) pixels[i] = std::make_unique<LanePixel>(problem, point);
+    if (pixels[i] == nullptr) pixels[i] = std::make_unique<LanePixel>(problem, known, point);
     return pixels[i]->see(point);
   };
   queue.take = [&](std::size_t i, BatchRun&& run) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <mutex>
 
 #include "base/ranges.hpp"
@@ -11,6 +12,7 @@
 #include "slapstick/base/error.hpp"
 #include "sweep/executor.hpp"
 #include "sweep/finding_kinds.hpp"
+#include "sweep/known_cycles.hpp"
 #include "sweep/map_check.hpp"
 #include "sweep/map_pixel.hpp"
 #include "sweep/refinement.hpp"
@@ -41,6 +43,13 @@ void check_refine(const MapProblem& problem) {
   demand_of_map(!problem.known || problem.finding_of, "known needs finding_of");
 }
 
+void check_one_model(const MapProblem& problem) {
+  if (!problem.one_model) return;
+  demand_of_map(problem.start == MapStart::reset, "one_model needs start = reset");
+  demand_of_map(problem.shards == 1, "one_model needs shards = 1: all pixels depend on those that are looked at first");
+  demand_of_map(!problem.known || (problem.finding_of && problem.carried_of), "known needs finding_of and carried_of");
+}
+
 }  // namespace
 
 void check_map(const MapProblem& problem) {
@@ -63,6 +72,7 @@ void check_map(const MapProblem& problem) {
   demand_of_map(problem.threads >= 0, "threads = " + std::to_string(problem.threads) + " is below 0");
   demand_of_map(!problem.known || problem.carried_of || problem.start != MapStart::carry, "known needs carried_of");
   check_refine(problem);
+  check_one_model(problem);
 }
 
 namespace {
@@ -119,7 +129,8 @@ class Tiling {
   /// Pixels of a tile: some tens of milliseconds. Many pixels keep lanes full, many tiles keep threads busy.
   [[nodiscard]] int run() const {
     if (!runs_in_lanes(problem_)) return 4;
-    const long pixels = static_cast<long>(problem_.x.count) * problem_.y.count;
+    const long all = static_cast<long>(problem_.x.count) * problem_.y.count;
+    const long pixels = pixels_.empty() ? all : static_cast<long>(pixels_.size());
     return static_cast<int>(std::clamp(pixels / 64, 32L, 256L));
   }
   [[nodiscard]] int directions() const { return problem_.direction == Direction::both ? 2 : 1; }
@@ -137,21 +148,65 @@ class Tiling {
   std::vector<int> chains_;
 };
 
+/// The pixels that are looked at first: a grid over the plane.
+std::vector<std::int32_t> looked_at_first(const MapProblem& problem) {
+  constexpr int side = 8;  // more find attractors of smaller share, and cost what Newton's method costs each
+  std::vector<std::int32_t> pixels;
+  const auto middle = [](int k, int parts, int count) {
+    return static_cast<int>((2L * k + 1L) * count / (2L * parts));
+  };
+  const int rows = std::min(side, problem.y.count), columns = std::min(side, problem.x.count);
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column)
+      pixels.push_back(middle(row, rows, problem.y.count) * problem.x.count + middle(column, columns, problem.x.count));
+  return pixels;
+}
+
 /// One map while it runs.
 class MapRun {
  public:
   explicit MapRun(const MapProblem& problem) : problem_(problem) {}
 
-  bool operator()() { return problem_.refine > 0 ? run_refined() : run_tiling(Tiling(problem_)); }
+  bool operator()() {
+    if (problem_.refine > 0) return run_refined();
+    if (problem_.one_model && runs_in_lanes(problem_)) return run_after_first_look();
+    const Tiling tiling(problem_);
+    total_ = tiling.size();
+    return run_tiling(tiling);
+  }
 
  private:
   bool run_tiling(const Tiling& tiling) {
-    total_ += tiling.size();
+    const long to_do = done_ + tiling.size();
     const bool all = run_chains(
         tiling.chains(), problem_.threads,
         [&](const Cell& cell, const Starts& start, const HandOn& hand_on) { run_tile(tiling, cell, start, hand_on); },
         problem_.cancel);
-    return all && done_ == total_;
+    return all && done_ == to_do;
+  }
+
+  /// Some pixels, and then the others, to which the cycles of the first are known.
+  bool run_after_first_look() {
+    std::vector<std::int32_t> first = looked_at_first(problem_), others, unknown;
+    total_ = static_cast<long>(problem_.x.count) * problem_.y.count;
+    for (const std::int32_t pixel : first) {
+      if (problem_.known && problem_.known(pixel, Direction::up))
+        first_look_[pixel] = {problem_.finding_of(pixel, Direction::up), problem_.carried_of(pixel, Direction::up)};
+      else
+        unknown.push_back(pixel);
+    }
+    done_ = static_cast<long>(first.size() - unknown.size());
+    looks_first_ = true;
+    if (!unknown.empty() && !run_tiling(Tiling(problem_, std::move(unknown)))) return false;
+    looks_first_ = false;
+    const System system(problem_.model_at(problem_.x.from, problem_.y.from));
+    KnownCycles cycles(system, problem_.classify);
+    for (const auto& [pixel, seen] : first_look_)
+      if (!seen.found.failed) cycles.add(seen.found, seen.state);
+    known_cycles_ = &cycles;
+    for (std::int32_t pixel = 0; pixel < total_; ++pixel)
+      if (!first_look_.contains(pixel)) others.push_back(pixel);
+    return others.empty() || run_tiling(Tiling(problem_, std::move(others)));
   }
 
   /// Round by round: what a round wants depends on all rounds before.
@@ -167,7 +222,7 @@ class MapRun {
         else
           unknown.push_back(pixel);
       }
-      total_ += static_cast<long>(wanted.size() - unknown.size());
+      total_ += static_cast<long>(wanted.size());
       done_ += static_cast<long>(wanted.size() - unknown.size());
       refinement_ = &refinement;
       if (!unknown.empty() && !run_tiling(Tiling(problem_, std::move(unknown)))) return false;
@@ -182,7 +237,7 @@ class MapRun {
     };
     std::vector<PixelTask> unknown;
     ranges::copy_if(tasks, std::back_inserter(unknown), [&](const PixelTask& task) { return !is_known(task); });
-    const std::vector<Pixel> pixels = analyse(problem_, unknown);
+    const std::vector<Pixel> pixels = analyse(problem_, unknown, known_cycles_);
     deliver(pixels, pixels.size() + tasks.size() - unknown.size());
     if (pixels.size() == unknown.size() && problem_.start == MapStart::carry) hand_on(starts_after(tasks, pixels));
   }
@@ -201,14 +256,24 @@ class MapRun {
   void deliver(const std::vector<Pixel>& pixels, std::size_t done) {
     const std::scoped_lock lock(delivery_);
     if (problem_.finished && !pixels.empty()) problem_.finished(pixels);
+    if (looks_first_)
+      for (const Pixel& pixel : pixels) first_look_[pixel.number] = {pixel.found.front(), pixel.carried};
     if (refinement_ != nullptr)
       for (const Pixel& pixel : pixels) refinement_->set(pixel.number, kinds_.number(pixel.found.front()));
     done_ += static_cast<long>(done);
     if (problem_.progress && done > 0) problem_.progress(done_, total_);
   }
 
+  struct Seen {
+    Finding found;
+    State state;
+  };
+
   const MapProblem& problem_;
   std::mutex delivery_;
+  std::map<std::int32_t, Seen> first_look_;
+  bool looks_first_ = false;
+  const KnownCycles* known_cycles_ = nullptr;
   Refinement* refinement_ = nullptr;
   FindingKinds kinds_;
   long done_ = 0, total_ = 0;

@@ -189,10 +189,10 @@ State start_of(const MapProblem& problem, const PixelTask& task, const Model& mo
   }
 }
 
-std::vector<Pixel> analyse(const MapProblem& problem, std::span<const PixelTask> tasks) {
+std::vector<Pixel> analyse(const MapProblem& problem, std::span<const PixelTask> tasks, const KnownCycles* known) {
   std::vector<std::optional<Pixel>> pixels(tasks.size());
   if (runs_in_lanes(problem))
-    run_quick_in_lanes(problem, tasks, [&](std::size_t i, LaneFinding&& lane) {
+    run_quick_in_lanes(problem, tasks, known, [&](std::size_t i, LaneFinding&& lane) {
       pixels[i] = Analysis(problem, tasks[i]).of(std::move(lane));
     });
   for (std::size_t i = 0; i < tasks.size() && !stopped(problem.cancel); ++i)

@@ -5,6 +5,8 @@
 
 namespace slapstick::sweep {
 
+class KnownCycles;
+
 /// A pixel that is to be analysed.
 struct PixelTask {
   std::int32_t number = 0;
@@ -17,7 +19,9 @@ struct PixelTask {
 [[nodiscard]] State start_of(const MapProblem& problem, const PixelTask& task, const Model& model);
 
 /// Analyses the pixels of a tile: those of `quick` in lanes (lane_pixels.hpp), others each by itself.
+/// @param known  cycles of the problem's one model; null: none
 /// @returns as many as there was time for before the problem was cancelled, in the order of the tasks
-[[nodiscard]] std::vector<Pixel> analyse(const MapProblem& problem, std::span<const PixelTask> tasks);
+[[nodiscard]] std::vector<Pixel> analyse(const MapProblem& problem, std::span<const PixelTask> tasks,
+                                         const KnownCycles* known);
 
 }  // namespace slapstick::sweep

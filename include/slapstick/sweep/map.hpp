@@ -89,6 +89,10 @@ struct MapProblem {
   std::function<Model(double x, double y)> model_at;  ///< called from several threads at once
   std::function<State(double x, double y)> start_at;  ///< likewise
   GridAxis x, y;
+  /// `model_at` gives one model everywhere, as in a plane of starts: cycles that a first look of some pixels finds are
+  /// known to the others, which come to them sooner. Which pixels are looked at first depends on the problem only. Of
+  /// `reset`, without shards.
+  bool one_model = false;
   Level level = Level::quick;
   int periods = 300;  ///< of `quick`: within which a cycle is to be confirmed, >= 20
   /// Of both levels most_n and stops, of `full` all but cancel and progress.
@@ -109,11 +113,11 @@ struct MapProblem {
   /// `carry` a band of rows; what belongs to which shard depends on the problem only.
   int shard = 0, shards = 1;
   int threads = 0;  ///< 0: all
-  /// Whether a pixel need not be computed, because a run before has it; and of `carry` its Pixel::carried. Called from
-  /// any thread.
+  /// Whether a pixel need not be computed, because a run before has it; and of `carry` and `one_model` its
+  /// Pixel::carried. Called from any thread.
   std::function<bool(std::int32_t number, Direction)> known = {};
   std::function<State(std::int32_t number, Direction)> carried_of = {};
-  /// Of `refine`: what a known pixel is. Called from the caller's thread.
+  /// Of `refine` and `one_model`: what a known pixel is. Called from the caller's thread.
   std::function<Finding(std::int32_t number, Direction)> finding_of = {};
   /// Takes each tile as it is finished, from any of the threads, but never two at once; of a run that is stopped the
   /// finished pixels of a tile.

@@ -1,0 +1,100 @@
+/// Makes a list of cycles, and follows motions beside them.
+#include "sweep/known_cycles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "attractor/cycle.hpp"
+#include "base/floating_point.hpp"
+#include "base/ranges.hpp"
+#include "section/point_record.hpp"
+#include "section/settling.hpp"
+#include "slapstick/base/error.hpp"
+#include "sweep/diagram_point.hpp"
+
+namespace slapstick::sweep {
+namespace {
+
+constexpr double inside = 1e-9;  ///< a multiplier nearer to the unit circle may be that of a continuum
+
+/// The size of a cycle, as of section::distance.
+Eigen::VectorXd size_of(const section::ReturnMap& map, Motion motion, int n) {
+  const double omega = 2.0 * std::numbers::pi / motion.system().period();
+  const Eigen::VectorXd first = flow::contact_state(motion);
+  section::PointRecord record(first.size());
+  record.add(first, {}, omega);
+  for (int k = 1; k < n && map.run(motion, 1, nullptr); ++k) record.add(flow::contact_state(motion), {}, omega);
+  return record.scale();
+}
+
+}  // namespace
+
+KnownCycles::KnownCycles(const System& system, const ClassifyOptions& options)
+    : system_(system),
+      options_(options),
+      map_(system),
+      attractors_(system),
+      driven_(section::driven(system) && map_.translations().count() == 0) {}
+
+void KnownCycles::add(const Finding& found, const State& state) {
+  const std::string label = found.label(driven_);
+  if (!driven_ || found.attractor != Attractor::periodic) return;
+  try {
+    if (attractors_.find(found.attractor, label, state) >= 0) return;
+    State start = state;
+    undo_rounding(system_.model(), start);
+    const Motion motion(system_, start);
+    const Eigen::VectorXd scale = size_of(map_, motion, found.n);
+    const auto fixed = section::fixed_point(map_, flow::contact_state(motion), found.n, scale, nullptr);
+    if (!fixed || fixed->multipliers.empty() || std::abs(fixed->multipliers.front()) > 1.0 - inside) return;
+    const double missed = section::distance(fixed->value.image, fixed->x, scale);
+    const section::Cycle cycle{fixed->x, found.n, fixed->value.duration, fixed->multipliers, {}, missed, 0.0};
+    Known known{{map_.translations(), *fixed, found.n, scale}, found.n, {}};
+    known.found.state = flow::user_state(system_, fixed->x);
+    attractor::describe(system_, cycle, known.found.state, options_, known.found);
+    if (known.found.label != label || known.found.multipliers.empty()) return;
+    (void)attractors_.add(known.found);
+    all_.push_back(std::move(known));
+  } catch (const NumericalError&) {  // each motion says what is wrong
+  } catch (const InputError&) {
+  }
+}
+
+const Classification* KnownCycles::Watch::see(const Eigen::Ref<const Eigen::VectorXd>& x) {
+  ++points_;
+  for (std::size_t i = 0; i < trials_.size(); ++i)
+    if (comes(i, x)) return &cycles_.all_[i].found;
+  return nullptr;
+}
+
+bool KnownCycles::Watch::beside() const {
+  return ranges::any_of(trials_, [](const Trial& trial) { return trial.beside && !trial.doubted; });
+}
+
+bool KnownCycles::Watch::comes(std::size_t cycle, const Eigen::Ref<const Eigen::VectorXd>& x) {
+  constexpr double near = 0.05;     // of the cycle's size: farther away a motion may do anything yet
+  constexpr double shrunk = 1e-3;   // of the distance where the trial began: ten halvings
+  constexpr double newton = 1e-10;  // of the cycle's size: what Newton's method and rounding leave
+  const Known& known = cycles_.all_[cycle];
+  Trial& trial = trials_[cycle];
+  const long lasts = points_ - trial.since;
+  if (trial.beside && lasts % known.n != 0) return false;
+  if (!(known.approach.distance(x) <= near)) {
+    trial = {};
+    return false;
+  }
+  if (trial.beside && lasts < known.approach.stage()) return false;
+  const section::Approach::Look here = known.approach.at(x);
+  if (trial.beside && here.distance <= trial.there) return true;
+  const bool loses = trial.beside && known.approach.loses(trial.before, here, trial.there);
+  if (!loses) trial.there = std::max(shrunk * here.distance, newton);
+  trial.doubted = trial.doubted || (trial.beside && !loses);
+  trial.beside = true;
+  trial.since = points_;
+  trial.before = here;
+  return false;
+}
+
+}  // namespace slapstick::sweep

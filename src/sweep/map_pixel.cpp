@@ -46,7 +46,9 @@ Finding finding_of(const Classification& found, const PixelTask& task) {
 /// One pixel while it is analysed.
 class Analysis {
  public:
-  Analysis(const MapProblem& problem, const PixelTask& task) : problem_(problem), task_(task) {
+  /// @param known  null: none
+  Analysis(const MapProblem& problem, const PixelTask& task, const KnownCycles* known)
+      : problem_(problem), task_(task), known_(known) {
     pixel_.number = task.number;
     pixel_.direction = task.direction;
   }
@@ -84,10 +86,28 @@ class Analysis {
     const System system(model_at(problem_, task_));
     const State start = start_of(problem_, task_, system.model());
     if (problem_.start == MapStart::random) return run_all(system, start);
-    const Classification found = classified(system, start);
+    const Classification* known = known_ != nullptr && known_->size() > 0 ? comes_to(system, start) : nullptr;
+    const Classification found = known != nullptr ? *known : classified(system, start);
     if (interrupted_) return;
     if (keeps_state()) pixel_.carried = found.state;
     keep(&system, found, 1);
+  }
+
+  /// The known cycle that the motion comes to within the periods of `quick`; null: none. One that is beside none after
+  /// half of them is not waited for.
+  const Classification* comes_to(const System& system, const State& start) {
+    KnownCycles::Watch watch(*known_);
+    Motion motion(system, start);
+    try {
+      for (int period = 1; period <= problem_.periods; ++period) {
+        if (2 * period > problem_.periods && !watch.beside()) return nullptr;
+        interrupted_ = interrupted_ || !run_to(motion, {period, 0.0}, problem_.cancel, [] {});
+        if (interrupted_) return nullptr;
+        if (const Classification* found = watch.see(flow::contact_state(motion))) return found;
+      }
+    } catch (const NumericalError&) {  // what is asked next says so
+    }
+    return nullptr;
   }
 
   Classification classified(const System& system, const State& start) {
@@ -166,6 +186,7 @@ class Analysis {
 
   const MapProblem& problem_;
   const PixelTask& task_;
+  const KnownCycles* known_;
   Pixel pixel_;
   bool interrupted_ = false;
 };
@@ -193,10 +214,10 @@ std::vector<Pixel> analyse(const MapProblem& problem, std::span<const PixelTask>
   std::vector<std::optional<Pixel>> pixels(tasks.size());
   if (runs_in_lanes(problem))
     run_quick_in_lanes(problem, tasks, known, [&](std::size_t i, LaneFinding&& lane) {
-      pixels[i] = Analysis(problem, tasks[i]).of(std::move(lane));
+      pixels[i] = Analysis(problem, tasks[i], known).of(std::move(lane));
     });
   for (std::size_t i = 0; i < tasks.size() && !stopped(problem.cancel); ++i)
-    if (!pixels[i]) pixels[i] = Analysis(problem, tasks[i])();
+    if (!pixels[i]) pixels[i] = Analysis(problem, tasks[i], known)();
   std::vector<Pixel> done;
   for (std::optional<Pixel>& pixel : pixels)
     if (pixel) done.push_back(std::move(*pixel));

@@ -136,7 +136,9 @@ TEST(KnownCycles, ChangeNoBasin) {
        {plane("vibro-impact", {{"omega", 2.82}}, x, y), plane("vibro-impact", {{"omega", 3.0}}, x, y),
         plane("impact-oscillator", {{"omega", 0.85}}, {0, {-1.0, 1.0, 15}}, {1, {-1.0, 1.0, 15}}),
         plane("bilinear-oscillator", {}, {0, {-3.0, 3.0, 15}}, {1, {-3.0, 3.0, 15}}),
-        plane("coulomb-oscillator", {}, {0, {-1.0, 1.0, 15}}, {1, {-1.0, 1.0, 15}})}) {
+        plane("coulomb-oscillator", {}, {0, {-1.0, 1.0, 15}}, {1, {-1.0, 1.0, 15}}),
+        plane("two-sided-rattle", {}, {0, {-0.9, 0.9, 12}}, {1, {-2.0, 2.0, 12}}),  // no lane takes this
+        plane("bump-stop", {}, {0, {-0.5, 0.5, 10}}, {1, {-1.0, 1.0, 10}})}) {
     ASSERT_TRUE(problem.one_model);
     const Basins with = run_basins(problem);
     problem.one_model = false;

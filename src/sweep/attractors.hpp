@@ -31,6 +31,11 @@ class Attractors {
   [[nodiscard]] int find(Attractor kind, std::string_view label, const State& state) const;
   /// @returns its place. @throws NumericalError as Motion::advance
   int add(const Classification& found);
+  /// By how much each number of a state on a cycle may differ from those of the same one.
+  /// @param place  as of find; not of those that are compared by class
+  [[nodiscard]] const Eigen::VectorXd& tolerance(int place) const {
+    return all_[static_cast<std::size_t>(place)].tolerance;
+  }
   /// Is a class all that is compared? Then several attractors may have one place.
   [[nodiscard]] static bool by_class(const Classification& found);
 

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "attractor/cycle.hpp"
-#include "base/floating_point.hpp"
 #include "base/ranges.hpp"
 #include "section/point_record.hpp"
 #include "section/settling.hpp"
@@ -18,8 +17,9 @@ namespace slapstick::sweep {
 namespace {
 
 constexpr double inside = 1e-9;  ///< a multiplier nearer to the unit circle may be that of a continuum
+constexpr double one = 1e-6;     ///< the distance at which two cycles are one
 
-/// The size of a cycle, as of section::distance.
+/// The size of a cycle for Newton's method, as of section::distance.
 Eigen::VectorXd size_of(const section::ReturnMap& map, Motion motion, int n) {
   const double omega = 2.0 * std::numbers::pi / motion.system().period();
   const Eigen::VectorXd first = flow::contact_state(motion);
@@ -51,12 +51,11 @@ void KnownCycles::add(const Finding& found, const State& state) {
     if (!fixed || fixed->multipliers.empty() || std::abs(fixed->multipliers.front()) > 1.0 - inside) return;
     const double missed = section::distance(fixed->value.image, fixed->x, scale);
     const section::Cycle cycle{fixed->x, found.n, fixed->value.duration, fixed->multipliers, {}, missed, 0.0};
-    Known known{{map_.translations(), *fixed, found.n, scale}, found.n, {}};
-    known.found.state = flow::user_state(system_, fixed->x);
-    attractor::describe(system_, cycle, known.found.state, options_, known.found);
-    if (known.found.label != label || known.found.multipliers.empty()) return;
-    (void)attractors_.add(known.found);
-    all_.push_back(std::move(known));
+    Classification cycle_found;
+    attractor::describe(system_, cycle, flow::user_state(system_, fixed->x), options_, cycle_found);
+    if (cycle_found.label != label || cycle_found.multipliers.empty()) return;
+    const Eigen::VectorXd unit = attractors_.tolerance(attractors_.add(cycle_found)) / one;
+    all_.push_back({{map_.translations(), *fixed, found.n, unit}, found.n, std::move(cycle_found)});
   } catch (const NumericalError&) {  // each motion says what is wrong
   } catch (const InputError&) {
   }
@@ -70,28 +69,26 @@ const Classification* KnownCycles::Watch::see(const Eigen::Ref<const Eigen::Vect
 }
 
 bool KnownCycles::Watch::beside() const {
-  return ranges::any_of(trials_, [](const Trial& trial) { return trial.beside && !trial.doubted; });
+  return ranges::any_of(trials_, [](const Trial& trial) { return trial.runs && !trial.doubted; });
 }
 
 bool KnownCycles::Watch::comes(std::size_t cycle, const Eigen::Ref<const Eigen::VectorXd>& x) {
-  constexpr double near = 0.05;     // of the cycle's size: farther away a motion may do anything yet
-  constexpr double shrunk = 1e-3;   // of the distance where the trial began: ten halvings
-  constexpr double newton = 1e-10;  // of the cycle's size: what Newton's method and rounding leave
+  constexpr double near = 0.05;    // farther away a motion may do anything yet
+  constexpr double shrunk = 1e-3;  // of the distance where the trial began: ten halvings
+  constexpr double newton = 1e-9;  // what Newton's method and rounding leave: a thousandth of `one`
   const Known& known = cycles_.all_[cycle];
   Trial& trial = trials_[cycle];
   const long lasts = points_ - trial.since;
-  if (trial.beside && lasts % known.n != 0) return false;
-  if (!(known.approach.distance(x) <= near)) {
-    trial = {};
-    return false;
-  }
-  if (trial.beside && lasts < known.approach.stage()) return false;
+  if (trial.runs && lasts % known.n != 0) return false;
+  trial.runs = trial.runs && known.approach.distance(x) <= near;
+  if (trial.runs && lasts < known.approach.stage()) return false;
+  if (!trial.runs && !(known.approach.distance(x) <= near)) return false;
   const section::Approach::Look here = known.approach.at(x);
-  if (trial.beside && here.distance <= trial.there) return true;
-  const bool loses = trial.beside && known.approach.loses(trial.before, here, trial.there);
-  if (!loses) trial.there = std::max(shrunk * here.distance, newton);
-  trial.doubted = trial.doubted || (trial.beside && !loses);
-  trial.beside = true;
+  if (trial.runs && here.distance <= trial.there) return true;
+  const bool fails = trial.runs && !known.approach.loses(trial.before, here, trial.there);
+  if (!trial.runs) trial.there = std::max(shrunk * here.distance, newton);
+  trial.doubted = trial.doubted || fails;
+  trial.runs = !fails;  // one that fails begins anew at the next point, which may be of another phase
   trial.since = points_;
   trial.before = here;
   return false;

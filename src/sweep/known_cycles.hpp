@@ -6,9 +6,10 @@
 ///     KnownCycles::Watch watch(cycles);
 ///     const Classification* found = watch.see(x);  // at every point of the section
 ///
-/// A trial begins where a motion comes within a twentieth of the cycle's size. The motion belongs to the cycle once its
-/// distance has fallen a thousandfold, and in each stage until then it has lost what a motion loses that is drawn
-/// (section/approach.hpp). After a stage that loses less a new trial begins, from there.
+/// Distances are in units in which two cycles are one at 1e-6 (attractors.hpp): each number counts by its own range
+/// over the cycle. A trial begins where a motion comes within 0.05 of the cycle. The motion belongs to the cycle once
+/// its distance has fallen a thousandfold, or to rounding, and in each stage before it has lost what a motion loses
+/// that is drawn (section/approach.hpp). After a stage that loses less a new trial begins.
 /// Newton's method has confirmed the cycle once; no motion asks it again.
 /// Cost: a motion's point is compared with one point of each cycle, some nanoseconds each.
 #include <vector>
@@ -38,13 +39,14 @@ class KnownCycles {
     /// @param x  the motion's contact state at the next point of the section
     /// @returns what it has come to; null: nothing known yet
     const Classification* see(const Eigen::Ref<const Eigen::VectorXd>& x);
-    /// Is it beside a cycle, and no stage has lost too little? Then nothing else needs to be looked for.
+    /// Is it beside a cycle, and no stage there has lost too little? Then nothing else needs to be looked for.
     [[nodiscard]] bool beside() const;
 
    private:
     struct Trial {
-      bool beside = false, doubted = false;
-      long since = 0;  ///< the point at which the stage began
+      bool runs = false;
+      bool doubted = false;  ///< a stage has lost too little
+      long since = 0;        ///< the point at which the stage began
       section::Approach::Look before{};
       double there = 0.0;  ///< distance at which the trial ends
     };

@@ -46,6 +46,7 @@ void check_refine(const MapProblem& problem) {
 void check_one_model(const MapProblem& problem) {
   if (!problem.one_model) return;
   demand_of_map(problem.start == MapStart::reset, "one_model needs start = reset");
+  demand_of_map(problem.keep_states, "one_model needs keep_states: a cycle is known by a state on it");
   demand_of_map(problem.shards == 1, "one_model needs shards = 1: all pixels depend on those that are looked at first");
   demand_of_map(!problem.known || (problem.finding_of && problem.carried_of), "known needs finding_of and carried_of");
 }

@@ -129,6 +129,23 @@ std::vector<std::string> labels(const Basins& basins) {
   return labels;
 }
 
+/// A forced arm, and beside it a pin with two wells, whose distance is a hundred thousandth of the arm's swing.
+MapProblem pin_beside_an_arm() {
+  Model model;
+  model.name = "arm-and-pin";
+  constexpr double small = 1e-5;
+  model.coordinates = {{"arm", 1.0}, {"pin", 1.0}};
+  model.springs = {{0, ground, 4.0}, {1, ground, -1.0}};
+  model.dampers = {{0, ground, 0.05}, {1, ground, 0.4}};
+  model.compliant_stops = {{"plus", 1, ground, small, 3.0}, {"minus", ground, 1, small, 3.0}};
+  model.omega = 1.0;
+  model.forces = {{0, 1, 3.0, 1.0}, {1, 1, 0.1 * small, 0.0}};
+  return starts_over(model, {0.0, 0.0, 0.0, 0.0}, {2, {-3.0 * small, 3.0 * small, 12}}, {1, {-2.0, 2.0, 12}});
+}
+
+/// Two cycles that differ in a small number alone, as an angle beside lengths, are two.
+TEST(KnownCycles, OfASmallNumberAreTold) { EXPECT_EQ(run_basins(pin_beside_an_arm()).basins.size(), 2U); }
+
 /// The cycles that a first look finds are a short cut: without them each start comes to the same attractor.
 TEST(KnownCycles, ChangeNoBasin) {
   const StartAxis x{0, {-0.6, 0.02, 20}}, y{1, {-1.2, 1.2, 17}};
@@ -138,7 +155,7 @@ TEST(KnownCycles, ChangeNoBasin) {
         plane("bilinear-oscillator", {}, {0, {-3.0, 3.0, 15}}, {1, {-3.0, 3.0, 15}}),
         plane("coulomb-oscillator", {}, {0, {-1.0, 1.0, 15}}, {1, {-1.0, 1.0, 15}}),
         plane("two-sided-rattle", {}, {0, {-0.9, 0.9, 12}}, {1, {-2.0, 2.0, 12}}),  // no lane takes this
-        plane("bump-stop", {}, {0, {-0.5, 0.5, 10}}, {1, {-1.0, 1.0, 10}})}) {
+        plane("bump-stop", {}, {0, {-0.5, 0.5, 10}}, {1, {-1.0, 1.0, 10}}), pin_beside_an_arm()}) {
     ASSERT_TRUE(problem.one_model);
     const Basins with = run_basins(problem);
     problem.one_model = false;
@@ -181,6 +198,9 @@ TEST(KnownCycles, NeedAllPixelsOfAPlane) {
   EXPECT_THROW(run_tiles(problem), InputError);
   problem.shards = 1;
   problem.start = MapStart::carry;
+  EXPECT_THROW(run_tiles(problem), InputError);
+  problem.start = MapStart::reset;
+  problem.keep_states = false;
   EXPECT_THROW(run_tiles(problem), InputError);
 }
 

@@ -20,7 +20,7 @@ inline constexpr double longest_trial = 256.0;
 class Approach {
  public:
   /// @param n  points of the section in the cycle: of a driven motion forcing periods
-  /// @param scale  size of the motion, as of section::distance
+  /// @param scale  unit of each number, as of section::distance: the size of the motion, or own ranges
   Approach(const flow::Translations& translations, const FixedPoint& cycle, int n, const Eigen::VectorXd& scale);
 
   /// What is seen of a motion at a point.

@@ -73,16 +73,19 @@ bool KnownCycles::Watch::beside() const {
 }
 
 bool KnownCycles::Watch::comes(std::size_t cycle, const Eigen::Ref<const Eigen::VectorXd>& x) {
-  constexpr double near = 0.05;    // farther away a motion may do anything yet
+  // Wider: more motions are tried that go elsewhere; narrower: longer runs. `attraction` asks as much in the end.
+  constexpr double near = 0.05;
   constexpr double shrunk = 1e-3;  // of the distance where the trial began: ten halvings
-  constexpr double newton = 1e-9;  // what Newton's method and rounding leave: a thousandth of `one`
+  // A thousandth of `one`, for motions that begin on the cycle. Wider: fewer halvings are seen of those that begin
+  // beside it; narrower: rounding keeps a motion that is there from ending its trial, and Newton's method is asked.
+  constexpr double newton = 1e-9;
   const Known& known = cycles_.all_[cycle];
   Trial& trial = trials_[cycle];
   const long lasts = points_ - trial.since;
   if (trial.runs && lasts % known.n != 0) return false;
-  trial.runs = trial.runs && known.approach.distance(x) <= near;
-  if (trial.runs && lasts < known.approach.stage()) return false;
-  if (!trial.runs && !(known.approach.distance(x) <= near)) return false;
+  const bool is_near = known.approach.distance(x) <= near;
+  trial.runs = trial.runs && is_near;
+  if (!is_near || (trial.runs && lasts < known.approach.stage())) return false;
   const section::Approach::Look here = known.approach.at(x);
   if (trial.runs && here.distance <= trial.there) return true;
   const bool fails = trial.runs && !known.approach.loses(trial.before, here, trial.there);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "slapstick/base/error.hpp"
 #include "slapstick/io/model_file.hpp"
@@ -162,6 +163,27 @@ TEST(KnownCycles, ChangeNoBasin) {
     const Basins without = run_basins(problem);
     EXPECT_EQ(with.of, without.of);
     EXPECT_EQ(labels(with), labels(without));
+  }
+}
+
+/// In how many states the motions of a plane end.
+std::size_t states(MapProblem problem, bool one_model) {
+  std::set<State> states;
+  problem.one_model = one_model;
+  problem.finished = [&](std::span<const Pixel> pixels) {
+    for (const Pixel& pixel : pixels) states.insert(pixel.carried);
+  };
+  EXPECT_TRUE(run_tiles(problem));
+  return states.size();
+}
+
+/// A motion that is seen to come to a known cycle has that cycle's state; one that is asked alone has its own.
+TEST(KnownCycles, AreUsedInLanesAndOutside) {
+  for (const MapProblem& problem :
+       {plane("vibro-impact", {{"omega", 2.82}}, {0, {-0.6, 0.0, 16}}, {1, {-1.2, 1.2, 16}}),
+        plane("two-sided-rattle", {}, {0, {-0.4, 0.4, 16}}, {1, {-2.0, 2.0, 16}})}) {
+    EXPECT_LE(states(problem, true), 80U);  // 64 of the first look, and a few that hesitated
+    EXPECT_GT(states(problem, false), 128U);
   }
 }
 

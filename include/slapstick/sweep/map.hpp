@@ -91,7 +91,7 @@ struct MapProblem {
   GridAxis x, y;
   /// `model_at` gives one model everywhere, as in a plane of starts: cycles that a first look of some pixels finds are
   /// known to the others, whose motions are sooner seen to come to them. Which pixels are looked at first depends on
-  /// the problem only. Of `reset` with keep_states, without shards.
+  /// the problem only. Of `reset` with keep_states, without shards; of `full` and with `refine` no cycle is known.
   bool one_model = false;
   Level level = Level::quick;
   int periods = 300;  ///< of `quick`: within which a cycle is to be confirmed, >= 20

@@ -66,7 +66,8 @@ std::optional<PlaceLimit> limit_by_rates(const std::vector<double>& places, cons
 
 namespace {
 
-/// D_0 of the law from the distances d_0, d_1 of three places, by iteration from zero: D_0 = 2^(1/3) D_1^(7/3) / D_2^(4/3), D_1 = D_0 + d_0, ..
+/// D_0 of the law from the distances d_0, d_1 of three places, by iteration from zero:
+///     D_0 = 2^(1/3) D_1^(7/3) / D_2^(4/3),     D_1 = D_0 + d_0, ..
 std::optional<double> beyond_last(double d0, double d1) {
   constexpr int most = 100;
   double left = 0.0;

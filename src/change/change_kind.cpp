@@ -25,7 +25,8 @@ Neighbours about(const Itinerary& shape, std::size_t leg) {
   return {shape.legs[(leg + count - 1) % count], shape.legs[leg], shape.legs[(leg + 1) % count]};
 }
 
-/// The friction contact whose stick or reversal is gained or lost, or goes on without a slip, where a leg shrinks to nothing; -1 if there is none.
+/// The friction contact whose stick or reversal is gained or lost, or goes on without a slip, where a leg shrinks to
+/// nothing; -1 if there is none.
 int stick_at_stake(const TestValue& test, const Itinerary& shape) {
   const auto [before, leg, next] = about(shape, test.leg);
   if (test.starts_at_end && mode::of_friction(test.kind)) return test.contact;
@@ -44,7 +45,8 @@ Sliding kind_of_run(FrictionState before, FrictionState run, FrictionState next)
   return held == 2 ? Sliding::adding : held == 1 ? Sliding::switching : Sliding::grazing;
 }
 
-/// The states of one contact over a cycle, those that follow one another without a change as one, and how long each lasts.
+/// The states of one contact over a cycle, those that follow one another without a change as one, and how long each
+/// lasts.
 template <class State>
 struct Run {
   State state;
@@ -90,8 +92,9 @@ Slides without(const Slides& slides, std::size_t run) {
   return fewer;
 }
 
-/// By the shortest of the runs without which the longer sequence is the shorter one; where none is that, as in symmetric orbits, which change in several
-/// places at once, by the shortest. In a burst of impacts there are shorter ones.
+/// By the shortest of the runs without which the longer sequence is the shorter one; where none is that, as in
+/// symmetric orbits, which change in several places at once, by the shortest. In a burst of impacts there are shorter
+/// ones.
 Sliding kind_between(const Slides& a, const Slides& b, bool chatters) {
   const Slides& longer = a.size() > b.size() ? a : b;
   const Slides& shorter = a.size() > b.size() ? b : a;

@@ -1,11 +1,13 @@
 #pragma once
-/// What a change of events is called: by the margin that is used up, and, where the events on both sides of it are known, by those.
+/// What a change of events is called: by the margin that is used up, and, where the events on both sides of it are
+/// known, by those.
 ///
-/// The sliding of a friction contact is the sequence of its states over a cycle (di Bernardo et al. 2008, section 8.2). Where one side has a run more,
-/// that is    a stick between two slips of opposite senses            crossing-sliding
-///            a stick, or a reversal and back, within a slip          grazing-sliding
-///            a reversal before a stick, or behind it                 switching-sliding
-///            a slip within a stick                                   adding-sliding
+/// The sliding of a friction contact is the sequence of its states over a cycle (di Bernardo et al. 2008, section 8.2).
+/// Where one side has a run more, the change is named by it:
+///     a stick between two slips of opposite senses      crossing-sliding
+///     a stick, or a reversal and back, within a slip    grazing-sliding
+///     a reversal before a stick, or behind it           switching-sliding
+///     a slip within a stick                             adding-sliding
 #include "orbit/margins.hpp"
 #include "slapstick/orbit/special_point.hpp"
 
@@ -16,7 +18,8 @@ namespace slapstick::orbit {
 [[nodiscard]] UsedMargin used(const TestValue& test);
 [[nodiscard]] Sliding kind_of_sliding(const TestValue& test, const Itinerary& shape);
 
-/// From both sides, wherever the branch came from: GR where impacts or the states of stops differ, else SL where friction contacts' do, else CO.
+/// From both sides, wherever the branch came from: GR where impacts or the states of stops differ, else SL where
+/// friction contacts' do, else CO.
 struct ChangeOfEvents {
   SpecialType type = SpecialType::CO;
   Sliding sliding = Sliding::unchanged;

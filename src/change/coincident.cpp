@@ -1,4 +1,5 @@
-/// Other event sequences of which an orbit at a change is an orbit too: what has vanished is left out, or an impact put in.
+/// Other event sequences of which an orbit at a change is an orbit too: what has vanished is left out, or an impact put
+/// in.
 #include "change/coincident.hpp"
 
 #include <algorithm>

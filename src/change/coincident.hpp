@@ -1,6 +1,7 @@
 #pragma once
-/// Other sequences of events of which the orbit at a change is an orbit too: at a graze an impact of no speed is the same as none, and a leg that has
-/// shrunk to nothing may be left out. An event that meets a point of a signal may come before it or behind.
+/// Other sequences of events of which the orbit at a change is an orbit too: at a graze an impact of no speed is the
+/// same as none, and a leg that has shrunk to nothing may be left out. An event that meets a point of a signal may come
+/// before it or behind.
 #include "orbit/equations.hpp"
 #include "orbit/margins.hpp"
 

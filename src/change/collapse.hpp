@@ -2,8 +2,9 @@
 /// Where legs of an orbit shrink to nothing together (a *death*), by a regular system of equations.
 ///
 /// Near a death the orbit's own equations are singular: an event makes the guard that ends a dying leg zero at the
-/// leg's start, so a leg without length solves its equation whatever the orbit. With the dying legs left out the orbit there
-/// is an ordinary orbit of fewer events, on which the dying legs leave touches (change/touches.hpp). Its equations and
+/// leg's start, so a leg without length solves its equation whatever the orbit. With the dying legs left out the orbit
+/// there is an ordinary orbit of fewer events, on which the dying legs leave touches (change/touches.hpp). Its
+/// equations and
 ///     guard = 0 at the touch; within a leg also d guard / dt = 0
 /// are regular; the parameter and the instants of touches are further unknowns. There may be more equations than
 /// unknowns: touches of a symmetric orbit come in pairs, and a member of a continuum meets some equations always. The

@@ -26,13 +26,15 @@ namespace {
 
 constexpr long transient = 500;  ///< cycles that a motion is given to settle
 
-/// A motion from the orbit at a change when the parameter is moved on by so much: the orbit that it settles on, and whether it has gone from where it was.
+/// A motion from the orbit at a change when the parameter is moved on by so much: the orbit that it settles on, and
+/// whether it has gone from where it was.
 struct Course {
   std::optional<Solution> settled;
   bool gone = false;
 };
 
-/// Against the orbit's extent, or the least size by which its branch is measured: one that dies out leaves itself in next to no way.
+/// Against the orbit's extent, or the least size by which its branch is measured: one that dies out leaves itself in
+/// next to no way.
 bool has_gone(const Problem& problem, const Orbit& orbit, VectorXd from, VectorXd to) {
   constexpr double far = 0.01;
   if (!(Extent(problem, orbit).distance(from, to) > far)) return false;
@@ -138,8 +140,8 @@ std::vector<VectorXd> later(const Problem& problem, Orbit orbit, const TestValue
   return states;
 }
 
-/// An orbit of the events before the change, so far from it along the branch. Where that is singular, or turns back as two zeros of a guard become one,
-/// the change's own with another value of the parameter.
+/// An orbit of the events before the change, so far from it along the branch. Where that is singular, or turns back as
+/// two zeros of a guard become one, the change's own with another value of the parameter.
 Orbit displaced(const Problem& problem, const PathPoint& change, const TestValue& test, double length, double range) {
   if (test.test != Test::speed)
     if (auto point = step_to(problem, change, length, range)) return std::move(point->orbit);

@@ -18,8 +18,9 @@ struct MotionBeyond {
 [[nodiscard]] MotionBeyond run_beyond(const Problem& problem, const PathPoint& change, double range,
                                       const std::atomic<bool>* stop);
 
-/// Is the motion discontinuous at a change, as where a velocity comes to zero and static friction holds it that exceeds the kinetic one? Motions from
-/// the orbit a little to either side then differ within a cycle, however near they are; at any other change less and less.
+/// Is the motion discontinuous at a change, as where a velocity comes to zero and static friction holds it that exceeds
+/// the kinetic one? Motions from the orbit a little to either side then differ within a cycle, however near they are;
+/// at any other change less and less.
 [[nodiscard]] bool departs(const Problem& problem, const PathPoint& change, const TestValue& test, double range);
 
 }  // namespace slapstick::orbit

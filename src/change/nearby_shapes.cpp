@@ -14,8 +14,8 @@
 namespace slapstick::orbit {
 namespace {
 
-/// The legs that a motion from inside the first leg shows, until it ends one of the orbit's own legs as the orbit does; the rest as in the orbit.
-/// Unlike a whole cycle of the motion it needs no stability.
+/// The legs that a motion from inside the first leg shows, until it ends one of the orbit's own legs as the orbit does;
+/// the rest as in the orbit. Unlike a whole cycle of the motion it needs no stability.
 std::optional<Orbit> spliced(const Orbit& orbit, Motion motion) {
   constexpr int most_events = 12;
   constexpr double at_its_time = 0.02;  // of a cycle
@@ -48,8 +48,8 @@ std::optional<Orbit> spliced(const Orbit& orbit, Motion motion) {
 constexpr std::size_t most_shapes = 24;        ///< of a long, unstable cycle each motion near it is another
 constexpr std::array parts = {0.5, 0.1, 0.9};  ///< of a leg's length, at which motions are begun
 
-/// Cycles of other shapes that motions from inside an orbit's legs show, each shape once: whole cycles, and, from about the leg at which the
-/// events change, pieces in place of the orbit's own.
+/// Cycles of other shapes that motions from inside an orbit's legs show, each shape once: whole cycles, and, from about
+/// the leg at which the events change, pieces in place of the orbit's own.
 class NearbyShapes {
  public:
   NearbyShapes(const Problem& problem, const Orbit& orbit)
@@ -82,7 +82,8 @@ class NearbyShapes {
     }
   }
 
-  /// A piece has been put in place of what is no motion in one leg. An orbit with a symmetry changes in several places at once: pieces there too.
+  /// A piece has been put in place of what is no motion in one leg. An orbit with a symmetry changes in several places
+  /// at once: pieces there too.
   std::optional<Orbit> mended(Orbit orbit) const {
     constexpr int most_places = 8;
     for (int count = 0; count < most_places; ++count) {

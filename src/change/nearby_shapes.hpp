@@ -6,8 +6,8 @@
 
 namespace slapstick::orbit {
 
-/// Cycles of other shapes that motions from inside the legs show, each shape once: whole cycles, and, from about the leg at which the events change,
-/// pieces in place of the orbit's own. None where there is no model.
+/// Cycles of other shapes that motions from inside the legs show, each shape once: whole cycles, and, from about the
+/// leg at which the events change, pieces in place of the orbit's own. None where there is no model.
 [[nodiscard]] std::vector<Orbit> shapes_about(const Problem& problem, const Orbit& orbit, std::size_t changed);
 
 }  // namespace slapstick::orbit

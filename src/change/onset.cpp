@@ -27,8 +27,9 @@ namespace {
 constexpr std::size_t most_used =
     8;  ///< grazes of a cascade: with more rates taken out their own errors grow beyond what is gained
 
-/// The restitution between impacts of a stop when the friction contacts that stick before an impact stick again long before the next one: their slips last
-/// as long as the impact's speed by their friction, which goes to zero faster than a flight. With g the row of the stop, F those of the contacts,
+/// The restitution between impacts of a stop when the friction contacts that stick before an impact stick again long
+/// before the next one: their slips last as long as the impact's speed by their friction, which goes to zero faster
+/// than a flight. With g the row of the stop, F those of the contacts,
 ///     r' = r - (1 + r) kappa,   kappa = (g M^-1 F^T) (F M^-1 F^T)^-1 (F M^-1 g^T) / (g M^-1 g^T).
 double effective_restitution(const Model& model, const mode::Frame& frame, int stop,
                              const mode::ContactStates& states) {
@@ -80,7 +81,8 @@ Gathering gathering(const std::vector<Solution>& points, const std::vector<const
   return found;
 }
 
-/// Empty if the grazes are no cascade: if the limit is not beyond the last graze, or known no better than that graze's distance from it.
+/// Empty if the grazes are no cascade: if the limit is not beyond the last graze, or known no better than that graze's
+/// distance from it.
 std::optional<CascadeLimit> limit_of(const Problem& problem, const std::vector<Solution>& points,
                                      const std::vector<const SpecialPoint*>& grazes, std::optional<PlaceLimit>& exact) {
   Gathering all = gathering(points, grazes);

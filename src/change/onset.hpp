@@ -17,8 +17,8 @@ struct CascadeLimit {
   double left = 0.0;   ///< how far from it the cascade's last change but one is: the branch is nearer
   double began = 0.0;  ///< how far from it the cascade's first change is
 };
-/// @param exact  the onset by its own equations (change/onset_orbit.hpp), if it is known; else it is set to them. Where they cannot be made, the limit is
-///               taken from the places of the changes (change/cascade_law.hpp)
+/// @param exact  the onset by its own equations (change/onset_orbit.hpp), if it is known; else it is set to them. Where
+///               they cannot be made, the limit is taken from the places of the changes (change/cascade_law.hpp)
 /// @returns empty if the last grazes of a branch, as it was followed, are no cascade
 [[nodiscard]] std::optional<CascadeLimit> cascade_limit(const Problem& problem, const std::vector<Solution>& points,
                                                         const std::vector<SpecialPoint>& special,
@@ -30,7 +30,8 @@ struct CascadeLimit {
 /// Where the limit of a chatter meets the point of a signal that ends the rest behind it: that rest has no length.
 [[nodiscard]] std::optional<PlaceLimit> knot_limit(const Problem& problem, const Orbit& chattering);
 
-/// Where a branch has left a chatter for a cascade, the onset by its own equations or by the cascade's grazes, if that is better known.
+/// Where a branch has left a chatter for a cascade, the onset by its own equations or by the cascade's grazes, if that
+/// is better known.
 void sharpen_onsets(const Problem& problem, const std::vector<Solution>& points, std::vector<SpecialPoint>& special);
 
 /// Has the last stretch of a branch a chatter with so many more impacts than where it began that its onset is near?

@@ -34,7 +34,8 @@ class Bounce {
   [[nodiscard]] const mode::ContactStates& closed() const { return closed_; }
   [[nodiscard]] Index velocity() const { return set_.frame().u(row_.own); }
 
-  /// The speed of separation, the pressing acceleration and the rate at which it falls, where a leg begins at an impact.
+  /// The speed of separation, the pressing acceleration and the rate at which it falls, where a leg begins at an
+  /// impact.
   struct Numbers {
     Jet v, a, j;
     [[nodiscard]] double w() const { return v.value()[0] * j.value()[0] / (a.value()[0] * a.value()[0]); }
@@ -61,7 +62,8 @@ class Bounce {
     return numbers;
   }
 
-  /// The contact state so long after an impact as if the contact had stayed closed since, but for a speed of separation.
+  /// The contact state so long after an impact as if the contact had stayed closed since, but for a speed of
+  /// separation.
   [[nodiscard]] VectorXd state_after(const Leg& rest, const VectorXd& x, double t, double seconds, double speed) const {
     const Jet start = leg_start(set_, rest, x, t);
     Jet X(start.all.rows(), 0, 0);
@@ -96,8 +98,8 @@ struct Approach {
   double off = INFINITY;
 };
 
-/// The first leg after a burst: behind the chatter's rest, or the flight from which the contact does not come back at once. An orbit with a complete
-/// chatter of the stop has only that burst.
+/// The first leg after a burst: behind the chatter's rest, or the flight from which the contact does not come back at
+/// once. An orbit with a complete chatter of the stop has only that burst.
 std::optional<std::size_t> leg_beyond(const ModeSet& set, const Orbit& orbit, int stop, std::size_t from) {
   for (std::size_t step = 0; step < orbit.legs(); ++step) {
     const std::size_t i = (from + step) % orbit.legs();
@@ -117,10 +119,11 @@ std::optional<std::size_t> leg_beyond(const ModeSet& set, const Orbit& orbit, in
   return std::nullopt;
 }
 
-/// Far from the onset a is as good as constant during a burst, and w falls by r from impact to impact; near the fixed point w stays.
+/// Far from the onset a is as good as constant during a burst, and w falls by r from impact to impact; near the fixed
+/// point w stays.
 std::optional<Approach> nearest_approach(const ModeSet& set, const Orbit& orbit, int stop, double restitution) {
-  // Of the fall far from the onset. A larger share takes bursts for approaches that Newton's method then leads astray; with
-  // a smaller one an onset is looked for only where a cascade has hardly anything left to gather.
+  // Of the fall far from the onset. A larger share takes bursts for approaches that Newton's method then leads astray;
+  // with a smaller one an onset is looked for only where a cascade has hardly anything left to gather.
   constexpr double slow = 0.25;
   const double wanted = bounce_rates(restitution).w;
   const auto w_at = [&](std::size_t leg) -> std::optional<double> {
@@ -189,7 +192,8 @@ Orbit with_more_impacts(const ModeSet& set, Orbit orbit, int count, const Bounce
   return orbit;
 }
 
-/// Could it be a motion? All that ends a leg must be positive within, but for the flights of the burst, which the fixed point keeps apart.
+/// Could it be a motion? All that ends a leg must be positive within, but for the flights of the burst, which the fixed
+/// point keeps apart.
 bool is_possible(const Problem& problem, Orbit orbit) {
   const Leg flight = orbit.shape.legs.end()[-2];
   Leg& rest = orbit.shape.legs.back();
@@ -268,7 +272,8 @@ bool has_equations(const ModeSet& set, const Orbit& near, int stop) {
   return true;
 }
 
-/// Adds impacts until the parameter stops to change. What is left of the changes then is rounding, by chance small in one of them.
+/// Adds impacts until the parameter stops to change. What is left of the changes then is rounding, by chance small in
+/// one of them.
 std::optional<OnsetOrbit> converged(const Problem& problem, Orbit orbit, int stop) {
   constexpr int at_once = 16;     // halved where Newton's method fails: larger saves steps, and changes no result
   constexpr double safety = 4.0;  // of rounding, of which the last two changes are but samples

@@ -24,7 +24,8 @@ using Eigen::VectorXd;
 
 constexpr std::size_t most_held = 4;  ///< legs whose length is held in turn
 
-/// Newton's method from a guess: at its own parameter, and with the parameter free and the length of one of the shortest legs held.
+/// Newton's method from a guess: at its own parameter, and with the parameter free and the length of one of the
+/// shortest legs held.
 std::optional<Orbit> solved(const Problem& problem, const Orbit& guess) {
   if (auto orbit = refine(problem, guess); orbit && is_motion(problem, *orbit)) return orbit;
   std::vector<std::size_t> events(guess.legs());
@@ -53,8 +54,9 @@ bool stayed(const Problem& problem, const Orbit& from, const Orbit& to) {
 
 constexpr double flat = 1e-3;  ///< a tangent's component in the parameter that says nothing of its sense
 
-/// Does a branch go from its start at a change, by a later point, in the sense of the parameter from which the old one came? The later point may lie beyond a
-/// fold, the tangent at the change be rounding: it is believed if that at a point beside it says the same.
+/// Does a branch go from its start at a change, by a later point, in the sense of the parameter from which the old one
+/// came? The later point may lie beyond a fold, the tangent at the change be rounding: it is believed if that at a
+/// point beside it says the same.
 bool goes_back(const Problem& problem, const PathPoint& start, const PathPoint& later, double sense_before,
                double range) {
   constexpr double close = 1e-7, same = 0.1;
@@ -70,7 +72,8 @@ std::optional<PathPoint> some_way_off(const Problem& problem, const PathPoint& s
   return std::abs(start.watched.turn) < flat ? step_to(problem, start, way, range) : std::nullopt;
 }
 
-/// Does a leg end at a guard's second zero, at which it rises? Just behind a graze both are one instant to the simulator.
+/// Does a leg end at a guard's second zero, at which it rises? Just behind a graze both are one instant to the
+/// simulator.
 bool rises_at_an_end(const PathPoint& start, const PathPoint& next) {
   for (std::size_t i = 0; i < next.watched.tests.size(); ++i) {
     const double rounding = 2.0 * std::abs(start.watched.tests[i].value);
@@ -79,8 +82,8 @@ bool rises_at_an_end(const PathPoint& start, const PathPoint& next) {
   return false;
 }
 
-/// The branch of a shape of which the orbit at the change is one already, by arclength to either side of it: as near as the simulator can tell what
-/// it does.
+/// The branch of a shape of which the orbit at the change is one already, by arclength to either side of it: as near as
+/// the simulator can tell what it does.
 std::optional<HalfBranch> leaving(const Problem& problem, double sense_before, const Orbit& shape, double range) {
   Orbit orbit = shape;
   const NewtonResult result = solve(problem, orbit, fixed_parameters(problem, orbit.legs()), 12);
@@ -160,8 +163,9 @@ OnsetInterval onset_between(const PathPoint& change, const std::optional<TestVal
   return {critical, there, false};
 }
 
-/// The point of a new orbit, led away from the change; empty if it does not come from there. Between orbits with a complete chatter and without
-/// lie infinitely many changes, which gather where the one with the chatter begins: there the nearest of them stands for all.
+/// The point of a new orbit, led away from the change; empty if it does not come from there. Between orbits with a
+/// complete chatter and without lie infinitely many changes, which gather where the one with the chatter begins: there
+/// the nearest of them stands for all.
 std::optional<HalfBranch> born(const Problem& problem, const PathPoint& change, const std::optional<TestValue>& test,
                                double sense_before, const Orbit& orbit, double length, double range) {
   constexpr double nearer = 0.5;  // than the orbit itself
@@ -279,7 +283,8 @@ std::vector<HalfBranch> reshape(const Problem& problem, const Orbit& before, con
   return all;
 }
 
-/// Just behind a singular change a multiplier may be very near 1. A family's own equations are singular: they lead nowhere.
+/// Just behind a singular change a multiplier may be very near 1. A family's own equations are singular: they lead
+/// nowhere.
 bool one_of_family(const Problem& problem, const PathPoint& point, double range) {
   if (isolated(point.watched.multipliers)) return false;
   const auto leads_out = [&](double length) {

@@ -1,11 +1,12 @@
 #pragma once
-/// Behind a point where the events of an orbit change: the sequence of the motion there, and the orbits of that sequence.
+/// Behind a point where the events of an orbit change: the sequence of the motion there, and the orbits of that
+/// sequence.
 #include "change/change.hpp"
 
 namespace slapstick::orbit {
 
-/// Two values of the parameter about the onset of a complete chatter. Infinitely many changes gather there, unless it is a release: a contact that has
-/// rested lets go, and the chatter is there at once.
+/// Two values of the parameter about the onset of a complete chatter. Infinitely many changes gather there, unless it
+/// is a release: a contact that has rested lets go, and the chatter is there at once.
 struct OnsetInterval {
   double from = 0.0, to = 0.0;
   bool release = false;
@@ -34,12 +35,14 @@ struct HalfBranch {
 /// @param change  .. where the events change
 /// @param test    the margin that is used up there; empty: none, the orbit's equations lead no further
 /// @param nearest  how far from the change the motion is first looked at, of the range
-/// @returns the orbits with the events of the motion beyond whose branches, followed back, come to the change, or near it
+/// @returns the orbits with the events of the motion beyond whose branches, followed back, come to the change, or near
+/// it
 [[nodiscard]] std::vector<HalfBranch> reshape(const Problem& problem, const Orbit& before, const PathPoint& change,
                                               const std::optional<TestValue>& test, double range,
                                               const std::atomic<bool>* stop, double nearest = 1e-6);
 
-/// Of these, those of which the orbit at the change is one already: what is left where impacts lose their speed and legs their length.
+/// Of these, those of which the orbit at the change is one already: what is left where impacts lose their speed and
+/// legs their length.
 [[nodiscard]] std::vector<HalfBranch> leavings(const Problem& problem, const Orbit& before, const PathPoint& change,
                                                const TestValue& test, double range);
 
@@ -47,15 +50,18 @@ struct HalfBranch {
 [[nodiscard]] std::vector<HalfBranch> leavings(const Problem& problem, const PathPoint& change,
                                                const std::vector<Orbit>& shapes, double range);
 
-/// Has a branch come to orbits of a family, which lie beside each other at the same parameter, as those of a mass that sticks anywhere in an interval?
+/// Has a branch come to orbits of a family, which lie beside each other at the same parameter, as those of a mass that
+/// sticks anywhere in an interval?
 [[nodiscard]] bool one_of_family(const Problem& problem, const PathPoint& point, double range);
 
-/// Is the orbit at a change, in another shape, one of a family? Those lie beside it at the same parameter: there is no branch to follow.
+/// Is the orbit at a change, in another shape, one of a family? Those lie beside it at the same parameter: there is no
+/// branch to follow.
 [[nodiscard]] bool begins_family(const Problem& problem, const Orbit& before, const PathPoint& change,
                                  const TestValue& test);
 
 /// The orbit with a complete chatter beyond a cascade, whose every change adds an impact.
-/// @param last  a point of the branch near the end of the cascade, or already beyond it: the orbit found is none between the two  @param limit  the value of the parameter where the changes gather
+/// @param last  a point of the branch near the end of the cascade, or already beyond it: the orbit found is none
+/// between the two  @param limit  the value of the parameter where the changes gather
 [[nodiscard]] std::optional<HalfBranch> beyond_cascade(const Problem& problem, const PathPoint& last, double limit,
                                                        double range, const std::atomic<bool>* stop);
 

@@ -14,7 +14,8 @@
 namespace slapstick::orbit {
 namespace {
 
-/// Two orbits whose chatters differ only in impacts of the size of rounding are the same orbit: the one from which the branch comes.
+/// Two orbits whose chatters differ only in impacts of the size of rounding are the same orbit: the one from which the
+/// branch comes.
 bool is_chatter_as_it_came(const Problem& problem, const Orbit& before, const HalfBranch& next) {
   constexpr double same = 1e-6;  // of a leg's state
   if (!next.folds || chatters(before) == 0 || chatters(next.point.orbit) == 0) return false;
@@ -24,7 +25,8 @@ bool is_chatter_as_it_came(const Problem& problem, const Orbit& before, const Ha
   return there && resembles(problem, *there, next.point.orbit, same);
 }
 
-/// Of orbits whose events begin away from the change one that is led back to the change comes first. The others are not born there.
+/// Of orbits whose events begin away from the change one that is led back to the change comes first. The others are not
+/// born there.
 void keep_born(const Change& change, const UnfoldOptions& options, std::vector<HalfBranch>& found) {
   const auto error = [&](const HalfBranch& next) {
     return change.special.error + next.error + exactly * options.range;

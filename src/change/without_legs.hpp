@@ -14,7 +14,8 @@ namespace slapstick::orbit {
 /// The cycle of one leg without its event, from phase 0.
 [[nodiscard]] Orbit uncut(const ModeSet& set, const Orbit& orbit);
 
-/// Leaves out `count` legs, the first of them `leg`; and `count` events and states, the first those at the end of leg 0.
+/// Leaves out `count` legs, the first of them `leg`; and `count` events and states, the first those at the end of leg
+/// 0.
 void leave_out(Orbit& orbit, std::ptrdiff_t leg, std::ptrdiff_t count);
 
 /// An orbit with fewer legs, and the legs of the longer one that begin with the same events; none for a cycle without

@@ -41,7 +41,8 @@ void Follower::fail(BranchEnd end) {
   ended_ = true;
 }
 
-/// Runs the simulator over the cycle. Where only the number of impacts before a chatter's sum has changed, `seen` has the orbit as it is now.
+/// Runs the simulator over the cycle. Where only the number of impacts before a chatter's sum has changed, `seen` has
+/// the orbit as it is now.
 Solution Follower::solution_of(const PathPoint& point, Verification* seen) const {
   const System system(problem_.family().model(point.orbit.values));
   Solution solution = describe(problem_, point.orbit, nullptr);
@@ -68,8 +69,8 @@ void Follower::look_for_pairs(const PathPoint& at, const PathPoint& next, double
   add(std::move(pair.points), after);
 }
 
-/// Notes special points that leave the events as they are. A branch ends where its orbit becomes a shorter one run through twice, or the symmetric
-/// one behind which it has the images of its orbits.
+/// Notes special points that leave the events as they are. A branch ends where its orbit becomes a shorter one run
+/// through twice, or the symmetric one behind which it has the images of its orbits.
 void Follower::add(std::vector<SpecialPoint> smooth, std::size_t after) {
   constexpr double merged = 1e-3;  // at a fold or crossing that is known to 1e-10 in the parameter, states are to 1e-5
   for (SpecialPoint& special : smooth) {
@@ -92,7 +93,8 @@ void Follower::add(std::vector<SpecialPoint> smooth, std::size_t after) {
   }
 }
 
-/// The last point of a branch is on the boundary of the range, if the tangent leads there. @returns false if the branch goes on
+/// The last point of a branch is on the boundary of the range, if the tangent leads there. @returns false if the branch
+/// goes on
 bool Follower::end_at_boundary(PathPoint& at) {
   const double wall = at.watched.turn > 0.0 ? options_.to : options_.from;
   const double length = (wall - value(at)) / (at.watched.turn * range_);
@@ -114,8 +116,8 @@ bool Follower::end_at_boundary(PathPoint& at) {
   return true;
 }
 
-/// After a crossing a branch may come upon itself. It ends there, without the points that it has twice. If it runs the other way it has been led back
-/// by its last change of events, which is not what it seems.
+/// After a crossing a branch may come upon itself. It ends there, without the points that it has twice. If it runs the
+/// other way it has been led back by its last change of events, which is not what it seems.
 bool Follower::runs_over_itself() {
   constexpr std::size_t neighbours = 10;
   constexpr int certain = 5;  // one or two may be near: where branches cross, at folds

@@ -7,7 +7,8 @@
 namespace slapstick::orbit {
 namespace {
 
-/// The grazes on one side of an onset, from the nearest on, as long as each adds as many impacts and lies nearer to the onset than the next.
+/// The grazes on one side of an onset, from the nearest on, as long as each adds as many impacts and lies nearer to the
+/// onset than the next.
 std::vector<std::size_t> grazes_towards(const Branch& branch, std::size_t onset, std::ptrdiff_t step) {
   const auto impacts = [&](std::size_t i) { return branch.points[branch.special[i].after].impacts; };
   const auto away = [&](std::size_t i) { return std::abs(branch.special[i].value - branch.special[onset].value); };

@@ -58,8 +58,8 @@ std::optional<Located> locate_crossing(const Problem& problem, const PathPoint& 
 
 namespace {
 
-/// A crossing with the tangent of the branch that is followed over the parameter: of the plane of null directions that which has most of it. A branch that
-/// breaks a symmetry has none.
+/// A crossing with the tangent of the branch that is followed over the parameter: of the plane of null directions that
+/// which has most of it. A branch that breaks a symmetry has none.
 PathPoint on_own_branch(const Problem& problem, const Linearised& linear, const Orbit& crossing, double range) {
   PathPoint at;
   at.orbit = crossing;

@@ -48,7 +48,8 @@ class CrossingCurve {
     return {(to.values[0] - from.values[0]) / ranges_[0], (to.values[1] - from.values[1]) / ranges_[1]};
   }
   [[nodiscard]] Vector2d way(const Orbit& from, const Orbit& to) const { return chord(from, to).normalized(); }
-  /// The tangent at the last of three orbits, of the circle through them. A secant's angle to the curve would not fall with the step.
+  /// The tangent at the last of three orbits, of the circle through them. A secant's angle to the curve would not fall
+  /// with the step.
   [[nodiscard]] Vector2d tangent(const Orbit& before, const Orbit& here, const Orbit& next) const {
     const Vector2d a = chord(before, here), b = chord(here, next);
     const double turned = std::atan2(a[0] * b[1] - a[1] * b[0], a.dot(b)) * b.norm() / (a.norm() + b.norm());
@@ -91,7 +92,8 @@ std::optional<Orbit> CrossingCurve::located(Orbit here, std::vector<double> valu
   return std::nullopt;
 }
 
-/// Where a parameter has come to its end between three points: the vertex of the parabola through them, over the other parameter.
+/// Where a parameter has come to its end between three points: the vertex of the parabola through them, over the other
+/// parameter.
 void CrossingCurve::note_turns(const Orbit& before, const Orbit& here, const Orbit& next, Curve& curve) const {
   for (std::size_t j = 0; j < 2; ++j) {
     const std::size_t i = 1 - j;

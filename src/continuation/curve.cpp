@@ -23,8 +23,8 @@ using Eigen::VectorXd;
 constexpr double shortest_step = 1e-7;
 constexpr double rim = 1e-4;  ///< so near to the end of a range, as a part of it, a curve has come to it
 
-/// Follows f = 0 on the surface of orbits over two parameters. Near a point the surface has two tangent directions; the curve's is the one along
-/// which f does not change, the other is where Newton's correction of f goes.
+/// Follows f = 0 on the surface of orbits over two parameters. Near a point the surface has two tangent directions; the
+/// curve's is the one along which f does not change, the other is where Newton's correction of f goes.
 class CurveFollower {
  public:
   CurveFollower(const Problem& problem, const SpecialPoint& point, const CurveOptions& options)
@@ -38,8 +38,8 @@ class CurveFollower {
     Orbit orbit;
     VectorXd units;
     VectorXd along, across;  ///< of length 1, orthogonal, in units
-    VectorXd
-        tangent;  ///< of the branch in the first parameter, never turned round along the curve: f may depend on its sense
+    /// of the branch in the first parameter, never turned round along the curve: f may depend on its sense
+    VectorXd tangent;
     Watched watched;
   };
 
@@ -155,7 +155,8 @@ std::optional<Orbit> CurveFollower::corrected(const Place& from, double step, do
   return moved(from, step, b);
 }
 
-/// The first place. The special point is known to its error only, and where several margins vanish together some of them as its root.
+/// The first place. The special point is known to its error only, and where several margins vanish together some of
+/// them as its root.
 CurveFollower::Place CurveFollower::start(Orbit orbit) {
   Place here = place(std::move(orbit), nullptr);
   if (const auto found = corrected(here, 0.0, 0.25 * options_.longest_step)) here = place(*found, &here);
@@ -168,7 +169,8 @@ CurveFollower::Place CurveFollower::start(Orbit orbit) {
   return here;
 }
 
-/// On a curve of GR, SL, CH or CO the simulator cannot decide; whether the orbit is a motion but for that is seen from its other margins.
+/// On a curve of GR, SL, CH or CO the simulator cannot decide; whether the orbit is a motion but for that is seen from
+/// its other margins.
 CurvePoint CurveFollower::point_of_curve(const Place& here) const {
   CurvePoint point{here.orbit.values, describe(problem_, here.orbit, nullptr)};
   point.solution.is_motion = true;

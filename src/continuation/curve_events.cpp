@@ -40,7 +40,8 @@ void add_resonances(std::vector<CurveTest>& tests) {
   tests.push_back({resonance(4), [](const CurvePlace& at) { return sum_of_pair(at.watched); }});
 }
 
-/// A function of the multipliers. Where one is infinite, as at an impact without speed, the others are rounding and it has no value.
+/// A function of the multipliers. Where one is infinite, as at an impact without speed, the others are rounding and it
+/// has no value.
 std::function<double(const CurvePlace&)> of_multipliers(double (*value)(const Watched&)) {
   return [value](const CurvePlace& at) {
     const Multipliers& all = at.watched.multipliers;
@@ -48,7 +49,8 @@ std::function<double(const CurvePlace&)> of_multipliers(double (*value)(const Wa
   };
 }
 
-/// A component of a curve's tangent, by differences over 1e-5 of a function known to rounding: what is less is none, as where a parameter has no part.
+/// A component of a curve's tangent, by differences over 1e-5 of a function known to rounding: what is less is none, as
+/// where a parameter has no part.
 constexpr double constant = 1e-6;
 
 constexpr double at_zero =

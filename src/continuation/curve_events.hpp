@@ -22,8 +22,8 @@ struct CurveTest {
   std::function<bool(const Watched&)> holds = {};  ///< is a zero such a point? Empty: each is
 };
 
-/// The margins that are zero all along (indices of Watched::tests): the point's own, and those that say the same in other words, as the length of a
-/// slip that dies with the speed of an impact.
+/// The margins that are zero all along (indices of Watched::tests): the point's own, and those that say the same in
+/// other words, as the length of a slip that dies with the speed of an impact.
 /// @param tests  on the curve
 /// @param off    of orbits of the same events beside it
 [[nodiscard]] std::vector<bool> own_margins(const SpecialPoint& point, const std::vector<TestValue>& tests,
@@ -34,8 +34,8 @@ struct CurveTest {
 [[nodiscard]] std::vector<CurveTest> curve_tests(const SpecialPoint& point, const Watched& start,
                                                  const std::vector<bool>& own);
 
-/// The pair of multipliers whose product is nearest to 1: their sum, 2 cos(2 pi rho) on the unit circle. With rho = 0 or 1/2 an NS curve ends:
-/// beyond it they are real.
+/// The pair of multipliers whose product is nearest to 1: their sum, 2 cos(2 pi rho) on the unit circle. With rho = 0
+/// or 1/2 an NS curve ends: beyond it they are real.
 [[nodiscard]] double sum_of_pair(const Watched& watched);
 
 /// Adds an event; several in one place are one. @param ranges  of the parameters

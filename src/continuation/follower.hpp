@@ -1,6 +1,6 @@
 #pragma once
-/// What follows a branch, point by point. Steps and what is looked for between points: branch.cpp; changes of events: follower_changes.cpp;
-/// onsets of chatter: follower_onsets.cpp.
+/// What follows a branch, point by point. Steps and what is looked for between points: branch.cpp; changes of events:
+/// follower_changes.cpp; onsets of chatter: follower_onsets.cpp.
 #include "change/collapse.hpp"
 #include "change/onset.hpp"
 #include "change/unfold.hpp"
@@ -111,7 +111,8 @@ class Follower {
   double step_ = 0.0;
   int old_points_ = 0;            ///< latest points that lie on the branch as it was followed before
   std::optional<Place> back_to_;  ///< followed as far as there only
-  /// The onset of a complete chatter ahead, once it is known, and the legs of the orbit from which it was last looked for.
+  /// The onset of a complete chatter ahead, once it is known, and the legs of the orbit from which it was last looked
+  /// for.
   mutable std::optional<PlaceLimit> ahead_;
   std::size_t looked_from_ = 0;
   bool ended_ = false;

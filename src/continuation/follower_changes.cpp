@@ -83,14 +83,15 @@ bool Follower::look_nearer(PathPoint& at, double length, const std::string& why)
   return false;
 }
 
-/// Is a place at the end of the range that the branch goes to, as far as it is known? What is beyond is not asked for, and may not exist, as a
-/// negative damper.
+/// Is a place at the end of the range that the branch goes to, as far as it is known? What is beyond is not asked for,
+/// and may not exist, as a negative damper.
 bool Follower::at_end(double place, double error, const PathPoint& at) const {
   const double left = at.watched.turn > 0.0 ? options_.to - place : place - options_.from;
   return left <= exactly * range_ + error;
 }
 
-/// Between `at` and `beyond` the motion's events change. Notes the point and goes on with new ones. @returns false if the branch ends
+/// Between `at` and `beyond` the motion's events change. Notes the point and goes on with new ones. @returns false if
+/// the branch ends
 bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why) {
   std::optional<Change> change = first_change(at, beyond, length);
   if ((!change || in_gathering(at, *change)) && meet_onset(at)) return !ended_;
@@ -137,7 +138,8 @@ Unfolding Follower::look_beyond(const PathPoint& at, const Change& change, std::
 }
 
 /// Where the events of an orbit behind a change begin elsewhere, others lie between: it is followed back to the change.
-/// @returns whether its branch begins in the sense of the parameter from which the old one came; empty if it does not come to the change
+/// @returns whether its branch begins in the sense of the parameter from which the old one came; empty if it does not
+/// come to the change
 std::optional<bool> Follower::lead_back(const Change& change, const HalfBranch& found, double error,
                                         std::optional<Branch>& way) const {
   std::optional<Way> back = way_back(reversed(found.point), {change.special.value, error, false});
@@ -148,8 +150,8 @@ std::optional<bool> Follower::lead_back(const Change& change, const HalfBranch& 
   return (turned ? -away : away) * change.at.watched.turn < 0.0;
 }
 
-/// Does a change lead to where the branch has been? Near its end a cascade, whose folds and grazes are all but one, seems to: it turns back into itself or
-/// goes on with an earlier orbit.
+/// Does a change lead to where the branch has been? Near its end a cascade, whose folds and grazes are all but one,
+/// seems to: it turns back into itself or goes on with an earlier orbit.
 bool Follower::leads_back(const Unfolding& beyond) const {
   return !beyond.branches.empty() && cascade() && lies_on(problem_, branch_, beyond.branches.front().point.orbit);
 }
@@ -291,7 +293,8 @@ bool Follower::die_out(PathPoint& at) {
   return true;
 }
 
-/// From a first point at which the model itself has another structure than beside it, as with a damper of exactly zero: the orbit beside it.
+/// From a first point at which the model itself has another structure than beside it, as with a damper of exactly zero:
+/// the orbit beside it.
 bool Follower::leave_edge(PathPoint& at) {
   if (branch_.points.size() > 1 || !branch_.points.front().stable()) return false;
   MotionBeyond beyond = run_beyond(problem_, at, range_, options_.stop);

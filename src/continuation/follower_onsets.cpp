@@ -31,8 +31,8 @@ void Follower::arrive(SpecialPoint special) {
   end(BranchEnd::Kind::special);
 }
 
-/// From an orbit behind a place back to it. Empty if the branch does not lead there. Towards an onset of chatter it need not come quite there: from few changes
-/// of a cascade its end is not known.
+/// From an orbit behind a place back to it. Empty if the branch does not lead there. Towards an onset of chatter it
+/// need not come quite there: from few changes of a cascade its end is not known.
 std::optional<Follower::Way> Follower::way_back(const PathPoint& from, const Place& place) const {
   constexpr double widest = 30.0, near = 0.2;  // of the distance between the place and the orbit
   constexpr int most_points = 300;
@@ -63,7 +63,8 @@ std::optional<Follower::Way> Follower::way_back(const PathPoint& from, const Pla
   return way;
 }
 
-/// Adds the orbits between a place, which the branch has come to, and an orbit beyond it, from which they were followed back.
+/// Adds the orbits between a place, which the branch has come to, and an orbit beyond it, from which they were followed
+/// back.
 void Follower::add_between(Branch way) {
   const std::size_t last = branch_.points.size() + way.points.size() - 1;  // the way's first point, when all are there
   ranges::reverse(way.special);
@@ -75,8 +76,8 @@ void Follower::add_between(Branch way) {
 }
 
 /// Goes on behind the onset of a chatter with the cascade that gathers there, from its end on.
-/// The way to the onset comes nearer to its orbit: that tells it where a chatter's limit meets a step, since the cascade
-/// passes the onset's parameter between any two changes there.
+/// The way to the onset comes nearer to its orbit: that tells it where a chatter's limit meets a step, since the
+/// cascade passes the onset's parameter between any two changes there.
 /// @returns false if that is not to be followed
 bool Follower::enter_cascade(PathPoint& at, SpecialPoint special, const PathPoint& from) {
   if (back_to_) return false;
@@ -123,8 +124,8 @@ bool Follower::leave_knot(PathPoint& at, SpecialPoint special) {
   return false;
 }
 
-/// Leaves a chatter by its cascade, from an orbit clear of the onset: just behind it impacts are too many and too short for four grazes to be found on the way
-/// back. @returns false if there is none
+/// Leaves a chatter by its cascade, from an orbit clear of the onset: just behind it impacts are too many and too short
+/// for four grazes to be found on the way back. @returns false if there is none
 bool Follower::leave_clear_of_onset(PathPoint& at) {
   const std::vector<HalfBranch> found = clear_of_onset(at);
   if (found.empty()) return false;
@@ -135,8 +136,8 @@ bool Follower::leave_clear_of_onset(PathPoint& at) {
   return enter_cascade(at, std::move(special), found.front().point);
 }
 
-/// Near its onset a chatter's equations, of ever more impacts, are hardly solvable. Looks for the orbits behind the onset; where none is found, the
-/// branch ends at the onset. @returns false if it is none
+/// Near its onset a chatter's equations, of ever more impacts, are hardly solvable. Looks for the orbits behind the
+/// onset; where none is found, the branch ends at the onset. @returns false if it is none
 bool Follower::leave_chatter(PathPoint& at) {
   if (!options_.through_changes || !branch_.points.back().chatter) return false;
   std::vector<HalfBranch> found = reshape(problem_, at.orbit, at, std::nullopt, range_, options_.stop, clear);
@@ -171,7 +172,8 @@ bool Follower::leave_chatter(PathPoint& at) {
   return true;
 }
 
-/// Behind the onset of a chatter one direction leads on, the other back towards the onset, through ever more impacts. @returns false if it was not that
+/// Behind the onset of a chatter one direction leads on, the other back towards the onset, through ever more impacts.
+/// @returns false if it was not that
 bool Follower::turn_round(PathPoint& at) {
   constexpr double near = 1e-3;  // of the range
   if (!onset_ || chatters(branch_.points.back().orbit) > onset_->chatters ||
@@ -186,8 +188,8 @@ bool Follower::turn_round(PathPoint& at) {
   return true;
 }
 
-/// Just behind the onset of a chatter, from which it is followed or beside which the branch begins, its impacts come as close to rounding as a cascade's:
-/// on with the chatter a little farther on. @returns false if it is not that
+/// Just behind the onset of a chatter, from which it is followed or beside which the branch begins, its impacts come as
+/// close to rounding as a cascade's: on with the chatter a little farther on. @returns false if it is not that
 bool Follower::clear_onset(PathPoint& at) {
   constexpr double near = 10.0;                    // distances of the cascade's last change
   constexpr double nearest = 1e-6, widest = 1e-4;  // of the range
@@ -206,7 +208,8 @@ bool Follower::clear_onset(PathPoint& at) {
   return true;
 }
 
-/// The onset that a branch with a complete chatter runs towards, by the onset's own equations. Looked for again where the chatter has more impacts by far.
+/// The onset that a branch with a complete chatter runs towards, by the onset's own equations. Looked for again where
+/// the chatter has more impacts by far.
 std::optional<PlaceLimit> Follower::onset_ahead(const PathPoint& at) {
   constexpr double much =
       1.2;  // a look costs as much as a step: with fewer legs more they add up, with more the onset comes late
@@ -228,8 +231,9 @@ bool Follower::in_gathering(const PathPoint& at, const Change& change) const {
          change.special.margin.contact == last->margin.contact;
 }
 
-/// Passes an onset of a complete chatter that is known by its own equations where a branch, with the chatter or with the cascade of its changes, is so near that nothing but ever more impacts
-/// lies before it. @returns false if there is none
+/// Passes an onset of a complete chatter that is known by its own equations where a branch, with the chatter or with
+/// the cascade of its changes, is so near that nothing but ever more impacts lies before it. @returns false if there is
+/// none
 bool Follower::meet_onset(PathPoint& at) {
   if (!options_.through_changes) return false;
   if (!branch_.points.back().chatter) {

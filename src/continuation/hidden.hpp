@@ -5,8 +5,8 @@
 
 namespace slapstick::orbit {
 
-/// Do the special points between two points of a branch account for the multipliers that have passed the unit circle? Where a pair of special
-/// points of one type lies between them, their test functions show nothing.
+/// Do the special points between two points of a branch account for the multipliers that have passed the unit circle?
+/// Where a pair of special points of one type lies between them, their test functions show nothing.
 [[nodiscard]] bool explained(const Watched& from, const Watched& to, const std::vector<SpecialPoint>& between);
 
 /// Three points of a branch, and the arclengths from the first to the second and on to the third.
@@ -28,8 +28,9 @@ struct Pair {
 [[nodiscard]] std::vector<SpecialPoint> within_halves(const Problem& problem, const PathPoint& from,
                                                       const PathPoint& to, double length, double range);
 
-/// Those between a point and a change of events at `length` from there. An impact that loses its speed lets a multiplier grow without bound: one that
-/// doubles lies close by. Where a leg shrinks to nothing the equations are singular: not so close.
+/// Those between a point and a change of events at `length` from there. An impact that loses its speed lets a
+/// multiplier grow without bound: one that doubles lies close by. Where a leg shrinks to nothing the equations are
+/// singular: not so close.
 [[nodiscard]] std::vector<SpecialPoint> beside_change(const Problem& problem, const PathPoint& from, double length,
                                                       double range);
 

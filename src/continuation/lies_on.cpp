@@ -14,7 +14,8 @@ namespace slapstick::orbit {
 using Eigen::VectorXd;
 
 bool lies_between(const Extent& extent, const Orbit& a, const Orbit& b, const Orbit& orbit) {
-  // Between two points the branch is nearly straight: in parts of an orbit's extent, and of what lies between. In a cascade all orbits are much alike.
+  // Between two points the branch is nearly straight: in parts of an orbit's extent, and of what lies between. In a
+  // cascade all orbits are much alike.
   constexpr double most = 1e-3, least = 1e-6, bend = 0.1;
   const double part = (orbit.values[0] - a.values[0]) / (b.values[0] - a.values[0]);
   if (!(part >= 0.0 && part <= 1.0) || !(a.shape.legs == b.shape.legs)) return false;
@@ -43,8 +44,8 @@ std::optional<std::size_t> lies_on_first(const Problem& problem, std::size_t cou
 
 namespace {
 
-/// A branch's own orbits at a value of the parameter, by Newton's method from between two neighbouring points; from both where the events change between
-/// them.
+/// A branch's own orbits at a value of the parameter, by Newton's method from between two neighbouring points; from
+/// both where the events change between them.
 std::vector<Orbit> orbits_at(const Problem& problem, const Orbit& a, const Orbit& b, double value) {
   constexpr double beyond = 0.1;  // of a step: where two orbits meet, neither is quite between the other's points
   const double part = (value - a.values[0]) / (b.values[0] - a.values[0]);

@@ -18,7 +18,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Steps of the differences of a point's defining function, in units of arclength; the two that agree best are believed if they agree at all.
+/// Steps of the differences of a point's defining function, in units of arclength; the two that agree best are believed
+/// if they agree at all.
 constexpr std::array<double, 6> steps = {1e-3, 2e-4, 4e-5, 8e-6, 1.6e-6, 3.2e-7};
 constexpr double agreement = 1e-3;
 
@@ -28,7 +29,8 @@ struct Quotient {
   bool one_sided = false;
 };
 
-/// d f / d h at zero from f(0) and values to both sides; where there are none to one side, as at a parameter's bound, from two to the other. Second order.
+/// d f / d h at zero from f(0) and values to both sides; where there are none to one side, as at a parameter's bound,
+/// from two to the other. Second order.
 Quotient quotient(const std::function<std::optional<double>(double)>& f, double at_zero, double h) {
   const std::optional<double> plus = f(h), minus = f(-h);
   if (plus && minus) return {(*plus - *minus) / (2.0 * h)};
@@ -55,8 +57,8 @@ Sensitivity best_ratio(const std::function<Quotient(double)>& ratio) {
   return best;
 }
 
-/// A part of its unit by which another parameter is moved so that the orbit moves by no more than one of arclength. A parameter that is zero has no size: the
-/// orbit says how far.
+/// A part of its unit by which another parameter is moved so that the orbit moves by no more than one of arclength. A
+/// parameter that is zero has no size: the orbit says how far.
 double part_of_unit(double value, const VectorXd& direction, Index column) {
   VectorXd others = direction;
   others[column] = 0.0;
@@ -108,7 +110,8 @@ Orbit doubling(const Problem& problem, const Orbit& doubled) {
   return *orbit;
 }
 
-/// The directions on the solutions v(s, q) of the equations, s arclength: in which each parameter but the first moves by its unit and s stays.
+/// The directions on the solutions v(s, q) of the equations, s arclength: in which each parameter but the first moves
+/// by its unit and s stays.
 std::vector<VectorXd> directions(const Problem& problem, const Linearised& linear, const PathPoint& at) {
   MatrixXd matrix(linear.by.cols(), linear.by.cols());
   const Index rows = linear.by.rows();
@@ -122,9 +125,10 @@ std::vector<VectorXd> directions(const Problem& problem, const Linearised& linea
   return all;
 }
 
-/// How the parameter moves with each other one at a point of a branch when f(v) keeps its value on the solutions v(s, q) of the equations, s arclength and q
-/// another parameter: ds/dq = -(df/dq) / (df/ds), and d value / dq = dp/dq + dp/ds ds/dq. The directions are exact, the derivatives of f differences of
-/// points that solve the equations: central, at a parameter's bound to one side.
+/// How the parameter moves with each other one at a point of a branch when f(v) keeps its value on the solutions v(s,
+/// q) of the equations, s arclength and q another parameter: ds/dq = -(df/dq) / (df/ds), and d
+/// value / dq = dp/dq + dp/ds ds/dq. The directions are exact, the derivatives of f differences of points that solve
+/// the equations: central, at a parameter's bound to one side.
 std::vector<Sensitivity> moved_with(const Problem& problem, const PathPoint& at, double range,
                                     const std::function<double(const Watched&)>& f) {
   const std::size_t legs = at.orbit.legs();

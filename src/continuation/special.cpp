@@ -43,7 +43,8 @@ double rotation(const Watched& watched) {
   return angle;
 }
 
-/// The branch that crosses at a BP. Of two sides that are images of one another, but for what is of second order in their distance, one is kept.
+/// The branch that crosses at a BP. Of two sides that are images of one another, but for what is of second order in
+/// their distance, one is kept.
 void add_crossing_branch(const Problem& problem, const PathPoint& at, SpecialPoint& crossing) {
   constexpr double second_order = 0.05;
   std::vector<Orbit>& sides = crossing.born = crossing_branch(problem, at);
@@ -53,7 +54,8 @@ void add_crossing_branch(const Problem& problem, const PathPoint& at, SpecialPoi
   sides.pop_back();
 }
 
-/// A crossing by interpolation; as it was found only if it is the birth of a doubled orbit, which may be told from that by so much.
+/// A crossing by interpolation; as it was found only if it is the birth of a doubled orbit, which may be told from that
+/// by so much.
 std::optional<Located> sharpened(const Problem& problem, const PathPoint& from, std::optional<Located> rough,
                                  double length, double range) {
   constexpr double merged = 1e-3;
@@ -190,8 +192,8 @@ bool changes_there(const Problem& problem, const PathPoint& from, double length,
   return (!before || is_motion(problem, before->orbit)) && (!behind || !is_motion(problem, behind->orbit));
 }
 
-/// Where a graze has no memory, as before a complete chatter, the parameter is a square of the impact's speed: at the graze itself the tangent does not say
-/// in which sense the parameter came. It is given the sense that it had before.
+/// Where a graze has no memory, as before a complete chatter, the parameter is a square of the impact's speed: at the
+/// graze itself the tangent does not say in which sense the parameter came. It is given the sense that it had before.
 void look_back(const Problem& problem, const PathPoint& from, double range, Located& located) {
   constexpr double flat = 1e-3;  // a component of the tangent
   double& turn = located.point.watched.turn;
@@ -208,8 +210,8 @@ void look_back(const Problem& problem, const PathPoint& from, double range, Loca
 
 using Candidates = std::vector<std::pair<std::size_t, Located>>;
 
-/// As they come. Of margins that are used up together the speed of an impact says most, and of a slip that is no more its length; a gap that closes with
-/// the leg after an impact says least. What is not known well comes last.
+/// As they come. Of margins that are used up together the speed of an impact says most, and of a slip that is no more
+/// its length; a gap that closes with the leg after an impact says least. What is not known well comes last.
 void in_order(Candidates& candidates, const std::vector<TestValue>& tests, double length, double range) {
   constexpr double together = 1e-3;  // no nearer than the simulator can tell (changes_there)
   constexpr double well_known = 1e-9, rounding = 1e-9;
@@ -234,7 +236,8 @@ void in_order(Candidates& candidates, const std::vector<TestValue>& tests, doubl
 
 namespace {
 
-/// Margins that are used up together where legs shrink to nothing are singular: how far they agree on the place is how well it is known.
+/// Margins that are used up together where legs shrink to nothing are singular: how far they agree on the place is how
+/// well it is known.
 double disagreement(const Candidates& candidates, const std::pair<std::size_t, Located>& chosen, const PathPoint& from,
                     double length) {
   constexpr double together = 1e-2;
@@ -284,7 +287,8 @@ std::optional<Change> find_change(const Problem& problem, const PathPoint& from,
     if (auto located = locate_margin(problem, from, to, length, range, i))
       candidates.emplace_back(i, std::move(*located));
   }
-  // Where the equations are hardly solvable, as near the onset of a chatter, what looks like a margin's zero may be none.
+  // Where the equations are hardly solvable, as near the onset of a chatter, what looks like a margin's zero may be
+  // none.
   std::erase_if(candidates, [&](const auto& candidate) { return candidate.second.error > known * range; });
   in_order(candidates, from.watched.tests, length, range);
   for (auto& candidate : candidates) {

@@ -1,4 +1,5 @@
-/// Expands rows into series, four at once, and encloses what they leave out. Compiled for each instruction set (event/kernels.hpp).
+/// Expands rows into series, four at once, and encloses what they leave out. Compiled for each instruction set
+/// (event/kernels.hpp).
 #include "event/expansion.hpp"
 
 #include <cmath>
@@ -131,7 +132,8 @@ void expand_part(const Expansion& e, int group, int part) {
   note_peaks(e, dropped + (all_terms - 1 - terms) * row, peaks + terms * blocks * parts);
 }
 
-/// The scales of the blocks, by rows: the largest kept term of the row itself, or of the displacements, the latter times what the row has of them.
+/// The scales of the blocks, by rows: the largest kept term of the row itself, or of the displacements, the latter
+/// times what the row has of them.
 void set_scales(const Expansion& e, const double* weights) {
   double common[blocks] = {};
   for (int group = 0; group < e.groups; ++group)
@@ -162,7 +164,8 @@ struct Rest {
   Part nu, last;
 };
 
-/// The norm of A H in which a row t counts max_i |t_i| / scale_i, and that of T_39. Columns that no row reaches have no scale.
+/// The norm of A H in which a row t counts max_i |t_i| / scale_i, and that of T_39. Columns that no row reaches have no
+/// scale.
 inline Rest rest_of(const Expansion& e, const Part* scales, const Part* last_peaks, double ratio, double last_weight) {
   Rest rest{};
   for (int b = 0; b < blocks; ++b) {

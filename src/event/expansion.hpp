@@ -1,15 +1,19 @@
 #pragma once
-/// The series c exp(A s) = sum_n t_n s^n of several rows c at once, four in the lanes of a vector: t_0 = c, t_{n+1} = t_n A / (n + 1).
+/// The series c exp(A s) = sum_n t_n s^n of several rows c at once, four in the lanes of a vector: t_0 = c,
+/// t_{n+1} = t_n A / (n + 1).
 ///
-/// Terms n < 24 are double-doubles (base/double_double.hpp), the later ones doubles with a bound of their rounding. A term is kept as
+/// Terms n < 24 are double-doubles (base/double_double.hpp), the later ones doubles with a bound of their rounding. A
+/// term is kept as
 ///     t'_n = c (2^k A)^n / (2^e_1 .. 2^e_n),     e_n = floor(log2 n),
-/// so that no step divides: a step is a sum of products in which what each product and sum rounds off is summed beside (Ogita, Rump and Oishi,
-/// "Accurate sum and dot product", SIAM J. Sci. Comput. 26 (2005)). A window of length H takes t_n H^n = t'_n w_n, w_n = r^n 2^e_1 .. 2^e_n / n!,
+/// so that no step divides: a step is a sum of products in which what each product and sum rounds off is summed beside
+/// (Ogita, Rump and Oishi, "Accurate sum and dot product", SIAM J. Sci. Comput. 26 (2005)). A window of length H takes
+/// t_n H^n = t'_n w_n, w_n = r^n 2^e_1 .. 2^e_n / n!,
 /// r = H / 2^k.
 ///
-/// Rounding, relative to the sizes of what is added, u = 2^-53 and q the most entries of a column of A: the products' and sums' own errors are
-/// exact and their sum loses q u of itself, less than q^2 u^2; q products with the low parts lose 3 q u^2; a normalised sum u^2. Together less than
-/// (q + 2)^2 u^2 a step, and w_n and the last product 40 u^2 more.
+/// Rounding, relative to the sizes of what is added, u = 2^-53 and q the most entries of a column of A: the products'
+/// and sums' own errors are exact and their sum loses q u of itself, less than q^2 u^2; q products with the low parts
+/// lose 3 q u^2; a normalised sum u^2. Together less than (q + 2)^2 u^2 a step, and w_n and the last product 40 u^2
+/// more.
 ///
 /// The functions are kernels (event/kernels.hpp): one text for every instruction set, the same bits.
 #include "event/window.hpp"

@@ -42,8 +42,9 @@ double bend_change(Coefficients a) {
   return weighted_size(a, [](int n) { return n * (n - 1.0); });
 }
 
-/// On the whole window, from the second differences: g'' = 42 sum_j (b_{j+2} - 2 b_{j+1} + b_j) B_j within curvature_error. Where that error
-/// outweighs them, as for the small velocities of a quasi-static motion, from the coefficients themselves.
+/// On the whole window, from the second differences: g'' = 42 sum_j (b_{j+2} - 2 b_{j+1} + b_j) B_j within
+/// curvature_error. Where that error outweighs them, as for the small velocities of a quasi-static motion, from the
+/// coefficients themselves.
 Curvature whole_curvature(const GuardWindow& guard, const Lane8& d) {
   const Lane8 next = __builtin_shufflevector(d, d, 1, 2, 3, 4, 5, 6, 6, 6);
   const Lane8 second = next - d;
@@ -144,8 +145,8 @@ void Search::evaluate(double x) {
   ++evaluations_;
 }
 
-/// On [0, X]: |g'' - 2 a_2| <= X sum_{n>2} n (n - 1) |a_n|. Much sharper than the whole window's bound where the first zero is near
-/// the start, as in chatter: X is half as far again as the zero of a_0 + a_1 x + a_2 x^2.
+/// On [0, X]: |g'' - 2 a_2| <= X sum_{n>2} n (n - 1) |a_n|. Much sharper than the whole window's bound where the first
+/// zero is near the start, as in chatter: X is half as far again as the zero of a_0 + a_1 x + a_2 x^2.
 Curvature Search::near_start() const {
   const Lane8& a = guard_.taylor[0];
   const double X = 1.5 * parabola_root(a[0], a[1], 2.0 * a[2]);
@@ -154,8 +155,8 @@ Curvature Search::near_start() const {
   return {2.0 * a[2] - spread, 2.0 * a[2] + spread, X};
 }
 
-/// Of the terms as they are computed, and of what they lack: rounding up to n = 23, and dropped terms, whose sums of n (n - 1) (n - 2) |T_n| are
-/// at most 40 times those of n (n - 1) |T_n| (docs/developers/proofs.md, section 3).
+/// Of the terms as they are computed, and of what they lack: rounding up to n = 23, and dropped terms, whose sums of n
+/// (n - 1) (n - 2) |T_n| are at most 40 times those of n (n - 1) |T_n| (docs/developers/proofs.md, section 3).
 double Search::third() {
   if (third_ < 0.0)
     third_ = weighted_size(guard_.taylor, [](int n) { return n * (n - 1.0) * (n - 2.0); }) +
@@ -170,8 +171,8 @@ const Curvature& Search::best(double Curvature::*side) const {
   return sharper ? near_ : whole_;
 }
 
-/// With M >= g'' and g' < 0, g falls on [x, x + |g'| / M]; if g(x + d) <= g + g' d + M d^2 / 2 is below the noise for a d in there, the
-/// first zero is the only one in (x, x + d].
+/// With M >= g'' and g' < 0, g falls on [x, x + |g'| / M]; if g(x + d) <= g + g' d + M d^2 / 2 is below the noise for a
+/// d in there, the first zero is the only one in (x, x + d].
 bool Search::certain_fall(double& zero) const {
   const double slope = g1_ + bound(Bound::noise_1) + bound(Bound::slope_noise) * x_;
   if (slope >= 0.0) return false;
@@ -184,8 +185,8 @@ bool Search::certain_fall(double& zero) const {
   return settle(guard_.taylor, x_ - g_ / g1_, x_, y, evaluations_, zero);
 }
 
-/// The end of the longest step that certainly passes no zero: the first zero of a parabola below g. Two are tried: with the least
-/// curvature of the interval ahead, and with half the curvature here: for d <= (3/2) g'' / sup |g^(3)|,
+/// The end of the longest step that certainly passes no zero: the first zero of a parabola below g. Two are tried: with
+/// the least curvature of the interval ahead, and with half the curvature here: for d <= (3/2) g'' / sup |g^(3)|,
 ///     g'' d^2 / 2 - sup |g^(3)| d^3 / 6  >=  g'' d^2 / 4.
 double Search::next_landing() {
   constexpr double short_of = 1.0 - 0x1p-40;  // more than the rounding of the step itself
@@ -213,8 +214,9 @@ void Search::restart_or_linger(Root& root) const {
   root.lingers = clear_ < gain;
 }
 
-/// g is within the noise at x_, or so near it that no step is possible. Steps d with (g'' + sup |g^(3)| d) d^2 / 8 <= noise: between two
-/// points of the band g is above -2 noise. The first point below the band proves a crossing, the first above it a graze.
+/// g is within the noise at x_, or so near it that no step is possible. Steps d with (g'' + sup |g^(3)| d)
+/// d^2 / 8 <= noise: between two points of the band g is above -2 noise. The first point below the band proves a
+/// crossing, the first above it a graze.
 void Search::walk_through_noise(Root& root) {
   constexpr long patience = 65'536;  // steps; a window that begins here is judged by its derivatives
   const double start = x_, before = last_;
@@ -238,7 +240,8 @@ void Search::walk_through_noise(Root& root) {
   }
 }
 
-/// A zero of the computed g, which is positive at `low` and negative at `high`: Newton's steps kept inside by bisection.
+/// A zero of the computed g, which is positive at `low` and negative at `high`: Newton's steps kept inside by
+/// bisection.
 double Search::zero_between(double low, double high) const {
   double x = high;
   for (int i = 0; i < 100; ++i) {

@@ -29,7 +29,8 @@ Monomials to_bernstein(const Monomials& p) {
   return b;
 }
 
-/// What one unit of a_n adds to the hull, to its truncation errors, and to its rounding errors in units of noise_factor.
+/// What one unit of a_n adds to the hull, to its truncation errors, and to its rounding errors in units of
+/// noise_factor.
 struct Table {
   std::array<Lane8, most_terms> bernstein{}, truncation{}, rounding{};
 
@@ -60,8 +61,8 @@ struct Table {
     truncation[n][hull_error] = up * static_cast<double>(q[0]);
     truncation[n][slope_error] = up * static_cast<double>(q[1] + 128.0 * q[0]);
     truncation[n][curvature_error] = up * static_cast<double>(q[2] + 256.0 * q[1] + 5376.0 * q[0]);
-    // A coefficient b_j carries the rounding of its product (noise_factor) and of the sum that made its row (64 u <= 4 noise_factor);
-    // g' = 7 (b_{j+1} - b_j) .. has 14 times that, g'' = 42 (b_{j+2} - 2 b_{j+1} + b_j) .. 168 times.
+    // A coefficient b_j carries the rounding of its product (noise_factor) and of the sum that made its row (64 u <= 4
+    // noise_factor); g' = 7 (b_{j+1} - b_j) .. has 14 times that, g'' = 42 (b_{j+2} - 2 b_{j+1} + b_j) .. 168 times.
     const auto w = static_cast<double>(5.0 * widest);
     rounding[n] = Lane8{w + 8.0, 14.0 * w, 168.0 * w};
     rounding[n][std::min(noise_0 + n, static_cast<int>(noise_2))] = 1.0;

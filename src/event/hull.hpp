@@ -1,8 +1,11 @@
 #pragma once
-/// An enclosure of a power series on [0, 1] by eight numbers: the Bernstein coefficients of a polynomial of degree 7 that is close to it.
+/// An enclosure of a power series on [0, 1] by eight numbers: the Bernstein coefficients of a polynomial of degree 7
+/// that is close to it.
 ///
-/// x^n, n >= 8, is replaced by its remainder modulo the Chebyshev polynomial T of degree 8 on [0, 1] (Lanczos's economization):
-///     x^n = p_n(x) + q_n(x) T(x) / 2^15,     deg p_n = 7,     q_8 = 1,  q_{n+1} = x q_n + (leading coefficient of p_n).
+/// x^n, n >= 8, is replaced by its remainder modulo the Chebyshev polynomial T of degree 8 on [0, 1] (Lanczos's
+/// economization):
+///     x^n = p_n(x) + q_n(x) T(x) / 2^15,     deg p_n = 7,
+///     q_8 = 1,     q_{n+1} = x q_n + (leading coefficient of p_n).
 /// The coefficients of q_n are complete symmetric functions of the zeros of T, hence positive, so that on [0, 1]
 ///     |x^n - p_n|     <=  q / 2^15                              q = q_n(1),  |T|   <= 1
 ///     |(x^n - p_n)'|  <= (q' + 128 q) / 2^15                                 |T'|  <= 128
@@ -33,8 +36,8 @@ struct Hull {
 
 inline constexpr int most_terms = 40;  ///< of a series that is given to `enclose`
 
-/// The hull of sum_{n<count} a_n x^n, count <= most_terms, where a_n is known to `noise_factor` size[n], size[n] >= |a_n| and
-/// noise_factor >= 16 u. Cost: four vector operations per term.
+/// The hull of sum_{n<count} a_n x^n, count <= most_terms, where a_n is known to `noise_factor` size[n],
+/// size[n] >= |a_n| and noise_factor >= 16 u. Cost: four vector operations per term.
 Hull enclose(const double* a, const double* size, int count, double noise_factor);
 
 /// What a unit of a_n adds to the hull, and to its bounds, n < most_terms.

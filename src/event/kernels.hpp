@@ -1,5 +1,6 @@
 #pragma once
-/// What a motion spends its time in, compiled from one text for every instruction set, and chosen when the program runs.
+/// What a motion spends its time in, compiled from one text for every instruction set, and chosen when the program
+/// runs.
 ///
 /// All work in lanes of eight doubles and in one order, so that each gives the same bits; wider vectors only do more
 /// lanes at once. Their sources (first_root.cpp, products.cpp, expansion.cpp) are compiled once a target, in its own
@@ -24,13 +25,15 @@ struct Kernels {
   Root (*first_root)(const GuardWindow& guard, double x_end, long& evaluations);
   /// out[b] = sum_i data[b m + i] x[i], b < blocks, i < m.
   void (*multiply)(const Lane8* data, int blocks, int m, const double* x, Lane8* out);
-  /// From window to window: out = step x as by `multiply`, magnitude = max(|out|, floor), largest = max(largest, |out|), or of |x| and |out| where a
-  /// flight is `fresh`. All of `blocks` lanes. `sizes`: the sums of magnitude and of largest.
+  /// From window to window: out = step x as by `multiply`, magnitude = max(|out|, floor),
+  /// largest = max(largest, |out|), or of |x| and |out| where a flight is `fresh`. All of `blocks` lanes.
+  /// `sizes`: the sums of magnitude and of largest.
   void (*pass)(const Lane8* step, int blocks, int m, const Lane8* x, const Lane8* floor, bool fresh, Lane8* out,
                Lane8* magnitude, Lane8* largest, double* sizes);
   /// magnitude = max(|x|, floor), of `blocks` lanes. @returns its sum
   double (*magnitudes)(const Lane8* x, const Lane8* floor, int blocks, Lane8* magnitude);
-  /// A guard's hull: bernstein = sum_i rows[i] x[i], bounds = sum_i errors[i] magnitude[i]. @returns whether it is above its error and `more`
+  /// A guard's hull: bernstein = sum_i rows[i] x[i], bounds = sum_i errors[i] magnitude[i]. @returns whether it is
+  /// above its error and `more`
   bool (*hull)(const Lane8* rows, const Lane8* errors, int m, const double* x, const double* magnitude, double more,
                Hull* out);
   /// Is every lane of sum_i data[i] x[i] above the bound?
@@ -39,7 +42,8 @@ struct Kernels {
   void (*evaluate)(const Lane8* rows, int d, int m, const double* X, double x, double* values, double* slopes);
   /// out = sum of values[i] x[place[i]], i < count.
   void (*gather)(const int* places, const Lane8* values, int count, const double* x, Lane8* out);
-  /// out = factor (sum of rows times the eight numbers from their place on + sum of columns times the number at their place).
+  /// out = factor (sum of rows times the eight numbers from their place on + sum of columns times the number at their
+  /// place).
   void (*spread)(const Placed* rows, const Placed* rows_end, const Placed* columns, const Placed* columns_end,
                  double factor, const double* x, Lane8* out);
   /// The hulls of the columns of a guard's Taylor rows, x^order divided out: m Bernstein coefficients and bounds each.
@@ -47,7 +51,8 @@ struct Kernels {
 
   // Of an Expansion, once the first row of `high` is filled in:
   void (*expand)(const Expansion& e);  ///< all terms, their bounds and peaks
-  /// The largest of what the terms n >= 24 add to a row by a column, over a quarter of u times its scale, for r = `ratio`; grows like r^24.
+  /// The largest of what the terms n >= 24 add to a row by a column, over a quarter of u times its scale, for
+  /// r = `ratio`; grows like r^24.
   double (*excess)(const Expansion& e, const double* weights, double ratio);
   void (*enclose_tails)(const Expansion& e, const double* weights, double ratio);
   void (*finish)(const Expansion& e,

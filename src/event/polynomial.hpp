@@ -1,9 +1,9 @@
 #pragma once
 /// A polynomial on [0, 1], its zeros and its extremes, none missed.
 ///
-/// In Bernstein's basis a polynomial has no more zeros in a piece than its coefficients have changes of sign. With none there is no zero; with
-/// one it is found between the ends; with more the piece is halved, until the polynomial is negligible in it. Nothing is sampled.
-/// Source: Farouki and Rajan (1987) for the basis; Descartes' rule of signs.
+/// In Bernstein's basis a polynomial has no more zeros in a piece than its coefficients have changes of sign. With none
+/// there is no zero; with one it is found between the ends; with more the piece is halved, until the polynomial is
+/// negligible in it. Nothing is sampled. Source: Farouki and Rajan (1987) for the basis; Descartes' rule of signs.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -102,7 +102,8 @@ inline int certain_sign(const Polynomial& g, double x) {
   return std::abs(value) > 2 * g.degree * 0x1p-53 * g.size() ? value > 0.0 ? 1 : -1 : 0;
 }
 
-/// Hands every place of (0, 1) to `take` at which g may be zero: each zero but for rounding, and some places that are none.
+/// Hands every place of (0, 1) to `take` at which g may be zero: each zero but for rounding, and some places that are
+/// none.
 /// @param negligible  pieces where |g| times their length is below this are not halved any further
 template <class Take>
 void possible_zeros(const Polynomial& g, Bernstein b, double from, double to, double negligible, const Take& take) {

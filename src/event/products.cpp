@@ -1,4 +1,5 @@
-/// Sums of products in lanes, and the table of this target's kernels. Compiled for each instruction set (event/kernels.hpp).
+/// Sums of products in lanes, and the table of this target's kernels. Compiled for each instruction set
+/// (event/kernels.hpp).
 #include "event/kernels.hpp"
 
 #define SLAPSTICK_TEXT_OF(name) #name

@@ -6,8 +6,9 @@
 /// a dozen operations deep instead of the 46 of Horner's rule, with the same operations in the same order for every
 /// instruction set (the compiler maps Lane8 to whatever vectors the target has; contraction to FMA is off).
 ///
-/// Sources compiled for different instruction sets include this (event/kernels.hpp). So each has functions of its own: they are static, and members
-/// always inlined. A function that the linker may take from any object could be one with instructions that this processor lacks.
+/// Sources compiled for different instruction sets include this (event/kernels.hpp). So each has functions of its own:
+/// they are static, and members always inlined. A function that the linker may take from any object could be one with
+/// instructions that this processor lacks.
 #if defined(__AVX512F__)
 #include <immintrin.h>
 #endif

@@ -110,8 +110,8 @@ void Differentiator::piece(int i, int k) {
   acceleration_rate_ -= frame_.characteristics[i].push * force_rate + change_.push[static_cast<std::size_t>(i)] * force;
 }
 
-/// holding = D^+ G a and a - M^{-1} G^T holding. The range of D is that of G W, a constant one, so that (D^+)' = -D^+ D' D^+ on it, whether or
-/// not held contacts depend on each other.
+/// holding = D^+ G a and a - M^{-1} G^T holding. The range of D is that of G W, a constant one, so that
+/// (D^+)' = -D^+ D' D^+ on it, whether or not held contacts depend on each other.
 void Differentiator::hold() {
   const Matrix G = selection(held_, frame_.d);
   const Matrix D_inverse = least_norm_inverse(G * frame_.mass_inverse * G.transpose());

@@ -1,8 +1,9 @@
 #pragma once
 /// Derivatives of a Frame and of an Outline with respect to a parameter of the model, by the product rule.
 ///
-/// `rate` is the derivative of `model` (`ModelDefinition::rate`, or made by hand): the same parts in the same order, each number replaced by
-/// its derivative. Derivatives are those of the stored numbers, in the coordinates (p, u) of the frame: at a fixed user state a displacement moves by
+/// `rate` is the derivative of `model` (`ModelDefinition::rate`, or made by hand): the same parts in the same order,
+/// each number replaced by its derivative. Derivatives are those of the stored numbers, in the coordinates (p, u) of
+/// the frame: at a fixed user state a displacement moves by
 /// -shift. Contacts, their order and W do not depend on a parameter.
 #include <vector>
 
@@ -12,8 +13,8 @@ namespace slapstick::mode {
 
 /// Derivatives of the members of Frame that have the same names, and of omega.
 struct FrameDerivative {
-  /// @throws InputError if contacts share a displacement only as long as the parameter does not move: equal clearances, or belt speeds,
-  /// whose derivatives differ
+  /// @throws InputError if contacts share a displacement only as long as the parameter does not move: equal clearances,
+  /// or belt speeds, whose derivatives differ
   FrameDerivative(const Model& model, const Model& rate, const Frame& frame);
 
   Vector shift, drift;
@@ -27,10 +28,12 @@ struct FrameDerivative {
 [[nodiscard]] Vector kick_rate(const Frame& frame, const FrameDerivative& rate, std::size_t signal, double area,
                                double area_rate);
 
-/// Derivatives of Outline::system and of each guard's row, in the outline's order. What the outline holds exactly zero stays so.
+/// Derivatives of Outline::system and of each guard's row, in the outline's order. What the outline holds exactly zero
+/// stays so.
 ///
-/// One derivative is one-sided: a compliant stop that cannot pull lets go where its force is zero, stiffness delta + damping delta' = 0, which for
-/// damping = 0 is the guard delta. Its derivative there is that of the force over the stiffness.
+/// One derivative is one-sided: a compliant stop that cannot pull lets go where its force is zero, stiffness
+/// delta + damping delta' = 0, which for damping = 0 is the guard delta. Its derivative there is that of the force over
+/// the stiffness.
 struct OutlineDerivative {
   OutlineDerivative(const Model& model, const Model& rate, const Frame& frame, const FrameDerivative& change,
                     const Outline& outline);

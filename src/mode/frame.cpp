@@ -219,7 +219,8 @@ void Frame::enter(const double* state, double* X) const {
       speed += std::abs(W(i, j) * state[2 * j + 1]);
     }
     X[i] = p - shift[i];
-    // A gap below the rounding of the coordinates it comes from is contact: a state written out on a closed stop reads back as one.
+    // A gap below the rounding of the coordinates it comes from is contact: a state written out on a closed stop reads
+    // back as one.
     const double error = reading_error(n, ratio);
     if ((ratio || shift[i] != 0.0) && std::abs(X[i]) <= error * size) X[i] = 0.0;
     X[u(i)] = rate - drift[i];
@@ -328,9 +329,10 @@ void Frame::match_displacements(int i, double* X) const {
 
 namespace {
 
-/// Dependent numbers and the basis numbers they follow from: stored = sum_j coefficient_j basis_j + slack. The offsets themselves do not
-/// enter: their rounding is more than the gaps of stops that are about to close together, and would never let them come to rest.
-/// Zeros come first, because a basis number may give way to a zero: what follows from the same basis number must see its last value.
+/// Dependent numbers and the basis numbers they follow from: stored = sum_j coefficient_j basis_j + slack. The offsets
+/// themselves do not enter: their rounding is more than the gaps of stops that are about to close together, and would
+/// never let them come to rest. Zeros come first, because a basis number may give way to a zero: what follows from the
+/// same basis number must see its last value.
 void reconcile(const Matrix& dependence, const Vector& slack, double* numbers) {
   constexpr double no_cancellation = 0.25;
   for (const bool zeros : {true, false})

@@ -3,14 +3,16 @@
 ///
 ///     p = W q - shift,   u = p' - drift
 ///
-/// The rows of W are the relative displacements x_a - x_b of the stops, compliant stops and friction contacts, completed by original
-/// coordinates, the last ones first. `shift` is the clearance on a stop's own row (so that the gap is -p) and `drift` the belt speed
-/// on a friction contact's own row, else 0. A gap and a relative velocity are then each one stored number, with a relative error
-/// of its own: exactly zero at contact, constant in stick. Contacts whose numbers are equal or opposite share one.
+/// The rows of W are the relative displacements x_a - x_b of the stops, compliant stops and friction contacts,
+/// completed by original coordinates, the last ones first. `shift` is the clearance on a stop's own row (so that the
+/// gap is -p) and `drift` the belt speed on a friction contact's own row, else 0. A gap and a relative velocity are
+/// then each one stored number, with a relative error of its own: exactly zero at contact, constant in stick. Contacts
+/// whose numbers are equal or opposite share one.
 ///
-/// W has d >= n rows: a contact whose row depends on others (the far side of a two-sided stop, a loop of contacts) has a number of
-/// its own all the same. The first n rows are independent; the others follow from them, but for rounding (see `refresh`).
-/// Which contacts are among the first n says mode/numbering.hpp: the nearest of each pair, and none that is far.
+/// W has d >= n rows: a contact whose row depends on others (the far side of a two-sided stop, a loop of contacts) has
+/// a number of its own all the same. The first n rows are independent; the others follow from them, but for rounding
+/// (see `refresh`). Which contacts are among the first n says mode/numbering.hpp: the nearest of each pair, and none
+/// that is far.
 ///
 /// Extended state X in R^m, m = 2 d + 2 h + 1, h = number of distinct harmonics of the forcing, tones and signals:
 ///     X = (p_1..p_d, u_1..u_d, cos j_1 theta, sin j_1 theta, .., 1),   theta = omega t.
@@ -28,8 +30,8 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 using RowVector = Eigen::RowVectorXd;
 
-/// A stop or friction contact seen in contact coordinates: its displacement is sign * p_own (a stop's: less the clearance), its velocity
-/// sign * u_own (a friction contact's: less the belt speed).
+/// A stop or friction contact seen in contact coordinates: its displacement is sign * p_own (a stop's: less the
+/// clearance), its velocity sign * u_own (a friction contact's: less the belt speed).
 struct ContactRow {
   int own = 0;
   double sign = 1.0;
@@ -66,8 +68,9 @@ struct Frame {
   Matrix W_inverse;     ///< of its first n rows
   Matrix dependence;    ///< d x n: W = dependence * (first n rows of W)
   Vector shift, drift;
-  /// dependence * shift - shift, the constant between a dependent displacement and those it follows from, and the same of the drifts. Zero
-  /// where that is rounding: clearances that add up, as 0.1 + 0.2 and 0.3, let all gaps of a loop close at once.
+  /// dependence * shift - shift, the constant between a dependent displacement and those it follows from, and the same
+  /// of the drifts. Zero where that is rounding: clearances that add up, as 0.1 + 0.2 and 0.3, let all gaps of a loop
+  /// close at once.
   Vector shift_slack, drift_slack;
   std::vector<ContactRow> stops, frictions, compliant;
   std::vector<PairRows> characteristics;
@@ -76,10 +79,11 @@ struct Frame {
   Matrix free_size;     ///< the sums of the sizes of the terms that each of its entries was made of
 
   /// A sum below this part of the sizes of its terms is zero by structure, as of two forces that cancel: 64 roundings,
-  /// one for each of its products. With less, rounding lets contacts at rest go; with more, small real numbers are lost.
+  /// one for each of its products. With less, rounding lets contacts at rest go; with more, small real numbers are
+  /// lost.
   static constexpr double structural_zero = 0x1p-47;
-  /// Sets entries to exactly zero that are nothing but rounding of terms of the given sizes: a force that the structure of the model makes
-  /// zero shall not be taken for one that is certainly negative.
+  /// Sets entries to exactly zero that are nothing but rounding of terms of the given sizes: a force that the structure
+  /// of the model makes zero shall not be taken for one that is certainly negative.
   static void drop_rounding(Matrix& matrix, const Matrix& size);
 
   [[nodiscard]] int size() const { return signal(signals.size()) + 1; }
@@ -91,8 +95,9 @@ struct Frame {
 
   /// +1 or -1 if the displacements i and j are those of one pair, else 0.
   [[nodiscard]] int parallel(int i, int j) const;
-  /// Are the displacements i and j of one pair, and is no belt between their velocities? Then one is the other's, or opposite. A stop
-  /// and a friction contact on a belt are of one pair and not in step: the belt's w is no rate of the gap.
+  /// Are the displacements i and j of one pair, and is no belt between their velocities? Then one is the other's, or
+  /// opposite. A stop and a friction contact on a belt are of one pair and not in step: the belt's w is no rate of the
+  /// gap.
   [[nodiscard]] bool in_step(int i, int j) const {
     return parallel(i, j) != 0 && drift[i] == parallel(i, j) * drift[j];
   }
@@ -118,9 +123,10 @@ struct Frame {
   /// Sets the velocities (displacements) of all numbers of the pair of displacement i by that of i.
   void match_velocities(int i, double* X) const;
   void match_displacements(int i, double* X) const;
-  /// Makes the dependent numbers and the first n agree again, where rounding would let them drift apart in the long run. A dependent number
-  /// that is exactly zero (contact, rest) stays, and the largest of those it follows from gives way; one that is summed without
-  /// cancellation is set; one near zero keeps its own value, which is the more accurate.
+  /// Makes the dependent numbers and the first n agree again, where rounding would let them drift apart in the long
+  /// run. A dependent number that is exactly zero (contact, rest) stays, and the largest of those it follows from gives
+  /// way; one that is summed without cancellation is set; one near zero keeps its own value, which is the more
+  /// accurate.
   void refresh(double* X) const;
   /// Writes all of X that moves by the clock, harmonics, tones and signals, and the constant 1. Fixed operations
   /// (base/phase.hpp). At a knot the slope is that behind the knot.

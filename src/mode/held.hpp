@@ -1,12 +1,14 @@
 #pragma once
-/// Pairs that closed stops and sticking friction contacts hold still, each by one force f0 along its displacement, and what they can bear.
+/// Pairs that closed stops and sticking friction contacts hold still, each by one force f0 along its displacement, and
+/// what they can bear.
 #include <vector>
 
 #include "mode/outline.hpp"
 
 namespace slapstick::mode {
 
-/// Contacts that hold one pair still. Along its displacement the force f0 pushes back; a contact has its share sense * f0.
+/// Contacts that hold one pair still. Along its displacement the force f0 pushes back; a contact has its share
+/// sense * f0.
 struct HeldPair {
   int displacement;
   std::vector<int> stops;      ///< closed stops
@@ -18,8 +20,8 @@ struct HeldPair {
 /// G: the rows of the held displacements, u' of which is G u'.
 [[nodiscard]] Matrix selection(const std::vector<HeldPair>& pairs, int d);
 
-/// The inverse of a positive semidefinite D; where held contacts depend on each other, the pseudoinverse, for the solution of least norm. Whether
-/// they do is decided for a unit diagonal: a heavy mass is not a dependent one.
+/// The inverse of a positive semidefinite D; where held contacts depend on each other, the pseudoinverse, for the
+/// solution of least norm. Whether they do is decided for a unit diagonal: a heavy mass is not a dependent one.
 [[nodiscard]] Matrix least_norm_inverse(const Matrix& D);
 
 /// The guard friction limit + side * f0 > 0 of a held pair.
@@ -30,7 +32,8 @@ struct ForceLimit {
   double side;
 };
 
-/// What the pairs can bear: friction up to the sum of its limits either way, stops any push on their side. In the order of the guards.
+/// What the pairs can bear: friction up to the sum of its limits either way, stops any push on their side. In the order
+/// of the guards.
 [[nodiscard]] std::vector<ForceLimit> force_limits(const Frame& frame, const std::vector<HeldPair>& pairs);
 
 /// Row over X of the sum of the static limits of a pair's friction contacts.

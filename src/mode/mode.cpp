@@ -133,7 +133,8 @@ void Mode::store_bounds(const Series& series, int g, const event::HullRows& rows
   }
 }
 
-/// Of the hull just stored: the largest bound and, of a large mode, the columns without those that are small beside the largest.
+/// Of the hull just stored: the largest bound and, of a large mode, the columns without those that are small beside the
+/// largest.
 void Mode::store_quick_look(int g, int order) {
   constexpr double small = 0x1p-18, up = 1.0 + 0x1p-40;  // more than the rounding of the sums
   const int k = g * stored_orders + order;

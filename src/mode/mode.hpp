@@ -15,8 +15,9 @@ class Series;
 
 /// Dense operators on X = (p, u, cos, sin, .., 1), all for the window length `window`, x = s / window in [0, 1].
 ///
-/// Written once at set-up in double-doubles from A; see docs/developers/proofs.md for the remainder and rounding bounds.
-/// Storage is in blocks of eight rows: element (row 8 b + lane, column i) of an operator is data[b * m + i][lane].
+/// Written once at set-up in double-doubles from A; see docs/developers/proofs.md for the remainder and rounding
+/// bounds. Storage is in blocks of eight rows: element (row 8 b + lane, column i) of an operator is
+/// data[b * m + i][lane].
 class Mode {
  public:
   /// Builds the mode. Cost: O(60 m^2) per coordinate and guard, once.
@@ -51,10 +52,12 @@ class Mode {
   [[nodiscard]] static double noise_factor_of(int m) { return (m + 16.0) * event::unit_roundoff; }
   /// A coarse bound of the rounding of guard g, anywhere on the window, for numbers whose sizes sum to 1.
   [[nodiscard]] double coarse_noise(int g) const { return coarse_noise_[g]; }
-  /// A quick look at a guard: true only if it is excluded, also where its noise is `more` than X's own. size: sum of |X|. The bounds are replaced
-  /// by the largest of all columns, and of a large mode the columns of the hull that are small by theirs.
+  /// A quick look at a guard: true only if it is excluded, also where its noise is `more` than X's own. size: sum of
+  /// |X|. The bounds are replaced by the largest of all columns, and of a large mode the columns of the hull that are
+  /// small by theirs.
   [[nodiscard]] bool excludes(int g, int order, const double* X, double size, double more) const;
-  /// Guard g from its zero of order `order` at the window's start on: its hull (magnitude = |X|), and whether it is above its error and `more` ..
+  /// Guard g from its zero of order `order` at the window's start on: its hull (magnitude = |X|), and whether it is
+  /// above its error and `more` ..
   bool enclose(int g, int order, const double* X, const double* magnitude, event::Hull& out, double more = 0.0) const;
   /// .. the bounds alone, for another magnitude ..
   void bounds(int g, int order, const double* X, const double* magnitude, event::Lane8& out) const;
@@ -80,7 +83,8 @@ class Mode {
 
   /// Orders of a zero at the start whose hulls are stored; the others are rare and made from the Taylor rows.
   static constexpr int stored_orders = 3;
-  /// Larger modes do not store the rows of their displacements (400 kB for 32 coordinates) but sum the terms of exp(A s) X.
+  /// Larger modes do not store the rows of their displacements (400 kB for 32 coordinates) but sum the terms of
+  /// exp(A s) X.
   static constexpr int most_stored_rows = 24;
 
   const event::Kernels* kernels_ = &event::kernels();

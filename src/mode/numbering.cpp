@@ -131,8 +131,8 @@ class Order {
   std::vector<int> places_;  ///< indices of numbers
 };
 
-/// The pairs that are independent of the ones before, each by its nearest number or by row . q; unit rows complete them, from the last
-/// coordinate on; then what follows from these.
+/// The pairs that are independent of the ones before, each by its nearest number or by row . q; unit rows complete
+/// them, from the last coordinate on; then what follows from these.
 std::vector<int> basis_first(Numbers& all, const std::vector<Pair>& pairs, int n) {
   Order order(n);
   const Numbers contacts = all;

@@ -1,16 +1,18 @@
 #pragma once
-/// Which numbers stand for the contacts of a model, and which of them carry the motion (the first n rows of W, the basis).
+/// Which numbers stand for the contacts of a model, and which of them carry the motion (the first n rows of W, the
+/// basis).
 ///
-/// A number is row . q - shift, with the rate row . q' - drift. A shift in the basis costs the motion the digits of its size,
-/// whether the contact is ever reached or not. So of the contacts on one pair the first is in the basis that is not far
-/// beside the nearest: of the least drift, and of a shift within ten bits of the least and of the motion's size. Where even
-/// that is far (`far`), row . q itself is in the basis, and all the pair's contacts follow from it. A contact is far against
-/// another length of the model; one that is alone has none to be far against, and its own is the size that motions are
-/// expected to have.
+/// A number is row . q - shift, with the rate row . q' - drift. A shift in the basis costs the motion the digits of its
+/// size, whether the contact is ever reached or not. So of the contacts on one pair the first is in the basis that is
+/// not far beside the nearest: of the least drift, and of a shift within ten bits of the least and of the motion's
+/// size. Where even that is far (`far`), row . q itself is in the basis, and all the pair's contacts follow from it. A
+/// contact is far against another length of the model; one that is alone has none to be far against, and its own is the
+/// size that motions are expected to have.
 ///
-/// The rows of the basis are those of the first contact of each pair, whichever is the nearest: they depend on no parameter.
-/// Shifts do, where a parameter makes another contact the nearest one. A family of orbits keeps the choice that it began with
-/// (`numbered_alike`): it costs digits at most, and contact states of all its values are in the same coordinates.
+/// The rows of the basis are those of the first contact of each pair, whichever is the nearest: they depend on no
+/// parameter. Shifts do, where a parameter makes another contact the nearest one. A family of orbits keeps the choice
+/// that it began with (`numbered_alike`): it costs digits at most, and contact states of all its values are in the same
+/// coordinates.
 #include <vector>
 
 #include "mode/frame.hpp"
@@ -42,8 +44,8 @@ struct Numbering {
 struct Extent {
   double length = 0.0, speed = 0.0;
 };
-/// How far the forces alone move the masses: F / k or F / (m omega^2), and that times the fastest rate. Of F, m and k the
-/// greatest, the least and the least: a resonance may go farther, and is then no worse off for a number more.
+/// How far the forces alone move the masses: F / k or F / (m omega^2), and that times the fastest rate. Of F, m and k
+/// the greatest, the least and the least: a resonance may go farther, and is then no worse off for a number more.
 [[nodiscard]] Extent extent_of_forces(const Model& model);
 
 }  // namespace slapstick::mode

@@ -140,8 +140,9 @@ bool ends_with_stop(const Model& model, const NormalForce& normal) {
   return !stop.pulls || stop.damping == 0.0;
 }
 
-/// A contact that nothing presses is unloaded. In stick the limits +-f_s N of a contact alone on its pair say that N > 0.
-/// Where a stop alone presses its own guard says so: two guards of one zero would be a tie that rounding decides.
+/// A contact that nothing presses is unloaded. In stick the limits +-f_s N of a contact alone on its pair say that
+/// N > 0. Where a stop alone presses its own guard says so: two guards of one zero would be a tie that rounding
+/// decides.
 void Builder::arm_load(int friction) {
   const FrictionState state = out_.states.frictions[friction];
   RowVector load = load_row(model_, frame_, out_.states, friction);
@@ -207,7 +208,8 @@ void Builder::note_guard_structure() {
   }
 }
 
-/// An open gap needs no guard where it cannot close: constant where its pair is held, growing while its pair slips apart.
+/// An open gap needs no guard where it cannot close: constant where its pair is held, growing while its pair slips
+/// apart.
 void Builder::arm_gap(int stop) {
   const ContactRow& contact = frame_.stops[stop];
   bool on_belt = false;

@@ -1,6 +1,6 @@
 #pragma once
-/// Operators of eight rows on X, one after the other, of which only some columns are kept: those that are not zero, or not small. A guard of a large
-/// model sees the contacts and coordinates near it.
+/// Operators of eight rows on X, one after the other, of which only some columns are kept: those that are not zero, or
+/// not small. A guard of a large model sees the contacts and coordinates near it.
 #include <vector>
 
 #include "event/kernels.hpp"

@@ -12,7 +12,8 @@
 namespace slapstick::mode {
 namespace {
 
-/// The spectral radius of A: of its motion without forcing, and the frequencies of what turns. Signals are nilpotent, and nothing acts on either.
+/// The spectral radius of A: of its motion without forcing, and the frequencies of what turns. Signals are nilpotent,
+/// and nothing acts on either.
 double spectral_radius(const Matrix& A, int d) {
   double radius = std::sqrt(dense::eigenvalues(A.topLeftCorner(2 * d, 2 * d)).cwiseAbs2().maxCoeff());
   for (Eigen::Index c = 2 * d; c + 1 < A.rows(); ++c)
@@ -20,8 +21,8 @@ double spectral_radius(const Matrix& A, int d) {
   return radius;
 }
 
-/// 1 / spectral radius, or 1 if A is nilpotent (rigid bodies: the series ends by itself). Only eight bits are kept: the rounding of
-/// an eigenvalue solver, which differs for a mirrored model, shall not reach the results.
+/// 1 / spectral radius, or 1 if A is nilpotent (rigid bodies: the series ends by itself). Only eight bits are kept: the
+/// rounding of an eigenvalue solver, which differs for a mirrored model, shall not reach the results.
 double reference_length(const Matrix& A, int d) {
   const double radius = spectral_radius(A, d);
   if (!(radius > 1e-8 * A.cwiseAbs().maxCoeff() && radius > 0.0)) return 1.0;
@@ -81,7 +82,8 @@ event::Weights exact_weights(DoubleDouble ratio) {
   return weights;
 }
 
-/// Is what a window drops negligible? The longer the window, the more it drops: what is known of one is known of others.
+/// Is what a window drops negligible? The longer the window, the more it drops: what is known of one is known of
+/// others.
 class Negligible {
  public:
   /// @param ratio  r of a window of the reference length
@@ -92,8 +94,8 @@ class Negligible {
     return length <= longest_;
   }
 
-  /// Brackets the longest window between two that are near each other. The excess grows about like length^24: its 24th root, and from the second
-  /// step on how that has grown (a secant of the logarithms).
+  /// Brackets the longest window between two that are near each other. The excess grows about like length^24: its 24th
+  /// root, and from the second step on how that has grown (a secant of the logarithms).
   void approach(double length) {
     double slope = 1.0, before = 0.0;
     for (int k = 0; k < 4; ++k) {

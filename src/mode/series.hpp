@@ -15,17 +15,18 @@ struct Tail {
   double curvature;  ///< sum n (n - 1) |T_n|
 };
 
-/// For X' = A X and functionals h = c . X:  h(s) = sum_n (c A^n / n!) s^n X. The rows c are those of the guards, then those that read the
-/// displacements; four are expanded at once (event/expansion.hpp).
+/// For X' = A X and functionals h = c . X:  h(s) = sum_n (c A^n / n!) s^n X. The rows c are those of the guards, then
+/// those that read the displacements; four are expanded at once (event/expansion.hpp).
 ///
 /// The entries of A are rounded, by u S, S the sizes of what they were made of. What that does to a term,
-/// e_n = (e_{n-1} |A| + u |c A^{n-1} / (n-1)!| S) / n, tells a term that the structure of the model makes zero, and rounding does not, from one
-/// that is small.
+/// e_n = (e_{n-1} |A| + u |c A^{n-1} / (n-1)!| S) / n, tells a term that the structure of the model makes zero, and
+/// rounding does not, from one that is small.
 ///
-/// The window length H is the largest for which, row by row, the dropped terms n >= 24 of every column are at most a quarter ulp of the scale of
-/// that column: the largest kept term in its block (displacements, velocities, phases, constant), of this row or of a displacement.
-/// What is dropped is bounded column by column and enters the bounds of every guard; beyond n = 39 by a norm in those scales. As a
-/// number of periods H has at most 24 bits: multiples of it are exact, and a clock that counts windows loses nothing.
+/// The window length H is the largest for which, row by row, the dropped terms n >= 24 of every column are at most a
+/// quarter ulp of the scale of that column: the largest kept term in its block (displacements, velocities, phases,
+/// constant), of this row or of a displacement. What is dropped is bounded column by column and enters the bounds of
+/// every guard; beyond n = 39 by a norm in those scales. As a number of periods H has at most 24 bits: multiples of it
+/// are exact, and a clock that counts windows loses nothing.
 class Series {
  public:
   /// @param longest_window  in periods; H is no longer than this

@@ -62,7 +62,8 @@ class Equations {
   VectorXd residual;
 
  private:
-  /// The greatest entries. A row that closes the cycle, of the map minus the identity, may be nothing but rounding: no less than the identity's entry.
+  /// The greatest entries. A row that closes the cycle, of the map minus the identity, may be nothing but rounding: no
+  /// less than the identity's entry.
   [[nodiscard]] VectorXd row_sizes() const {
     VectorXd largest = matrix.cwiseAbs().rowwise().maxCoeff().cwiseMax(1e-300);
     const Index first = at_->by.rows() - 1 - problem_.numbers();
@@ -129,7 +130,8 @@ bool has_all_legs(const Orbit& orbit, const Orbit& beside) {
   return true;
 }
 
-/// Has it a multiplier 1 too? Those beside a point of inflection, where the parameter is a cube, have not: 1 - mu is a square.
+/// Has it a multiplier 1 too? Those beside a point of inflection, where the parameter is a cube, have not: 1 - mu is a
+/// square.
 bool has_multiplier_one(const Problem& problem, const Orbit& beside) {
   constexpr double half_the_digits = 1e-6;  // a double one is known to no more
   const ModeSet set(problem.family(), beside.values);

@@ -6,7 +6,8 @@
 
 namespace slapstick::orbit {
 
-/// Can b be begun at an event from which on its legs are those of a, and alike(shift) holds? Leg i of a is then leg (i + shift) mod k of b.
+/// Can b be begun at an event from which on its legs are those of a, and alike(shift) holds? Leg i of a is then leg
+/// (i + shift) mod k of b.
 template <class Alike>
 bool from_some_event(const Orbit& a, const Orbit& b, const Alike& alike) {
   const std::size_t k = a.legs();

@@ -204,8 +204,8 @@ VectorXd newton_step(const Linearised& at, const std::vector<Residual>& more, co
   return dense::solve(matrix, right);
 }
 
-/// How well rounding lets the instants of events be known: where a guard falls slowly, as at the last impacts of a chatter, by the rounding of the
-/// leg's start over its rate.
+/// How well rounding lets the instants of events be known: where a guard falls slowly, as at the last impacts of a
+/// chatter, by the rounding of the leg's start over its rate.
 double rounding(const Orbit& orbit, const Linearised& at) {
   constexpr double roundoff = 2e-16, most = 1e-7;
   double largest = 0.0;
@@ -234,7 +234,8 @@ VectorXd unknowns_of(const Problem& problem, const Orbit& orbit) {
   return all;
 }
 
-/// Where orbits lie among the unknowns of one of the same shape, begun at any event that the shape lets them begin at, in the nearest period.
+/// Where orbits lie among the unknowns of one of the same shape, begun at any event that the shape lets them begin at,
+/// in the nearest period.
 std::vector<VectorXd> places(const Problem& problem, const std::vector<Orbit>& orbits, const Orbit& of) {
   std::vector<VectorXd> all;
   for (const Orbit& orbit : orbits) {
@@ -251,7 +252,8 @@ std::vector<VectorXd> places(const Problem& problem, const std::vector<Orbit>& o
   return all;
 }
 
-/// The factor of a Newton step s at v when solutions v_i are taken out: 1 / (1 - g . s), g the gradient of log prod (1 + reach / |v - v_i|^2).
+/// The factor of a Newton step s at v when solutions v_i are taken out: 1 / (1 - g . s), g the gradient of log prod
+/// (1 + reach / |v - v_i|^2).
 double deflation(const std::vector<VectorXd>& taken_out, const VectorXd& v, const VectorXd& scale,
                  const VectorXd& step) {
   constexpr double reach = 0.1 * 0.1;  // squared: farther away, as a part of the orbit's size, nothing is to be felt
@@ -265,7 +267,8 @@ double deflation(const std::vector<VectorXd>& taken_out, const VectorXd& v, cons
 }
 
 /// A tied leg has no length, to what Newton's method leaves. One that has got a length is a leg as any other.
-/// @param left  the last step: a longer leg is no rounding. A bound far above it would hide what a parameter takes apart
+/// @param left  the last step: a longer leg is no rounding. A bound far above it would hide what a parameter takes
+/// apart
 void settle_ties(Orbit& orbit, double left) {
   const double rounding = 100.0 * std::max(left, enough);  // of the cycle: an instant gathers the errors of a state
   for (std::size_t i = 0; i < orbit.legs(); ++i) {

@@ -1,11 +1,13 @@
 #pragma once
 /// The equations of a periodic orbit of a given shape, and Newton's method on them.
 ///
-/// Unknowns v: the contact state x_0 just after event 0 (modulo the model's rigid translations), the instants t_0 .. t_k of the events, and the
-/// parameters. Equations: each leg ends at the zero of its guard; the state after the last leg is x_0; t_k - t_0 = n (without forcing: t_0 = 0).
-/// The states x_1 .. x_{k-1} are unknowns too (multiple shooting) and eliminated by the recursion
+/// Unknowns v: the contact state x_0 just after event 0 (modulo the model's rigid translations), the instants
+/// t_0 .. t_k of the events, and the parameters. Equations: each leg ends at the zero of its guard; the state after the
+/// last leg is x_0; t_k - t_0 = n (without forcing: t_0 = 0). The states x_1 .. x_{k-1} are unknowns too (multiple
+/// shooting) and eliminated by the recursion
 ///     dx_{i+1} = r_i + (d after_i) (dx_i, dt_i, dt_{i+1}, dp),
-/// so that a step costs a matrix of 2n + k + 1 rows. No guard's slope is divided by: at a graze, where one is zero, the equations are regular.
+/// so that a step costs a matrix of 2n + k + 1 rows. No guard's slope is divided by: at a graze, where one is zero, the
+/// equations are regular.
 #include <Eigen/Core>
 #include <complex>
 #include <functional>
@@ -29,10 +31,11 @@ class Problem {
   [[nodiscard]] const System& base() const { return *base_; }
   [[nodiscard]] const flow::Translations& translations() const { return translations_; }
   [[nodiscard]] Eigen::Index parameters() const { return static_cast<Eigen::Index>(family_.names.size()); }
-  /// Are its motions free: none of the forces has a harmonic with an amplitude, and no parameter gives it one? Only then
-  /// cycles have a period of their own (Itinerary::n = 0).
+  /// Are its motions free: none of the forces has a harmonic with an amplitude, and no parameter gives it one? Only
+  /// then cycles have a period of their own (Itinerary::n = 0).
   [[nodiscard]] bool free() const { return free_; }
-  /// What arclength measures states by where an orbit is smaller than this: one that shrinks to nothing is left behind in steps of some length.
+  /// What arclength measures states by where an orbit is smaller than this: one that shrinks to nothing is left behind
+  /// in steps of some length.
   [[nodiscard]] const Eigen::VectorXd& least_sizes() const { return least_sizes_; }
   /// .. and the first parameter where its value is smaller: the range that it is followed over. It may pass zero.
   [[nodiscard]] double least_value() const { return least_value_; }
@@ -72,10 +75,12 @@ struct Linearised {
 /// @throws NumericalError, InputError as the family
 [[nodiscard]] Linearised linearise(const Problem& problem, const ModeSet& set, const Orbit& orbit);
 
-/// Moves an orbit by a change of its unknowns; its inner states by `at`'s elimination, and by this fraction of what they have to make good.
+/// Moves an orbit by a change of its unknowns; its inner states by `at`'s elimination, and by this fraction of what
+/// they have to make good.
 void move(const Problem& problem, const Linearised& at, const Eigen::VectorXd& change, double fraction, Orbit& orbit);
 
-/// Typical sizes of the unknowns: the orbit's largest displacement and velocity, a forcing period or without forcing the cycle, the parameters' own.
+/// Typical sizes of the unknowns: the orbit's largest displacement and velocity, a forcing period or without forcing
+/// the cycle, the parameters' own.
 [[nodiscard]] Eigen::VectorXd sizes(const Problem& problem, const Orbit& orbit);
 
 /// Divides each row of a matrix by its largest entry. @returns those
@@ -87,7 +92,8 @@ struct Residual {
   Eigen::RowVectorXd by;
 };
 
-/// One more condition on the unknowns, so that the matrix is square: row . (v - v_0) = 0 at the first step's v_0, or if there is one a function's zero.
+/// One more condition on the unknowns, so that the matrix is square: row . (v - v_0) = 0 at the first step's v_0, or if
+/// there is one a function's zero.
 struct Condition {
   Eigen::RowVectorXd row;
   std::function<Residual(const ModeSet& set, const Linearised& at, const Orbit& orbit)> function = {};
@@ -101,9 +107,11 @@ struct NewtonResult {
 };
 
 /// Newton's method with as many conditions as there are parameters: all of them fixed, or all but one and an arclength.
-/// The orbit is where it came to, converged or not. Never throws for numbers: a model that cannot be made, or overflow, is "not converged".
-/// @param besides  orbits v_i that are no solutions any more (deflation): the residual is multiplied by prod_i (1 + 0.1^2 / |v - v_i|^2), which makes
-///                 a step longer or shorter, or turns it round. Source: Farrell, Birkisson and Funke (2015)
+/// The orbit is where it came to, converged or not. Never throws for numbers: a model that cannot be made, or overflow,
+/// is "not converged".
+/// @param besides  orbits v_i that are no solutions any more (deflation): the residual is multiplied by
+///                 prod_i (1 + 0.1^2 / |v - v_i|^2), which makes a step longer or shorter, or turns it round.
+///                 Source: Farrell, Birkisson and Funke (2015)
 NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condition>& conditions, int most_steps = 12,
                    const std::vector<Orbit>& besides = {});
 
@@ -112,8 +120,9 @@ NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condi
 /// .. but the first, in place of which the length of a leg is as it is.
 [[nodiscard]] std::vector<Condition> fixed_length(const Problem& problem, std::size_t legs, std::size_t leg);
 
-/// The derivative of the return map at fixed time, from just after event 0 to a cycle later, by the contact state and by the parameters, modulo
-/// translations: (2n - k) x ... As flow/tangent.hpp gives it; there from a motion, here from the orbit's own legs.
+/// The derivative of the return map at fixed time, from just after event 0 to a cycle later, by the contact state and
+/// by the parameters, modulo translations: (2n - k) x ... As flow/tangent.hpp gives it; there from a motion, here from
+/// the orbit's own legs.
 struct ReturnRates {
   Eigen::MatrixXd by_state;
   Eigen::MatrixXd by_parameter;

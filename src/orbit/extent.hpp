@@ -1,6 +1,7 @@
 #pragma once
-/// How far the states of an orbit vary over its cycle, by which distances between states are measured: they depend neither on units nor on where the
-/// origin lies, and a motion that drifts along a translation of the model is as good as one that does not.
+/// How far the states of an orbit vary over its cycle, by which distances between states are measured: they depend
+/// neither on units nor on where the origin lies, and a motion that drifts along a translation of the model is as good
+/// as one that does not.
 #include "orbit/equations.hpp"
 
 namespace slapstick::orbit {
@@ -13,8 +14,8 @@ class Extent {
 
   /// The largest range of a velocity over the cycle.
   [[nodiscard]] double velocity() const { return velocity_; }
-  /// The distance of two contact states modulo translations: the largest of displacements and of velocities, each against the largest range of one over
-  /// the cycle. Where nothing varies, as at rest, against the states themselves.
+  /// The distance of two contact states modulo translations: the largest of displacements and of velocities, each
+  /// against the largest range of one over the cycle. Where nothing varies, as at rest, against the states themselves.
   [[nodiscard]] double distance(Eigen::VectorXd a, Eigen::VectorXd b) const;
 
  private:

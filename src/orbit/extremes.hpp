@@ -1,9 +1,10 @@
 #pragma once
 /// The extremes of linear functionals of the extended state along a leg and over a cycle, exact to rounding.
 ///
-/// A leg is cut into steps on which f(s) = c . exp(A s) X is a polynomial to rounding. In Bernstein's basis f' has no more zeros in a piece than its
-/// coefficients have changes of sign: with none, f is monotone; with one, the zero is found between the ends; with more, the piece is halved, until f
-/// varies in it by rounding only. Nothing is sampled: no extreme is missed. Cost: about that of leg_flow for any number of functionals.
+/// A leg is cut into steps on which f(s) = c . exp(A s) X is a polynomial to rounding. In Bernstein's basis f' has no
+/// more zeros in a piece than its coefficients have changes of sign: with none, f is monotone; with one, the zero is
+/// found between the ends; with more, the piece is halved, until f varies in it by rounding only. Nothing is sampled:
+/// no extreme is missed. Cost: about that of leg_flow for any number of functionals.
 #include <Eigen/Core>
 #include <vector>
 
@@ -37,7 +38,8 @@ struct Extremes {
 /// Functionals of X: displacements x_1 .. x_n of the model's coordinates, then their velocities v_1 .. v_n.
 [[nodiscard]] Eigen::MatrixXd coordinate_functionals(const mode::Frame& frame);
 
-/// Functionals of X: the numbers of the contact state modulo the model's translations, displacements first (flow/translations.hpp).
+/// Functionals of X: the numbers of the contact state modulo the model's translations, displacements first
+/// (flow/translations.hpp).
 [[nodiscard]] Eigen::MatrixXd number_functionals(const Problem& problem, const mode::Frame& frame);
 
 }  // namespace slapstick::orbit

@@ -4,7 +4,8 @@
 
 namespace slapstick::orbit {
 
-/// The zero of a function of the points within `half_width` of a place, where Newton's method may fail at the zero itself.
+/// The zero of a function of the points within `half_width` of a place, where Newton's method may fail at the zero
+/// itself.
 /// @param near  arclength from `from`
 /// @returns empty if the branch cannot be interpolated there
 [[nodiscard]] std::optional<Located> locate_between(const Problem& problem, const PathPoint& from, double near,

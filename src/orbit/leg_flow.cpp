@@ -74,8 +74,9 @@ void push(const ModeSet& set, const Motion::Strike& strike, Jet& X) {
 /// Does it begin with a plastic impact that stands for all impacts of a chatter that follow?
 bool sums_impacts(const Leg& leg) { return leg.ending == Ending::chatter || leg.ending == Ending::onset; }
 
-/// The contact states of the columns of an extended jet, with what the next mode holds still set to what it holds: velocities, zero or a belt's, and
-/// the gaps of closed stops, zero. A gap that is none of the coordinates goes to zero the shortest way.
+/// The contact states of the columns of an extended jet, with what the next mode holds still set to what it holds:
+/// velocities, zero or a belt's, and the gaps of closed stops, zero. A gap that is none of the coordinates goes to zero
+/// the shortest way.
 Jet contact_jet(const ModeSet& set, const Leg& next, const Jet& X) {
   const mode::Frame& frame = set.frame();
   Jet x(2 * frame.n, X.states, X.parameters);

@@ -4,9 +4,9 @@
 ///     X_end = exp(A s) S X(x, t_0),   s = (t_1 - t_0) T;   h = guard . X_end, or t_1 - t_knot;   x_after = H R X_end,
 /// at a pulse of a signal H R (X_end + K)
 ///
-/// S: the plastic impact that sums a chatter's tail, else the identity. R: the impacts at the end. H: what the next mode holds still is zero.
-/// The derivative with respect to a parameter follows the motion as Y' = A Y + A_p X; the terms of both series are summed together.
-/// Relative error: some roundings times the number of steps.
+/// S: the plastic impact that sums a chatter's tail, else the identity. R: the impacts at the end. H: what the next
+/// mode holds still is zero. The derivative with respect to a parameter follows the motion as Y' = A Y + A_p X; the
+/// terms of both series are summed together. Relative error: some roundings times the number of steps.
 #include <Eigen/Core>
 #include <vector>
 
@@ -15,8 +15,8 @@
 
 namespace slapstick::orbit {
 
-/// A vector and its derivatives with respect to the contact state at the leg's start, the instants of its two ends (periods), and the
-/// parameters: a column each.
+/// A vector and its derivatives with respect to the contact state at the leg's start, the instants of its two ends
+/// (periods), and the parameters: a column each.
 struct Jet {
   Jet(Eigen::Index rows, Eigen::Index state_count, Eigen::Index parameter_count)
       : all(Eigen::MatrixXd::Zero(rows, 3 + state_count + parameter_count)),
@@ -38,7 +38,8 @@ struct Jet {
   Eigen::Index states, parameters;
 };
 
-/// The extended state of a contact state at an instant (no derivative but by the state, the instant and the parameters).
+/// The extended state of a contact state at an instant (no derivative but by the state, the instant and the
+/// parameters).
 /// @param lines  that the signals are on
 [[nodiscard]] Jet extended(const ModeSet& set, const std::vector<int>& lines, const Eigen::VectorXd& x, double t);
 
@@ -51,7 +52,8 @@ struct LegValue {
   Jet h;      ///< of the ending: 0 where it is met; one row. Empty columns for a cut
 };
 
-/// @param next  the leg that follows: what its mode holds still is zero from its start on, but for the speed that the tail of a chatter begins with
+/// @param next  the leg that follows: what its mode holds still is zero from its start on, but for the speed that the
+/// tail of a chatter begins with
 [[nodiscard]] LegValue leg_value(const ModeSet& set, const Leg& leg, const Leg& next, const Eigen::VectorXd& x,
                                  double t_begin, double t_end);
 
@@ -74,8 +76,9 @@ struct Pulse {
 
 /// How many velocities the mode of a leg holds still: the fewer, the freer.
 [[nodiscard]] std::ptrdiff_t held(const ModeSet& set, const Leg& leg);
-/// The leg in which least is held, of several the longest; of equally long ones that which begins at the earliest phase, without forcing that which begins
-/// with the largest velocity of the first coordinate in which they differ. A chatter's tail only if there is nothing else.
+/// The leg in which least is held, of several the longest; of equally long ones that which begins at the earliest
+/// phase, without forcing that which begins with the largest velocity of the first coordinate in which they differ. A
+/// chatter's tail only if there is nothing else.
 [[nodiscard]] std::size_t freest_leg(const ModeSet& set, const Orbit& orbit);
 
 /// The contact state of an extended one.

@@ -64,7 +64,8 @@ bool zero_by_events(const mode::Frame& frame, const Itinerary& shape, std::size_
   });
 }
 
-/// Is this the relative velocity of the pair whose gap ends the leg? Its value there is the speed of the impact, which is watched by itself.
+/// Is this the relative velocity of the pair whose gap ends the leg? Its value there is the speed of the impact, which
+/// is watched by itself.
 bool is_speed_of(const mode::Frame& frame, const Leg& leg, const mode::Guard& guard) {
   if (leg.ending != Ending::guard || !of_gap(leg.kind) || guard.kind != GuardKind::slip) return false;
   return frame.in_step(displacement(frame, leg.kind, leg.contact), frame.frictions[guard.contact].own);

@@ -1,7 +1,9 @@
 #pragma once
-/// A model at one point of its parameters, with derivatives: the linear system and the guards of any mode, and how they change.
+/// A model at one point of its parameters, with derivatives: the linear system and the guards of any mode, and how they
+/// change.
 ///
-/// It has no window operators and costs microseconds, where a System costs a fraction of a millisecond: Newton's method makes one per step.
+/// It has no window operators and costs microseconds, where a System costs a fraction of a millisecond: Newton's method
+/// makes one per step.
 #include <memory>
 #include <vector>
 

@@ -1,7 +1,8 @@
 #pragma once
 /// How an orbit moves with each parameter while the others stay, by the implicit function theorem on its equations.
 ///
-/// Source: docs/developers/architecture.md, section 9; Dankowicz and Schilder (2013). Cost: a linearisation and an elimination.
+/// Source: docs/developers/architecture.md, section 9; Dankowicz and Schilder (2013). Cost: a linearisation and an
+/// elimination.
 #include <Eigen/Core>
 #include <vector>
 

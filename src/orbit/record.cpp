@@ -151,8 +151,8 @@ std::string mismatch(const System& system, std::size_t i, const Leg* seen, const
   return "event " + std::to_string(i + 1) + ": " + called(seen) + " where the orbit has " + called(wanted);
 }
 
-/// Legs at which a check begins: those in which least is held, where a state in the user's coordinates loses nothing, and no short flights of a
-/// burst, whose gap it would lose.
+/// Legs at which a check begins: those in which least is held, where a state in the user's coordinates loses nothing,
+/// and no short flights of a burst, whose gap it would lose.
 std::vector<std::size_t> starts(const System& system, const Orbit& orbit) {
   const ModeSet set(constant_family(system.model()), {});
   const std::size_t freest = freest_leg(set, orbit);
@@ -172,7 +172,8 @@ class Check {
   Check(const System& system, const Orbit& orbit, Verification& result)
       : system_(system), orbit_(orbit), result_(result) {}
 
-  /// @param next  the next check's leg; may be larger than the number of legs: then it is in the next cycle. @returns false on a mismatch
+  /// @param next  the next check's leg; may be larger than the number of legs: then it is in the next cycle. @returns
+  /// false on a mismatch
   bool run(std::size_t first, std::size_t next);
 
  private:

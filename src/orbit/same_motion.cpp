@@ -69,7 +69,8 @@ std::vector<double> instants(const Orbit& orbit) {
   return all;
 }
 
-/// What is left of the differences of two motions (`sense` -1), or of their sums less the sum of their displacements' own middle (+1), in units of the sizes.
+/// What is left of the differences of two motions (`sense` -1), or of their sums less the sum of their displacements'
+/// own middle (+1), in units of the sizes.
 double misfit(const std::vector<VectorXd>& a, const std::vector<VectorXd>& b, double sense, Index velocities) {
   const Index count = a.front().size(), displacements = count - velocities;
   VectorXd size = VectorXd::Zero(count), low = VectorXd::Constant(count, INFINITY), high = -low;
@@ -89,7 +90,8 @@ double misfit(const std::vector<VectorXd>& a, const std::vector<VectorXd>& b, do
   return std::max(worst(0, displacements, sense > 0.0), worst(displacements, velocities, false));
 }
 
-/// @param sense  as misfit's; @param later  how many periods after a's instants b is seen, and then `more` times a period later still: the least
+/// @param sense  as misfit's; @param later  how many periods after a's instants b is seen, and then `more` times a
+/// period later still: the least
 double least_misfit(const Problem& problem, const Orbit& a, const Orbit& b, double sense, double later, int more) {
   const std::vector<double> when = instants(a);
   if (a.shape.n == 0 || a.shape.n != b.shape.n || when.empty()) return INFINITY;

@@ -1,4 +1,5 @@
-/// The orbit that a motion settles on: the cycle of its return map, or the one that it nearly closes, solved and verified.
+/// The orbit that a motion settles on: the cycle of its return map, or the one that it nearly closes, solved and
+/// verified.
 #include <cmath>
 
 #include "flow/contact_state.hpp"

@@ -1,5 +1,5 @@
-/// Prints the impact times of the peers side by side and fails when they disagree by more than their tolerances explain.
-/// Usage: compare_peers [--print] [periods, default 20]
+/// Prints the impact times of the peers side by side and fails when they disagree by more than their tolerances
+/// explain. Usage: compare_peers [--print] [periods, default 20]
 
 #include "peers.hpp"
 

@@ -2,9 +2,10 @@
 /// What ends a phase inside one solver step, and where: the event search that both peers share.
 ///
 /// A `Step` offers length(), begin(), end(), at(tau) for 0 < tau < length(): the state tau after the step's begin, and
-/// slope(state, tau), the right-hand side. A `Guard` offers value(state, tau) and rate(state, slope, tau), its derivative.
-/// The search is one of signs at step ends, as a good user of a general-purpose solver would write it. It therefore cannot
-/// see two crossings inside one step; y is safe from that, because it is monotone while w > 0 and is tested at w's root too.
+/// slope(state, tau), the right-hand side. A `Guard` offers value(state, tau) and rate(state, slope, tau), its
+/// derivative. The search is one of signs at step ends, as a good user of a general-purpose solver would write it. It
+/// therefore cannot see two crossings inside one step; y is safe from that, because it is monotone while w > 0 and is
+/// tested at w's root too.
 
 #include "paper_oscillator.hpp"
 
@@ -79,7 +80,8 @@ inline double hermite_root(const Sample& low, const Sample& high) {
 }
 
 /// Newton's method from the Hermite root, one or two re-taken steps as a rule. The last correction is so small that the
-/// state follows it along its slope. Shrinks the bracket; gives up (nothing) when it leaves it or is slow, as near a graze.
+/// state follows it along its slope. Shrinks the bracket; gives up (nothing) when it leaves it or is slow, as near a
+/// graze.
 template <class Step, class Guard>
 std::optional<Instant> newton_root(Step& step, const Guard& guard, Instant& low, Instant& high) {
   constexpr double follow = 1e-8;  // error of following the slope: follow^2 / 2 times an acceleration of order 1
@@ -150,8 +152,8 @@ std::optional<Instant> find_inside(Step& step, const Guard& guard) {
   return std::nullopt;
 }
 
-/// Where the guard turns from positive to not positive in this step, if the step's end says so. A step that begins on the
-/// zero (a slip from rest) and never leaves it is passed over: the phase has not started moving yet.
+/// Where the guard turns from positive to not positive in this step, if the step's end says so. A step that begins on
+/// the zero (a slip from rest) and never leaves it is passed over: the phase has not started moving yet.
 template <class Step, class Guard>
 std::optional<Instant> find_crossing(Step& step, const Guard& guard, double width) {
   const Instant end{step.length(), step.end()};

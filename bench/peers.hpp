@@ -9,8 +9,8 @@
 namespace slapstick::bench {
 
 /// A peer ends chatter when an impact leaves with less than this relative speed; the blocks are then at rest on the
-/// stop. It is a bare threshold: the peers carry no bound on the flights it cuts. A flight that rounding or the solver's error
-/// ends at or beyond the stop ends chatter too.
+/// stop. It is a bare threshold: the peers carry no bound on the flights it cuts. A flight that rounding or the
+/// solver's error ends at or beyond the stop ends chatter too.
 inline constexpr double peer_rest_speed = 1e-9;
 
 /// What one run did.
@@ -22,8 +22,8 @@ struct PeerRun {
 };
 
 /// Boost.odeint, controlled runge_kutta_fehlberg78 with absolute and relative tolerance `tolerance`.
-/// An event is located by re-taking the step with other lengths, so it is as accurate as a step: Newton's method from the
-/// step's Hermite cubic (two re-taken steps as a rule), TOMS 748 where Newton fails. TOMS 748 alone
+/// An event is located by re-taking the step with other lengths, so it is as accurate as a step: Newton's method from
+/// the step's Hermite cubic (two re-taken steps as a rule), TOMS 748 where Newton fails. TOMS 748 alone
 /// needs six to nine: 1.2 times the evaluations at omega 2.2, 1.5 times at 1.5, 2.3 times in chatter.
 PeerRun run_odeint(double omega, int periods, double tolerance);
 

@@ -1,10 +1,12 @@
-/// Operations that the kernels do in a forcing period of the paper's system, and what share of the processor's peak that is.
+/// Operations that the kernels do in a forcing period of the paper's system, and what share of the processor's peak
+/// that is.
 ///
 ///     bench_roofline       one line of `key=value` an omega
 ///
-/// The operations are counted by kernels that count and then call the real ones: this program defines event::kernels() itself, so that the linker
-/// does not take the library's. An operation is a + - x / or comparison of doubles. Not counted is what is done outside of kernels (clock, mode graph, bookkeeping).
-/// The peak is that of as many additions as products, without FMA, in twelve independent chains: one in each of twelve registers.
+/// The operations are counted by kernels that count and then call the real ones: this program defines event::kernels()
+/// itself, so that the linker does not take the library's. An operation is a + - x / or comparison of doubles. Not
+/// counted is what is done outside of kernels (clock, mode graph, bookkeeping). The peak is that of as many additions
+/// as products, without FMA, in twelve independent chains: one in each of twelve registers.
 #include <cmath>
 #include <cstdio>
 
@@ -23,7 +25,8 @@ double operations = 0.0;
 
 constexpr double lanes = 8.0;
 double product(int blocks, int m) { return lanes * blocks * (2.0 * m - 1.0); }
-/// A polynomial of 24 terms: two nested products and sums of lanes, one product, seven sums. Its derivative: two more products of lanes.
+/// A polynomial of 24 terms: two nested products and sums of lanes, one product, seven sums. Its derivative: two more
+/// products of lanes.
 constexpr double polynomial = 4.0 * lanes + lanes + 7.0, powers = 3.0 * lanes + 4.0, derivative = 3.0 * lanes;
 
 Root count_first_root(const GuardWindow& guard, double x_end, long& evaluations) {

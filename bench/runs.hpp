@@ -24,7 +24,8 @@ inline double cpu_time() {
 Answer run_slapstick(const Words& words);
 /// OMEGA REPEATS: a new parameter value, up to a `System`, and with the modes that 50 periods meet.
 Answer run_system(const Words& words);
-/// COORDINATES CONTACTS PERIODS REPEATS: a chain of masses, every odd contact a stop, every even one friction, after 200 periods.
+/// COORDINATES CONTACTS PERIODS REPEATS: a chain of masses, every odd contact a stop, every even one friction, after
+/// 200 periods.
 Answer run_chain(const Words& words);
 /// THREADS OMEGA PERIODS: a motion on each thread, of one System. `wall` beside `cpu`.
 Answer run_threads(const Words& words);

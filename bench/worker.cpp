@@ -1,4 +1,5 @@
-/// A worker of bench/ratios.py: reads a run a line (its kind and its numbers), and answers each with one line of `key=value`.
+/// A worker of bench/ratios.py: reads a run a line (its kind and its numbers), and answers each with one line of
+/// `key=value`.
 #include <cstdio>
 #include <exception>
 #include <iostream>

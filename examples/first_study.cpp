@@ -1,8 +1,10 @@
-// A first study of one's own: what the paper's oscillator does at some forcing frequencies, and one cycle of it, event by event.
+// A first study of one's own: what the paper's oscillator does at some forcing frequencies, and one cycle of it, event
+// by event.
 //
 // Equations: eq. (2) of the paper, with the defaults of the built-in model (`slapstick show vibro-impact`).
-// Expected: at 1.5 one impact per cycle and a short stick (1-1-II), at 2.2 no stick (1-1-I), at 0.552 infinitely many impacts
-// per cycle that end in stick; between 4.801 and 4.805 the cycle of four periods loses its stability to an invariant curve.
+// Expected: at 1.5 one impact per cycle and a short stick (1-1-II), at 2.2 no stick (1-1-I), at 0.552 infinitely many
+// impacts per cycle that end in stick; between 4.801 and 4.805 the cycle of four periods loses its stability to an
+// invariant curve.
 #include <cstdio>
 
 #include "slapstick/attractor/classify.hpp"

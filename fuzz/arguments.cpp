@@ -1,7 +1,8 @@
 /// Bytes as the words of a command line. A line break ends a word, and a NUL byte stands for a line break in one.
 ///
-/// The words are read as the program reads them. After a '!' in front the verb also acts, if no option names a file, with Ctrl-C pressed
-/// before it starts: it reads MODEL, checks --set, --state, --sweep and the like against it, makes the System, and stops.
+/// The words are read as the program reads them. After a '!' in front the verb also acts, if no option names a file,
+/// with Ctrl-C pressed before it starts: it reads MODEL, checks --set, --state, --sweep and the like against it, makes
+/// the System, and stops.
 #include "arguments.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-/// Prints libFuzzer's dictionary for model files: every key and word of the key table, and the tokens of TOML and of expressions.
+/// Prints libFuzzer's dictionary for model files: every key and word of the key table, and the tokens of TOML and of
+/// expressions.
 #include <cstdio>
 #include <set>
 #include <string>

@@ -1,4 +1,5 @@
-/// Bytes as an expression of a model file, and as a unit: the formulas and units that io/expression and io/unit take or refuse.
+/// Bytes as an expression of a model file, and as a unit: the formulas and units that io/expression and io/unit take or
+/// refuse.
 #include "io/expression.hpp"
 
 #include <cmath>

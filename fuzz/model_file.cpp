@@ -1,4 +1,5 @@
-/// Bytes as a model file: read, evaluated, validated, built, observed, printed, and what is printed read again. No motion: that is motion.cpp.
+/// Bytes as a model file: read, evaluated, validated, built, observed, printed, and what is printed read again. No
+/// motion: that is motion.cpp.
 #include "slapstick/io/model_file.hpp"
 
 #include "slapstick/io/observer.hpp"

@@ -1,4 +1,5 @@
-/// Bytes as the numbers of a small model and its start: whatever `validate` admits can be compiled and flown, or is refused for its time scales.
+/// Bytes as the numbers of a small model and its start: whatever `validate` admits can be compiled and flown, or is
+/// refused for its time scales.
 #include <array>
 
 #include "flight.hpp"

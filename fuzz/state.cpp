@@ -1,4 +1,5 @@
-/// Bytes as the value of --state, and in the lines after it values of --set: the start that the program makes of them on a small model.
+/// Bytes as the value of --state, and in the lines after it values of --set: the start that the program makes of them
+/// on a small model.
 #include <cmath>
 
 #include "lines.hpp"

@@ -1,6 +1,7 @@
 #pragma once
-/// What the fuzz targets share. A target makes of any bytes a value or one of the three errors of base/error.hpp; anything else ends the program,
-/// which is how libFuzzer (./dev fuzz) and the replay of the corpus (replay.cpp) learn of it.
+/// What the fuzz targets share. A target makes of any bytes a value or one of the three errors of base/error.hpp;
+/// anything else ends the program, which is how libFuzzer (./dev fuzz) and the replay of the corpus (replay.cpp) learn
+/// of it.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

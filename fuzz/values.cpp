@@ -1,4 +1,5 @@
-/// Bytes as the values of --set, or of an option for ranges and lists. The first byte says which; a line break begins the option anew.
+/// Bytes as the values of --set, or of an option for ranges and lists. The first byte says which; a line break begins
+/// the option anew.
 #include <cmath>
 
 #include "event_options.hpp"

@@ -120,7 +120,8 @@ TEST(classify, a_linear_oscillator_without_contact_is_one_zero_one) {
   model.stops.clear();
   const Classification found = classify(System(model), paper_start);
   EXPECT_EQ(found.label, "1-0-I");
-  // Floquet multipliers of a linear system: exp(lambda T), closed form through the trace of C / M: product = exp(-tr(M^-1 C) T).
+  // Floquet multipliers of a linear system: exp(lambda T), closed form through the trace of C / M:
+  // product = exp(-tr(M^-1 C) T).
   std::complex<double> product = 1.0;
   for (const auto& multiplier : found.multipliers) product *= multiplier;
   const double trace = 0.2 / 1.0 + (0.2 + 1.0) / 10.0;

@@ -1,4 +1,5 @@
-/// Which class is named, where a guess would be easy: beside doublings, on transients that alternate, on curves, in families.
+/// Which class is named, where a guess would be easy: beside doublings, on transients that alternate, on curves, in
+/// families.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -10,7 +10,8 @@
 namespace slapstick {
 namespace {
 
-/// m x'' + c x' = sin(omega t) + F: v has the mean F / c and the multiplier exp(-c T / m), x is determined up to a constant.
+/// m x'' + c x' = sin(omega t) + F: v has the mean F / c and the multiplier exp(-c T / m), x is determined up to a
+/// constant.
 Model dragged_mass(double drag, double push) {
   Model model;
   model.name = "dragged mass";
@@ -85,7 +86,8 @@ TEST(drift, what_does_not_move_has_a_drift_of_exactly_zero) {
 }
 
 TEST(drift, a_motion_that_is_at_rest_at_every_return_is_measured_in_between) {
-  // Without drag x'' = sin(omega t) from rest keeps v = (1 - cos(omega t)) / omega, zero at phase 0; started at the crest it does not even move on.
+  // Without drag x'' = sin(omega t) from rest keeps v = (1 - cos(omega t)) / omega, zero at phase 0; started at the
+  // crest it does not even move on.
   Model model = dragged_mass(0.0, 0.0);
   const Classification moving = classify(System(model), {0.0, 0.0});
   EXPECT_EQ(moving.label, "1-0-I");

@@ -14,7 +14,8 @@ using test::kinds;
 using test::same_events;
 using test::tangent_jacobian;
 
-/// A ball flies at two that rest on each other and on a wall, pressed by a spring each: one blow goes through all contacts.
+/// A ball flies at two that rest on each other and on a wall, pressed by a spring each: one blow goes through all
+/// contacts.
 Model cradle(ImpactLaw law) {
   Model m;
   m.coordinates = {{"ball", 1.0}, {"middle", 1.5}, {"last", 0.7}};

@@ -10,7 +10,8 @@
 namespace slapstick {
 namespace {
 
-/// A linear oscillator, x = sin(t + ..) of amplitude 1 in the limit, with pads at +-clearance so soft that they only watch.
+/// A linear oscillator, x = sin(t + ..) of amplitude 1 in the limit, with pads at +-clearance so soft that they only
+/// watch.
 Model watched(double upper, double lower) {
   constexpr double omega = 1.0, damping = 0.25;
   Model model;

@@ -94,7 +94,8 @@ Model mass_on_a_belt() {
 }
 
 TEST(tangent, started_in_stick_loses_the_velocity_of_slip) {
-  // A small velocity of slip is gone after a time proportional to it, on either side: the end state does not depend on it to first order.
+  // A small velocity of slip is gone after a time proportional to it, on either side: the end state does not depend on
+  // it to first order.
   for (const double belt_speed : {0.5, 0.0}) {
     Model model = mass_on_a_belt();
     model.frictions[0].belt_speed = belt_speed;

@@ -1,4 +1,5 @@
-/// Batches: the events of a Motion, the same bits for all widths and neighbours, cuts that change nothing, doubt that goes to a Motion.
+/// Batches: the events of a Motion, the same bits for all widths and neighbours, cuts that change nothing, doubt that
+/// goes to a Motion.
 #include "slapstick/sweep/batch.hpp"
 
 #include <gtest/gtest.h>
@@ -183,7 +184,8 @@ TEST(Batch, PointsAreTheStatesOfAMotion) {
   }
 }
 
-/// A ball of restitution r that falls from a height h: impact k at sqrt(2 h / g) (1 + 2 (r + r^2 + .. + r^k)), at speed r^k sqrt(2 g h).
+/// A ball of restitution r that falls from a height h: impact k at sqrt(2 h / g) (1 + 2 (r + r^2 + .. + r^k)), at speed
+/// r^k sqrt(2 g h).
 TEST(Batch, ABallFallsByTheClosedForm) {
   const ModelDefinition definition = load_model("bouncing-ball");
   const Model model = definition.build();
@@ -217,7 +219,8 @@ TEST(Batch, AStartInContactIsAMotions) {
 }
 
 /// A pair is pressed together, and two friction contacts hold its lower body. Where they let go the pair stays closed:
-/// a mode in which the bodies would pass through each other has no gap among its slots, and takes load off the friction.
+/// a mode in which the bodies would pass through each other has no gap among its slots, and takes load off the
+/// friction.
 TEST(Batch, ABodyThatIsLetGoPassesThroughNoOther) {
   Model model;
   model.name = "pressed";

@@ -1,4 +1,5 @@
-/// Exponents of a batch's lanes: closed forms, the tangents of a Motion, the same bits for all widths, and a motion that does not change for being asked.
+/// Exponents of a batch's lanes: closed forms, the tangents of a Motion, the same bits for all widths, and a motion
+/// that does not change for being asked.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -65,8 +66,8 @@ double exponent_of_tangents(const test::Machine& machine, int transient, int per
   return growth / periods;
 }
 
-/// x'' + 2 D x' + x = cos(omega t) far from its stop: D = 2 has the real exponents -2 +- sqrt(3); below 1 the tangent turns by
-/// half a turn in a period at omega = 2 sqrt(1 - D^2) and shrinks by exp(-D T).
+/// x'' + 2 D x' + x = cos(omega t) far from its stop: D = 2 has the real exponents -2 +- sqrt(3); below 1 the tangent
+/// turns by half a turn in a period at omega = 2 sqrt(1 - D^2) and shrinks by exp(-D T).
 TEST(BatchExponent, IsThatOfALinearOscillator) {
   const ModelDefinition definition = load_model("impact-oscillator");
   for (const double omega : {0.7, 2.0, 9.0}) {
@@ -82,8 +83,9 @@ TEST(BatchExponent, IsThatOfALinearOscillator) {
   EXPECT_NEAR(found.exponent, -D * 2.0 * pi / omega, 1e-13);
 }
 
-/// One bounce a period on a shaken table: the multipliers are the roots of mu^2 - s mu + r^2 with s = 1 + r^2 - (1 + r)^2 a sin(phi), where
-/// the table is at phase phi at the impact, cos(phi) = pi (1 - r) / (a (1 + r)).
+/// One bounce a period on a shaken table: the multipliers are the roots of mu^2 - s mu + r^2 with
+/// s = 1 + r^2 - (1 + r)^2 a sin(phi), where the table is at phase phi at the impact, cos(phi) = pi (1 - r) / (a
+/// (1 + r)).
 TEST(BatchExponent, IsTheLogarithmOfTheLargestMultiplierOfABouncingCycle) {
   const double a = 1.49, r = 0.5, phi = std::acos(pi * (1.0 - r) / (a * (1.0 + r))),
                s = 1.0 + r * r - (1.0 + r) * (1.0 + r) * a * std::sin(phi);

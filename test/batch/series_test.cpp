@@ -9,8 +9,8 @@
 namespace slapstick::batch {
 namespace {
 
-/// j t in an exact product, less its whole turns; 2 pi in 64 bits. docs/developers/proofs.md, section 11, counts on the bound for every
-/// harmonic.
+/// j t in an exact product, less its whole turns; 2 pi in 64 bits. docs/developers/proofs.md, section 11, counts on the
+/// bound for every harmonic.
 TEST(BatchSeries, SinesOfHarmonicsAreWithinTheirBound) {
   if (std::numeric_limits<long double>::digits < 64) GTEST_SKIP() << "long double is no wider than double";
   constexpr long double two_pi = 6.283185307179586476925286766559L;

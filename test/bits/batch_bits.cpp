@@ -1,6 +1,8 @@
-/// Prints a hash of the runs of a batch, and compares it with the one that stands in the repository: the same bits in every lane of every machine.
+/// Prints a hash of the runs of a batch, and compares it with the one that stands in the repository: the same bits in
+/// every lane of every machine.
 ///
-///     test_batch_bits [FILE]     exit status 1 if FILE says something else, or the kernel is not that of SLAPSTICK_TARGET
+///     test_batch_bits [FILE]     exit status 1 if FILE says something else, or the kernel is not that of
+///                                SLAPSTICK_TARGET
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

@@ -1,6 +1,8 @@
-/// Prints a hash of twelve motions, and compares it with the one that stands in the repository: the same bits on every machine.
+/// Prints a hash of twelve motions, and compares it with the one that stands in the repository: the same bits on every
+/// machine.
 ///
-///     test_bits [FILE]     one line a motion; exit status 1 if FILE says something else, or the motions are not what they are meant to be
+///     test_bits [FILE]     one line a motion; exit status 1 if FILE says something else, or the motions are not what
+///                          they are meant to be
 #include <cstdlib>
 #include <fstream>
 #include <iostream>

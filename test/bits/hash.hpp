@@ -1,5 +1,6 @@
 #pragma once
-/// A hash of numbers, all bits of a double: FNV-1a (Fowler, Noll, Vo) of bytes, the least significant of a number first.
+/// A hash of numbers, all bits of a double: FNV-1a (Fowler, Noll, Vo) of bytes, the least significant of a number
+/// first.
 #include <cstdint>
 #include <cstring>
 

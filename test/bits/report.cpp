@@ -1,6 +1,6 @@
-/// Hashes twelve motions: of every event its kind, contact, instant, speed and error, and the state before and after it, all bits of the doubles.
-/// The models are read from their files, so that formulas count too; the chain has more than 24 numbers in its state, and so takes the ways of
-/// large models.
+/// Hashes twelve motions: of every event its kind, contact, instant, speed and error, and the state before and after
+/// it, all bits of the doubles. The models are read from their files, so that formulas count too; the chain has more
+/// than 24 numbers in its state, and so takes the ways of large models.
 #include "report.hpp"
 
 #include <algorithm>
@@ -69,7 +69,8 @@ Summary summary_of(const Run& run) {
   return summary;
 }
 
-/// Periodic, sticking, chaotic and chattering motions; the last two have polylines, a bounded stop, a normal force and restitution over the speed.
+/// Periodic, sticking, chaotic and chattering motions; the last two have polylines, a bounded stop, a normal force and
+/// restitution over the speed.
 std::vector<Run> runs() {
   return {{"vibro-impact", {{"omega", 0.552}}, 2400},
           {"vibro-impact", {{"omega", 4.65}}, 300},

@@ -1,4 +1,5 @@
-/// The failure catalogue: every entry of catalogue.json does what it expects, one test a member. The keys are told in member.hpp.
+/// The failure catalogue: every entry of catalogue.json does what it expects, one test a member. The keys are told in
+/// member.hpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-/// Items of the catalogue that are about software: K34, meaningless numbers in every field; K35, a processor left in flush-to-zero.
+/// Items of the catalogue that are about software: K34, meaningless numbers in every field; K35, a processor left in
+/// flush-to-zero.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,5 @@
-/// The failure catalogue through the lanes of a batch: every member whose model lanes can run has the events of its motion.
+/// The failure catalogue through the lanes of a batch: every member whose model lanes can run has the events of its
+/// motion.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,9 +57,9 @@ std::vector<Event> first_of(std::vector<Event> events, std::size_t most) {
 
 constexpr double tolerance = 1e-9;  ///< of times, in periods
 
-/// A motion tells a graze where the gap's least value is zero within its rounding, and with it what else changes at that
-/// instant. A lane's promise begins anew with each window, so its rounding is another one: what is told at such instants
-/// is left out. Events of one instant have no order.
+/// A motion tells a graze where the gap's least value is zero within its rounding, and with it what else changes at
+/// that instant. A lane's promise begins anew with each window, so its rounding is another one: what is told at such
+/// instants is left out. Events of one instant have no order.
 std::vector<Event> beside_grazes(std::vector<Event> events, const std::vector<Event>& other) {
   std::vector<Instant> grazes;
   for (const std::vector<Event>* told : {static_cast<const std::vector<Event>*>(&events), &other})

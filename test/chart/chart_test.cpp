@@ -65,8 +65,8 @@ TEST_F(ChartStore, RefusesAnotherChart) {
   }
 }
 
-/// Without impacts the amplitude is 1 / sqrt((1 - omega^2)^2 + (2 zeta omega)^2): there the stop is touched. A refined map
-/// has all edges of the whole one.
+/// Without impacts the amplitude is 1 / sqrt((1 - omega^2)^2 + (2 zeta omega)^2): there the stop is touched. A refined
+/// map has all edges of the whole one.
 TEST(ChartCurves, OfARefinedMapAreThoseOfTheWhole) {
   Chart chart = over(load_model("impact-oscillator"), {{"damping_ratio", 0.8}}, "omega", {0.5, 1.5, 33}, "clearance",
                      {0.3, 1.0, 33});

@@ -1,5 +1,5 @@
-/// Random and adversarial guards against an independent search: 0 missed, 0 false, 0 later than the first, and the cost.
-/// SLAPSTICK_CAMPAIGN=N runs N times as many cases.
+/// Random and adversarial guards against an independent search: 0 missed, 0 false, 0 later than the first, and the
+/// cost. SLAPSTICK_CAMPAIGN=N runs N times as many cases.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -231,7 +231,8 @@ TEST(FirstRootCampaign, SeveralAndMultipleRootsInOneWindow) {
     if (g[0] > 0.0) judge(campaign_of.wrap(g), tally);
   }
   report("several roots", tally);
-  // A touch of order four is approached in steps of the square of its distance: thousands of evaluations, but never a hang.
+  // A touch of order four is approached in steps of the square of its distance: thousands of evaluations, but never a
+  // hang.
   EXPECT_LT(tally.most_evaluations, 40'000);
 }
 

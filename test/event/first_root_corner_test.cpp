@@ -66,7 +66,8 @@ TEST(FirstRootCorner,
 }
 
 TEST(FirstRootCorner, AMinimumThatIsRoundingAllAroundEndsTheSearchForIt) {
-  // The band is |x - r| < 9^(-1/4) r; the slope 4 (x - r)^3 is nothing but rounding over a millionth of that, where bisection never settles.
+  // The band is |x - r| < 9^(-1/4) r; the slope 4 (x - r)^3 is nothing but rounding over a millionth of that, where
+  // bisection never settles.
   for (const double r : {0.125, 0.25, 0.5}) {
     const Taylor a = power(r, 4);
     long evaluations = 0;
@@ -108,9 +109,8 @@ TEST(HullCorner, ThreadsThatMeetInTheFirstCallHaveOneTable) {  // each test is a
     for (int j = 0; j < 8; ++j) EXPECT_NEAR(hull.bernstein[j], 8.0 - j, 1e-13);
 }
 
-TEST(
-    FirstRootCorner,
-    CoefficientsThatCancelAreBoundedByTheHullInstead) {  // g'' is a small Chebyshev polynomial: its coefficients are not
+/// g'' is a small Chebyshev polynomial, whose coefficients are not small.
+TEST(FirstRootCorner, CoefficientsThatCancelAreBoundedByTheHullInstead) {
   const double chebyshev[] = {1, -72, 840, -3584, 6912, -6144, 2048}, eps = 1e-14;
   Taylor a = polynomial({1.0, 0.0});
   for (int n = 2; n < 9; ++n) a[n] = eps * chebyshev[n - 2] / (n * (n - 1));

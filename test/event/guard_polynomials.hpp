@@ -1,5 +1,6 @@
 #pragma once
-/// Guard polynomials for tests of the root kernel, and a search for their first zero that shares no code and no method with it.
+/// Guard polynomials for tests of the root kernel, and a search for their first zero that shares no code and no method
+/// with it.
 ///
 /// Reference: Bernstein subdivision with Descartes' rule of signs, in a number type of the caller's choice.
 #include <array>
@@ -45,8 +46,9 @@ std::array<T, terms> bernstein(const Taylor& a) {
   return b;
 }
 
-/// The kernel's input for a polynomial whose zero of order `order` at the start is divided out: every coefficient known to 25 u of
-/// itself, as in a mode of nine states, and the first one, as a sum of terms of this size in all, to 25 u of `size`.
+/// The kernel's input for a polynomial whose zero of order `order` at the start is divided out: every coefficient known
+/// to 25 u of itself, as in a mode of nine states, and the first one, as a sum of terms of this size in all, to 25 u of
+/// `size`.
 inline GuardWindow window(const Taylor& a, int order = 0, double size = 0.0) {
   GuardWindow guard{};
   std::array<double, terms> g{}, sizes{};

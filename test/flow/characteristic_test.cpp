@@ -130,8 +130,8 @@ TEST(Characteristic, SteadySlidingIsUnstableWhereFrictionFallsFasterThanDampingR
   }
 }
 
-/// Two blocks that static friction holds together are drawn apart by forces that kinetic friction could not bear. A corner over the
-/// velocity of one of them is no reason to let go: beyond it 2 v' = 2 - 0.1 (v - 0.5).
+/// Two blocks that static friction holds together are drawn apart by forces that kinetic friction could not bear. A
+/// corner over the velocity of one of them is no reason to let go: beyond it 2 v' = 2 - 0.1 (v - 0.5).
 TEST(Characteristic, ACornerDoesNotEndStick) {
   const System system(
       ModelDefinition::parse(

@@ -1,4 +1,5 @@
-/// Chatter with friction, beside other events, and at random. What has a closed form or known digits is in ../catalogue (K18 to K24, K36).
+/// Chatter with friction, beside other events, and at random. What has a closed form or known digits is in ../catalogue
+/// (K18 to K24, K36).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,7 +53,8 @@ TEST(Chatter, IsEndedByFrictionAloneAtAStopWithoutLoss) {  // r = 1 once bounced
       const System system(m);
       Motion motion(system, {0.0, 1.0});
       const auto events = run(motion, 100.0, 2000);
-      // A flight of speed v rises for v / (1 + f), falls for v / sqrt(1 - f^2), and ends with speed v sqrt((1 - f) / (1 + f)).
+      // A flight of speed v rises for v / (1 + f), falls for v / sqrt(1 - f^2), and ends with speed v
+      // sqrt((1 - f) / (1 + f)).
       const double kept = r * std::sqrt((1 - f) / (1 + f));
       const double end = (1 / (1 + f) + 1 / std::sqrt(1 - f * f)) / (1 - kept);
       ASSERT_EQ(name(events.back().kind), "chatter") << r << " " << f << ", after " << events.size() << " events";
@@ -203,7 +205,8 @@ Model ball_and_a_body_elsewhere(double static_friction, double kinetic_friction)
   return m;
 }
 
-/// What happens besides impacts up to t = 6, which must be what the oracle sees: one event at `due`, and the chatter at 4.
+/// What happens besides impacts up to t = 6, which must be what the oracle sees: one event at `due`, and the chatter at
+/// 4.
 void expect_event_beside_the_chatter(const Model& model, const State& start, const char* kind, double due) {
   const System system(model);
   Motion motion(system, start);
@@ -238,8 +241,9 @@ TEST(ChatterTail, SeesAStuckBodyElsewhereReleased) {
   }
 }
 
-/// A mass pressed onto its stop with R = 1 - x / 10, which may fall by some 0.1 within the chatter: static friction of 0.999 might then hold it off the
-/// stop, a little less might not. At this tolerance the difference is far from rounding.
+/// A mass pressed onto its stop with R = 1 - x / 10, which may fall by some 0.1 within the chatter: static friction of
+/// 0.999 might then hold it off the stop, a little less might not. At this tolerance the difference is far from
+/// rounding.
 TEST(Chatter, IsNotProvenWhereStaticFrictionMightHoldThePairOff) {
   const auto proven = [](double static_friction) {
     Model m;

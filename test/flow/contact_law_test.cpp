@@ -99,8 +99,8 @@ TEST(ContactLaw, ABoundedStopThatThrowsAMassIsADampedSpring) {
   EXPECT_NEAR(motion.state()[1], -5.0 * std::exp(-3.0 * time), 1e-14);
 }
 
-/// A load of 10 pushes a mass into a stop of 100 on the way in and 60 on the way out: it turns at 2 * 10 / 100, goes out, turns at
-/// 2 * 10 / 60 - 0.2 and stays, because 60 * 2 / 15 < 10 < 100 * 2 / 15.
+/// A load of 10 pushes a mass into a stop of 100 on the way in and 60 on the way out: it turns at 2 * 10 / 100, goes
+/// out, turns at 2 * 10 / 60 - 0.2 and stays, because 60 * 2 / 15 < 10 < 100 * 2 / 15.
 TEST(ContactLaw, AMassComesToRestBetweenTwoStiffnesses) {
   const System system(
       one_mass(bumper("unloading_stiffness = 60") + "[[force]]\non = 'x'\namplitude = 10\nharmonic = 0\n").build());
@@ -290,7 +290,8 @@ TEST(ContactLaw, AStribeckLawIsLaidWithItsStatedError) {
   }
 }
 
-/// v' = -(1 + 2 exp(-2 v)) from 2: T = (ln(exp(4) + 2) - ln 3) / 2; chords lie above the law, so that the mass stops early.
+/// v' = -(1 + 2 exp(-2 v)) from 2: T = (ln(exp(4) + 2) - ln 3) / 2; chords lie above the law, so that the mass stops
+/// early.
 TEST(ContactLaw, AMassThatAStribeckLawStopsDoesSoInTime) {
   const double time = 0.5 * (std::log(std::exp(4.0) + 2.0) - std::log(3.0));
   for (const int corners : {10, 20, 40, 80}) {
@@ -306,7 +307,8 @@ TEST(ContactLaw, AMassThatAStribeckLawStopsDoesSoInTime) {
   }
 }
 
-/// Steady sliding at 0.25 grows by (4 exp(-1/2) - c) / 2, from the tangents' area; a polyline has the slope of somewhere in the piece.
+/// Steady sliding at 0.25 grows by (4 exp(-1/2) - c) / 2, from the tangents' area; a polyline has the slope of
+/// somewhere in the piece.
 TEST(ContactLaw, TheSlopeOfAStribeckLawIsThatOfItsPiece) {
   const double law = 4.0 * std::exp(-0.5);
   for (const int corners : {5, 20, 80}) {

@@ -1,5 +1,5 @@
-/// What a motion and a new parameter value cost, in counts: they are the same on every machine, and no other program can disturb them as it can a
-/// time. Times and ratios are the benchmark's (bench/, docs/explanation/performance.md).
+/// What a motion and a new parameter value cost, in counts: they are the same on every machine, and no other program
+/// can disturb them as it can a time. Times and ratios are the benchmark's (bench/, docs/explanation/performance.md).
 #include <gtest/gtest.h>
 
 #include "flow/runs.hpp"

@@ -1,4 +1,5 @@
-/// Where a run is cut makes no difference: advance(end) at places made to be hard, also at an event, and on. Random ones are in ../property.
+/// Where a run is cut makes no difference: advance(end) at places made to be hard, also at an event, and on. Random
+/// ones are in ../property.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +23,8 @@ std::vector<Event> run_with_cuts(const System& system, const State& start, const
   return events;
 }
 
-/// Leaves out the bounces just before a chatter's limit: a cut among them spends one proof, and one bounce more is listed.
+/// Leaves out the bounces just before a chatter's limit: a cut among them spends one proof, and one bounce more is
+/// listed.
 std::vector<Event> without_last_bounces(std::vector<Event> events) {
   for (std::size_t i = 0; i < events.size(); ++i) {
     if (events[i].kind != EventKind::chatter) continue;
@@ -91,9 +93,9 @@ TEST_P(Cut, EventExactlyAtTheEndIsReported) {
 
 INSTANTIATE_TEST_SUITE_P(Omega, Cut, ::testing::Values(0.552, 1.5, 2.2, 4.9));
 
-TEST(
-    Cut,
-    JustBeforeAnExactTouchLeavesItATouch) {  // a touch once became an impact of the speed that the cut's rounding gave it
+TEST(Cut,
+     // a touch once became an impact of the speed that the cut's rounding gave it
+     JustBeforeAnExactTouchLeavesItATouch) {
   const System system(oracle::oscillator_with_stop(1.0));  // x = sin t against a wall at 1
   for (int k = 4; k <= 52; ++k) {
     const double touch = 0.25 / system.period() * 2 * std::numbers::pi;

@@ -49,9 +49,9 @@ TEST(Belt, CycleIsTheClosedForm) {  // case F6: T = 2 pi - 2 atan(D / v0) + 2 D 
   }
 }
 
-/// A mass on a spring, a belt and a stop without loss, thrown back from the stop at the belt's speed V. The friction force f is constant until
-/// the mass returns, with speed V: impact and rest on the belt are one instant. About x_e = f / k it turns, half way, at
-/// tan(omega t) = V / (omega (x_e - c)).
+/// A mass on a spring, a belt and a stop without loss, thrown back from the stop at the belt's speed V. The friction
+/// force f is constant until the mass returns, with speed V: impact and rest on the belt are one instant. About
+/// x_e = f / k it turns, half way, at tan(omega t) = V / (omega (x_e - c)).
 void expect_a_tie_in_every_period(double mass, double k, double clearance, double V, double f,
                                   const std::string& what) {
   Model m;

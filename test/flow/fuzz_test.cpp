@@ -17,9 +17,9 @@ void until_graze(std::vector<Seen>& events) {
   events.erase(std::ranges::find(events, std::string("graze"), &Seen::kind), events.end());
 }
 
-/// Leaves out everything from a chatter on that the engine cannot prove: a coupled friction pair that comes to rest in each of its
-/// flights (oracle_system_test: ThirdBody). Such bounces are run one by one until their times no longer differ; those of a chatter that is proven
-/// are summed long before. True if there was one.
+/// Leaves out everything from a chatter on that the engine cannot prove: a coupled friction pair that comes to rest in
+/// each of its flights (oracle_system_test: ThirdBody). Such bounces are run one by one until their times no longer
+/// differ; those of a chatter that is proven are summed long before. True if there was one.
 bool until_unproven_chatter(std::vector<Seen>& events) {
   for (std::size_t i = 1; i < events.size(); ++i) {
     if (events[i].kind == "chatter" || events[i].time - events[i - 1].time > 1e-13) continue;

@@ -1,4 +1,5 @@
-/// What holds for every motion: bits and memory. Balances, bounds and mirror images are in ../property, and in ../catalogue (K38 to K40).
+/// What holds for every motion: bits and memory. Balances, bounds and mirror images are in ../property, and in
+/// ../catalogue (K38 to K40).
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -18,7 +18,8 @@ TEST(LongRun, WithoutAnyEventKeepsThePhase) {  // windows follow one another, an
   const std::int64_t periods = 100'000 * testing::campaign();
   ASSERT_EQ(motion.advance({periods, 0.25}), Outcome::reached_end);
   // x = Im exp(i omega t) / (1 - omega^2 + i damping omega), at omega t = pi / 2.
-  // A window of 0.93 forgets 0.045 of its rounding (4 u), so 1e-14 at most stands; a clock of steps would have lost 2e-11.
+  // A window of 0.93 forgets 0.045 of its rounding (4 u), so 1e-14 at most stands; a clock of steps would have lost
+  // 2e-11.
   const double a = 1 - omega * omega, b = damping * omega;
   EXPECT_NEAR(motion.state()[0], a / (a * a + b * b), 1e-14);
   EXPECT_NEAR(motion.state()[1], omega * b / (a * a + b * b), 1e-14);

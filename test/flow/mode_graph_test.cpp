@@ -50,9 +50,8 @@ TEST(ModeGraph,
   }
 }
 
-TEST(
-    ModeGraph,
-    WhatIsKnownToVanishIsNotJudgedByItsRounding) {  // a graze of a force: value and slope are zero, its state is not exact
+/// A graze of a force: value and slope are zero, its state is not exact.
+TEST(ModeGraph, WhatIsKnownToVanishIsNotJudgedByItsRounding) {
   const System system(mass_on_a_floor_and_mass_at_a_wall(1.0));
   auto X = entered(system, {0.0, 0.0, -1.0, 0.0}, 0.25);
   mode::ContactStates states = system.states(0);
@@ -80,7 +79,8 @@ TEST(Stick, HoldsAForceThatOnlyTouchesItsLimit) {  // |f0| <= f_s, however often
   EXPECT_EQ(motion.state()[0], 0.0);
 }
 
-/// Static and kinetic friction 1, a load that exceeds it by k roundings: whether it holds rounding cannot say, but some mode must be found.
+/// Static and kinetic friction 1, a load that exceeds it by k roundings: whether it holds rounding cannot say, but some
+/// mode must be found.
 TEST(Stick, OrSlipUnderALoadThatExceedsFrictionByRoundings) {  // was: no contact mode fits the state
   for (int k = -3; k <= 200; ++k) {
     Model m;
@@ -112,7 +112,8 @@ TEST(Stick, OrSlipUnderASpringThatExceedsFrictionByRoundings) {
   }
 }
 
-/// Masses 1 in a row, springs 1 between neighbours and from the first to ground; a load on the first, a stop at the last.
+/// Masses 1 in a row, springs 1 between neighbours and from the first to ground; a load on the first, a stop at the
+/// last.
 Model chain(int masses, double load) {
   Model m;
   for (int i = 0; i < masses; ++i) m.coordinates.push_back({"x" + std::to_string(i + 1), 1.0});

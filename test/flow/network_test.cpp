@@ -1,4 +1,5 @@
-/// Many contacts at once, on random machines: agreement with a scheme that has no events. What every state must satisfy is in ../property.
+/// Many contacts at once, on random machines: agreement with a scheme that has no events. What every state must satisfy
+/// is in ../property.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -143,8 +143,8 @@ TEST(NeverReached, AMemberOfAFamilyMayRestAtAStop) {
   }
 }
 
-/// W of the basis belongs to the first contact of each pair, its shift to the nearest one, where the first is far beside that: a
-/// parameter that makes it so moves no row.
+/// W of the basis belongs to the first contact of each pair, its shift to the nearest one, where the first is far
+/// beside that: a parameter that makes it so moves no row.
 TEST(Numbering, TheBasisKeepsItsRowsWhereAnotherContactBecomesTheNearest) {
   Model model = model_with(stop_at("0.5") + stop_at("2", "two_sided = true\n") + pad_on("0", 1.0));
   const mode::Frame before(model);

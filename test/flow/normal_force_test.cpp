@@ -105,7 +105,8 @@ TEST(NormalForce, AContactThatIsLoadedOpensNoStop) {
   }
 }
 
-/// N = 1 - 2 cos t presses from pi / 3 to 5 pi / 3 only: what it takes of the speed is mu (4 pi / 3 + 2 sqrt 3) a period.
+/// N = 1 - 2 cos t presses from pi / 3 to 5 pi / 3 only: what it takes of the speed is mu (4 pi / 3 + 2 sqrt 3) a
+/// period.
 TEST(NormalForce, AContactThatIsPressedNowAndThen) {
   const System system(file(coordinate("x") + coordinate("y") +
                            "[[spring]]\nbetween = ['y', 'ground']\nstiffness = 1\n" +
@@ -169,7 +170,8 @@ TEST(NormalForce, AConstantOneGivesTheBitsOfFixedLimits) {
   }
 }
 
-/// A brake pad that a gap switches on: the stop is hit at pi / 2 with speed 1 and pushes with 100 delta for pi / 10.05..
+/// A brake pad that a gap switches on: the stop is hit at pi / 2 with speed 1 and pushes with 100 delta for
+/// pi / 10.05..
 TEST(NormalForce, ACompliantStopPressesAContactWhileItTouches) {
   const System system(
       file(coordinate("x") + coordinate("y") +

@@ -227,8 +227,8 @@ TEST(OneInstant, ABufferThatAnImpactUnloadsLetsGoInARowOfItsOwn) {
   EXPECT_EQ(events[3].kind, EventKind::separate);
 }
 
-/// A weak damper far from the origin: where its force ends is known to the rounding of the displacement, and the speed that would make the
-/// force zero there is another one.
+/// A weak damper far from the origin: where its force ends is known to the rounding of the displacement, and the speed
+/// that would make the force zero there is another one.
 TEST(OneInstant, AStopWithAWeakDamperLetsGoOnce) {
   Model model;
   model.coordinates.push_back({"x", 1.0});

@@ -27,8 +27,8 @@ void move_on(const Model& model, oracle::SegmentStart& start, const Real& s) {
   start.no_slip = start.touching = false;
 }
 
-/// The exact event of a segment. Just after a release the pair's acceleration is zero within rounding: its sign means nothing to
-/// digits that the engine's state does not have, so the oracle starts a thousandth later.
+/// The exact event of a segment. Just after a release the pair's acceleration is zero within rounding: its sign means
+/// nothing to digits that the engine's state does not have, so the oracle starts a thousandth later.
 std::optional<oracle::OracleEvent> exact_event(const Model& model, const System& system, const Motion& motion,
                                                bool after_release) {
   const Motion::Segment segment = motion.segment();

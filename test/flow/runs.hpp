@@ -62,7 +62,8 @@ inline std::vector<Seen> engine_events(Motion& motion, double time, std::size_t 
   return seen;
 }
 
-/// Compares two lists; the oracle bounces on for longer than the engine before it sums a chatter, and those bounces are passed over.
+/// Compares two lists; the oracle bounces on for longer than the engine before it sums a chatter, and those bounces are
+/// passed over.
 struct Comparison {
   std::size_t events = 0;
   double worst = 0.0;    ///< largest difference of two times

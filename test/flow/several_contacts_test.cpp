@@ -148,7 +148,8 @@ TEST(SeveralContacts, HeavyBlockInStickIsReleasedOnTime) {  // was taken for a d
 }
 
 TEST(SeveralContacts, ADampedBufferThatPushesAgainBeyondItsGapEngages) {
-  // Pressed in and thrown out, the mass leaves the buffer's force at delta > 0; a pulse presses it in again before it is back at the gap.
+  // Pressed in and thrown out, the mass leaves the buffer's force at delta > 0; a pulse presses it in again before it
+  // is back at the gap.
   Model m;
   m.omega = 2.0;
   m.coordinates = {{"x", 1.0}};
@@ -203,7 +204,8 @@ Model pressed_loop(std::mt19937_64& random, int k) {
   return m;
 }
 
-/// Gaps of 1e-18 took the rounding of the clearances at every event, fell through it, hit, and never came to rest: a million events in a period.
+/// Gaps of 1e-18 took the rounding of the clearances at every event, fell through it, hit, and never came to rest: a
+/// million events in a period.
 TEST(SeveralContacts, LoopOfStopsWhoseClearancesAddUpComesToRestWhenPressed) {
   std::mt19937_64 random(1);
   long at_rest = 0;
@@ -225,8 +227,8 @@ TEST(SeveralContacts, LoopOfStopsWhoseClearancesAddUpComesToRestWhenPressed) {
   EXPECT_GE(at_rest, 200) << "the bodies are not pressed together";
 }
 
-/// Two bodies between walls with no room at all: three stops in a loop, whose velocities sum to zero whatever the bodies do. D is singular,
-/// ratios are equal, and Lemke's method without a rule for those ends on a ray.
+/// Two bodies between walls with no room at all: three stops in a loop, whose velocities sum to zero whatever the
+/// bodies do. D is singular, ratios are equal, and Lemke's method without a rule for those ends on a ray.
 TEST(Jam, OfStopsInALoopIsSolvedAtEqualRatios) {
   Model m;
   m.coordinates = {{"a", 1.0}, {"b", 0.5}};
@@ -248,7 +250,8 @@ TEST(Jam, OfStopsInALoopIsSolvedAtEqualRatios) {
   EXPECT_GE(excess.minCoeff(), -1e-15) << excess.transpose();
 }
 
-/// A start in contact and approaching is an impact before any motion: the mode it is reported in goes by the velocities alone.
+/// A start in contact and approaching is an impact before any motion: the mode it is reported in goes by the velocities
+/// alone.
 TEST(Start, InAnImpactIsInTheModeOfItsVelocities) {
   for (const auto& [v, mode] : {std::pair{0.5, "slip+"}, {-0.5, "slip-"}, {0.0, "stick"}}) {
     Model m;
@@ -265,8 +268,9 @@ TEST(Start, InAnImpactIsInTheModeOfItsVelocities) {
   }
 }
 
-/// Two bodies pressed together that come to rest on two friction contacts: three contacts in a loop, of which one may be called slipping though
-/// the other two hold it (found by ../property as a mirror image with the same name). They stay at rest.
+/// Two bodies pressed together that come to rest on two friction contacts: three contacts in a loop, of which one may
+/// be called slipping though the other two hold it (found by ../property as a mirror image with the same name). They
+/// stay at rest.
 TEST(Loop, OfContactsThatComesToRestStaysAtRest) {
   for (const double side : {1.0, -1.0}) {
     Model m;
@@ -289,7 +293,8 @@ TEST(Loop, OfContactsThatComesToRestStaysAtRest) {
   }
 }
 
-/// The force at the root is a rounding above zero: unless it is made zero, the mode goes on and ends again an ulp later, with a second event.
+/// The force at the root is a rounding above zero: unless it is made zero, the mode goes on and ends again an ulp
+/// later, with a second event.
 TEST(CompliantStop, LetsGoOnce) {
   Model m;
   m.coordinates = {{"x", 3.0}};

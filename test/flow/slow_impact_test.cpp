@@ -1,5 +1,5 @@
-/// Slow impacts against the exact arcsine: x'' + x = 0 towards a wall that it just reaches. The gap's noise e moves a crossing of speed w by
-/// e / w; nothing else may, however flat the crossing.
+/// Slow impacts against the exact arcsine: x'' + x = 0 towards a wall that it just reaches. The gap's noise e moves a
+/// crossing of speed w by e / w; nothing else may, however flat the crossing.
 #include <gtest/gtest.h>
 
 #include <random>

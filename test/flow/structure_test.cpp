@@ -1,5 +1,5 @@
-/// Models with parts that do not touch each other: what their structure makes zero is zero, and not a rounding that asks for events
-/// or for ever shorter windows.
+/// Models with parts that do not touch each other: what their structure makes zero is zero, and not a rounding that
+/// asks for events or for ever shorter windows.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -13,8 +13,8 @@
 namespace slapstick {
 namespace {
 
-/// Bodies on springs of their own, of which the first two may be joined; the last one is driven, rubs on the floor, and is a stop for
-/// another.
+/// Bodies on springs of their own, of which the first two may be joined; the last one is driven, rubs on the floor, and
+/// is a stop for another.
 Model random_groups(std::mt19937_64& random, int n) {
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -33,7 +33,8 @@ Model random_groups(std::mt19937_64& random, int n) {
   return m;
 }
 
-/// Windows per unit of the fastest time scale (the inverse of the largest eigenvalue), in the mode that needs most of them.
+/// Windows per unit of the fastest time scale (the inverse of the largest eigenvalue), in the mode that needs most of
+/// them.
 double windows_per_time_scale(const Model& model) {
   const System system(model);
   double most = 0.0;
@@ -105,8 +106,8 @@ void expect_the_oracles_events(const Model& model, const State& state, double ti
 }
 
 TEST(HoldingForce, ThatTheStructureMakesZeroNeitherHoldsNorReleases) {
-  Model
-      m;  // the third body touches nothing but the second, which comes to rest on the belt: nothing presses them together then
+  // the third body touches nothing but the second, which comes to rest on the belt: nothing presses them together then
+  Model m;
   m.coordinates = {{"x1", 0.015722146605169445}, {"x2", 0.014169454800815226}, {"x3", 0.05139944145985513}};
   m.springs = {{0, ground, 0.75426315252364817}};
   m.dampers = {{1, 0, 0.012494393648860192}};

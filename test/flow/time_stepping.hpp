@@ -7,8 +7,9 @@
 
 namespace slapstick::test {
 
-/// Moreau and Jean's scheme with midpoints: stops that are touched at the middle of a step, and all friction contacts, act on its velocities
-/// through impulses found by projected Gauss-Seidel. Of first order; it has no events. For rigid stops, f_s = f_k and no belts.
+/// Moreau and Jean's scheme with midpoints: stops that are touched at the middle of a step, and all friction contacts,
+/// act on its velocities through impulses found by projected Gauss-Seidel. Of first order; it has no events. For rigid
+/// stops, f_s = f_k and no belts.
 class TimeStepping {
  public:
   explicit TimeStepping(const Model& model);

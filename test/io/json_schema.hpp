@@ -1,6 +1,6 @@
 #pragma once
-/// A checker for the part of JSON Schema (draft 2020-12) that models/model.schema.json uses. A keyword that it does not know is an
-/// error, so that no rule of the schema goes unchecked.
+/// A checker for the part of JSON Schema (draft 2020-12) that models/model.schema.json uses. A keyword that it does not
+/// know is an error, so that no rule of the schema goes unchecked.
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <regex>

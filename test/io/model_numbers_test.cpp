@@ -1,4 +1,5 @@
-/// A number with a unit where a model with [scale] calculates with its own: silently wrong by the size of 1, if it were taken.
+/// A number with a unit where a model with [scale] calculates with its own: silently wrong by the size of 1, if it were
+/// taken.
 #include <gtest/gtest.h>
 
 #include "io/refusal.hpp"

@@ -1,4 +1,5 @@
-/// Two-sided and compliant stops, matrices and the impact law: what a file says is what the Model has, and nonsense is refused.
+/// Two-sided and compliant stops, matrices and the impact law: what a file says is what the Model has, and nonsense is
+/// refused.
 #include <gtest/gtest.h>
 
 #include "io/refusal.hpp"

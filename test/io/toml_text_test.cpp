@@ -1,5 +1,5 @@
-/// toml++ 3.3 asks of characters beyond ASCII whether they are blanks, and for some of them reaches what it says cannot be reached: undefined
-/// behaviour (./dev sanitize sees it), found by fuzz/model_file.cpp.
+/// toml++ 3.3 asks of characters beyond ASCII whether they are blanks, and for some of them reaches what it says cannot
+/// be reached: undefined behaviour (./dev sanitize sees it), found by fuzz/model_file.cpp.
 #include <gtest/gtest.h>
 
 #include <vector>

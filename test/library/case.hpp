@@ -1,9 +1,11 @@
 #pragma once
-/// A number that is known of a system, and how the engine is asked for it: entries of published cases (this folder) and of the failure
-/// catalogue (../catalogue) have in common
+/// A number that is known of a system, and how the engine is asked for it: entries of published cases (this folder) and
+/// of the failure catalogue (../catalogue) have in common
 ///
-///     "model", "set"    a built-in model, or a file beside the entry's; its parameters (numbers or expressions of those before)
-///     "start"           the state by name, at "time" (or in the "period" of that number); what is not named is the model's own start
+///     "model", "set"    a built-in model, or a file beside the entry's; its parameters (numbers or expressions of
+///                       those before)
+///     "start"           the state by name, at "time" (or in the "period" of that number); what is not named is the
+///                       model's own start
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>

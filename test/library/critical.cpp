@@ -38,8 +38,9 @@ Eigen::VectorXd settled(const Entry& entry, double p) {
 
 }  // namespace
 
-/// The unknowns are the cycle's state and the parameter; at a fold the Jacobian by both is regular. At a pitchfork it is singular along the
-/// broken symmetry, and the least-squares step stays in the symmetric states. Differences are only for the condition and the parameter.
+/// The unknowns are the cycle's state and the parameter; at a fold the Jacobian by both is regular. At a pitchfork it
+/// is singular along the broken symmetry, and the least-squares step stays in the symmetric states. Differences are
+/// only for the condition and the parameter.
 double critical_value(const Entry& entry) {
   double p = number(entry.at("critical").at("near"), {});
   Eigen::VectorXd x = settled(entry, p);

@@ -6,7 +6,8 @@ namespace slapstick::library {
 
 inline Instant after(const Motion& motion, double time) { return motion.time().plus(time / motion.system().period()); }
 
-/// Is this event a `kind`? "impact", "impact@stop" (of the contact of that name), "turn" (any velocity reversal), "event" (anything).
+/// Is this event a `kind`? "impact", "impact@stop" (of the contact of that name), "turn" (any velocity reversal),
+/// "event" (anything).
 bool is(const Event& event, const std::string& kind, const System& system);
 
 /// The state by its names, each with the suffix.

@@ -1,5 +1,6 @@
-/// Known systems come out as published: every entry of cases.json, by the way it says. Expected numbers and tolerances are those of the
-/// published list; where the engine differs, the entry says why, and has the number of an independent computation instead.
+/// Known systems come out as published: every entry of cases.json, by the way it says. Expected numbers and tolerances
+/// are those of the published list; where the engine differs, the entry says why, and has the number of an independent
+/// computation instead.
 #include <gtest/gtest.h>
 
 #include <set>

@@ -128,7 +128,8 @@ Row row_over(const Mode& mode, const RowVector& c, int d, double window) {
   return row;
 }
 
-/// What a window of this length drops, over what it may: the rule of docs/developers/proofs.md, section 2, by a recursion of its own.
+/// What a window of this length drops, over what it may: the rule of docs/developers/proofs.md, section 2, by a
+/// recursion of its own.
 double excess(const Mode& mode, int d, double window) {
   const int m = mode.size();
   std::vector<Row> rows;

@@ -38,8 +38,8 @@ inline Exact flow(const Matrix& A, const Exact& X, const Real& s) {
   return sum;
 }
 
-/// What the rounding of a state is measured by: for each component the sizes of all contributions X_j to the end value, or
-/// (`terms`) of all terms of the series that leads there.
+/// What the rounding of a state is measured by: for each component the sizes of all contributions X_j to the end value,
+/// or (`terms`) of all terms of the series that leads there.
 inline std::vector<double> sizes(const Matrix& A, const std::vector<double>& X, double s, bool terms) {
   const Eigen::Index m = A.rows();
   Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic> power =

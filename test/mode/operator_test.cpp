@@ -1,5 +1,5 @@
-/// The window operators of a mode against 50-digit exponentials of the same matrix, on the families where closed forms with
-/// eigenvectors lose their digits. Case numbers K are those of test/catalogue/catalogue.json.
+/// The window operators of a mode against 50-digit exponentials of the same matrix, on the families where closed forms
+/// with eigenvectors lose their digits. Case numbers K are those of test/catalogue/catalogue.json.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -213,7 +213,8 @@ TEST(WindowOperators, OfRandomSystemsStayWithinTheirNoiseInEveryMode) {
   EXPECT_GE(mean, 0.01) << "the noise bound is empty";
 }
 
-/// Polylines over displacement and velocity, a normal force of the state and of a bounded stop: every guard that laws of force have.
+/// Polylines over displacement and velocity, a normal force of the state and of a bounded stop: every guard that laws
+/// of force have.
 TEST(WindowOperators, OfEveryLawOfForceStayWithinTheirNoise) {
   using Over = Characteristic::Over;
   std::mt19937_64 random(13);

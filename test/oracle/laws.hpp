@@ -1,12 +1,12 @@
 #pragma once
-/// Reference solution in 50 digits of models with every law of force: polylines, zones, normal forces, compliant stops, restitution
-/// over the speed. For tests only; it shares no code and no method with the engine.
+/// Reference solution in 50 digits of models with every law of force: polylines, zones, normal forces, compliant stops,
+/// restitution over the speed. For tests only; it shares no code and no method with the engine.
 ///
-/// The state of each contact is read from positions and velocities, whatever happened before. While the states stay the motion is
-/// expanded in Taylor series; what keeps them is a polynomial per step, whose first zero is isolated.
+/// The state of each contact is read from positions and velocities, whatever happened before. While the states stay the
+/// motion is expanded in Taylor series; what keeps them is a polynomial per step, whose first zero is isolated.
 ///
-/// Limits: one friction contact, no mass matrix, any stops with restitution > 0 that do not come to rest, one event at an instant. Nothing may touch a
-/// limit without crossing it.
+/// Limits: one friction contact, no mass matrix, any stops with restitution > 0 that do not come to rest, one event at
+/// an instant. Nothing may touch a limit without crossing it.
 #include <string>
 
 #include "oracle/polynomial.hpp"

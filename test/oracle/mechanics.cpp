@@ -22,7 +22,8 @@ Mechanics::Mechanics(const Model& model) : model_(model) {
   if (friction_row_.a == stop_row_.b && friction_row_.b == stop_row_.a) merged_sign_ = -1;
 }
 
-// Frobenius norms of M^-1/2 K M^-1/2 and M^-1/2 C M^-1/2 do not grow under constraints, which are orthogonal projections there.
+// Frobenius norms of M^-1/2 K M^-1/2 and M^-1/2 C M^-1/2 do not grow under constraints, which are orthogonal
+// projections there.
 Real Mechanics::rate_bound() const {
   const auto norm = [&](auto&& elements, auto&& weight) {
     std::vector<Vector> matrix(inverse_mass_.size(), Vector(inverse_mass_.size()));

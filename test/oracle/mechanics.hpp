@@ -4,7 +4,8 @@
 ///     M x'' = -C x' - K x + F(t) - r_f^T s f_k        (slip, s = +-1)
 ///     M x'' = -C x' - K x + F(t) + R^T lambda         (stick and/or closed stop), R x'' = 0
 ///
-/// r_f and r_s are the rows of the friction contact and the stop: r x = x_a - x_b. R holds the rows of those that are stuck or closed.
+/// r_f and r_s are the rows of the friction contact and the stop: r x = x_a - x_b. R holds the rows of those that are
+/// stuck or closed.
 #include "oracle/real.hpp"
 #include "slapstick/model/model.hpp"
 
@@ -51,7 +52,8 @@ class Mechanics {
   [[nodiscard]] Jet expand(const Mode& mode, const Vector& x, const Vector& v, const Real& t, const Real& step,
                            int order) const;
 
-  /// Coefficients of x_a - x_b for the stop or friction contact, from jet.x or jet.v, and the size of the terms they come from.
+  /// Coefficients of x_a - x_b for the stop or friction contact, from jet.x or jet.v, and the size of the terms they
+  /// come from.
   struct Difference {
     Vector coefficients;
     Real scale;

@@ -6,7 +6,8 @@
 namespace slapstick::oracle {
 namespace {
 
-// A chatter is summed once u, over the longest step, is this small a part of the motion: what is left of it is quadratic in this.
+// A chatter is summed once u, over the longest step, is this small a part of the motion: what is left of it is
+// quadratic in this.
 const Real chatter_share{"1e-22"};
 // A ratio of successive intervals between impacts that repeats this well belongs to a geometric series.
 const Real ratio_repeats{"1e-10"};
@@ -235,9 +236,10 @@ Real Oracle::velocity_scale() const {
   return mechanics_.gap_series(mechanics_.expand(mode_, x_, v_, t_, h, 6)).scale / h;
 }
 
-/// Replaces the rest of a chatter by its limit. Once the forces are constant over the rest, the intervals d_n between impacts form
-/// a geometric series of ratio q, and the impacts end after d q / (1 - q). All contact forces act along the contacts' rows,
-/// so the motion projected on the closed mode moves as if it had been closed all the time; what this neglects is of second order in u.
+/// Replaces the rest of a chatter by its limit. Once the forces are constant over the rest, the intervals d_n between
+/// impacts form a geometric series of ratio q, and the impacts end after d q / (1 - q). All contact forces act along
+/// the contacts' rows, so the motion projected on the closed mode moves as if it had been closed all the time; what
+/// this neglects is of second order in u.
 void Oracle::sum_chatter() {
   if (intervals_.size() < 4) return;
   const Real u = -mechanics_.closing_velocity(v_);

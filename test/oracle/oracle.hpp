@@ -1,11 +1,12 @@
 #pragma once
 /// Reference solution of a Model in 50 digits, for tests only. It shares no code and no method with the engine.
 ///
-/// In a mode the motion is expanded in Taylor series (remainder below 1e-54 per step); each guard is a polynomial per step whose first
-/// zero is isolated and refined. Semantics: docs/explanation/mode_graph.md.
+/// In a mode the motion is expanded in Taylor series (remainder below 1e-54 per step); each guard is a polynomial per
+/// step whose first zero is isolated and refined. Semantics: docs/explanation/mode_graph.md.
 ///
-/// Limits: one stop and one friction contact. Event times are good to about 1e-45 times the sensitivity of the motion; a guard is taken as
-/// zero, and a contact as a graze, when it comes within 1e-30 of the size of the guard's variation in that segment.
+/// Limits: one stop and one friction contact. Event times are good to about 1e-45 times the sensitivity of the motion;
+/// a guard is taken as zero, and a contact as a graze, when it comes within 1e-30 of the size of the guard's variation
+/// in that segment.
 ///
 /// Order at one instant: impact or graze, then velocity reversal, then release. One event is reported per instant, the
 /// first of these; the modes after it are those the whole instant leads to.
@@ -48,8 +49,8 @@ class Oracle {
   Oracle(const Model& model, const Vector& state, const Real& phase_fraction);
   Oracle(const Model& model, const SegmentStart& start);
 
-  /// The next event in (time(), t_end]; without one, time() is t_end. After an event the state is the one just after it; the
-  /// last impact before a chatter's limit finds the state already at the limit, some 1e-22 later.
+  /// The next event in (time(), t_end]; without one, time() is t_end. After an event the state is the one just after
+  /// it; the last impact before a chatter's limit finds the state already at the limit, some 1e-22 later.
   std::optional<OracleEvent> next(const Real& t_end);
   /// All events up to t_end.
   std::vector<OracleEvent> run(const Real& t_end);
@@ -102,8 +103,8 @@ class Oracle {
   std::deque<OracleEvent> pending_;  ///< found but not yet returned
 };
 
-/// The first event of a segment that starts in a given mode; its time is counted from the start of the segment. A guard that is
-/// negative at the start gives an event at 0. Without an event in (0, duration]: nothing.
+/// The first event of a segment that starts in a given mode; its time is counted from the start of the segment. A guard
+/// that is negative at the start gives an event at 0. Without an event in (0, duration]: nothing.
 [[nodiscard]] std::optional<OracleEvent> first_event(const Model& model, const SegmentStart& start,
                                                      const Real& duration);
 

@@ -1,5 +1,5 @@
-/// The reference solution on the paper's oscillator and on systems with two coordinates: laws of conservation, the closed stop,
-/// an independent integration, and single segments.
+/// The reference solution on the paper's oscillator and on systems with two coordinates: laws of conservation, the
+/// closed stop, an independent integration, and single segments.
 #include <gtest/gtest.h>
 
 #include <algorithm>

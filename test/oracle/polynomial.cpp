@@ -59,7 +59,8 @@ Real parabola_root(const Polynomial& p) {
   return denominator > 0 ? 2 * p[0] / denominator : Real(-1);
 }
 
-/// The only zero in (0, end) of a p that is positive at 0 and negative at `end`. Newton, halving when it leaves the bracket.
+/// The only zero in (0, end) of a p that is positive at 0 and negative at `end`. Newton, halving when it leaves the
+/// bracket.
 Real bracketed_root(const Polynomial& p, const Real& end) {
   static const Real sharp("1e-48");
   Real low = 0, high = end, s = parabola_root(p);

@@ -9,7 +9,8 @@ namespace slapstick::oracle {
 using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
 using Vector = std::vector<Real>;
 
-/// A value is called zero when it is below this share of the terms that it is the sum of (their rounding is near 1e-49).
+/// A value is called zero when it is below this share of the terms that it is the sum of (their rounding is near
+/// 1e-49).
 inline const Real zero_share{"1e-30"};
 
 inline Real pi() { return boost::math::constants::pi<Real>(); }

@@ -1,4 +1,5 @@
-/// Normal forms of cycles without forcing: the map is from just after an event to just after it a cycle later, and the period is free.
+/// Normal forms of cycles without forcing: the map is from just after an event to just after it a cycle later, and the
+/// period is free.
 #include <gtest/gtest.h>
 
 #include "beside.hpp"
@@ -54,7 +55,8 @@ struct Returning {
   Returning(const Beside& of, double value)
       : beside(of), orbit(of.at(value)), system(of.problem.family().model(orbit.values)) {}
 
-  /// Mean of |z|^2 over so many cycles from the start, and from the `after`-th on, from |z| = radius, in units of what is foretold.
+  /// Mean of |z|^2 over so many cycles from the start, and from the `after`-th on, from |z| = radius, in units of what
+  /// is foretold.
   [[nodiscard]] std::pair<double, double> means(double radius, long after, long over) const {
     const double foretold = std::sqrt((1.0 - std::abs(beside.multiplier(orbit))) / beside.form.value);
     const VectorXd away = 2.0 * radius * foretold * beside.direction.q.real();

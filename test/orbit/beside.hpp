@@ -87,7 +87,8 @@ inline orbit::Orbit orbit_at(const orbit::Problem& problem, const orbit::Branch&
 }
 
 /// s^2 of the doubled orbit so far behind a PD, divided by what the coefficient says.
-/// @param wider  the branch is followed on by so many times that distance: so near its birth, arclength must measure the orbit, not the parameter
+/// @param wider  the branch is followed on by so many times that distance: so near its birth, arclength must measure
+/// the orbit, not the parameter
 inline double doubled_ratio(const Beside& beside, std::size_t leg, double value, double wider) {
   const orbit::Orbit& born = beside.point.born.at(0);
   const double end = value + wider * (value - beside.point.value);
@@ -105,8 +106,8 @@ inline double doubled_ratio(const Beside& beside, std::size_t leg, double value,
   return s * s * beside.form.value / -(1.0 + mu);
 }
 
-/// Exact orbits of twice the period, at two distances: what is left to first order in the distance is taken out. Seen from legs of slip and of stick, whose
-/// eigenvectors have other lengths, the coefficient foretells the same orbit.
+/// Exact orbits of twice the period, at two distances: what is left to first order in the distance is taken out. Seen
+/// from legs of slip and of stick, whose eigenvectors have other lengths, the coefficient foretells the same orbit.
 inline void expect_doubled_as_foretold(const Posed& posed, const orbit::SpecialPoint& point, double away,
                                        double wider = 0.0) {
   ASSERT_TRUE(point.normal_form.coefficient) << sentence(point.normal_form);

@@ -116,7 +116,8 @@ TEST(Branch, MeetsAGrazeFromBothSidesAtTheSameValue) {
   EXPECT_EQ(back.points.back().impacts, 0) << ended(back);
 }
 
-/// A doubling 4e-7 before an impact's speed goes to zero lies in one of the last step's parts, all but at its end: from one start of these it was not seen.
+/// A doubling 4e-7 before an impact's speed goes to zero lies in one of the last step's parts, all but at its end: from
+/// one start of these it was not seen.
 TEST(Branch, SeesADoublingJustBeforeAGrazeFromEveryStart) {
   const Overrides values = {
       {"cosine", 0.961332572276375}, {"damping_ratio", 0.0941735420012799}, {"restitution", 0.9512984707492715}};
@@ -150,7 +151,8 @@ TEST(Branch, IsNotDoubledAtItsBirth) {
   EXPECT_TRUE(second.special.front().born.empty());
 }
 
-/// Behind the doubling of vibro-impact's 2-3 orbit the doubled one's events change within a step: it is begun so near that it is a motion.
+/// Behind the doubling of vibro-impact's 2-3 orbit the doubled one's events change within a step: it is begun so near
+/// that it is a motion.
 TEST(DoubledOrbit, IsBegunWhereItIsAMotion) {
   const Posed posed("vibro-impact", {}, {"omega"}, {2.2});
   const auto first = posed.settled();
@@ -170,8 +172,8 @@ TEST(DoubledOrbit, IsBegunWhereItIsAMotion) {
   }
 }
 
-/// A mass between equal stops: where its symmetric orbit loses the symmetry, a branch and its mirror image are born. One is followed, from the
-/// symmetric orbit to where it comes back to it.
+/// A mass between equal stops: where its symmetric orbit loses the symmetry, a branch and its mirror image are born.
+/// One is followed, from the symmetric orbit to where it comes back to it.
 TEST(Symmetry, IsBrokenToABranchAndItsImage) {
   const Posed posed("two-sided-rattle", {}, {"omega"}, {1.6});
   const auto first = posed.settled(1);
@@ -192,7 +194,8 @@ TEST(Symmetry, IsBrokenToABranchAndItsImage) {
   EXPECT_TRUE(orbit::lies_on(*posed.problem, trunk, first->orbit));
 }
 
-/// A parameter that passes zero has no size of its own there. Load and stop are shifted together: the doubling is at the same place against the stop.
+/// A parameter that passes zero has no size of its own there. Load and stop are shifted together: the doubling is at
+/// the same place against the stop.
 TEST(Branch, FindsADoublingWhereItsParameterIsZero) {
   const double doubling = 0.330330594422301;  // of the clearance without load; cases.json
   const Posed posed("impact-oscillator", {{"clearance", doubling}}, {"load"}, {0.1});
@@ -205,8 +208,9 @@ TEST(Branch, FindsADoublingWhereItsParameterIsZero) {
   EXPECT_NEAR(pd->value, 0.0, 1e-12);
 }
 
-/// Forced at even harmonics only, an orbit may be two equal halves; a frame that drifts makes them look alike or not, as far as it has come. Where all orbits
-/// of a branch are so its folds are folds; where one becomes so the branch ends, in the doubling of the half.
+/// Forced at even harmonics only, an orbit may be two equal halves; a frame that drifts makes them look alike or not,
+/// as far as it has come. Where all orbits of a branch are so its folds are folds; where one becomes so the branch
+/// ends, in the doubling of the half.
 TEST(Symmetry, OfEvenHarmonicsAndADriftAreNotTakenForADoubling) {
   for (const double away : {0.0, 1e3}) {
     const Posed posed("stick-slip-impact", {}, {"drive"}, {0.9});
@@ -303,8 +307,8 @@ TEST(Branch, UnstablePointsAreOrbitsOfTheSimulator) {
   EXPECT_LT((flow::contact_state(motion) - begin).norm(), 1e-11 * begin.norm());
 }
 
-/// A reversal of the carriage moves onto an impact, and from there on the impact reverses it: the impact stays. By brute force the orbit of the new events is
-/// on the branch, and motions leave it where it folds.
+/// A reversal of the carriage moves onto an impact, and from there on the impact reverses it: the impact stays. By
+/// brute force the orbit of the new events is on the branch, and motions leave it where it folds.
 TEST(Branch, KeepsAnImpactThatAReversalMeets) {
   const std::string model = std::string(SLAPSTICK_ORBIT_MODELS) + "rail-hammer.toml";
   const auto one_impact = [](const Posed& posed, bool stable) {
@@ -348,7 +352,8 @@ TEST(Search, FindsStableAndUnstableOrbits) {
   EXPECT_NE(all.find("2-2-I stable"), std::string::npos) << all;
 }
 
-/// How many of a chatter's impacts are legs of an orbit depends on where a motion was recorded: it is one motion all the same, also run through twice.
+/// How many of a chatter's impacts are legs of an orbit depends on where a motion was recorded: it is one motion all
+/// the same, also run through twice.
 TEST(Search, ListsAChatteringOrbitOnce) {
   const Posed posed("vibro-impact", {{"omega", 0.5}}, {}, {});
   const auto found =
@@ -357,7 +362,8 @@ TEST(Search, ListsAChatteringOrbitOnce) {
   EXPECT_EQ(found.front().label, "1-inf-II");
 }
 
-/// A complete chatter: infinitely many impacts, some thirty of them flown, the rest summed; still one isolated orbit with exact multipliers.
+/// A complete chatter: infinitely many impacts, some thirty of them flown, the rest summed; still one isolated orbit
+/// with exact multipliers.
 TEST(Orbit, OfCompleteChatterIsSolved) {
   const Posed posed("vibro-impact", {{"omega", 0.55}}, {}, {});
   const auto found = posed.settled();

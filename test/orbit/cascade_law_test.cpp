@@ -1,4 +1,5 @@
-/// The law of a cascade: its rates against the bounce map itself, its limits against sequences that are made of the law, onsets against the simulator.
+/// The law of a cascade: its rates against the bounce map itself, its limits against sequences that are made of the
+/// law, onsets against the simulator.
 #include "change/cascade_law.hpp"
 
 #include <gtest/gtest.h>
@@ -44,7 +45,8 @@ TEST(CascadeLaw, HasTheFixedPointOfTheBounceMap) {
   }
 }
 
-/// Whatever the coefficients of the law's terms, the limit lies within the stated error, which is soon less than the distance that is left.
+/// Whatever the coefficients of the law's terms, the limit lies within the stated error, which is soon less than the
+/// distance that is left.
 TEST(CascadeLaw, StatesAnErrorThatHoldsForEveryRestitution) {
   std::mt19937 random(20);
   std::normal_distribution<double> normal;

@@ -1,4 +1,5 @@
-/// A cascade followed to where its grazes and folds are all but one: a frame that friction holds, hit from inside some 30 times a period.
+/// A cascade followed to where its grazes and folds are all but one: a frame that friction holds, hit from inside some
+/// 30 times a period.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,8 +26,9 @@ orbit::Branch follow_omega(const Overrides& fixed, double at, const orbit::Conti
   return orbit::follow(*posed.problem, first->orbit, options);
 }
 
-/// In a cascade folds follow grazes ever more closely: at 1e-7 of the range the orbit found behind a graze lies beyond the next fold, where the branch has
-/// turned once more, and seems to be a persistence. In a range of 1e-5 the nearest orbit is the one that says least.
+/// In a cascade folds follow grazes ever more closely: at 1e-7 of the range the orbit found behind a graze lies beyond
+/// the next fold, where the branch has turned once more, and seems to be a persistence. In a range of 1e-5 the nearest
+/// orbit is the one that says least.
 TEST(Graze, IsAFoldWhateverFoldFollows) {
   struct Case {
     double at, from, to;
@@ -47,9 +49,10 @@ TEST(Graze, IsAFoldWhateverFoldFollows) {
   }
 }
 
-/// Where impacts are all but rounding the orbit found behind a graze is an earlier one of the branch, which seems to go on with it. The place is that of
-/// nine grazes in 0.3171:0.31713. Between impacts friction holds the frame: the cascade gathers by what that leaves of the restitution,
-/// r' = (5 r - 1) / 6 here. By r the place was known to 1e-7 only.
+/// Where impacts are all but rounding the orbit found behind a graze is an earlier one of the branch, which seems to go
+/// on with it. The place is that of nine grazes in 0.3171:0.31713. Between impacts friction holds the frame: the
+/// cascade gathers by what that leaves of the restitution, r' = (5 r - 1) / 6 here. By r the place was known to 1e-7
+/// only.
 TEST(Cascade, EndsAtItsLimitAndDoesNotLeadBackIntoItself) {
   const orbit::Branch branch = follow_omega(of_a_cascade, 0.31755, {.from = 0.317, .to = 0.3176, .longest_step = 0.1});
   ASSERT_FALSE(branch.special.empty()) << ended(branch);
@@ -60,7 +63,8 @@ TEST(Cascade, EndsAtItsLimitAndDoesNotLeadBackIntoItself) {
     EXPECT_EQ((point.passage == Passage::fold), point.type == SpecialType::GR) << point.value;
 }
 
-/// With fewer grazes than a limit can be taken from it is not known to be a cascade, but a branch that is led back over itself is no motion's: that is said.
+/// With fewer grazes than a limit can be taken from it is not known to be a cascade, but a branch that is led back over
+/// itself is no motion's: that is said.
 TEST(Branch, ThatIsLedBackOverItselfSaysSo) {
   const orbit::Branch branch =
       follow_omega(of_a_cascade, 0.317119, {.from = 0.3171, .to = 0.3171195, .longest_step = 0.1});
@@ -70,8 +74,8 @@ TEST(Branch, ThatIsLedBackOverItselfSaysSo) {
     EXPECT_EQ((point.passage == Passage::fold), point.type == SpecialType::GR) << point.value;
 }
 
-/// Behind a graze 2e-8 of the range before a fold the orbit that is found lies beyond the fold. Followed the wrong way the branch came back up the whole
-/// cascade, each point twice.
+/// Behind a graze 2e-8 of the range before a fold the orbit that is found lies beyond the fold. Followed the wrong way
+/// the branch came back up the whole cascade, each point twice.
 TEST(Cascade, IsFollowedDownwardsThroughEachFoldOnce) {
   const Overrides overrides = {{"clearance", 0.4845448322189744},
                                {"damping", 0.039413741949173096},

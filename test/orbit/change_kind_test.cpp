@@ -16,7 +16,8 @@ namespace {
 using mode::FrictionState;
 using orbit::CurveEnd, orbit::Jump, orbit::Occurrence, orbit::Passage, orbit::Sliding, orbit::SpecialType;
 
-/// A cycle of one friction contact and one stop by the contact's states, a letter each (- s +), and how long they last; '!' after one: an impact ends it.
+/// A cycle of one friction contact and one stop by the contact's states, a letter each (- s +), and how long they last;
+/// '!' after one: an impact ends it.
 orbit::Orbit cycle(std::string_view states, const std::vector<double>& durations) {
   orbit::Orbit orbit;
   orbit.t = {0.0};
@@ -148,7 +149,8 @@ TEST(Verification, OfAFastCycleTakesNoOtherInstants) {
   EXPECT_FALSE(orbit::verify(posed.system, late).is_motion);
 }
 
-/// A velocity that passes zero where static friction holds it is no motion, also where a check of the cycle ends just behind it.
+/// A velocity that passes zero where static friction holds it is no motion, also where a check of the cycle ends just
+/// behind it.
 TEST(Verification, RefusesAReversalThatStaticFrictionForbids) {
   const Posed posed(SLAPSTICK_ORBIT_MODELS "hammer-drill.toml", {{"gap", 0.005}}, {"frequency"}, {21.159});
   const auto found = orbit::search(*posed.problem, posed.system, posed.start(), {.most_n = 1, .starts = 100}).orbits;
@@ -159,7 +161,8 @@ TEST(Verification, RefusesAReversalThatStaticFrictionForbids) {
       EXPECT_TRUE(test.test != orbit::Test::no_stick || test.value > 0.0) << solution.label << ": " << test.value;
 }
 
-/// A stop that is called anvil was hit "at impact anvil", and a release whose force only touches its limit had a "rate of the guard".
+/// A stop that is called anvil was hit "at impact anvil", and a release whose force only touches its limit had a "rate
+/// of the guard".
 TEST(KindOfChange, SaysInTheFieldsWordsWhatGoesToZero) {
   const Posed posed(SLAPSTICK_ORBIT_MODELS "hammer-drill.toml", {}, {"frequency"}, {14.0});
   orbit::Itinerary shape = cycle("+s", {0.5, 0.5}).shape;
@@ -178,8 +181,8 @@ TEST(KindOfChange, SaysInTheFieldsWordsWhatGoesToZero) {
             "the holding force of guide comes to static friction at its reversal (slip-)");
 }
 
-/// An orbit that reverses without stick had no margin for it: nothing said how near it was to sticking. The tool rests for an instant, so that what would
-/// hold it is its spring's force.
+/// An orbit that reverses without stick had no margin for it: nothing said how near it was to sticking. The tool rests
+/// for an instant, so that what would hold it is its spring's force.
 TEST(Margins, HaveTheForceThatKeepsAReversalFromSticking) {
   const Posed posed(SLAPSTICK_ORBIT_MODELS "hammer-drill.toml", {}, {"frequency"}, {14.0});
   const auto found = posed.settled();

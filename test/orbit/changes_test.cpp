@@ -35,7 +35,8 @@ std::string attractor(const std::string& model, Overrides all, const std::string
   return found ? found->label : "none";
 }
 
-/// A leg that shrinks to nothing makes the equations singular on its side of the point; on the other side it is an ordinary zero of a margin.
+/// A leg that shrinks to nothing makes the equations singular on its side of the point; on the other side it is an
+/// ordinary zero of a margin.
 TEST(Change, IsTheSameFromBothSides) {
   const orbit::Branch up = branch_of("spool", {}, "frequency", 255.0, {.from = 255.0, .to = 265.0}),
                       down = branch_of("spool", {}, "frequency", 265.0, {.from = 255.0, .to = 265.0});
@@ -51,7 +52,8 @@ TEST(Change, IsTheSameFromBothSides) {
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(c[k], d[k], 1e-10);
 }
 
-/// A spring that is just touched is engaged and let go at one instant. The 2-2 orbit beyond gains its third contact there, by brute force too.
+/// A spring that is just touched is engaged and let go at one instant. The 2-2 orbit beyond gains its third contact
+/// there, by brute force too.
 TEST(Change, OfACompliantStopIsPassed) {
   const orbit::Branch branch =
       branch_of("bilinear-oscillator", {}, "clearance", 0.0, {.from = -0.36, .to = 0.01, .most_points = 300});
@@ -62,9 +64,9 @@ TEST(Change, OfACompliantStopIsPassed) {
   EXPECT_EQ(attractor("bilinear-oscillator", {}, "clearance", touches[0] + 1e-3), "2-3-I");
 }
 
-/// The displacement turns, a corner of the valve, while it is beyond a corner of the mount or an edge of the hydraulic stop. Where it reaches that no
-/// more the two crossings are gone and the turn stays, on the unstable part of the branch too, where no motion shows it. The greatest displacement
-/// of the orbits beside says where that is.
+/// The displacement turns, a corner of the valve, while it is beyond a corner of the mount or an edge of the hydraulic
+/// stop. Where it reaches that no more the two crossings are gone and the turn stays, on the unstable part of the
+/// branch too, where no motion shows it. The greatest displacement of the orbits beside says where that is.
 TEST(Change, OfATurnBetweenTwoCrossingsIsPassed) {
   const orbit::Branch branch = branch_of("bump-stop", {}, "omega", 0.6, {.from = 0.6, .to = 2.0});
   EXPECT_EQ(branch.up.kind, orbit::BranchEnd::Kind::range) << ended(branch);
@@ -79,7 +81,8 @@ TEST(Change, OfATurnBetweenTwoCrossingsIsPassed) {
   EXPECT_GE(left, 2);
 }
 
-/// Both bounces of a ball on a shaken table, the one that is caught rising and the one that is not, have one impact speed: they differ in phase only.
+/// Both bounces of a ball on a shaken table, the one that is caught rising and the one that is not, have one impact
+/// speed: they differ in phase only.
 TEST(Branch, WithTheSameStatesAtAnotherPhaseIsAnotherOne) {
   const orbit::Branch branch =
       branch_of("shaken-table", {{"restitution", 0.5}}, "acceleration", 1.2, {.from = 0.9, .to = 2.5});
@@ -90,7 +93,8 @@ TEST(Branch, WithTheSameStatesAtAnotherPhaseIsAnotherOne) {
   EXPECT_TRUE(saddle) << ended(branch);
 }
 
-/// Constant Coulomb friction makes the equations a monotone inclusion: an isolated motion cannot jump. Here both halves of a symmetric cycle change at once.
+/// Constant Coulomb friction makes the equations a monotone inclusion: an isolated motion cannot jump. Here both halves
+/// of a symmetric cycle change at once.
 TEST(Change, OfBothHalvesOfASymmetricCycleIsPassed) {
   const orbit::Branch branch = branch_of("coulomb-oscillator", {}, "omega", 0.3, {.from = 0.25, .to = 0.35});
   for (const orbit::SpecialPoint& point : branch.special) EXPECT_NE(point.passage, Passage::jump) << point.value;
@@ -107,8 +111,8 @@ TEST(Change, WithoutTheLastContactIsPassed) {
   EXPECT_EQ(branch.points.back().label, "1-0-I") << ended(branch);
 }
 
-/// The symmetric motion between two stops loses its symmetry at two points; the branch that crosses there was not scripted, and by brute force the
-/// two contacts of a period have different speeds between them.
+/// The symmetric motion between two stops loses its symmetry at two points; the branch that crosses there was not
+/// scripted, and by brute force the two contacts of a period have different speeds between them.
 TEST(Crossing, OfASymmetricOrbitLeadsToAsymmetricOnes) {
   const Posed posed("two-sided-rattle", {}, {"omega"}, {1.5});
   const auto first = posed.settled();
@@ -140,7 +144,8 @@ TEST(Crossing, OfASymmetricOrbitLeadsToAsymmetricOnes) {
   EXPECT_EQ(speeds_differ(crossings[1] + 3e-3), "symmetric");
 }
 
-/// In two parameters the crossings of a symmetric family form a curve, here with a turning point. On it lie those of every single branch.
+/// In two parameters the crossings of a symmetric family form a curve, here with a turning point. On it lie those of
+/// every single branch.
 TEST(Crossing, IsFollowedInTwoParameters) {
   const Posed posed("two-sided-rattle", {}, {"omega", "restitution"}, {1.5, 0.7});
   const Posed single("two-sided-rattle", {}, {"omega"}, {1.5});
@@ -179,7 +184,8 @@ TEST(Change, OfSeveralImpactsTogetherIsPassed) {
   EXPECT_TRUE(has("1-2-I"));
 }
 
-/// .. and all that there are: the response without impacts is left, whose graze is met from its own side at the same value.
+/// .. and all that there are: the response without impacts is left, whose graze is met from its own side at the same
+/// value.
 TEST(Change, OfAllImpactsTogetherIsPassed) {
   const orbit::Branch branch = branch_of("impact-absorber", {}, "clearance", 1,
                                          {.from = 0.05, .to = 5.0, .most_points = 1500}),
@@ -191,7 +197,8 @@ TEST(Change, OfAllImpactsTogetherIsPassed) {
   EXPECT_TRUE(std::ranges::any_of(b, [&](double value) { return std::abs(value - a.back()) < 1e-9; }));
 }
 
-/// Towards a complete chatter infinitely many impacts are added; the branch goes on behind them, and says where they gather.
+/// Towards a complete chatter infinitely many impacts are added; the branch goes on behind them, and says where they
+/// gather.
 TEST(Change, ToACompleteChatterIsPassed) {
   const orbit::Branch branch =
       branch_of("vibro-impact", {{"omega", 2.2}}, "restitution", 0.00542, {.from = 0.005, .to = 0.0056});
@@ -227,8 +234,8 @@ TEST(Change, WithNothingBehindItIsAJump) {
   EXPECT_EQ(attractor("belt", {}, "damping_ratio", branch.special.back().value + 1e-5), "none");
 }
 
-/// At a graze an orbit with the impact leaves to one side; to the other it would end its leg at the gap's second zero. Where multipliers are 1e7 the two are
-/// one instant to the simulator as far as it is looked at.
+/// At a graze an orbit with the impact leaves to one side; to the other it would end its leg at the gap's second zero.
+/// Where multipliers are 1e7 the two are one instant to the simulator as far as it is looked at.
 TEST(Graze, LeadsToTheSideOnWhichItsImpactIsTheFirstZero) {
   const Overrides overrides = {{"absorber_damping", 0.14786346566974834}, {"absorber_frequency", 0.9336976411009086},
                                {"clearance", 0.892880301769342},          {"damping_ratio", 0.023794430476950974},
@@ -245,7 +252,8 @@ TEST(Graze, LeadsToTheSideOnWhichItsImpactIsTheFirstZero) {
     EXPECT_EQ(point.impacts, point.orbit.values[0] < grazes[0] ? 55 : 54) << point.orbit.values[0];
 }
 
-/// Where a motion dies out margins are used up within rounding, that of a stop by 5e-8 of the range as well; behind it the same events go on.
+/// Where a motion dies out margins are used up within rounding, that of a stop by 5e-8 of the range as well; behind it
+/// the same events go on.
 TEST(Change, BehindWhichTheSameEventsGoOnIsNone) {
   const Overrides overrides = {{"damping_ratio", 0.09170313198423563},
                                {"dashpot_ratio", 5.605143802961681},
@@ -266,8 +274,8 @@ TEST(Change, BehindWhichTheSameEventsGoOnIsNone) {
   EXPECT_TRUE(values(branch, SpecialType::GR).empty());
 }
 
-/// With another number of impacts that are all but rounding a chatter is the same orbit: where it changes its events that one goes back, and is not what lies
-/// beyond.
+/// With another number of impacts that are all but rounding a chatter is the same orbit: where it changes its events
+/// that one goes back, and is not what lies beyond.
 TEST(Change, OfAChatterIsNotAFoldOntoItself) {
   const Overrides overrides = {{"area", 7.899199000902047e-05},         {"frequency", 265.85461448723464},
                                {"mass", 0.0002857669730364452},         {"mean", 137905.8726074355},
@@ -290,7 +298,8 @@ TEST(Change, OfAChatterIsNotAFoldOntoItself) {
   EXPECT_EQ(after->label, settled->label);
 }
 
-/// A bubble of doubled orbits that opens and closes between two points of the branch: no sign changes there. The bubble was found with short steps.
+/// A bubble of doubled orbits that opens and closes between two points of the branch: no sign changes there. The bubble
+/// was found with short steps.
 TEST(Branch, SeesADoublingThatIsTakenBackBetweenTwoPoints) {
   const Overrides damped = {{"damping_ratio", 0.0688}};
   const orbit::ContinuationOptions fine{.from = 0.89, .to = 0.95, .step = 1e-3, .longest_step = 2e-3},
@@ -314,8 +323,8 @@ TEST(Branch, OfAFamilyIsRefused) {
   EXPECT_THROW((void)orbit::follow(*posed.problem, first->orbit, {.from = 0.5, .to = 1.0}), NumericalError);
 }
 
-/// Below a fold of the rattle two orbits of one shape live side by side. From a guess near one, with that one taken out, Newton's
-/// method comes to the other.
+/// Below a fold of the rattle two orbits of one shape live side by side. From a guess near one, with that one taken
+/// out, Newton's method comes to the other.
 TEST(Deflation, FindsTheOtherOrbitOfAFold) {
   const Posed posed("two-sided-rattle", {}, {"omega"}, {0.8});
   const auto first = posed.settled();

@@ -31,7 +31,8 @@ TEST(ImpactOscillator, OneImpactOrbitHasTheSpeedOfItsEllipse) {
   for (const auto& multiplier : found->multipliers) EXPECT_NEAR(std::abs(multiplier), 0.8, 1e-12);
 }
 
-/// Period doubling where 1 + tr + r^2 = 0, tr = -2 r cos T + (1 + r) (cos(ph) - sigma) / V sin T (I5): solved here by bisection.
+/// Period doubling where 1 + tr + r^2 = 0, tr = -2 r cos T + (1 + r) (cos(ph) - sigma) / V sin T (I5): solved here by
+/// bisection.
 double doubling_frequency(double r) {
   const auto f = [&](double w) {
     const double T = 2.0 * pi / w, c = (1.0 + r) / 2.0 / std::tan(pi / w), e = (1.0 - r) / (2.0 * w);
@@ -59,7 +60,8 @@ TEST(ImpactOscillator, DoublesWhereTheTraceSaysSo) {
   EXPECT_NEAR(pd->value, 2.653347727855323, 1e-10);  // I5.01
 }
 
-/// Linear response meets the stop where its amplitude is the clearance: A = d sqrt((k - w^2)^2 + (c w)^2) (COCO's impact oscillator).
+/// Linear response meets the stop where its amplitude is the clearance: A = d sqrt((k - w^2)^2 + (c w)^2) (COCO's
+/// impact oscillator).
 TEST(ImpactOscillator, GrazesWhereItsAmplitudeIsTheClearance) {
   const Posed posed("impact-oscillator", {{"damping_ratio", 0.05}, {"omega", 1.0}, {"clearance", 1.0}}, {"cosine"},
                     {0.05});
@@ -72,7 +74,8 @@ TEST(ImpactOscillator, GrazesWhereItsAmplitudeIsTheClearance) {
   EXPECT_NEAR(graze->value, 0.1, 1e-12);
 }
 
-/// The ball on a shaking table (I7): fold at Gamma cos t0 = n pi (1 - r) / (1 + r), doubling at the square root of both squares.
+/// The ball on a shaking table (I7): fold at Gamma cos t0 = n pi (1 - r) / (1 + r), doubling at the square root of both
+/// squares.
 TEST(ShakenTable, FoldsAndDoublesAsTheExactMap) {
   const double r = 0.5, fold = pi * (1.0 - r) / (1.0 + r), half = 2.0 * (1.0 + r * r) / ((1.0 + r) * (1.0 + r));
   const Posed posed("shaken-table", {{"restitution", r}}, {"acceleration"}, {1.2});
@@ -158,8 +161,8 @@ TEST(ShakenTable, CurvesAreTheFormulas) {
   }
 }
 
-/// Den Hartog (1931): without stick x = f - f cos t + b sin t + V cos(w t + ph) on the way down, b = -f sin T / (1 + cos T), sin ph = b / (V w). It
-/// lasts until the velocity touches zero on the way.
+/// Den Hartog (1931): without stick x = f - f cos t + b sin t + V cos(w t + ph) on the way down, b = -f sin
+/// T / (1 + cos T), sin ph = b / (V w). It lasts until the velocity touches zero on the way.
 double largest_velocity_down(double w, double f) {
   const double T = pi / w, V = 1.0 / (1.0 - w * w), b = -f * std::sin(T) / (1.0 + std::cos(T)),
                ph = std::asin(b / (V * w));
@@ -195,8 +198,9 @@ TEST(CoulombOscillator, BeginsToStickWhereDenHartogsMotionStops) {
   EXPECT_NEAR(last->value, 0.5 * (a + b), 1e-9);
 }
 
-/// While friction holds the frame of stick-slip-impact, its mass grazes the stop at V^2 = 2 clearance / (1 + 1 / sqrt((1 - 4 omega^2)^2 + (2 c omega)^2)). There the
-/// unstable orbit with impacts, whose slips after them shrink to nothing with their speed, meets the one without, whichever parameter is followed.
+/// While friction holds the frame of stick-slip-impact, its mass grazes the stop at V^2 = 2
+/// clearance / (1 + 1 / sqrt((1 - 4 omega^2)^2 + (2 c omega)^2)). There the unstable orbit with impacts, whose slips
+/// after them shrink to nothing with their speed, meets the one without, whichever parameter is followed.
 TEST(StickSlipImpact, GrazesWhereTheHeldFrameSays) {
   constexpr double drive = 0.9, damping = 0.04, omega = 0.92, clearance = 0.5;
   const auto response = [](double w) {

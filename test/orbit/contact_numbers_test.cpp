@@ -1,5 +1,5 @@
-/// Several contacts on one pair of bodies: a belt and a stop, whose numbers move with different speeds while the belt holds the
-/// pair, and two stops of which a parameter makes one and then the other the nearest.
+/// Several contacts on one pair of bodies: a belt and a stop, whose numbers move with different speeds while the belt
+/// holds the pair, and two stops of which a parameter makes one and then the other the nearest.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -60,7 +60,8 @@ TEST(BeltAndStop, TheCycleThatHitsTheStopHasAnOrbit) {
   EXPECT_LT(std::abs(energy.balance()), 1e-12 * energy.impacts.at(0));
 }
 
-/// On the branch the upper stop is nearest first, then the lower one. Behind the change it has the orbit that a motion settles on there.
+/// On the branch the upper stop is nearest first, then the lower one. Behind the change it has the orbit that a motion
+/// settles on there.
 TEST(TwoStops, ABranchGoesOnWhereTheOtherOneBecomesTheNearest) {
   const auto posed_at = [](double lower) {
     return std::make_unique<Posed>("two-sided-rattle", Overrides{{"omega", 1.5}},
@@ -82,8 +83,8 @@ TEST(TwoStops, ABranchGoesOnWhereTheOtherOneBecomesTheNearest) {
     EXPECT_NEAR(std::abs(there.multipliers[i] - expected->multipliers[i]), 0.0, 1e-9);
 }
 
-/// A pad between two masses that slips and sticks: a contact that rests has its cycle named so, also where its number depends on those
-/// of the masses' own pads, as a loop of contacts makes it.
+/// A pad between two masses that slips and sticks: a contact that rests has its cycle named so, also where its number
+/// depends on those of the masses' own pads, as a loop of contacts makes it.
 TEST(LoopOfContacts, APadThatRestsIsNamedWhateverTheOrder) {
   const std::string head =
       "name = 'm'\nomega = 1.3\n[[coordinate]]\nname = 'x1'\nmass = 1\n[[coordinate]]\nname = 'x2'\nmass = 0.5\n"

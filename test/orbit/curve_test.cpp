@@ -92,8 +92,8 @@ TEST(Curve, ListsEachPointThatItMeetsOnceAndWhereItIs) {
   EXPECT_LT(turn->values[0] - farthest, 1e-4);
 }
 
-/// An impact without speed beside sticks without length: all of it is zero all along, and its rounding changes sign a hundred times. Its multiplier is
-/// infinite, those beside it are rounding.
+/// An impact without speed beside sticks without length: all of it is zero all along, and its rounding changes sign a
+/// hundred times. Its multiplier is infinite, those beside it are rounding.
 TEST(Curve, PassesThroughNothingThatIsZeroAllAlong) {
   const Ranges in{0.6, 1.0, 0.4, 0.7};
   const orbit::Curve curve = curve_of("stick-slip-impact", {"drive", "clearance"}, {0.6, 0.5}, 1, SpecialType::GR, in);
@@ -129,7 +129,8 @@ TEST(Curve, IsNoTorusAtANeutralSaddleAndNoDoublingAtAPole) {
   EXPECT_TRUE(std::isnan(of("PD").value({pole, {}})));
 }
 
-/// What is zero all along a curve is not told by its size: heavier by a million, with all forces, the same machine has the same curve.
+/// What is zero all along a curve is not told by its size: heavier by a million, with all forces, the same machine has
+/// the same curve.
 TEST(Curve, DoesNotDependOnTheUnitOfMass) {
   const Ranges in{8.0, 20.0, 0.001, 0.006};
   std::array<std::pair<long, std::size_t>, 2> seen;

@@ -144,7 +144,8 @@ TEST(NormalForce, PeriodOfABlockThatASpringPresses) {
   }
 }
 
-/// Friction that is pressed by another coordinate, restitution over the speed, bounded damping, zones: all balances close.
+/// Friction that is pressed by another coordinate, restitution over the speed, bounded damping, zones: all balances
+/// close.
 TEST(Energy, OfCyclesWithEveryLawIsBalanced) {
   for (const char* file : {"pressed-pair.toml", "every-stop.toml"}) {
     const Posed posed(std::string(SLAPSTICK_ORBIT_MODELS) + file, {}, {}, {});

@@ -18,8 +18,9 @@ const orbit::SpecialPoint* find_near(const orbit::Branch& branch, SpecialType ty
   return nullptr;
 }
 
-/// A mass on dry ground that is pushed with an amplitude below friction stays where it is. From above, slips shrink to nothing like a square root, and
-/// the equations become singular before they are gone; steps fall elsewhere from each start.
+/// A mass on dry ground that is pushed with an amplitude below friction stays where it is. From above, slips shrink to
+/// nothing like a square root, and the equations become singular before they are gone; steps fall elsewhere from each
+/// start.
 TEST(DyingMotion, EndsWhereTheForceIsFriction) {
   const Posed both("coulomb-oscillator", {}, {"amplitude", "static_friction", "omega"}, {1.0, 0.2, 0.8});
   struct Case {
@@ -91,8 +92,9 @@ TEST(DyingMotion, MovesWithStaticFrictionAlone) {
   EXPECT_NEAR(orbit::sensitivity(both.family, {same->value, 0.741426}, *same).front(), 1.0, 1e-13);
 }
 
-/// A hammer that only just reaches its tool, which dry friction holds anywhere in an interval: behind the graze it is one of a family. Blows ever weaker
-/// leave the tool where its spring's force is friction, so that the hammer's amplitude is the gap and that displacement.
+/// A hammer that only just reaches its tool, which dry friction holds anywhere in an interval: behind the graze it is
+/// one of a family. Blows ever weaker leave the tool where its spring's force is friction, so that the hammer's
+/// amplitude is the gap and that displacement.
 TEST(DyingMotion, OfAnImpactLeavesAHeldToolAnywhere) {
   const Posed posed(SLAPSTICK_ORBIT_MODELS "hammer-drill.toml", {{"gap", 0.004}, {"ratio", 1.0}}, {"frequency"},
                     {21.5});
@@ -118,8 +120,8 @@ TEST(DyingMotion, OfAnImpactLeavesAHeldToolAnywhere) {
   EXPECT_NEAR(rates[2], 0.0, 1e-11);
 }
 
-/// As kinetic friction comes to static friction a stick-slip cycle on two belts shrinks to nothing, and its margins to rounding: no change there, at
-/// the end of what the model admits, is one.
+/// As kinetic friction comes to static friction a stick-slip cycle on two belts shrinks to nothing, and its margins to
+/// rounding: no change there, at the end of what the model admits, is one.
 TEST(DyingMotion, AtTheEndOfTheRangeIsTheEndOfTheRange) {
   const Posed posed("two-blocks-on-belt", {}, {"kinetic_friction"}, {0.8});
   const auto first = posed.settled();
@@ -129,7 +131,8 @@ TEST(DyingMotion, AtTheEndOfTheRangeIsTheEndOfTheRange) {
   EXPECT_EQ(find_near(branch, SpecialType::SL, 1.0, 1e-5), nullptr);
 }
 
-/// Without damping the response grows without bound as the frequency comes to the natural one. Steps that are parts of the orbit's size never end.
+/// Without damping the response grows without bound as the frequency comes to the natural one. Steps that are parts of
+/// the orbit's size never end.
 TEST(GrowingMotion, EndsAtResonance) {
   const Posed posed("coulomb-oscillator", {}, {"omega"}, {0.8});
   const auto first = posed.settled();
@@ -141,10 +144,11 @@ TEST(GrowingMotion, EndsAtResonance) {
   EXPECT_NEAR(branch.points.back().orbit.values[0], 1.0, 1e-5);
 }
 
-/// Both half periods of a symmetric orbit change at one value of the parameter, where besides a multiplier is 1. There a slip lasts one natural period:
-/// its free part comes back to itself, so that release and stop are mirror images if the forced part's velocity is the same at both. With the force
-/// cos(theta) that is theta = pi / 2 - pi omega at release, displacement cos(theta) / (1 - omega^2), and the holding force there is friction if
-/// omega^2 sin(pi omega) / (1 - omega^2) = friction.
+/// Both half periods of a symmetric orbit change at one value of the parameter, where besides a multiplier is 1. There
+/// a slip lasts one natural period: its free part comes back to itself, so that release and stop are mirror images if
+/// the forced part's velocity is the same at both. With the force cos(theta) that is theta = pi / 2 - pi omega at
+/// release, displacement cos(theta) / (1 - omega^2), and the holding force there is friction if omega^2 sin(pi
+/// omega) / (1 - omega^2) = friction.
 TEST(SymmetricChange, IsPassedFromBothSides) {
   const auto excess = [](double omega) {
     return omega * omega * std::sin(std::numbers::pi * omega) / (1.0 - omega * omega) - 0.2;
@@ -171,7 +175,8 @@ TEST(SymmetricChange, IsPassedFromBothSides) {
   }
 }
 
-/// Static friction above kinetic friction: a velocity that comes to zero is held. No orbit begins where an unstable one comes to that.
+/// Static friction above kinetic friction: a velocity that comes to zero is held. No orbit begins where an unstable one
+/// comes to that.
 TEST(Discontinuity, IsAJump) {
   const Posed posed("two-blocks-on-belt", {}, {"belt_speed"}, {0.1});
   const auto first = posed.settled();
@@ -196,8 +201,8 @@ TEST(EdgeOfAModel, IsNoEndOfABranch) {
   EXPECT_NE(find_near(branch, SpecialType::PD, 0.077614611, 1e-8), nullptr);
 }
 
-/// Where static friction exceeds kinetic friction, an unstable orbit ends where a reversal would stick, where a stick would let go, and where a stick is
-/// missed: it is said to be a jump, not a failure of the search.
+/// Where static friction exceeds kinetic friction, an unstable orbit ends where a reversal would stick, where a stick
+/// would let go, and where a stick is missed: it is said to be a jump, not a failure of the search.
 TEST(Jump, OfAnUnstableOrbitIsTold) {
   struct Case {
     const char* model;
@@ -223,8 +228,8 @@ TEST(Jump, OfAnUnstableOrbitIsTold) {
   }
 }
 
-/// A stable orbit that ends leaves the motion near by, in another sequence or with other periods: the table says on what it settles, as `classify` does
-/// from its state just behind.
+/// A stable orbit that ends leaves the motion near by, in another sequence or with other periods: the table says on
+/// what it settles, as `classify` does from its state just behind.
 TEST(Jump, OfAStableOrbitSaysWhereTo) {
   struct Case {
     double preload, start;

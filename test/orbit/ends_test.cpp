@@ -18,8 +18,8 @@ struct Followed {
   orbit::ContinuationOptions options;
 };
 
-/// A special point that lies in one step with a change of events, or beside a graze where a multiplier grows without bound, must not depend on where
-/// the steps fall. From the other end they fall elsewhere.
+/// A special point that lies in one step with a change of events, or beside a graze where a multiplier grows without
+/// bound, must not depend on where the steps fall. From the other end they fall elsewhere.
 TEST(BranchFromEitherEnd, HasTheSameSpecialPoints) {
   const std::vector<Followed> cases = {
       {"impact-oscillator", "omega", 2.0, {.from = 2.0 / 3.0, .to = 6.0}},
@@ -64,7 +64,8 @@ TEST(Branch, EndsWhereTheModelEnds) {
   EXPECT_GE(branch.down.value, 1.0);
 }
 
-/// Near the onset of a chatter with friction no step leads on, and orbits are sought whose impacts are not those of the chatter.
+/// Near the onset of a chatter with friction no step leads on, and orbits are sought whose impacts are not those of the
+/// chatter.
 TEST(BranchOfChatterWithFriction, GoesThroughItsOnset) {
   const Posed posed("impact-friction-oscillator", {}, {"clearance"}, {0.0});
   const auto first = posed.settled();
@@ -93,7 +94,8 @@ TEST(BranchOfRest, GoesOverToAChatterWhereTheContactLetsGo) {
   EXPECT_EQ(branch.points.back().label, "1-inf-II");
 }
 
-/// At either stop a spool rests until the pressure exceeds preload, spring and friction; a rest at the second stop is as isolated as one at the first.
+/// At either stop a spool rests until the pressure exceeds preload, spring and friction; a rest at the second stop is
+/// as isolated as one at the first.
 TEST(BranchOfRest, IsLeftAtEitherStopWhereThePressureSays) {
   constexpr double mean = 124110.0, pulsation = 27580.0, preload = 8.54503372291542,
                    spring = 1488.578099595049 * 1.016e-3;
@@ -115,7 +117,8 @@ TEST(BranchOfRest, IsLeftAtEitherStopWhereThePressureSays) {
   }
 }
 
-/// At the second of two stops on one coordinate a chatter's gaps are known to a rounding of the distance of the stops: its last flights are rounding.
+/// At the second of two stops on one coordinate a chatter's gaps are known to a rounding of the distance of the stops:
+/// its last flights are rounding.
 TEST(BranchOfChatter, OfASpoolBetweenTwoStopsIsPassed) {
   const Posed spool("spool", {}, {"stiffness"}, {1488.578099595049});
   const auto first = spool.settled();
@@ -137,8 +140,8 @@ TEST(BranchOfChatter, OfASpoolBetweenTwoStopsIsPassed) {
   }
 }
 
-/// Orbits with ever more impacts, each behind a graze that the branch turns back at, gather where a ball that is released comes to rest just as it is
-/// released again. That place is found by one simulation of one period.
+/// Orbits with ever more impacts, each behind a graze that the branch turns back at, gather where a ball that is
+/// released comes to rest just as it is released again. That place is found by one simulation of one period.
 TEST(Cascade, GathersWhereACompleteChatterBegins) {
   struct Case {
     double restitution, step;
@@ -165,7 +168,8 @@ TEST(Cascade, GathersWhereACompleteChatterBegins) {
   }
 }
 
-/// Between equal stops a cascade adds an impact at each of them; its orbits are all much alike, and the branch does not run over itself.
+/// Between equal stops a cascade adds an impact at each of them; its orbits are all much alike, and the branch does not
+/// run over itself.
 TEST(Cascade, OfSymmetricOrbitsGoesOverToTheChatter) {
   const Posed rattle("two-sided-rattle", {}, {"clearance"}, {0.5});
   const auto first = rattle.settled();
@@ -211,8 +215,8 @@ TEST(Graze, RightAheadOfAPointIsWhereTheSimulatorSays) {
 /// How wide the range is must not move it.
 TEST(Graze, RightAheadOfAPointIsThereInAWiderRange) { expect_the_graze_in(-5.0, 5.0); }
 
-/// Just behind the onset from which a chatter is followed its first steps are among impacts too short to be told from rounding; how near that is has
-/// nothing to do with the range.
+/// Just behind the onset from which a chatter is followed its first steps are among impacts too short to be told from
+/// rounding; how near that is has nothing to do with the range.
 TEST(BranchOfChatter, IsFollowedFromItsOnsetInAnyRange) {
   const Overrides values = {{"damping_ratio", 0.09386343155181627},
                             {"dashpot_ratio", 4.985171604055366},
@@ -234,7 +238,8 @@ TEST(BranchOfChatter, IsFollowedFromItsOnsetInAnyRange) {
   EXPECT_TRUE(branch.points.front().chatter);
 }
 
-/// As the coefficient of restitution comes to 1 a chatter has impacts without bound, and each step costs the cube of their number.
+/// As the coefficient of restitution comes to 1 a chatter has impacts without bound, and each step costs the cube of
+/// their number.
 TEST(BranchOfChatter, OfImpactsWithoutBoundEndsAndSaysWhy) {
   const Overrides values = {
       {"acceleration", 1.012888671993797}, {"gravity", 0.948853760922176}, {"omega", 0.8876782561858597}};
@@ -248,7 +253,8 @@ TEST(BranchOfChatter, OfImpactsWithoutBoundEndsAndSaysWhy) {
       << ended(branch);
 }
 
-/// Without loss at impacts all multipliers are on the unit circle. What is at the very end of a range may have another structure.
+/// Without loss at impacts all multipliers are on the unit circle. What is at the very end of a range may have another
+/// structure.
 TEST(Branch, HasNoSpecialPointAtTheVeryEndOfItsRange) {
   const Posed posed("impact-pair", {}, {"restitution"}, {0.6});
   const auto first = posed.settled();

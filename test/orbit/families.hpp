@@ -35,7 +35,8 @@ struct Posed {
     return all;
   }
   [[nodiscard]] State start() const { return definition.start(at(values)); }
-  /// The orbit that the motion from the model's start settles on; or the one of n periods that it is near after the transient.
+  /// The orbit that the motion from the model's start settles on; or the one of n periods that it is near after the
+  /// transient.
   [[nodiscard]] std::optional<orbit::Solution> settled(int n = 0, long transient = 500) const {
     if (n == 0) return orbit::settle(*problem, system, start(), {.transient = transient}).orbit;
     return orbit::orbit_near(*problem, Motion(system, start()), transient, n);

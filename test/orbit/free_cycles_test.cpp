@@ -17,8 +17,8 @@ using std::numbers::pi;
 
 std::string plain(std::string_view option) { return std::string(option); }
 
-/// x'' - 2 z x' + x = -f sgn(x'): the damper feeds, friction takes. With R = exp(pi z / sqrt(1 - z^2)) half a cycle leads
-/// from an amplitude A to (A - f) R - f, which is A for A = f (R + 1) / (R - 1).
+/// x'' - 2 z x' + x = -f sgn(x'): the damper feeds, friction takes. With R = exp(pi z / sqrt(1 - z^2)) half a cycle
+/// leads from an amplitude A to (A - f) R - f, which is A for A = f (R + 1) / (R - 1).
 struct FedOscillator {
   double z = 0.05, f = 0.3;
   Model model;
@@ -82,7 +82,8 @@ TEST(FreeCycle, ItRepelsWhatIsInsideToRestAndWhatIsOutsideForEver) {
   EXPECT_GT(std::abs(motion.state()[0]) + std::abs(motion.state()[1]), 1.1 * fed.A);
 }
 
-/// Without a transient an orbit at the state is meant, though a motion beside it comes to rest, or grows beyond all bounds.
+/// Without a transient an orbit at the state is meant, though a motion beside it comes to rest, or grows beyond all
+/// bounds.
 TEST(FreeCycle, IsFoundFromAStateOnItThoughItRepels) {
   const FedOscillator fed;
   for (const double beside : {-1e-4, 1e-4}) {

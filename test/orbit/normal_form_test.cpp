@@ -64,7 +64,8 @@ struct Circling {
         system(of.problem.family().model(orbit.values)),
         foretold(std::sqrt((1.0 - std::abs(of.multiplier(orbit))) / of.form.value)) {}
 
-  /// Mean of |z|^2 over some cycles of a motion that starts with |z| = radius, after some more, in units of what is foretold.
+  /// Mean of |z|^2 over some cycles of a motion that starts with |z| = radius, after some more, in units of what is
+  /// foretold.
   [[nodiscard]] double mean(double radius, long after, long over) const {
     const VectorXd away = 2.0 * radius * foretold * beside.direction.q.real();
     const VectorXd start = centre + beside.problem.translations().representative(away.cwiseProduct(beside.map.sizes()));
@@ -104,7 +105,8 @@ TEST(NormalForm, ForetellsTheRadiusOfAStableTorus) {
   EXPECT_NEAR(2.0 * near - far, 1.0, 3e-4);
 }
 
-/// An unstable torus around a stable orbit, before a subcritical point: motions inside come back to the orbit, motions outside leave.
+/// An unstable torus around a stable orbit, before a subcritical point: motions inside come back to the orbit, motions
+/// outside leave.
 TEST(NormalForm, ForetellsWhereMotionsLeaveASubcriticalTorus) {
   const Posed posed("vibro-impact", {}, {"omega"}, {9.0});
   const orbit::Branch branch = branch_of(posed, 8.9, 9.6);
@@ -127,7 +129,8 @@ TEST(NormalForm, SaysHowGoodItIsBesideAGraze) {
   expect_doubled_as_foretold(posed, point, 1e-7);
 }
 
-/// Two free half swings of an orbit are equally long, but for rounding: in which of them q is measured must not depend on where the branch began.
+/// Two free half swings of an orbit are equally long, but for rounding: in which of them q is measured must not depend
+/// on where the branch began.
 TEST(NormalForm, IsTheSameFromEveryStart) {
   std::vector<double> coefficients;
   for (const double start : {7.0, 6.96, 6.9}) {

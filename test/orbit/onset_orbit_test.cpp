@@ -12,7 +12,8 @@
 namespace slapstick::test {
 namespace {
 
-/// A ball that lies on the table until the table falls faster than the ball: nothing before is remembered, so that one period decides.
+/// A ball that lies on the table until the table falls faster than the ball: nothing before is remembered, so that one
+/// period decides.
 TEST(OnsetOrbit, OfAShakenBallIsWhereTheSimulatorSaysForAnyRestitution) {
   struct Case {
     double restitution, rests, bounces;
@@ -48,7 +49,8 @@ TEST(OnsetOrbit, IsTheSameFromTheCascade) {
   EXPECT_NEAR(found->orbit.values[0], onset, found->error + 2e-13);
 }
 
-/// What rounding leaves is in the stated error, however small the parameter: 1.459 + offset is the onset for r = 0.6, by 40 digits.
+/// What rounding leaves is in the stated error, however small the parameter: 1.459 + offset is the onset for r = 0.6,
+/// by 40 digits.
 TEST(OnsetOrbit, IsAsWellKnownAsItSaysWhereTheParameterIsSmall) {
   const Posed posed(SLAPSTICK_ORBIT_MODELS "table-by-offset.toml", {}, {"offset"}, {-1e-4});
   const auto first = orbit::settle(*posed.problem, posed.system, {0.0, 0.0}).orbit;
@@ -59,7 +61,8 @@ TEST(OnsetOrbit, IsAsWellKnownAsItSaysWhereTheParameterIsSmall) {
   EXPECT_LT(found->error, 1e-14);
 }
 
-/// An orbit whose oscillator does not reach its bumper yet has an onset of its own, which is no motion's: it lies behind the graze.
+/// An orbit whose oscillator does not reach its bumper yet has an onset of its own, which is no motion's: it lies
+/// behind the graze.
 TEST(Onset, OfAnOrbitThatIsNoMotionThereIsNotSaid) {
   double onsets[2] = {};
   for (const int i : {0, 1}) {
@@ -77,7 +80,8 @@ TEST(Onset, OfAnOrbitThatIsNoMotionThereIsNotSaid) {
   EXPECT_NEAR(onsets[0], 1.4360390142653, 1e-12);
 }
 
-/// The onset on a branch. By the places of the cascade's changes, with one rate, onsets were off by 1.7e-7, 7.8e-8 and 3.1e-8, and said less.
+/// The onset on a branch. By the places of the cascade's changes, with one rate, onsets were off by 1.7e-7, 7.8e-8 and
+/// 3.1e-8, and said less.
 TEST(Onset, OnABranchIsWhereTheSimulatorSaysAndAsWellKnownAsItSays) {
   struct Case {
     double restitution, at, from, to;

@@ -212,7 +212,8 @@ TEST(Continuum, OfAMassThatSticksAnywhereIsOneFamily) {
   EXPECT_EQ(std::ranges::count_if(all, [](const auto& found) { return found.family > 0; }), 1);
 }
 
-/// A ball that loses nothing bounces at every height. The multiplier 1 is double and defective: computed, it is off by 2e-8.
+/// A ball that loses nothing bounces at every height. The multiplier 1 is double and defective: computed, it is off by
+/// 2e-8.
 TEST(Continuum, OfABallWithoutLossIsAFamily) {
   const Posed posed("bouncing-ball", {{"restitution", 1.0}}, {}, {});
   const orbit::Settled found = orbit::settle(*posed.problem, posed.system, posed.start(), {.transient = 5});

@@ -28,7 +28,8 @@ orbit::Branch branch_at(const std::string& model, const Overrides& fixed, double
   return orbit::follow(*posed.problem, first->orbit, {.from = from, .to = to});
 }
 
-/// Static friction cannot be less than kinetic friction: where they are equal there is a model to one side only. Together they move to both sides.
+/// Static friction cannot be less than kinetic friction: where they are equal there is a model to one side only.
+/// Together they move to both sides.
 TEST(Sensitivity, ByAParameterAtItsBoundIsFromTheSideThatThereIs) {
   const double friction = load_model("vibro-impact").values({}).at("static_friction");
   const orbit::Branch branch = branch_at("vibro-impact", {}, 2.5, 2.2, 4.0);
@@ -57,7 +58,8 @@ TEST(Sensitivity, ByAParameterAtItsBoundIsFromTheSideThatThereIs) {
   EXPECT_NEAR(both.value, across, 1e-4 * std::max(1.0, std::abs(across)));
 }
 
-/// A fold beside a crossing leaves no orbits at the same parameter on one side of it: the crossing is followed by arclength.
+/// A fold beside a crossing leaves no orbits at the same parameter on one side of it: the crossing is followed by
+/// arclength.
 TEST(Sensitivity, OfACrossingNextToAFoldIsKnown) {
   const orbit::Branch branch = branch_at("impact-absorber", {}, 0.9, 0.88, 0.92);
   const orbit::SpecialPoint& point = nearest(branch, SpecialType::BP, 0.9031889677889662);

@@ -12,7 +12,8 @@
 namespace slapstick::test {
 namespace {
 
-/// A forced mass before a stop, lengths and forces in units of 1 / scale, with what is found on its branch over the clearance.
+/// A forced mass before a stop, lengths and forces in units of 1 / scale, with what is found on its branch over the
+/// clearance.
 struct InUnit {
   explicit InUnit(double scale, const orbit::Orbit* first)
       : posed("impact-oscillator", {{"cosine", scale}}, {"clearance"}, {0.3 * scale}),
@@ -64,7 +65,8 @@ TEST(Units, OfAParameterChangeNoBranch) {
   }
 }
 
-/// The multipliers of ten masses, of which the largest has some size and one pair or one of them passes the unit circle at p = 0.
+/// The multipliers of ten masses, of which the largest has some size and one pair or one of them passes the unit circle
+/// at p = 0.
 std::vector<std::complex<double>> of_ten_masses(double largest, double p, bool torus) {
   std::vector<std::complex<double>> all;
   for (int i = 0; i < 18; ++i) all.emplace_back(largest * std::pow(10.0, -2.5 * i), 0.0);
@@ -78,7 +80,8 @@ std::vector<std::complex<double>> of_ten_masses(double largest, double p, bool t
   return all;
 }
 
-/// A product of 190 pairs of multipliers up to 1e19 is no number. Bounded factors keep sign and zero, and the zero is found in a few steps.
+/// A product of 190 pairs of multipliers up to 1e19 is no number. Bounded factors keep sign and zero, and the zero is
+/// found in a few steps.
 TEST(Multipliers, HoweverLargeHideNeitherADoublingNorATorus) {
   for (const double largest : {1.0, 1e6, 1e19}) {
     int steps = 0;

@@ -1,8 +1,9 @@
 /// What no motion may lose or make: momentum at impacts and between them, energy over every segment and every period.
 ///
-/// Rounding is counted in units of 2^-53 of the greatest energy (momentum) that the segment's greatest coordinate and velocity could have: a
-/// stored number is a sum of m terms that is rounded m + 16 times in every window (docs/developers/proofs.md, section 3), and the terms of a
-/// window's sum are together at most e^|A H| < 8 times what they start from.
+/// Rounding is counted in units of 2^-53 of the greatest energy (momentum) that the segment's greatest coordinate and
+/// velocity could have: a stored number is a sum of m terms that is rounded m + 16 times in every window
+/// (docs/developers/proofs.md, section 3), and the terms of a window's sum are together at most e^|A H| < 8 times what
+/// they start from.
 #include <gtest/gtest.h>
 #include <Eigen/QR>
 
@@ -68,7 +69,8 @@ class Ledger {
     return 0x1p-50 * (system_.compiled().frame().size() + 16) * windows;
   }
 
-  /// Between two events: what the forcing gave, and what dampers, friction and compliant stops took, is the change of energy.
+  /// Between two events: what the forcing gave, and what dampers, friction and compliant stops took, is the change of
+  /// energy.
   void settle_segment() {
     const Motion::Segment segment = motion_.segment();
     seen_ = motion_.counters().segments;
@@ -101,7 +103,8 @@ class Ledger {
     return std::pow(Newton::difference(after_, stop.a, stop.b, 1), 2) / (2.0 * newton_.mobility(stop.a, stop.b));
   }
 
-  /// Gauss and Legendre's sum over halves of windows: there exp(A s) has |A s| of about 1, and the sum's error is below 1e-17 of the power.
+  /// Gauss and Legendre's sum over halves of windows: there exp(A s) has |A s| of about 1, and the sum's error is below
+  /// 1e-17 of the power.
   double work(const Motion::Segment& segment, const mode::Mode& mode) {
     constexpr double node[4] = {0.18343464249564981, 0.52553240991632899, 0.79666647741362674, 0.96028985649753623};
     constexpr double weight[4] = {0.36268378337836198, 0.31370664587788729, 0.22238103445337448, 0.10122853629037626};
@@ -150,7 +153,8 @@ class Ledger {
     allowed_ += roundings(1.0) * newton_.energy_size(sizes_);
   }
 
-  /// w+ = -r w and a loss of (1 - r^2) w^2 / (2 g M^{-1} g^T), and if the restitutions are all one number no impacts make energy.
+  /// w+ = -r w and a loss of (1 - r^2) w^2 / (2 g M^{-1} g^T), and if the restitutions are all one number no impacts
+  /// make energy.
   void one_impact(const State& before, double loss, double rounding_of_w, double rounding_of_loss) {
     impacts += static_cast<long>(motion_.strikes().size());
     const auto& stops = system_.model().stops;

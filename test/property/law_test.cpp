@@ -1,7 +1,9 @@
-/// What a mode promises, all along every segment: gaps open, velocities of slip with their sign, rest at rest, contact forces within their laws.
+/// What a mode promises, all along every segment: gaps open, velocities of slip with their sign, rest at rest, contact
+/// forces within their laws.
 ///
-/// The stated bound: a stored number is m + 16 roundings of a window's terms away from the exact one (docs/developers/proofs.md, section 3), which are
-/// together at most e^|A H| < 8 times what they start from; so much may a guard be below zero. Forces are Newton's, from the coordinates (newton.hpp), not the engine's.
+/// The stated bound: a stored number is m + 16 roundings of a window's terms away from the exact one
+/// (docs/developers/proofs.md, section 3), which are together at most e^|A H| < 8 times what they start from; so much
+/// may a guard be below zero. Forces are Newton's, from the coordinates (newton.hpp), not the engine's.
 #include <gtest/gtest.h>
 
 #include <cmath>

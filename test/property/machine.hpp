@@ -1,5 +1,6 @@
 #pragma once
-/// Random machines, the one generator of all tests that need some: a function of a seed, which shrinks to the smallest machine that fails.
+/// Random machines, the one generator of all tests that need some: a function of a seed, which shrinks to the smallest
+/// machine that fails.
 #include <rapidcheck.h>
 
 #include <cstdint>
@@ -31,12 +32,13 @@ struct Shape {
   bool laws = false;     ///< polylines, zones, normal forces, bounded stops, restitution over the speed
 };
 
-/// Chains and networks with springs, dampers, up to two harmonics and a constant load; masses and stiffnesses over more than a decade.
-/// Contacts between any two coordinates or to ground, some on the pair of another one, some on belts, some stops two-sided.
+/// Chains and networks with springs, dampers, up to two harmonics and a constant load; masses and stiffnesses over more
+/// than a decade. Contacts between any two coordinates or to ground, some on the pair of another one, some on belts,
+/// some stops two-sided.
 [[nodiscard]] Machine random_machine(std::uint64_t seed, const Shape& shape);
 
-/// Machines that are simpler by one step: without one contact, coordinate, force, spring or damper, or with one number rounder. All are valid,
-/// and of the shape.
+/// Machines that are simpler by one step: without one contact, coordinate, force, spring or damper, or with one number
+/// rounder. All are valid, and of the shape.
 [[nodiscard]] std::vector<Machine> simpler(const Machine& machine, const Shape& shape);
 
 /// Does it have what a shape asks for, and is it valid?

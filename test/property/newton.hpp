@@ -1,6 +1,6 @@
 #pragma once
-/// Newton's equations of a Model in its own coordinates, M v' = F - C v - K q + contact forces, as a text book writes them: what the
-/// balances of the engine's motions are checked against. Shares nothing with src/mode.
+/// Newton's equations of a Model in its own coordinates, M v' = F - C v - K q + contact forces, as a text book writes
+/// them: what the balances of the engine's motions are checked against. Shares nothing with src/mode.
 #include <Eigen/Core>
 #include <span>
 
@@ -9,8 +9,8 @@
 
 namespace slapstick::test {
 
-/// The greatest coordinate and velocity of some states: what their rounding is measured by, since the stored numbers are sums and
-/// differences of coordinates.
+/// The greatest coordinate and velocity of some states: what their rounding is measured by, since the stored numbers
+/// are sums and differences of coordinates.
 struct Sizes {
   double x = 0.0, v = 0.0;
   void note(std::span<const double> state);
@@ -33,11 +33,13 @@ class Newton {
   [[nodiscard]] double kinetic(const Eigen::VectorXd& velocity) const { return 0.5 * velocity.dot(M_ * velocity); }
   /// The same and that of the springs.
   [[nodiscard]] double energy(std::span<const double> state) const;
-  /// What is done per unit of time by the forcing less what dampers, friction and compliant stops take, theta = omega t.
+  /// What is done per unit of time by the forcing less what dampers, friction and compliant stops take, theta = omega
+  /// t.
   [[nodiscard]] double power(std::span<const double> state, const mode::ContactStates& contacts, double theta) const;
 
   [[nodiscard]] const Sizes& least() const { return least_; }  ///< clearances and belt speeds
-  /// Sums of the sizes of the terms: of the force on each coordinate, of the energy, of the power, of the greatest acceleration.
+  /// Sums of the sizes of the terms: of the force on each coordinate, of the energy, of the power, of the greatest
+  /// acceleration.
   [[nodiscard]] Eigen::VectorXd force_size(const Sizes& sizes) const;
   [[nodiscard]] double energy_size(const Sizes& sizes) const;
   [[nodiscard]] double power_size(const Sizes& sizes) const { return sizes.v * force_size(sizes).sum(); }
@@ -54,8 +56,8 @@ class Newton {
   struct Held {
     int a, b;
     double force;
-    double
-        size;  ///< of the terms it is the sum of; infinite if held pairs depend on each other: then it is not determined
+    /// of the terms it is the sum of; infinite if held pairs depend on each other: then it is not determined
+    double size;
     double limit;    ///< sum of the static frictions of the pair's sticking contacts
     bool low, high;  ///< has a closed stop that pushes a towards -, towards + (then there is no limit on that side)
     double belt;     ///< v_a - v_b

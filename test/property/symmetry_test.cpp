@@ -1,4 +1,5 @@
-/// What must not matter: which way an axis points, which partner of a contact is called a, where a run is cut, and whether it is started anew.
+/// What must not matter: which way an axis points, which partner of a contact is called a, where a run is cut, and
+/// whether it is started anew.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -53,7 +54,8 @@ State negative(State s) {
   return s;
 }
 
-/// The machine seen in a mirror: x -> -x. Stops and polylines are on the other side; friction contacts stay as they are and slip the other way.
+/// The machine seen in a mirror: x -> -x. Stops and polylines are on the other side; friction contacts stay as they are
+/// and slip the other way.
 Machine mirrored(Machine machine) {
   machine.start = negative(machine.start);
   for (Force& f : machine.model.forces) f.amplitude = -f.amplitude;
@@ -148,8 +150,9 @@ TEST(Symmetry, ACutAnywhereChangesNoBit) {
   });
 }
 
-/// A restart knows the coordinates to a rounding only: a contact at rest may find itself an ulp beside it and come to rest again, which is over
-/// within `settled`. Then all goes on as before, up to what a rounding can move: the time of an event by its root (of a touch).
+/// A restart knows the coordinates to a rounding only: a contact at rest may find itself an ulp beside it and come to
+/// rest again, which is over within `settled`. Then all goes on as before, up to what a rounding can move: the time of
+/// an event by its root (of a touch).
 TEST(Symmetry, ARunStartedAnewAnywhereHasTheSameEvents) {
   constexpr double settled = 1e-6, moved = 1e-7;
   long compared = 0;

@@ -1,4 +1,5 @@
-/// Laws that all quantities obey together, on motions of every kind of contact: energy, momentum, and the laws of contact forces.
+/// Laws that all quantities obey together, on motions of every kind of contact: energy, momentum, and the laws of
+/// contact forces.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -52,7 +53,8 @@ TEST(Balance, OfEnergyHoldsWithEveryKindOfContact) {
   expect_energy_balance(load_model("shaken-table"), {{"acceleration", 1.9}}, 40);
 }
 
-/// What the forces of a cycle add up to is zero: on block 1 spring, dashpot, stop and friction; its forcing has no mean.
+/// What the forces of a cycle add up to is zero: on block 1 spring, dashpot, stop and friction; its forcing has no
+/// mean.
 TEST(Balance, OfMomentumHoldsOverACycleOfTheTwoBlocks) {
   for (const double omega : {0.552, 1.5, 2.9}) {
     const SettledCycle cycle(load_model("vibro-impact"), {{"omega", omega}});
@@ -69,7 +71,8 @@ TEST(Balance, OfMomentumHoldsOverACycleOfTheTwoBlocks) {
   }
 }
 
-/// Where stop and friction hold one pair, friction bears what it can and the stop what is beyond: |F_friction| <= f_s, F_stop >= 0.
+/// Where stop and friction hold one pair, friction bears what it can and the stop what is beyond: |F_friction| <= f_s,
+/// F_stop >= 0.
 TEST(Balance, ForcesOfAClosedStopWithFrictionStayWithinTheirLaws) {
   const SettledCycle cycle(load_model("vibro-impact"), {{"omega", 0.552}});
   const Measured found = measure(*cycle.problem, cycle.solution.orbit,

@@ -22,7 +22,8 @@ Complex defined(const std::vector<double>& c, const std::vector<double>& turns, 
   return sum;
 }
 
-/// Terms at random instants, at the ends of the grid and on its points; few lines are summed directly, many by the grid.
+/// Terms at random instants, at the ends of the grid and on its points; few lines are summed directly, many by the
+/// grid.
 TEST(LineSums, AreTheirDefinitionForFewAndForManyLines) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);

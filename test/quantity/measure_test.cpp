@@ -91,7 +91,8 @@ TEST(Measure, CountsTheImpactsOfABallOneByOne) {
   EXPECT_EQ(found.of[2].greatest, 0.0);
 }
 
-/// After its complete chatter the ball lies there: the press is its weight, and all its momentum and energy went into the floor.
+/// After its complete chatter the ball lies there: the press is its weight, and all its momentum and energy went into
+/// the floor.
 TEST(Measure, AChatterTakesAllMomentumAndEnergy) {
   const ModelDefinition ball = load_model("bouncing-ball");
   const auto all = quantities(ball);
@@ -104,8 +105,9 @@ TEST(Measure, AChatterTakesAllMomentumAndEnergy) {
   EXPECT_NEAR(found.of[1].mean * T, g, 1e-9 * g);  // energy: m g h
 }
 
-/// A drop from h in four scales of length and time: impulses of m sqrt(2 g h) (1 + r) / (1 - r), however early the tail of the chatter is
-/// summed. With friction f on the pair a flight that rises at -(g + f) and falls at g - f shrinks the speed by r sqrt((g - f) / (g + f)).
+/// A drop from h in four scales of length and time: impulses of m sqrt(2 g h) (1 + r) / (1 - r), however early the tail
+/// of the chatter is summed. With friction f on the pair a flight that rises at -(g + f) and falls at g - f shrinks the
+/// speed by r sqrt((g - f) / (g + f)).
 TEST(Measure, AChatterSummedEarlyHasTheImpulsesOfAllItsImpacts) {
   for (const double h : {1e-13, 1e-10, 1e-5, 1.0})
     for (const double f : {0.0, 4.0}) {
@@ -135,7 +137,8 @@ TEST(Measure, AChatterSummedEarlyHasTheImpulsesOfAllItsImpacts) {
     }
 }
 
-/// A start in contact that approaches is struck at once: the mean of the acceleration is the change of velocity all the same.
+/// A start in contact that approaches is struck at once: the mean of the acceleration is the change of velocity all the
+/// same.
 TEST(Measure, AnImpactAtTheFirstInstantCounts) {
   const ModelDefinition definition = load_model("impact-oscillator");
   const System system(definition.build());

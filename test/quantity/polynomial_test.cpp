@@ -49,7 +49,8 @@ TEST(Polynomial, TheGreatestValueIsThatBetweenTheEnds) {
   EXPECT_NEAR(at, 0.5, 1e-12);
 }
 
-/// A velocity that comes to rest at the end of a step: the slope of its square has a zero there, on either side but for rounding.
+/// A velocity that comes to rest at the end of a step: the slope of its square has a zero there, on either side but for
+/// rounding.
 TEST(Polynomial, AnExtremeBeforeAnEndAtRestIsNotMissed) {
   int missed = 0;
   for (int k = 1; k <= 200; ++k) {

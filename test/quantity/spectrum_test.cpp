@@ -16,8 +16,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// A ball that hits a shaken table once a period: x'' = -g + A g sin(omega t + phase) + J sum delta(t - t_k), J = g T. The lines of the
-/// impulses have one amplitude, 2 g, and the phase of the instant of impact.
+/// A ball that hits a shaken table once a period: x'' = -g + A g sin(omega t + phase) + J sum delta(t - t_k), J = g T.
+/// The lines of the impulses have one amplitude, 2 g, and the phase of the instant of impact.
 TEST(Spectrum, LinesOfAnImpulseTrainDoNotDecay) {
   const SettledCycle cycle(load_model("shaken-table"));
   ASSERT_EQ(cycle.solution.label, "1-1-I");

@@ -1,4 +1,5 @@
-/// The study of the paper on its quick grids: the claims come out, the files are there, and nothing half-written is left.
+/// The study of the paper on its quick grids: the claims come out, the files are there, and nothing half-written is
+/// left.
 #include "reproduce/reproduce.hpp"
 #include "reproduce/claims.hpp"
 
@@ -92,7 +93,8 @@ TEST(Reproduce, AllClaimsAreAnswered) {
   EXPECT_EQ(ids, "C1 C2 C3 C4 C5 C6 C7 C8 C9 print coexisting branches bounds ");
 }
 
-// Enclosures from the stroboscopic return of the engine's events in steps of 0.001, found by hand before this study was written.
+// Enclosures from the stroboscopic return of the engine's events in steps of 0.001, found by hand before this study was
+// written.
 TEST(Reproduce, WindowOfOneImpactPerCycle) {
   EXPECT_NEAR(number("C1", "lower edge of the 1-1 window"), 1.1145, 1e-3);
   EXPECT_NEAR(number("C1", "upper edge of the 1-1 window"), 2.8460, 2e-4);

@@ -1,4 +1,5 @@
-/// Counts every allocation of the test program. In a file of its own, or GCC inlines one half of the pair and warns of the other.
+/// Counts every allocation of the test program. In a file of its own, or GCC inlines one half of the pair and warns of
+/// the other.
 #include <cstdlib>
 #include <new>
 

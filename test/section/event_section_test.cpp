@@ -21,7 +21,8 @@ Model mass_on_a_belt(double v, double f_s, double f_k) {
 }
 
 TEST(EventSection, ReturnTimeOfTheBeltIsItsClosedForm) {
-  // Slip is a circle about f_k from (f_k + D, v) to (f_k - D, v), D = f_s - f_k: 2 pi - 2 atan(D / v). Stick leads back at speed v: 2 D / v.
+  // Slip is a circle about f_k from (f_k + D, v) to (f_k - D, v), D = f_s - f_k: 2 pi - 2 atan(D / v). Stick leads back
+  // at speed v: 2 D / v.
   for (const double v : {0.1, 0.5, 2.0}) {
     const System system(mass_on_a_belt(v, 1.5, 1.0));
     const double D = 0.5, period = 2.0 * std::numbers::pi - 2.0 * std::atan(D / v) + 2.0 * D / v;

@@ -77,7 +77,8 @@ TEST(StopChoice, TheFlightOfOneWallIsThereAndBack) {
     EXPECT_NEAR(both[i].flight, 1.0, 1e-13) << "of both, every crossing is a flight";
 }
 
-/// A drop on an undamped pad of stiffness k: flights in the air last 2 w, those in the pad 2 (pi - atan(w sqrt(k))) / sqrt(k), w = sqrt(2 h).
+/// A drop on an undamped pad of stiffness k: flights in the air last 2 w, those in the pad 2 (pi - atan(w
+/// sqrt(k))) / sqrt(k), w = sqrt(2 h).
 TEST(StopChoice, EngagementsOfADroppedMassAreAFallAndAHalfSwingApart) {
   for (const double k : {10.0, 1e3, 1e5}) {
     Model model = pad(0.0, 0.0, 0.0);

@@ -1,4 +1,5 @@
-/// Diagrams: the same bits on any number of threads, two attractors where there are two, failures that stay where they are.
+/// Diagrams: the same bits on any number of threads, two attractors where there are two, failures that stay where they
+/// are.
 #include "slapstick/sweep/diagram.hpp"
 
 #include <gtest/gtest.h>
@@ -94,8 +95,9 @@ TEST(Diagram, TransientsInLanesEndOnTheOrbitOfAMotion) {
   }
 }
 
-/// At omega = 4.9 a 5-2 orbit (200 impacts per 500 periods) coexists with a chaotic attractor (231 or so), which is gone at 4.92. So the
-/// chain that begins at 4.9 on the chaotic one, and the one that comes back from 4.95, must differ there.
+/// At omega = 4.9 a 5-2 orbit (200 impacts per 500 periods) coexists with a chaotic attractor (231 or so), which is
+/// gone at 4.92. So the chain that begins at 4.9 on the chaotic one, and the one that comes back from 4.95, must differ
+/// there.
 TEST(Diagram, UpAndDownFindBothAttractorsOfOmega49) {
   DiagramProblem problem = over_omega(4.9, 4.95, 11);
   problem.start_at = [](double) { return State{-0.5, 0.5, 0.0, 0.0}; };
@@ -126,7 +128,8 @@ TEST(Diagram, RowsOfAPeriodicMotionAreOneRow) {
   }
 }
 
-/// x = sin of the phase, watched by pads too soft to matter at 0.5 and -0.5: an engagement of each per period, half a period apart.
+/// x = sin of the phase, watched by pads too soft to matter at 0.5 and -0.5: an engagement of each per period, half a
+/// period apart.
 TEST(Diagram, RowsOfChosenCompliantStopsAreTheirOwnEngagements) {
   DiagramProblem problem = over_omega(0.5, 0.8, 4);
   problem.model_at = [](double clearance) {

@@ -57,8 +57,8 @@ struct Comparison {
   double exponent = 0.0;
 };
 
-/// Whether starts nearer than any measurement find this class too: then the pixel lies where two basins meet, and rounding
-/// decides which attractor is found.
+/// Whether starts nearer than any measurement find this class too: then the pixel lies where two basins meet, and
+/// rounding decides which attractor is found.
 template <class Classify>
 bool where_basins_meet(const System& system, const State& start, const std::string& label,
                        const Classify& classify_alone) {

@@ -165,8 +165,8 @@ TEST(Map, QuickAndFullAgreeWhereBothDecide) {
   EXPECT_GT(decided, 100);
 }
 
-/// At omega = 4.9 a cycle of 2 impacts in 5 periods coexists with one of 12 in 26, which is gone at 4.92: the 200 and 231
-/// impacts in 500 periods of test/sweep/diagram_test.cpp.
+/// At omega = 4.9 a cycle of 2 impacts in 5 periods coexists with one of 12 in 26, which is gone at 4.92: the 200 and
+/// 231 impacts in 500 periods of test/sweep/diagram_test.cpp.
 MapProblem two_attractors() {
   MapProblem problem = chart(6, 2, 4.9, 4.95);
   problem.y = {0.15, 0.15, 1};

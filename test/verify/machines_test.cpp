@@ -1,4 +1,5 @@
-/// Certificates of random machines are proved: several stops, friction contacts, belts and loops, with their ties and limits of chatter.
+/// Certificates of random machines are proved: several stops, friction contacts, belts and loops, with their ties and
+/// limits of chatter.
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -47,7 +48,8 @@ TEST(CertificateOfManyContacts, IsProvedWithItsChatterLimitsWhateverTheMachine) 
   EXPECT_GT(impacts, 1000);
 }
 
-/// Masses 1 in a row with springs 1, a load on the first and a stop at the last: the stop's conditions start with zeros of order 2 (masses - 1).
+/// Masses 1 in a row with springs 1, a load on the first and a stop at the last: the stop's conditions start with zeros
+/// of order 2 (masses - 1).
 TEST(CertificateOfAChain, IsProvedHoweverHighTheOrderOfItsFirstZero) {
   for (const int masses : {2, 5, 6, 9, 12}) {
     for (const double load : {-1.0, 1.0}) {

@@ -1,4 +1,5 @@
-// A user's program: a bouncing mass above a wall, accepted, run and copied; with an impossible restitution, refused with the reason.
+// A user's program: a bouncing mass above a wall, accepted, run and copied; with an impossible restitution, refused
+// with the reason.
 #include <cmath>
 #include <iostream>
 #include <utility>

@@ -3,9 +3,9 @@
 ///
 /// A `Step` offers length(), begin(), end(), at(tau) for 0 < tau < length(): the state tau after the step's begin, and
 /// slope(state, tau), the right-hand side. A `Guard` offers value(state, tau) and rate(state, slope, tau), its
-/// derivative. The search is one of signs at step ends, as a good user of a general-purpose solver would write it. It
-/// therefore cannot see two crossings inside one step; y is safe from that, because it is monotone while w > 0 and is
-/// tested at w's root too.
+/// derivative. The search is one of signs at step ends, as a good user of a general-purpose solver would write it. The
+/// search therefore cannot see two crossings inside one step; y is safe from that, because it is monotone while w > 0
+/// and is tested at w's root too.
 
 #include "paper_oscillator.hpp"
 
@@ -152,8 +152,8 @@ std::optional<Instant> find_inside(Step& step, const Guard& guard) {
   return std::nullopt;
 }
 
-/// Where the guard turns from positive to not positive in this step, if the step's end says so. A step that begins on
-/// the zero (a slip from rest) and never leaves it is passed over: the phase has not started moving yet.
+/// Where the guard turns from positive to not positive in this step, if it is not positive at the step's end. A step
+/// that begins on the zero (a slip from rest) and never leaves it is passed over: the phase has not started moving yet.
 template <class Step, class Guard>
 std::optional<Instant> find_crossing(Step& step, const Guard& guard, double width) {
   const Instant end{step.length(), step.end()};

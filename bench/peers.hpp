@@ -9,7 +9,7 @@
 namespace slapstick::bench {
 
 /// A peer ends chatter when an impact leaves with less than this relative speed; the blocks are then at rest on the
-/// stop. It is a bare threshold: the peers carry no bound on the flights it cuts. A flight that rounding or the
+/// stop. That speed is a bare threshold: the peers carry no bound on the flights it cuts. A flight that rounding or the
 /// solver's error ends at or beyond the stop ends chatter too.
 inline constexpr double peer_rest_speed = 1e-9;
 

@@ -1,4 +1,4 @@
-/// slapstick's own runs. A System is compiled once, as every analysis uses it, but for `run_system`.
+/// slapstick's own runs. A System is compiled once, as every analysis uses it, except in `run_system`.
 #include <chrono>
 #include <thread>
 

@@ -277,7 +277,7 @@ void examine(const Question& question, const Options& options, Tally& tally) {
 }
 
 Tally one_case(const std::vector<std::string>& models, long number, const Options& options) {
-  constexpr int share = 5;        // one of so many lies beside a special point
+  constexpr int share = 5;        // one of this many cases lies beside a special point
   constexpr int most_tries = 20;  // for a branch with a special point
   Random random(options.seed, static_cast<std::uint64_t>(number));
   const auto any_model = [&] {

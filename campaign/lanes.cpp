@@ -63,7 +63,7 @@ struct Tally {
   }
 };
 
-/// Without what no lane can run, but for contacts that depend on each other.
+/// Without what no lane can run, except for contacts that depend on each other.
 MixedMachine plainer(MixedMachine machine) {
   Model& model = machine.model;
   model.characteristics.clear();

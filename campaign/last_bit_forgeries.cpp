@@ -1,4 +1,4 @@
-/// Forgeries by what a reader may overlook: segments that last no time, states that are zero but for the last bit,
+/// Forgeries by what a reader may overlook: segments that last no time, states that are zero apart from the last bit,
 /// impacts without speed, numbers that no contact needs.
 #include <cmath>
 

@@ -11,9 +11,10 @@ struct MixedMachine {
   slapstick::State start;
 };
 
-/// One to four bodies with springs, dampers, two harmonics, a tone and a constant load; up to three stops (one pair of
-/// them two-sided), friction contacts (some on belts, some with f_s > f_k, some on the pair of a stop), compliant stops
-/// and polylines each, between any two bodies or to ground; every fourth one with matrices.
+/// One to four bodies with springs, dampers, two harmonics, a tone and a constant load; every fourth machine with
+/// matrices. Up to three stops (one pair of them two-sided), friction contacts, compliant stops and polylines each,
+/// between any two bodies or to ground. Some friction contacts are on belts, some have f_s > f_k, and some are on the
+/// pair of a stop.
 [[nodiscard]] MixedMachine mixed_machine(Random& random);
 
 }  // namespace campaign

@@ -48,7 +48,7 @@ class Tuning {
   }
 
   /// A point of the grid near a local minimum that can be brought to zero while h stays positive before; 0 if there is
-  /// none.
+  /// no such point.
   [[nodiscard]] int minimum() const {
     int chosen = 0;
     for (int j = 2; j + 1 < scene_.intervals(); ++j) {

@@ -59,7 +59,7 @@ class Window {
     slope_ = slapstick::event::derivative(value_);
   }
 
-  /// At some places of piece j, of which the exact function is one polynomial.
+  /// At some places of piece j, on which the exact function is one polynomial.
   template <class T>
   void compare(int j, int places, Random& random, Ratio& value, Ratio* slope) const {
     std::array<T, 32> state;

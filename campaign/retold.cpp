@@ -32,7 +32,8 @@ struct Told {
   verify::Start start;
   verify::Done done;
   std::vector<verify::Segment> segments;
-  std::string impossible;  ///< what is said that no motion can have: an event that is none, an impact without speed
+  /// what is said that no motion can have: an event that changes nothing, an impact without speed
+  std::string impossible;
 };
 
 Told read(const std::string& text) {

@@ -8,8 +8,8 @@ namespace {
 
 using slapstick::Json;
 
-/// What follows an impact is examined too, but for two of three near-grazes, lest they fall below a half. A scene whose
-/// near-grazes are rare (friction brings it to rest first) is left after a twentieth of the others' segments.
+/// What follows an impact is examined too, except for two of three near-grazes, lest they fall below a half. A scene
+/// whose near-grazes are rare (friction brings it to rest first) is left after a twentieth of the others' segments.
 void examine_scene(Random& random, long count, Method method, Verdicts& verdicts) {
   Scene scene(random);
   NearGrazes near_grazes(scene, random);

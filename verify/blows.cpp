@@ -13,7 +13,7 @@
 namespace verify {
 namespace {
 
-/// Impacts this much slower than the fastest of their instant, or so many, may be called a pile-up.
+/// Impacts this much slower than the fastest of their instant, or this many, may be called a pile-up.
 constexpr double slow = 0x1p-20;
 constexpr long many_blows = 5000;
 /// Segments this short, in periods and in radians of their mode, are at one instant.
@@ -242,9 +242,9 @@ double Checker::fastest_near(const Blow& blow) const {
   return fastest;
 }
 
-/// Only of stops that have become slow by impacts of this instant, of their own or of stops that act on them, or that
-/// have come to rest at this instant before and were disturbed. One of them would be struck again. That they come to
-/// rest is an assumption.
+/// Only of stops that have become slow by impacts of this instant, of their own or of stops that act on them; or of
+/// stops that have come to rest at this instant before and were disturbed. One of them would be struck again. That they
+/// come to rest is an assumption.
 void Checker::pile_up(const Blow& blow) {
   ++tally_.open.pile_ups;
   bool approaches = false;

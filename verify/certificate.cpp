@@ -178,7 +178,7 @@ void Reader::read_forces() {
   }
 }
 
-/// A count, and so many pairs of numbers, the first ones ascending.
+/// A count, and as many pairs of numbers, the first ones ascending.
 std::vector<Corner> Reader::corners(long least) {
   std::vector<Corner> all;
   for (long n = count(least, most_corners); n > 0; --n) {

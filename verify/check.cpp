@@ -8,11 +8,11 @@ namespace verify {
 namespace {
 
 /// Of the clock: that of a stored fraction, in periods; of an instant, in radians of the fastest motion of its mode (no
-/// more than so many periods); of a flight. A model that nothing drives has no period: its 1 may be long beside its
+/// more than this many periods); of a flight. A model that nothing drives has no period: its 1 may be long beside its
 /// motion.
 constexpr double stored_clock = 0x1p-51, clock_rounding = 0x1p-48, flight_rounding = 0x1p-50;
 constexpr double start_of_run = 0x1p-48;  ///< of W q - shift, in units of its terms
-/// all jumps of the clock together, in such radians, but for what each stored fraction is
+/// all jumps of the clock together, in such radians, apart from what each stored fraction is
 constexpr double most_of_clock = 0x1p-24;
 constexpr double most_behind = 0x1p-10;  ///< radians behind an event in which its condition has fallen
 
@@ -252,7 +252,7 @@ void Checker::ends(const Segment& segment, const Flight& flight, const FlownMode
     open.erase(std::remove_if(open.begin(), open.end(), falls), open.end());
   }
   const Balls rate = mode.flow.rate(flight.X);
-  const auto leaves = [&](std::size_t i) {  // it has come from zero, and is on its way
+  const auto leaves = [&](std::size_t i) {  // the condition has come from zero, and is on its way
     const Balls& row = mode.flow.rows[i];
     const bool positive = segment.duration == 0.0 || dot(row, flight.X) > Ball(0.0);
     return positive && !flight.in_band(i) && dot(row, rate) > Ball(0.0);

@@ -16,7 +16,7 @@ struct Open {
   long pile_ups = 0;   ///< impacts without end at one instant, ended by assumption
   long undecided = 0;  ///< signs that rounding decides: touches, impacts without speed
   long choices = 0;    ///< starts at which another mode is as lawful
-  long still = 0;      ///< coordinates that rounding alone moves: zero, but for that of their contact numbers
+  long still = 0;      ///< coordinates that rounding alone moves: zero up to the rounding of their contact numbers
   [[nodiscard]] bool none() const { return pile_ups + undecided + choices + still == 0; }
 };
 

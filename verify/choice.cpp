@@ -14,7 +14,7 @@ namespace {
 
 constexpr long most_tried = 729;
 
-/// Certainly lawful from X on: every condition rises, but for those that stay zero.
+/// Certainly lawful from X on: every condition rises, except those that stay zero.
 bool fits(const FlownMode& mode, const Balls& X) {
   const std::vector<double> sizes = mode.flow.sizes_of(X);
   const Expansion about(mode.flow, X, Ball(0.0), terms_at_start(X));
@@ -79,7 +79,7 @@ struct Checker::Candidates {
   }
 };
 
-/// Number i of the state is zero, but for rounding.
+/// Number i of the state is zero up to rounding.
 bool Checker::near_zero(const Segment& segment, std::size_t i) const {
   const double x = i < m_.d() ? segment.p[i] : segment.u[i - m_.d()];
   return x == 0.0 || (last_ != nullptr && std::abs(x) <= allowance(i));

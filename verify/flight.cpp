@@ -197,7 +197,7 @@ void Flight::leave_band(Proof& proof, double at) {
   tally_.band = std::max(tally_.band, (at - proof.band_begin) / period_);
 }
 
-/// Conditions that are zero at the end, but for rounding.
+/// Conditions that are zero at the end, up to rounding.
 void Flight::end() {
   for (std::size_t i = 0; i < proofs_.size(); ++i) {
     const Proof& proof = proofs_[i];

@@ -3,7 +3,7 @@
 ///
 /// The segment is cut into pieces of about a radian. In each piece a condition h is a Taylor series with |h''| <= M,
 /// and h + h' t - M t^2 / 2 a parabola below it: from a place where h > 0 one step leads to where the parabola
-/// vanishes. A condition that vanishes at the start, but for rounding, is led by the first of its derivatives that does
+/// vanishes. A condition that vanishes up to rounding at the start is led by the first of its derivatives that does
 /// not.
 /// Where a condition is no more than rounding the parabola leads nowhere. Such a *band* is allowed at the segment's end
 /// (there the condition ends it) and, counted as a touch, where the condition is positive again behind it.
@@ -39,7 +39,7 @@ struct FlownMode {
 struct Order {
   int order = 0;
   bool rests = false;
-  bool rises = true;    ///< it is positive; else it is negative, and `value` says what
+  bool rises = true;    ///< that derivative is positive; else it is negative, and `value` says what
   bool certain = true;  ///< false: one before is positive, if only by rounding, and is `order`
   double value = 0.0;
 };
@@ -66,7 +66,7 @@ class Flight {
   Balls X;                          ///< at the end
   std::vector<double> size;         ///< of what X was added up from: the most along the segment
   std::vector<double> coordinates;  ///< the same of q and q'
-  std::vector<std::size_t> zeros;   ///< conditions that are zero at the end, but for rounding
+  std::vector<std::size_t> zeros;   ///< conditions that are zero at the end, up to rounding
 
  private:
   /// How far a condition has been proved.

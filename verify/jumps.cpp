@@ -10,7 +10,7 @@ namespace {
 constexpr double most_in_sum = 0x1p-24;
 
 /// Eight roundings of 2^-53: a coordinate is a sum of stored numbers, each rounded once. Longer sums may be refused;
-/// none is accepted wrongly.
+/// no sum is accepted wrongly.
 constexpr double stored_rounding = 0x1p-50;
 
 }  // namespace

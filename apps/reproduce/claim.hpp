@@ -33,7 +33,7 @@ struct Claim {
   std::string explanation;  ///< why, in plain words; where it does not agree, what differs
   std::vector<Quantity> quantities;
 
-  /// The quantity of that name; null if there is none.
+  /// The quantity of that name; null if there is no such quantity.
   [[nodiscard]] const Quantity* find(std::string_view quantity) const;
 };
 

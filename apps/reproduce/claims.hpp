@@ -61,8 +61,8 @@ struct Evidence {
 [[nodiscard]] double share(const std::vector<Found>& survey, double from, double to, const Wanted& of);
 
 [[nodiscard]] std::string fixed(double value, int digits);
-/// A place that is known to `within`: so many decimals that the number printed is off by at most one unit of its last.
-/// What is known exactly (0) has all its digits.
+/// A place that is known to `within`, with those decimals for which the number printed is off by at most one unit of
+/// its last. What is known exactly (0) has all its digits.
 [[nodiscard]] std::string place(double value, double within);
 [[nodiscard]] std::string place(const Edge& edge);
 /// A value of a grid, to the decimals that tell the grid's values apart.

@@ -1,5 +1,6 @@
 #pragma once
-/// The figures of the paper, each with its data. They compute, write the data and leave the picture with the study.
+/// The figures of the paper, each with its data. Each function computes, writes the data and leaves the picture with
+/// the study.
 #include "reproduce/study.hpp"
 
 namespace slapstick::paper {

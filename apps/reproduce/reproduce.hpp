@@ -4,11 +4,13 @@
 ///
 /// Files in `folder`:
 ///
-///   figN.png .pdf .gp      the figure and the script that draws it (figN-plot.csv: curves; figN-raster<k>.png: point
-///   clouds) figN-*.csv             every computed point behind it, 17 digits
-///   branches.*, bounds.*   the same of the continued branches 1-1 to 5-1 and of what bounds their windows over
-///   friction claims.json            the claims, with every number; the same bytes for any number of threads
-///   index.html             the page: figures, words, claims, timing; needs no other file
+///     figN.png .pdf .gp      the figure and the script that draws it
+///                            (figN-plot.csv: curves; figN-raster<k>.png: point clouds)
+///     figN-*.csv             every computed point behind it, 17 digits
+///     branches.*, bounds.*   the same of the continued branches 1-1 to 5-1
+///                            and of what bounds their windows over friction
+///     claims.json            the claims, with every number; the same bytes for any number of threads
+///     index.html             the page: figures, words, claims, timing; needs no other file
 ///
 /// Everything is computed by the engine with the defaults of the built-in model `vibro-impact`; parameters that the
 /// print lacks or has wrong are stated on the page. Window edges are found by following the attractor from inside in

@@ -1,9 +1,10 @@
 #pragma once
 /// Windows of one kind of motion along omega, and their edges, enclosed in 5e-5 where nothing hides them.
 ///
-/// An edge is found from inside: the attractor is carried step by step until its class is no longer the wanted one,
-/// then on from there in steps of a third as long, until the step is below the tolerance. So an edge is where *this*
-/// attractor ends or changes; if another one coexists there, the edges of both are found, each from its own side.
+/// An edge is found from inside: the attractor is carried step by step until its class is no longer the wanted one.
+/// From the last place inside it goes on in steps of a third as long, until the step is below the tolerance. So an edge
+/// is where *this* attractor ends or changes; if another one coexists there, the edges of both are found, each from its
+/// own side.
 ///
 /// Near a loss of stability attraction is weak: a class is denied somewhat before the cycle loses its stability. How
 /// far before, the multipliers tell to first order (`Edge::hidden`).
@@ -23,8 +24,8 @@ struct Edge {
   bool found = false;   ///< false: the class holds up to the limit of the search (inside.omega)
   double hidden = 0.0;  ///< so far beyond `inside` the multipliers reach the unit circle; 0 if they are not near
   [[nodiscard]] double omega() const { return found ? 0.5 * (inside.omega + outside.omega) : inside.omega; }
-  /// So far from omega() the true edge may be; 0 if there is none. Not half the step from `inside` to `outside` but the
-  /// whole: near a grazing a cycle's basin becomes as small as what a step changes, and the motion may leave it too
+  /// So far from omega() the true edge may be; 0 if no edge was found. Not half the step from `inside` to `outside` but
+  /// the whole: near a grazing a cycle's basin becomes as small as what a step changes, and the motion may leave it too
   /// early. Twice `hidden`, because the modulus of a multiplier does not grow evenly (at a fold by a square root).
   [[nodiscard]] double within() const;
 };

@@ -173,7 +173,7 @@ std::string number_advice(const std::string& text) {
 
 namespace {
 
-/// The value of an expression of numbers, as "pi/2"; nothing if `text` is none.
+/// The value of an expression of numbers, as "pi/2"; nothing if `text` is no such expression.
 std::optional<double> constant(const std::string& text) {
   try {
     const Expression expression(text);

@@ -67,8 +67,8 @@ class Arguments {
   std::unique_ptr<Parser> parser_;
 };
 
-/// What may help somebody whose `text` begins like a number and is none: " (decimals have a point: 0.5, not 0,5)"; or
-/// nothing.
+/// What may help somebody whose `text` begins like a number but is not one: " (decimals have a point: 0.5, not 0,5)";
+/// or nothing.
 [[nodiscard]] std::string number_advice(const std::string& text);
 /// The finite number that `text` is, or that the expression `text` gives ("pi/2").
 /// @throws InputError "ARGUMENT: 'text' is not a number"

@@ -8,7 +8,7 @@
 
 namespace slapstick::app {
 
-/// "text [unit]"; the text alone if there is none.
+/// "text [unit]"; the text alone if there is no unit.
 [[nodiscard]] std::string with_unit(const std::string& text, const std::string& unit);
 
 class AxisUnits {

@@ -27,7 +27,8 @@ inline constexpr std::array<figure::Colour, 12> branch_colours{{figure::colours:
   return branch_colours[branch % branch_colours.size()];
 }
 
-/// So many branches have an entry in the legend: as many rows as that takes are no more than a part of a picture.
+/// Up to this many branches have an entry in the legend: as many rows as that takes are no more than a part of a
+/// picture.
 inline constexpr std::size_t most_named_branches = 24;
 
 }  // namespace slapstick::app

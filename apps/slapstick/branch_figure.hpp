@@ -16,11 +16,11 @@ namespace slapstick::app {
 
 struct BranchAxes {
   std::string x_label;
-  ParameterRange range;      ///< that is shown
+  ParameterRange range;      ///< what is shown of the parameter
   std::string speed, place;  ///< units of the impact speeds, and of the first coordinate; empty: not stated
   std::string y_label = {};  ///< of `y`
   std::function<double(const orbit::Solution&)> y = {};  ///< what is drawn instead, if there is one
-  std::optional<ParameterRange> y_range = {};            ///< that is shown; none: all
+  std::optional<ParameterRange> y_range = {};            ///< what is shown of `y`; none: all
 };
 
 [[nodiscard]] figure::Figure branch_figure(const std::vector<orbit::Branch>& branches, const BranchAxes& axes,

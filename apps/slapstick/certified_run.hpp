@@ -15,7 +15,7 @@ class CertifiedRun {
   explicit CertifiedRun(const std::string& path) : output_(path) {}
 
   /// Runs from `start` to `end`. @returns false if it was stopped: the certificate is then that of the run so far, and
-  /// says so itself
+  /// states this itself
   bool operator()(const System& system, const State& start, Instant end, bool progress, const Context& context);
   /// Puts the file in place. @throws StorageError
   void commit() { output_.commit(); }

@@ -19,7 +19,7 @@ std::vector<const orbit::CurveEvent*> met_behind(const orbit::Curve& curve, std:
     if (event.after == point) all.push_back(&event);
   const std::vector<double>& here = curve.points[point].values;
   const std::vector<double>& next = curve.points[std::min(point + 1, curve.points.size() - 1)].values;
-  const double a = next[0] - here[0], b = next[1] - here[1];  // a part of a step is all but straight
+  const double a = next[0] - here[0], b = next[1] - here[1];  // a part of a step is nearly straight
   const auto along = [&](const orbit::CurveEvent* event) {
     const double x = a != 0.0 ? (event->values[0] - here[0]) / a : 0.0,
                  y = b != 0.0 ? (event->values[1] - here[1]) / b : 0.0;

@@ -18,7 +18,7 @@ class DiagramStore {
 };
 
 [[nodiscard]] StoredCell cell_of(std::size_t place, const sweep::DiagramPoint& point);
-/// But for parameter and direction, which the place says. @throws StorageError if the numbers are none of a point
+/// Without parameter and direction, which the place gives. @throws StorageError if the numbers are none of a point
 [[nodiscard]] sweep::DiagramPoint point_of(const StoredCell& cell);
 
 }  // namespace slapstick::app

@@ -93,7 +93,7 @@ std::size_t rows_of(const Column& column) {
 }
 
 /// A packed dataset that no time is noted of, so that the bytes depend on the table only.
-/// @returns it, for the caller to close
+/// @returns the dataset, for the caller to close
 hid_t add_array(hid_t to, const std::string& name, const std::string& unit, const Data& data, const Extent& extent) {
   constexpr hsize_t chunk = 1U << 16U;
   constexpr unsigned effort = 4;

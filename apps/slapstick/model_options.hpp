@@ -33,9 +33,9 @@ struct ModelOptions {
   [[nodiscard]] State start(const ChosenModel& chosen, const Overrides& more = {}) const;
 };
 
-/// Why `error` happened, as a person at the command line sees it: the values of --set without any one of which `works`
-/// is true (all of them if no single one decides) before the message, without the line of the model file, where nothing
-/// is wrong.
+/// Why `error` happened, as a person at the command line sees it. Before the message stand the values of --set without
+/// any one of which `works` is true (all of them if no single one decides). The line of the model file, where nothing
+/// is wrong, is left out.
 [[nodiscard]] InputError blame(const Overrides& sets, const std::function<bool(const Overrides&)>& works,
                                const InputError& error);
 

@@ -32,7 +32,7 @@ class View {
   View(const MotionRecord& record, const ShownPanel& panel)
       : record_(record), panel_(panel), base_(named_base(record) ? 0.0 : static_cast<double>(record.base())) {}
 
-  /// From so many periods on an axis would have more digits than it has room for: its name has them then.
+  /// From this many periods on an axis would have more digits than it has room for: its name has them then.
   static bool named_base(const MotionRecord& record) { return record.base() >= 100'000; }
 
   [[nodiscard]] bool over_time() const { return panel_.x == ShownPanel::time; }
@@ -89,7 +89,7 @@ class View {
     return points;
   }
 
-  /// In a phase portrait a contact that sticks or rests is a place; on a belt it is none.
+  /// In a phase portrait a contact that sticks or rests is a place; on a belt it is not.
   [[nodiscard]] figure::Points places(Phase phase, figure::Colour colour) const {
     figure::Points points{.colour = colour, .drawing = figure::Drawing::discs, .diameter_mm = 1.6};
     for (const MotionRecord::Stretch& stretch : record_.stretches()) {

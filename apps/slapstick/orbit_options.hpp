@@ -19,8 +19,8 @@ struct ParameterRange {
 /// Reads "A:B", A < B. @throws InputError naming the argument
 [[nodiscard]] ParameterRange parse_range(const std::string& argument, const std::string& text);
 
-/// The value that a parameter or group has by --set or default. @throws InputError naming the argument if there is none
-/// (the nearest is suggested), or the members of the group have several
+/// The value that a parameter or group has by --set or default. @throws InputError naming the argument if there is no
+/// such parameter or group (the nearest is suggested), or the members of the group have several
 [[nodiscard]] double present_value(const ChosenModel& chosen, const std::string& argument,
                                    const std::string& parameter);
 

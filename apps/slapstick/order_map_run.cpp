@@ -12,9 +12,9 @@
 namespace slapstick::app {
 namespace {
 
-constexpr std::size_t most_lines = 60;   ///< in a picture: of more values every so many-th is drawn
+constexpr std::size_t most_lines = 60;   ///< in a picture: of more values every second, third, .. is drawn
 constexpr double shown_decibels = 60.0;  ///< below the largest level
-constexpr double lines_high = 4.0;       ///< the largest level stands so many lines high
+constexpr double lines_high = 4.0;       ///< the largest level stands this many lines high
 
 /// Heights in [0, 1] of all amplitudes: of the largest one, or of a level.
 std::vector<double> heights(const OrderMap& map, bool decibels) {

@@ -62,7 +62,7 @@ class Plot {
  public:
   /// @param path empty: no plot
   /// @param size "", "85mm" or "85x60mm" (also cm, in): the picture's width, and its height
-  /// @throws InputError unless the path ends in .png, .pdf, .svg, .tex or .py, and for a size that is none;
+  /// @throws InputError unless the path ends in .png, .pdf, .svg, .tex or .py, and for a `size` that is no size;
   /// StorageError if it cannot be written
   explicit Plot(const std::string& path, const std::string& size = {});
   [[nodiscard]] bool wanted() const { return !stem_.empty(); }

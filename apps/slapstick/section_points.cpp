@@ -92,7 +92,7 @@ class ImpactPoints {
     w_before_ = point.w;
   }
 
-  /// Fewer points than were asked for. @throws NumericalError if there is none
+  /// Fewer points than were asked for. @throws NumericalError if there is no point
   void report(Instant end) const {
     const Model& model = system_.model();
     const auto what = " " + contact_noun(model, stops_) + "s in " + std::to_string(end.period - options_.transient) +

@@ -24,8 +24,8 @@ struct SettledRange {
 };
 
 /// With stops as `diagram` finds them, the state carried on both ways from the start at the first and the last value;
-/// without, from the start at each value. `instead` gives a start where the model's own is none, as behind a stop that
-/// has moved.
+/// without, from the start at each value. `instead` gives a start where the model's own is not valid, as behind a stop
+/// that has moved.
 [[nodiscard]] SettledMotions settled_motions(const ChosenModel& chosen, const ModelOptions& options,
                                              const std::string& parameter, const SettledRange& at,
                                              const std::function<State(double value)>& instead,

@@ -32,8 +32,8 @@ struct SpanOptions {
   void declare(Arguments& arguments);
   /// @throws InputError for a negative transient, two lengths, or a length and an orbit
   void check() const;
-  /// The orbit that is meant; without one and without --periods and --time the cycle, or where there is none `instead`
-  /// periods.
+  /// The orbit that is meant; without one and without --periods and --time the cycle, or where there is no cycle
+  /// `instead` periods.
   /// @returns nothing if it was stopped. @throws InputError, NumericalError as orbit::find_orbit, orbit::settle and
   /// Motion::advance
   [[nodiscard]] std::optional<Span> span(const ChosenModel& chosen, long long instead, const Context& context,
@@ -44,7 +44,7 @@ struct SpanOptions {
   [[nodiscard]] double whole(const ChosenModel& chosen, long long instead) const;
 };
 
-/// A name of --of and its statistic, "" if there is none.
+/// A name of --of and its statistic, "" if none was given.
 struct Wanted {
   Quantity quantity;
   std::string statistic;
@@ -57,7 +57,8 @@ void check_of_stretch(const std::string& argument, const Wanted& one);
 [[nodiscard]] std::vector<Wanted> parse_wanted(const std::string& argument, const std::string& text,
                                                const std::vector<Quantity>& all);
 
-/// Reads "Q,..": quantities that have a value at every instant; "" is none. @throws InputError naming the argument
+/// Reads "Q,..": quantities that have a value at every instant; "" gives no quantity. @throws InputError naming the
+/// argument
 [[nodiscard]] std::vector<Quantity> functions_of_time(const std::string& argument, const std::string& text,
                                                       const ChosenModel& chosen);
 

@@ -132,7 +132,8 @@ Json result_json(const Classification& found, const Options& options, const Chos
   return json;
 }
 
-/// --of: over the cycle, or where there is none over 1000 periods of the attractor. @returns false if it was stopped
+/// --of: over the cycle, or where there is no cycle over 1000 periods of the attractor. @returns false if it was
+/// stopped
 bool add_values(const std::vector<Wanted>& wanted, const Classification& found, const ChosenModel& chosen,
                 const System& system, const Context& context, Json& json) {
   SpanWish wish;

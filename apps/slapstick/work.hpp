@@ -7,7 +7,7 @@
 
 namespace slapstick::app {
 
-/// What a verb is certain to run through: so many forcing periods of one motion (of each value of a diagram).
+/// What a verb is certain to run through: this many forcing periods of one motion (of each value of a diagram).
 struct Work {
   double periods = 0.0;
   std::string option;  ///< what the user may lower: "--periods"

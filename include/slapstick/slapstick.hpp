@@ -2,16 +2,16 @@
 /// Every public header of slapstick. docs/reference/library.md shows five tasks; each header says what it holds,
 /// what it costs and what it throws.
 ///
-///   model         what a machine is, as plain data; model files (io)
-///   mode          contact states
-///   flow          compiled models, their motions, tangents, natural frequencies
-///   section       motions as sequences of points
-///   attractor     what a motion settles on
-///   sweep         bifurcation diagrams, charts, basins of attraction
-///   orbit         periodic orbits, stable or not
-///   continuation  branches of orbits and loci of special points
-///   quantity      forces, accelerations, energies: statistics and spectra
-///   certify       runs as certificates
+///     model         what a machine is, as plain data; model files (io)
+///     mode          contact states
+///     flow          compiled models, their motions, tangents, natural frequencies
+///     section       motions as sequences of points
+///     attractor     what a motion settles on
+///     sweep         bifurcation diagrams, charts, basins of attraction
+///     orbit         periodic orbits, stable or not
+///     continuation  branches of orbits and loci of special points
+///     quantity      forces, accelerations, energies: statistics and spectra
+///     certify       runs as certificates
 ///
 /// Only these headers are installed. What they do not declare is private and may change in any release.
 #include "slapstick/attractor/classify.hpp"

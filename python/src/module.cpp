@@ -1,4 +1,5 @@
-/// The extension module slapstick._core: the library's functions over numpy arrays. It converts and computes nothing.
+/// The extension module slapstick._core: the library's functions over numpy arrays. The module converts, and computes
+/// nothing.
 #include "bind.hpp"
 #include "slapstick/base/error.hpp"
 

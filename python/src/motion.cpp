@@ -96,7 +96,7 @@ class Recorder {
   Observables observables_;
 };
 
-/// The end of a run of so many periods, or of so much time. @throws InputError
+/// The end of a run of this many periods, or of this much time. @throws InputError
 Instant end_of(double periods, std::optional<double> time, const System& system) {
   constexpr double most_periods = 1e12;
   const double length = time ? *time / system.period() : periods;

@@ -51,7 +51,7 @@ void add_stops(Measures& measures) {
     measures.stops.push_back({stop.stop, stop.w.values, stop.impulse.values, stop.loss.values});
 }
 
-/// Derivatives of a cycle's statistics. @param cycle  null: there is none
+/// Derivatives of a cycle's statistics. @param cycle  null: there is no cycle
 std::vector<Measured> rates_of(const ModelDefinition& definition, const Overrides& values,
                                const std::vector<std::string>& by, const orbit::Orbit* cycle,
                                const std::vector<Quantity>& of) {

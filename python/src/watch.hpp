@@ -74,7 +74,7 @@ class Watch {
   }
 
   /// After the work, with the GIL. @returns false if Ctrl-C ended it and something is complete
-  /// @throws what a handler raised, but for a KeyboardInterrupt where the result is kept
+  /// @throws what a handler raised, except for a KeyboardInterrupt where the result is kept
   bool finish(bool keeps_result) {
     if (!error_) return true;
     if (keeps_result && error_->matches(PyExc_KeyboardInterrupt)) return false;

@@ -10,7 +10,7 @@ namespace slapstick::attractor {
 using flow::contact_state, flow::user_state;
 using section::distance, section::PeriodEvents, section::Stop;
 
-/// Runs so many periods from `state` and fills in what the cycle holds: n, impacts and chatter of the chosen stops,
+/// Runs `duration` periods from `state` and fills in what the cycle holds: n, impacts and chatter of the chosen stops,
 /// stick, label.
 void record_cycle(const System& system, const State& state, double duration, const StopChoice& stops, Stop stop,
                   Classification& out);

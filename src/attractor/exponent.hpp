@@ -19,7 +19,7 @@ struct RunFigures {
   double sticking_fraction = 0.0;
 };
 
-/// Follows the motion and one tangent, both modulo the translations, for so many returns; the exponent's error is the
+/// Follows the motion and one tangent, both modulo the translations, for `returns` returns; the exponent's error is the
 /// standard error of 20 batch means. The tangent's part along a free motion is taken out.
 RunFigures run_figures(const section::ReturnMap& map, const State& state, int returns, const StopChoice& stops,
                        Stop stop);

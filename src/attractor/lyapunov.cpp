@@ -41,7 +41,7 @@ class Contraction {
     segments_seen_ = motion.counters().segments;
     const Motion::Segment& segment = motion.segment();
     const mode::Matrix& A = system_.compiled().mode(segment.mode).system();
-    // Dependent velocities follow from the first n: u = dependence u_n, but for a constant.
+    // Dependent velocities follow from the first n: u = dependence u_n, apart from a constant.
     const double rate =
         A.block(frame_.d, frame_.d, frame_.n, frame_.d).cwiseProduct(frame_.dependence.transpose()).sum();
     const mode::Mode& mode = system_.compiled().mode(segment.mode);

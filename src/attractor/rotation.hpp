@@ -13,7 +13,7 @@ namespace slapstick::attractor {
 
 struct Rotation {
   double number = 0.0;  ///< turns of one curve per `curves` periods, in (0, 0.5]: orientation is not told
-  double digits = 0.0;  ///< agreement of the numbers of both halves, decimal digits; 0: there is none
+  double digits = 0.0;  ///< agreement of the numbers of both halves, decimal digits; 0: no rotation
   int curves = 1;
   /// The least q <= 1000 for which number = j / q as well as it is known, or 0: a long cycle, not a curve.
   int locked = 0;

@@ -22,8 +22,8 @@ void append_digits(std::string& out, double value, int digits);
 [[nodiscard]] std::errc read_decimal(std::string_view text, double& value);
 [[nodiscard]] std::errc read_decimal(std::string_view text, long long& value);
 
-/// The same with printf and strtod, for a C++ library without <charconv> of doubles. They need a locale with a decimal
-/// point.
+/// The same with printf and strtod, for a C++ library without <charconv> of doubles. These functions need a locale with
+/// a decimal point.
 namespace with_c {
 [[nodiscard]] std::string shortest_decimal(double value);
 [[nodiscard]] std::string fixed_decimal(double value, int decimals);

@@ -9,7 +9,7 @@
 ///     x y                   7 u^2                 x double         3/2 u^2 + 4 u^3
 ///     x / y                 15 u^2 + 56 u^3       x / double       3 u^2
 ///     sqrt x                25/8 u^2              (Lefevre, Louvet, Muller, Picot, Rideau, ACM TOMS 49 (2023))
-/// They hold as long as no product is below 2^-960 or above 2^996; below, a product loses at most 2^-1070 more.
+/// The bounds hold as long as no product is below 2^-960 or above 2^996; below, a product loses at most 2^-1070 more.
 #include <cmath>
 
 namespace slapstick {

@@ -37,8 +37,8 @@ namespace slapstick {
 }
 
 /// The candidate that `word` most likely stands for: the one at the least edit distance (the first of equals), or else
-/// the only one that begins with it; before all others one that differs in underscores and case only. Empty if none is
-/// closer than a third of the word (at least 2 edits).
+/// the only one that begins with it; before all others one that differs in underscores and case only. Empty if no
+/// candidate is closer than a third of the word (at least 2 edits).
 [[nodiscard]] inline std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
   const std::size_t tolerated = std::max<std::size_t>(2, word.size() / 3);
   std::size_t least = tolerated + 1;

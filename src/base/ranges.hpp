@@ -2,7 +2,7 @@
 /// The algorithms of <algorithm> on whole ranges, with projections, as std::ranges has them.
 ///
 /// libc++ 14 (Emscripten's) has no std::ranges algorithm, so the library and its programs use these
-/// (tools/check_portable). They forward to the algorithms on iterators, and have of std::ranges what is used here.
+/// (tools/check_portable). Each forwards to the algorithm on iterators, and has of std::ranges what is used here.
 #include <algorithm>
 #include <functional>
 #include <iterator>

@@ -11,7 +11,7 @@
 
 namespace slapstick {
 
-/// A text for a message that may not be needed: a string, or a function that makes one. It must outlive this.
+/// A text for a message that may not be needed: a string, or a function that makes one. The source must outlive this.
 class LazyText {
  public:
   template <class Source>

@@ -78,7 +78,7 @@ void Certificate::Writer::run(Instant end, const std::function<bool(Instant)>& g
 }
 
 /// The segment that the motion has just flown. A chatter's segment begins at rest at its stop: what happened at the end
-/// of the segment before says so.
+/// of the segment before says it.
 void Certificate::Writer::segment(bool ended_by_event) {
   const Motion::Segment segment = motion_.segment();
   const bool chatter = ended_by_event && motion_.event().kind == EventKind::chatter && engine_.hits().empty();

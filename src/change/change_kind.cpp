@@ -26,7 +26,7 @@ Neighbours about(const Itinerary& shape, std::size_t leg) {
 }
 
 /// The friction contact whose stick or reversal is gained or lost, or goes on without a slip, where a leg shrinks to
-/// nothing; -1 if there is none.
+/// nothing; -1 if there is no such contact.
 int stick_at_stake(const TestValue& test, const Itinerary& shape) {
   const auto [before, leg, next] = about(shape, test.leg);
   if (test.starts_at_end && mode::of_friction(test.kind)) return test.contact;
@@ -92,7 +92,7 @@ Slides without(const Slides& slides, std::size_t run) {
   return fewer;
 }
 
-/// By the shortest of the runs without which the longer sequence is the shorter one; where none is that, as in
+/// By the shortest of the runs without which the longer sequence is the shorter one; where there is no such run, as in
 /// symmetric orbits, which change in several places at once, by the shortest. In a burst of impacts there are shorter
 /// ones.
 Sliding kind_between(const Slides& a, const Slides& b, bool chatters) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What motions near an orbit that is none any more look like: guesses of the orbits behind a change.
+/// What motions near an orbit that is no longer one look like: guesses of the orbits behind a change.
 #include <vector>
 
 #include "orbit/equations.hpp"

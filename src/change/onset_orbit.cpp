@@ -62,7 +62,7 @@ class Bounce {
     return numbers;
   }
 
-  /// The contact state so long after an impact as if the contact had stayed closed since, but for a speed of
+  /// The contact state so long after an impact as if the contact had stayed closed since, except for a speed of
   /// separation.
   [[nodiscard]] VectorXd state_after(const Leg& rest, const VectorXd& x, double t, double seconds, double speed) const {
     const Jet start = leg_start(set_, rest, x, t);
@@ -192,8 +192,8 @@ Orbit with_more_impacts(const ModeSet& set, Orbit orbit, int count, const Bounce
   return orbit;
 }
 
-/// Could it be a motion? All that ends a leg must be positive within, but for the flights of the burst, which the fixed
-/// point keeps apart.
+/// Could it be a motion? All that ends a leg must be positive within, except for the flights of the burst, which the
+/// fixed point keeps apart.
 bool is_possible(const Problem& problem, Orbit orbit) {
   const Leg flight = orbit.shape.legs.end()[-2];
   Leg& rest = orbit.shape.legs.back();

@@ -2,10 +2,10 @@
 /// The onset of a complete chatter as an orbit of its own, the solution of a boundary value problem: no change of the
 /// cascade that gathers there is needed.
 ///
-/// With a the pressing acceleration just after impact i, j the rate at which a falls, and w = v j / a^2, the impacts of
-/// a chatter whose contact is about to let go follow the bounce map of change/cascade_law.hpp. Its fixed point
-/// (a, w) = (0, w*) is the onset: there infinitely many impacts are over just as the contact lets go. The onset's orbit
-/// lies on the fixed point's stable manifold w = w* + O(a). The equations are therefore
+/// Let w = v j / a^2, with a the pressing acceleration just after impact i and j the rate at which a falls. In a and w
+/// the impacts of a chatter whose contact is about to let go follow the bounce map of change/cascade_law.hpp. Its fixed
+/// point (a, w) = (0, w*) is the onset: there infinitely many impacts are over just as the contact lets go. The onset's
+/// orbit lies on the fixed point's stable manifold w = w* + O(a). The equations are therefore
 ///
 ///     legs up to impact N;   w_N = w*;
 ///     one closed leg, begun by a plastic impact that stands for all others, that ends as the contact lets go;   ..

@@ -82,8 +82,8 @@ bool rises_at_an_end(const PathPoint& start, const PathPoint& next) {
   return false;
 }
 
-/// The branch of a shape of which the orbit at the change is one already, by arclength to either side of it: as near as
-/// the simulator can tell what it does.
+/// The branch of a shape that the orbit at the change has already, by arclength to either side of it: as near as the
+/// simulator can tell what it does.
 std::optional<HalfBranch> leaving(const Problem& problem, double sense_before, const Orbit& shape, double range) {
   Orbit orbit = shape;
   const NewtonResult result = solve(problem, orbit, fixed_parameters(problem, orbit.legs()), 12);

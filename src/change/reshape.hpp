@@ -23,7 +23,7 @@ constexpr double same_change = 1e-7;
 
 struct HalfBranch {
   PathPoint point;                     ///< a motion; its tangent leads away from the change
-  bool folds = false;                  ///< it lies on the side of the parameter from which the old branch came
+  bool folds = false;                  ///< the branch lies on the side of the parameter from which the old branch came
   bool renewed = false;                ///< the same motion, whose chatter is summed from another impact on: no change
   std::optional<OnsetInterval> onset;  ///< of a complete chatter, which begins or ends there
   double length = 0.0;                 ///< from the change to there; 0 where that is not known
@@ -41,7 +41,7 @@ struct HalfBranch {
                                               const std::optional<TestValue>& test, double range,
                                               const std::atomic<bool>* stop, double nearest = 1e-6);
 
-/// Of these, those of which the orbit at the change is one already: what is left where impacts lose their speed and
+/// Of these, those whose shape the orbit at the change has already: what is left where impacts lose their speed and
 /// legs their length.
 [[nodiscard]] std::vector<HalfBranch> leavings(const Problem& problem, const Orbit& before, const PathPoint& change,
                                                const TestValue& test, double range);
@@ -60,8 +60,8 @@ struct HalfBranch {
                                  const TestValue& test);
 
 /// The orbit with a complete chatter beyond a cascade, whose every change adds an impact.
-/// @param last  a point of the branch near the end of the cascade, or already beyond it: the orbit found is none
-/// between the two  @param limit  the value of the parameter where the changes gather
+/// @param last  a point of the branch near the end of the cascade, or already beyond it: the orbit found is not between
+/// the two  @param limit  the value of the parameter where the changes gather
 [[nodiscard]] std::optional<HalfBranch> beyond_cascade(const Problem& problem, const PathPoint& last, double limit,
                                                        double range, const std::atomic<bool>* stop);
 

@@ -22,14 +22,14 @@ struct UnfoldOptions {
   double range = 1.0;  ///< of the parameter
   const std::atomic<bool>* stop = nullptr;
   bool simulate = true;  ///< where no orbit is found: what the motion does beyond, by running it; of a stable orbit
-  /// Leads the branch of an orbit that was found at a distance from the change back to it. @param error  how well the
-  /// change is known, for this orbit
+  /// Leads the branch of an orbit that was found at a distance from the change back to it.
+  /// @param error  how well the change is known, for this orbit
   /// @returns whether the branch, so led, begins in the sense of the parameter from which the old one came; empty if it
   /// does not lead there
   std::function<std::optional<bool>(const HalfBranch& found, double error)> lead_back = {};
 };
 
-/// Does the branch end in an orbit of another one? That is a shorter orbit several times over, or one that is its own
+/// Does the branch end in an orbit of another one? Such an orbit is a shorter one several times over, or is its own
 /// image where the branch's are not: images of the branch end there too.
 /// Moves such orbits from `branches` to `others`, once over.
 void find_met(const Problem& problem, const Orbit& before, Unfolding& found);

@@ -116,8 +116,8 @@ bool Follower::end_at_boundary(PathPoint& at) {
   return true;
 }
 
-/// After a crossing a branch may come upon itself. It ends there, without the points that it has twice. If it runs the
-/// other way it has been led back by its last change of events, which is not what it seems.
+/// After a crossing a branch may come upon itself. The branch ends there, without the points that it has twice. If it
+/// runs the other way it has been led back by its last change of events, which is not what it seems.
 bool Follower::runs_over_itself() {
   constexpr std::size_t neighbours = 10;
   constexpr int certain = 5;  // one or two may be near: where branches cross, at folds
@@ -148,7 +148,7 @@ bool Follower::runs_over_itself() {
 
 /// An orbit that has grown beyond measure while the parameter hardly moves. @returns false if the branch goes on
 bool Follower::grows_without_bound(const PathPoint& at) {
-  constexpr double beyond = 1e6;  // a resonance of less damping than this is none
+  constexpr double beyond = 1e6;  // a resonance of less damping than this counts as unbounded
   const Eigen::Index numbers = problem_.numbers();
   const VectorXd grown = at.units.head(numbers).cwiseQuotient(problem_.least_sizes());
   if (grown.maxCoeff() * small_size < beyond || std::abs(at.watched.turn) > 1.0 / beyond) return false;

@@ -60,7 +60,7 @@ class CrossingCurve {
     std::vector<double> values;  ///< that it leads to
     double length = 0.0;
     bool hold_second = false;  ///< the parameter that is kept
-    bool last = false;         ///< it ends on the end of a range
+    bool last = false;         ///< the step ends on the end of a range
   };
   [[nodiscard]] Step step_from(const Orbit& here, const Vector2d& along, double length) const;
   [[nodiscard]] std::optional<Orbit> located(Orbit here, std::vector<double> values, bool hold_second) const;
@@ -83,7 +83,7 @@ std::optional<Orbit> CrossingCurve::located(Orbit here, std::vector<double> valu
     const auto found = crossing_near(hold_second ? problem_ : swapped_, here, values, ranges_[hold_second ? 0 : 1]);
     if (!found) return std::nullopt;
     Orbit orbit = found->point.orbit;
-    orbit.values[1] = values[1];  // held, but for the rounding of an interpolation
+    orbit.values[1] = values[1];  // held up to the rounding of an interpolation
     if (!hold_second) std::swap(orbit.values[0], orbit.values[1]);
     return orbit;
   } catch (const InputError&) {  // no model there
@@ -150,7 +150,7 @@ Curve CrossingCurve::run(Orbit here, double sign) {
   add(here, curve);
   while (static_cast<int>(curve.points.size()) < options_.most_points && !stopped(options_.stop)) {
     const Step step = step_from(here, along, length);
-    if (step.last && step.length < shortest_step) {  // it is there
+    if (step.last && step.length < shortest_step) {  // the curve is at the end of a range
       curve.up.kind = CurveEnd::Kind::range;
       return curve;
     }

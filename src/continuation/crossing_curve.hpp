@@ -2,8 +2,8 @@
 /// The locus of a branch point in two parameters. Where orbits are symmetric it is a curve; elsewhere a crossing breaks
 /// up when a parameter is moved.
 ///
-/// At a crossing the equations of orbits are singular, so that it is located anew in each step, by interpolation along
-/// a branch (crossing.hpp), in the parameter in which the curve moves less, with the other one held.
+/// At a crossing the equations of orbits are singular. Each step therefore locates it anew, by interpolation along a
+/// branch (crossing.hpp), in the parameter in which the curve moves less, with the other one held.
 #include "slapstick/continuation/branch.hpp"
 
 namespace slapstick::orbit {

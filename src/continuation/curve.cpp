@@ -169,8 +169,8 @@ CurveFollower::Place CurveFollower::start(Orbit orbit) {
   return here;
 }
 
-/// On a curve of GR, SL, CH or CO the simulator cannot decide; whether the orbit is a motion but for that is seen from
-/// its other margins.
+/// On a curve of GR, SL, CH or CO the simulator cannot decide; whether the orbit is a motion apart from that is seen
+/// from its other margins.
 CurvePoint CurveFollower::point_of_curve(const Place& here) const {
   CurvePoint point{here.orbit.values, describe(problem_, here.orbit, nullptr)};
   point.solution.is_motion = true;

@@ -49,14 +49,14 @@ std::function<double(const CurvePlace&)> of_multipliers(double (*value)(const Wa
   };
 }
 
-/// A component of a curve's tangent, by differences over 1e-5 of a function known to rounding: what is less is none, as
-/// where a parameter has no part.
+/// A component of a curve's tangent, by differences over 1e-5 of a function known to rounding: what is less counts as
+/// zero, as where a parameter has no part.
 constexpr double constant = 1e-6;
 
 constexpr double at_zero =
     0.1;  ///< a function that changes its sign through infinity, as beside an impact without speed, is no such zero
 
-/// Are there so many multipliers at a value?
+/// Are there this many multipliers at a value?
 std::function<bool(const Watched&)> multipliers_at(double target, int count) {
   return [target, count](const Watched& at) {
     const auto near = [target](const std::complex<double>& mu) { return std::abs(mu - target) < at_zero; };

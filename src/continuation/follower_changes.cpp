@@ -58,7 +58,7 @@ bool turns(const SpecialPoint& special) { return special.type == SpecialType::LP
 
 }  // namespace
 
-/// The first change. A point that is all but singular leads nowhere: the one before it may.
+/// The first change. A point that is nearly singular leads nowhere: the one before it may.
 std::optional<Change> Follower::first_change(const PathPoint& at, const PathPoint& beyond, double length) const {
   std::optional<Change> change = find_change(problem_, at, beyond, length, range_);
   if (change || !has_before(at)) return change;
@@ -150,7 +150,7 @@ std::optional<bool> Follower::lead_back(const Change& change, const HalfBranch& 
   return (turned ? -away : away) * change.at.watched.turn < 0.0;
 }
 
-/// Does a change lead to where the branch has been? Near its end a cascade, whose folds and grazes are all but one,
+/// Does a change lead to where the branch has been? Near its end a cascade, whose folds and grazes are nearly one,
 /// seems to: it turns back into itself or goes on with an earlier orbit.
 bool Follower::leads_back(const Unfolding& beyond) const {
   return !beyond.branches.empty() && cascade() && lies_on(problem_, branch_, beyond.branches.front().point.orbit);
@@ -212,8 +212,8 @@ bool Follower::comes_to_rest(const SpecialPoint& special) const {
          as_good_as_none * Extent(problem_, branch_.points.back().orbit).velocity();
 }
 
-/// Does a cycle without forcing stay in one mode, but for legs that are all but gone? A closed curve of a linear system
-/// is one of a family: all that lie about the state of rest like it, nearer or farther.
+/// Does a cycle without forcing stay in one mode, apart from legs that are nearly gone? A closed curve of a linear
+/// system is one of a family: all that lie about the state of rest like it, nearer or farther.
 bool Follower::stays_in_one_mode(const Orbit& orbit) const {
   if (orbit.shape.n > 0) return false;
   std::size_t longest = 0;
@@ -303,7 +303,7 @@ bool Follower::leave_edge(PathPoint& at) {
   return true;
 }
 
-/// Where no step leads on and no change is found: an end that is known, or a way on. @returns false if there is none
+/// Where no step leads on and no change is found: an end that is known, or a way on. @returns false if there is neither
 bool Follower::leave(PathPoint& at) {
   return leave_edge(at) || leave_chatter(at) || turn_round(at) || clear_onset(at) || end_cascade(at) || die_out(at);
 }

@@ -108,7 +108,7 @@ std::vector<HalfBranch> Follower::clear_of_onset(const PathPoint& at) const {
 
 /// Where a chatter's limit meets a point of a signal the changes of the cascade lie to both sides of the onset, each r
 /// times as far from it as the one before: on from an orbit clear of it, in the sense in which orbits differ the more
-/// from that of the onset. @returns false if none is found
+/// from that of the onset. @returns false if no such orbit is found
 bool Follower::leave_knot(PathPoint& at, SpecialPoint special) {
   const auto off = [&](const PathPoint& point) { return apart(problem_, special.solution.orbit, point.orbit); };
   PathPoint there = at;
@@ -125,7 +125,7 @@ bool Follower::leave_knot(PathPoint& at, SpecialPoint special) {
 }
 
 /// Leaves a chatter by its cascade, from an orbit clear of the onset: just behind it impacts are too many and too short
-/// for four grazes to be found on the way back. @returns false if there is none
+/// for four grazes to be found on the way back. @returns false if there is no such orbit
 bool Follower::leave_clear_of_onset(PathPoint& at) {
   const std::vector<HalfBranch> found = clear_of_onset(at);
   if (found.empty()) return false;
@@ -137,7 +137,7 @@ bool Follower::leave_clear_of_onset(PathPoint& at) {
 }
 
 /// Near its onset a chatter's equations, of ever more impacts, are hardly solvable. Looks for the orbits behind the
-/// onset; where none is found, the branch ends at the onset. @returns false if it is none
+/// onset; where no orbit is found, the branch ends at the onset. @returns false if it is no onset
 bool Follower::leave_chatter(PathPoint& at) {
   if (!options_.through_changes || !branch_.points.back().chatter) return false;
   std::vector<HalfBranch> found = reshape(problem_, at.orbit, at, std::nullopt, range_, options_.stop, clear);
@@ -231,9 +231,9 @@ bool Follower::in_gathering(const PathPoint& at, const Change& change) const {
          change.special.margin.contact == last->margin.contact;
 }
 
-/// Passes an onset of a complete chatter that is known by its own equations where a branch, with the chatter or with
-/// the cascade of its changes, is so near that nothing but ever more impacts lies before it. @returns false if there is
-/// none
+/// Passes an onset of a complete chatter that is known by its own equations. The branch, with the chatter or with the
+/// cascade of its changes, must be so near that nothing but ever more impacts lies before the onset.
+/// @returns false if there is no such onset
 bool Follower::meet_onset(PathPoint& at) {
   if (!options_.through_changes) return false;
   if (!branch_.points.back().chatter) {
@@ -265,7 +265,7 @@ void Follower::place_at_knot(SpecialPoint& special, const Orbit& chattering, dou
   special.error = exact->error;
 }
 
-/// The end of a cascade: its limit, and the complete chatter beyond. @returns false if there is none
+/// The end of a cascade: its limit, and the complete chatter beyond. @returns false if there is no such end
 bool Follower::end_cascade(PathPoint& at) {
   const std::optional<CascadeLimit> limit = cascade_ends(at);
   if (!limit) return false;

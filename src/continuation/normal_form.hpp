@@ -60,7 +60,8 @@ struct Critical {
 };
 [[nodiscard]] Critical critical(const Eigen::MatrixXd& A, std::complex<double> mu);
 
-/// The coefficient of a special point with an eigenvector of any length, and its error; not a number if there is none.
+/// The coefficient of a special point with an eigenvector of any length, and its error; not a number if there is no
+/// coefficient.
 struct Estimate {
   double value = 0.0, error = 0.0;
 };

@@ -43,7 +43,7 @@ double rotation(const Watched& watched) {
   return angle;
 }
 
-/// The branch that crosses at a BP. Of two sides that are images of one another, but for what is of second order in
+/// The branch that crosses at a BP. Of two sides that are images of one another, apart from what is of second order in
 /// their distance, one is kept.
 void add_crossing_branch(const Problem& problem, const PathPoint& at, SpecialPoint& crossing) {
   constexpr double second_order = 0.05;
@@ -109,7 +109,7 @@ bool is_one(SpecialType type, const Watched& there) {
   }
 }
 
-/// Is the product of two multipliers 1 but for rounding, as all along a stretch without damping? A smaller bound takes
+/// Is the product of two multipliers 1 up to rounding, as all along a stretch without damping? A smaller bound takes
 /// rounding for tori; with a larger one a torus within so much of both ends of a step is missed.
 bool product_is_one(const Watched& there) {
   constexpr double rounding = 1e-10;
@@ -193,7 +193,8 @@ bool changes_there(const Problem& problem, const PathPoint& from, double length,
 }
 
 /// Where a graze has no memory, as before a complete chatter, the parameter is a square of the impact's speed: at the
-/// graze itself the tangent does not say in which sense the parameter came. It is given the sense that it had before.
+/// graze itself the tangent does not say in which sense the parameter came. The turn is given the sense that it had
+/// before.
 void look_back(const Problem& problem, const PathPoint& from, double range, Located& located) {
   constexpr double flat = 1e-3;  // a component of the tangent
   double& turn = located.point.watched.turn;
@@ -221,7 +222,7 @@ void in_order(Candidates& candidates, const std::vector<TestValue>& tests, doubl
     const bool slip = test.starts_at_end && mode::of_friction(test.kind);
     const bool says_most = test.test == (slip ? Test::duration : Test::speed);
     const bool closes = test.test == Test::guard && test.kind == mode::GuardKind::gap;
-    const bool at_the_point = candidate.second.length < rounding;  // which is a motion
+    const bool at_the_point = candidate.second.length < rounding;  // the point is a motion
     return std::pair(at_the_point || candidate.second.error > well_known * range, says_most ? 0 : closes ? 2 : 1);
   };
   for (auto first = candidates.begin(); first != candidates.end();) {

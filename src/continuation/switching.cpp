@@ -31,8 +31,8 @@ Orbit twice(const Orbit& orbit) {
   return two;
 }
 
-/// The direction that solves the linearised equations at a fixed parameter, but for the smallest residual: there the
-/// new branch leaves.
+/// The direction that solves the linearised equations at a fixed parameter, with the smallest residual: there the new
+/// branch leaves.
 VectorXd new_direction(const Problem& problem, const Orbit& orbit, const VectorXd& units) {
   const ModeSet set(problem.family(), orbit.values);
   const Linearised at = linearise(problem, set, orbit);

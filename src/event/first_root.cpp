@@ -56,7 +56,7 @@ Curvature whole_curvature(const GuardWindow& guard, const Lane8& d) {
   return {std::max(low - error, middle - spread), std::min(high + error, middle + spread), 1.0};
 }
 
-/// First positive zero of g + g1 d + m d^2 / 2 with g > 0; infinity if there is none.
+/// First positive zero of g + g1 d + m d^2 / 2 with g > 0; infinity if there is no such zero.
 double parabola_root(double g, double g1, double m) {
   const double discriminant = g1 * g1 - 2.0 * m * g;
   if (discriminant < 0.0) return INFINITY;

@@ -102,8 +102,7 @@ inline int certain_sign(const Polynomial& g, double x) {
   return std::abs(value) > 2 * g.degree * 0x1p-53 * g.size() ? value > 0.0 ? 1 : -1 : 0;
 }
 
-/// Hands every place of (0, 1) to `take` at which g may be zero: each zero but for rounding, and some places that are
-/// none.
+/// Hands `take` every place of (0, 1) at which g may be zero: each zero up to rounding, and some places that are not.
 /// @param negligible  pieces where |g| times their length is below this are not halved any further
 template <class Take>
 void possible_zeros(const Polynomial& g, Bernstein b, double from, double to, double negligible, const Take& take) {

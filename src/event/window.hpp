@@ -3,7 +3,7 @@
 ///
 /// The coefficients are kept in three groups of eight so that a value is
 ///     h(x) = sum_{j<8} x^j (a_j + x^8 (a_{8+j} + x^8 a_{16+j})),
-/// a dozen operations deep instead of the 46 of Horner's rule, with the same operations in the same order for every
+/// a dozen operations deep instead of the 46 of Horner's rule. The operations and their order are the same for every
 /// instruction set (the compiler maps Lane8 to whatever vectors the target has; contraction to FMA is off).
 ///
 /// Sources compiled for different instruction sets include this (event/kernels.hpp). So each has functions of its own:

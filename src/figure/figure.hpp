@@ -1,8 +1,8 @@
 #pragma once
 /// Figures from columns of numbers, for print: a gnuplot script, its data, a PNG and a PDF, side by side in one folder.
 ///
-/// This layer computes no dynamics. It takes columns, decides ranges, ticks and margins (so that nothing is cut off and
-/// stacked panels align), turns large point clouds into a density raster (figure/raster.hpp) and lets gnuplot draw
+/// This layer computes no dynamics. The layer takes columns and decides ranges, ticks and margins, so that nothing is
+/// cut off and stacked panels align. Large point clouds become a density raster (figure/raster.hpp); gnuplot draws
 /// axes, text and lines. An author restyles a figure by editing `stem.gp` and running `gnuplot stem.gp` in its folder.
 ///
 /// Text is UTF-8 in gnuplot's enhanced notation: `x_1`, `10^{-3}`, `{/:Italic x}`, `ω` or `{/Symbol w}`; write a
@@ -55,8 +55,8 @@ struct Range {
   double min = 0, max = 1;  ///< min < max; both > 0 on a logarithmic axis
 };
 
-/// A chart: cells of equal size in data coordinates, each in one of up to 255 colours. It is drawn beneath all else;
-/// the clouds of its panel are then discs.
+/// A chart: cells of equal size in data coordinates, each in one of up to 255 colours. The chart is drawn beneath all
+/// else; the clouds of its panel are then discs.
 struct Cells {
   Range x{}, y{};  ///< the rectangle that the cells fill, edge to edge
   int columns = 0, rows = 0;
@@ -92,8 +92,9 @@ struct Mark {
   Colour colour = colours::grey;
 };
 
-/// A rectangle of a panel that is drawn again, enlarged: cells, points and lines, with numbers of its own. It lies in
-/// the corner of the frame in which it hides least, covers no rectangle that is enlarged, and two lines join both.
+/// A rectangle of a panel that is drawn again, enlarged: cells, points and lines, with numbers of its own. The inset
+/// lies in the corner of the frame in which it hides least, covers no rectangle that is enlarged, and two lines join
+/// both.
 struct Inset {
   Range x{}, y{};
 };
@@ -109,7 +110,7 @@ struct Key {
   int group = 0;  ///< of a legend below: each of the groups begins a row and has columns of its own
 };
 
-/// `automatic`: the corner inside the frame that holds no data, or a row above the frame if there is none.
+/// `automatic`: the corner inside the frame that holds no data, or a row above the frame if there is no such corner.
 /// `below`: under the name of the x axis, in as many rows as the entries need; they make the figure higher, not the
 /// frame lower. `none` also hides single series. Series without a label never appear.
 enum class Legend { automatic, none, top_left, top_right, bottom_left, bottom_right, above, below };

@@ -9,7 +9,7 @@ namespace slapstick::figure {
 
 /// Python 3 with numpy and matplotlib. Frames stand where gnuplot's do.
 /// @param name     of what it reads: ./name-plot.csv, ./name-raster<panel>.png
-/// @param picture  it writes ./picture-py.pdf, or the files that its arguments name
+/// @param picture  the script writes ./picture-py.pdf, or the files that its arguments name
 std::string matplotlib_script(const Figure& figure, const Layout& layout, const Table& table, const std::string& name,
                               const std::string& picture);
 

@@ -63,7 +63,7 @@ struct Raster {
 Raster blend(const std::vector<Counts>& series, const std::vector<Colour>& colours);
 inline constexpr std::size_t largest_series_count = 8;
 
-/// The cells that a window shows, on so many pixels: each has the colour of the cell that its centre lies in.
+/// The cells that a window shows, on width x height pixels: each has the colour of the cell that its centre lies in.
 Raster picture_of(const Cells& cells, const Window& window, int width, int height);
 
 /// The image as a PNG file (indexed colour, transparency).

@@ -46,7 +46,7 @@ struct Friction {
   double unknown = 0.0;  ///< any value up to this: friction at rest on other pairs, whose state the impulses may change
 };
 
-/// @param delta bound on the changes of X over the chatter, or null if none is known yet
+/// @param delta bound on the changes of X over the chatter, or null if no bound is known yet
 Friction friction_on(const CompiledSystem& system, const mode::Mode& here, int stop, const double* X,
                      const double* delta) {
   Friction friction;
@@ -204,7 +204,7 @@ bool others_change(const CompiledSystem& system, const mode::Mode& here, int sto
     if (!is_continuous(system, i) && passes_corner(system, i, X, delta)) return true;
   for (int i = 0; i < static_cast<int>(frame.compliant.size()); ++i) {
     const mode::ContactRow &contact = frame.compliant[i], &own = frame.stops[stop];
-    if (contact.own == own.own && contact.sign == own.sign) continue;  // it begins where the stop's gap ends
+    if (contact.own == own.own && contact.sign == own.sign) continue;  // the contact begins where the stop's gap ends
     if (std::abs(depth(system, i, X)) <= delta[contact.own]) return true;
   }
   for (const mode::Guard& guard : here.guards()) {

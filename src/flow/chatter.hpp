@@ -17,10 +17,10 @@
 ///     T <= v (1/a_rise + 1/sqrt(a_rise a_return))_max / (1 - rho).
 /// If rho < 1, T <= D and friction cannot hold the pair off the stop (R_0 - delta > static friction), chatter is
 /// proven complete. The same series with the smallest and largest accelerations encloses the limit time.
-/// |A| is the greater of that without contact forces and that of the mode of the flight, so that compliant and
+/// Here |A| is the greater of that without contact forces and that of the mode of the flight, so that compliant and
 /// closed stops elsewhere are in it. Another closed stop that acts on the pair refuses the proof, since the impacts
 /// strike it too. So does any other stop, rigid or compliant, that could be reached or left within Delta, as the second
-/// side of a narrow clearance, and a compliant stop on the pair whose force could leave its line.
+/// side of a narrow clearance. So does a compliant stop on the pair whose force could leave its line.
 /// A characteristic whose force is continuous may pass a corner: its force changes by no more than its steepest piece
 /// makes of Delta.
 ///

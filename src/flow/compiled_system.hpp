@@ -1,6 +1,6 @@
 #pragma once
-/// What a System shares: contact coordinates, the modes with their operators, the impact law's vectors. Const but for
-/// the table of modes.
+/// What a System shares: contact coordinates, the modes with their operators, the impact law's vectors. Const except
+/// for the table of modes.
 #include <memory>
 #include <string>
 #include <vector>

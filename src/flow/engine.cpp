@@ -119,7 +119,7 @@ void Engine::fail(const std::string& what) const {
 }
 
 /// A chatter's limit lies within the first window of the flight after its impact: where the flight's start has moved,
-/// none is due.
+/// no limit is due.
 Outcome Engine::advance(Instant end) {
   if (shown_ + 1 < static_cast<int>(pending_.size())) {
     ++shown_;

@@ -103,8 +103,9 @@ void Engine::force_limit(int guard, int contact, bool graze) {
   begin_flight();
 }
 
-/// The stop of a pair that comes to rest just where its gap vanishes, within the gap's rounding bound, or -1. The gap's
-/// minimum and the zero of its rate are one instant, whichever of the two searches ends an ulp earlier.
+/// The stop of a pair that comes to rest just where its gap vanishes, within the gap's rounding bound; -1 if there is
+/// no such stop. The gap's minimum and the zero of its rate are one instant, whichever of the two searches ends an ulp
+/// earlier.
 int Engine::stop_touched_at_rest(int friction) const {
   const mode::Mode& mode = *here_;
   for (int g = 0; g < mode.guard_count(); ++g) {
@@ -167,9 +168,9 @@ void Engine::compliant_limit(int compliant, GuardKind kind) {
   settle(Cause::compliant, own(event, stops() + frictions() + compliant));
 }
 
-/// The displacement (velocity) of a characteristic made that of its corner, or a force made zero, but for the rounding
-/// of a sum: by the number that has most of it, is not zero, and of a pair that is not held. A displacement of a pair
-/// at a closed stop would open the stop by its rounding.
+/// The displacement (velocity) of a characteristic made that of its corner, or a force made zero, up to the rounding of
+/// a sum: by the number that has most of it, is not zero, and of a pair that is not held. A displacement of a pair at a
+/// closed stop would open the stop by its rounding.
 void Engine::land_on_crossing(const mode::Guard& guard) {
   const int d = system_->frame().d;
   const mode::Guard::Entry* most = nullptr;

@@ -16,7 +16,7 @@ namespace slapstick::flow {
 
 namespace {
 
-/// Steps lose less than a guard's rounding bound in so many windows.
+/// Steps lose less than a guard's rounding bound in this many windows.
 constexpr int windows_per_start = 16;
 
 /// Products of larger numbers with those of a model may overflow, and then no bound of a guard says anything.
@@ -151,7 +151,7 @@ std::optional<Flight::Found> Flight::fly(Instant end) {
   }
 }
 
-/// The first event before x_end; if there is none, the place where a search that could not decide wants to start anew.
+/// The first event before x_end; without one the place where a search that could not decide wants to start anew.
 Flight::Found Flight::first_event_in_window(double x_end) {
   const mode::Mode& mode = *here_;
   Found found{event::RootKind::none, 0, x_end};

@@ -3,7 +3,7 @@
 ///
 /// Every window's step rounds the state, by units of the largest numbers of the flight, also where they have become
 /// small. A guard that comes within that rounding of zero is looked at again with a state that was carried from the
-/// flight's origin in double-doubles, so that touch, hit and miss do not depend on how many windows lie between.
+/// flight's origin in double-doubles. So touch, hit and miss do not depend on how many windows lie between.
 #include <vector>
 
 #include "base/double_double.hpp"

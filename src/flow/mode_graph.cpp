@@ -193,7 +193,7 @@ class Choice {
   }
 
   /// The next combination: those in which few contacts differ from what they prefer come first, each with all sides of
-  /// the lines that are being crossed: a corner is no reason to let go. False if there is none.
+  /// the lines that are being crossed: a corner is no reason to let go. False if there is no further one.
   bool next() {
     if (next_side() || next_digits()) return true;
     if (!next_changed()) return false;

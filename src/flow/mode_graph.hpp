@@ -3,21 +3,21 @@
 ///
 /// Every event ends in the same question. Each contact offers candidates in order of preference:
 ///
-///   | contact  | at this instant             | candidates, first that fits is taken |
-///   |----------|-----------------------------|--------------------------------------|
-///   | friction | w > 0                       | slip+                                |
-///   | friction | w < 0                       | slip-                                |
-///   | friction | w = 0                       | stick, slip+, slip-                  |
-///   | friction | any, N linear in the state  | those above, unloaded                |
-///   | stop     | gap > 0, or separating      | open                                 |
-///   | stop     | gap = 0 and at rest         | closed, open                         |
-///   | stop     | gap = 0 and approaching     | none: an impact comes first          |
-///   | compliant| delta < 0                   | off                                  |
-///   | compliant| delta = 0                   | off, on, detached                    |
-///   | compliant| delta > 0                   | on; detached too if it cannot pull   |
-///   | bounded  | delta = 0; delta > 0        | off or these; on, bounded, detached  |
-///   | charact. | between two corners         | the piece there                      |
-///   | charact. | at a corner                 | the pieces on both sides             |
+///     | contact  | at this instant             | candidates, first that fits is taken |
+///     |----------|-----------------------------|--------------------------------------|
+///     | friction | w > 0                       | slip+                                |
+///     | friction | w < 0                       | slip-                                |
+///     | friction | w = 0                       | stick, slip+, slip-                  |
+///     | friction | any, N linear in the state  | those above, unloaded                |
+///     | stop     | gap > 0, or separating      | open                                 |
+///     | stop     | gap = 0 and at rest         | closed, open                         |
+///     | stop     | gap = 0 and approaching     | none: an impact comes first          |
+///     | compliant| delta < 0                   | off                                  |
+///     | compliant| delta = 0                   | off, on, detached                    |
+///     | compliant| delta > 0                   | on; detached too if it cannot pull   |
+///     | bounded  | delta = 0; delta > 0        | off or these; on, bounded, detached  |
+///     | charact. | between two corners         | the piece there                      |
+///     | charact. | at a corner                 | the pieces on both sides             |
 ///
 /// and a combination *fits* if every guard it arms is positive at once: h > 0, or h = 0 with a positive first non-zero
 /// derivative (h = 0 for good too). For the paper's system this is the table of docs/explanation/mode_graph.md: after

@@ -32,7 +32,7 @@ Eigen::MatrixXd free_directions(const mode::Frame& frame, const mode::ContactSta
   if (held.empty()) return Eigen::MatrixXd::Identity(frame.n, frame.n);
   Eigen::MatrixXd G(static_cast<Eigen::Index>(held.size()), frame.n);
   for (std::size_t i = 0; i < held.size(); ++i) G.row(static_cast<Eigen::Index>(i)) = frame.dependence.row(held[i]);
-  constexpr double dependent = 0x1p-40;  // rows of a loop of contacts, but for the rounding of W
+  constexpr double dependent = 0x1p-40;  // rows of a loop of contacts, up to the rounding of W
   return dense::kernel(G, dependent).basis;
 }
 

@@ -4,8 +4,8 @@
 ///
 /// From rest the velocities of the set are proportional to the impulse that disturbs it, and so is all that follows:
 /// the law is homogeneous where no restitution depends on the speed. So the limit is taken at once the second time.
-/// Without this each impact of the fourth body of a row would cost the second and third the impacts of a whole pile-up,
-/// each of the fifth those of the fourth, and so on.
+/// Without this each impact of the fourth body of a row would cost the second and third the impacts of a whole pile-up.
+/// Each of the fifth would cost those of the fourth, and so on.
 #include <array>
 #include <cstdint>
 

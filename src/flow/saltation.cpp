@@ -94,7 +94,7 @@ bool timed(const Engine& engine) {
   return !engine.hits().empty() && ranges::none_of(engine.strikes(), &Motion::Strike::to_rest);
 }
 
-/// Are two derivatives the same but for rounding? Their four blocks, displacements and velocities by displacements and
+/// Are two derivatives the same up to rounding? Their four blocks, displacements and velocities by displacements and
 /// velocities, have a unit each. The state at the instant has no size to go by: all may be at rest there.
 /// @param time  in which a state of the motion changes
 bool alike(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double time) {

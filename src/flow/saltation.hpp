@@ -7,8 +7,8 @@
 /// event at its instant, else the identity.
 ///
 /// Several guards at one instant, as in symmetric machines: one after the other, each with the impacts and the changes
-/// of contact states that are its own (instant_parts.hpp). That is the derivative where their order does not matter.
-/// Where it does (two bodies that hit a third at once) the motion has none, which `differentiable` says; what
+/// of contact states that are its own (instant_parts.hpp). The result is the derivative where their order does not
+/// matter. Where it does (two bodies that hit a third at once) the motion has none, which `differentiable` says; what
 /// `pass_event` gives is that of the order in which the model has them.
 ///
 /// A pulse of a signal has its instant by the clock, and adds nothing to a tangent: R is that of the stops that bear it
@@ -32,8 +32,8 @@ void pass_event(const Engine& engine, Eigen::MatrixXd& tangents);
 /// rounding only.
 void hold_still(const Engine& engine, Eigen::MatrixXd& tangents);
 
-/// Does the last instant of `engine` have a derivative? It has where the guards that were zero together give the same,
-/// whichever of them comes first: bodies that do not act on each other, or several contacts on one pair.
+/// Does the last instant of `engine` have a derivative? The instant has one where the guards that were zero together
+/// give the same, whichever of them comes first: bodies that do not act on each other, or several contacts on one pair.
 [[nodiscard]] bool differentiable(const Engine& engine);
 
 }  // namespace slapstick::flow

@@ -19,7 +19,7 @@ struct Scalar {
 };
 
 /// What a key of a [[part]] holds: a Scalar, a Scalar whose expression may name states as well, true or false, one line
-/// of text, a list of tables with fields of their own, a list of points [x, force], a list of two Scalars, a word of
+/// of text; a list of tables with fields of their own, a list of points [x, force], a list of two Scalars; a word of
 /// `contact_laws` or `signal_shapes`, a table of `stribeck_keys`, a table of `constant`, states and a `compliant_stop`,
 /// a table of `band_keys`, or two plain numbers.
 enum class Holds {

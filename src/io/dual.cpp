@@ -18,7 +18,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 /// f of a Dual by the chain rule; what does not vary is not asked for its slope, which may be infinite.
 Dual chain(const Dual& x, double value, double slope) { return {value, x.varies ? slope * x.rate : 0.0, x.varies}; }
 
-/// A number that is constant around here, but for a jump exactly here.
+/// A number that is constant around here, apart from a jump exactly here.
 Dual step(double value, bool jumps) { return {value, jumps ? none : 0.0, jumps}; }
 
 /// Whether a condition may be another one nearby.

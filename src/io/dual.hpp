@@ -1,6 +1,6 @@
 #pragma once
 /// A number and its derivative with respect to a parameter, in the arithmetic of expressions: forward differentiation,
-/// exact but for rounding.
+/// exact up to rounding.
 #include <map>
 #include <span>
 #include <string>
@@ -13,7 +13,7 @@ namespace slapstick {
 struct Dual {
   double value = 0.0;
   double rate = 0.0;
-  bool varies = false;  ///< it depends on the parameter, even where its derivative happens to be 0
+  bool varies = false;  ///< the number depends on the parameter, even where its derivative happens to be 0
 };
 
 using Duals = std::map<std::string, Dual>;
@@ -38,7 +38,7 @@ struct Function {
   std::string_view name;
   std::size_t least, most;
 };
-/// "sqrt", "atan2", "min", ..; null if there is none.
+/// "sqrt", "atan2", "min", ..; null if there is no such function.
 const Function* function_named(std::string_view name);
 /// Its value and derivative at as many numbers.
 Dual call(std::string_view function, std::span<const Dual> arguments);

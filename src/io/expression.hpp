@@ -24,7 +24,7 @@ class Expression {
   /// @param values must hold all of `names`
   /// @throws InputError if the result is not finite; says with which values
   [[nodiscard]] double evaluate(const std::map<std::string, double>& values) const;
-  /// The same, but whatever the result: inf, or nan where there is none.
+  /// The same, but whatever the result: inf, or nan where there is no value.
   [[nodiscard]] double value(const std::map<std::string, double>& values) const;
 
   /// Value and derivative.

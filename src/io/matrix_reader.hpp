@@ -8,7 +8,7 @@
 namespace slapstick {
 
 /// The coordinates that `[matrix] coordinates` names, a list or a file with a name a line, in the order of the
-/// matrices' rows. They have no mass of their own. Empty where the key is absent.
+/// matrices' rows. These coordinates have no mass of their own. Empty where the key is absent.
 /// @throws InputError, StorageError
 [[nodiscard]] std::vector<Part> matrix_rows(const TreeReader& tree, const TomlNode& root, const std::string& source);
 

@@ -30,7 +30,7 @@ class ModelNumbers {
   using Powers = std::array<int, 3>;  // of length, time, mass
   struct View {
     std::size_t dimension;
-    bool scaled;  // 1 is not the unit itself: a number of the model is another one than that of the unit
+    bool scaled;  // 1 is not the unit itself: a number of the model is not the number in the unit
     Values values;
   };
 

@@ -14,7 +14,7 @@ struct NumberRows {
     std::vector<double> numbers;
     int line = 0;
   };
-  std::vector<std::string> heading;  ///< empty: there is none
+  std::vector<std::string> heading;  ///< empty: the file has no heading
   std::vector<Row> rows;             ///< of finite numbers; all of one length
 };
 

@@ -8,8 +8,8 @@
 
 namespace slapstick {
 
-/// May the name be that of a quantity, by the patterns of quantity_rules, and is none of what a file names itself: a
-/// parameter, a base, or the gap of a stop? (Displacements and velocities are the state.)
+/// May the name be that of a quantity, by the patterns of quantity_rules, and no name that a file gives itself: that of
+/// a parameter, a base, or the gap of a stop? (Displacements and velocities are the state.)
 [[nodiscard]] bool names_quantity(const Definition& definition, const std::string& name);
 
 /// The names that the expression of an observable may have: those of quantities are looked at when there is a model.

@@ -79,7 +79,7 @@ class PartReader {
         tree_.fail(parts[i / 2].line, part_label("coordinate", i / 2, parts[i / 2]),
                    "a parameter has the name " + in_quotes(states_[i]));
     const auto* matrix = root_.find("matrix");
-    if (matrix != nullptr && matrix->find("mass") != nullptr) return;  // which may give them all
+    if (matrix != nullptr && matrix->find("mass") != nullptr) return;  // the matrix may give all of them
     for (const auto& part : parts)
       if (!part.fields.contains("mass"))
         tree_.fail(part.line, "coordinate " + in_quotes(part.name), "'mass' is missing");

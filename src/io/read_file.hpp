@@ -5,7 +5,7 @@
 
 namespace slapstick {
 
-/// Largest file of numbers that is read. It bounds time and memory for hostile files.
+/// Largest file of numbers that is read. The limit bounds time and memory for hostile files.
 inline constexpr std::size_t numbers_size_limit = std::size_t{1} << 24;
 
 /// At most `limit` + 1 bytes of a regular file: a pipe or a device could block or never end.

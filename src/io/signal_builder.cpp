@@ -139,7 +139,7 @@ ModelBuilder::Points ModelBuilder::over_a_period(const Part& part, Points points
                          " forcing periods; a period must hold a whole number of rounds (a record over two periods: "
                          "halve omega, and double the harmonics)");
   const bool joins = is_continuous(part, points.front().second.value, points.back().second.value);
-  constexpr double most = 0.75;  // a point more is a coincidence more on branches, so there is none without need
+  constexpr double most = 0.75;  // a point more is a coincidence more on branches, so no point is added without need
   Points all;
   for (double round = 0.0; round < rounds; round += 1.0) {
     if (round > 0.0 && joins) all.pop_back();
@@ -215,7 +215,7 @@ void ModelBuilder::add_impulses(Model& model) {
 }
 
 /// (time, jump of the slope). Of a signal that repeats the round begins and ends within its first line, where there is
-/// none: its own ends have one.
+/// no jump: its own ends have one.
 ModelBuilder::Points ModelBuilder::speed_jumps(int signal) const {
   const Points& knots = knots_[static_cast<std::size_t>(signal)];
   const Signal& of = signals_[static_cast<std::size_t>(signal)];

@@ -74,7 +74,7 @@ bool changes_with_time(const ModelDefinition& definition) {
 }
 
 /// The only units of time and of mass with which all these are products of one unit of length, one of time and one of
-/// mass; empty where there is none, or several.
+/// mass; empty where there is no such unit, or several.
 std::pair<std::string, std::string> common_system(const std::vector<Unit>& units) {
   std::set<std::string> found, found_masses;
   for (const char* length : lengths)

@@ -9,7 +9,7 @@
 namespace slapstick {
 
 void append_number(std::string& out, double value) {
-  if (std::isnan(value)) {  // it might be "-nan"
+  if (std::isnan(value)) {  // the digits might be "-nan"
     out += "nan";
     return;
   }

@@ -8,7 +8,7 @@ namespace slapstick {
 /// name is too long
 [[nodiscard]] int note_temporary(const std::filesystem::path& path) noexcept;
 
-/// It has been renamed or removed. -1 is ignored.
+/// The file has been renamed or removed. -1 is ignored.
 void forget_temporary(int note) noexcept;
 
 }  // namespace slapstick

@@ -1,6 +1,6 @@
 #pragma once
-/// The matrices of M q'' + C q' + K q in a model's own coordinates. They are linear in the model's numbers: those of a
-/// derivative of a model are the derivatives of its matrices.
+/// The matrices of M q'' + C q' + K q in a model's own coordinates. All are linear in the model's numbers: the matrices
+/// of a derivative of a model are the derivatives of its matrices.
 #include "mode/frame.hpp"
 
 namespace slapstick::mode {

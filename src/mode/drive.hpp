@@ -21,7 +21,7 @@ struct Tone {
   double frequency;  ///< rad per unit of time
   double turns;      ///< in a period of the clock
 
-  /// Turns since t = 0, but for whole ones. Error: some 2^-53 of a turn at any instant.
+  /// Turns since t = 0, apart from whole ones. Error: some 2^-53 of a turn at any instant.
   [[nodiscard]] double at(Instant t) const;
 };
 

@@ -10,9 +10,9 @@
 /// whose numbers are equal or opposite share one.
 ///
 /// W has d >= n rows: a contact whose row depends on others (the far side of a two-sided stop, a loop of contacts) has
-/// a number of its own all the same. The first n rows are independent; the others follow from them, but for rounding
-/// (see `refresh`). Which contacts are among the first n says mode/numbering.hpp: the nearest of each pair, and none
-/// that is far.
+/// a number of its own all the same. The first n rows are independent; the others follow from them, up to rounding (see
+/// `refresh`). Which contacts are among the first n says mode/numbering.hpp: the nearest of each pair, and none that is
+/// far.
 ///
 /// Extended state X in R^m, m = 2 d + 2 h + 1, h = number of distinct harmonics of the forcing, tones and signals:
 ///     X = (p_1..p_d, u_1..u_d, cos j_1 theta, sin j_1 theta, .., 1),   theta = omega t.

@@ -141,8 +141,8 @@ bool ends_with_stop(const Model& model, const NormalForce& normal) {
 }
 
 /// A contact that nothing presses is unloaded. In stick the limits +-f_s N of a contact alone on its pair say that
-/// N > 0. Where a stop alone presses its own guard says so: two guards of one zero would be a tie that rounding
-/// decides.
+/// N > 0. Where a stop alone presses, the guard of the stop says it: two guards of one zero would be a tie that
+/// rounding decides.
 void Builder::arm_load(int friction) {
   const FrictionState state = out_.states.frictions[friction];
   RowVector load = load_row(model_, frame_, out_.states, friction);

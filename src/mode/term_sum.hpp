@@ -2,9 +2,9 @@
 /// exp(A s) X for a large mode, from the terms of its series: t_0 = X, t_{n+1} = s / (n + 1) A t_n, n < 24.
 ///
 /// Of A = [0 1; a_p a_u] (displacements p, velocities u) with its forcing only the accelerations a are stored. The
-/// displacements are put in an order in which those that act on each other are near (Cuthill and McKee 1969), and a is
-/// kept by diagonals in blocks of eight rows, each with the diagonals that are not zero there. A chain costs three
-/// vector operations per eight coordinates and term so, a full matrix O(n^2).
+/// displacements are put in an order in which those that act on each other are near (Cuthill and McKee 1969). In this
+/// order a is kept by diagonals in blocks of eight rows, each with the diagonals that are not zero there. A chain costs
+/// three vector operations per eight coordinates and term so, a full matrix O(n^2).
 #include <Eigen/Core>
 #include <utility>
 #include <vector>

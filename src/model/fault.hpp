@@ -63,10 +63,10 @@ struct SteepPiece {
   std::size_t end = 0;  ///< the later one of its points, from 0
   std::string what;     ///< "time 1 is only 1e-12 after that of the point before, ..."
 };
-/// The first of them. The clock knows instants to 2^-53 of its period T, so that of a piece that rises by the part h of
-/// the signal's range within dt each value is known to 2^-53 h T / dt of the range. A step that is written as a ramp of
-/// dt is wrong by dt / T: below dt = 2^-26 h T a steeper ramp is a worse step, and contacts take the rounding of its
-/// slope for rest.
+/// The first of them. The clock knows instants to 2^-53 of T, its period: so of a piece that rises by the part h of the
+/// signal's range within dt each value is known to 2^-53 h T / dt of the range. A step that is written as a ramp of dt
+/// is wrong by dt / T: below dt = 2^-26 h T a steeper ramp is a worse step, and contacts take the rounding of its slope
+/// for rest.
 [[nodiscard]] std::optional<SteepPiece> first_steep_piece(const Signal& signal, double period);
 
 /// Whether a coordinate may not have this name: tables have a column, or the surroundings are called so.

@@ -181,7 +181,7 @@ std::optional<Orbit> refine_with_least_change(const Problem& problem, Orbit gues
   return std::nullopt;
 }
 
-/// Beside a curved family the equations are singular but for the guess's own distance from it.
+/// Beside a curved family the equations are singular up to the guess's own distance from it.
 bool nearly_singular(const Problem& problem, const Orbit& guess) {
   try {
     Equations equations(problem, guess);

@@ -43,7 +43,7 @@ MatrixXd classes(const Problem& problem, const MatrixXd& columns) {
 
 bool forced(const Orbit& orbit) { return orbit.shape.n > 0; }
 
-/// Does no parameter drive the model, where it is not driven? A derivative that there is none of may be anything.
+/// Does no parameter drive the model, where it is not driven? A derivative that does not exist may be anything.
 bool stays_free(const Family& family, const std::vector<double>& values) {
   try {
     for (std::size_t which = 0; which < family.names.size(); ++which)

@@ -37,13 +37,14 @@ class Problem {
   /// What arclength measures states by where an orbit is smaller than this: one that shrinks to nothing is left behind
   /// in steps of some length.
   [[nodiscard]] const Eigen::VectorXd& least_sizes() const { return least_sizes_; }
-  /// .. and the first parameter where its value is smaller: the range that it is followed over. It may pass zero.
+  /// .. and the first parameter where its value is smaller: the range that it is followed over. The parameter may pass
+  /// zero.
   [[nodiscard]] double least_value() const { return least_value_; }
   void set_least(Eigen::VectorXd sizes, double value) {
     least_sizes_ = std::move(sizes);
     least_value_ = value;
   }
-  /// Unknowns of an orbit with so many legs: numbers of x_0, instants, parameters.
+  /// Unknowns of an orbit with this many legs: numbers of x_0, instants, parameters.
   [[nodiscard]] Eigen::Index numbers() const;
   [[nodiscard]] Eigen::Index unknowns(std::size_t legs) const;
   [[nodiscard]] Eigen::Index instant_column(std::size_t event) const;
@@ -106,9 +107,9 @@ struct NewtonResult {
   std::string refusal;     ///< why there is no model where a step led, if that is it
 };
 
-/// Newton's method with as many conditions as there are parameters: all of them fixed, or all but one and an arclength.
-/// The orbit is where it came to, converged or not. Never throws for numbers: a model that cannot be made, or overflow,
-/// is "not converged".
+/// Newton's method with as many conditions as there are parameters: all of them fixed, or all except one and an
+/// arclength. The orbit is where it came to, converged or not. Never throws for numbers: a model that cannot be made,
+/// or overflow, is "not converged".
 /// @param besides  orbits v_i that are no solutions any more (deflation): the residual is multiplied by
 ///                 prod_i (1 + 0.1^2 / |v - v_i|^2), which makes a step longer or shorter, or turns it round.
 ///                 Source: Farrell, Birkisson and Funke (2015)

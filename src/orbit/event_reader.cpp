@@ -57,7 +57,7 @@ std::vector<Leg> ends_at_knots(const flow::Engine& engine, Leg leg) {
     if (!frame.signals[k].has_knot(now)) continue;
     leg.contact = static_cast<int>(k);
     leg.event_contact = first_signal(engine.system().model()) + leg.contact;
-    leg.pulses = {leg.contact};  // which may be none at these values of the parameters
+    leg.pulses = {leg.contact};  // the signal may have no pulse at these values of the parameters
     pulses.push_back(leg.contact);
     moved = moved || frame.signals[k].pulse(now) != 0.0;
     all.push_back(leg);
@@ -117,7 +117,7 @@ void EventReader::read() {
     return;
   }
   touched_ = engine.hit_guard() == nullptr || leg.event == EventKind::graze;
-  // A force that has come to zero but for rounding may come to zero again: what changes no mode is no event.
+  // A force that has come to zero up to rounding may come to zero again: what changes no mode is no event.
   if (touched_ || (motion_.segment().mode == motion_.mode_id() && motion_.strikes().empty())) return;
   leg.differentiable = flow::differentiable(engine);
   const std::vector<flow::InstantPart> parts = separate_parts(engine, leg.differentiable);

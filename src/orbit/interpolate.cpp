@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double well_known = 1e-8;  ///< of the range: what the place may be uncertain by
-constexpr int nodes = 8;             ///< of the interpolation; even: none is at the crossing itself
+constexpr int nodes = 8;             ///< of the interpolation; even: no node is at the crossing itself
 /// All numbers of an orbit but its shape, in a row.
 VectorXd numbers_of(const Orbit& orbit) {
   const Index size = orbit.x[0].size(), legs = static_cast<Index>(orbit.legs());

@@ -75,8 +75,8 @@ void push(const ModeSet& set, const Motion::Strike& strike, Jet& X) {
 bool sums_impacts(const Leg& leg) { return leg.ending == Ending::chatter || leg.ending == Ending::onset; }
 
 /// The contact states of the columns of an extended jet, with what the next mode holds still set to what it holds:
-/// velocities, zero or a belt's, and the gaps of closed stops, zero. A gap that is none of the coordinates goes to zero
-/// the shortest way.
+/// velocities, zero or a belt's, and the gaps of closed stops, zero. A gap that is not one of the coordinates goes to
+/// zero the shortest way.
 Jet contact_jet(const ModeSet& set, const Leg& next, const Jet& X) {
   const mode::Frame& frame = set.frame();
   Jet x(2 * frame.n, X.states, X.parameters);
@@ -167,8 +167,8 @@ NumberJet flights_jet(const NumberJet& rise, const NumberJet& fall, const Number
   return q;
 }
 
-/// The mode of the flights of a chatter: the stop is open, friction of its pair slips away from the stop or back
-/// (sense -1 or 1), other friction slips as at X. What is at rest there has no force that is known.
+/// The mode of the flights of a chatter. The stop is open. Friction of its pair slips away from the stop or back (sense
+/// -1 or 1), other friction slips as at X. What is at rest there has no force that is known.
 mode::ContactStates in_flight(const mode::Frame& frame, const Leg& leg, const VectorXd& X, double sense) {
   using mode::FrictionState;
   mode::ContactStates states = leg.states;

@@ -52,8 +52,8 @@ struct LegValue {
   Jet h;      ///< of the ending: 0 where it is met; one row. Empty columns for a cut
 };
 
-/// @param next  the leg that follows: what its mode holds still is zero from its start on, but for the speed that the
-/// tail of a chatter begins with
+/// @param next  the leg that follows: what its mode holds still is zero from its start on, except for the speed that
+/// the tail of a chatter begins with
 [[nodiscard]] LegValue leg_value(const ModeSet& set, const Leg& leg, const Leg& next, const Eigen::VectorXd& x,
                                  double t_begin, double t_end);
 
@@ -71,7 +71,7 @@ struct Pulse {
 /// An extended state at a leg's end, and what the pulses there make of it.
 [[nodiscard]] Eigen::VectorXd behind_pulses(const ModeSet& set, const Leg& leg, Eigen::VectorXd X);
 
-/// The extended state so many periods after the start of one of an orbit's legs; no derivatives.
+/// The extended state this many periods after the start of one of an orbit's legs; no derivatives.
 [[nodiscard]] Eigen::VectorXd state_within(const ModeSet& set, const Orbit& orbit, std::size_t leg, double after);
 
 /// How many velocities the mode of a leg holds still: the fewer, the freer.

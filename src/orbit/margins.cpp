@@ -22,7 +22,7 @@ constexpr double samples_per_step =
 
 bool of_gap(GuardKind kind) { return kind == GuardKind::gap || kind == GuardKind::engage || kind == GuardKind::leave; }
 
-/// The displacement of a guard's contact, of all but corners.
+/// The displacement of a guard's contact, of all except corners.
 int displacement(const mode::Frame& frame, GuardKind kind, int contact) {
   if (mode::of_friction(kind)) return frame.frictions[contact].own;
   if (kind == GuardKind::gap || kind == GuardKind::press) return frame.stops[contact].own;
@@ -138,7 +138,7 @@ class AlongStep {
 
 /// What the value of a guard at the leg's end says.
 enum class AtEnd {
-  counts,      ///< it is a value as any other
+  counts,      ///< a value as any other
   is_watched,  ///< nothing: it is the speed of the impact, a test of its own
   is_zero      ///< the guard ends the leg there, and its slope there is a test of its own
 };
@@ -156,7 +156,7 @@ AtEnd at_end(const mode::Frame& frame, const Itinerary& shape, std::size_t leg, 
 /// The least value of a guard along a leg: at its ends, and at its minima.
 ///
 /// A guard that ends the leg falls to its zero from the last maximum on. A minimum behind that maximum is this zero
-/// passed, by rounding or because the slope there has changed its sign: the slope at the end says so, and its place and
+/// passed, by rounding or because the slope there has changed its sign: the slope at the end says it, and its place and
 /// value are those of the end. So a minimum of such a guard counts once a maximum has followed it.
 Least least_value(const Course& course, const mode::Guard& guard, bool with_start, AtEnd at_end) {
   constexpr double clear =

@@ -2,8 +2,8 @@
 /// A model at one point of its parameters, with derivatives: the linear system and the guards of any mode, and how they
 /// change.
 ///
-/// It has no window operators and costs microseconds, where a System costs a fraction of a millisecond: Newton's method
-/// makes one per step.
+/// A ModeSet has no window operators and costs microseconds, where a System costs a fraction of a millisecond: Newton's
+/// method makes one per step.
 #include <memory>
 #include <vector>
 
@@ -17,7 +17,7 @@ namespace slapstick::orbit {
 struct ModeRates {
   mode::Outline outline;
   std::vector<mode::OutlineDerivative> rates;
-  double longest_step = 1.0;  ///< over which the terms of exp(A s) fall from the first on, but for a factor of about 7
+  double longest_step = 1.0;  ///< over which the terms of exp(A s) fall from the first on, up to a factor of about 7
 
   /// The place of a guard in the outline. @throws NumericalError if the mode has none such
   [[nodiscard]] std::size_t guard(mode::GuardKind kind, int contact) const;

@@ -13,8 +13,8 @@ using Eigen::VectorXd;
 namespace {
 
 /// From leg to leg, by the parameter j: dt_{i+1} = -dh / h_t, dx_{i+1} = d after. What the solution of the equations
-/// says of x_0 and t_0 is kept; behind it the gap that a guard ends at is exactly zero, so that instants of a chatter's
-/// last impacts, where guards fall slowly, do not take over the rounding of the states.
+/// says of x_0 and t_0 is kept. Behind it the gap that a guard ends at is exactly zero. So instants of a chatter's last
+/// impacts, where guards fall slowly, do not take over the rounding of the states.
 OrbitRate carried(const ModeSet& set, const Orbit& orbit, const std::vector<LegValue>& legs, Index j, OrbitRate rate) {
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
     const Leg& leg = orbit.shape.legs[i];

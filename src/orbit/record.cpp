@@ -30,7 +30,7 @@ Orbit orbit_of(const std::vector<Seen>& events, std::size_t k, int n) {
   }
   const double whole = n > 0 ? std::floor(orbit.t[0]) : orbit.t[0];
   for (double& t : orbit.t) t -= whole;
-  for (std::size_t i = 0; i < k && orbit.tied(0); ++i) rotate(orbit, 1);  // it begins behind all events of an instant
+  for (std::size_t i = 0; i < k && orbit.tied(0); ++i) rotate(orbit, 1);  // begins behind all events of an instant
   return orbit;
 }
 
@@ -201,7 +201,7 @@ bool Check::to_chatter(const Motion& motion, EventReader& reader, Seen seen) con
   return seen.leg.ending == Ending::chatter;
 }
 
-/// Are these the next events, at one instant but for rounding? Which of them is seen first is rounding too.
+/// Are these the next events, at one instant up to rounding? Which of them is seen first is rounding too.
 bool Check::meets_all(EventReader& reader, std::vector<std::size_t> legs, double due, double tolerance) const {
   while (!legs.empty()) {
     const std::optional<Seen> seen = reader.next(Instant{}.plus(due + 2.0 * tolerance));

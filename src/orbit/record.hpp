@@ -27,7 +27,7 @@ class Problem;
 
 struct Verification {
   bool is_motion = false;
-  bool same_chatter = true;  ///< false: but for the number of impacts before a chatter is summed
+  bool same_chatter = true;  ///< false: the same except for the number of impacts before a chatter is summed
   Orbit seen;                ///< then: the motion's own; without legs if its cycle was not found
   std::string why;           ///< "event 3: slip- pad where the orbit has stick pad"
 };
@@ -47,7 +47,7 @@ struct Verification {
 [[nodiscard]] bool in_burst(const Orbit& orbit, std::size_t leg);
 /// Is it one of those that are too short for their length and margins to be more than rounding?
 [[nodiscard]] bool fades(const Orbit& orbit, std::size_t leg);
-/// How many legs, but for those of bursts, shrink from one orbit of a shape to another to less than a part of their
+/// How many legs, except for those of bursts, shrink from one orbit of a shape to another to less than a part of their
 /// lengths.
 [[nodiscard]] int legs_shrunk(const Orbit& from, const Orbit& to, double left);
 /// .. to next to nothing.

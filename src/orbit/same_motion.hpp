@@ -1,10 +1,10 @@
 #pragma once
 /// Whether two orbits are one motion, whatever their legs and wherever they begin; or mirror images of one another.
 ///
-/// A model that does not change when all displacements are reversed about some point and the forcing is taken half a
-/// period later (as a mass between equal stops) has with an orbit x(t) also its image c - x(t + T/2); one that is
-/// forced at even harmonics only has x(t + T/2). A symmetric orbit is its own image; what a broken symmetry leaves
-/// comes in pairs.
+/// Some models, such as a mass between equal stops, do not change when all displacements are reversed about some point
+/// and the forcing is taken half a period later. Such a model has with an orbit x(t) also its image c - x(t + T/2); one
+/// that is forced at even harmonics only has x(t + T/2). A symmetric orbit is its own image; what a broken symmetry
+/// leaves comes in pairs.
 #include "orbit/equations.hpp"
 
 namespace slapstick::orbit {
@@ -18,7 +18,7 @@ namespace slapstick::orbit {
 /// to this part of the extent of a? Without forcing, where phases mean nothing, where a leg of that mode begins.
 [[nodiscard]] bool resembles(const Problem& problem, const Orbit& a, const Orbit& b, double much_the_same);
 
-/// `apart` of an orbit and itself so many periods later.
+/// `apart` of an orbit and itself this many periods later.
 [[nodiscard]] double apart_from_later(const Problem& problem, const Orbit& orbit, int periods);
 
 /// `apart` of the first orbit and the image of the second, for the c that fits.

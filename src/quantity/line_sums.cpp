@@ -74,7 +74,7 @@ void LineSums::add(double c, double t) {
 }
 
 void LineSums::add_to_lines(double c, double turn) {
-  constexpr std::size_t powers = 32;  // that are multiplied up before the phase is computed anew
+  constexpr std::size_t powers = 32;  // multiplied up before the phase is computed anew
   const Complex z = phase(turn);
   for (std::size_t first = 0; first < lines_.size(); first += powers) {
     Complex p = c * phase(static_cast<double>(first) * turn);

@@ -3,7 +3,7 @@
 /// transforms them listens.
 ///
 /// A *piece* is the motion in one mode; it is cut into steps on which exp(A s) X is its Taylor polynomial of degree 23
-/// but for rounding, as the windows of a Mode are. A *blow* is an instant at which velocities jump. The tracer sees
+/// up to rounding, as the windows of a Mode are. A *blow* is an instant at which velocities jump. The tracer sees
 /// pieces in order of time, from wherever they come: a Motion (`trace`), or the legs of an orbit. So jumps are those
 /// between the end of a piece and the start of the next one, and all impulses are what momentum asks for.
 ///
@@ -60,7 +60,7 @@ class Tracer {
   Tracer& operator=(const Tracer&) = delete;
 
   /// The motion in one mode, from X at time `begin` on. The blow before it is told first.
-  /// @param longest  time over which the Taylor polynomial of degree 23 is exact but for rounding
+  /// @param longest  time over which the Taylor polynomial of degree 23 is exact up to rounding
   void piece(const std::shared_ptr<const mode::Outline>& outline, double longest, const double* X, double begin,
              double duration, const PieceRates* rates = nullptr);
   /// X at the end of the last piece, where the caller has it: otherwise it is computed when a blow asks for it.
@@ -107,7 +107,7 @@ class Tracer {
   int chatter_ = -1;                     ///< the next piece is the tail of a chatter of this stop
   std::unique_ptr<Tail> tail_;           ///< while the trace is in one
   const mode::Outline* last_ = nullptr;  ///< of the last piece
-  Moving at_;                            ///< where the trace stands, but for what it is behind
+  Moving at_;                            ///< where the trace stands, apart from what it is behind
   const Expansion* behind_ = nullptr;    ///< X has still to go on in this mode ..
   double behind_by_ = 0.0;               ///< .. so long: most pieces end where nobody asks for it
   Moving next_;

@@ -16,8 +16,8 @@ struct Attraction {
 };
 
 /// What a trial looks at. Without a record it follows the motion from where the motion stands. With one it begins at
-/// the first point of the last 256 from which on the motion stays within 1e-3 of the cycle, and follows the motion
-/// only past the record's end.
+/// the first point of the last 256 from which on the motion stays within 1e-3 of the cycle. The trial then follows the
+/// motion only past the record's end.
 struct Followed {
   const PointRecord* record = nullptr;  ///< whose last point is where the motion stands
   const Motion& motion;                 ///< at a point of the section; a copy is run

@@ -108,9 +108,10 @@ bool Confirmation::closes(const VectorXd& x, int length) const {
   return false;
 }
 
-/// The cycle that the motion is on, if that is one of a family, where Newton's method has no single point to go to, or
-/// if nothing draws motions beside it nor repels them. A motion that still turns round the cycle as it comes nearer
-/// may return after n points closely and after fewer not yet: there the point of the cycle itself is asked.
+/// The cycle that the motion is on, in two cases: the cycle is one of a family, where Newton's method has no single
+/// point to go to; or nothing draws motions beside it nor repels them. A motion that still turns round the cycle as it
+/// comes nearer may return after n points closely and after fewer not yet: there the point of the cycle itself is
+/// asked.
 std::optional<Cycle> Confirmation::member(int n) const {
   const VectorXd last = record_.back(0);
   std::optional<VectorXd> nearest;

@@ -44,7 +44,7 @@ class Confirmation {
 
   struct Look {
     std::optional<Cycle> cycle;
-    int refused_return = 0;  ///< after so many points the motion returned, but is drawn to no cycle; 0: none
+    int refused_return = 0;  ///< after this many points the motion returned, but is drawn to no cycle; 0: none
   };
   /// The first of the candidates that is a cycle.
   [[nodiscard]] Look first_of(const std::vector<Candidate>& candidates) const;

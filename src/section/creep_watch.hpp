@@ -1,8 +1,8 @@
 #pragma once
 /// Notices points of a section that still creep: a slow transient, whose line of points looks like an invariant curve.
 ///
-/// Of every L-th point, L = 1 .. 8 (a cycle of L points creeps in L lines), each number is followed. It creeps if it
-/// moves one way all the time, by four quarters of the recording that shrink like a geometric sequence, slowly: the
+/// Of every L-th point, L = 1 .. 8 (a cycle of L points creeps in L lines), each number is followed. A number creeps if
+/// it moves one way all the time, by four quarters of the recording that shrink like a geometric sequence, slowly: the
 /// last is between a hundredth and 0.999 of the first, and the way is more than 1e-6 of the largest of all numbers.
 /// Steady motion (a drill that advances) and points that have arrived are no creep. A rotation so slow that the
 /// recording covers an arc of its curve alone may be taken for one; its points, too, are not yet the whole set.

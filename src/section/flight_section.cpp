@@ -96,8 +96,8 @@ MapValue FlightSection::value(const VectorXd& x, int n, Stop stop) const {
 /// be told from it.
 constexpr double rounding_of_tangents = 1e-14;
 
-/// Without the 0 of the direction along the flow. What stick forgets is 0, too: rounding of the matrix is none of its
-/// eigenvalues.
+/// Without the 0 of the direction along the flow. What stick forgets is 0, too: rounding of the matrix is no eigenvalue
+/// of it.
 std::vector<std::complex<double>> FlightSection::multipliers(const MatrixXd& jacobian) const {
   std::vector<std::complex<double>> all = flow::multipliers_of(jacobian);
   const double rounding = rounding_of_tangents * std::max(1.0, jacobian.norm());
@@ -134,7 +134,7 @@ struct Seen {
   double time = 0.0;
 };
 
-/// Of so many changes that were looked at, a kind that the motion keeps having waits for no more than a part.
+/// Of the changes that were looked at, a kind that the motion keeps having waits for no more than a part.
 constexpr long first_looked_at = 400, most_looked_at = 25'600;
 constexpr long most_wait(long looked_at) { return 64 * looked_at / first_looked_at; }
 

@@ -31,7 +31,8 @@ struct Flight {
 [[nodiscard]] double patience(const System& system);
 
 /// Moves a motion on to the next end of a flight. @returns the kind of the flight that begins there; nothing if it is
-/// proven that there is none (section/outlook.hpp), if none comes within `patience`, beyond bounds, or if stopped
+/// proven that there is no next end (section/outlook.hpp), if none comes within `patience`, beyond bounds, or if
+/// stopped
 [[nodiscard]] std::optional<FlightKind> next_change(Motion& motion, Stop stop);
 
 /// Moves on to the end of the next flight of positive length that is of the kind, or of any.

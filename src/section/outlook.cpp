@@ -95,7 +95,7 @@ MatrixXd classes(const flow::Translations& translations, const MatrixXd& columns
 struct Reduced {
   MatrixXd basis, Q;
   VectorXd s, size;    ///< size: of the terms that s was made of
-  int nulls = 0;       ///< states of rest form a continuum of so many dimensions
+  int nulls = 0;       ///< states of rest form a continuum of this many dimensions
   int more_zeros = 0;  ///< multiple zeros: of what moves at a constant speed if displaced
   bool goes_away = false;
   bool bends = false;  ///< .. and not at a constant speed

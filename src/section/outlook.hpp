@@ -15,7 +15,7 @@
 /// at sigma = 0, c_j = a_k for a real lambda_k with a_k > 0, and c_j = -|a_k| otherwise. Let C_j = c_1 + .. + c_j be
 /// the sums in the order of falling sigma. By Abel's summation
 ///     sum_j c_j e^(sigma_j t) = sum_j C_j (e^(sigma_j t) - e^(sigma_(j+1) t)) + C_last e^(sigma_last t),
-/// which is not negative for any t >= 0 if no C_j is. This covers decay towards a rest on this side of the guard,
+/// a sum that is not negative for any t >= 0 if no C_j is. This covers decay towards a rest on this side of the guard,
 /// swings without loss, a slow approach to a rest on the guard, and growth away from it.
 ///
 /// Eigenvalues are known to 8 N u |Q| / |w_k v_k| (w_k, v_k of length one), Q balanced first, so that a double zero has

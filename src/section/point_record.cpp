@@ -70,7 +70,7 @@ double PointRecord::spread(int n, long count, const VectorXd& about) const {
   return widest;
 }
 
-/// By the last number alone, which says so of almost all. The half more keeps what only rounding puts beyond the
+/// By the last number alone, which shows it of almost all. The half more keeps what only rounding puts beyond the
 /// tolerance.
 bool PointRecord::far_apart(long n, double tolerance) const {
   const long last = scale_.size() - 1;

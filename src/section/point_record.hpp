@@ -20,7 +20,7 @@ struct ReturnWish {
   int most_n = 64;             ///< longest cycle sought, points
   double tolerance = 1e-10;    ///< return distance, relative to the size of the motion
   double newton_start = 1e-3;  ///< return distance below which a cycle is looked for nearby
-  int earlier = 1;             ///< a motion comes nearer if one of so many returns before was wider; it may oscillate
+  int earlier = 1;             ///< a motion comes nearer if one of this many returns before was wider; it may oscillate
 };
 
 /// A number of points after which a cycle may be.
@@ -49,7 +49,7 @@ class PointRecord {
   [[nodiscard]] Point back(long n) const { return {numbers_.data() + (size() - 1 - n) * scale_.size(), scale_.size()}; }
   /// Size of the motion: positions share one number, velocities another.
   [[nodiscard]] const Eigen::VectorXd& scale() const { return scale_; }
-  /// Distance of two points n apart, so many times n ago; relative to the size.
+  /// Distance of two points n apart, `cycles_ago` times n ago; relative to the size.
   [[nodiscard]] double returned(long n, long cycles_ago = 0) const;
   /// The largest of the last 100 returns after n points.
   [[nodiscard]] double widest_return(int n) const;

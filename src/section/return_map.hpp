@@ -11,8 +11,8 @@
 
 namespace slapstick::section {
 
-/// A wish to stop; null: there is none. Whatever stops early for it returns something meaningless: the caller looks at
-/// the flag itself.
+/// A wish to stop; null: there is no wish. Whatever stops early for it returns something meaningless: the caller looks
+/// at the flag itself.
 using Stop = const std::atomic<bool>*;
 
 /// Distance of two contact states, positions and velocities each relative to `scale` (same layout).
@@ -39,7 +39,7 @@ class ReturnMap {
   /// When a motion meets the section next; nothing if it does not.
   /// @throws NumericalError as Motion::advance
   [[nodiscard]] virtual std::optional<Instant> next(const Motion& motion, Stop stop) const = 0;
-  /// Moves a motion on by n points. @returns false if it was stopped, or there are not so many
+  /// Moves a motion on by n points. @returns false if it was stopped, or there are fewer points
   virtual bool run(Motion& motion, long n, Stop stop) const;
   /// P_n(x) of a representative x, where the clock stands at phase 0, and its derivative through all events.
   /// @throws InputError for an x that the stops forbid; NumericalError as Motion::advance, or if x does not return

@@ -40,7 +40,7 @@ class Settling {
  public:
   Settling(const System& system, const State& state, const SettlingOptions& options);
 
-  /// Leaves out so many periods.
+  /// Leaves out this many periods.
   void discard(long periods);
   /// Looks for a return in a further round of periods, each four times as long as the one before; the last ends at
   /// most_periods.
@@ -97,7 +97,7 @@ class Settling {
   PointRecord record_;
   std::vector<double> earlier_;  ///< widest_return of every n, half a round ago
   double omega_;                 ///< of a period: what makes a velocity of a displacement
-  long periods_ = 0;             ///< that have passed
+  long periods_ = 0;             ///< passed so far
   int round_, done_ = 0;
   bool free_;
   std::optional<Eigen::VectorXd> shrinks_to_;

@@ -59,7 +59,7 @@ Instant later(Instant from, double periods) {
 
 constexpr double usual_transient = 500.0, usual_length = 100.0;
 
-/// A record begins at its own time; else so many periods after the phase at which the value began.
+/// A record begins at its own time; else the transient's periods pass first, from the phase at which the value began.
 Instant end_of_transient(const DiagramProblem& problem, const Motion& motion) {
   const auto record = record_of(motion.system().model());
   if (record && !problem.transient_periods) return Instant{}.plus(record->begin);

@@ -13,7 +13,7 @@
 ///     };
 ///     run_chains({.chains = rows, .length = columns}, threads, body);
 ///
-/// What a cell gives depends on its number and its start only, never on threads, so results that are kept under the
+/// What a cell gives depends on its number and its start only, never on threads. So results that are kept under the
 /// cell's number have the same bits for any number of threads. The executor knows neither results nor files.
 #include <atomic>
 #include <functional>

@@ -13,7 +13,7 @@
 ///
 /// (Not for parallel_for, which copies its body from task to task later on.)
 /// Debian's libtbb.so is not instrumented, so that ThreadSanitizer sees neither that a body starts after the loop was
-/// called nor that the loop returns after its bodies. These four say just that. They order no two bodies with each
+/// called nor that the loop returns after its bodies. These four say just that. The four order no two bodies with each
 /// other: races between them are found.
 
 // GCC 12 is asked first: Eigen defines a __has_feature for it, which is 0 for everything.

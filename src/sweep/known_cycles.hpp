@@ -8,8 +8,8 @@
 ///
 /// Distances are in units in which two cycles are one at 1e-6 (attractors.hpp): each number counts by its own range
 /// over the cycle. A trial begins where a motion comes within 0.05 of the cycle. The motion belongs to the cycle once
-/// its distance has fallen a thousandfold, or to rounding, and in each stage before it has lost what a motion loses
-/// that is drawn (section/approach.hpp). After a stage that loses less a new trial begins.
+/// both hold: its distance has fallen a thousandfold, or to rounding; and in each stage before, the motion has lost
+/// what a motion loses that is drawn (section/approach.hpp). After a stage that loses less a new trial begins.
 /// Newton's method has confirmed the cycle once; no motion asks it again.
 /// Cost: a motion's point is compared with one point of each cycle, some nanoseconds each.
 #include <vector>

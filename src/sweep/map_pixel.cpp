@@ -105,7 +105,7 @@ class Analysis {
         if (interrupted_) return nullptr;
         if (const Classification* found = watch.see(flow::contact_state(motion))) return found;
       }
-    } catch (const NumericalError&) {  // what is asked next says so
+    } catch (const NumericalError&) {  // what is asked next says it
     }
     return nullptr;
   }

@@ -11,10 +11,10 @@
 /// in it differ, those that a finer neighbour has put on its rim included: so a boundary that is met anywhere is
 /// followed to its end.
 ///
-/// What is certain: a filled pixel is wrong only if the whole region of its kind (the pixels of one kind that hang
-/// together by edges) has no computed pixel, so that it holds no pixel of the coarse grid. For two cells that share a
-/// piece of rim share two corners of the smaller one: both are of one kind. A path inside a region that begins at a
-/// wrong pixel therefore meets cells of the wrong kind only, and never a computed pixel of its own.
+/// Pixels of one kind that hang together by edges are a region. What is certain: a filled pixel is wrong only if the
+/// whole region of its kind has no computed pixel, so that it holds no pixel of the coarse grid. For two cells that
+/// share a piece of rim share two corners of the smaller one: both are of one kind. A path inside a region that begins
+/// at a wrong pixel therefore meets cells of the wrong kind only, and never a computed pixel of its own.
 /// And any two neighbouring pixels of different kinds are both computed.
 ///
 /// What is wanted depends on the kinds only. Memory: 4 bytes a pixel and 16 a cell. Cost of a round: the rims of cells.

@@ -61,7 +61,7 @@ TEST(Decision, AChaoticMotionThatComesNearerForAWhileIsNotDrawn) {
   EXPECT_EQ(classify_quickly(coupled, start, 2000).label, "undecided");
 }
 
-/// It returns after two periods to 1e-10, because its multiplier is -0.9999972.
+/// The transient returns after two periods to 1e-10, because its multiplier is -0.9999972.
 TEST(Decision, ATransientThatAlternatesIsNotACycleOfTwiceTheLength) {
   const ModelDefinition model = load_model("impact-friction-oscillator");
   const Overrides values = {{"damping_ratio", 0.01},

@@ -186,7 +186,7 @@ TEST(CatalogueItself, says_of_every_entry_what_it_guards_and_what_it_expects) {
   }
 }
 
-/// Every item from K01 to K40, but for those that are tests of their own.
+/// Every item from K01 to K40, except those that are tests of their own.
 TEST(CatalogueItself, has_all_items) {
   for (int k = 1; k <= 40; ++k) {
     if (k == 34 || k == 35) continue;  // hostile_test.cpp

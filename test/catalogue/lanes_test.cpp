@@ -23,7 +23,7 @@ struct Tally {
   long lane_events = 0, motion_events = 0;
 };
 
-/// Long drifts and endless chatters are a motion's alone: so many periods and events are compared.
+/// Long drifts and endless chatters are a motion's alone: this many periods and events are compared.
 constexpr int most_periods = 200;
 constexpr long most_events = 2000;
 /// A batch runs whole periods; this many windows take some seconds.

@@ -37,7 +37,7 @@
 ///
 /// Noted: the state at the start as x_start; t, phase, w and the state before event i as t_at1, w_at1, x_at1 .. (the
 /// first forty), of the first event of a kind as t_impact, t_slip_plus, .., of the last one as t_last; error_chatter;
-/// the state and time at the end; the counts of ../library/notes.hpp, events, grazes, most_at_once (events at one
+/// the state and time at the end; the counts of ../library/notes.hpp; events, grazes, most_at_once (events at one
 /// instant), least_step (between two of them otherwise), most_evaluations (of guards in one segment), phase_drift
 /// (largest difference of impact phases). "watch" adds balances (watch.hpp).
 #include <string>

@@ -71,7 +71,7 @@ TEST_F(FigureTest, an_author_redraws_the_same_picture_from_the_folder_alone) {
   ASSERT_TRUE(workshop::redraw(elsewhere.path(), "a.gp"));
   EXPECT_EQ(workshop::read(elsewhere / "a.png"), workshop::read(files.png));
   EXPECT_EQ(workshop::read(elsewhere / "a.svg"), workshop::read(files.svg));
-  EXPECT_EQ(workshop::read(elsewhere / "a.pdf").size(), workshop::read(files.pdf).size());  // it holds its date
+  EXPECT_EQ(workshop::read(elsewhere / "a.pdf").size(), workshop::read(files.pdf).size());  // a PDF holds its date
 }
 
 TEST_F(FigureTest, many_points_become_one_small_image_and_no_table) {

@@ -265,7 +265,7 @@ std::string falling(int corners) {
          std::to_string(corners) + " }\n";
 }
 
-/// Error of the laid polyline: the least that so many corners allow is about (f_s - f_k) / (1 + sqrt 2 K)^2.
+/// Error of the laid polyline: the least that K corners allow is about (f_s - f_k) / (1 + sqrt 2 K)^2.
 TEST(ContactLaw, AStribeckLawIsLaidWithItsStatedError) {
   for (const int corners : {1, 2, 5, 20, 40}) {
     const Model model = one_mass(falling(corners)).build();

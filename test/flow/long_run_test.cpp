@@ -34,7 +34,8 @@ TEST(LongRun, OfAQuasiStaticMotionReleasesOnceAndOnTime) {  // was doubled when 
     ASSERT_EQ(motion.advance({1, 0.0}), Outcome::event);
     EXPECT_EQ(name(motion.event().kind), "release");
     EXPECT_NEAR(motion.event().time.fraction, std::asin(0.8) / (2 * std::numbers::pi), 1e-15) << omega;
-    // Slipping is slow: x = 0.25 sin - 0.2 but for a start of the order of omega. It sticks near the force's maximum.
+    // Slipping is slow: x = 0.25 sin - 0.2 apart from a start of the order of omega. The mass sticks near the force's
+    // maximum.
     ASSERT_EQ(motion.advance({1, 0.0}), Outcome::event);
     EXPECT_EQ(name(motion.event().kind), "stick");
     EXPECT_NEAR(motion.event().time.fraction, 0.25, 2 * omega);

@@ -56,7 +56,7 @@ TEST(MovingContact, a_flight_is_a_parabola_and_an_impact_uses_the_tables_velocit
   EXPECT_NEAR(motion.state()[1] + moves, moves - 0.5 * (before - moves), 1e-13);
 }
 
-/// It is carried along while static >= m a w^2 sin w t.
+/// The mass is carried along while static >= m a w^2 sin w t.
 TEST(MovingContact, a_shaken_belt_lets_go_where_its_acceleration_exceeds_friction) {
   const auto definition = ModelDefinition::parse(
       "name = 'm'\nomega = 1.5\n[[base]]\nname = 'belt'\nharmonics = [{ amplitude = 2 }]\n[[coordinate]]\nname = 'x'\n"

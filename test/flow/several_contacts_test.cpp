@@ -76,7 +76,7 @@ TEST(SeveralContacts, ModeDoesNotDependOnWhichModesWereBuiltBefore) {
   }
 }
 
-TEST(SeveralContacts, OneReleaseAmongManySticksAsksFewModes) {  // it took 3^n of them: minutes at sixteen blocks
+TEST(SeveralContacts, OneReleaseAmongManySticksAsksFewModes) {  // 3^n modes were asked: minutes at sixteen blocks
   Model m;
   m.omega = 1.0;
   constexpr int count = 24;
@@ -180,7 +180,7 @@ TEST(SeveralContacts, AnEventExactlyAtACutBelongsToIt) {
   EXPECT_EQ(motion.event().kind, EventKind::impact);
 }
 
-/// Three bodies pressed together while they shake, 1-2 and 2-3 and 1-3 with clearances that add up but for rounding.
+/// Three bodies pressed together while they shake, 1-2 and 2-3 and 1-3 with clearances that add up within rounding.
 Model pressed_loop(std::mt19937_64& random, int k) {
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -246,7 +246,7 @@ TEST(Jam, OfStopsInALoopIsSolvedAtEqualRatios) {
   std::array<bool, 3> hit{};
   ASSERT_TRUE(flow::strike_together(system.compiled(), stops, X.data(), hit));
   const Eigen::Vector3d excess = velocities() + 0.5 * before;
-  EXPECT_LE(excess.maxCoeff(), 1e-15) << excess.transpose();  // they sum to zero, so each is
+  EXPECT_LE(excess.maxCoeff(), 1e-15) << excess.transpose();  // the three sum to zero, so each is
   EXPECT_GE(excess.minCoeff(), -1e-15) << excess.transpose();
 }
 
@@ -269,8 +269,8 @@ TEST(Start, InAnImpactIsInTheModeOfItsVelocities) {
 }
 
 /// Two bodies pressed together that come to rest on two friction contacts: three contacts in a loop, of which one may
-/// be called slipping though the other two hold it (found by ../property as a mirror image with the same name). They
-/// stay at rest.
+/// be called slipping though the other two hold it (found by ../property as a mirror image with the same name). The
+/// bodies stay at rest.
 TEST(Loop, OfContactsThatComesToRestStaysAtRest) {
   for (const double side : {1.0, -1.0}) {
     Model m;

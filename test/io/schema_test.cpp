@@ -56,7 +56,7 @@ Names keys_of(const JsonValue& object) {
 Names names(const std::vector<std::string>& list) { return {list.begin(), list.end()}; }
 Names required(const JsonValue& object) { return object.at("required").get<Names>(); }
 
-/// By another key of the part; the schema says so in `anyOf`.
+/// By another key of the part; the schema says it in `anyOf`.
 bool replaceable(const PartRule& rule, std::string_view key) {
   return std::any_of(rule.fields.begin(), rule.fields.end(), [&](const auto& field) {
     return ("|" + std::string(field.instead_of) + "|").find("|" + std::string(key) + "|") != std::string::npos;

@@ -14,7 +14,7 @@
 namespace slapstick::mode {
 namespace {
 
-constexpr std::size_t most_modes = 400;  ///< of a model; of one with more combinations so many are drawn
+constexpr std::size_t most_modes = 400;  ///< of a model; of one with more combinations this many are drawn
 
 /// The states that each contact of a model may have.
 struct Choices {

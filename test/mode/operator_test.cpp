@@ -122,7 +122,7 @@ class Check {
     quick_look(g, order, hull);
   }
 
-  /// It must claim nothing that the hull cannot prove, with what more noise ever.
+  /// The quick look must claim nothing that the hull cannot prove, with what more noise ever.
   void quick_look(int g, int order, const event::Hull& hull) {
     double size = 0.0;
     for (const double x : magnitude_) size += x;

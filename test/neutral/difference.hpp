@@ -10,7 +10,7 @@ namespace slapstick::neutral {
 
 struct Difference {
   std::string what;   ///< in words, with both values
-  double time = 0.0;  ///< of the first motion; 0 where it is none of a trajectory
+  double time = 0.0;  ///< of the first motion; 0 where the difference is not of a trajectory
 };
 
 /// The earliest difference of the second answer from the first, transformed by the rule; nothing if they agree.

@@ -19,7 +19,7 @@ struct Rule {
   std::string prefix;                           ///< before every name
   std::set<std::string> rows_apart;             ///< parts whose events are not compared
   std::string twin;         ///< the model is there twice, once with this behind every name; "": once
-  int steps = 0;            ///< the clock is later by so many instants of `sample_grid`
+  int steps = 0;            ///< the clock is later by this many instants of `sample_grid`
   double farthest = 1.0;    ///< a pair's only stop may be so far away, and the pair is rounded so
   int more_directions = 0;  ///< multipliers or eigenvalues that the first answer has not
   std::string scaled;       ///< the displacement and velocity of this coordinate ..

@@ -43,7 +43,7 @@ class Asked {
 
 /// What the table of campaigns.md leaves out, and why; "" where nothing.
 [[nodiscard]] std::string excluded(const Definition& file, const Edit& edit, Verb verb);
-/// The known fault that a difference is put down to, by name; "" if there is none.
+/// The known fault that a difference is put down to, by name; "" if there is no such fault.
 /// @param said  the difference in words
 [[nodiscard]] std::string waiting_for(const Definition& first, const Edit& edit, Verb verb, const std::string& said);
 

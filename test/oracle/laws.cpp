@@ -331,7 +331,7 @@ void LawOracle::strike(int stop) {
     v_[i] -= (1 + restitution(s, u)) * u / mobility * inverse_mass_[i] * unit[i];
 }
 
-/// A guard that is zero where the cell begins, but for rounding, has that zero divided out.
+/// A guard that is zero up to rounding where the cell begins has that zero divided out.
 std::vector<Real> LawOracle::run(const Real& t_end) {
   std::vector<Real> times;
   while (t_ < t_end) {

@@ -58,7 +58,7 @@ class Mechanics {
     Vector coefficients;
     Real scale;
   };
-  [[nodiscard]] Difference gap_series(const Jet& jet) const;   ///< -(x_a - x_b): the gap but for its start, [0] = 0
+  [[nodiscard]] Difference gap_series(const Jet& jet) const;   ///< -(x_a - x_b): the gap less its start, [0] = 0
   [[nodiscard]] Difference slip_series(const Jet& jet) const;  ///< w
 
   [[nodiscard]] Real gap(const Vector& x) const;               ///< clearance - (x_a - x_b)

@@ -1,5 +1,5 @@
 #pragma once
-/// Reference solution of a Model in 50 digits, for tests only. It shares no code and no method with the engine.
+/// Reference solution of a Model in 50 digits, for tests only. The oracle shares no code and no method with the engine.
 ///
 /// In a mode the motion is expanded in Taylor series (remainder below 1e-54 per step); each guard is a polynomial per
 /// step whose first zero is isolated and refined. Semantics: docs/explanation/mode_graph.md.
@@ -20,12 +20,12 @@ namespace slapstick::oracle {
 
 struct OracleEvent {
   Real time;
-  /// impact   the stop is reached with w > 0
-  /// graze    the stop is reached with w = 0: no impulse; what follows (slip, closed) is decided by the forces
-  /// slip+-   w reaches 0 and slip goes on with this sign
-  /// stick    w reaches 0 and stays 0
-  /// release  the holding force exceeds f_s, or the closed stop lets go
-  /// chatter  limit of infinitely many impacts; the stop is closed from here on
+  ///     impact   the stop is reached with w > 0
+  ///     graze    the stop is reached with w = 0: no impulse; what follows (slip, closed) is decided by the forces
+  ///     slip+-   w reaches 0 and slip goes on with this sign
+  ///     stick    w reaches 0 and stays 0
+  ///     release  the holding force exceeds f_s, or the closed stop lets go
+  ///     chatter  limit of infinitely many impacts; the stop is closed from here on
   std::string kind;
   std::string contact;  ///< "stop" or "friction"; "stop" when a merged closed stop lets go
   Real w;               ///< x_a' - x_b' of that contact just before (less the belt speed)

@@ -55,7 +55,7 @@ struct Returning {
   Returning(const Beside& of, double value)
       : beside(of), orbit(of.at(value)), system(of.problem.family().model(orbit.values)) {}
 
-  /// Mean of |z|^2 over so many cycles from the start, and from the `after`-th on, from |z| = radius, in units of what
+  /// Mean of |z|^2 over `over` cycles from the start, and from the `after`-th on, from |z| = radius, in units of what
   /// is foretold.
   [[nodiscard]] std::pair<double, double> means(double radius, long after, long over) const {
     const double foretold = std::sqrt((1.0 - std::abs(beside.multiplier(orbit))) / beside.form.value);

@@ -87,7 +87,7 @@ inline orbit::Orbit orbit_at(const orbit::Problem& problem, const orbit::Branch&
 }
 
 /// s^2 of the doubled orbit so far behind a PD, divided by what the coefficient says.
-/// @param wider  the branch is followed on by so many times that distance: so near its birth, arclength must measure
+/// @param wider  the branch is followed on by this many times that distance: so near its birth, arclength must measure
 /// the orbit, not the parameter
 inline double doubled_ratio(const Beside& beside, std::size_t leg, double value, double wider) {
   const orbit::Orbit& born = beside.point.born.at(0);
@@ -142,7 +142,7 @@ inline void expect_parting_as_foretold(const Posed& posed, const orbit::Branch& 
   ASSERT_TRUE(lower && upper);
   const double xi = std::abs(beside.apart(beside.state(*lower), beside.state(*upper)));
   const double part = std::abs(beside.multiplier(*lower) - beside.multiplier(*upper));
-  ASSERT_GT(xi, 1e-4);  // they are two
+  ASSERT_GT(xi, 1e-4);  // the orbits are two
   EXPECT_NEAR(part / (2.0 * beside.form.value * xi), 1.0, 2e-3);
 }
 

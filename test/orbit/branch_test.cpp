@@ -27,7 +27,7 @@ std::string label_at(double omega, const orbit::Orbit& orbit) {
   const Posed posed("vibro-impact", {{"omega", omega}}, {}, {});
   const double whole = std::floor(orbit.t[0]);
   Eigen::VectorXd x = orbit.x[0];
-  x[0] = std::min(x[0], 0.0);  // the gap is -x[0], but for the rounding of Newton's method
+  x[0] = std::min(x[0], 0.0);  // the gap is -x[0] up to the rounding of Newton's method
   Motion motion(posed.system, flow::user_state(posed.system, x),
                 {static_cast<std::int64_t>(whole), orbit.t[0] - whole});
   while (motion.advance({static_cast<std::int64_t>(whole) + 1, 0.0}) == Outcome::event) {
@@ -116,7 +116,7 @@ TEST(Branch, MeetsAGrazeFromBothSidesAtTheSameValue) {
   EXPECT_EQ(back.points.back().impacts, 0) << ended(back);
 }
 
-/// A doubling 4e-7 before an impact's speed goes to zero lies in one of the last step's parts, all but at its end: from
+/// A doubling 4e-7 before an impact's speed goes to zero lies in one of the last step's parts, nearly at its end: from
 /// one start of these it was not seen.
 TEST(Branch, SeesADoublingJustBeforeAGrazeFromEveryStart) {
   const Overrides values = {

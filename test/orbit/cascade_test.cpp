@@ -1,4 +1,4 @@
-/// A cascade followed to where its grazes and folds are all but one: a frame that friction holds, hit from inside some
+/// A cascade followed to where its grazes and folds are nearly one: a frame that friction holds, hit from inside some
 /// 30 times a period.
 #include <gtest/gtest.h>
 
@@ -49,10 +49,10 @@ TEST(Graze, IsAFoldWhateverFoldFollows) {
   }
 }
 
-/// Where impacts are all but rounding the orbit found behind a graze is an earlier one of the branch, which seems to go
-/// on with it. The place is that of nine grazes in 0.3171:0.31713. Between impacts friction holds the frame: the
-/// cascade gathers by what that leaves of the restitution, r' = (5 r - 1) / 6 here. By r the place was known to 1e-7
-/// only.
+/// Where impacts are hardly more than rounding, the orbit found behind a graze is an earlier one of the branch, which
+/// seems to go on with it. The place is that of nine grazes in 0.3171:0.31713. Between impacts friction holds the
+/// frame: the cascade gathers by what that leaves of the restitution, r' = (5 r - 1) / 6 here. By r the place was known
+/// to 1e-7 only.
 TEST(Cascade, EndsAtItsLimitAndDoesNotLeadBackIntoItself) {
   const orbit::Branch branch = follow_omega(of_a_cascade, 0.31755, {.from = 0.317, .to = 0.3176, .longest_step = 0.1});
   ASSERT_FALSE(branch.special.empty()) << ended(branch);

@@ -274,8 +274,8 @@ TEST(Change, BehindWhichTheSameEventsGoOnIsNone) {
   EXPECT_TRUE(values(branch, SpecialType::GR).empty());
 }
 
-/// With another number of impacts that are all but rounding a chatter is the same orbit: where it changes its events
-/// that one goes back, and is not what lies beyond.
+/// With another number of impacts that are hardly more than rounding a chatter is the same orbit: where it changes its
+/// events that one goes back, and is not what lies beyond.
 TEST(Change, OfAChatterIsNotAFoldOntoItself) {
   const Overrides overrides = {{"area", 7.899199000902047e-05},         {"frequency", 265.85461448723464},
                                {"mass", 0.0002857669730364452},         {"mean", 137905.8726074355},

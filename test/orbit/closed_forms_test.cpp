@@ -162,7 +162,7 @@ TEST(ShakenTable, CurvesAreTheFormulas) {
 }
 
 /// Den Hartog (1931): without stick x = f - f cos t + b sin t + V cos(w t + ph) on the way down, b = -f sin
-/// T / (1 + cos T), sin ph = b / (V w). It lasts until the velocity touches zero on the way.
+/// T / (1 + cos T), sin ph = b / (V w). The motion without stick lasts until the velocity touches zero on the way.
 double largest_velocity_down(double w, double f) {
   const double T = pi / w, V = 1.0 / (1.0 - w * w), b = -f * std::sin(T) / (1.0 + std::cos(T)),
                ph = std::asin(b / (V * w));

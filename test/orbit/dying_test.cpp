@@ -147,7 +147,7 @@ TEST(GrowingMotion, EndsAtResonance) {
 /// Both half periods of a symmetric orbit change at one value of the parameter, where besides a multiplier is 1. There
 /// a slip lasts one natural period: its free part comes back to itself, so that release and stop are mirror images if
 /// the forced part's velocity is the same at both. With the force cos(theta) that is theta = pi / 2 - pi omega at
-/// release, displacement cos(theta) / (1 - omega^2), and the holding force there is friction if omega^2 sin(pi
+/// release, displacement cos(theta) / (1 - omega^2). The holding force there is friction if omega^2 sin(pi
 /// omega) / (1 - omega^2) = friction.
 TEST(SymmetricChange, IsPassedFromBothSides) {
   const auto excess = [](double omega) {

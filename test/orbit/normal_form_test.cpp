@@ -129,8 +129,8 @@ TEST(NormalForm, SaysHowGoodItIsBesideAGraze) {
   expect_doubled_as_foretold(posed, point, 1e-7);
 }
 
-/// Two free half swings of an orbit are equally long, but for rounding: in which of them q is measured must not depend
-/// on where the branch began.
+/// Two free half swings of an orbit are equally long up to rounding: in which of them q is measured must not depend on
+/// where the branch began.
 TEST(NormalForm, IsTheSameFromEveryStart) {
   std::vector<double> coefficients;
   for (const double start : {7.0, 6.96, 6.9}) {

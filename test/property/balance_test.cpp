@@ -2,8 +2,8 @@
 ///
 /// Rounding is counted in units of 2^-53 of the greatest energy (momentum) that the segment's greatest coordinate and
 /// velocity could have: a stored number is a sum of m terms that is rounded m + 16 times in every window
-/// (docs/developers/proofs.md, section 3), and the terms of a window's sum are together at most e^|A H| < 8 times what
-/// they start from.
+/// (docs/developers/proofs.md, section 3). The terms of a window's sum are together at most e^|A H| < 8 times what they
+/// start from.
 #include <gtest/gtest.h>
 #include <Eigen/QR>
 

@@ -55,7 +55,7 @@ TEST(Generator, ShrinksToTheOneContactThatBreaksALaw) {
   rc::detail::FailureResult failure;
   ASSERT_TRUE(result.match(failure));
   const std::string text = failure.counterExample.at(0).second;
-  const auto definition = ModelDefinition::parse(text, "counterexample");  // it is a model file ..
+  const auto definition = ModelDefinition::parse(text, "counterexample");  // the counterexample is a model file ..
   const Model m = definition.build({});
   EXPECT_EQ(m.size(), 1) << text;  // .. of one body and one contact
   EXPECT_EQ(m.stops.size() + m.frictions.size() + m.compliant_stops.size(), 1) << text;

@@ -54,7 +54,7 @@ double Newton::energy(std::span<const double> state) const {
   return kinetic(velocities(state)) + 0.5 * x.dot(K_ * x);
 }
 
-/// All but the forces of held contacts.
+/// All except the forces of held contacts.
 Eigen::VectorXd Newton::force(std::span<const double> state, const mode::ContactStates& contacts, double theta) const {
   const Eigen::VectorXd x = displacements(state), v = velocities(state);
   Eigen::VectorXd total = -K_ * x - C_ * v;

@@ -40,7 +40,7 @@ TEST(LineSums, AreTheirDefinitionForFewAndForManyLines) {
     const auto found = sums.take();
     ASSERT_EQ(found.size(), count);
     for (std::size_t k = 0; k < count; k += count < 60 ? 1 : 7)
-      // an instant of five periods is known to eps of it, and a line k turns so many times
+      // an instant of five periods is known to eps of it, and a line k turns k times
       EXPECT_LT(std::abs(found[k] - defined(c, turns, k)), (2e-14 + 1.5e-15 * static_cast<double>(k)) * size)
           << count << " " << k;
   }

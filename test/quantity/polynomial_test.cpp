@@ -49,13 +49,13 @@ TEST(Polynomial, TheGreatestValueIsThatBetweenTheEnds) {
   EXPECT_NEAR(at, 0.5, 1e-12);
 }
 
-/// A velocity that comes to rest at the end of a step: the slope of its square has a zero there, on either side but for
-/// rounding.
+/// A velocity that comes to rest at the end of a step: the slope of its square has a zero there, within rounding on
+/// either side.
 TEST(Polynomial, AnExtremeBeforeAnEndAtRestIsNotMissed) {
   int missed = 0;
   for (int k = 1; k <= 200; ++k) {
     const double place = k / 201.0;
-    Polynomial f;  // its slope is (x - place) (x - 1) (x + 1.7) (x - 2.3) but for rounding
+    Polynomial f;  // its slope is (x - place) (x - 1) (x + 1.7) (x - 2.3) up to rounding
     const Polynomial slope = with_zeros({place, 1.0, -1.7, 2.3});
     f.degree = slope.degree + 1;
     for (int j = 1; j <= f.degree; ++j) f.a[static_cast<std::size_t>(j)] = slope.a[static_cast<std::size_t>(j) - 1] / j;

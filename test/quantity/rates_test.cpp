@@ -83,7 +83,7 @@ std::vector<std::string> with_harmonics(const Quantity& quantity, const Statisti
   return all;
 }
 
-/// Differences over h and 2h: exact to the fourth order, but for what is left of Newton's method over h.
+/// Differences over h and 2h: exact to the fourth order, apart from what is left of Newton's method over h.
 void expect_differences(const std::string& name, const Overrides& values, const std::vector<std::string>& parameters) {
   const ModelDefinition model = load_model(name);
   const SettledCycle cycle(model, values);

@@ -130,7 +130,7 @@ TEST(Spectrum, TheDensityOfASineHasItsMeanSquare) {
   EXPECT_LT(beside, 1e-20 * A * A);
 }
 
-/// Of a chaotic motion the density adds up to the variance, but for what the stretches' ends weigh less.
+/// Of a chaotic motion the density adds up to the variance, apart from what the stretches' ends weigh less.
 TEST(Spectrum, TheDensityOfChaosAddsUpToItsVariance) {
   const ModelDefinition definition = load_model("vibro-impact");
   const Overrides values = {{"omega", 6.69}};

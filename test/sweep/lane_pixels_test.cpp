@@ -28,7 +28,7 @@ MapProblem paper_chart(GridAxis omega, GridAxis friction) {
   return problem;
 }
 
-/// So many random points of the paper's chart, as a row.
+/// This many random points of the paper's chart, as a row.
 struct RandomPixels {
   explicit RandomPixels(int count, unsigned seed) {
     std::mt19937 random(seed);

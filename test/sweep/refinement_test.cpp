@@ -1,5 +1,5 @@
-/// Refinement of pictures whose kinds are known at every pixel: what is filled in must be right wherever the promise of
-/// refinement.hpp says so, and few pixels may be computed.
+/// Refinement of pictures whose kinds are known at every pixel: what is filled in must be right wherever refinement.hpp
+/// promises it, and few pixels may be computed.
 #include "sweep/refinement.hpp"
 
 #include <gtest/gtest.h>

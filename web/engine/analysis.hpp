@@ -11,7 +11,7 @@ namespace slapstick::web {
 /// classify with a search and exponent of `periods`, for a page that does not wait long.
 [[nodiscard]] Json classify_motion(const Choice& choice, int periods);
 
-/// The lines of a quantity's cycle, or where there is none its density.
+/// The lines of a quantity's cycle, or, where there is no cycle, its density.
 [[nodiscard]] Json spectrum_of(const Choice& choice, const std::string& quantity, double highest_order);
 
 }  // namespace slapstick::web

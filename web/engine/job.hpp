@@ -4,8 +4,8 @@
 ///     job.advance(8.0);          // about 8 ms of work
 ///     rows = job.rows();         // what came out since the last call
 ///
-/// Slices end where the clock says so, but cut nothing: cuts of a Motion change no bit (flow/motion.hpp), so results
-/// do not depend on the slices. A slice is longer than asked for by at most one stage (flow/stage.hpp), 50 ms.
+/// Slices end by the clock, but cut nothing: cuts of a Motion change no bit (flow/motion.hpp), so results do not depend
+/// on the slices. A slice is longer than asked for by at most one stage (flow/stage.hpp), 50 ms.
 /// Threads: a job belongs to one. Errors: the constructors throw; what happens later is in `failure`.
 #include <chrono>
 #include <string>

@@ -2,8 +2,8 @@
 /// What a motion is after its transient: n-p-I / n-p-II, periodic, quasi-periodic, chaotic, or a state of rest.
 ///
 /// A motion that no harmonic force drives is *free*: it has no phase, and may come to rest. Its "periods" are then
-/// returns to a section that its own events make (docs/explanation/classify.md, section 4), its class is "free-p-I"
-/// or "free-p-II", and the multiplier 1 along the motion is left out.
+/// returns to a section that its own events make (docs/explanation/classify.md, section 4). Its class is "free-p-I" or
+/// "free-p-II", and the multiplier 1 along the motion is left out.
 ///
 /// States are compared modulo the rigid translations that the model does not notice: a drill that advances by the same
 /// amount every blow is periodic, with a `drift`. The multiplier 1 of every such translation is left out.
@@ -105,8 +105,8 @@ struct Classification {
   std::vector<CycleImpact> impacts;  ///< periodic: the impacts of one cycle
   double sticking_fraction = 0.0;    ///< share of time in stick (and on the closed stop)
 
-  /// Largest Lyapunov exponent per period (without a clock per unit of time), but for that along a free motion; the
-  /// multipliers give it if periodic, the eigenvalues at rest.
+  /// Largest Lyapunov exponent per period (without a clock per unit of time), apart from the one along a free motion;
+  /// the multipliers give it if periodic, the eigenvalues at rest.
   double exponent = 0.0, exponent_error = 0.0;
   double digits = 0.0;  ///< agreement of the two weighted Birkhoff averages
   /// Quasi-periodic: turns of a closed curve in `curves` periods, in (0, 0.5] (orientation is not told), and the digits
@@ -130,7 +130,7 @@ std::string class_label(Attractor attractor, int n, long p, bool sticking, Chatt
 /// @throws InputError for a state that the stops forbid; NumericalError as Motion::advance
 Classification classify(const System& system, const State& state, const ClassifyOptions& options = {});
 
-/// The same within so many periods, half of them transient: names a cycle if Newton's method confirms it there, else
+/// The same within this many periods, half of them transient: names a cycle if Newton's method confirms it there, else
 /// says undecided. Where both decide they agree. Throws as classify.
 Classification classify_quickly(const System& system, const State& state, int periods, ClassifyOptions options = {});
 

@@ -46,7 +46,7 @@ struct LyapunovExponents {
   bool reached = true;       ///< every error is below LyapunovOptions::error
   bool interrupted = false;  ///< by `cancel`: nothing else is meant
 
-  /// Both sides are -infinity, or agree but for rounding.
+  /// Both sides are -infinity, or agree within rounding.
   [[nodiscard]] bool sum_rule_holds() const;
 };
 

@@ -16,7 +16,7 @@ class InputError : public std::runtime_error {
   InputError(const std::string& place, const std::string& message)
       : std::runtime_error(place + message), place_(place), message_(message) {}
 
-  [[nodiscard]] const std::string& place() const { return place_; }  ///< empty where there is none
+  [[nodiscard]] const std::string& place() const { return place_; }  ///< empty where there is no place
   /// Without the place.
   [[nodiscard]] const std::string& message() const { return message_; }
 

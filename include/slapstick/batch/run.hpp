@@ -4,10 +4,10 @@
 /// A run starts at the problem's start, passes a transient, and is then recorded. Its length is counted in forcing
 /// periods (units of time without forcing) from the start's instant.
 ///
-/// The exponent is ln(|delta| at the end / |delta| at the start of the recording) / periods. delta is a tangent vector
-/// that follows the run, events included (flow/tangent.hpp), from its start: 1, 1/2, 1/3, .. in contact coordinates,
-/// without what the first mode holds still. A transient turns delta to the direction that grows most; a tangent that is
-/// zero at its end starts again.
+/// The exponent is ln(|delta| at the end / |delta| at the start of the recording) / periods. The tangent vector delta
+/// follows the run, events included (flow/tangent.hpp), from its start: 1, 1/2, 1/3, .. in contact coordinates, without
+/// what the first mode holds still. A transient turns delta to the direction that grows most; a tangent that is zero at
+/// its end starts again.
 /// The largest of all 2 n exponents is meant: without forcing the one along the motion, 0, is among them, and so is
 /// that of a rigid translation. attractor/lyapunov.hpp has all exponents, with errors.
 /// Plain data: no errors, no cost.
@@ -22,8 +22,8 @@ namespace slapstick {
 struct BatchPlan {
   int transient_periods = 0;  ///< before the recording, >= 0
   int periods = 1;            ///< of the recording, >= 1
-  int points = 0;             ///< stroboscopic points: the states at the ends of the last so many periods of the
-                              ///< recording, <= periods
+  int points = 0;             ///< stroboscopic points, <= periods: the states at the ends of the last `points` periods
+                              ///< of the recording
   bool events = false;        ///< every event of the recording, one by one
   bool exponent = false;      ///< the largest Lyapunov exponent
 };

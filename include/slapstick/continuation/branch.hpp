@@ -2,9 +2,9 @@
 /// Branches of periodic orbits: pseudo-arclength continuation in one parameter, with every point at which something
 /// changes.
 ///
-/// An orbit is followed with its sequence of events fixed. Between two points of the branch each of these is watched
-/// for a change of sign, and the change is refined on the branch until the parameter no longer changes (1e-13 of the
-/// range; by interpolation where the equations are singular):
+/// An orbit is followed with its sequence of events fixed. Between two points of the branch each of the following is
+/// watched for a change of sign. The change is refined on the branch until the parameter no longer changes (1e-13 of
+/// the range; by interpolation where the equations are singular).
 ///
 ///   LP  fold: the branch turns back in the parameter            PD  a multiplier -1: period doubling
 ///   NS  a pair of multipliers e^{+-2 pi i rho}                   BP  a multiplier +1, no fold: a symmetry breaks
@@ -12,11 +12,11 @@
 ///   CH  a complete chatter begins or ends                       CO  two events meet
 ///
 /// The last four change the sequence. There the sequence is built anew from what the motion does beyond, and the branch
-/// goes on: in the same direction (*persistence*), or back (*non-smooth fold*). It ends where the motion makes a *jump*
-/// (from a stable orbit what it goes over to is named), where the orbits beyond are *one of a family*, isolated no
-/// more, where it grows without bound, and where no orbit of the new sequence was found whose branch comes from there
-/// (*none found*). Every point is checked by the certified simulator; one that is no motion has `is_motion` false, and
-/// says why.
+/// goes on: in the same direction (*persistence*), or back (*non-smooth fold*). The branch ends where the motion makes
+/// a *jump* (from a stable orbit what it goes over to is named), and where the orbit grows without bound. Further ends:
+/// the orbits beyond are *one of a family*, isolated no more; no orbit of the new sequence was found whose branch comes
+/// from there (*none found*). Every point is checked by the certified simulator; one that is no motion has `is_motion`
+/// false, and says why.
 ///
 /// Source: Doedel, Keller and Kernevez (1991), Govaerts (2000) for the test functions; di Bernardo et al. (2008) for GR
 /// and SL.
@@ -40,7 +40,7 @@ struct BranchEnd {
     closed,           ///< the branch has come round to its first orbit
     no_model,         ///< the model has no meaning beyond; `detail` says why
     special,          ///< at a special point: its passage says why
-    over_itself,      ///< it runs over itself
+    over_itself,      ///< the branch runs over itself
     unbounded,        ///< the orbit grows without bound as the parameter hardly moves
     most_points,      ///< as many points as are allowed
     stopped,          ///< the caller's wish
@@ -83,7 +83,7 @@ struct ContinuationOptions {
 /// @throws InputError if `start` is outside the range
 [[nodiscard]] Branch follow(const Problem& posed, const Orbit& start, const ContinuationOptions& options);
 
-/// Changes that gather at the onset of a complete chatter, each with so many impacts more than the one before.
+/// Changes that gather at the onset of a complete chatter, each with `impacts` impacts more than the one before.
 struct Cascade {
   std::size_t onset = 0;  ///< index of the CH among the branch's special points
   /// the special points on the way to it, between the first change and the last, both included
@@ -101,8 +101,8 @@ struct Cascade {
 /// False without forcing.
 [[nodiscard]] bool image_lies_on(const Problem& problem, const Branch& branch, const Orbit& orbit);
 
-/// Follows the branch through an orbit, one of SpecialPoint::born, and adds it to the branches, unless it is one of
-/// these, the image of one, or outside the range of `options`.
+/// Follows the branch through an orbit, one of SpecialPoint::born. Adds this branch to the branches, unless it is one
+/// of these, the image of one, or outside the range of `options`.
 /// @param images  the branch whose image it is, if it is one, is added
 /// @returns true if there is a branch more
 bool follow_born(const Problem& problem, std::vector<Branch>& branches, const Orbit& born,

@@ -14,7 +14,7 @@ namespace slapstick::orbit {
 [[nodiscard]] std::string what_happens(const SpecialPoint& point, const System& system);
 /// What becomes of the branch there: "persistence", "jump to 1-2-I"; empty where the events stay.
 [[nodiscard]] std::string what_becomes(const SpecialPoint& point);
-/// "supercritical", or why there is no coefficient; empty where none is asked for.
+/// "supercritical", or why there is no coefficient; empty where no coefficient is asked for.
 [[nodiscard]] std::string sentence(const NormalForm& form);
 /// Why a branch ends at either side.
 [[nodiscard]] std::string sentence(const Branch& branch);

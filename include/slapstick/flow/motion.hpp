@@ -72,7 +72,8 @@ enum class Outcome { event, reached_end };
 /// Work done, part of the interface: a change in it is noticed by the tests.
 struct Counters {
   long events = 0, impacts = 0, segments = 0, windows = 0, evaluations = 0, grazes = 0;
-  long pile_ups = 0;  ///< chatters of several stops that were ended, unproven, at one instant of the clock
+  /// chatters of several stops that were ended, unproven, at one instant of the clock
+  long pile_ups = 0;
   /// limits of chatter whose impacts may move another friction contact to and fro through its rest, a load through
   /// zero or a characteristic past a corner
   long shaken = 0;
@@ -100,7 +101,7 @@ class Motion {
 
   /// Moves on to the next event, or to `end` if none comes first. An event exactly at `end` is reported. An `end`
   /// before `time()` is reached at once.
-  /// Cost: no allocation but for modes met for the first time and models of more than 24 numbers; a few hundred
+  /// Cost: no allocation except for modes met for the first time and models of more than 24 numbers; a few hundred
   /// nanoseconds per event for the paper's system.
   /// @throws NumericalError with a replayable state if events pile up or no mode fits
   Outcome advance(Instant end);

@@ -47,7 +47,7 @@ class RunUp {
   RunUpOptions options_;
   State start_;
   std::optional<Motion> motion_;
-  std::vector<double> turns_;  ///< that each force of a frequency of its own has made so far, but for whole ones
+  std::vector<double> turns_;  ///< that each force of a frequency of its own has made so far, less the whole ones
   double value_ = 0.0, begun_ = 0.0;
   long step_ = 0;
 };

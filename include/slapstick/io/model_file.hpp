@@ -74,7 +74,7 @@ struct PhysicalUnits {
   std::vector<Column> state, observables;
 };
 
-/// What the numbers of a model without [scale] are in, as far as its file says so. Empty texts: it does not, and so
+/// What the numbers of a model without [scale] are in, as far as its file says it. Empty texts: it does not, and so
 /// with [scale], where they are no quantities.
 struct StatedUnits {
   std::vector<std::string> coordinates;
@@ -131,7 +131,7 @@ class ModelDefinition {
   /// The derivative of `build` with respect to a parameter or group, at its present value: a Model of the same shape in
   /// which every number is the derivative of that number (names, indices, harmonics, impact law as in the model). Of a
   /// group the members move together that have no override of their own; parameters that follow others by an expression
-  /// follow here too. Exact but for rounding, also at the ends of ranges.
+  /// follow here too. Exact up to rounding, also at the ends of ranges.
   /// @throws InputError as `build`, for an unknown name, or naming a number that has no derivative (a kink of min, max,
   /// abs, ?:)
   [[nodiscard]] Model rate(const std::string& parameter, const Overrides& overrides = {}) const;

@@ -86,7 +86,7 @@ struct Signal {
   std::vector<Knot> knots;  ///< at least two, `time` ascending
   bool repeats = false;
   /// The times are in forcing periods, from the first to the last knot one period, from knot to knot 31/32 of one
-  /// at most: such a signal is a drive, as a harmonic is. It repeats.
+  /// at most: such a signal is a drive, as a harmonic is. Such a signal repeats.
   bool in_periods = false;
   /// Its pulses are jumps of the speed of what coordinates are measured from, by which a closed stop is hit. Else they
   /// are blows of a force, which a closed stop bears.
@@ -261,9 +261,9 @@ using State = std::vector<double>;
 /// Column names of a State: "x1", "v1", "x2", "v2".
 [[nodiscard]] std::vector<std::string> state_names(const Model& model);
 
-/// Checks everything that makes a model meaningless: non-finite numbers, masses <= 0 (a mass matrix that is not
-/// positive definite), matrices that are not symmetric or not n x n, omega, f_k > f_s, restitution outside [0, 1], bad
-/// indices, a contact between a coordinate and itself, opposite stops without room between them, names used twice.
+/// Checks everything that makes a model meaningless: non-finite numbers; masses <= 0 (a mass matrix that is not
+/// positive definite); matrices that are not symmetric or not n x n; omega; f_k > f_s; restitution outside [0, 1]; bad
+/// indices; a contact between a coordinate and itself; opposite stops without room between them; names used twice.
 /// Numbers beyond 1e50, and a mass or omega below 1e-50, are refused too: their products would leave the range of a
 /// double.
 /// @throws InputError naming the field, e.g. "stop 'gap': restitution = 1.2 is outside [0, 1]".

@@ -7,7 +7,7 @@
 /// A contact is a stop, friction contact, compliant stop or characteristic. Its force F pulls the two sides of its pair
 /// together where it is positive: -F acts on a, +F on b, as of a spring. Between impacts every quantity is a polynomial
 /// of degree two in the extended state; an impact adds an impulse to the acceleration of coordinates, to the force of
-/// stops and to the power that stops take. docs/reference/measure.md defines each quantity in each mode.
+/// stops and to the power that stops take. Each quantity is defined in each mode in docs/reference/measure.md.
 /// Plain data; values may be shared between threads. Cost: microseconds.
 /// Source: docs/developers/architecture.md, section 8; Glocker (2001) for contact forces and impulses.
 #include <span>

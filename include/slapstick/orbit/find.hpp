@@ -1,5 +1,5 @@
 #pragma once
-/// The orbit that a user means, as the program and Python ask for it, and what is said where there is none.
+/// The orbit that a user means, as the program and Python ask for it, and what is said where there is no such orbit.
 ///
 ///     const Chosen found = find_orbit(*problem, system, state, {.orbit = "1-1-I", .stable = false});
 ///

@@ -35,7 +35,7 @@ struct Leg {
   EventKind event = EventKind::impact;          ///< what the end is called (the first of the events of its instant)
   int event_contact = 0;                        ///< System::contact_name
   /// Of several events at one instant that do not act on each other, as in two equal machines, each ends a leg of its
-  /// own: this leg has no length, and is no leg that shrinks to nothing. It is no part of the shape.
+  /// own: this leg has no length, and is no leg that shrinks to nothing. `tied` is no part of the shape.
   bool tied = false;
   bool differentiable = true;  ///< false: several events of its end do act on each other, and their order matters
   friend bool operator==(const Leg& a, const Leg& b);

@@ -56,7 +56,7 @@ enum class SettleEnd : std::uint8_t {
   orbit,     ///< an orbit is found
   no_cycle,  ///< the motion does not come back to itself
   rest,      ///< .. because a free motion has no more events
-  no_orbit,  ///< it settles on a cycle whose equations were not solved, or that the simulator does not confirm
+  no_orbit,  ///< the motion settles on a cycle whose equations were not solved, or that the simulator does not confirm
   time,
   stopped
 };
@@ -70,7 +70,7 @@ struct Settled {
 
 /// The orbit that the motion from `state` settles on: the cycle that `classify` names (both ask section::Settling),
 /// solved and verified. One of a family stays the member that it is.
-/// @throws InputError if the state is none of the model; NumericalError as Motion::advance
+/// @throws InputError if the state is no state of the model; NumericalError as Motion::advance
 [[nodiscard]] Settled settle(const Problem& problem, const System& system, const State& state,
                              const SettleOptions& options = {});
 
@@ -106,7 +106,7 @@ enum class SearchEnd : std::uint8_t {
 struct SearchReport {
   SearchEnd end = SearchEnd::all_starts;
   int motions = 0;     ///< looked through
-  int broken_off = 0;  ///< .. of which so many could not be followed to their end
+  int broken_off = 0;  ///< .. of these, those that could not be followed to their end
   long returns = 0;    ///< near returns
   long newton_runs = 0;
   long diverged = 0;    ///< Newton's method found no orbit

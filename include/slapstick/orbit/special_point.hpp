@@ -71,7 +71,7 @@ enum class Sliding : std::uint8_t {
 /// What becomes of a branch at a special point.
 enum class Passage : std::uint8_t {
   same_events,   ///< LP, PD, NS, BP: the branch goes on with the events that it has
-  persistence,   ///< it goes on with other events, in the same sense of the parameter
+  persistence,   ///< the branch goes on with other events, in the same sense of the parameter
   fold,          ///< .. or back: a non-smooth fold
   jump,          ///< no orbit goes on: the motion leaves, `SpecialPoint::jump`
   family,        ///< the orbits beyond are isolated no more: one of a family
@@ -79,7 +79,7 @@ enum class Passage : std::uint8_t {
   merges,        ///< the orbit becomes a shorter one, run through more than once
   equilibrium,   ///< the orbit shrinks to a state of rest, at a corner of a characteristic
   symmetric,     ///< the orbit becomes its own image: behind it are the images of the branch's orbits
-  retraced,      ///< the branch as it came
+  retraced,      ///< the branch as it was on the way here
   not_followed,  ///< the events change, and the caller wanted them to stay
   unknown        ///< no orbit was found beyond: a jump, or a failure of the search
 };
@@ -161,7 +161,7 @@ struct SpecialPoint {
   /// Orbits from which other branches that begin here or cross can be followed; with passages merges and symmetric the
   /// first is that in which the branch ends.
   std::vector<Orbit> born;
-  std::size_t after = 0;  ///< it lies behind this point of the branch
+  std::size_t after = 0;  ///< the special point lies behind this point of the branch
   std::size_t test = 0;   ///< GR, SL, CH, CO: the index of the margin among all margins of the orbit
 
   NormalForm normal_form;  ///< of LP, PD, NS

@@ -1,9 +1,9 @@
 #pragma once
-/// Statistics of quantities over a motion, exact but for rounding: nothing is sampled.
+/// Statistics of quantities over a motion, exact up to rounding: nothing is sampled.
 ///
 /// Integrals are Gauss quadratures of the polynomials that quantities are on short steps; least and greatest values are
-/// at the roots of their derivatives. An impulse counts in the mean, which is the integral over the time. It has no
-/// finite square and no greatest value: rms, least and greatest are those between impacts.
+/// at the roots of their derivatives. An impulse counts in the mean, which is the integral over the time. An impulse
+/// has no finite square and no greatest value: rms, least and greatest are those between impacts.
 /// Threads: as the Motion's. Cost: some hundred nanoseconds a step and quantity, about two steps a window.
 /// Source: docs/reference/measure.md; Golub and Welsch (1969) for the quadrature.
 #include <array>
@@ -69,7 +69,7 @@ struct StatisticRule {
 /// and phase of amplitude cos(k omega t + phase).
 /// @throws InputError that names the nearest, and for a harmonic of what is no cycle
 [[nodiscard]] double statistic(const Statistics& of, const std::string& name);
-/// Those that `measure` writes of a quantity if none is named.
+/// Those that `measure` writes of a quantity if no statistic is named.
 [[nodiscard]] std::vector<std::string> usual_statistics(const Quantity& quantity);
 /// @throws InputError unless `statistic` knows the name for the quantity
 void check_statistic(const Quantity& quantity, const std::string& name);
@@ -91,7 +91,7 @@ void check_statistic_of_stretch(const Quantity& quantity, const std::string& nam
                                const std::vector<Quantity>& of);
 
 /// The derivatives of `measure` of the cycle by each parameter of the problem's family, the others as they are: every
-/// number is that number's derivative, of `values` in the same order; counts are 0. Exact but for rounding, by the
+/// number is that number's derivative, of `values` in the same order; counts are 0. Exact up to rounding, by the
 /// implicit function theorem on the orbit's equations, as long as the orbit keeps its events. Instants of extremes that
 /// are flat to second order, and numbers that do not exist, are NaN.
 /// Cost: for each parameter some times that of `measure`.

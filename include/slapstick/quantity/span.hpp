@@ -37,7 +37,7 @@ struct Stretch {
 struct SpanWish {
   std::optional<double> transient = {};  ///< as stretch_of
   double periods = 0.0;                  ///< length of the motion in forcing periods; 0: the cycle, or the record ..
-  double instead = 1000;                 ///< .. or where there is neither so many periods
+  double instead = 1000;                 ///< .. or, where there is neither, this many periods
   const std::atomic<bool>* stop = nullptr;
   std::function<void(double periods)> progress = {};  ///< called during the transient
 };

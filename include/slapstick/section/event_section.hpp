@@ -1,6 +1,6 @@
 #pragma once
-/// The event section: the events of one kind of a motion, each seen just before it happens. It needs neither stops nor
-/// forcing: it is the return map of autonomous systems, as of a mass that a belt drags along until it slips.
+/// The event section: the events of one kind of a motion, each seen just before it happens. The section needs neither
+/// stops nor forcing: it is the return map of autonomous systems, as of a mass that a belt drags along until it slips.
 /// Shapes, threads and cost are those of the Motion that a section carries.
 #include <limits>
 #include <optional>

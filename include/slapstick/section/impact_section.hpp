@@ -1,11 +1,11 @@
 #pragma once
-/// The impact section: the sequence of impacts of a motion, each seen just before it happens. It may be that of some
-/// stops only, and a compliant stop takes part by its engagements (section/stop_choice.hpp): "impact" stands for both
-/// here.
+/// The impact section: the sequence of impacts of a motion, each seen just before it happens. The sequence may be that
+/// of some stops only, and a compliant stop takes part by its engagements (section/stop_choice.hpp): "impact" stands
+/// for both here.
 ///
-/// This is the paper's Poincare section (eq. 8): y = b, w > 0. Between two of its points lie a *flight* and, in it, the
-/// time in which the friction contact slips (the paper's t_f is called "sliding time" in its text and is plotted as the
-/// flight).
+/// The impact section is the paper's Poincare section (eq. 8): y = b, w > 0. Between two of its points lie a *flight*
+/// and, in it, the time in which the friction contact slips. The paper's t_f is called "sliding time" in its text and
+/// is plotted as the flight.
 ///
 ///     |<------------- flight ------------->|
 ///     impact   slip-   stick   slip+   impact          time in forcing periods (units of 1 without forcing)

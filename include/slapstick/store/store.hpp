@@ -48,7 +48,7 @@ class Store {
   [[nodiscard]] const std::string& fact(const std::string& name) const;
   [[nodiscard]] long count() const;
   /// Cells that are there already must be equal.
-  /// @throws StorageError where that fails; of these cells, none is there then that was not
+  /// @throws StorageError where that fails; then no cell is added
   void add(std::span<const StoredCell> cells);
   [[nodiscard]] std::optional<StoredCell> find(std::int64_t number) const;
   /// In the order of their numbers. @throws StorageError at the first damaged cell, naming its number

@@ -46,7 +46,7 @@ struct Basins {
   bool driven = true;
   std::vector<Basin> basins;                     ///< that with most starts first
   std::vector<std::int32_t> of;                  ///< of each pixel the place of its basin, or one of the numbers above
-  std::map<std::int32_t, std::string> failures;  ///< by pixel; a stop that forbids a start is none
+  std::map<std::int32_t, std::string> failures;  ///< by pixel; a stop that forbids a start is no failure
   bool complete = true;                          ///< false if it was cancelled: some pixels are missing
 
   [[nodiscard]] long count(std::int32_t what) const;

@@ -17,8 +17,8 @@
 /// event. Any other model runs on a Motion from its start, by the same call.
 ///
 /// The bits of a run depend on its model and start alone: not on the number of lanes, on what runs beside it, on the
-/// order, on threads or on the processor. They are not those of a Motion: both kernels round differently, so that a
-/// chaotic motion parts from a Motion's after some periods. Source: docs/developers/performance.md;
+/// order, on threads or on the processor. These bits are not those of a Motion: both kernels round differently, so that
+/// a chaotic motion parts from a Motion's after some periods. Source: docs/developers/performance.md;
 /// docs/developers/proofs.md, section 11, for what is proven.
 #include <atomic>
 #include <cstddef>

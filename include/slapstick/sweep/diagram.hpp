@@ -50,8 +50,8 @@ struct DiagramProblem {
   /// Measured over `measured_periods` after the transient, in place of the impacts; then a model needs no stop.
   std::vector<Quantity> of = {};
   double measured_periods = 0.0;  ///< 0: 100, or what is left of a record
-  /// Read at instants, in place of the impacts' own table: `impacts` rows at each value. A model needs no stop, but for
-  /// `ReadAt::impacts`.
+  /// Read at instants, in place of the impacts' own table: `impacts` rows at each value. A model needs no stop, except
+  /// for `ReadAt::impacts`.
   std::vector<Quantity> values_of = {};
   ReadAt read_at = ReadAt::impacts;
   EventChoice event = {};  ///< of ReadAt::events

@@ -9,7 +9,7 @@
 ///     const sweep::Map map = sweep::run_map(problem);
 ///     for (const sweep::Finding& found : map.findings) use(map.x_of(found), map.y_of(found), found.label(map.driven));
 ///
-/// `quick` names within so many periods a cycle that Newton's method confirms, or says undecided. Its periods run in
+/// `quick` names within `periods` periods a cycle that Newton's method confirms, or says undecided. Its periods run in
 /// the lanes of a batch (sweep/batch.hpp) where lanes take the model, else it is `classify_quickly`. `full` is
 /// `classify`. Both have the same words; where both decide they agree.
 ///
@@ -95,14 +95,14 @@ struct MapProblem {
   bool one_model = false;
   Level level = Level::quick;
   int periods = 300;  ///< of `quick`: within which a cycle is to be confirmed, >= 20
-  /// Of both levels most_n and stops, of `full` all but cancel and progress.
+  /// Of both levels most_n and stops, of `full` all except cancel and progress.
   ClassifyOptions classify = {};
   MapStart start = MapStart::reset;
   Direction direction = Direction::up;  ///< of `carry`
   bool keep_states = false;             ///< each pixel has its Pixel::carried; not of `random`
   int starts = 2;                       ///< of `random`, >= 2
   std::uint64_t seed = 1;
-  /// Measured over the cycle, or where there is none over `measured_periods` on; a statistic of each.
+  /// Measured over the cycle, or, where there is no cycle, over `measured_periods` on; a statistic of each.
   std::vector<Quantity> of = {};
   std::vector<std::string> statistics = {};
   int measured_periods = 100;

@@ -125,7 +125,7 @@ void spread(const Placed* rows, const Placed* rows_end, const Placed* columns, c
             const double* x, Lane8* out) {
   Lane8 even{}, odd{};
   for (; columns != columns_end; ++columns) odd += columns->values * x[columns->place];
-  for (; rows + 2 <= rows_end; rows += 2) {
+  for (; rows_end - rows >= 2; rows += 2) {
     even += rows[0].values * *reinterpret_cast<const Loose8*>(x + rows[0].place);
     odd += rows[1].values * *reinterpret_cast<const Loose8*>(x + rows[1].place);
   }

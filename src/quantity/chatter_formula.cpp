@@ -43,8 +43,7 @@ Formulas::Borne Formulas::borne_in_chatter(int stop, const Vector& X, const Vect
   if (k == held_.size() || held_[k].frictions.empty()) return borne;
   Number kinetic;
   for (const int i : held_[k].frictions) kinetic += kinetic_at(i, X, by);
-  const Number f0 = sense(held_[k], frame_.stops[static_cast<std::size_t>(stop)]) *
-                    (rates_ ? holding(k).at(X, by) : Number{holding(k).value.dot(X), 0.0});
+  const Number f0 = sense(held_[k], frame_.stops[static_cast<std::size_t>(stop)]) * holding(k).at(X, by);
   const Number square = f0 * f0 - kinetic * kinetic;
   const double root = std::sqrt(square.value);
   borne.all = square.value > 0.0 ? f0 - Number{root, 0.5 * square.rate / root} : kinetic;

@@ -33,9 +33,9 @@ struct Row {
 
   Row& operator+=(const Row& b) { return value += b.value, rate += b.rate, *this; }
   Row& operator-=(const Row& b) { return value -= b.value, rate -= b.rate, *this; }
-  /// At X, which moves by `by`.
+  /// At X, which moves by `by`: empty where no derivative is asked for.
   [[nodiscard]] Number at(const Vector& X, const Vector& by) const {
-    return {value.dot(X), rate.dot(X) + value.dot(by)};
+    return {value.dot(X), by.size() == 0 ? 0.0 : rate.dot(X) + value.dot(by)};
   }
 };
 [[nodiscard]] inline Row operator-(Row a, const Row& b) { return a -= b; }

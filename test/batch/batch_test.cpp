@@ -54,7 +54,7 @@ std::vector<Pixel> pixels(std::size_t count, double least_omega, double most_ome
 
 bool same_bits(const BatchRun& a, const BatchRun& b) {
   const auto same = [](const std::vector<double>& x, const std::vector<double>& y) {
-    return x.size() == y.size() && std::memcmp(x.data(), y.data(), 8 * x.size()) == 0;
+    return x.size() == y.size() && (x.empty() || std::memcmp(x.data(), y.data(), 8 * x.size()) == 0);
   };
   if (a.events.size() != b.events.size() || a.impacts != b.impacts || a.point_impacts != b.point_impacts) return false;
   for (std::size_t i = 0; i < a.events.size(); ++i) {

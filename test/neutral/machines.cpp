@@ -152,7 +152,7 @@ std::optional<Edited> later_clock(const Definition& file, campaign::Random& rand
   const auto once = [](const Part& impulse) {
     return impulse.fields.contains("time") && !impulse.fields.contains("period");
   };
-  if (std::ranges::any_of(file.of("impulse"), once)) return std::nullopt;  // it may be past then
+  if (std::ranges::any_of(file.of("impulse"), once)) return std::nullopt;  // the impulse may be past then
   Edited edited{file, {}};
   const ModelDefinition definition = read(file);
   const System system(definition.build());

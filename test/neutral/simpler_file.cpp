@@ -23,7 +23,7 @@ class Simpler {
   std::vector<Definition> all() {
     for (int i = coordinates(file_) - 1; i >= 0 && coordinates(file_) > 1; --i) offer(without_coordinate(i));
     for (const PartRule& rule : part_rules())
-      if (rule.kind != "coordinate") without_each(std::string(rule.kind));
+      if (rule.kind != "coordinate" && rule.kind != "base") without_each(std::string(rule.kind));
     for (const std::string& key : matrix_keys())
       if (file_.matrices.contains(key)) offer_changed([&](Definition& other) { other.matrices.erase(key); });
     plain_parts();
@@ -37,7 +37,7 @@ class Simpler {
       const ModelDefinition definition = read(candidate);
       (void)definition.build(), (void)definition.start();
       out_.push_back(std::move(candidate));
-    } catch (const InputError&) {  // a base that nothing stands on, stops without room
+    } catch (const InputError&) {  // as stops without room
     }
   }
 
@@ -53,7 +53,7 @@ class Simpler {
       offer_changed([&](Definition& other) {
         auto& all = parts(other, kind);
         all.erase(all.begin() + static_cast<std::ptrdiff_t>(i));
-        if (kind != "base") drop_unused_bases(other);
+        drop_unused_bases(other);
       });
   }
 

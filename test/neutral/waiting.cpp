@@ -95,7 +95,7 @@ std::string waiting_for(const Definition& first, const Edit& edit, Verb verb, co
   return first_of(faults(), first, edit, verb, said);
 }
 
-/// None is known of laws between verbs.
+/// No fault is known of laws between verbs.
 std::string waiting_for(const Definition&, std::string_view, const std::string&) { return ""; }
 
 }  // namespace slapstick::neutral

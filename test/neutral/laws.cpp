@@ -223,7 +223,7 @@ std::optional<std::string> multipliers_agree(const ModelDefinition& definition, 
   const auto problem = orbit::pose(definition.family({}), {});
   const orbit::Settled settled =
       orbit::settle(*problem, system, definition.start(), {.transient = 100, .most_periods = 500, .most_n = 16});
-  if (!settled.orbit) return std::nullopt;  // its equations are not solved, and orbit says so
+  if (!settled.orbit) return std::nullopt;  // its equations are not solved, and orbit says it
   if (settled.orbit->label != found.label) return "classify names " + found.label + ", orbit " + settled.orbit->label;
   auto others = settled.orbit->multipliers;
   if (others.size() != found.multipliers.size())
@@ -238,9 +238,10 @@ std::optional<std::string> multipliers_agree(const ModelDefinition& definition, 
   return "";
 }
 
-/// Where a motion stays in one mode, at rest or on a cycle of period T without events, its eigenvalues, or multipliers
-/// exp(lambda T), are those of the mode with the contacts held that it holds. Those of what is held, of translations
-/// and of families (0, or 1) are left out. The two ways share A, the balance, and the eigenvalues of Eigen.
+/// A motion may stay in one mode, at rest or on a cycle of period T without events. Its eigenvalues, or multipliers
+/// exp(lambda T), are then those of the mode with the contacts held that it holds. Those of what is held, of
+/// translations and of families (0, or 1) are left out. The two ways share A, the balance, and the eigenvalues of
+/// Eigen.
 std::optional<std::string> modes_agree(const ModelDefinition& definition, const Question&) {
   constexpr double nothing = 1e-6, close = 1e-6;  // a double eigenvalue is known to half of its digits
   const System system(definition.build());
@@ -332,6 +333,7 @@ const std::vector<Law>& laws() {
       {"diagram", "a value of a diagram is that of measure", diagram_measures},
       {"multipliers", "multipliers of classify and of orbit agree", multipliers_agree},
       {"modes", "eigenvalues of rests, and multipliers without events, are those of modes", modes_agree},
+      {"basins", "a start belongs to the basin of the attractor that classify finds", basins_classify},
       {"sensitivities", "sensitivities of measure are differences", sensitivities_are_differences},
   };
   return all;

@@ -20,6 +20,9 @@ struct Law {
 /// What breaks a law of a file; nothing where it speaks of nothing there, or the numerics did not succeed.
 [[nodiscard]] std::optional<std::string> check(const Law& law, const ModelDefinition& definition);
 
+/// The law `basins` (basins_law.cpp).
+std::optional<std::string> basins_classify(const ModelDefinition& definition, const Question& question);
+
 /// The smallest file found that breaks a law.
 [[nodiscard]] Definition smallest(const Definition& file, const Law& law, int most_tries);
 

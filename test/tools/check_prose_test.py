@@ -27,7 +27,7 @@ CASES = [
     ('one word', tree('/// Motions\n#include <cmath>\n'), 'which says nothing'),
     ('a wide comment', tree('/// Runs motions.\n' + LONG + '\n'), 'src/flow/motion.cpp:2: its comment ends in column'),
     ('a wide comment behind code', tree('/// Runs motions.\nint a;  ' + LONG + '\n'), 'its comment ends in column'),
-    ('a wide comment of a test', tree(LONG + '\n', 'test/flow/a_test.cpp'), None),
+    ('a wide comment of a test', tree(LONG + '\n', 'test/flow/a_test.cpp'), 'test/flow/a_test.cpp:1: its comment ends in column'),
     ('nothing to check', {'README.md': ''}, 'no C++ file'),
 ]
 

@@ -12,7 +12,7 @@
 ///     "model", "set", "start"     as in ../library/case.hpp; numbers are numbers or expressions
 ///     "options"                   chatter_tolerance, most_events_per_period of the motion
 ///     "settle"                    run this long first, unnoticed
-///     "run", "most_events"        then run this long, or up to so many events; durations are in time units, or
+///     "run", "most_events"        then run this long, or up to this number of events; durations are in time units, or
 ///                                 {"periods": n}
 ///     "window_caps": true         all of it again for twenty bounds on the engine's internal step
 ///                                 (System::longest_window)

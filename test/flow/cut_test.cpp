@@ -93,9 +93,8 @@ TEST_P(Cut, EventExactlyAtTheEndIsReported) {
 
 INSTANTIATE_TEST_SUITE_P(Omega, Cut, ::testing::Values(0.552, 1.5, 2.2, 4.9));
 
-TEST(Cut,
-     // a touch once became an impact of the speed that the cut's rounding gave it
-     JustBeforeAnExactTouchLeavesItATouch) {
+/// A touch once became an impact of the speed that the cut's rounding gave it.
+TEST(Cut, JustBeforeAnExactTouchLeavesItATouch) {
   const System system(oracle::oscillator_with_stop(1.0));  // x = sin t against a wall at 1
   for (int k = 4; k <= 52; ++k) {
     const double touch = 0.25 / system.period() * 2 * std::numbers::pi;

@@ -21,7 +21,8 @@ constexpr int every = 7;  ///< of these starts is compared: in all columns, sinc
 
 const ClassifyOptions long_search{.transient_periods = 100, .most_periods = 1000, .most_n = 16, .exponent_periods = 0};
 
-/// A plane of the first coordinate about the file's own start.
+/// A plane of the first coordinate about the file's own start. A smaller plane meets fewer attractors: with 0.5 and 1
+/// in place of these numbers 2 of 50 files had several basins.
 sweep::MapProblem plane(const Model& model, const State& start) {
   constexpr double far = 3.0, fast = 3.0;
   sweep::MapProblem problem = sweep::starts_over(model, start, {0, {start[0] - far, start[0] + far, across}},

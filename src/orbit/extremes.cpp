@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "event/polynomial.hpp"
-#include "slapstick/base/error.hpp"
 
 namespace slapstick::orbit {
 namespace {
@@ -16,7 +15,6 @@ using Eigen::VectorXd;
 
 constexpr int degree = 20;  ///< the terms of exp(A h) fall at least like those of e: 1 / 20! is below rounding
 constexpr double part_of_step = 0.5;  ///< .. over this part of ModeRates::longest_step
-constexpr double most_steps = 1e4;    ///< as in flow(): a mass may be next to nothing
 
 void note(Extremes& known, double value, std::size_t leg, double at) {
   if (value < known.least.value) known.least = {value, leg, at};
@@ -27,8 +25,7 @@ void look_along(const ModeSet& set, const Orbit& orbit, std::size_t leg, const M
                 std::vector<Extremes>& all) {
   const ModeRates& mode = set.mode(orbit.shape.legs[leg].states);
   const double whole = orbit.duration(leg) * set.period();
-  const double steps = std::max(1.0, std::ceil(std::abs(whole) / (part_of_step * mode.longest_step)));
-  if (!(steps <= most_steps)) throw NumericalError("orbit: a leg is too long for the rates of its mode");
+  const double steps = mode.steps(whole / part_of_step);
   const double h = whole / steps;
   VectorXd X = leg_start(set, orbit.shape.legs[leg], orbit.x[leg], orbit.t[leg]).value();
   MatrixXd terms(X.size(), degree + 1);

@@ -1,4 +1,4 @@
-/// One leg in closed form: the series of exp(A s) with all first derivatives, impacts, and what an event makes zero.
+/// One leg in closed form: where it starts, impacts, and what an event makes zero, with all first derivatives.
 #include "orbit/leg_flow.hpp"
 
 #include <algorithm>
@@ -9,7 +9,6 @@
 #include "base/ranges.hpp"
 #include "flow/collision.hpp"
 #include "flow/contact_state.hpp"
-#include "slapstick/base/error.hpp"
 
 namespace slapstick::orbit {
 namespace {
@@ -18,34 +17,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
-
-constexpr double negligible = 0x1p-60;  ///< a term, against the sum, that ends it
-constexpr int most_terms = 80;
-
-/// Largest of each column over the displacements, the velocities and the rest: three rows that are not of one unit.
-MatrixXd block_sizes(const MatrixXd& Z, Index d) {
-  MatrixXd sizes(3, Z.cols());
-  sizes << Z.topRows(d).cwiseAbs().colwise().maxCoeff(), Z.middleRows(d, d).cwiseAbs().colwise().maxCoeff(),
-      Z.bottomRows(Z.rows() - 2 * d).cwiseAbs().colwise().maxCoeff();
-  return sizes;
-}
-
-/// One step of the series of exp(A s).
-void step(const ModeRates& mode, Index d, double s, Jet& X) {
-  MatrixXd term = X.all;
-  MatrixXd sizes = block_sizes(X.all, d);
-  int small = 0;
-  for (int j = 1; j <= most_terms && small < 3; ++j) {
-    MatrixXd next = mode.outline.system * term;
-    for (Index p = 0; p < X.parameters; ++p)
-      next.col(next.cols() - X.parameters + p) += mode.rates[static_cast<std::size_t>(p)].system * term.col(0);
-    term = (s / j) * next;
-    X.all += term;
-    const MatrixXd added = block_sizes(term, d);
-    sizes = sizes.cwiseMax(added);
-    small = (added.array() <= negligible * sizes.array()).all() ? small + 1 : 0;
-  }
-}
 
 /// The impulses of stops that are struck together (flow/collision.hpp), of all columns of a jet.
 void push(const ModeSet& set, const Motion::Strike& strike, Jet& X) {
@@ -270,14 +241,6 @@ VectorXd behind_pulses(const ModeSet& set, const Leg& leg, VectorXd X) {
   for (const Pulse& pulse : pulses(set, leg))
     set.frame().kick(static_cast<std::size_t>(pulse.signal), pulse.area[0], X.data());
   return X;
-}
-
-void flow(const ModeRates& mode, double s, Jet& X) {
-  const auto d = static_cast<Index>(mode.outline.steady.size());
-  constexpr double most_steps = 1e4;  // Newton's method may try a mass of next to nothing
-  const double steps = std::max(1.0, std::ceil(std::abs(s) / mode.longest_step));
-  if (!(steps <= most_steps)) throw NumericalError("orbit: a leg is too long for the rates of its mode");
-  for (int i = 0; i < static_cast<int>(steps); ++i) step(mode, d, s / steps, X);
 }
 
 Jet leg_start(const ModeSet& set, const Leg& leg, const VectorXd& x, double t_begin) {

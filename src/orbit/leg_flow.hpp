@@ -5,46 +5,20 @@
 /// at a pulse of a signal H R (X_end + K)
 ///
 /// S: the plastic impact that sums a chatter's tail, else the identity. R: the impacts at the end. H: what the next
-/// mode holds still is zero. The derivative with respect to a parameter follows the motion as Y' = A Y + A_p X; the
-/// terms of both series are summed together. Relative error: some roundings times the number of steps.
+/// mode holds still is zero.
 #include <Eigen/Core>
 #include <vector>
 
+#include "orbit/mode_flow.hpp"
 #include "orbit/mode_set.hpp"
 #include "slapstick/orbit/itinerary.hpp"
 
 namespace slapstick::orbit {
 
-/// A vector and its derivatives with respect to the contact state at the leg's start, the instants of its two ends
-/// (periods), and the parameters: a column each.
-struct Jet {
-  Jet(Eigen::Index rows, Eigen::Index state_count, Eigen::Index parameter_count)
-      : all(Eigen::MatrixXd::Zero(rows, 3 + state_count + parameter_count)),
-        states(state_count),
-        parameters(parameter_count) {}
-
-  [[nodiscard]] auto value() { return all.col(0); }
-  [[nodiscard]] auto value() const { return all.col(0); }
-  [[nodiscard]] auto by_state() { return all.middleCols(1, states); }
-  [[nodiscard]] auto by_state() const { return all.middleCols(1, states); }
-  [[nodiscard]] auto by_begin() { return all.col(1 + states); }
-  [[nodiscard]] auto by_begin() const { return all.col(1 + states); }
-  [[nodiscard]] auto by_end() { return all.col(2 + states); }
-  [[nodiscard]] auto by_end() const { return all.col(2 + states); }
-  [[nodiscard]] auto by_parameter() { return all.rightCols(parameters); }
-  [[nodiscard]] auto by_parameter() const { return all.rightCols(parameters); }
-
-  Eigen::MatrixXd all;
-  Eigen::Index states, parameters;
-};
-
 /// The extended state of a contact state at an instant (no derivative but by the state, the instant and the
 /// parameters).
 /// @param lines  that the signals are on
 [[nodiscard]] Jet extended(const ModeSet& set, const std::vector<int>& lines, const Eigen::VectorXd& x, double t);
-
-/// exp(A s) of all columns, and what the parameters add.
-void flow(const ModeRates& mode, double s, Jet& X);
 
 struct LegValue {
   Jet X_end;  ///< extended, before the impacts

@@ -82,9 +82,14 @@ struct Course {
     Jet X = leg_start(set, leg, x, t_begin);
     Jet bare(X.all.rows(), 0, 0);
     bare.value() = X.value();
+    const Eigen::MatrixXd move = is_long(mode, s) ? short_flow(mode, step) : Eigen::MatrixXd();
     for (std::size_t i = 0; i <= count; ++i) {
       states.emplace_back(bare.value());
-      if (i < count) flow(mode, step, bare);
+      if (i == count) break;
+      if (move.size() > 0)
+        bare.value() = move * states.back();
+      else
+        flow(mode, step, bare);
     }
   }
 
@@ -179,7 +184,10 @@ Least least_value(const Course& course, const mode::Guard& guard, bool with_star
   for (std::size_t i = 0; i < last; ++i) {
     const AlongStep value(course, guard.row, i), slope(course, slope_row, i);
     const auto take_minimum = [&](double a, double b) {
-      if (!with_start && !(highest > clear * size)) return;
+      // The slope goes to zero from the end of the step that is the minimum's own.
+      const double falls_to =
+          a == 0.0 ? values[i] + slopes[i] * course.step : values[i + 1] - slopes[i + 1] * course.step;
+      if (falls_to > least.value || (!with_start && !(highest > clear * size))) return;
       const double s = slope.zero(a, b);
       (at_end == AtEnd::is_zero ? behind_maximum : least).take(value.at(s), static_cast<double>(i) * course.step + s);
     };
@@ -188,6 +196,9 @@ Least least_value(const Course& course, const mode::Guard& guard, bool with_star
     if (slopes[i] > 0.0 && slopes[i + 1] <= 0.0) take_maximum();
     // A minimum and a maximum in one step: the slope turns back between them.
     if (slopes[i] * slopes[i + 1] <= 0.0 || bends[i] * bends[i + 1] >= 0.0 || bends[i] * slopes[i] > 0.0) continue;
+    const double from_left = slopes[i] + bends[i] * course.step,
+                 from_right = slopes[i + 1] - bends[i + 1] * course.step;
+    if (from_left * slopes[i] > 0.0 || from_right * slopes[i] > 0.0) continue;  // the slope keeps its sign
     const double turn = AlongStep(course, bend_row, i).zero(0.0, course.step);
     if (slope.at(turn) * slopes[i] >= 0.0) continue;
     highest = std::max(highest, value.at(turn));

@@ -17,7 +17,15 @@ namespace slapstick::orbit {
 struct ModeRates {
   mode::Outline outline;
   std::vector<mode::OutlineDerivative> rates;
-  double longest_step = 1.0;  ///< over which the terms of exp(A s) fall from the first on, up to a factor of about 7
+  /// Over which exp(A s) is well summed: no term exceeds about twice the first, and the sizes of all sum to 7 times it.
+  double longest_step = 1.0;
+
+  /// Kept by flow(): a round step doubled, with all derivatives (orbit/mode_flow.hpp).
+  mutable std::vector<Eigen::MatrixXd> doublings;
+
+  /// Steps that a time takes, none longer; at least one.
+  /// @throws NumericalError where they are too many
+  [[nodiscard]] double steps(double s) const;
 
   /// The place of a guard in the outline. @throws NumericalError if the mode has none such
   [[nodiscard]] std::size_t guard(mode::GuardKind kind, int contact) const;

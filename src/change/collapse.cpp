@@ -57,7 +57,7 @@ double parameter_error(const Problem& problem, const Death& death) {
 /// @returns whether the Gauss-Newton method came to a solution
 bool solve_death(const Problem& problem, Death& death) {
   constexpr int most_steps = 20;
-  constexpr double enough = 1e-13, alike = 1e-9, longest_step = 0.5;  // as of an orbit's own equations
+  constexpr double alike = 1e-9;  // steps below it that no longer shrink are rounding
   double before = INFINITY;
   for (int k = 0; k < most_steps; ++k) {
     const DeathEquations at(problem, death);
@@ -65,8 +65,8 @@ bool solve_death(const Problem& problem, Death& death) {
     const VectorXd step = -dense::LeastNorm(at.by).solve(at.residual);
     if (!step.allFinite()) return false;
     const double now = length(problem, at, step);
-    move_death(problem, at, step, std::min(1.0, longest_step / step.cwiseAbs().maxCoeff()), death);
-    if (now < enough || (now < alike && now > 0.1 * before)) return true;
+    move_death(problem, at, step, std::min(1.0, longest_newton_step / step.cwiseAbs().maxCoeff()), death);
+    if (now < enough_step || (now < alike && now > 0.1 * before)) return true;
     before = now;
   }
   return false;

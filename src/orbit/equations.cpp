@@ -18,8 +18,6 @@ using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
-constexpr double enough = 1e-13;  ///< a step, relative to the orbit's size, after which there is nothing to gain
-constexpr double longest_step = 0.5;
 constexpr double far_too_long = 5.0;  ///< a leg, against the cycle that Newton's method began with: it goes nowhere
 
 /// x_0 by its numbers: the columns of representatives.
@@ -270,7 +268,8 @@ double deflation(const std::vector<VectorXd>& taken_out, const VectorXd& v, cons
 /// @param left  the last step: a longer leg is no rounding. A bound far above it would hide what a parameter takes
 /// apart
 void settle_ties(Orbit& orbit, double left) {
-  const double rounding = 100.0 * std::max(left, enough);  // of the cycle: an instant gathers the errors of a state
+  const double rounding =
+      100.0 * std::max(left, enough_step);  // of the cycle: an instant gathers the errors of a state
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
     if (!orbit.tied(i)) continue;
     if (std::abs(orbit.duration(i)) > rounding * (orbit.t.back() - orbit.t.front()))
@@ -302,7 +301,7 @@ void newton(const Problem& problem, Orbit& orbit, const std::vector<Condition>& 
       result.last_step = std::max(
           result.last_step,
           problem.translations().numbers(defect).cwiseQuotient(scale.head(problem.numbers())).cwiseAbs().maxCoeff());
-    const double fraction = std::min(1.0, longest_step / step.cwiseAbs().maxCoeff());
+    const double fraction = std::min(1.0, longest_newton_step / step.cwiseAbs().maxCoeff());
     const VectorXd change = fraction * step.cwiseProduct(scale);
     moved += change;
     move(problem, at, change, fraction, orbit);
@@ -310,7 +309,7 @@ void newton(const Problem& problem, Orbit& orbit, const std::vector<Condition>& 
     // Quadratic convergence: the next step would be its square. Rounding ends it in any case.
     const double alike = std::max(1e-10, rounding(orbit, at));
     const bool stalled = result.last_step < alike && result.last_step > 0.1 * before;
-    result.converged = result.last_step < enough || stalled;
+    result.converged = result.last_step < enough_step || stalled;
     if (result.converged) return;
     before = result.last_step;
   }

@@ -100,6 +100,10 @@ struct Condition {
   std::function<Residual(const ModeSet& set, const Linearised& at, const Orbit& orbit)> function = {};
 };
 
+/// Steps of Newton's method, relative to the orbit's size: one after which there is nothing to gain, and the longest
+/// one. Larger: an orbit has fewer digits, or a far guess leads elsewhere; smaller: the method takes more steps.
+constexpr double enough_step = 1e-13, longest_newton_step = 0.5;
+
 struct NewtonResult {
   bool converged = false;
   int steps = 0;

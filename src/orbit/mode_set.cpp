@@ -15,30 +15,29 @@ double row_sum(const mode::Matrix& block, const Eigen::VectorXd& units) {
   return (block.cwiseAbs() * units.asDiagonal()).rowwise().sum().cwiseQuotient(units).maxCoeff();
 }
 
-/// Units of the coordinates, in which the largest row sum of a block comes near to its least, the largest eigenvalue of
-/// its absolute values (Collatz and Wielandt): metres beside radians, a light mass beside a heavy one.
-Eigen::VectorXd natural_units(const mode::Matrix& block) {
-  constexpr int iterations = 3;         // of the power method; the bound holds after any number of them
-  constexpr double smallest = 0x1p-20;  // of the largest: what nothing accelerates has no unit of its own
-  Eigen::VectorXd units = Eigen::VectorXd::Ones(block.rows());
-  for (int k = 0; k < iterations; ++k) {
-    units = block.cwiseAbs() * units;
-    units = (units / units.maxCoeff()).cwiseMax(smallest).eval();
-  }
-  return units;
+/// Units of the coordinates in which the largest row sum of a block comes nearer to its least: the largest eigenvalue
+/// of its absolute values (Collatz and Wielandt). Metres beside radians; one step of the power method.
+Eigen::VectorXd nearer_units(const mode::Matrix& block, const Eigen::VectorXd& units) {
+  // Of the largest. Smaller: the terms that `extremes` leaves out grow by its inverse, from below 1e-18.
+  constexpr double smallest = 0x1p-20;
+  const Eigen::VectorXd grown = block.cwiseAbs() * units;
+  return grown.maxCoeff() > 0.0 ? (grown / grown.maxCoeff()).cwiseMax(smallest).eval() : units;
 }
 
 /// X' = A X is no faster than this: |u'| by displacements (twice its root), by velocities, and the phases.
 double fastest_rate(const mode::Frame& frame, const mode::Matrix& A) {
-  constexpr double worth = 2.0;  // a gain for which coordinates are measured anew: it decides on time alone
   const int d = frame.d;
   const mode::Matrix by_displacement = A.block(d, 0, d, d), by_velocity = A.block(d, d, d, d);
   const auto rate = [&](const Eigen::VectorXd& units) {
     return std::max(std::sqrt(row_sum(by_displacement, units)), row_sum(by_velocity, units));
   };
-  double fastest = rate(Eigen::VectorXd::Ones(d));
-  if (by_displacement.cwiseAbs().maxCoeff() > 0.0)
-    if (const double natural = rate(natural_units(by_displacement)); worth * natural < fastest) fastest = natural;
+  Eigen::VectorXd units = Eigen::VectorXd::Ones(d);
+  double fastest = rate(units), nearer = fastest;  // any units give a bound: on as long as others halve it
+  do {
+    fastest = nearer;
+    units = nearer_units(by_displacement, units);
+    nearer = rate(units);
+  } while (2.0 * nearer < fastest);
   const auto phases = static_cast<Eigen::Index>(2 * frame.harmonics.size());
   if (phases > 0)
     fastest = std::max(fastest, row_sum(A.block(2 * d, 2 * d, phases, phases), Eigen::VectorXd::Ones(phases)));

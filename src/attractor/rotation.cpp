@@ -95,6 +95,7 @@ int denominator(double frequency, double error, int most) {
 
 Rotation rotation(std::vector<Complex> points) {
   constexpr int most_curves = 64, longest = 1000;
+  constexpr double least_turns = 3.0;  // in half of the run: what only creeps, less its mean, makes 1.2
   Rotation found;
   for (int passes = 0; passes < 3; ++passes) {
     const std::size_t half = points.size() / 2;
@@ -106,7 +107,10 @@ Rotation rotation(std::vector<Complex> points) {
     found.number = std::min(number, 1.0 - number);
     found.digits = std::min(16.0, -std::log10(error));
     const double known = std::max(10.0 * error, 1e-12);
-    const int curves = denominator(number, known, most_curves);
+    // Nearer to a fraction the points have gone so little of a turn round their curves: what moves is something slow.
+    const double unmoved = 1e-3 / static_cast<double>(points.size());
+    const int curves = denominator(number, std::max(known, unmoved), most_curves);
+    if (found.number * static_cast<double>(half) < least_turns) found.digits = 0.0;
     if (curves == 0 || found.digits < 4.0) {
       found.locked = denominator(number, std::min(known, 1e-9), longest);
       return found;

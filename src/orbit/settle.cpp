@@ -38,7 +38,10 @@ std::optional<Solution> orbit_of_cycle(const Problem& problem, const section::Se
   const System& system = settling.translations().system();
   Motion motion(system, settling.at_home(flow::user_state(system, cycle.x)));
   if (!run_to(motion, Instant{}.plus(cycle.duration), options.stop, [] {})) return std::nullopt;
-  return orbit_from(problem, motion, problem.free() ? 0 : cycle.n, settled_within, options.stop);
+  auto found = orbit_from(problem, motion, problem.free() ? 0 : cycle.n, settled_within, options.stop);
+  // At the end of a continuum the orbits beside it have other events: these equations have a double root there.
+  const bool at_end = found && cycle.family > 0 && found->family == 0;
+  return at_end ? std::nullopt : std::move(found);
 }
 
 }  // namespace

@@ -143,20 +143,25 @@ class Beside {
 int family(const ReturnMap& map, const VectorXd& x, int n, const VectorXd& scale, Stop stop) {
   constexpr double aside = 1e-3;   // of the motion's size
   constexpr double closed = 1e-9;  // a fold leaves a residual of the order of aside^2
+  constexpr int most_steps = 8;    // of a linear part that is another one at the end of a continuum; two where not
   const Beside beside(map, x, n, scale, stop);
   int dimensions = 0;
   for (Index k = beside.size() - beside.nulls(); k < beside.size(); ++k) {
     const auto has_member = [&](double move) {
       VectorXd y = move * beside.direction(k);
       try {
-        for (int step = 0; step < 2; ++step) y -= beside.least_move(beside.residual(y));
-        return beside.residual(y).cwiseAbs().maxCoeff() < closed;
+        for (int step = 0; step <= most_steps; ++step) {
+          const VectorXd residual = beside.residual(y);
+          if (residual.cwiseAbs().maxCoeff() < closed) return true;
+          y -= beside.least_move(residual);
+        }
       } catch (const InputError&) {  // behind a stop
       } catch (const NumericalError&) {
       }
       return false;
     };
-    if (has_member(aside) && has_member(-aside)) ++dimensions;
+    const auto has_members = [&](double move) { return has_member(move) && has_member(0.5 * move); };
+    if (has_members(aside) || has_members(-aside)) ++dimensions;
   }
   return stopped(stop) ? 0 : dimensions;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "section/attraction.hpp"
+#include "section/isolated.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/flow/stage.hpp"
 
@@ -76,7 +77,7 @@ bool Confirmation::on_a_family(const FixedPoint& found, int n) const {
   return std::abs(largest - 1.0) <= known_to && family(map_, found.x, n, record_.scale(), options_.stop) > 0;
 }
 
-/// A stable fixed point of the n-point map that the motion is drawn to.
+/// A stable fixed point of the n-point map that the motion is drawn to; at the end of a continuum one of a family.
 std::optional<Cycle> Confirmation::drawn_to(int n, const VectorXd& start) const {
   auto found = fixed_point(map_, start, n, record_.scale(), options_.stop);
   if (!found || !found->stable()) return std::nullopt;
@@ -85,8 +86,12 @@ std::optional<Cycle> Confirmation::drawn_to(int n, const VectorXd& start) const 
                                      n, record_.scale(), options_.stop);
   if (!seen.drawn) return std::nullopt;
   found = once_round(std::move(*found), n);
-  const double missed = distance(found->value.image, found->x, record_.scale());
-  return Cycle{found->x, n, found->value.duration, found->multipliers, found->value.advance, missed, seen.distance};
+  const bool alone = isolated(map_, *found, n, record_.scale(), options_.stop);
+  const int dimensions = alone ? 0 : family(map_, found->x, n, record_.scale(), options_.stop);
+  if (!alone && dimensions == 0) return std::nullopt;  // a fold, as far as rounding lets see
+  const MapValue& map = found->value;
+  const double missed = distance(map.image, found->x, record_.scale());
+  return Cycle{found->x, n, map.duration, found->multipliers, map.advance, missed, seen.distance, dimensions, !alone};
 }
 
 /// The point of the cycle that a motion comes to, which returns almost; empty where maps beside it are of no motion.
@@ -126,7 +131,9 @@ std::optional<Cycle> Confirmation::member(int n) const {
     auto multipliers = map_.multipliers(map.jacobian);
     const double largest = multipliers.empty() ? 0.0 : std::abs(multipliers.front());
     const bool neutral = largest >= 1.0 - known_to;
-    if ((dimensions == 0 && !neutral) || largest > 1.0 + repelling) continue;
+    // A real multiplier 1 without cycles beside is a fold's, which draws motions from one side.
+    const bool fold = !options_.free && neutral && std::abs(multipliers.front() - 1.0) <= repelling;
+    if ((dimensions == 0 && (!neutral || fold)) || largest > 1.0 + repelling) continue;
     const double missed = distance(map.image, here, record_.scale());
     return Cycle{
         here,       length, map.duration, std::move(multipliers), map.advance, missed, record_.returned(length),

@@ -89,6 +89,102 @@ TEST(Decision, AMemberOfAContinuumIsOneOfAFamily) {
   EXPECT_EQ(found.family, 1);
 }
 
+/// A block on a rough floor is pressed against a spring and shaken. Shaking moves it until the spring's force is less
+/// than friction by the amplitude: from there on the block may stand anywhere. The block nears that place ever more
+/// slowly, and what looks like a cycle near the place has 1 - mu of 18 times the distance.
+TEST(Decision, AMotionThatCreepsToTheEndOfAContinuumIsOneOfAFamily) {
+  constexpr double force = 0.5, limit = 0.5846414771447837, clearance = 1.0;
+  Model model;
+  model.name = "creeping";
+  model.omega = 1.0;
+  model.coordinates = {{"x", 1.0}};
+  model.forces = {{0, 1, force, 0.5 * std::numbers::pi}};
+  model.frictions = {{"floor", 0, ground, 0.0, limit, limit}};
+  model.compliant_stops = {{"pad", ground, 0, clearance, 1.0}};
+  for (const State& start : {State{-1.5, -2.1}, State{-1.5, -0.3}, State{-0.9, -0.9}, State{1.5, -2.1}}) {
+    const Classification found = classify(System(model), start);
+    EXPECT_EQ(found.attractor, Attractor::family) << start[0];
+    EXPECT_EQ(found.label, "1-0-II") << start[0];
+    EXPECT_EQ(found.family, 1) << start[0];
+    EXPECT_NEAR(found.state[0], -(clearance + limit - force), 1e-8) << start[0];
+  }
+}
+
+/// The free oscillations that do not reach the pad are one of many each, and the pad takes energy from those that do.
+/// These come ever more slowly to the one that grazes it. There is no cycle with an impact.
+TEST(Decision, AFreeMotionThatComesEverNearerToAGrazeHasNoCycleOfItsOwn) {
+  const ModelDefinition model = ModelDefinition::parse(R"(
+name = "grazing"
+[[coordinate]]
+name = "x"
+mass = 1
+[[spring]]
+between = ["x", "ground"]
+stiffness = 1
+[[compliant_stop]]
+name = "pad"
+between = ["ground", "x"]
+clearance = 1
+stiffness = 7
+unloading_stiffness = 3
+)",
+                                                       "grazing.toml");
+  for (const double x : {1.5, 2.0, 3.0}) {
+    const Classification found =
+        classify(System(model.build()), {x, 0.0}, {.most_periods = 2000, .exponent_periods = 400});
+    EXPECT_NE(found.attractor, Attractor::periodic) << x;
+  }
+}
+
+/// 1 - mu is 10.7 times the root of the distance to the fold, 3e-5 at last, and the unstable cycle is as near.
+TEST(Decision, ACycleBesideAFoldIsOneOfItsOwn) {
+  constexpr double fold = 1.2657962441251671;
+  const ModelDefinition model = load_model("impact-friction-oscillator");
+  const State beside = {-0.44510232029144325, 1.6031205884193296};
+  for (const double before : {1e-8, 1e-9, 1e-10, 1e-11}) {
+    const Overrides values = {
+        {"damping_ratio", 0.025}, {"restitution", 0.7}, {"friction", 0.05}, {"omega", fold - before}};
+    const Classification found = classify(System(model.build(values)), beside, {.transient_periods = 0});
+    EXPECT_EQ(found.attractor, Attractor::periodic) << before;
+    EXPECT_EQ(found.label, "2-3-I") << before;
+    ASSERT_FALSE(found.multipliers.empty()) << before;
+    EXPECT_NEAR((1.0 - found.multipliers.front().real()) / std::sqrt(before), 10.7, 0.5) << before;
+  }
+}
+
+/// Just beyond the fold a motion passes the place where the cycles were in about 3 / sqrt(distance) cycles. On the fold
+/// itself, as far as rounding lets see, one cycle draws motions from one side only, and no continuum has it.
+TEST(Decision, WhatCreepsBesideAFoldIsNeitherACurveNorAFamily) {
+  constexpr double fold = 1.2657962441251671;
+  const ModelDefinition model = load_model("impact-friction-oscillator");
+  for (const double beyond : {1e-10, 1e-11, 0.0}) {
+    const Overrides values = {
+        {"damping_ratio", 0.025}, {"restitution", 0.7}, {"friction", 0.05}, {"omega", fold + beyond}};
+    const State start = {-0.44510232029144325, 1.6031205884193296};
+    const Classification found = classify(System(model.build(values)), start, {.transient_periods = 0});
+    EXPECT_EQ(found.attractor, Attractor::undecided) << beyond;
+  }
+}
+
+/// x'' + (1 + d) x' + d x = sin(t) has the multipliers exp(-2 pi) and exp(-2 pi d): one slow cycle, no other.
+TEST(Decision, ASlowCycleOfALinearMachineIsOneOfItsOwn) {
+  for (const double slow : {1e-5, 1e-6, 1e-7}) {
+    Model model;
+    model.name = "slow";
+    model.omega = 1.0;
+    model.coordinates = {{"x", 1.0}};
+    model.springs = {{0, ground, slow}};
+    model.dampers = {{0, ground, 1.0 + slow}};
+    model.forces = {{0, 1, 1.0, 0.0}};
+    const double squares = 2.0 * (1.0 + slow * slow), x = -(1.0 + slow) / squares, v = (slow - 1.0) / squares;
+    const Classification found = classify(System(model), {x + 1e-3, v});
+    EXPECT_EQ(found.attractor, Attractor::periodic) << slow;
+    EXPECT_NEAR(found.state[0], x, 1e-7) << slow;
+    ASSERT_FALSE(found.multipliers.empty()) << slow;
+    EXPECT_NEAR(found.multipliers.front().real(), std::exp(-2.0 * std::numbers::pi * slow), 1e-12) << slow;
+  }
+}
+
 /// x'' + x = sin(omega t): nothing draws the motion to the curve it is on. Its rotation number is 1 / omega.
 TEST(Decision, AFreeMotionWithoutDampingIsOneOfAFamily) {
   Model model;

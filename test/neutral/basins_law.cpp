@@ -4,6 +4,7 @@
 
 #include "base/text.hpp"
 #include "neutral/laws.hpp"
+#include "neutral/spectrum.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/flow/motion.hpp"
 #include "slapstick/sweep/basins.hpp"
@@ -52,18 +53,13 @@ bool on_boundary(const System& system, const State& start, const std::string& la
   return false;
 }
 
-/// Each one of a set with the nearest of the other.
 bool same_multipliers(const Classification& one, const Classification& other) {
   constexpr double half_the_digits = 1e-5;
-  auto left = other.multipliers;
-  if (left.size() != one.multipliers.size()) return false;
-  for (const std::complex<double>& multiplier : one.multipliers) {
-    const auto nearest =
-        std::ranges::min_element(left, {}, [&](const auto& another) { return std::abs(another - multiplier); });
-    if (std::abs(*nearest - multiplier) > half_the_digits) return false;
-    left.erase(nearest);
-  }
-  return true;
+  Spectrum left = other.multipliers;
+  return left.size() == one.multipliers.size() &&
+         std::ranges::all_of(one.multipliers, [&](const std::complex<double>& multiplier) {
+           return std::abs(*take_nearest(left, multiplier) - multiplier) <= half_the_digits;
+         });
 }
 
 /// What speaks against a start's basin; "" if nothing does.
@@ -76,8 +72,9 @@ std::string against(const System& system, const Basin& basin, const State& start
                : what + " of a start (" + shown(start[0]) + ", " + shown(start[1]) + ")";
   };
   if (found.label != basin.attractor.label) return said("basin " + basin.attractor.label + ", class " + found.label);
-  // At the end of a continuum, which motions near ever more slowly, rounding says whether a cycle is a member of it.
-  if (basin.by_class || sweep::Attractors::by_class(found)) return "";
+  const bool by_class = sweep::Attractors::by_class(found);
+  if (basin.by_class != by_class) return said(found.label + " that is one of a family to one verb only");
+  if (by_class) return "";
   sweep::Attractors attractors(system);
   attractors.reach(start);
   const int place = attractors.add(basin.attractor);

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "base/text.hpp"
+#include "neutral/spectrum.hpp"
 
 namespace slapstick::neutral {
 namespace {
@@ -228,8 +229,7 @@ class Comparison {
   }
 
   /// As sets: each of the first has its own among the second, twice where there are twins.
-  void spectrum(const std::string& what, const std::vector<std::complex<double>>& first,
-                std::vector<std::complex<double>> second, double unit) {
+  void spectrum(const std::string& what, const Spectrum& first, Spectrum second, double unit) {
     const std::size_t expected = first.size() * twins().size(),
                       most = expected + static_cast<std::size_t>(rule_.more_directions);
     if (second.size() < expected || second.size() > most)
@@ -237,17 +237,13 @@ class Comparison {
     for (const auto& one : first)
       for (std::size_t k = 0; k < twins().size(); ++k) {
         const std::complex<double> wanted = one * unit;
-        const auto nearest =
-            std::ranges::min_element(second, {}, [&](const auto& other) { return std::abs(other - wanted); });
+        const std::complex<double> there = take_nearest(second, wanted).value_or(std::complex<double>(NAN, NAN));
         const double size = std::max(unit, std::abs(wanted));
-        if (nearest == second.end() || !(std::abs(*nearest - wanted) <= tolerance_ * size)) {
-          const std::complex<double> there = nearest == second.end() ? std::complex<double>(NAN, NAN) : *nearest;
+        if (!(std::abs(there - wanted) <= tolerance_ * size))
           return note(what + ": " + shown(wanted.real()) + (wanted.imag() < 0 ? " - " : " + ") +
                           shown(std::abs(wanted.imag())) + " i, nearest " + shown(there.real()) +
                           (there.imag() < 0 ? " - " : " + ") + shown(std::abs(there.imag())) + " i",
                       0.0);
-        }
-        second.erase(nearest);
       }
   }
 

@@ -7,6 +7,7 @@
 
 #include "base/text.hpp"
 #include "flow/compiled_system.hpp"
+#include "neutral/spectrum.hpp"
 #include "slapstick/attractor/classify.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/orbit/search.hpp"
@@ -225,15 +226,14 @@ std::optional<std::string> multipliers_agree(const ModelDefinition& definition, 
       orbit::settle(*problem, system, definition.start(), {.transient = 100, .most_periods = 500, .most_n = 16});
   if (!settled.orbit) return std::nullopt;  // its equations are not solved, and orbit says it
   if (settled.orbit->label != found.label) return "classify names " + found.label + ", orbit " + settled.orbit->label;
-  auto others = settled.orbit->multipliers;
+  Spectrum others = settled.orbit->multipliers;
   if (others.size() != found.multipliers.size())
     return broken("number of multipliers", static_cast<double>(found.multipliers.size()),
                   static_cast<double>(others.size()));
   for (const auto& one : found.multipliers) {
-    const auto nearest = std::ranges::min_element(others, {}, [&](const auto& other) { return std::abs(other - one); });
+    const std::complex<double> nearest = *take_nearest(others, one);
     const char* what = settled.orbit->chatter ? "multiplier with chatter" : "multiplier";
-    if (std::abs(*nearest - one) > 1e-5) return broken(what, std::abs(one), std::abs(*nearest));
-    others.erase(nearest);
+    if (std::abs(nearest - one) > 1e-5) return broken(what, std::abs(one), std::abs(nearest));
   }
   return "";
 }
@@ -255,16 +255,15 @@ std::optional<std::string> modes_agree(const ModelDefinition& definition, const 
     if (!rests)
       return std::nullopt;  // a rest may be told with a rounding of speed, by which a contact is about to stick
   const mode::ContactStates states = system.states(motion.mode_id());
-  std::vector<std::complex<double>> all;
+  Spectrum all;
   for (const NaturalMode& mode : natural_modes(system, states))
     for (const auto& lambda : eigenvalues(mode)) all.push_back(rests ? lambda : std::exp(lambda * period));
   for (const auto& one : rests ? found.eigenvalues : found.multipliers) {
     if (std::abs(one) < nothing || (!rests && std::abs(one - 1.0) < nothing)) continue;
-    const auto nearest = std::ranges::min_element(all, {}, [&](const auto& other) { return std::abs(other - one); });
-    if (nearest == all.end()) return broken("a mode more than there are", std::abs(one), 0.0);
+    const auto nearest = take_nearest(all, one);
+    if (!nearest) return broken("a mode more than there are", std::abs(one), 0.0);
     if (std::abs(*nearest - one) > close * (1.0 + std::abs(one)))
       return broken(rests ? "eigenvalue" : "multiplier without events", std::abs(one), std::abs(*nearest));
-    all.erase(nearest);
   }
   return "";
 }
@@ -318,7 +317,7 @@ std::optional<std::string> sensitivities_are_differences(const ModelDefinition& 
 
 bool breaks(const Definition& file, const Law& law) {
   const auto found = check(law, read(file));
-  return found && !found->empty() && waiting_for(file, law.name, *found).empty();
+  return found && !found->empty();
 }
 
 }  // namespace

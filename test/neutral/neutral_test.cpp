@@ -5,6 +5,7 @@
 #include <complex>
 
 #include "neutral/laws.hpp"
+#include "neutral/spectrum.hpp"
 #include "property/random_file.hpp"
 #include "slapstick/base/error.hpp"
 
@@ -91,13 +92,12 @@ TEST(Neutral, EigenvaluesHaveTheSameDigitsInAllUnits) {
     const auto& wanted = first.answer(Verb::modes).eigenvalues;
     for (const double unit : {0x1p-20, 0x1p20}) {
       const Answer answer = Asked(in_units(first.file(), 1.0, unit, 1.0 / unit).file).answer(Verb::modes);
-      auto found = answer.eigenvalues;
+      Spectrum found;
+      for (const std::complex<double>& value : answer.eigenvalues) found.push_back(value * unit);
       ASSERT_EQ(found.size(), wanted.size()) << seed << ' ' << answer.message;
       for (const std::complex<double>& one : wanted) {
-        const auto nearest =
-            std::ranges::min_element(found, {}, [&](const auto& other) { return std::abs(other * unit - one); });
-        EXPECT_LE(std::abs(*nearest * unit - one), half_the_digits * std::abs(one)) << seed << ", " << unit;
-        found.erase(nearest), ++compared;
+        EXPECT_LE(std::abs(*take_nearest(found, one) - one), half_the_digits * std::abs(one)) << seed << ", " << unit;
+        ++compared;
       }
     }
   }
@@ -147,7 +147,6 @@ TEST(BetweenVerbs, AnswersOfOneFileAgree) {
     for (const Law& law : laws()) {
       const auto broken = check(law, definition);
       if (!broken) continue;
-      if (!waiting_for(file, law.name, *broken).empty()) continue;
       if (broken->empty()) {
         ++kept[law.name];
         continue;

@@ -47,9 +47,6 @@ class Asked {
 /// @param said  the difference in words
 [[nodiscard]] std::string waiting_for(const Definition& first, const Edit& edit, Verb verb, const std::string& said);
 
-/// The same of a law between verbs.
-[[nodiscard]] std::string waiting_for(const Definition& file, std::string_view law, const std::string& said);
-
 /// Files that are simpler by one step, all of them sound.
 [[nodiscard]] std::vector<Definition> simpler(const Definition& file);
 /// The smallest file found for which the triple is still different, with the edit's own random numbers of `seed`, and

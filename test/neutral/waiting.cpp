@@ -95,12 +95,4 @@ std::string waiting_for(const Definition& first, const Edit& edit, Verb verb, co
   return first_of(faults(), first, edit, verb, said);
 }
 
-/// Where friction holds a body in a range of places and a force shakes it, the body may creep ever more slowly to the
-/// end of that range. Cycles near the end are confirmed then, each as one of its own, and no continuum is seen.
-std::string waiting_for(const Definition& file, std::string_view law, const std::string& said) {
-  if (law == "basins" && !file.of("friction").empty() && said.starts_with("basin of another"))
-    return "places near the end of a continuum are told as cycles of their own";
-  return "";
-}
-
 }  // namespace slapstick::neutral

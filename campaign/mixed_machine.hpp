@@ -12,9 +12,9 @@ struct MixedMachine {
 };
 
 /// One to four bodies with springs, dampers, two harmonics, a tone and a constant load; every fourth machine with
-/// matrices. Up to three stops (one pair of them two-sided), friction contacts, compliant stops and polylines each,
-/// between any two bodies or to ground. Some friction contacts are on belts, some have f_s > f_k, and some are on the
-/// pair of a stop.
+/// matrices. Up to three stops, of which one may be two-sided, three friction contacts, two compliant stops and two
+/// polylines, between any two bodies or to ground. Some friction contacts are on belts, some have f_s > f_k, and some
+/// are on the pair of a stop.
 [[nodiscard]] MixedMachine mixed_machine(Random& random);
 
 }  // namespace campaign

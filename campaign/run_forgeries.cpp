@@ -126,7 +126,7 @@ bool blow_from_nowhere(Lines& lines, Random& random) {
   return true;
 }
 
-/// An impact that is not told: the blow and its impacts left out, the velocities turned back.
+/// An impact that is not told: the blow and its impacts left out.
 bool hide_impact(Lines& lines, Random& random) {
   const std::size_t i = one(lines, random, {"blow"});
   if (i == lines.size()) return false;

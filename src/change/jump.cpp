@@ -33,8 +33,8 @@ struct Course {
   bool gone = false;
 };
 
-/// Against the orbit's extent, or the least size by which its branch is measured: one that dies out leaves itself
-/// over hardly any distance.
+/// By parts of the orbit's extent, and of the least sizes by which its branch is measured: one that dies out leaves
+/// itself over hardly any distance.
 bool has_gone(const Problem& problem, const Orbit& orbit, VectorXd from, VectorXd to) {
   constexpr double far = 0.01;
   if (!(Extent(problem, orbit).distance(from, to) > far)) return false;

@@ -34,7 +34,7 @@ struct CascadeLimit {
 /// is better known.
 void sharpen_onsets(const Problem& problem, const std::vector<Solution>& points, std::vector<SpecialPoint>& special);
 
-/// Has the chatter of a branch's last stretch gained enough impacts since the stretch began for its onset to be near?
+/// Has the chatter of a branch's last stretch gained enough legs since the stretch began for its onset to be near?
 [[nodiscard]] bool chatter_lengthens(const std::vector<Solution>& points);
 
 }  // namespace slapstick::orbit

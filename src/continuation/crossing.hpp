@@ -10,7 +10,7 @@
 
 namespace slapstick::orbit {
 
-/// @param near  arclength from `from` at which the crossing is, to within some 1e-4
+/// @param near  arclength from `from` at which the crossing is, to within 0.03
 /// @returns empty if the branch cannot be interpolated there
 [[nodiscard]] std::optional<Located> locate_crossing(const Problem& problem, const PathPoint& from, double near,
                                                      double range);

@@ -184,6 +184,8 @@ bool Follower::pass(PathPoint& at, Change change) {
   if (beyond.branches.empty()) {
     const bool family = beyond.passage == Passage::family;
     if (!family && end_cascade_with(at, special)) return !ended_;
+    // A graze that is not the cascade's next: impacts are hardly more than rounding, and the limit is known without it.
+    if (!family && in_gathering(at, change) && end_cascade(at)) return !ended_;
     return end_at(at, std::move(special));
   }
   for (std::size_t i = 1; i < beyond.branches.size(); ++i) special.born.push_back(beyond.branches[i].point.orbit);

@@ -125,7 +125,7 @@ bool Follower::leave_knot(PathPoint& at, SpecialPoint special) {
 }
 
 /// Leaves a chatter by its cascade, from an orbit clear of the onset: just behind it impacts are too many and too short
-/// for four grazes to be found on the way back. @returns false if there is no such orbit
+/// for four grazes to be found on the way back. @returns false if there is no such orbit, or none that leads back
 bool Follower::leave_clear_of_onset(PathPoint& at) {
   const std::vector<HalfBranch> found = clear_of_onset(at);
   if (found.empty()) return false;
@@ -233,7 +233,7 @@ bool Follower::in_gathering(const PathPoint& at, const Change& change) const {
 
 /// Passes an onset of a complete chatter that is known by its own equations. The branch, with the chatter or with the
 /// cascade of its changes, must be so near that nothing but ever more impacts lies before the onset.
-/// @returns false if there is no such onset
+/// @returns false if there is no such onset so near
 bool Follower::meet_onset(PathPoint& at) {
   if (!options_.through_changes) return false;
   if (!branch_.points.back().chatter) {

@@ -69,6 +69,11 @@ std::vector<Orbit> orbits_at(const Problem& problem, const Orbit& a, const Orbit
   return found;
 }
 
+/// Two orbits of a cascade are often nearer to one another than `same`, and differ by an impact that hardly touches.
+bool may_be_one(const Orbit& a, const Orbit& b) {
+  return a.shape.n == 0 || chatters(a) + chatters(b) > 0 || a.legs() == b.legs();
+}
+
 using Distance = double (*)(const Problem& problem, const Orbit& a, const Orbit& b);
 
 bool meets(const Problem& problem, const Branch& branch, const Orbit& orbit, Distance distance) {
@@ -79,7 +84,10 @@ bool meets(const Problem& problem, const Branch& branch, const Orbit& orbit, Dis
     if (a.shape.n != orbit.shape.n) continue;
     if (orbit.shape.n == 0 && lies_between(extent, a, b, orbit)) return true;
     const std::vector<Orbit> own = orbits_at(problem, a, b, orbit.values[0]);
-    if (ranges::any_of(own, [&](const Orbit& other) { return distance(problem, orbit, other) < same; })) return true;
+    const auto is_it = [&](const Orbit& other) {
+      return may_be_one(orbit, other) && distance(problem, orbit, other) < same;
+    };
+    if (ranges::any_of(own, is_it)) return true;
   }
   return false;
 }

@@ -11,8 +11,8 @@
 namespace slapstick::flow {
 namespace {
 
-/// Impacts at one instant are ended together once they are this much slower than the first of the instant, or more than
-/// this many. Flights that the clock cannot tell may lie between them.
+/// Impacts at one instant are ended together once they are this much slower than the fastest of the instant, or more
+/// than this many. Flights that the clock cannot tell may lie between them.
 constexpr double slow_impacts = 0x1p-46;
 constexpr long most_impacts_at_one_instant = 10'000;
 

@@ -5,8 +5,8 @@
 
 namespace slapstick {
 
-/// "mass: write 0.5, not 0,5" of the first `key = value` in the line whose value is neither a number nor in quotes; ""
-/// if there is no such pair.
+/// "mass: write 0.5, not 0,5" of the first `key = value` in the line whose value TOML does not read; "" if there is no
+/// such pair.
 [[nodiscard]] std::string toml_remedy(std::string_view line);
 
 }  // namespace slapstick

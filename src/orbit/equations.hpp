@@ -44,8 +44,9 @@ class Problem {
     least_sizes_ = std::move(sizes);
     least_value_ = value;
   }
-  /// Unknowns of an orbit with this many legs: numbers of x_0, instants, parameters.
+  /// Of a state, without free displacements.
   [[nodiscard]] Eigen::Index numbers() const;
+  /// Of an orbit with this many legs: numbers of x_0, instants, parameters.
   [[nodiscard]] Eigen::Index unknowns(std::size_t legs) const;
   [[nodiscard]] Eigen::Index instant_column(std::size_t event) const;
   [[nodiscard]] Eigen::Index parameter_column(std::size_t legs, Eigen::Index j) const;

@@ -108,6 +108,7 @@ Rotation rotation(std::vector<Complex> points) {
     found.digits = std::min(16.0, -std::log10(error));
     const double known = std::max(10.0 * error, 1e-12);
     // Nearer to a fraction the points have gone so little of a turn round their curves: what moves is something slow.
+    // Wider: a slow rotation has no number. Narrower: what creeps beside a cycle has one, hardly other than a fraction.
     const double unmoved = 1e-3 / static_cast<double>(points.size());
     const int curves = denominator(number, std::max(known, unmoved), most_curves);
     if (found.number * static_cast<double>(half) < least_turns) found.digits = 0.0;

@@ -33,7 +33,7 @@ struct Followed {
 /// Of how many dimensions is the continuum of cycles that x is a member of, or at whose end it lies? Counted are the
 /// directions to whose one side at least there are other fixed points, 1e-3 of the motion's size away and half as far;
 /// beside a fold there are none.
-/// @param n  as of attraction. Cost: two maps, and up to twelve for each multiplier 1
+/// @param n  as of attraction. Cost: two maps, and 6 to 36 for each multiplier 1
 [[nodiscard]] int family(const ReturnMap& map, const Eigen::VectorXd& x, int n, const Eigen::VectorXd& scale,
                          Stop stop);
 

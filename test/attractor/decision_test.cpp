@@ -152,8 +152,9 @@ TEST(Decision, ACycleBesideAFoldIsOneOfItsOwn) {
   }
 }
 
-/// Just beyond the fold a motion passes the place where the cycles were in about 3 / sqrt(distance) cycles. On the fold
-/// itself, as far as rounding lets see, one cycle draws motions from one side only, and no continuum has it.
+/// Just beyond the fold a motion passes the place where the cycles were in 2 pi / (10.7 sqrt(distance)) cycles: more
+/// than are looked at here. On the fold itself, as far as rounding lets see, one cycle draws motions from one side
+/// only, and no continuum has it.
 TEST(Decision, WhatCreepsBesideAFoldIsNeitherACurveNorAFamily) {
   constexpr double fold = 1.2657962441251671;
   const ModelDefinition model = load_model("impact-friction-oscillator");

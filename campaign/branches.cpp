@@ -174,7 +174,7 @@ void follow_both_ways(const Problem& problem, const Solution& first, const Conti
     if (!end->is_motion || !end->isolated() || stopped(options.stop)) continue;
     if (end->orbit.x[0].norm() > vast * first.orbit.x[0].norm()) continue;
     const Branch again = follow(problem, end->orbit, options);
-    const std::string from = where + ", from " + shown(end->orbit.values[0]);
+    const std::string from = where + ", from " + shown(end->orbit.parameter());
     const bool fails_alone = again.failed() && !whole.failed();
     if (fails_alone) tally.notes.push_back(from + ": " + sentence(again));
     tally.failed += fails_alone ? 1 : 0;

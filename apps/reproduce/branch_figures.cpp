@@ -23,7 +23,7 @@ void add_lines(figure::Panel& panel, const NBranch& of, figure::Colour colour) {
                         .width_pt = points[begin].stable() ? 1.2 : 0.6};
       const std::size_t last = end < points.size() && of.speeds[end].size() == impacts ? end : end - 1;
       for (std::size_t i = begin; i <= last; ++i) {
-        line.x.push_back(points[i].orbit.values[0]);
+        line.x.push_back(points[i].orbit.parameter());
         line.y.push_back(of.speeds[i][k]);
       }
       if (line.x.size() > 1) panel.lines.push_back(std::move(line));
@@ -39,7 +39,7 @@ void write_branches(Study& study, const Branches& branches) {
       const orbit::Solution& point = of.branch.points[i];
       for (std::size_t k = 0; k < of.speeds[i].size(); ++k)
         table.number(of.n)
-            .number(point.orbit.values[0])
+            .number(point.orbit.parameter())
             .word(point.label)
             .word(point.stable() ? "yes" : "no")
             .number(point.multipliers.empty() ? 0.0 : std::abs(point.multipliers.front()))

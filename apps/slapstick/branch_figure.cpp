@@ -68,10 +68,10 @@ class Lines {
  private:
   /// The end of a line that the one which begins at y goes on from, if there is one.
   [[nodiscard]] std::optional<double> nearest(double y) const {
-    constexpr double near = 0.02;
+    constexpr double label_distance = 0.02;
     const auto off = [y](double other) { return std::abs(other - y); };
     const double best = *ranges::min_element(last_, {}, off);
-    return off(best) < near * std::abs(y) ? std::optional(best) : std::nullopt;
+    return off(best) < label_distance * std::abs(y) ? std::optional(best) : std::nullopt;
   }
   void push(std::size_t i, double x, double y) {
     open_[i].x.push_back(x);
@@ -105,7 +105,7 @@ void add_lines(figure::Panel& panel, const orbit::Branch& branch, figure::Colour
     const Solution& here = branch.points[i];
     for (; special != branch.special.end() && begins_at(branch, *special); ++special)
       if (special->solution.orbit.legs() == here.orbit.legs()) add(*special, here);
-    lines.add(here.orbit.values[0], heights_of(here), here);
+    lines.add(here.orbit.parameter(), heights_of(here), here);
     for (; special != branch.special.end() && special->after == i; ++special) {
       const bool before = special->solution.orbit.legs() == here.orbit.legs();
       if (goes_on(branch, *special))

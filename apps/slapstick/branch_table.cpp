@@ -105,8 +105,8 @@ std::optional<std::pair<std::string, std::string>> classes_around(const orbit::B
 
 bool begins_at(const orbit::Branch& branch, const orbit::SpecialPoint& special) {
   if (special.after != 0 || branch.points.size() < 2) return false;
-  const double first = branch.points[0].orbit.values[0];
-  double next = branch.points[1].orbit.values[0];
+  const double first = branch.points[0].orbit.parameter();
+  double next = branch.points[1].orbit.parameter();
   for (const orbit::SpecialPoint& change : branch.special)  // where it may turn back
     if (change.after == 0 && goes_on(branch, change)) next = change.value;
   return (special.value - first) * (next - first) < 0.0;
@@ -163,8 +163,8 @@ std::string branch_table(const std::vector<orbit::Branch>& branches, const Follo
     for (std::size_t i = 0; i < branch.points.size(); ++i) {
       const orbit::Solution& point = branch.points[i];
       if (i == 0 || i + 1 == branch.points.size())
-        text +=
-            row(b + 1, i + 1, "EP", point.orbit.values[0], point, point.is_motion ? "" : "not a motion: " + point.why);
+        text += row(b + 1, i + 1, "EP", point.orbit.parameter(), point,
+                    point.is_motion ? "" : "not a motion: " + point.why);
       while (special != branch.special.end() && special->after == i) add_special(i);
     }
     text += "    " + std::to_string(branch.points.size()) + " points; " + orbit::sentence(branch) + "\n";

@@ -57,10 +57,10 @@ struct Candidate {
 /// Places on the lines of a branch, not too many.
 std::vector<Candidate> candidates(const figure::Panel& panel, std::size_t first, std::size_t last,
                                   const FrameShares& frame) {
-  constexpr std::size_t enough = 150;
+  constexpr std::size_t most_labels = 150;
   std::size_t points = 0;
   for (std::size_t i = first; i < last; ++i) points += panel.lines[i].x.size();
-  const std::size_t every = 1 + points / enough;
+  const std::size_t every = 1 + points / most_labels;
   std::vector<Candidate> all;
   std::size_t count = 0;
   for (std::size_t i = first; i < last; ++i)
@@ -74,8 +74,8 @@ std::vector<Candidate> candidates(const figure::Panel& panel, std::size_t first,
 double room(const Candidate& candidate, const Drawn& others) {
   const double edge = std::min({candidate.at.x, FrameShares::width_cm - candidate.at.x, candidate.at.y,
                                 FrameShares::height_cm - candidate.at.y});
-  constexpr double enough = 0.5;  // cm
-  return std::min({others.distance_to(candidate.at), edge, enough});
+  constexpr double clear_space = 0.5;  // cm
+  return std::min({others.distance_to(candidate.at), edge, clear_space});
 }
 
 /// A branch all of whose lines are of the size of its number is not covered by it: the number stands beside.

@@ -44,7 +44,7 @@ void write_branches(const std::string& path, const std::vector<orbit::Branch>& b
     for (; special != branch.special.end() && begins_at(branch, *special); ++special)
       row(0, name(special->type), special->value, special->solution);
     for (std::size_t i = 0; i < branch.points.size(); ++i) {
-      row(i + 1, "point", branch.points[i].orbit.values[0], branch.points[i]);
+      row(i + 1, "point", branch.points[i].orbit.parameter(), branch.points[i]);
       for (; special != branch.special.end() && special->after == i; ++special)
         row(0, name(special->type), special->value, special->solution);
     }

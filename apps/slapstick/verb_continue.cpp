@@ -69,7 +69,7 @@ void add_keys(Json& json, const Json& of, bool checked) {
 
 Json on_branch_json(const Described& with, const orbit::Solution& solution) {
   Json json = Json::object();
-  json.set("param", solution.orbit.values[0]);
+  json.set("param", solution.orbit.parameter());
   add_keys(json, point_json(with.problem, solution, with.system.model()), true);
   if (!with.wanted.empty()) json.set("values", values_json(with, solution.orbit));
   return json;
@@ -223,7 +223,7 @@ void draw(const Plot& plot, const std::vector<orbit::Branch>& branches, const Ch
           const orbit::Problem& problem, const Options& options, const std::atomic<bool>& stop) {
   const auto nearest = [&](double value) {  // the state of the orbit of the branch that is nearest to a value
     const auto& points = branches.front().points;
-    const auto off = [&](const orbit::Solution& point) { return std::abs(point.orbit.values[0] - value); };
+    const auto off = [&](const orbit::Solution& point) { return std::abs(point.orbit.parameter() - value); };
     return orbit::at_phase_zero(problem, ranges::min_element(points, {}, off)->orbit);
   };
   const ParameterRange range = parse_range("--range", options.range);

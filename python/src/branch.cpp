@@ -125,7 +125,7 @@ void bind_points(nb::class_<B>& branch) {
       .def_prop_ro(
           "value",
           [](const B& self) {
-            return gathered<double>(self, [](const orbit::Solution& point) { return point.orbit.values[0]; });
+            return gathered<double>(self, [](const orbit::Solution& point) { return point.orbit.parameter(); });
           },
           nb::rv_policy::reference)
       .def_prop_ro(

@@ -103,7 +103,7 @@ Classification undecided(Doubt doubt, const section::Settling& settling) {
   Classification result;
   result.doubt = doubt;
   result.label = name(result.attractor);
-  result.state = settling.at_home(settling.state());
+  result.state = settling.moved_to_start_cell(settling.state());
   return result;
 }
 
@@ -116,7 +116,7 @@ Classification without_cycle(const section::Settling& settling, const System& sy
   if (settling.cancelled()) return result;
   if (run.ended) return undecided(Doubt::approach, settling);
   record(run, finding(run, returns, settling.still_approaching(), options), system, result);
-  result.state = settling.at_home(run.state);
+  result.state = settling.moved_to_start_cell(run.state);
   result.drift = settling.drift(run.advance / run.mean_return);
   return result;
 }
@@ -138,7 +138,7 @@ Classification without_events(const section::Settling& settling, const System& s
     result.attractor = Attractor::equilibrium;
     result.label = name(result.attractor);
     result.approach = settling.distance_from(*border);
-    result.state = settling.at_home(flow::user_state(system, *border));
+    result.state = settling.moved_to_start_cell(flow::user_state(system, *border));
     return result;
   }
   const section::Outlook ahead = section::outlook(settling.translations(), settling.motion());
@@ -156,7 +156,7 @@ Classification without_events(const section::Settling& settling, const System& s
   const double largest = ahead.eigenvalues.empty() ? -INFINITY : ahead.eigenvalues.front().real();
   result.exponent = ahead.family > 0 ? 0.0 : largest * system.period();
   result.drift = steady_drift(settling, ahead, options.tolerance * scale[scale.size() - 1]);
-  result.state = settling.at_home(ahead.drawn ? flow::user_state(system, ahead.rest) : settling.state());
+  result.state = settling.moved_to_start_cell(ahead.drawn ? flow::user_state(system, ahead.rest) : settling.state());
   return result;
 }
 
@@ -177,7 +177,8 @@ Classification classify(const System& system, const State& state, const Classify
   std::optional<section::Cycle> cycle;
   while (!cycle && !settling.exhausted() && !settling.cancelled()) cycle = settling.next_round();
   if (cycle) {
-    attractor::describe(system, *cycle, settling.at_home(flow::user_state(system, cycle->x)), options, result);
+    attractor::describe(system, *cycle, settling.moved_to_start_cell(flow::user_state(system, cycle->x)), options,
+                        result);
     result.drift = settling.drift(cycle->advance);
   }
   if (!cycle && settling.grows())

@@ -15,7 +15,7 @@ using section::distance, section::PeriodEvents, section::Stop;
 void record_cycle(const System& system, const State& state, double duration, const StopChoice& stops, Stop stop,
                   Classification& out);
 
-/// Fills in all that a cycle says of a motion but its drift.
+/// Fills in all that a cycle says of a motion except its drift.
 /// @param state  of the user, on the cycle
 void describe(const System& system, const section::Cycle& cycle, const State& state, const ClassifyOptions& options,
               Classification& out);

@@ -164,9 +164,9 @@ class TangentFrame {
   /// A frame turns by some four windows, eight radians of the fastest motion, at most: what shrinks more than that is
   /// lost.
   [[nodiscard]] int parts_of_period() const {
-    constexpr double windows_each = 4.0, most = 4096.0;
+    constexpr double windows_each = 4.0, most_parts = 4096.0;
     const double windows = translations_.system().windows_per_period();
-    return static_cast<int>(std::clamp(std::ceil(windows / windows_each), 1.0, most));
+    return static_cast<int>(std::clamp(std::ceil(windows / windows_each), 1.0, most_parts));
   }
 
   /// Gram and Schmidt twice: the second time removes what rounding has left of the first.

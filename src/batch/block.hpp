@@ -27,7 +27,7 @@ struct alignas(64) Block {
   alignas(64) Row dp[most_coordinates], du[most_coordinates], power;  ///< .. these numbers times 2 to the power
 
   // Words
-  alignas(64) Row restitution[most_contacts], let_off[most_contacts], impulse[most_contacts][most_coordinates];
+  alignas(64) Row restitution[most_contacts], zero_force_rate[most_contacts], impulse[most_contacts][most_coordinates];
   Row* active;                  ///< [word]: of each lane's mode. Those of slots that no lane's mode has are zero
   int active_mode[most_lanes];  ///< whose words those are; the number of modes: none
   int filled;                   ///< the most slots that one of these modes has

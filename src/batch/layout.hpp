@@ -43,12 +43,12 @@ inline constexpr double no_limit = 1e300;
 
 /// What the state does at an event. `own` is the number of the contact's pair, sign that of the contact.
 enum class Jump : std::uint8_t {
-  none,     ///< a force at its limit
-  impact,   ///< gap 0, velocity -r w, impulses on the others
-  rest,     ///< velocity 0
-  land,     ///< displacement 0
-  let_off,  ///< velocity -stiffness/damping displacement
-  leave_it  ///< not for lanes
+  none,           ///< a force at its limit
+  impact,         ///< gap 0, velocity -r w, impulses on the others
+  velocity_zero,  ///< velocity 0
+  gap_zero,       ///< displacement 0
+  force_zero,     ///< velocity -stiffness/damping displacement
+  leave_it        ///< not for lanes
 };
 
 /// What ends a mode: a slot at one of its limits, or the gap that falls with it.
@@ -56,7 +56,7 @@ struct Action {
   Jump jump = Jump::leave_it;
   std::int8_t own = 0, sign = 1;
   std::int8_t contact = 0;  ///< in the numbering of Event
-  std::int8_t stop = 0;     ///< of an impact: which; of let_off: which compliant stop
+  std::int8_t stop = 0;     ///< of an impact: which; of force_zero: which compliant stop
   std::int8_t candidates = 0;
   std::int16_t candidate[most_candidates] = {};  ///< the modes that may follow, in order of preference
 

@@ -97,7 +97,7 @@ ModelWords model_words(const Model& model, const mode::Frame& frame) {
                             (stop.sign * frame.mass_inverse(j, stop.own) / frame.mass_inverse(stop.own, stop.own));
   }
   for (std::size_t i = 0; i < model.compliant_stops.size(); ++i)
-    words.let_off[i] = -model.compliant_stops[i].stiffness / model.compliant_stops[i].damping;
+    words.zero_force_rate[i] = -model.compliant_stops[i].stiffness / model.compliant_stops[i].damping;
   return words;
 }
 

@@ -53,7 +53,7 @@ struct ModelWords {
   double restitution[most_contacts] = {};                ///< of each stop
   double impulse[most_contacts][most_coordinates] = {};  ///< of each stop: -(1 + r) times u's change per unit of
                                                          ///< velocity
-  double let_off[most_contacts] = {};                    ///< of each compliant stop: -stiffness / damping
+  double zero_force_rate[most_contacts] = {};            ///< of each compliant stop: -stiffness / damping
 };
 
 /// True if lanes can run the model: at most four coordinates and contacts, no loads, characteristics, bounded

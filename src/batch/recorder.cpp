@@ -51,7 +51,7 @@ bool follow(flow::Engine& engine, Recorder& recorder, EngineTangent* tangent, bo
     ++recorder.run.motion_events;
     if (event.kind == EventKind::impact) recorder.count(event.w);
     if (recorder.wants_events()) recorder.run.events.push_back(event);
-    if (!to_the_end && !engine.tells_more() && !engine.may_chatter()) return false;
+    if (!to_the_end && !engine.has_more_events() && !engine.may_chatter()) return false;
   }
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 /// A compliant stop at its gap, or whose force has come to zero.
 EventKind kind_of(const Action& action, CompliantState old) {
-  const bool pushes = action.jump == Jump::let_off && old == CompliantState::detached;
+  const bool pushes = action.jump == Jump::force_zero && old == CompliantState::detached;
   if (old == CompliantState::off || pushes) return EventKind::engage;
   return old == CompliantState::detached ? EventKind::separate : EventKind::disengage;
 }
@@ -26,13 +26,13 @@ flow::Ended ended_of(const Shape& shape, const Action& action, const mode::Conta
       ended.kind = GuardKind::gap;
       ended.struck = std::uint32_t{1} << action.stop;
       break;
-    case Jump::land:
-    case Jump::let_off:
+    case Jump::gap_zero:
+    case Jump::force_zero:
       ended.kind = GuardKind::engage;
       ended.contact = action.stop;
       ended.own = kind_of(action, old.compliant[static_cast<std::size_t>(action.stop)]);
       break;
-    case Jump::rest:
+    case Jump::velocity_zero:
       ended.kind = GuardKind::slip;
       ended.reversal = true;
       break;

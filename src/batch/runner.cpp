@@ -176,7 +176,7 @@ void Runner::start(int l) {
   const ModelWords& words = entry.machine->words;
   for (int s = 0; s < most_contacts; ++s) {
     block_->restitution[s][l] = words.restitution[s];
-    block_->let_off[s][l] = words.let_off[s];
+    block_->zero_force_rate[s][l] = words.zero_force_rate[s];
     for (int i = 0; i < most_coordinates; ++i) block_->impulse[s][i][l] = words.impulse[s][i];
   }
   for (int m = 0; m < shape_->modes; ++m) ready_[static_cast<std::size_t>(m * most_lanes + l)] = 0;

@@ -88,7 +88,7 @@ class EventOffers {
       if (frame_.mass_inverse(contact.own, action_.own) != 0.0)
         return state == FrictionState::slip_minus ? Offer{{0, 2}, 2} : Offer{{2, 0}, 2};
     }
-    if (state == FrictionState::stick || (same && action_.jump == Jump::rest)) return at_rest(falls(i, state));
+    if (state == FrictionState::stick || (same && action_.jump == Jump::velocity_zero)) return at_rest(falls(i, state));
     return {{static_cast<int>(state) + 1}, 1};
   }
 
@@ -101,7 +101,8 @@ class EventOffers {
   [[nodiscard]] Offer of_compliant(std::size_t i, CompliantState state) const {
     const CompliantStop& stop = model_.compliant_stops[i];
     const bool can_detach = !stop.pulls && stop.damping > 0.0;
-    if (action_.jump == Jump::land && frame_.compliant[i].own == action_.own) return {{0, 1, 2}, can_detach ? 3 : 2};
+    if (action_.jump == Jump::gap_zero && frame_.compliant[i].own == action_.own)
+      return {{0, 1, 2}, can_detach ? 3 : 2};
     if (state == CompliantState::off) return {{0}, 1};
     return {{1, 2}, can_detach ? 2 : 1};
   }
@@ -144,12 +145,12 @@ Action action_of(const Model& model, const mode::Frame& frame, const Shape& shap
       if (another_closed(states_of(shape, mode))) return {};
       break;
     case GuardKind::slip:
-      of(Jump::rest, frame.frictions[guard.contact]);
+      of(Jump::velocity_zero, frame.frictions[guard.contact]);
       action.contact = static_cast<std::int8_t>(shape.stops + guard.contact);
       break;
     case GuardKind::stick_above:
     case GuardKind::stick_below:
-      if (guard.single >= 0) return {};  // Engine::land_on_limit
+      if (guard.single >= 0) return {};  // Engine::set_holding_guard_zero
       of(Jump::none, frame.frictions[guard.contact]);
       action.contact = static_cast<std::int8_t>(shape.stops + guard.contact);
       break;
@@ -161,7 +162,7 @@ Action action_of(const Model& model, const mode::Frame& frame, const Shape& shap
     case GuardKind::leave:
     case GuardKind::let_go:
     case GuardKind::push:
-      of(guard.kind == GuardKind::engage || guard.kind == GuardKind::leave ? Jump::land : Jump::let_off,
+      of(guard.kind == GuardKind::engage || guard.kind == GuardKind::leave ? Jump::gap_zero : Jump::force_zero,
          frame.compliant[guard.contact]);
       action.stop = static_cast<std::int8_t>(guard.contact);
       action.contact = static_cast<std::int8_t>(first + guard.contact);

@@ -152,16 +152,16 @@ class Step : Carry<width, n> {
           break;
         case Jump::leave_it:
           return lanes;
-        case Jump::rest:
+        case Jump::velocity_zero:
           u_[i] = choose(mine, Real{}, u_[i]);
           break;
-        case Jump::land:
+        case Jump::gap_zero:
           speed_ = choose(mine, w, speed_);
           p_[i] = choose(mine, Real{}, p_[i]);
           break;
-        case Jump::let_off:
+        case Jump::force_zero:
           speed_ = choose(mine, w, speed_);
-          let_off(i, load<Real>(block_.let_off[action.stop]) * p_[i], mine);
+          set_force_zero(i, load<Real>(block_.zero_force_rate[action.stop]) * p_[i], mine);
           break;
         case Jump::impact:
           return strike(action, i, w, mine);
@@ -170,8 +170,8 @@ class Step : Carry<width, n> {
     return action.jump == Jump::leave_it ? lanes : 0;
   }
 
-  /// Makes the force exactly zero, where that is no more than rounding (Engine::let_off).
-  __attribute__((always_inline)) void let_off(int own, const Real& exact, const Mask& mine) {
+  /// Makes the force exactly zero, where that is no more than rounding (Engine::set_force_zero).
+  __attribute__((always_inline)) void set_force_zero(int own, const Real& exact, const Mask& mine) {
     const Mask far = less(magnitude(u_[own]) * 0x1p-40, magnitude(exact - u_[own]));
     u_[own] = choose(mine & ~far, exact, u_[own]);
   }

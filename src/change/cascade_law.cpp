@@ -69,9 +69,9 @@ namespace {
 /// D_0 of the law from the distances d_0, d_1 of three places, by iteration from zero:
 ///     D_0 = 2^(1/3) D_1^(7/3) / D_2^(4/3),     D_1 = D_0 + d_0, ..
 std::optional<double> beyond_last(double d0, double d1) {
-  constexpr int most = 100;
+  constexpr int most_iterations = 100;
   double left = 0.0;
-  for (int k = 0; k < most; ++k) {
+  for (int k = 0; k < most_iterations; ++k) {
     const double next = std::cbrt(2.0) * std::pow(left + d0, 7.0 / 3.0) / std::pow(left + d0 + d1, 4.0 / 3.0);
     if (!(next < d0)) return std::nullopt;
     if (next == left) break;

@@ -1,5 +1,5 @@
 #pragma once
-/// A change of events on a branch, as it is handed from the continuation to what looks behind it.
+/// A change of events on a branch, as it is handed from the continuation to what looks beyond it.
 #include "orbit/path.hpp"
 #include "slapstick/orbit/special_point.hpp"
 

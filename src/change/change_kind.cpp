@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "orbit/record.hpp"
+#include "orbit/short_legs.hpp"
 
 namespace slapstick::orbit {
 namespace {

@@ -6,7 +6,7 @@
 /// Where one side has a run more, the change is named by it:
 ///     a stick between two slips of opposite senses      crossing-sliding
 ///     a stick, or a reversal and back, within a slip    grazing-sliding
-///     a reversal before a stick, or behind it           switching-sliding
+///     a reversal before a stick, or after it            switching-sliding
 ///     a slip within a stick                             adding-sliding
 #include "orbit/margins.hpp"
 #include "slapstick/orbit/special_point.hpp"

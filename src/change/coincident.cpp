@@ -10,6 +10,7 @@
 #include "change/past_knot.hpp"
 #include "change/without_legs.hpp"
 #include "orbit/leg_flow.hpp"
+#include "orbit/short_legs.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/orbit/special_point.hpp"
 
@@ -18,14 +19,9 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double vanishing = 1e-2;  ///< of a leg's length, or an impact's speed, at the point before: it vanishes
+constexpr double vanishing = 1e-2;  ///< of the speed of a slip or an impact at the point before: it vanishes
 constexpr double no_gap = 1e-9;     ///< of the largest margin of a gap at the point before
 constexpr double no_speed = 1e-4;   ///< of the largest speed at the point before: so much is left by rounding
-
-/// Does a leg shrink to nothing from one orbit to the next?
-bool vanishes(const Orbit& before, const Orbit& orbit, std::size_t leg) {
-  return !orbit.tied(leg) && orbit.duration(leg) < vanishing * before.duration(leg);
-}
 
 /// The largest relative velocity of a friction contact within a leg.
 double fastest(const ModeSet& set, const Orbit& orbit, std::size_t leg, std::size_t contact) {
@@ -39,7 +35,7 @@ double fastest(const ModeSet& set, const Orbit& orbit, std::size_t leg, std::siz
 
 }  // namespace
 
-bool comes_to_rest(const ModeSet& set, const Orbit& before, const Orbit& orbit, std::size_t leg, std::size_t other) {
+bool slip_dies(const ModeSet& set, const Orbit& before, const Orbit& orbit, std::size_t leg, std::size_t other) {
   bool slips = false;
   for (std::size_t i = 0; i < set.frame().frictions.size(); ++i) {
     if (orbit.shape.legs[other].states.frictions[i] != mode::FrictionState::stick ||
@@ -79,13 +75,14 @@ std::vector<Orbit> without_impact(const ModeSet& set, const Orbit& before, const
   if (test.test != Test::speed || test.kind != mode::GuardKind::gap) return shapes;
   if (orbit.legs() == 1) return {uncut(set, orbit)};
   Orbit turned = orbit;
-  rotate(turned, test.leg);                 // the impact ends the first leg
-  const auto gone = [&](std::size_t leg) {  // what follows an impact of no speed is no more either
-    return vanishes(before, orbit, leg) || comes_to_rest(set, before, orbit, leg, test.leg);
+  rotate(turned, test.leg);  // the impact ends the first leg
+  const std::vector<bool> dead = dead_legs(before, orbit);
+  const auto goes = [&](std::size_t leg) {  // what follows an impact of no speed is no more either
+    return dead[leg] || slip_dies(set, before, orbit, leg, test.leg);
   };
   std::size_t next = test.leg + 1;
-  for (; turned.legs() > 2 && gone(next % orbit.legs()); ++next) leave_out(turned, 1, 1);
-  if (turned.legs() == 2 && gone(next % orbit.legs())) return {uncut(set, turned)};
+  for (; turned.legs() > 2 && goes(next % orbit.legs()); ++next) leave_out(turned, 1, 1);
+  if (turned.legs() == 2 && goes(next % orbit.legs())) return {uncut(set, turned)};
   const mode::Frame& frame = set.frame();
   for (std::size_t i = 0; i < frame.frictions.size(); ++i) {
     if (!frame.in_step(frame.frictions[i].own, frame.stops[test.contact].own)) continue;
@@ -191,8 +188,8 @@ bool is_struck_there(const Orbit& orbit, const TestValue& test) {
 
 /// Where several gaps touch zero together: with an impact in each of the others too.
 Orbit with_all(const ModeSet& set, double largest_gap, Orbit orbit) {
-  constexpr int most = 16;
-  for (int k = 0; k < most; ++k) {
+  constexpr int most_gaps = 16;
+  for (int k = 0; k < most_gaps; ++k) {
     const std::vector<TestValue> tests = values_if_any(set, orbit);
     const auto next = ranges::find_if(tests, [&](const TestValue& test) {
       return gap(test) && std::abs(test.value) < no_gap * largest_gap && !is_struck_there(orbit, test);
@@ -205,7 +202,8 @@ Orbit with_all(const ModeSet& set, double largest_gap, Orbit orbit) {
 
 }  // namespace
 
-std::vector<Orbit> coincident(const Problem& problem, const Orbit& before, const Orbit& orbit, const TestValue& test) {
+std::vector<Orbit> sequences_of_same_orbit(const Problem& problem, const Orbit& before, const Orbit& orbit,
+                                           const TestValue& test) {
   const ModeSet set(problem.family(), orbit.values);
   const std::vector<TestValue> was = test_values(ModeSet(problem.family(), before.values), before);
   std::vector<Orbit> shapes;
@@ -218,12 +216,11 @@ std::vector<Orbit> coincident(const Problem& problem, const Orbit& before, const
   for (const Orbit& fewer : without_impact(set, before, orbit, test))
     add(several ? without_all(set, largest(was, impact_speed), fewer) : fewer, fewer);
   for (const Orbit& more : with_impact(set, orbit, test)) add(with_all(set, largest(was, gap), more), more);
-  std::vector<bool> gone;
-  for (std::size_t i = 0; i < orbit.legs(); ++i) gone.push_back(vanishes(before, orbit, i));
-  ranges::copy(past_knots(set, orbit, gone), std::back_inserter(shapes));
-  ranges::copy(without_legs(set, orbit, gone, !impact_speed(test)), std::back_inserter(shapes));
+  const std::vector<bool> dead = dead_legs(before, orbit);
+  ranges::copy(past_knots(set, orbit, dead), std::back_inserter(shapes));
+  ranges::copy(without_legs(set, orbit, dead, !impact_speed(test)), std::back_inserter(shapes));
   if (lost > 0 && !impact_speed(test))  // another margin is used up with their speed
-    ranges::copy(without_legs(set, orbit, gone, false), std::back_inserter(shapes));
+    ranges::copy(without_legs(set, orbit, dead, false), std::back_inserter(shapes));
   return shapes;
 }
 

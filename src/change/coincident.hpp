@@ -11,12 +11,12 @@ namespace slapstick::orbit {
 /// @param orbit   .. at the change
 /// @param test    the margin that is used up at the change
 /// @returns the orbit in its other shapes: those without what has vanished first
-[[nodiscard]] std::vector<Orbit> coincident(const Problem& problem, const Orbit& before, const Orbit& orbit,
-                                            const TestValue& test);
+[[nodiscard]] std::vector<Orbit> sequences_of_same_orbit(const Problem& problem, const Orbit& before,
+                                                         const Orbit& orbit, const TestValue& test);
 
-/// Do contacts that stick in another leg slip in this one from one orbit to the next no more, however long it is? An
+/// Has the slip in this leg, of contacts that stick in another one, died out from one orbit to the next? An
 /// impact has set them off, and what is left of their motion dies away.
-[[nodiscard]] bool comes_to_rest(const ModeSet& set, const Orbit& before, const Orbit& orbit, std::size_t leg,
-                                 std::size_t other);
+[[nodiscard]] bool slip_dies(const ModeSet& set, const Orbit& before, const Orbit& orbit, std::size_t leg,
+                             std::size_t other);
 
 }  // namespace slapstick::orbit

@@ -12,7 +12,7 @@ using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 using Place = Touch::Place;
 
-constexpr double rounding = std::numeric_limits<double>::epsilon();
+constexpr double roundoff = std::numeric_limits<double>::epsilon();
 
 /// The rows one after another, in the orbit's unknowns, all parameters and the touches' instants.
 class Rows {
@@ -39,11 +39,11 @@ class Rows {
     by.topLeftCorner(used_, at_.by.cols()) = at_.by;
     for (std::size_t i = 0; i < orbit.legs(); ++i)
       if (orbit.shape.legs[i].ending != Ending::cut)
-        noise[static_cast<Index>(i)] = rounding * at_.legs[i].h.by_state().row(0).cwiseAbs().dot(orbit.x[i].cwiseAbs());
+        noise[static_cast<Index>(i)] = roundoff * at_.legs[i].h.by_state().row(0).cwiseAbs().dot(orbit.x[i].cwiseAbs());
     const VectorXd last = at_.legs.back().after.value().cwiseAbs();
     noise.segment(static_cast<Index>(orbit.legs()), problem_.numbers()) =
-        rounding * problem_.translations().numbers(last).cwiseAbs();
-    noise[used_ - 1] = rounding * (orbit.t.back() - orbit.t.front());
+        roundoff * problem_.translations().numbers(last).cwiseAbs();
+    noise[used_ - 1] = roundoff * (orbit.t.back() - orbit.t.front());
   }
 
   /// row . X = 0 at a touch. @param rates  of the row, by each parameter
@@ -59,7 +59,7 @@ class Rows {
     if (touch.place != Place::end) value.by_end().setZero();
     by.row(used_).head(at_.by.cols()) = by_unknowns(problem_, value, at_.states[touch.leg], touch.leg, legs);
     residual[used_] = value.value()[0] + value.by_state().row(0).dot(at_.defects[touch.leg]);
-    noise[used_] = rounding * row.cwiseAbs().dot(X.value().cwiseAbs());
+    noise[used_] = roundoff * row.cwiseAbs().dot(X.value().cwiseAbs());
     ++used_;
   }
 
@@ -111,7 +111,7 @@ DeathEquations::DeathEquations(const Problem& problem, const Death& death)
   by << rows.by.leftCols(parameter + 1), rows.by.rightCols(touches);
   by = by * units.asDiagonal();
   const VectorXd level =
-      by.cwiseAbs().rowwise().maxCoeff().cwiseMax(rows.noise / rounding).cwiseMax(std::numeric_limits<double>::min());
+      by.cwiseAbs().rowwise().maxCoeff().cwiseMax(rows.noise / roundoff).cwiseMax(std::numeric_limits<double>::min());
   by = level.cwiseInverse().asDiagonal() * by;
   units_of_others = all.tail(problem.parameters() - 1);
   by_others = level.cwiseInverse().asDiagonal() * rows.by.middleCols(parameter + 1, units_of_others.size()) *

@@ -1,5 +1,5 @@
 #pragma once
-/// The equations of a death (change/collapse.hpp) at an approximation to it, linearised.
+/// The equations of a death (change/death.hpp) at an approximation to it, linearised.
 #include "orbit/equations.hpp"
 #include "slapstick/orbit/special_point.hpp"
 

@@ -26,22 +26,22 @@ namespace {
 
 constexpr long transient = 500;  ///< cycles that a motion is given to settle
 
-/// A motion from the orbit at a change when the parameter is moved on by so much: the orbit that it settles on, and
-/// whether it has gone from where it was.
+/// A motion from the orbit at a change, run at the parameter + `move`: the orbit that it settles on, and
+/// whether it has left the place where it was.
 struct Course {
   std::optional<Solution> settled;
-  bool gone = false;
+  bool left = false;
 };
 
 /// By parts of the orbit's extent, and of the least sizes by which its branch is measured: one that dies out leaves
 /// itself over hardly any distance.
-bool has_gone(const Problem& problem, const Orbit& orbit, VectorXd from, VectorXd to) {
-  constexpr double far = 0.01;
-  if (!(Extent(problem, orbit).distance(from, to) > far)) return false;
+bool has_left(const Problem& problem, const Orbit& orbit, VectorXd from, VectorXd to) {
+  constexpr double distance_left = 0.01;
+  if (!(Extent(problem, orbit).distance(from, to) > distance_left)) return false;
   problem.translations().take_out(from);
   problem.translations().take_out(to);
   const VectorXd moved = problem.translations().numbers(to) - problem.translations().numbers(from);
-  return (moved.array().abs() > far * problem.least_sizes().array()).any();
+  return (moved.array().abs() > distance_left * problem.least_sizes().array()).any();
 }
 
 Course course_behind(const Problem& problem, const PathPoint& change, double move, const std::atomic<bool>* stop) {
@@ -61,7 +61,7 @@ Course course_behind(const Problem& problem, const PathPoint& change, double mov
       const VectorXd start = flow::contact_state(*motion);
       const Instant end = motion->time().plus(static_cast<double>(while_it_settles));
       const bool ran = run_to(*motion, end, stop, [] {});
-      course.gone = ran && has_gone(problem, change.orbit, start, flow::contact_state(*motion));
+      course.left = ran && has_left(problem, change.orbit, start, flow::contact_state(*motion));
       return course;
     }
   } catch (const InputError&) {
@@ -72,7 +72,7 @@ Course course_behind(const Problem& problem, const PathPoint& change, double mov
 
 constexpr double shrinks = 0.3;  ///< a hundred times nearer, what grows like a root of the distance is a tenth
 
-/// Has an orbit hardly moved from a change just behind it: the same long legs, in either?
+/// Has an orbit hardly moved from a change just beyond it: the same long legs, in either?
 bool goes_on(const Problem& problem, const PathPoint& change, const Orbit& orbit) {
   constexpr double hardly_moved = 1e-3;  // of a leg's state
   return resembles(problem, orbit, change.orbit, hardly_moved) || resembles(problem, change.orbit, orbit, hardly_moved);
@@ -112,7 +112,7 @@ MotionBeyond run_beyond(const Problem& problem, const PathPoint& change, double 
       }
     }
     const double nearer = sense * 0.01 * distance * range;
-    if (!course.gone && !settles_elsewhere(problem, change, course, nearer, stop)) continue;
+    if (!course.left && !settles_elsewhere(problem, change, course, nearer, stop)) continue;
     const bool stays = course.settled && (course.settled->stable() || result.family);
     result.jump =
         stays ? Jump{Jump::Kind::settles, course.settled->label, 0} : Jump{Jump::Kind::wanders, {}, transient};
@@ -146,7 +146,7 @@ Orbit displaced(const Problem& problem, const PathPoint& change, const TestValue
   if (test.test != Test::speed)
     if (auto point = step_to(problem, change, length, range)) return std::move(point->orbit);
   Orbit orbit = change.orbit;
-  orbit.values[0] += length * range;
+  orbit.parameter() += length * range;
   return orbit;
 }
 
@@ -164,11 +164,11 @@ double departure(const Problem& problem, const PathPoint& change, const TestValu
 }  // namespace
 
 bool departs(const Problem& problem, const PathPoint& change, const TestValue& test, double range) {
-  constexpr double near = 1e-7, far_off = 1e-5;
+  constexpr double offset = 1e-7, least_departure = 1e-5;
   if (change.orbit.legs() < 2 || test.test == Test::duration) return false;
   try {
-    const double first = departure(problem, change, test, near, range);
-    return first > far_off && departure(problem, change, test, 0.01 * near, range) > shrinks * first;
+    const double first = departure(problem, change, test, offset, range);
+    return first > least_departure && departure(problem, change, test, 0.01 * offset, range) > shrinks * first;
   } catch (const InputError&) {
   } catch (const NumericalError&) {
   }

@@ -9,7 +9,7 @@ namespace slapstick::orbit {
 [[nodiscard]] std::optional<Motion> motion_from(const System& system, const ModeSet& set, const Orbit& orbit,
                                                 std::size_t leg, double part);
 
-/// What the motion does just behind a change of a stable orbit, by running it.
+/// What the motion does just beyond a change of a stable orbit, by running it.
 struct MotionBeyond {
   std::optional<Jump> jump;        ///< the motion leaves the orbit
   std::optional<HalfBranch> next;  ///< the orbit that it settles on has hardly moved: no jump

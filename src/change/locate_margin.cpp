@@ -7,30 +7,31 @@
 #include "base/ranges.hpp"
 #include "change/without_legs.hpp"
 #include "orbit/interpolate.hpp"
+#include "orbit/short_legs.hpp"
 
 namespace slapstick::orbit {
 namespace {
 
 /// Has a leg between two zeros of one guard shrunk to nothing? Without length it solves its equation anywhere.
 bool loses_a_leg(const PathPoint& from, const Orbit& orbit) {
-  const std::vector<bool> gone = gone_legs(from.orbit, orbit);
+  const std::vector<bool> dead = dead_legs(from.orbit, orbit);
   return ranges::any_of(from.watched.tests, [&](const TestValue& test) {
-    return test.test == Test::duration && test.starts_at_end && gone[test.leg];
+    return test.test == Test::duration && test.starts_at_end && dead[test.leg];
   });
 }
 
 /// By interpolation over the best of some widths, until two agree.
 std::optional<Located> in_some_width(const Problem& problem, const PathPoint& from, double near, double widest,
                                      double range, const std::function<double(const PathPoint&)>& f) {
-  constexpr double enough = 1e-12;
+  constexpr double agreement = 1e-12;
   std::optional<Located> best;
   double alike = INFINITY;
   for (const double part : {0.5, 0.25, 0.1, 0.02}) {
     auto other = locate_between(problem, from, near, part * widest, range, f);
     if (!other) continue;
-    if (best) alike = std::min(alike, std::abs(other->point.orbit.values[0] - best->point.orbit.values[0]));
+    if (best) alike = std::min(alike, std::abs(other->point.orbit.parameter() - best->point.orbit.parameter()));
     if (!best || other->error < best->error) best = std::move(other);
-    if (best->error <= enough * range && alike <= enough * range) break;
+    if (best->error <= agreement * range && alike <= agreement * range) break;
   }
   if (best && std::isfinite(alike)) best->error = std::max(best->error, alike);
   return best;

@@ -1,4 +1,4 @@
-/// Guesses the orbits behind a change from motions near it.
+/// Guesses the orbits beyond a change from motions near it.
 #include "change/nearby_shapes.hpp"
 
 #include <algorithm>
@@ -119,7 +119,7 @@ class NearbyShapes {
 
 }  // namespace
 
-std::vector<Orbit> shapes_about(const Problem& problem, const Orbit& orbit, std::size_t changed) {
+std::vector<Orbit> guess_sequences(const Problem& problem, const Orbit& orbit, std::size_t changed) {
   try {
     return NearbyShapes(problem, orbit).about(changed);
   } catch (const InputError&) {

@@ -59,7 +59,7 @@ std::optional<PlaceLimit> limit_at_stop(const Problem& problem, const SpecialPoi
 
 std::optional<PlaceLimit> as_place(const std::optional<OnsetOrbit>& found) {
   if (!found) return std::nullopt;
-  return PlaceLimit{found->orbit.values[0], found->error};
+  return PlaceLimit{found->orbit.parameter(), found->error};
 }
 
 /// The nearest grazes of one stop, in which each adds an impact to the next one's; between equal stops one at each.
@@ -129,7 +129,7 @@ std::optional<PlaceLimit> knot_limit(const Problem& problem, const Orbit& chatte
     orbit.t[2] = orbit.t[1];
     const NewtonResult result = solve(problem, orbit, fixed_length(problem, k, 1), 20);
     if (!result.converged) continue;
-    const double value = orbit.values[0];
+    const double value = orbit.parameter();
     return PlaceLimit{value, std::max(result.last_step, 0x1p-52) * std::abs(value)};
   }
   return std::nullopt;
@@ -149,11 +149,11 @@ void sharpen_onsets(const Problem& problem, const std::vector<Solution>& points,
 }
 
 bool chatter_lengthens(const std::vector<Solution>& points) {
-  constexpr double much = 1.2;
   std::size_t first = points.size();
   while (first > 0 && points[first - 1].chatter) --first;
   if (first == points.size()) return false;
-  return static_cast<double>(points.back().orbit.legs()) >= much * static_cast<double>(points[first].orbit.legs());
+  return static_cast<double>(points.back().orbit.legs()) >=
+         longer_burst * static_cast<double>(points[first].orbit.legs());
 }
 
 }  // namespace slapstick::orbit

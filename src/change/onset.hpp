@@ -27,13 +27,16 @@ struct CascadeLimit {
 /// The onset ahead of an orbit with a complete chatter, by its own equations.
 [[nodiscard]] std::optional<PlaceLimit> chatter_limit(const Problem& problem, const Orbit& orbit);
 
-/// Where the limit of a chatter meets the point of a signal that ends the rest behind it: that rest has no length.
+/// Where the limit of a chatter meets the point of a signal that ends the rest after it: that rest has no length.
 [[nodiscard]] std::optional<PlaceLimit> knot_limit(const Problem& problem, const Orbit& chattering);
 
 /// Where a branch has left a chatter for a cascade, the onset by its own equations or by the cascade's grazes, if that
 /// is better known.
 void sharpen_onsets(const Problem& problem, const std::vector<Solution>& points, std::vector<SpecialPoint>& special);
 
+/// Times as many legs: a burst has lengthened. A look for its onset costs as much as a step: with a smaller number the
+/// looks add up, with a larger one the onset comes late.
+constexpr double longer_burst = 1.2;
 /// Has the chatter of a branch's last stretch gained enough legs since the stretch began for its onset to be near?
 [[nodiscard]] bool chatter_lengthens(const std::vector<Solution>& points);
 

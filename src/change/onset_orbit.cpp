@@ -287,7 +287,7 @@ std::optional<OnsetOrbit> converged(const Problem& problem, Orbit orbit, int sto
       more /= 2;
       continue;
     }
-    const double moved = std::abs(next.values[0] - orbit.values[0]);
+    const double moved = std::abs(next.parameter() - orbit.parameter());
     left = std::pow(rates.mu / rates.lambda, more);
     settled = moved >= 0.5 * change || moved == 0.0 ? settled + 1 : 0;
     change = settled > 1 ? std::max(moved, change) : moved;
@@ -297,7 +297,7 @@ std::optional<OnsetOrbit> converged(const Problem& problem, Orbit orbit, int sto
   const double truncated = change * left / (1.0 - left);
   const double rounding = settled > 0 ? change : 0.0;
   const double error =
-      truncated + safety * (rounding + std::numeric_limits<double>::epsilon() * std::abs(orbit.values[0]));
+      truncated + safety * (rounding + std::numeric_limits<double>::epsilon() * std::abs(orbit.parameter()));
   return OnsetOrbit{std::move(orbit), error};
 }
 

@@ -47,12 +47,12 @@ bool may_pass(const Leg& a, const Leg& b, const Leg& next) {
 
 }  // namespace
 
-std::vector<Orbit> past_knots(const ModeSet& set, const Orbit& orbit, const std::vector<bool>& gone) {
+std::vector<Orbit> past_knots(const ModeSet& set, const Orbit& orbit, const std::vector<bool>& dead) {
   std::vector<Orbit> shapes;
   const std::size_t k = orbit.legs();
   for (std::size_t i = 0; i < k && k > 2; ++i) {
     const std::size_t before = (i + k - 1) % k, next = (i + 1) % k;
-    if (!gone[i] || !may_pass(orbit.shape.legs[before], orbit.shape.legs[i], orbit.shape.legs[next])) continue;
+    if (!dead[i] || !may_pass(orbit.shape.legs[before], orbit.shape.legs[i], orbit.shape.legs[next])) continue;
     Orbit turned = orbit;
     rotate(turned, before);
     shapes.push_back(exchanged(set, turned, 0));

@@ -1,4 +1,4 @@
-/// Finds the orbits behind a change of events.
+/// Finds the orbits beyond a change of events.
 #include "change/reshape.hpp"
 
 #include <algorithm>
@@ -14,6 +14,7 @@
 #include "orbit/extent.hpp"
 #include "orbit/record.hpp"
 #include "orbit/same_motion.hpp"
+#include "orbit/short_legs.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/orbit/search.hpp"
 
@@ -43,11 +44,12 @@ std::optional<Orbit> solved(const Problem& problem, const Orbit& guess) {
 
 /// Has Newton's method led to no other orbit than where it began?
 bool stayed(const Problem& problem, const Orbit& from, const Orbit& to) {
-  constexpr double near = 1e-2;  // of extent and cycle: where legs die out the last orbit is a little before the place
+  constexpr double same_place =
+      1e-2;  // of extent and cycle: where legs die out the last orbit is a little before the place
   const Extent extent(problem, from);
   for (std::size_t i = 0; i < from.legs(); ++i)
-    if (extent.distance(from.x[i], to.x[i]) > near ||
-        std::abs(to.t[i] - from.t[i]) > near * (from.t.back() - from.t.front()))
+    if (extent.distance(from.x[i], to.x[i]) > same_place ||
+        std::abs(to.t[i] - from.t[i]) > same_place * (from.t.back() - from.t.front()))
       return false;
   return true;
 }
@@ -55,15 +57,16 @@ bool stayed(const Problem& problem, const Orbit& from, const Orbit& to) {
 constexpr double flat = 1e-3;  ///< a tangent's component in the parameter that says nothing of its sense
 
 /// Does a branch go from its start at a change, by a later point, in the sense of the parameter from which the old one
-/// came? The later point may lie beyond a fold, the tangent at the change be rounding: it is believed if that at a
-/// point beside it says the same.
+/// came? The later point may lie beyond a fold. The tangent at the change may be rounding: it is used if a neighbouring
+/// tangent agrees.
 bool goes_back(const Problem& problem, const PathPoint& start, const PathPoint& later, double sense_before,
                double range) {
-  constexpr double close = 1e-7, same = 0.1;
+  constexpr double step_beside = 1e-7, change_of_turn = 0.1;
   const double turn = start.watched.turn;
-  const auto beside = std::abs(turn) > flat ? step_to(problem, start, close, range) : std::nullopt;
-  if (beside && std::abs(beside->watched.turn - turn) < same * std::abs(turn)) return turn * sense_before < 0.0;
-  return (later.orbit.values[0] - start.orbit.values[0]) * sense_before < 0.0;
+  const auto beside = std::abs(turn) > flat ? step_to(problem, start, step_beside, range) : std::nullopt;
+  if (beside && std::abs(beside->watched.turn - turn) < change_of_turn * std::abs(turn))
+    return turn * sense_before < 0.0;
+  return (later.orbit.parameter() - start.orbit.parameter()) * sense_before < 0.0;
 }
 
 /// Where the parameter is a square of the arclength, a point from which its sense is seen (special.cpp, look_back).
@@ -72,7 +75,7 @@ std::optional<PathPoint> some_way_off(const Problem& problem, const PathPoint& s
   return std::abs(start.watched.turn) < flat ? step_to(problem, start, way, range) : std::nullopt;
 }
 
-/// Does a leg end at a guard's second zero, at which it rises? Just behind a graze both are one instant to the
+/// Does a leg end at a guard's second zero, at which it rises? Just beyond a graze both are one instant to the
 /// simulator.
 bool rises_at_an_end(const PathPoint& start, const PathPoint& next) {
   for (std::size_t i = 0; i < next.watched.tests.size(); ++i) {
@@ -84,7 +87,7 @@ bool rises_at_an_end(const PathPoint& start, const PathPoint& next) {
 
 /// The branch of a shape that the orbit at the change has already, by arclength to either side of it: as near as the
 /// simulator can tell what it does.
-std::optional<HalfBranch> leaving(const Problem& problem, double sense_before, const Orbit& shape, double range) {
+std::optional<HalfBranch> branch_at(const Problem& problem, double sense_before, const Orbit& shape, double range) {
   Orbit orbit = shape;
   const NewtonResult result = solve(problem, orbit, fixed_parameters(problem, orbit.legs()), 12);
   if (!result.refusal.empty()) return std::nullopt;  // pieces that make no cycle
@@ -116,7 +119,7 @@ std::optional<Beginning> beginning(const Problem& problem, const PathPoint& next
   const PathPoint back = reversed(next);
   const std::vector<TestValue>& tests = back.watched.tests;
   const double turn = std::abs(next.watched.turn);
-  const double near = turn > 0.0 ? std::abs(next.orbit.values[0] - critical) / (turn * range) : 0.0;
+  const double near = turn > 0.0 ? std::abs(next.orbit.parameter() - critical) / (turn * range) : 0.0;
   for (double length : {1.5 * near, 4.0 * near, 20.0 * near}) {
     if (!(length > 0.0) || length > 0.05) break;
     const std::optional<PathPoint> beyond = step_to(problem, back, length, range);
@@ -125,7 +128,7 @@ std::optional<Beginning> beginning(const Problem& problem, const PathPoint& next
       for (std::size_t i = 0; i < tests.size(); ++i) {
         if (!(tests[i].value > 0.0) || !(beyond->watched.tests[i].value < 0.0)) continue;
         auto located = locate_test(i);
-        if (!located || std::abs(located->point.orbit.values[0] - critical) >= same * range) continue;
+        if (!located || std::abs(located->point.orbit.parameter() - critical) >= same * range) continue;
         const TestValue there = located->point.watched.tests[i];
         return Beginning{std::move(*located), there};
       }
@@ -152,12 +155,12 @@ bool releases(const TestValue& test) { return test.test == Test::guard && test.k
 /// Elsewhere it is known by the other orbit, without chatter, which is followed to where that lets a contact go.
 OnsetInterval onset_between(const PathPoint& change, const std::optional<TestValue>& test, const Orbit& orbit,
                             const std::optional<Beginning>& begins) {
-  const double critical = change.orbit.values[0];
+  const double critical = change.orbit.parameter();
   const bool meets_knot = test && test->test == Test::duration && rests_to_knot(change.orbit.shape, test->leg);
   if (meets_knot && chatters(orbit) < chatters(change.orbit)) return {critical, critical, false, true};
   if (chatters(orbit) > chatters(change.orbit) && test && releases(*test)) return {critical, critical, true};
-  if (!begins) return {critical, orbit.values[0], false};
-  const double there = begins->located.point.orbit.values[0];
+  if (!begins) return {critical, orbit.parameter(), false};
+  const double there = begins->located.point.orbit.parameter();
   const double error = begins->test.value == 0.0 ? 0.0 : begins->located.error;
   if (chatters(change.orbit) > chatters(orbit) && releases(begins->test)) return {there - error, there + error, true};
   return {critical, there, false};
@@ -170,16 +173,16 @@ std::optional<HalfBranch> born(const Problem& problem, const PathPoint& change, 
                                double sense_before, const Orbit& orbit, double length, double range) {
   constexpr double nearer = 0.5;  // than the orbit itself
   constexpr double gathering = 30.0, much_the_same = 0.01, alike = 0.1;
-  const double critical = change.orbit.values[0], away = orbit.values[0] - critical;
+  const double critical = change.orbit.parameter(), away = orbit.parameter() - critical;
   if (away == 0.0 || std::abs(away) > 10.0 * length * range) return std::nullopt;
   HalfBranch next{point_of(problem, orbit, range, {}), away * sense_before < 0.0, false, {}, 0.0, 0.0, 0.0};
   if (next.point.watched.turn * away < 0.0) next.point = reversed(std::move(next.point));
   const bool chatter = chatters(orbit) + chatters(change.orbit) > 0,
              gathers = chatters(orbit) != chatters(change.orbit);
   const double within = gathers ? gathering * length : std::max(same_change, nearer * std::abs(away) / range);
-  const auto off = [&](const Beginning& place) { return std::abs(place.located.point.orbit.values[0] - critical); };
+  const auto off = [&](const Beginning& place) { return std::abs(place.located.point.orbit.parameter() - critical); };
   auto begins = beginning(problem, next.point, critical, within, range);
-  if ((!begins || off(*begins) > exactly * range) && !gathers) {  // beyond a fold near the change
+  if ((!begins || off(*begins) > place_tolerance * range) && !gathers) {  // beyond a fold near the change
     PathPoint other = reversed(next.point);
     auto behind = beginning(problem, other, critical, nearer * std::abs(away) / range, range);
     if (behind && (!begins || off(*behind) < off(*begins))) {
@@ -193,7 +196,7 @@ std::optional<HalfBranch> born(const Problem& problem, const PathPoint& change, 
   if (begins) {
     if (!gathers) next.folds = goes_back(problem, reversed(begins->located.point), next.point, sense_before, range);
     next.length = begins->located.length;
-    next.apart = off(*begins);
+    next.distance_from_change = off(*begins);
     next.error = begins->located.error;
   }
   if (gathers) next.onset = onset_between(change, test, orbit, begins);
@@ -202,7 +205,7 @@ std::optional<HalfBranch> born(const Problem& problem, const PathPoint& change, 
 
 /// Does its branch begin at the change, as far as that can be told from it?
 bool begins_there(const HalfBranch& next, double range) {
-  return next.onset || next.renewed || next.apart <= same_change * range;
+  return next.onset || next.renewed || next.distance_from_change <= same_change * range;
 }
 
 /// Each cycle once: the first that begins at the change, or else the one that begins nearest to it.
@@ -214,7 +217,7 @@ void add(std::vector<HalfBranch>& all, std::optional<HalfBranch> next, double ra
   const auto known = ranges::find_if(all, same);
   if (known == all.end())
     all.push_back(std::move(*next));
-  else if (!begins_there(*known, range) && next->apart < known->apart)
+  else if (!begins_there(*known, range) && next->distance_from_change < known->distance_from_change)
     *known = std::move(*next);
 }
 
@@ -225,12 +228,12 @@ bool rests_to_knot(const Itinerary& shape, std::size_t leg) {
   return rest.ending == Ending::knot && before.ending == Ending::chatter;
 }
 
-std::vector<HalfBranch> leavings(const Problem& problem, const PathPoint& change, const std::vector<Orbit>& shapes,
-                                 double range) {
+std::vector<HalfBranch> branches_at(const Problem& problem, const PathPoint& change, const std::vector<Orbit>& shapes,
+                                    double range) {
   std::vector<HalfBranch> all;
   const double sense = std::copysign(1.0, change.watched.turn);
   try {
-    for (const Orbit& shape : shapes) add(all, leaving(problem, sense, shape, range), range);
+    for (const Orbit& shape : shapes) add(all, branch_at(problem, sense, shape, range), range);
   } catch (const NumericalError&) {  // a shape whose modes have no such guards
   } catch (const InputError&) {
   }
@@ -239,26 +242,26 @@ std::vector<HalfBranch> leavings(const Problem& problem, const PathPoint& change
   return all;
 }
 
-std::vector<HalfBranch> leavings(const Problem& problem, const Orbit& before, const PathPoint& change,
-                                 const TestValue& test, double range) {
+std::vector<HalfBranch> branches_at(const Problem& problem, const Orbit& before, const PathPoint& change,
+                                    const TestValue& test, double range) {
   try {
-    return leavings(problem, change, coincident(problem, before, change.orbit, test), range);
+    return branches_at(problem, change, sequences_of_same_orbit(problem, before, change.orbit, test), range);
   } catch (const NumericalError&) {
   } catch (const InputError&) {
   }
   return {};
 }
 
-std::vector<HalfBranch> reshape(const Problem& problem, const Orbit& before, const PathPoint& change,
-                                const std::optional<TestValue>& test, double range, const std::atomic<bool>* stop,
-                                double nearest) {
-  const double critical = change.orbit.values[0];
+std::vector<HalfBranch> find_branches_beyond(const Problem& problem, const Orbit& before, const PathPoint& change,
+                                             const std::optional<TestValue>& test, double range,
+                                             const std::atomic<bool>* stop, double nearest) {
+  const double critical = change.orbit.parameter();
   const double sense = std::copysign(1.0, change.watched.turn);  // a secant may span a fold
   std::vector<HalfBranch> all;
-  if (test) all = leavings(problem, before, change, *test, range);
+  if (test) all = branches_at(problem, before, change, *test, range);
   const double longest =
       chatters(change.orbit) > 0 ? 1e-2 : 1e-3;  // near its onset a chatter's equations are hardly solvable
-  // Just behind a release the hops of a chatter are rounding.
+  // Just beyond a release the hops of a chatter are rounding.
   const bool release = test && releases(*test) && chatters(change.orbit) == 0;
   const std::vector<double> lengths =
       release ? std::vector{1e-4, 1e-3, 1e-5, 1e-6} : std::vector{1e-6, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2};
@@ -267,14 +270,14 @@ std::vector<HalfBranch> reshape(const Problem& problem, const Orbit& before, con
     const auto here = [&](const HalfBranch& next) { return begins_there(next, range); };
     if (ranges::any_of(all, here) || length > longest) break;
     Orbit beyond = change.orbit;  // as it is, where its own equations lead no further
-    beyond.values[0] += sense * length * range;
+    beyond.parameter() += sense * length * range;
     const auto point = test ? step_to(problem, change, length, range) : std::nullopt;
     if (point) beyond = point->orbit;
-    const std::vector<Orbit> guesses = shapes_about(problem, beyond, test ? test->leg : 0);
+    const std::vector<Orbit> guesses = guess_sequences(problem, beyond, test ? test->leg : 0);
     for (double side : {1.0, -1.0}) {  // where the old branch would have gone on, then where it came from
       for (Orbit guess : guesses) {
         if (stopped(stop)) return all;
-        guess.values[0] = critical + side * (beyond.values[0] - critical);
+        guess.parameter() = critical + side * (beyond.parameter() - critical);
         if (const auto orbit = solved(problem, guess))
           add(all, born(problem, change, test, sense, *orbit, length, range), range);
       }
@@ -283,7 +286,7 @@ std::vector<HalfBranch> reshape(const Problem& problem, const Orbit& before, con
   return all;
 }
 
-/// Just behind a singular change a multiplier may be very near 1. A family's own equations are singular: they lead
+/// Just beyond a singular change a multiplier may be very near 1. A family's own equations are singular: they lead
 /// nowhere.
 bool one_of_family(const Problem& problem, const PathPoint& point, double range) {
   if (isolated(point.watched.multipliers)) return false;
@@ -297,7 +300,7 @@ bool one_of_family(const Problem& problem, const PathPoint& point, double range)
 bool begins_family(const Problem& problem, const Orbit& before, const PathPoint& change, const TestValue& test) {
   try {
     const auto of_family = [&](const Orbit& shape) { return !describe(problem, shape, nullptr).isolated(); };
-    return ranges::any_of(coincident(problem, before, change.orbit, test), of_family);
+    return ranges::any_of(sequences_of_same_orbit(problem, before, change.orbit, test), of_family);
   } catch (const NumericalError&) {  // a shape whose modes have no such guards
     return false;
   }
@@ -305,7 +308,7 @@ bool begins_family(const Problem& problem, const Orbit& before, const PathPoint&
 
 std::optional<HalfBranch> beyond_cascade(const Problem& problem, const PathPoint& last, double limit, double range,
                                          const std::atomic<bool>* stop) {
-  constexpr long few = 5;  // a complete chatter forgets what was before it
+  constexpr long settling_periods = 5;  // a complete chatter forgets what was before it
   for (const double length : {1e-6, 1e-5, 1e-4, 1e-3}) {
     for (const double side : {1.0, -1.0}) {
       try {
@@ -318,7 +321,7 @@ std::optional<HalfBranch> beyond_cascade(const Problem& problem, const PathPoint
         const std::optional<Motion> motion =
             motion_from(there->base(), set, last.orbit, freest_leg(set, last.orbit), 0.5);
         if (!motion) continue;
-        const auto settled = orbit_near(*there, *motion, few, last.orbit.shape.n, stop);
+        const auto settled = orbit_near(*there, *motion, settling_periods, last.orbit.shape.n, stop);
         if (!settled || !settled->chatter || !resembles(problem, settled->orbit, last.orbit, 0.1)) continue;
         HalfBranch next{point_of(problem, settled->orbit, range, {}),
                         false,

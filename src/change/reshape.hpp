@@ -1,5 +1,5 @@
 #pragma once
-/// Behind a point where the events of an orbit change: the sequence of the motion there, and the orbits of that
+/// Beyond a point where the events of an orbit change: the sequence of the motion there, and the orbits of that
 /// sequence.
 #include "change/change.hpp"
 
@@ -13,11 +13,11 @@ struct OnsetInterval {
   bool knot = false;  ///< a point of a signal meets the chatter's limit: the onset is the change itself
 };
 
-/// Is a leg the rest behind a chatter's limit that a point of a signal ends?
+/// Is a leg the rest after a chatter's limit that a point of a signal ends?
 [[nodiscard]] bool rests_to_knot(const Itinerary& shape, std::size_t leg);
 
 /// Of the range: how well a change is known at worst, where nothing is said.
-constexpr double exactly = 1e-10;
+constexpr double place_tolerance = 1e-10;
 /// Of the range: events that begin as near to a change as this begin there.
 constexpr double same_change = 1e-7;
 
@@ -27,7 +27,8 @@ struct HalfBranch {
   bool renewed = false;                ///< the same motion, whose chatter is summed from another impact on: no change
   std::optional<OnsetInterval> onset;  ///< of a complete chatter, which begins or ends there
   double length = 0.0;                 ///< from the change to there; 0 where that is not known
-  double apart = 0.0;  ///< how far from the change its events begin, in the parameter: else changes lie between ..
+  double distance_from_change =
+      0.0;             ///< how far from the change its events begin, in the parameter: else changes lie between ..
   double error = 0.0;  ///< .. and how well that is known
 };
 
@@ -37,18 +38,19 @@ struct HalfBranch {
 /// @param nearest  how far from the change the motion is first looked at, of the range
 /// @returns the orbits with the events of the motion beyond whose branches, followed back, come to the change, or near
 /// it
-[[nodiscard]] std::vector<HalfBranch> reshape(const Problem& problem, const Orbit& before, const PathPoint& change,
-                                              const std::optional<TestValue>& test, double range,
-                                              const std::atomic<bool>* stop, double nearest = 1e-6);
+[[nodiscard]] std::vector<HalfBranch> find_branches_beyond(const Problem& problem, const Orbit& before,
+                                                           const PathPoint& change,
+                                                           const std::optional<TestValue>& test, double range,
+                                                           const std::atomic<bool>* stop, double nearest = 1e-6);
 
 /// Of these, those whose shape the orbit at the change has already: what is left where impacts lose their speed and
 /// legs their length.
-[[nodiscard]] std::vector<HalfBranch> leavings(const Problem& problem, const Orbit& before, const PathPoint& change,
-                                               const TestValue& test, double range);
+[[nodiscard]] std::vector<HalfBranch> branches_at(const Problem& problem, const Orbit& before, const PathPoint& change,
+                                                  const TestValue& test, double range);
 
 /// .. of some orbits with other events which the orbit at the change is too.
-[[nodiscard]] std::vector<HalfBranch> leavings(const Problem& problem, const PathPoint& change,
-                                               const std::vector<Orbit>& shapes, double range);
+[[nodiscard]] std::vector<HalfBranch> branches_at(const Problem& problem, const PathPoint& change,
+                                                  const std::vector<Orbit>& shapes, double range);
 
 /// Has a branch come to orbits of a family, which lie beside each other at the same parameter, as those of a mass that
 /// sticks anywhere in an interval?

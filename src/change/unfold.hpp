@@ -1,5 +1,5 @@
 #pragma once
-/// What lies behind a change of events: the one door of this room. What finds the orbits there (reshape, coincident,
+/// What lies beyond a change of events: the one door of this room. What finds the orbits there (reshape, coincident,
 /// nearby_shapes) and what runs motions (jump) may be replaced behind it.
 #include <functional>
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "orbit/leg_flow.hpp"
-#include "orbit/record.hpp"
 
 namespace slapstick::orbit {
 namespace {
@@ -16,14 +15,6 @@ void cut(List& list, std::ptrdiff_t from, std::ptrdiff_t count) {
 }
 
 }  // namespace
-
-std::vector<bool> gone_legs(const Orbit& from, const Orbit& to) {
-  constexpr double nothing = 1e-2;  // of a leg's length
-  std::vector<bool> gone;
-  for (std::size_t leg = 0; leg < to.legs(); ++leg)
-    gone.push_back(!to.tied(leg) && !in_burst(to, leg) && to.duration(leg) < nothing * from.duration(leg));
-  return gone;
-}
 
 Orbit uncut(const ModeSet& set, const Orbit& orbit) {
   Orbit plain = orbit;
@@ -46,21 +37,21 @@ namespace {
 /// An orbit, and which of its legs have shrunk to nothing.
 struct Shrunk {
   Orbit orbit;
-  std::vector<bool> gone;
+  std::vector<bool> dead;
   std::vector<std::size_t> starts;
 
   void begin_with(std::size_t leg) {
     rotate(orbit, leg);
-    std::rotate(gone.begin(), gone.begin() + static_cast<std::ptrdiff_t>(leg), gone.end());
+    std::rotate(dead.begin(), dead.begin() + static_cast<std::ptrdiff_t>(leg), dead.end());
     std::rotate(starts.begin(), starts.begin() + static_cast<std::ptrdiff_t>(leg), starts.end());
   }
   /// How many there are next to each other behind the first leg.
   [[nodiscard]] std::size_t run() const {
-    return static_cast<std::size_t>(std::find(gone.begin() + 1, gone.end(), false) - gone.begin()) - 1;
+    return static_cast<std::size_t>(std::find(dead.begin() + 1, dead.end(), false) - dead.begin()) - 1;
   }
   void leave_out(std::ptrdiff_t leg, std::ptrdiff_t count) {
     orbit::leave_out(orbit, leg, count);
-    cut(gone, 1, count);
+    cut(dead, 1, count);
     cut(starts, 1, count);
   }
 };
@@ -119,9 +110,9 @@ bool unite(Shrunk& turned, bool impacts_stay) {
 
 }  // namespace
 
-std::vector<Shortened> shortened(const ModeSet& set, const Orbit& orbit, const std::vector<bool>& gone,
+std::vector<Shortened> shortened(const ModeSet& set, const Orbit& orbit, const std::vector<bool>& dead,
                                  bool impacts_stay) {
-  Shrunk all{orbit, gone, {}};
+  Shrunk all{orbit, dead, {}};
   for (std::size_t i = 0; i < orbit.legs(); ++i) all.starts.push_back(i);
   std::vector<Shortened> shapes;  // one place after another; in symmetric orbits legs vanish in several together
   for (std::size_t i = 0; i < all.orbit.legs(); ++i) {
@@ -140,10 +131,10 @@ std::vector<Shortened> shortened(const ModeSet& set, const Orbit& orbit, const s
   return shapes;
 }
 
-std::vector<Orbit> without_legs(const ModeSet& set, const Orbit& orbit, const std::vector<bool>& gone,
+std::vector<Orbit> without_legs(const ModeSet& set, const Orbit& orbit, const std::vector<bool>& dead,
                                 bool impacts_stay) {
   std::vector<Orbit> shapes;
-  for (Shortened& one : shortened(set, orbit, gone, impacts_stay)) shapes.push_back(std::move(one.orbit));
+  for (Shortened& one : shortened(set, orbit, dead, impacts_stay)) shapes.push_back(std::move(one.orbit));
   return shapes;
 }
 

@@ -7,10 +7,6 @@
 
 namespace slapstick::orbit {
 
-/// Which legs are gone from one orbit of a shape to another: less than a hundredth of their length is left. Those of a
-/// chatter's burst are never gone.
-[[nodiscard]] std::vector<bool> gone_legs(const Orbit& from, const Orbit& to);
-
 /// The cycle of one leg without its event, from phase 0.
 [[nodiscard]] Orbit uncut(const ModeSet& set, const Orbit& orbit);
 
@@ -28,12 +24,12 @@ struct Shortened {
 /// Without the legs that are gone. Between two legs of one mode: those are one leg. Between two stops of one velocity:
 /// the second is the first's. Between another event and an impact that keeps a speed: the impact is all. Between two
 /// crossings of one line: what lies between them.
-/// @param gone  of each leg: has it no length?
+/// @param dead  of each leg: has it no length?
 /// @param impacts_stay  impacts keep their speed
 /// @returns the orbit with one run of such legs left out, with two .. : the shortest first
-[[nodiscard]] std::vector<Shortened> shortened(const ModeSet& set, const Orbit& orbit, const std::vector<bool>& gone,
+[[nodiscard]] std::vector<Shortened> shortened(const ModeSet& set, const Orbit& orbit, const std::vector<bool>& dead,
                                                bool impacts_stay);
-[[nodiscard]] std::vector<Orbit> without_legs(const ModeSet& set, const Orbit& orbit, const std::vector<bool>& gone,
+[[nodiscard]] std::vector<Orbit> without_legs(const ModeSet& set, const Orbit& orbit, const std::vector<bool>& dead,
                                               bool impacts_stay);
 
 }  // namespace slapstick::orbit

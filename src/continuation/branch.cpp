@@ -15,6 +15,7 @@
 #include "continuation/two_ways.hpp"
 #include "orbit/extent.hpp"
 #include "orbit/same_motion.hpp"
+#include "orbit/short_legs.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::orbit {
@@ -70,11 +71,11 @@ void Follower::look_for_pairs(const PathPoint& at, const PathPoint& next, double
 }
 
 /// Notes special points that leave the events as they are. A branch ends where its orbit becomes a shorter one run
-/// through twice, or the symmetric one behind which it has the images of its orbits.
+/// through twice, or the symmetric one beyond which it has the images of its orbits.
 void Follower::add(std::vector<SpecialPoint> smooth, std::size_t after) {
   constexpr double merged = 1e-3;  // at a fold or crossing that is known to 1e-10 in the parameter, states are to 1e-5
   for (SpecialPoint& special : smooth) {
-    if (std::min(special.value - options_.from, options_.to - special.value) <= exactly * range_) continue;
+    if (std::min(special.value - options_.from, options_.to - special.value) <= place_tolerance * range_) continue;
     const bool doubling = (special.type == SpecialType::LP || special.type == SpecialType::BP) &&
                           becomes_shorter(problem_, branch_.points.back().orbit, special.solution.orbit, merged);
     special.after = after;
@@ -105,7 +106,7 @@ bool Follower::end_at_boundary(PathPoint& at) {
   Orbit last = at.orbit;
   const ModeSet set(problem_.family(), last.values);
   move(problem_, linearise(problem_, set, last), length * at.tangent.cwiseProduct(at.units), 0.0, last);
-  last.values[0] = wall;
+  last.parameter() = wall;
   const std::optional<Orbit> orbit = refine(problem_, last);
   if (!orbit) return false;
   PathPoint next = point_of(problem_, *orbit, range_, at.tangent);
@@ -128,7 +129,7 @@ bool Follower::runs_over_itself() {
       count > neighbours ? lies_on_first(problem_, count - neighbours, branch_, points.back().orbit) : std::nullopt;
   old_points_ = old ? old_points_ + 1 : 0;
   if (old_points_ < certain) return false;
-  const auto on = [&](std::size_t i) { return points[i + 1].orbit.values[0] - points[i].orbit.values[0]; };
+  const auto on = [&](std::size_t i) { return points[i + 1].orbit.parameter() - points[i].orbit.parameter(); };
   const bool back = on(*old) * on(count - 2) < 0.0;
   const auto last = std::find_if(special.rbegin(), special.rend(),
                                  [&](const SpecialPoint& point) { return changes_events(point.type); });
@@ -141,7 +142,7 @@ bool Follower::runs_over_itself() {
   }
   points.resize(count - certain);
   std::erase_if(special, [&](const SpecialPoint& point) { return point.after >= points.size(); });
-  branch_.up.value = points.back().orbit.values[0];
+  branch_.up.value = points.back().orbit.parameter();
   end(BranchEnd::Kind::over_itself);
   return true;
 }
@@ -187,7 +188,7 @@ bool Follower::accept(PathPoint& at, PathPoint next, double length) {
   }
   if (!solution.is_motion) return change_events(at, next, length, solution.why);
   constexpr double half = 0.5;  // of legs that shrink together: where they do to nothing, what is left says how
-  if (length > shortest_for_pairs && legs_shrunk(at.orbit, next.orbit, half) > 1) {
+  if (length > shortest_for_pairs && shrunk_legs(at.orbit, next.orbit, half) > 1) {
     step_ = half * length;
     return true;
   }
@@ -236,7 +237,7 @@ void Follower::run(PathPoint at) {
     if (!next || !inside(value(*next)) || (bend < straight && step_ > 1e-4)) {
       step_ *= 0.5;
       if (step_ < shortest_step() && end_of_model(at)) return;
-      if (step_ < shortest_step() && leave(at)) continue;
+      if (step_ < shortest_step() && try_ways_on(at)) continue;
       if (step_ < shortest_step()) {
         if (at_end(value(at), structure * range_, at)) return end(BranchEnd::Kind::range);
         if (branch_.points.back().chatter)
@@ -283,7 +284,7 @@ Branch follow(const Problem& posed, const Orbit& start, const ContinuationOption
     } catch (const NumericalError& error) {  // what there is stays
       branch.up = {.kind = BranchEnd::Kind::refused,
                    .failed = true,
-                   .value = branch.points.back().orbit.values[0],
+                   .value = branch.points.back().orbit.parameter(),
                    .detail = error.what()};
     }
     if (branch.up.kind == BranchEnd::Kind::special) branch.up.special = branch.special.size() - 1;

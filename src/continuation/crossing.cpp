@@ -82,7 +82,7 @@ std::optional<Located> crossing_near(const Problem& problem, const Orbit& crossi
   for (const double aside : {0.02, -0.02, 0.005, -0.005}) {  // arclength, to where the equations are regular
     Orbit beside = crossing;
     move(problem, linear, aside * at.tangent.cwiseProduct(at.units), 0.0, beside);
-    beside.values[0] += values[0] - crossing.values[0];
+    beside.parameter() += values[0] - crossing.parameter();
     std::copy(values.begin() + 1, values.end(), beside.values.begin() + 1);
     std::vector<Condition> conditions = fixed_parameters(problem, beside.legs());
     conditions[0].row = at.tangent.cwiseQuotient(at.units).transpose();

@@ -84,7 +84,7 @@ std::optional<Orbit> CrossingCurve::located(Orbit here, std::vector<double> valu
     if (!found) return std::nullopt;
     Orbit orbit = found->point.orbit;
     orbit.values[1] = values[1];  // held up to the rounding of an interpolation
-    if (!hold_second) std::swap(orbit.values[0], orbit.values[1]);
+    if (!hold_second) std::swap(orbit.parameter(), orbit.values[1]);
     return orbit;
   } catch (const InputError&) {  // no model there
   } catch (const NumericalError&) {

@@ -125,11 +125,11 @@ CurveFollower::Place CurveFollower::place(Orbit orbit, const Place* before) cons
   here.across = plane.col(1);
   const auto slope = [&](double a, double b) {
     const auto plus = f(here, a * h, b * h), minus = f(here, -a * h, -b * h);
-    if (!plus || !minus) throw NumericalError("curve: no orbits beside " + shown(here.orbit.values[0]));
+    if (!plus || !minus) throw NumericalError("curve: no orbits beside " + shown(here.orbit.parameter()));
     return (*plus - *minus) / (2.0 * h);
   };
   const double p = slope(1.0, 0.0), q = slope(0.0, 1.0), size = std::hypot(p, q);
-  if (!(size > 0.0)) throw NumericalError("curve: the special point is degenerate at " + shown(here.orbit.values[0]));
+  if (!(size > 0.0)) throw NumericalError("curve: the special point is degenerate at " + shown(here.orbit.parameter()));
   const VectorXd along = (q * plane.col(0) - p * plane.col(1)) / size,
                  across = (p * plane.col(0) + q * plane.col(1)) / size;
   here.along = before != nullptr && along.dot(before->along) < 0.0 ? VectorXd(-along) : along;
@@ -191,10 +191,10 @@ CurvePlace CurveFollower::watched_at(const Place& here) const {
 /// The zero of a function between two places, at which its signs differ.
 std::optional<CurveFollower::Place> CurveFollower::located(const Place& before, const Place& now, double step,
                                                            const std::function<double(const Place&)>& value) const {
-  constexpr double enough = 1e-7;  // of the step: the tangents, by differences, are known no better
+  constexpr double place_tolerance_of_step = 1e-7;  // of the step: the tangents, by differences, are known no better
   double a = 0.0, b = step, f_a = value(before), f_b = value(now);
   std::optional<Place> best;
-  for (int k = 0; k < 30 && b - a > enough * step; ++k) {
+  for (int k = 0; k < 30 && b - a > place_tolerance_of_step * step; ++k) {
     double s = (a * f_b - b * f_a) / (f_b - f_a);
     if (!(s > a && s < b) || k % 3 == 2) s = 0.5 * (a + b);
     std::optional<Place> there = next_place(before, s);
@@ -204,7 +204,7 @@ std::optional<CurveFollower::Place> CurveFollower::located(const Place& before, 
     (left ? a : b) = s;
     (left ? f_a : f_b) = f_s;
     best = std::move(there);
-    if (f_s == 0.0 || moved <= enough * step) break;
+    if (f_s == 0.0 || moved <= place_tolerance_of_step * step) break;
   }
   return best;
 }

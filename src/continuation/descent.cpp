@@ -31,7 +31,7 @@ bool is_known(const Problem& problem, const std::vector<Branch>& branches, const
 
 bool follow_born(const Problem& problem, std::vector<Branch>& branches, const Orbit& born,
                  const ContinuationOptions& options, std::vector<std::size_t>& images) {
-  if (born.values[0] < options.from || born.values[0] > options.to || is_known(problem, branches, born, images))
+  if (born.parameter() < options.from || born.parameter() > options.to || is_known(problem, branches, born, images))
     return false;
   Branch branch = follow(problem, born, options);
   if (is_known(problem, branches, best_known(branch), images)) return false;

@@ -1,7 +1,7 @@
 #pragma once
 /// What follows a branch, point by point. Steps and what is looked for between points: branch.cpp; changes of events:
 /// follower_changes.cpp; onsets of chatter: follower_onsets.cpp.
-#include "change/collapse.hpp"
+#include "change/death.hpp"
 #include "change/onset.hpp"
 #include "change/unfold.hpp"
 #include "continuation/special.hpp"
@@ -21,8 +21,8 @@ class Follower {
 
  private:
   static constexpr double structure = 1e-5;  ///< of the range: at its end the model may have another structure
-  [[nodiscard]] double value(const PathPoint& point) const { return point.orbit.values[0]; }
-  /// The onset of a chatter is not come nearer to than its equations, of ever more impacts, are solvable.
+  [[nodiscard]] double value(const PathPoint& point) const { return point.orbit.parameter(); }
+  /// The smallest step near the onset of a chatter: nearer to it the equations, of ever more impacts, become singular.
   [[nodiscard]] double shortest_step() const {
     return branch_.points.back().chatter ? std::max(1e-6, options_.shortest_step) : options_.shortest_step;
   }
@@ -42,7 +42,7 @@ class Follower {
     double value = 0.0, error = 0.0;
     bool onset = false;
   };
-  /// @param way  set to the way from the first orbit behind the change back to it, if other changes lie between
+  /// @param way  set to the way from the first orbit beyond the change back to it, if other changes lie between
   [[nodiscard]] Unfolding look_beyond(const PathPoint& at, const Change& change, std::optional<Branch>& way) const;
   [[nodiscard]] std::optional<bool> lead_back(const Change& change, const HalfBranch& found, double error,
                                               std::optional<Branch>& way) const;
@@ -68,13 +68,13 @@ class Follower {
   bool clear_onset(PathPoint& at);
   bool die_out(PathPoint& at);
   bool leave_edge(PathPoint& at);
-  bool leave(PathPoint& at);
+  bool try_ways_on(PathPoint& at);
   void add_here(SpecialPoint special);
-  struct Way {
+  struct ReturnPath {
     Branch branch;
     std::optional<SpecialPoint> place;  ///< as it was come to
   };
-  [[nodiscard]] std::optional<Way> way_back(const PathPoint& from, const Place& place) const;
+  [[nodiscard]] std::optional<ReturnPath> follow_back(const PathPoint& from, const Place& place) const;
   void add_between(Branch way);
   void arrive(SpecialPoint special);
   void set_out(PathPoint& at, PathPoint from);
@@ -84,7 +84,7 @@ class Follower {
   void add(std::vector<SpecialPoint> smooth, std::size_t after);
   bool end_at_boundary(PathPoint& at);
   bool end_of_model(const PathPoint& at);
-  [[nodiscard]] bool comes_to_rest(const SpecialPoint& special) const;
+  [[nodiscard]] bool shrinks_to_equilibrium(const SpecialPoint& special) const;
   [[nodiscard]] bool passes_nothing(const SpecialPoint& special) const;
   [[nodiscard]] bool stays_in_one_mode(const Orbit& orbit) const;
   bool runs_over_itself();
@@ -101,7 +101,7 @@ class Follower {
     double length;  ///< from there to the next one
   };
   std::optional<Before> before_;
-  /// The first point behind the onset of a chatter, in the other direction, and what the branch had then.
+  /// The first point beyond the onset of a chatter, in the other direction, and what the branch had then.
   struct Onset {
     PathPoint other_way;
     std::size_t points, special;

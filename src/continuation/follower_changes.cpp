@@ -1,4 +1,4 @@
-/// Changes of events on a branch: where they are, what is behind them, and how the branch goes on or ends there.
+/// Changes of events on a branch: where they are, what is beyond them, and how the branch goes on or ends there.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -14,21 +14,12 @@
 #include "continuation/special.hpp"
 #include "orbit/cyclic.hpp"
 #include "orbit/extent.hpp"
-#include "orbit/record.hpp"
 #include "orbit/same_motion.hpp"
+#include "orbit/short_legs.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::orbit {
 namespace {
-
-/// Has it a leg so short that what happens there is rounding? Those of a chatter's burst are always there.
-bool is_all_but_gone(const Orbit& orbit) {
-  constexpr double nothing = 1e-7;
-  for (std::size_t leg = 0; leg < orbit.legs(); ++leg)
-    if (!orbit.tied(leg) && !in_burst(orbit, leg) && orbit.duration(leg) < nothing * (orbit.t.back() - orbit.t.front()))
-      return true;
-  return false;
-}
 
 /// The type of a change and how sliding changes, by the events on both sides.
 void name_change(const Orbit& behind, SpecialPoint& special) {
@@ -74,7 +65,7 @@ bool Follower::look_nearer(PathPoint& at, double length, const std::string& why)
     step_ = 0.25 * length;
     return true;
   }
-  if (leave(at)) return !ended_;
+  if (try_ways_on(at)) return !ended_;
   if (at_end(value(at), structure * range_, at)) {
     end(BranchEnd::Kind::range);
     return false;
@@ -87,7 +78,7 @@ bool Follower::look_nearer(PathPoint& at, double length, const std::string& why)
 /// and may not exist, as a negative damper.
 bool Follower::at_end(double place, double error, const PathPoint& at) const {
   const double left = at.watched.turn > 0.0 ? options_.to - place : place - options_.from;
-  return left <= exactly * range_ + error;
+  return left <= place_tolerance * range_ + error;
 }
 
 /// Between `at` and `beyond` the motion's events change. Notes the point and goes on with new ones. @returns false if
@@ -95,14 +86,15 @@ bool Follower::at_end(double place, double error, const PathPoint& at) const {
 bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double length, const std::string& why) {
   std::optional<Change> change = first_change(at, beyond, length);
   if ((!change || in_gathering(at, *change)) && meet_onset(at)) return !ended_;
-  if (!change || fades(at.orbit, change->test.leg)) return look_nearer(at, length, why);
+  if (!change || is_rounding_leg(at.orbit, change->test.leg)) return look_nearer(at, length, why);
   SpecialPoint& special = change->special;
   if (at_end(special.value, special.error, at)) {
     end(BranchEnd::Kind::range);
     return false;
   }
   const bool arrived = back_to_ && !back_to_->onset && std::abs(special.value - back_to_->value) <= back_to_->error;
-  if (!arrived && is_all_but_gone(at.orbit) && die_out(at)) return !ended_;
+  constexpr double hardly_a_leg = 1e-7;  // of the cycle: what happens in it is rounding
+  if (!arrived && has_leg_below(at.orbit, hardly_a_leg) && die_out(at)) return !ended_;
   std::optional<PathPoint> behind_others;  // where a fold, say, lies before the change
   if (change->length > 0.0) {
     std::vector<SpecialPoint> smooth = beside_change(problem_, at, change->length, range_);
@@ -128,7 +120,7 @@ bool Follower::change_events(PathPoint& at, const PathPoint& beyond, double leng
   return pass(at, std::move(*change));
 }
 
-/// What lies behind a change.
+/// What lies beyond a change.
 Unfolding Follower::look_beyond(const PathPoint& at, const Change& change, std::optional<Branch>& way) const {
   UnfoldOptions how{.range = range_, .stop = options_.stop};
   how.simulate = branch_.points.back().stable() && !cascade_ends(at);
@@ -137,12 +129,12 @@ Unfolding Follower::look_beyond(const PathPoint& at, const Change& change, std::
   return unfold(problem_, at.orbit, change, how);
 }
 
-/// Where the events of an orbit behind a change begin elsewhere, others lie between: it is followed back to the change.
+/// Where the events of an orbit beyond a change begin elsewhere, others lie between: it is followed back to the change.
 /// @returns whether its branch begins in the sense of the parameter from which the old one came; empty if it does not
 /// come to the change
 std::optional<bool> Follower::lead_back(const Change& change, const HalfBranch& found, double error,
                                         std::optional<Branch>& way) const {
-  std::optional<Way> back = way_back(reversed(found.point), {change.special.value, error, false});
+  std::optional<ReturnPath> back = follow_back(reversed(found.point), {change.special.value, error, false});
   if (!back) return std::nullopt;
   way = std::move(back->branch);
   const bool turned = ranges::count_if(way->special, turns) % 2 != 0;
@@ -172,7 +164,7 @@ bool Follower::end_at_others(const PathPoint& at, SpecialPoint special, Unfoldin
   return end_at(at, std::move(special));
 }
 
-/// Goes on behind a change. @returns false if the branch ends
+/// Goes on beyond a change. @returns false if the branch ends
 bool Follower::pass(PathPoint& at, Change change) {
   SpecialPoint& special = change.special;
   std::optional<Branch> way;
@@ -208,7 +200,7 @@ bool Follower::pass(PathPoint& at, Change change) {
 
 /// Has a cycle without forcing shrunk to a point? Beside a corner the laws are linear on either side: a cycle about a
 /// state of rest there has a size in proportion to the distance of the two, and ends as they meet.
-bool Follower::comes_to_rest(const SpecialPoint& special) const {
+bool Follower::shrinks_to_equilibrium(const SpecialPoint& special) const {
   if (special.solution.orbit.shape.n > 0 || branch_.points.empty()) return false;
   return Extent(problem_, special.solution.orbit).velocity() <=
          as_good_as_none * Extent(problem_, branch_.points.back().orbit).velocity();
@@ -233,7 +225,7 @@ bool Follower::end_at(const PathPoint& at, SpecialPoint special) {
     end(BranchEnd::Kind::range);
     return false;
   }
-  if (special.passage == Passage::unknown && comes_to_rest(special)) special.passage = Passage::equilibrium;
+  if (special.passage == Passage::unknown && shrinks_to_equilibrium(special)) special.passage = Passage::equilibrium;
   if (special.passage == Passage::unknown && stays_in_one_mode(special.solution.orbit))
     special.passage = Passage::family;
   branch_.up.failed = special.passage == Passage::unknown;
@@ -246,10 +238,10 @@ bool Follower::end_at(const PathPoint& at, SpecialPoint special) {
 /// @returns false if none shrinks
 bool Follower::die_out(PathPoint& at) {
   if (!options_.through_changes) return false;
-  std::optional<Collapse> ahead = death_ahead(problem_, at);
+  std::optional<LocatedDeath> ahead = death_ahead(problem_, at);
   if (!ahead) return false;
   SpecialPoint special;
-  special.value = ahead->death.orbit.values[0];
+  special.value = ahead->death.orbit.parameter();
   special.error = ahead->error;
   if (at_end(special.value, special.error, at)) {
     end(BranchEnd::Kind::range);
@@ -265,10 +257,10 @@ bool Follower::die_out(PathPoint& at) {
   const auto length = [&](const TestValue& test) { return test.test == Test::duration && test.leg == ahead->leg; };
   special.test = static_cast<std::size_t>(ranges::find_if(tests, length) - tests.begin());
   PathPoint there = at;
-  there.orbit.values[0] = special.value;
+  there.orbit.parameter() = special.value;
   Unfolding found;
   std::vector<HalfBranch>& left = found.branches;
-  left = leavings(problem_, there, {special.death->orbit}, range_);
+  left = branches_at(problem_, there, {special.death->orbit}, range_);
   std::erase_if(left, [&](const HalfBranch& next) { return one_of_family(problem_, next.point, range_); });
   find_met(problem_, at.orbit, found);
   if (!found.others.empty()) {
@@ -305,8 +297,9 @@ bool Follower::leave_edge(PathPoint& at) {
   return true;
 }
 
-/// Where no step leads on and no change is found: an end that is known, or a way on. @returns false if there is neither
-bool Follower::leave(PathPoint& at) {
+/// Called when no step converges and no change is found: an end that is known, or a way on.
+/// @returns false if there is neither
+bool Follower::try_ways_on(PathPoint& at) {
   return leave_edge(at) || leave_chatter(at) || turn_round(at) || clear_onset(at) || end_cascade(at) || die_out(at);
 }
 
@@ -338,7 +331,7 @@ bool Follower::passes_nothing(const SpecialPoint& special) const {
   return idle > 0 && static_cast<std::size_t>(idle) + 1 >= events.size();
 }
 
-/// The branch goes on behind a change, with new events.
+/// The branch goes on beyond a change, with new events.
 /// @param between  followed back from there to the change, if other changes lie between
 void Follower::go_on(PathPoint& at, SpecialPoint special, HalfBranch next, std::optional<Branch> between) {
   special.passage = next.folds ? Passage::fold : Passage::persistence;

@@ -8,8 +8,8 @@
 #include "change/onset.hpp"
 #include "continuation/follower.hpp"
 #include "continuation/lies_on.hpp"
-#include "orbit/record.hpp"
 #include "orbit/same_motion.hpp"
+#include "orbit/short_legs.hpp"
 
 namespace slapstick::orbit {
 
@@ -31,17 +31,17 @@ void Follower::arrive(SpecialPoint special) {
   end(BranchEnd::Kind::special);
 }
 
-/// From an orbit behind a place back to it. Empty if the branch does not lead there. Towards an onset of chatter it
+/// From an orbit beyond a place back to it. Empty if the branch does not lead there. Towards an onset of chatter it
 /// need not come quite there: from few changes of a cascade its end is not known.
-std::optional<Follower::Way> Follower::way_back(const PathPoint& from, const Place& place) const {
-  constexpr double widest = 30.0, near = 0.2;  // of the distance between the place and the orbit
+std::optional<Follower::ReturnPath> Follower::follow_back(const PathPoint& from, const Place& place) const {
+  constexpr double range_of_return = 30.0, part_left = 0.2;  // of the distance between the place and the orbit
   constexpr int most_points = 300;
   const double distance = std::abs(value(from) - place.value);
   ContinuationOptions between = options_;
-  between.from = std::max(options_.from, place.value - widest * distance);
-  between.to = std::min(options_.to, place.value + widest * distance);
+  between.from = std::max(options_.from, place.value - range_of_return * distance);
+  between.to = std::min(options_.to, place.value + range_of_return * distance);
   between.most_points = most_points;
-  Way way;
+  ReturnPath way;
   way.branch.points.push_back(solution_of(from, nullptr));
   Follower back(problem_, between, way.branch);
   back.range_ = range_;
@@ -56,8 +56,8 @@ std::optional<Follower::Way> Follower::way_back(const PathPoint& from, const Pla
     way.branch.special.pop_back();
     return way;
   }
-  const double left = std::abs(way.branch.points.back().orbit.values[0] - place.value);
-  if (!place.onset || !(left < near * distance)) return std::nullopt;
+  const double left = std::abs(way.branch.points.back().orbit.parameter() - place.value);
+  if (!place.onset || !(left < part_left * distance)) return std::nullopt;
   const std::size_t last = way.branch.points.size() - 1;  // what it ended with there says nothing
   std::erase_if(way.branch.special, [&](const SpecialPoint& point) { return point.after >= last; });
   return way;
@@ -75,7 +75,7 @@ void Follower::add_between(Branch way) {
   std::move(way.points.rbegin(), way.points.rend(), std::back_inserter(branch_.points));
 }
 
-/// Goes on behind the onset of a chatter with the cascade that gathers there, from its end on.
+/// Goes on beyond the onset of a chatter with the cascade that gathers there, from its end on.
 /// The way to the onset comes nearer to its orbit: that tells it where a chatter's limit meets a step, since the
 /// cascade passes the onset's parameter between any two changes there.
 /// @returns false if that is not to be followed
@@ -83,7 +83,7 @@ bool Follower::enter_cascade(PathPoint& at, SpecialPoint special, const PathPoin
   if (back_to_) return false;
   const auto off = [&](const Orbit& orbit) { return apart(problem_, special.solution.orbit, orbit); };
   for (const PathPoint& start : {reversed(from), from}) {
-    std::optional<Way> way = way_back(start, {special.value, 0.0, true});
+    std::optional<ReturnPath> way = follow_back(start, {special.value, 0.0, true});
     if (!way || off(way->branch.points.back().orbit) > off(from.orbit)) continue;
     if (way->place && way->place->error < special.error) {
       special.value = way->place->value;
@@ -101,7 +101,8 @@ bool Follower::enter_cascade(PathPoint& at, SpecialPoint special, const PathPoin
 
 /// Orbits of the cascade of an onset, some way from it.
 std::vector<HalfBranch> Follower::clear_of_onset(const PathPoint& at) const {
-  std::vector<HalfBranch> found = reshape(problem_, at.orbit, at, std::nullopt, range_, options_.stop, clear);
+  std::vector<HalfBranch> found =
+      find_branches_beyond(problem_, at.orbit, at, std::nullopt, range_, options_.stop, clear);
   std::erase_if(found, [](const HalfBranch& next) { return !next.onset || next.onset->release || next.folds; });
   return found;
 }
@@ -124,7 +125,7 @@ bool Follower::leave_knot(PathPoint& at, SpecialPoint special) {
   return false;
 }
 
-/// Leaves a chatter by its cascade, from an orbit clear of the onset: just behind it impacts are too many and too short
+/// Leaves a chatter by its cascade, from an orbit clear of the onset: just beyond it impacts are too many and too short
 /// for four grazes to be found on the way back. @returns false if there is no such orbit, or none that leads back
 bool Follower::leave_clear_of_onset(PathPoint& at) {
   const std::vector<HalfBranch> found = clear_of_onset(at);
@@ -136,11 +137,12 @@ bool Follower::leave_clear_of_onset(PathPoint& at) {
   return enter_cascade(at, std::move(special), found.front().point);
 }
 
-/// Near its onset a chatter's equations, of ever more impacts, are hardly solvable. Looks for the orbits behind the
+/// Near its onset a chatter's equations, of ever more impacts, are hardly solvable. Looks for the orbits beyond the
 /// onset; where no orbit is found, the branch ends at the onset. @returns false if it is no onset
 bool Follower::leave_chatter(PathPoint& at) {
   if (!options_.through_changes || !branch_.points.back().chatter) return false;
-  std::vector<HalfBranch> found = reshape(problem_, at.orbit, at, std::nullopt, range_, options_.stop, clear);
+  std::vector<HalfBranch> found =
+      find_branches_beyond(problem_, at.orbit, at, std::nullopt, range_, options_.stop, clear);
   std::erase_if(found, [](const HalfBranch& next) { return !next.onset || next.folds; });
   if (found.empty() && !chatter_lengthens(branch_.points)) return false;
   const std::optional<PlaceLimit> ahead = onset_ahead(at);
@@ -173,11 +175,11 @@ bool Follower::leave_chatter(PathPoint& at) {
 }
 
 /// Behind the onset of a chatter one direction leads on, the other back towards the onset, through ever more impacts.
-/// @returns false if it was not that
+/// @returns false if the branch did not start at an onset
 bool Follower::turn_round(PathPoint& at) {
-  constexpr double near = 1e-3;  // of the range
+  constexpr double at_onset = 1e-3;  // of the range
   if (!onset_ || chatters(branch_.points.back().orbit) > onset_->chatters ||
-      std::abs(value(at) - onset_->other_way.orbit.values[0]) > near * range_)
+      std::abs(value(at) - onset_->other_way.orbit.parameter()) > at_onset * range_)
     return false;
   at = std::move(onset_->other_way);
   branch_.points.resize(onset_->points);
@@ -188,17 +190,17 @@ bool Follower::turn_round(PathPoint& at) {
   return true;
 }
 
-/// Just behind the onset of a chatter, from which it is followed or beside which the branch begins, its impacts come as
-/// close to rounding as a cascade's: on with the chatter a little farther on. @returns false if it is not that
+/// Just beyond the onset of a chatter, from which it is followed or beside which the branch begins, its impacts come as
+/// close to rounding as a cascade's: on with the chatter a little farther on. @returns false if it is not so near
 bool Follower::clear_onset(PathPoint& at) {
-  constexpr double near = 10.0;                    // distances of the cascade's last change
+  constexpr double last_changes = 10.0;            // distances of the cascade's last change
   constexpr double nearest = 1e-6, widest = 1e-4;  // of the range
   if (!branch_.points.back().chatter) return false;
   const std::vector<SpecialPoint>& special = branch_.special;
   const bool begins = special.empty();
   if (!begins && special.back().type != SpecialType::CH) return false;
-  const double place = begins ? branch_.points.front().orbit.values[0] : special.back().value;
-  const double last_change = special.size() > 1 ? near * std::abs(special.end()[-2].value - place) : 0.0;
+  const double place = begins ? branch_.points.front().orbit.parameter() : special.back().value;
+  const double last_change = special.size() > 1 ? last_changes * std::abs(special.end()[-2].value - place) : 0.0;
   if (!(std::abs(value(at) - place) < std::clamp(last_change, nearest * range_, widest * range_))) return false;
   std::optional<HalfBranch> next = beyond_cascade(problem_, at, place, range_, options_.stop);
   if (!next) return false;
@@ -211,10 +213,8 @@ bool Follower::clear_onset(PathPoint& at) {
 /// The onset that a branch with a complete chatter runs towards, by the onset's own equations. Looked for again where
 /// the chatter has more impacts by far.
 std::optional<PlaceLimit> Follower::onset_ahead(const PathPoint& at) {
-  constexpr double much =
-      1.2;  // a look costs as much as a step: with fewer legs more they add up, with more the onset comes late
   if (!branch_.points.back().chatter) return std::nullopt;
-  if (!ahead_ && static_cast<double>(at.orbit.legs()) >= much * static_cast<double>(looked_from_)) {
+  if (!ahead_ && static_cast<double>(at.orbit.legs()) >= longer_burst * static_cast<double>(looked_from_)) {
     looked_from_ = at.orbit.legs();
     ahead_ = chatter_limit(problem_, at.orbit);
   }
@@ -294,7 +294,7 @@ bool Follower::end_cascade(PathPoint& at) {
   return true;
 }
 
-/// The same where the cascade's next change is known, but not what lies behind it.
+/// The same where the cascade's next change is known, but not what lies beyond it.
 bool Follower::end_cascade_with(PathPoint& at, SpecialPoint last) {
   last.passage = Passage::cascade;
   last.jump.reset();

@@ -7,6 +7,7 @@
 
 #include "base/ranges.hpp"
 #include "continuation/special.hpp"
+#include "orbit/short_legs.hpp"
 
 namespace slapstick::orbit {
 namespace {
@@ -15,13 +16,6 @@ int outside(const Watched& watched) {
   constexpr double off_circle = 1e-7;  // of the circle: what lies on it all along is nothing that passes
   return static_cast<int>(
       ranges::count_if(watched.multipliers, [](const auto& mu) { return std::abs(mu) > 1.0 + off_circle; }));
-}
-
-/// Is a leg's length less than this part of what it was?
-bool shrinks(const Orbit& from, const Orbit& to, double part) {
-  for (std::size_t i = 0; i < from.legs(); ++i)
-    if (!to.tied(i) && to.duration(i) < part * from.duration(i)) return true;
-  return false;
 }
 
 }  // namespace
@@ -69,13 +63,13 @@ std::vector<SpecialPoint> within_halves(const Problem& problem, const PathPoint&
 }
 
 std::vector<SpecialPoint> beside_change(const Problem& problem, const PathPoint& from, double length, double range) {
-  constexpr double nothing = 1e-5;
+  constexpr double left_of_a_leg = 1e-5;
   std::optional<PathPoint> last;
   double end = 0.0;
   for (const double part : {1.0 - 1e-6, 1.0 - 1e-4, 1.0 - 1e-2}) {
     last = step_to(problem, from, part * length, range);
     end = part * length;
-    if (last && !shrinks(from.orbit, last->orbit, nothing)) break;
+    if (last && shrunk_legs(from.orbit, last->orbit, left_of_a_leg) == 0) break;
     last.reset();
   }
   std::vector<SpecialPoint> points;

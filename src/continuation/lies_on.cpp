@@ -8,6 +8,7 @@
 #include "orbit/cyclic.hpp"
 #include "orbit/record.hpp"
 #include "orbit/same_motion.hpp"
+#include "orbit/short_legs.hpp"
 
 namespace slapstick::orbit {
 
@@ -16,12 +17,12 @@ using Eigen::VectorXd;
 bool lies_between(const Extent& extent, const Orbit& a, const Orbit& b, const Orbit& orbit) {
   // Between two points the branch is nearly straight: in parts of an orbit's extent, and of what lies between. In a
   // cascade all orbits are much alike.
-  constexpr double most = 1e-3, least = 1e-6, bend = 0.1;
-  const double part = (orbit.values[0] - a.values[0]) / (b.values[0] - a.values[0]);
+  constexpr double most_bend = 1e-3, least_bend = 1e-6, bend = 0.1;
+  const double part = (orbit.parameter() - a.parameter()) / (b.parameter() - a.parameter());
   if (!(part >= 0.0 && part <= 1.0) || !(a.shape.legs == b.shape.legs)) return false;
   double way = 0.0;
   for (std::size_t i = 0; i < a.legs(); ++i) way = std::max(way, extent.distance(a.x[i], b.x[i]));
-  const double same = std::clamp(bend * way, least, most);
+  const double same = std::clamp(bend * way, least_bend, most_bend);
   return from_some_event(orbit, a, [&](std::size_t shift) {
     for (std::size_t i = 0; i < a.legs(); ++i) {
       const std::size_t k = (i + shift) % a.legs();
@@ -48,7 +49,7 @@ namespace {
 /// both where the events change between them.
 std::vector<Orbit> orbits_at(const Problem& problem, const Orbit& a, const Orbit& b, double value) {
   constexpr double beyond = 0.1;  // of a step: where two orbits meet, neither is quite between the other's points
-  const double part = (value - a.values[0]) / (b.values[0] - a.values[0]);
+  const double part = (value - a.parameter()) / (b.parameter() - a.parameter());
   if (!(part >= -beyond && part <= 1.0 + beyond)) return {};
   std::vector<Orbit> guesses = {a};
   const bool same_events = a.shape.legs == b.shape.legs;
@@ -62,7 +63,7 @@ std::vector<Orbit> orbits_at(const Problem& problem, const Orbit& a, const Orbit
   const bool inside = same_events && part >= 0.0 && part <= 1.0;
   std::vector<Orbit> found;
   for (Orbit& guess : guesses) {
-    guess.values[0] = value;
+    guess.parameter() = value;
     const std::optional<Orbit> orbit = refine(problem, guess);
     if (orbit && (inside || is_motion(problem, *orbit))) found.push_back(*orbit);
   }
@@ -77,15 +78,15 @@ bool may_be_one(const Orbit& a, const Orbit& b) {
 using Distance = double (*)(const Problem& problem, const Orbit& a, const Orbit& b);
 
 bool meets(const Problem& problem, const Branch& branch, const Orbit& orbit, Distance distance) {
-  constexpr double same = 1e-6;
+  constexpr double same_orbit_on_branch = 1e-6;
   const Extent extent(problem, orbit);
   for (std::size_t i = 0; i + 1 < branch.points.size(); ++i) {
     const Orbit &a = branch.points[i].orbit, &b = branch.points[i + 1].orbit;
     if (a.shape.n != orbit.shape.n) continue;
     if (orbit.shape.n == 0 && lies_between(extent, a, b, orbit)) return true;
-    const std::vector<Orbit> own = orbits_at(problem, a, b, orbit.values[0]);
+    const std::vector<Orbit> own = orbits_at(problem, a, b, orbit.parameter());
     const auto is_it = [&](const Orbit& other) {
-      return may_be_one(orbit, other) && distance(problem, orbit, other) < same;
+      return may_be_one(orbit, other) && distance(problem, orbit, other) < same_orbit_on_branch;
     };
     if (ranges::any_of(own, is_it)) return true;
   }

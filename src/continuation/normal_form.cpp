@@ -21,12 +21,12 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 using Complex = std::complex<double>;
 
-constexpr int halvings = 18;        ///< of the step of differences, from 1/8 on
-constexpr double enough = 1e-8;     ///< relative error of a coefficient after which there is nothing to gain
-constexpr double believed = 1e-3;   ///< largest relative error of a coefficient
-constexpr double resonant = 0.01;   ///< |mu^m - 1|, m = 1 .. 4: nearer the normal form has other terms
-constexpr double at_circle = 1e-3;  ///< nearer to the unit circle another multiplier has a part in what happens
-constexpr double same = 1e-4;       ///< .. of the multiplier from what it is taken for
+constexpr int halvings = 18;                 ///< of the step of differences, from 1/8 on
+constexpr double error_of_no_matter = 1e-8;  ///< relative error of a coefficient after which there is nothing to gain
+constexpr double believed = 1e-3;            ///< largest relative error of a coefficient
+constexpr double resonant = 0.01;            ///< |mu^m - 1|, m = 1 .. 4: nearer the normal form has other terms
+constexpr double at_circle = 1e-3;       ///< nearer to the unit circle another multiplier has a part in what happens
+constexpr double off_multiplier = 1e-4;  ///< .. of the multiplier from what it is taken for
 
 Orbit begun(Orbit orbit, std::size_t leg) {
   if (leg > 0) rotate(orbit, leg);
@@ -54,16 +54,16 @@ VectorXd largest_sizes(const Problem& problem, const ModeSet& set, const Orbit& 
 
 /// A leg whose end is found by Newton's method from a guess.
 LegValue ended(const ModeSet& set, const Leg& leg, const Leg& next, const VectorXd& x, double begin, double& end) {
-  constexpr int most = 30;
-  constexpr double rounding = 4e-16;
+  constexpr int most_newton_steps = 30;
+  constexpr double instant_rounding = 4e-16;
   double before = INFINITY;
-  for (int k = 0; k < most; ++k) {
+  for (int k = 0; k < most_newton_steps; ++k) {
     LegValue value = leg_value(set, leg, next, x, begin, end);
     if (leg.ending == Ending::cut) return value;
     const double step = -value.h.value()[0] / value.h.by_end()[0];
     if (!std::isfinite(step) || std::abs(step) > 1.0) break;
     const bool stalled = std::abs(step) < 1e-13 && std::abs(step) >= before;
-    if (std::abs(step) <= rounding * std::max(1.0, std::abs(end)) || stalled) return value;
+    if (std::abs(step) <= instant_rounding * std::max(1.0, std::abs(end)) || stalled) return value;
     before = std::abs(step);
     end += step;
   }
@@ -189,7 +189,7 @@ Estimate coefficient(SpecialType type, const FixedPhaseMap& map, const Critical&
     }
   };
   double value = std::nan(""), last = value, before_last = value;  // extrapolated: the last two
-  for (int k = 0; k < halvings && !(best.error <= enough * std::abs(best.value)); ++k) {
+  for (int k = 0; k < halvings && !(best.error <= error_of_no_matter * std::abs(best.value)); ++k) {
     const double coarse = std::exchange(value, value_at(std::ldexp(0.125, -k)));
     const double extrapolated = (4.0 * value - coarse) / 3.0;
     const double change = std::max(std::abs(last - before_last), std::abs(extrapolated - last));
@@ -205,7 +205,7 @@ NormalForm normal_form(const Problem& problem, const SpecialPoint& point) {
     const Orbit& orbit = point.solution.orbit;
     const FixedPhaseMap map(problem, orbit, freest_leg(set_of(problem, orbit), orbit));
     const Critical direction = critical(map.jacobian(VectorXd::Zero(map.sizes().size())), target(point));
-    if (std::abs(direction.mu - target(point)) > same) {
+    if (std::abs(direction.mu - target(point)) > off_multiplier) {
       form.verdict = NormalForm::Verdict::not_simple;
       return form;
     }

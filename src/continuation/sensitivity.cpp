@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "base/dense.hpp"
-#include "change/collapse.hpp"
+#include "change/death.hpp"
 #include "continuation/crossing.hpp"
 #include "continuation/special.hpp"
 #include "orbit/extent.hpp"
@@ -87,13 +87,13 @@ std::vector<Sensitivity> crossing_sensitivity(const Problem& problem, const Orbi
       values[j] += h * unit;
       try {
         const auto found = crossing_near(problem, orbit, values, range);
-        return found ? std::optional(found->point.orbit.values[0]) : std::nullopt;
+        return found ? std::optional(found->point.orbit.parameter()) : std::nullopt;
       } catch (const InputError&) {  // no model there
       } catch (const NumericalError&) {
       }
       return std::nullopt;
     };
-    const Quotient rate = quotient(place, orbit.values[0], part);
+    const Quotient rate = quotient(place, orbit.parameter(), part);
     const Known known = !std::isfinite(rate.value) ? Known::not_solved
                         : rate.one_sided           ? Known::from_one_side
                                                    : Known::from_both_sides;
@@ -167,9 +167,9 @@ std::vector<Sensitivity> moved_with(const Problem& problem, const PathPoint& at,
 /// Where legs die the rates are exact. At a parameter's bound they are those of the side that there is.
 std::vector<Sensitivity> death_sensitivity(const Problem& problem, Death death, const std::vector<double>& values) {
   constexpr double beside = 1e-6;  // of a parameter's value, or by itself where that is zero
-  const double own = death.orbit.values[0];
+  const double own = death.orbit.parameter();
   death.orbit.values = values;
-  death.orbit.values[0] = own;
+  death.orbit.parameter() = own;
   const auto is_model = [&](std::size_t j, double sense) {
     std::vector<double> moved = values;
     moved[j] += sense * beside * (values[j] != 0.0 ? std::abs(values[j]) : 1.0);

@@ -94,7 +94,7 @@ std::string end_at(const SpecialPoint& point) {
       if (point.type == SpecialType::PD) return "meets the orbit of which it is the double at " + shown(point.value);
       return place + what_becomes(point);
     case Passage::symmetric:
-      return "behind the symmetric orbit at " + shown(point.value) + " are the images of this branch's";
+      return "beyond the symmetric orbit at " + shown(point.value) + " are the images of this branch's";
     case Passage::retraced:
       return place + "from there on the branch runs back over itself";
     case Passage::jump:
@@ -138,7 +138,7 @@ std::string sentence(const Curve& curve, const CurveEnd& end, const System& syst
     case CurveEnd::Kind::no_step:
       break;
   }
-  return "no convergence behind " + values_of(end) + likely_cause(curve, end, system);
+  return "no convergence beyond " + values_of(end) + likely_cause(curve, end, system);
 }
 
 std::string sentence(const Curve& curve, const Meeting& met, const System& system) {
@@ -233,7 +233,7 @@ std::string what_becomes(const SpecialPoint& point) {
     case Passage::equilibrium:
       return "the cycle shrinks to a state of rest";
     case Passage::retraced:
-      return "the branch as it was on the way here";
+      return "the branch turns back onto its own orbits";
     case Passage::not_followed:
       return "not followed";
     case Passage::unknown:
@@ -293,7 +293,7 @@ std::string sentence(const NormalForm& form) {
 }
 
 std::string sentence(const Branch& branch, const BranchEnd& end) {
-  const std::string behind = "behind " + branch.parameter + " = " + shown(end.value);
+  const std::string beyond = "beyond " + branch.parameter + " = " + shown(end.value);
   switch (end.kind) {
     case BranchEnd::Kind::range:
       return "range";
@@ -315,14 +315,14 @@ std::string sentence(const Branch& branch, const BranchEnd& end) {
       return "the events change at " + branch.parameter + " = " + shown(end.value) +
              ", and what was found beyond leads back over the branch itself";
     case BranchEnd::Kind::too_many_events:
-      return "an orbit of more than " + std::to_string(end.limit) + " events is not followed, " + behind;
+      return "an orbit of more than " + std::to_string(end.limit) + " events is not followed, " + beyond;
     case BranchEnd::Kind::no_change:
-      return "the motion has other events than the orbit " + behind + " (" + end.detail + ")";
+      return "the motion has other events than the orbit " + beyond + " (" + end.detail + ")";
     case BranchEnd::Kind::no_step:
     case BranchEnd::Kind::refused:
       break;
   }
-  return behind + ": " + end.detail;
+  return beyond + ": " + end.detail;
 }
 
 std::string sentence(const Branch& branch) {

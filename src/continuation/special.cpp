@@ -7,13 +7,14 @@
 
 #include "base/ranges.hpp"
 #include "change/change_kind.hpp"
-#include "change/collapse.hpp"
+#include "change/death.hpp"
 #include "change/locate_margin.hpp"
 #include "continuation/crossing.hpp"
 #include "continuation/switching.hpp"
 #include "orbit/extent.hpp"
 #include "orbit/record.hpp"
 #include "orbit/same_motion.hpp"
+#include "orbit/short_legs.hpp"
 
 namespace slapstick::orbit {
 namespace {
@@ -112,8 +113,8 @@ bool is_one(SpecialType type, const Watched& there) {
 /// Is the product of two multipliers 1 up to rounding, as all along a stretch without damping? A smaller bound takes
 /// rounding for tori; with a larger one a torus within so much of both ends of a step is missed.
 bool product_is_one(const Watched& there) {
-  constexpr double rounding = 1e-10;
-  return std::abs(there.torus) <= rounding;
+  constexpr double product_rounding = 1e-10;
+  return std::abs(there.torus) <= product_rounding;
 }
 
 Occurrence occurrence_of(SpecialType type) {
@@ -135,7 +136,7 @@ void look_within(const Problem& problem, const Kind& kind, const Stretch& stretc
   SpecialPoint special;
   special.type = kind.type;
   special.rotation = kind.type == SpecialType::NS ? rotation(located->point.watched) : 0.0;
-  special.value = located->point.orbit.values[0];
+  special.value = located->point.orbit.parameter();
   special.error = located->error;
   const System system(problem.family().model(located->point.orbit.values));
   special.solution = describe(problem, located->point.orbit, &system);
@@ -183,7 +184,7 @@ std::vector<SpecialPoint> smooth_special_points(const Problem& problem, const Pa
 
 namespace {
 
-/// Does the simulator agree that the orbit is a motion before a place of the branch, and none behind it?
+/// Does the simulator agree that the orbit is a motion before a place of the branch, and none beyond it?
 bool changes_there(const Problem& problem, const PathPoint& from, double length, double place, double range) {
   // Near a graze an impact's depth is the square of its speed: closer than this the simulator could not tell.
   const double beside = std::max(1e-3 * length, 1e-6);
@@ -199,14 +200,14 @@ void look_back(const Problem& problem, const PathPoint& from, double range, Loca
   constexpr double flat = 1e-3;  // a component of the tangent
   double& turn = located.point.watched.turn;
   if (std::abs(turn) > flat) return;
-  double before = from.orbit.values[0];
+  double before = from.orbit.parameter();
   for (const double beside : {1e-4, 1e-3}) {  // arclength
     const auto point = step_to(problem, from, std::max(0.5 * located.length, located.length - beside), range);
     if (!point) continue;
-    before = point->orbit.values[0];
+    before = point->orbit.parameter();
     break;
   }
-  turn = std::copysign(turn, located.point.orbit.values[0] - before);
+  turn = std::copysign(turn, located.point.orbit.parameter() - before);
 }
 
 using Candidates = std::vector<std::pair<std::size_t, Located>>;
@@ -215,15 +216,15 @@ using Candidates = std::vector<std::pair<std::size_t, Located>>;
 /// its length; a gap that closes with the leg after an impact says least. What is not known well comes last.
 void in_order(Candidates& candidates, const std::vector<TestValue>& tests, double length, double range) {
   constexpr double together = 1e-3;  // no nearer than the simulator can tell (changes_there)
-  constexpr double well_known = 1e-9, rounding = 1e-9;
+  constexpr double known_place = 1e-9, at_the_point_itself = 1e-9;
   ranges::stable_sort(candidates, {}, [](const auto& candidate) { return candidate.second.length; });
   const auto says = [&](const auto& candidate) {
     const TestValue& test = tests[candidate.first];
     const bool slip = test.starts_at_end && mode::of_friction(test.kind);
     const bool says_most = test.test == (slip ? Test::duration : Test::speed);
     const bool closes = test.test == Test::guard && test.kind == mode::GuardKind::gap;
-    const bool at_the_point = candidate.second.length < rounding;  // the point is a motion
-    return std::pair(at_the_point || candidate.second.error > well_known * range, says_most ? 0 : closes ? 2 : 1);
+    const bool at_the_point = candidate.second.length < at_the_point_itself;  // the point is a motion
+    return std::pair(at_the_point || candidate.second.error > known_place * range, says_most ? 0 : closes ? 2 : 1);
   };
   for (auto first = candidates.begin(); first != candidates.end();) {
     const double limit = first->second.length + together * length;
@@ -242,12 +243,13 @@ namespace {
 double disagreement(const Candidates& candidates, const std::pair<std::size_t, Located>& chosen, const PathPoint& from,
                     double length) {
   constexpr double together = 1e-2;
+  constexpr double hardly_left = 0.1;  // of a leg that dies with another
   const Orbit& there = chosen.second.point.orbit;
-  if (legs_gone(from.orbit, there) < 2) return 0.0;
+  if (shrunk_legs(from.orbit, there, hardly_left) < 2) return 0.0;
   double most = 0.0;
   for (const auto& [test, located] : candidates)
     if (std::abs(located.length - chosen.second.length) < together * length)
-      most = std::max(most, std::abs(located.point.orbit.values[0] - there.values[0]));
+      most = std::max(most, std::abs(located.point.orbit.parameter() - there.parameter()));
   return most;
 }
 
@@ -261,13 +263,13 @@ Change change_at(const Problem& problem, const PathPoint& from, Located located,
   change.special.test = test;
   change.special.error = located.error;
   auto death = death_at(problem, from, orbit, change.test);
-  if (death && std::abs(death->death.orbit.values[0] - orbit.values[0]) <= known * range) {
-    orbit.values[0] = death->death.orbit.values[0];
+  if (death && std::abs(death->death.orbit.parameter() - orbit.parameter()) <= known * range) {
+    orbit.parameter() = death->death.orbit.parameter();
     change.special.error = death->error;
     change.special.death = std::move(death->death);
   }
   change.special.type = type_of(change.test, from.orbit.shape);
-  change.special.value = orbit.values[0];
+  change.special.value = orbit.parameter();
   change.special.occurrence = Occurrence::margin;
   change.special.margin = used(change.test);
   change.special.sliding = kind_of_sliding(change.test, from.orbit.shape);

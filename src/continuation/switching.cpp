@@ -16,7 +16,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Of the first orbit behind a PD, in units of arclength: where its events change soon, so near that it is a motion.
+/// Of the first orbit beyond a PD, in units of arclength: where its events change soon, so near that it is a motion.
 constexpr std::array amplitudes = {1e-3, 1e-4, 1e-5};
 
 /// An orbit run through twice.

@@ -6,7 +6,7 @@
 namespace slapstick::orbit {
 
 /// One path of the two, in the sense of the second. Either begins with the first point and ends as its `up` says.
-/// @param met  the member that lists what lies behind (`after`) points of the path
+/// @param met  the member that lists what lies after (`after`) points of the path
 template <class Path, class Met>
 Path joined(Path down, Path up, std::vector<Met> Path::*met) {
   Path all = up;

@@ -55,9 +55,9 @@ Eigen::MatrixXd assembled(const SymmetricMatrix& rows, const Parts& parts, doubl
 
 /// Is the form x^T A x negative somewhere, by more than rounding?
 bool indefinite(const Eigen::MatrixXd& A) {
-  constexpr double rounding = 1e-12;  // of the largest eigenvalue
+  constexpr double eigenvalue_rounding = 1e-12;  // of the largest eigenvalue
   const Eigen::VectorXd values = dense::eigenvalues(A).real();
-  return values.minCoeff() < -rounding * values.cwiseAbs().maxCoeff();
+  return values.minCoeff() < -eigenvalue_rounding * values.cwiseAbs().maxCoeff();
 }
 
 /// Does a force fall somewhere as the displacement grows?

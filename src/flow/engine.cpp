@@ -70,7 +70,7 @@ void Engine::restart(std::span<const double> coordinates, Instant start) {
 /// A start in contact and approaching is an impact, the first event of the motion.
 void Engine::start() {
   const int stop = approaching();
-  if (stop < 0) return choose_mode();
+  if (stop < 0) return start_mode();
   mode_ = approaching_mode(*system_, X_.data());
   here_ = &system_->mode(mode_);
   begin_segment();
@@ -82,7 +82,7 @@ void Engine::start() {
   }
   X_before_ = X_;
   strike_all();
-  settle(Cause::start);
+  choose_next_mode(Cause::start);
 }
 
 void Engine::begin_segment() {
@@ -168,7 +168,7 @@ void Engine::pass_knot() {
   for (std::size_t k = 0; k < frame.signals.size(); ++k)
     if (frame.signals[k].has_knot(now_)) report(EventKind::knot, first + static_cast<int>(k), 0.0);
   take_blow();
-  settle(Cause::force);
+  choose_next_mode(Cause::force);
 }
 
 /// The pulses of this instant: first those of forces, then the jumps of a wall's speed, by which stops are hit.

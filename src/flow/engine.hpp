@@ -24,8 +24,8 @@ class Engine : public Flight {
   [[nodiscard]] bool may_chatter() const;
   /// Whether the next call of `advance` tells another event of this instant.
   /// Is `event()` the first of those of its instant?
-  [[nodiscard]] bool tells_first() const { return shown_ == 0; }
-  [[nodiscard]] bool tells_more() const { return shown_ + 1 < static_cast<int>(pending_.size()); }
+  [[nodiscard]] bool is_first_event() const { return shown_ == 0; }
+  [[nodiscard]] bool has_more_events() const { return shown_ + 1 < static_cast<int>(pending_.size()); }
 
   [[nodiscard]] const Event& event() const { return pending_.empty() ? last_ : pending_[shown_]; }
   /// All events of its instant, in order.
@@ -56,9 +56,9 @@ class Engine : public Flight {
   void look_ahead();
   void begin_segment();
   void handle(int guard, bool graze);
-  void rest(const mode::ContactRow& contact);
-  void land(const mode::ContactRow& contact);
-  void let_off(int compliant);
+  void set_velocity_zero(const mode::ContactRow& contact);
+  void set_gap_zero(const mode::ContactRow& contact);
+  void set_force_zero(int compliant);
   void gather_ties(int guard);
   [[nodiscard]] bool of_one_pair(const mode::Guard& a, const mode::Guard& b) const;
   [[nodiscard]] bool tail_is_quiet(int stop, double duration);
@@ -74,21 +74,23 @@ class Engine : public Flight {
   void compliant_limit(int compliant, mode::GuardKind kind);
   [[nodiscard]] int stop_touched_at_rest(int friction) const;
   void force_limit(int guard, int contact, bool graze);
-  void land_on_crossing(const mode::Guard& guard);
-  void land_on_limit(const mode::Guard& guard);
+  void set_crossing_guard_zero(const mode::Guard& guard);
+  void set_holding_guard_zero(const mode::Guard& guard);
   void cross(int guard, bool graze);
   void touch(int stop, bool graze);
   bool end_chatter(double limit);
-  void choose_mode();
-  struct Own {
+  void start_mode();
+  struct ReportedEvent {
     EventKind kind;
     int contact;
     double w;  ///< as it was before the event
   };
-  [[nodiscard]] Own own(EventKind kind, int contact) const { return {kind, contact, speed_of(kind, contact)}; }
-  void settle(Cause cause, std::optional<Own> own = {});
-  void hold_on(double flown);
-  void report_settled(Cause cause, const std::optional<Own>& own, const mode::ContactStates& old);
+  [[nodiscard]] ReportedEvent reported_event(EventKind kind, int contact) const {
+    return {kind, contact, speed_of(kind, contact)};
+  }
+  void choose_next_mode(Cause cause, std::optional<ReportedEvent> reported = {});
+  void postpone_release(double flown);
+  void report_changes(Cause cause, const std::optional<ReportedEvent>& reported, const mode::ContactStates& old);
   [[nodiscard]] double speed_of(EventKind kind, int contact) const;
   [[nodiscard]] double value_of(const mode::RowVector& row) const;
   void report(EventKind kind, int contact, double w) { report(kind, contact, w, X_); }

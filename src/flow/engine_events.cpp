@@ -29,9 +29,9 @@ void Engine::handle(int guard, bool graze) {
   const mode::Guard& hit = here_->guards()[guard];
   hits_.push_back(guard);
   const mode::Frame& frame = system_->frame();
-  if (hit.kind == GuardKind::gap) land(frame.stops[hit.contact]);  // so that x- can be started from
-  if (of_crossing(hit.kind)) land_on_crossing(hit);
-  if (of_holding(hit.kind)) land_on_limit(hit);
+  if (hit.kind == GuardKind::gap) set_gap_zero(frame.stops[hit.contact]);  // so that x- can be started from
+  if (of_crossing(hit.kind)) set_crossing_guard_zero(hit);
+  if (of_holding(hit.kind)) set_holding_guard_zero(hit);
   X_before_ = X_;
   gather_ties(guard);
   switch (hit.kind) {
@@ -39,8 +39,8 @@ void Engine::handle(int guard, bool graze) {
       return touch(hit.contact, graze);
     case GuardKind::slip:
       if (const int stop = stop_touched_at_rest(hit.contact); stop >= 0) return touch(stop, true);
-      rest(frame.frictions[hit.contact]);
-      return settle(Cause::reversal);
+      set_velocity_zero(frame.frictions[hit.contact]);
+      return choose_next_mode(Cause::reversal);
     case GuardKind::stick_above:
     case GuardKind::stick_below:
       return force_limit(guard, stops() + hit.contact, graze);
@@ -79,11 +79,11 @@ void Engine::gather_ties(int guard) {
     if (g == guard || of_one_pair(guards[g], guards[guard])) continue;  // of one pair: see stop_touched_at_rest
     if (!within_noise(g, arrived_x_)) continue;
     if (guards[g].kind == GuardKind::gap)
-      land(frame.stops[contact]);
+      set_gap_zero(frame.stops[contact]);
     else if (guards[g].kind == GuardKind::slip)
-      rest(frame.frictions[contact]);
+      set_velocity_zero(frame.frictions[contact]);
     else
-      land(frame.compliant[contact]);
+      set_gap_zero(frame.compliant[contact]);
     hits_.push_back(g);
   }
 }
@@ -91,12 +91,12 @@ void Engine::gather_ties(int guard) {
 /// A holding force has reached its limit: release. A force that only touches its limit holds on (|f0| <= f_s is stick):
 /// the guard has a double zero here, and the mode goes on unless its next derivative says otherwise.
 void Engine::force_limit(int guard, int contact, bool graze) {
-  if (!graze) return settle(Cause::force, own(EventKind::release, contact));
+  if (!graze) return choose_next_mode(Cause::force, reported_event(EventKind::release, contact));
   report(EventKind::graze, contact, 0.0);
   note_magnitude(X_);
   const mode::Mode& mode = *here_;
   const int touched = start_order(mode, guard, X_.data(), magnitude_.data(), 2);
-  if (touched == negative) return settle(Cause::force);
+  if (touched == negative) return choose_next_mode(Cause::force);
   for (int g = 0; g < mode.guard_count(); ++g) orders_[g] = start_order(mode, g, X_.data(), magnitude_.data());
   orders_[guard] = touched;
   chatter_stop_ = -1;
@@ -117,12 +117,12 @@ int Engine::stop_touched_at_rest(int friction) const {
 }
 
 /// Sets the velocity of a contact, or the gap of a stop, to exactly zero in the stored state.
-void Engine::rest(const mode::ContactRow& contact) {
+void Engine::set_velocity_zero(const mode::ContactRow& contact) {
   X_.data()[system_->frame().u(contact.own)] = 0.0;
   system_->frame().match_velocities(contact.own, X_.data());
 }
 
-void Engine::land(const mode::ContactRow& contact) {
+void Engine::set_gap_zero(const mode::ContactRow& contact) {
   X_.data()[contact.own] = 0.0;
   system_->frame().match_displacements(contact.own, X_.data());
 }
@@ -130,13 +130,13 @@ void Engine::land(const mode::ContactRow& contact) {
 /// The force of a compliant stop has reached zero: made exactly so by the speed of its pair, so that it is not let go
 /// twice. Where a weak damper would make more than rounding of that, the force's rounding is the displacement's, and
 /// this one is moved.
-void Engine::let_off(int compliant) {
-  constexpr double rounding = 0x1p-40;
+void Engine::set_force_zero(int compliant) {
+  constexpr double force_rounding = 0x1p-40;
   const CompliantStop& stop = system_->model().compliant_stops[compliant];
   const mode::ContactRow& row = system_->frame().compliant[compliant];
   double& u = X_.data()[system_->frame().u(row.own)];
   const double exact = -stop.stiffness / stop.damping * X_.data()[row.own];
-  if (std::abs(exact - u) <= rounding * std::abs(u)) {
+  if (std::abs(exact - u) <= force_rounding * std::abs(u)) {
     u = exact;
     system_->frame().match_velocities(row.own, X_.data());
   } else {
@@ -148,30 +148,30 @@ void Engine::let_off(int compliant) {
 /// The gap has reached zero: an impact, or a graze without impulse.
 void Engine::touch(int stop, bool graze) {
   const mode::ContactRow& contact = system_->frame().stops[stop];
-  land(contact);  // not yet, if a reversal has found it
+  set_gap_zero(contact);  // not yet, if a reversal has found it
   if (graze || approach_velocity(*system_, stop, X_.data()) <= 0.0) {
-    rest(contact);
+    set_velocity_zero(contact);
     report(EventKind::graze, stop, 0.0);
-    return settle(Cause::graze);
+    return choose_next_mode(Cause::graze);
   }
   strike_all();
-  settle(Cause::impact);
+  choose_next_mode(Cause::impact);
 }
 
 /// A compliant stop begins or ends to act: at its gap, or beyond it where its force has come to zero.
 void Engine::compliant_limit(int compliant, GuardKind kind) {
   const bool at_gap = kind == GuardKind::engage || kind == GuardKind::leave;
   const bool was_on = here_->states().compliant[compliant] != mode::CompliantState::detached;
-  at_gap ? land(system_->frame().compliant[compliant]) : let_off(compliant);
+  at_gap ? set_gap_zero(system_->frame().compliant[compliant]) : set_force_zero(compliant);
   const bool begins = kind == GuardKind::engage || kind == GuardKind::push;
   const EventKind event = begins ? EventKind::engage : was_on ? EventKind::disengage : EventKind::separate;
-  settle(Cause::compliant, own(event, stops() + frictions() + compliant));
+  choose_next_mode(Cause::compliant, reported_event(event, stops() + frictions() + compliant));
 }
 
-/// The displacement (velocity) of a characteristic made that of its corner, or a force made zero, up to the rounding of
-/// a sum: by the number that has most of it, is not zero, and of a pair that is not held. A displacement of a pair at a
-/// closed stop would open the stop by its rounding.
-void Engine::land_on_crossing(const mode::Guard& guard) {
+/// Moves the largest term so that the displacement (velocity) of a characteristic lies on its corner, or a force is
+/// zero, up to the rounding of a sum. The term is not zero, and not of a pair that is held: a displacement of a pair at
+/// a closed stop would open the stop by its rounding.
+void Engine::set_crossing_guard_zero(const mode::Guard& guard) {
   const int d = system_->frame().d;
   const mode::Guard::Entry* most = nullptr;
   for (const mode::Guard::Entry& entry : guard.entries) {
@@ -187,7 +187,7 @@ void Engine::land_on_crossing(const mode::Guard& guard) {
 
 /// A holding force that is one number times a factor made exactly zero. Rounding derived from that number would hardly
 /// be any near its zero, and what the motion has left of it would be taken for a force that holds.
-void Engine::land_on_limit(const mode::Guard& guard) {
+void Engine::set_holding_guard_zero(const mode::Guard& guard) {
   if (guard.single < 0) return;
   const mode::Frame& frame = system_->frame();
   X_.data()[guard.single] = 0.0;
@@ -204,11 +204,11 @@ void Engine::cross(int guard, bool graze) {
   const EventKind event = hit.kind == GuardKind::load       ? EventKind::unload
                           : hit.kind == GuardKind::unloaded ? EventKind::load
                                                             : EventKind::corner;
-  settle(Cause::compliant, own(event, first + hit.contact));
+  choose_next_mode(Cause::compliant, reported_event(event, first + hit.contact));
 }
 
 /// The mode that may start now, from which a new flight begins.
-void Engine::choose_mode() {
+void Engine::start_mode() {
   note_magnitude(X_);
   const ModeId next = select_mode(*system_, X_.data(), magnitude_.data(), orders_);
   if (next < 0) fail("no contact mode fits the state (a contact force is inconsistent)");
@@ -224,29 +224,29 @@ void Engine::reconcile_contacts() {
   for (int round = 0; round < 8; ++round) {
     system_->frame().refresh(X_.data());
     for (int s = 0; s < stops(); ++s)
-      if (gap(*system_, s, X_.data()) < 0.0) land(system_->frame().stops[s]);
+      if (gap(*system_, s, X_.data()) < 0.0) set_gap_zero(system_->frame().stops[s]);
     if (approaching() < 0) return;
     strike_all();
   }
 }
 
 /// Decides the next mode after an event and reports the event, unless that is done, and what follows from it at once.
-void Engine::settle(Cause cause, std::optional<Own> own) {
+void Engine::choose_next_mode(Cause cause, std::optional<ReportedEvent> reported) {
   const mode::ContactStates& old = here_->states();
   if (approaching() >= 0) strike_all();  // a tie
   reconcile_contacts();
   const ModeId ended = mode_;
   const double flown = elapsed_;
-  choose_mode();
+  start_mode();
   if (cause != Cause::impact && cause != Cause::start) chatter_stop_ = -1;
-  const bool released = own && own->kind == EventKind::release;
-  if (released && mode_ == ended && pending_.empty() && !at_instant_.held) return hold_on(flown);
-  report_settled(cause, own, old);
+  const bool released = reported && reported->kind == EventKind::release;
+  if (released && mode_ == ended && pending_.empty() && !at_instant_.held) return postpone_release(flown);
+  report_changes(cause, reported, old);
 }
 
 /// Rounding has left a force so far above zero that the choice of the mode sees it hold, and changes nothing: the force
 /// is released, and told, where the flight finds its zero again. The segment goes on.
-void Engine::hold_on(double flown) {
+void Engine::postpone_release(double flown) {
   at_instant_.held = true;
   hits_.clear();
   spend_budget();
@@ -254,10 +254,10 @@ void Engine::hold_on(double flown) {
 }
 
 /// What the new mode says about all contacts.
-void Engine::report_settled(Cause cause, const std::optional<Own>& own, const mode::ContactStates& old) {
+void Engine::report_changes(Cause cause, const std::optional<ReportedEvent>& reported, const mode::ContactStates& old) {
   const mode::Guard* hit = hit_guard();
   Ended ended;
-  if (own) ended.own = own->kind;
+  if (reported) ended.own = reported->kind;
   ended.reversal = cause == Cause::reversal;
   ended.start = cause == Cause::start;
   ended.struck = at_instant_.struck;
@@ -270,8 +270,8 @@ void Engine::report_settled(Cause cause, const std::optional<Own>& own, const mo
     if (guard.kind == GuardKind::slip) ended.rested |= std::uint32_t{1} << guard.contact;
   }
   const auto tell = [&](EventKind kind, int contact) {
-    const bool itself = own && own->kind == kind && own->contact == contact;
-    report(kind, contact, itself ? own->w : speed_of(kind, contact));
+    const bool itself = reported && reported->kind == kind && reported->contact == contact;
+    report(kind, contact, itself ? reported->w : speed_of(kind, contact));
   };
   Changes(system_->model(), system_->frame(), ended, old, here_->states(), tell).tell();
 }
@@ -315,7 +315,7 @@ bool Engine::end_chatter(double limit) {
   const mode::Frame& frame = system_->frame();
   X_ = X_window_;
   strike(*system_, stop, 0.0, X_.data());
-  choose_mode();
+  start_mode();
   place_.start = impact;
   const double H = here_->window();
   look(begun / H);
@@ -326,7 +326,7 @@ bool Engine::end_chatter(double limit) {
   report(EventKind::chatter, stop, 0.0);
   counters_.shaken += chatter.shaken ? 1 : 0;
   pending_.back().error = chatter.error;
-  settle(Cause::force);
+  choose_next_mode(Cause::force);
   return true;
 }
 

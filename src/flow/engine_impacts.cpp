@@ -78,7 +78,7 @@ void Engine::end_pile_up() {
   if (ranges::all_of(touching_, [&](int s) { return system_->model().stops[s].restitution == 1.0; }))
     fail("impacts without loss follow each other without end at one instant");
   ranges::sort(touching_);
-  for (int s : touching_) land(frame.stops[s]);
+  for (int s : touching_) set_gap_zero(frame.stops[s]);
   bring_together(touching_);
   report(EventKind::chatter, touching_.front(), 0.0);
   pending_.back().error = 0x1p-53 * system_->period();

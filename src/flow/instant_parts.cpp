@@ -107,7 +107,7 @@ bool Division::changed(const Guard& guard) const {
 /// The engine gathers gaps and velocities that are zero together. A force that comes to its limit at the same instant
 /// shows by the change of its contact, where no other guard of the instant acts on that contact.
 void Division::add_forces_at_limits(const double* X) {
-  constexpr double rounding = 0x1p-40;  // of the guard's terms; less takes two instants for one, more one for two
+  constexpr double limit_rounding = 0x1p-40;  // of the guard's terms; less takes two instants for one, more one for two
   const std::size_t known = hits_.size();
   for (int g = 0; g < before_.guard_count(); ++g) {
     const Guard& own = before_.guards()[g];
@@ -116,7 +116,7 @@ void Division::add_forces_at_limits(const double* X) {
     for (std::size_t k = 0; k < known; ++k) alone = alone && !share_mass(frame_, guard(k), own);
     const Eigen::Map<const mode::Vector> state(X, before_.size());
     const double terms = own.row.cwiseAbs().dot(state.cwiseAbs());
-    if (alone && std::abs(own.row.dot(state)) <= rounding * terms) hits_.push_back(g);
+    if (alone && std::abs(own.row.dot(state)) <= limit_rounding * terms) hits_.push_back(g);
   }
 }
 

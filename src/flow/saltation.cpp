@@ -98,7 +98,7 @@ bool timed(const Engine& engine) {
 /// velocities, have a unit each. The state at the instant has no size to go by: all may be at rest there.
 /// @param time  in which a state of the motion changes
 bool alike(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double time) {
-  constexpr double rounding = 1e-9;  // of a block's entries; an order that matters shows in the leading digits
+  constexpr double order_rounding = 1e-9;  // of a block's entries; an order that matters shows in the leading digits
   Eigen::Matrix2d units;
   units << 1.0, time, 1.0 / time, 1.0;
   const Eigen::Index d = a.rows() / 2, n = a.cols() / 2;
@@ -106,7 +106,7 @@ bool alike(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double time) {
     for (Eigen::Index j = 0; j < 2; ++j) {
       const Eigen::MatrixXd x = a.block(i * d, j * n, d, n), y = b.block(i * d, j * n, d, n);
       const double size = std::max(units(i, j), x.cwiseAbs().cwiseMax(y.cwiseAbs()).maxCoeff());
-      if ((x - y).cwiseAbs().maxCoeff() > rounding * size) return false;
+      if ((x - y).cwiseAbs().maxCoeff() > order_rounding * size) return false;
     }
   return true;
 }

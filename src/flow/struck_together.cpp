@@ -13,9 +13,9 @@ const char* const how_rows_are_struck =
 namespace {
 
 bool touches(const Stop& stop, const State& state) {
-  constexpr double rounding = 0x1p-50;
+  constexpr double gap_rounding = 0x1p-50;
   return std::abs(stop.clearance - relative(stop, state, 0)) <=
-         rounding * (std::abs(stop.clearance) + relative_size(stop, state));
+         gap_rounding * (std::abs(stop.clearance) + relative_size(stop, state));
 }
 
 bool share_a_body(const Stop& one, const Stop& other) {

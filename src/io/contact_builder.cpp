@@ -17,7 +17,7 @@ using Law = std::vector<std::pair<Dual, Dual>>;
 }  // namespace
 
 Law ModelBuilder::stribeck(const Part& part, double* error) const {
-  constexpr int most = 100;
+  constexpr int most_corners = 100;
   const auto number = [&](const char* key, const Dual& fallback) {
     const auto found = part.stribeck.find(key);
     return found == part.stribeck.end() ? fallback : dual(found->second, where("stribeck") + ": " + key);
@@ -29,7 +29,8 @@ Law ModelBuilder::stribeck(const Part& part, double* error) const {
   };
   const Dual corners = number("corners", Dual{20.0}), exponent = number("exponent", Dual{1.0}),
              speed = number("speed", {}), high = number("static", {}), low = number("kinetic", {});
-  if (corners.varies || !(corners.value >= 1.0 && corners.value <= most && corners.value == std::floor(corners.value)))
+  if (corners.varies ||
+      !(corners.value >= 1.0 && corners.value <= most_corners && corners.value == std::floor(corners.value)))
     refuse("corners", corners, " is not a fixed whole number in [1, 100]");
   if (exponent.varies || !(exponent.value >= 0.5 && exponent.value <= 10.0))
     refuse("exponent", exponent, " is not a fixed number in [0.5, 10]");

@@ -15,9 +15,9 @@ namespace slapstick {
 
 std::vector<Point> read_points(const TreeReader& tree, const TomlNode& list, const std::string& where,
                                const std::string& pair) {
-  constexpr std::size_t most = 100;
+  constexpr std::size_t most_points = 100;
   tree.expect(list, TomlNode::Kind::list, where);
-  if (list.items.size() < 2 || list.items.size() > most)
+  if (list.items.size() < 2 || list.items.size() > most_points)
     tree.fail(list.line, where, "expected 2 to 100 points " + pair + ", found " + std::to_string(list.items.size()));
   std::vector<Point> points;
   for (const auto& item : list.items) {

@@ -13,7 +13,7 @@ namespace slapstick {
 namespace {
 
 constexpr std::size_t most_rows = 1000;
-constexpr double rounding = 1e-9;  ///< of the largest entry: what programs of finite elements leave
+constexpr double asymmetry_rounding = 1e-9;  ///< of the largest entry: what programs of finite elements leave
 
 /// Entries with the lines that they come from, until the symmetric part is taken.
 class Gathered {
@@ -35,7 +35,7 @@ class Gathered {
     for (std::size_t i = 0; i < n_; ++i)
       for (std::size_t j = 0; j < i; ++j) {
         double &below = entries_[i * n_ + j], &above = entries_[j * n_ + i];
-        if (std::abs(below - above) > rounding * largest) refuse(i, j);
+        if (std::abs(below - above) > asymmetry_rounding * largest) refuse(i, j);
         if (below != above) below = above = below + 0.5 * (above - below);
       }
     return {n_, std::move(entries_), {}};

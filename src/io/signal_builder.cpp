@@ -37,9 +37,9 @@ bool is_continuous(const Part& part, double first, double last) {
 
 /// How often one length goes into another: a whole number up to rounding, or 0.
 double times_within(double length, double whole) {
-  constexpr double rounding = 0x1p-46;  // of decimal numbers: 0.333333333333333 goes three times into 1
+  constexpr double decimal_rounding = 0x1p-46;  // of decimal numbers: 0.333333333333333 goes three times into 1
   const double times = std::nearbyint(whole / length);
-  return std::abs(whole / length - times) <= rounding * times ? times : 0.0;
+  return std::abs(whole / length - times) <= decimal_rounding * times ? times : 0.0;
 }
 
 }  // namespace
@@ -139,13 +139,14 @@ ModelBuilder::Points ModelBuilder::over_a_period(const Part& part, Points points
                          " forcing periods; a period must hold a whole number of rounds (a record over two periods: "
                          "halve omega, and double the harmonics)");
   const bool joins = is_continuous(part, points.front().second.value, points.back().second.value);
-  constexpr double most = 0.75;  // a point more is a coincidence more on branches, so no point is added without need
+  constexpr double longest_gap =
+      0.75;  // a point more is a coincidence more on branches, so no point is added without need
   Points all;
   for (double round = 0.0; round < rounds; round += 1.0) {
     if (round > 0.0 && joins) all.pop_back();
     for (const auto& [time, value] : points) {
       const Dual at = first / period + (Dual{round} + (time - first) / length) / Dual{rounds};
-      if (!all.empty() && has_fixed_times(part) && at.value - all.back().first.value > most)
+      if (!all.empty() && has_fixed_times(part) && at.value - all.back().first.value > longest_gap)
         all.emplace_back(Dual{0.5} * (all.back().first + at), Dual{0.5} * (all.back().second + value));
       all.emplace_back(at, value);
     }

@@ -54,7 +54,7 @@ std::vector<std::pair<double, int>> numbers_of(const Model& model) {
 /// By Euler's theorem on homogeneous functions: sum over the parameters p with b powers of time, b p dN/dp = power N
 /// for every number N of the model.
 bool changes_with_time(const ModelDefinition& definition) {
-  constexpr double rounding = 1e-9;
+  constexpr double power_rounding = 1e-9;
   const std::map<std::string, double> values = definition.values();
   const auto wanted = numbers_of(definition.build());
   std::vector<double> sums(wanted.size(), 0.0);
@@ -69,7 +69,8 @@ bool changes_with_time(const ModelDefinition& definition) {
     for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += power * value * rates[i].first;
   }
   for (std::size_t i = 0; i < sums.size(); ++i)
-    if (!(std::abs(sums[i] - wanted[i].second * wanted[i].first) <= rounding * std::abs(wanted[i].first))) return false;
+    if (!(std::abs(sums[i] - wanted[i].second * wanted[i].first) <= power_rounding * std::abs(wanted[i].first)))
+      return false;
   return any;
 }
 

@@ -10,9 +10,9 @@ namespace {
 using Found = std::optional<Fault>;
 
 /// Beyond, what moves one end would be rounding beside what moves the other.
-constexpr double most = 1e6, least = 1e-6;
+constexpr double most_ratio = 1e6, least_ratio = 1e-6;
 
-bool within(double size) { return size >= least && size <= most; }
+bool within(double size) { return size >= least_ratio && size <= most_ratio; }
 
 template <class Link>
 bool rides(const Link& link) {
@@ -52,14 +52,14 @@ void add(std::vector<Contact>& all, const char* kind, const Links& links) {
 
 /// Is the y of one a multiple of the other's?
 bool multiples(const Contact& one, const Contact& other) {
-  constexpr double rounding = 0x1p-50;
+  constexpr double ratio_rounding = 0x1p-50;
   for (const int end : {one.a, one.b})
     if (end != ground && end != other.a && end != other.b) return false;
   for (const int end : {other.a, other.b})
     if (end != ground && end != one.a && end != one.b) return false;
   const int i = one.a == ground ? one.b : one.a, j = one.a == ground ? one.a : one.b;
   const double left = share(one, i) * share(other, j), right = share(one, j) * share(other, i);
-  return std::abs(left - right) <= rounding * std::abs(left);
+  return std::abs(left - right) <= ratio_rounding * std::abs(left);
 }
 
 }  // namespace

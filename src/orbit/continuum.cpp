@@ -10,6 +10,7 @@
 #include "orbit/cyclic.hpp"
 #include "orbit/extent.hpp"
 #include "orbit/record.hpp"
+#include "orbit/short_legs.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/orbit/periodic_orbit.hpp"
 
@@ -122,14 +123,6 @@ Null null_vectors_at(const Problem& problem, const Orbit& orbit) {
   return equations.matrix.allFinite() ? null_vectors(equations.matrix) : Null{};
 }
 
-/// Has it the same legs still? One without length solves its equations anywhere.
-bool has_all_legs(const Orbit& orbit, const Orbit& beside) {
-  constexpr double gone = 0.5;  // far more than the way along a null direction makes of a leg
-  for (std::size_t leg = 0; leg < orbit.legs(); ++leg)
-    if (!orbit.tied(leg) && !(beside.duration(leg) > gone * orbit.duration(leg))) return false;
-  return true;
-}
-
 /// Has it a multiplier 1 too? Those beside a point of inflection, where the parameter is a cube, have not: 1 - mu is a
 /// square.
 bool has_multiplier_one(const Problem& problem, const Orbit& beside) {
@@ -141,12 +134,13 @@ bool has_multiplier_one(const Problem& problem, const Orbit& beside) {
 
 /// Is the j-th null direction one along which orbits lie, in both senses?
 bool leads_along(const Problem& problem, const Orbit& orbit, const Null& null, Index j) {
-  constexpr double far = 1e-2;  // in units of the orbit's size: its cube is far above rounding
+  constexpr double left_of_a_leg = 0.5;    // less is not of the way: a leg that dies solves its equations anywhere
+  constexpr double distance_along = 1e-2;  // in units of the orbit's size: its cube is far above rounding
   for (const double sense : {1.0, -1.0}) {
     Orbit beside = orbit;
-    const VectorXd s = sense * far * VectorXd::Unit(null.right.cols(), j);
+    const VectorXd s = sense * distance_along * VectorXd::Unit(null.right.cols(), j);
     if (!(solve_bordered(problem, beside, null, s) < is_rounding)) return false;
-    if (!has_all_legs(orbit, beside) || !has_multiplier_one(problem, beside)) return false;
+    if (shrunk_legs(orbit, beside, left_of_a_leg) > 0 || !has_multiplier_one(problem, beside)) return false;
   }
   return true;
 }
@@ -154,8 +148,8 @@ bool leads_along(const Problem& problem, const Orbit& orbit, const Null& null, I
 }  // namespace
 
 int continuum(const Problem& problem, const Orbit& orbit, const std::vector<std::complex<double>>& multipliers) {
-  constexpr double near = 1e-4;  // a double multiplier 1, as of a conservative model, is known to half the digits
-  if (ranges::none_of(multipliers, [](std::complex<double> mu) { return std::abs(mu - 1.0) < near; })) return 0;
+  constexpr double from_one = 1e-4;  // a double multiplier 1, as of a conservative model, is known to half the digits
+  if (ranges::none_of(multipliers, [](std::complex<double> mu) { return std::abs(mu - 1.0) < from_one; })) return 0;
   try {
     const Null null = null_vectors_at(problem, orbit);
     int dimension = 0;
@@ -214,13 +208,14 @@ Orbit on_the_way(const Orbit& a, const Orbit& b, double part) {
 
 /// Do orbits that are motions lie near the line from a to b?
 bool orbits_between(const Problem& problem, const Orbit& a, const Orbit& b) {
-  constexpr double near = 0.1;  // of the way
+  constexpr double longest_detour = 0.1;  // of the way
   const Extent extent(problem, a);
   const double way = extent.distance(a.x[0], b.x[0]);
   for (const double part : {0.25, 0.5, 0.75}) {
     const Orbit guess = on_the_way(a, b, part);
     const std::optional<Orbit> orbit = refine_with_least_change(problem, guess);
-    if (!orbit || extent.distance(orbit->x[0], guess.x[0]) > near * way || !is_motion(problem, *orbit)) return false;
+    if (!orbit || extent.distance(orbit->x[0], guess.x[0]) > longest_detour * way || !is_motion(problem, *orbit))
+      return false;
   }
   return true;
 }

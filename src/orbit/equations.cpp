@@ -205,7 +205,7 @@ VectorXd newton_step(const Linearised& at, const std::vector<Residual>& more, co
 /// How well rounding lets the instants of events be known: where a guard falls slowly, as at the last impacts of a
 /// chatter, by the rounding of the leg's start over its rate.
 double rounding(const Orbit& orbit, const Linearised& at) {
-  constexpr double roundoff = 2e-16, most = 1e-7;
+  constexpr double roundoff = 2e-16, worst = 1e-7;
   double largest = 0.0;
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
     const LegValue& leg = at.legs[i];
@@ -213,7 +213,7 @@ double rounding(const Orbit& orbit, const Linearised& at) {
     const double noise = roundoff * leg.h.by_state().row(0).cwiseAbs().dot(orbit.x[i].cwiseAbs());
     largest = std::max(largest, noise / std::abs(leg.h.by_end()[0]));
   }
-  return std::min(largest, most);
+  return std::min(largest, worst);
 }
 
 double longest_leg(const Orbit& orbit) {

@@ -79,9 +79,9 @@ Orbit once(const Problem& problem, Orbit orbit, double tolerance) {
 }
 
 bool becomes_shorter(const Problem& problem, const Orbit& before, const Orbit& orbit, double tolerance) {
-  constexpr double rounding = 1e-7;
+  constexpr double same_part = 1e-7;
   if (before.shape.legs[0].ending == Ending::cut) return false;  // one without events has no legs that could be equal
-  return equal_parts(problem, orbit, tolerance) > equal_parts(problem, before, rounding);
+  return equal_parts(problem, orbit, tolerance) > equal_parts(problem, before, same_part);
 }
 
 }  // namespace slapstick::orbit

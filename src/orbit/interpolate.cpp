@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "orbit/record.hpp"
+#include "orbit/short_legs.hpp"
 #include "slapstick/orbit/periodic_orbit.hpp"
 
 namespace slapstick::orbit {
@@ -89,28 +89,19 @@ class Interpolant {
   std::vector<VectorXd> values_;
 };
 
-/// A leg without length solves its equation anywhere: such orbits are none of a branch.
-bool has_an_empty_leg(const Orbit& orbit) {
-  constexpr double rounding = 1e-13;  // of a cycle
-  for (std::size_t leg = 0; leg < orbit.legs(); ++leg)
-    if (!orbit.tied(leg) && !in_burst(orbit, leg) &&
-        std::abs(orbit.duration(leg)) < rounding * (orbit.t.back() - orbit.t.front()))
-      return true;
-  return false;
-}
-
 }  // namespace
 
 std::optional<Located> locate_between(const Problem& problem, const PathPoint& from, double near, double half_width,
                                       double range, const std::function<double(const PathPoint&)>& f) {
-  constexpr int enough = 6;  // near a singular point Newton's method may fail here and there
+  constexpr double no_length = 1e-13;  // of a cycle: the orbit solves its equations, and lies on no branch
+  constexpr int least_points = 6;      // near a singular point Newton's method may fail here and there
   Interpolant all(half_width), fewer(half_width), orbits(half_width), fewer_orbits(half_width);
   std::vector<std::pair<double, PathPoint>> points;
   for (int k = 0; k < nodes; ++k) {
     const double s = near + half_width * std::cos((2 * k + 1) * std::numbers::pi / (2 * nodes));
     auto point = step_to(problem, from, s, range);
-    if (point && !has_an_empty_leg(point->orbit)) points.emplace_back(s, std::move(*point));
-    if (static_cast<int>(points.size()) + nodes - 1 - k < enough) return std::nullopt;
+    if (point && !has_leg_below(point->orbit, no_length)) points.emplace_back(s, std::move(*point));
+    if (static_cast<int>(points.size()) + nodes - 1 - k < least_points) return std::nullopt;
   }
   for (const auto& [s, point] : points) {
     const VectorXd value = VectorXd::Constant(1, f(point));
@@ -125,7 +116,7 @@ std::optional<Located> locate_between(const Problem& problem, const PathPoint& f
   const auto orbit_at = [&](double s) { return with_numbers(from.orbit, orbits.at(s)); };
   const Orbit checked = with_numbers(from.orbit, fewer_orbits.at(*check));
   Located found{point_of(problem, orbit_at(*place), range, from.tangent), *place, 0.0};
-  found.error = std::abs(checked.values[0] - found.point.orbit.values[0]);
+  found.error = std::abs(checked.parameter() - found.point.orbit.parameter());
   if (!(found.error < well_known * range)) return std::nullopt;
   const double beside = 0.1 * half_width;
   found.point.tangent = unknowns_between(problem, orbit_at(*place - beside), orbit_at(*place + beside))

@@ -20,13 +20,13 @@ class KnownOrbits {
 
  private:
   /// The displacements at some phases: continuous, so that orbits whose prints differ are two.
-  using Print = std::vector<Eigen::VectorXd>;
-  [[nodiscard]] Print print(const Orbit& orbit) const;
-  [[nodiscard]] static bool may_be_one(const Print& a, const Print& b);
+  using Fingerprint = std::vector<Eigen::VectorXd>;
+  [[nodiscard]] Fingerprint fingerprint(const Orbit& orbit) const;
+  [[nodiscard]] static bool may_be_one(const Fingerprint& a, const Fingerprint& b);
 
   const Problem& problem_;
   std::vector<Orbit> orbits_;
-  std::vector<Print> prints_;
+  std::vector<Fingerprint> fingerprints_;
 };
 
 }  // namespace slapstick::orbit

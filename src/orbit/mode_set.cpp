@@ -53,9 +53,10 @@ std::vector<Model> all_rates(const Family& family, const std::vector<double>& va
 }  // namespace
 
 double ModeRates::steps(double s) const {
-  constexpr double most = 1e5;  // more: less than ten digits are left. Newton's method may try a mass of almost nothing
+  constexpr double most_steps =
+      1e5;  // more: less than ten digits are left. Newton's method may try a mass of almost nothing
   const double steps = std::max(1.0, std::ceil(std::abs(s) / longest_step));
-  if (!(steps <= most)) throw NumericalError("orbit: a leg is too long for the rates of its mode");
+  if (!(steps <= most_steps)) throw NumericalError("orbit: a leg is too long for the rates of its mode");
   return steps;
 }
 

@@ -159,7 +159,8 @@ double rounding_at(const Problem& problem, const PathPoint& from, const Located&
   if (!left || !right) return 0.0;
   const auto off = [](double a, double middle, double b) { return 0.5 * std::abs(a + b - 2.0 * middle); };
   const double f_left = f(left->watched), f_right = f(right->watched), f_here = f(located.point.watched);
-  const double v_left = left->orbit.values[0], v_right = right->orbit.values[0], v_here = located.point.orbit.values[0];
+  const double v_left = left->orbit.parameter(), v_right = right->orbit.parameter(),
+               v_here = located.point.orbit.parameter();
   const double across = f_right != f_left ? std::abs((v_right - v_left) / (f_right - f_left)) : 0.0;
   return off(v_left, v_here, v_right) + across * off(f_left, f_here, f_right);
 }
@@ -168,23 +169,23 @@ double rounding_at(const Problem& problem, const PathPoint& from, const Located&
 
 std::optional<Located> locate(const Problem& problem, const PathPoint& from, double length, double range,
                               const std::function<double(const Watched&)>& f, double f_to) {
-  constexpr double enough = 1e-13;
+  constexpr double place_rounding = 1e-13;
   const double f_from = f(from.watched);
   double a = 0.0, b = length, f_a = f_from, f_b = f_to;
   std::optional<Located> best;
-  double value = from.orbit.values[0];
+  double value = from.orbit.parameter();
   int side = 0;
   for (int k = 0; k < 60; ++k) {
     double s = (a * f_b - b * f_a) / (f_b - f_a);
     if (!std::isfinite(s) || k > 40) s = 0.5 * (a + b);
     std::optional<PathPoint> point = step_to(problem, from, s, range);
     if (!point) return best;
-    const double f_s = f(point->watched), change = std::abs(point->orbit.values[0] - value);
-    value = point->orbit.values[0];
+    const double f_s = f(point->watched), change = std::abs(point->orbit.parameter() - value);
+    value = point->orbit.parameter();
     best = Located{std::move(*point), s, change};
     // A first step is next to none where f is hardly more than zero at its beginning.
-    const bool arrived = change <= enough * range && std::abs(f_s) < 0.1 * std::abs(f_from);
-    if (f_s == 0.0 || arrived || b - a <= enough) break;
+    const bool arrived = change <= place_rounding * range && std::abs(f_s) < 0.1 * std::abs(f_from);
+    if (f_s == 0.0 || arrived || b - a <= place_rounding) break;
     const bool left = (f_s > 0.0) == (f_a > 0.0);
     (left ? a : b) = s;
     (left ? f_a : f_b) = f_s;

@@ -7,6 +7,7 @@
 #include "base/ranges.hpp"
 #include "flow/contact_state.hpp"
 #include "orbit/equations.hpp"
+#include "orbit/short_legs.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::orbit {
@@ -113,25 +114,6 @@ std::optional<Orbit> record(const Motion& start, int n, const std::atomic<bool>*
   return orbit_of(events, best, n);
 }
 
-int chatters(const Orbit& orbit) {
-  return static_cast<int>(ranges::count(orbit.shape.legs, Ending::chatter, &Leg::ending));
-}
-
-bool in_burst(const Orbit& orbit, std::size_t leg) {
-  for (std::size_t i = 0; i < orbit.legs(); ++i) {
-    const Leg& next = orbit.shape.legs[(leg + i) % orbit.legs()];
-    if (next.ending == Ending::chatter) return true;
-    if (next.ending == Ending::cut || next.ending == Ending::knot) return false;
-    if (next.kind != mode::GuardKind::gap && next.kind != mode::GuardKind::slip) return false;
-  }
-  return false;
-}
-
-bool fades(const Orbit& orbit, std::size_t leg) {
-  constexpr double short_flight = 1e-6;  // of a cycle
-  return in_burst(orbit, leg) && std::abs(orbit.duration(leg)) < short_flight * (orbit.t.back() - orbit.t.front());
-}
-
 Motion from_inside(const System& system, const ModeSet& set, const Orbit& orbit, std::size_t leg, double part) {
   const double after = part * orbit.duration(leg);
   return Motion(system, flow::user_state(system, contact_state(set, state_within(set, orbit, leg, after))),
@@ -191,9 +173,9 @@ class Check {
 
 /// Runs on to the limit of the burst that an event is part of.
 bool Check::to_chatter(const Motion& motion, EventReader& reader, Seen seen) const {
-  constexpr int most = 1000;
+  constexpr int most_impacts = 1000;
   const double cycle = orbit_.t.back() - orbit_.t.front();
-  for (int k = 0; k < most && seen.leg.ending != Ending::chatter; ++k) {
+  for (int k = 0; k < most_impacts && seen.leg.ending != Ending::chatter; ++k) {
     auto next = reader.next(motion.time().plus(cycle));
     if (!next) return false;
     seen = std::move(*next);
@@ -223,7 +205,7 @@ bool Check::run(std::size_t first, std::size_t next) {
   for (std::size_t i = first; i < next; ++i) {
     const std::size_t leg = i % orbit_.legs();
     const double due = orbit_.t[leg + 1] + (i >= orbit_.legs() ? cycle : 0.0);
-    const double tolerance = fades(orbit_, leg) ? 0.5 * cycle : same_instant * cycle;
+    const double tolerance = is_rounding_leg(orbit_, leg) ? 0.5 * cycle : same_instant * cycle;
     if (const std::vector<std::size_t> tied = ended_at_end(orbit_.shape, leg); tied.size() > 1) {
       if (!meets_all(reader, tied, due, tolerance)) return refuse("other events than the orbit's at one instant");
       i += tied.size() - 1;
@@ -278,7 +260,7 @@ Verification verify(const System& system, const Orbit& orbit) {
   Verification result;
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
     if (orbit.duration(i) > 0.0 || orbit.tied(i)) continue;
-    if (fades(orbit, i)) {
+    if (is_rounding_leg(orbit, i)) {
       result.same_chatter = false;
       continue;
     }
@@ -308,13 +290,6 @@ Verification verify(const System& system, const Orbit& orbit) {
     result.why = error.what();
   }
   return result;
-}
-
-int legs_shrunk(const Orbit& from, const Orbit& to, double left) {
-  int gone = 0;
-  for (std::size_t leg = 0; leg < to.legs(); ++leg)
-    if (!to.tied(leg) && !in_burst(to, leg) && to.duration(leg) < left * from.duration(leg)) ++gone;
-  return gone;
 }
 
 }  // namespace slapstick::orbit

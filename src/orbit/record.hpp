@@ -40,17 +40,4 @@ struct Verification {
 /// The same at the orbit's own parameters; false where there is no model.
 [[nodiscard]] bool is_motion(const Problem& problem, const Orbit& orbit);
 
-/// How many complete chatters has a cycle?
-[[nodiscard]] int chatters(const Orbit& orbit);
-/// Do impacts of one stop, and slips between them, lead from this leg to a chatter's sum? How many are flown one by one
-/// does not matter.
-[[nodiscard]] bool in_burst(const Orbit& orbit, std::size_t leg);
-/// Is it one of those that are too short for their length and margins to be more than rounding?
-[[nodiscard]] bool fades(const Orbit& orbit, std::size_t leg);
-/// How many legs, except for those of bursts, shrink from one orbit of a shape to another to less than a part of their
-/// lengths.
-[[nodiscard]] int legs_shrunk(const Orbit& from, const Orbit& to, double left);
-/// .. to next to nothing.
-[[nodiscard]] inline int legs_gone(const Orbit& from, const Orbit& to) { return legs_shrunk(from, to, 0.1); }
-
 }  // namespace slapstick::orbit

@@ -158,7 +158,7 @@ double apart(const Problem& problem, const Orbit& a, const Orbit& b) {
 }
 
 bool resembles(const Problem& problem, const Orbit& a, const Orbit& b, double much_the_same) {
-  constexpr double long_enough = 0.1, most = 0.5;  // of a cycle; of what is looked at
+  constexpr double shortest_leg = 0.1, least_part_alike = 0.5;  // of a cycle; of what is looked at
   constexpr std::array parts = {0.1, 0.3, 0.5, 0.7, 0.9};
   const States of_a(problem, a), of_b(problem, b);
   const Extent extent(problem, a);
@@ -175,13 +175,13 @@ bool resembles(const Problem& problem, const Orbit& a, const Orbit& b, double mu
   };
   double all = 0.0, same = 0.0;
   for (std::size_t i = 0; i < a.legs(); ++i) {
-    if (a.duration(i) < long_enough * (a.t.back() - a.t.front())) continue;
+    if (a.duration(i) < shortest_leg * (a.t.back() - a.t.front())) continue;
     for (const double part : parts) {
       all += a.duration(i);
       if (is_in_b(i, a.t[i] + part * a.duration(i))) same += a.duration(i);
     }
   }
-  return same > 0.0 && same >= most * all;
+  return same > 0.0 && same >= least_part_alike * all;
 }
 
 double apart_from_later(const Problem& problem, const Orbit& orbit, int periods) {
@@ -206,10 +206,10 @@ double apart_from_own_image(const Problem& problem, const Orbit& orbit) {
 }
 
 bool breaks_symmetry(const Problem& problem, const Orbit& orbit, const Orbit& symmetric) {
-  constexpr double alike = 1e-4, rounding = 1e-6;  // at a crossing states are known to 1e-5
+  constexpr double symmetric_within = 1e-4, symmetry_rounding = 1e-6;  // at a crossing states are known to 1e-5
   const double left = apart_from_image(problem, symmetric, symmetric);
-  if (!(left < alike)) return false;
-  if (!(apart_from_image(problem, orbit, orbit) > std::max(10.0 * left, rounding))) return false;
+  if (!(left < symmetric_within)) return false;
+  if (!(apart_from_image(problem, orbit, orbit) > std::max(10.0 * left, symmetry_rounding))) return false;
   return has_image(problem, orbit, symmetric);
 }
 

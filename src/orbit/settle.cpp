@@ -36,7 +36,7 @@ std::optional<Solution> orbit_from(const Problem& problem, const Motion& motion,
 std::optional<Solution> orbit_of_cycle(const Problem& problem, const section::Settling& settling,
                                        const section::Cycle& cycle, const SettleOptions& options) {
   const System& system = settling.translations().system();
-  Motion motion(system, settling.at_home(flow::user_state(system, cycle.x)));
+  Motion motion(system, settling.moved_to_start_cell(flow::user_state(system, cycle.x)));
   if (!run_to(motion, Instant{}.plus(cycle.duration), options.stop, [] {})) return std::nullopt;
   auto found = orbit_from(problem, motion, problem.free() ? 0 : cycle.n, settled_within, options.stop);
   // At the end of a continuum the orbits beside it have other events: these equations have a double root there.
@@ -66,7 +66,7 @@ Settled settle(const Problem& problem, const System& system, const State& state,
     result.end = SettleEnd::time;
   } else if (problem.free() && !settling.ended() && !settling.cancelled()) {
     // Where events come so often that no section is met alike, the legs of the motion itself may close.
-    const State home = settling.at_home(settling.state());
+    const State home = settling.moved_to_start_cell(settling.state());
     result.orbit = orbit_from(problem, Motion(system, home), 0, settled_within, options.stop);
     result.end = result.orbit ? SettleEnd::orbit : SettleEnd::no_cycle;
   } else if (settling.ended()) {

@@ -9,6 +9,7 @@
 #include "orbit/equations.hpp"
 #include "orbit/extremes.hpp"
 #include "orbit/record.hpp"
+#include "orbit/short_legs.hpp"
 #include "slapstick/orbit/periodic_orbit.hpp"
 #include "slapstick/section/stop_choice.hpp"
 

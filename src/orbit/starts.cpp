@@ -33,12 +33,12 @@ VectorXd forced_sizes(const System& system, double unit) {
 
 /// Numbers that are next to nothing against what they are compared with take the largest of the others, or that.
 void fill(Eigen::Ref<VectorXd> ranges, const VectorXd& forced) {
-  constexpr double nothing = 1e-9;
+  constexpr double negligible_range = 1e-9;
   const double most = ranges.maxCoeff(), of_force = forced.maxCoeff();
   const double size = std::max(most, of_force) > 0.0 ? std::max(most, of_force) : 1.0;
   for (Index i = 0; i < ranges.size(); ++i) {
-    if (ranges[i] > nothing * size) continue;
-    ranges[i] = forced[i] > nothing * size ? forced[i] : most > nothing * size ? most : size;
+    if (ranges[i] > negligible_range * size) continue;
+    ranges[i] = forced[i] > negligible_range * size ? forced[i] : most > negligible_range * size ? most : size;
   }
 }
 

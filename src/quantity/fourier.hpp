@@ -29,9 +29,9 @@ class Fourier : public Listener {
     }
   }
 
-  void blow(const Blow& blow) override {
-    if (blow.impulses[0].value == 0.0) return;
-    sums_.add(blow.impulses[0].value, blow.time.value);
+  void jump(const VelocityJump& jump) override {
+    if (jump.impulses[0].value == 0.0) return;
+    sums_.add(jump.impulses[0].value, jump.time.value);
     ++impulses_;
   }
 

@@ -12,9 +12,9 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr std::size_t few = 12;            ///< lines that are summed one by one
-constexpr std::ptrdiff_t half = 16;        ///< points of the grid on either side of a term
-constexpr std::size_t points_of_line = 4;  ///< of the grid, at least
+constexpr std::size_t most_lines_one_by_one = 12;  ///< lines that are summed one by one
+constexpr std::ptrdiff_t half = 16;                ///< points of the grid on either side of a term
+constexpr std::size_t points_of_line = 4;          ///< of the grid, at least
 
 Complex phase(double turns) {
   const auto [cosine, sine] = of_turns(turns - std::floor(turns));
@@ -54,7 +54,7 @@ void fourier_transform(std::vector<Complex>& x) {
 /// With s = points / (2 lines) the Gaussian leaves out exp(-half^2 / width), and its images add exp(-pi^2 width
 /// (1 - 1/s)) to the last line. The width makes both exp(-pi half sqrt(1 - 1/s)), 4e-16 for s = 2.
 LineSums::LineSums(double T, std::size_t count) : T_(T), count_(count) {
-  if (count <= few) {
+  if (count <= most_lines_one_by_one) {
     lines_.resize(count);
     return;
   }

@@ -89,18 +89,18 @@ class Statistician : public Listener {
     }
   }
 
-  void blow(const Blow& blow) override {
+  void jump(const VelocityJump& jump) override {
     for (std::size_t k = 0; k < of_.size(); ++k) {
-      const double impulse = blow.impulses[k].value;
+      const double impulse = jump.impulses[k].value;
       if (impulse == 0.0) continue;
-      harmonics_[k].add(blow.impulses[k], blow.time);
+      harmonics_[k].add(jump.impulses[k], jump.time);
       found_.of[k].impulse += impulse;
       ++found_.of[k].impulses;
     }
-    for (const Struck& one : blow.impacts) {
+    for (const Struck& one : jump.impacts) {
       StopStatistics& stop =
           found_.stops[static_cast<std::size_t>(one.contact < rigid_ ? one.contact : one.contact - between_)];
-      const double time = blow.time.value;
+      const double time = jump.time.value;
       add(one.w.value, time, stop.w);
       add(one.impulse.value, time, stop.impulse);
       add(one.loss.value, time, stop.loss);

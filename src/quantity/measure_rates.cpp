@@ -99,18 +99,18 @@ class RateStatistician : public Listener {
     }
   }
 
-  void blow(const Blow& blow) override {
+  void jump(const VelocityJump& jump) override {
     for (std::size_t k = 0; k < of_.size(); ++k) {
-      sums_[k].impulse += blow.impulses[k];
-      harmonics_[k].add(blow.impulses[k], blow.time);
+      sums_[k].impulse += jump.impulses[k];
+      harmonics_[k].add(jump.impulses[k], jump.time);
     }
-    for (const Struck& one : blow.impacts) {
+    for (const Struck& one : jump.impacts) {
       OfStop& stop = stops_[static_cast<std::size_t>(one.contact < rigid_ ? one.contact : one.contact - between_)];
-      add(one.w, blow.time, stop.w);
-      add(one.impulse, blow.time, stop.impulse);
-      add(one.loss, blow.time, stop.loss);
+      add(one.w, jump.time, stop.w);
+      add(one.impulse, jump.time, stop.impulse);
+      add(one.loss, jump.time, stop.loss);
       for (std::size_t k = 0; k < of_.size(); ++k)
-        if (of_[k].at_impacts()) add(value_at(of_[k], one), blow.time, at_impacts_[k]);
+        if (of_[k].at_impacts()) add(value_at(of_[k], one), jump.time, at_impacts_[k]);
     }
   }
 

@@ -31,7 +31,7 @@ class Follower {
   /// A start in contact and approaching: its impact comes after a piece of no length.
   [[nodiscard]] bool struck_at_start() const {
     const Motion::Segment segment = motion_.segment();
-    return first_ && motion_.engine().tells_first() && segment.duration == 0.0 && segment.start == origin_ &&
+    return first_ && motion_.engine().is_first_event() && segment.duration == 0.0 && segment.start == origin_ &&
            motion_.event().time == origin_;
   }
 

@@ -165,7 +165,7 @@ Tracer::Tracer(const Model& model, const mode::Frame& frame, Number period, cons
       of_(of),
       listener_(listener),
       rates_(rates),
-      blows_(model, frame, period, of, rates),
+      jumps_(model, frame, period, of, rates),
       values_(of.size()),
       value_rates_(rates != nullptr ? of.size() : 0) {}
 
@@ -192,11 +192,11 @@ Tracer::Expansion& Tracer::expansion(const std::shared_ptr<const mode::Outline>&
 
 void Tracer::piece(const std::shared_ptr<const mode::Outline>& outline, double longest, const double* X, double begin,
                    double duration, const PieceRates* rates) {
-  if (chatter_ >= 0) blows_.chatter(chatter_);
-  std::optional<Blow> blow;
-  if (last_ != nullptr) blow = blow_before(*outline, X, rates != nullptr ? rates->X : nullptr);
-  if (blow && chatter_ < 0) listener_.blow(*blow);
-  blows_.forget();
+  if (chatter_ >= 0) jumps_.chatter(chatter_);
+  std::optional<VelocityJump> jump;
+  if (last_ != nullptr) jump = jump_before(*outline, X, rates != nullptr ? rates->X : nullptr);
+  if (jump && chatter_ < 0) listener_.jump(*jump);
+  jumps_.forget();
   Expansion& mode = expansion(outline, longest, rates);
   at_.X = Eigen::Map<const Vector>(X, frame_.size());
   if (rates != nullptr) at_.by = Eigen::Map<const Vector>(rates->X, frame_.size());
@@ -218,12 +218,12 @@ void Tracer::piece(const std::shared_ptr<const mode::Outline>& outline, double l
     from_rate = length.rate;
     left -= length.value;
   }
-  if (chatter_ >= 0) tell_tail(std::move(blow), {begin, begin_rate});
+  if (chatter_ >= 0) tell_tail(std::move(jump), {begin, begin_rate});
   if (rates != nullptr) at_.by += end_rate * (outline->system * at_.X);
   const auto slips = [](mode::FrictionState state) { return state != mode::FrictionState::stick; };
   const auto& frictions = outline->states.frictions;
   const bool slipped = std::any_of(frictions.begin(), frictions.end(), slips);
-  blows_.go_on({end, begin_rate + end_rate}, slipped ? Number{duration, end_rate} : Number{});
+  jumps_.go_on({end, begin_rate + end_rate}, slipped ? Number{duration, end_rate} : Number{});
   last_ = outline.get();
 }
 
@@ -253,11 +253,11 @@ void Tracer::add_to_tail(const Step& place) {
   tail_->sum.rate += place.length * rate.integral() + push.at(1.0) * place.to_rate - push.at(0.0) * place.from_rate;
 }
 
-/// The blow with which the tail began, and the impulses of all impacts that are left.
-void Tracer::tell_tail(std::optional<Blow> blow, Number begin) {
-  if (!blow) blow = Blow{begin, std::vector<Number>(of_.size()), {}};
-  for (std::size_t k = 0; k < of_.size(); ++k) blow->impulses[k] += tail_->shares[k] * tail_->sum;
-  listener_.blow(*blow);
+/// The jump with which the tail began, and the impulses of all impacts that are left.
+void Tracer::tell_tail(std::optional<VelocityJump> jump, Number begin) {
+  if (!jump) jump = VelocityJump{begin, std::vector<Number>(of_.size()), {}};
+  for (std::size_t k = 0; k < of_.size(); ++k) jump->impulses[k] += tail_->shares[k] * tail_->sum;
+  listener_.jump(*jump);
   tail_.reset();
   chatter_ = -1;
 }
@@ -372,24 +372,24 @@ void Tracer::move_rates(const Expansion& mode, double length) {
 }
 
 void Tracer::impact(int stop, double w) {
-  if (last_ != nullptr) blows_.impact(stop, w, at_);  // of X its derivative alone, which is never behind
+  if (last_ != nullptr) jumps_.impact(stop, w, at_);  // of X its derivative alone, which is never behind
 }
 
 void Tracer::finish(const double* X, const mode::Outline& next, const double* X_rate) {
   if (last_ == nullptr) return;
-  if (const auto blow = blow_before(next, X, X_rate)) listener_.blow(*blow);
+  if (const auto jump = jump_before(next, X, X_rate)) listener_.jump(*jump);
 }
 
 /// What lies between the end of the last piece and X.
-std::optional<Blow> Tracer::blow_before(const mode::Outline& next, const double* X, const double* X_rate) {
-  if (!blows_.may_come(*last_, next)) {
-    blows_.forget();
+std::optional<VelocityJump> Tracer::jump_before(const mode::Outline& next, const double* X, const double* X_rate) {
+  if (!jumps_.may_come(*last_, next)) {
+    jumps_.forget();
     return std::nullopt;
   }
   catch_up();
   Moving after{Eigen::Map<const Vector>(X, frame_.size()), {}};
   if (X_rate != nullptr) after.by = Eigen::Map<const Vector>(X_rate, frame_.size());
-  return blows_.between(*last_, at_, next, after);
+  return jumps_.between(*last_, at_, next, after);
 }
 
 }  // namespace slapstick::quantity

@@ -3,7 +3,7 @@
 /// transforms them listens.
 ///
 /// A *piece* is the motion in one mode; it is cut into steps on which exp(A s) X is its Taylor polynomial of degree 23
-/// up to rounding, as the windows of a Mode are. A *blow* is an instant at which velocities jump. The tracer sees
+/// up to rounding, as the windows of a Mode are. A *jump* is an instant at which velocities jump. The tracer sees
 /// pieces in order of time, from wherever they come: a Motion (`trace`), or the legs of an orbit. So jumps are those
 /// between the end of a piece and the start of the next one, and all impulses are what momentum asks for.
 ///
@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "event/polynomial.hpp"
-#include "quantity/blow.hpp"
+#include "quantity/velocity_jumps.hpp"
 #include "slapstick/flow/motion.hpp"
 
 namespace slapstick::quantity {
@@ -39,7 +39,7 @@ class Listener {
   Listener& operator=(const Listener&) = delete;
   virtual ~Listener() = default;
   virtual void step(const Step& step) = 0;
-  virtual void blow(const Blow& blow) = 0;
+  virtual void jump(const VelocityJump& jump) = 0;
 };
 
 /// The derivatives of a piece: of its mode, of X at its start, where that moves too, and of its times.
@@ -59,24 +59,24 @@ class Tracer {
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
 
-  /// The motion in one mode, from X at time `begin` on. The blow before it is told first.
+  /// The motion in one mode, from X at time `begin` on. The jump before it is told first.
   /// @param longest  time over which the Taylor polynomial of degree 23 is exact up to rounding
   void piece(const std::shared_ptr<const mode::Outline>& outline, double longest, const double* X, double begin,
              double duration, const PieceRates* rates = nullptr);
-  /// X at the end of the last piece, where the caller has it: otherwise it is computed when a blow asks for it.
+  /// X at the end of the last piece, where the caller has it: otherwise it is computed when a jump asks for it.
   void arrive(const double* X);
   /// At the end of the last piece: these stops, bit by bit, get an impulse ..
-  void strike(std::uint32_t stops) { blows_.strike(stops); }
+  void strike(std::uint32_t stops) { jumps_.strike(stops); }
   /// .. or the pulse of a signal comes ..
-  void pulse(int signal, Number area) { blows_.pulse(signal, area); }
-  /// .. or that next piece is the tail of a complete chatter of this stop, flown with the stop closed. The blow before
+  void pulse(int signal, Number area) { jumps_.pulse(signal, area); }
+  /// .. or that next piece is the tail of a complete chatter of this stop, flown with the stop closed. The jump before
   /// comes after the piece, with the impulses of all impacts that the tail stands for ..
   void chatter(int stop) { chatter_ = stop; }
   /// .. and this one was hit. Ignored before the first piece.
   void impact(int stop, double w);
   /// Flights of a stop count from here: an impact before the first piece, or the end of a chatter.
   /// @param slid  how long friction has slipped since then
-  void begin_flight(int contact, Number time, Number slid = {}) { blows_.begin_flight(contact, time, slid); }
+  void begin_flight(int contact, Number time, Number slid = {}) { jumps_.begin_flight(contact, time, slid); }
   /// X after the last piece, what was struck there, and the mode that follows.
   void finish(const double* X, const mode::Outline& next, const double* X_rate = nullptr);
 
@@ -92,17 +92,18 @@ class Tracer {
   void catch_up();
   void move_rates(const Expansion& mode, double length);
   [[nodiscard]] Number to_first_kink(const Expansion& mode, double length);
-  [[nodiscard]] std::optional<Blow> blow_before(const mode::Outline& next, const double* X, const double* X_rate);
+  [[nodiscard]] std::optional<VelocityJump> jump_before(const mode::Outline& next, const double* X,
+                                                        const double* X_rate);
   void begin_tail(const Expansion& mode);
   void add_to_tail(const Step& place);
-  void tell_tail(std::optional<Blow> blow, Number begin);
+  void tell_tail(std::optional<VelocityJump> jump, Number begin);
 
   const Model& model_;
   const mode::Frame& frame_;
   const std::vector<Quantity>& of_;
   Listener& listener_;
   const Rates* rates_;
-  Blows blows_;
+  VelocityJumps jumps_;
   std::vector<std::unique_ptr<Expansion>> modes_;
   int chatter_ = -1;                     ///< the next piece is the tail of a chatter of this stop
   std::unique_ptr<Tail> tail_;           ///< while the trace is in one

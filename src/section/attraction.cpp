@@ -44,9 +44,9 @@ class Trial {
  private:
   /// To the first point of the record from which on the motion stays beside the cycle.
   void go_back(int n) {
-    constexpr double near = 1e-3;  // of the motion's size, as where Newton's method begins
+    constexpr double beside_cycle = 1e-3;  // of the motion's size, as where Newton's method begins
     if (record_ == nullptr) return;
-    const auto is_near = [&](long place) { return approach_.distance(record_->back(place)) <= near; };
+    const auto is_near = [&](long place) { return approach_.distance(record_->back(place)) <= beside_cycle; };
     for (long place = 0; place < record_->size() && place <= static_cast<long>(longest_trial) && is_near(place);
          place += n)
       ago_ = place;
@@ -126,8 +126,8 @@ class Beside {
  private:
   /// The numbers at y. What is rounding moves none: a coordinate that rests at a stop is not put behind it.
   [[nodiscard]] VectorXd at(const VectorXd& y) const {
-    constexpr double rounding = 0x1p-40;  // of singular vectors; far below what a fold leaves
-    return here_ + (y.array().abs() > rounding).select(y, 0.0).cwiseProduct(sizes_);
+    constexpr double component_rounding = 0x1p-40;  // of singular vectors; far below what a fold leaves
+    return here_ + (y.array().abs() > component_rounding).select(y, 0.0).cwiseProduct(sizes_);
   }
 
   const ReturnMap& map_;

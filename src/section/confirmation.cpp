@@ -49,8 +49,9 @@ std::optional<Cycle> Confirmation::confirm(int n) const {
 /// A shorter cycle that a stable one of n points goes round several times; n becomes its length. Beside a multiplier
 /// -1 the cycle solves the equations of twice its length also at points beside it: 1 - lambda^2 is almost zero.
 FixedPoint Confirmation::once_round(FixedPoint found, int& n) const {
-  constexpr double same = 1e-5;  // of the motion's size: rounding over 1 - |lambda| where the cycle is barely stable
-  constexpr double far = 1e-2;   // no stable cycle moves a point beside it so much: (1 + |J|) same
+  constexpr double same_cycle =
+      1e-5;  // of the motion's size: rounding over 1 - |lambda| where the cycle is barely stable
+  constexpr double farthest_image = 1e-2;  // no stable cycle moves a point beside it so much: (1 + |J|) same
   const System& system = map_.translations().system();
   if (n == 1) return found;
   Motion motion(system, flow::user_state(system, found.x));
@@ -59,9 +60,9 @@ FixedPoint Confirmation::once_round(FixedPoint found, int& n) const {
     if (n % length != 0) continue;
     VectorXd image = flow::contact_state(motion);
     map_.translations().take_out(image);
-    if (distance(image, found.x, record_.scale()) > far) continue;
+    if (distance(image, found.x, record_.scale()) > farthest_image) continue;
     auto shorter = fixed_point(map_, found.x, length, record_.scale(), options_.stop);
-    if (!shorter || !shorter->stable() || distance(shorter->x, found.x, record_.scale()) > same) continue;
+    if (!shorter || !shorter->stable() || distance(shorter->x, found.x, record_.scale()) > same_cycle) continue;
     n = length;
     return std::move(*shorter);
   }

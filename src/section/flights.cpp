@@ -40,8 +40,8 @@ class Looks {
   [[nodiscard]] Instant next() const { return start_.plus(windows_ * each_); }
   /// At `next`. Shall it be asked?
   bool pass(const Motion& motion) {
-    constexpr double patient = 1024.0, much = 1e6;
-    const bool asks = windows_ >= patient || largest_number(motion) > much * size_;
+    constexpr double most_windows = 1024.0, great_growth = 1e6;
+    const bool asks = windows_ >= most_windows || largest_number(motion) > great_growth * size_;
     windows_ *= 4.0;
     return asks;
   }

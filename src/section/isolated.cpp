@@ -25,14 +25,15 @@ class Known {
  public:
   Known(const ReturnMap& map, const FixedPoint& point, const VectorXd& scale)
       : map_(map), point_(point), sizes_(map.translations().numbers(scale)) {
-    constexpr double rounding = 0x1p-40;  // of eigenvectors: a coordinate that rests at a stop is not put behind it
+    constexpr double component_rounding =
+        0x1p-40;  // of eigenvectors: a coordinate that rests at a stop is not put behind it
     const dense::Eigenpairs pairs = dense::eigenpairs(derivative());
     Index slowest = 0;
     (pairs.values.array() - 1.0).abs().minCoeff(&slowest);
     if (pairs.values[slowest].imag() == 0.0) left_ = 1.0 - pairs.values[slowest].real();
     direction_ = pairs.vectors.col(slowest).real();
     direction_ /= direction_.cwiseAbs().maxCoeff();
-    direction_ = (direction_.array().abs() > rounding).select(direction_, 0.0);
+    direction_ = (direction_.array().abs() > component_rounding).select(direction_, 0.0);
   }
 
   /// 1 - mu of the multiplier nearest to 1; infinite if that is complex.

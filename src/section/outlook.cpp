@@ -64,7 +64,7 @@ MatrixXd dependent_holds(const System& system, ModeId mode) {
 }
 
 Free free_states(const flow::Translations& translations, ModeId mode) {
-  constexpr double rounding = 1e-10;  // of a row that other holds make zero; those of pairs are of order one
+  constexpr double hold_rounding = 1e-10;  // of a row that other holds make zero; those of pairs are of order one
   Free free{free_numbers(translations, mode), {}};
   const Index n = translations.system().compiled().frame().n, numbers = 2 * n - translations.count();
   free.units.resize(2 * n, static_cast<Index>(free.at.size()));
@@ -72,9 +72,9 @@ Free free_states(const flow::Translations& translations, ModeId mode) {
     free.units.col(j) = translations.representative(VectorXd::Unit(numbers, free.at[static_cast<std::size_t>(j)]));
   MatrixXd held = dependent_holds(translations.system(), mode) * free.units;
   for (Index i = 0; i < held.rows(); ++i)
-    if (held.row(i).norm() < rounding) held.row(i).setZero();
+    if (held.row(i).norm() < hold_rounding) held.row(i).setZero();
   if (held.isZero(0.0)) return free;
-  const dense::Kernel left = dense::kernel(held, rounding);
+  const dense::Kernel left = dense::kernel(held, hold_rounding);
   std::vector<Index> at;
   for (const Index k : left.free) at.push_back(free.at[static_cast<std::size_t>(k)]);
   return {at, free.units * left.basis};

@@ -47,7 +47,7 @@ Settling::Settling(const System& system, const State& state, const SettlingOptio
       options_(options),
       map_(std::make_unique<Stroboscopic>(system)),
       motion_(system, state),
-      home_(translations().take_out(motion_)),
+      start_cell_(translations().take_out(motion_)),
       record_(2 * system.compiled().frame().n),
       omega_(2.0 * std::numbers::pi / system.period()),
       round_(std::max(shortest_round, 4 * options.most_n)),
@@ -123,12 +123,12 @@ std::optional<Cycle> Settling::next_round() {
 
 /// A fixed point of the map of a free motion may be a state of rest.
 bool Settling::is_a_point(const Cycle& cycle) const {
-  constexpr double nothing = 1e-7;  // of the motion's size; fixed points are known to 1e-11 of it
+  constexpr double at_rest_within = 1e-7;  // of the motion's size; fixed points are known to 1e-11 of it
   Motion motion(system_, flow::user_state(system_, cycle.x));
   run_to(motion, Instant{}.plus(0.25 * cycle.duration / cycle.n), options_.stop, [] {});
   VectorXd x = flow::contact_state(motion);
   translations().take_out(x);
-  return distance(x, cycle.x, record_.scale()) <= nothing;
+  return distance(x, cycle.x, record_.scale()) <= at_rest_within;
 }
 
 void Settling::note_approach(int k, int periods) {
@@ -172,10 +172,10 @@ VectorXd Settling::sizes_between() const {
 /// With translations a displacement is zero at every return by definition; and all numbers of all points may be zero by
 /// chance. What the motion is like in between says how large it is.
 void Settling::look_between(bool by_chance) {
-  constexpr double nothing = 1e-6;  // of the motion's size: less at every point is chance
+  constexpr double zero_by_chance = 1e-6;  // of the motion's size: less at every point is chance
   if (by_chance != (translations().count() == 0)) return;
   const VectorXd sizes = sizes_between();
-  if (!by_chance || record_.scale().maxCoeff() < nothing * sizes.maxCoeff()) record_.note_size(sizes, omega_);
+  if (!by_chance || record_.scale().maxCoeff() < zero_by_chance * sizes.maxCoeff()) record_.note_size(sizes, omega_);
 }
 
 std::vector<double> Settling::drift(const VectorXd& advance) const {

@@ -67,7 +67,7 @@ class Settling {
   [[nodiscard]] const ReturnMap& map() const { return *map_; }
   [[nodiscard]] const flow::Translations& translations() const { return map_->translations(); }
   /// A state moved back along the translations to where the start was.
-  [[nodiscard]] State at_home(const State& state) const { return translations().moved(state, home_); }
+  [[nodiscard]] State moved_to_start_cell(const State& state) const { return translations().moved(state, start_cell_); }
   /// By coordinate; zero if it cannot be told from none.
   [[nodiscard]] std::vector<double> drift(const Eigen::VectorXd& advance) const;
   /// True if the last round was still closing in on a cycle: the nearest of its returns kept shrinking. An invariant
@@ -93,7 +93,7 @@ class Settling {
   SettlingOptions options_;
   std::unique_ptr<const ReturnMap> map_;
   Motion motion_;
-  Eigen::VectorXd home_;  ///< the start along each translation
+  Eigen::VectorXd start_cell_;  ///< the start along each translation
   PointRecord record_;
   std::vector<double> earlier_;  ///< widest_return of every n, half a round ago
   double omega_;                 ///< of a period: what makes a velocity of a displacement

@@ -74,7 +74,7 @@ bool KnownCycles::Watch::beside() const {
 
 bool KnownCycles::Watch::comes(std::size_t cycle, const Eigen::Ref<const Eigen::VectorXd>& x) {
   // Wider: more motions are tried that go elsewhere; narrower: longer runs. `attraction` asks as much in the end.
-  constexpr double near = 0.05;
+  constexpr double beside_cycle = 0.05;
   constexpr double shrunk = 1e-3;  // of the distance where the trial began: ten halvings
   // A thousandth of `one`, for motions that begin on the cycle. Wider: fewer halvings are seen of those that begin
   // beside it; narrower: rounding keeps a motion that is there from ending its trial, and Newton's method is asked.
@@ -83,7 +83,7 @@ bool KnownCycles::Watch::comes(std::size_t cycle, const Eigen::Ref<const Eigen::
   Trial& trial = trials_[cycle];
   const long lasts = points_ - trial.since;
   if (trial.runs && lasts % known.n != 0) return false;
-  const bool is_near = known.approach.distance(x) <= near;
+  const bool is_near = known.approach.distance(x) <= beside_cycle;
   trial.runs = trial.runs && is_near;
   if (!is_near || (trial.runs && lasts < known.approach.stage())) return false;
   const section::Approach::Look here = known.approach.at(x);

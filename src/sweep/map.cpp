@@ -57,8 +57,9 @@ void check_map(const MapProblem& problem) {
   demand_of_map(problem.model_at != nullptr && problem.start_at != nullptr, "model_at and start_at must be given");
   check_axis("x", problem.x);
   check_axis("y", problem.y);
-  constexpr double most = 0.5 * std::numeric_limits<std::int32_t>::max();
-  demand_of_map(static_cast<double>(problem.x.count) * problem.y.count < most, "more pixels than one map can have");
+  constexpr double most_pixels = 0.5 * std::numeric_limits<std::int32_t>::max();
+  demand_of_map(static_cast<double>(problem.x.count) * problem.y.count < most_pixels,
+                "more pixels than one map can have");
   demand_of_map(problem.periods >= 20, "periods = " + std::to_string(problem.periods) + " is below 20");
   demand_of_map(problem.starts >= 2 || problem.start != MapStart::random,
                 "starts = " + std::to_string(problem.starts) + " is below 2");

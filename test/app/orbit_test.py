@@ -122,7 +122,7 @@ def test_a_group_whose_members_differ_has_no_value():
 
 def test_a_broken_symmetry_is_followed_once():
     text = good('continue', 'two-sided-rattle', '--set', 'omega=1.6', '--param', 'omega', '--range', '1.2:1.7', '--branches', '3', '--table')
-    says(text, "a symmetry breaks: the crossing branch's sides are images of one another", 'behind the symmetric orbit at 1.47422312')
+    says(text, "a symmetry breaks: the crossing branch's sides are images of one another", 'beyond the symmetric orbit at 1.47422312')
     branches = [[line.split()[3] for line in part.splitlines() if ' GR ' in line] for part in text.split(' points; ')[1:]]
     places = [tuple(sorted(branch)) for branch in branches if branch]
     assert places and len(set(places)) == len(places), places

@@ -44,7 +44,7 @@ struct Beside {
   }
   [[nodiscard]] orbit::Orbit at(double value) const {
     orbit::Orbit guess = map.orbit();
-    guess.values[0] = value;
+    guess.parameter() = value;
     const auto found = orbit::refine(problem, guess);
     if (!found) throw std::runtime_error("no orbit beside the special point");
     return *found;
@@ -75,10 +75,10 @@ struct Beside {
 inline orbit::Orbit orbit_at(const orbit::Problem& problem, const orbit::Branch& branch, double value) {
   for (std::size_t i = 0; i + 1 < branch.points.size(); ++i) {
     const orbit::Orbit &a = branch.points[i].orbit, &b = branch.points[i + 1].orbit;
-    const double part = (value - a.values[0]) / (b.values[0] - a.values[0]);
+    const double part = (value - a.parameter()) / (b.parameter() - a.parameter());
     if (!(part >= 0.0 && part <= 1.0) || !(a.shape.legs == b.shape.legs)) continue;
     orbit::Orbit guess = a;
-    guess.values[0] = value;
+    guess.parameter() = value;
     for (std::size_t k = 0; k < a.legs(); ++k) guess.x[k] += part * (b.x[k] - a.x[k]);
     for (std::size_t k = 0; k <= a.legs(); ++k) guess.t[k] += part * (b.t[k] - a.t[k]);
     if (const auto found = orbit::refine(problem, guess)) return *found;
@@ -92,7 +92,7 @@ inline orbit::Orbit orbit_at(const orbit::Problem& problem, const orbit::Branch&
 inline double doubled_ratio(const Beside& beside, std::size_t leg, double value, double wider) {
   const orbit::Orbit& born = beside.point.born.at(0);
   const double end = value + wider * (value - beside.point.value);
-  const auto [from, to] = std::minmax(born.values[0], end);
+  const auto [from, to] = std::minmax(born.parameter(), end);
   orbit::Orbit first = orbit_at(beside.problem, orbit::follow(beside.problem, born, {.from = from, .to = to}), value);
   orbit::rotate(first, leg);
   orbit::Orbit second = first;
@@ -130,12 +130,12 @@ inline void expect_parting_as_foretold(const Posed& posed, const orbit::Branch& 
   constexpr double nearer = 0.25;
   const orbit::Orbit& fold = point.solution.orbit;
   const double value =
-      fold.values[0] + nearer * nearer * (branch.points.at(point.after).orbit.values[0] - fold.values[0]);
+      fold.parameter() + nearer * nearer * (branch.points.at(point.after).orbit.parameter() - fold.parameter());
   const auto towards = [&](std::size_t index) {
     orbit::Orbit orbit = branch.points.at(index).orbit;
     for (std::size_t i = 0; i < orbit.legs(); ++i) orbit.x[i] = fold.x[i] + nearer * (orbit.x[i] - fold.x[i]);
     for (std::size_t i = 0; i < orbit.t.size(); ++i) orbit.t[i] = fold.t[i] + nearer * (orbit.t[i] - fold.t[i]);
-    orbit.values[0] = value;
+    orbit.parameter() = value;
     return orbit::refine(*posed.problem, orbit);
   };
   const auto lower = towards(point.after), upper = towards(point.after + 1);

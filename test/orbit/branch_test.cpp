@@ -59,7 +59,7 @@ TEST(Branch, OfThePaperChangesWhereItsAttractorDoes) {
   }
   EXPECT_EQ(k, expected.size());
   for (const orbit::Solution& point : branch.points)
-    EXPECT_TRUE(point.is_motion) << point.orbit.values[0] << " " << point.why;
+    EXPECT_TRUE(point.is_motion) << point.orbit.parameter() << " " << point.why;
 }
 
 /// A coarse step over several changes places them where a fine one does: margins that are rounding are no changes.
@@ -89,7 +89,7 @@ TEST(Branch, GoesOnWithoutAnImpactThatIsLost) {
   ASSERT_FALSE(branch.points.empty());
   EXPECT_EQ(branch.points.back().impacts, 0);
   EXPECT_TRUE(branch.points.back().is_motion);
-  EXPECT_EQ(branch.points.back().orbit.values[0], 0.4);
+  EXPECT_EQ(branch.points.back().orbit.parameter(), 0.4);
   const auto graze = std::ranges::find(branch.special, orbit::SpecialType::GR, &orbit::SpecialPoint::type);
   ASSERT_NE(graze, branch.special.end());
   EXPECT_NEAR(graze->value, 0.24955384, 1e-7);
@@ -297,7 +297,7 @@ TEST(Branch, UnstablePointsAreOrbitsOfTheSimulator) {
   const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 2.2, .to = 4.0});
   const orbit::Solution& last = branch.points.back();
   EXPECT_FALSE(last.stable());
-  const System system(posed.definition.build({{"omega", last.orbit.values[0]}}));
+  const System system(posed.definition.build({{"omega", last.orbit.parameter()}}));
   const double whole = std::floor(last.orbit.t[0]);
   Motion motion(system, flow::user_state(system, last.orbit.x[0]),
                 {static_cast<std::int64_t>(whole), last.orbit.t[0] - whole});

@@ -88,7 +88,7 @@ TEST(Branch, WithTheSameStatesAtAnotherPhaseIsAnotherOne) {
       branch_of("shaken-table", {{"restitution", 0.5}}, "acceleration", 1.2, {.from = 0.9, .to = 2.5});
   ASSERT_EQ(values(branch, SpecialType::LP).size(), 1U) << ended(branch);
   const bool saddle = std::ranges::any_of(branch.points, [](const orbit::Solution& point) {
-    return point.orbit.values[0] > 2.0 && point.multipliers.front().real() > 2.0;
+    return point.orbit.parameter() > 2.0 && point.multipliers.front().real() > 2.0;
   });
   EXPECT_TRUE(saddle) << ended(branch);
 }
@@ -98,7 +98,7 @@ TEST(Branch, WithTheSameStatesAtAnotherPhaseIsAnotherOne) {
 TEST(Change, OfBothHalvesOfASymmetricCycleIsPassed) {
   const orbit::Branch branch = branch_of("coulomb-oscillator", {}, "omega", 0.3, {.from = 0.25, .to = 0.35});
   for (const orbit::SpecialPoint& point : branch.special) EXPECT_NE(point.passage, Passage::jump) << point.value;
-  EXPECT_LT(branch.points.front().orbit.values[0], 0.2575) << ended(branch);
+  EXPECT_LT(branch.points.front().orbit.parameter(), 0.2575) << ended(branch);
 }
 
 /// The only contact of a period vanishes: the linear response is left, whose amplitude is the gap there.
@@ -247,9 +247,9 @@ TEST(Graze, LeadsToTheSideOnWhichItsImpactIsTheFirstZero) {
   ASSERT_EQ(grazes.size(), 1U) << ended(branch);
   EXPECT_EQ(ended(branch), "down: range; up: range");
   EXPECT_EQ(branch.special.front().passage, Passage::persistence);
-  EXPECT_LT(branch.points.front().orbit.values[0], 0.88771);
+  EXPECT_LT(branch.points.front().orbit.parameter(), 0.88771);
   for (const orbit::Solution& point : branch.points)
-    EXPECT_EQ(point.impacts, point.orbit.values[0] < grazes[0] ? 55 : 54) << point.orbit.values[0];
+    EXPECT_EQ(point.impacts, point.orbit.parameter() < grazes[0] ? 55 : 54) << point.orbit.parameter();
 }
 
 /// Where a motion dies out margins are used up within rounding, that of a stop by 5e-8 of the range as well; behind it
@@ -289,12 +289,12 @@ TEST(Change, OfAChatterIsNotAFoldOntoItself) {
   });
   ASSERT_NE(slide, branch.special.end()) << ended(branch);
   EXPECT_EQ(slide->passage, Passage::persistence);
-  ASSERT_GT(branch.points.back().orbit.values[0], 11.2);
+  ASSERT_GT(branch.points.back().orbit.parameter(), 11.2);
   const Posed beyond("spool", overrides, {"preload"}, {11.2});
   const auto settled = beyond.settled();
   ASSERT_TRUE(settled);
   const auto after =
-      std::ranges::find_if(branch.points, [](const orbit::Solution& point) { return point.orbit.values[0] > 11.2; });
+      std::ranges::find_if(branch.points, [](const orbit::Solution& point) { return point.orbit.parameter() > 11.2; });
   EXPECT_EQ(after->label, settled->label);
 }
 
@@ -334,7 +334,7 @@ TEST(Deflation, FindsTheOtherOrbitOfAFold) {
   ASSERT_FALSE(folds.empty());
   const Posed there("two-sided-rattle", {{"omega", folds.back() - 2e-2}}, {}, {});
   const auto near = std::ranges::min_element(branch.points, {}, [&](const orbit::Solution& point) {
-    return point.label == first->label ? std::abs(point.orbit.values[0] - folds.back() + 2e-2) : INFINITY;
+    return point.label == first->label ? std::abs(point.orbit.parameter() - folds.back() + 2e-2) : INFINITY;
   });
   orbit::Orbit guess = near->orbit;
   guess.values.clear();

@@ -75,7 +75,7 @@ TEST(TwoStops, ABranchGoesOnWhereTheOtherOneBecomesTheNearest) {
   ASSERT_TRUE(expected);
   ASSERT_FALSE(branch.points.empty());
   const orbit::Solution& there = branch.points.front();
-  EXPECT_EQ(there.orbit.values[0], 0.48) << orbit::ended(branch);
+  EXPECT_EQ(there.orbit.parameter(), 0.48) << orbit::ended(branch);
   EXPECT_TRUE(there.is_motion);
   EXPECT_EQ(there.label, expected->label);
   ASSERT_EQ(there.multipliers.size(), expected->multipliers.size());

@@ -42,8 +42,8 @@ TEST(DyingMotion, EndsWhereTheForceIsFriction) {
     EXPECT_NEAR(rates[0], 1.0, 1e-13) << c.start;
     EXPECT_NEAR(rates[1], 0.0, 1e-13) << c.start;
     EXPECT_EQ(death->passage, Passage::family);
-    EXPECT_GT(branch.points.front().orbit.values[0], 0.2);
-    for (const orbit::Solution& point : branch.points) EXPECT_TRUE(point.isolated()) << point.orbit.values[0];
+    EXPECT_GT(branch.points.front().orbit.parameter(), 0.2);
+    for (const orbit::Solution& point : branch.points) EXPECT_TRUE(point.isolated()) << point.orbit.parameter();
   }
 }
 
@@ -55,7 +55,7 @@ TEST(DyingMotion, IsNotSaidToEndWhereThereIsNoModel) {
   const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 0.15, .to = 0.25});
   EXPECT_EQ(branch.down.kind, orbit::BranchEnd::Kind::no_model) << ended(branch);
   EXPECT_EQ(find_near(branch, SpecialType::SL, 0.2, 1e-3), nullptr);
-  EXPECT_GT(branch.points.front().orbit.values[0], 0.2002);
+  EXPECT_GT(branch.points.front().orbit.parameter(), 0.2002);
 }
 
 /// Where static friction rises above kinetic friction slips keep some length, and die in a jump where the force no more
@@ -141,7 +141,7 @@ TEST(GrowingMotion, EndsAtResonance) {
       orbit::follow(*posed.problem, first->orbit, {.from = 0.6, .to = 1.5, .most_points = 2000});
   EXPECT_FALSE(branch.failed()) << ended(branch);
   EXPECT_NE(ended(branch).find("grows without bound as omega nears"), std::string::npos) << ended(branch);
-  EXPECT_NEAR(branch.points.back().orbit.values[0], 1.0, 1e-5);
+  EXPECT_NEAR(branch.points.back().orbit.parameter(), 1.0, 1e-5);
 }
 
 /// Both half periods of a symmetric orbit change at one value of the parameter, where besides a multiplier is 1. There

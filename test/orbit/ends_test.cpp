@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "families.hpp"
+#include "orbit/short_legs.hpp"
 #include "shaken_ball.hpp"
 
 namespace slapstick::test {
@@ -37,14 +38,14 @@ TEST(BranchFromEitherEnd, HasTheSameSpecialPoints) {
     ASSERT_FALSE(whole.special.empty()) << followed.model;
     for (const orbit::Solution* end : {&whole.points.front(), &whole.points.back()}) {
       const orbit::Branch again = orbit::follow(*posed.problem, end->orbit, followed.options);
-      ASSERT_EQ(again.special.size(), whole.special.size()) << followed.model << " from " << end->orbit.values[0];
+      ASSERT_EQ(again.special.size(), whole.special.size()) << followed.model << " from " << end->orbit.parameter();
       const auto near = [&](const orbit::SpecialPoint& a) {
         return std::ranges::any_of(again.special, [&](const orbit::SpecialPoint& b) {
           return a.type == b.type && std::abs(a.value - b.value) < 1e-9;
         });
       };
       for (const orbit::SpecialPoint& point : whole.special)
-        EXPECT_TRUE(near(point)) << followed.model << " from " << end->orbit.values[0] << ": " << name(point.type)
+        EXPECT_TRUE(near(point)) << followed.model << " from " << end->orbit.parameter() << ": " << name(point.type)
                                  << " " << point.value;
     }
   }
@@ -182,7 +183,7 @@ TEST(Cascade, OfSymmetricOrbitsGoesOverToTheChatter) {
   EXPECT_TRUE(branch.points.front().chatter);
   EXPECT_FALSE(branch.points.back().chatter);
   for (const orbit::Solution& point : branch.points)
-    EXPECT_EQ(point.chatter, point.orbit.values[0] < onset->value) << point.orbit.values[0];
+    EXPECT_EQ(point.chatter, point.orbit.parameter() < onset->value) << point.orbit.parameter();
 }
 
 /// A graze 1e-18 ahead of a point, by the value of the margin, is 1e-7 of arclength ahead.
@@ -249,7 +250,7 @@ TEST(BranchOfChatter, OfImpactsWithoutBoundEndsAndSaysWhy) {
   const orbit::Branch branch =
       orbit::follow(*posed.problem, first->orbit, {.from = 0.4, .to = 1.0, .longest_step = 0.1});
   EXPECT_TRUE(branch.failed());
-  EXPECT_NE(ended(branch).find("more than 1000 events is not followed, behind restitution = 0.98"), std::string::npos)
+  EXPECT_NE(ended(branch).find("more than 1000 events is not followed, beyond restitution = 0.98"), std::string::npos)
       << ended(branch);
 }
 

@@ -89,8 +89,8 @@ TEST(PeriodicImpulse, IsFollowedThroughNothing) {
   const Driven struck(oscillator + other + blow, {"size"}, {0.5});
   ASSERT_TRUE(struck.orbit);
   const orbit::Branch branch = orbit::follow(*struck.problem, struck.orbit->orbit, {.from = -0.5, .to = 0.5});
-  EXPECT_EQ(branch.points.front().orbit.values[0], -0.5);
-  EXPECT_EQ(branch.points.back().orbit.values[0], 0.5);
+  EXPECT_EQ(branch.points.front().orbit.parameter(), -0.5);
+  EXPECT_EQ(branch.points.back().orbit.parameter(), 0.5);
   EXPECT_TRUE(branch.special.empty());
   const auto at = [&](double size) { return Driven(oscillator + other + blow, {"size"}, {size}); };
   const Driven below = at(-0.5), none = at(0.0), above = at(0.5);
@@ -121,8 +121,8 @@ TEST(PeriodicImpulse, HasNothingHalfAPeriodFromItsBlow) {
   ASSERT_TRUE(struck.orbit);
   const orbit::Branch branch = orbit::follow(*struck.problem, struck.orbit->orbit, {.from = 0.75, .to = 1.2});
   EXPECT_TRUE(branch.special.empty());
-  EXPECT_EQ(branch.points.front().orbit.values[0], 0.75);
-  EXPECT_EQ(branch.points.back().orbit.values[0], 1.2);
+  EXPECT_EQ(branch.points.front().orbit.parameter(), 0.75);
+  EXPECT_EQ(branch.points.back().orbit.parameter(), 1.2);
   const auto phase_of_impact = [&](const orbit::Orbit& orbit) {
     const auto events = orbit::events(*struck.problem, orbit);
     return events.empty() ? -1.0 : events[0].t - std::floor(events[0].t);

@@ -28,7 +28,7 @@ TEST(OnsetOrbit, OfAShakenBallIsWhereTheSimulatorSaysForAnyRestitution) {
     ASSERT_TRUE(first && first->chatter) << restitution;
     const auto found = orbit::onset_orbit(*posed.problem, first->orbit, 0);
     ASSERT_TRUE(found) << restitution;
-    EXPECT_NEAR(found->orbit.values[0], onset, found->error + 2e-13) << restitution;  // bisection ends at 1e-13
+    EXPECT_NEAR(found->orbit.parameter(), onset, found->error + 2e-13) << restitution;  // bisection ends at 1e-13
     EXPECT_LT(found->error, 1e-13) << restitution;
   }
 }
@@ -41,12 +41,12 @@ TEST(OnsetOrbit, IsTheSameFromTheCascade) {
   ASSERT_TRUE(first);
   const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = onset - 2e-3, .to = onset + 1e-4});
   const auto bounces = std::ranges::find_if(branch.points, [&](const orbit::Solution& point) {
-    return point.orbit.values[0] > onset + 1e-5 && !point.chatter;
+    return point.orbit.parameter() > onset + 1e-5 && !point.chatter;
   });
   ASSERT_NE(bounces, branch.points.end()) << ended(branch);
   const auto found = orbit::onset_orbit(*posed.problem, bounces->orbit, 0);
   ASSERT_TRUE(found);
-  EXPECT_NEAR(found->orbit.values[0], onset, found->error + 2e-13);
+  EXPECT_NEAR(found->orbit.parameter(), onset, found->error + 2e-13);
 }
 
 /// What rounding leaves is in the stated error, however small the parameter: 1.459 + offset is the onset for r = 0.6,
@@ -57,7 +57,7 @@ TEST(OnsetOrbit, IsAsWellKnownAsItSaysWhereTheParameterIsSmall) {
   ASSERT_TRUE(first);
   const auto found = orbit::onset_orbit(*posed.problem, first->orbit, 0);
   ASSERT_TRUE(found);
-  EXPECT_NEAR(found->orbit.values[0], 4.60027577467332e-5, found->error);
+  EXPECT_NEAR(found->orbit.parameter(), 4.60027577467332e-5, found->error);
   EXPECT_LT(found->error, 1e-14);
 }
 

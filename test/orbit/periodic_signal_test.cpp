@@ -141,8 +141,8 @@ TEST(PeriodicSignal, LetsABranchThroughWhereAnEventPassesAPoint) {
   const auto events = orbit::events(*first.problem, passes->solution.orbit);
   ASSERT_EQ(events.size(), 1U);
   EXPECT_NEAR(events[0].t - std::floor(events[0].t), passes->value, 1e-9);
-  EXPECT_EQ(branch.points.front().orbit.values[0], 0.45);
-  EXPECT_EQ(branch.points.back().orbit.values[0], 0.65);
+  EXPECT_EQ(branch.points.front().orbit.parameter(), 0.45);
+  EXPECT_EQ(branch.points.back().orbit.parameter(), 0.65);
   for (const double duty : {0.5, 0.6}) {
     const Driven one(text, {"duty"}, {duty});
     const Classification seen = classify(one.system, one.start);
@@ -189,7 +189,7 @@ TEST(PeriodicSignal, LetsADryContactGoWhileTheStepExceedsTheLimit) {
   });
   ASSERT_NE(stays, branch.special.end());
   EXPECT_NEAR(stays->value, 0.6, 1e-12);
-  EXPECT_EQ(branch.points.front().orbit.values[0], 0.5);
+  EXPECT_EQ(branch.points.front().orbit.parameter(), 0.5);
 }
 
 /// A ball under weight 1 that a push of 1 + a lifts for the part D of each period T. It lands at
@@ -225,8 +225,8 @@ TEST(PeriodicSignal, LetsABranchThroughWhereAChattersLimitMeetsAStep) {
   ASSERT_TRUE(ball.orbit);
   ASSERT_EQ(ball.orbit->label, "1-inf-II");
   const orbit::Branch branch = orbit::follow(*ball.problem, ball.orbit->orbit, {.from = 0.5, .to = 2.5});
-  EXPECT_EQ(branch.points.front().orbit.values[0], 0.5);
-  EXPECT_EQ(branch.points.back().orbit.values[0], 2.5);
+  EXPECT_EQ(branch.points.front().orbit.parameter(), 0.5);
+  EXPECT_EQ(branch.points.back().orbit.parameter(), 2.5);
   const auto first = [&](orbit::SpecialType type) {
     return std::ranges::find(branch.special, type, &orbit::SpecialPoint::type);
   };

@@ -38,7 +38,7 @@ TEST(Units, OfAParameterChangeNoBranch) {
   const InUnit one(1.0, nullptr);
   const orbit::Orbit& first = [&]() -> const orbit::Orbit& {
     return std::ranges::find_if(one.branch.points,
-                                [](const orbit::Solution& point) { return point.orbit.values[0] == 0.3; })
+                                [](const orbit::Solution& point) { return point.orbit.parameter() == 0.3; })
         ->orbit;
   }();
   ASSERT_TRUE(std::ranges::any_of(one.branch.special, [](const orbit::SpecialPoint& point) {
@@ -48,7 +48,8 @@ TEST(Units, OfAParameterChangeNoBranch) {
     const InUnit other(scale, &first);
     ASSERT_EQ(other.branch.points.size(), one.branch.points.size()) << scale;
     for (std::size_t i = 0; i < one.branch.points.size(); ++i)
-      EXPECT_NEAR(other.branch.points[i].orbit.values[0] / scale, one.branch.points[i].orbit.values[0], 1e-13) << scale;
+      EXPECT_NEAR(other.branch.points[i].orbit.parameter() / scale, one.branch.points[i].orbit.parameter(), 1e-13)
+          << scale;
     ASSERT_EQ(other.branch.special.size(), one.branch.special.size()) << scale;
     for (std::size_t i = 0; i < one.branch.special.size(); ++i) {
       const orbit::SpecialPoint &a = other.branch.special[i], &b = one.branch.special[i];

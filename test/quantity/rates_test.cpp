@@ -66,7 +66,7 @@ Measured beside(const ModelDefinition& model, const Overrides& values, const std
                 orbit::Orbit orbit, const std::vector<Quantity>& of) {
   orbit.values = {model.present_value(name, values)};
   const auto problem = orbit::pose(model.family({name}, values), orbit.values);
-  orbit.values[0] += by;
+  orbit.parameter() += by;
   const auto found = orbit::refine(*problem, orbit);
   if (!found) throw std::runtime_error(name + ": no orbit beside");
   return measure(*problem, *found, of);

@@ -63,7 +63,7 @@ struct Branch {
   std::string parameter;  ///< its name
   std::vector<Solution> points;
   std::vector<SpecialPoint> special;
-  BranchEnd down, up;  ///< before the first point and behind the last; both `closed` for a closed branch
+  BranchEnd down, up;  ///< before the first point and after the last; both `closed` for a closed branch
 
   [[nodiscard]] bool failed() const { return down.failed || up.failed; }
 };

@@ -3,7 +3,7 @@
 ///
 /// A cycle is cut at its events into *legs*. Leg i starts just after event i, in one mode, and its end is event i + 1;
 /// the last leg ends at event 0, one cycle later. With the shape fixed, an orbit is a smooth function of the model's
-/// parameters, also where it is no motion any more: past a graze, where it reaches behind a stop, its equations go on.
+/// parameters, also where it is no motion any more: past a graze, where it reaches beyond a stop, its equations go on.
 /// So the points where shapes change are regular points. Plain data. Source: Dankowicz and Schilder (2013) for orbits
 /// as sequences of segments.
 #include <Eigen/Core>
@@ -63,6 +63,9 @@ struct Orbit {
   std::vector<double> t;    ///< instants of events 0 .. k, in forcing periods (in time, without forcing): k + 1 numbers
   Eigen::VectorXd advance;  ///< along each of the model's rigid translations, per cycle
 
+  /// The first parameter: on a branch the one that varies.
+  [[nodiscard]] double parameter() const { return values.front(); }
+  double& parameter() { return values.front(); }
   [[nodiscard]] std::size_t legs() const { return shape.legs.size(); }
   [[nodiscard]] bool tied(std::size_t leg) const { return shape.legs[leg].tied; }
   [[nodiscard]] double duration(std::size_t leg) const { return t[leg + 1] - t[leg]; }

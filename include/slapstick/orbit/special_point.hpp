@@ -63,7 +63,7 @@ enum class Sliding : std::uint8_t {
   unchanged,  ///< or not to be told
   crossing,   ///< a stick between two slips of opposite senses comes or goes
   grazing,    ///< a stick, or a reversal and back, within a slip
-  switching,  ///< a reversal before a stick, or behind it
+  switching,  ///< a reversal before a stick, or after it
   adding      ///< a slip within a stick
 };
 [[nodiscard]] std::string_view name(Sliding sliding);
@@ -78,13 +78,13 @@ enum class Passage : std::uint8_t {
   cascade,       ///< one of infinitely many changes that gather at the onset of a chatter
   merges,        ///< the orbit becomes a shorter one, run through more than once
   equilibrium,   ///< the orbit shrinks to a state of rest, at a corner of a characteristic
-  symmetric,     ///< the orbit becomes its own image: behind it are the images of the branch's orbits
-  retraced,      ///< the branch as it was on the way here
+  symmetric,     ///< the orbit becomes its own image: beyond it are the images of the branch's orbits
+  retraced,      ///< the branch turns back onto its own orbits
   not_followed,  ///< the events change, and the caller wanted them to stay
   unknown        ///< no orbit was found beyond: a jump, or a failure of the search
 };
 [[nodiscard]] std::string_view name(Passage passage);
-/// Does the branch go on behind a change of events, as one branch?
+/// Does the branch go on beyond a change of events, as one branch?
 [[nodiscard]] constexpr bool goes_on(Passage passage) {
   return passage == Passage::persistence || passage == Passage::fold;
 }
@@ -161,7 +161,7 @@ struct SpecialPoint {
   /// Orbits from which other branches that begin here or cross can be followed; with passages merges and symmetric the
   /// first is that in which the branch ends.
   std::vector<Orbit> born;
-  std::size_t after = 0;  ///< the special point lies behind this point of the branch
+  std::size_t after = 0;  ///< the special point lies after this point of the branch
   std::size_t test = 0;   ///< GR, SL, CH, CO: the index of the margin among all margins of the orbit
 
   NormalForm normal_form;  ///< of LP, PD, NS

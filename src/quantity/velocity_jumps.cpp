@@ -1,5 +1,5 @@
 /// Finds the impulses between two pieces of a motion, and keeps the flights between impacts.
-#include "quantity/blow.hpp"
+#include "quantity/velocity_jumps.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -23,8 +23,8 @@ Number value_at(const Quantity& quantity, const Struck& impact) {
   return quantity.kind == Kind::sliding ? since.sliding : unknown;
 }
 
-Blows::Blows(const Model& model, const mode::Frame& frame, Number period, const std::vector<Quantity>& of,
-             const Rates* rates)
+VelocityJumps::VelocityJumps(const Model& model, const mode::Frame& frame, Number period,
+                             const std::vector<Quantity>& of, const Rates* rates)
     : model_(model),
       frame_(frame),
       period_(period),
@@ -32,7 +32,7 @@ Blows::Blows(const Model& model, const mode::Frame& frame, Number period, const 
       rates_(rates),
       marks_(model.stops.size() + model.frictions.size() + model.compliant_stops.size() + 1) {}
 
-void Blows::impact(int stop, double w, const Moving& before) {
+void VelocityJumps::impact(int stop, double w, const Moving& before) {
   strike(std::uint32_t{1} << static_cast<unsigned>(stop));
   const auto known =
       std::find_if(impacts_.begin(), impacts_.end(), [&](const Struck& one) { return one.contact == stop; });
@@ -41,33 +41,33 @@ void Blows::impact(int stop, double w, const Moving& before) {
   impacts_.push_back(meet(stop, {w, rates_ != nullptr ? row.dot(kicked(before, true).by) : 0.0}));
 }
 
-void Blows::begin_flight(int contact, Number time, Number slid) {
+void VelocityJumps::begin_flight(int contact, Number time, Number slid) {
   const Mark mark{time, slid_ - slid};
   marks_[static_cast<std::size_t>(contact)] = mark;
   if (!marks_.back() || time.value >= marks_.back()->time.value) marks_.back() = mark;
 }
 
-void Blows::go_on(Number time, Number slid) {
+void VelocityJumps::go_on(Number time, Number slid) {
   now_ = time;
   slid_ += slid;
 }
 
 /// @param contact  -1: any
-Since Blows::since(int contact) const {
+Since VelocityJumps::since(int contact) const {
   const auto& mark = contact < 0 ? marks_.back() : marks_[static_cast<std::size_t>(contact)];
   return mark ? Since{(now_ - mark->time) / period_, (slid_ - mark->slid) / period_} : Since{unknown, unknown};
 }
 
 /// An impact here and now: it ends a flight and begins one.
-Struck Blows::meet(int contact, Number w) {
+Struck VelocityJumps::meet(int contact, Number w) {
   const Struck met{contact, w, {}, {}, since(-1), since(contact)};
   begin_flight(contact, now_, {});
   return met;
 }
 
-std::optional<Blow> Blows::between(const mode::Outline& last, const Moving& before, const mode::Outline& next,
-                                   const Moving& after) {
-  Blow blow{now_, std::vector<Number>(of_.size()), {}};
+std::optional<VelocityJump> VelocityJumps::between(const mode::Outline& last, const Moving& before,
+                                                   const mode::Outline& next, const Moving& after) {
+  VelocityJump jump{now_, std::vector<Number>(of_.size()), {}};
   const bool struck = struck_ != 0 || !pulses_.empty();
   if (struck) {
     const Moving behind = kicked(before, true);
@@ -78,8 +78,8 @@ std::optional<Blow> Blows::between(const mode::Outline& last, const Moving& befo
     std::optional<Formulas> formulas;
     if (asked) formulas.emplace(model_, frame_, last);  // of velocities alone, those of any mode
     for (std::size_t k = 0; k < of_.size(); ++k) {
-      blow.impulses[k] = share(of_[k], of_[k].index, of, formulas, before, after);
-      if (of_[k].minus >= 0) blow.impulses[k] -= share(of_[k], of_[k].minus, of, formulas, before, after);
+      jump.impulses[k] = share(of_[k], of_[k].index, of, formulas, before, after);
+      if (of_[k].minus >= 0) jump.impulses[k] -= share(of_[k], of_[k].minus, of, formulas, before, after);
     }
     for (Struck& impact : impacts_) {
       const auto i =
@@ -91,21 +91,21 @@ std::optional<Blow> Blows::between(const mode::Outline& last, const Moving& befo
       impact.impulse -= impulse;
       impact.loss -= loss;
     }
-    blow.impacts = impacts_;
+    jump.impacts = impacts_;
   }
   if (last.states.compliant != next.states.compliant) {
-    let_go(last, next, before, blow);
-    engage(last, next, before, blow);
+    let_go(last, next, before, jump);
+    engage(last, next, before, jump);
   }
-  const bool any = std::any_of(blow.impulses.begin(), blow.impulses.end(), [](Number one) { return one.value != 0.0; });
-  const bool happens = struck || any || !blow.impacts.empty();
+  const bool any = std::any_of(jump.impulses.begin(), jump.impulses.end(), [](Number one) { return one.value != 0.0; });
+  const bool happens = struck || any || !jump.impacts.empty();
   forget();
   impacts_.clear();
-  return happens ? std::optional(std::move(blow)) : std::nullopt;
+  return happens ? std::optional(std::move(jump)) : std::nullopt;
 }
 
 /// What an impulse of one stop adds to the speed of another.
-Matrix Blows::coupling(const std::vector<int>& stops, const Matrix& mass_inverse) const {
+Matrix VelocityJumps::coupling(const std::vector<int>& stops, const Matrix& mass_inverse) const {
   const auto count = static_cast<Eigen::Index>(stops.size());
   const auto row = [&](Eigen::Index i) {
     return frame_.stops[static_cast<std::size_t>(stops[static_cast<std::size_t>(i)])];
@@ -117,14 +117,14 @@ Matrix Blows::coupling(const std::vector<int>& stops, const Matrix& mass_inverse
 }
 
 /// Of the stops that were struck: made once for each set of stops.
-const Matrix& Blows::inverse_coupling(const std::vector<int>& stops) {
+const Matrix& VelocityJumps::inverse_coupling(const std::vector<int>& stops) {
   for (const auto& [struck, inverse] : inverses_)
     if (struck == struck_) return inverse;
   return inverses_.emplace_back(struck_, mode::least_norm_inverse(coupling(stops, frame_.mass_inverse))).second;
 }
 
 /// What the pulses of one kind make of a state. The jumps of a wall's speed come before the impacts that they make.
-Moving Blows::kicked(Moving from, bool kinematic) const {
+Moving VelocityJumps::kicked(Moving from, bool kinematic) const {
   for (const auto& [signal, area] : pulses_) {
     const auto k = static_cast<std::size_t>(signal);
     if (model_.signals[k].kinematic != kinematic) continue;
@@ -136,8 +136,8 @@ Moving Blows::kicked(Moving from, bool kinematic) const {
 }
 
 /// Of the forces that follow the pulses of one kind: p (v- + v+) / 2, the energy that comes in, also where stops bear
-/// the blow.
-Number Blows::work(const Formulas& formulas, const Moving& before, const Moving& after, bool kinematic) const {
+/// the jump.
+Number VelocityJumps::work(const Formulas& formulas, const Moving& before, const Moving& after, bool kinematic) const {
   Number sum;
   for (const auto& [signal, area] : pulses_) {
     if (model_.signals[static_cast<std::size_t>(signal)].kinematic != kinematic) continue;
@@ -159,7 +159,7 @@ Number Blows::work(const Formulas& formulas, const Moving& before, const Moving&
 
 /// M dv = p - sum_i g_i P_i over the stops that were struck, p of the pulses: in contact coordinates dw_i = k_i - sum_j
 /// D_ij P_j. Each takes P_i (w_i- + w_i+) / 2. The derivative of P is -D^+ (dw' - k' + D' P).
-Blows::Impulses Blows::impulses(const Moving& before, const Moving& after) {
+VelocityJumps::Impulses VelocityJumps::impulses(const Moving& before, const Moving& after) {
   Impulses of;
   for (int i = 0; i < static_cast<int>(model_.stops.size()); ++i)
     if ((struck_ >> static_cast<unsigned>(i) & 1U) != 0) of.stops.push_back(i);
@@ -192,7 +192,7 @@ Blows::Impulses Blows::impulses(const Moving& before, const Moving& after) {
 
 /// Impulse and loss of the plastic impact that begins the tail of a chatter, behind an impact at w+ = -r w:
 ///     P = w+ / D < 0,   E = w+^2 / (2 D).
-std::pair<Number, Number> Blows::plastic(const Struck& impact) const {
+std::pair<Number, Number> VelocityJumps::plastic(const Struck& impact) const {
   const auto at = static_cast<std::size_t>(impact.contact);
   const Rebound law = rebound(model_.stops[at], impact.w.value);
   const double r_rate =
@@ -204,8 +204,8 @@ std::pair<Number, Number> Blows::plastic(const Struck& impact) const {
 }
 
 /// The impulse of a quantity of one coordinate or contact.
-Number Blows::share(const Quantity& quantity, int index, const Impulses& of, const std::optional<Formulas>& formulas,
-                    const Moving& before, const Moving& after) const {
+Number VelocityJumps::share(const Quantity& quantity, int index, const Impulses& of,
+                            const std::optional<Formulas>& formulas, const Moving& before, const Moving& after) const {
   if (quantity.kind == Quantity::Kind::acceleration) {
     const RowVector row = formulas->velocity(index).value.segment(frame_.d, frame_.n);
     const auto jump = [&](const Vector& from, const Vector& to) {
@@ -225,7 +225,8 @@ Number Blows::share(const Quantity& quantity, int index, const Impulses& of, con
 }
 
 /// A compliant stop that lets go beyond its gap takes the energy of its spring; one that pushes again brings it back.
-void Blows::let_go(const mode::Outline& last, const mode::Outline& next, const Moving& before, Blow& blow) const {
+void VelocityJumps::let_go(const mode::Outline& last, const mode::Outline& next, const Moving& before,
+                           VelocityJump& jump) const {
   for (std::size_t k = 0; k < of_.size(); ++k) {
     if (of_[k].kind != Quantity::Kind::power) continue;
     const int compliant = of_[k].index - static_cast<int>(model_.stops.size() + model_.frictions.size());
@@ -239,12 +240,13 @@ void Blows::let_go(const mode::Outline& last, const mode::Outline& next, const M
     const Number delta{before.X[own], rates_ != nullptr ? before.by[own] : 0.0},
         stiffness{model_.compliant_stops[at].stiffness,
                   rates_ != nullptr ? rates_->model.compliant_stops[at].stiffness : 0.0};
-    blow.impulses[k] += 0.5 * sense * stiffness * delta * delta;
+    jump.impulses[k] += 0.5 * sense * stiffness * delta * delta;
   }
 }
 
 /// A compliant stop that is met from its free side, as section/stop_choice.hpp counts them.
-void Blows::engage(const mode::Outline& last, const mode::Outline& next, const Moving& before, Blow& blow) {
+void VelocityJumps::engage(const mode::Outline& last, const mode::Outline& next, const Moving& before,
+                           VelocityJump& jump) {
   const int first = static_cast<int>(model_.stops.size() + model_.frictions.size());
   for (std::size_t i = 0; i < model_.compliant_stops.size(); ++i) {
     const bool met =
@@ -252,8 +254,8 @@ void Blows::engage(const mode::Outline& last, const mode::Outline& next, const M
     const RowVector row = frame_.velocity_row(frame_.compliant[i]);
     const Number w{met ? row.dot(before.X) : 0.0, rates_ != nullptr ? row.dot(before.by) : 0.0};
     if (!(w.value > 0.0)) continue;
-    blow.impacts.push_back(meet(first + static_cast<int>(i), w));
-    blow.impacts.back().impulse = blow.impacts.back().loss = unknown;
+    jump.impacts.push_back(meet(first + static_cast<int>(i), w));
+    jump.impacts.back().impulse = jump.impacts.back().loss = unknown;
   }
 }
 

@@ -27,7 +27,7 @@ struct Struck {
   Since any, own;        ///< since an impact of any stop, and of this one
 };
 
-struct Blow {
+struct VelocityJump {
   Number time;
   std::vector<Number> impulses;  ///< of every quantity
   std::vector<Struck> impacts;   ///< none: the tail of a chatter, or a compliant stop that lets go
@@ -41,18 +41,18 @@ struct Moving {
   Vector X, by;
 };
 
-class Blows {
+class VelocityJumps {
  public:
   /// Refers to its arguments. @param period  what flights are measured in @param rates  null: no derivatives
-  Blows(const Model& model, const mode::Frame& frame, Number period, const std::vector<Quantity>& of,
-        const Rates* rates);
+  VelocityJumps(const Model& model, const mode::Frame& frame, Number period, const std::vector<Quantity>& of,
+                const Rates* rates);
 
-  /// These stops, bit by bit, get an impulse at the next blow ..
+  /// These stops, bit by bit, get an impulse at the next jump ..
   void strike(std::uint32_t stops) { struck_ |= stops; }
   /// .. or the pulse of a signal comes ..
   void pulse(int signal, Number area) { pulses_.push_back({signal, area}); }
-  /// The tail of a complete chatter of this stop begins at the next blow: its jump is that of an impact, if one is
-  /// there, and of a plastic one behind it.
+  /// The tail of a complete chatter of this stop begins at the next jump: velocities jump as at an impact, if one is
+  /// there, and then as at a plastic one.
   void chatter(int stop) {
     strike(std::uint32_t{1} << static_cast<unsigned>(stop));
     chatter_ = stop;
@@ -64,14 +64,14 @@ class Blows {
   /// The trace has come to an instant; friction slipped on the way so long.
   void go_on(Number time, Number slid);
   void forget() { struck_ = 0, chatter_ = -1, pulses_.clear(); }
-  /// Can there be a blow between these modes? If not, no state is needed.
+  /// Can there be a jump between these modes? If not, no state is needed.
   [[nodiscard]] bool may_come(const mode::Outline& last, const mode::Outline& next) const {
     return struck_ != 0 || !pulses_.empty() || !impacts_.empty() || last.states.compliant != next.states.compliant;
   }
 
   /// What lies between the end of one piece and the start of the next; nothing if nothing happens.
-  [[nodiscard]] std::optional<Blow> between(const mode::Outline& last, const Moving& before, const mode::Outline& next,
-                                            const Moving& after);
+  [[nodiscard]] std::optional<VelocityJump> between(const mode::Outline& last, const Moving& before,
+                                                    const mode::Outline& next, const Moving& after);
 
  private:
   /// An impact, and how long friction had slipped until then.
@@ -96,8 +96,8 @@ class Blows {
   [[nodiscard]] Number share(const Quantity& quantity, int index, const Impulses& of,
                              const std::optional<Formulas>& formulas, const Moving& before, const Moving& after) const;
   [[nodiscard]] std::pair<Number, Number> plastic(const Struck& impact) const;
-  void let_go(const mode::Outline& last, const mode::Outline& next, const Moving& before, Blow& blow) const;
-  void engage(const mode::Outline& last, const mode::Outline& next, const Moving& before, Blow& blow);
+  void let_go(const mode::Outline& last, const mode::Outline& next, const Moving& before, VelocityJump& jump) const;
+  void engage(const mode::Outline& last, const mode::Outline& next, const Moving& before, VelocityJump& jump);
   [[nodiscard]] Since since(int contact) const;
   [[nodiscard]] Struck meet(int contact, Number w);
 
@@ -108,7 +108,7 @@ class Blows {
   const Rates* rates_;
   std::uint32_t struck_ = 0;
   std::vector<Pulse> pulses_;
-  int chatter_ = -1;  ///< the stop whose chatter begins at the next blow, or -1
+  int chatter_ = -1;  ///< the stop whose chatter begins at the next jump, or -1
   std::vector<Struck> impacts_;
   std::deque<std::pair<std::uint32_t, Matrix>> inverses_;  ///< by the stops that were struck
   Number now_, slid_;

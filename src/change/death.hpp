@@ -17,7 +17,7 @@
 
 namespace slapstick::orbit {
 
-struct Collapse {
+struct LocatedDeath {
   Death death;
   double error = 0.0;   ///< of the parameter: what the rounding of the equations makes of it
   std::size_t leg = 0;  ///< the longest of the dying ones
@@ -27,16 +27,16 @@ struct Collapse {
 /// @param dying  of each leg of `near`: does it die?
 /// @returns empty if what remains is no orbit of a shorter sequence, if its equations do not determine the parameter or
 ///          do not hold together, or if the solution is not near
-[[nodiscard]] std::optional<Collapse> collapse(const Problem& problem, const Orbit& near,
-                                               const std::vector<bool>& dying);
+[[nodiscard]] std::optional<LocatedDeath> death_near(const Problem& problem, const Orbit& near,
+                                                     const std::vector<bool>& dying);
 
 /// The death ahead of a point of a branch, of the legs that are gone the soonest as they shrink there.
-[[nodiscard]] std::optional<Collapse> death_ahead(const Problem& problem, const PathPoint& at);
+[[nodiscard]] std::optional<LocatedDeath> death_ahead(const Problem& problem, const PathPoint& at);
 
 /// The death at a change of events, if the margin that is used up there belongs to legs that die.
 /// @param from  a point of the branch before the change
-[[nodiscard]] std::optional<Collapse> death_at(const Problem& problem, const PathPoint& from, const Orbit& change,
-                                               const TestValue& test);
+[[nodiscard]] std::optional<LocatedDeath> death_at(const Problem& problem, const PathPoint& from, const Orbit& change,
+                                                   const TestValue& test);
 
 /// How the first parameter moves with each other one where legs die, by the implicit function theorem: exact. Not a
 /// number where another parameter parts what vanishes together.

@@ -1,5 +1,5 @@
 /// Solves for a death: the orbit without its dying legs, and the touches that are left of these.
-#include "change/collapse.hpp"
+#include "change/death.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "change/coincident.hpp"
 #include "change/death_equations.hpp"
 #include "change/touches.hpp"
-#include "orbit/record.hpp"
+#include "orbit/short_legs.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::orbit {
@@ -57,7 +57,7 @@ double parameter_error(const Problem& problem, const Death& death) {
 /// @returns whether the Gauss-Newton method came to a solution
 bool solve_death(const Problem& problem, Death& death) {
   constexpr int most_steps = 20;
-  constexpr double alike = 1e-9;  // steps below it that no longer shrink are rounding
+  constexpr double step_rounding = 1e-9;  // steps below it that no longer shrink are rounding
   double before = INFINITY;
   for (int k = 0; k < most_steps; ++k) {
     const DeathEquations at(problem, death);
@@ -66,7 +66,7 @@ bool solve_death(const Problem& problem, Death& death) {
     if (!step.allFinite()) return false;
     const double now = length(problem, at, step);
     move_death(problem, at, step, std::min(1.0, longest_newton_step / step.cwiseAbs().maxCoeff()), death);
-    if (now < enough_step || (now < alike && now > 0.1 * before)) return true;
+    if (now < enough_step || (now < step_rounding && now > 0.1 * before)) return true;
     before = now;
   }
   return false;
@@ -92,23 +92,23 @@ double moved(const Death& from, const Death& to) {
   return most;
 }
 
-std::optional<Collapse> solved(const Problem& problem, const Orbit& near, const std::vector<bool>& dying,
-                               bool impacts_stay) {
+std::optional<LocatedDeath> solved(const Problem& problem, const Orbit& near, const std::vector<bool>& dying,
+                                   bool impacts_stay) {
   // No solution lies farther from the guess: nearer bounds lose deaths that a long step has come to, farther ones take
   // another death for this. Of the dying legs' length; of the cycle, where these are next to nothing.
-  constexpr double far = 10.0, rounding = 1e-4;
+  constexpr double farthest_solution = 10.0, least_distance = 1e-4;
   const ModeSet set(problem.family(), near.values);
   const std::vector<Shortened> shapes = shortened(set, near, dying, impacts_stay);
   if (shapes.empty()) return std::nullopt;
   const auto left = touches(set, near, dying, shapes.front());
   if (!left) return std::nullopt;
   const Death guess{shapes.front().orbit, *left};
-  Collapse found{guess, INFINITY, 0};
+  LocatedDeath found{guess, INFINITY, 0};
   if (!solve_death(problem, found.death) || !in_order(found.death)) return std::nullopt;
   double longest = 0.0;
   for (std::size_t i = 0; i < near.legs(); ++i)
     if (dying[i] && near.duration(i) > longest) longest = near.duration(found.leg = i);
-  const double most = std::max(far * longest, rounding * (near.t.back() - near.t.front()));
+  const double most = std::max(farthest_solution * longest, least_distance * (near.t.back() - near.t.front()));
   found.error = parameter_error(problem, found.death);
   if (!std::isfinite(found.error) || moved(guess, found.death) > most) return std::nullopt;
   return found;
@@ -116,7 +116,7 @@ std::optional<Collapse> solved(const Problem& problem, const Orbit& near, const 
 
 }  // namespace
 
-std::optional<Collapse> collapse(const Problem& problem, const Orbit& near, const std::vector<bool>& dying) {
+std::optional<LocatedDeath> death_near(const Problem& problem, const Orbit& near, const std::vector<bool>& dying) {
   for (const bool impacts_stay : {true, false}) {
     try {
       if (auto found = solved(problem, near, dying, impacts_stay)) return found;
@@ -127,8 +127,9 @@ std::optional<Collapse> collapse(const Problem& problem, const Orbit& near, cons
   return std::nullopt;
 }
 
-std::optional<Collapse> death_ahead(const Problem& problem, const PathPoint& at) {
-  constexpr double alike = 10.0;  // a leg like the fourth power of another seems to be gone after a quarter of the way
+std::optional<LocatedDeath> death_ahead(const Problem& problem, const PathPoint& at) {
+  constexpr double together_with_soonest =
+      10.0;  // a leg like the fourth power of another seems to be gone after a quarter of the way
   const Orbit& orbit = at.orbit;
   std::vector<double> left;  // arclength to where a leg would be gone, if it shrank on as there
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
@@ -138,21 +139,21 @@ std::optional<Collapse> death_ahead(const Problem& problem, const PathPoint& at)
   }
   const double soonest = *ranges::min_element(left);
   std::vector<bool> dying;
-  for (const double way : left) dying.push_back(way < alike * soonest);
-  return collapse(problem, orbit, dying);
+  for (const double way : left) dying.push_back(way < together_with_soonest * soonest);
+  return death_near(problem, orbit, dying);
 }
 
-std::optional<Collapse> death_at(const Problem& problem, const PathPoint& from, const Orbit& change,
-                                 const TestValue& test) {
+std::optional<LocatedDeath> death_at(const Problem& problem, const PathPoint& from, const Orbit& change,
+                                     const TestValue& test) {
   const std::size_t legs = change.legs();
-  std::vector<bool> dying = gone_legs(from.orbit, change);
+  std::vector<bool> dying = dead_legs(from.orbit, change);
   if (test.test == Test::speed && test.kind == mode::GuardKind::gap) {  // a slip may die with its speed, at any length
     const ModeSet set(problem.family(), change.values);
-    for (std::size_t i = 0; i < legs; ++i) dying[i] = dying[i] || comes_to_rest(set, from.orbit, change, i, test.leg);
+    for (std::size_t i = 0; i < legs; ++i) dying[i] = dying[i] || slip_dies(set, from.orbit, change, i, test.leg);
   }
   const std::size_t before = (test.leg + legs - 1) % legs, behind = (test.leg + 1) % legs;
   if (!dying[test.leg] && !dying[before] && !dying[behind]) return std::nullopt;
-  return collapse(problem, change, dying);
+  return death_near(problem, change, dying);
 }
 
 std::vector<double> death_rates(const Problem& problem, const Death& death) {

@@ -1,0 +1,27 @@
+#pragma once
+/// Legs of an orbit that have hardly a length: those of a chatter's burst, and those that shrink to nothing along a
+/// branch. A leg without length solves its equation anywhere, so every search along a branch asks for them.
+///
+/// Legs of a burst are short by nature, and tied legs have no length at all: neither counts as *shrunk*.
+#include <vector>
+
+#include "slapstick/orbit/itinerary.hpp"
+
+namespace slapstick::orbit {
+
+/// How many complete chatters has a cycle?
+[[nodiscard]] int chatters(const Orbit& orbit);
+/// Do impacts of one stop, and slips between them, lead from this leg to a chatter's sum? How many are flown one by one
+/// does not matter.
+[[nodiscard]] bool in_burst(const Orbit& orbit, std::size_t leg);
+/// Is a leg of a burst too short for its length and margins to be more than rounding?
+[[nodiscard]] bool is_rounding_leg(const Orbit& orbit, std::size_t leg);
+
+/// Is a leg, outside of bursts, shorter than this part of the cycle?
+[[nodiscard]] bool has_leg_below(const Orbit& orbit, double part);
+/// How many legs, from one orbit of a shape to another, shrink to less than this part of their lengths?
+[[nodiscard]] int shrunk_legs(const Orbit& from, const Orbit& to, double part);
+/// Which legs die on the way from one orbit of a shape to another: less than a hundredth of their length is left.
+[[nodiscard]] std::vector<bool> dead_legs(const Orbit& from, const Orbit& to);
+
+}  // namespace slapstick::orbit

@@ -95,14 +95,18 @@ void RunUpRange::declare(Arguments& arguments) {
                  "run-up: the parameter goes from A to B over --over periods, in steps of --hold");
   arguments.count("--over", over, 2, most, "forcing periods of the run-up");
   arguments.count("--hold", hold, 1, most, "forcing periods at each value of it (1)");
+  arguments.flag("--log", logarithmic, "values in equal ratios: a logarithmic sweep, with as many in each octave");
 }
 
 Climb RunUpRange::climb(const ChosenModel& chosen) const {
   const auto [name, text] = name_and_text("--sweep", sweep, "NAME=A:B");
   const auto parts = split(text, ':');
   if (parts.size() != 2) throw InputError("--sweep: " + in_quotes(sweep) + " is not of the form NAME=A:B");
-  Climb climb{name, {parse_number("--sweep A", parts[0]), parse_number("--sweep B", parts[1]), 0, hold}};
+  Climb climb{name, {parse_number("--sweep A", parts[0]), parse_number("--sweep B", parts[1]), 0, hold, logarithmic}};
   if (climb.options.from == climb.options.to) throw InputError("--sweep: both ends are " + parts[0]);
+  if (logarithmic && !(climb.options.from * climb.options.to > 0.0))
+    throw InputError("--log: no equal ratios lead from " + parts[0] + " to " + parts[1] +
+                     "; both ends have one sign, and neither is 0");
   climb.options.steps = over / hold;
   if (climb.options.steps < 2 || over % hold != 0)
     throw InputError("--over: " + std::to_string(over) + " periods are not two or more steps of --hold " +
@@ -129,6 +133,7 @@ RunUp run_of(const Climb& climb, const ChosenModel& chosen, const State& start) 
 void RunUpRange::check(const Arguments& arguments, const std::vector<std::string>& others) const {
   if (sweep.empty() != !arguments.given("--over"))
     throw InputError("--sweep and --over belong together: what changes, and over how many periods");
+  if (logarithmic && sweep.empty()) throw InputError("--log: only with --sweep, whose values it spaces");
   for (const std::string& other : others)
     if (!sweep.empty() && arguments.given(other)) throw InputError(other + ": a run-up (--sweep) does not have it");
 }

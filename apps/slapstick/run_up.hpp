@@ -23,6 +23,7 @@ struct Climb {
 struct RunUpRange {
   std::string sweep;             ///< NAME=A:B
   long long over = 0, hold = 1;  ///< forcing periods, of the run and of each value
+  bool logarithmic = false;
 
   void declare(Arguments& arguments);
   /// @param others  options that a run-up does not have

@@ -44,7 +44,7 @@ std::string stated(const Damper& damper) {
 }
 
 std::string stated(const Force& force) {
-  const auto& [coordinate, harmonic, amplitude, phase, frequency, signal, rate] = force;
+  const auto& [coordinate, harmonic, amplitude, phase, frequency, signal, rate, presses] = force;
   if (frequency != 0.0) return line("tone" + number(coordinate) + hex(frequency) + hex(amplitude) + hex(phase));
   return line("force" + number(coordinate) + number(harmonic) + hex(amplitude) + hex(phase));
 }
@@ -114,6 +114,9 @@ std::string not_stated(const Model& model) {
     if (contact.normal && contact.normal->terms.size() > most_corners)
       return "a normal force of more than 1000 terms (" + in_quotes(contact.name) + ")";
   for (const Force& force : model.forces) {
+    if (force.presses >= 0)
+      return "forces that press a friction contact (" +
+             in_quotes(model.frictions[static_cast<std::size_t>(force.presses)].name) + ")";
     if (force.signal >= 0)
       return "signals and impulses (" + in_quotes(model.signals[static_cast<std::size_t>(force.signal)].name) + ")";
   }

@@ -129,9 +129,9 @@ std::optional<LocatedDeath> death_near(const Problem& problem, const Orbit& near
 
 std::optional<LocatedDeath> death_ahead(const Problem& problem, const PathPoint& at) {
   constexpr double together_with_soonest =
-      10.0;  // a leg like the fourth power of another seems to be gone after a quarter of the way
+      10.0;  // a leg like the fourth power of another seems to be dead after a quarter of the way
   const Orbit& orbit = at.orbit;
-  std::vector<double> left;  // arclength to where a leg would be gone, if it shrank on as there
+  std::vector<double> left;  // arclength to where a leg would be dead, if it shrank on as there
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
     const Index begin = problem.instant_column(i), end = problem.instant_column(i + 1);
     const double shrinks = at.tangent[begin] * at.units[begin] - at.tangent[end] * at.units[end];

@@ -30,7 +30,7 @@ struct LocatedDeath {
 [[nodiscard]] std::optional<LocatedDeath> death_near(const Problem& problem, const Orbit& near,
                                                      const std::vector<bool>& dying);
 
-/// The death ahead of a point of a branch, of the legs that are gone the soonest as they shrink there.
+/// The death ahead of a point of a branch, of the legs that die the soonest as they shrink there.
 [[nodiscard]] std::optional<LocatedDeath> death_ahead(const Problem& problem, const PathPoint& at);
 
 /// The death at a change of events, if the margin that is used up there belongs to legs that die.

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/ranges.hpp"
-#include "change/without_legs.hpp"
 #include "orbit/interpolate.hpp"
 #include "orbit/short_legs.hpp"
 

@@ -15,7 +15,7 @@ void take_end(Leg& leg, const Leg& from) {
   leg.lines = lines;
 }
 
-/// The second leg is gone. The first one's end was before it, and comes behind it.
+/// The second leg is dead. The first one's end was before it, and comes after it.
 ///
 ///     states a, lines 1 | event | states b, lines 1 | point | states b, lines 2
 ///     states a, lines 1 | point | states a, lines 2 | event | states b, lines 2

@@ -45,7 +45,7 @@ struct Shrunk {
     std::rotate(dead.begin(), dead.begin() + static_cast<std::ptrdiff_t>(leg), dead.end());
     std::rotate(starts.begin(), starts.begin() + static_cast<std::ptrdiff_t>(leg), starts.end());
   }
-  /// How many there are next to each other behind the first leg.
+  /// How many there are next to each other after the first leg.
   [[nodiscard]] std::size_t run() const {
     return static_cast<std::size_t>(std::find(dead.begin() + 1, dead.end(), false) - dead.begin()) - 1;
   }
@@ -64,7 +64,7 @@ void take_state(mode::ContactStates& states, const mode::ContactStates& from, co
   if (mode::of_bound(crossing.kind)) states.compliant[at] = from.compliant[at];
 }
 
-/// The first leg ends as a line is crossed, and the last of the legs that are gone as the line is crossed back: both
+/// The first leg ends as a line is crossed, and the last of the dead legs as the line is crossed back: both
 /// crossings go, what lies between them stays. @returns false if it is not so
 bool uncross(Shrunk& turned) {
   std::vector<Leg>& legs = turned.orbit.shape.legs;
@@ -82,7 +82,7 @@ bool uncross(Shrunk& turned) {
   return true;
 }
 
-/// One event in place of two: the end of the first leg, and that of the last leg behind it that is gone. @returns false
+/// One event in place of two: the end of the first leg, and that of the last dead leg after it. @returns false
 /// if no such event is known
 bool unite(Shrunk& turned, bool impacts_stay) {
   Leg& first = turned.orbit.shape.legs[0];

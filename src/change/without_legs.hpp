@@ -21,7 +21,7 @@ struct Shortened {
   std::vector<std::size_t> starts;
 };
 
-/// Without the legs that are gone. Between two legs of one mode: those are one leg. Between two stops of one velocity:
+/// Without the dead legs. Between two legs of one mode: those are one leg. Between two stops of one velocity:
 /// the second is the first's. Between another event and an impact that keeps a speed: the impact is all. Between two
 /// crossings of one line: what lies between them.
 /// @param dead  of each leg: has it no length?

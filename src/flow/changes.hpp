@@ -163,9 +163,13 @@ class Changes {
     return asked && old_.frictions[i] != now_.frictions[i] && old_.frictions[i] != Friction::stick;
   }
 
-  /// A contact that held its pair with others has lost its normal force.
+  /// A contact that held its pair with others, or at a closed stop, has lost its normal force.
   [[nodiscard]] bool loses_its_share(std::size_t i) const {
     if (old_.frictions[i] != Friction::stick || now_.frictions[i] != Friction::unloaded) return false;
+    for (std::size_t k = 0; k < now_.stops.size(); ++k)
+      if (old_.stops[k] == mode::StopState::closed &&
+          frame_.parallel(frame_.stops[k].own, frame_.frictions[i].own) != 0)
+        return true;
     for (std::size_t k = 0; k < now_.frictions.size(); ++k)
       if (k != i && frame_.parallel(frame_.frictions[k].own, frame_.frictions[i].own) != 0) return true;
     return false;

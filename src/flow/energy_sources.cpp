@@ -35,7 +35,8 @@ bool feeds_in_a_zone(const Characteristic& zones) {
 /// Is the normal force that of other coordinates than those on which the friction acts?
 bool couples(const FrictionContact& contact, const Model& model) {
   if (!contact.normal) return false;
-  if (!contact.normal->terms.empty() || contact.normal->compliant_stop < 0) return true;
+  if (!contact.normal->terms.empty()) return true;
+  if (contact.normal->compliant_stop < 0) return false;  // pressed by functions of time
   const CompliantStop& stop = model.compliant_stops[static_cast<std::size_t>(contact.normal->compliant_stop)];
   return same_pair(stop, contact) == 0;
 }

@@ -64,10 +64,12 @@ Candidates piece_candidates(const CompiledSystem& system, int i, const double* X
   return {{digit}, 1};
 }
 
+/// A normal force that is zero for good, as that of a brake that is off, presses nothing: its contact is unloaded.
 bool fits(const mode::Mode& mode, const double* X, const double* magnitude, std::span<int> orders) {
   for (int g = 0; g < mode.guard_count(); ++g) {
     orders[g] = start_order(mode, g, X, magnitude);
-    if (orders[g] == negative) return false;
+    const bool presses_never = orders[g] == never && mode.guards()[g].kind == mode::GuardKind::load;
+    if (orders[g] == negative || presses_never) return false;
   }
   return true;
 }

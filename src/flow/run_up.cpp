@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/elementary.hpp"
+#include "base/text.hpp"
 #include "mode/drive.hpp"
 #include "slapstick/base/error.hpp"
 
@@ -13,6 +15,9 @@ RunUp::RunUp(std::function<Model(double)> model, const RunUpOptions& options, St
     : model_(std::move(model)), options_(options), start_(std::move(start)) {
   if (options.steps < 2) throw InputError("steps = " + std::to_string(options.steps) + " is less than 2");
   if (options.hold < 1) throw InputError("hold = " + std::to_string(options.hold) + " is less than 1");
+  if (options.logarithmic && !(options.from * options.to > 0.0))
+    throw InputError("no equal ratios lead from " + shown(options.from) + " to " + shown(options.to) +
+                     ": both ends of a logarithmic sweep have one sign, and neither is 0");
 }
 
 /// Takes the state, the time and the phases from the step that is over.
@@ -42,7 +47,9 @@ bool RunUp::next() {
   if (motion_) end_step();
   if (step_ == options_.steps) return false;
   const double part = static_cast<double>(step_) / static_cast<double>(options_.steps - 1);
-  value_ = step_ + 1 == options_.steps ? options_.to : options_.from + part * (options_.to - options_.from);
+  value_ = step_ + 1 == options_.steps ? options_.to
+           : options_.logarithmic      ? options_.from * fixed::power(options_.to / options_.from, part)
+                                       : options_.from + part * (options_.to - options_.from);
   motion_.emplace(System(continued(model_(value_))), start_);
   ++step_;
   return true;

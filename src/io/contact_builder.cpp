@@ -114,7 +114,7 @@ void ModelBuilder::add_friction(Model& model, const Part& part) {
   Law law = friction_law(part);
   std::optional<NormalForce> normal;
   const bool constant = part.load_stop.empty() && part.load.size() == 1 && part.load.front().first == "constant";
-  if (constant) {
+  if (constant && !model.is_pressed(static_cast<int>(model.frictions.size()))) {
     const Dual load = dual(part.load.front().second, where("normal_force: constant"));
     if (!(load.value >= 0.0))
       throw InputError(definition_.place(part.load.front().second.line),
@@ -125,7 +125,7 @@ void ModelBuilder::add_friction(Model& model, const Part& part) {
     if (law.size() > 1)
       throw InputError(definition_.place(part.line),
                        where("normal_force") +
-                           ": the force changes with the state, and friction over the speed too: their "
+                           ": the force changes with the state or with time, and friction over the speed too: their "
                            "product is not linear in the state; give one number for kinetic");
     normal = load(part, model);
   }

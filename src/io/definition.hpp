@@ -82,6 +82,7 @@ struct Part {
   std::map<std::string, Scalar, std::less<>> band;      // by band_keys()
   std::vector<std::pair<std::string, Scalar>> load;     // of a normal force, in the file's order
   std::string load_stop;                                // the compliant stop whose force it is
+  std::string presses;                                  // the friction contact that a force is on; a is then `ground`
   int line = 0;
 
   [[nodiscard]] bool flag(std::string_view key) const {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/elementary.hpp"
+#include "base/ranges.hpp"
 #include "base/text.hpp"
 #include "io/model_builder.hpp"
 
@@ -95,10 +96,16 @@ void ModelBuilder::add_bases() {
 void ModelBuilder::add_forces(Model& model) {
   each("force", [&](const Part& part) {
     const std::vector<Term> terms = part.band.empty() ? std::vector{term(part, where(""))} : band(part);
-    for (const Term& one : terms)
+    const auto& contacts = definition_.of("friction");
+    const auto pressed = ranges::find(contacts, part.presses, &Part::name);
+    const int presses = part.presses.empty() ? -1 : static_cast<int>(pressed - contacts.begin());
+    for (const Term& one : terms) {
+      if (presses >= 0 && (one.silent || silent_signal(one.signal))) continue;  // the contact's limits may be fixed
       add_force(model,
-                {part.a, one.harmonic, written(one.amplitude), written(one.phase), written(one.frequency), one.signal},
+                {part.a, one.harmonic, written(one.amplitude), written(one.phase), written(one.frequency), one.signal,
+                 false, presses},
                 one.silent);
+    }
   });
 }
 

@@ -115,7 +115,7 @@ class Printer {
     out_.append("\n[[").append(rule.kind).append("]]\n");
     if (rule.named) line("name", toml_string(part.name));
     if (!part.description.empty()) line("description", toml_string(part.description));
-    if (rule.ends == Ends::on) line("on", toml_string(end_text(part.a)));
+    if (rule.ends == Ends::on) line("on", toml_string(part.presses.empty() ? end_text(part.a) : part.presses));
     if (rule.ends == Ends::between || rule.ends == Ends::moving)
       line("between", short_list({end_text(part.a), end_text(part.b)}));
     print_fields(rule, part);

@@ -67,6 +67,17 @@ amplitude = "amplitude"
 harmonic = 1
 phase = "pi / 2"
 
+# On a friction contact with a normal force a force presses it: N = 2 + 0.5 sin(2 omega t).
+#[[force]]
+#on = "brake"
+#amplitude = 0.5
+#harmonic = 2
+#[[friction]]
+#name = "brake"
+#between = ["x1", "ground"]
+#static = 0.4
+#normal_force = { constant = 2 }
+
 # A force of another frequency than omega; the motion then has no period.
 #[[force]]
 #on = "x1"

@@ -333,7 +333,8 @@ class PartReader {
     const auto* value = node.find(key);
     if (value == nullptr) tree_.fail(node.line, where, "'" + key + "' is missing");
     if (rule.ends == Ends::on) {
-      part.a = end(*value, rule, where + ": on");
+      if (presses(*value, rule)) part.presses = value->text;
+      if (part.presses.empty()) part.a = end(*value, rule, where + ": on");
       return;
     }
     tree_.expect(*value, TomlNode::Kind::list, where + ": between");
@@ -344,6 +345,18 @@ class PartReader {
     const bool moves = part.a >= 0 || part.b >= 0;
     if ((is_base(part.a) || is_base(part.b)) && !moves)
       tree_.fail(value->line, where + ": between", "neither end is a coordinate, so it moves nothing");
+  }
+
+  /// Is a force on a friction contact, and on no coordinate? Contacts are read after forces.
+  bool presses(const TomlNode& on, const PartRule& rule) const {
+    if (rule.kind != "force" || on.kind != TomlNode::Kind::text) return false;
+    if (std::find(coordinates_.begin(), coordinates_.end(), on.text) != coordinates_.end()) return false;
+    const TomlNode* contacts = root_.find("friction");
+    if (contacts == nullptr || contacts->kind != TomlNode::Kind::list) return false;
+    return std::any_of(contacts->items.begin(), contacts->items.end(), [&](const TomlNode& contact) {
+      const TomlNode* name = contact.find("name");
+      return name != nullptr && name->kind == TomlNode::Kind::text && name->text == on.text;
+    });
   }
 
   int end(const TomlNode& node, const PartRule& rule, const std::string& where) const {

@@ -47,7 +47,9 @@ RowVector compliant_row(const Model& model, const Frame& frame, int i, Compliant
 RowVector load_row(const Model& model, const Frame& frame, const ContactStates& states, int i) {
   const auto& normal = model.frictions[i].normal;
   if (!normal) return RowVector::Unit(frame.size(), frame.one());
-  const RowVector row = linear_row(*normal, frame);
+  RowVector row = linear_row(*normal, frame);
+  for (const Force& force : model.forces)
+    if (force.presses == i) row += frame.drive_row(force);
   const int stop = normal->compliant_stop;
   return stop < 0 ? row : RowVector(row + compliant_row(model, frame, stop, states.compliant[stop]));
 }
@@ -57,7 +59,11 @@ RowVector load_rate(const Model& model, const Model& rate, const Frame& frame, c
   const auto& normal = model.frictions[i].normal;
   if (!normal) return RowVector::Zero(frame.size());
   const auto [k, c] = factors_of(*normal, frame);
-  RowVector row = load_row(rate, frame, states, i);
+  RowVector row = linear_row(*rate.frictions[i].normal, frame);
+  for (std::size_t j = 0; j < model.forces.size(); ++j)
+    if (model.forces[j].presses == i) row += drive_rate(model, rate, frame, j);
+  const int stop = normal->compliant_stop;
+  if (stop >= 0) row += compliant_row(rate, frame, stop, states.compliant[stop]);
   row[frame.one()] += k.dot(change.shift.head(frame.n)) + c.dot(change.drift.head(frame.n));
   return row;
 }

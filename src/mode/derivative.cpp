@@ -46,7 +46,7 @@ double clock_rate(const Model& model, const Model& rate) { return model.forced()
 Matrix load_rate(const Model& model, const Model& rate, const Frame& frame) {
   Matrix load = Matrix::Zero(frame.n, frame.size());
   for (std::size_t i = 0; i < model.forces.size(); ++i)
-    load.row(model.forces[i].coordinate) += drive_rate(model, rate, frame, i);
+    if (model.forces[i].presses < 0) load.row(model.forces[i].coordinate) += drive_rate(model, rate, frame, i);
   return load;
 }
 

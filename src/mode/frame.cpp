@@ -63,7 +63,8 @@ void Frame::choose_displacements(const Model& model) {
 void Frame::set_dynamics(const Model& model) {
   const Matrix K = stiffness_matrix(model), C = damping_matrix(model), M_inverse = inverse_mass(model);
   Matrix load = Matrix::Zero(n, size());
-  for (const Force& force : model.forces) load.row(force.coordinate) += drive_row(force);
+  for (const Force& force : model.forces)
+    if (force.presses < 0) load.row(force.coordinate) += drive_row(force);
 
   // q'' = M^{-1} (load X - C q' - K q),  q = W^{-1} (p + shift),  q' = W^{-1} (u + drift),  u' = W q''
   mass_inverse = W * M_inverse * W.transpose();

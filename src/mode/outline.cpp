@@ -134,8 +134,10 @@ void Builder::arm_guards() {
 
 /// Is N the force of a compliant stop alone, and that stop's own end the end of N? Not of one that pulls: its force is
 /// negative before it leaves.
-bool ends_with_stop(const Model& model, const NormalForce& normal) {
+bool ends_with_stop(const Model& model, int friction) {
+  const NormalForce& normal = *model.frictions[friction].normal;
   if (normal.compliant_stop < 0 || !normal.terms.empty() || normal.constant != 0.0) return false;
+  if (model.is_pressed(friction)) return false;
   const CompliantStop& stop = model.compliant_stops[static_cast<std::size_t>(normal.compliant_stop)];
   return !stop.pulls || stop.damping == 0.0;
 }
@@ -150,7 +152,7 @@ void Builder::arm_load(int friction) {
   if (!pressed) load[frame_.one()] = -1.0;
   if (state == FrictionState::unloaded) return out_.guards.push_back({GuardKind::unloaded, friction, -load});
   if (state == FrictionState::stick && pressed && alone(held_, friction)) return;
-  if (pressed && ends_with_stop(model_, *model_.frictions[friction].normal)) return;
+  if (pressed && ends_with_stop(model_, friction)) return;
   out_.guards.push_back({GuardKind::load, friction, load});
 }
 

@@ -121,8 +121,9 @@ Found check_damper(const Damper& damper, int index, const Model& model, std::set
 
 Found check_force(const Force& force, int index, const Model& model) {
   Check check("force", index);
-  check.end("on", force.coordinate, model);
-  if (force.coordinate == ground) check.fail("on", "a force acts on a coordinate, not on the ground");
+  if (force.presses < 0) check.end("on", force.coordinate, model);
+  if (force.presses < 0 && force.coordinate == ground)
+    check.fail("on", "a force acts on a coordinate, not on the ground");
   if (force.harmonic < 0) check.fail("harmonic", "harmonic = " + std::to_string(force.harmonic) + " is negative");
   check.sized("amplitude", force.amplitude);
   check.finite("phase", force.phase);
@@ -180,7 +181,7 @@ Found check_signal(const Signal& signal, int index, double period, std::set<std:
   return check.result();
 }
 
-void check_normal(Check& check, const NormalForce& normal, const Model& model) {
+void check_normal(Check& check, const NormalForce& normal, int friction, const Model& model) {
   check.sized("normal_force", normal.constant);
   for (const NormalForce::Term& term : normal.terms) {
     check.end("normal_force", term.coordinate, model);
@@ -190,7 +191,7 @@ void check_normal(Check& check, const NormalForce& normal, const Model& model) {
   }
   if (normal.compliant_stop >= static_cast<int>(model.compliant_stops.size()))
     check.fail("normal_force", "there is no compliant stop " + std::to_string(normal.compliant_stop));
-  if (normal.terms.empty() && normal.compliant_stop < 0)
+  if (normal.terms.empty() && normal.compliant_stop < 0 && !model.is_pressed(friction))
     check.fail("normal_force", "the force is constant: multiply static and kinetic by the constant instead");
 }
 
@@ -204,7 +205,7 @@ Found check_friction(const FrictionContact& friction, int index, const Model& mo
   if (friction.kinetic_friction > friction.static_friction)
     check.fail("kinetic", assigned("kinetic", friction.kinetic_friction) + " exceeds " +
                               assigned("static", friction.static_friction));
-  if (friction.normal) check_normal(check, *friction.normal, model);
+  if (friction.normal) check_normal(check, *friction.normal, index, model);
   return check.result();
 }
 
@@ -356,6 +357,7 @@ std::optional<Fault> first_fault(const Model& model) {
   look(model.stops, [&](const auto& part, int i) { return check_stop(part, i, model, contacts); });
   look(model.compliant_stops, [&](const auto& part, int i) { return check_compliant_stop(part, i, model, contacts); });
   look(model.characteristics, [&](const auto& part, int i) { return check_characteristic(part, i, model, contacts); });
+  if (!fault) fault = first_press_fault(model);
   if (!fault) fault = first_ratio_fault(model);
   if (!fault) fault = first_room_fault(model);
   return fault ? fault : check_omega(model);

@@ -31,6 +31,9 @@ struct Fault {
 /// definite.
 [[nodiscard]] std::optional<Fault> first_matrix_fault(const Model& model);
 
+/// The same for forces that press a friction contact (Force::presses).
+[[nodiscard]] std::optional<Fault> first_press_fault(const Model& model);
+
 /// The same for ratios: their size, and contacts between the same ends whose y are multiples of each other, which the
 /// engine would not take for one pair.
 [[nodiscard]] std::optional<Fault> first_ratio_fault(const Model& model);

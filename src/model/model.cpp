@@ -14,6 +14,10 @@ bool Model::repeats_with_forcing(const Force& force) const {
   return force.harmonic > 0;
 }
 
+bool Model::is_pressed(int friction) const {
+  return std::any_of(forces.begin(), forces.end(), [&](const Force& force) { return force.presses == friction; });
+}
+
 bool Model::forced() const {
   return std::any_of(forces.begin(), forces.end(), [&](const Force& force) { return repeats_with_forcing(force); });
 }

@@ -115,7 +115,8 @@ Row Formulas::drive(int i) const {
 Formula Formulas::input(const std::vector<bool>& above) const {
   Formula formula{none()};
   for (std::size_t i = 0; i < model_.forces.size(); ++i)
-    formula.products.emplace_back(drive(static_cast<int>(i)), velocity(model_.forces[i].coordinate));
+    if (model_.forces[i].presses < 0)
+      formula.products.emplace_back(drive(static_cast<int>(i)), velocity(model_.forces[i].coordinate));
   for (int i = 0; i < frictions(); ++i) {
     const Number belt = number(&Model::frictions, i, &FrictionContact::belt_speed);
     if (belt.value != 0.0 || belt.rate != 0.0) formula.linear -= belt * force(stops() + i, above);

@@ -304,6 +304,26 @@ TEST(RunUp, EveryStepStartsWhereTheLastOneEnded) {
   EXPECT_EQ(run.value(), 1.5);
 }
 
+/// From 0.5 to 4 in equal ratios: w_k = 2^(k - 1), and one period at each is 2 pi (2 + 1 + 1/2 + 1/4).
+TEST(RunUp, ALogarithmicOneHasAsManyValuesInEachOctave) {
+  const auto model = [](double omega) {
+    return ModelDefinition::parse("name = 'm'\nomega = 'w'\n[parameters]\nw = 1\n" + mass + spring +
+                                      "[[force]]\non = 'x'\namplitude = 1\n",
+                                  "f.toml")
+        .build({{"w", omega}});
+  };
+  RunUp run(model, {.from = 0.5, .to = 4.0, .steps = 4, .hold = 1, .logarithmic = true}, {0.0, 0.0});
+  for (double value = 0.5; run.next(); value *= 2.0) {
+    EXPECT_NEAR(run.value(), value, 1e-15 * value);
+    while (run.motion().advance(run.end()) == Outcome::event) {
+    }
+  }
+  EXPECT_EQ(run.value(), 4.0);
+  EXPECT_NEAR(run.time({}), 2.0 * pi * 3.75, 1e-13);
+  EXPECT_THROW(RunUp(model, {.from = -1.0, .to = 4.0, .steps = 4, .hold = 1, .logarithmic = true}, {0.0, 0.0}),
+               InputError);
+}
+
 /// A parameter that does nothing climbs: the motion under a tone and a signal, with impacts, is the one without steps.
 TEST(RunUp, TonesAndSignalsGoOnThroughTheSteps) {
   const Model model = built("omega = 1.3\n" + mass + spring +

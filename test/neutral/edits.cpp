@@ -20,6 +20,7 @@ const std::vector<Edit>& edits() {
       {"collinear-corner", "a corner more on a straight piece of a polyline", collinear_corner},
       {"parameter", "a constant as a parameter", constant_as_parameter},
       {"force-as-base", "a force as the motion of a base at the end of a spring", force_as_base},
+      {"pressed-by-one", "fixed limits as coefficients, and a force of 1 that presses", pressed_by_one},
       {"far-stop", "a stop that is never reached", far_stop},
       {"far-pad", "a friction contact that is never pressed", far_pad},
       {"far-compliant-stop", "a compliant stop that is never reached", far_compliant_stop},
@@ -103,6 +104,7 @@ std::optional<Edited> other_names(const Definition& file, campaign::Random&) {
       for (const char* key : {"name", "base", "signal"})
         if (const auto found = part.texts.find(key); found != part.texts.end()) found->second = prefix + found->second;
       if (!part.load_stop.empty()) part.load_stop = prefix + part.load_stop;
+      if (!part.presses.empty()) part.presses = prefix + part.presses;
       for (auto& [name, scalar] : part.load)
         if (name != "constant") name = state_name(name);
     }

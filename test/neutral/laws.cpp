@@ -148,7 +148,7 @@ std::vector<double> blows(const System& system, const State& start, Instant end)
     if (motion.event().kind != EventKind::knot || motion.event().time == last) continue;
     last = motion.event().time;
     for (const Force& force : model.forces)
-      if (force.signal >= 0)
+      if (force.signal >= 0 && force.presses < 0)
         momentum[static_cast<std::size_t>(force.coordinate)] +=
             force.amplitude * system.compiled().frame().signals[static_cast<std::size_t>(force.signal)].pulse(last);
   }

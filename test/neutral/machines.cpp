@@ -78,6 +78,7 @@ std::optional<Edited> twin_machine(const Definition& file, campaign::Random&) {
       if (!part.name.empty()) part.name += twin;
       if (const auto name = part.texts.find("name"); name != part.texts.end()) name->second += twin;
       if (!part.load_stop.empty()) part.load_stop += twin;
+      if (!part.presses.empty()) part.presses += twin;
       for (auto& [name, scalar] : part.load)
         if (name != "constant") name += twin;
       parts(after, kind).push_back(part);
@@ -95,8 +96,8 @@ std::optional<Edited> mirror(const Definition& file, campaign::Random&) {
     std::swap(part.a, part.b);
     if (part.ratio) std::swap(part.ratio->a, part.ratio->b);
   });
-  for (Part& force : parts(edited.file, "force"))
-    if (!force.texts.contains("signal")) negate(*field(force, "amplitude"));
+  for (Part& force : parts(edited.file, "force"))  // a signal is mirrored itself, and what presses stays
+    if (force.presses.empty() != force.texts.contains("signal")) negate(*field(force, "amplitude"));
   for (Part& impulse : parts(edited.file, "impulse")) negate(*field(impulse, "momentum"));
   for (Part& base : parts(edited.file, "base"))
     for (Part& harmonic : base.harmonics) negate(*field(harmonic, "amplitude"));

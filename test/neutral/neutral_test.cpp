@@ -24,7 +24,7 @@ TEST(Neutral, FilesAreSoundAndHaveEveryFeature) {
         for (const auto& [key, word] : part.texts) ++seen[key];
         for (const auto& [key, scalar] : part.fields) ++seen[key];
         seen["stribeck"] += !part.stribeck.empty(), seen["normal_force"] += !part.load.empty();
-        seen["ratio"] += part.ratio.has_value();
+        seen["ratio"] += part.ratio.has_value(), seen["pressed"] += !part.presses.empty();
         seen[kind + " points"] += !part.points.empty(), seen["within"] += !part.within.empty();
       }
     seen["parameter"] += !file.parameters.empty(), seen["matrix"] += !file.matrices.empty(),
@@ -55,6 +55,7 @@ TEST(Neutral, FilesAreSoundAndHaveEveryFeature) {
                               "parameter",
                               "matrix",
                               "ratio",
+                              "pressed",
                               "no drive",
                               "belt_speed",
                               "law"})

@@ -101,8 +101,9 @@ std::optional<Edited> collinear_corner(const Definition& file, campaign::Random&
 /// k (x - x_base) = k x - F with x_base = F / k.
 std::optional<Edited> force_as_base(const Definition& file, campaign::Random& random) {
   Edited edited{file, {}};
-  const auto forces =
-      those(edited.file, "force", [](const Part& p) { return !p.texts.contains("signal") && p.band.empty(); });
+  const auto forces = those(edited.file, "force", [](const Part& p) {
+    return !p.texts.contains("signal") && p.band.empty() && p.presses.empty();
+  });
   if (forces.empty()) return std::nullopt;
   Part& force = *any(forces, random);
   const auto springs = those(edited.file, "spring", [&](const Part& p) {
@@ -122,6 +123,22 @@ std::optional<Edited> force_as_base(const Definition& file, campaign::Random& ra
   parts(edited.file, "force")
       .erase(parts(edited.file, "force").begin() + (&force - parts(edited.file, "force").data()));
   parts(edited.file, "base").push_back(base);
+  return edited;
+}
+
+/// Fixed limits as coefficients of a normal force of 1, which a constant force gives.
+std::optional<Edited> pressed_by_one(const Definition& file, campaign::Random& random) {
+  Edited edited{file, {}};
+  const auto fixed = those(edited.file, "friction", [](const Part& p) {
+    return p.load.empty() && p.load_stop.empty() && p.points.empty() && p.stribeck.empty();
+  });
+  if (fixed.empty()) return std::nullopt;
+  Part& contact = *any(fixed, random);
+  contact.load = {{"constant", number(0)}};
+  Part press;
+  press.presses = contact.name;
+  press.fields = {{"amplitude", number(1)}, {"harmonic", number(0)}};
+  put(parts(edited.file, "force"), press, random);
   return edited;
 }
 
@@ -149,6 +166,8 @@ std::optional<Edited> zero_force(const Definition& file, campaign::Random& rando
   Part part;
   part.a = random.below(coordinates(file));
   part.fields = {{"amplitude", number(0)}, {"harmonic", number(1 + random.below(3))}};
+  const auto loaded = std::ranges::find_if(file.of("friction"), [](const Part& p) { return !p.load.empty(); });
+  if (loaded != file.of("friction").end() && random.one_in(2)) part.a = ground, part.presses = loaded->name;
   auto edited = with_part(file, "force", part, random);
   if (!edited->file.omega) edited->file.omega = number(random.uniform(0.5, 3));
   return edited;

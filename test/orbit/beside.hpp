@@ -92,7 +92,7 @@ inline orbit::Orbit orbit_at(const orbit::Problem& problem, const orbit::Branch&
 inline double doubled_ratio(const Beside& beside, std::size_t leg, double value, double wider) {
   const orbit::Orbit& born = beside.point.born.at(0);
   const double end = value + wider * (value - beside.point.value);
-  const auto [from, to] = std::minmax(born.parameter(), end);
+  const double from = std::min(born.parameter(), end), to = std::max(born.parameter(), end);
   orbit::Orbit first = orbit_at(beside.problem, orbit::follow(beside.problem, born, {.from = from, .to = to}), value);
   orbit::rotate(first, leg);
   orbit::Orbit second = first;

@@ -29,6 +29,7 @@ class FileDraw {
     for (int k = integer(0, 2); k > 0; --k) parameter(k);
     if (shape_.signals && one_in(8)) impulse();
     if (one_in(5)) ratio();
+    if (one_in(6)) press();
     return std::move(file_);
   }
 
@@ -239,6 +240,26 @@ class FileDraw {
     for (const char* other : kinds)
       for (Part& part : parts(other))
         if (part.a == link.a && part.b == link.b) part.ratio = of_ends;
+  }
+
+  /// A harmonic, a tone, the record or a constant presses a friction contact.
+  void press() {
+    if (parts("friction").empty()) return;
+    Part& contact = any("friction");
+    if (!contact.points.empty() || !contact.stribeck.empty()) return;
+    if (contact.load.empty() && contact.load_stop.empty()) contact.load = {{"constant", number(real(0.3, 1.5))}};
+    Part force;
+    force.presses = contact.name;
+    force.fields = {{"amplitude", number(real(-0.8, 0.8))}};
+    if (!parts("signal").empty() && one_in(2)) {
+      force.texts["signal"] = parts("signal").front().name;
+    } else if (shape_.tones && one_in(4)) {
+      force.fields["frequency"] = number(real(0.4, 3));
+    } else {
+      force.fields["harmonic"] = number(forced() ? integer(0, 2) : 0);
+      force.fields["phase"] = number(real(0, 6));
+    }
+    parts("force").push_back(force);
   }
 
   /// A number of a spring, force or friction contact becomes a parameter, or a multiple of one.

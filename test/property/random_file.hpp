@@ -15,7 +15,7 @@ struct FileShape {
 
 /// A file with its start: a function of the seed. The file has what its machine has, and besides: bases, coordinates
 /// that are measured from one, signals, tones, two-sided stops, matrices (gears), ratios, zones, falling friction,
-/// unloading stiffnesses, and parameters in place of numbers.
+/// unloading stiffnesses, forces that press a friction contact, and parameters in place of numbers.
 /// Its names are "x1", "stop", "friction2", "p1"; every part that has a row of its own in a table is named.
 [[nodiscard]] Definition random_file(std::uint64_t seed, const FileShape& shape = {});
 

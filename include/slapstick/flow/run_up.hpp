@@ -21,11 +21,14 @@ struct RunUpOptions {
   double from = 0.0, to = 0.0;
   long steps = 2;  ///< values, the first and the last included; at least 2
   long hold = 1;   ///< forcing periods at each
+  /// Values in equal ratios: as many in each octave, as a logarithmic sweep has. Else in equal differences.
+  bool logarithmic = false;
 };
 
 class RunUp {
  public:
-  /// @param model  of a value @throws InputError for fewer than two steps or less than one period
+  /// @param model  of a value
+  /// @throws InputError for fewer than two steps or less than one period, and for a logarithmic sweep through zero
   RunUp(std::function<Model(double)> model, const RunUpOptions& options, State start);
 
   /// Goes on to the next value, once the motion has come to `end`. @returns false after the last one

@@ -70,6 +70,8 @@ struct Force {
   double frequency = 0.0;  ///< rad per unit of time; 0: none
   int signal = -1;         ///< index of a signal, or -1
   bool rate = false;       ///< its rate of change
+  /// Index of a friction contact to whose normal force it adds, in place of acting on a coordinate; or -1.
+  int presses = -1;
 };
 
 /// A function of time that is given by points and straight lines between them, as a measurement is. Before the first
@@ -94,7 +96,8 @@ struct Signal {
 };
 
 /// A normal force that is linear in the state: constant + sum (stiffness x_i + damping v_i) + the force of a compliant
-/// stop. Where the sum is negative there is no normal force, and no friction.
+/// stop + the forces that press the contact (Force::presses). Where the sum is negative there is no normal force, and
+/// no friction.
 struct NormalForce {
   struct Term {
     int coordinate = 0;
@@ -249,6 +252,8 @@ struct Model {
   [[nodiscard]] double forcing_period() const;
   /// Does this force repeat with the forcing: has it a harmonic > 0, or a signal in periods?
   [[nodiscard]] bool repeats_with_forcing(const Force& force) const;
+  /// Does a force press this friction contact?
+  [[nodiscard]] bool is_pressed(int friction) const;
   /// True if some force does: only then are there stroboscopic maps and n-p classes.
   [[nodiscard]] bool forced() const;
   /// False if a force has a frequency of its own, or another signal: then no motion comes back after whole periods.

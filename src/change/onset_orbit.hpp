@@ -18,7 +18,7 @@ namespace slapstick::orbit {
 
 struct OnsetOrbit {
   Orbit orbit;         ///< of the equations above
-  double error = 0.0;  ///< of the parameter orbit.parameter()
+  double error = 0.0;  ///< of orbit.parameter()
 };
 
 /// The onset near an orbit, complete chatter or not, that passes near the fixed point.

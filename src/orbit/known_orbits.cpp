@@ -13,7 +13,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr int fingerprint_phases = 5;  ///< of a period, in a print
+constexpr int fingerprint_phases = 5;  ///< of a period, in a fingerprint
 
 /// Are two cycles the same, begun at another event or in another period?
 bool same_from_some_event(const Extent& extent, const Orbit& a, const Orbit& b) {

@@ -68,10 +68,10 @@ class Lines {
  private:
   /// The end of a line that the one which begins at y goes on from, if there is one.
   [[nodiscard]] std::optional<double> nearest(double y) const {
-    constexpr double label_distance = 0.02;
+    constexpr double same_height = 0.02;
     const auto off = [y](double other) { return std::abs(other - y); };
     const double best = *ranges::min_element(last_, {}, off);
-    return off(best) < label_distance * std::abs(y) ? std::optional(best) : std::nullopt;
+    return off(best) < same_height * std::abs(y) ? std::optional(best) : std::nullopt;
   }
   void push(std::size_t i, double x, double y) {
     open_[i].x.push_back(x);

@@ -57,10 +57,10 @@ struct Candidate {
 /// Places on the lines of a branch, not too many.
 std::vector<Candidate> candidates(const figure::Panel& panel, std::size_t first, std::size_t last,
                                   const FrameShares& frame) {
-  constexpr std::size_t most_labels = 150;
+  constexpr std::size_t most_candidates = 150;
   std::size_t points = 0;
   for (std::size_t i = first; i < last; ++i) points += panel.lines[i].x.size();
-  const std::size_t every = 1 + points / most_labels;
+  const std::size_t every = 1 + points / most_candidates;
   std::vector<Candidate> all;
   std::size_t count = 0;
   for (std::size_t i = first; i < last; ++i)

@@ -112,8 +112,8 @@ void MotionRecord::keep_bends(std::size_t first, std::size_t last, std::vector<b
 void MotionRecord::note_phase(ModeId mode, double from, double to) {
   const Phase now = phase(mode);
   if (now == Phase::apart) return;
-  constexpr double load_rounding = 1e-9;
-  if (!stretches_.empty() && stretches_.back().phase == now && from - stretches_.back().to < load_rounding) {
+  constexpr double one_stretch = 1e-9;
+  if (!stretches_.empty() && stretches_.back().phase == now && from - stretches_.back().to < one_stretch) {
     stretches_.back().to = to;
   } else {
     stretches_.push_back({now, from, to, {}, {}});

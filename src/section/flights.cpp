@@ -40,8 +40,8 @@ class Looks {
   [[nodiscard]] Instant next() const { return start_.plus(windows_ * each_); }
   /// At `next`. Shall it be asked?
   bool pass(const Motion& motion) {
-    constexpr double most_windows = 1024.0, great_growth = 1e6;
-    const bool asks = windows_ >= most_windows || largest_number(motion) > great_growth * size_;
+    constexpr double first_look = 1024.0, great_growth = 1e6;
+    const bool asks = windows_ >= first_look || largest_number(motion) > great_growth * size_;
     windows_ *= 4.0;
     return asks;
   }

@@ -279,13 +279,21 @@ double drift_of_R(const CompiledSystem& system, const mode::Mode& here, int stop
     return i >= frame.d && i < 2 * frame.d ? std::abs(system.impulse(stop)[i - frame.d]) * impulse_sum : 0.0;
   };
   for (int i = 0; i < m; ++i) delta[i] = 2.0 * (D * rate[i] + jump(i));
-  // Positions move by the velocities' own bound, which the first guess has not seen yet: one more round before the
-  // check.
-  magnitude_product(system, here, any_piece, delta, product);
-  for (int i = 0; i < m; ++i) delta[i] += 2.0 * D * product[i];
-  magnitude_product(system, here, any_piece, delta, product);
-  for (int i = 0; i < m; ++i) {
-    if (D * (rate[i] + product[i]) + jump(i) > delta[i]) return INFINITY;
+  // A position moves by the bound of its velocity, and what springs and dampers lead on to by the bounds before it: a
+  // round passes one row of A, and the longest way leads through all positions and velocities. Once a round that leaves
+  // no zero behind is no nearer than the one before, none will do.
+  double excess = INFINITY, before = INFINITY;
+  for (int round = 0; excess > 1.0; ++round) {
+    if (round > 2 * frame.d || (excess < INFINITY && excess >= before)) return INFINITY;
+    before = excess;
+    magnitude_product(system, here, any_piece, delta, product);
+    for (int i = 0; i < m; ++i) delta[i] = 2.0 * (D * (rate[i] + product[i]) + jump(i));
+    magnitude_product(system, here, any_piece, delta, product);
+    excess = 0.0;
+    for (int i = 0; i < m; ++i) {
+      const double needed = D * (rate[i] + product[i]) + jump(i);
+      if (needed > delta[i]) excess = std::max(excess, needed / delta[i]);
+    }
   }
   if (others_change(system, here, stop, X, delta)) return INFINITY;
   if (!any_piece && bends(system, X, delta)) return drift_of_R(system, here, stop, X, D, impulse_sum, true, scratch);

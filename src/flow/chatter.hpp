@@ -56,7 +56,8 @@ struct ChatterLimit {
 /// @returns proven = false if chatter is not complete, or not provable from this impact on, or its limit not yet
 /// known
 ///          to `tolerance`: the caller goes on bounce by bounce and asks again. Cost: one row product when the chatter
-///          is still too high to be summed, else four products with |A|.
+///          is still too high to be summed, else four products with |A|; up to 4 d where its impacts reach
+///          bodies at rest through chains.
 ChatterLimit prove_chatter(const CompiledSystem& system, const mode::Mode& here, int stop, const double* X,
                            double tolerance, std::span<double> scratch);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -91,8 +92,28 @@ double centimetres(const std::string& text, const std::string& unit, const std::
 
 bool is_column_file(const std::string& path) { return ending_of(path) == ".npz" || ends_as_hdf5(path); }
 
-TableOutput::TableOutput(const std::string& path, const std::vector<std::string>& columns, const TableFacts& facts)
+namespace {
+
+/// Of columns with one name, as of a parameter `w` beside the speed w, the later are w_2, w_3: formats that go by names
+/// keep each. A unit in brackets stays.
+std::vector<std::string> distinct(const std::vector<std::string>& headings) {
+  std::set<std::string> taken;
+  std::vector<std::string> all;
+  for (const std::string& heading : headings) {
+    const std::size_t bracket = std::min(heading.rfind(" ["), heading.size());
+    const std::string name = heading.substr(0, bracket), unit = heading.substr(bracket);
+    std::string free = name;
+    for (int k = 2; !taken.insert(free).second; ++k) free = name + "_" + std::to_string(k);
+    all.push_back(free + unit);
+  }
+  return all;
+}
+
+}  // namespace
+
+TableOutput::TableOutput(const std::string& path, const std::vector<std::string>& headings, const TableFacts& facts)
     : output_(checked_table(path)), hdf5_(ends_as_hdf5(path)) {
+  const std::vector<std::string> columns = distinct(headings);
   if (is_column_file(path)) {
     columns_.emplace(columns, facts.attributes);
     for (const auto& [column, unit] : facts.units) columns_->unit(column, unit);

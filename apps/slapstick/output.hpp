@@ -36,9 +36,10 @@ class Output {
 /// bytes a number and 1 a name.
 class TableOutput {
  public:
+  /// @param headings  "x1" or "x1 [mm]"; of equal names the later become NAME_2
   /// @param facts  what formats say that have a place for it; CSV has none
   /// @throws InputError for the ending of another format, StorageError if it cannot be written
-  TableOutput(const std::string& path, const std::vector<std::string>& columns, const TableFacts& facts = {});
+  TableOutput(const std::string& path, const std::vector<std::string>& headings, const TableFacts& facts = {});
   TableOutput& number(double value);
   TableOutput& word(std::string_view text);
   TableOutput& numbers(std::span<const double> values);

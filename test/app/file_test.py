@@ -48,6 +48,16 @@ def same(arrays, text):
     return len(rows)
 
 
+def test_a_parameter_with_the_name_of_a_column_loses_neither():
+    words = ('diagram', 'vibro-impact', '--sweep', 'phase=0.5:1:2', '--impacts', '3', '--out')
+    for file in ('p.csv', 'p.npz', 'p.h5'):
+        good(*words, file)
+    columns, rows = table(read('p.csv'))
+    assert columns[0] == 'phase' and columns.count('phase') == 1 and 'phase_2' in columns, columns
+    assert {float(row[0]) for row in rows} == {0.5, 1.0}
+    assert same(npz('p.npz'), read('p.csv')) == len(rows) > 2
+
+
 def test_an_npz_file_has_the_numbers_of_the_csv():
     words = ('simulate', 'two-sided-rattle', '--periods', '40', '--out', 's.json')
     good(*words, '--events', 'e.csv', '--trajectory', 't.csv')

@@ -44,7 +44,8 @@ std::string stated(const Damper& damper) {
 }
 
 std::string stated(const Force& force) {
-  const auto& [coordinate, harmonic, amplitude, phase, frequency, signal, rate, presses] = force;
+  // A part of a contact's force moves what it acts on as any force does.
+  const auto& [coordinate, harmonic, amplitude, phase, frequency, signal, rate, presses, contact] = force;
   if (frequency != 0.0) return line("tone" + number(coordinate) + hex(frequency) + hex(amplitude) + hex(phase));
   return line("force" + number(coordinate) + number(harmonic) + hex(amplitude) + hex(phase));
 }

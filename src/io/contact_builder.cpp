@@ -135,6 +135,27 @@ void ModelBuilder::add_friction(Model& model, const Part& part) {
   if (law.size() > 1) add_falling_friction(model, part, law);
 }
 
+/// Where a runs faster than b, F = drag; where it is held, -holds <= F <= drag; where it is overcome, F = -holds. So
+/// F = (drag - holds) / 2 + f, with friction f of the limit (drag + holds) / 2.
+void ModelBuilder::add_freewheel(Model& model, const Part& part) {
+  const Dual holds = field(part, "holds"), drag = field(part, "drag");
+  for (const auto& [key, value] : {std::pair("holds", holds), std::pair("drag", drag)})
+    if (!(value.value >= 0.0))
+      throw InputError(definition_.place(part.fields.find(key)->second.line),
+                       where(key) + " = " + shown(value.value) + " is negative");
+  const double limit = written((holds + drag) * Dual{0.5}), constant = written((drag - holds) * Dual{0.5});
+  const Ratio ratio = ratio_of(part);
+  const auto contact = static_cast<int>(model.frictions.size());
+  origins_["friction"].push_back({kind_, index_});
+  model.frictions.push_back({part.name, part.a, part.b, 0.0, limit, limit, std::nullopt, ratio});
+  for (const auto& [end, size] : {std::pair(part.a, -ratio.a), std::pair(part.b, ratio.b)}) {
+    if (end < 0) continue;
+    Force force{end, 0, size * constant};
+    force.contact = contact;
+    add_force(model, force, false);
+  }
+}
+
 Stop ModelBuilder::stop(const Part& part) const {
   Stop stop{part.name, part.a, part.b, written(part, "clearance"), 0.0};
   stop.ratio = ratio_of(part);
@@ -219,6 +240,7 @@ void ModelBuilder::add_contacts(Model& model) {
   each("compliant_stop", [&](const Part& part) { sides(part, model.compliant_stops, compliant_stop(part)); });
   each("friction", [&](const Part& part) { add_friction(model, part); });
   add_hysteresis(model);
+  each("freewheel", [&](const Part& part) { add_freewheel(model, part); });
 }
 
 }  // namespace slapstick

@@ -310,7 +310,7 @@ InputError ModelBuilder::refusal(const Fault& fault, const Model& model) const {
     if (from && from->lower && fault.field == "clearance" && part.fields.contains("clearance_lower"))
       found = part.fields.find("clearance_lower");
     line = found == part.fields.end() ? part.line : found->second.line;
-    if (fault.part == "force" && kind != fault.part && kind != "impulse")
+    if (fault.part == "force" && kind != fault.part && kind != "impulse" && kind != "freewheel")
       place += ": with its base's motion, as a force";
   }
   return InputError(definition_.place(line), place + ": " + fault.what);

@@ -1,9 +1,10 @@
 #pragma once
 /// From a Definition and the values of its parameters to a validated Model.
 ///
-/// Two things of a file are not in a Model but stand for others: a two-sided stop is two Stops, and a [[base]] is the
-/// forces that its springs and dampers pass on, and the inertia of the coordinates that are measured from it. So each
-/// part of the Model remembers the part of the file that it came from, for messages.
+/// Some things of a file are not in a Model but stand for others. A two-sided stop is two Stops. A [[freewheel]] is
+/// friction and a constant force. A [[base]] is the forces that its springs and dampers pass on, and the inertia of the
+/// coordinates that are measured from it. So each part of the Model remembers the part of the file that it came from,
+/// for messages.
 ///
 /// The derivative of a Model goes the same way: every number is calculated as a Dual, of which its value or its rate is
 /// written down.
@@ -99,6 +100,7 @@ class ModelBuilder {
   void add_bends(Model& model, const Part& part, Characteristic::Over over);
   void add_zones(Model& model, const Part& part, const Dual& inside);
   void add_friction(Model& model, const Part& part);
+  void add_freewheel(Model& model, const Part& part);
   void add_falling_friction(Model& model, const Part& part, const std::vector<std::pair<Dual, Dual>>& law);
   [[nodiscard]] std::vector<std::pair<Dual, Dual>> friction_law(const Part& part) const;
   /// @param error  takes the largest error of the polyline, unless null

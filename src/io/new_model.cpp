@@ -211,6 +211,14 @@ static = "static_friction"
 kinetic = "kinetic_friction"
 belt_speed = 0
 
+# A one-way clutch: x1 may run ahead of x2, with the force `drag`, and is held back up to `holds`.
+#[[freewheel]]
+#name = "sprags"
+#between = ["x1", "x2"]
+#ratio = [1, 1]
+#holds = 50
+#drag = 0.01
+
 # A rigid stop: x_a - x_b <= clearance. A floor below x1 would be between = ["ground", "x1"].
 [[stop]]
 name = "wall"

@@ -162,7 +162,7 @@ class PartReader {
   /// Contacts of all kinds share the column `contact` of tables; a two-sided one is there under two other names.
   void check_contact_names() const {
     std::vector<std::string> used;
-    for (const char* kind : {"friction", "stop", "compliant_stop"})
+    for (const char* kind : {"friction", "freewheel", "stop", "compliant_stop"})
       for (const auto& part : definition_.of(kind))
         for (const char* side : {"", "_upper", "_lower"}) {
           if (side[0] != '\0' && !part.flag("two_sided")) continue;

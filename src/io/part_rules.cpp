@@ -92,6 +92,7 @@ std::vector<PartRule> contacts() {
         {"stribeck", false, Holds::stribeck, "static|kinetic|characteristic"},
         {"normal_force", false, Holds::load},
         {"belt_speed"}}},
+      {"freewheel", true, Ends::between, {ratio, {"holds", true}, {"drag"}}},
       {"stop",
        true,
        Ends::between,

@@ -166,7 +166,7 @@ static std::string common_length(const Definition& definition) {
   const auto& fallback = definition.scale.find("length")->second.unit;
   const auto& coordinates = definition.of("coordinate");
   std::optional<std::string> common;
-  for (const char* kind : {"friction", "stop", "compliant_stop"})
+  for (const char* kind : {"friction", "freewheel", "stop", "compliant_stop"})
     for (const auto& part : definition.of(kind))
       for (const int end : {part.a, part.b}) {
         if (end < 0) continue;

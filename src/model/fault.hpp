@@ -31,7 +31,7 @@ struct Fault {
 /// definite.
 [[nodiscard]] std::optional<Fault> first_matrix_fault(const Model& model);
 
-/// The same for forces that press a friction contact (Force::presses).
+/// The same for forces that press a friction contact (Force::presses), or are a part of its force (Force::contact).
 [[nodiscard]] std::optional<Fault> first_press_fault(const Model& model);
 
 /// The same for ratios: their size, and contacts between the same ends whose y are multiples of each other, which the

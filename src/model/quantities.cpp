@@ -73,7 +73,9 @@ void List::coordinates() {
 
 void List::contacts() {
   named(Of::stop, model_.stops);
-  named(Of::friction, model_.frictions);
+  for (const FrictionContact& contact : model_.frictions)
+    each(Of::friction, number_++, contact.name,
+         [&](Kind kind) { return contact.normal.has_value() || kind != Kind::normal; });
   named(Of::compliant_stop, model_.compliant_stops);
   for (const Characteristic& one_of : model_.characteristics) {
     const bool lossy = one_of.over != Characteristic::Over::displacement;
@@ -119,7 +121,7 @@ const Quantity* known(const std::vector<Quantity>& all, const std::string& name)
   return found == all.end() ? nullptr : &*found;
 }
 
-bool has_difference(Kind kind) { return kind <= Kind::force; }
+bool has_difference(Kind kind) { return kind <= Kind::normal; }
 
 }  // namespace
 
@@ -136,6 +138,8 @@ std::string_view name(Quantity::Kind kind) {
       return "gap";
     case Kind::force:
       return "force";
+    case Kind::normal:
+      return "normal force";
     case Kind::power:
     case Kind::damping:
     case Kind::input:

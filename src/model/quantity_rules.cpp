@@ -19,6 +19,7 @@ std::span<const QuantityRule> quantity_rules() {
       QuantityRule{Of::friction, Kind::relative, "w_NAME", "relative velocity of friction contact NAME"},
       QuantityRule{Of::friction, Kind::force, "F_NAME",
                    "force of friction contact NAME: friction in slip, the holding force in stick"},
+      QuantityRule{Of::friction, Kind::normal, "N_NAME", "normal force of friction contact NAME, if not constant"},
       QuantityRule{Of::friction, Kind::power, "power_NAME", "power that friction contact NAME dissipates"},
       QuantityRule{Of::compliant_stop, Kind::gap, "gap_NAME", "gap of compliant stop NAME"},
       QuantityRule{Of::compliant_stop, Kind::relative, "w_NAME", "relative velocity of compliant stop NAME"},

@@ -72,7 +72,7 @@ Row Formulas::single_in_chatter(const Quantity& quantity, int index, const std::
   if (at == of_pair.end()) return force(index, above);
   const double side = sense(held_[k], frame_.stops[static_cast<std::size_t>(stop)]) *
                       sense(held_[k], frame_.frictions[static_cast<std::size_t>(friction)]);
-  return side * borne.of[static_cast<std::size_t>(at - of_pair.begin())] * one();
+  return side * borne.of[static_cast<std::size_t>(at - of_pair.begin())] * one() + constant_part(friction);
 }
 
 Formula Formulas::in_chatter(const Quantity& quantity, const std::vector<bool>& above, int stop,

@@ -24,6 +24,10 @@ Formulas::Formulas(const Model& model, const mode::Frame& frame, const mode::Out
       kink_of_.push_back({k, side});
       kinks_.push_back(side * holding(k) - limit(held_[k]));
     }
+    if (shares_by_sense(held_[k])) {
+      kink_of_.push_back({k, 0.0});
+      kinks_.push_back(borne(held_[k], k));
+    }
   }
 }
 
@@ -37,6 +41,44 @@ Row Formulas::holding(std::size_t pair) const {
 Row Formulas::load(int friction) const {
   return {mode::load_row(model_, frame_, outline_.states, friction),
           rates_ ? mode::load_rate(model_, rates_->model, frame_, rates_->frame, outline_.states, friction) : zero()};
+}
+
+/// What a contact does beside its friction (Force::contact), as -F on a and F on b.
+Row Formulas::constant_part(int friction) const {
+  const FrictionContact& contact = model_.frictions[static_cast<std::size_t>(friction)];
+  for (std::size_t i = 0; i < model_.forces.size(); ++i) {
+    const Force& force = model_.forces[i];
+    if (force.contact != friction) continue;
+    const double of_end = force.coordinate == contact.a ? -contact.ratio.a : contact.ratio.b;
+    return 1.0 / of_end * drive(static_cast<int>(i));
+  }
+  return none();
+}
+
+/// Do several contacts hold a pair, one of which bears more in one sense than in the other?
+bool Formulas::shares_by_sense(const mode::HeldPair& pair) const {
+  const auto uneven = [&](int friction) {
+    return std::any_of(model_.forces.begin(), model_.forces.end(),
+                       [&](const Force& force) { return force.contact == friction; });
+  };
+  return pair.frictions.size() > 1 && std::any_of(pair.frictions.begin(), pair.frictions.end(), uneven);
+}
+
+/// What the contacts of a held pair bear together, along its displacement: f0 and their constant parts.
+Row Formulas::borne(const mode::HeldPair& pair, std::size_t index) const {
+  Row all = holding(index);
+  for (const int i : pair.frictions)
+    all += sense(pair, frame_.frictions[static_cast<std::size_t>(i)]) * constant_part(i);
+  return all;
+}
+
+/// How much a contact can bear of what is borne in this sense of a pair's displacement.
+Number Formulas::room(const mode::HeldPair& pair, int friction, double along) const {
+  const Row part = constant_part(friction);
+  const auto one = frame_.one();
+  const double own = along * sense(pair, frame_.frictions[static_cast<std::size_t>(friction)]);
+  return number(&Model::frictions, friction, &FrictionContact::static_friction) +
+         own * Number{part.value[one], part.rate.size() == 0 ? 0.0 : part.rate[one]};
 }
 
 /// What the friction contacts of a pair can bear.
@@ -55,8 +97,15 @@ double Formulas::sense(const mode::HeldPair& pair, const mode::ContactRow& conta
 /// +1 or -1 where f0 of a pair is beyond its friction on a side that a stop is on, else 0.
 double Formulas::beyond(std::size_t pair, const std::vector<bool>& above) const {
   for (std::size_t k = 0; k < kink_of_.size(); ++k)
-    if (kink_of_[k].pair == pair && above[k]) return kink_of_[k].side;
+    if (kink_of_[k].pair == pair && above[k] && kink_of_[k].side != 0.0) return kink_of_[k].side;
   return 0.0;
+}
+
+/// The sense of what a pair bears that shares by sense.
+double Formulas::borne_sense(std::size_t pair, const std::vector<bool>& above) const {
+  for (std::size_t k = 0; k < kink_of_.size(); ++k)
+    if (kink_of_[k].pair == pair && kink_of_[k].side == 0.0) return above[k] ? 1.0 : -1.0;
+  return 1.0;
 }
 
 Row Formulas::relative(int contact) const {
@@ -134,6 +183,17 @@ Number Formulas::shared_friction(const mode::HeldPair& pair) const {
   return all;
 }
 
+/// What the contacts of a pair bear, shared as each can bear in that sense.
+Row Formulas::shared_by_sense(int friction, std::size_t index, const std::vector<bool>& above) const {
+  const mode::HeldPair& pair = held_[index];
+  const double along = borne_sense(index, above);
+  Number all;
+  for (const int i : pair.frictions) all += room(pair, i, along);
+  if (all.value <= 0.0) return none();
+  return sense(pair, frame_.frictions[static_cast<std::size_t>(friction)]) * (room(pair, friction, along) / all) *
+         borne(pair, index);
+}
+
 /// f0 up to the limit, shared by the friction contacts of the pair as their static frictions are.
 Row Formulas::held_friction(int friction, const std::vector<bool>& above) const {
   for (std::size_t k = 0; k < held_.size(); ++k) {
@@ -141,10 +201,11 @@ Row Formulas::held_friction(int friction, const std::vector<bool>& above) const 
     if (std::find(pair.frictions.begin(), pair.frictions.end(), friction) == pair.frictions.end()) continue;
     const double own_sense = sense(pair, frame_.frictions[static_cast<std::size_t>(friction)]), side = beyond(k, above);
     const Number own = number(&Model::frictions, friction, &FrictionContact::static_friction);
-    if (side != 0.0) return own_sense * side * own * load(friction);
+    if (side != 0.0) return own_sense * side * own * load(friction) + constant_part(friction);
+    if (shares_by_sense(pair)) return shared_by_sense(friction, k, above);
     const Number all = shared_friction(pair);
     const Number share = all.value > 0.0 ? own / all : Number{1.0 / static_cast<double>(pair.frictions.size()), 0.0};
-    return own_sense * share * holding(k);
+    return own_sense * share * holding(k) + constant_part(friction);
   }
   return none();
 }
@@ -170,7 +231,8 @@ Row Formulas::force(int contact, const std::vector<bool>& above) const {
     const FrictionState state = outline_.states.frictions[static_cast<std::size_t>(contact)];
     if (state == FrictionState::stick) return held_friction(contact, above);
     return mode::direction(state) * number(&Model::frictions, contact, &FrictionContact::kinetic_friction) *
-           load(contact);
+               load(contact) +
+           constant_part(contact);
   }
   contact -= frictions();
   if (contact < compliants()) {

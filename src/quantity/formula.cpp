@@ -63,6 +63,8 @@ Formula Formulas::single(const Quantity& quantity, int index, const std::vector<
       return {relative(index)};
     case Kind::force:
       return {force(index, above)};
+    case Kind::normal:
+      return {load(index - stops())};
     case Kind::power:
       return power(index, above);
     case Kind::damping:
@@ -115,7 +117,7 @@ Row Formulas::drive(int i) const {
 Formula Formulas::input(const std::vector<bool>& above) const {
   Formula formula{none()};
   for (std::size_t i = 0; i < model_.forces.size(); ++i)
-    if (model_.forces[i].presses < 0)
+    if (model_.forces[i].presses < 0 && model_.forces[i].contact < 0)
       formula.products.emplace_back(drive(static_cast<int>(i)), velocity(model_.forces[i].coordinate));
   for (int i = 0; i < frictions(); ++i) {
     const Number belt = number(&Model::frictions, i, &FrictionContact::belt_speed);

@@ -6,7 +6,8 @@
 /// Where a closed stop and sticking friction hold one pair, only the sum f0 of their forces is determined. The split is
 /// the one with the least press: friction bears f0 up to its static limit, the stop what is beyond it. So a force has a
 /// kink where f0 passes the limit, which is no event: `kinks` are the rows whose zeros those are, and `sides` says on
-/// which side of its kinks each pair is. Rows have their derivatives by a parameter beside them.
+/// which side of its kinks each pair is. Contacts that hold a pair together share the force as each can bear in its
+/// sense; with a freewheel among them that is a kink too. Rows have their derivatives by a parameter beside them.
 #include <optional>
 #include <utility>
 #include <vector>
@@ -56,7 +57,7 @@ class Formulas {
  private:
   struct Kink {
     std::size_t pair;
-    double side;  ///< f0 beyond the limit on this side
+    double side;  ///< f0 beyond the limit on this side; 0: the sense of what contacts bear together
   };
 
   [[nodiscard]] RowVector zero() const { return RowVector::Zero(frame_.size()); }
@@ -71,6 +72,7 @@ class Formulas {
     return {(model_.*parts)[at].*member, rates_ ? (rates_->model.*parts)[at].*member : 0.0};
   }
   [[nodiscard]] Row load(int friction) const;
+  [[nodiscard]] Row constant_part(int friction) const;
   [[nodiscard]] Number kinetic_at(int friction, const Vector& X, const Vector& by) const;
   [[nodiscard]] Row limit(const mode::HeldPair& pair) const;
   [[nodiscard]] Row holding(std::size_t pair) const;
@@ -94,6 +96,11 @@ class Formulas {
   [[nodiscard]] Row damper_force(int damper) const;
   [[nodiscard]] Row link_speed(int link) const;
   [[nodiscard]] double beyond(std::size_t pair, const std::vector<bool>& above) const;
+  [[nodiscard]] double borne_sense(std::size_t pair, const std::vector<bool>& above) const;
+  [[nodiscard]] bool shares_by_sense(const mode::HeldPair& pair) const;
+  [[nodiscard]] Row borne(const mode::HeldPair& pair, std::size_t index) const;
+  [[nodiscard]] Number room(const mode::HeldPair& pair, int friction, double along) const;
+  [[nodiscard]] Row shared_by_sense(int friction, std::size_t index, const std::vector<bool>& above) const;
   [[nodiscard]] double sense(const mode::HeldPair& pair, const mode::ContactRow& contact) const;
   template <class Link>
   [[nodiscard]] Row difference(const Link& link, bool velocities) const {

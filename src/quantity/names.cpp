@@ -40,6 +40,7 @@ std::array<int, 3> dimensions(const Quantity& quantity) {
     case Kind::acceleration:
       return {1, -2, 0};
     case Kind::force:
+    case Kind::normal:
       return {1, -2, 1};
     case Kind::power:
     case Kind::damping:

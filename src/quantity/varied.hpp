@@ -38,6 +38,7 @@ struct Row {
     return {value.dot(X), by.size() == 0 ? 0.0 : rate.dot(X) + value.dot(by)};
   }
 };
+[[nodiscard]] inline Row operator+(Row a, const Row& b) { return a += b; }
 [[nodiscard]] inline Row operator-(Row a, const Row& b) { return a -= b; }
 [[nodiscard]] inline Row operator*(Number a, const Row& b) {
   return {a.value * b.value, a.rate * b.value + a.value * b.rate};

@@ -46,6 +46,19 @@ TEST(PressedFriction, AHarmonicTakesItsIntegral) {
   }
 }
 
+/// Over a period of N = 3 + 2 sin 2 t, and a quarter of it as the force of the slip.
+TEST(PressedFriction, ItsNormalForceIsMeasured) {
+  const ModelDefinition model = file("omega = 2\n" + std::string(mass) + pad("3") + pressed("amplitude = 2"));
+  const Quantity N = find_quantity(quantities(model), "N_pad"), F = find_quantity(quantities(model), "F_pad");
+  const Measured found = measure(Motion(System(model.build()), {0.0, 10.0}), Instant{}.plus(3.0), {N, F});
+  for (const auto& [of, size] : {std::pair(found.of[0], 1.0), std::pair(found.of[1], 0.25)}) {
+    EXPECT_NEAR(of.mean, 3.0 * size, 1e-14);
+    EXPECT_NEAR(of.rms, std::sqrt(11.0) * size, 1e-14);
+    EXPECT_NEAR(of.least, size, 1e-14);
+    EXPECT_NEAR(of.greatest, 5.0 * size, 1e-14);
+  }
+}
+
 /// The mass stops where the integral has taken its whole speed, and stays.
 TEST(PressedFriction, ABrakeStopsWhereItsIntegralIsTheSpeed) {
   const System system(file("omega = 2\n" + std::string(mass) + pad("3") + pressed("amplitude = 2")).build());

@@ -30,7 +30,7 @@ inline void expect_same(const Model& a, const Model& b) {
        [](const auto& p, const auto& q) { return p.a == q.a && p.b == q.b && p.coefficient == q.coefficient; });
   same(a.forces, b.forces, [](const auto& p, const auto& q) {
     return p.coordinate == q.coordinate && p.harmonic == q.harmonic && p.amplitude == q.amplitude &&
-           p.phase == q.phase && p.presses == q.presses;
+           p.phase == q.phase && p.presses == q.presses && p.contact == q.contact;
   });
   same(a.frictions, b.frictions, [](const auto& p, const auto& q) {
     return p.name == q.name && p.a == q.a && p.b == q.b && p.belt_speed == q.belt_speed &&

@@ -28,6 +28,7 @@ Dimension dimension(Kind kind) {
     case Kind::acceleration:
       return dim::acceleration;
     case Kind::force:
+    case Kind::normal:
       return dim::force;
     case Kind::power:
     case Kind::damping:

@@ -21,6 +21,7 @@ const std::vector<Edit>& edits() {
       {"parameter", "a constant as a parameter", constant_as_parameter},
       {"force-as-base", "a force as the motion of a base at the end of a spring", force_as_base},
       {"pressed-by-one", "fixed limits as coefficients, and a force of 1 that presses", pressed_by_one},
+      {"friction-as-freewheel", "equal limits as those of a freewheel", friction_as_freewheel},
       {"far-stop", "a stop that is never reached", far_stop},
       {"far-pad", "a friction contact that is never pressed", far_pad},
       {"far-compliant-stop", "a compliant stop that is never reached", far_compliant_stop},

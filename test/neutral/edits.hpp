@@ -59,6 +59,7 @@ std::optional<Edited> collinear_corner(const Definition& file, campaign::Random&
 std::optional<Edited> constant_as_parameter(const Definition& file, campaign::Random& random);
 std::optional<Edited> force_as_base(const Definition& file, campaign::Random& random);
 std::optional<Edited> pressed_by_one(const Definition& file, campaign::Random& random);
+std::optional<Edited> friction_as_freewheel(const Definition& file, campaign::Random& random);
 std::optional<Edited> far_stop(const Definition& file, campaign::Random& random);
 std::optional<Edited> far_pad(const Definition& file, campaign::Random& random);
 std::optional<Edited> far_compliant_stop(const Definition& file, campaign::Random& random);

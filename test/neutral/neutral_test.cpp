@@ -38,6 +38,7 @@ TEST(Neutral, FilesAreSoundAndHaveEveryFeature) {
                               "damper",
                               "force",
                               "friction",
+                              "freewheel",
                               "stop",
                               "compliant_stop",
                               "two_sided",

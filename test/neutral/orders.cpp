@@ -68,8 +68,9 @@ std::optional<Edited> other_order_of_links(const Definition& file, campaign::Ran
 
 /// `sequence` goes by the order of the stops in the file.
 std::optional<Edited> other_order_of_contacts(const Definition& file, campaign::Random& random) {
-  if (file.impact_law == ImpactLaw::sequence) return reordered(file, random, {"friction", "compliant_stop"});
-  return reordered(file, random, {"friction", "stop", "compliant_stop"});
+  if (file.impact_law == ImpactLaw::sequence)
+    return reordered(file, random, {"friction", "freewheel", "compliant_stop"});
+  return reordered(file, random, {"friction", "freewheel", "stop", "compliant_stop"});
 }
 
 }  // namespace slapstick::neutral

@@ -38,7 +38,7 @@ Part far_contact(const Definition& file, const std::string& name, campaign::Rand
   part.b = random.below(coordinates(file));
   if (part.b == part.a || home(file, part.b) != home(file, part.a)) part.b = home(file, part.a);
   if (random.one_in(2)) std::swap(part.a, part.b);
-  for (const char* kind : {"spring", "damper", "friction", "stop", "compliant_stop"})
+  for (const char* kind : {"spring", "damper", "friction", "freewheel", "stop", "compliant_stop"})
     for (const Part& other : file.of(kind)) {  // contacts between the same ends have one ratio
       const bool linear = other.fields.contains("stiffness") || other.fields.contains("coefficient");
       if (linear && std::string_view(kind) != "compliant_stop" && other.within.empty()) continue;
@@ -139,6 +139,30 @@ std::optional<Edited> pressed_by_one(const Definition& file, campaign::Random& r
   press.presses = contact.name;
   press.fields = {{"amplitude", number(1)}, {"harmonic", number(0)}};
   put(parts(edited.file, "force"), press, random);
+  return edited;
+}
+
+/// A contact that holds as much either way, and has as much in slip, as a freewheel of that drag.
+std::optional<Edited> friction_as_freewheel(const Definition& file, campaign::Random& random) {
+  Edited edited{file, {}};
+  const auto even = those(edited.file, "friction", [](const Part& p) {
+    const auto plain = [&](const char* key) {
+      const auto found = p.fields.find(key);
+      return found == p.fields.end()    ? std::optional(0.0)
+             : found->second.expression ? std::nullopt
+                                        : std::optional(found->second.number);
+    };
+    const bool one_limit = plain("static") && (!p.fields.contains("kinetic") || plain("kinetic") == plain("static"));
+    return p.load.empty() && p.load_stop.empty() && p.points.empty() && p.stribeck.empty() && one_limit &&
+           plain("belt_speed") == 0.0;
+  });
+  if (even.empty()) return std::nullopt;
+  Part* contact = any(even, random);
+  Part wheel = *contact;
+  wheel.fields = {{"holds", *field(*contact, "static")}, {"drag", *field(*contact, "static")}};
+  auto& frictions = parts(edited.file, "friction");
+  frictions.erase(frictions.begin() + (contact - frictions.data()));
+  put(parts(edited.file, "freewheel"), wheel, random);
   return edited;
 }
 

@@ -111,6 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
              {{"omega", 0.45}},
              {"omega", "press", "wave", "tap", "static"},
              "stick pad"},
+        Case{SLAPSTICK_ORBIT_MODELS "overrun.toml", {}, {"omega", "holds", "drag", "load", "swing"}, "slip- clutch"},
         Case{SLAPSTICK_ORBIT_MODELS "belt-and-pad.toml",
              {},
              {"omega", "rub", "belt_speed", "clearance", "restitution"},

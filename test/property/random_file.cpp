@@ -1,5 +1,6 @@
 #include "property/random_file.hpp"
 
+#include <algorithm>
 #include <random>
 #include <sstream>
 
@@ -30,6 +31,7 @@ class FileDraw {
     if (shape_.signals && one_in(8)) impulse();
     if (one_in(5)) ratio();
     if (one_in(6)) press();
+    if (one_in(6)) freewheel();
     return std::move(file_);
   }
 
@@ -260,6 +262,21 @@ class FileDraw {
       force.fields["phase"] = number(real(0, 6));
     }
     parts("force").push_back(force);
+  }
+
+  /// A contact of one limit holds more in one sense than it drags in the other.
+  void freewheel() {
+    auto& contacts = parts("friction");
+    const auto plain = std::ranges::find_if(contacts, [](const Part& p) {
+      return p.points.empty() && p.stribeck.empty() && p.load.empty() && p.load_stop.empty() &&
+             !p.fields.at("static").expression;
+    });
+    if (plain == contacts.end()) return;
+    Part wheel = *plain;
+    wheel.fields = {{"holds", number(real(0.3, 3))}};
+    if (one_in(2)) wheel.fields["drag"] = number(real(0, 0.3));
+    contacts.erase(plain);
+    parts("freewheel").push_back(wheel);
   }
 
   /// A number of a spring, force or friction contact becomes a parameter, or a multiple of one.

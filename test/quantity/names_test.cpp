@@ -48,6 +48,11 @@ TEST(Quantities, FollowTheNamesOfCoordinatesAndContacts) {
   for (const Quantity& one : all) EXPECT_TRUE(names.insert(one.name).second) << one.name;
 }
 
+TEST(Quantities, OfContactsWithFixedLimitsHaveNoNormalForce) {
+  EXPECT_EQ(find_quantity(quantities(load_model("pressed-block")), "N_belt").kind, Quantity::Kind::normal);
+  EXPECT_NE(message(quantities(load_model("vibro-impact")), "N_friction"), "");
+}
+
 /// The acceleration of x1 would be a1, which is a coordinate here: both can be asked for.
 TEST(Quantities, OfACoordinateThatHasTheNameOfAnAccelerationAreTwo) {
   Model model;

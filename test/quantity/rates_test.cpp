@@ -146,6 +146,10 @@ TEST(Rates, AgreeWithDifferencesOfCompliantStopsAndCharacteristics) {
   expect_differences("pressed-block", {}, {"belt_speed", "stiffness"});
 }
 
+TEST(Rates, AgreeWithDifferencesOfAClutchThatIsOvercome) {
+  expect_differences(SLAPSTICK_ORBIT_MODELS "overrun.toml", {}, {"holds", "drag", "load", "swing"});
+}
+
 /// The kinetic energy of a symmetric motion has its greatest value twice in a cycle: value, instant and their
 /// derivatives are those of the first.
 TEST(Rates, OfEqualExtremesBelongToTheOneThatIsNamed) {

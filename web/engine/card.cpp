@@ -70,7 +70,7 @@ Json coordinates_of(const Choice& choice, const Model& model) {
 Json forces_of(const Model& model) {
   Json list = Json::list();
   for (const Force& force : model.forces) {
-    if (force.presses >= 0) continue;  // drawn on coordinates
+    if (force.presses >= 0 || force.contact >= 0) continue;  // drawn on coordinates
     Json item = Json::object();
     item.set("on", force.coordinate).set("harmonic", force.harmonic).set("amplitude", force.amplitude);
     item.set("constant", force.harmonic == 0 && force.frequency == 0.0 && force.signal < 0);

@@ -72,6 +72,9 @@ struct Force {
   bool rate = false;       ///< its rate of change
   /// Index of a friction contact to whose normal force it adds, in place of acting on a coordinate; or -1.
   int presses = -1;
+  /// Index of a friction contact whose force it is a part of, beside the friction; or -1. Such a force is constant, and
+  /// acts on an end of the contact. So a freewheel has one limit in one sense and another in the other.
+  int contact = -1;
 };
 
 /// A function of time that is given by points and straight lines between them, as a measurement is. Before the first
@@ -110,7 +113,8 @@ struct NormalForce {
 
 /// Coulomb friction on w = v_a - v_b - belt_speed. Slip: force -sgn(w) * kinetic_friction on a, the opposite on b.
 /// Stick: any force up to static_friction. static_friction >= kinetic_friction >= 0.
-/// With a normal force N the two are coefficients of friction: the forces are theirs times N.
+/// With a normal force N the two are coefficients of friction: the forces are theirs times N. Constant forces may be a
+/// part of what it does (Force::contact).
 struct FrictionContact {
   std::string name;
   int a = 0, b = ground;

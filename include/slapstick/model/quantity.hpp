@@ -27,6 +27,7 @@ struct Quantity {
     gap,           ///< of a stop or compliant stop: clearance - (x_a - x_b)
     relative,      ///< velocity of a contact: v_a - v_b - belt speed
     force,         ///< of a contact
+    normal,        ///< force N that friction is in proportion to, not positive without a load
     power,         ///< that a contact dissipates; of a stop impulses only
     damping,       ///< power that dampers and the damping matrix dissipate
     input,         ///< power that forces and belts bring

@@ -123,7 +123,8 @@ Action add_poincare(Arguments& arguments) {
                    "where the motion is looked at (impact)");
   arguments.text(
       "--event", options->event, "KIND[:CONTACT]",
-      "of the event section: impact, slip+, slip-, stick, release, graze, chatter, engage, disengage or separate");
+      "of the event section: impact, slip+, slip-, stick, release, graze, chatter, corner, unload, load, engage, "
+      "disengage or separate");
   arguments.number("--phase", options->phase, "X", "of the stroboscopic section, a fraction of a period in [0, 1) (0)");
   arguments.count("--transient", options->transient, 0, 1'000'000'000, "forcing periods to run before (500)");
   arguments.count("--points", options->points, 1, 1'000'000'000, "points to record (1000)");

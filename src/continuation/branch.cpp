@@ -216,6 +216,31 @@ bool Follower::accept(PathPoint& at, PathPoint next, double length) {
   return true;
 }
 
+/// Is the first orbit between the last two points? Where the branch passes the orbit once more, it goes the way that it
+/// went there first; on the other side of a fold it goes back.
+bool Follower::has_come_round(const Extent& extent, const Orbit& first) const {
+  constexpr std::size_t beside_the_first = 3;  // points
+  const std::vector<Solution>& points = branch_.points;
+  const std::size_t last = points.size() - 1;
+  if (last <= beside_the_first) return false;
+  const Orbit &a = points[last - 1].orbit, &b = points[last].orbit;
+  if (lies_between(extent, a, b, first)) return true;
+  const auto rises = [](const Orbit& from, const Orbit& to) { return to.parameter() > from.parameter(); };
+  return rises(a, b) == rises(points[0].orbit, points[1].orbit) && meets_between(problem_, a, b, first);
+}
+
+/// The last point has gone past the first one: the first one it is, and what lies beyond is known from there.
+void Follower::close() {
+  std::vector<Solution>& points = branch_.points;
+  const std::size_t before = points.size() - 2;
+  const double first = points.front().orbit.parameter(), from = points[before].orbit.parameter();
+  std::erase_if(branch_.special, [&](const SpecialPoint& point) {
+    return point.after >= before && (point.value - first) * (first - from) > 0.0;
+  });
+  points.back() = points.front();
+  end(BranchEnd::Kind::closed);
+}
+
 void Follower::run(PathPoint at) {
   step_ = options_.step;
   const Orbit first = at.orbit;
@@ -253,9 +278,7 @@ void Follower::run(PathPoint at) {
                                               : newton > 6                ? 0.7 * step_
                                                                           : step_);
     if (options_.progress) options_.progress(value(at), static_cast<long>(branch_.points.size()));
-    const std::size_t last = branch_.points.size() - 1;
-    if (last > 3 && lies_between(extent, branch_.points[last - 1].orbit, branch_.points[last].orbit, first))
-      return end(BranchEnd::Kind::closed);
+    if (has_come_round(extent, first)) return close();
   }
   if (!ended_) fail({.kind = BranchEnd::Kind::most_points, .limit = options_.most_points});
 }
@@ -296,6 +319,11 @@ Branch follow(const Problem& posed, const Orbit& start, const ContinuationOption
     return up;
   }
   run(down, reversed(first));
+  if (down.up.kind == BranchEnd::Kind::closed) {  // this way is the whole branch, and the other the same once more
+    up.points.resize(1);
+    up.special.clear();
+    up.up = down.up;
+  }
   const std::size_t below = down.special.size();
   if (up.up.special) *up.up.special += below;
   if (down.up.special) *down.up.special = below - 1 - *down.up.special;

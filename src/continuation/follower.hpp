@@ -5,6 +5,7 @@
 #include "change/onset.hpp"
 #include "change/unfold.hpp"
 #include "continuation/special.hpp"
+#include "orbit/extent.hpp"
 #include "orbit/path.hpp"
 #include "orbit/record.hpp"
 #include "slapstick/continuation/branch.hpp"
@@ -89,6 +90,8 @@ class Follower {
   [[nodiscard]] bool stays_in_one_mode(const Orbit& orbit) const;
   bool runs_over_itself();
   bool grows_without_bound(const PathPoint& at);
+  void close();
+  [[nodiscard]] bool has_come_round(const Extent& extent, const Orbit& first) const;
   void end(BranchEnd::Kind why);
   void fail(BranchEnd end);
 

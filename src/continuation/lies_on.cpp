@@ -77,23 +77,31 @@ bool may_be_one(const Orbit& a, const Orbit& b) {
 
 using Distance = double (*)(const Problem& problem, const Orbit& a, const Orbit& b);
 
-bool meets(const Problem& problem, const Branch& branch, const Orbit& orbit, Distance distance) {
+/// Is one of the branch's own orbits between two neighbouring points this one?
+bool own_orbit(const Problem& problem, const Orbit& a, const Orbit& b, const Orbit& orbit, Distance distance) {
   constexpr double same_orbit_on_branch = 1e-6;
+  return ranges::any_of(orbits_at(problem, a, b, orbit.parameter()), [&](const Orbit& other) {
+    return may_be_one(orbit, other) && distance(problem, orbit, other) < same_orbit_on_branch;
+  });
+}
+
+bool meets(const Problem& problem, const Branch& branch, const Orbit& orbit, Distance distance) {
   const Extent extent(problem, orbit);
   for (std::size_t i = 0; i + 1 < branch.points.size(); ++i) {
     const Orbit &a = branch.points[i].orbit, &b = branch.points[i + 1].orbit;
     if (a.shape.n != orbit.shape.n) continue;
     if (orbit.shape.n == 0 && lies_between(extent, a, b, orbit)) return true;
-    const std::vector<Orbit> own = orbits_at(problem, a, b, orbit.parameter());
-    const auto is_it = [&](const Orbit& other) {
-      return may_be_one(orbit, other) && distance(problem, orbit, other) < same_orbit_on_branch;
-    };
-    if (ranges::any_of(own, is_it)) return true;
+    if (own_orbit(problem, a, b, orbit, distance)) return true;
   }
   return false;
 }
 
 }  // namespace
+
+bool meets_between(const Problem& problem, const Orbit& a, const Orbit& b, const Orbit& orbit) {
+  const double part = (orbit.parameter() - a.parameter()) / (b.parameter() - a.parameter());
+  return part >= 0.0 && part <= 1.0 && a.shape.n == orbit.shape.n && own_orbit(problem, a, b, orbit, apart);
+}
 
 bool lies_on(const Problem& problem, const Branch& branch, const Orbit& orbit) {
   return meets(problem, branch, orbit, apart);

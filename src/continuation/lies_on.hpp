@@ -9,6 +9,9 @@ namespace slapstick::orbit {
 /// @param extent  of the orbit
 [[nodiscard]] bool lies_between(const Extent& extent, const Orbit& a, const Orbit& b, const Orbit& orbit);
 
+/// The same where the points are too far apart for a straight line: by Newton's method from between them.
+[[nodiscard]] bool meets_between(const Problem& problem, const Orbit& a, const Orbit& b, const Orbit& orbit);
+
 /// Does it lie on the first points of a branch? @returns the one before it
 [[nodiscard]] std::optional<std::size_t> lies_on_first(const Problem& problem, std::size_t count, const Branch& branch,
                                                        const Orbit& orbit);

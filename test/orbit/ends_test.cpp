@@ -266,5 +266,24 @@ TEST(Branch, HasNoSpecialPointAtTheVeryEndOfItsRange) {
   EXPECT_NEAR(std::abs(branch.points.back().multipliers.front()), 1.0, 1e-9);
 }
 
+/// The cycle of four periods and three impacts lives on a closed curve, which turns round at 2.65 and 2.83. The first
+/// way on passed its first orbit on a long step, and went round once more.
+TEST(Branch, ThatComesRoundListsEachPointOnce) {
+  const Posed posed("vibro-impact", {{"omega", 2.82}}, {"omega"}, {2.82});
+  const auto first = posed.settled();
+  ASSERT_TRUE(first);
+  ASSERT_EQ(first->orbit.shape.n, 4);
+  const orbit::Branch branch = orbit::follow(*posed.problem, first->orbit, {.from = 2.6, .to = 3.2});
+  EXPECT_EQ(branch.up.kind, orbit::BranchEnd::Kind::closed) << ended(branch);
+  EXPECT_EQ(branch.down.kind, orbit::BranchEnd::Kind::closed);
+  EXPECT_EQ(branch.points.front().orbit.parameter(), branch.points.back().orbit.parameter());
+  for (std::size_t i = 0; i < branch.special.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      EXPECT_FALSE(branch.special[i].type == branch.special[k].type &&
+                   std::abs(branch.special[i].value - branch.special[k].value) < 1e-9)
+          << name(branch.special[i].type) << " at " << branch.special[i].value;
+  EXPECT_GE(branch.special.size(), 40U);
+}
+
 }  // namespace
 }  // namespace slapstick::test

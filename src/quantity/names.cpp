@@ -24,6 +24,15 @@ std::string composed(const StatedUnits& stated, const std::string& length, int a
   return stated.mass + " " + over;
 }
 
+/// Of some link: the lengths of its y then may have any unit.
+bool has_ratios(const Model& model) {
+  const auto some = [](const auto& links) {
+    return std::any_of(links.begin(), links.end(), [](const auto& link) { return has_ratio(link); });
+  };
+  return some(model.springs) || some(model.dampers) || some(model.frictions) || some(model.stops) ||
+         some(model.compliant_stops) || some(model.characteristics);
+}
+
 }  // namespace
 
 namespace quantity {
@@ -78,22 +87,13 @@ std::string common_unit(const std::vector<std::string>& units) {
   return one ? units.front() : "";
 }
 
-/// Of some link: the lengths of its y then may have any unit.
-bool has_ratios(const Model& model) {
-  const auto some = [](const auto& links) {
-    return std::any_of(links.begin(), links.end(), [](const auto& link) { return has_ratio(link); });
-  };
-  return some(model.springs) || some(model.dampers) || some(model.frictions) || some(model.stops) ||
-         some(model.compliant_stops) || some(model.characteristics);
-}
-
 }  // namespace quantity
 
 std::vector<Quantity> quantities(const ModelDefinition& definition, const Overrides& overrides) {
   const Model model = definition.build(overrides);
   std::vector<Quantity> all = quantities(model);
   const StatedUnits stated = definition.stated_units();
-  const std::string common = quantity::has_ratios(model) ? "" : quantity::common_unit(stated.coordinates);
+  const std::string common = has_ratios(model) ? "" : quantity::common_unit(stated.coordinates);
   for (Quantity& one : all) {
     const bool own = one.kind <= Kind::acceleration;
     one.unit = quantity::unit_of(one, own ? stated.coordinates[static_cast<std::size_t>(one.index)] : common, stated);

@@ -8,6 +8,7 @@
 #include "base/dense.hpp"
 #include "base/ranges.hpp"
 #include "slapstick/base/error.hpp"
+#include "slapstick/flow/stage.hpp"
 
 namespace slapstick::section {
 namespace {

@@ -40,7 +40,8 @@ Batch run_batch(const BatchProblem& problem) {
   };
   queue.model_at = problem.model_at;
   queue.start_at = [&](std::size_t i, const Model&) { return problem.start_at(i); };
-  queue.take = problem.take ? problem.take : [&](std::size_t i, BatchRun&& run) { batch.runs[i] = std::move(run); };
+  queue.take = problem.take;
+  if (!queue.take) queue.take = [&](std::size_t i, BatchRun run) { batch.runs[i] = std::move(run); };
   queue.plan = problem.plan;
   queue.cancel = problem.cancel;
   const auto cores = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U));

@@ -107,7 +107,6 @@ void run_cell(Queue& queue, const Body& body, const Task& task) {
 }
 
 void work(Queue& queue, const Body& body) {
-  fork_join::enter();
   const IeeeArithmetic ieee;
   try {
     while (const std::optional<Task> task = queue.next()) run_cell(queue, body, *task);
@@ -131,7 +130,10 @@ bool run_chains(const Chains& chains, int threads, const Body& body, const std::
     const long cells = static_cast<long>(chains.chains) * chains.length;
     tbb::task_group workers;
     for (long k = std::min<long>(cells, arena.max_concurrency()); k > 0; --k) {
-      auto task = workers.defer([&] { work(queue, body); });
+      auto task = workers.defer([&] {
+        fork_join::enter();
+        work(queue, body);
+      });
       fork_join::fork();
       workers.run(std::move(task));
     }

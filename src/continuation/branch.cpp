@@ -219,10 +219,9 @@ bool Follower::accept(PathPoint& at, PathPoint next, double length) {
 /// Is the first orbit between the last two points? Where the branch passes the orbit once more, it goes the way that it
 /// went there first; on the other side of a fold it goes back.
 bool Follower::has_come_round(const Extent& extent, const Orbit& first) const {
-  constexpr std::size_t beside_the_first = 3;  // points
   const std::vector<Solution>& points = branch_.points;
   const std::size_t last = points.size() - 1;
-  if (last <= beside_the_first) return false;
+  if (last <= 3) return false;  // still beside the first: it would be found at once
   const Orbit &a = points[last - 1].orbit, &b = points[last].orbit;
   if (lies_between(extent, a, b, first)) return true;
   const auto rises = [](const Orbit& from, const Orbit& to) { return to.parameter() > from.parameter(); };

@@ -61,6 +61,7 @@ std::string wrong_part(const Force& force, const Model& model) {
   }
   const int ends = (contact.a >= 0 ? 1 : 0) + (contact.b >= 0 ? 1 : 0);
   const double left = on_a / contact.ratio.a + on_b / contact.ratio.b;
+  // Both are products of one number by a ratio: each is rounded once, and their quotients once more.
   return parts == ends && (ends < 2 || std::abs(left) <= 0x1p-50 * std::abs(on_a / contact.ratio.a)) ? "" : rule;
 }
 
@@ -70,8 +71,8 @@ std::string too_large_a_part(const Force& force, const Model& model) {
   constexpr double most_over_other_constants = 0x1p27;
   const double least = least_constant(model);
   if (std::abs(force.amplitude) <= most_over_other_constants * least) return "";
-  return "holds is more than 1e8 times the constant force " + shown(least) +
-         ", whose digits are lost beside it: a hundred times the largest force holds as well";
+  return "holds is so large that the digits of the constant force " + shown(least) +
+         " are lost beside it: a hundred times the largest force holds as well";
 }
 
 }  // namespace

@@ -31,6 +31,8 @@ class Contraction {
  public:
   /// @param mode  at the start: what it holds still is forgotten there
   Contraction(const System& system, ModeId mode) : system_(system), frame_(system.compiled().frame()) {
+    for (Index i = 0; i < 2 * frame_.n; ++i)
+      if (ranges::find(frame_.inner, i - frame_.n, &mode::InnerRow::own) == frame_.inner.end()) numbers_.push_back(i);
     for (int i = 0; i < frame_.d; ++i) forgets_ = forgets_ || system_.compiled().mode(mode).steady(i);
   }
 
@@ -42,8 +44,9 @@ class Contraction {
     const Motion::Segment& segment = motion.segment();
     const mode::Matrix& A = system_.compiled().mode(segment.mode).system();
     // Dependent velocities follow from the first n: u = dependence u_n, apart from a constant.
-    const double rate =
-        A.block(frame_.d, frame_.d, frame_.n, frame_.d).cwiseProduct(frame_.dependence.transpose()).sum();
+    double rate = A.block(frame_.d, frame_.d, frame_.n, frame_.d).cwiseProduct(frame_.dependence.transpose()).sum();
+    for (const mode::InnerRow& row : frame_.inner)  // of s, in place of s': it follows
+      rate += row.rate[row.own] - A(frame_.u(row.own), frame_.u(row.own));
     const mode::Mode& mode = system_.compiled().mode(segment.mode);
     windows_ = std::ceil(segment.duration / mode.window());
     sum_ = sum_ + rate * segment.duration;
@@ -66,8 +69,9 @@ class Contraction {
     columns.bottomRightCorner(d, n) = frame_.dependence;
     flow::pass_event(motion.engine(), columns);
     differentiable_ = differentiable_ && flow::differentiable(motion.engine());
-    MatrixXd saltation(2 * n, 2 * n);
-    saltation << columns.topRows(n), columns.middleRows(d, n);
+    MatrixXd whole(2 * n, 2 * n);
+    whole << columns.topRows(n), columns.middleRows(d, n);
+    const MatrixXd saltation = whole(numbers_, numbers_);
     const double determinant = std::abs(dense::determinant(saltation));
     forgets_ = forgets_ || determinant == 0.0 || motion.event().kind == EventKind::chatter || holds_more(motion);
     if (forgets_) return;
@@ -87,6 +91,7 @@ class Contraction {
 
   const System& system_;
   const mode::Frame& frame_;
+  std::vector<Index> numbers_;  ///< of a contact state, without the rates that follow from others
   long segments_seen_ = 0;
   bool forgets_ = false, differentiable_ = true;
   DoubleDouble sum_ = 0.0;  // a running sum of doubles would lose a rounding of the whole at each event
@@ -151,12 +156,10 @@ class TangentFrame {
   [[nodiscard]] Index size() const { return size_; }
 
  private:
-  static Index numbers(const flow::Translations& translations) {
-    return 2 * translations.system().compiled().frame().n - translations.count();
-  }
+  static Index numbers(const flow::Translations& translations) { return translations.size(); }
   static MatrixXd identity(const flow::Translations& translations) {
     const Index size = numbers(translations);
-    MatrixXd columns(size + translations.count(), size);
+    MatrixXd columns(2 * translations.system().compiled().frame().n, size);
     for (Index i = 0; i < size; ++i) columns.col(i) = translations.representative(VectorXd::Unit(size, i));
     return columns;
   }

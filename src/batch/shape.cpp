@@ -248,7 +248,7 @@ bool fits_lanes(const Model& model, const mode::Frame& frame) {
          ranges::none_of(model.frictions, [](const FrictionContact& contact) { return contact.normal.has_value(); }) &&
          ranges::all_of(model.stops, [](const Stop& stop) { return stop.corners.empty() && stop.restitution > 0.0; }) &&
          ranges::none_of(model.compliant_stops, [](const CompliantStop& stop) { return stop.bounded; }) &&
-         ranges::none_of(frame.stops, shares);
+         frame.inner.empty() && ranges::none_of(frame.stops, shares);
 }
 
 namespace {

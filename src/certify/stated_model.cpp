@@ -34,7 +34,8 @@ std::string called(std::string name) {
 }
 
 std::string stated(const Spring& spring) {
-  const auto& [a, b, stiffness, name, motion, ratio] = spring;  // name and motion are for tables, ratios are refused
+  // Name and motion are for tables, ratios and inner coordinates are refused.
+  const auto& [a, b, stiffness, name, motion, ratio, inner] = spring;
   return line("spring" + number(a) + number(b) + hex(stiffness));
 }
 
@@ -105,6 +106,8 @@ std::string not_stated(const Model& model) {
   if (multiplied(model.springs) || multiplied(model.dampers) || multiplied(model.frictions) ||
       multiplied(model.stops) || multiplied(model.compliant_stops) || multiplied(model.characteristics))
     return "ratios";
+  for (const Spring& spring : model.springs)
+    if (spring.inner >= 0) return "Maxwell elements (" + in_quotes(spring.name) + ")";
   for (const Force& force : model.forces)
     if (force.harmonic > most_harmonic) return "forces of a harmonic beyond 1000000";
   for (const Characteristic& bent : model.characteristics)

@@ -40,7 +40,7 @@ ModeSet set_of(const Problem& problem, const Orbit& orbit) {
 /// The largest displacement and the largest velocity over the cycle, for each of the numbers.
 VectorXd largest_sizes(const Problem& problem, const ModeSet& set, const Orbit& orbit) {
   const std::vector<Extremes> all = extremes(set, orbit, number_functionals(problem, set.frame()));
-  const auto displacements = static_cast<std::ptrdiff_t>(all.size()) - set.frame().n;
+  const auto displacements = problem.numbers() - problem.translations().velocities();
   const auto largest = [](auto first, auto last) {
     double most = 0.0;
     for (; first != last; ++first) most = std::max(most, first->largest());
@@ -48,7 +48,7 @@ VectorXd largest_sizes(const Problem& problem, const ModeSet& set, const Orbit& 
   };
   VectorXd sizes(problem.numbers());
   sizes << VectorXd::Constant(displacements, largest(all.begin(), all.begin() + displacements)),
-      VectorXd::Constant(set.frame().n, largest(all.begin() + displacements, all.end()));
+      VectorXd::Constant(problem.translations().velocities(), largest(all.begin() + displacements, all.end()));
   return sizes;
 }
 

@@ -83,6 +83,8 @@ void CarriedTangents::set(const Eigen::MatrixXd& tangents) {
   columns_.resize(2 * frame.d, tangents.cols());
   columns_.topRows(frame.d) = frame.dependence * tangents.topRows(frame.n);
   columns_.bottomRows(frame.d) = frame.dependence * tangents.bottomRows(frame.n);
+  for (const mode::InnerRow& row : frame.inner)
+    columns_.row(frame.u(row.own)) = row.rate.head(frame.n) * columns_.topRows(frame.n);
 }
 
 Eigen::MatrixXd CarriedTangents::get() const {

@@ -34,6 +34,10 @@ Extension extension_of(const mode::Frame& frame) {
   Extension all{Eigen::MatrixXd::Zero(2 * d, 2 * n), Eigen::VectorXd(2 * d)};
   all.by.topLeftCorner(d, n) = all.by.bottomRightCorner(d, n) = frame.dependence;
   all.constant << frame.shift_slack, frame.drift_slack;
+  for (const mode::InnerRow& row : frame.inner) {
+    all.by.row(frame.u(row.own)) << row.rate.head(n), Eigen::RowVectorXd::Zero(n);
+    all.constant[frame.u(row.own)] = row.rate[frame.one()];
+  }
   return all;
 }
 

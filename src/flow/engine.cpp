@@ -59,6 +59,7 @@ void Engine::restart(std::span<const double> coordinates, Instant start) {
   budget_period_ = now_.period;
   budget_events_ = 0;
   std::copy(coordinates.begin(), coordinates.end(), X_.data());
+  system_->frame().set_inner_rates(X_.data());
   system_->frame().set_clock(now_, X_.data());
   look_ahead();
   X_before_ = X_;

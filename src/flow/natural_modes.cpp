@@ -10,7 +10,6 @@
 
 #include "base/dense.hpp"
 #include "base/text.hpp"
-#include "flow/contact_state.hpp"
 #include "flow/engine.hpp"
 #include "flow/linear_motion.hpp"
 #include "flow/mode_graph.hpp"
@@ -34,6 +33,14 @@ Eigen::MatrixXd free_directions(const mode::Frame& frame, const mode::ContactSta
   for (std::size_t i = 0; i < held.size(); ++i) G.row(static_cast<Eigen::Index>(i)) = frame.dependence.row(held[i]);
   constexpr double dependent = 0x1p-40;  // rows of a loop of contacts, up to the rounding of W
   return dense::kernel(G, dependent).basis;
+}
+
+/// Takes out what is no motion: rates of inner coordinates that settle (mode::InnerRow).
+void drop_settling(const mode::Frame& frame, std::vector<flow::LinearMotion>& motions) {
+  for (const mode::InnerRow& row : frame.inner)
+    motions.erase(std::min_element(motions.begin(), motions.end(), [&](const auto& a, const auto& b) {
+      return std::norm(a.lambda + row.settling) < std::norm(b.lambda + row.settling);
+    }));
 }
 
 /// Displacements of the coordinates, scaled: the largest becomes 1.
@@ -131,13 +138,16 @@ std::vector<NaturalMode> natural_modes(const System& system, const mode::Contact
   const mode::Frame& frame = system.compiled().frame();
   const Eigen::MatrixXd Z = free_directions(frame, states);
   if (Z.cols() == 0) return {};
-  const mode::Matrix whole = mode::Outline(system.model(), frame, states).system;
-  const Eigen::MatrixXd A = flow::contact_flow(frame, whole, flow::extension_of(frame)).by;
+  const mode::Matrix A = mode::Outline(system.model(), frame, states).system;
   const Eigen::MatrixXd back = dense::LeastNorm(Z).pseudo_inverse();
-  const Eigen::Index n = frame.n;
+  const Eigen::Index n = frame.n, d = frame.d;
+  const auto over = [&](Eigen::Index from) {
+    return Eigen::MatrixXd(back * (A.block(d, from, d, d) * frame.dependence).topRows(n) * Z);
+  };
+  std::vector<flow::LinearMotion> motions = flow::linear_motions(over(0), over(d));
+  drop_settling(frame, motions);
   std::vector<NaturalMode> modes;
-  for (const flow::LinearMotion& motion :
-       flow::linear_motions(back * A.bottomLeftCorner(n, n) * Z, back * A.bottomRightCorner(n, n) * Z)) {
+  for (const flow::LinearMotion& motion : motions) {
     if (motion.lambda.imag() < 0.0) continue;
     NaturalMode mode{.shape = scaled(frame.W_inverse * (Z * motion.shape))};
     if (motion.lambda.imag() > 0.0) mode.frequency = std::sqrt(std::norm(motion.lambda));

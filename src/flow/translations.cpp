@@ -59,8 +59,13 @@ Translations::Translations(const System& system) : system_(system) {
   free_ = unseen.free;
   directions_ = (unseen.basis.array().abs() > dependent).select(unseen.basis, 0.0);
   for (Index i = 0; i < 2 * frame.n; ++i) {
-    if (ranges::find(free_, i) == free_.end()) kept_.push_back(i);
+    const bool follows = ranges::find(frame.inner, i - frame.n, &mode::InnerRow::own) != frame.inner.end();
+    if (!follows && ranges::find(free_, i) == free_.end()) kept_.push_back(i);
   }
+}
+
+Index Translations::velocities() const {
+  return ranges::count_if(kept_, [&](Index i) { return i >= directions_.rows(); });
 }
 
 VectorXd Translations::take_out(VectorXd& x) const {
@@ -105,15 +110,16 @@ std::vector<double> Translations::by_coordinate(const VectorXd& amounts) const {
 }
 
 MatrixXd Translations::quotient(const MatrixXd& jacobian) const {
-  if (count() == 0) return jacobian;
   MatrixXd images = jacobian(Eigen::all, kept_);
-  images.topRows(directions_.rows()) -= directions_ * images(free_, Eigen::all);
+  if (count() > 0) images.topRows(directions_.rows()) -= directions_ * images(free_, Eigen::all);
   return images(kept_, Eigen::all);
 }
 
 VectorXd Translations::representative(const VectorXd& numbers) const {
   VectorXd x = VectorXd::Zero(2 * directions_.rows());
   x(kept_) = numbers;
+  const mode::Frame& frame = system_.compiled().frame();
+  for (const mode::InnerRow& row : frame.inner) x[frame.n + row.own] = row.rate.head(frame.n).dot(x.head(frame.n));
   return x;
 }
 

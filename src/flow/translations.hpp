@@ -9,6 +9,9 @@
 /// Contact states (p, u) of the quotient are represented by the one whose `k` free displacements are zero, one for each
 /// translation. Springs and stops without ratios give rows of 0 and +-1, whose rank is exact; others, and those of a
 /// stiffness matrix, scaled to a largest entry of 1, count as dependent below 1e-12.
+///
+/// The rates of inner coordinates (mode::InnerRow) follow from the displacements, and are no numbers of a class either:
+/// i of them leave 2n - k - i.
 #include <Eigen/Core>
 #include <vector>
 
@@ -27,6 +30,9 @@ class Translations {
 
   [[nodiscard]] const System& system() const { return system_; }
   [[nodiscard]] int count() const { return static_cast<int>(free_.size()); }
+  /// How many numbers a class has, and how many of them are velocities: the last ones.
+  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(kept_.size()); }
+  [[nodiscard]] Eigen::Index velocities() const;
 
   /// Makes x, a contact state or a tangent, the representative of its class. @returns how far it was along each
   /// translation
@@ -40,11 +46,11 @@ class Translations {
   [[nodiscard]] State moved(State state, const Eigen::VectorXd& amounts) const;
   [[nodiscard]] std::vector<double> by_coordinate(const Eigen::VectorXd& amounts) const;
 
-  /// Jacobian of the map of the classes, 2n - k square, from that of a map of contact states: without the multiplier of
+  /// Jacobian of the map of the classes, `size` square, from that of a map of contact states: without the multiplier of
   /// each translation, which is 1.
   [[nodiscard]] Eigen::MatrixXd quotient(const Eigen::MatrixXd& jacobian) const;
-  /// The 2n - k numbers of a representative that are not zero by definition, and the representative from them; of
-  /// changes, too.
+  /// The numbers of a representative that are not zero by definition, and the representative from them; of changes,
+  /// too. The rates of inner coordinates are those of a change.
   [[nodiscard]] Eigen::VectorXd numbers(const Eigen::VectorXd& x) const { return x(kept_); }
   [[nodiscard]] Eigen::VectorXd representative(const Eigen::VectorXd& numbers) const;
   /// The first number of a contact state that is not a free displacement.

@@ -170,6 +170,9 @@ struct Definition {
 /// What an observable's expression calls the gap of a stop: "gap_wall".
 [[nodiscard]] std::string gap_name(const std::string& stop);
 
+/// What the inner coordinate of a Maxwell element is called: "s_mount".
+[[nodiscard]] std::string inner_name(const std::string& element);
+
 /// "spring 2" or "stop 'wall'".
 [[nodiscard]] std::string part_label(std::string_view kind, std::size_t index, const Part& part);
 

@@ -94,6 +94,23 @@ void ModelBuilder::add_links(Model& model) {
   });
 }
 
+/// A spring between the ends and, in series with it, an inner coordinate on a damper.
+void ModelBuilder::add_maxwells(Model& model) {
+  each("maxwell", [&](const Part& part) {
+    for (const char* key : {"stiffness", "damping"})
+      if (const Dual value = field(part, key); !(value.value >= smallest && value.value <= largest))
+        throw InputError(definition_.place(part.fields.find(key)->second.line),
+                         where(key) + " = " + shown(value.value) + " is not a positive number in [1e-50, 1e50]");
+    const int inner = model.size();
+    for (const char* kind : {"coordinate", "spring", "damper"}) origins_[kind].push_back({kind_, index_});
+    model.coordinates.push_back({inner_name(part.name), 0.0});
+    model.springs.push_back({end(part.a), end(part.b), written(part, "stiffness"), part.name});
+    model.springs.back().ratio = ratio_of(part);
+    model.springs.back().inner = inner;
+    model.dampers.push_back({inner, ground, written(part, "damping")});
+  });
+}
+
 std::vector<std::pair<Dual, Dual>> ModelBuilder::points(const Part& part, std::string_view key) const {
   std::vector<std::pair<Dual, Dual>> all;
   for (const Point& point : part.points) {
@@ -228,12 +245,14 @@ void ModelBuilder::add_inertia(Model& model) {
 }
 
 void ModelBuilder::add_matrices(Model& model) const {
-  const auto n = static_cast<std::size_t>(model.size());
+  const auto all = static_cast<std::size_t>(model.size()), n = definition_.of("coordinate").size();
   for (const auto& [key, matrix] : definition_.matrices) {
     auto& entries = key == "mass" ? model.mass : key == "damping" ? model.damping : model.stiffness;
+    entries.assign(all * all, 0.0);  // inner coordinates have no rows
     for (std::size_t i = 0; i < n * n; ++i)
-      entries.push_back(written(dual(matrix.entries[i], "matrix: " + key + "[" + model.coordinates[i / n].name + ", " +
-                                                            model.coordinates[i % n].name + "]")));
+      entries[i / n * all + i % n] =
+          written(dual(matrix.entries[i], "matrix: " + key + "[" + model.coordinates[i / n].name + ", " +
+                                              model.coordinates[i % n].name + "]"));
   }
 }
 
@@ -245,12 +264,16 @@ Model ModelBuilder::assembled() {
   round_ = common_round();
   if (round_) omega_ = Dual{2.0 * std::numbers::pi} / *round_;
   model.omega = written(omega_);
-  each("coordinate", [&](const Part& part) { model.coordinates.push_back({part.name, written(part, "mass")}); });
+  each("coordinate", [&](const Part& part) {
+    origins_["coordinate"].push_back({kind_, index_});
+    model.coordinates.push_back({part.name, written(part, "mass")});
+  });
   add_signals(model);
   add_bases();
   add_forces(model);
   add_impulses(model);
   add_links(model);
+  add_maxwells(model);
   add_inertia(model);
   add_contacts(model);
   add_matrices(model);
@@ -322,6 +345,9 @@ State ModelBuilder::start(const Model& model) const {
   int line = 1;
   for (const auto& [name, scalar] : definition_.start) {
     const auto at = std::find(names.begin(), names.end(), name) - names.begin();
+    if (at % 2 == 1 && model.is_inner(static_cast<int>(at / 2)))
+      throw InputError(definition_.place(scalar.line),
+                       "start: " + in_quotes(name) + " follows from the displacements: leave it out");
     state[static_cast<std::size_t>(at)] = number(scalar, "start: " + name);
     line = scalar.line;
   }

@@ -60,6 +60,14 @@ stiffness = 1
 between = ["x1", "ground"]
 coefficient = "2 * damping_ratio"
 
+# A spring and a damper in series; s_mount is the stretch of its damper.
+#[[maxwell]]
+#name = "mount"
+#between = ["x1", "ground"]
+#ratio = [1, 1]
+#stiffness = 3
+#damping = 2
+
 # amplitude * sin(harmonic * omega * t + phase); harmonic 0 is a constant force of size amplitude.
 [[force]]
 on = "x1"

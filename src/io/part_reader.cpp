@@ -6,6 +6,7 @@
 
 #include "base/nearest.hpp"
 #include "io/field_values.hpp"
+#include "io/key_rules.hpp"
 #include "io/matrix_reader.hpp"
 #include "model/fault.hpp"
 
@@ -42,6 +43,7 @@ class PartReader {
     for (std::size_t i = 0; i < list->items.size(); ++i) parts.push_back(part(list->items[i], rule, i));
     if (kind == "coordinate") return read_coordinates(std::move(parts));
     if (kind == "base") keep_bases(parts);
+    if (kind == "maxwell") keep_inner(parts);
     if (kind == "observable") check_observables(parts);
   }
 
@@ -97,6 +99,19 @@ class PartReader {
         if (std::find(used->begin(), used->end(), part.name) != used->end())
           tree_.fail(part.line, where, "name " + in_quotes(part.name) + " is used twice");
       bases_.push_back(part.name);
+    }
+  }
+
+  /// The inner coordinates of Maxwell elements: numbers of the state behind those of the coordinates.
+  void keep_inner(const std::vector<Part>& parts) {
+    for (const Part& part : parts) {
+      const std::string s = inner_name(part.name), where = "maxwell " + in_quotes(part.name);
+      for (const std::string& name : {s, velocity_name(s)}) {
+        if (std::find(states_.begin(), states_.end(), name) != states_.end())
+          tree_.fail(part.line, where, "name " + in_quotes(name) + " is used twice");
+        if (tree_.is_parameter(name)) tree_.fail(part.line, where, "a parameter has the name " + in_quotes(name));
+        states_.push_back(name);
+      }
     }
   }
 
@@ -200,7 +215,8 @@ class PartReader {
     where = part_label(rule.kind, index, part);
     read_ends(node, rule, where, part);
     if (rule.ends == Ends::between)
-      demand_one_home(part, node.find("between")->line, where + ": between", "the gap or the sliding");
+      demand_one_home(part, node.find("between")->line, where + ": between",
+                      rule.kind == "maxwell" ? "its stretch" : "the gap or the sliding");
     read_fields(node, rule, where, part);
     if (rule.kind == "signal") read_signal(tree_, node, where, definition_.source, part);
     check_signal_name(node, where);
@@ -221,25 +237,6 @@ class PartReader {
     if (std::find(known.begin(), known.end(), named->text) == known.end())
       tree_.fail(named->line, where + ": signal",
                  "unknown signal " + in_quotes(named->text) + suggestion(named->text, known));
-  }
-
-  static bool has(const TomlNode& node, std::string_view key) { return node.find(key) != nullptr; }
-
-  /// The first of keys with '|' between them that a table has, or "".
-  static std::string first_present(const TomlNode& node, std::string_view keys) {
-    for (std::size_t begin = 0; begin < keys.size();) {
-      const auto end = std::min(keys.find('|', begin), keys.size());
-      if (const auto key = keys.substr(begin, end - begin); has(node, key)) return std::string(key);
-      begin = end + 1;
-    }
-    return "";
-  }
-
-  static bool replaced(const TomlNode& node, const PartRule& rule, std::string_view key) {
-    return std::any_of(rule.fields.begin(), rule.fields.end(), [&](const FieldRule& field) {
-      return has(node, field.key) &&
-             ("|" + std::string(field.instead_of) + "|").find("|" + std::string(key) + "|") != std::string::npos;
-    });
   }
 
   void read_fields(const TomlNode& node, const PartRule& rule, const std::string& where, Part& part) const {

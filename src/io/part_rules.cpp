@@ -54,6 +54,7 @@ std::vector<PartRule> bodies() {
         below,
         above,
         {"name", false, Holds::text}}},
+      {"maxwell", true, Ends::between, {ratio, {"stiffness", true}, {"damping", true}}},
   };
 }
 
@@ -206,6 +207,8 @@ const std::vector<std::string>& impact_laws() {
 std::string scale_name(const std::string& key) { return "scale_" + key; }
 
 std::string gap_name(const std::string& stop) { return "gap_" + stop; }
+
+std::string inner_name(const std::string& element) { return "s_" + element; }
 
 std::string part_label(std::string_view kind, std::size_t index, const Part& part) {
   std::string label(kind);

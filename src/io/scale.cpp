@@ -160,6 +160,18 @@ std::string unit_of_scale(const Definition& definition, const std::array<int, 3>
 
 void check_units(const Definition& definition) { UnitCheck(definition).check(); }
 
+std::string unit_of_inner(const Definition& definition, const Part& element) {
+  std::optional<std::string> common;
+  for (const int end : {element.a, element.b}) {
+    if (end < 0) continue;
+    const std::string* own = unit_text(definition.of("coordinate")[static_cast<std::size_t>(end)]);
+    const std::string unit = own == nullptr ? "" : *own;
+    if (common && *common != unit) return "";
+    common = unit;
+  }
+  return element.ratio.value_or(Ratio{}) == Ratio{} ? common.value_or("") : "";
+}
+
 /// The unit of the coordinates that contacts act on, if they agree: the column w holds relative velocities of all
 /// contacts.
 static std::string common_length(const Definition& definition) {
@@ -207,6 +219,11 @@ std::optional<PhysicalUnits> physical_units(const Definition& definition, const 
   for (const auto& part : definition.of("coordinate")) {
     const auto* own = unit_text(part);
     const auto& text = own ? *own : length.unit;
+    units.state.push_back(column(text, part.line));
+    units.state.push_back(column(text + "/" + time.unit, part.line));
+  }
+  for (const auto& part : definition.of("maxwell")) {
+    const std::string own = unit_of_inner(definition, part), &text = own.empty() ? length.unit : own;
     units.state.push_back(column(text, part.line));
     units.state.push_back(column(text + "/" + time.unit, part.line));
   }

@@ -6,6 +6,7 @@
 
 #include "base/elementary.hpp"
 #include "io/definition.hpp"
+#include "io/scale.hpp"
 #include "io/unit.hpp"
 #include "slapstick/base/error.hpp"
 
@@ -104,6 +105,10 @@ StatedUnits ModelDefinition::stated_units() const {
     const bool none = own == coordinate.texts.end() || own->second == "1" || !definition_->scale.empty();
     stated.coordinates.push_back(none ? "" : own->second);
     if (!none && parse_unit(own->second).powers != Unit{}.powers) units.push_back(parse_unit(own->second));
+  }
+  for (const Part& element : definition_->of("maxwell")) {
+    const std::string own = unit_of_inner(*definition_, element);
+    stated.coordinates.push_back(own == "1" || !definition_->scale.empty() ? "" : own);
   }
   if (!definition_->scale.empty()) return stated;
   for (const Parameter& parameter : parameters())

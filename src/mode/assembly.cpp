@@ -1,6 +1,8 @@
 /// Assembles the matrices of a model in its own coordinates.
 #include "mode/assembly.hpp"
 
+#include <vector>
+
 #include "base/dense.hpp"
 
 namespace slapstick::mode {
@@ -40,8 +42,15 @@ Matrix stiffness_matrix(const Model& model) {
 
 Matrix inverse_mass(const Model& model) {
   const Matrix M = mass_matrix(model);
-  if (M.isDiagonal(0.0)) return M.diagonal().cwiseInverse().asDiagonal();
-  return dense::inverse_definite(M);
+  std::vector<int> massive;
+  for (int i = 0; i < model.size(); ++i)
+    if (!model.is_inner(i)) massive.push_back(i);
+  Matrix inverse = Matrix::Zero(M.rows(), M.cols());
+  if (M.isDiagonal(0.0))
+    for (const int i : massive) inverse(i, i) = 1.0 / M(i, i);
+  else
+    inverse(massive, massive) = dense::inverse_definite(M(massive, massive));
+  return inverse;
 }
 
 }  // namespace slapstick::mode

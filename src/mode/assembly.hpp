@@ -5,12 +5,14 @@
 
 namespace slapstick::mode {
 
-/// Row over q of y = r_a x_a - r_b x_b, of a link between a and b.
+/// Row over q of y = r_a x_a - r_b x_b, of a link between a and b; of a spring with an inner coordinate y - s.
 template <class Link>
 [[nodiscard]] RowVector pair_row(int n, const Link& link) {
   RowVector row = RowVector::Zero(n);
   if (link.a != ground) row[link.a] += link.ratio.a;
   if (link.b != ground) row[link.b] -= link.ratio.b;
+  if constexpr (requires { link.inner; })
+    if (link.inner >= 0) row[link.inner] -= 1.0;
   return row;
 }
 
@@ -18,7 +20,8 @@ template <class Link>
 [[nodiscard]] Matrix damping_matrix(const Model& model);
 [[nodiscard]] Matrix stiffness_matrix(const Model& model);
 
-/// M^{-1}; of a diagonal M every entry has one rounding.
+/// M^{-1}; of a diagonal M every entry has one rounding. Zero in the rows and columns of inner coordinates: no force
+/// moves them.
 [[nodiscard]] Matrix inverse_mass(const Model& model);
 
 }  // namespace slapstick::mode

@@ -282,8 +282,25 @@ FrameDerivative::FrameDerivative(const Model& model, const Model& rate, const Fr
   const Matrix W_over_M = frame.W * inverse_mass(model), M_rate = mass_matrix(rate);
   mass_inverse = -W_over_M * M_rate * W_over_M.transpose();
   free = W_over_M * (force - M_rate * (frame.W_inverse * frame.free.topRows(n)));
+  for (const InnerRow& row : frame.inner) add_inner(row, K, C, stiffness_matrix(rate), damping_matrix(rate), frame);
   for (const Characteristic& one_of : model.characteristics)
     push.emplace_back(-W_over_M * (M_rate * (inverse_mass(model) * pair_row(frame.n, one_of).transpose())));
+}
+
+/// Of row = -(K q)_s / c and settling = 2 k / c, and of what Frame makes of them.
+void FrameDerivative::add_inner(const InnerRow& row, const Matrix& K, const Matrix& C, const Matrix& K_rate,
+                                const Matrix& C_rate, const Frame& frame) {
+  const int i = row.coordinate, n = frame.n;
+  const double c = C(i, i), c_rate = C_rate(i, i), faster = 2.0 * (K_rate(i, i) - K(i, i) * c_rate / c) / c;
+  RowVector change = RowVector::Zero(frame.size());
+  change.head(n) = -(K_rate.row(i) * frame.W_inverse) / c - c_rate / c * row.rate.head(n);
+  change[frame.one()] = change.head(n).dot(frame.shift.head(n)) + row.rate.head(n).dot(shift.head(n));
+  RowVector acceleration = row.settling * change + faster * row.rate;
+  acceleration.segment(frame.d, n) += change.head(n);
+  acceleration[frame.one()] += change.head(n).dot(frame.drift.head(n)) + row.rate.head(n).dot(drift.head(n));
+  acceleration[frame.u(row.own)] -= faster;
+  free.row(row.own) += acceleration;
+  inner_rate.push_back(std::move(change));
 }
 
 OutlineDerivative::OutlineDerivative(const Model& model, const Model& rate, const Frame& frame,

@@ -18,10 +18,15 @@ struct FrameDerivative {
   FrameDerivative(const Model& model, const Model& rate, const Frame& frame);
 
   Vector shift, drift;
-  Matrix mass_inverse;       ///< -W M^{-1} M' M^{-1} W^T
-  Matrix free;               ///< d x m
-  std::vector<Vector> push;  ///< of each characteristic
+  Matrix mass_inverse;                ///< -W M^{-1} M' M^{-1} W^T
+  Matrix free;                        ///< d x m
+  std::vector<Vector> push;           ///< of each characteristic
+  std::vector<RowVector> inner_rate;  ///< InnerRow::rate of each
   double omega = 0.0;
+
+ private:
+  void add_inner(const InnerRow& row, const Matrix& K, const Matrix& C, const Matrix& K_rate, const Matrix& C_rate,
+                 const Frame& frame);
 };
 
 /// The derivative of what Frame::kick adds to the velocities: (F area)' = F' area + F area'.

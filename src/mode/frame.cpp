@@ -78,8 +78,11 @@ void Frame::set_dynamics(const Model& model) {
   force_size.middleCols(d, n) += C.cwiseAbs() * W_inverse.cwiseAbs();
   force_size.col(one()) +=
       stiffness.cwiseAbs() * shift.head(n).cwiseAbs() + damping.cwiseAbs() * drift.head(n).cwiseAbs();
-  free = W * (M_inverse * force);
-  free_size = W.cwiseAbs() * (M_inverse.cwiseAbs() * force_size);
+  Matrix acceleration = M_inverse * force, size = M_inverse.cwiseAbs() * force_size;
+  choose_inner(model, K, C);
+  add_inner_accelerations(acceleration, size);
+  free = W * acceleration;
+  free_size = W.cwiseAbs() * size;
   drop_rounding(free, free_size);
 }
 
@@ -227,6 +230,7 @@ void Frame::enter(const double* state, double* X) const {
     X[u(i)] = rate - drift[i];
     if ((ratio || drift[i] != 0.0) && std::abs(X[u(i)]) <= error * speed) X[u(i)] = 0.0;  // so is rest on a belt
   }
+  set_inner_rates(X);
 }
 
 PeriodicDrive::PeriodicDrive(const Model& model, const Frame& frame) : model_(model), frame_(frame) {

@@ -47,6 +47,18 @@ struct PairRows {
   std::vector<RowVector> corners;
 };
 
+/// An inner coordinate s (Coordinate): c s' = -(K q)_s, so that s' is a row over the displacements. Its number is s
+/// itself, and stays among the first n.
+///
+/// Of X' = A X it has s'' = (row . X)' - settling (s' - row . X): a rate that the row does not give, as by rounding,
+/// dies out. `settling` is twice k / c, the rate at which s itself settles: of one that is alone k / c is an eigenvalue
+/// of A, and a second one beside it would have no eigenvector of its own.
+struct InnerRow {
+  int coordinate = 0, own = 0;
+  RowVector rate;
+  double settling = 0.0;
+};
+
 /// One piece of a characteristic: force = slope value + offset; in a zone slope times the velocity.
 struct Piece {
   double slope = 0.0, offset = 0.0;
@@ -74,6 +86,7 @@ struct Frame {
   Vector shift_slack, drift_slack;
   std::vector<ContactRow> stops, frictions, compliant;
   std::vector<PairRows> characteristics;
+  std::vector<InnerRow> inner;
   Matrix mass_inverse;  ///< d x d: W M^{-1} W^T
   Matrix free;          ///< d x m: u' = free . X with no contact force
   Matrix free_size;     ///< the sums of the sizes of the terms that each of its entries was made of
@@ -118,8 +131,11 @@ struct Frame {
   /// The rows p' = u + drift, the forcing oscillators and the signals of A; the rows u' are left zero.
   [[nodiscard]] Matrix kinematics(double omega) const;
 
-  /// Writes p and u of a user's state (x_1, v_1, x_2, v_2, ..) into X. A gap below `reading_error` is zero.
+  /// Writes p and u of a user's state (x_1, v_1, x_2, v_2, ..) into X. A gap below `reading_error` is zero. The rates
+  /// of inner coordinates are not read, but follow from the displacements.
   void enter(const double* state, double* X) const;
+  /// Sets the rates of the inner coordinates by the displacements.
+  void set_inner_rates(double* X) const;
   /// Sets the velocities (displacements) of all numbers of the pair of displacement i by that of i.
   void match_velocities(int i, double* X) const;
   void match_displacements(int i, double* X) const;
@@ -154,6 +170,8 @@ struct Frame {
   void choose_displacements(const Model& model);
   void set_dynamics(const Model& model);
   void set_characteristics(const Model& model);
+  void choose_inner(const Model& model, const Matrix& K, const Matrix& C);
+  void add_inner_accelerations(Matrix& acceleration, Matrix& size) const;
   [[nodiscard]] RowVector corner_row(const RowVector& pair, const RowVector& value, bool rated, double at) const;
 };
 

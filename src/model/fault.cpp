@@ -85,7 +85,7 @@ void check_name(Check& check, const std::string& name, std::set<std::string>& us
   if (!used.insert(name).second) check.fail("name", "name " + in_quotes(name) + " is used twice");
 }
 
-/// @param massive  whether the mass matrix may hold what the coordinate's own mass lacks
+/// @param massive  whether the mass matrix may hold what the coordinate's own mass lacks; or it needs none
 Found check_coordinate(const Coordinate& coordinate, int index, bool massive, std::set<std::string>& used) {
   Check check("coordinate", index);
   if (is_reserved(coordinate.name)) check.fail("name", "name " + in_quotes(coordinate.name) + " is reserved");
@@ -342,12 +342,12 @@ std::string Fault::place(const Model& model) const {
 std::optional<Fault> first_fault(const Model& model) {
   if (model.coordinates.empty()) return Fault{"model", -1, "coordinate", "the model has no coordinates"};
   std::set<std::string> states, contacts;
-  const bool massive = !model.mass.empty();
+  const auto massive = [&](int i) { return !model.mass.empty() || model.is_inner(i); };
   Found fault;
   const auto look = [&](const auto& parts, auto check) {
     if (!fault) fault = first_of(parts, check);
   };
-  look(model.coordinates, [&](const auto& part, int i) { return check_coordinate(part, i, massive, states); });
+  look(model.coordinates, [&](const auto& part, int i) { return check_coordinate(part, i, massive(i), states); });
   if (!fault) fault = first_matrix_fault(model);
   look(model.springs, [&](const auto& part, int i) { return check_spring(part, i, model, contacts); });
   look(model.dampers, [&](const auto& part, int i) { return check_damper(part, i, model, contacts); });
@@ -357,6 +357,7 @@ std::optional<Fault> first_fault(const Model& model) {
   look(model.stops, [&](const auto& part, int i) { return check_stop(part, i, model, contacts); });
   look(model.compliant_stops, [&](const auto& part, int i) { return check_compliant_stop(part, i, model, contacts); });
   look(model.characteristics, [&](const auto& part, int i) { return check_characteristic(part, i, model, contacts); });
+  if (!fault) fault = first_inner_fault(model);
   if (!fault) fault = first_press_fault(model);
   if (!fault) fault = first_ratio_fault(model);
   if (!fault) fault = first_room_fault(model);

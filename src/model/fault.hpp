@@ -34,6 +34,9 @@ struct Fault {
 /// The same for forces that press a friction contact (Force::presses), or are a part of its force (Force::contact).
 [[nodiscard]] std::optional<Fault> first_press_fault(const Model& model);
 
+/// The same for inner coordinates: what else acts on them, and their dampers.
+[[nodiscard]] std::optional<Fault> first_inner_fault(const Model& model);
+
 /// The same for ratios: their size, and contacts between the same ends whose y are multiples of each other, which the
 /// engine would not take for one pair.
 [[nodiscard]] std::optional<Fault> first_ratio_fault(const Model& model);

@@ -50,12 +50,12 @@ class NamedMatrix {
 };
 
 /// Cholesky's factorisation of the coordinates' masses plus the mass matrix; a pivot that is not clearly positive is
-/// the fault.
+/// the fault. Inner coordinates have none, and no rows beside the diagonal (first_inner_fault).
 Found mass_fault(const Model& model) {
   const std::size_t n = model.coordinates.size();
   std::vector<double> total = model.mass;
   for (std::size_t i = 0; i < n; ++i) {
-    total[i * n + i] += model.coordinates[i].mass;
+    total[i * n + i] += model.is_inner(static_cast<int>(i)) ? 1.0 : model.coordinates[i].mass;
     if (total[i * n + i] < smallest)
       return Fault{
           "coordinate", static_cast<int>(i), "mass",

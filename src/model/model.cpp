@@ -18,6 +18,11 @@ bool Model::is_pressed(int friction) const {
   return std::any_of(forces.begin(), forces.end(), [&](const Force& force) { return force.presses == friction; });
 }
 
+bool Model::is_inner(int coordinate) const {
+  return coordinate != ground &&
+         std::any_of(springs.begin(), springs.end(), [&](const Spring& spring) { return spring.inner == coordinate; });
+}
+
 bool Model::forced() const {
   return std::any_of(forces.begin(), forces.end(), [&](const Force& force) { return repeats_with_forcing(force); });
 }

@@ -84,12 +84,14 @@ void List::contacts() {
   links();
 }
 
-/// Springs and dampers that have a name. Of a spring on a base that moves there is no relative velocity.
+/// Springs and dampers that have a name. Of a spring on a base that moves, or with an inner coordinate, there is no
+/// relative velocity.
 void List::links() {
   for (const Spring& spring : model_.springs) {
     const int number = number_++;
     if (spring.name.empty()) continue;
-    each(Of::spring, number, spring.name, [&](Kind kind) { return spring.motion.none() || kind != Kind::relative; });
+    each(Of::spring, number, spring.name,
+         [&](Kind kind) { return (spring.motion.none() && spring.inner < 0) || kind != Kind::relative; });
   }
   for (const Damper& damper : model_.dampers) {
     const int number = number_++;

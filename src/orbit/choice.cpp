@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/dense.hpp"
 #include "base/ranges.hpp"
 #include "flow/compiled_system.hpp"
+#include "mode/assembly.hpp"
 #include "orbit/continuum.hpp"
 #include "orbit/known_orbits.hpp"
 #include "slapstick/base/error.hpp"
@@ -59,7 +59,7 @@ double distance(const Problem& problem, const Orbit& orbit, const State& state) 
   const double cycle = orbit.shape.n > 0 ? 1.0 : orbit.t.back() - orbit.t.front();
   const double omega = 2.0 * std::numbers::pi / (cycle * problem.base().period());
   const Eigen::MatrixXd mass =
-      dense::inverse_definite(frame.mass_inverse.topLeftCorner(frame.n, frame.n));  // W^-T M W^-1
+      frame.W_inverse.transpose() * mode::mass_matrix(problem.base().model()) * frame.W_inverse;
   const VectorXd from = representative(problem, state);
   std::vector<VectorXd> states;
   for (int period = 0; period < orbit.shape.n; ++period)

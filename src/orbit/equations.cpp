@@ -64,7 +64,7 @@ Problem::Problem(Family family, const std::vector<double>& values)
   demand_period(base_->model());
 }
 
-Index Problem::numbers() const { return 2 * base_->compiled().frame().n - translations_.count(); }
+Index Problem::numbers() const { return translations_.size(); }
 Index Problem::unknowns(std::size_t legs) const { return numbers() + static_cast<Index>(legs) + 1 + parameters(); }
 Index Problem::instant_column(std::size_t event) const { return numbers() + static_cast<Index>(event); }
 Index Problem::parameter_column(std::size_t legs, Index j) const {

@@ -11,7 +11,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 Extent::Extent(const Problem& problem, const Orbit& orbit)
-    : translations_(&problem.translations()), velocities_(problem.base().compiled().frame().n) {
+    : translations_(&problem.translations()), velocities_(problem.translations().velocities()) {
   constexpr int samples = 4;  // of each leg: at its events an orbit may be next to nothing
   const ModeSet set(constant_family(problem.family().model(orbit.values)), {});
   VectorXd low = VectorXd::Constant(problem.numbers(), INFINITY), high = -low;

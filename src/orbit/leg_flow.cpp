@@ -207,6 +207,7 @@ Jet extended(const ModeSet& set, const std::vector<int>& lines, const VectorXd& 
   value.head(n) = x.head(n);  // exactly
   value.segment(d, n) = x.tail(n);
   const mode::PeriodicDrive drive(set.model(), frame);
+  frame.set_inner_rates(value.data());
   drive.set(t, lines, value.data());
   X.value() = value;
   X.by_state().topLeftCorner(d, n) = frame.dependence;
@@ -217,7 +218,11 @@ Jet extended(const ModeSet& set, const std::vector<int>& lines, const VectorXd& 
     X.by_parameter().col(p) = drive.by_parameter(set.rate(static_cast<std::size_t>(p)), t, lines);
     X.by_parameter().col(p).head(d) = frame.dependence * rate.shift.head(n) - rate.shift;
     X.by_parameter().col(p).segment(d, d) = frame.dependence * rate.drift.head(n) - rate.drift;
+    for (std::size_t i = 0; i < frame.inner.size(); ++i)
+      X.by_parameter()(frame.u(frame.inner[i].own), p) = rate.inner_rate[i].dot(value);
   }
+  for (const mode::InnerRow& row : frame.inner)
+    X.by_state().row(frame.u(row.own)) << row.rate.head(n), RowVectorXd::Zero(n);
   return X;
 }
 

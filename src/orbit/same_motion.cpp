@@ -102,7 +102,7 @@ double least_misfit(const Problem& problem, const Orbit& a, const Orbit& b, doub
   for (int period = 0; period <= more; ++period) {
     right.clear();
     for (const double t : when) right.push_back(of_b.at(t + later + period));
-    least = std::min(least, misfit(left, right, sense, problem.base().compiled().frame().n));
+    least = std::min(least, misfit(left, right, sense, problem.translations().velocities()));
   }
   return least;
 }
@@ -202,7 +202,7 @@ double apart_from_own_image(const Problem& problem, const Orbit& orbit) {
     now.push_back(states.at(t));
     later.push_back(states.at(t + half));
   }
-  return now.empty() ? INFINITY : misfit(now, later, 1.0, problem.base().compiled().frame().n);
+  return now.empty() ? INFINITY : misfit(now, later, 1.0, problem.translations().velocities());
 }
 
 bool breaks_symmetry(const Problem& problem, const Orbit& orbit, const Orbit& symmetric) {

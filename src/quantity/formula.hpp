@@ -108,6 +108,8 @@ class Formulas {
     const auto of = [&](int end) { return velocities ? velocity(end) : displacement(end); };
     if (link.a != ground) row += link.ratio.a * of(link.a);
     if (link.b != ground) row -= link.ratio.b * of(link.b);
+    if constexpr (requires { link.inner; })
+      if (link.inner >= 0) row -= of(link.inner);
     return row;
   }
   [[nodiscard]] Formula power(int contact, const std::vector<bool>& above) const;

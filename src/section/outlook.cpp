@@ -66,7 +66,7 @@ MatrixXd dependent_holds(const System& system, ModeId mode) {
 Free free_states(const flow::Translations& translations, ModeId mode) {
   constexpr double hold_rounding = 1e-10;  // of a row that other holds make zero; those of pairs are of order one
   Free free{free_numbers(translations, mode), {}};
-  const Index n = translations.system().compiled().frame().n, numbers = 2 * n - translations.count();
+  const Index n = translations.system().compiled().frame().n, numbers = translations.size();
   free.units.resize(2 * n, static_cast<Index>(free.at.size()));
   for (Index j = 0; j < free.units.cols(); ++j)
     free.units.col(j) = translations.representative(VectorXd::Unit(numbers, free.at[static_cast<std::size_t>(j)]));
@@ -82,7 +82,7 @@ Free free_states(const flow::Translations& translations, ModeId mode) {
 
 /// The numbers of the classes of columns.
 MatrixXd classes(const flow::Translations& translations, const MatrixXd& columns) {
-  MatrixXd all(columns.rows() - translations.count(), columns.cols());
+  MatrixXd all(translations.size(), columns.cols());
   for (Index j = 0; j < columns.cols(); ++j) {
     VectorXd x = columns.col(j);
     translations.take_out(x);

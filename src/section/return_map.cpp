@@ -62,7 +62,7 @@ FixedPoint on_section(const ReturnMap& map, const Eigen::VectorXd& x, const MapV
 std::optional<FixedPoint> fixed_point(const ReturnMap& map, Eigen::VectorXd x, int n, const Eigen::VectorXd& scale,
                                       Stop stop) {
   const Translations& translations = map.translations();
-  const Eigen::Index numbers = x.size() - translations.count();
+  const Eigen::Index numbers = translations.size();
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(numbers, numbers);
   constexpr int most_steps = 40, most_idle = 4;
   constexpr double idle = 0.8;  // of the step before

@@ -16,6 +16,12 @@ namespace slapstick::neutral {
 
 using Kind = Quantity::Kind;
 
+Named named(const Model& m, std::size_t coordinate) {
+  for (const Spring& spring : m.springs)
+    if (spring.inner == static_cast<int>(coordinate)) return {spring.name, false};
+  return {m.coordinates[coordinate].name, true};
+}
+
 Dimension dimension(Kind kind) {
   switch (kind) {
     case Kind::displacement:
@@ -64,14 +70,16 @@ constexpr double out_of_reach = 50.0;
 /// Of the fastest: slower ones belong to a chatter. Less would compare counts that rounding makes.
 constexpr double slow_impact = 1e-4;
 
-bool odd(Kind kind) { return kind == Kind::displacement || kind == Kind::velocity || kind == Kind::acceleration; }
+bool odd(const Model& model, const Quantity& quantity) {
+  return quantity.kind <= Kind::acceleration && named(model, static_cast<std::size_t>(quantity.index)).odd;
+}
 
 /// The coordinate, contact, spring or damper that a quantity is of.
 std::string part_of(const System& system, const Quantity& quantity) {
   const Model& m = system.model();
   if (quantity.index < 0) return "";
   auto k = static_cast<std::size_t>(quantity.index);
-  if (quantity.kind <= Kind::acceleration) return m.coordinates[k].name;
+  if (quantity.kind <= Kind::acceleration) return named(m, k).name;
   const std::size_t contacts =
       m.stops.size() + m.frictions.size() + m.compliant_stops.size() + m.characteristics.size();
   if (k < contacts) return system.contact_name(quantity.index);
@@ -165,15 +173,16 @@ class Sampler {
     const State state = motion_.state();
     const auto& bodies = system_.model().coordinates;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-      answer.numbers.push_back({"x", bodies[i].name, state[2 * i], dim::length, true, k, k * grid_});
-      answer.numbers.push_back({"v", bodies[i].name, state[2 * i + 1], dim::speed, true, k, k * grid_});
+      const auto [name, odd] = named(system_.model(), i);
+      answer.numbers.push_back({"x", name, state[2 * i], dim::length, odd, k, k * grid_});
+      answer.numbers.push_back({"v", name, state[2 * i + 1], dim::speed, odd, k, k * grid_});
     }
     const std::vector<double>& read = reader_.now(motion_);
     for (std::size_t i = 0; i < read.size(); ++i) {
       const Quantity& q = reader_.of()[i];
       if (q.kind > Kind::velocity)
-        answer.numbers.push_back({label(q.kind), part_of(system_, q), read[i], dimension(q.kind), odd(q.kind), k,
-                                  k * grid_, undetermined(system_.model(), q)});
+        answer.numbers.push_back({label(q.kind), part_of(system_, q), read[i], dimension(q.kind),
+                                  odd(system_.model(), q), k, k * grid_, undetermined(system_.model(), q)});
     }
   }
 
@@ -219,7 +228,7 @@ void measure(const ModelDefinition& definition, const Question& question, Answer
                      part_of(system, of[i]),
                      0.0,
                      dimension(of[i].kind),
-                     odd(of[i].kind),
+                     odd(system.model(), of[i]),
                      -1,
                      until,
                      undetermined(system.model(), of[i])};
@@ -243,8 +252,8 @@ void classify(const ModelDefinition& definition, Answer& answer) {
   answer.numbers.push_back({"period", "", found.period, dim::time});
   const bool by_time = found.n == 0 && !system.model().forced();  // of an equilibrium without a clock
   for (std::size_t i = 0; i < found.drift.size(); ++i)
-    answer.numbers.push_back(
-        {"drift", system.model().coordinates[i].name, found.drift[i], by_time ? dim::speed : dim::length, true});
+    answer.numbers.push_back({"drift", named(system.model(), i).name, found.drift[i],
+                              by_time ? dim::speed : dim::length, named(system.model(), i).odd});
   if (found.chatter == Chatter::complete) return;
   answer.numbers.push_back({"p", "", static_cast<double>(found.p), dim::pure});
   std::map<std::string, std::vector<double>> speeds;

@@ -39,6 +39,14 @@ struct Answer {
   long periods_used = 0;  ///< of `classify`: until it knew
 };
 
+/// The name of a coordinate, and whether its sign turns in a mirror.
+/// Of an inner one the name of its element, which a file gives; its stretch is the same in a mirror.
+struct Named {
+  std::string name;
+  bool odd;
+};
+[[nodiscard]] Named named(const Model& model, std::size_t coordinate);
+
 enum class Verb { simulate, measure, classify, modes, orbit, branch, curve };
 [[nodiscard]] const char* name(Verb verb);
 [[nodiscard]] Dimension dimension(Quantity::Kind kind);

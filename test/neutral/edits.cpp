@@ -11,7 +11,7 @@ namespace slapstick::neutral {
 const std::vector<Edit>& edits() {
   static const std::vector<Edit> all = {
       {"order-of-coordinates", "coordinates in another order", other_order_of_coordinates},
-      {"order-of-links", "springs, dampers and forces in another order", other_order_of_links},
+      {"order-of-links", "springs, dampers, Maxwell elements and forces in another order", other_order_of_links},
       {"order-of-contacts", "contacts in another order, but for stops under `sequence`", other_order_of_contacts},
       {"names", "other names of coordinates, contacts, bases, signals and parameters", other_names},
       {"units-of-two", "length, mass and time in units that are powers of four", units_of_two},

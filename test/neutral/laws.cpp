@@ -88,8 +88,10 @@ std::optional<std::string> accelerations_sum_up(const ModelDefinition& definitio
   std::erase_if(of, [](const Quantity& q) { return q.kind != Kind::velocity && q.kind != Kind::acceleration; });
   const double time = question.grid * question.steps;
   const Instant end = Instant{}.plus(time / system.period());
-  const State start = definition.start();
+  State start = definition.start();
   Motion motion(system, start, {}, patience);
+  for (std::size_t i = 0; i < system.model().coordinates.size(); ++i)  // their rates follow from the displacements
+    if (system.model().is_inner(static_cast<int>(i))) start[2 * i + 1] = motion.state()[2 * i + 1];
   const Measured found = slapstick::measure(motion, end, of);
   while (motion.advance(end) == Outcome::event) {
   }

@@ -70,8 +70,8 @@ std::optional<Edited> twin_machine(const Definition& file, campaign::Random&) {
   edited.rule.twin = twin;
   Definition& after = edited.file;
   const int n = coordinates(file);
-  for (const char* kind :
-       {"coordinate", "spring", "damper", "force", "impulse", "friction", "freewheel", "stop", "compliant_stop"})
+  for (const char* kind : {"coordinate", "spring", "damper", "maxwell", "force", "impulse", "friction", "freewheel",
+                           "stop", "compliant_stop"})
     for (Part part : file.of(kind)) {
       const bool body = std::string(kind) == "coordinate";
       for (int* end : {&part.a, &part.b})
@@ -182,7 +182,9 @@ std::optional<Edited> later_clock(const Definition& file, campaign::Random& rand
   const auto names = state_names(system.model());
   const State state = motion.state();
   edited.file.start.clear();
-  for (std::size_t i = 0; i < names.size(); ++i) edited.file.start.emplace_back(names[i], number(state[i]));
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (i % 2 == 0 || !system.model().is_inner(static_cast<int>(i / 2)))
+      edited.file.start.emplace_back(names[i], number(state[i]));
   return edited;
 }
 

@@ -12,6 +12,39 @@
 namespace slapstick::neutral {
 namespace {
 
+/// Kinds of parts and their keys, and what else a file may have.
+constexpr const char* features[] = {"coordinate",
+                                    "signal",
+                                    "impulse",
+                                    "base",
+                                    "spring",
+                                    "damper",
+                                    "maxwell",
+                                    "force",
+                                    "friction",
+                                    "freewheel",
+                                    "stop",
+                                    "compliant_stop",
+                                    "two_sided",
+                                    "repeats",
+                                    "frequency",
+                                    "unloading_stiffness",
+                                    "coefficient_outside",
+                                    "stribeck",
+                                    "normal_force",
+                                    "spring points",
+                                    "damper points",
+                                    "friction points",
+                                    "stop points",
+                                    "within",
+                                    "parameter",
+                                    "matrix",
+                                    "ratio",
+                                    "pressed",
+                                    "no drive",
+                                    "belt_speed",
+                                    "law"};
+
 TEST(Neutral, FilesAreSoundAndHaveEveryFeature) {
   std::map<std::string, int> seen;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
@@ -30,37 +63,7 @@ TEST(Neutral, FilesAreSoundAndHaveEveryFeature) {
     seen["parameter"] += !file.parameters.empty(), seen["matrix"] += !file.matrices.empty(),
         seen["no drive"] += !has_harmonics(file);
   }
-  for (const char* feature : {"coordinate",
-                              "signal",
-                              "impulse",
-                              "base",
-                              "spring",
-                              "damper",
-                              "force",
-                              "friction",
-                              "freewheel",
-                              "stop",
-                              "compliant_stop",
-                              "two_sided",
-                              "repeats",
-                              "frequency",
-                              "unloading_stiffness",
-                              "coefficient_outside",
-                              "stribeck",
-                              "normal_force",
-                              "spring points",
-                              "damper points",
-                              "friction points",
-                              "stop points",
-                              "within",
-                              "parameter",
-                              "matrix",
-                              "ratio",
-                              "pressed",
-                              "no drive",
-                              "belt_speed",
-                              "law"})
-    EXPECT_GE(seen[feature], 8) << feature;
+  for (const char* feature : features) EXPECT_GE(seen[feature], 8) << feature;
 }
 
 TEST(Neutral, SimplerFilesAreSound) {

@@ -69,15 +69,17 @@ void answer_orbit(const ModelDefinition& definition, Answer& answer) {
   if (!found.chatter) answer.numbers.push_back({"p", "", static_cast<double>(found.impacts), dim::pure});
   add_energy(system, cycle_energy(*problem, found.orbit), answer);
   for (std::size_t i = 0; i < found.drift.size(); ++i)
-    answer.numbers.push_back({"drift", system.model().coordinates[i].name, found.drift[i], dim::length, true});
+    answer.numbers.push_back(
+        {"drift", named(system.model(), i).name, found.drift[i], dim::length, named(system.model(), i).odd});
   const std::vector<orbit::Range> ranges = orbit::ranges(*problem, found.orbit);
   const auto& bodies = system.model().coordinates;
   for (std::size_t i = 0; i < bodies.size() && found.drift.empty(); ++i)
     for (const bool position : {true, false}) {
       const orbit::Range& range = ranges[position ? i : i + bodies.size()];
       const Dimension d = position ? dim::length : dim::speed;
-      answer.numbers.push_back({position ? "x min" : "v min", bodies[i].name, range.least, d, true});
-      answer.numbers.push_back({position ? "x max" : "v max", bodies[i].name, range.most, d, true});
+      const auto [name, odd] = named(system.model(), i);
+      answer.numbers.push_back({position ? "x min" : "v min", name, range.least, d, odd});
+      answer.numbers.push_back({position ? "x max" : "v max", name, range.most, d, odd});
     }
 }
 

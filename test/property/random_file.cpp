@@ -32,6 +32,7 @@ class FileDraw {
     if (one_in(5)) ratio();
     if (one_in(6)) press();
     if (one_in(6)) freewheel();
+    if (one_in(5)) maxwell();
     return std::move(file_);
   }
 
@@ -277,6 +278,19 @@ class FileDraw {
     if (one_in(2)) wheel.fields["drag"] = number(real(0, 0.3));
     contacts.erase(plain);
     parts("freewheel").push_back(wheel);
+  }
+
+  /// Between the ends of a spring or damper, or a coordinate and what it is measured from.
+  void maxwell() {
+    const auto home = [&](int i) { return parts("coordinate")[static_cast<std::size_t>(i)].b; };
+    for (int k = integer(1, 2); k > 0; --k) {
+      Part element;
+      element.name = "rubber" + std::to_string(k);
+      element.a = integer(0, coordinates() - 1), element.b = integer(0, coordinates() - 1);
+      if (element.a == element.b || home(element.a) != home(element.b) || one_in(2)) element.b = home(element.a);
+      element.fields = {{"stiffness", number(real(0.2, 2))}, {"damping", number(real(0.1, 2))}};
+      parts("maxwell").push_back(element);
+    }
   }
 
   /// A number of a spring, force or friction contact becomes a parameter, or a multiple of one.

@@ -150,6 +150,10 @@ TEST(Rates, AgreeWithDifferencesOfAClutchThatIsOvercome) {
   expect_differences(SLAPSTICK_ORBIT_MODELS "overrun.toml", {}, {"holds", "drag", "load", "swing"});
 }
 
+TEST(Rates, AgreeWithDifferencesOfMaxwellElements) {
+  expect_differences(SLAPSTICK_ORBIT_MODELS "mount.toml", {}, {"stiffness", "damping", "softer", "gap", "omega"});
+}
+
 /// The kinetic energy of a symmetric motion has its greatest value twice in a cycle: value, instant and their
 /// derivatives are those of the first.
 TEST(Rates, OfEqualExtremesBelongToTheOneThatIsNamed) {

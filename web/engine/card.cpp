@@ -1,6 +1,8 @@
 /// Writes a model as the page wants it.
 #include "card.hpp"
 
+#include <functional>
+
 #include "slapstick/quantity/quantity.hpp"
 
 namespace slapstick::web {
@@ -44,10 +46,12 @@ Json between(const Part& part) {
 }
 
 /// A list of parts, each written by `write` into an object that has both ends.
-template <class Parts, class Write>
-Json parts_of(const Parts& parts, const Write& write) {
+/// @param drawn  whether a part is in the list
+template <class Parts, class Write, class Drawn>
+Json parts_of(const Parts& parts, const Write& write, const Drawn& drawn) {
   Json list = Json::list();
   for (const auto& part : parts) {
+    if (!drawn(part)) continue;
     Json item = between(part);
     write(item, part);
     list.push(std::move(item));
@@ -55,10 +59,17 @@ Json parts_of(const Parts& parts, const Write& write) {
   return list;
 }
 
+template <class Parts, class Write>
+Json parts_of(const Parts& parts, const Write& write) {
+  return parts_of(parts, write, [](const auto&) { return true; });
+}
+
+/// Without inner ones: they are the last, and drawn in their Maxwell elements.
 Json coordinates_of(const Choice& choice, const Model& model) {
   const StatedUnits units = choice.definition.stated_units();
   Json list = Json::list();
   for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
+    if (model.is_inner(static_cast<int>(i))) continue;
     Json item = Json::object();
     item.set("name", model.coordinates[i].name).set("mass", model.coordinates[i].mass);
     item.set("unit", i < units.coordinates.size() ? units.coordinates[i] : "");
@@ -97,11 +108,15 @@ Json couplings_of(const Model& model) {
 Json mechanism_of(const Choice& choice, const Model& model) {
   Json all = Json::object();
   all.set("coordinates", coordinates_of(choice, model)).set("forces", forces_of(model));
-  all.set("springs",
-          parts_of(model.springs, [](Json& item, const Spring& spring) { item.set("stiffness", spring.stiffness); }));
+  const auto stiffness = [](Json& item, const Spring& spring) { item.set("stiffness", spring.stiffness); };
+  const auto series = [](const Spring& spring) { return spring.inner >= 0; };
+  all.set("springs", parts_of(model.springs, stiffness, std::not_fn(series)));
+  all.set("maxwells", parts_of(model.springs, stiffness, series));
   all.set("couplings", couplings_of(model));
-  all.set("dampers", parts_of(model.dampers,
-                              [](Json& item, const Damper& damper) { item.set("coefficient", damper.coefficient); }));
+  all.set("dampers",
+          parts_of(
+              model.dampers, [](Json& item, const Damper& damper) { item.set("coefficient", damper.coefficient); },
+              [&](const Damper& damper) { return !model.is_inner(damper.a) && !model.is_inner(damper.b); }));
   all.set("stops", parts_of(model.stops, [](Json& item, const Stop& stop) {
             item.set("name", stop.name).set("clearance", stop.clearance);
           }));

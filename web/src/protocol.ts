@@ -32,6 +32,8 @@ export interface Mechanism {
   coordinates: { name: string; mass: number; unit: string }[];
   forces: { on: number; harmonic: number; amplitude: number; constant: boolean }[];
   springs: (Link & { stiffness: number })[];
+  /** Springs and dampers in series. */
+  maxwells: (Link & { stiffness: number })[];
   couplings: Link[];
   dampers: (Link & { coefficient: number })[];
   stops: (Link & { name: string; clearance: number })[];

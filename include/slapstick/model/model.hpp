@@ -19,6 +19,10 @@ inline constexpr int ground = -1;
 
 /// A displacement x with its mass (>= 0; the sum with the mass matrix must be positive definite). The velocity is
 /// called "v" + the rest of the name if the name starts with 'x' (x1 -> v1), else "v_" + name.
+///
+/// An *inner* coordinate has no mass, and is the inner end of one spring (Spring::inner), where it is with dampers to
+/// ground that add up to c > 0. So it has no inertia: c s' is the spring's force, and s' follows from the
+/// displacements. Nothing else acts on it.
 struct Coordinate {
   std::string name;
   double mass = 1.0;
@@ -40,12 +44,15 @@ struct Ratio {
 };
 
 /// Force stiffness * (x_a - x_b) pulling a and b together; stiffness may be any finite number.
+/// With an inner coordinate s in series with it the force is stiffness * (x_a - x_b - s), stiffness > 0: a Maxwell
+/// element.
 struct Spring {
   int a = 0, b = ground;
   double stiffness = 0.0;
   std::string name = {};  ///< of the quantities of this spring; "": it has none
   BaseMotion motion = {};
   Ratio ratio = {};
+  int inner = -1;  ///< index of an inner coordinate, or -1
 };
 
 /// Force coefficient * (v_a - v_b); coefficient >= 0, or of either sign for one that may feed energy.
@@ -252,6 +259,8 @@ struct Model {
   std::vector<int> numbered_by = {};
 
   [[nodiscard]] int size() const { return static_cast<int>(coordinates.size()); }
+  /// Is this coordinate an inner one (Coordinate)?
+  [[nodiscard]] bool is_inner(int coordinate) const;
   /// 2 pi / omega, or 1 for a model that is not forced.
   [[nodiscard]] double forcing_period() const;
   /// Does this force repeat with the forcing: has it a harmonic > 0, or a signal in periods?

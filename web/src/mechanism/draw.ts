@@ -116,7 +116,7 @@ class Drawing {
     const { parts } = this.stage.layout;
     this.walls();
     for (const part of parts) if (part.kind === "friction") this.friction(part);
-    for (const part of parts) if (["spring", "coupling", "damper", "polyline"].includes(part.kind)) this.link(part);
+    for (const part of parts) if (["spring", "coupling", "damper", "maxwell", "polyline"].includes(part.kind)) this.link(part);
     this.bodies();
     for (const part of parts) if (part.kind === "stop" || part.kind === "compliant") this.stop(part);
     for (const flash of this.instant.flashes) this.flash(flash.contact, flash.glow);
@@ -165,7 +165,11 @@ class Drawing {
   private link(part: Part): void {
     const [x0, x1] = this.ends(part), y = this.heights.get(part) ?? this.middle, { pen, colours } = this;
     if (part.kind === "damper") drawDamper(pen, x0, x1, y, colours.edge);
-    else if (part.kind === "coupling") pen.line([x0, y, x1, y], { colour: colours.edge, width: 1.6, dash: [5, 5] });
+    else if (part.kind === "maxwell") {  // one behind the other
+      const middle = (x0 + x1) / 2;
+      pen.line(springPath(x0, middle, y), { colour: colours.edge, width: 1.8 });
+      drawDamper(pen, middle, x1, y, colours.edge);
+    } else if (part.kind === "coupling") pen.line([x0, y, x1, y], { colour: colours.edge, width: 1.6, dash: [5, 5] });
     else {
       pen.line(springPath(x0, x1, y), { colour: colours.edge, width: 1.8 });
       if (part.kind === "polyline") {  // an arrow across: its force is no straight line

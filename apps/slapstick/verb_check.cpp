@@ -53,7 +53,9 @@ Action add_check(Arguments& arguments) {
     for (const auto& [name, value] : chosen.definition.values(chosen.overrides)) parameters.set(name, value);
     Json result = Json::object();
     result.set("sound", true).set("name", chosen.model.name);
-    result.set("coordinates", chosen.model.size())
+    int inner = 0;
+    for (int i = 0; i < chosen.model.size(); ++i) inner += chosen.model.is_inner(i) ? 1 : 0;
+    result.set("coordinates", chosen.model.size() - inner)
         .set("stops", chosen.model.stops.size())
         .set("compliant_stops", chosen.model.compliant_stops.size())
         .set("frictions", chosen.model.frictions.size())

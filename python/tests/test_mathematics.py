@@ -123,3 +123,20 @@ def test_a_kicked_oscillator_has_its_closed_form(tmp_path):
     assert np.isclose(found["x:h1"], 1.6 / np.pi / np.hypot(1 - 4, 0.2), rtol=1e-12)
     assert np.isclose(found["x:mean"], 0.8 / np.pi, rtol=1e-12)
     assert np.isclose(found["power_in:mean"], found["power_damping:mean"], rtol=1e-12)
+
+
+def test_a_maxwell_element_responds_as_its_dynamic_stiffness_says():
+    model = slapstick.Model.from_toml(
+        'name = "zener"\nomega = 1.3\n[parameters]\nc = 4\n[[coordinate]]\nname = "x"\nmass = 2\n'
+        '[[spring]]\nbetween = ["x", "ground"]\nstiffness = 5\n'
+        '[[maxwell]]\nname = "mount"\nbetween = ["x", "ground"]\nstiffness = 3\ndamping = "c"\n'
+        '[[force]]\non = "x"\namplitude = 0.8\n'
+    )
+    assert model.state_names == ["x", "v", "s_mount", "v_s_mount"]
+    element = 3 * 1.3j * 4 / (3 + 1.3j * 4)
+    x = 0.8 / (5 - 2 * 1.3**2 + element)
+    found = slapstick.measure(model, "x:h1,F_mount:h1,power_mount:mean")
+    assert np.isclose(found["x:h1"], abs(x), rtol=1e-12)
+    assert np.isclose(found["F_mount:h1"], abs(element * x), rtol=1e-12)
+    assert np.isclose(found["power_mount:mean"], 0.5 * 1.3 * element.imag * abs(x) ** 2, rtol=1e-12)
+    assert len(slapstick.orbit(model).multipliers) == 3

@@ -21,7 +21,11 @@ sweep::StartAxis axis_of(const char* argument, const std::string& name, const sw
     throw InputError(std::string(argument) + ": " + in_quotes(name) +
                      " is no displacement or velocity of the model, which has " + joined(names, ", ") +
                      (is_parameter ? "; a chart over a parameter is a map" : ""));
-  return {static_cast<std::size_t>(found - names.begin()), values};
+  const auto place = static_cast<std::size_t>(found - names.begin());
+  if (place % 2 == 1 && model.is_inner(static_cast<int>(place / 2)))
+    throw InputError(std::string(argument) + ": " + in_quotes(name) +
+                     " follows from the displacements, so that no start has another");
+  return {place, values};
 }
 
 /// One way of many to say what is computed.

@@ -35,12 +35,47 @@ Eigen::MatrixXd free_directions(const mode::Frame& frame, const mode::ContactSta
   return dense::kernel(G, dependent).basis;
 }
 
+using Motions = std::vector<flow::LinearMotion>;
+
+bool is_near(const flow::LinearMotion& motion, double rate) {
+  constexpr double apart = 0.05;  // of the rate: nearer eigenvalues of A would spoil each other's digits
+  return std::norm(motion.lambda + rate) <= apart * apart * rate * rate;
+}
+
 /// Takes out what is no motion: rates of inner coordinates that settle (mode::InnerRow).
-void drop_settling(const mode::Frame& frame, std::vector<flow::LinearMotion>& motions) {
+/// @param faster  by what their settling is multiplied
+/// @returns false if a mode is near one of them
+bool drop_settling(const mode::Frame& frame, double faster, Motions& motions) {
   for (const mode::InnerRow& row : frame.inner)
     motions.erase(std::min_element(motions.begin(), motions.end(), [&](const auto& a, const auto& b) {
-      return std::norm(a.lambda + row.settling) < std::norm(b.lambda + row.settling);
+      return std::norm(a.lambda + faster * row.settling) < std::norm(b.lambda + faster * row.settling);
     }));
+  return std::none_of(motions.begin(), motions.end(), [&](const flow::LinearMotion& motion) {
+    return std::any_of(frame.inner.begin(), frame.inner.end(),
+                       [&](const mode::InnerRow& row) { return is_near(motion, faster * row.settling); });
+  });
+}
+
+/// The motions of a mode in the directions Z. How fast a rate settles is no matter of the machine: it settles at rates
+/// that are not near those of modes.
+Motions motions_of(const mode::Frame& frame, const mode::Matrix& system, const Eigen::MatrixXd& Z) {
+  constexpr double next = 1.25;
+  const Eigen::MatrixXd back = dense::LeastNorm(Z).pseudo_inverse();
+  const Eigen::Index n = frame.n, d = frame.d;
+  const Eigen::Index most = 2 * n * static_cast<Eigen::Index>(frame.inner.size()) + 1;  // one is near no mode
+  double faster = 1.0;
+  for (Eigen::Index k = 1;; ++k, faster *= next) {
+    mode::Matrix A = system;
+    for (const mode::InnerRow& row : frame.inner) {
+      A.row(frame.u(row.own)) += (faster - 1.0) * row.settling * row.rate;
+      A(frame.u(row.own), frame.u(row.own)) -= (faster - 1.0) * row.settling;
+    }
+    const auto over = [&](Eigen::Index from) {
+      return Eigen::MatrixXd(back * (A.block(d, from, d, d) * frame.dependence).topRows(n) * Z);
+    };
+    Motions motions = flow::linear_motions(over(0), over(d));
+    if (drop_settling(frame, faster, motions) || k >= most) return motions;
+  }
 }
 
 /// Displacements of the coordinates, scaled: the largest becomes 1.
@@ -138,16 +173,8 @@ std::vector<NaturalMode> natural_modes(const System& system, const mode::Contact
   const mode::Frame& frame = system.compiled().frame();
   const Eigen::MatrixXd Z = free_directions(frame, states);
   if (Z.cols() == 0) return {};
-  const mode::Matrix A = mode::Outline(system.model(), frame, states).system;
-  const Eigen::MatrixXd back = dense::LeastNorm(Z).pseudo_inverse();
-  const Eigen::Index n = frame.n, d = frame.d;
-  const auto over = [&](Eigen::Index from) {
-    return Eigen::MatrixXd(back * (A.block(d, from, d, d) * frame.dependence).topRows(n) * Z);
-  };
-  std::vector<flow::LinearMotion> motions = flow::linear_motions(over(0), over(d));
-  drop_settling(frame, motions);
   std::vector<NaturalMode> modes;
-  for (const flow::LinearMotion& motion : motions) {
+  for (const flow::LinearMotion& motion : motions_of(frame, mode::Outline(system.model(), frame, states).system, Z)) {
     if (motion.lambda.imag() < 0.0) continue;
     NaturalMode mode{.shape = scaled(frame.W_inverse * (Z * motion.shape))};
     if (motion.lambda.imag() > 0.0) mode.frequency = std::sqrt(std::norm(motion.lambda));

@@ -62,7 +62,7 @@ void List::coordinates() {
   for (int i = 0; i < model_.size(); ++i) {
     const std::string &x = names[2 * static_cast<std::size_t>(i)], &v = names[2 * static_cast<std::size_t>(i) + 1];
     for (const QuantityRule& rule : quantity_rules()) {
-      if (rule.of != Of::coordinate) continue;
+      if (rule.of != Of::coordinate || (rule.kind == Kind::acceleration && model_.is_inner(i))) continue;
       const std::string name = rule.kind == Kind::displacement ? x
                                : rule.kind == Kind::velocity   ? v
                                                                : "a" + v.substr(1);
@@ -84,14 +84,16 @@ void List::contacts() {
   links();
 }
 
-/// Springs and dampers that have a name. Of a spring on a base that moves, or with an inner coordinate, there is no
-/// relative velocity.
+/// Springs and dampers that have a name. Of a spring on a base that moves, or in series with a damper, there is no
+/// relative velocity; of the latter there is the power that the damper takes.
 void List::links() {
   for (const Spring& spring : model_.springs) {
     const int number = number_++;
     if (spring.name.empty()) continue;
-    each(Of::spring, number, spring.name,
-         [&](Kind kind) { return (spring.motion.none() && spring.inner < 0) || kind != Kind::relative; });
+    const bool series = spring.inner >= 0;
+    each(Of::spring, number, spring.name, [&](Kind kind) {
+      return kind == Kind::power ? series : kind != Kind::relative || (spring.motion.none() && !series);
+    });
   }
   for (const Damper& damper : model_.dampers) {
     const int number = number_++;

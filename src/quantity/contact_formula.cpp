@@ -250,6 +250,11 @@ Row Formulas::force(int contact, const std::vector<bool>& above) const {
 /// impacts.
 Formula Formulas::power(int contact, const std::vector<bool>& above) const {
   if (contact < stops()) return {none()};
+  const int link = contact - stops() - frictions() - compliants() - bends();
+  if (link >= 0 && link < springs()) {  // of a spring in series with a damper, which goes at s'
+    const int inner = model_.springs[static_cast<std::size_t>(link)].inner;
+    return inner < 0 ? Formula{none()} : Formula{none(), {{force(contact, above), velocity(inner)}}};
+  }
   const Row w = relative(contact);
   const int compliant = contact - stops() - frictions();
   if (compliant < 0 || compliant >= compliants()) return {none(), {{force(contact, above), w}}};

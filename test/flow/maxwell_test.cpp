@@ -111,12 +111,13 @@ TEST(Maxwell, RespondsAsItsDynamicStiffnessSays) {
   for (const auto& mu : found.multipliers) product *= mu;
   EXPECT_NEAR(product.real(), std::exp(-k / c * 2.0 * pi / omega), 1e-12);  // the trace of A is -k / c
   std::vector<Quantity> wanted;
-  for (const char* one : {"power_damping", "power_in", "F_mount", "potential_energy"})
+  for (const char* one : {"power_damping", "power_in", "F_mount", "potential_energy", "power_mount"})
     wanted.push_back(find_quantity(quantities(definition.build()), one));
   const double T = 2.0 * pi / omega;
   const Measured cycle = measure(Motion(system, there), Instant{}.plus(T / system.period()), wanted);
   EXPECT_NEAR(cycle.of[0].mean, 0.5 * of_element.imag() * omega * std::norm(x), 1e-13);
   EXPECT_NEAR(cycle.of[1].mean, cycle.of[0].mean, 1e-13);
+  EXPECT_NEAR(cycle.of[4].mean, cycle.of[0].mean, 1e-15);
   EXPECT_NEAR(cycle.of[2].greatest, std::abs(of_element * x), 1e-13);
   EXPECT_NEAR(cycle.of[3].mean, 0.25 * (k0 * std::norm(x) + k * std::norm(x - s)), 1e-13);
 }
@@ -134,6 +135,23 @@ TEST(Maxwell, ModesAreTheRootsOfTheCubic) {
     const std::complex<double> lambda(-mode.decay, turn);
     EXPECT_LT(std::abs((m * lambda * lambda + k0) * (c * lambda + k) + k * c * lambda), 1e-12);
     EXPECT_LT(std::abs(mode.shape[1] * (k + c * lambda) - k * mode.shape[0]), 1e-12);
+  }
+}
+
+/// (lambda + 2) (lambda^2 + 3.5 lambda + 1.5): a mode that decays at 2 k / c, the rate at which A lets s' settle.
+TEST(Maxwell, ModesAtTheRateOfSettlingAreKept) {
+  const ModelDefinition definition = ModelDefinition::parse(
+      "name = 'm'\n[[coordinate]]\nname = 'x'\nmass = 1\n[[spring]]\nbetween = ['x', 'ground']\nstiffness = 3\n"
+      "[[damper]]\nbetween = ['x', 'ground']\ncoefficient = 4.5\n" +
+          element(1, 1),
+      "f.toml");
+  const System system(definition.build());
+  const auto modes = natural_modes(system, sliding_states(system, definition.start()));
+  ASSERT_EQ(modes.size(), 3u);
+  const double decays[] = {0.5, 2.0, 3.0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_FALSE(modes[i].oscillates());
+    EXPECT_NEAR(modes[i].decay, decays[i], 1e-14);
   }
 }
 

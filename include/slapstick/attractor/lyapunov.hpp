@@ -33,9 +33,10 @@ struct LyapunovOptions {
 };
 
 struct LyapunovExponents {
-  std::vector<double> per_period;  ///< 2n less the translations, largest first; -infinity where a direction is lost
-  std::vector<double> errors;      ///< standard errors per period, by batch means; 0 for -infinity
-  double period = 1.0;             ///< the forcing period in the model's unit of time; 1 without forcing
+  /// 2n less the translations and the rates of inner coordinates, largest first; -infinity where a direction is lost
+  std::vector<double> per_period;
+  std::vector<double> errors;  ///< standard errors per period, by batch means; 0 for -infinity
+  double period = 1.0;         ///< the forcing period in the model's unit of time; 1 without forcing
   /// Kaplan-Yorke: of the attractor in a stroboscopic section; without forcing of the attractor itself. Exponents
   /// within three standard errors of 0 count as 0.
   double dimension = 0.0;

@@ -30,10 +30,23 @@ void MotionRecord::keep(Instant from, Instant to) {
   moments_.clear();
 }
 
-std::vector<double> MotionRecord::numbers(const State& state) const {
+double MotionRecord::number(std::size_t k, const std::vector<double>& quantities) const {
+  double sum = 0.0;
+  for (const auto& [quantity, factor] : shown_.numbers[k].terms) sum += factor * quantities[quantity];
+  return sum;
+}
+
+std::vector<double> MotionRecord::numbers(const std::vector<double>& quantities) const {
   std::vector<double> all;
-  for (const ShownNumber& number : shown_.numbers) all.push_back(number.of(state));
+  for (std::size_t k = 0; k < shown_.numbers.size(); ++k) all.push_back(number(k, quantities));
   return all;
+}
+
+/// By more than what the curves leave out anyway? A force that is continuous has the rounding of two sums.
+bool MotionRecord::apart(const std::vector<double>& a, const std::vector<double>& b) const {
+  for (std::size_t k = 0; k < a.size(); ++k)
+    if (std::abs(a[k] - b[k]) > tolerance * std::max(greatest_[k] - least_[k], 0.0)) return true;
+  return false;
 }
 
 MotionRecord::Phase MotionRecord::phase(ModeId mode) {
@@ -68,15 +81,15 @@ void MotionRecord::read(const Motion& motion, double from, double to, double sta
   const double length = to - from;
   const double wished = length * std::max(per_window * system_.windows_per_period(), per_period);
   const auto count = static_cast<std::size_t>(std::clamp(wished, least_samples, most_samples));
-  State state(2 * static_cast<std::size_t>(system_.model().size()));
   dense_t_.clear();
   for (std::vector<double>& column : dense_) column.clear();
   for (std::size_t i = 0; i <= count; ++i) {
     const double t = from + length * static_cast<double>(i) / static_cast<double>(count);
-    motion.sample(std::clamp((t - start) * system_.period(), 0.0, motion.segment().duration), state);
+    const std::vector<double>& quantities =
+        reader_.within(motion, std::clamp((t - start) * system_.period(), 0.0, motion.segment().duration));
     dense_t_.push_back(t);
     for (std::size_t k = 0; k < dense_.size(); ++k) {
-      const double value = shown_.numbers[k].of(state);
+      const double value = number(k, quantities);
       dense_[k].push_back(value);
       least_[k] = std::min(least_[k], value);
       greatest_[k] = std::max(greatest_[k], value);
@@ -145,13 +158,11 @@ void MotionRecord::add_segment(const Motion& motion) {
 void MotionRecord::add_event(const Motion& motion) {
   const Event& event = motion.event();
   if (event.time < from_ || event.time > to_) return;
-  const auto before = motion.before();
   const bool known =
       event.kind == EventKind::impact || event.kind == EventKind::graze || event.kind == EventKind::chatter;
   const bool ours = known && ranges::find(shown_.contacts, event.contact) != shown_.contacts.end();
-  Moment moment{event.kind, ours, time(event.time), numbers(State(before.begin(), before.end())),
-                numbers(motion.state())};
-  const bool jumps = moment.before != moment.after;
+  Moment moment{event.kind, ours, time(event.time), numbers(reader_.before(motion)), numbers(reader_.now(motion))};
+  const bool jumps = apart(moment.before, moment.after);
   if (jumps && !t_.empty()) push(lifted, std::vector<double>(shown_.numbers.size(), lifted));
   if (jumps) push(moment.t, moment.after);
   if (jumps || ours) moments_.push_back(std::move(moment));

@@ -6,6 +6,7 @@
 
 #include "shown_motion.hpp"
 #include "slapstick/flow/motion.hpp"
+#include "slapstick/quantity/reader.hpp"
 
 namespace slapstick::app {
 
@@ -28,7 +29,8 @@ class MotionRecord {
     std::vector<double> before, after;  ///< the numbers
   };
 
-  MotionRecord(const System& system, ShownMotion shown) : system_(system), shown_(std::move(shown)) {}
+  MotionRecord(const System& system, ShownMotion shown)
+      : system_(system), shown_(std::move(shown)), reader_(system, shown_.of) {}
 
   /// Only what happens from `from` to `to` is kept; what was recorded before is forgotten.
   void keep(Instant from, Instant to);
@@ -55,7 +57,9 @@ class MotionRecord {
   using Columns = std::vector<std::vector<double>>;
 
   [[nodiscard]] double time(Instant instant) const { return instant.since({from_.period, 0.0}); }
-  [[nodiscard]] std::vector<double> numbers(const State& state) const;
+  [[nodiscard]] double number(std::size_t k, const std::vector<double>& quantities) const;
+  [[nodiscard]] std::vector<double> numbers(const std::vector<double>& quantities) const;
+  [[nodiscard]] bool apart(const std::vector<double>& a, const std::vector<double>& b) const;
   [[nodiscard]] Phase phase(ModeId mode);
   void read(const Motion& motion, double from, double to, double start);
   void keep_bends(std::size_t first, std::size_t last, std::vector<bool>& kept) const;
@@ -64,6 +68,7 @@ class MotionRecord {
 
   const System& system_;
   ShownMotion shown_;
+  Reader reader_;
   Instant from_, to_;
   double covered_ = 0.0;  // up to here
   std::vector<double> t_;

@@ -16,10 +16,6 @@ std::string time_axis(const ChosenModel& chosen) {
   return chosen.model.forced() ? "t / T" : with_unit("t", AxisUnits(chosen.definition, chosen.model).time());
 }
 
-double entry(const State& state, int coordinate, int offset) {
-  return coordinate < 0 ? 0.0 : state[2 * static_cast<std::size_t>(coordinate) + static_cast<std::size_t>(offset)];
-}
-
 /// "x_{1} − x_{2}"
 std::string symbols(const std::string& name) {
   const std::size_t minus = name.find('-');
@@ -27,28 +23,9 @@ std::string symbols(const std::string& name) {
   return axis_symbol(name.substr(0, minus)) + " \u2212 " + axis_symbol(name.substr(minus + 1));
 }
 
-double clearance_of(const Model& model, int contact) {
-  const auto index = static_cast<std::size_t>(contact);
-  if (index < model.stops.size()) return model.stops[index].clearance;
-  return model.compliant_stops.at(index - model.stops.size() - model.frictions.size()).clearance;
-}
-
-double belt_speed_of(const Model& model, int contact) {
-  const std::size_t index = static_cast<std::size_t>(contact) - model.stops.size();
-  return index < model.frictions.size() ? model.frictions[index].belt_speed : 0.0;
-}
-
-/// The number of a contact that is a gap or a relative velocity.
-std::function<double(const State&)> of_contact(const Model& model, const Quantity& quantity, int contact) {
-  const Sides sides = sides_of(model, contact);
-  if (quantity.kind == Quantity::Kind::gap)
-    return [sides, clearance = clearance_of(model, contact)](const State& state) {
-      return clearance - relative(sides, state, 0);
-    };
-  return [sides, belt = belt_speed_of(model, contact)](const State& state) { return relative(sides, state, 1) - belt; };
-}
-
-ShownNumber number_of(const std::string& name, const std::vector<Quantity>& all, const Model& model) {
+/// The quantity of a name, which is also added to those that the picture reads.
+ShownNumber number_of(const std::string& name, const std::vector<Quantity>& all, const Model& model,
+                      ShownMotion& shown) {
   using Kind = Quantity::Kind;
   Quantity quantity;
   try {
@@ -56,25 +33,30 @@ ShownNumber number_of(const std::string& name, const std::vector<Quantity>& all,
   } catch (const InputError& error) {
     throw InputError("--show: " + error.message());
   }
-  ShownNumber shown{with_unit(symbols(quantity.name), quantity.unit), {}, {}};
-  if (quantity.kind == Kind::displacement || quantity.kind == Kind::velocity) {
-    const int offset = quantity.kind == Kind::velocity ? 1 : 0;
-    shown.of = [a = quantity.index, b = quantity.minus, offset](const State& state) {
-      return entry(state, a, offset) - entry(state, b, offset);
-    };
-    if (offset == 0) shown.limits = limits_of(model, {quantity.index, quantity.minus < 0 ? ground : quantity.minus});
-  } else if (quantity.kind == Kind::gap || quantity.kind == Kind::relative) {
-    shown.of = of_contact(model, quantity, quantity.index);
-    if (quantity.minus >= 0)
-      shown.of = [first = shown.of, second = of_contact(model, quantity, quantity.minus)](const State& state) {
-        return first(state) - second(state);
-      };
-    if (quantity.kind == Kind::gap) shown.limits = {0.0};
-  } else {
-    throw InputError("--show: " + in_quotes(name) +
-                     " is no displacement, velocity or gap; `measure` and the tables know the others");
-  }
-  return shown;
+  if (quantity.at_impacts())
+    throw InputError("--show: " + in_quotes(name) + " has values at impacts only; `measure` and `poincare` know it");
+  ShownNumber number{with_unit(symbols(quantity.name), quantity.unit), {{shown.of.size()}}, {}};
+  if (quantity.kind == Kind::displacement)
+    number.limits = limits_of(model, {quantity.index, quantity.minus < 0 ? ground : quantity.minus});
+  if (quantity.kind == Kind::gap) number.limits = {0.0};
+  shown.of.push_back(std::move(quantity));
+  return number;
+}
+
+/// r_a x_a - r_b x_b, or the same of the velocities.
+ShownNumber number_of(const RelativeMotion& pair, Quantity::Kind kind, const std::string& label, ShownMotion& shown) {
+  ShownNumber number{label, {}, {}};
+  const auto add = [&](int coordinate, double factor) {
+    if (coordinate == ground) return;
+    number.terms.push_back({shown.of.size(), factor});
+    Quantity quantity;
+    quantity.kind = kind;
+    quantity.index = coordinate;
+    shown.of.push_back(std::move(quantity));
+  };
+  add(pair.a, pair.ratio.a);
+  add(pair.b, -pair.ratio.b);
+  return number;
 }
 
 }  // namespace
@@ -94,10 +76,11 @@ std::vector<int> contacts_of(const RelativeMotion& pair, const Model& model) {
 ShownMotion shown_pair(const RelativeMotion& pair, const ChosenModel& chosen) {
   const AxisUnits units(chosen.definition, chosen.model);
   ShownMotion shown{.contacts = contacts_of(pair, chosen.model), .time = time_axis(chosen)};
-  shown.numbers.push_back({with_unit(pair.displacement, units.displacement(pair)),
-                           [pair](const State& state) { return pair.y(state); }, pair.limits});
+  using Kind = Quantity::Kind;
   shown.numbers.push_back(
-      {with_unit(pair.velocity, units.velocity(pair)), [pair](const State& state) { return pair.w(state); }, {}});
+      number_of(pair, Kind::displacement, with_unit(pair.displacement, units.displacement(pair)), shown));
+  shown.numbers.back().limits = pair.limits;
+  shown.numbers.push_back(number_of(pair, Kind::velocity, with_unit(pair.velocity, units.velocity(pair)), shown));
   shown.panels = {{0, 1}, {ShownPanel::time, 0}, {ShownPanel::time, 1}};
   return shown;
 }
@@ -109,7 +92,7 @@ ShownMotion shown_by_name(const std::string& text, const std::vector<int>& conta
   const auto index_of = [&](const std::string& name) {
     const auto known = ranges::find(names, name);
     if (known != names.end()) return static_cast<int>(known - names.begin());
-    shown.numbers.push_back(number_of(name, all, chosen.model));
+    shown.numbers.push_back(number_of(name, all, chosen.model, shown));
     names.push_back(name);
     return static_cast<int>(names.size()) - 1;
   };

@@ -1,19 +1,24 @@
 #pragma once
-/// What a picture of a motion shows: numbers of its state, which of them is drawn over which, and whose events are
-/// marked.
-#include <functional>
+/// What a picture of a motion shows: quantities, which of them is drawn over which, and whose events are marked.
+#include <cstddef>
 #include <string>
 #include <vector>
 
 #include "axis_units.hpp"
 #include "model_options.hpp"
 #include "relative_motion.hpp"
+#include "slapstick/quantity/quantity.hpp"
 
 namespace slapstick::app {
 
+/// A sum of quantities with factors.
 struct ShownNumber {
+  struct Term {
+    std::size_t quantity = 0;  ///< of ShownMotion::of
+    double factor = 1.0;
+  };
   std::string label{};  ///< of its axis, with its unit
-  std::function<double(const State&)> of{};
+  std::vector<Term> terms{};
   std::vector<double> limits{};  ///< where a stop touches
 };
 
@@ -23,6 +28,7 @@ struct ShownPanel {
 };
 
 struct ShownMotion {
+  std::vector<Quantity> of{};
   std::vector<ShownNumber> numbers{};
   std::vector<ShownPanel> panels{};
   std::vector<int> contacts{};  ///< whose events and phases are marked, as System::contact_name counts
@@ -32,8 +38,8 @@ struct ShownMotion {
 /// The relative motion of a pair: velocity over displacement, and both over time.
 [[nodiscard]] ShownMotion shown_pair(const RelativeMotion& pair, const ChosenModel& chosen);
 
-/// --show Q,X:Y,..: panels of Q over time and of Y over X. The names are displacements, velocities, gaps and relative
-/// velocities of `slapstick quantities`, and differences of two.
+/// --show Q,X:Y,..: panels of Q over time and of Y over X. The names are those of `slapstick quantities` that have a
+/// value at any time, and differences of two.
 /// @param contacts  whose events and phases are marked
 /// @throws InputError naming --show
 [[nodiscard]] ShownMotion shown_by_name(const std::string& text, const std::vector<int>& contacts,

@@ -310,8 +310,9 @@ Action add_simulate(Arguments& arguments) {
                  "picture of the last 20 periods: .png, .pdf or .svg; its data and script lie beside it");
   declare_plot_size(arguments, options->plot_size);
   arguments.text("--window", options->window, "A:B", "the periods that the picture shows (the last 20)");
-  arguments.text("--show", options->show, "Q,X:Y,..",
-                 "its panels: Q over time, Y over X; displacements, velocities and gaps (those of the stop's pair)");
+  arguments.text(
+      "--show", options->show, "Q,X:Y,..",
+      "its panels: Q over time, Y over X, of `slapstick quantities` (velocity and displacement of the stop's pair)");
   options->stop.declare(arguments, "the stop whose pair the picture shows (the first one)");
   arguments.text("--out", options->out, "F.json", "write the summary there instead of to standard output");
   arguments.flag("--physical", options->physical,

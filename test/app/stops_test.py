@@ -4,6 +4,8 @@ import os
 
 from program import good, main, read, refused, says, table
 
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..')
+
 # A wall for x1, a meeting of both, a buffer for x2.
 MIXED = '''name = "mixed"
 omega = "omega"
@@ -220,8 +222,25 @@ def test_the_picture_says_where_contacts_stick_and_rest():
     good(*words, '--show', 'x1-x2:v1-v2,x1,gap_stop', '--plot', 'q.png')
     says(read('q.gp'), "label 'x_{1} \u2212 x_{2}' at", "label 'x_{1}' at", 'gap')
     says(refused(2, *words, '--show', 'x3', '--plot', 'q.png'), '--show', 'x3')
-    says(refused(2, *words, '--show', 'F_stop', '--plot', 'q.png'), '--show', 'F_stop')
+    says(refused(2, *words, '--show', 'impulse', '--plot', 'q.png'), '--show', 'impulse', 'at impacts only')
     says(refused(2, *words, '--window', '31:40', '--plot', 'q.png'), '--window', '30')
+
+
+def test_a_picture_shows_forces_and_accelerations():
+    """The loop of a friction damper lies within its limit; an acceleration goes as far as in a dense table."""
+    def drawn(axis):
+        columns, rows = table(read('f-plot.csv'))
+        places = [k for k, name in enumerate(columns) if name.startswith('"panel 1 line') and name.endswith(axis + '"')]
+        return [float(row[k]) for row in rows for k in places if row[k] not in ('', 'NaN')]
+
+    damper = os.path.join(ROOT, 'examples', 'friction-damper', 'friction_damper.toml')
+    good('simulate', damper, '--periods', '40', '--window', '38:40', '--out', 's.json', '--show', 'x:F_damper', '--plot', 'f.png')
+    assert abs(max(drawn('y')) - 0.05) < 1e-15 and abs(min(drawn('y')) + 0.05) < 1e-15, (max(drawn('y')), min(drawn('y')))
+    words = ('simulate', 'vibro-impact', '--set', 'omega=0.552', '--periods', '30', '--window', '28:30', '--out', 's.json')
+    good(*words, '--show', 'a1', '--plot', 'f.png', '--trajectory', 't.csv', '--samples', '2000', '--columns', 'a1')
+    values = [float(row[-1]) for row in table(read('t.csv'))[1][-4001:]]
+    for end in (max, min):
+        assert abs(end(drawn('y')) - end(values)) < 1e-3 * (max(values) - min(values)), (end(drawn('y')), end(values))
 
 
 def test_a_picture_of_another_format_keeps_the_script_of_the_first():
